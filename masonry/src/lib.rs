@@ -1,0 +1,11 @@
+//! Walls and arches of blocks with unilateral Coulomb contact.
+//!
+//! Data flows one way: scene, model, plan, system, reduction, solution, recovery, report.
+
+pub mod check;
+pub mod ids;
+pub mod mesh;
+pub mod model;
+pub mod outcome;
+pub mod plan;
+pub mod units;

@@ -1,0 +1,177 @@
+//! The model: blocks, supports, joints and contact points of a scene, in SI units.
+//!
+//! A [`Model`] is geometry and data only: nothing is assembled and no system is solved here.
+//!
+//! # Signs
+//! At an interface `a` is the body behind and `b` the body in front: the unit normal `n` points
+//! from `a` to `b`, and `t` is `n` turned by -90 degrees, `t = (n_y, -n_x)`. Then
+//! * normal gap `y_n = (u_b - u_a).n + x_0` \[m\], never negative;
+//! * slip `y_t = (u_b - u_a).t + s_0` \[m\];
+//! * `t_n >= 0` \[N\] acts on `b` along `+n`: compression is positive;
+//! * `t_t` \[N\] acts on `b` along `+t`.
+
+use nalgebra::{Point2, Vector2};
+
+use crate::ids::{BlockId, JointId, SupportId};
+use crate::mesh::BlockMesh;
+use crate::units::Units;
+
+/// Everything that the mechanics needs of a scene, in SI units (m, N, Pa, kg/m^3).
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// The blocks, in the order of the scene.
+    pub blocks: Vec<Block>,
+    /// The rigid supports, in the order of the scene.
+    pub supports: Vec<Support>,
+    /// Where two blocks, or a block and a support, can touch.
+    pub joints: Vec<Joint>,
+    /// The points at which the contact law is enforced, joint by joint.
+    pub contacts: Vec<ContactPoint>,
+    /// The frictional classes that the joints refer to.
+    pub joint_classes: Vec<JointClass>,
+    /// Plane stress or plane strain.
+    pub plane: Plane,
+    /// Thickness out of the plane \[m\].
+    pub thickness: f64,
+    /// Gravity as an acceleration \[m/s^2\]; zero when the scene has none.
+    pub gravity: Vector2<f64>,
+    /// The units of the scene, in which results are reported.
+    pub units: Units,
+}
+
+/// The two-dimensional idealisation of elasticity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Plane {
+    /// Free out of the plane: `sigma_z = 0`.
+    Stress,
+    /// Held out of the plane: `eps_z = 0`.
+    Strain,
+}
+
+/// Linear elasticity of a deformable block.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Elasticity {
+    /// Young's modulus \[Pa\].
+    pub young: f64,
+    /// Poisson's ratio \[-\].
+    pub poisson: f64,
+}
+
+/// A block (brick, voussoir): a convex quadrilateral.
+#[derive(Debug, Clone)]
+pub struct Block {
+    /// The name by which messages and files refer to it.
+    pub name: String,
+    /// The corners, counter-clockwise \[m\]. Edge `k` runs from corner `k` to corner `k + 1`.
+    pub corners: [Point2<f64>; 4],
+    /// Elastic constants; `None` is a rigid block, for which no mesh and no stiffness is built.
+    pub elasticity: Option<Elasticity>,
+    /// Mass density \[kg/m^3\]; `None` carries no self weight.
+    pub density: Option<f64>,
+    /// The Q4 mesh; `None` for a rigid block.
+    pub mesh: Option<BlockMesh>,
+    /// Loads on the edges.
+    pub edge_loads: Vec<EdgeLoad>,
+}
+
+/// A uniform traction on a part of a block's edge.
+#[derive(Debug, Clone, Copy)]
+pub struct EdgeLoad {
+    /// The edge, 0..4.
+    pub edge: usize,
+    /// Start of the loaded part as a fraction of the edge, from its first corner.
+    pub from: f64,
+    /// End of the loaded part as a fraction of the edge.
+    pub to: f64,
+    /// Traction on the block \[Pa\] in global axes.
+    pub traction: Vector2<f64>,
+}
+
+/// A rigid, immovable straight support.
+#[derive(Debug, Clone)]
+pub struct Support {
+    /// The name by which messages and reports refer to it.
+    pub name: String,
+    /// One end \[m\].
+    pub from: Point2<f64>,
+    /// The other end \[m\].
+    pub to: Point2<f64>,
+}
+
+/// What resists sliding in a class of joints.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointClass {
+    /// The name in the scene: `bed`, `head`, or that of a support's joint.
+    pub name: String,
+    /// Coefficient of Coulomb friction \[-\]. Zero gives the joint no tangential unknowns.
+    pub mu: f64,
+}
+
+/// One of the two sides of a joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+pub enum Body {
+    /// A block.
+    Block(BlockId),
+    /// A rigid support.
+    Support(SupportId),
+}
+
+/// The overlap of an edge of one block with an edge of another, or with a support.
+#[derive(Debug, Clone)]
+pub struct Joint {
+    /// The body behind: the normal points away from it. A support, where there is one.
+    pub a: Body,
+    /// The body in front.
+    pub b: BlockId,
+    /// The class, an index into [`Model::joint_classes`].
+    pub class: usize,
+    /// Start of the overlap \[m\].
+    pub from: Point2<f64>,
+    /// End of the overlap \[m\].
+    pub to: Point2<f64>,
+    /// Unit normal from `a` to `b`.
+    pub normal: Vector2<f64>,
+}
+
+impl Joint {
+    /// The unit tangent: the normal turned by -90 degrees.
+    pub fn tangent(&self) -> Vector2<f64> {
+        Vector2::new(self.normal.y, -self.normal.x)
+    }
+
+    /// Length of the overlap \[m\].
+    pub fn length(&self) -> f64 {
+        (self.to - self.from).norm()
+    }
+}
+
+/// A place on the boundary of a block: a fraction of one of its edges.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Anchor {
+    /// The block.
+    pub block: BlockId,
+    /// The edge, 0..4.
+    pub edge: usize,
+    /// Fraction of the edge from its first corner, 0..=1.
+    pub at: f64,
+}
+
+/// A point at which the contact law is enforced.
+#[derive(Debug, Clone)]
+pub struct ContactPoint {
+    /// The joint on which it lies.
+    pub joint: JointId,
+    /// Its place \[m\].
+    pub position: Point2<f64>,
+    /// The area that it stands for \[m^2\]: traction = force / weight.
+    pub weight: f64,
+    /// Where it sits on side `a`; `None` when that side is a support.
+    pub a: Option<Anchor>,
+    /// Where it sits on side `b`.
+    pub b: Anchor,
+    /// Initial gap `x_0` \[m\].
+    pub gap: f64,
+    /// Friction coefficient of its joint's class.
+    pub mu: f64,
+}

@@ -1,0 +1,141 @@
+//! What a solved scene consists of: displacements, contact forces, stresses, checks, times.
+
+use nalgebra::{Point2, Vector2};
+use serde::Serialize;
+
+use crate::check::Checks;
+use crate::ids::BlockId;
+use crate::model::Model;
+use crate::plan::Plan;
+
+/// The mechanical state of a model under its loads, in SI units.
+#[derive(Debug, Clone)]
+pub struct State {
+    /// Displacements \[m\] of the nodes of every block, in the order of the block's mesh; of the
+    /// four corners for a rigid block.
+    pub displacements: Vec<Vec<Vector2<f64>>>,
+    /// Force, gap and slip at every contact point.
+    pub contacts: Vec<ContactState>,
+    /// Stresses at the centre of every element; empty when no output shows them.
+    pub stresses: Vec<ElementStress>,
+    /// Strain energy of all blocks \[J\].
+    pub strain_energy: f64,
+}
+
+/// What happens at one contact point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactState {
+    /// Normal contact force \[N\], compression positive.
+    pub t_n: f64,
+    /// Tangential contact force \[N\] on side `b` along `t`.
+    pub t_t: f64,
+    /// Normal gap \[m\].
+    pub y_n: f64,
+    /// Slip \[m\] of side `b` relative to `a` along `t`.
+    pub y_t: f64,
+    /// Open, stick or slip.
+    pub status: ContactStatus,
+}
+
+/// The three states of a frictional contact point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ContactStatus {
+    /// No force is carried and the gap may be positive.
+    Open,
+    /// Force is carried without sliding.
+    Stick,
+    /// The force is on the edge of the friction cone and the sides slide on each other.
+    Slip,
+}
+
+/// Stress at the centre of one element.
+#[derive(Debug, Clone, Copy)]
+pub struct ElementStress {
+    /// The block that the element belongs to.
+    pub block: BlockId,
+    /// The element's position in the block's mesh.
+    pub element: usize,
+    /// The centre of the element \[m\].
+    pub centre: Point2<f64>,
+    /// `sigma_x, sigma_y, tau_xy` \[Pa\], tension positive.
+    pub sigma: [f64; 3],
+    /// The principal stresses and their direction.
+    pub principal: Principal,
+}
+
+/// Principal stresses of a plane state of stress.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Principal {
+    /// The larger (more tensile) principal stress \[Pa\].
+    pub sigma_1: f64,
+    /// The smaller (more compressive) principal stress \[Pa\].
+    pub sigma_2: f64,
+    /// Angle of the direction of `sigma_1` from the x axis \[rad\], in `(-pi/2, pi/2]`.
+    pub theta: f64,
+}
+
+/// The resultant of the contact forces of one support on the structure, in SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reaction {
+    /// Name of the support.
+    pub support: String,
+    /// Horizontal force on the structure \[N\].
+    pub fx: f64,
+    /// Vertical force on the structure \[N\].
+    pub fy: f64,
+    /// Moment about the origin, counter-clockwise \[N m\].
+    pub m: f64,
+}
+
+/// How the complementarity problem was solved.
+#[derive(Debug, Clone, Serialize)]
+pub struct SolveInfo {
+    /// `Solved`, or why not.
+    pub status: lcp::Status,
+    /// The form that was solved: `coulomb` (order 3m) or `stewart-trinkle` (order 4m).
+    pub form: String,
+    /// Order of the complementarity problem.
+    pub order: usize,
+    /// One line for each attempt: form, covering vector, start basis, outcome.
+    pub attempts: Vec<String>,
+    /// Pivots over all attempts.
+    pub pivots: usize,
+    /// Dimensionless residuals recomputed from the original data.
+    pub residuals: lcp::Residuals,
+}
+
+/// Wall-clock time of one phase \[s\].
+#[derive(Debug, Clone, Serialize)]
+pub struct PhaseTime {
+    /// Name of the phase.
+    pub phase: String,
+    /// Seconds.
+    pub seconds: f64,
+}
+
+/// Everything known about a scene after an attempt to solve it.
+///
+/// `state` and `checks` are `None` when no solution was found; all else is kept.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// Title of the scene.
+    pub title: String,
+    /// The model that was solved.
+    pub model: Model,
+    /// What was built, and why.
+    pub plan: Plan,
+    /// How the complementarity problem was solved.
+    pub solve: SolveInfo,
+    /// The mechanical state, when solved.
+    pub state: Option<State>,
+    /// Balances and the friction cone, recomputed from the state.
+    pub checks: Option<Checks>,
+    /// The reaction of every support, when solved.
+    pub reactions: Vec<Reaction>,
+    /// The mechanism along the secondary ray, when there is no solution and it is one:
+    /// displacement rates of the corners of every block, scaled to a largest component of one.
+    pub mechanism: Option<Vec<[Vector2<f64>; 4]>>,
+    /// Time of every phase.
+    pub times: Vec<PhaseTime>,
+}
