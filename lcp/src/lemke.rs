@@ -113,7 +113,7 @@ impl<'a> Search<'a> {
         for attempt in 1..=self.settings.max_attempts {
             let seed = attempt as u64;
             let covering = match (attempt, attempt % 2) {
-                (1, _) => self.settings.covering.clone(),
+                (1, _) => self.first_covering(&first),
                 (_, 0) => Covering::Random { seed },
                 _ => Covering::Ones,
             };
@@ -160,6 +160,15 @@ impl<'a> Search<'a> {
         Some((self.scaling.tableau(&basis, c)?, name.to_owned()))
     }
 
+    /// The covering vector asked for; one that was given refers to the rows of the start basis that
+    /// was given with it, and not to those of another.
+    fn first_covering(&self, start: &StartTableau) -> Covering {
+        match (&self.settings.covering, &self.settings.start) {
+            (Covering::Given(_), Some(given)) if *given != start.basis => Covering::Ones,
+            (covering, _) => covering.clone(),
+        }
+    }
+
     fn attempt(
         &mut self,
         start: &StartTableau,
@@ -170,8 +179,7 @@ impl<'a> Search<'a> {
     ) -> (AttemptEnd, Option<Basis>) {
         let order = self.problem.order();
         let max_pivots = self.settings.max_pivots.unwrap_or(100 * order + 1000);
-        let mut keep_going =
-            |pivots| observer(&Progress { attempt, pivots, order }).is_continue();
+        let mut keep_going = |pivots| observer(&Progress { attempt, pivots, order }).is_continue();
         let mut path = Path::new(start, covering_entries(covering, start));
         let end = path.run(&mut Limits { max_pivots, keep_going: &mut keep_going });
         self.info.pivots += path.pivots;
@@ -225,15 +233,7 @@ impl<'a> Search<'a> {
         let zero = vec![0.0; self.problem.order()];
         let residuals = self.problem.residuals(&zero, &zero);
         let ray = if status == Status::RayTermination { self.ray } else { None };
-        Solution {
-            status,
-            t: zero.clone(),
-            y: zero,
-            basis: None,
-            residuals,
-            ray,
-            info: self.info,
-        }
+        Solution { status, t: zero.clone(), y: zero, basis: None, residuals, ray, info: self.info }
     }
 }
 

@@ -75,8 +75,8 @@ impl HorizontalLcp {
     ///
     /// * equation: `|A t + B y - c|_i / (|A||t| + |B||y| + |c|)_i`, the largest over the rows.
     ///   A row whose terms are all at the rounding level of the point would divide noise by noise,
-    ///   so the denominator is at least 2^-20 of the size that the row has for a full point,
-    ///   `max|A_i| max|t| + max|B_i| max|y|`.
+    ///   so the denominator is at least 2^-10 of the largest term that the row could have,
+    ///   `max|A_i| max|t|` or `max|B_i| max|y|`.
     /// * feasibility, complementarity and natural: `t` is measured in units of `max t` and `y` in
     ///   units of `max y`.
     ///
@@ -89,7 +89,12 @@ impl HorizontalLcp {
         assert!(t.len() == n && y.len() == n, "a point has one entry for every pair");
         if t.iter().chain(y).any(|v| !v.is_finite()) {
             let inf = f64::INFINITY;
-            return Residuals { equation: inf, feasibility: inf, complementarity: inf, natural: inf };
+            return Residuals {
+                equation: inf,
+                feasibility: inf,
+                complementarity: inf,
+                natural: inf,
+            };
         }
         let (t_max, y_max) = (max_abs(t), max_abs(y));
         let (feasibility, complementarity, natural) = pair_residuals(t, y, t_max, y_max);
@@ -98,7 +103,7 @@ impl HorizontalLcp {
     }
 
     fn equation_residual(&self, t: &[f64], y: &[f64], t_max: f64, y_max: f64) -> f64 {
-        const FLOOR: f64 = 1.0 / (1 << 20) as f64;
+        const FLOOR: f64 = 1.0 / (1 << 10) as f64;
         let n = self.order();
         let mut sum: Vec<f64> = self.c.iter().map(|c| -c).collect();
         let mut size: Vec<f64> = self.c.iter().map(|c| c.abs()).collect();

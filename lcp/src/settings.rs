@@ -14,7 +14,8 @@ pub enum Covering {
         /// Seed of the generator.
         seed: u64,
     },
-    /// One positive entry for every pair, in units of the basic variable of the start basis.
+    /// One positive entry for every pair, in units of the basic variable of the start basis. Where a
+    /// given start basis is singular and replaced, all ones instead.
     Given(Vec<f64>),
 }
 

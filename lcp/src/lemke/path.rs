@@ -13,11 +13,15 @@ use super::ratio::leaving_row;
 use super::tableau::Tableau;
 use crate::linear::{Lu, add_product, all_finite};
 use crate::problem::max_abs;
+use crate::random::SplitMix;
 use crate::{AttemptEnd, Basis, Side};
 
 /// Drift of the basic values, or of a column, against the start data above which the tableau is
 /// rebuilt, relative to their size.
 const DRIFT: f64 = 1e-10;
+/// Bases that may come back, which only rounding errors in ties bring about, before the path is
+/// called a cycle.
+const MAX_RETURNS: u64 = 20;
 /// Below this multiple of its first value the artificial variable is zero.
 const ARTIFICIAL_ZERO: f64 = 1e-10;
 
@@ -66,6 +70,8 @@ pub(super) struct Path<'a> {
     pub(super) refactorisations: usize,
     visited: HashSet<u64>,
     signature: u64,
+    /// How often a basis has come back.
+    returns: u64,
     column: Vec<f64>,
     row: Vec<f64>,
     /// The variable that nothing blocked, at a ray.
@@ -91,6 +97,7 @@ impl<'a> Path<'a> {
             refactorisations: 0,
             visited: HashSet::new(),
             signature: (0..n).map(key).fold(0, |a, b| a ^ b),
+            returns: 0,
             column: vec![0.0; n],
             row: vec![0.0; n + 1],
             unblocked: 2 * n,
@@ -116,6 +123,12 @@ impl<'a> Path<'a> {
     /// Size of the basic values, against which a tie is judged.
     pub(super) fn value_scale(&self) -> f64 {
         self.scale
+    }
+
+    /// Ties are broken by the lexicographic rule until a basis comes back, and by a draw from then
+    /// on, which leaves any cycle.
+    pub(super) fn tie_breaker(&self) -> Option<u64> {
+        (self.returns > 0).then(|| SplitMix::new(self.signature ^ self.pivots as u64).next_u64())
     }
 
     /// Entry `(row, k)` of the inverse of the present basis.
@@ -150,7 +163,10 @@ impl<'a> Path<'a> {
                 }
             }
             if !self.visited.insert(self.signature) {
-                return AttemptEnd::Cycle;
+                self.returns += 1;
+                if self.returns > MAX_RETURNS {
+                    return AttemptEnd::Cycle;
+                }
             }
             let entering_col = self.col_of(entering);
             let mut column = std::mem::take(&mut self.column);
@@ -233,12 +249,11 @@ impl<'a> Path<'a> {
     /// The complementary basis, once the artificial variable has left.
     pub(super) fn basis(&self) -> Basis {
         let n = self.order();
-        let sides = self.start.basis.sides().iter().enumerate().map(|(k, side)| {
-            match self.place[n + k] {
+        let sides =
+            self.start.basis.sides().iter().enumerate().map(|(k, side)| match self.place[n + k] {
                 Place::Row(_) => side.complement(),
                 Place::Col(_) => *side,
-            }
-        });
+            });
         Basis::new(sides.collect())
     }
 
@@ -303,8 +318,7 @@ impl<'a> Path<'a> {
     fn refactorise(&mut self) -> bool {
         self.refactorisations += 1;
         let n = self.order();
-        let left: Vec<usize> =
-            (0..n).filter(|&k| matches!(self.place[k], Place::Col(_))).collect();
+        let left: Vec<usize> = (0..n).filter(|&k| matches!(self.place[k], Place::Col(_))).collect();
         let z_rows: Vec<usize> = (0..n).filter(|&i| self.basic[i] >= n).collect();
         let w_rows: Vec<usize> = (0..n).filter(|&i| self.basic[i] < n).collect();
         let columns = self.start_columns(&z_rows);
@@ -361,7 +375,7 @@ fn max_abs_or_nan(v: &[f64]) -> f64 {
 
 /// A fixed pseudo-random key for every variable: the exclusive or over a basis is its signature.
 fn key(var: Var) -> u64 {
-    crate::random::SplitMix::new(var as u64).next_u64()
+    SplitMix::new(var as u64).next_u64()
 }
 
 impl StartTableau {

@@ -34,12 +34,18 @@ pub(super) fn leaving_row(path: &Path<'_>, column: &[f64]) -> Option<usize> {
         .filter(|&i| path.values[i].max(0.0) - shortest * column[i] <= window)
         .collect();
     let best = tied.iter().fold(0.0_f64, |max, &i| max.max(column[i]));
-    let safe = tied.into_iter().filter(|&i| column[i] >= TIE_PIVOT * best).collect();
-    Some(lexicographic_minimum(path, column, safe))
+    let safe: Vec<usize> = tied.into_iter().filter(|&i| column[i] >= TIE_PIVOT * best).collect();
+    match path.tie_breaker() {
+        None => Some(lexicographic_minimum(path, column, safe)),
+        Some(draw) => {
+            let count = safe.len() as u64;
+            usize::try_from(draw % count).ok().map(|chosen| safe[chosen])
+        }
+    }
 }
 
 /// Of tied rows the one whose row of the inverse basis, divided by its pivot, comes first in
-/// lexicographic order. Along a path of such choices no basis comes back.
+/// lexicographic order. In exact arithmetic no basis comes back along a path of such choices.
 fn lexicographic_minimum(path: &Path<'_>, column: &[f64], mut tied: Vec<usize>) -> usize {
     let mut keys = Vec::with_capacity(tied.len());
     for k in 0..column.len() {

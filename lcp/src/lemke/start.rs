@@ -157,7 +157,11 @@ impl Equilibrated {
     /// exchanges: a column of a free pair takes the place of one chosen before, whose complement
     /// takes the next place, until one of them reaches outside the present span (an augmenting
     /// path of the matroid intersection of independence and pairs; Edmonds 1970).
-    fn exchange(&self, chosen: &[Option<Side>], complement: &Mat<f64>) -> Option<Vec<Option<Side>>> {
+    fn exchange(
+        &self,
+        chosen: &[Option<Side>],
+        complement: &Mat<f64>,
+    ) -> Option<Vec<Option<Side>>> {
         let n = self.order();
         let picked: Vec<usize> = (0..n).filter(|&k| chosen[k].is_some()).collect();
         let partial = self.partial(chosen);
@@ -209,7 +213,7 @@ impl Equilibrated {
 impl StartTableau {
     /// Another start basis: principal pivots on pairs drawn at random, where the pivot is sound.
     pub(super) fn flipped(&self, seed: u64) -> Basis {
-        const SOUND: f64 = 0.1;
+        const SOUND: f64 = 1e-2;
         let n = self.q.len();
         let mut random = SplitMix::new(seed);
         let mut tableau = Tableau::new(self.t.clone());
@@ -230,9 +234,7 @@ impl StartTableau {
 }
 
 fn is_diagonal(m: &Mat<f64>) -> bool {
-    (0..m.ncols()).all(|j| {
-        m.col_as_slice(j).iter().enumerate().all(|(i, &v)| i == j || v == 0.0)
-    })
+    (0..m.ncols()).all(|j| m.col_as_slice(j).iter().enumerate().all(|(i, &v)| i == j || v == 0.0))
 }
 
 /// Independent columns by QR with column pivoting, up to the numerical rank.
