@@ -7,5 +7,6 @@ pub mod ids;
 pub mod mesh;
 pub mod model;
 pub mod outcome;
+pub mod output;
 pub mod plan;
 pub mod units;
