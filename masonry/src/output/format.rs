@@ -34,15 +34,15 @@ impl InUnits {
         joules / self.0.energy_to_si()
     }
 
-    /// A length for people, with its unit.
+    /// A length for people, with its unit after a space that does not break.
     pub(super) fn length_text(self, metres: f64) -> String {
-        format!("{} {}", significant(self.length(metres), 4), self.0.length_name())
+        format!("{}\u{a0}{}", significant(self.length(metres), 4), self.0.length_name())
     }
 
-    /// A stress for people, with its unit and a raised 2.
+    /// A stress for people, with its unit and a raised 2, after a space that does not break.
     pub(super) fn stress_text(self, pascals: f64) -> String {
         let unit = format!("{}/{}²", self.0.force_name(), self.0.length_name());
-        format!("{} {unit}", significant(self.stress(pascals), 4))
+        format!("{}\u{a0}{unit}", significant(self.stress(pascals), 4))
     }
 }
 
@@ -67,6 +67,29 @@ pub(super) fn significant(value: f64, digits: usize) -> String {
     }
     let decimals = usize::try_from(digits - 1 - exponent).unwrap_or(0);
     trim_zeros(&format!("{value:.decimals$}")).to_owned()
+}
+
+/// Numbers of one column with equally many decimals, so that the largest has `digits` significant
+/// digits; with exponents where that would take too many zeros.
+pub(super) fn aligned(values: &[f64], digits: usize) -> Vec<String> {
+    let largest = values.iter().fold(0.0, |largest, value| f64::max(largest, value.abs()));
+    let exponent = if largest > 0.0 { decimal(largest, digits).1 } else { 0 };
+    let digits_before = exponent + 1;
+    let text = |value: f64| {
+        if !value.is_finite() {
+            return "-".to_owned();
+        }
+        if !(-3..=9).contains(&exponent) {
+            return format!("{:.*e}", digits - 1, value + 0.0);
+        }
+        let decimals = i32::try_from(digits).unwrap_or(i32::MAX) - digits_before;
+        let decimals = usize::try_from(decimals).unwrap_or(0);
+        let text = format!("{value:.decimals$}");
+        // No minus sign before what was rounded to zero.
+        let zero = text.bytes().all(|byte| matches!(byte, b'-' | b'.' | b'0'));
+        if zero { text.trim_start_matches('-').to_owned() } else { text }
+    };
+    values.iter().map(|value| text(*value)).collect()
 }
 
 /// The largest of 1, 2, 5 times a power of ten that does not exceed a positive finite `value`.
@@ -126,6 +149,13 @@ mod tests {
         for (value, text) in cases {
             assert_eq!(significant(value, 4), text);
         }
+    }
+
+    #[test]
+    fn a_column_has_one_count_of_decimals() {
+        assert_eq!(aligned(&[7.327_68, -0.5, -1e-9], 5), ["7.3277", "-0.5000", "0.0000"]);
+        assert_eq!(aligned(&[0.0, 0.0], 3), ["0.00", "0.00"]);
+        assert_eq!(aligned(&[2e12, f64::NAN], 3), ["2.00e12", "-"]);
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! The report as text, at most 100 columns wide.
 
-use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
+use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle, presets};
 
-use super::format::{InUnits, block_name, significant};
+use super::format::{InUnits, aligned, block_name, significant};
 use super::summary::{
     ExtremeStress, Resultant, applied_load, extreme_stresses, largest_displacement, reason,
     total_reaction,
@@ -63,7 +63,7 @@ pub fn plan(plan: &Plan) -> String {
         ("order", plan.order.to_string()),
         ("solver", format!("{}: {}", plan.solver, plan.because)),
     ]);
-    format!("{}\n{lines}", table.trim_fmt())
+    format!("{}\n\n{lines}", table.trim_fmt())
 }
 
 fn solution(outcome: &Outcome) -> Vec<(&'static str, String)> {
@@ -102,19 +102,24 @@ fn reactions(outcome: &Outcome) -> String {
     let heads =
         ["support", &format!("fx [{force}]"), &format!("fy [{force}]"), &format!("m [{energy}]")];
     let mut table = table(&heads, &[1, 2, 3]);
-    let row = |name: &str, fx: f64, fy: f64, m: f64| {
-        let [fx, fy] = [fx, fy].map(|value| significant(units.force(value), 6));
-        vec![name.to_owned(), fx, fy, significant(units.energy(m), 6)]
-    };
-    for it in &outcome.reactions {
-        table.add_row(row(&it.support, it.fx, it.fy, it.m));
-    }
     let (sum, load) = (total_reaction(outcome), applied_load(&outcome.model));
     let rest = Resultant { force: sum.force + load.force, moment: sum.moment + load.moment };
-    for (name, it) in [("sum of reactions", sum), ("applied load", load), ("unbalanced", rest)] {
-        table.add_row(row(name, it.force.x, it.force.y, it.moment));
+    let single = outcome.reactions.iter().map(|it| (it.support.as_str(), [it.fx, it.fy, it.m]));
+    let totals = [("sum of reactions", sum), ("applied load", load), ("unbalanced", rest)]
+        .map(|(name, it)| (name, [it.force.x, it.force.y, it.moment]));
+    let rows: Vec<(&str, [f64; 3])> = single.chain(totals).collect();
+    let forces: Vec<f64> =
+        rows.iter().flat_map(|(_, [fx, fy, _])| [*fx, *fy]).map(|it| units.force(it)).collect();
+    let moments: Vec<f64> = rows.iter().map(|(_, [_, _, m])| units.energy(*m)).collect();
+    let (forces, moments) = (aligned(&forces, 6), aligned(&moments, 6));
+    for (index, (name, _)) in rows.iter().enumerate() {
+        if index == outcome.reactions.len() {
+            table.add_row(vec![""]);
+        }
+        let (fx, fy) = (&forces[2 * index], &forces[2 * index + 1]);
+        table.add_row(vec![*name, fx, fy, &moments[index]]);
     }
-    table.trim_fmt() + "\n  Moments are about the origin.\n"
+    table.trim_fmt() + "\n Moments are about the origin.\n"
 }
 
 fn state_figures(outcome: &Outcome, state: &State) -> Vec<(&'static str, String)> {
@@ -156,7 +161,7 @@ fn state_figures(outcome: &Outcome, state: &State) -> Vec<(&'static str, String)
 }
 
 fn times(outcome: &Outcome) -> Vec<(&str, String)> {
-    let seconds = |value: f64| format!("{} s", significant(value, 3));
+    let seconds = |value: f64| format!("{value:>9.4} s");
     let mut rows: Vec<(&str, String)> = Vec::new();
     for time in &outcome.times {
         rows.push((&time.phase, seconds(time.seconds)));
@@ -196,7 +201,8 @@ fn pairs(rows: &[(&str, String)]) -> String {
 
 fn table(heads: &[&str], right: &[usize]) -> Table {
     let mut table = Table::new();
-    table.load_style(presets::UTF8_HORIZONTAL_ONLY);
+    let rule = LineStyle::none().fill('-').junction('-');
+    table.load_style(TableStyle::new().header_separator(rule));
     table.set_content_arrangement(ContentArrangement::Dynamic).set_width(WIDTH);
     table.set_header(heads.to_vec());
     for index in right {

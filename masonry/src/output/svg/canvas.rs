@@ -182,7 +182,7 @@ pub(super) fn text_width(text: &str, size: f64) -> f64 {
     let ems: f64 = text
         .chars()
         .map(|character| match character {
-            'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | ' ' => 0.34,
+            'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '\'' | '|' | ' ' | '\u{a0}' => 0.34,
             'f' | 't' | 'r' | '(' | ')' | '/' | '-' | 'I' => 0.42,
             'm' | 'w' | 'M' | 'W' | '@' | '%' | '±' => 0.98,
             'A'..='Z' => 0.72,
@@ -192,10 +192,10 @@ pub(super) fn text_width(text: &str, size: f64) -> f64 {
     ems * size
 }
 
-/// Lines of a text broken at spaces so that each is at most `width` wide, as far as words allow.
+/// Lines of a text broken at plain spaces so that each is at most `width` wide, as far as words allow.
 pub(super) fn wrapped(text: &str, size: f64, width: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
+    for word in text.split([' ', '\n', '\t']).filter(|word| !word.is_empty()) {
         if let Some(line) = lines.last_mut()
             && text_width(line, size) + text_width(" ", size) + text_width(word, size) <= width
         {

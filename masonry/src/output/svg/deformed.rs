@@ -34,12 +34,12 @@ pub fn deformed(title: &str, model: &Model, state: &State) -> String {
     let units = InUnits(model.units);
     let frame = sheet.frame;
     let width = marks::outline_width(marks::brick_size(model, &frame));
-    draw_moved(&mut sheet.canvas, model, &moved, &frame, width);
     let thin = fixed(0.7 * width);
     let style = format!(
         "class=\"undeformed\" fill=\"none\" stroke=\"{UNDEFORMED}\" stroke-width=\"{thin}\""
     );
     marks::blocks(&mut sheet, model, &style);
+    draw_moved(&mut sheet.canvas, model, &moved, &frame, width);
     marks::supports(&mut sheet, model);
     add_legend(&mut sheet, units, factor, largest);
     sheet.length_bar(units);
@@ -65,7 +65,7 @@ fn draw_moved(
     width: f64,
 ) {
     let (outline, thin) = (fixed(width), fixed(0.5 * width));
-    let fill = format!("class=\"deformed\" fill=\"{FILLED}\" stroke=\"none\"");
+    let fill = format!("class=\"deformed\" fill=\"{FILLED}\" fill-opacity=\"0.8\" stroke=\"none\"");
     let mesh = format!("class=\"mesh\" fill=\"none\" stroke=\"{MESH}\" stroke-width=\"{thin}\"");
     let rims = format!(
         "fill=\"none\" stroke=\"{OUTLINE}\" stroke-width=\"{outline}\" stroke-linejoin=\"round\""

@@ -33,9 +33,13 @@ pub fn mechanism(title: &str, model: &Model, rates: &[[Vector2<f64>; 4]]) -> Str
     let frame = sheet.frame;
     let width = marks::outline_width(marks::brick_size(model, &frame));
     let (outline, thin) = (fixed(width), fixed(0.7 * width));
-    let mut moving = 0_usize;
     let style =
-        format!("stroke=\"{OUTLINE}\" stroke-width=\"{outline}\" stroke-linejoin=\"round\"");
+        format!("class=\"undeformed\" fill=\"none\" stroke=\"{STILL}\" stroke-width=\"{thin}\"");
+    marks::blocks(&mut sheet, model, &style);
+    let mut moving = 0_usize;
+    let style = format!(
+        "fill-opacity=\"0.8\" stroke=\"{OUTLINE}\" stroke-width=\"{outline}\" stroke-linejoin=\"round\""
+    );
     sheet.canvas.group(&style, |canvas| {
         for (corners, rate) in moved.iter().zip(rates) {
             let moves = speed(rate) > AT_REST * fastest;
@@ -48,9 +52,6 @@ pub fn mechanism(title: &str, model: &Model, rates: &[[Vector2<f64>; 4]]) -> Str
             canvas.polygon(&corners.map(|corner| frame.at(corner)), &style);
         }
     });
-    let style =
-        format!("class=\"undeformed\" fill=\"none\" stroke=\"{STILL}\" stroke-width=\"{thin}\"");
-    marks::blocks(&mut sheet, model, &style);
     marks::supports(&mut sheet, model);
     for (text, fill) in [
         (format!("{moving} blocks move"), MOVING),

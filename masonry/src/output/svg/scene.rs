@@ -27,8 +27,8 @@ pub fn scene(title: &str, model: &Model) -> String {
          stroke-linejoin=\"round\""
     );
     marks::blocks(&mut sheet, model, &style);
-    draw_joints(&mut sheet, model, brick);
     marks::supports(&mut sheet, model);
+    draw_joints(&mut sheet, model, brick);
     loads::draw(&mut sheet, model, &groups);
     draw_names(&mut sheet, model);
     draw_gravity(&mut sheet, model);
@@ -58,7 +58,7 @@ fn draw_joints(sheet: &mut Sheet, model: &Model, brick: f64) {
             }
         });
         if used {
-            let text = format!("joint {}, μ = {}", class.name, significant(class.mu, 4));
+            let text = format!("{} joints, μ\u{a0}=\u{a0}{}", class.name, significant(class.mu, 4));
             sheet.entry(&text, |symbol| {
                 let style = format!("stroke=\"{colour}\" stroke-width=\"1.8\"");
                 symbol.line(Pixel::new(-22.0, 0.0), Pixel::new(22.0, 0.0), &style);
@@ -115,7 +115,7 @@ fn room(corners: &[Point2<f64>; 4]) -> (f64, f64) {
 fn draw_gravity(sheet: &mut Sheet, model: &Model) {
     let pull = model.gravity;
     if pull.norm() > 0.0 && model.blocks.iter().any(|block| block.density.is_some()) {
-        let text = format!("self weight, {} m/s²", significant(pull.norm(), 4));
+        let text = format!("self weight, {}\u{a0}m/s²", significant(pull.norm(), 4));
         sheet.entry(&text, |symbol| {
             let (tail, tip) = (Pixel::new(0.0, 0.0), Pixel::new(0.0, 0.0));
             let tail = tail.shifted(-pull.x, pull.y, 9.0);

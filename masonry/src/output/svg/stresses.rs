@@ -88,7 +88,10 @@ fn draw_strokes(sheet: &mut Sheet, model: &Model, state: &State, units: InUnits)
         sheet.entry("no stress in any element", |_| {});
         return;
     }
-    let round = round_down(units.stress(58.0 / pixels_per_pascal)) * units.0.stress_to_si();
+    let largest = [compression, tension].into_iter().flatten().map(|it| it.value.abs());
+    let largest = largest.fold(0.0, f64::max).max(14.0 / pixels_per_pascal);
+    let round = round_down(units.stress(largest.min(58.0 / pixels_per_pascal)));
+    let round = round * units.0.stress_to_si();
     for (name, colour, extreme) in
         [("compression", COMPRESSION, compression), ("tension", TENSION, tension)]
     {
