@@ -142,7 +142,7 @@ pub fn reason(outcome: &Outcome) -> Option<String> {
     let what = match outcome.solve.status {
         lcp::Status::RayTermination if outcome.mechanism.is_some() => {
             "Every attempt ended on a secondary ray, and the last ray is a mechanism: a movement \
-             of the blocks that the supports do not stop. This is strong evidence of collapse, \
+             of the blocks that the supports do not stop. This points to collapse, \
              but with friction it is not a proof."
         }
         lcp::Status::RayTermination => {

@@ -91,9 +91,8 @@ pub(crate) fn unsolved(wall: Wall) -> Outcome {
     outcome.checks = None;
     outcome.reactions.clear();
     let rates = outcome.model.blocks.iter().map(|block| {
-        block
-            .corners
-            .map(|p| if hangs(p, wall) { Vector2::new(0.0, -1.0) } else { Vector2::zeros() })
+        let middle = nalgebra::center(&block.corners[0], &block.corners[2]);
+        [Vector2::new(0.0, if hangs(middle, wall) { -1.0 } else { 0.0 }); 4]
     });
     outcome.mechanism = Some(rates.collect());
     outcome
@@ -205,8 +204,8 @@ fn add_joints(model: &mut Model, wall: Wall, courses: &[Vec<f64>]) {
                 }
             }
         }
-        for (support, index) in [(2, 0), (3, bricks - 1)] {
-            let (x, b) = (cuts[if index == 0 { 0 } else { bricks }], BlockId::new(first + index));
+        for (support, index, x) in [(2, 0, cuts[0]), (3, bricks - 1, cuts[bricks])] {
+            let b = BlockId::new(first + index);
             let a = Body::Support(SupportId::new(support));
             add_joint(model, (a, b, 2), [[x, low], [x, high]]);
         }

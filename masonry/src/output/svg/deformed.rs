@@ -13,14 +13,15 @@ use crate::output::summary::{largest_displacement, nodes};
 const UNDEFORMED: &str = "#a8a8a8";
 const FILLED: &str = "#f0dcc3";
 const MESH: &str = "#bfa582";
-/// Part of the structure's diagonal that the largest displacement should come close to.
-const SHOWN: f64 = 0.07;
+/// What the largest displacement should come close to: parts of the structure's diagonal and of
+/// its smaller side, whichever is less.
+const SHOWN: (f64, f64) = (0.07, 0.3);
 
 /// The deformed structure, magnified by a round factor that the legend states, over the undeformed
 /// outline. Joints that open show the white of the paper.
 pub fn deformed(title: &str, model: &Model, state: &State) -> String {
     let largest = largest_displacement(model, state).map_or(0.0, |it| it.value.abs());
-    let factor = magnification(marks::bounds(model).diagonal(), largest);
+    let factor = magnification(&marks::bounds(model), largest);
     let moved: Vec<Vec<Point2<f64>>> = model
         .blocks
         .iter()
@@ -46,10 +47,12 @@ pub fn deformed(title: &str, model: &Model, state: &State) -> String {
     sheet.finish()
 }
 
-/// The round factor by which a largest displacement becomes a visible part of `diagonal`; 1 when
-/// nothing moves.
-pub(super) fn magnification(diagonal: f64, largest: f64) -> f64 {
-    let wanted = SHOWN * diagonal / largest;
+/// The round factor by which a largest displacement becomes a visible part of a structure within
+/// `bounds`; 1 when nothing moves.
+pub(super) fn magnification(bounds: &Bounds, largest: f64) -> f64 {
+    let side = bounds.size().min();
+    let slender = if side > 0.0 { SHOWN.1 * side } else { f64::INFINITY };
+    let wanted = slender.min(SHOWN.0 * bounds.diagonal()) / largest;
     if wanted.is_finite() && wanted > 0.0 { round_down(wanted) } else { 1.0 }
 }
 

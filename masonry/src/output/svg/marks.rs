@@ -89,7 +89,7 @@ pub(super) fn supports(sheet: &mut Sheet, model: &Model) {
 
 /// Contact points that are open (hollow circles) or slide (filled squares on a corner).
 ///
-/// Each mark is moved along its joint by its radius towards the joint's middle, so that the marks
+/// Each mark is moved along its joint by nearly two radii towards the joint's middle, so that the marks
 /// of joints which meet in one place stay apart.
 pub(super) fn contact_marks(sheet: &mut Sheet, model: &Model, states: &[ContactState]) {
     let frame = sheet.frame;
@@ -142,7 +142,7 @@ fn mark_place(model: &Model, contact: &ContactPoint, frame: &Frame, radius: f64)
     let joint = &model.joints[contact.joint.index()];
     let at = frame.at(contact.position);
     let middle = frame.at(nalgebra::center(&joint.from, &joint.to));
-    at.shifted(middle.x - at.x, middle.y - at.y, (1.3 * radius).min(at.distance(middle)))
+    at.shifted(middle.x - at.x, middle.y - at.y, (1.7 * radius).min(at.distance(middle)))
 }
 
 /// A vector, y up, from the support to the structure.

@@ -20,7 +20,7 @@ const AT_REST: f64 = 1e-6;
 pub fn mechanism(title: &str, model: &Model, rates: &[[Vector2<f64>; 4]]) -> String {
     let fastest = rates.iter().map(speed).fold(0.0, f64::max);
     let still = marks::bounds(model);
-    let factor = magnification(still.diagonal(), fastest);
+    let factor = magnification(&still, fastest);
     let moved: Vec<[Point2<f64>; 4]> = model
         .blocks
         .iter()

@@ -80,7 +80,7 @@ fn draw_names(sheet: &mut Sheet, model: &Model) {
     for block in &model.blocks {
         let (wide, high) = room(&block.corners);
         let width = text_width(&block.name, 1.0).max(f64::MIN_POSITIVE);
-        size = size.min(0.9 * wide * frame.scale / width).min(0.6 * high * frame.scale);
+        size = size.min(0.8 * wide * frame.scale / width).min(0.6 * high * frame.scale);
     }
     if size < 7.0 {
         return;
