@@ -3,6 +3,8 @@
 //! Data flows one way: scene, model, plan, system, reduction, solution, recovery, report.
 
 pub mod check;
+pub mod contact;
+pub mod geometry;
 pub mod ids;
 pub mod mesh;
 pub mod model;
