@@ -334,7 +334,10 @@ fn names_cannot_break_the_file() {
     let mut outcome = synthetic::solved(Wall::PANEL);
     outcome.title = "\u{1}a <b> & \"c\" ]]> 'd' \u{7f}".to_owned();
     outcome.model.blocks[0].name = "<&>".to_owned();
+    outcome.model.joint_classes[0].name = "bed".repeat(30);
     let picture = svg::scene(&outcome.title, &outcome.model);
     let texts = texts(&checked(&picture));
+    let long = "long".repeat(100);
+    checked(&svg::scene(&long, &outcome.model));
     assert!(texts.contains("<&>") && texts.contains("a <b> & \"c\" ]]> 'd'"), "{texts}");
 }

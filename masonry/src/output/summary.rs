@@ -142,8 +142,8 @@ pub fn reason(outcome: &Outcome) -> Option<String> {
     let what = match outcome.solve.status {
         lcp::Status::RayTermination if outcome.mechanism.is_some() => {
             "Every attempt ended on a secondary ray, and the last ray is a mechanism: a movement \
-             of the blocks that the supports do not stop. This points to collapse, \
-             but with friction it is not a proof."
+             of the blocks that the supports do not stop. This points to collapse, but with \
+             friction it is not a proof."
         }
         lcp::Status::RayTermination => {
             "Every attempt ended on a secondary ray. With friction this is not a proof of \

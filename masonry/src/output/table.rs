@@ -21,9 +21,6 @@ pub fn report(outcome: &Outcome) -> String {
     if let Some(reason) = reason(outcome) {
         text += &section("No equilibrium found");
         text += &paragraph(&reason);
-        if outcome.mechanism.is_some() {
-            text += &paragraph("The movement is drawn in mechanism.svg.");
-        }
     }
     text += &section("Solution");
     text += &pairs(&solution(outcome));

@@ -186,26 +186,40 @@ pub(super) fn text_width(text: &str, size: f64) -> f64 {
             'f' | 't' | 'r' | '(' | ')' | '/' | '-' | 'I' => 0.42,
             'm' | 'w' | 'M' | 'W' | '@' | '%' | '±' => 0.98,
             'A'..='Z' => 0.72,
+            '\u{2e80}'.. => 1.05,
             _ => 0.63,
         })
         .sum();
     ems * size
 }
 
-/// Lines of a text broken at plain spaces so that each is at most `width` wide, as far as words allow.
+/// Lines of a text, each at most `width` wide, broken at plain spaces where that is possible.
 pub(super) fn wrapped(text: &str, size: f64, width: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split([' ', '\n', '\t']).filter(|word| !word.is_empty()) {
+        let mut rest = word;
+        while text_width(rest, size) > width {
+            let (start, end) = rest.split_at(fitting(rest, size, width));
+            lines.push(start.to_owned());
+            rest = end;
+        }
         if let Some(line) = lines.last_mut()
-            && text_width(line, size) + text_width(" ", size) + text_width(word, size) <= width
+            && text_width(line, size) + text_width(" ", size) + text_width(rest, size) <= width
         {
             line.push(' ');
-            line.push_str(word);
-        } else {
-            lines.push(word.to_owned());
+            line.push_str(rest);
+        } else if !rest.is_empty() {
+            lines.push(rest.to_owned());
         }
     }
     lines
+}
+
+/// Bytes of the longest start of `text` that fits, at least one character.
+fn fitting(text: &str, size: f64, width: f64) -> usize {
+    let ends = text.char_indices().map(|(at, character)| at + character.len_utf8());
+    let first = ends.clone().next().unwrap_or(0);
+    ends.take_while(|end| text_width(&text[..*end], size) <= width).last().unwrap_or(first)
 }
 
 fn joined(points: &[Pixel]) -> String {

@@ -134,10 +134,9 @@ fn stroke_scale(stresses: &[ElementStress], element: f64) -> f64 {
 fn element_size(model: &Model, state: &State) -> f64 {
     let mut areas: Vec<f64> = Vec::with_capacity(state.stresses.len());
     for stress in &state.stresses {
-        let mesh = model.blocks[stress.block.index()].mesh.as_ref();
-        if let Some(element) = mesh.and_then(|mesh| mesh.elements.get(stress.element)) {
-            let nodes = &mesh.map_or(&[][..], |mesh| &mesh.nodes);
-            areas.push(area_and_centroid(&element.map(|node| nodes[node])).0);
+        if let Some(mesh) = &model.blocks[stress.block.index()].mesh {
+            let corners = mesh.elements[stress.element].map(|node| mesh.nodes[node]);
+            areas.push(area_and_centroid(&corners).0);
         }
     }
     areas.sort_by(f64::total_cmp);
