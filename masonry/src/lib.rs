@@ -3,9 +3,12 @@
 //! Data flows one way: scene, model, plan, system, reduction, solution, recovery, report.
 
 pub mod check;
+pub mod contact;
+pub mod geometry;
 pub mod ids;
 pub mod mesh;
 pub mod model;
 pub mod outcome;
+pub mod output;
 pub mod plan;
 pub mod units;

@@ -17,3 +17,74 @@ pub struct BlockMesh {
     /// Nodes of each element, counter-clockwise.
     pub elements: Vec<[usize; 4]>,
 }
+
+impl BlockMesh {
+    /// Divides a quadrilateral by the bilinear map: every edge is divided evenly.
+    ///
+    /// # Panics
+    /// If `nx` or `ny` is zero.
+    pub fn new(corners: &[Point2<f64>; 4], nx: usize, ny: usize) -> Self {
+        assert!(nx > 0 && ny > 0, "a mesh has at least one element in each direction");
+        let nodes = (0..=ny)
+            .flat_map(|j| (0..=nx).map(move |i| (i as f64 / nx as f64, j as f64 / ny as f64)))
+            .map(|(r, s)| bilinear(corners, r, s))
+            .collect();
+        let row = nx + 1;
+        let elements = (0..ny)
+            .flat_map(|j| (0..nx).map(move |i| j * row + i))
+            .map(|n| [n, n + 1, n + row + 1, n + row])
+            .collect();
+        Self { nx, ny, nodes, elements }
+    }
+
+    /// Number of elements along an edge, 0..4.
+    pub fn edge_elements(&self, edge: usize) -> usize {
+        if edge.is_multiple_of(2) { self.nx } else { self.ny }
+    }
+
+    /// The nodes on an edge, from its first corner to its second.
+    ///
+    /// # Panics
+    /// If `edge > 3`.
+    pub fn edge_nodes(&self, edge: usize) -> Vec<usize> {
+        (0..=self.edge_elements(edge)).map(|k| self.edge_node(edge, k)).collect()
+    }
+
+    /// The places of the nodes on an edge as fractions of it, from 0 to 1.
+    pub fn edge_fractions(&self, edge: usize) -> Vec<f64> {
+        let n = self.edge_elements(edge);
+        (0..=n).map(|k| k as f64 / n as f64).collect()
+    }
+
+    /// The two nodes between which a place on an edge lies, each with its shape function there.
+    ///
+    /// `at` is the fraction of the edge, clamped to 0..=1.
+    ///
+    /// # Panics
+    /// If `edge > 3`.
+    pub fn interpolate(&self, edge: usize, at: f64) -> [(usize, f64); 2] {
+        let n = self.edge_elements(edge);
+        let place = at.clamp(0.0, 1.0) * n as f64;
+        let first = (1..n).take_while(|k| *k as f64 <= place).count();
+        let s = place - first as f64;
+        [(self.edge_node(edge, first), 1.0 - s), (self.edge_node(edge, first + 1), s)]
+    }
+
+    /// The node at position `k` of an edge, counted from the edge's first corner.
+    fn edge_node(&self, edge: usize, k: usize) -> usize {
+        let row = self.nx + 1;
+        match edge {
+            0 => k,
+            1 => k * row + self.nx,
+            2 => self.ny * row + self.nx - k,
+            3 => (self.ny - k) * row,
+            _ => panic!("a block has the edges 0 to 3, not {edge}"),
+        }
+    }
+}
+
+/// The place with coordinates `r` (along edge 0) and `s` (along edge 3, reversed) in 0..=1.
+fn bilinear(corners: &[Point2<f64>; 4], r: f64, s: f64) -> Point2<f64> {
+    let [a, b, c, d] = corners.map(|p| p.coords);
+    Point2::from((a * (1.0 - r) + b * r) * (1.0 - s) + (d * (1.0 - r) + c * r) * s)
+}

@@ -1,0 +1,121 @@
+//! Places and weights of contact points on one joint.
+
+use super::PointRule;
+
+/// One side of a joint: its nodes, and the overlap, as fractions of the side's edge.
+pub(super) struct Side {
+    /// Fractions of the edge at which nodes lie, increasing.
+    pub(super) fractions: Vec<f64>,
+    /// Fractions of the edge at the start and at the end of the joint.
+    pub(super) overlap: [f64; 2],
+}
+
+/// A contact point on a joint.
+pub(super) struct Place {
+    /// Fraction of the joint from its start.
+    pub(super) along: f64,
+    /// Fraction of the edge of side `a`; zero for a support.
+    pub(super) on_a: f64,
+    /// Fraction of the edge of side `b`.
+    pub(super) on_b: f64,
+    /// Length that the point stands for \[m\].
+    pub(super) weight: f64,
+}
+
+/// Places the points of a joint of the given length \[m\]; fractions of the joint closer than `slack`
+/// are one place. Empty when nodal pairs are asked for and there are none.
+pub(super) fn place(
+    rule: PointRule,
+    a: Option<&Side>,
+    b: &Side,
+    length: f64,
+    slack: f64,
+) -> Vec<Place> {
+    let on_a = a.map(Side::nodes_on_joint);
+    let on_b = b.nodes_on_joint();
+    let weighted = match rule {
+        PointRule::Vertices => trapezoid(&vertices(on_a.as_deref(), &on_b, slack)),
+        PointRule::NodalPairs => tributary(&common(on_a.as_deref(), &on_b, slack)),
+        PointRule::Gauss => gauss(&vertices(on_a.as_deref(), &on_b, slack)),
+    };
+    weighted
+        .into_iter()
+        .map(|(along, weight)| Place {
+            along,
+            on_a: a.map_or(0.0, |side| side.to_edge(along)),
+            on_b: b.to_edge(along),
+            weight: weight * length,
+        })
+        .collect()
+}
+
+impl Side {
+    /// Fractions of the joint at which nodes of this side lie, increasing; some outside 0..=1.
+    fn nodes_on_joint(&self) -> Vec<f64> {
+        let [start, end] = self.overlap;
+        let mut places: Vec<f64> =
+            self.fractions.iter().map(|f| (f - start) / (end - start)).collect();
+        places.sort_by(f64::total_cmp);
+        places
+    }
+
+    fn to_edge(&self, along: f64) -> f64 {
+        let [start, end] = self.overlap;
+        (start + (end - start) * along).clamp(0.0, 1.0)
+    }
+}
+
+/// Ends of the parts on which both sides are linear: both ends of the joint and all nodes inside.
+fn vertices(a: Option<&[f64]>, b: &[f64], slack: f64) -> Vec<f64> {
+    let nodes = a.unwrap_or_default().iter().chain(b);
+    let mut inside: Vec<f64> = nodes.copied().filter(|x| *x > slack && *x < 1.0 - slack).collect();
+    inside.sort_by(f64::total_cmp);
+    inside.dedup_by(|next, kept| *next - *kept <= slack);
+    let mut all = vec![0.0];
+    all.append(&mut inside);
+    all.push(1.0);
+    all
+}
+
+/// Places where both sides have a node; with a support, the nodes of side `b`.
+fn common(a: Option<&[f64]>, b: &[f64], slack: f64) -> Vec<f64> {
+    let on_joint = b.iter().filter(|x| **x >= -slack && **x <= 1.0 + slack);
+    let paired = on_joint.filter(|x| a.is_none_or(|a| a.iter().any(|y| (*x - y).abs() <= slack)));
+    paired.map(|x| x.clamp(0.0, 1.0)).collect()
+}
+
+/// Half of every part goes to each of its ends.
+fn trapezoid(places: &[f64]) -> Vec<(f64, f64)> {
+    let mut weighted: Vec<(f64, f64)> = places.iter().map(|x| (*x, 0.0)).collect();
+    for k in 1..places.len() {
+        let half = 0.5 * (places[k] - places[k - 1]);
+        weighted[k - 1].1 += half;
+        weighted[k].1 += half;
+    }
+    weighted
+}
+
+/// Every point stands for what is nearer to it than to any other.
+fn tributary(places: &[f64]) -> Vec<(f64, f64)> {
+    let middle = |k: usize| 0.5 * (places[k - 1] + places[k]);
+    let last = places.len();
+    (0..last)
+        .map(|k| {
+            let from = if k == 0 { 0.0 } else { middle(k) };
+            let to = if k + 1 == last { 1.0 } else { middle(k + 1) };
+            (places[k], to - from)
+        })
+        .collect()
+}
+
+/// Two Gauss points in every part.
+fn gauss(places: &[f64]) -> Vec<(f64, f64)> {
+    let offset = 0.5 / 3.0_f64.sqrt();
+    places
+        .windows(2)
+        .flat_map(|part| {
+            let (length, middle) = (part[1] - part[0], 0.5 * (part[0] + part[1]));
+            [-offset, offset].map(|s| (middle + s * length, 0.5 * length))
+        })
+        .collect()
+}

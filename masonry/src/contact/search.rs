@@ -1,0 +1,67 @@
+//! Pairs of blocks close enough to touch.
+
+use nalgebra::Point2;
+
+use crate::contact::Options;
+use crate::geometry;
+use crate::ids::BlockId;
+use crate::model::Block;
+
+/// Pairs of blocks whose bounding boxes come within the gap limit, in increasing order.
+///
+/// Boxes are swept along the longer side of the whole structure, so that only neighbours in that
+/// direction are compared.
+pub(super) fn near_pairs(blocks: &[Block], options: &Options) -> Vec<[BlockId; 2]> {
+    let boxes: Vec<Bounds> = blocks
+        .iter()
+        .map(|b| {
+            let margin = options.gap_limit + options.tolerance * geometry::size(&b.corners);
+            Bounds::of(&b.corners).grown(margin)
+        })
+        .collect();
+    let Some(whole) = boxes.iter().copied().reduce(Bounds::union) else { return Vec::new() };
+    let axis = usize::from(whole.high.y - whole.low.y > whole.high.x - whole.low.x);
+    let mut order: Vec<usize> = (0..blocks.len()).collect();
+    order.sort_by(|i, j| boxes[*i].low[axis].total_cmp(&boxes[*j].low[axis]));
+
+    let mut active: Vec<usize> = Vec::new();
+    let mut pairs = Vec::new();
+    for &new in &order {
+        active.retain(|old| boxes[*old].high[axis] >= boxes[new].low[axis]);
+        let near = active.iter().filter(|old| boxes[**old].meets(&boxes[new]));
+        pairs.extend(near.map(|old| [new.min(*old), new.max(*old)]));
+        active.push(new);
+    }
+    pairs.sort_unstable();
+    pairs.into_iter().map(|pair| pair.map(BlockId::new)).collect()
+}
+
+#[derive(Clone, Copy)]
+struct Bounds {
+    low: Point2<f64>,
+    high: Point2<f64>,
+}
+
+impl Bounds {
+    fn of(points: &[Point2<f64>; 4]) -> Self {
+        let fold = |f: fn(f64, f64) -> f64| {
+            let [a, b, c, d] = points;
+            Point2::new(f(f(a.x, b.x), f(c.x, d.x)), f(f(a.y, b.y), f(c.y, d.y)))
+        };
+        Self { low: fold(f64::min), high: fold(f64::max) }
+    }
+
+    fn grown(mut self, by: f64) -> Self {
+        self.low.iter_mut().for_each(|x| *x -= by);
+        self.high.iter_mut().for_each(|x| *x += by);
+        self
+    }
+
+    fn union(self, other: Self) -> Self {
+        Self { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
+    }
+
+    fn meets(&self, other: &Self) -> bool {
+        (0..2).all(|k| self.low[k] <= other.high[k] && other.low[k] <= self.high[k])
+    }
+}

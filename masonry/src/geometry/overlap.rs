@@ -1,0 +1,95 @@
+//! Intersection of two convex quadrilaterals, and the overlap of two facing segments.
+
+use nalgebra::{Point2, Vector2};
+
+use super::{Quad, cross, turn_right};
+
+/// Area of the intersection of two convex, counter-clockwise quadrilaterals \[m^2\].
+///
+/// The first is clipped by the four half planes of the second (Sutherland and Hodgman).
+pub fn overlap_area(a: &Quad, b: &Quad) -> f64 {
+    let mut polygon = a.to_vec();
+    for k in 0..4 {
+        let (p, d) = (b[k], b[(k + 1) % 4] - b[k]);
+        polygon = clip(&polygon, |x| cross(d, x - p));
+    }
+    polygon_area(&polygon).max(0.0)
+}
+
+/// The part of a polygon on which the linear function `inside` is not negative.
+fn clip(polygon: &[Point2<f64>], inside: impl Fn(Point2<f64>) -> f64) -> Vec<Point2<f64>> {
+    let mut kept = Vec::with_capacity(polygon.len() + 1);
+    for (k, &p) in polygon.iter().enumerate() {
+        let q = polygon[(k + 1) % polygon.len()];
+        let (f_p, f_q) = (inside(p), inside(q));
+        if f_p >= 0.0 {
+            kept.push(p);
+        }
+        if (f_p > 0.0 && f_q < 0.0) || (f_p < 0.0 && f_q > 0.0) {
+            kept.push(p + (q - p) * (f_p / (f_p - f_q)));
+        }
+    }
+    kept
+}
+
+fn polygon_area(polygon: &[Point2<f64>]) -> f64 {
+    let Some((&first, rest)) = polygon.split_first() else { return 0.0 };
+    rest.windows(2).map(|pair| 0.5 * cross(pair[0] - first, pair[1] - first)).sum()
+}
+
+/// Where two facing segments overlap, as places on both of them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SegmentOverlap {
+    /// Fractions of the first segment at the two ends of the overlap, increasing.
+    pub on_first: [f64; 2],
+    /// Fractions of the second segment at the same two ends, decreasing.
+    pub on_second: [f64; 2],
+    /// Unit normal from the first segment to the second: the mean of the right-hand normal of the
+    /// first and the left-hand normal of the second.
+    pub normal: Vector2<f64>,
+    /// Distance along the normal at the two ends \[m\]; exactly zero where the segments touch
+    /// within the tolerance.
+    pub gap: [f64; 2],
+}
+
+/// Overlap of two segments that run in opposite directions and face each other, the second on the
+/// right-hand side of the first: two edges of counter-clockwise blocks, say.
+///
+/// `slack` \[m\] is the distance that counts as touching and `limit` \[m\] the largest gap that
+/// still counts as facing. `None` when the segments are not antiparallel, lie apart, penetrate by
+/// more than `slack`, or share no more than `slack` of length.
+pub fn facing_overlap(
+    first: [Point2<f64>; 2],
+    second: [Point2<f64>; 2],
+    slack: f64,
+    limit: f64,
+) -> Option<SegmentOverlap> {
+    let (d1, d2) = (first[1] - first[0], second[1] - second[0]);
+    let (l1, l2) = (d1.norm(), d2.norm());
+    let (e1, e2) = (d1 / l1, d2 / l2);
+    // Over its whole length the shorter segment may turn away by no more than the admitted gap.
+    let turned = cross(e1, e2).abs() * l1.min(l2);
+    if e1.dot(&e2) >= 0.0 || turned > slack + limit {
+        return None;
+    }
+    let along = (e1 - e2).normalize();
+    let normal = turn_right(along);
+    let place = |p: Point2<f64>| (p - first[0]).dot(&along);
+    let (start, end) = (place(first[0]), place(first[1]));
+    let (second_start, second_end) = (place(second[0]), place(second[1]));
+    let (low, high) = (start.max(second_end), end.min(second_start));
+    if high - low <= slack {
+        return None;
+    }
+    let on_first = [low, high].map(|s| ((s - start) / (end - start)).clamp(0.0, 1.0));
+    let on_second =
+        [low, high].map(|s| ((s - second_start) / (second_end - second_start)).clamp(0.0, 1.0));
+    let distance =
+        |k: usize| (second[0] + d2 * on_second[k] - (first[0] + d1 * on_first[k])).dot(&normal);
+    let gap = [distance(0), distance(1)];
+    if gap.iter().any(|g| *g < -slack || *g > slack + limit) {
+        return None;
+    }
+    let gap = gap.map(|g| if g.abs() <= slack { 0.0 } else { g });
+    Some(SegmentOverlap { on_first, on_second, normal, gap })
+}

@@ -1,0 +1,120 @@
+//! Small models for the tests of the mechanics.
+
+#![allow(dead_code, reason = "every test binary uses its own part of this module")]
+#![allow(unreachable_pub, reason = "a module of helpers, compiled into each test binary")]
+
+use masonry::contact::{self, JointKind, Options};
+use masonry::mesh::BlockMesh;
+use masonry::model::{Block, EdgeLoad, Elasticity, JointClass, Model, Plane, Support};
+use masonry::units::Units;
+use nalgebra::{Point2, Vector2};
+
+/// Young's modulus of the bricks of the published panels, kN/m2 in Pa.
+pub const YOUNG: f64 = 1e8;
+
+/// An axis-parallel block; `mesh` `None` makes it rigid.
+pub fn rectangle(name: &str, x: [f64; 2], y: [f64; 2], mesh: Option<[usize; 2]>) -> Block {
+    let corners = [
+        Point2::new(x[0], y[0]),
+        Point2::new(x[1], y[0]),
+        Point2::new(x[1], y[1]),
+        Point2::new(x[0], y[1]),
+    ];
+    block(name, corners, mesh)
+}
+
+/// A block of any shape; `mesh` `None` makes it rigid.
+pub fn block(name: &str, corners: [Point2<f64>; 4], mesh: Option<[usize; 2]>) -> Block {
+    Block {
+        name: name.into(),
+        corners,
+        elasticity: mesh.map(|_| Elasticity { young: YOUNG, poisson: 0.15 }),
+        density: None,
+        mesh: mesh.map(|[nx, ny]| BlockMesh::new(&corners, nx, ny)),
+        edge_loads: Vec::new(),
+    }
+}
+
+/// A uniform traction on a whole edge.
+pub fn traction(edge: usize, x: f64, y: f64) -> EdgeLoad {
+    EdgeLoad { edge, from: 0.0, to: 1.0, traction: Vector2::new(x, y) }
+}
+
+/// A straight support.
+pub fn support(name: &str, from: [f64; 2], to: [f64; 2]) -> Support {
+    Support { name: name.into(), from: from.into(), to: to.into() }
+}
+
+/// A model with one friction coefficient for beds, heads and supports.
+pub fn model(blocks: Vec<Block>, supports: Vec<Support>, mu: f64) -> Model {
+    model_with(blocks, supports, [mu; 3], &Options::default())
+}
+
+/// A model with friction coefficients for beds, heads and supports.
+pub fn model_with(
+    blocks: Vec<Block>,
+    supports: Vec<Support>,
+    mu: [f64; 3],
+    options: &Options,
+) -> Model {
+    let joint_classes: Vec<JointClass> = ["bed", "head", "support"]
+        .iter()
+        .zip(mu)
+        .map(|(name, mu)| JointClass { name: (*name).into(), mu })
+        .collect();
+    let class_of = |kind| match kind {
+        JointKind::Bed => 0,
+        JointKind::Head => 1,
+        JointKind::Support(_) => 2,
+    };
+    let (joints, contacts) =
+        contact::find(&blocks, &supports, &joint_classes, class_of, 1.0, options).unwrap();
+    Model {
+        blocks,
+        supports,
+        joints,
+        contacts,
+        joint_classes,
+        plane: Plane::Stress,
+        thickness: 1.0,
+        gravity: Vector2::new(0.0, -9.81),
+        units: Units::SI,
+    }
+}
+
+/// A running bond wall of bricks `length` by `height`, `per_course` bricks wide; every other course
+/// begins and ends with half bricks. Mesh size is `height / 2`.
+pub fn running_bond(per_course: usize, courses: usize, length: f64, height: f64) -> Vec<Block> {
+    let along = |l: f64| (2.0 * l / height).round() as usize;
+    let mut blocks = Vec::new();
+    for course in 0..courses {
+        let half = course % 2 == 1;
+        let count = if half { per_course + 1 } else { per_course };
+        let cut = |k: usize| {
+            let shift = if half { 0.5 } else { 0.0 };
+            (k as f64 - shift).clamp(0.0, per_course as f64) * length
+        };
+        let y = [course as f64 * height, (course + 1) as f64 * height];
+        for k in 0..count {
+            let x = [cut(k), cut(k + 1)];
+            let mesh = Some([along(x[1] - x[0]), 2]);
+            blocks.push(rectangle(&format!("b{course}.{k}"), x, y, mesh));
+        }
+    }
+    blocks
+}
+
+/// The published panel: 1 m by 1 m, ten courses, 10 kN/m2 on top, side walls, and a floor below the
+/// given stretches.
+pub fn panel(length: f64, floors: &[[f64; 2]]) -> Model {
+    let mut blocks = running_bond((1.0 / length).round() as usize, 10, length, 0.1);
+    for block in &mut blocks {
+        if block.corners[2].y > 0.95 {
+            block.edge_loads.push(traction(2, 0.0, -10e3));
+        }
+    }
+    let mut supports =
+        vec![support("left", [0.0, 0.0], [0.0, 1.0]), support("right", [1.0, 0.0], [1.0, 1.0])];
+    supports.extend(floors.iter().map(|[x0, x1]| support("floor", [*x0, 0.0], [*x1, 0.0])));
+    model(blocks, supports, 1.0)
+}
