@@ -4,6 +4,8 @@
 
 pub mod check;
 pub mod contact;
+pub mod element;
+pub mod forms;
 pub mod geometry;
 pub mod ids;
 pub mod mesh;
@@ -11,4 +13,7 @@ pub mod model;
 pub mod outcome;
 pub mod output;
 pub mod plan;
+pub mod reduction;
+pub mod rigid;
+pub mod system;
 pub mod units;
