@@ -2,6 +2,7 @@
 //!
 //! Data flows one way: scene, model, plan, system, reduction, solution, recovery, report.
 
+pub mod bond;
 pub mod check;
 pub mod contact;
 pub mod geometry;
@@ -10,4 +11,5 @@ pub mod mesh;
 pub mod model;
 pub mod outcome;
 pub mod plan;
+pub mod scene;
 pub mod units;
