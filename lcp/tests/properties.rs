@@ -1,6 +1,8 @@
 //! Invariants on random problems: whatever the data, an answer called solved satisfies the
 //! conditions, and scaling, row operations and swapped pairs do not change it.
 
+#![allow(clippy::unwrap_used)] // a test may panic
+
 use faer::Mat;
 use lcp::{HorizontalLcp, Lemke, LemkeSettings, Status};
 use proptest::collection::vec;

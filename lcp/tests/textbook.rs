@@ -1,5 +1,7 @@
 //! Problems of the literature with known answers.
 
+#![allow(clippy::unwrap_used)] // a test may panic
+
 use faer::{Mat, mat};
 use lcp::{AttemptEnd, Basis, Covering, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side, Status};
 

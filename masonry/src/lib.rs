@@ -2,6 +2,7 @@
 //!
 //! Data flows one way: scene, model, plan, system, reduction, solution, recovery, report.
 
+pub mod bond;
 pub mod check;
 pub mod contact;
 pub mod element;
@@ -16,4 +17,5 @@ pub mod plan;
 pub mod reduction;
 pub mod rigid;
 pub mod system;
+pub mod scene;
 pub mod units;
