@@ -12,6 +12,7 @@ pub mod mesh;
 pub mod model;
 pub mod outcome;
 pub mod plan;
+pub mod recover;
 pub mod reduction;
 pub mod rigid;
 pub mod system;
