@@ -14,6 +14,7 @@ pub mod model;
 pub mod outcome;
 pub mod output;
 pub mod plan;
+pub mod recover;
 pub mod reduction;
 pub mod rigid;
 pub mod system;

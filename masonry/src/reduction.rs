@@ -91,10 +91,13 @@ impl Reduction {
     /// displacements `y` \[m\] of all rows: those of the isostatic rows decide.
     pub fn amplitudes(&self, system: &System, t: &[f64], y: &[f64]) -> Vec<f64> {
         let elastic = self.elastic_gaps(system, t);
-        let rhs = Mat::from_fn(self.isostatic.len(), 1, |i, _| {
-            let row = self.isostatic[i];
-            y[row] - elastic[row]
-        });
+        let rigid: Vec<f64> = y.iter().zip(&elastic).map(|(y, e)| y - e).collect();
+        self.rigid_amplitudes(&rigid)
+    }
+
+    /// The amplitudes \[m\] of the rigid motion with the relative displacements `y` \[m\] of all rows.
+    pub fn rigid_amplitudes(&self, y: &[f64]) -> Vec<f64> {
+        let rhs = Mat::from_fn(self.isostatic.len(), 1, |i, _| y[self.isostatic[i]]);
         self.g_isostatic.partial_piv_lu().solve(rhs).col_as_slice(0).to_vec()
     }
 

@@ -1,6 +1,6 @@
 //! The paper's form (3.26), (3.27) in `t_n`, `p+`, `p-`.
 
-use super::reduced::{PATTERNS, normal_start, tangents_in_i};
+use super::reduced::{PATTERNS, Pattern, normal_start, tangents_in_i};
 use super::{Form, FormKind, Start, reduced};
 use crate::reduction::Reduction;
 use crate::system::System;
@@ -23,7 +23,7 @@ pub(super) fn build(system: &System, reduction: &Reduction) -> Form {
 /// equilibrium gives their difference and the cone their sum.
 fn starts(form: &Form, reduction: &Reduction) -> Vec<Start> {
     let held = tangents_in_i(form, reduction);
-    let start = |(name, forwards): (&'static str, fn(usize) -> bool)| {
+    let start = |Pattern { name, forwards }: Pattern| {
         let mut t_basic = normal_start(form, reduction);
         for (k, held) in held.iter().enumerate() {
             t_basic[form.layout.pair(1, k)] = *held || !forwards(k);

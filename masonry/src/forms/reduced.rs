@@ -66,12 +66,18 @@ pub(super) fn tangents_in_i(form: &Form, reduction: &Reduction) -> Vec<bool> {
     found
 }
 
-/// Ways of giving every frictional point, by its position, a direction of sliding (`true` is `+t`).
-pub(super) const PATTERNS: [(&str, fn(usize) -> bool); 4] = [
-    ("all slide forwards", |_| true),
-    ("all slide backwards", |_| false),
-    ("alternating, first forwards", |k| k.is_multiple_of(2)),
-    ("alternating, first backwards", |k| !k.is_multiple_of(2)),
+/// A way of giving every frictional point, by its position, a direction of sliding.
+pub(super) struct Pattern {
+    pub(super) name: &'static str,
+    /// `true` is along `+t`.
+    pub(super) forwards: fn(usize) -> bool,
+}
+
+pub(super) const PATTERNS: [Pattern; 4] = [
+    Pattern { name: "all slide forwards", forwards: |_| true },
+    Pattern { name: "all slide backwards", forwards: |_| false },
+    Pattern { name: "alternating, first forwards", forwards: |k| k.is_multiple_of(2) },
+    Pattern { name: "alternating, first backwards", forwards: |k| !k.is_multiple_of(2) },
 ];
 
 /// A start in which isostatic normals carry force and all other normals are open; the tangential

@@ -1,6 +1,6 @@
 //! The form in `t_n`, `b+`, `b-`, `lambda` on the reduced problem.
 
-use super::reduced::{PATTERNS, normal_start, tangents_in_i};
+use super::reduced::{PATTERNS, Pattern, normal_start, tangents_in_i};
 use super::{Form, FormKind, Start, reduced};
 use crate::reduction::Reduction;
 use crate::system::System;
@@ -30,7 +30,7 @@ pub(super) fn build(system: &System, reduction: &Reduction) -> Form {
 /// row `(b+, s-, w)` or `(b-, s+, w)` are: sticking, the force given by equilibrium.
 fn starts(form: &Form, reduction: &Reduction) -> Vec<Start> {
     let held = tangents_in_i(form, reduction);
-    let start = |(name, forwards): (&'static str, fn(usize) -> bool)| {
+    let start = |Pattern { name, forwards }: Pattern| {
         let mut t_basic = normal_start(form, reduction);
         for (k, held) in held.iter().enumerate() {
             let plus = if *held { forwards(k) } else { !forwards(k) };
