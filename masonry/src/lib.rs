@@ -4,6 +4,8 @@
 
 pub mod bond;
 pub mod check;
+#[cfg(feature = "cli")]
+pub mod cli;
 pub mod contact;
 pub mod element;
 pub mod forms;
@@ -18,5 +20,7 @@ pub mod recover;
 pub mod reduction;
 pub mod rigid;
 pub mod system;
+pub mod routes;
 pub mod scene;
+pub mod solve;
 pub mod units;

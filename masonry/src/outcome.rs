@@ -93,7 +93,8 @@ pub struct Reaction {
 pub struct SolveInfo {
     /// `Solved`, or why not.
     pub status: lcp::Status,
-    /// The form that was solved: `coulomb` (order 3m) or `stewart-trinkle` (order 4m).
+    /// The form that was solved: `coulomb`, `stewart-trinkle` or `mixed`
+    /// ([`FormKind`](crate::forms::FormKind)).
     pub form: String,
     /// Order of the complementarity problem.
     pub order: usize,
@@ -103,6 +104,8 @@ pub struct SolveInfo {
     pub pivots: usize,
     /// Dimensionless residuals recomputed from the original data.
     pub residuals: lcp::Residuals,
+    /// Residuals of the same answer in the paper's form (3.27), where another form found it.
+    pub coulomb_residuals: Option<lcp::Residuals>,
 }
 
 /// Wall-clock time of one phase \[s\].

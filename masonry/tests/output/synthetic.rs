@@ -71,6 +71,7 @@ pub(crate) fn solved(wall: Wall) -> Outcome {
                 complementarity: 0.0,
                 natural: 2.3e-15,
             },
+            coulomb_residuals: None,
         },
         state: Some(state),
         checks: Some(checks),
