@@ -41,11 +41,11 @@ pub struct ContactState {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ContactStatus {
-    /// No force is carried and the gap may be positive.
+    /// The gap is positive: no force is carried.
     Open,
-    /// Force is carried without sliding.
+    /// Closed without sliding.
     Stick,
-    /// The force is on the edge of the friction cone and the sides slide on each other.
+    /// Closed, and the sides slide on each other: the force is on the edge of the friction cone.
     Slip,
 }
 
