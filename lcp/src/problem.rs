@@ -63,6 +63,10 @@ impl HorizontalLcp {
         &self.c
     }
 
+    pub(crate) fn matrices(&self) -> (&Mat<f64>, &Mat<f64>) {
+        (&self.a, &self.b)
+    }
+
     /// Column `pair` of `A` or of `B`.
     pub(crate) fn column(&self, pair: usize, side: Side) -> &[f64] {
         match side {

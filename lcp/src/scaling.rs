@@ -1,26 +1,32 @@
 //! Equilibration by powers of two: exact, so that it costs no accuracy.
 
-use faer::{Mat, MatRef};
+use faer::Mat;
 
 /// Entries below this, once the largest of their row and column is near one, are rounding errors
 /// of a computed tableau and have no say in its scaling.
 const NOISE: f64 = 1e-13;
 
-/// Row and column factors, all powers of two, that bring the entries of `m` near one.
+/// Row and column factors, all powers of two, that bring the entries of a matrix, given by its
+/// columns, near one.
 ///
 /// The largest entries of rows and columns alone (Ruiz 2001) leave a freedom: in `[A, -R^T; R, 0]`
 /// the size of `A`, and with it the units of the problem, would stay whatever they are. So the
 /// logarithms of all entries are balanced in between (Curtis and Reid 1972). A row or column of
 /// zeros keeps the factor one.
-pub(crate) fn equilibrate(m: MatRef<'_, f64>) -> (Vec<f64>, Vec<f64>) {
-    const SWEEPS: usize = 4;
-    let mut factors = Factors { row: vec![1.0; m.nrows()], col: vec![1.0; m.ncols()] };
-    (0..SWEEPS).for_each(|_| factors.damp_largest(m));
-    factors.balance_logarithms(m);
-    (0..SWEEPS).for_each(|_| factors.damp_largest(m));
+pub(crate) fn equilibrate(rows: usize, columns: &[&[f64]]) -> (Vec<f64>, Vec<f64>) {
+    const SWEEPS: usize = 3;
+    let mut factors = Factors { row: vec![1.0; rows], col: vec![1.0; columns.len()] };
+    (0..SWEEPS).for_each(|_| factors.damp_largest(columns));
+    factors.balance_logarithms(columns);
+    (0..SWEEPS).for_each(|_| factors.damp_largest(columns));
     let Factors { mut row, mut col } = factors;
     row.iter_mut().chain(&mut col).for_each(|f| *f = power_of_two(*f));
     (row, col)
+}
+
+/// The columns of an owned matrix.
+pub(crate) fn columns(m: &Mat<f64>) -> Vec<&[f64]> {
+    (0..m.ncols()).map(|j| m.col_as_slice(j)).collect()
 }
 
 struct Factors {
@@ -29,20 +35,18 @@ struct Factors {
 }
 
 impl Factors {
-    fn entry(&self, m: MatRef<'_, f64>, i: usize, j: usize) -> f64 {
-        (m[(i, j)] * self.row[i] * self.col[j]).abs()
-    }
-
     /// Divides every row and column by the root of its largest entry (Ruiz).
-    fn damp_largest(&mut self, m: MatRef<'_, f64>) {
+    fn damp_largest(&mut self, columns: &[&[f64]]) {
         let mut row_max = vec![0.0_f64; self.row.len()];
         let mut col_max = vec![0.0_f64; self.col.len()];
-        for j in 0..m.ncols() {
-            for i in 0..m.nrows() {
-                let v = self.entry(m, i, j);
-                row_max[i] = row_max[i].max(v);
-                col_max[j] = col_max[j].max(v);
+        for ((column, col_max), col) in columns.iter().zip(&mut col_max).zip(&self.col) {
+            let mut largest = 0.0_f64;
+            for ((v, row), row_max) in column.iter().zip(&self.row).zip(&mut row_max) {
+                let v = (v * row * col).abs();
+                largest = if v > largest { v } else { largest };
+                *row_max = if v > *row_max { v } else { *row_max };
             }
+            *col_max = largest;
         }
         let pairs = self.row.iter_mut().zip(row_max).chain(self.col.iter_mut().zip(col_max));
         pairs.filter(|(_, max)| *max > 0.0).for_each(|(factor, max)| *factor /= max.sqrt());
@@ -50,36 +54,42 @@ impl Factors {
 
     /// Least squares of `log |m_ij| + log row_i + log col_j` over the nonzero entries, by
     /// alternating means.
-    fn balance_logarithms(&mut self, m: MatRef<'_, f64>) {
-        const SWEEPS: usize = 12;
-        let mut kept = Vec::new();
-        for j in 0..m.ncols() {
-            for i in 0..m.nrows() {
-                let v = self.entry(m, i, j);
-                if v > NOISE {
-                    kept.push((i, j, v.log2()));
-                }
-            }
-        }
+    fn balance_logarithms(&mut self, columns: &[&[f64]]) {
+        const SWEEPS: usize = 6;
+        let logarithms: Vec<Vec<(usize, f64)>> = columns
+            .iter()
+            .zip(&self.col)
+            .map(|(column, col)| {
+                let sizes = column.iter().zip(&self.row).map(|(v, row)| (v * row * col).abs());
+                let kept = sizes.enumerate().filter(|(_, v)| *v > NOISE);
+                kept.map(|(i, v)| (i, v.log2())).collect()
+            })
+            .collect();
         let mut row = vec![0.0; self.row.len()];
         let mut col = vec![0.0; self.col.len()];
         for _ in 0..SWEEPS {
-            row = negative_means(row.len(), kept.iter().map(|&(i, j, log)| (i, log + col[j])));
-            col = negative_means(col.len(), kept.iter().map(|&(i, j, log)| (j, log + row[i])));
+            let mut sums = vec![(0.0, 0.0); row.len()];
+            for (column, col) in logarithms.iter().zip(&col) {
+                for (i, log) in column {
+                    sums[*i].0 += log + col;
+                    sums[*i].1 += 1.0;
+                }
+            }
+            row = sums.into_iter().map(negative_mean).collect();
+            let sum = |column: &Vec<(usize, f64)>| {
+                let total = column.iter().map(|(i, log)| log + row[*i]).sum();
+                negative_mean((total, column.len() as f64))
+            };
+            col = logarithms.iter().map(sum).collect();
         }
         self.row.iter_mut().zip(row).for_each(|(factor, log)| *factor *= log.exp2());
         self.col.iter_mut().zip(col).for_each(|(factor, log)| *factor *= log.exp2());
     }
 }
 
-/// Minus the mean of the values of every key; zero for a key without any.
-fn negative_means(keys: usize, values: impl Iterator<Item = (usize, f64)>) -> Vec<f64> {
-    let mut sums = vec![(0.0, 0.0); keys];
-    for (key, value) in values {
-        sums[key].0 += value;
-        sums[key].1 += 1.0;
-    }
-    sums.into_iter().map(|(sum, count)| if count > 0.0 { -sum / count } else { 0.0 }).collect()
+/// Minus the mean of so many values with that sum; zero for none.
+fn negative_mean((sum, count): (f64, f64)) -> f64 {
+    if count > 0.0 { -sum / count } else { 0.0 }
 }
 
 /// The power of two nearest to a positive number, on a logarithmic scale.
@@ -88,8 +98,13 @@ fn power_of_two(x: f64) -> f64 {
 }
 
 /// `diag(rows) m diag(cols)`.
-pub(crate) fn scaled(m: MatRef<'_, f64>, rows: &[f64], cols: &[f64]) -> Mat<f64> {
-    Mat::from_fn(m.nrows(), m.ncols(), |i, j| rows[i] * m[(i, j)] * cols[j])
+pub(crate) fn scaled(m: &Mat<f64>, rows: &[f64], cols: &[f64]) -> Mat<f64> {
+    let mut out = m.clone();
+    for (j, col) in cols.iter().enumerate() {
+        let column = out.col_as_slice_mut(j);
+        column.iter_mut().zip(rows).for_each(|(v, row)| *v *= row * col);
+    }
+    out
 }
 
 #[cfg(test)]
@@ -108,8 +123,8 @@ mod tests {
         };
         for scale in [1e-9, 1.0, 1e9] {
             let m = block(scale);
-            let (rows, cols) = equilibrate(m.as_ref());
-            let m = scaled(m.as_ref(), &rows, &cols);
+            let (rows, cols) = equilibrate(4, &columns(&m));
+            let m = scaled(&m, &rows, &cols);
             for (i, j) in [(0, 0), (1, 1), (0, 2), (3, 1)] {
                 assert!(m[(i, j)] > 0.05 && m[(i, j)] < 4.0, "{scale}: {}", m[(i, j)]);
             }

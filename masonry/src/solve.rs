@@ -103,7 +103,8 @@ pub fn solve_observed(
         })
     });
     let checks = state.as_ref().map(|state| Checks::of(&model, state));
-    let reactions = state.as_ref().map_or_else(Vec::new, |state| recover::reactions(&model, &state.contacts));
+    let reactions =
+        state.as_ref().map_or_else(Vec::new, |state| recover::reactions(&model, &state.contacts));
     let mechanism = answer.mechanism.map(|rates| corner_rates(&model, &rates));
     Ok(Outcome {
         title: scene.title.clone(),
@@ -150,9 +151,7 @@ fn corner_rates(model: &Model, amplitudes: &[f64]) -> Vec<[Vector2<f64>; 4]> {
         .zip(amplitudes.chunks_exact(3))
         .map(|(block, alpha)| {
             let modes = Modes::of(&block.corners);
-            block.corners.map(|corner| {
-                modes.displacement(corner, alpha)
-            })
+            block.corners.map(|corner| modes.displacement(corner, alpha))
         })
         .collect();
     let largest = rates.iter().flatten().fold(0.0_f64, |max, v| max.max(v.amax()));

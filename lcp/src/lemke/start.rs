@@ -7,7 +7,7 @@ use super::tableau::Tableau;
 use crate::linear::{Lu, all_finite};
 use crate::problem::max_abs;
 use crate::random::SplitMix;
-use crate::scaling::{equilibrate, scaled};
+use crate::scaling::{columns, equilibrate, scaled};
 use crate::{Basis, HorizontalLcp, Side};
 
 /// Columns whose part outside the span of those chosen before is below this multiple of the
@@ -28,10 +28,9 @@ pub(super) struct Equilibrated {
 impl Equilibrated {
     pub(super) fn new(problem: &HorizontalLcp) -> Self {
         let n = problem.order();
-        let (a, b) = (problem.a(), problem.b());
-        let both = Mat::from_fn(n, 2 * n, |i, j| if j < n { a[(i, j)] } else { b[(i, j - n)] });
-        let (row, columns) = equilibrate(both.as_ref());
-        let (t_factor, y_factor) = (columns[..n].to_vec(), columns[n..].to_vec());
+        let (a, b) = problem.matrices();
+        let (row, factors) = equilibrate(n, &[columns(a), columns(b)].concat());
+        let (t_factor, y_factor) = (factors[..n].to_vec(), factors[n..].to_vec());
         let (a, b) = (scaled(a, &row, &t_factor), scaled(b, &row, &y_factor));
         Self { a, b, row, t_factor, y_factor }
     }
@@ -88,7 +87,7 @@ impl Equilibrated {
         if !all_finite(&t) || t.norm_max() > LARGEST_GROWTH {
             return None;
         }
-        let (rows, cols) = equilibrate(t.as_ref());
+        let (rows, cols) = equilibrate(n, &columns(&t));
         q.iter_mut().zip(&rows).for_each(|(q, r)| *q *= r);
         let q_size = max_abs(&q);
         if q_size > 0.0 {
@@ -98,7 +97,7 @@ impl Equilibrated {
         let col_factor = (0..n).map(|i| cols[i] * self.factor(i, sides[i].complement()));
         Some(StartTableau {
             basis: basis.clone(),
-            t: scaled(t.as_ref(), &rows, &cols),
+            t: scaled(&t, &rows, &cols),
             q,
             row_factor: row_factor.collect(),
             col_factor: col_factor.collect(),

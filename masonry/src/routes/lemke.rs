@@ -187,4 +187,3 @@ fn describe(kind: FormKind, attempt: &Attempt) -> String {
 fn moves(amplitudes: &[f64]) -> bool {
     amplitudes.iter().any(|rate| rate.abs() > 0.0)
 }
-
