@@ -44,9 +44,6 @@ pub struct Plan {
     /// Order of the complementarity problem: m, and two more per frictional point (3m); in the
     /// Stewart-Trinkle and mixed forms three more (4m).
     pub order: usize,
-    /// Memory \[bytes\] that the dense matrices of a pivoting solver take: A, B (3.27) and the
-    /// factors of a basis.
-    pub dense_bytes: usize,
     /// The solver that will be used.
     pub solver: String,
     /// Why this solver.
@@ -69,10 +66,15 @@ impl Plan {
             frictional_points,
             rigid_modes: 3 * model.blocks.len(),
             order,
-            dense_bytes: 3 * order.saturating_mul(order).saturating_mul(size_of::<f64>()),
             solver: solver.to_owned(),
             because: because.to_owned(),
         }
+    }
+
+    /// Memory \[bytes\] that the dense matrices of a pivoting solver take: A, B (3.27) and the
+    /// factors of a basis.
+    pub fn dense_bytes(&self) -> usize {
+        self.order.saturating_mul(self.order).saturating_mul(3 * size_of::<f64>())
     }
 }
 
