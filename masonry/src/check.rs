@@ -1,6 +1,12 @@
 //! Checks of a state that use nothing of the method that found it.
 
+use nalgebra::{Point2, Vector2};
 use serde::Serialize;
+
+use crate::geometry;
+use crate::model::{Anchor, Block, ContactPoint, Model};
+use crate::outcome::{ContactState, ContactStatus, State};
+use crate::recover;
 
 /// Balances and violations, dimensionless, recomputed from the contact forces and the loads.
 #[derive(Debug, Clone, Serialize)]
@@ -21,4 +27,110 @@ pub struct Checks {
     pub stick: usize,
     /// Number of sliding contact points.
     pub slip: usize,
+}
+
+impl Checks {
+    /// Recomputes everything from the contact forces, the displacements and the loads of the model:
+    /// resultants of the geometry, no matrix of the method.
+    ///
+    /// ```
+    /// # use masonry::{check::Checks, model::Model, outcome::State};
+    /// fn is_balanced(model: &Model, state: &State) -> bool {
+    ///     let checks = Checks::of(model, state);
+    ///     checks.force_balance < 1e-8 && checks.moment_balance < 1e-8
+    /// }
+    /// ```
+    pub fn of(model: &Model, state: &State) -> Self {
+        let balances = unbalanced(model, state);
+        let contact_force = |s: &ContactState| s.t_n.hypot(s.t_t);
+        let largest_contact = largest(state.contacts.iter().map(contact_force));
+        let reference = largest_contact.max(total_load(model));
+        let violation = |(contact, s): (&ContactPoint, &ContactState)| {
+            (-s.t_n).max(s.t_t.abs() - contact.mu * s.t_n)
+        };
+        let contacts = model.contacts.iter().zip(&state.contacts);
+        let depth = model.contacts.iter().map(|contact| -gap(model, state, contact));
+        let displacement = largest(state.displacements.iter().flatten().map(Vector2::norm));
+        let count = |status| state.contacts.iter().filter(|s| s.status == status).count();
+        Self {
+            force_balance: relative(largest(balances.iter().map(|b| b.force)), reference),
+            moment_balance: relative(largest(balances.iter().map(|b| b.moment)), reference),
+            cone_violation: relative(largest(contacts.map(violation)), largest_contact),
+            penetration: relative(largest(depth), displacement),
+            open: count(ContactStatus::Open),
+            stick: count(ContactStatus::Stick),
+            slip: count(ContactStatus::Slip),
+        }
+    }
+}
+
+/// A force \[N\] and where it acts \[m\].
+type PlacedForce = (Point2<f64>, Vector2<f64>);
+
+/// What is left over on one block \[N\]; the moment is divided by the block's size.
+struct Unbalanced {
+    force: f64,
+    moment: f64,
+}
+
+fn unbalanced(model: &Model, state: &State) -> Vec<Unbalanced> {
+    let mut forces: Vec<Vec<PlacedForce>> =
+        model.blocks.iter().map(|block| loads(model, block)).collect();
+    for (contact, s) in model.contacts.iter().zip(&state.contacts) {
+        let normal = model.joints[contact.joint.index()].normal;
+        let on_b = normal * s.t_n + Vector2::new(normal.y, -normal.x) * s.t_t;
+        for (anchor, force) in [(Some(contact.b), on_b), (contact.a, -on_b)] {
+            let Some(Anchor { block, edge, at }) = anchor else { continue };
+            let place = geometry::on_edge(&model.blocks[block.index()].corners, edge, at);
+            forces[block.index()].push((place, force));
+        }
+    }
+    let resultant = |(block, forces): (&Block, &Vec<PlacedForce>)| {
+        let centroid = geometry::centroid(&block.corners);
+        let force: Vector2<f64> = forces.iter().map(|(_, f)| f).sum();
+        let moment: f64 = forces.iter().map(|(p, f)| geometry::cross(p - centroid, *f)).sum();
+        Unbalanced { force: force.norm(), moment: moment.abs() / geometry::size(&block.corners) }
+    };
+    model.blocks.iter().zip(&forces).map(resultant).collect()
+}
+
+/// Self weight and edge loads of a block as forces \[N\] at places.
+fn loads(model: &Model, block: &Block) -> Vec<PlacedForce> {
+    let mass = block.density.unwrap_or(0.0) * geometry::area(&block.corners) * model.thickness;
+    let mut forces = vec![(geometry::centroid(&block.corners), model.gravity * mass)];
+    forces.extend(block.edge_loads.iter().map(|load| {
+        let start = geometry::on_edge(&block.corners, load.edge, load.from);
+        let end = geometry::on_edge(&block.corners, load.edge, load.to);
+        let area = (end - start).norm() * model.thickness;
+        (nalgebra::center(&start, &end), load.traction * area)
+    }));
+    forces
+}
+
+/// Sum of the magnitudes of all loads \[N\].
+fn total_load(model: &Model) -> f64 {
+    model.blocks.iter().flat_map(|block| loads(model, block)).map(|(_, force)| force.norm()).sum()
+}
+
+/// The normal gap \[m\] at a contact point, from the displacements.
+fn gap(model: &Model, state: &State, contact: &ContactPoint) -> f64 {
+    let normal = model.joints[contact.joint.index()].normal;
+    let relative = recover::relative_displacement(model, &state.displacements, contact);
+    relative.dot(&normal) + contact.gap
+}
+
+/// The largest value, at least zero; one that is not a number counts as infinite.
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |m: f64, x| if x.is_nan() { f64::INFINITY } else { m.max(x) })
+}
+
+/// Zero when there is nothing to compare with: then the value itself is zero too.
+fn relative(value: f64, reference: f64) -> f64 {
+    if !value.is_finite() {
+        f64::INFINITY
+    } else if reference > 0.0 {
+        value / reference
+    } else {
+        0.0
+    }
 }

@@ -5,11 +5,17 @@
 pub mod bond;
 pub mod check;
 pub mod contact;
+pub mod element;
+pub mod forms;
 pub mod geometry;
 pub mod ids;
 pub mod mesh;
 pub mod model;
 pub mod outcome;
 pub mod plan;
+pub mod recover;
+pub mod reduction;
+pub mod rigid;
 pub mod scene;
+pub mod system;
 pub mod units;

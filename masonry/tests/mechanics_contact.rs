@@ -80,14 +80,14 @@ fn published_panels_have_the_documented_counts() {
         let nodes: usize = m.blocks.iter().map(|b| b.mesh.as_ref().unwrap().nodes.len()).sum();
         (m.blocks.len(), nodes, m.contacts.len())
     };
-    assert_eq!(count(&panel(0.1, &[[0.0, 1.0]])), (105, 915, 735));
-    assert_eq!(count(&panel(0.1, &[[0.0, 0.1], [0.9, 1.0]])), (105, 915, 711));
-    assert_eq!(count(&panel(0.2, &[[0.0, 0.2], [0.8, 1.0]])), (55, 765, 475));
+    assert_eq!(count(&panel(1, &[[0.0, 1.0]])), (105, 915, 735));
+    assert_eq!(count(&panel(1, &[[0.0, 0.1], [0.9, 1.0]])), (105, 915, 711));
+    assert_eq!(count(&panel(2, &[[0.0, 0.2], [0.8, 1.0]])), (55, 765, 475));
 }
 
 #[test]
 fn nodal_pairs_and_vertices_agree_on_matching_meshes() {
-    let blocks = common::running_bond(3, 4, 0.2, 0.1);
+    let blocks = common::running_bond(3, 4, 2, 0.1);
     let floor = vec![support("floor", [0.0, 0.0], [0.6, 0.0])];
     let rule = |points| {
         let options = Options { points, ..Options::default() };
@@ -116,7 +116,7 @@ fn nodal_pairs_need_matching_nodes() {
 
 #[test]
 fn normals_point_up_right_and_into_the_block() {
-    let wall = common::running_bond(2, 2, 0.2, 0.1);
+    let wall = common::running_bond(2, 2, 2, 0.1);
     let left = support("left", [0.0, 0.2], [0.0, 0.0]);
     let right = support("right", [0.4, 0.2], [0.4, 0.0]);
     for reversed in [false, true] {

@@ -82,32 +82,32 @@ pub fn model_with(
     }
 }
 
-/// A running bond wall of bricks `length` by `height`, `per_course` bricks wide; every other course
-/// begins and ends with half bricks. Mesh size is `height / 2`.
-pub fn running_bond(per_course: usize, courses: usize, length: f64, height: f64) -> Vec<Block> {
-    let along = |l: f64| (2.0 * l / height).round() as usize;
+/// A running bond wall of bricks `aspect * height` by `height`, `per_course` bricks wide; every other
+/// course begins and ends with half bricks. The mesh size is `height / 2`.
+pub fn running_bond(per_course: usize, courses: usize, aspect: usize, height: f64) -> Vec<Block> {
+    let length = aspect as f64 * height;
     let mut blocks = Vec::new();
     for course in 0..courses {
-        let half = course % 2 == 1;
-        let count = if half { per_course + 1 } else { per_course };
-        let cut = |k: usize| {
-            let shift = if half { 0.5 } else { 0.0 };
-            (k as f64 - shift).clamp(0.0, per_course as f64) * length
-        };
         let y = [course as f64 * height, (course + 1) as f64 * height];
-        for k in 0..count {
-            let x = [cut(k), cut(k + 1)];
-            let mesh = Some([along(x[1] - x[0]), 2]);
-            blocks.push(rectangle(&format!("b{course}.{k}"), x, y, mesh));
+        let mut halves = vec![2; per_course];
+        if course % 2 == 1 {
+            halves = [vec![1], vec![2; per_course - 1], vec![1]].concat();
+        }
+        let mut start = 0;
+        for (k, count) in halves.into_iter().enumerate() {
+            let x = [start, start + count].map(|n| f64::from(n) * 0.5 * length);
+            let mesh = if count == 2 { [2 * aspect, 2] } else { [aspect, 2] };
+            blocks.push(rectangle(&format!("b{course}.{k}"), x, y, Some(mesh)));
+            start += count;
         }
     }
     blocks
 }
 
-/// The published panel: 1 m by 1 m, ten courses, 10 kN/m2 on top, side walls, and a floor below the
-/// given stretches.
-pub fn panel(length: f64, floors: &[[f64; 2]]) -> Model {
-    let mut blocks = running_bond((1.0 / length).round() as usize, 10, length, 0.1);
+/// The published panel: 1 m by 1 m, ten courses, bricks `0.1 aspect` by 0.1 m, 10 kN/m2 on top, side
+/// walls, and a floor below the given stretches.
+pub fn panel(aspect: usize, floors: &[[f64; 2]]) -> Model {
+    let mut blocks = running_bond(10 / aspect, 10, aspect, 0.1);
     for block in &mut blocks {
         if block.corners[2].y > 0.95 {
             block.edge_loads.push(traction(2, 0.0, -10e3));

@@ -1,0 +1,221 @@
+//! Forms of the contact problem as a linear complementarity problem `A t + B y = c`.
+//!
+//! Every form has pairs `(t_i, y_i)` of nonnegative, complementary variables: forces on the `t` side and
+//! displacements on the `y` side, except where a form says otherwise. All are dimensionless: forces are
+//! divided by [`Scale::force`] and displacements by [`Scale::length`], so that the coefficients of `A`
+//! are of order one whatever the units and moduli. [`Form::rows`] leads back to forces and
+//! relative displacements in SI units.
+//!
+//! The pairs of a problem of `m` points, `m_f` of them with friction, come in groups: first
+//! `(t_n, y_n)` of all points, then, group by group, those of the points with friction.
+
+use faer::Mat;
+
+use crate::reduction::Reduction;
+use crate::system::System;
+
+mod coulomb;
+mod mixed;
+mod reduced;
+mod stewart_trinkle;
+
+/// Which variables are used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FormKind {
+    /// The paper's (3.27), order `m + 2 m_f`: pairs `(t_n, y_n)`, `(p+, y+)`, `(p-, y-)`, where
+    /// `p+ = mu t_n + t_t`, `p- = mu t_n - t_t`, `y_t = y+ - y-`. Not copositive: a solver may end on
+    /// a ray although there is a solution.
+    Coulomb,
+    /// Friction forces split in two, order `m + 3 m_f`: pairs `(t_n, y_n)`, `(b+, s+)`, `(b-, s-)`,
+    /// `(lambda, w)`, where `t_t = b+ - b-`, `s+ = lambda + y_t`, `s- = lambda - y_t` and
+    /// `w = mu t_n - b+ - b-` (a force, while `lambda` is a displacement).
+    StewartTrinkle,
+    /// The same with the rigid amplitudes `alpha = alpha+ - alpha-` as unknowns and equilibrium
+    /// as complementary rows, order `m + 3 m_f + 6 r` for `r` blocks. With `B = 1` and a copositive
+    /// `-A` it is a standard problem that Lemke's method solves whenever a solution exists.
+    Mixed,
+}
+
+/// Units of the dimensionless variables of a form.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
+    /// Force of one \[N\].
+    pub force: f64,
+    /// Displacement of one \[m\].
+    pub length: f64,
+}
+
+/// A complementary basis from which pivoting may start.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Start {
+    /// A name for reports.
+    pub name: &'static str,
+    /// For every pair, whether its `t` variable is basic (else its `y` variable).
+    pub t_basic: Vec<bool>,
+}
+
+/// Forces and relative displacements of all rows of a [`System`], in SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RowState {
+    /// Contact forces \[N\].
+    pub t: Vec<f64>,
+    /// Relative displacements \[m\].
+    pub y: Vec<f64>,
+}
+
+/// A contact problem `A t + B y = c`, `t >= 0`, `y >= 0`, `t.y = 0`, dimensionless.
+#[derive(Debug, Clone)]
+pub struct Form {
+    /// The variables used.
+    pub kind: FormKind,
+    /// `A`, square.
+    pub a: Mat<f64>,
+    /// `B`, square.
+    pub b: Mat<f64>,
+    /// `c`.
+    pub c: Vec<f64>,
+    /// What one unit of force and of displacement is.
+    pub scale: Scale,
+    /// Bases from which pivoting may start, the most promising first; empty where `y` itself is
+    /// the natural start. Any of them may turn out singular for a certain `mu`.
+    pub starts: Vec<Start>,
+    layout: Layout,
+}
+
+impl Form {
+    /// Sets up the problem in the given variables.
+    pub fn new(kind: FormKind, system: &System, reduction: &Reduction) -> Self {
+        match kind {
+            FormKind::Coulomb => coulomb::build(system, reduction),
+            FormKind::StewartTrinkle => stewart_trinkle::build(system, reduction),
+            FormKind::Mixed => mixed::build(system, reduction),
+        }
+    }
+
+    /// Number of complementary pairs.
+    pub fn order(&self) -> usize {
+        self.c.len()
+    }
+
+    /// Forces and relative displacements of all rows from the dimensionless variables.
+    ///
+    /// # Panics
+    /// If `t` or `y` is shorter than [`Form::order`].
+    pub fn rows(&self, t: &[f64], y: &[f64]) -> RowState {
+        let (t_weight, y_weight) = self.kind.tangential_weights();
+        let Scale { force, length } = self.scale;
+        RowState {
+            t: self.layout.row_values(t, t_weight * force, force),
+            y: self.layout.row_values(y, y_weight * length, length),
+        }
+    }
+
+    /// The dimensionless variables `(t, y)` of given forces and relative displacements of all rows,
+    /// and the rigid amplitudes \[m\] that go with them (only the mixed form looks at these).
+    ///
+    /// # Panics
+    /// If there are fewer values than rows, or than rigid amplitudes.
+    pub fn pairs(&self, rows: &RowState, amplitudes: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let Layout { points, friction, .. } = &self.layout;
+        let (force, length) = (self.scale.force, self.scale.length);
+        let t_n = rows.t[..*points].iter().map(|t| t / force);
+        let y_n = rows.y[..*points].iter().map(|y| y / length);
+        let (mut t, mut y): (Vec<f64>, Vec<f64>) = (t_n.collect(), y_n.collect());
+        let tangential = |k: usize| (rows.t[points + k] / force, rows.y[points + k] / length);
+        for sign in [1.0, -1.0] {
+            for (k, (point, mu)) in friction.iter().enumerate() {
+                let (t_t, y_t) = tangential(k);
+                if self.kind == FormKind::Coulomb {
+                    t.push(mu * t[*point] + sign * t_t);
+                    y.push((sign * y_t).max(0.0));
+                } else {
+                    t.push((sign * t_t).max(0.0));
+                    y.push(y_t.abs() + sign * y_t);
+                }
+            }
+        }
+        if self.kind != FormKind::Coulomb {
+            for (k, (point, mu)) in friction.iter().enumerate() {
+                let (t_t, y_t) = tangential(k);
+                t.push(y_t.abs());
+                y.push(mu * t[*point] - t_t.abs());
+            }
+        }
+        if self.kind == FormKind::Mixed {
+            for sign in [1.0, -1.0] {
+                t.extend(amplitudes.iter().map(|alpha| (sign * alpha / length).max(0.0)));
+                y.extend(amplitudes.iter().map(|_| 0.0));
+            }
+        }
+        (t, y)
+    }
+}
+
+impl FormKind {
+    /// The factors in `t_t = factor (t+ - t-)` and `y_t = factor (y+ - y-)`, where `t+`, `y+` are the
+    /// variables of the second group of pairs and `t-`, `y-` those of the third.
+    fn tangential_weights(self) -> (f64, f64) {
+        match self {
+            Self::Coulomb => (0.5, 1.0),
+            Self::StewartTrinkle | Self::Mixed => (1.0, 0.5),
+        }
+    }
+}
+
+/// Where the variables of points and rows are among the pairs.
+#[derive(Debug, Clone)]
+struct Layout {
+    /// Number of contact points.
+    points: usize,
+    /// Points with friction and their coefficients.
+    friction: Vec<(usize, f64)>,
+}
+
+impl Layout {
+    fn of(system: &System) -> Self {
+        let friction = system.friction.iter().map(|(id, mu)| (id.index(), *mu)).collect();
+        Self { points: system.points(), friction }
+    }
+
+    /// The pair of frictional point `k` in a group, counted from 1 after the normal pairs.
+    fn pair(&self, group: usize, k: usize) -> usize {
+        self.points + (group - 1) * self.friction.len() + k
+    }
+
+    /// Rows of the system.
+    fn rows(&self) -> usize {
+        self.points + self.friction.len()
+    }
+
+    /// The value of a row as a combination of pair variables; `weight` belongs to tangential rows.
+    fn terms(&self, row: usize, weight: f64) -> Vec<(usize, f64)> {
+        match row.checked_sub(self.points) {
+            None => vec![(row, 1.0)],
+            Some(k) => vec![(self.pair(1, k), weight), (self.pair(2, k), -weight)],
+        }
+    }
+
+    fn row_values(&self, pairs: &[f64], tangential: f64, normal: f64) -> Vec<f64> {
+        let normals = pairs[..self.points].iter().map(|value| normal * value);
+        let tangents = (0..self.friction.len())
+            .map(|k| tangential * (pairs[self.pair(1, k)] - pairs[self.pair(2, k)]));
+        normals.chain(tangents).collect()
+    }
+}
+
+impl Scale {
+    /// Units in which the mean of the diagonal of `A` is one and the loads are at most one.
+    fn of(reduction: &Reduction) -> Self {
+        let largest = |v: &[f64]| v.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let or_one = |x: f64| if x > 0.0 { x } else { 1.0 };
+        let n = reduction.a.nrows();
+        let compliance = (0..n).map(|i| reduction.a[(i, i)]).sum::<f64>() / or_one(n as f64);
+        let (force, length) = (largest(&reduction.t0), largest(&reduction.c));
+        if compliance > 0.0 {
+            let force = or_one(force.max(length / compliance));
+            Self { force, length: force * compliance }
+        } else {
+            Self { force: or_one(force), length: or_one(length) }
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! The paper's form (3.26), (3.27) in `t_n`, `p+`, `p-`.
+
+use super::reduced::{PATTERNS, Pattern, normal_start, tangents_in_i};
+use super::{Form, FormKind, Start, reduced};
+use crate::reduction::Reduction;
+use crate::system::System;
+
+pub(super) fn build(system: &System, reduction: &Reduction) -> Form {
+    let mut form = reduced::build(FormKind::Coulomb, system, reduction, 2);
+    // The definition of the cone, p+ + p- = 2 mu t_n (3.24).
+    for (k, (point, mu)) in form.layout.friction.iter().enumerate() {
+        let (plus, minus) = (form.layout.pair(1, k), form.layout.pair(2, k));
+        let row = form.layout.rows() + k;
+        form.a[(row, *point)] = -2.0 * mu;
+        form.a[(row, plus)] = 1.0;
+        form.a[(row, minus)] = 1.0;
+    }
+    form.starts = starts(&form, reduction);
+    form
+}
+
+/// `y_nE`, `t_nI` and one of `(y+, p-)`, `(y-, p+)` are basic. At an isostatic tangential row both `p` are:
+/// equilibrium gives their difference and the cone their sum.
+fn starts(form: &Form, reduction: &Reduction) -> Vec<Start> {
+    let held = tangents_in_i(form, reduction);
+    let start = |Pattern { name, forwards }: Pattern| {
+        let mut t_basic = normal_start(form, reduction);
+        for (k, held) in held.iter().enumerate() {
+            t_basic[form.layout.pair(1, k)] = *held || !forwards(k);
+            t_basic[form.layout.pair(2, k)] = *held || forwards(k);
+        }
+        Start { name, t_basic }
+    };
+    PATTERNS.into_iter().map(start).collect()
+}

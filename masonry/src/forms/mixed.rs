@@ -1,0 +1,64 @@
+//! The standard problem `w = M z + q` with the rigid amplitudes as unknowns.
+//!
+//! `z = (t_n, b+, b-, lambda, alpha+, alpha-)`,
+//! `w = (y_n, lambda + y_t, lambda - y_t, mu t_n - b+ - b-, e, -e)`, where
+//! `y = F t + G alpha + C K^+ f + x` and `e = -(G^T t + N^T f)` is what equilibrium lacks. `F` is positive
+//! semidefinite, `G` enters skew, and of the friction rows only `mu lambda t_n` is left in `z.M z`: `M` is
+//! copositive.
+
+use faer::Mat;
+
+use super::{Form, FormKind, Layout, Scale};
+use crate::reduction::Reduction;
+use crate::system::System;
+
+pub(super) fn build(system: &System, reduction: &Reduction) -> Form {
+    let layout = Layout::of(system);
+    let scale = Scale::of(reduction);
+    let (m_f, rows) = (layout.friction.len(), layout.rows());
+    let g = system.rigid_rows();
+    let rigid = g.ncols();
+    let order = layout.points + 3 * m_f + 2 * rigid;
+    let mut m = Mat::zeros(order, order);
+    let mut q = vec![0.0; order];
+
+    // A row of the system acts on two rows of w, +y_t and -y_t, where it is tangential; and it takes
+    // its force from the same two places of z.
+    let places: Vec<Vec<(usize, f64)>> = (0..rows).map(|row| layout.terms(row, 1.0)).collect();
+    let f = reduction.flexibility(rows);
+    let free = reduction.elastic_gaps(system, &vec![0.0; rows]);
+    let stiff = scale.force / scale.length;
+    let alpha = |k: usize| [(order - 2 * rigid + k, 1.0), (order - rigid + k, -1.0)];
+    for (i, place) in places.iter().enumerate() {
+        for &(p, sign) in place {
+            q[p] = sign * free[i] / scale.length;
+            for (j, other) in places.iter().enumerate() {
+                for &(s, other_sign) in other {
+                    m[(p, s)] = sign * other_sign * stiff * f[(i, j)];
+                }
+            }
+            for k in 0..rigid {
+                for (s, alpha_sign) in alpha(k) {
+                    m[(p, s)] = sign * alpha_sign * g[(i, k)];
+                    m[(s, p)] = -sign * alpha_sign * g[(i, k)];
+                }
+            }
+        }
+    }
+    for (k, resultant) in system.resultants().iter().enumerate() {
+        for (p, sign) in alpha(k) {
+            q[p] = -sign * resultant / scale.force;
+        }
+    }
+    for (k, (point, mu)) in layout.friction.iter().enumerate() {
+        let [plus, minus, lambda] = [1, 2, 3].map(|group| layout.pair(group, k));
+        m[(plus, lambda)] = 1.0;
+        m[(minus, lambda)] = 1.0;
+        m[(lambda, plus)] = -1.0;
+        m[(lambda, minus)] = -1.0;
+        m[(lambda, *point)] = *mu;
+    }
+    let a = -m;
+    let b = Mat::identity(order, order);
+    Form { kind: FormKind::Mixed, a, b, c: q, scale, starts: Vec::new(), layout }
+}

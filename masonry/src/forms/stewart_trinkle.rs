@@ -1,0 +1,44 @@
+//! The form in `t_n`, `b+`, `b-`, `lambda` on the reduced problem.
+
+use super::reduced::{PATTERNS, Pattern, normal_start, tangents_in_i};
+use super::{Form, FormKind, Start, reduced};
+use crate::reduction::Reduction;
+use crate::system::System;
+
+pub(super) fn build(system: &System, reduction: &Reduction) -> Form {
+    let mut form = reduced::build(FormKind::StewartTrinkle, system, reduction, 3);
+    let layout = &form.layout;
+    for (k, (point, mu)) in layout.friction.iter().enumerate() {
+        let [plus, minus, lambda] = [1, 2, 3].map(|group| layout.pair(group, k));
+        // s+ + s- = 2 lambda
+        let row = layout.rows() + k;
+        form.b[(row, plus)] = 1.0;
+        form.b[(row, minus)] = 1.0;
+        form.a[(row, lambda)] = -2.0;
+        // w = mu t_n - b+ - b-
+        let row = row + layout.friction.len();
+        form.b[(row, lambda)] = 1.0;
+        form.a[(row, *point)] = -mu;
+        form.a[(row, plus)] = 1.0;
+        form.a[(row, minus)] = 1.0;
+    }
+    form.starts = starts(&form, reduction);
+    form
+}
+
+/// `y_nE`, `t_nI` and `(s+, b-, lambda)` or `(s-, b+, lambda)` are basic: sliding. At an isostatic tangential
+/// row `(b+, s-, w)` or `(b-, s+, w)` are: sticking, the force given by equilibrium.
+fn starts(form: &Form, reduction: &Reduction) -> Vec<Start> {
+    let held = tangents_in_i(form, reduction);
+    let start = |Pattern { name, forwards }: Pattern| {
+        let mut t_basic = normal_start(form, reduction);
+        for (k, held) in held.iter().enumerate() {
+            let plus = if *held { forwards(k) } else { !forwards(k) };
+            t_basic[form.layout.pair(1, k)] = plus;
+            t_basic[form.layout.pair(2, k)] = !plus;
+            t_basic[form.layout.pair(3, k)] = !held;
+        }
+        Start { name, t_basic }
+    };
+    PATTERNS.into_iter().map(start).collect()
+}

@@ -1,0 +1,211 @@
+//! From contact forces and relative displacements back to the state of the structure.
+
+use nalgebra::{SVector, Vector2};
+
+use crate::element::{constitutive, quad4};
+use crate::forms::RowState;
+use crate::ids::BlockId;
+use crate::model::{Anchor, Body, ContactPoint, Model};
+use crate::outcome::{ContactState, ContactStatus, ElementStress, Principal, Reaction, State};
+use crate::reduction::Reduction;
+use crate::system::{BodySystem, System, displaced_nodes};
+
+/// Forces below this fraction of the largest normal force, and slips below this fraction of the
+/// largest relative displacement, count as zero when points are called open, sticking or sliding.
+const STATUS_TOLERANCE: f64 = 1e-8;
+
+/// The state that belongs to the contact forces and relative displacements `rows`: rigid amplitudes
+/// from the isostatic rows, then `u = K^+ (f + C^T t) + N alpha` block by block.
+///
+/// Stresses are recovered only `with_stresses`.
+pub fn recover(
+    model: &Model,
+    system: &System,
+    reduction: &Reduction,
+    rows: &RowState,
+    with_stresses: bool,
+) -> State {
+    let amplitudes = reduction.amplitudes(system, &rows.t, &rows.y);
+    let mut strain_energy = 0.0;
+    let mut displacements = Vec::with_capacity(model.blocks.len());
+    for (b, (body, alpha)) in system.bodies.iter().zip(amplitudes.chunks(3)).enumerate() {
+        let elastic = system.elastic_displacements(body, &rows.t);
+        strain_energy += energy(system, body, &elastic);
+        let nodes = displaced_nodes(model, BlockId::new(b)).iter().enumerate();
+        let moved = nodes.map(|(n, place)| {
+            let rigid = body.modes.displacement(*place, alpha);
+            elastic.get(2 * n..2 * n + 2).map_or(rigid, |u| rigid + Vector2::new(u[0], u[1]))
+        });
+        displacements.push(moved.collect());
+    }
+    let contacts = contact_states(model, system, rows, &displacements);
+    let stresses = if with_stresses { stresses(model, &displacements) } else { Vec::new() };
+    State { displacements, contacts, stresses, strain_energy }
+}
+
+/// `u.K u / 2` of one block \[J\].
+fn energy(system: &System, body: &BodySystem, u: &[f64]) -> f64 {
+    let Some(k) = body.stiffness.map(|k| &system.stiffnesses[k].matrix) else { return 0.0 };
+    let row = |i: usize| u.iter().enumerate().map(|(j, u_j)| k[(i, j)] * u_j).sum::<f64>();
+    u.iter().enumerate().map(|(i, u_i)| 0.5 * u_i * row(i)).sum()
+}
+
+/// The displacement \[m\] of a place on a block's edge; `displacements` as in [`State`].
+pub fn displacement_at(
+    model: &Model,
+    displacements: &[Vec<Vector2<f64>>],
+    anchor: Anchor,
+) -> Vector2<f64> {
+    let block = &model.blocks[anchor.block.index()];
+    let u = &displacements[anchor.block.index()];
+    match (&block.mesh, block.elasticity) {
+        (Some(mesh), Some(_)) => {
+            mesh.interpolate(anchor.edge, anchor.at).iter().map(|(n, share)| u[*n] * *share).sum()
+        }
+        _ => u[anchor.edge] * (1.0 - anchor.at) + u[(anchor.edge + 1) % 4] * anchor.at,
+    }
+}
+
+/// `u_b - u_a` \[m\] at a contact point.
+pub fn relative_displacement(
+    model: &Model,
+    displacements: &[Vec<Vector2<f64>>],
+    contact: &ContactPoint,
+) -> Vector2<f64> {
+    let side = |anchor| displacement_at(model, displacements, anchor);
+    side(contact.b) - contact.a.map_or_else(Vector2::zeros, side)
+}
+
+fn contact_states(
+    model: &Model,
+    system: &System,
+    rows: &RowState,
+    displacements: &[Vec<Vector2<f64>>],
+) -> Vec<ContactState> {
+    let points = system.points();
+    let mut states: Vec<ContactState> = model
+        .contacts
+        .iter()
+        .enumerate()
+        .map(|(k, contact)| {
+            // Overwritten below where there is a tangential row.
+            let tangent = model.joints[contact.joint.index()].tangent();
+            let y_t = relative_displacement(model, displacements, contact).dot(&tangent);
+            let (t_n, y_n) = (rows.t[k], rows.y[k]);
+            ContactState { t_n, t_t: 0.0, y_n, y_t, status: ContactStatus::Open }
+        })
+        .collect();
+    for (k, (contact, _)) in system.friction.iter().enumerate() {
+        states[contact.index()].t_t = rows.t[points + k];
+        states[contact.index()].y_t = rows.y[points + k];
+    }
+    let largest = |f: fn(&ContactState) -> f64| states.iter().map(f).fold(0.0, f64::max);
+    let least_force = STATUS_TOLERANCE * largest(|s| s.t_n);
+    let least_slip = STATUS_TOLERANCE * largest(|s| s.y_n.abs().max(s.y_t.abs()));
+    for (state, contact) in states.iter_mut().zip(&model.contacts) {
+        state.status = status(state, contact.mu, least_force, least_slip);
+    }
+    states
+}
+
+fn status(state: &ContactState, mu: f64, least_force: f64, least_slip: f64) -> ContactStatus {
+    let on_cone = state.t_t.abs() >= mu * state.t_n - least_force;
+    if state.t_n <= least_force {
+        ContactStatus::Open
+    } else if on_cone && state.y_t.abs() > least_slip {
+        ContactStatus::Slip
+    } else {
+        ContactStatus::Stick
+    }
+}
+
+/// Stresses at the centres of all elements, block by block.
+pub fn stresses(model: &Model, displacements: &[Vec<Vector2<f64>>]) -> Vec<ElementStress> {
+    let mut list = Vec::new();
+    for (b, (block, u)) in model.blocks.iter().zip(displacements).enumerate() {
+        let (Some(mesh), Some(elasticity)) = (&block.mesh, block.elasticity) else { continue };
+        let d = constitutive(elasticity, model.plane);
+        for (k, element) in mesh.elements.iter().enumerate() {
+            let nodes = element.map(|n| mesh.nodes[n]);
+            let local = SVector::<f64, 8>::from_fn(|i, _| u[element[i / 2]][i % 2]);
+            // Folded elements were refused when the stiffness was built.
+            let Some(stress) = quad4::stress_at_centre(&nodes, &d, &local) else { continue };
+            let sigma: [f64; 3] = stress.into();
+            list.push(ElementStress {
+                block: BlockId::new(b),
+                element: k,
+                centre: quad4::centre(&nodes),
+                sigma,
+                principal: Principal::of(sigma),
+            });
+        }
+    }
+    list
+}
+
+impl Principal {
+    /// Principal stresses of `sigma_x, sigma_y, tau_xy`.
+    ///
+    /// ```
+    /// use masonry::outcome::Principal;
+    /// let p = Principal::of([-2.0, -10.0, 3.0]);
+    /// assert_eq!((p.sigma_1, p.sigma_2), (-1.0, -11.0));
+    /// assert!((p.theta.to_degrees() - 18.4349488229).abs() < 1e-9);
+    /// ```
+    pub fn of([sigma_x, sigma_y, tau]: [f64; 3]) -> Self {
+        let mean = 0.5 * (sigma_x + sigma_y);
+        let half = 0.5 * (sigma_x - sigma_y);
+        let radius = half.hypot(tau);
+        // Adding zero turns a shear of -0.0 into 0.0, for which the angle is +90 degrees.
+        let theta = 0.5 * (tau + 0.0).atan2(half);
+        Self { sigma_1: mean + radius, sigma_2: mean - radius, theta }
+    }
+}
+
+/// The force \[N\] that a contact point exerts on the block in front.
+pub fn contact_force(model: &Model, contact: &ContactPoint, state: &ContactState) -> Vector2<f64> {
+    let joint = &model.joints[contact.joint.index()];
+    joint.normal * state.t_n + joint.tangent() * state.t_t
+}
+
+/// The resultant of the contact forces of every support on the structure, in the order of the model.
+pub fn reactions(model: &Model, contacts: &[ContactState]) -> Vec<Reaction> {
+    let name = |support: &crate::model::Support| support.name.clone();
+    let mut list: Vec<Reaction> = model
+        .supports
+        .iter()
+        .map(|support| Reaction { support: name(support), fx: 0.0, fy: 0.0, m: 0.0 })
+        .collect();
+    for (contact, state) in model.contacts.iter().zip(contacts) {
+        let Body::Support(id) = model.joints[contact.joint.index()].a else { continue };
+        let force = contact_force(model, contact, state);
+        let reaction = &mut list[id.index()];
+        reaction.fx += force.x;
+        reaction.fy += force.y;
+        reaction.m += contact.position.x * force.y - contact.position.y * force.x;
+    }
+    list
+}
+
+/// The rigid motion with the rates `y` of all rows: rates of the four corners of every block, scaled to
+/// a largest component of one. All zero when `y` belongs to no motion.
+pub fn mechanism(
+    model: &Model,
+    system: &System,
+    reduction: &Reduction,
+    y: &[f64],
+) -> Vec<[Vector2<f64>; 4]> {
+    let amplitudes = reduction.rigid_amplitudes(y);
+    let mut rates: Vec<[Vector2<f64>; 4]> = model
+        .blocks
+        .iter()
+        .zip(&system.bodies)
+        .zip(amplitudes.chunks(3))
+        .map(|((block, body), alpha)| block.corners.map(|p| body.modes.displacement(p, alpha)))
+        .collect();
+    let largest = rates.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max);
+    if largest > 0.0 {
+        rates.iter_mut().flatten().for_each(|rate| *rate /= largest);
+    }
+    rates
+}

@@ -1,0 +1,53 @@
+//! Rigid motions of the blocks, and the choice of rows that hold the blocks statically determinate.
+
+use faer::Mat;
+use nalgebra::{Point2, Vector2};
+
+use crate::geometry::{self, Quad};
+
+mod isostatic;
+
+pub use isostatic::{FreeMotion, Isostatic, RigidError, choose};
+
+/// The three rigid motions of a block: two translations, and a rotation about the centroid.
+///
+/// The rotation is divided by the distance of the farthest corner, so that all three amplitudes are
+/// displacements \[m\] and none moves the block by more than its amplitude.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Modes {
+    /// The centroid of the block.
+    pub centre: Point2<f64>,
+    /// Distance of the farthest corner from the centroid \[m\].
+    pub length: f64,
+}
+
+impl Modes {
+    /// The motions of a block with these corners.
+    pub fn of(corners: &Quad) -> Self {
+        let centre = geometry::centroid(corners);
+        let length = corners.iter().map(|p| (p - centre).norm()).fold(0.0, f64::max);
+        Self { centre, length }
+    }
+
+    /// The displacement of the material at `place` in each of the three motions, for amplitude 1.
+    pub fn at(&self, place: Point2<f64>) -> [Vector2<f64>; 3] {
+        let arm = (place - self.centre) / self.length;
+        [Vector2::x(), Vector2::y(), Vector2::new(-arm.y, arm.x)]
+    }
+
+    /// The displacement of the material at `place` for three amplitudes \[m\].
+    pub fn displacement(&self, place: Point2<f64>, amplitudes: &[f64]) -> Vector2<f64> {
+        self.at(place).iter().zip(amplitudes).map(|(mode, amplitude)| mode * *amplitude).sum()
+    }
+
+    /// The work of a force \[N\] at `place` in the three motions: its two components, and its moment
+    /// about the centroid divided by [`Modes::length`].
+    pub fn resultant(&self, place: Point2<f64>, force: Vector2<f64>) -> [f64; 3] {
+        self.at(place).map(|mode| mode.dot(&force))
+    }
+}
+
+/// The rows of a matrix with the given indices, in that order.
+pub(crate) fn select_rows(matrix: &Mat<f64>, rows: &[usize]) -> Mat<f64> {
+    Mat::from_fn(rows.len(), matrix.ncols(), |i, j| matrix[(rows[i], j)])
+}

@@ -1,0 +1,157 @@
+//! Which rows of `G = C N` carry the statically determinate part of the contact forces (3.18).
+
+use faer::linalg::solvers::ColPivQr;
+use faer::{Mat, MatRef};
+use nalgebra::Point2;
+
+use super::{Modes, select_rows};
+
+/// Pivots of the orthogonal factorisation below this fraction of the largest count as zero. Exact
+/// dependencies leave 1e-15; the weakest hold of a real structure is far above.
+const RANK_TOLERANCE: f64 = 1e-10;
+
+/// A split of the contact rows into isostatic rows and the others.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Isostatic {
+    /// As many rows as there are rigid amplitudes, linearly independent; increasing.
+    pub rows: Vec<usize>,
+    /// All other rows, increasing.
+    pub others: Vec<usize>,
+}
+
+/// A motion of one block that changes no gap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FreeMotion {
+    /// All points of the block move along this unit vector.
+    Translation {
+        /// The direction.
+        direction: [f64; 2],
+    },
+    /// The block turns about a point.
+    Rotation {
+        /// The point that stays \[m\].
+        centre: Point2<f64>,
+    },
+}
+
+impl std::fmt::Display for FreeMotion {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Translation { direction: [x, y] } => {
+                write!(f, "slide along ({x:.3}, {y:.3})")
+            }
+            Self::Rotation { centre } => {
+                write!(f, "turn about the point ({:.4}, {:.4}) m", centre.x, centre.y)
+            }
+        }
+    }
+}
+
+/// Why the blocks are not held.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RigidError {
+    /// Some blocks can move without any contact noticing.
+    #[error(
+        "block {block} can {motion} without changing a gap or sliding against friction \
+         ({free} free motions in all): let it touch its neighbours or a support, \
+         or give its joints friction"
+    )]
+    Free {
+        /// The position in the model of the block that moves most.
+        block: usize,
+        /// How it moves.
+        motion: FreeMotion,
+        /// Number of independent motions that nothing resists.
+        free: usize,
+    },
+}
+
+/// Chooses the isostatic rows of `g` (all rows by three columns per block).
+///
+/// The first `normal` rows are preferred: a column-pivoted orthogonal factorisation of their transpose
+/// takes the best conditioned of them. Only where normals lack rank (no normal sees the horizontal
+/// motion of a column on a floor) tangential rows are taken, projected on what the normals leave free.
+/// `weights`, one positive number per row, favour rows with large weights among equals; the state
+/// that is finally recovered does not depend on the choice.
+///
+/// # Errors
+/// [`RigidError::Free`] when all rows together leave a motion free.
+///
+/// # Panics
+/// If there are fewer weights than rows.
+pub fn choose(
+    g: &Mat<f64>,
+    normal: usize,
+    modes: &[Modes],
+    weights: Option<&[f64]>,
+) -> Result<Isostatic, RigidError> {
+    let weighted = match weights {
+        None => g.clone(),
+        Some(w) => Mat::from_fn(g.nrows(), g.ncols(), |i, j| g[(i, j)] * w[i]),
+    };
+    let normals = select_rows(&weighted, &(0..normal).collect::<Vec<_>>());
+    let first = Pivoted::of(normals.transpose());
+    let mut rows = first.columns;
+    if rows.len() < g.ncols() {
+        let tangents = select_rows(&weighted, &(normal..g.nrows()).collect::<Vec<_>>());
+        let second = Pivoted::of((&tangents * &first.complement).transpose());
+        if second.columns.len() < first.complement.ncols() {
+            return Err(describe(&(&first.complement * &second.complement), modes));
+        }
+        rows.extend(second.columns.iter().map(|k| normal + k));
+    }
+    rows.sort_unstable();
+    let mut chosen = vec![false; g.nrows()];
+    for row in &rows {
+        chosen[*row] = true;
+    }
+    let others = (0..g.nrows()).filter(|row| !chosen[*row]).collect();
+    Ok(Isostatic { rows, others })
+}
+
+/// Independent columns of a matrix and the orthogonal complement of their span.
+struct Pivoted {
+    columns: Vec<usize>,
+    /// Orthonormal columns.
+    complement: Mat<f64>,
+}
+
+impl Pivoted {
+    fn of(matrix: MatRef<'_, f64>) -> Self {
+        let (height, width) = matrix.shape();
+        if width == 0 {
+            return Self { columns: Vec::new(), complement: Mat::identity(height, height) };
+        }
+        let qr = ColPivQr::new(matrix);
+        let pivot = |k: usize| qr.thin_R()[(k, k)].abs();
+        let least = RANK_TOLERANCE * pivot(0);
+        let rank = (0..height.min(width)).take_while(|k| pivot(*k) > least).count();
+        let columns = qr.P().arrays().0[..rank].to_vec();
+        let complement = qr.compute_Q().subcols(rank, height - rank).to_owned();
+        Self { columns, complement }
+    }
+}
+
+/// The free motion in which a single block moves most; `free` has orthonormal columns.
+fn describe(free: &Mat<f64>, modes: &[Modes]) -> RigidError {
+    let squared_norm = |i: usize| (0..free.ncols()).map(|j| free[(i, j)].powi(2)).sum::<f64>();
+    let strongest = (0..free.nrows())
+        .max_by(|i, j| squared_norm(*i).total_cmp(&squared_norm(*j)))
+        .unwrap_or_default();
+    let block = strongest / 3;
+    // The free motion nearest to the strongest amplitude alone.
+    let amplitude =
+        |i: usize| (0..free.ncols()).map(|j| free[(i, j)] * free[(strongest, j)]).sum::<f64>();
+    let [x, y, turn] = [0, 1, 2].map(|k| amplitude(3 * block + k));
+    let Modes { centre, length } = modes[block];
+    let translation = x.hypot(y);
+    // A centre farther away than a thousand sizes of the block is at infinity for the reader.
+    let motion = if turn.abs() * 1e3 > translation {
+        let arm = nalgebra::Vector2::new(-y, x) * (length / turn);
+        FreeMotion::Rotation { centre: centre + arm }
+    } else {
+        FreeMotion::Translation { direction: [x / translation, y / translation] }
+    };
+    RigidError::Free { block, motion, free: free.ncols() }
+}

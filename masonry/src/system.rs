@@ -1,0 +1,248 @@
+//! The equilibrium system of a model, block by block: stiffness, loads and contact rows.
+//!
+//! `K u = f + C^T t` (3.2), `y = C u + x`. `K` is block-diagonal, so everything is kept per block.
+//! Row `c` of `C`, for `c` below the number of contact points, is the normal row of contact point `c`;
+//! one tangential row follows for each point with friction, in the order of the points.
+
+use faer::Mat;
+use nalgebra::{Point2, Vector2};
+
+use crate::geometry;
+use crate::ids::{BlockId, ContactId};
+use crate::mesh::BlockMesh;
+use crate::model::{Anchor, Block, Elasticity, Model};
+use crate::rigid::Modes;
+
+mod loads;
+mod stiffness;
+
+pub use loads::{nodal_loads, resultant};
+pub use stiffness::Stiffness;
+
+/// Why the stiffness of a block could not be built.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SystemError {
+    /// A deformable block has no mesh.
+    #[error("block `{block}` is elastic but has no mesh: give it a mesh or make it rigid")]
+    NoMesh {
+        /// Name of the block.
+        block: String,
+    },
+    /// An element is folded.
+    #[error("element {element} of block `{block}` is folded: the block must be convex")]
+    FoldedElement {
+        /// Name of the block.
+        block: String,
+        /// Position of the element in the block's mesh.
+        element: usize,
+    },
+    /// The stiffness has more zero modes than the three rigid motions, or negative ones.
+    #[error(
+        "the stiffness of block `{block}` is not positive definite (E = {young:e} Pa, \
+         nu = {poisson}): E must be positive, nu above -1 and below 0.5"
+    )]
+    NotElastic {
+        /// Name of the block.
+        block: String,
+        /// Young's modulus \[Pa\].
+        young: f64,
+        /// Poisson's ratio \[-\].
+        poisson: f64,
+    },
+}
+
+/// The direction in which a contact row measures the relative displacement.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    /// Along the joint's normal.
+    Normal,
+    /// Along the joint's tangent.
+    Tangent,
+}
+
+/// One row of `C`, and of the contact forces `t` and relative displacements `y`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    /// The contact point.
+    pub contact: ContactId,
+    /// The direction.
+    pub direction: Direction,
+    /// Initial gap `x_0` or initial slip `s_0` \[m\].
+    pub offset: f64,
+}
+
+/// What one block contributes to a contact row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyRow {
+    /// The row of the system.
+    pub row: usize,
+    /// Degrees of freedom of the block and their coefficients; empty for a rigid block.
+    pub entries: Vec<(usize, f64)>,
+    /// The relative displacement of the three rigid motions: the block's part of the row of `G = C N`.
+    pub modes: [f64; 3],
+}
+
+/// One block of the system.
+#[derive(Debug, Clone)]
+pub struct BodySystem {
+    /// Its rigid motions.
+    pub modes: Modes,
+    /// Its stiffness, an index into [`System::stiffnesses`]; `None` for a rigid block.
+    pub stiffness: Option<usize>,
+    /// Nodal loads `f` \[N\], two per node; empty for a rigid block.
+    pub load: Vec<f64>,
+    /// Work of the loads in the three rigid motions, `N^T f` \[N\].
+    pub resultant: [f64; 3],
+    /// Its contact rows, increasing.
+    pub rows: Vec<BodyRow>,
+}
+
+/// Stiffness, loads and contact rows of a whole model.
+#[derive(Debug, Clone)]
+pub struct System {
+    /// The contact rows: normals of all points, then tangents of the points with friction.
+    pub rows: Vec<Row>,
+    /// The points with friction and their coefficients, in the order of the tangential rows.
+    pub friction: Vec<(ContactId, f64)>,
+    /// The blocks, in the order of the model.
+    pub bodies: Vec<BodySystem>,
+    /// Stiffnesses; equal blocks share one.
+    pub stiffnesses: Vec<Stiffness>,
+}
+
+impl System {
+    /// Builds the system of a model. Equal blocks share one stiffness and its factorisation.
+    ///
+    /// # Errors
+    /// [`SystemError`] names the block whose stiffness cannot be built.
+    pub fn new(model: &Model) -> Result<Self, SystemError> {
+        let friction: Vec<(ContactId, f64)> = model
+            .contacts
+            .iter()
+            .enumerate()
+            .filter(|(_, contact)| contact.mu > 0.0)
+            .map(|(k, contact)| (ContactId::new(k), contact.mu))
+            .collect();
+        let normals = model.contacts.iter().enumerate().map(|(k, contact)| Row {
+            contact: ContactId::new(k),
+            direction: Direction::Normal,
+            offset: contact.gap,
+        });
+        let tangents = friction.iter().map(|(contact, _)| Row {
+            contact: *contact,
+            direction: Direction::Tangent,
+            offset: 0.0,
+        });
+        let rows: Vec<Row> = normals.chain(tangents).collect();
+
+        let mut shared = stiffness::Shared::default();
+        let mut bodies = Vec::with_capacity(model.blocks.len());
+        for block in &model.blocks {
+            let elastic = elastic_part(block)?;
+            let load = elastic.map_or_else(Vec::new, |(mesh, _)| nodal_loads(model, block, mesh));
+            bodies.push(BodySystem {
+                modes: Modes::of(&block.corners),
+                stiffness: elastic
+                    .map(|(mesh, e)| shared.index_of(model, block, mesh, e))
+                    .transpose()?,
+                load,
+                resultant: resultant(model, block),
+                rows: Vec::new(),
+            });
+        }
+        for (k, row) in rows.iter().enumerate() {
+            add_row(model, &mut bodies, k, row);
+        }
+        Ok(Self { rows, friction, bodies, stiffnesses: shared.into_list() })
+    }
+
+    /// Number of contact points, and of normal rows.
+    pub fn points(&self) -> usize {
+        self.rows.len() - self.friction.len()
+    }
+
+    /// `G = C N`: the relative displacements of the rigid motions, rows by three columns per block.
+    pub fn rigid_rows(&self) -> Mat<f64> {
+        let mut g = Mat::zeros(self.rows.len(), 3 * self.bodies.len());
+        for (b, body) in self.bodies.iter().enumerate() {
+            for row in &body.rows {
+                for (k, mode) in row.modes.iter().enumerate() {
+                    g[(row.row, 3 * b + k)] = *mode;
+                }
+            }
+        }
+        g
+    }
+
+    /// `N^T f` of all blocks \[N\].
+    pub fn resultants(&self) -> Vec<f64> {
+        self.bodies.iter().flat_map(|body| body.resultant).collect()
+    }
+
+    /// `K^+ (f + C^T t)` of one block \[m\], for forces `t` \[N\] of all rows: its displacements up to
+    /// a rigid motion, provided that loads and contact forces balance. Empty for a rigid block.
+    ///
+    /// # Panics
+    /// If `t` is shorter than the number of rows.
+    pub fn elastic_displacements(&self, body: &BodySystem, t: &[f64]) -> Vec<f64> {
+        let Some(stiffness) = body.stiffness.map(|k| &self.stiffnesses[k]) else {
+            return Vec::new();
+        };
+        let mut load = body.load.clone();
+        for row in &body.rows {
+            row.entries.iter().for_each(|(dof, c)| load[*dof] += c * t[row.row]);
+        }
+        let rhs = Mat::from_fn(load.len(), 1, |i, _| load[i]);
+        stiffness.solve(&rhs).col_as_slice(0).to_vec()
+    }
+}
+
+/// The mesh and the elastic constants of a deformable block; `None` for a rigid one.
+fn elastic_part(block: &Block) -> Result<Option<(&BlockMesh, Elasticity)>, SystemError> {
+    match (&block.mesh, block.elasticity) {
+        (_, None) => Ok(None),
+        (Some(mesh), Some(elasticity)) => Ok(Some((mesh, elasticity))),
+        (None, Some(_)) => Err(SystemError::NoMesh { block: block.name.clone() }),
+    }
+}
+
+/// Adds row `k` to the block in front with its sign and to the one behind with the opposite sign.
+fn add_row(model: &Model, bodies: &mut [BodySystem], k: usize, row: &Row) {
+    let contact = &model.contacts[row.contact.index()];
+    let joint = &model.joints[contact.joint.index()];
+    let direction = match row.direction {
+        Direction::Normal => joint.normal,
+        Direction::Tangent => joint.tangent(),
+    };
+    let sides = [(Some(contact.b), direction), (contact.a, -direction)];
+    for (anchor, direction) in sides {
+        let Some(anchor) = anchor else { continue };
+        let block = &model.blocks[anchor.block.index()];
+        let body = &mut bodies[anchor.block.index()];
+        let place = geometry::on_edge(&block.corners, anchor.edge, anchor.at);
+        let modes = body.modes.at(place).map(|mode| mode.dot(&direction));
+        let entries = match (&block.mesh, body.stiffness) {
+            (Some(mesh), Some(_)) => entries(mesh, anchor, direction),
+            _ => Vec::new(),
+        };
+        body.rows.push(BodyRow { row: k, entries, modes });
+    }
+}
+
+fn entries(mesh: &BlockMesh, anchor: Anchor, direction: Vector2<f64>) -> Vec<(usize, f64)> {
+    mesh.interpolate(anchor.edge, anchor.at)
+        .into_iter()
+        .flat_map(|(node, n)| [(2 * node, n * direction.x), (2 * node + 1, n * direction.y)])
+        .filter(|(_, coefficient)| coefficient.abs() > 0.0)
+        .collect()
+}
+
+/// The nodes that carry a block's displacements: those of its mesh, or the corners of a rigid block.
+pub fn displaced_nodes(model: &Model, block: BlockId) -> &[Point2<f64>] {
+    let block = &model.blocks[block.index()];
+    match (&block.mesh, block.elasticity) {
+        (Some(mesh), Some(_)) => &mesh.nodes,
+        _ => &block.corners,
+    }
+}
