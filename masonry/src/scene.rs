@@ -303,7 +303,7 @@ pub enum Form {
     Coulomb,
     /// Two friction forces and a slip bound: four unknowns a point.
     StewartTrinkle,
-    /// As Stewart-Trinkle, with the rigid amplitudes kept as free unknowns.
+    /// As Stewart-Trinkle, with the rigid amplitudes kept as unknowns.
     Mixed,
 }
 
