@@ -35,10 +35,13 @@ impl PlacedBrick {
     /// The mesh of this brick when a whole one has `mesh`: a cut brick gets its share of the
     /// elements along its length, rounded up.
     pub fn mesh(&self, mesh: [u32; 2]) -> [usize; 2] {
-        let [whole, high] = mesh.map(|n| n as usize);
-        let share = whole as f64 * (self.fraction - SLIVER);
-        let along = (1..).take_while(|n| ((n - 1) as f64) < share).last().unwrap_or(1);
-        [along, high]
+        let [whole, high] = mesh;
+        let share = f64::from(whole) * (self.fraction - SLIVER);
+        let mut along = 1;
+        while (along as f64) < share {
+            along += 1;
+        }
+        [along, high as usize]
     }
 }
 

@@ -42,11 +42,8 @@ pub struct Plan {
     /// Rigid amplitudes: three per block, and as many isostatic rows (3.18).
     pub rigid_modes: usize,
     /// Order of the complementarity problem: m, and two more per frictional point (3m); in the
-    /// Stewart-Trinkle and mixed forms three more (4m).
+    /// Stewart-Trinkle form three more (4m), in the mixed form also two per rigid amplitude.
     pub order: usize,
-    /// Memory \[bytes\] that the dense matrices of a pivoting solver take: A, B (3.27) and the
-    /// factors of a basis.
-    pub dense_bytes: usize,
     /// The solver that will be used.
     pub solver: String,
     /// Why this solver.
@@ -58,8 +55,13 @@ impl Plan {
     pub fn of(scene: &Scene, model: &Model) -> Self {
         let contact_points = model.contacts.len();
         let frictional_points = model.contacts.iter().filter(|point| point.mu > 0.0).count();
-        let order = contact_points + unknowns_per_friction(scene.solver.form) * frictional_points;
-        let (solver, because) = solver(scene.solver.form, frictional_points);
+        let rigid_modes = 3 * model.blocks.len();
+        let form = scene.solver.form;
+        let order = contact_points
+            + unknowns_per_friction(form) * frictional_points
+            // Each free rigid amplitude is a difference of two nonnegative unknowns.
+            + if form == Form::Mixed { 2 * rigid_modes } else { 0 };
+        let (solver, because) = solver(form, frictional_points);
         Self {
             effects: effects::of(scene, model),
             blocks: model.blocks.len(),
@@ -67,12 +69,17 @@ impl Plan {
             joints: model.joints.len(),
             contact_points,
             frictional_points,
-            rigid_modes: 3 * model.blocks.len(),
+            rigid_modes,
             order,
-            dense_bytes: 3 * order.saturating_mul(order).saturating_mul(size_of::<f64>()),
             solver: solver.to_owned(),
             because: because.to_owned(),
         }
+    }
+
+    /// Memory \[bytes\] that the dense matrices of a pivoting solver take: A, B (3.27) and the
+    /// factors of a basis.
+    pub fn dense_bytes(&self) -> usize {
+        self.order.saturating_mul(self.order).saturating_mul(3 * size_of::<f64>())
     }
 }
 
@@ -101,8 +108,6 @@ fn solver(form: Form, frictional_points: usize) -> (&'static str, &'static str) 
         Form::StewartTrinkle => {
             ("lemke, Stewart-Trinkle form", "solver.form = \"stewart_trinkle\"")
         }
-        Form::Mixed => {
-            ("lemke, Stewart-Trinkle form with free rigid amplitudes", "solver.form = \"mixed\"")
-        }
+        Form::Mixed => ("lemke, mixed form", "solver.form = \"mixed\""),
     }
 }

@@ -26,6 +26,7 @@ mod courses;
 mod error;
 mod key_path;
 mod source;
+mod strict;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -56,37 +57,50 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f64>,
     /// Gravity \[m/s^2\]; acts only on materials that have a density.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::some_pair"
+    )]
     pub gravity: Option<[f64; 2]>,
     /// Units of length and force.
+    #[serde(deserialize_with = "strict::table")]
     pub units: Units,
     /// Materials by name.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(
+        default,
+        skip_serializing_if = "BTreeMap::is_empty",
+        deserialize_with = "strict::named_tables"
+    )]
     pub materials: BTreeMap<String, Material>,
     /// Joint classes by name. Blocks meet in `bed` joints where the joint's normal is closer to
     /// the vertical than to the horizontal, in `head` joints elsewhere.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(
+        default,
+        skip_serializing_if = "BTreeMap::is_empty",
+        deserialize_with = "strict::named_tables"
+    )]
     pub joints: BTreeMap<String, Joint>,
     /// Walls of bricks in courses.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub walls: Vec<Wall>,
     /// Single blocks.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub blocks: Vec<Block>,
     /// Rigid supports.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub supports: Vec<Support>,
     /// Loads on edges.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub loads: Vec<Load>,
     /// How contact is looked for and enforced.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "strict::table")]
     pub contact: Contact,
     /// How the complementarity problem is solved.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "strict::table")]
     pub solver: Solver,
     /// What is written.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "strict::table")]
     pub output: Output,
     /// The text that the scene was read from, for the places of errors.
     #[serde(skip)]
@@ -129,8 +143,10 @@ pub struct Wall {
     /// Name of the bricks' material.
     pub material: String,
     /// Lower left corner \[length\].
+    #[serde(deserialize_with = "strict::pair")]
     pub origin: [f64; 2],
     /// The whole brick.
+    #[serde(deserialize_with = "strict::table")]
     pub brick: Brick,
     /// Width of the wall \[length\]; only where `courses` is a number.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -139,7 +155,11 @@ pub struct Wall {
     pub courses: Courses,
     /// Elements along the length and height of a whole brick; required when the material is
     /// elastic. A cut brick gets its share of the first, rounded up.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::some_pair"
+    )]
     pub mesh: Option<[u32; 2]>,
 }
 
@@ -173,10 +193,15 @@ pub struct Block {
     /// Name of its material.
     pub material: String,
     /// Corners, counter-clockwise \[length\].
+    #[serde(deserialize_with = "strict::corners")]
     pub corners: [[f64; 2]; 4],
     /// Elements along edges 0 and 2, and along edges 1 and 3; required when the material is
     /// elastic.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::some_pair"
+    )]
     pub mesh: Option<[u32; 2]>,
 }
 
@@ -187,8 +212,10 @@ pub struct Support {
     /// Name of the support.
     pub name: String,
     /// One end \[length\].
+    #[serde(deserialize_with = "strict::pair")]
     pub from: [f64; 2],
     /// The other end \[length\].
+    #[serde(deserialize_with = "strict::pair")]
     pub to: [f64; 2],
     /// The class of its joints.
     pub joint: String,
@@ -202,14 +229,20 @@ pub struct Load {
     /// Name of the load.
     pub name: String,
     /// One end of the segment \[length\].
+    #[serde(deserialize_with = "strict::pair")]
     pub from: [f64; 2],
     /// The other end \[length\].
+    #[serde(deserialize_with = "strict::pair")]
     pub to: [f64; 2],
     /// Force per area against the outward normal of the edge \[force/length^2\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pressure: Option<f64>,
     /// Force per area in global axes \[force/length^2\].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::some_pair"
+    )]
     pub traction: Option<[f64; 2]>,
 }
 
@@ -270,7 +303,7 @@ pub enum Form {
     Coulomb,
     /// Two friction forces and a slip bound: four unknowns a point.
     StewartTrinkle,
-    /// As Stewart-Trinkle, with the rigid amplitudes kept as free unknowns.
+    /// As Stewart-Trinkle, with the rigid amplitudes kept as unknowns.
     Mixed,
 }
 

@@ -110,9 +110,11 @@ fn without_friction_the_order_is_the_number_of_points() {
 }
 
 #[test]
-fn the_four_unknown_form_has_one_more_unknown_a_point() {
+fn other_forms_have_more_unknowns() {
     let (scene, model, plan) = read("stack.toml");
     assert_eq!((plan.contact_points, plan.order), (10, 30));
+    let plan = Plan::of(&scene.clone().form(Form::Mixed), &model);
+    assert_eq!(plan.order, 40 + 2 * 15);
     let plan = Plan::of(&scene.form(Form::StewartTrinkle), &model);
     assert_eq!(plan.order, 40);
     let friction = plan.effects.iter().find(|effect| effect.name == "friction").unwrap();

@@ -27,10 +27,10 @@ pub(super) fn place(
             [load.from, load.to].map(|[x, y]| Point2::new(x, y) * scene.units.length_to_si());
         let mut acts = false;
         for (block, joined) in blocks.iter_mut().zip(&joined) {
-            for edge in 0..4 {
+            for (edge, joined) in joined.iter().enumerate() {
                 let Some(covered) = covered_part(&block.corners, edge, from, to) else { continue };
                 let traction = traction(load, &block.corners, edge, scene.units);
-                for [from, to] in free_parts(covered, &joined[edge]) {
+                for [from, to] in free_parts(covered, joined) {
                     block.edge_loads.push(EdgeLoad { edge, from, to, traction });
                     acts = true;
                 }

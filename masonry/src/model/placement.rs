@@ -39,7 +39,7 @@ pub(super) fn check_overlaps(
             let kind = SceneErrorKind::Overlap {
                 first: first.name.clone(),
                 second: second.name.clone(),
-                area: area / (units.length_to_si() * units.length_to_si()),
+                area: rounded(area / (units.length_to_si() * units.length_to_si())),
                 unit: units.length_name(),
             };
             return Err(Fault::new(keys[j].clone(), kind));
@@ -89,7 +89,7 @@ pub(super) fn check_supports(
                 let kind = SceneErrorKind::Pierced {
                     support: support.name.clone(),
                     block: block.name.clone(),
-                    length: length / units.length_to_si(),
+                    length: rounded(length / units.length_to_si()),
                     unit: units.length_name(),
                 };
                 return Err(Fault::new(KeyPath::of("supports").item(k), kind));
@@ -97,6 +97,11 @@ pub(super) fn check_supports(
         }
     }
     Ok(())
+}
+
+/// A number to six digits: messages tell sizes of mistakes, not their rounding errors.
+fn rounded(number: f64) -> f64 {
+    format!("{number:.5e}").parse().unwrap_or(number)
 }
 
 /// Length of the part of a segment that is deeper in a block than rounding errors.

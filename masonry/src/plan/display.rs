@@ -26,7 +26,7 @@ impl fmt::Display for Plan {
         ] {
             writeln!(f, "{}", format!("{what:<18}{number:>10}  {note}").trim_end())?;
         }
-        writeln!(f, "{:<18}{:>10}  dense A, B and basis", "memory", bytes(self.dense_bytes))?;
+        writeln!(f, "{:<18}{:>10}  dense A, B and basis", "memory", bytes(self.dense_bytes()))?;
         writeln!(f, "{:<18}{}", "solver", self.solver)?;
         write!(f, "{:<18}{}", "because", self.because)
     }

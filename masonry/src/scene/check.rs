@@ -251,7 +251,7 @@ fn check_load(at: &KeyPath, load: &Load) -> Check {
 fn segment(at: &KeyPath, from: [f64; 2], to: [f64; 2]) -> Check {
     point(&at.key("from"), from)?;
     point(&at.key("to"), to)?;
-    let apart = from.iter().zip(&to).any(|(a, b)| (a - b).abs() > 0.0);
+    let apart = from.iter().zip(&to).any(|(a, b)| (a - b).abs() >= *MAGNITUDES.start());
     if apart {
         return Ok(());
     }

@@ -1,0 +1,106 @@
+//! Arrays and tables that refuse what serde would let pass.
+//!
+//! Serde's own arrays stop reading when they are full, so that a fifth corner or a third coordinate
+//! would be dropped without a word; its structs also read a list as their fields in order.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::marker::PhantomData;
+
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
+
+pub(super) fn pair<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+    deserializer: D,
+) -> Result<[T; 2], D::Error> {
+    Exact::deserialize(deserializer).map(|Exact(items)| items)
+}
+
+pub(super) fn some_pair<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+    deserializer: D,
+) -> Result<Option<[T; 2]>, D::Error> {
+    pair(deserializer).map(Some)
+}
+
+pub(super) fn corners<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<[[f64; 2]; 4], D::Error> {
+    Exact::<Exact<f64, 2>, 4>::deserialize(deserializer)
+        .map(|Exact(corners)| corners.map(|Exact(corner)| corner))
+}
+
+struct Exact<T, const N: usize>([T; N]);
+
+impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exact<T, N> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_seq(ExactVisitor(PhantomData))
+    }
+}
+
+struct ExactVisitor<T, const N: usize>(PhantomData<T>);
+
+impl<'de, T: Deserialize<'de>, const N: usize> Visitor<'de> for ExactVisitor<T, N> {
+    type Value = Exact<T, N>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a list of exactly {N} items")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Exact<T, N>, A::Error> {
+        let mut items = Vec::with_capacity(N);
+        while items.len() < N {
+            let Some(item) = list.next_element()? else { break };
+            items.push(item);
+        }
+        let mut length = items.len();
+        while list.next_element::<IgnoredAny>()?.is_some() {
+            length += 1;
+        }
+        match <[T; N]>::try_from(items) {
+            Ok(items) if length == N => Ok(Exact(items)),
+            _ => Err(A::Error::invalid_length(length, &self)),
+        }
+    }
+}
+
+pub(super) fn table<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+    deserializer: D,
+) -> Result<T, D::Error> {
+    Table::deserialize(deserializer).map(|Table(item)| item)
+}
+
+pub(super) fn named_tables<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+    deserializer: D,
+) -> Result<BTreeMap<String, T>, D::Error> {
+    let tables = BTreeMap::<String, Table<T>>::deserialize(deserializer)?;
+    Ok(tables.into_iter().map(|(name, Table(item))| (name, item)).collect())
+}
+
+pub(super) fn tables<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+    deserializer: D,
+) -> Result<Vec<T>, D::Error> {
+    let tables = Vec::<Table<T>>::deserialize(deserializer)?;
+    Ok(tables.into_iter().map(|Table(item)| item).collect())
+}
+
+struct Table<T>(T);
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(TableVisitor(PhantomData))
+    }
+}
+
+struct TableVisitor<T>(PhantomData<T>);
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for TableVisitor<T> {
+    type Value = Table<T>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a table such as { key = value }")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Table<T>, A::Error> {
+        T::deserialize(MapAccessDeserializer::new(map)).map(Table)
+    }
+}
