@@ -1,5 +1,46 @@
-//! Linear complementarity problems `A t + B y = c`, `t >= 0`, `y >= 0`, `t.y = 0`.
+//! Linear complementarity problems in the general (horizontal) form
+//!
+//! ```text
+//! A t + B y = c,   t >= 0,   y >= 0,   t . y = 0.
+//! ```
+//!
+//! Frictional contact, games, obstacle problems and quadratic programs lead here. Both matrices
+//! may be singular; the standard form `w = M z + q` is the special case `A = -M`, `B = 1`.
+//!
+//! * [`HorizontalLcp`] and [`Lcp`] are the problems, checked when they are made.
+//! * [`Lemke`] with [`LemkeSettings`] solves them by complementary pivoting.
+//! * [`Solution`] carries the point, its [`Status`], its complementary [`Basis`], its
+//!   [`Residuals`] from the original data, and what it cost ([`Info`]).
+//!
+//! ```
+//! use faer::mat;
+//! use lcp::{Lcp, Lemke, Status};
+//!
+//! let lcp = Lcp::new(mat![[2.0, 1.0], [1.0, 2.0]], vec![-5.0, -6.0])?;
+//! let solution = Lemke::default().solve(&lcp.into())?;
+//! assert_eq!(solution.status, Status::Solved);
+//! assert!(solution.residuals.worst() < 1e-14);
+//! # Ok::<(), lcp::Error>(())
+//! ```
+//!
+//! A status says what the mathematics decided; an [`Error`] says that the input was unusable. A
+//! solver says [`Status::Solved`] only after the residuals were computed from the data that it was
+//! given, and all tolerances are relative to that data: units do not matter. The library does not
+//! print.
 
+mod basis;
+mod error;
+mod lemke;
+mod linear;
+mod problem;
+mod random;
+mod scaling;
+mod settings;
 mod solution;
 
-pub use solution::{Residuals, Status};
+pub use basis::{Basis, Side};
+pub use error::Error;
+pub use lemke::{Lemke, Progress};
+pub use problem::{HorizontalLcp, Lcp};
+pub use settings::{Covering, LemkeSettings};
+pub use solution::{Attempt, AttemptEnd, Info, Ray, Residuals, Solution, Status};

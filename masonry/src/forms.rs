@@ -97,6 +97,30 @@ impl Form {
         self.c.len()
     }
 
+    /// Number of contact points: of pairs `(t_n, y_n)`, which come first.
+    pub fn points(&self) -> usize {
+        self.layout.points
+    }
+
+    /// The problem as `lcp` takes it.
+    ///
+    /// # Errors
+    /// [`lcp::Error`] when the data is not finite.
+    pub fn problem(&self) -> Result<lcp::HorizontalLcp, lcp::Error> {
+        lcp::HorizontalLcp::new(self.a.clone(), self.b.clone(), self.c.clone())
+    }
+
+    /// The rigid amplitudes \[m\], three per block, among the variables `t` of the mixed form;
+    /// `None` for the forms that have eliminated them.
+    pub fn amplitudes(&self, t: &[f64]) -> Option<Vec<f64>> {
+        if self.kind != FormKind::Mixed {
+            return None;
+        }
+        let alpha = &t[self.layout.points + 3 * self.layout.friction.len()..];
+        let (plus, minus) = alpha.split_at(alpha.len() / 2);
+        Some(plus.iter().zip(minus).map(|(plus, minus)| (plus - minus) * self.scale.length).collect())
+    }
+
     /// Forces and relative displacements of all rows from the dimensionless variables.
     ///
     /// # Panics
@@ -152,6 +176,15 @@ impl Form {
 }
 
 impl FormKind {
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Coulomb => "coulomb",
+            Self::StewartTrinkle => "stewart-trinkle",
+            Self::Mixed => "mixed",
+        }
+    }
+
     /// The factors in `t_t = factor (t+ - t-)` and `y_t = factor (y+ - y-)`, where `t+`, `y+` are the
     /// variables of the second group of pairs and `t-`, `y-` those of the third.
     fn tangential_weights(self) -> (f64, f64) {

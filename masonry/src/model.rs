@@ -10,6 +10,10 @@
 //! * `t_n >= 0` \[N\] acts on `b` along `+n`: compression is positive;
 //! * `t_t` \[N\] acts on `b` along `+t`.
 
+mod edge_loads;
+mod from_scene;
+mod placement;
+
 use nalgebra::{Point2, Vector2};
 
 use crate::ids::{BlockId, JointId, SupportId};

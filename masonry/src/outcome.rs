@@ -41,11 +41,11 @@ pub struct ContactState {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ContactStatus {
-    /// No force is carried and the gap may be positive.
+    /// The gap is positive: no force is carried.
     Open,
-    /// Force is carried without sliding.
+    /// Closed without sliding.
     Stick,
-    /// The force is on the edge of the friction cone and the sides slide on each other.
+    /// Closed, and the sides slide on each other: the force is on the edge of the friction cone.
     Slip,
 }
 
@@ -93,7 +93,8 @@ pub struct Reaction {
 pub struct SolveInfo {
     /// `Solved`, or why not.
     pub status: lcp::Status,
-    /// The form that was solved: `coulomb` (order 3m) or `stewart-trinkle` (order 4m).
+    /// The form that was solved: `coulomb`, `stewart-trinkle` or `mixed`
+    /// ([`FormKind`](crate::forms::FormKind)).
     pub form: String,
     /// Order of the complementarity problem.
     pub order: usize,
@@ -103,6 +104,8 @@ pub struct SolveInfo {
     pub pivots: usize,
     /// Dimensionless residuals recomputed from the original data.
     pub residuals: lcp::Residuals,
+    /// Residuals of the same answer in the paper's form (3.27), where another form found it.
+    pub coulomb_residuals: Option<lcp::Residuals>,
 }
 
 /// Wall-clock time of one phase \[s\].

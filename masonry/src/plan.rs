@@ -1,6 +1,12 @@
 //! The plan: which effects a scene calls for, why, and what they cost.
 
+mod display;
+mod effects;
+
 use serde::Serialize;
+
+use crate::model::Model;
+use crate::scene::{Form, Scene};
 
 /// One physical effect, on or off, and the reason.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -16,6 +22,9 @@ pub struct Effect {
 }
 
 /// What will be built for a scene, known before anything is assembled.
+///
+/// Nothing that is off is built: no mesh and no stiffness without an elastic material, no
+/// tangential unknowns without friction, no stresses when no output shows them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Plan {
     /// Effects, each with its reason.
@@ -32,10 +41,68 @@ pub struct Plan {
     pub frictional_points: usize,
     /// Rigid amplitudes: three per block, and as many isostatic rows (3.18).
     pub rigid_modes: usize,
-    /// Order of the complementarity problem: m, and two more per frictional point (3m).
+    /// Order of the complementarity problem: m, and two more per frictional point (3m); in the
+    /// Stewart-Trinkle and mixed forms three more (4m).
     pub order: usize,
+    /// Memory \[bytes\] that the dense matrices of a pivoting solver take: A, B (3.27) and the
+    /// factors of a basis.
+    pub dense_bytes: usize,
     /// The solver that will be used.
     pub solver: String,
     /// Why this solver.
     pub because: String,
+}
+
+impl Plan {
+    /// The plan for a scene and the model made of it.
+    pub fn of(scene: &Scene, model: &Model) -> Self {
+        let contact_points = model.contacts.len();
+        let frictional_points = model.contacts.iter().filter(|point| point.mu > 0.0).count();
+        let order = contact_points + unknowns_per_friction(scene.solver.form) * frictional_points;
+        let (solver, because) = solver(scene.solver.form, frictional_points);
+        Self {
+            effects: effects::of(scene, model),
+            blocks: model.blocks.len(),
+            nodes: nodes(model),
+            joints: model.joints.len(),
+            contact_points,
+            frictional_points,
+            rigid_modes: 3 * model.blocks.len(),
+            order,
+            dense_bytes: 3 * order.saturating_mul(order).saturating_mul(size_of::<f64>()),
+            solver: solver.to_owned(),
+            because: because.to_owned(),
+        }
+    }
+}
+
+/// Unknowns that a frictional point has besides its normal force.
+fn unknowns_per_friction(form: Form) -> usize {
+    match form {
+        Form::Auto | Form::Coulomb => 2,
+        Form::StewartTrinkle | Form::Mixed => 3,
+    }
+}
+
+fn nodes(model: &Model) -> usize {
+    model.blocks.iter().filter_map(|block| block.mesh.as_ref()).map(|mesh| mesh.nodes.len()).sum()
+}
+
+fn solver(form: Form, frictional_points: usize) -> (&'static str, &'static str) {
+    match form {
+        Form::Auto if frictional_points == 0 => {
+            ("lemke", "no joint has friction: the normal contacts alone make a symmetric problem")
+        }
+        Form::Auto => (
+            "lemke, Coulomb form; Stewart-Trinkle form if it ends on a ray",
+            "with friction a ray of the Coulomb form does not prove that there is no solution",
+        ),
+        Form::Coulomb => ("lemke, Coulomb form", "solver.form = \"coulomb\""),
+        Form::StewartTrinkle => {
+            ("lemke, Stewart-Trinkle form", "solver.form = \"stewart_trinkle\"")
+        }
+        Form::Mixed => {
+            ("lemke, Stewart-Trinkle form with free rigid amplitudes", "solver.form = \"mixed\"")
+        }
+    }
 }

@@ -10,8 +10,8 @@ use crate::outcome::{ContactState, ContactStatus, ElementStress, Principal, Reac
 use crate::reduction::Reduction;
 use crate::system::{BodySystem, System, displaced_nodes};
 
-/// Forces below this fraction of the largest normal force, and slips below this fraction of the
-/// largest relative displacement, count as zero when points are called open, sticking or sliding.
+/// Gaps and slips below this fraction of the largest displacement count as zero when points are called
+/// open, sticking or sliding.
 const STATUS_TOLERANCE: f64 = 1e-8;
 
 /// The state that belongs to the contact forces and relative displacements `rows`: rigid amplitudes
@@ -99,20 +99,21 @@ fn contact_states(
         states[contact.index()].t_t = rows.t[points + k];
         states[contact.index()].y_t = rows.y[points + k];
     }
-    let largest = |f: fn(&ContactState) -> f64| states.iter().map(f).fold(0.0, f64::max);
-    let least_force = STATUS_TOLERANCE * largest(|s| s.t_n);
-    let least_slip = STATUS_TOLERANCE * largest(|s| s.y_n.abs().max(s.y_t.abs()));
-    for (state, contact) in states.iter_mut().zip(&model.contacts) {
-        state.status = status(state, contact.mu, least_force, least_slip);
+    let relative = states.iter().map(|s| s.y_n.abs().max(s.y_t.abs())).fold(0.0, f64::max);
+    let absolute = displacements.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max);
+    let zero = STATUS_TOLERANCE * relative.max(absolute);
+    for state in &mut states {
+        state.status = status(state, zero);
     }
     states
 }
 
-fn status(state: &ContactState, mu: f64, least_force: f64, least_slip: f64) -> ContactStatus {
-    let on_cone = state.t_t.abs() >= mu * state.t_n - least_force;
-    if state.t_n <= least_force {
+/// By what moves: displacements are unique where contact forces are not (forces may circulate
+/// between the points around a corner without any effect).
+fn status(state: &ContactState, zero: f64) -> ContactStatus {
+    if state.y_n > zero {
         ContactStatus::Open
-    } else if on_cone && state.y_t.abs() > least_slip {
+    } else if state.y_t.abs() > zero {
         ContactStatus::Slip
     } else {
         ContactStatus::Stick

@@ -1,0 +1,60 @@
+//! Complementary bases: one column of every pair.
+
+/// Which variable of a pair is basic.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum Side {
+    /// The first variable, `t_i`: column `i` of `A`.
+    T,
+    /// The second variable, `y_i`: column `i` of `B`.
+    Y,
+}
+
+impl Side {
+    /// The other variable of the pair.
+    #[must_use]
+    pub fn complement(self) -> Self {
+        match self {
+            Self::T => Self::Y,
+            Self::Y => Self::T,
+        }
+    }
+}
+
+/// A complementary basis: for every pair the variable that may be positive.
+///
+/// ```
+/// use lcp::{Basis, Side};
+/// let basis = Basis::all(Side::Y, 3);
+/// assert_eq!(basis.sides().len(), 3);
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Basis(Vec<Side>);
+
+impl Basis {
+    /// A basis from the basic side of every pair.
+    pub fn new(sides: Vec<Side>) -> Self {
+        Self(sides)
+    }
+
+    /// The basis of `n` pairs that has the same side everywhere.
+    pub fn all(side: Side, n: usize) -> Self {
+        Self(vec![side; n])
+    }
+
+    /// The basic side of every pair.
+    pub fn sides(&self) -> &[Side] {
+        &self.0
+    }
+
+    /// Number of pairs.
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether there is no pair at all.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}

@@ -1,0 +1,54 @@
+//! Misuse: errors name the place and the remedy. What the mathematics decides is a
+//! [`Status`](crate::Status), not an error.
+
+/// Why a problem or a setting was refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Matrices and vectors do not fit together.
+    #[error("{what} is {rows} x {cols}, but must be {expected_rows} x {expected_cols}")]
+    Shape {
+        /// Which datum.
+        what: &'static str,
+        /// Rows that it has.
+        rows: usize,
+        /// Columns that it has.
+        cols: usize,
+        /// Rows that it must have.
+        expected_rows: usize,
+        /// Columns that it must have.
+        expected_cols: usize,
+    },
+    /// A NaN or an infinity in the data.
+    #[error("{what}[{row}, {col}] is {value}: every entry must be finite")]
+    NotFinite {
+        /// Which datum.
+        what: &'static str,
+        /// Row of the entry, from 0.
+        row: usize,
+        /// Column of the entry, from 0.
+        col: usize,
+        /// The entry.
+        value: f64,
+    },
+    /// A setting outside its range.
+    #[error("setting `{name}` is {value}, but must be {range}")]
+    Setting {
+        /// Name of the setting.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What is allowed.
+        range: &'static str,
+    },
+    /// A vector of a setting has the wrong length.
+    #[error("`{name}` has {len} entries, but the problem has {expected} pairs")]
+    Length {
+        /// Name of the vector.
+        name: &'static str,
+        /// Entries that it has.
+        len: usize,
+        /// Entries that it must have.
+        expected: usize,
+    },
+}

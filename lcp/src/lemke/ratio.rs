@@ -1,0 +1,63 @@
+//! The ratio test: which basic variable leaves.
+
+use super::path::Path;
+
+/// Entries of the entering column below this multiple of its largest one are taken for zero.
+const PIVOT_TOLERANCE: f64 = 1e-10;
+/// Entries of the entering column below this are rounding errors of an equilibrated tableau.
+const NOISE: f64 = 1e-13;
+/// The artificial variable leaves when the step would bring it below this multiple of the value
+/// it started from. Narrower windows run past the solution onto false rays, wider ones stop early.
+const ARTIFICIAL_WINDOW: f64 = 1e-10;
+/// Basic variables within this of zero after the step tie.
+const TIE_WINDOW: f64 = 1e-12;
+/// Among tied rows, pivots below this multiple of the largest are not used.
+const TIE_PIVOT: f64 = 1e-4;
+
+/// The row that leaves, or `None` when nothing blocks the entering variable.
+pub(super) fn leaving_row(path: &Path<'_>, column: &[f64]) -> Option<usize> {
+    let largest = column.iter().fold(0.0_f64, |max, a| max.max(a.abs()));
+    let smallest_pivot = (PIVOT_TOLERANCE * largest).max(NOISE);
+    let blocks = |&i: &usize| column[i] > smallest_pivot;
+    let step = |i: usize| path.values[i].max(0.0) / column[i];
+
+    let shortest = (0..column.len()).filter(blocks).map(step).reduce(f64::min)?;
+    if let Some(row) = path.artificial_row() {
+        let after = path.values[row] - shortest * column[row];
+        if column[row] > NOISE && after <= ARTIFICIAL_WINDOW * path.artificial_start {
+            return Some(row);
+        }
+    }
+    let window = TIE_WINDOW * path.value_scale();
+    let tied: Vec<usize> = (0..column.len())
+        .filter(blocks)
+        .filter(|&i| path.values[i].max(0.0) - shortest * column[i] <= window)
+        .collect();
+    let best = tied.iter().fold(0.0_f64, |max, &i| max.max(column[i]));
+    let safe: Vec<usize> = tied.into_iter().filter(|&i| column[i] >= TIE_PIVOT * best).collect();
+    match path.tie_breaker() {
+        None => Some(lexicographic_minimum(path, column, safe)),
+        Some(draw) => {
+            let count = safe.len() as u64;
+            usize::try_from(draw % count).ok().map(|chosen| safe[chosen])
+        }
+    }
+}
+
+/// Of tied rows the one whose row of the inverse basis, divided by its pivot, comes first in
+/// lexicographic order. In exact arithmetic no basis comes back along a path of such choices.
+fn lexicographic_minimum(path: &Path<'_>, column: &[f64], mut tied: Vec<usize>) -> usize {
+    let mut keys = Vec::with_capacity(tied.len());
+    for k in 0..column.len() {
+        if tied.len() == 1 {
+            break;
+        }
+        keys.clear();
+        keys.extend(tied.iter().map(|&i| path.inverse_entry(i, k) / column[i]));
+        let least = keys.iter().copied().fold(f64::INFINITY, f64::min);
+        let scale = keys.iter().fold(0.0_f64, |max, key| max.max(key.abs()));
+        let mut key = keys.iter();
+        tied.retain(|_| key.next().is_some_and(|&v| v - least <= TIE_WINDOW * scale));
+    }
+    tied[0]
+}

@@ -1,0 +1,54 @@
+//! The dense linear algebra that the methods need, in terms of faer.
+
+use faer::linalg::matmul::matmul;
+use faer::linalg::solvers::{PartialPivLu, Solve};
+use faer::{Accum, Mat, MatMut, MatRef, Par};
+
+/// An LU factorisation that is known not to be singular to working precision.
+#[derive(Debug)]
+pub(crate) struct Lu(PartialPivLu<f64>);
+
+impl Lu {
+    /// Factorises a square matrix; `None` when a pivot vanishes against the largest entry of its
+    /// column of `U`, which is what an LU with partial pivoting shows of a singular matrix.
+    pub(crate) fn new(m: MatRef<'_, f64>) -> Option<Self> {
+        let n = m.nrows();
+        let lu = m.partial_piv_lu();
+        let u = lu.U();
+        let tolerance = 4.0 * n as f64 * f64::EPSILON;
+        for k in 0..n {
+            let largest = (0..=k).fold(0.0_f64, |max, i| max.max(u[(i, k)].abs()));
+            let pivot = u[(k, k)].abs();
+            if !(pivot.is_finite() && pivot > tolerance * largest) {
+                return None;
+            }
+        }
+        Some(Self(lu))
+    }
+
+    /// Overwrites the right-hand sides with the solutions.
+    pub(crate) fn solve_in_place(&self, rhs: MatMut<'_, f64>) {
+        self.0.solve_in_place(rhs);
+    }
+
+    /// Overwrites one right-hand side with the solution.
+    pub(crate) fn solve_vector(&self, rhs: &mut [f64]) {
+        let n = rhs.len();
+        self.0.solve_in_place(MatMut::from_column_major_slice_mut(rhs, n, 1));
+    }
+}
+
+/// `out += factor * left * right`, on one thread.
+pub(crate) fn add_product(
+    out: MatMut<'_, f64>,
+    factor: f64,
+    left: MatRef<'_, f64>,
+    right: MatRef<'_, f64>,
+) {
+    matmul(out, Accum::Add, left, right, factor, Par::Seq);
+}
+
+/// Whether every entry is finite.
+pub(crate) fn all_finite(m: &Mat<f64>) -> bool {
+    (0..m.ncols()).all(|j| m.col_as_slice(j).iter().all(|v| v.is_finite()))
+}

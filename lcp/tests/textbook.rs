@@ -1,0 +1,184 @@
+//! Problems of the literature with known answers.
+
+#![allow(clippy::unwrap_used)] // a test may panic
+
+use faer::{Mat, mat};
+use lcp::{AttemptEnd, Basis, Covering, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side, Status};
+
+fn lcp(m: Mat<f64>, q: &[f64]) -> HorizontalLcp {
+    Lcp::new(m, q.to_vec()).unwrap().into()
+}
+
+fn once() -> Lemke {
+    Lemke::new(LemkeSettings { max_attempts: 1, ..LemkeSettings::default() })
+}
+
+fn assert_close(found: &[f64], expected: &[f64]) {
+    assert_eq!(found.len(), expected.len());
+    for (i, (f, e)) in found.iter().zip(expected).enumerate() {
+        assert!((f - e).abs() <= 1e-13 * e.abs().max(1.0), "entry {i}: {f} is not {e}");
+    }
+}
+
+/// Solves with the first attempt alone, and again with q scaled far up and down.
+fn assert_solves_at_once(m: &Mat<f64>, q: &[f64], z: &[f64]) {
+    for factor in [1.0, 1e-12, 1e12] {
+        let scaled: Vec<f64> = q.iter().map(|q| q * factor).collect();
+        let solution = once().solve(&lcp(m.clone(), &scaled)).unwrap();
+        assert_eq!(solution.status, Status::Solved, "q times {factor}");
+        let unscaled: Vec<f64> = solution.t.iter().map(|t| t / factor).collect();
+        assert_close(&unscaled, z);
+    }
+}
+
+/// Ones on the diagonal and twos below it (Murty 1978).
+fn murty(n: usize) -> Mat<f64> {
+    Mat::from_fn(n, n, |i, j| match i.cmp(&j) {
+        std::cmp::Ordering::Less => 0.0,
+        std::cmp::Ordering::Equal => 1.0,
+        std::cmp::Ordering::Greater => 2.0,
+    })
+}
+
+#[test]
+fn cottle_pang_stone_examples() {
+    let m = mat![[2.0, 1.0], [1.0, 2.0]];
+    assert_solves_at_once(&m, &[-5.0, -6.0], &[4.0 / 3.0, 7.0 / 3.0]);
+    let skew = mat![[0.0, -1.0], [1.0, 0.0]];
+    assert_solves_at_once(&skew, &[1.0, -1.0], &[1.0, 1.0]);
+}
+
+/// Cycles under the plain ratio test (Kostreva 1979): the lexicographic rule does not.
+#[test]
+fn kostreva_does_not_cycle() {
+    let m = mat![[1.0, 2.0, 0.0], [0.0, 1.0, 2.0], [2.0, 0.0, 1.0]];
+    assert_solves_at_once(&m, &[-1.0; 3], &[1.0 / 3.0; 3]);
+}
+
+#[test]
+fn kostreva_without_a_solution_ends_on_rays() {
+    let m = mat![[1.0, -1.0, 3.0], [2.0, -1.0, 3.0], [-1.0, -2.0, 0.0]];
+    let problem = lcp(m, &[-1.0; 3]);
+    let solution = Lemke::default().solve(&problem).unwrap();
+    assert_eq!(solution.status, Status::RayTermination);
+    assert!(solution.info.attempts.iter().all(|attempt| attempt.end == AttemptEnd::Ray));
+    let ray = solution.ray.unwrap();
+    assert!(ray.dt.iter().chain(&ray.dy).all(|&v| v >= 0.0));
+    assert!(ray.dt.iter().zip(&ray.dy).all(|(t, y)| t * y == 0.0));
+}
+
+/// Along a ray `A dt + B dy` is a multiple of the covering vector, here of all ones.
+#[test]
+fn the_ray_is_a_direction_of_the_augmented_problem() {
+    let m = mat![[-1.0, 0.0], [0.0, 1.0]];
+    let problem = lcp(m, &[-1.0, -1.0]);
+    let covering = Covering::Given(vec![1.0, 3.0]);
+    let settings = LemkeSettings { max_attempts: 1, covering, ..LemkeSettings::default() };
+    let ray = Lemke::new(settings).solve(&problem).unwrap().ray.unwrap();
+    let mut image = [0.0; 2];
+    for j in 0..2 {
+        for (i, image) in image.iter_mut().enumerate() {
+            *image += problem.a()[(i, j)] * ray.dt[j] + problem.b()[(i, j)] * ray.dy[j];
+        }
+    }
+    assert!((image[1] - 3.0 * image[0]).abs() < 1e-14, "{image:?}");
+    assert!(image[0] >= 0.0);
+}
+
+/// Murty's problems take exactly 2^n pivots with a covering vector of ones in the given data.
+#[test]
+fn exponential_families_take_their_pivots_or_stop_at_the_limit() {
+    for n in [3_usize, 6, 9] {
+        let mut q = vec![-1.0; n];
+        let problem = lcp(murty(n), &q);
+        let solution = once().solve(&problem).unwrap();
+        assert_eq!(solution.status, Status::Solved);
+        let mut z = vec![0.0; n];
+        z[0] = 1.0;
+        assert_close(&solution.t, &z);
+
+        q.fill(-1.0);
+        let fathi = &murty(n) * murty(n).transpose();
+        let limited = LemkeSettings {
+            max_pivots: Some(4),
+            max_attempts: 1,
+            start: Some(Basis::all(Side::Y, n)),
+            ..LemkeSettings::default()
+        };
+        let solution = Lemke::new(limited).solve(&lcp(fathi, &q)).unwrap();
+        assert!(matches!(solution.status, Status::PivotLimit | Status::Solved));
+        assert!(solution.info.pivots <= 4);
+    }
+}
+
+/// A continuum of solutions, `z1 + z2 = 1`: any of them is right.
+#[test]
+fn a_continuum_is_met() {
+    let solution = once().solve(&lcp(Mat::full(2, 2, 1.0), &[-1.0, -1.0])).unwrap();
+    assert_eq!(solution.status, Status::Solved);
+    assert_close(&[solution.t[0] + solution.t[1]], &[1.0]);
+}
+
+#[test]
+fn order_one() {
+    let solve = |m: f64, q: f64| Lemke::default().solve(&lcp(mat![[m]], &[q])).unwrap();
+    assert_eq!(solve(-1.0, -1.0).status, Status::RayTermination);
+    assert_eq!(solve(0.0, -1.0).status, Status::RayTermination);
+    assert_eq!(solve(-1.0, 1.0).status, Status::Solved);
+    assert_close(&solve(2.0, -1.0).t, &[0.5]);
+    assert_close(&solve(2.0, 1.0).y, &[1.0]);
+}
+
+#[test]
+fn an_empty_problem_is_solved() {
+    let problem = HorizontalLcp::new(Mat::new(), Mat::new(), Vec::new()).unwrap();
+    assert_eq!(Lemke::default().solve(&problem).unwrap().status, Status::Solved);
+}
+
+/// Both matrices singular: pair 1 can only start from `t`, pair 2 only from `y`.
+#[test]
+fn both_matrices_singular() {
+    let a = mat![[1.0, 0.0], [2.0, 0.0]];
+    let b = mat![[0.0, 0.0], [0.0, 1.0]];
+    let problem = HorizontalLcp::new(a, b, vec![1.0, 5.0]).unwrap();
+    let solution = once().solve(&problem).unwrap();
+    assert_eq!(solution.status, Status::Solved);
+    assert_close(&solution.t, &[1.0, 0.0]);
+    assert_close(&solution.y, &[0.0, 3.0]);
+}
+
+/// Only an exchange finds the start basis: column choices that look best block each other.
+#[test]
+fn the_start_basis_needs_an_exchange() {
+    // Pair 1: (e1, e2), pair 2: (e1, 0), so pair 1 must give way and start from e2.
+    let a = mat![[1e-3, 1.0], [0.0, 0.0]];
+    let b = mat![[0.0, 0.0], [1e3, 0.0]];
+    let swapped = HorizontalLcp::new(b.clone(), a.clone(), vec![1.0, 2.0]).unwrap();
+    let problem = HorizontalLcp::new(a, b, vec![1.0, 2.0]).unwrap();
+    for problem in [problem, swapped] {
+        let solution = once().solve(&problem).unwrap();
+        assert_eq!(solution.status, Status::Solved);
+    }
+}
+
+#[test]
+fn no_complementary_basis_is_said() {
+    let a = mat![[1.0, 1.0], [1.0, 1.0]];
+    let problem = HorizontalLcp::new(a.clone(), a, vec![1.0, 1.0]).unwrap();
+    let solution = Lemke::default().solve(&problem).unwrap();
+    assert_eq!(solution.status, Status::NoComplementaryBasis);
+}
+
+#[test]
+fn misuse_is_an_error() {
+    let bad = Lcp::new(mat![[1.0, f64::NAN], [0.0, 1.0]], vec![0.0, 0.0]).unwrap_err();
+    assert_eq!(bad.to_string(), "M[0, 1] is NaN: every entry must be finite");
+    let bad = Lcp::new(mat![[1.0]], vec![0.0, 0.0]).unwrap_err();
+    assert_eq!(bad.to_string(), "M is 1 x 1, but must be 2 x 2");
+    let problem = lcp(mat![[1.0]], &[-1.0]);
+    let settings = LemkeSettings { tolerance: 0.0, ..LemkeSettings::default() };
+    assert!(Lemke::new(settings).solve(&problem).is_err());
+    let covering = Covering::Given(vec![-1.0]);
+    let settings = LemkeSettings { covering, ..LemkeSettings::default() };
+    assert!(Lemke::new(settings).solve(&problem).is_err());
+}

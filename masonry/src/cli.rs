@@ -1,0 +1,148 @@
+//! The command-line program `masonry`.
+//!
+//! `--json` prints one JSON object on standard output and nothing else there; progress and errors
+//! go to standard error. The exit code is 0 when solved, 1 when not solved, 2 for bad input.
+
+mod progress;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand};
+
+use crate::model::Model;
+use crate::output::{self, Options, json, svg, table};
+use crate::plan::Plan;
+use crate::scene::Scene;
+use crate::solve::{reference_lines, solve_observed};
+use progress::Progress;
+
+/// How a wall or an arch of blocks carries its load.
+#[derive(Debug, Parser)]
+#[command(name = "masonry", version, about, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Say what a scene calls for, before anything is assembled.
+    Plan(PlanArgs),
+    /// Solve a scene and write pictures, tables and a mesh.
+    Solve(SolveArgs),
+    /// Draw a scene: blocks, supports, loads and contact points.
+    Draw(DrawArgs),
+}
+
+#[derive(Debug, Args)]
+struct PlanArgs {
+    /// The scene file (TOML).
+    scene: PathBuf,
+    /// Print one JSON object.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Args)]
+struct SolveArgs {
+    /// The scene file (TOML).
+    scene: PathBuf,
+    /// The directory to write into; created when missing.
+    #[arg(long)]
+    out: PathBuf,
+    /// Print one JSON object instead of the report.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Args)]
+struct DrawArgs {
+    /// The scene file (TOML).
+    scene: PathBuf,
+    /// The picture to write; by default the scene's name with the ending `.svg`.
+    #[arg(long)]
+    out: Option<PathBuf>,
+}
+
+type Failure = Box<dyn std::error::Error>;
+
+const SOLVED: u8 = 0;
+const NOT_SOLVED: u8 = 1;
+const BAD_INPUT: u8 = 2;
+
+/// Runs the program on the arguments of the process.
+pub fn run() -> ExitCode {
+    let result = match Cli::parse().command {
+        Command::Plan(args) => plan(&args),
+        Command::Solve(args) => solve(&args),
+        Command::Draw(args) => draw(&args),
+    };
+    ExitCode::from(result.unwrap_or_else(|failure| {
+        eprintln!("error: {failure}");
+        BAD_INPUT
+    }))
+}
+
+fn plan(args: &PlanArgs) -> Result<u8, Failure> {
+    let scene = Scene::read(&args.scene)?;
+    let model = Model::from_scene(&scene)?;
+    let plan = Plan::of(&scene, &model);
+    if args.json {
+        print(&(serde_json::to_string_pretty(&plan)? + "\n"))?;
+    } else {
+        print(&format!("{}\n\n{}\n", scene.title, table::plan(&plan)))?;
+    }
+    Ok(SOLVED)
+}
+
+fn solve(args: &SolveArgs) -> Result<u8, Failure> {
+    let scene = Scene::read(&args.scene)?;
+    let mut progress = Progress::new();
+    let outcome = solve_observed(&scene, &mut |event| progress.show(event))?;
+    progress.clear();
+    let options = Options { reference: reference_lines(&scene), ..Options::default() };
+    let written = output::write_all(&outcome, &args.out, &options);
+    // What was computed is printed even when a file could not be written.
+    let files = written.as_deref().unwrap_or_default();
+    if args.json {
+        print(&json::result(&outcome, &names(files))?)?;
+    } else {
+        print(&format!("{}\n{}", table::report(&outcome), listing(files)))?;
+    }
+    written?;
+    let solved = outcome.solve.status == lcp::Status::Solved;
+    Ok(if solved { SOLVED } else { NOT_SOLVED })
+}
+
+fn draw(args: &DrawArgs) -> Result<u8, Failure> {
+    let scene = Scene::read(&args.scene)?;
+    let model = Model::from_scene(&scene)?;
+    let out = args.out.clone().unwrap_or_else(|| args.scene.with_extension("svg"));
+    std::fs::write(&out, svg::scene(&scene.title, &model))
+        .map_err(|error| format!("cannot write {}: {error}", out.display()))?;
+    print(&format!("{}\n", out.display()))?;
+    Ok(SOLVED)
+}
+
+fn names(files: &[PathBuf]) -> Vec<String> {
+    let name = |path: &PathBuf| path.file_name().map(|name| name.to_string_lossy().into_owned());
+    files.iter().filter_map(name).collect()
+}
+
+fn listing(files: &[PathBuf]) -> String {
+    files.iter().map(|file| format!("wrote {}\n", show(file))).collect()
+}
+
+fn show(path: &Path) -> String {
+    path.display().to_string()
+}
+
+/// A closed pipe is the reader's choice, not a failure of ours.
+fn print(text: &str) -> Result<(), Failure> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        other => Ok(other?),
+    }
+}

@@ -1,0 +1,35 @@
+//! Progress of a long solve on standard error.
+
+use std::ops::ControlFlow;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::solve::Event;
+
+/// A spinner with the present phase; hidden when standard error is not a terminal.
+pub(super) struct Progress(ProgressBar);
+
+impl Progress {
+    pub(super) fn new() -> Self {
+        let bar = ProgressBar::new_spinner();
+        if let Ok(style) = ProgressStyle::with_template("{spinner} {elapsed} {msg}") {
+            bar.set_style(style);
+        }
+        Self(bar)
+    }
+
+    pub(super) fn show(&mut self, event: Event) -> ControlFlow<()> {
+        self.0.set_message(match event {
+            Event::Phase(phase) => phase.to_owned(),
+            Event::Pivots(at) => {
+                format!("solve: order {}, attempt {}, pivot {}", at.order, at.attempt, at.pivots)
+            }
+        });
+        self.0.tick();
+        ControlFlow::Continue(())
+    }
+
+    pub(super) fn clear(&self) {
+        self.0.finish_and_clear();
+    }
+}

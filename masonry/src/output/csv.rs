@@ -1,0 +1,75 @@
+//! Contact points as a table of comma-separated values.
+
+use std::borrow::Cow;
+
+use super::format::{InUnits, block_name, body_name, shortest};
+use crate::model::{Body, Model};
+use crate::outcome::{ContactStatus, State};
+
+/// The text of `contacts.csv`: one row per contact point, in the order of the model.
+///
+/// Columns carry the units of the scene in their names: `index`, `joint`, `class`, the names of
+/// the sides `a` and `b`, position `x_m`, `y_m`, `area_m2`, forces `t_n_kN` (compression positive)
+/// and `t_t_kN`, tractions `traction_n_kN/m2` and `traction_t_kN/m2` (force over area), `gap_m`,
+/// `slip_m`, `mu`, and `status` (`open`, `stick`, `slip`). Numbers read back exactly; fields are
+/// quoted where RFC 4180 asks for it, and lines end with CR LF.
+pub fn contacts(model: &Model, state: &State) -> String {
+    let units = InUnits(model.units);
+    let mut text = header(units);
+    for (index, (contact, force)) in model.contacts.iter().zip(&state.contacts).enumerate() {
+        let joint = &model.joints[contact.joint.index()];
+        let traction = |force: f64| {
+            if contact.weight > 0.0 { units.stress(force / contact.weight) } else { 0.0 }
+        };
+        let fields = [
+            index.to_string().into(),
+            contact.joint.index().to_string().into(),
+            quoted(model.joint_classes.get(joint.class).map_or("", |class| &class.name)),
+            quoted(match contact.a {
+                Some(anchor) => block_name(model, anchor.block),
+                None => body_name(model, joint.a),
+            }),
+            quoted(body_name(model, Body::Block(joint.b))),
+            shortest(units.length(contact.position.x)).into(),
+            shortest(units.length(contact.position.y)).into(),
+            shortest(units.area(contact.weight)).into(),
+            shortest(units.force(force.t_n)).into(),
+            shortest(units.force(force.t_t)).into(),
+            shortest(traction(force.t_n)).into(),
+            shortest(traction(force.t_t)).into(),
+            shortest(units.length(force.y_n)).into(),
+            shortest(units.length(force.y_t)).into(),
+            shortest(contact.mu).into(),
+            Cow::Borrowed(status_name(force.status)),
+        ];
+        text += &fields.join(",");
+        text += "\r\n";
+    }
+    text
+}
+
+fn header(units: InUnits) -> String {
+    let (length, force) = (units.0.length_name(), units.0.force_name());
+    let stress = units.0.stress_name();
+    format!(
+        "index,joint,class,a,b,x_{length},y_{length},area_{length}2,t_n_{force},t_t_{force},\
+         traction_n_{stress},traction_t_{stress},gap_{length},slip_{length},mu,status\r\n"
+    )
+}
+
+fn status_name(status: ContactStatus) -> &'static str {
+    match status {
+        ContactStatus::Open => "open",
+        ContactStatus::Stick => "stick",
+        ContactStatus::Slip => "slip",
+    }
+}
+
+/// A field as RFC 4180 wants it: in quotes when it contains a comma, a quote or a line break.
+fn quoted(field: &str) -> Cow<'_, str> {
+    if field.contains([',', '"', '\r', '\n']) {
+        Cow::Owned(format!("\"{}\"", field.replace('"', "\"\"")))
+    } else {
+        Cow::Borrowed(field)
+    }
+}

@@ -1,0 +1,214 @@
+//! The result of a scene as one JSON object.
+
+use serde::{Serialize, Serializer};
+
+use super::format::{InUnits, block_name};
+use super::summary::{extreme_stresses, largest_displacement, reason};
+use crate::outcome::{Outcome, Reaction};
+use crate::plan::Plan;
+
+/// The object of `result.json` and of `masonry solve --json`, pretty-printed.
+///
+/// Physical quantities are in the units of the scene, which `units` names one by one. Without a
+/// solution `balance`, `reactions`, `contacts`, `strain_energy`, `max_displacement` and the stresses
+/// are null, and `reason` says why. Numbers that are not finite become null.
+///
+/// # Errors
+/// None that this data can cause; the signature is that of the serialiser.
+pub fn result(outcome: &Outcome, files: &[String]) -> Result<String, serde_json::Error> {
+    let mut text = serde_json::to_string_pretty(&Report::of(outcome, files))?;
+    text.push('\n');
+    Ok(text)
+}
+
+#[derive(Serialize)]
+struct Report<'a> {
+    status: lcp::Status,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
+    title: &'a str,
+    units: UnitNames,
+    plan: &'a Plan,
+    form: &'a str,
+    order: usize,
+    attempts: &'a [String],
+    pivots: usize,
+    residuals: lcp::Residuals,
+    balance: Option<Balance>,
+    reactions: Option<ByName<'a, Force>>,
+    contacts: Option<Contacts>,
+    strain_energy: Option<f64>,
+    max_displacement: Option<Displacement<'a>>,
+    max_compression: Option<Stress<'a>>,
+    max_tension: Option<Stress<'a>>,
+    time_s: ByName<'a, f64>,
+    files: &'a [String],
+}
+
+/// The unit of every physical quantity in the object; `1` marks what has none.
+#[derive(Serialize)]
+struct UnitNames {
+    length: &'static str,
+    force: &'static str,
+    stress: String,
+    moment: String,
+    energy: String,
+    time: &'static str,
+    residuals: &'static str,
+    balance: &'static str,
+    reactions: ForceUnits,
+    strain_energy: String,
+    max_displacement: &'static str,
+    max_compression: String,
+    max_tension: String,
+    positions: &'static str,
+    time_s: &'static str,
+}
+
+#[derive(Serialize)]
+struct ForceUnits {
+    fx: &'static str,
+    fy: &'static str,
+    m: String,
+}
+
+#[derive(Serialize)]
+struct Balance {
+    force: f64,
+    moment: f64,
+    cone_violation: f64,
+    penetration: f64,
+}
+
+/// A reaction: force on the structure, and moment about the origin.
+#[derive(Serialize)]
+struct Force {
+    fx: f64,
+    fy: f64,
+    m: f64,
+}
+
+#[derive(Serialize)]
+struct Contacts {
+    open: usize,
+    stick: usize,
+    slip: usize,
+}
+
+#[derive(Serialize)]
+struct Displacement<'a> {
+    value: f64,
+    component: char,
+    block: &'a str,
+    x: f64,
+    y: f64,
+}
+
+#[derive(Serialize)]
+struct Stress<'a> {
+    value: f64,
+    block: &'a str,
+    x: f64,
+    y: f64,
+}
+
+/// An object with one member per name, in the order of the list.
+struct ByName<'a, T>(Vec<(&'a str, T)>);
+
+impl<T: Serialize> Serialize for ByName<'_, T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}
+
+impl<'a> Report<'a> {
+    fn of(outcome: &'a Outcome, files: &'a [String]) -> Self {
+        let (model, solve) = (&outcome.model, &outcome.solve);
+        let units = InUnits(model.units);
+        let checks = outcome.checks.as_ref();
+        let state = outcome.state.as_ref();
+        let (compression, tension) = state.map_or((None, None), extreme_stresses);
+        let stress = |it: super::summary::ExtremeStress| Stress {
+            value: units.stress(it.value),
+            block: block_name(model, it.block),
+            x: units.length(it.position.x),
+            y: units.length(it.position.y),
+        };
+        Self {
+            status: solve.status,
+            reason: reason(outcome),
+            title: &outcome.title,
+            units: UnitNames::of(units),
+            plan: &outcome.plan,
+            form: &solve.form,
+            order: solve.order,
+            attempts: &solve.attempts,
+            pivots: solve.pivots,
+            residuals: solve.residuals,
+            balance: checks.map(|checks| Balance {
+                force: checks.force_balance,
+                moment: checks.moment_balance,
+                cone_violation: checks.cone_violation,
+                penetration: checks.penetration,
+            }),
+            reactions: state.map(|_| {
+                ByName(outcome.reactions.iter().map(|it| named_force(it, units)).collect())
+            }),
+            contacts: checks.map(|checks| Contacts {
+                open: checks.open,
+                stick: checks.stick,
+                slip: checks.slip,
+            }),
+            strain_energy: state.map(|state| units.energy(state.strain_energy)),
+            max_displacement: state.and_then(|state| largest_displacement(model, state)).map(
+                |it| Displacement {
+                    value: units.length(it.value),
+                    component: it.component,
+                    block: block_name(model, it.block),
+                    x: units.length(it.position.x),
+                    y: units.length(it.position.y),
+                },
+            ),
+            max_compression: compression.map(stress),
+            max_tension: tension.map(stress),
+            time_s: ByName(
+                outcome.times.iter().map(|time| (time.phase.as_str(), time.seconds)).collect(),
+            ),
+            files,
+        }
+    }
+}
+
+impl UnitNames {
+    fn of(units: InUnits) -> Self {
+        let units = units.0;
+        let (length, force) = (units.length_name(), units.force_name());
+        let (stress, energy) = (units.stress_name(), units.energy_name());
+        Self {
+            length,
+            force,
+            stress: stress.clone(),
+            moment: energy.clone(),
+            energy: energy.clone(),
+            time: "s",
+            residuals: "1",
+            balance: "1",
+            reactions: ForceUnits { fx: force, fy: force, m: energy.clone() },
+            strain_energy: energy,
+            max_displacement: length,
+            max_compression: stress.clone(),
+            max_tension: stress,
+            positions: length,
+            time_s: "s",
+        }
+    }
+}
+
+fn named_force(reaction: &Reaction, units: InUnits) -> (&str, Force) {
+    let force = Force {
+        fx: units.force(reaction.fx),
+        fy: units.force(reaction.fy),
+        m: units.energy(reaction.m),
+    };
+    (&reaction.support, force)
+}

@@ -1,0 +1,167 @@
+//! Figures that several reports show: extremes, totals, and the reason for no solution.
+
+use nalgebra::{Point2, Vector2};
+
+use crate::ids::BlockId;
+use crate::model::{Block, EdgeLoad, Model};
+use crate::outcome::{Outcome, State};
+
+/// The displacement component of largest size, with its sign and place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LargestDisplacement {
+    /// The component \[m\], signed.
+    pub value: f64,
+    /// `x` or `y`.
+    pub component: char,
+    /// The block.
+    pub block: BlockId,
+    /// Position of the node before deformation \[m\].
+    pub position: Point2<f64>,
+}
+
+/// A principal stress and where it acts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ExtremeStress {
+    /// The stress \[Pa\], tension positive.
+    pub value: f64,
+    /// The block.
+    pub block: BlockId,
+    /// The centre of the element \[m\].
+    pub position: Point2<f64>,
+}
+
+/// A force and its moment about the origin, in SI units.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Resultant {
+    /// Force \[N\].
+    pub force: Vector2<f64>,
+    /// Moment about the origin, counter-clockwise \[N m\].
+    pub moment: f64,
+}
+
+impl Resultant {
+    fn add(&mut self, force: Vector2<f64>, at: Point2<f64>) {
+        self.force += force;
+        self.moment += at.x * force.y - at.y * force.x;
+    }
+}
+
+/// The nodes of a block: those of its mesh, or the corners of a rigid block.
+pub fn nodes(block: &Block) -> &[Point2<f64>] {
+    block.mesh.as_ref().map_or(&block.corners, |mesh| &mesh.nodes)
+}
+
+/// The largest displacement component; `None` without blocks.
+pub fn largest_displacement(model: &Model, state: &State) -> Option<LargestDisplacement> {
+    let mut largest: Option<LargestDisplacement> = None;
+    for (index, (block, moves)) in model.blocks.iter().zip(&state.displacements).enumerate() {
+        for (&position, u) in nodes(block).iter().zip(moves) {
+            for (component, value) in [('x', u.x), ('y', u.y)] {
+                if largest.is_none_or(|it| value.abs() > it.value.abs()) {
+                    let block = BlockId::new(index);
+                    largest = Some(LargestDisplacement { value, component, block, position });
+                }
+            }
+        }
+    }
+    largest
+}
+
+/// The most compressive and the most tensile principal stress; `None` where no element is in
+/// compression, or in tension.
+pub fn extreme_stresses(state: &State) -> (Option<ExtremeStress>, Option<ExtremeStress>) {
+    let mut compression: Option<ExtremeStress> = None;
+    let mut tension: Option<ExtremeStress> = None;
+    for stress in &state.stresses {
+        let at = |value| ExtremeStress { value, block: stress.block, position: stress.centre };
+        let (least, most) = (stress.principal.sigma_2, stress.principal.sigma_1);
+        if least < compression.map_or(0.0, |it| it.value) {
+            compression = Some(at(least));
+        }
+        if most > tension.map_or(0.0, |it| it.value) {
+            tension = Some(at(most));
+        }
+    }
+    (compression, tension)
+}
+
+/// The resultant of all edge loads and self weights.
+pub fn applied_load(model: &Model) -> Resultant {
+    let mut total = Resultant::default();
+    for block in &model.blocks {
+        for load in &block.edge_loads {
+            let (from, to) = loaded_part(block, load);
+            let area = (to - from).norm() * model.thickness;
+            total.add(load.traction * area, nalgebra::center(&from, &to));
+        }
+        if let Some(density) = block.density {
+            let (area, centroid) = area_and_centroid(&block.corners);
+            total.add(model.gravity * (density * area * model.thickness), centroid);
+        }
+    }
+    total
+}
+
+/// The sum of all support reactions.
+pub fn total_reaction(outcome: &Outcome) -> Resultant {
+    let mut total = Resultant::default();
+    for reaction in &outcome.reactions {
+        total.force += Vector2::new(reaction.fx, reaction.fy);
+        total.moment += reaction.m;
+    }
+    total
+}
+
+/// Start and end of the loaded part of an edge \[m\].
+pub fn loaded_part(block: &Block, load: &EdgeLoad) -> (Point2<f64>, Point2<f64>) {
+    let start = block.corners[load.edge % 4];
+    let along = block.corners[(load.edge + 1) % 4] - start;
+    (start + along * load.from, start + along * load.to)
+}
+
+/// Area and centroid of a polygon with counter-clockwise corners.
+pub fn area_and_centroid(corners: &[Point2<f64>; 4]) -> (f64, Point2<f64>) {
+    // Relative to a corner, so that a distant origin costs no digits.
+    let base = corners[0];
+    let mut area = 0.0;
+    let mut moment = Vector2::zeros();
+    for k in 1..3 {
+        let (p, q) = (corners[k] - base, corners[k + 1] - base);
+        let triangle = 0.5 * (p.x * q.y - p.y * q.x);
+        area += triangle;
+        moment += (p + q) * (triangle / 3.0);
+    }
+    if area > 0.0 { (area, base + moment / area) } else { (0.0, base) }
+}
+
+/// Why there is no state, in a sentence or two; `None` when there is one.
+pub fn reason(outcome: &Outcome) -> Option<String> {
+    if outcome.state.is_some() {
+        return None;
+    }
+    let what = match outcome.solve.status {
+        lcp::Status::RayTermination if outcome.mechanism.is_some() => {
+            "Every attempt ended on a secondary ray, and the last ray is a mechanism: a movement \
+             of the blocks that the supports do not stop. This points to collapse, but with \
+             friction it is not a proof."
+        }
+        lcp::Status::RayTermination => {
+            "Every attempt ended on a secondary ray. With friction this is not a proof of \
+             collapse: an equilibrium may exist that the pivots did not reach."
+        }
+        lcp::Status::PivotLimit => {
+            "The limit on pivots was reached. This says nothing about the structure: a larger \
+             limit or another start may find an equilibrium."
+        }
+        lcp::Status::NumericalTrouble => {
+            "Rounding errors could not be brought under control. This says nothing about the \
+             structure: look for blocks, stiffnesses or gaps of very different size."
+        }
+        lcp::Status::AlmostSolved => {
+            "The best point found satisfies the conditions only to a looser tolerance, which is \
+             not accepted as an equilibrium."
+        }
+        _ => "The solver returned no equilibrium.",
+    };
+    Some(what.to_owned())
+}

@@ -1,0 +1,179 @@
+//! What several pictures draw: blocks, hatched supports, contact marks.
+
+use nalgebra::{Point2, Vector2};
+
+use super::canvas::{Canvas, Pixel, fixed};
+use super::sheet::{Bounds, Frame, Sheet};
+use crate::ids::SupportId;
+use crate::model::{Block, Body, ContactPoint, Model, Support};
+use crate::outcome::{ContactState, ContactStatus};
+use crate::output::summary::area_and_centroid;
+
+/// Compression: a blue that the colour-blind tell from [`TENSION`].
+pub(super) const COMPRESSION: &str = "#0072b2";
+/// Tension: vermillion.
+pub(super) const TENSION: &str = "#d55e00";
+/// Fill of a brick.
+pub(super) const BRICK: &str = "#f5efe6";
+/// Outline of a brick.
+pub(super) const OUTLINE: &str = "#857868";
+/// Ground and walls.
+const GROUND: &str = "#444444";
+/// Rim of an open contact point.
+const OPEN: &str = "#222222";
+/// Fill of a sliding contact point.
+const SLIDING: &str = "#cc3399";
+
+/// The box around all blocks and supports.
+pub(super) fn bounds(model: &Model) -> Bounds {
+    let corners = model.blocks.iter().flat_map(|block| block.corners);
+    let ends = model.supports.iter().flat_map(|support| [support.from, support.to]);
+    Bounds::of(corners.chain(ends))
+}
+
+/// Size of a middling brick in pixels, from which widths of strokes and marks follow.
+pub(super) fn brick_size(model: &Model, frame: &Frame) -> f64 {
+    let mut areas: Vec<f64> =
+        model.blocks.iter().map(|block| area_and_centroid(&block.corners).0).collect();
+    areas.sort_by(f64::total_cmp);
+    areas.get(areas.len() / 2).copied().unwrap_or(0.0).max(0.0).sqrt() * frame.scale
+}
+
+/// Width of a brick's outline.
+pub(super) fn outline_width(brick: f64) -> f64 {
+    (0.02 * brick).clamp(0.25, 1.2)
+}
+
+/// All blocks in their undeformed place, under one style.
+pub(super) fn blocks(sheet: &mut Sheet, model: &Model, style: &str) {
+    let frame = sheet.frame;
+    sheet.canvas.group(style, |canvas| {
+        for block in &model.blocks {
+            canvas.polygon(&block.corners.map(|corner| frame.at(corner)), "");
+        }
+    });
+}
+
+/// The nodes around a block, as positions in the list of its nodes.
+pub(super) fn rim(block: &Block) -> Vec<usize> {
+    let Some(mesh) = &block.mesh else { return (0..4).collect() };
+    let row = mesh.nx + 1;
+    let bottom = 0..mesh.nx;
+    let right = (0..mesh.ny).map(|j| j * row + mesh.nx);
+    let top = (1..=mesh.nx).rev().map(|i| mesh.ny * row + i);
+    let left = (1..=mesh.ny).rev().map(|j| j * row);
+    bottom.chain(right).chain(top).chain(left).collect()
+}
+
+/// All supports, hatched on the side away from the structure, and their legend entry.
+pub(super) fn supports(sheet: &mut Sheet, model: &Model) {
+    if model.supports.is_empty() {
+        return;
+    }
+    let frame = sheet.frame;
+    let attributes = format!("stroke=\"{GROUND}\" stroke-width=\"1\" class=\"supports\"");
+    sheet.canvas.group(&attributes, |canvas| {
+        for (index, support) in model.supports.iter().enumerate() {
+            let inward = side_of_structure(model, SupportId::new(index), support);
+            hatched(canvas, frame.at(support.from), frame.at(support.to), inward);
+        }
+    });
+    sheet.entry("support", |symbol| {
+        let attributes = format!("stroke=\"{GROUND}\" stroke-width=\"1\"");
+        symbol.group(&attributes, |symbol| {
+            let (from, to) = (Pixel::new(-22.0, -3.0), Pixel::new(22.0, -3.0));
+            hatched(symbol, from, to, Vector2::new(0.0, 1.0));
+        });
+    });
+}
+
+/// Contact points that are open (hollow circles) or slide (filled squares on a corner).
+///
+/// Each mark is moved along its joint by nearly two radii towards the joint's middle, so that the marks
+/// of joints which meet in one place stay apart.
+pub(super) fn contact_marks(sheet: &mut Sheet, model: &Model, states: &[ContactState]) {
+    let frame = sheet.frame;
+    let radius = (0.05 * brick_size(model, &frame)).clamp(0.8, 3.6);
+    for (status, name) in [(ContactStatus::Open, "open"), (ContactStatus::Slip, "sliding")] {
+        let mut count = 0_usize;
+        sheet.canvas.group(&mark_style(status, radius), |canvas| {
+            for (contact, _) in
+                model.contacts.iter().zip(states).filter(|(_, state)| state.status == status)
+            {
+                draw_mark(canvas, mark_place(model, contact, &frame, radius), radius, status);
+                count += 1;
+            }
+        });
+        if count > 0 {
+            let points = if count == 1 { "point" } else { "points" };
+            sheet.entry(&format!("{name}: {count} contact {points}"), |symbol| {
+                symbol.group(&mark_style(status, 3.6), |symbol| {
+                    draw_mark(symbol, Pixel::new(0.0, 0.0), 3.6, status);
+                });
+            });
+        }
+    }
+}
+
+fn mark_style(status: ContactStatus, radius: f64) -> String {
+    let width = fixed((0.36 * radius).max(0.3));
+    match status {
+        ContactStatus::Open => {
+            format!("class=\"open\" fill=\"#ffffff\" stroke=\"{OPEN}\" stroke-width=\"{width}\"")
+        }
+        ContactStatus::Stick => "class=\"stick\"".to_owned(),
+        ContactStatus::Slip => format!("class=\"slip\" fill=\"{SLIDING}\""),
+    }
+}
+
+fn draw_mark(canvas: &mut Canvas, at: Pixel, radius: f64, status: ContactStatus) {
+    match status {
+        ContactStatus::Open => canvas.circle(at, radius, ""),
+        ContactStatus::Stick => canvas.circle(at, 0.5 * radius, ""),
+        ContactStatus::Slip => {
+            let tip = 1.35 * radius;
+            let corners = [(tip, 0.0), (0.0, tip), (-tip, 0.0), (0.0, -tip)];
+            canvas.polygon(&corners.map(|(x, y)| Pixel::new(at.x + x, at.y + y)), "");
+        }
+    }
+}
+
+fn mark_place(model: &Model, contact: &ContactPoint, frame: &Frame, radius: f64) -> Pixel {
+    let joint = &model.joints[contact.joint.index()];
+    let at = frame.at(contact.position);
+    let middle = frame.at(nalgebra::center(&joint.from, &joint.to));
+    at.shifted(middle.x - at.x, middle.y - at.y, (1.7 * radius).min(at.distance(middle)))
+}
+
+/// A vector, y up, from the support to the structure.
+fn side_of_structure(model: &Model, id: SupportId, support: &Support) -> Vector2<f64> {
+    if let Some(joint) = model.joints.iter().find(|joint| joint.a == Body::Support(id)) {
+        return joint.normal;
+    }
+    let box_of_blocks = Bounds::of(model.blocks.iter().flat_map(|block| block.corners));
+    let centre: Point2<f64> = nalgebra::center(&box_of_blocks.low, &box_of_blocks.high);
+    centre - nalgebra::center(&support.from, &support.to)
+}
+
+fn hatched(canvas: &mut Canvas, from: Pixel, to: Pixel, inward: Vector2<f64>) {
+    const TICK: f64 = 7.0;
+    let length = from.distance(to);
+    let (tx, ty) = (to.x - from.x, to.y - from.y);
+    // The normal of the line away from the structure; pixels count y downwards.
+    let (mut nx, mut ny) = (-ty, tx);
+    if nx * inward.x - ny * inward.y > 0.0 {
+        (nx, ny) = (-nx, -ny);
+    }
+    canvas.line(from, to, "stroke-width=\"2.2\"");
+    let mut ticks = 2.0;
+    while length / ticks > TICK {
+        ticks += 1.0;
+    }
+    let mut index = 0.5;
+    while index < ticks {
+        let foot = from.between(to, index / ticks);
+        let end = foot.shifted(nx, ny, TICK).shifted(-tx, -ty, 0.6 * TICK);
+        canvas.line(foot, end, "");
+        index += 1.0;
+    }
+}

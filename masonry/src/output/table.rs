@@ -1,0 +1,211 @@
+//! The report as text, at most 100 columns wide.
+
+use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle, presets};
+
+use super::format::{InUnits, aligned, block_name, significant};
+use super::summary::{
+    ExtremeStress, Resultant, applied_load, extreme_stresses, largest_displacement, reason,
+    total_reaction,
+};
+use crate::outcome::{Outcome, State};
+use crate::plan::Plan;
+
+const WIDTH: u16 = 100;
+
+/// The whole report: plan, solution, checks, reactions, state, times; or what was tried and what
+/// it means when there is no solution.
+pub fn report(outcome: &Outcome) -> String {
+    let title = if outcome.title.is_empty() { "Untitled scene" } else { &outcome.title };
+    let rule: String = title.chars().map(|_| '=').collect();
+    let mut text = format!("{title}\n{rule}\n\n{}", plan(&outcome.plan));
+    if let Some(reason) = reason(outcome) {
+        text += &section("No equilibrium found");
+        text += &paragraph(&reason);
+    }
+    text += &section("Solution");
+    text += &pairs(&solution(outcome));
+    if let Some(state) = &outcome.state {
+        text += &section("Reactions on the structure");
+        text += &reactions(outcome);
+        text += &section("State");
+        text += &pairs(&state_figures(outcome, state));
+    }
+    text += &section("Time");
+    text += &pairs(&times(outcome));
+    text
+}
+
+/// The plan: effects with their reasons, sizes, and the solver.
+pub fn plan(plan: &Plan) -> String {
+    let mut table = table(&["effect", "", "unknowns", "because"], &[2]);
+    for effect in &plan.effects {
+        table.add_row(vec![
+            effect.name.to_owned(),
+            if effect.on { "on" } else { "off" }.to_owned(),
+            effect.unknowns.to_string(),
+            effect.because.clone(),
+        ]);
+    }
+    let sizes = format!(
+        "{} blocks, {} nodes, {} joints, {} contact points ({} with friction), {} rigid amplitudes",
+        plan.blocks,
+        plan.nodes,
+        plan.joints,
+        plan.contact_points,
+        plan.frictional_points,
+        plan.rigid_modes
+    );
+    let lines = pairs(&[
+        ("sizes", sizes),
+        ("order", plan.order.to_string()),
+        ("solver", format!("{}: {}", plan.solver, plan.because)),
+    ]);
+    format!("{}\n\n{lines}", table.trim_fmt())
+}
+
+fn solution(outcome: &Outcome) -> Vec<(&'static str, String)> {
+    let solve = &outcome.solve;
+    let mut rows = vec![
+        ("status", format!("{:?}", solve.status)),
+        ("form", format!("{}, order {}", solve.form, solve.order)),
+        ("pivots", solve.pivots.to_string()),
+    ];
+    for (index, attempt) in solve.attempts.iter().enumerate() {
+        rows.push((if index == 0 { "attempts" } else { "" }, attempt.clone()));
+    }
+    let residuals = [
+        ("equation", solve.residuals.equation),
+        ("feasibility", solve.residuals.feasibility),
+        ("complementarity", solve.residuals.complementarity),
+        ("natural", solve.residuals.natural),
+    ];
+    rows.push(("residuals", listed(&residuals)));
+    if let Some(checks) = &outcome.checks {
+        let checks = [
+            ("force", checks.force_balance),
+            ("moment", checks.moment_balance),
+            ("cone violation", checks.cone_violation),
+            ("penetration", checks.penetration),
+        ];
+        rows.push(("balance", listed(&checks)));
+    }
+    rows
+}
+
+fn reactions(outcome: &Outcome) -> String {
+    let units = InUnits(outcome.model.units);
+    let force = units.0.force_name();
+    let energy = units.0.energy_name();
+    let heads =
+        ["support", &format!("fx [{force}]"), &format!("fy [{force}]"), &format!("m [{energy}]")];
+    let mut table = table(&heads, &[1, 2, 3]);
+    let (sum, load) = (total_reaction(outcome), applied_load(&outcome.model));
+    let rest = Resultant { force: sum.force + load.force, moment: sum.moment + load.moment };
+    let single = outcome.reactions.iter().map(|it| (it.support.as_str(), [it.fx, it.fy, it.m]));
+    let totals = [("sum of reactions", sum), ("applied load", load), ("unbalanced", rest)]
+        .map(|(name, it)| (name, [it.force.x, it.force.y, it.moment]));
+    let rows: Vec<(&str, [f64; 3])> = single.chain(totals).collect();
+    let forces: Vec<f64> =
+        rows.iter().flat_map(|(_, [fx, fy, _])| [*fx, *fy]).map(|it| units.force(it)).collect();
+    let moments: Vec<f64> = rows.iter().map(|(_, [_, _, m])| units.energy(*m)).collect();
+    let (forces, moments) = (aligned(&forces, 6), aligned(&moments, 6));
+    for (index, (name, _)) in rows.iter().enumerate() {
+        if index == outcome.reactions.len() {
+            table.add_row(vec![""]);
+        }
+        let (fx, fy) = (&forces[2 * index], &forces[2 * index + 1]);
+        table.add_row(vec![*name, fx, fy, &moments[index]]);
+    }
+    table.trim_fmt() + "\n Moments are about the origin.\n"
+}
+
+fn state_figures(outcome: &Outcome, state: &State) -> Vec<(&'static str, String)> {
+    let model = &outcome.model;
+    let units = InUnits(model.units);
+    let length = units.0.length_name();
+    let place = |x: f64, y: f64| {
+        let [x, y] = [x, y].map(|metres| significant(units.length(metres), 4));
+        format!("({x}, {y}) {length}")
+    };
+    let mut rows = Vec::new();
+    if let Some(checks) = &outcome.checks {
+        let counts = [("open", checks.open), ("stick", checks.stick), ("slip", checks.slip)];
+        let counts = counts.map(|(name, count)| format!("{count} {name}"));
+        rows.push(("contact points", counts.join(", ")));
+    }
+    if let Some(it) = largest_displacement(model, state) {
+        let value = significant(units.length(it.value), 6);
+        let (block, at) = (block_name(model, it.block), place(it.position.x, it.position.y));
+        let text = format!("u_{} = {value} {length} in block {block} at {at}", it.component);
+        rows.push(("largest displacement", text));
+    }
+    let energy =
+        format!("{} {}", significant(units.energy(state.strain_energy), 6), units.0.energy_name());
+    rows.push(("strain energy", energy));
+    let stress = |it: Option<ExtremeStress>| {
+        it.map_or("none".to_owned(), |it| {
+            let value = significant(units.stress(it.value.abs()), 6);
+            let (block, at) = (block_name(model, it.block), place(it.position.x, it.position.y));
+            format!("{value} {} in block {block} at {at}", units.0.stress_name())
+        })
+    };
+    if !state.stresses.is_empty() {
+        let (compression, tension) = extreme_stresses(state);
+        rows.push(("largest compression", stress(compression)));
+        rows.push(("largest tension", stress(tension)));
+    }
+    rows
+}
+
+fn times(outcome: &Outcome) -> Vec<(&str, String)> {
+    let seconds = |value: f64| format!("{value:>9.4} s");
+    let mut rows: Vec<(&str, String)> = Vec::new();
+    for time in &outcome.times {
+        rows.push((&time.phase, seconds(time.seconds)));
+    }
+    rows.push(("total", seconds(outcome.times.iter().map(|time| time.seconds).sum())));
+    rows
+}
+
+fn listed(values: &[(&str, f64)]) -> String {
+    let texts: Vec<String> =
+        values.iter().map(|(name, value)| format!("{name} {}", significant(*value, 3))).collect();
+    texts.join(", ")
+}
+
+fn section(title: &str) -> String {
+    let rule: String = title.chars().map(|_| '-').collect();
+    format!("\n{title}\n{rule}\n")
+}
+
+fn paragraph(text: &str) -> String {
+    let mut table = Table::new();
+    table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic);
+    table.set_width(WIDTH).add_row(vec![text]);
+    table.trim_fmt() + "\n"
+}
+
+/// Names and values in two columns.
+fn pairs(rows: &[(&str, String)]) -> String {
+    let mut table = Table::new();
+    table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic);
+    table.set_width(WIDTH);
+    for (name, value) in rows {
+        table.add_row(vec![*name, value]);
+    }
+    table.trim_fmt() + "\n"
+}
+
+fn table(heads: &[&str], right: &[usize]) -> Table {
+    let mut table = Table::new();
+    let rule = LineStyle::none().fill('-').junction('-');
+    table.load_style(TableStyle::new().header_separator(rule));
+    table.set_content_arrangement(ContentArrangement::Dynamic).set_width(WIDTH);
+    table.set_header(heads.to_vec());
+    for index in right {
+        if let Some(column) = table.column_mut(*index) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    table
+}

@@ -1,0 +1,112 @@
+//! What calls for each effect.
+
+use std::collections::BTreeSet;
+
+use super::{Effect, nodes, unknowns_per_friction};
+use crate::model::{Block, Model};
+use crate::scene::Scene;
+
+/// All effects that a scene can call for.
+pub(super) fn of(scene: &Scene, model: &Model) -> Vec<Effect> {
+    vec![
+        contact(scene, model),
+        friction(scene, model),
+        deformation(scene, model),
+        self_weight(scene, model),
+        edge_loads(scene, model),
+        stresses(scene, model),
+    ]
+}
+
+fn contact(scene: &Scene, model: &Model) -> Effect {
+    let limit = scene.contact.gap_limit;
+    let near = if limit > 0.0 {
+        format!("come within {limit} {}", scene.units.length_name())
+    } else {
+        "touch".to_owned()
+    };
+    let unknowns = model.contacts.len();
+    let because = format!("{} of bodies that {near}", count(model.joints.len(), "joint"));
+    Effect { name: "contact", on: unknowns > 0, because, unknowns }
+}
+
+fn friction(scene: &Scene, model: &Model) -> Effect {
+    let points = model.contacts.iter().filter(|point| point.mu > 0.0).count();
+    let used: BTreeSet<&str> = model
+        .joints
+        .iter()
+        .map(|joint| &model.joint_classes[joint.class])
+        .filter(|class| class.mu > 0.0)
+        .map(|class| class.name.as_str())
+        .collect();
+    let because = if points > 0 {
+        format!("mu > 0 in {}", names(used.into_iter()))
+    } else {
+        "mu = 0 in all joints".to_owned()
+    };
+    let unknowns = unknowns_per_friction(scene.solver.form) * points;
+    Effect { name: "friction", on: points > 0, because, unknowns }
+}
+
+fn deformation(scene: &Scene, model: &Model) -> Effect {
+    let elastic = model.blocks.iter().filter(|block| block.elasticity.is_some()).count();
+    let because = if elastic > 0 {
+        let given = scene.materials.iter().filter(|(_, material)| material.young.is_some());
+        format!("E given for {}", names(given.map(|(name, _)| name.as_str())))
+    } else {
+        "no material has E: all blocks are rigid".to_owned()
+    };
+    Effect { name: "deformation", on: elastic > 0, because, unknowns: 2 * nodes(model) }
+}
+
+fn self_weight(scene: &Scene, model: &Model) -> Effect {
+    let pulls = model.gravity.norm() > 0.0;
+    let heavy = model.blocks.iter().any(|block| block.density.is_some());
+    let because = match (pulls, heavy) {
+        (true, true) => {
+            let given = scene.materials.iter().filter(|(_, material)| material.density.is_some());
+            format!(
+                "gravity, and density given for {}",
+                names(given.map(|(name, _)| name.as_str()))
+            )
+        }
+        (true, false) => "no material of a block has a density".to_owned(),
+        (false, true) => "the scene gives no gravity".to_owned(),
+        (false, false) => "the scene gives neither gravity nor density".to_owned(),
+    };
+    Effect { name: "self weight", on: pulls && heavy, because, unknowns: 0 }
+}
+
+fn edge_loads(scene: &Scene, model: &Model) -> Effect {
+    let edges: usize = model.blocks.iter().map(|block| block.edge_loads.len()).sum();
+    let because = if edges > 0 {
+        let loads = names(scene.loads.iter().map(|load| load.name.as_str()));
+        format!("{loads} on {}", count(edges, "edge"))
+    } else {
+        "the scene gives no loads".to_owned()
+    };
+    Effect { name: "edge loads", on: edges > 0, because, unknowns: 0 }
+}
+
+fn stresses(scene: &Scene, model: &Model) -> Effect {
+    let wanted = scene.output.stresses;
+    let elements: usize = model.blocks.iter().map(elements).sum();
+    let because = match (wanted, elements) {
+        (false, _) => "output.stresses = false".to_owned(),
+        (true, 0) => "rigid blocks have none".to_owned(),
+        (true, elements) => format!("output shows them in {}", count(elements, "element")),
+    };
+    Effect { name: "stresses", on: wanted && elements > 0, because, unknowns: 0 }
+}
+
+fn elements(block: &Block) -> usize {
+    block.mesh.as_ref().map_or(0, |mesh| mesh.elements.len())
+}
+
+fn count(number: usize, what: &str) -> String {
+    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
+}
+
+fn names<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    names.collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,3 @@
+//! Routes from the reduced problem to the contact forces: one file each.
+
+pub mod lemke;

@@ -1,0 +1,190 @@
+//! The pivoting route: Lemke's method on the forms of the contact problem.
+//!
+//! The paper's form (3.27) comes first. It is not copositive, and for large friction the method may
+//! end on a ray although there is equilibrium; so a ray is followed by other start bases and
+//! covering vectors, and then by the copositive mixed form, on which a ray means what it says. The
+//! answer of the mixed form is measured against the paper's form too.
+
+use std::ops::ControlFlow;
+
+use lcp::{
+    Attempt, AttemptEnd, Basis, Covering, HorizontalLcp, Lemke, LemkeSettings, Progress, Residuals,
+    Side, Status,
+};
+
+use crate::forms::{Form, FormKind, RowState, Start};
+use crate::outcome::SolveInfo;
+use crate::reduction::Reduction;
+use crate::scene;
+use crate::system::System;
+
+/// Start bases of the paper's form that are tried.
+const STARTS: usize = 2;
+/// Attempts from every one of them: with the covering vector of [`covering`], then a random one.
+const ATTEMPTS_PER_START: usize = 2;
+/// Attempts on the mixed form.
+const MIXED_ATTEMPTS: usize = 4;
+/// How far the covering vector opens the friction cone, in units of force.
+const COHESION: f64 = 100.0;
+
+/// What the route is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Request {
+    /// The form, or `Auto` for the order of the module's description.
+    pub form: scene::Form,
+    /// Largest residual of an answer called solved \[-\].
+    pub tolerance: f64,
+    /// Pivots of one attempt; `None` leaves it to the solver.
+    pub max_pivots: Option<usize>,
+}
+
+/// What the route found.
+#[derive(Debug, Clone)]
+pub struct Answer {
+    /// How it was found.
+    pub info: SolveInfo,
+    /// Contact forces and relative displacements, when solved.
+    pub rows: Option<RowState>,
+    /// Rates of the rigid amplitudes along the secondary ray, three per block, when the mixed form
+    /// ended on a ray that moves blocks.
+    pub mechanism: Option<Vec<f64>>,
+}
+
+/// Follows the progress of a solve; `Break` cancels it.
+pub type Observer<'a> = &'a mut dyn FnMut(&Progress) -> ControlFlow<()>;
+
+/// Solves the reduced problem.
+///
+/// # Errors
+/// [`lcp::Error`] for a tolerance out of range or for data that is not finite.
+pub fn solve(
+    system: &System,
+    reduction: &Reduction,
+    request: &Request,
+    observer: Observer<'_>,
+) -> Result<Answer, lcp::Error> {
+    let kinds: &[FormKind] = match request.form {
+        scene::Form::Auto => &[FormKind::Coulomb, FormKind::Mixed],
+        scene::Form::Coulomb => &[FormKind::Coulomb],
+        scene::Form::StewartTrinkle => &[FormKind::StewartTrinkle],
+        scene::Form::Mixed => &[FormKind::Mixed],
+    };
+    let mut search = Search { request, attempts: Vec::new(), pivots: 0, coulomb: None };
+    let mut answer = None;
+    for &kind in kinds {
+        let form = Form::new(kind, system, reduction);
+        let found = search.run(form, observer)?;
+        let done = found.rows.is_some() || found.info.status == Status::Cancelled;
+        answer = Some(found);
+        if done {
+            break;
+        }
+    }
+    Ok(answer.unwrap_or_else(|| unreachable!("every choice of a form names at least one")))
+}
+
+/// What the forms tried so far have left.
+struct Search<'a> {
+    request: &'a Request,
+    attempts: Vec<String>,
+    pivots: usize,
+    /// The paper's form, once it was tried: any answer is measured against it.
+    coulomb: Option<(Form, HorizontalLcp)>,
+}
+
+impl Search<'_> {
+    fn run(&mut self, form: Form, observer: Observer<'_>) -> Result<Answer, lcp::Error> {
+        let problem = form.problem()?;
+        let mut last = None;
+        for settings in self.settings(&form) {
+            let solution = Lemke::new(settings).solve_observed(&problem, observer)?;
+            self.pivots += solution.info.pivots;
+            self.attempts.extend(solution.info.attempts.iter().map(|it| describe(form.kind, it)));
+            let stop = matches!(solution.status, Status::Solved | Status::Cancelled);
+            last = Some(solution);
+            if stop {
+                break;
+            }
+        }
+        let solution = last.unwrap_or_else(|| unreachable!("there is at least one start"));
+        let rows = solution.is_solved().then(|| form.rows(&solution.t, &solution.y));
+        let info = SolveInfo {
+            status: solution.status,
+            form: form.kind.name().to_owned(),
+            order: form.order(),
+            attempts: self.attempts.clone(),
+            pivots: self.pivots,
+            residuals: solution.residuals,
+            coulomb_residuals: rows.as_ref().and_then(|rows| self.against_coulomb(&form, rows)),
+        };
+        let ray = solution.ray.filter(|_| form.kind == FormKind::Mixed);
+        let mechanism = ray.and_then(|ray| form.amplitudes(&ray.dt)).filter(|it| moves(it));
+        if form.kind == FormKind::Coulomb {
+            self.coulomb = Some((form, problem));
+        }
+        Ok(Answer { info, rows, mechanism })
+    }
+
+    fn settings(&self, form: &Form) -> Vec<LemkeSettings> {
+        let common = LemkeSettings {
+            tolerance: self.request.tolerance,
+            max_pivots: self.request.max_pivots,
+            max_attempts: MIXED_ATTEMPTS,
+            ..LemkeSettings::default()
+        };
+        if form.starts.is_empty() {
+            return vec![common];
+        }
+        let from_start = |start: &Start| LemkeSettings {
+            start: Some(basis(start)),
+            covering: Covering::Given(covering(form, start)),
+            max_attempts: ATTEMPTS_PER_START,
+            ..common.clone()
+        };
+        form.starts.iter().take(STARTS).map(from_start).collect()
+    }
+
+    fn against_coulomb(&self, form: &Form, rows: &RowState) -> Option<Residuals> {
+        let (coulomb, problem) =
+            self.coulomb.as_ref().filter(|_| form.kind != FormKind::Coulomb)?;
+        let (t, y) = coulomb.pairs(rows, &[]);
+        Some(problem.residuals(&t, &y))
+    }
+}
+
+fn basis(start: &Start) -> Basis {
+    let side = |&t_basic: &bool| if t_basic { Side::T } else { Side::Y };
+    Basis::new(start.t_basic.iter().map(side).collect())
+}
+
+/// A covering vector with a meaning: the artificial variable prestresses the isostatic contacts,
+/// opens the others, and, much more, gives cohesion, which opens the friction cone. With ones the
+/// paper's form nearly always ends on a ray after a few pivots when `mu` is large.
+fn covering(form: &Form, start: &Start) -> Vec<f64> {
+    let cone = |pair: usize| start.t_basic[pair] && pair >= form.points();
+    (0..form.order()).map(|pair| if cone(pair) { COHESION } else { 1.0 }).collect()
+}
+
+fn describe(kind: FormKind, attempt: &Attempt) -> String {
+    let end = match attempt.end {
+        AttemptEnd::Complementary => "complementary basis",
+        AttemptEnd::Ray => "ray",
+        AttemptEnd::PivotLimit => "pivot limit",
+        AttemptEnd::Cycle => "cycle",
+        AttemptEnd::Singular => "singular basis",
+        AttemptEnd::Cancelled => "cancelled",
+        _ => "ended",
+    };
+    format!(
+        "{}: start {}, covering vector {}: {end} after {} pivots",
+        kind.name(),
+        attempt.start,
+        attempt.covering,
+        attempt.pivots
+    )
+}
+
+fn moves(amplitudes: &[f64]) -> bool {
+    amplitudes.iter().any(|rate| rate.abs() > 0.0)
+}
+

@@ -1,0 +1,335 @@
+//! Scenes: what a wall or an arch is made of, as a TOML file or built in Rust.
+//!
+//! A [`Scene`] holds the data as they were written, in the units of the scene; conversion to SI
+//! happens once, in [`Model::from_scene`](crate::model::Model::from_scene). A scene that is read
+//! from text and one that is built in Rust are the same type, so either can be written as TOML.
+//!
+//! ```
+//! use masonry::scene::{Block, Joint, Material, Scene, Support};
+//! use masonry::units::Units;
+//!
+//! let scene = Scene::new("One block on a floor", Units::SI)
+//!     .thickness(1.0)
+//!     .gravity([0.0, -9.81])
+//!     .material("stone", Material::rigid().density(2000.0))
+//!     .joint("floor", Joint::mu(0.7))
+//!     .block(Block::new("block", "stone", [[0.0, 0.0], [0.2, 0.0], [0.2, 1.0], [0.0, 1.0]]))
+//!     .support(Support::new("ground", [-1.0, 0.0], [1.0, 0.0], "floor"));
+//! scene.check()?;
+//! assert_eq!(Scene::from_toml(&scene.to_toml()?)?, scene);
+//! # Ok::<(), masonry::scene::SceneError>(())
+//! ```
+
+mod builder;
+mod check;
+mod courses;
+mod error;
+mod key_path;
+mod source;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+pub(crate) use self::error::Fault;
+pub use self::error::{SceneError, SceneErrorKind};
+pub use self::key_path::KeyPath;
+use self::source::Source;
+use crate::contact::PointRule;
+use crate::model::Plane;
+use crate::units::Units;
+
+/// A scene as its author describes it, in the scene's own units.
+///
+/// The fields are the keys of the TOML file. Unknown keys are errors. What a key leaves out is
+/// never guessed where it is physics: see [`Scene::check`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Title of reports and pictures.
+    pub title: String,
+    /// Plane stress or plane strain; required when a material is elastic.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plane: Option<Plane>,
+    /// Thickness out of the plane \[length\]; required.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thickness: Option<f64>,
+    /// Gravity \[m/s^2\]; acts only on materials that have a density.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gravity: Option<[f64; 2]>,
+    /// Units of length and force.
+    pub units: Units,
+    /// Materials by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub materials: BTreeMap<String, Material>,
+    /// Joint classes by name. Blocks meet in `bed` joints where the joint's normal is closer to
+    /// the vertical than to the horizontal, in `head` joints elsewhere.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub joints: BTreeMap<String, Joint>,
+    /// Walls of bricks in courses.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub walls: Vec<Wall>,
+    /// Single blocks.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub blocks: Vec<Block>,
+    /// Rigid supports.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub supports: Vec<Support>,
+    /// Loads on edges.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub loads: Vec<Load>,
+    /// How contact is looked for and enforced.
+    #[serde(default)]
+    pub contact: Contact,
+    /// How the complementarity problem is solved.
+    #[serde(default)]
+    pub solver: Solver,
+    /// What is written.
+    #[serde(default)]
+    pub output: Output,
+    /// The text that the scene was read from, for the places of errors.
+    #[serde(skip)]
+    source: Source,
+}
+
+/// A material: rigid without `E`, elastic with `E` and `nu`.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus \[force/length^2\]; blocks of a material without it are rigid.
+    #[serde(rename = "E", default, skip_serializing_if = "Option::is_none")]
+    pub young: Option<f64>,
+    /// Poisson's ratio \[-\], required with `E`.
+    #[serde(rename = "nu", default, skip_serializing_if = "Option::is_none")]
+    pub poisson: Option<f64>,
+    /// Mass density \[kg/m^3\], whatever the units of the scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub density: Option<f64>,
+}
+
+/// What resists sliding in a class of joints: exactly one of `mu` and `phi_deg`.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Joint {
+    /// Coefficient of Coulomb friction \[-\]; zero is a frictionless joint.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mu: Option<f64>,
+    /// Angle of friction \[degrees\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub phi_deg: Option<f64>,
+}
+
+/// A wall of bricks in courses, built by [`bond`](crate::bond).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wall {
+    /// Name of the wall; its bricks are `name/course/place`, both counted from 1.
+    pub name: String,
+    /// Name of the bricks' material.
+    pub material: String,
+    /// Lower left corner \[length\].
+    pub origin: [f64; 2],
+    /// The whole brick.
+    pub brick: Brick,
+    /// Width of the wall \[length\]; only where `courses` is a number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width: Option<f64>,
+    /// The courses, bottom to top.
+    pub courses: Courses,
+    /// Elements along the length and height of a whole brick; required when the material is
+    /// elastic. A cut brick gets its share of the first, rounded up.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<[u32; 2]>,
+}
+
+/// Size of a whole brick.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Brick {
+    /// Length along the course \[length\].
+    pub length: f64,
+    /// Height of the course \[length\].
+    pub height: f64,
+}
+
+/// The courses of a wall: how many in running bond, or each brick by brick.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Courses {
+    /// So many courses in running bond: the second, fourth and so on begin with a half brick, and
+    /// the last brick of a course is cut to the width.
+    RunningBond(u32),
+    /// Bottom to top, each a list of brick lengths in units of one brick from left to right; a
+    /// negative number is an opening of that length.
+    List(Vec<Vec<f64>>),
+}
+
+/// A single block: a convex quadrilateral.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Block {
+    /// Name of the block.
+    pub name: String,
+    /// Name of its material.
+    pub material: String,
+    /// Corners, counter-clockwise \[length\].
+    pub corners: [[f64; 2]; 4],
+    /// Elements along edges 0 and 2, and along edges 1 and 3; required when the material is
+    /// elastic.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<[u32; 2]>,
+}
+
+/// A rigid, immovable straight support. It has no inner side: blocks may lie on either.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Support {
+    /// Name of the support.
+    pub name: String,
+    /// One end \[length\].
+    pub from: [f64; 2],
+    /// The other end \[length\].
+    pub to: [f64; 2],
+    /// The class of its joints.
+    pub joint: String,
+}
+
+/// A uniform load on the free edges of blocks that lie on a segment: exactly one of `pressure` and
+/// `traction`. An edge that the segment covers in part is loaded in part.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    /// Name of the load.
+    pub name: String,
+    /// One end of the segment \[length\].
+    pub from: [f64; 2],
+    /// The other end \[length\].
+    pub to: [f64; 2],
+    /// Force per area against the outward normal of the edge \[force/length^2\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pressure: Option<f64>,
+    /// Force per area in global axes \[force/length^2\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub traction: Option<[f64; 2]>,
+}
+
+/// How contact is looked for and enforced.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Contact {
+    /// Where on a joint the contact law is enforced.
+    #[serde(default, with = "PointRuleKeys")]
+    pub points: PointRule,
+    /// Bodies closer than this may meet \[length\]; zero: only bodies that touch.
+    #[serde(default)]
+    pub gap_limit: f64,
+}
+
+// The names of the rules in scene files.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "PointRule", rename_all = "snake_case")]
+enum PointRuleKeys {
+    Vertices,
+    NodalPairs,
+    Gauss,
+}
+
+/// How the complementarity problem is solved.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Solver {
+    /// Requested residual \[-\].
+    #[serde(default = "default_tolerance")]
+    pub tolerance: f64,
+    /// The form of the problem.
+    #[serde(default)]
+    pub form: Form,
+    /// Largest number of pivots of one attempt; without it the solver sets a limit by the order.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_pivots: Option<u32>,
+}
+
+impl Default for Solver {
+    fn default() -> Self {
+        Self { tolerance: default_tolerance(), form: Form::default(), max_pivots: None }
+    }
+}
+
+fn default_tolerance() -> f64 {
+    1e-10
+}
+
+/// The form in which friction enters the complementarity problem.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Form {
+    /// The Coulomb form first; the Stewart-Trinkle form when that ends on a ray.
+    #[default]
+    Auto,
+    /// Distances to the two edges of the friction cone (3.27): three unknowns a point.
+    Coulomb,
+    /// Two friction forces and a slip bound: four unknowns a point.
+    StewartTrinkle,
+    /// As Stewart-Trinkle, with the rigid amplitudes kept as free unknowns.
+    Mixed,
+}
+
+/// What is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Whether stresses are recovered and written.
+    #[serde(default = "default_stresses")]
+    pub stresses: bool,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self { stresses: default_stresses() }
+    }
+}
+
+fn default_stresses() -> bool {
+    true
+}
+
+impl Scene {
+    /// Reads a scene from TOML text and [checks](Scene::check) it.
+    ///
+    /// # Errors
+    /// What is wrong with the text or the data, with line and column.
+    pub fn from_toml(text: &str) -> Result<Self, SceneError> {
+        Self::parse(Source::text(text))
+    }
+
+    /// Reads a scene from a TOML file and [checks](Scene::check) it.
+    ///
+    /// # Errors
+    /// [`SceneErrorKind::Read`] when the file cannot be read as UTF-8 text, else as
+    /// [`Scene::from_toml`], with the path of the file.
+    pub fn read(path: &Path) -> Result<Self, SceneError> {
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| SceneError::unreadable(path, &error.to_string()))?;
+        Self::parse(Source::file(path, &text))
+    }
+
+    /// The scene as TOML text, which reads back as an equal scene.
+    ///
+    /// # Errors
+    /// [`SceneErrorKind::Write`] when TOML cannot hold a value.
+    pub fn to_toml(&self) -> Result<String, SceneError> {
+        toml::to_string(self).map_err(|error| SceneError::unwritable(&error.to_string()))
+    }
+
+    fn without_source(&self) -> Self {
+        Self { source: Source::default(), ..self.clone() }
+    }
+
+    fn parse(source: Source) -> Result<Self, SceneError> {
+        let mut scene: Self =
+            toml::from_str(source.as_str()).map_err(|error| SceneError::syntax(&source, &error))?;
+        scene.source = source;
+        scene.check()?;
+        Ok(scene)
+    }
+}

@@ -1,0 +1,250 @@
+//! Scenes built in Rust.
+
+use std::collections::BTreeMap;
+
+use super::source::Source;
+use super::{
+    Block, Brick, Contact, Courses, Form, Joint, Load, Material, Output, Scene, Solver, Support,
+    Wall,
+};
+use crate::contact::PointRule;
+use crate::model::Plane;
+use crate::units::Units;
+
+impl Scene {
+    /// A scene without anything in it.
+    pub fn new(title: &str, units: Units) -> Self {
+        Self {
+            title: title.to_owned(),
+            plane: None,
+            thickness: None,
+            gravity: None,
+            units,
+            materials: BTreeMap::new(),
+            joints: BTreeMap::new(),
+            walls: Vec::new(),
+            blocks: Vec::new(),
+            supports: Vec::new(),
+            loads: Vec::new(),
+            contact: Contact::default(),
+            solver: Solver::default(),
+            output: Output::default(),
+            source: Source::default(),
+        }
+    }
+
+    /// Sets plane stress or plane strain.
+    #[must_use]
+    pub fn plane(mut self, plane: Plane) -> Self {
+        self.plane = Some(plane);
+        self
+    }
+
+    /// Sets the thickness out of the plane \[length\].
+    #[must_use]
+    pub fn thickness(mut self, thickness: f64) -> Self {
+        self.thickness = Some(thickness);
+        self
+    }
+
+    /// Sets gravity \[m/s^2\].
+    #[must_use]
+    pub fn gravity(mut self, gravity: [f64; 2]) -> Self {
+        self.gravity = Some(gravity);
+        self
+    }
+
+    /// Adds a material, or replaces that of the same name.
+    #[must_use]
+    pub fn material(mut self, name: &str, material: Material) -> Self {
+        self.materials.insert(name.to_owned(), material);
+        self
+    }
+
+    /// Adds a joint class, or replaces that of the same name.
+    #[must_use]
+    pub fn joint(mut self, name: &str, joint: Joint) -> Self {
+        self.joints.insert(name.to_owned(), joint);
+        self
+    }
+
+    /// Adds a wall.
+    #[must_use]
+    pub fn wall(mut self, wall: Wall) -> Self {
+        self.walls.push(wall);
+        self
+    }
+
+    /// Adds a block.
+    #[must_use]
+    pub fn block(mut self, block: Block) -> Self {
+        self.blocks.push(block);
+        self
+    }
+
+    /// Adds a support.
+    #[must_use]
+    pub fn support(mut self, support: Support) -> Self {
+        self.supports.push(support);
+        self
+    }
+
+    /// Adds a load.
+    #[must_use]
+    pub fn load(mut self, load: Load) -> Self {
+        self.loads.push(load);
+        self
+    }
+
+    /// Sets where on a joint the contact law is enforced.
+    #[must_use]
+    pub fn contact_points(mut self, points: PointRule) -> Self {
+        self.contact.points = points;
+        self
+    }
+
+    /// Sets the distance \[length\] below which bodies may meet.
+    #[must_use]
+    pub fn gap_limit(mut self, gap_limit: f64) -> Self {
+        self.contact.gap_limit = gap_limit;
+        self
+    }
+
+    /// Sets the requested residual of the solver \[-\].
+    #[must_use]
+    pub fn tolerance(mut self, tolerance: f64) -> Self {
+        self.solver.tolerance = tolerance;
+        self
+    }
+
+    /// Sets the form of the complementarity problem.
+    #[must_use]
+    pub fn form(mut self, form: Form) -> Self {
+        self.solver.form = form;
+        self
+    }
+
+    /// Sets the largest number of pivots of one attempt.
+    #[must_use]
+    pub fn max_pivots(mut self, max_pivots: u32) -> Self {
+        self.solver.max_pivots = Some(max_pivots);
+        self
+    }
+
+    /// Sets whether stresses are recovered and written.
+    #[must_use]
+    pub fn stresses(mut self, stresses: bool) -> Self {
+        self.output.stresses = stresses;
+        self
+    }
+}
+
+impl Material {
+    /// A material of rigid blocks.
+    pub fn rigid() -> Self {
+        Self::default()
+    }
+
+    /// A linear elastic material: Young's modulus \[force/length^2\] and Poisson's ratio \[-\].
+    pub fn elastic(young: f64, poisson: f64) -> Self {
+        Self { young: Some(young), poisson: Some(poisson), density: None }
+    }
+
+    /// Gives the material a mass density \[kg/m^3\].
+    #[must_use]
+    pub fn density(mut self, density: f64) -> Self {
+        self.density = Some(density);
+        self
+    }
+}
+
+impl Joint {
+    /// A class with a coefficient of friction \[-\].
+    pub fn mu(mu: f64) -> Self {
+        Self { mu: Some(mu), phi_deg: None }
+    }
+
+    /// A class with an angle of friction \[degrees\].
+    pub fn phi_deg(phi_deg: f64) -> Self {
+        Self { mu: None, phi_deg: Some(phi_deg) }
+    }
+}
+
+impl Wall {
+    /// A wall of so many courses in running bond, cut to `width` \[length\].
+    pub fn running_bond(
+        name: &str,
+        material: &str,
+        brick: Brick,
+        width: f64,
+        courses: u32,
+    ) -> Self {
+        let courses = Courses::RunningBond(courses);
+        Self { width: Some(width), ..Self::new(name, material, brick, courses) }
+    }
+
+    /// A wall of given courses, bottom to top, each a list of brick lengths in units of one brick;
+    /// a negative number is an opening of that length.
+    pub fn from_courses(name: &str, material: &str, brick: Brick, courses: Vec<Vec<f64>>) -> Self {
+        Self::new(name, material, brick, Courses::List(courses))
+    }
+
+    /// Puts the lower left corner of the wall at `origin` \[length\] instead of `[0, 0]`.
+    #[must_use]
+    pub fn origin(mut self, origin: [f64; 2]) -> Self {
+        self.origin = origin;
+        self
+    }
+
+    /// Sets the elements along the length and height of a whole brick.
+    #[must_use]
+    pub fn mesh(mut self, mesh: [u32; 2]) -> Self {
+        self.mesh = Some(mesh);
+        self
+    }
+
+    fn new(name: &str, material: &str, brick: Brick, courses: Courses) -> Self {
+        Self {
+            name: name.to_owned(),
+            material: material.to_owned(),
+            origin: [0.0; 2],
+            brick,
+            width: None,
+            courses,
+            mesh: None,
+        }
+    }
+}
+
+impl Block {
+    /// A block with corners \[length\] in counter-clockwise order.
+    pub fn new(name: &str, material: &str, corners: [[f64; 2]; 4]) -> Self {
+        Self { name: name.to_owned(), material: material.to_owned(), corners, mesh: None }
+    }
+
+    /// Sets the elements along edges 0 and 2, and along edges 1 and 3.
+    #[must_use]
+    pub fn mesh(mut self, mesh: [u32; 2]) -> Self {
+        self.mesh = Some(mesh);
+        self
+    }
+}
+
+impl Support {
+    /// A support between two points \[length\], with the class of its joints.
+    pub fn new(name: &str, from: [f64; 2], to: [f64; 2], joint: &str) -> Self {
+        Self { name: name.to_owned(), from, to, joint: joint.to_owned() }
+    }
+}
+
+impl Load {
+    /// A pressure \[force/length^2\] against the outward normal of the edges on a segment.
+    pub fn pressure(name: &str, from: [f64; 2], to: [f64; 2], pressure: f64) -> Self {
+        Self { name: name.to_owned(), from, to, pressure: Some(pressure), traction: None }
+    }
+
+    /// A traction \[force/length^2\] in global axes on the edges on a segment.
+    pub fn traction(name: &str, from: [f64; 2], to: [f64; 2], traction: [f64; 2]) -> Self {
+        Self { name: name.to_owned(), from, to, pressure: None, traction: Some(traction) }
+    }
+}

@@ -1,0 +1,349 @@
+//! Checks of the data of a scene that need no geometry of several blocks.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Point2;
+
+use super::error::Known;
+use super::{
+    Block, Courses, Fault, Joint, KeyPath, Load, Material, Scene, SceneError, SceneErrorKind,
+    Support, Wall,
+};
+use crate::geometry::{self, QuadError};
+
+/// Bricks and blocks of one scene, at most.
+const MOST_BLOCKS: u32 = 1_000_000;
+/// Magnitudes beyond these are no lengths, moduli or loads of anything, and would overflow.
+const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
+/// Elements of one block along one edge, at most.
+const MOST_ELEMENTS: u32 = 1_000;
+
+type Check = Result<(), Fault>;
+
+impl Scene {
+    /// Checks all data: names that refer to nothing, numbers out of their range, missing keys.
+    ///
+    /// What needs the geometry of the whole (overlaps, idle supports and loads, loose blocks) is
+    /// checked by [`Model::from_scene`](crate::model::Model::from_scene).
+    ///
+    /// # Errors
+    /// The first mistake, with line and column when the scene was read from text.
+    pub fn check(&self) -> Result<(), SceneError> {
+        self.check_data().map_err(|fault| fault.locate(self))
+    }
+
+    fn check_data(&self) -> Check {
+        self.check_general()?;
+        for (name, material) in &self.materials {
+            self.check_material(&KeyPath::of("materials").key(name), material)?;
+        }
+        for (name, joint) in &self.joints {
+            check_joint(&KeyPath::of("joints").key(name), joint)?;
+        }
+        if self.walls.is_empty() && self.blocks.is_empty() {
+            return Err(Fault::new(KeyPath::default(), SceneErrorKind::Empty));
+        }
+        self.check_names()?;
+        for (k, wall) in self.walls.iter().enumerate() {
+            self.check_wall(&KeyPath::of("walls").item(k), wall)?;
+        }
+        for (k, block) in self.blocks.iter().enumerate() {
+            self.check_block(&KeyPath::of("blocks").item(k), block)?;
+        }
+        if self.supports.is_empty() {
+            return Err(Fault::new(KeyPath::default(), SceneErrorKind::NoSupport));
+        }
+        for (k, support) in self.supports.iter().enumerate() {
+            self.check_support(&KeyPath::of("supports").item(k), support)?;
+        }
+        for (k, load) in self.loads.iter().enumerate() {
+            check_load(&KeyPath::of("loads").item(k), load)?;
+        }
+        self.check_options()
+    }
+
+    fn check_general(&self) -> Check {
+        let Some(thickness) = self.thickness else {
+            let because = "to turn tractions into forces";
+            return Err(missing(&KeyPath::default(), "thickness", because, "thickness = 1.0"));
+        };
+        positive(KeyPath::of("thickness"), thickness)?;
+        self.gravity.map_or(Ok(()), |gravity| point(&KeyPath::of("gravity"), gravity))
+    }
+
+    fn check_material(&self, at: &KeyPath, material: &Material) -> Check {
+        match (material.young, material.poisson) {
+            (Some(young), Some(poisson)) => {
+                positive(at.key("E"), young)?;
+                let wanted = "Poisson's ratio lies between -1 and 0.5, both excluded";
+                value(at.key("nu"), poisson, poisson > -1.0 && poisson < 0.5, wanted)?;
+                if self.plane.is_none() {
+                    let because = "because a material is elastic";
+                    return Err(missing(
+                        &KeyPath::default(),
+                        "plane",
+                        because,
+                        "plane = \"stress\"",
+                    ));
+                }
+            }
+            (Some(_), None) => return Err(missing(at, "nu", "with `E`", "nu = 0.2")),
+            (None, Some(_)) => {
+                return Err(unwanted(at, "nu", "has no meaning without `E`", ", or add `E`"));
+            }
+            (None, None) => {}
+        }
+        material.density.map_or(Ok(()), |density| positive(at.key("density"), density))
+    }
+
+    /// Names of walls, blocks, supports and loads: given, and each once among its like.
+    fn check_names(&self) -> Check {
+        unique("wall", "walls", self.walls.iter().map(|wall| &wall.name))?;
+        unique("block", "blocks", self.blocks.iter().map(|block| &block.name))?;
+        unique("support", "supports", self.supports.iter().map(|support| &support.name))?;
+        unique("load", "loads", self.loads.iter().map(|load| &load.name))
+    }
+
+    fn check_wall(&self, at: &KeyPath, wall: &Wall) -> Check {
+        let material = self.material_of(at, &wall.material)?;
+        point(&at.key("origin"), wall.origin)?;
+        positive(at.key("brick").key("length"), wall.brick.length)?;
+        positive(at.key("brick").key("height"), wall.brick.height)?;
+        let count = match &wall.courses {
+            Courses::RunningBond(count) => check_running_bond(at, wall, *count)?,
+            Courses::List(courses) => check_courses(at, wall, courses)?,
+        };
+        if count > f64::from(MOST_BLOCKS) {
+            return Err(too_many(at.key("courses"), "bricks", count, MOST_BLOCKS));
+        }
+        check_mesh(at, wall.mesh, material)
+    }
+
+    fn check_block(&self, at: &KeyPath, block: &Block) -> Check {
+        let material = self.material_of(at, &block.material)?;
+        for (k, corner) in block.corners.iter().enumerate() {
+            point(&at.key("corners").item(k), *corner)?;
+        }
+        self.check_shape(at.key("corners"), block)?;
+        check_mesh(at, block.mesh, material)
+    }
+
+    fn check_shape(&self, at: KeyPath, block: &Block) -> Check {
+        let corners = block.corners.map(|[x, y]| Point2::new(x, y));
+        let name = block.name.clone();
+        match geometry::check_convex(&corners) {
+            Ok(()) => Ok(()),
+            Err(QuadError::Clockwise { area }) => {
+                let unit = self.units.length_name();
+                Err(Fault::new(at, SceneErrorKind::Clockwise { block: name, area, unit }))
+            }
+            Err(QuadError::NotConvex { corner }) => {
+                let kind = SceneErrorKind::NotConvex { block: name, corner: corner + 1 };
+                Err(Fault::new(at.item(corner), kind))
+            }
+            Err(QuadError::NotFinite) => finite(at, f64::INFINITY),
+        }
+    }
+
+    fn check_support(&self, at: &KeyPath, support: &Support) -> Check {
+        segment(at, support.from, support.to)?;
+        if self.joints.contains_key(&support.joint) {
+            return Ok(());
+        }
+        let known = Known(self.joints.keys().cloned().collect());
+        Err(unknown(at.key("joint"), "joint class", &support.joint, known, "joints"))
+    }
+
+    fn check_options(&self) -> Check {
+        let contact = KeyPath::of("contact");
+        not_negative(contact.key("gap_limit"), self.contact.gap_limit)?;
+        let (solver, tolerance) = (KeyPath::of("solver"), self.solver.tolerance);
+        let wanted = "the tolerance is a relative residual between 0 and 1, both excluded";
+        value(solver.key("tolerance"), tolerance, tolerance > 0.0 && tolerance < 1.0, wanted)?;
+        let pivots = self.solver.max_pivots;
+        let wanted = "at least one pivot; leave the key out for a limit by the order";
+        value(solver.key("max_pivots"), 0.0, pivots != Some(0), wanted)
+    }
+
+    fn material_of(&self, at: &KeyPath, name: &str) -> Result<&Material, Fault> {
+        self.materials.get(name).ok_or_else(|| {
+            let known = Known(self.materials.keys().cloned().collect());
+            unknown(at.key("material"), "material", name, known, "materials")
+        })
+    }
+}
+
+fn check_joint(at: &KeyPath, joint: &Joint) -> Check {
+    match exactly_one(at, ("mu", joint.mu), ("phi_deg", joint.phi_deg))? {
+        One::First(mu) => not_negative(at.key("mu"), mu),
+        One::Second(phi) => {
+            let wanted = "the angle of friction is at least 0 and less than 90 degrees";
+            value(at.key("phi_deg"), phi, (0.0..90.0).contains(&phi), wanted)
+        }
+    }
+}
+
+/// Checks the keys of a wall in running bond; an upper bound of the number of its bricks.
+fn check_running_bond(at: &KeyPath, wall: &Wall, count: u32) -> Result<f64, Fault> {
+    value(at.key("courses"), f64::from(count), count > 0, "a wall has at least one course")?;
+    let Some(width) = wall.width else {
+        return Err(missing(at, "width", "where `courses` is a number", "width = 1.0"));
+    };
+    positive(at.key("width"), width)?;
+    Ok(f64::from(count) * (width / wall.brick.length + 1.0).floor())
+}
+
+/// Checks a list of courses; the number of its bricks.
+fn check_courses(at: &KeyPath, wall: &Wall, courses: &[Vec<f64>]) -> Result<f64, Fault> {
+    if wall.width.is_some() {
+        let because = "has no meaning where `courses` is a list";
+        return Err(unwanted(at, "width", because, ", or give the number of courses"));
+    }
+    let list = at.key("courses");
+    if courses.is_empty() {
+        let remedy = "give at least one course, such as [[1, 1]]";
+        return Err(Fault::new(list, SceneErrorKind::EmptyList { remedy }));
+    }
+    for (k, course) in courses.iter().enumerate() {
+        if course.is_empty() {
+            let remedy = "give the bricks of the course; an opening is a negative length";
+            return Err(Fault::new(list.item(k), SceneErrorKind::EmptyList { remedy }));
+        }
+        for (place, length) in course.iter().enumerate() {
+            let at = list.item(k).item(place);
+            let wanted =
+                "lengths in a course are positive for a brick, negative for an opening, and finite";
+            value(at.clone(), *length, MAGNITUDES.contains(&length.abs()), wanted)?;
+            let elements = length * f64::from(wall.mesh.map_or(1, |[along, _]| along));
+            if elements > f64::from(MOST_ELEMENTS) {
+                return Err(too_many(at, "elements along an edge", elements, MOST_ELEMENTS));
+            }
+        }
+    }
+    Ok(courses.iter().map(Vec::len).sum::<usize>() as f64)
+}
+
+fn check_mesh(at: &KeyPath, mesh: Option<[u32; 2]>, material: &Material) -> Check {
+    let Some(counts) = mesh else {
+        return match material.young {
+            Some(_) => Err(missing(at, "mesh", "because the material is elastic", "mesh = [1, 1]")),
+            None => Ok(()),
+        };
+    };
+    for (k, count) in counts.into_iter().enumerate() {
+        let at = at.key("mesh").item(k);
+        if count > MOST_ELEMENTS {
+            return Err(too_many(at, "elements along an edge", f64::from(count), MOST_ELEMENTS));
+        }
+        value(at, f64::from(count), count > 0, "a block has at least one element along each edge")?;
+    }
+    Ok(())
+}
+
+fn check_load(at: &KeyPath, load: &Load) -> Check {
+    segment(at, load.from, load.to)?;
+    match exactly_one(at, ("pressure", load.pressure), ("traction", load.traction))? {
+        One::First(pressure) => finite(at.key("pressure"), pressure),
+        One::Second(traction) => point(&at.key("traction"), traction),
+    }
+}
+
+fn segment(at: &KeyPath, from: [f64; 2], to: [f64; 2]) -> Check {
+    point(&at.key("from"), from)?;
+    point(&at.key("to"), to)?;
+    let apart = from.iter().zip(&to).any(|(a, b)| (a - b).abs() > 0.0);
+    if apart {
+        return Ok(());
+    }
+    Err(Fault::new(at.key("to"), SceneErrorKind::NoLength { x: to[0], y: to[1] }))
+}
+
+fn unique<'a>(
+    what: &'static str,
+    list: &'static str,
+    names: impl Iterator<Item = &'a String>,
+) -> Check {
+    let mut first = BTreeMap::new();
+    for (k, name) in names.enumerate() {
+        let at = KeyPath::of(list).item(k);
+        if name.trim().is_empty() {
+            return Err(Fault::new(at.key("name"), SceneErrorKind::EmptyName));
+        }
+        if let Some(taken) = first.insert(name, at.clone()) {
+            let kind =
+                SceneErrorKind::Duplicate { what, name: name.clone(), first: taken.to_string() };
+            return Err(Fault::new(at.key("name"), kind));
+        }
+    }
+    Ok(())
+}
+
+enum One<A, B> {
+    First(A),
+    Second(B),
+}
+
+fn exactly_one<A, B>(
+    at: &KeyPath,
+    (first, a): (&'static str, Option<A>),
+    (second, b): (&'static str, Option<B>),
+) -> Result<One<A, B>, Fault> {
+    match (a, b) {
+        (Some(a), None) => Ok(One::First(a)),
+        (None, Some(b)) => Ok(One::Second(b)),
+        (Some(_), Some(_)) => {
+            Err(Fault::new(at.key(second), SceneErrorKind::Both { first, second }))
+        }
+        (None, None) => Err(Fault::new(at.clone(), SceneErrorKind::Neither { first, second })),
+    }
+}
+
+fn point(at: &KeyPath, coordinates: [f64; 2]) -> Check {
+    coordinates.into_iter().enumerate().try_for_each(|(k, x)| finite(at.item(k), x))
+}
+
+fn finite(at: KeyPath, number: f64) -> Check {
+    let allowed = number.abs() <= *MAGNITUDES.end();
+    value(at, number, allowed, "give a finite number (of magnitude at most 1e100)")
+}
+
+fn positive(at: KeyPath, number: f64) -> Check {
+    let wanted = "give a finite number greater than zero (between 1e-100 and 1e100)";
+    value(at, number, MAGNITUDES.contains(&number), wanted)
+}
+
+fn not_negative(at: KeyPath, number: f64) -> Check {
+    let allowed = (0.0..=*MAGNITUDES.end()).contains(&number);
+    value(at, number, allowed, "give zero or a finite positive number (at most 1e100)")
+}
+
+fn value(at: KeyPath, value: f64, allowed: bool, wanted: &'static str) -> Check {
+    if allowed { Ok(()) } else { Err(Fault::new(at, SceneErrorKind::Value { value, wanted })) }
+}
+
+fn missing(at: &KeyPath, key: &'static str, because: &'static str, remedy: &'static str) -> Fault {
+    Fault::new(at.clone(), SceneErrorKind::Missing { key, because, remedy })
+}
+
+fn unwanted(
+    at: &KeyPath,
+    key: &'static str,
+    because: &'static str,
+    otherwise: &'static str,
+) -> Fault {
+    Fault::new(at.key(key), SceneErrorKind::Unwanted { key, because, otherwise })
+}
+
+fn too_many(at: KeyPath, what: &'static str, count: f64, limit: u32) -> Fault {
+    Fault::new(at, SceneErrorKind::TooMany { what, count, limit })
+}
+
+fn unknown(
+    at: KeyPath,
+    what: &'static str,
+    name: &str,
+    known: Known,
+    table: &'static str,
+) -> Fault {
+    Fault::new(at, SceneErrorKind::Unknown { what, name: name.to_owned(), known, table })
+}

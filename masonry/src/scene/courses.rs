@@ -1,0 +1,54 @@
+//! `courses` in TOML: a number, or a list of lists.
+
+use std::fmt;
+
+use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Unexpected, Visitor};
+use serde::ser::{Serialize, Serializer};
+
+use super::Courses;
+
+impl Serialize for Courses {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::RunningBond(count) => count.serialize(serializer),
+            Self::List(courses) => courses.serialize(serializer),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Courses {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(CoursesVisitor)
+    }
+}
+
+// Written out because an untagged enum would forget where in the list a mistake is.
+struct CoursesVisitor;
+
+impl<'de> Visitor<'de> for CoursesVisitor {
+    type Value = Courses;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a number of courses, or a list of courses such as [[0.5, 1, 1], [1, 1, 0.5]]")
+    }
+
+    fn visit_u64<E: Error>(self, count: u64) -> Result<Courses, E> {
+        u32::try_from(count)
+            .map(Courses::RunningBond)
+            .map_err(|_| E::invalid_value(Unexpected::Unsigned(count), &self))
+    }
+
+    fn visit_i64<E: Error>(self, count: i64) -> Result<Courses, E> {
+        u32::try_from(count)
+            .map(Courses::RunningBond)
+            .map_err(|_| E::invalid_value(Unexpected::Signed(count), &self))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Courses, A::Error> {
+        let mut courses = Vec::new();
+        while let Some(course) = list.next_element()? {
+            courses.push(course);
+        }
+        Ok(Courses::List(courses))
+    }
+}

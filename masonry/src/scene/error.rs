@@ -1,0 +1,357 @@
+//! What can be wrong with a scene, and where.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use super::source::{Place, Source};
+use super::{KeyPath, Scene};
+
+/// Something is wrong with a scene: what, where, and how to mend it.
+///
+/// The message of a scene that was read from text shows the line with carets below the mistake.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SceneError(Box<Details>);
+
+#[derive(Debug, Clone, PartialEq)]
+struct Details {
+    kind: SceneErrorKind,
+    key: KeyPath,
+    place: Option<Place>,
+    file: Option<PathBuf>,
+}
+
+impl SceneError {
+    /// What is wrong.
+    pub fn kind(&self) -> &SceneErrorKind {
+        &self.0.kind
+    }
+
+    /// The key of the value that is wrong, such as `walls[0].brick.length`; empty when the text is
+    /// no TOML or does not fit the format.
+    pub fn key(&self) -> String {
+        self.0.key.to_string()
+    }
+
+    /// The line of the mistake, from 1; `None` when the scene was built or changed in Rust.
+    pub fn line(&self) -> Option<usize> {
+        self.0.place.as_ref().map(|place| place.line)
+    }
+
+    /// The column of the mistake in characters, from 1; `None` as [`SceneError::line`].
+    pub fn column(&self) -> Option<usize> {
+        self.0.place.as_ref().map(|place| place.column)
+    }
+
+    /// The file that the scene was read from.
+    pub fn file(&self) -> Option<&Path> {
+        self.0.file.as_deref()
+    }
+
+    pub(super) fn syntax(source: &Source, error: &toml::de::Error) -> Self {
+        // An error without a place, such as a missing key of the whole scene, is shown at the top.
+        let place = source.place(error.span().unwrap_or(0..0));
+        let kind = SceneErrorKind::Syntax { message: error.message().to_owned() };
+        Self::new(kind, KeyPath::default(), place, source.path().map(Path::to_owned))
+    }
+
+    pub(super) fn unreadable(path: &Path, message: &str) -> Self {
+        let kind = SceneErrorKind::Read { message: message.to_owned() };
+        Self::new(kind, KeyPath::default(), None, Some(path.to_owned()))
+    }
+
+    pub(super) fn unwritable(message: &str) -> Self {
+        let kind = SceneErrorKind::Write { message: message.to_owned() };
+        Self::new(kind, KeyPath::default(), None, None)
+    }
+
+    fn new(
+        kind: SceneErrorKind,
+        key: KeyPath,
+        place: Option<Place>,
+        file: Option<PathBuf>,
+    ) -> Self {
+        Self(Box::new(Details { kind, key, place, file }))
+    }
+}
+
+impl std::error::Error for SceneError {}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Details { kind, key, place, file } = &*self.0;
+        if let Some(file) = file {
+            write!(f, "{}", file.display())?;
+            f.write_str(if place.is_some() { ", " } else { ": " })?;
+        }
+        if let Some(place) = place {
+            writeln!(f, "line {}, column {}\n{}", place.line, place.column, place.snippet())?;
+        }
+        if *key != KeyPath::default() {
+            write!(f, "{key}: ")?;
+        }
+        write!(f, "{kind}")
+    }
+}
+
+/// A mistake and the key at which it is, before its place in the text is known.
+#[derive(Debug)]
+pub(crate) struct Fault {
+    key: KeyPath,
+    kind: Box<SceneErrorKind>,
+}
+
+impl Fault {
+    pub(crate) fn new(key: KeyPath, kind: SceneErrorKind) -> Self {
+        Self { key, kind: Box::new(kind) }
+    }
+
+    /// The error with its place in the text, if the scene still says what the text says.
+    pub(crate) fn locate(self, scene: &Scene) -> SceneError {
+        let source = &scene.source;
+        let unchanged = toml::from_str::<Scene>(source.as_str()).is_ok_and(|read| {
+            // NaN differs from itself: what was written is compared, not what it is worth.
+            format!("{read:?}") == format!("{:?}", scene.without_source())
+        });
+        if unchanged {
+            let place = source.locate(&self.key);
+            SceneError::new(*self.kind, self.key, place, source.path().map(Path::to_owned))
+        } else {
+            SceneError::new(*self.kind, self.key, None, None)
+        }
+    }
+}
+
+/// The kinds of mistakes in a scene.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SceneErrorKind {
+    /// The file cannot be read.
+    #[error("cannot read the scene: {message}")]
+    Read {
+        /// The operating system's message.
+        message: String,
+    },
+    /// The scene cannot be written as TOML.
+    #[error("cannot write the scene as TOML: {message}")]
+    Write {
+        /// The writer's message.
+        message: String,
+    },
+    /// The text is no TOML, or has unknown, missing or repeated keys, or values of a wrong type.
+    #[error("{message}")]
+    Syntax {
+        /// What is wrong and what was expected.
+        message: String,
+    },
+    /// A key is missing that other data of the scene call for.
+    #[error("`{key}` is missing, but needed {because}: add `{remedy}`")]
+    Missing {
+        /// The missing key.
+        key: &'static str,
+        /// What calls for it.
+        because: &'static str,
+        /// An example.
+        remedy: &'static str,
+    },
+    /// A key has no meaning beside other data of the scene.
+    #[error("`{key}` {because}: remove it{otherwise}")]
+    Unwanted {
+        /// The key.
+        key: &'static str,
+        /// Why it has no meaning.
+        because: &'static str,
+        /// What to do otherwise.
+        otherwise: &'static str,
+    },
+    /// Both of two keys are given of which exactly one is wanted.
+    #[error("both `{first}` and `{second}` are given: keep one of them")]
+    Both {
+        /// One key.
+        first: &'static str,
+        /// The other.
+        second: &'static str,
+    },
+    /// Neither of two keys is given of which exactly one is wanted.
+    #[error("neither `{first}` nor `{second}` is given: add one of them")]
+    Neither {
+        /// One key.
+        first: &'static str,
+        /// The other.
+        second: &'static str,
+    },
+    /// A number is not finite, or out of its range.
+    #[error("{value} is not allowed: {wanted}")]
+    Value {
+        /// The number.
+        value: f64,
+        /// What is allowed.
+        wanted: &'static str,
+    },
+    /// A name is empty.
+    #[error("the name is empty: give a name by which messages and files can refer to it")]
+    EmptyName,
+    /// A name occurs twice.
+    #[error("the {what} name \"{name}\" is taken by {first}: choose another")]
+    Duplicate {
+        /// `wall`, `block`, `support` or `load`.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// Where the name occurs first.
+        first: String,
+    },
+    /// A name refers to nothing.
+    #[error(
+        "there is no {what} \"{name}\" in the scene; {known}: correct the name or add [{table}.{name}]"
+    )]
+    Unknown {
+        /// `material` or `joint class`.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// The names that there are.
+        known: Known,
+        /// The table in which such things are defined.
+        table: &'static str,
+    },
+    /// Nothing to analyse.
+    #[error("the scene has no blocks: add [[walls]] or [[blocks]]")]
+    Empty,
+    /// A list has no items.
+    #[error("the list is empty: {remedy}")]
+    EmptyList {
+        /// What to put into it.
+        remedy: &'static str,
+    },
+    /// Nothing holds the structure.
+    #[error("the scene has no support, so that nothing holds it: add [[supports]]")]
+    NoSupport,
+    /// The two ends of a segment coincide.
+    #[error("the segment has no length: `from` and `to` are both [{x}, {y}]")]
+    NoLength {
+        /// Coordinate of the ends.
+        x: f64,
+        /// Coordinate of the ends.
+        y: f64,
+    },
+    /// More items than can be analysed.
+    #[error("{count:.0} {what} are too many: at most {limit} are possible")]
+    TooMany {
+        /// What there is too much of.
+        what: &'static str,
+        /// How many.
+        count: f64,
+        /// How many are possible.
+        limit: u32,
+    },
+    /// The corners of a block run clockwise.
+    #[error(
+        "the corners of block \"{block}\" run clockwise (area {area} {unit}2): \
+         list them counter-clockwise"
+    )]
+    Clockwise {
+        /// Name of the block.
+        block: String,
+        /// Signed area in units of the scene.
+        area: f64,
+        /// Unit of length.
+        unit: &'static str,
+    },
+    /// A block is not strictly convex.
+    #[error(
+        "block \"{block}\" is not strictly convex at corner {corner}: move the corner outwards, or \
+         split the block"
+    )]
+    NotConvex {
+        /// Name of the block.
+        block: String,
+        /// The corner, from 1.
+        corner: usize,
+    },
+    /// Two blocks occupy the same place.
+    #[error(
+        "blocks \"{first}\" and \"{second}\" overlap by an area of {area} {unit}2: move one of them"
+    )]
+    Overlap {
+        /// Name of one block.
+        first: String,
+        /// Name of the other.
+        second: String,
+        /// Area of the overlap in units of the scene.
+        area: f64,
+        /// Unit of length.
+        unit: &'static str,
+    },
+    /// A support runs through a block.
+    #[error(
+        "support \"{support}\" runs through the inside of block \"{block}\" for a length of {length} \
+         {unit}: move it to an edge"
+    )]
+    Pierced {
+        /// Name of the support.
+        support: String,
+        /// Name of the block.
+        block: String,
+        /// Length inside the block in units of the scene.
+        length: f64,
+        /// Unit of length.
+        unit: &'static str,
+    },
+    /// A block meets neither another block nor a support.
+    #[error(
+        "block \"{block}\" touches no other block and no support, so that it can move in every \
+         direction: move it, or raise contact.gap_limit"
+    )]
+    LooseBlock {
+        /// Name of the block.
+        block: String,
+    },
+    /// No block meets a support.
+    #[error(
+        "no block touches support \"{support}\": move it to an edge of a block, raise \
+         contact.gap_limit, or remove it"
+    )]
+    IdleSupport {
+        /// Name of the support.
+        support: String,
+    },
+    /// No free edge lies on the segment of a load.
+    #[error(
+        "load \"{load}\" acts on nothing, for no free edge of a block lies on its segment (edges \
+         within joints are not free): move it to an edge, or remove it"
+    )]
+    IdleLoad {
+        /// Name of the load.
+        load: String,
+    },
+    /// Two blocks meet in a joint whose class is not given.
+    #[error(
+        "blocks \"{first}\" and \"{second}\" meet in a {class} joint, but joint class \"{class}\" is \
+         not given: add [joints.{class}] with `mu` or `phi_deg`"
+    )]
+    MissingClass {
+        /// `bed` or `head`.
+        class: &'static str,
+        /// Name of one block.
+        first: String,
+        /// Name of the other.
+        second: String,
+    },
+    /// Contact points could not be placed.
+    #[error("{0}")]
+    Contact(#[from] crate::contact::ContactError),
+}
+
+/// The names of a kind that a scene has.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Known(pub Vec<String>);
+
+impl fmt::Display for Known {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0.is_empty() {
+            return f.write_str("none is given");
+        }
+        let names: Vec<String> = self.0.iter().map(|name| format!("\"{name}\"")).collect();
+        write!(f, "there is {}", names.join(", "))
+    }
+}

@@ -1,0 +1,114 @@
+//! The text of a scene and places in it.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use toml::de::{DeTable, DeValue};
+
+use super::key_path::{KeyPath, Step};
+
+/// The text that a scene was read from; empty for a scene built in Rust.
+///
+/// All sources are equal: where a scene came from is no part of what it says.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Source(Option<Arc<Text>>);
+
+#[derive(Debug)]
+struct Text {
+    file: Option<PathBuf>,
+    text: String,
+}
+
+impl PartialEq for Source {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Source {
+    pub(super) fn text(text: &str) -> Self {
+        Self(Some(Arc::new(Text { file: None, text: text.to_owned() })))
+    }
+
+    pub(super) fn file(path: &Path, text: &str) -> Self {
+        Self(Some(Arc::new(Text { file: Some(path.to_owned()), text: text.to_owned() })))
+    }
+
+    pub(super) fn as_str(&self) -> &str {
+        self.0.as_ref().map_or("", |source| &source.text)
+    }
+
+    pub(super) fn path(&self) -> Option<&Path> {
+        self.0.as_ref()?.file.as_deref()
+    }
+
+    /// The place of the value at `path`, or of the innermost table around it that is written out.
+    pub(super) fn locate(&self, path: &KeyPath) -> Option<Place> {
+        let text = &self.0.as_ref()?.text;
+        let table = DeTable::parse(text).ok()?;
+        let mut span = None;
+        let mut value: Option<&DeValue<'_>> = None;
+        for step in path.steps() {
+            let inner = match (step, value) {
+                (Step::Key(key), None) => table.get_ref().get(key.as_str()),
+                (Step::Key(key), Some(DeValue::Table(table))) => table.get(key.as_str()),
+                (Step::Index(index), Some(DeValue::Array(array))) => array.get(*index),
+                _ => None,
+            };
+            let Some(inner) = inner else { break };
+            span = Some(inner.span());
+            value = Some(inner.get_ref());
+        }
+        span.and_then(|span| self.place(span))
+    }
+
+    /// The place of a range of bytes.
+    pub(super) fn place(&self, span: Range<usize>) -> Option<Place> {
+        Place::new(&self.0.as_ref()?.text, span)
+    }
+}
+
+/// A line of the text with the part that matters.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Place {
+    /// Line, from 1.
+    pub(super) line: usize,
+    /// Column in characters, from 1.
+    pub(super) column: usize,
+    /// Number of characters that matter, on this line.
+    width: usize,
+    /// The line.
+    text: String,
+}
+
+impl Place {
+    fn new(text: &str, span: Range<usize>) -> Option<Self> {
+        let before = text.get(..span.start)?;
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let line_text = text[line_start..].lines().next().unwrap_or("");
+        let line_end = line_start + line_text.len();
+        let marked = text.get(span.start..span.end.min(line_end).max(span.start))?;
+        Some(Self {
+            line: before.matches('\n').count() + 1,
+            column: text[line_start..span.start].chars().count() + 1,
+            width: marked.chars().count().max(1),
+            text: line_text.to_owned(),
+        })
+    }
+
+    /// The line with its number, and carets below the part that matters.
+    pub(super) fn snippet(&self) -> String {
+        let number = self.line.to_string();
+        let margin = " ".repeat(number.len());
+        // Tabs are kept so that the carets stand below the same column.
+        let indent: String = self
+            .text
+            .chars()
+            .take(self.column - 1)
+            .map(|c| if c == '\t' { '\t' } else { ' ' })
+            .collect();
+        let carets = "^".repeat(self.width);
+        format!("{margin} |\n{number} | {}\n{margin} | {indent}{carets}", self.text)
+    }
+}

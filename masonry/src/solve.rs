@@ -1,0 +1,189 @@
+//! From a scene to an outcome: every stage in order, each timed.
+//!
+//! scene -> model -> plan -> system -> reduction -> route -> recovery -> checks.
+
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use nalgebra::{Point2, Vector2};
+
+use crate::check::Checks;
+use crate::model::Model;
+use crate::outcome::{Outcome, PhaseTime};
+use crate::output::svg::ReferenceLines;
+use crate::plan::Plan;
+use crate::recover;
+use crate::reduction::Reduction;
+use crate::rigid::{Modes, RigidError};
+use crate::routes::lemke::{self, Request};
+use crate::scene::{Scene, SceneError};
+use crate::system::{System, SystemError};
+
+/// Why a scene could not be brought to a solver.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SolveError {
+    /// The scene is wrong.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A block cannot be assembled.
+    #[error(transparent)]
+    System(#[from] SystemError),
+    /// A block can move without any contact noticing.
+    #[error(transparent)]
+    Rigid(#[from] RigidError),
+    /// The solver refused its settings or the data.
+    #[error("the complementarity problem was refused: {0}")]
+    Solver(#[from] lcp::Error),
+}
+
+/// How far a solve has come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Event {
+    /// A phase begins.
+    Phase(&'static str),
+    /// The solver pivots.
+    Pivots(lcp::Progress),
+}
+
+/// Solves a scene.
+///
+/// ```
+/// use masonry::scene::{Block, Joint, Material, Scene, Support};
+/// use masonry::solve::solve;
+/// use masonry::units::Units;
+///
+/// let scene = Scene::new("One block on a floor", Units::SI)
+///     .thickness(1.0)
+///     .gravity([0.0, -10.0])
+///     .material("stone", Material::rigid().density(1000.0))
+///     .joint("floor", Joint::mu(0.7))
+///     .block(Block::new("block", "stone", [[0.0, 0.0], [0.2, 0.0], [0.2, 1.0], [0.0, 1.0]]))
+///     .support(Support::new("ground", [-1.0, 0.0], [1.0, 0.0], "floor"));
+/// let outcome = solve(&scene)?;
+/// assert!((outcome.reactions[0].fy - 2000.0).abs() < 1e-9);
+/// # Ok::<(), masonry::solve::SolveError>(())
+/// ```
+///
+/// # Errors
+/// [`SolveError`] when the scene is wrong. When the scene is right but no equilibrium was found,
+/// the outcome says so in [`SolveInfo::status`](crate::outcome::SolveInfo::status).
+pub fn solve(scene: &Scene) -> Result<Outcome, SolveError> {
+    solve_observed(scene, &mut |_| ControlFlow::Continue(()))
+}
+
+/// Solves a scene and tells an observer how far it has come; `Break` cancels the solver.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_observed(
+    scene: &Scene,
+    observer: &mut dyn FnMut(Event) -> ControlFlow<()>,
+) -> Result<Outcome, SolveError> {
+    let mut clock = Clock::default();
+    let model = clock.time("model", observer, || Model::from_scene(scene))?;
+    let plan = Plan::of(scene, &model);
+    let system = clock.time("system", observer, || System::new(&model))?;
+    let reduction = clock.time("reduction", observer, || Reduction::new(&system, None))?;
+    let request = Request {
+        form: scene.solver.form,
+        tolerance: scene.solver.tolerance,
+        max_pivots: scene.solver.max_pivots.map(|limit| limit as usize),
+    };
+    let _ = observer(Event::Phase("solve"));
+    let began = Instant::now();
+    let answer = lemke::solve(&system, &reduction, &request, &mut |progress| {
+        observer(Event::Pivots(*progress))
+    })?;
+    clock.add("solve", began);
+
+    let state = answer.rows.as_ref().map(|rows| {
+        clock.time("recovery", observer, || {
+            recover::recover(&model, &system, &reduction, rows, scene.output.stresses)
+        })
+    });
+    let checks = state.as_ref().map(|state| Checks::of(&model, state));
+    let reactions = state.as_ref().map_or_else(Vec::new, |state| recover::reactions(&model, &state.contacts));
+    let mechanism = answer.mechanism.map(|rates| corner_rates(&model, &rates));
+    Ok(Outcome {
+        title: scene.title.clone(),
+        model,
+        plan,
+        solve: answer.info,
+        state,
+        checks,
+        reactions,
+        mechanism,
+        times: clock.times,
+    })
+}
+
+/// The running-bond lines to compare the principal stresses with: from the inner ends of the
+/// lowest supports at both corners of the first wall, half a brick sideways for every course.
+/// `None` for a scene without such a wall or with a support all along its foot.
+pub fn reference_lines(scene: &Scene) -> Option<ReferenceLines> {
+    let wall = scene.walls.first()?;
+    let [_, foot] = wall.origin;
+    let level = |y: f64| (y - foot).abs() <= 1e-9 * wall.brick.height;
+    let mut feet: Vec<(f64, f64)> = scene
+        .supports
+        .iter()
+        .filter(|support| level(support.from[1]) && level(support.to[1]))
+        .map(|support| (support.from[0].min(support.to[0]), support.from[0].max(support.to[0])))
+        .collect();
+    feet.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let ((_, left), (right, _)) = (*feet.first()?, *feet.last()?);
+    if left >= right {
+        return None;
+    }
+    let metres = scene.units.length_to_si();
+    let origins = [left, right].map(|x| Point2::new(x, foot) * metres);
+    let angle = (wall.brick.length / (2.0 * wall.brick.height)).atan();
+    Some(ReferenceLines { origins, angle, label: "arctan(l / 2h)".to_owned() })
+}
+
+/// Displacement rates of the corners of every block, the largest component one.
+fn corner_rates(model: &Model, amplitudes: &[f64]) -> Vec<[Vector2<f64>; 4]> {
+    let mut rates: Vec<[Vector2<f64>; 4]> = model
+        .blocks
+        .iter()
+        .zip(amplitudes.chunks_exact(3))
+        .map(|(block, alpha)| {
+            let modes = Modes::of(&block.corners);
+            block.corners.map(|corner| {
+                modes.displacement(corner, alpha)
+            })
+        })
+        .collect();
+    let largest = rates.iter().flatten().fold(0.0_f64, |max, v| max.max(v.amax()));
+    if largest > 0.0 {
+        rates.iter_mut().flatten().for_each(|v| *v /= largest);
+    }
+    rates
+}
+
+#[derive(Default)]
+struct Clock {
+    times: Vec<PhaseTime>,
+}
+
+impl Clock {
+    fn time<T>(
+        &mut self,
+        phase: &'static str,
+        observer: &mut dyn FnMut(Event) -> ControlFlow<()>,
+        work: impl FnOnce() -> T,
+    ) -> T {
+        // Only the solver is long enough to be cancelled.
+        let _ = observer(Event::Phase(phase));
+        let began = Instant::now();
+        let result = work();
+        self.add(phase, began);
+        result
+    }
+
+    fn add(&mut self, phase: &str, began: Instant) {
+        let seconds = began.elapsed().as_secs_f64();
+        self.times.push(PhaseTime { phase: phase.to_owned(), seconds });
+    }
+}

@@ -1,0 +1,347 @@
+//! A running-bond wall with an invented state: reports are tested without solving anything.
+
+use masonry::check::Checks;
+use masonry::ids::{BlockId, JointId, SupportId};
+use masonry::mesh::BlockMesh;
+use masonry::model::{
+    Anchor, Block, Body, ContactPoint, EdgeLoad, Elasticity, Joint, JointClass, Model, Plane,
+    Support,
+};
+use masonry::outcome::{
+    ContactState, ContactStatus, ElementStress, Outcome, PhaseTime, Principal, Reaction, SolveInfo,
+    State,
+};
+use masonry::plan::{Effect, Plan};
+use masonry::units::{ForceUnit, LengthUnit, Units};
+use nalgebra::{Point2, Vector2};
+
+/// Sizes of the wall.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Wall {
+    pub(crate) length: f64,
+    pub(crate) height: f64,
+    pub(crate) bricks: usize,
+    pub(crate) courses: usize,
+    pub(crate) elements: (usize, usize),
+    pub(crate) rigid: bool,
+}
+
+impl Wall {
+    /// Eight courses of five bricks, 1.0 x 0.8 m.
+    pub(crate) const PANEL: Self =
+        Self { length: 0.2, height: 0.1, bricks: 5, courses: 8, elements: (4, 2), rigid: false };
+
+    fn width(self) -> f64 {
+        self.length * self.bricks as f64
+    }
+}
+
+/// A solved wall of running bond on its two lower corner bricks between two side walls.
+pub(crate) fn solved(wall: Wall) -> Outcome {
+    let model = model(wall);
+    let state = state(&model, wall);
+    let count = |status| state.contacts.iter().filter(|contact| contact.status == status).count();
+    let checks = Checks {
+        force_balance: 3.1e-15,
+        moment_balance: 8.0e-15,
+        cone_violation: 0.0,
+        penetration: 2.2e-16,
+        open: count(ContactStatus::Open),
+        stick: count(ContactStatus::Stick),
+        slip: count(ContactStatus::Slip),
+    };
+    let reactions = [("floor, left", 0.0, 4.0e3, 0.4e3), ("floor \"right\"", 0.0, 4.0e3, 3.6e3)]
+        .into_iter()
+        .chain([("left <wall>", 1.2e3, 1.0e3, -0.5e3), ("right wall", -1.2e3, 1.0e3, 1.5e3)])
+        .map(|(support, fx, fy, m)| Reaction { support: support.to_owned(), fx, fy, m })
+        .collect();
+    Outcome {
+        title: "Panel of 0.2 x 0.1 m bricks <open base>".to_owned(),
+        plan: plan(&model),
+        model,
+        solve: SolveInfo {
+            status: lcp::Status::Solved,
+            form: "coulomb".to_owned(),
+            order: 339,
+            attempts: vec!["coulomb, covering vector e, empty basis: solved".to_owned()],
+            pivots: 412,
+            residuals: lcp::Residuals {
+                equation: 2.3e-15,
+                feasibility: 0.0,
+                complementarity: 0.0,
+                natural: 2.3e-15,
+            },
+            coulomb_residuals: None,
+        },
+        state: Some(state),
+        checks: Some(checks),
+        reactions,
+        mechanism: None,
+        times: [("model", 0.0012), ("assembly", 0.031), ("reduction", 0.22), ("solve", 1.75)]
+            .map(|(phase, seconds)| PhaseTime { phase: phase.to_owned(), seconds })
+            .to_vec(),
+    }
+}
+
+/// The same wall without an equilibrium, with the mechanism of a falling middle.
+pub(crate) fn unsolved(wall: Wall) -> Outcome {
+    let mut outcome = solved(wall);
+    outcome.solve.status = lcp::Status::RayTermination;
+    outcome.solve.attempts.push("stewart-trinkle, covering vector e: secondary ray".to_owned());
+    outcome.state = None;
+    outcome.checks = None;
+    outcome.reactions.clear();
+    let rates = outcome.model.blocks.iter().map(|block| {
+        let middle = nalgebra::center(&block.corners[0], &block.corners[2]);
+        [Vector2::new(0.0, if hangs(middle, wall) { -1.0 } else { 0.0 }); 4]
+    });
+    outcome.mechanism = Some(rates.collect());
+    outcome
+}
+
+pub(crate) fn model(wall: Wall) -> Model {
+    let (l, h) = (wall.length, wall.height);
+    let (width, top) = (wall.width(), h * wall.courses as f64);
+    let courses: Vec<Vec<f64>> = (0..wall.courses).map(|course| cuts(wall, course)).collect();
+    let mut blocks = Vec::new();
+    for (course, cuts) in courses.iter().enumerate() {
+        for (index, ends) in cuts.windows(2).enumerate() {
+            let bottom = h * course as f64;
+            let mut block = brick([ends[0], ends[1]], [bottom, bottom + h], wall);
+            block.name = format!("{}.{}", course + 1, index + 1);
+            if course + 1 == wall.courses {
+                let traction = Vector2::new(0.0, -10e3);
+                block.edge_loads.push(EdgeLoad { edge: 2, from: 0.0, to: 1.0, traction });
+            }
+            blocks.push(block);
+        }
+    }
+    let support = |name: &str, from: [f64; 2], to: [f64; 2]| Support {
+        name: name.to_owned(),
+        from: from.into(),
+        to: to.into(),
+    };
+    let supports = vec![
+        support("floor, left", [0.0, 0.0], [l, 0.0]),
+        support("floor \"right\"", [width - l, 0.0], [width, 0.0]),
+        support("left <wall>", [0.0, 0.0], [0.0, top]),
+        support("right wall", [width, 0.0], [width, top]),
+    ];
+    let mut model = Model {
+        blocks,
+        supports,
+        joints: Vec::new(),
+        contacts: Vec::new(),
+        joint_classes: ["bed", "head", "support, dry"]
+            .map(|name| JointClass { name: name.to_owned(), mu: 1.0 })
+            .to_vec(),
+        plane: Plane::Stress,
+        thickness: 1.0,
+        gravity: Vector2::new(0.0, -9.81),
+        units: Units { length: LengthUnit::M, force: ForceUnit::Kn },
+    };
+    add_joints(&mut model, wall, &courses);
+    model
+}
+
+/// Ends of the bricks of a course: every other course starts and ends with half a brick.
+fn cuts(wall: Wall, course: usize) -> Vec<f64> {
+    let whole = (0..=wall.bricks).map(|k| k as f64 * wall.length);
+    if course.is_multiple_of(2) {
+        return whole.collect();
+    }
+    let halves = (0..wall.bricks).map(|k| (k as f64 + 0.5) * wall.length);
+    std::iter::once(0.0).chain(halves).chain([wall.width()]).collect()
+}
+
+fn brick(x: [f64; 2], y: [f64; 2], wall: Wall) -> Block {
+    let (nx, ny) = wall.elements;
+    let mut nodes = Vec::new();
+    for j in 0..=ny {
+        for i in 0..=nx {
+            let (s, t) = (i as f64 / nx as f64, j as f64 / ny as f64);
+            nodes.push(Point2::new(x[0] + s * (x[1] - x[0]), y[0] + t * (y[1] - y[0])));
+        }
+    }
+    let at = |i: usize, j: usize| j * (nx + 1) + i;
+    let elements = (0..ny)
+        .flat_map(|j| (0..nx).map(move |i| (i, j)))
+        .map(|(i, j)| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)])
+        .collect();
+    Block {
+        name: String::new(),
+        corners: [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]].map(Point2::from),
+        elasticity: (!wall.rigid).then_some(Elasticity { young: 1e8, poisson: 0.15 }),
+        density: None,
+        mesh: (!wall.rigid).then_some(BlockMesh { nx, ny, nodes, elements }),
+        edge_loads: Vec::new(),
+    }
+}
+
+fn add_joints(model: &mut Model, wall: Wall, courses: &[Vec<f64>]) {
+    let h = wall.height;
+    let mut first = 0;
+    for (course, cuts) in courses.iter().enumerate() {
+        let (low, high) = (h * course as f64, h * (course + 1) as f64);
+        let bricks = cuts.len() - 1;
+        for index in 0..bricks {
+            let b = BlockId::new(first + index);
+            if index > 0 {
+                let a = Body::Block(BlockId::new(first + index - 1));
+                add_joint(model, (a, b, 1), [[cuts[index], low], [cuts[index], high]]);
+            }
+            if course == 0 && (index == 0 || index + 1 == bricks) {
+                let a = Body::Support(SupportId::new(usize::from(index > 0)));
+                add_joint(model, (a, b, 2), [[cuts[index], low], [cuts[index + 1], low]]);
+            }
+            if let Some(above) = courses.get(course + 1) {
+                for (upper, ends) in above.windows(2).enumerate() {
+                    let from = ends[0].max(cuts[index]);
+                    let to = ends[1].min(cuts[index + 1]);
+                    if to - from > 1e-9 {
+                        let upper = BlockId::new(first + bricks + upper);
+                        add_joint(model, (Body::Block(b), upper, 0), [[from, high], [to, high]]);
+                    }
+                }
+            }
+        }
+        for (support, index, x) in [(2, 0, cuts[0]), (3, bricks - 1, cuts[bricks])] {
+            let b = BlockId::new(first + index);
+            let a = Body::Support(SupportId::new(support));
+            add_joint(model, (a, b, 2), [[x, low], [x, high]]);
+        }
+        first += bricks;
+    }
+}
+
+fn add_joint(model: &mut Model, (a, b, class): (Body, BlockId, usize), ends: [[f64; 2]; 2]) {
+    let [from, to] = ends.map(Point2::from);
+    let middle = nalgebra::center(&from, &to);
+    let corners = model.blocks[b.index()].corners;
+    let inward = nalgebra::center(&corners[0], &corners[2]) - middle;
+    let along = (to - from).normalize();
+    let normal = (inward - along * inward.dot(&along)).normalize();
+    let joint = JointId::new(model.joints.len());
+    model.joints.push(Joint { a, b, class, from, to, normal });
+    for position in [from, to] {
+        let anchor = |block| Anchor { block, edge: 0, at: 0.0 };
+        model.contacts.push(ContactPoint {
+            joint,
+            position,
+            weight: 0.5 * (to - from).norm() * model.thickness,
+            a: if let Body::Block(block) = a { Some(anchor(block)) } else { None },
+            b: anchor(b),
+            gap: 0.0,
+            mu: model.joint_classes[class].mu,
+        });
+    }
+}
+
+/// Whether a point is below the arch that spans the open base.
+fn hangs(p: Point2<f64>, wall: Wall) -> bool {
+    let half = 0.5 * wall.width() - wall.length;
+    let from_middle = (p.x - 0.5 * wall.width()).abs();
+    p.y * 0.5 * wall.length / wall.height < half - from_middle
+}
+
+fn state(model: &Model, wall: Wall) -> State {
+    let displacements = model
+        .blocks
+        .iter()
+        .map(|block| {
+            let middle = nalgebra::center(&block.corners[0], &block.corners[2]);
+            let down = if hangs(middle, wall) { -1.1e-4 } else { 0.0 };
+            let sway = 1e-5 * (9.0 * middle.x).sin();
+            let nodes = block.mesh.as_ref().map_or(&block.corners[..], |mesh| &mesh.nodes);
+            let of = |p: &Point2<f64>| {
+                let turn = 3e-4 * (middle.x - 0.5 * wall.width());
+                let arm = p - middle;
+                Vector2::new(sway - turn * arm.y, down - 6e-5 * p.y + turn * arm.x)
+            };
+            nodes.iter().map(of).collect()
+        })
+        .collect();
+    State {
+        displacements,
+        contacts: model.contacts.iter().map(|contact| contact_state(contact, wall)).collect(),
+        stresses: stresses(model, wall),
+        strain_energy: 0.567_259,
+    }
+}
+
+fn contact_state(contact: &ContactPoint, wall: Wall) -> ContactState {
+    let p = contact.position;
+    if hangs(p, wall) {
+        let status = ContactStatus::Open;
+        return ContactState { t_n: 0.0, t_t: 0.0, y_n: 1.0e-4 / 3.0, y_t: -2e-6, status };
+    }
+    let t_n = 1e4 * contact.weight * (1.0 + p.y);
+    let outer = (p.x - 0.5 * wall.width()).abs() > 0.49 * wall.width();
+    if outer && p.y > 0.3 {
+        return ContactState { t_n, t_t: -t_n, y_n: 0.0, y_t: 3e-6, status: ContactStatus::Slip };
+    }
+    ContactState { t_n, t_t: 0.3 * t_n, y_n: 0.0, y_t: 0.0, status: ContactStatus::Stick }
+}
+
+fn stresses(model: &Model, wall: Wall) -> Vec<ElementStress> {
+    let mut stresses = Vec::new();
+    for (index, block) in model.blocks.iter().enumerate() {
+        let Some(mesh) = &block.mesh else { continue };
+        for (element, corners) in mesh.elements.iter().enumerate() {
+            let centre = nalgebra::center(&mesh.nodes[corners[0]], &mesh.nodes[corners[2]]);
+            let side = (centre.x - 0.5 * wall.width()).signum();
+            let slender = if hangs(centre, wall) { 0.02 } else { 1.0 + 3.0 * (0.8 - centre.y) };
+            let sigma = [
+                if centre.y < 0.1 { 2.5e3 } else { -3e3 * slender },
+                -10e3 * slender,
+                3e3 * slender * side,
+            ];
+            stresses.push(ElementStress {
+                block: BlockId::new(index),
+                element,
+                centre,
+                sigma,
+                principal: principal(sigma),
+            });
+        }
+    }
+    stresses
+}
+
+fn principal([x, y, xy]: [f64; 3]) -> Principal {
+    let (mean, radius) = (0.5 * (x + y), (0.5 * (x - y)).hypot(xy));
+    let theta = 0.5 * xy.atan2(0.5 * (x - y));
+    Principal { sigma_1: mean + radius, sigma_2: mean - radius, theta }
+}
+
+fn plan(model: &Model) -> Plan {
+    let effect = |name, on, because: &str, unknowns| Effect {
+        name,
+        on,
+        because: because.to_owned(),
+        unknowns,
+    };
+    let m = model.contacts.len();
+    Plan {
+        effects: vec![
+            effect("deformation", true, "every block has an elastic modulus", 1230),
+            effect("friction", true, "mu > 0 on the joint classes bed, head and support", 2 * m),
+            effect(
+                "self weight",
+                false,
+                "no block has a density, and the scene gives no gravity that could act on one",
+                0,
+            ),
+        ],
+        blocks: model.blocks.len(),
+        nodes: model.blocks.iter().filter_map(|b| b.mesh.as_ref()).map(|m| m.nodes.len()).sum(),
+        joints: model.joints.len(),
+        contact_points: m,
+        frictional_points: m,
+        rigid_modes: 3 * model.blocks.len(),
+        order: 3 * m,
+        dense_bytes: 3 * (3 * m).pow(2) * size_of::<f64>(),
+        solver: "lemke".to_owned(),
+        because: "friction makes the matrix nonsymmetric, and the order is below 3000".to_owned(),
+    }
+}
