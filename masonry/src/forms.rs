@@ -118,7 +118,12 @@ impl Form {
         }
         let alpha = &t[self.layout.points + 3 * self.layout.friction.len()..];
         let (plus, minus) = alpha.split_at(alpha.len() / 2);
-        Some(plus.iter().zip(minus).map(|(plus, minus)| (plus - minus) * self.scale.length).collect())
+        Some(
+            plus.iter()
+                .zip(minus)
+                .map(|(plus, minus)| (plus - minus) * self.scale.length)
+                .collect(),
+        )
     }
 
     /// Forces and relative displacements of all rows from the dimensionless variables.

@@ -131,7 +131,7 @@ fn a_block_that_slides_away_has_no_solution() {
     }
 }
 
-/// A shear of 600 tips a block on a floor with much friction: alpha_c = b / h.
+/// A shear of 600 tips a block on a floor with much friction: the limit is the ratio of width to height.
 #[test]
 fn a_block_that_tips_has_no_solution() {
     let case = Solved::new(one_block(Some([1, 1]), 600.0, 2.0));
