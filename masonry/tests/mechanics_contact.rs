@@ -1,6 +1,7 @@
 //! Geometry, meshes, joints and contact points.
 
 #![allow(clippy::float_cmp, reason = "exact values are asserted where they must be exact")]
+#![allow(clippy::unwrap_used, reason = "a failed set-up should fail the test")]
 
 mod common;
 

@@ -3,6 +3,9 @@
 #![allow(dead_code, reason = "every test binary uses its own part of this module")]
 #![allow(unreachable_pub, reason = "a module of helpers, compiled into each test binary")]
 
+pub mod enumerate;
+pub mod reference;
+
 use masonry::contact::{self, JointKind, Options};
 use masonry::mesh::BlockMesh;
 use masonry::model::{Block, EdgeLoad, Elasticity, JointClass, Model, Plane, Support};
@@ -68,7 +71,8 @@ pub fn model_with(
         JointKind::Support(_) => 2,
     };
     let (joints, contacts) =
-        contact::find(&blocks, &supports, &joint_classes, class_of, 1.0, options).unwrap();
+        contact::find(&blocks, &supports, &joint_classes, class_of, 1.0, options)
+            .expect("a model whose contact points can be placed");
     Model {
         blocks,
         supports,
