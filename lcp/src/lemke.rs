@@ -122,7 +122,11 @@ impl<'a> Search<'a> {
                 (AttemptEnd::Cancelled, _) => return self.give_up(Status::Cancelled),
                 (_, Some(basis)) => {
                     if let Some(point) = solve_basis(self.problem, &self.scaling, &basis) {
-                        if point.residuals.worst() <= self.settings.tolerance {
+                        let worst = point.residuals.worst();
+                        if let Some(last) = self.info.attempts.last_mut() {
+                            last.residual = Some(worst);
+                        }
+                        if worst <= self.settings.tolerance {
                             return self.answer(Status::Solved, point, basis);
                         }
                         self.keep_better(point, basis.clone());
@@ -189,8 +193,9 @@ impl<'a> Search<'a> {
             covering: covering_name(covering),
             end,
             pivots: path.pivots,
+            residual: None,
         });
-        if end == AttemptEnd::Ray {
+        if end == AttemptEnd::Ray && self.ray.is_none() {
             self.ray = Some(in_problem_units(&path, start));
         }
         (end, (end == AttemptEnd::Complementary).then(|| path.basis()))
