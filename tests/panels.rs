@@ -8,7 +8,7 @@ mod support;
 
 use std::sync::LazyLock;
 
-use masonry::model::Body;
+use masonry::model::{Body, ContactPoint};
 use masonry::outcome::{Outcome, State};
 use masonry::scene::{Form, Scene};
 use masonry::solve::solve;
@@ -66,7 +66,8 @@ fn force(outcome: &Outcome, supports: &[&str], choose: impl Fn(f64, f64) -> bool
 /// at each lower corner, where floor and wall touch the same node. So: with that part of the
 /// corner's force moved to the wall that makes up the published reaction of the wall, both parts
 /// stay inside their friction cones, and the floor's published reaction follows.
-fn assert_reactions(outcome: &Outcome, floor: &[&str], floor_y: f64, wall: f64) {
+/// `digit` is one unit of the last digit that was given.
+fn assert_reactions(outcome: &Outcome, floor: &[&str], [floor_y, wall, digit]: [f64; 3]) {
     let is_corner = |_: f64, y: f64| y < 1e-9;
     let mut moved = 0.0;
     for (name, inwards) in [("left wall", 1.0), ("right wall", -1.0)] {
@@ -75,14 +76,16 @@ fn assert_reactions(outcome: &Outcome, floor: &[&str], floor_y: f64, wall: f64) 
         let (n, t) = (wall - inwards * above[0], wall - above[1]);
         let both: Vec<&str> = floor.iter().copied().chain([name]).collect();
         let corner = force(outcome, &both, at_corner);
-        let tolerance = 1e-5 * wall;
+        let tolerance = 1e-5 * wall + digit;
         assert!(n >= -tolerance && t.abs() <= n + tolerance, "{name}: normal {n}, tangential {t}");
         let left = [inwards * corner[0] - n, corner[1] - t];
         assert!(left[0].abs() <= left[1] + tolerance, "{name}: {left:?} outside the floor's cone");
         moved += t - force(outcome, &[name], at_corner)[1];
     }
     let total = force(outcome, floor, |_, _| true);
-    assert_close(total[1] - moved, floor_y, "vertical reaction of the floor");
+    let error = (total[1] - moved - floor_y).abs();
+    // Half a digit of the floor's reaction and of both walls'.
+    assert!(error <= 1e-6 * floor_y + 1.5 * digit, "{} is not {floor_y}", total[1] - moved);
 }
 
 /// Identities whatever the discretisation.
@@ -106,7 +109,7 @@ fn square_panel_on_two_corners() {
     assert_eq!((outcome.plan.contact_points, outcome.plan.order), (711, 3 * 711));
     assert_close(largest_displacement(outcome), 2.01471e-4, "largest displacement");
     assert_close(state(outcome).strain_energy, 8.66520e-1, "strain energy [J]");
-    assert_reactions(outcome, &["left foot", "right foot"], 7.32768, 1.33616);
+    assert_reactions(outcome, &["left foot", "right foot"], [7.32768, 1.33616, 1e-5]);
     // Of the points that slide, six carry no force; the count of 134 leaves them out.
     assert_eq!(counts(outcome), [86, 485, 134 + 6]);
 }
@@ -119,7 +122,7 @@ fn square_panel_on_a_full_floor() {
     assert_eq!(outcome.plan.contact_points, 735);
     assert_close(largest_displacement(outcome), 8.95566e-5, "largest displacement");
     assert_close(state(outcome).strain_energy, 3.97357e-1, "strain energy [J]");
-    assert_reactions(outcome, &["floor"], 7.5227, 1.2387);
+    assert_reactions(outcome, &["floor"], [7.5227, 1.2387, 1e-4]);
     assert_eq!(counts(outcome), [2, 677, 56]);
 }
 
@@ -135,10 +138,10 @@ fn rectangular_panel_is_one_of_the_two_solutions() {
     if counts(outcome)[0] == 29 {
         assert_close(state(outcome).strain_energy, 5.67259e-1, "strain energy, hanging [J]");
         assert_close(largest_displacement(outcome), 1.27927e-4, "largest displacement, hanging");
-        assert_reactions(outcome, &feet, 7.90715, 1.04643);
+        assert_reactions(outcome, &feet, [7.90715, 1.04643, 1e-5]);
     } else {
         assert_close(state(outcome).strain_energy, 6.37095e-1, "strain energy, dropped [J]");
-        assert_reactions(outcome, &feet, 7.72555, 1.13722);
+        assert_reactions(outcome, &feet, [7.72555, 1.13722, 1e-5]);
     }
 }
 
@@ -150,11 +153,15 @@ fn the_default_contact_points_are_the_nodal_pairs_here() {
         let scene = support::scene(name);
         let mut pairs = scene.clone();
         pairs.contact.points = masonry::contact::PointRule::NodalPairs;
-        let positions = |scene: &Scene| {
-            let model = masonry::model::Model::from_scene(scene).unwrap();
-            model.contacts.into_iter().map(|c| (c.joint, c.position)).collect::<Vec<_>>()
+        let model = |scene: &Scene| masonry::model::Model::from_scene(scene).unwrap();
+        let (points, pairs) = (model(&scene).contacts, model(&pairs).contacts);
+        assert_eq!(points.len(), pairs.len());
+        let has_its_pair = |point: &ContactPoint| {
+            let close = |p: &&ContactPoint| (p.position - point.position).norm() < 1e-9;
+            let mut same = pairs.iter().filter(|p| p.joint == point.joint).filter(close);
+            same.next().is_some_and(|p| (p.weight / point.weight - 1.0).abs() < 1e-9)
         };
-        assert_eq!(positions(&scene), positions(&pairs));
+        assert!(points.iter().all(has_its_pair), "{name}");
     }
 }
 
@@ -184,18 +191,20 @@ fn the_staircase_of_open_joints() {
     }
 }
 
-/// Below the staircase the bricks are unloaded: the lowest ones between the feet carry less than a
-/// hundredth, for long bricks a twentieth, of what those on the feet carry.
+/// The bricks on either side of the staircase: at every step the one before it carries more than
+/// three times the mean compression of the one behind, and the middle bricks of the lowest course
+/// are unloaded, which is to say that they carry less than a tenth of the pressure on top.
 #[test]
-fn bricks_below_the_staircase_are_unloaded() {
-    for (outcome, share) in [(&*OPEN, 0.01), (&*RECTANGULAR, 0.05)] {
-        let compression = |x: f64| {
-            let of = state(outcome).stresses.iter();
-            let close = of.filter(|s| s.centre.y < 0.1 && (s.centre.x - x).abs() < 0.051);
-            close.map(|s| -s.principal.sigma_2).fold(0.0, f64::max)
-        };
-        let (foot, middle) = (compression(0.05), compression(0.5));
-        assert!(middle < share * foot, "{middle} Pa against {foot} Pa");
+fn bricks_behind_the_staircase_are_unloaded() {
+    for (outcome, length, courses) in [(&*OPEN, 0.1, 4), (&*RECTANGULAR, 0.2, 2)] {
+        for course in 1..=courses {
+            let [edge, _] = support::stair(length, course);
+            let before = support::mean_compression(outcome, [edge - length, edge], course);
+            let behind = support::mean_compression(outcome, [edge, edge + length], course);
+            assert!(before > 3.0 * behind, "course {course}: {before} Pa and {behind} Pa");
+        }
+        let middle = support::mean_compression(outcome, [0.4, 0.6], 1);
+        assert!(middle < 0.1 * 10e3, "{middle} Pa");
     }
 }
 

@@ -55,3 +55,15 @@ fn joint(outcome: &Outcome, is_it: impl Fn(&Joint) -> bool) -> Vec<(f64, Contact
         .map(|(contact, state)| (contact.position.y, *state))
         .collect()
 }
+
+/// Mean of the compressive principal stress \[Pa\] of the elements between two abscissas in a course.
+pub(crate) fn mean_compression(outcome: &Outcome, [from, to]: [f64; 2], course: u8) -> f64 {
+    let middle = 0.1 * f64::from(course) - 0.05;
+    let stresses = outcome.state.as_ref().unwrap().stresses.iter();
+    let found: Vec<f64> = stresses
+        .filter(|s| s.centre.x > from && s.centre.x < to && (s.centre.y - middle).abs() < 0.05)
+        .map(|s| -s.principal.sigma_2)
+        .collect();
+    assert!(!found.is_empty());
+    found.iter().sum::<f64>() / found.len() as f64
+}
