@@ -158,7 +158,7 @@ fn state_figures(outcome: &Outcome, state: &State) -> Vec<(&'static str, String)
 }
 
 fn times(outcome: &Outcome) -> Vec<(&str, String)> {
-    let seconds = |value: f64| format!("{value:>9.4} s");
+    let seconds = |value: f64| format!("{:>9.3} ms", 1e3 * value);
     let mut rows: Vec<(&str, String)> = Vec::new();
     for time in &outcome.times {
         rows.push((&time.phase, seconds(time.seconds)));
