@@ -58,7 +58,7 @@ pub fn plan(plan: &Plan) -> String {
     let lines = pairs(&[
         ("sizes", sizes),
         ("order", plan.order.to_string()),
-        ("memory", format!("{} MB for the dense matrices", memory(plan.dense_bytes()))),
+        ("memory", format!("about {} MB", memory(plan.dense_bytes()))),
         ("solver", format!("{}: {}", plan.solver, plan.because)),
     ]);
     format!("{}\n\n{lines}", table.trim_fmt())
