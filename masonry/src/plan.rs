@@ -1,6 +1,5 @@
 //! The plan: which effects a scene calls for, why, and what they cost.
 
-mod display;
 mod effects;
 
 use serde::Serialize;

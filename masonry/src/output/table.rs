@@ -58,9 +58,15 @@ pub fn plan(plan: &Plan) -> String {
     let lines = pairs(&[
         ("sizes", sizes),
         ("order", plan.order.to_string()),
+        ("memory", format!("{} MB for the dense matrices", memory(plan.dense_bytes()))),
         ("solver", format!("{}: {}", plan.solver, plan.because)),
     ]);
     format!("{}\n\n{lines}", table.trim_fmt())
+}
+
+/// In units of 10^6 bytes, which are few for the smallest scenes.
+fn memory(bytes: usize) -> String {
+    significant(bytes as f64 / 1e6, 2)
 }
 
 fn solution(outcome: &Outcome) -> Vec<(&'static str, String)> {
