@@ -190,7 +190,8 @@ impl<'a> Search<'a> {
             end,
             pivots: path.pivots,
         });
-        if end == AttemptEnd::Ray {
+        // The first start is the one that the theory speaks of: rays from others may say nothing.
+        if end == AttemptEnd::Ray && self.ray.is_none() {
             self.ray = Some(in_problem_units(&path, start));
         }
         (end, (end == AttemptEnd::Complementary).then(|| path.basis()))

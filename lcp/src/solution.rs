@@ -133,7 +133,7 @@ pub struct Solution {
     pub basis: Option<Basis>,
     /// Residuals of `(t, y)`, from the original data.
     pub residuals: Residuals,
-    /// The ray on which the last attempt ended, when the status is
+    /// The ray of the first attempt that ended on one, when the status is
     /// [`RayTermination`](Status::RayTermination).
     pub ray: Option<Ray>,
     /// What it cost.

@@ -8,8 +8,8 @@
 use std::ops::ControlFlow;
 
 use lcp::{
-    Attempt, AttemptEnd, Basis, Covering, HorizontalLcp, Lemke, LemkeSettings, Progress, Residuals,
-    Side, Status,
+    Attempt, AttemptEnd, Basis, Covering, HorizontalLcp, Lemke, LemkeSettings, Progress, Ray,
+    Residuals, Side, Status,
 };
 
 use crate::forms::{Form, FormKind, RowState, Start};
@@ -26,6 +26,8 @@ const ATTEMPTS_PER_START: usize = 2;
 const MIXED_ATTEMPTS: usize = 4;
 /// How far the covering vector opens the friction cone, in units of force.
 const COHESION: f64 = 100.0;
+/// Amplitudes along a ray below this fraction of its largest component are rounding errors.
+const ROUNDING: f64 = 1e-9;
 
 /// What the route is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -117,8 +119,7 @@ impl Search<'_> {
             residuals: solution.residuals,
             coulomb_residuals: rows.as_ref().and_then(|rows| self.against_coulomb(&form, rows)),
         };
-        let ray = solution.ray.filter(|_| form.kind == FormKind::Mixed);
-        let mechanism = ray.and_then(|ray| form.amplitudes(&ray.dt)).filter(|it| moves(it));
+        let mechanism = solution.ray.and_then(|ray| mechanism(&form, &ray));
         if form.kind == FormKind::Coulomb {
             self.coulomb = Some((form, problem));
         }
@@ -184,6 +185,12 @@ fn describe(kind: FormKind, attempt: &Attempt) -> String {
     )
 }
 
-fn moves(amplitudes: &[f64]) -> bool {
-    amplitudes.iter().any(|rate| rate.abs() > 0.0)
+/// The rigid amplitudes \[m\] along a ray, if it moves anything.
+///
+/// Amplitudes are differences of variables: where both grow alike, rounding errors are left.
+fn mechanism(form: &Form, ray: &Ray) -> Option<Vec<f64>> {
+    let largest = |v: &[f64]| v.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let amplitudes = form.amplitudes(&ray.dt)?;
+    let moved = largest(&amplitudes) > ROUNDING * form.scale.length * largest(&ray.dt);
+    moved.then_some(amplitudes)
 }
