@@ -4,7 +4,10 @@
 
 mod common;
 
-use common::{GRAVITY, M_KN, assert_close, critical, joint_resultant, rectangle, solved, stands};
+use common::{
+    GRAVITY, M_KN, assert_admissible, assert_close, critical, joint_resultant, rectangle, solved,
+    stands,
+};
 use lcp::Status;
 use masonry::ids::{BlockId, SupportId};
 use masonry::model::{Body, Plane};
@@ -52,6 +55,7 @@ fn mechanism(scene: &Scene) -> (Vec<[Vector2<f64>; 4]>, Outcome) {
     let outcome = solve(scene).unwrap();
     assert_ne!(outcome.solve.status, Status::Solved);
     assert!(outcome.state.is_none() && outcome.checks.is_none());
+    assert_admissible(&outcome);
     (outcome.mechanism.clone().unwrap(), outcome)
 }
 

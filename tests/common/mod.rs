@@ -5,13 +5,13 @@
 
 use lcp::Status;
 use masonry::ids::BlockId;
-use masonry::model::{Body, Model};
+use masonry::model::{Anchor, Body, Model};
 use masonry::outcome::{Outcome, State};
 use masonry::recover::contact_force;
 use masonry::scene::{Block, Scene};
 use masonry::solve::solve;
 use masonry::units::{ForceUnit, LengthUnit, Units};
-use nalgebra::Vector2;
+use nalgebra::{Point2, Vector2};
 
 /// Acceleration of gravity \[m/s^2\].
 pub const GRAVITY: f64 = 9.81;
@@ -97,6 +97,54 @@ pub fn joint_resultant(outcome: &Outcome, a: Body, b: BlockId) -> Vector2<f64> {
 pub fn assert_close(found: f64, expected: f64, tolerance: f64) {
     let error = (found - expected).abs() / expected.abs();
     assert!(error <= tolerance, "{found} instead of {expected}: off by {error:e}");
+}
+
+/// The resultant of self weights and edge loads \[N\].
+pub fn applied_load(model: &Model) -> Vector2<f64> {
+    masonry::output::summary::applied_load(model).force
+}
+
+/// The mechanism closes no joint beyond contact, and the loads do work on it.
+pub fn assert_admissible(outcome: &Outcome) {
+    let (model, rates) = (&outcome.model, outcome.mechanism.as_ref().unwrap());
+    let largest = rates.iter().flatten().fold(0.0, |m: f64, rate| m.max(rate.amax()));
+    assert_close(largest, 1.0, 1e-12);
+    let at = |anchor: Anchor| {
+        let corners = rates[anchor.block.index()];
+        corners[anchor.edge] * (1.0 - anchor.at) + corners[(anchor.edge + 1) % 4] * anchor.at
+    };
+    for contact in &model.contacts {
+        let relative = at(contact.b) - contact.a.map_or_else(Vector2::zeros, at);
+        let opening = relative.dot(&model.joints[contact.joint.index()].normal);
+        assert!(opening > -1e-9, "a joint closes at a rate of {opening:e}: {rates:?}");
+    }
+    let power: f64 =
+        model.blocks.iter().zip(rates).map(|(block, corners)| power(model, block, corners)).sum();
+    assert!(power > 0.0, "the loads do the work {power:e} on {rates:?}");
+}
+
+/// The power of the loads of a block whose corners move at these rates.
+fn power(model: &Model, block: &masonry::model::Block, corners: &[Vector2<f64>; 4]) -> f64 {
+    let edges: f64 = block
+        .edge_loads
+        .iter()
+        .map(|load| {
+            let [start, end] = [load.edge, (load.edge + 1) % 4];
+            let area = (block.corners[end] - block.corners[start]).norm() * model.thickness;
+            let middle = 0.5 * (load.from + load.to);
+            let rate = corners[start] * (1.0 - middle) + corners[end] * middle;
+            load.traction.dot(&rate) * area * (load.to - load.from)
+        })
+        .sum();
+    // Good for parallelograms, whose centroid is the mean of their corners.
+    let centre = corners.iter().sum::<Vector2<f64>>() / 4.0;
+    let mass = block.density.unwrap_or(0.0) * area(&block.corners) * model.thickness;
+    edges + mass * model.gravity.dot(&centre)
+}
+
+fn area(corners: &[Point2<f64>; 4]) -> f64 {
+    let twice = |k: usize| corners[k].coords.perp(&corners[(k + 1) % 4].coords);
+    0.5 * (0..4).map(twice).sum::<f64>()
 }
 
 /// The largest difference of two lists, relative to the largest entry of the first.
