@@ -129,11 +129,12 @@ fn violation(scene: &Scene, rows: &RowState) -> f64 {
     let model = Model::from_scene(scene).unwrap();
     let system = System::new(&model).unwrap();
     let reduction = Reduction::new(&system, None).unwrap();
-    let form = Form::new(FormKind::Coulomb, &system, &reduction);
+    let form = Form::new(FormKind::Coulomb, &system, &reduction).unwrap();
     let (t, y) = form.pairs(rows, &[]);
+    let (a, b, c) = (form.problem.a(), form.problem.b(), form.problem.c());
     let equation = |i: usize| -> f64 {
-        let terms = (0..form.order()).map(|j| form.a[(i, j)] * t[j] + form.b[(i, j)] * y[j]);
-        terms.sum::<f64>() - form.c[i]
+        let terms = (0..form.order()).map(|j| a[(i, j)] * t[j] + b[(i, j)] * y[j]);
+        terms.sum::<f64>() - c[i]
     };
     let complementarity = |i: usize| t[i].min(y[i]);
     (0..form.order()).fold(0.0, |m: f64, i| m.max(equation(i).abs()).max(complementarity(i).abs()))

@@ -121,7 +121,9 @@ impl<'a> Search<'a> {
             match (end, basis) {
                 (AttemptEnd::Cancelled, _) => return self.give_up(Status::Cancelled),
                 (_, Some(basis)) => {
-                    if let Some(point) = solve_basis(self.problem, &self.scaling, &basis) {
+                    let point = solve_basis(self.problem, &self.scaling, &basis);
+                    self.note_residual(point.as_ref());
+                    if let Some(point) = point {
                         if point.residuals.worst() <= self.settings.tolerance {
                             return self.answer(Status::Solved, point, basis);
                         }
@@ -189,12 +191,22 @@ impl<'a> Search<'a> {
             covering: covering_name(covering),
             end,
             pivots: path.pivots,
+            residual: None,
         });
-        // The first start is the one that the theory speaks of: rays from others may say nothing.
         if end == AttemptEnd::Ray && self.ray.is_none() {
             self.ray = Some(in_problem_units(&path, start));
         }
         (end, (end == AttemptEnd::Complementary).then(|| path.basis()))
+    }
+
+    /// What the original data says of the last attempt's basis.
+    fn note_residual(&mut self, point: Option<&Point>) {
+        if let Some(attempt) = self.info.attempts.last_mut() {
+            match point {
+                Some(point) => attempt.residual = Some(point.residuals.worst()),
+                None => attempt.end = AttemptEnd::Singular,
+            }
+        }
     }
 
     fn keep_better(&mut self, point: Point, basis: Basis) {

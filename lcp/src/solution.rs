@@ -92,7 +92,7 @@ pub enum AttemptEnd {
 }
 
 /// One attempt: where it started, with which covering vector, and how it ended.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Attempt {
     /// The start basis, in words.
@@ -103,6 +103,8 @@ pub struct Attempt {
     pub end: AttemptEnd,
     /// Pivots that it took.
     pub pivots: usize,
+    /// The worst residual of its complementary basis, where it ended on one that could be solved.
+    pub residual: Option<f64>,
 }
 
 /// What it cost.
@@ -133,7 +135,7 @@ pub struct Solution {
     pub basis: Option<Basis>,
     /// Residuals of `(t, y)`, from the original data.
     pub residuals: Residuals,
-    /// The ray of the first attempt that ended on one, when the status is
+    /// The ray on which the first of the attempts that met one ended, when the status is
     /// [`RayTermination`](Status::RayTermination).
     pub ray: Option<Ray>,
     /// What it cost.

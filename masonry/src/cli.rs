@@ -6,7 +6,7 @@
 mod progress;
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
@@ -132,11 +132,8 @@ fn names(files: &[PathBuf]) -> Vec<String> {
 }
 
 fn listing(files: &[PathBuf]) -> String {
-    files.iter().map(|file| format!("wrote {}\n", show(file))).collect()
-}
-
-fn show(path: &Path) -> String {
-    path.display().to_string()
+    let lines: Vec<String> = files.iter().map(|path| format!("wrote {}", path.display())).collect();
+    lines.join("\n") + "\n"
 }
 
 /// A closed pipe is the reader's choice, not a failure of ours.

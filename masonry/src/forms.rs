@@ -10,6 +10,7 @@
 //! `(t_n, y_n)` of all points, then, group by group, those of the points with friction.
 
 use faer::Mat;
+use lcp::HorizontalLcp;
 
 use crate::reduction::Reduction;
 use crate::system::System;
@@ -68,12 +69,8 @@ pub struct RowState {
 pub struct Form {
     /// The variables used.
     pub kind: FormKind,
-    /// `A`, square.
-    pub a: Mat<f64>,
-    /// `B`, square.
-    pub b: Mat<f64>,
-    /// `c`.
-    pub c: Vec<f64>,
+    /// `A`, `B` and `c`.
+    pub problem: HorizontalLcp,
     /// What one unit of force and of displacement is.
     pub scale: Scale,
     /// Bases from which pivoting may start, the most promising first; empty where `y` itself is
@@ -82,9 +79,28 @@ pub struct Form {
     layout: Layout,
 }
 
+/// The equations of a form while they are written.
+struct Equations {
+    a: Mat<f64>,
+    b: Mat<f64>,
+    c: Vec<f64>,
+    scale: Scale,
+    layout: Layout,
+}
+
+impl Equations {
+    fn into_form(self, kind: FormKind, starts: Vec<Start>) -> Result<Form, lcp::Error> {
+        let Self { a, b, c, scale, layout } = self;
+        Ok(Form { kind, problem: HorizontalLcp::new(a, b, c)?, scale, starts, layout })
+    }
+}
+
 impl Form {
     /// Sets up the problem in the given variables.
-    pub fn new(kind: FormKind, system: &System, reduction: &Reduction) -> Self {
+    ///
+    /// # Errors
+    /// [`lcp::Error::NotFinite`] when the data of the scene overflow.
+    pub fn new(kind: FormKind, system: &System, reduction: &Reduction) -> Result<Self, lcp::Error> {
         match kind {
             FormKind::Coulomb => coulomb::build(system, reduction),
             FormKind::StewartTrinkle => stewart_trinkle::build(system, reduction),
@@ -94,20 +110,12 @@ impl Form {
 
     /// Number of complementary pairs.
     pub fn order(&self) -> usize {
-        self.c.len()
+        self.problem.order()
     }
 
     /// Number of contact points: of pairs `(t_n, y_n)`, which come first.
     pub fn points(&self) -> usize {
         self.layout.points
-    }
-
-    /// The problem as `lcp` takes it.
-    ///
-    /// # Errors
-    /// [`lcp::Error`] when the data is not finite.
-    pub fn problem(&self) -> Result<lcp::HorizontalLcp, lcp::Error> {
-        lcp::HorizontalLcp::new(self.a.clone(), self.b.clone(), self.c.clone())
     }
 
     /// The rigid amplitudes \[m\], three per block, among the variables `t` of the mixed form;

@@ -101,8 +101,8 @@ fn solver(form: Form, frictional_points: usize) -> (&'static str, &'static str) 
             ("lemke", "no joint has friction: the normal contacts alone make a symmetric problem")
         }
         Form::Auto => (
-            "lemke, Coulomb form; Stewart-Trinkle form if it ends on a ray",
-            "with friction a ray of the Coulomb form does not prove that there is no solution",
+            "lemke, Coulomb form; mixed form if it ends on rays",
+            "with friction a ray of the Coulomb form does not mean that there is no equilibrium",
         ),
         Form::Coulomb => ("lemke, Coulomb form", "solver.form = \"coulomb\""),
         Form::StewartTrinkle => {

@@ -14,6 +14,9 @@ use crate::system::{BodySystem, System, displaced_nodes};
 /// open, sticking or sliding.
 const STATUS_TOLERANCE: f64 = 1e-8;
 
+/// Gap rates above minus this fraction of the largest rate of a mechanism do not close a contact.
+const MECHANISM_TOLERANCE: f64 = 1e-8;
+
 /// The state that belongs to the contact forces and relative displacements `rows`: rigid amplitudes
 /// from the isostatic rows, then `u = K^+ (f + C^T t) + N alpha` block by block.
 ///
@@ -188,15 +191,19 @@ pub fn reactions(model: &Model, contacts: &[ContactState]) -> Vec<Reaction> {
     list
 }
 
-/// The rigid motion with the rates `y` of all rows: rates of the four corners of every block, scaled to
-/// a largest component of one. All zero when `y` belongs to no motion.
+/// The mechanism with the rates `amplitudes`, three per block: rates of the four corners of every
+/// block, scaled to a largest component of one.
+///
+/// `None` unless it is one: no closed contact may close further, and the loads must do work on it.
 pub fn mechanism(
     model: &Model,
     system: &System,
-    reduction: &Reduction,
-    y: &[f64],
-) -> Vec<[Vector2<f64>; 4]> {
-    let amplitudes = reduction.rigid_amplitudes(y);
+    amplitudes: &[f64],
+) -> Option<Vec<[Vector2<f64>; 4]>> {
+    let power: f64 = system.resultants().iter().zip(amplitudes).map(|(f, rate)| f * rate).sum();
+    if power <= 0.0 || !power.is_finite() {
+        return None;
+    }
     let mut rates: Vec<[Vector2<f64>; 4]> = model
         .blocks
         .iter()
@@ -205,8 +212,12 @@ pub fn mechanism(
         .map(|((block, body), alpha)| block.corners.map(|p| body.modes.displacement(p, alpha)))
         .collect();
     let largest = rates.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max);
-    if largest > 0.0 {
-        rates.iter_mut().flatten().for_each(|rate| *rate /= largest);
+    let closes = |(gap, contact): (f64, &ContactPoint)| {
+        contact.gap <= 0.0 && gap < -MECHANISM_TOLERANCE * largest
+    };
+    if system.gap_rates(amplitudes).into_iter().zip(&model.contacts).any(closes) {
+        return None;
     }
-    rates
+    rates.iter_mut().flatten().for_each(|rate| *rate /= largest);
+    Some(rates)
 }

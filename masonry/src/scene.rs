@@ -296,7 +296,7 @@ fn default_tolerance() -> f64 {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Form {
-    /// The Coulomb form first; the Stewart-Trinkle form when that ends on a ray.
+    /// The Coulomb form first; the mixed form when that ends on rays.
     #[default]
     Auto,
     /// Distances to the two edges of the friction cone (3.27): three unknowns a point.

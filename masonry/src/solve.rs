@@ -5,7 +5,7 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use nalgebra::{Point2, Vector2};
+use nalgebra::Point2;
 
 use crate::check::Checks;
 use crate::model::Model;
@@ -14,7 +14,7 @@ use crate::output::svg::ReferenceLines;
 use crate::plan::Plan;
 use crate::recover;
 use crate::reduction::Reduction;
-use crate::rigid::{Modes, RigidError};
+use crate::rigid::RigidError;
 use crate::routes::lemke::{self, Request};
 use crate::scene::{Scene, SceneError};
 use crate::system::{System, SystemError};
@@ -105,7 +105,7 @@ pub fn solve_observed(
     let checks = state.as_ref().map(|state| Checks::of(&model, state));
     let reactions =
         state.as_ref().map_or_else(Vec::new, |state| recover::reactions(&model, &state.contacts));
-    let mechanism = answer.mechanism.map(|rates| corner_rates(&model, &rates));
+    let mechanism = answer.ray.and_then(|rates| recover::mechanism(&model, &system, &rates));
     Ok(Outcome {
         title: scene.title.clone(),
         model,
@@ -141,24 +141,6 @@ pub fn reference_lines(scene: &Scene) -> Option<ReferenceLines> {
     let origins = [left, right].map(|x| Point2::new(x, foot) * metres);
     let angle = (wall.brick.length / (2.0 * wall.brick.height)).atan();
     Some(ReferenceLines { origins, angle, label: "arctan(l / 2h)".to_owned() })
-}
-
-/// Displacement rates of the corners of every block, the largest component one.
-fn corner_rates(model: &Model, amplitudes: &[f64]) -> Vec<[Vector2<f64>; 4]> {
-    let mut rates: Vec<[Vector2<f64>; 4]> = model
-        .blocks
-        .iter()
-        .zip(amplitudes.chunks_exact(3))
-        .map(|(block, alpha)| {
-            let modes = Modes::of(&block.corners);
-            block.corners.map(|corner| modes.displacement(corner, alpha))
-        })
-        .collect();
-    let largest = rates.iter().flatten().fold(0.0_f64, |max, v| max.max(v.amax()));
-    if largest > 0.0 {
-        rates.iter_mut().flatten().for_each(|v| *v /= largest);
-    }
-    rates
 }
 
 #[derive(Default)]

@@ -175,6 +175,18 @@ impl System {
         g
     }
 
+    /// Rates of the normal gaps of all contact points for rates of the rigid amplitudes.
+    pub fn gap_rates(&self, amplitudes: &[f64]) -> Vec<f64> {
+        let mut rates = vec![0.0; self.rows.len()];
+        for (body, alpha) in self.bodies.iter().zip(amplitudes.chunks(3)) {
+            for row in &body.rows {
+                rates[row.row] += row.modes.iter().zip(alpha).map(|(g, a)| g * a).sum::<f64>();
+            }
+        }
+        rates.truncate(self.points());
+        rates
+    }
+
     /// `N^T f` of all blocks \[N\].
     pub fn resultants(&self) -> Vec<f64> {
         self.bodies.iter().flat_map(|body| body.resultant).collect()

@@ -37,7 +37,7 @@ impl Solved {
     }
 
     fn form(&self, kind: FormKind) -> Form {
-        Form::new(kind, &self.system, &self.reduction)
+        Form::new(kind, &self.system, &self.reduction).unwrap()
     }
 
     /// All states that enumeration finds.
@@ -191,7 +191,11 @@ fn start_bases_are_nonsingular() {
                 let n = form.order();
                 assert_eq!(start.t_basic.len(), n);
                 let basis = nalgebra::DMatrix::from_fn(n, n, |i, j| {
-                    if start.t_basic[j] { form.a[(i, j)] } else { form.b[(i, j)] }
+                    if start.t_basic[j] {
+                        form.problem.a()[(i, j)]
+                    } else {
+                        form.problem.b()[(i, j)]
+                    }
                 });
                 let values = basis.singular_values();
                 assert!(values.min() > 1e-6 * values.max(), "{kind:?} {}", start.name);
@@ -208,7 +212,9 @@ fn the_mixed_form_is_copositive() {
     let n = form.order();
     for seed in 1..200_usize {
         let z: Vec<f64> = (0..n).map(|k| ((k * 31 + seed * 17) % 13) as f64).collect();
-        let row = |i: usize| z.iter().enumerate().map(|(j, z)| -form.a[(i, j)] * z).sum::<f64>();
+        let row = |i: usize| {
+            z.iter().enumerate().map(|(j, z)| -form.problem.a()[(i, j)] * z).sum::<f64>()
+        };
         let value: f64 = z.iter().enumerate().map(|(i, z)| z * row(i)).sum();
         let size: f64 = z.iter().map(|z| z * z).sum();
         assert!(value >= -1e-12 * size, "{value:e}");

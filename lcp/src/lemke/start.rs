@@ -124,26 +124,25 @@ impl Equilibrated {
     }
 
     /// As many independent columns as two pivoted QR factorisations find, first among `B`, then
-    /// among the columns of `A` of the other pairs, with an orthonormal basis of the complement
-    /// of their span.
+    /// among the columns of `A` of the other pairs outside the span of the first, with an
+    /// orthonormal basis of what they leave out.
     fn independent_columns(&self) -> (Vec<Option<Side>>, Mat<f64>) {
         let n = self.order();
         let mut chosen = vec![None; n];
-        for k in pivot_columns(self.b.as_ref()) {
+        let (independent, complement) = pivot_columns(&self.b);
+        for k in independent {
             chosen[k] = Some(Side::Y);
         }
-        let complement = orthogonal_complement(self.partial(&chosen).as_ref());
         let others: Vec<usize> = (0..n).filter(|&k| chosen[k].is_none()).collect();
         let mut a = Mat::zeros(n, others.len());
         for (j, &k) in others.iter().enumerate() {
             a.col_as_slice_mut(j).copy_from_slice(self.a.col_as_slice(k));
         }
-        let projected = complement.transpose() * &a;
-        for j in pivot_columns(projected.as_ref()) {
+        let (independent, rest) = pivot_columns(&(complement.transpose() * &a));
+        for j in independent {
             chosen[others[j]] = Some(Side::T);
         }
-        let complement = orthogonal_complement(self.partial(&chosen).as_ref());
-        (chosen, complement)
+        (chosen, complement * rest)
     }
 
     fn partial(&self, chosen: &[Option<Side>]) -> Mat<f64> {
@@ -236,17 +235,22 @@ fn is_diagonal(m: &Mat<f64>) -> bool {
     (0..m.ncols()).all(|j| m.col_as_slice(j).iter().enumerate().all(|(i, &v)| i == j || v == 0.0))
 }
 
-/// Independent columns by QR with column pivoting, up to the numerical rank.
-fn pivot_columns(m: MatRef<'_, f64>) -> Vec<usize> {
-    let size = m.nrows().min(m.ncols());
+/// Independent columns by QR with column pivoting, up to the numerical rank, and an orthonormal basis
+/// of the complement of their span.
+fn pivot_columns(m: &Mat<f64>) -> (Vec<usize>, Mat<f64>) {
+    let (rows, size) = (m.nrows(), m.nrows().min(m.ncols()));
     if size == 0 || m.norm_max() == 0.0 {
-        return Vec::new();
+        return (Vec::new(), Mat::identity(rows, rows));
     }
     let qr = m.col_piv_qr();
     let r = qr.R();
     let first = r[(0, 0)].abs();
     let rank = (0..size).take_while(|&k| r[(k, k)].abs() > RANK_TOLERANCE * first).count();
-    qr.P().arrays().0[..rank].to_vec()
+    let columns = qr.P().arrays().0[..rank].to_vec();
+    if rank == rows {
+        return (columns, Mat::zeros(rows, 0));
+    }
+    (columns, qr.compute_Q().subcols(rank, rows - rank).to_owned())
 }
 
 /// An orthonormal basis of the orthogonal complement of independent columns.

@@ -1,11 +1,11 @@
 //! The paper's form (3.26), (3.27) in `t_n`, `p+`, `p-`.
 
 use super::reduced::{PATTERNS, Pattern, normal_start, tangents_in_i};
-use super::{Form, FormKind, Start, reduced};
+use super::{Equations, Form, FormKind, Start, reduced};
 use crate::reduction::Reduction;
 use crate::system::System;
 
-pub(super) fn build(system: &System, reduction: &Reduction) -> Form {
+pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp::Error> {
     let mut form = reduced::build(FormKind::Coulomb, system, reduction, 2);
     // The definition of the cone, p+ + p- = 2 mu t_n (3.24).
     for (k, (point, mu)) in form.layout.friction.iter().enumerate() {
@@ -15,13 +15,13 @@ pub(super) fn build(system: &System, reduction: &Reduction) -> Form {
         form.a[(row, plus)] = 1.0;
         form.a[(row, minus)] = 1.0;
     }
-    form.starts = starts(&form, reduction);
-    form
+    let starts = starts(&form, reduction);
+    form.into_form(FormKind::Coulomb, starts)
 }
 
 /// `y_nE`, `t_nI` and one of `(y+, p-)`, `(y-, p+)` are basic. At an isostatic tangential row both `p` are:
 /// equilibrium gives their difference and the cone their sum.
-fn starts(form: &Form, reduction: &Reduction) -> Vec<Start> {
+fn starts(form: &Equations, reduction: &Reduction) -> Vec<Start> {
     let held = tangents_in_i(form, reduction);
     let start = |Pattern { name, forwards }: Pattern| {
         let mut t_basic = normal_start(form, reduction);

@@ -8,11 +8,11 @@
 
 use faer::Mat;
 
-use super::{Form, FormKind, Layout, Scale};
+use super::{Equations, Form, FormKind, Layout, Scale};
 use crate::reduction::Reduction;
 use crate::system::System;
 
-pub(super) fn build(system: &System, reduction: &Reduction) -> Form {
+pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp::Error> {
     let layout = Layout::of(system);
     let scale = Scale::of(reduction);
     let (m_f, rows) = (layout.friction.len(), layout.rows());
@@ -60,5 +60,5 @@ pub(super) fn build(system: &System, reduction: &Reduction) -> Form {
     }
     let a = -m;
     let b = Mat::identity(order, order);
-    Form { kind: FormKind::Mixed, a, b, c: q, scale, starts: Vec::new(), layout }
+    Equations { a, b, c: q, scale, layout }.into_form(FormKind::Mixed, Vec::new())
 }

@@ -2,7 +2,7 @@
 
 use faer::Mat;
 
-use super::{Form, FormKind, Layout, Scale};
+use super::{Equations, FormKind, Layout, Scale};
 use crate::reduction::Reduction;
 use crate::system::System;
 
@@ -11,7 +11,12 @@ use crate::system::System;
 /// * rows `I`:  `t_I - R t_E = t_0`.
 ///
 /// The equations of the friction law, after these, are left to the form.
-pub(super) fn build(kind: FormKind, system: &System, reduction: &Reduction, groups: usize) -> Form {
+pub(super) fn build(
+    kind: FormKind,
+    system: &System,
+    reduction: &Reduction,
+    groups: usize,
+) -> Equations {
     let layout = Layout::of(system);
     let scale = Scale::of(reduction);
     let order = layout.points + groups * layout.friction.len();
@@ -46,7 +51,7 @@ pub(super) fn build(kind: FormKind, system: &System, reduction: &Reduction, grou
         }
         c[*row] = reduction.t0[i] / scale.force;
     }
-    Form { kind, a, b, c, scale, starts: Vec::new(), layout }
+    Equations { a, b, c, scale, layout }
 }
 
 fn add(matrix: &mut Mat<f64>, row: usize, terms: &[(usize, f64)], factor: f64) {
@@ -56,7 +61,7 @@ fn add(matrix: &mut Mat<f64>, row: usize, terms: &[(usize, f64)], factor: f64) {
 }
 
 /// For every frictional point, whether its tangential row is isostatic.
-pub(super) fn tangents_in_i(form: &Form, reduction: &Reduction) -> Vec<bool> {
+pub(super) fn tangents_in_i(form: &Equations, reduction: &Reduction) -> Vec<bool> {
     let mut found = vec![false; form.layout.friction.len()];
     for row in &reduction.isostatic {
         if let Some(k) = row.checked_sub(form.layout.points) {
@@ -82,8 +87,8 @@ pub(super) const PATTERNS: [Pattern; 4] = [
 
 /// A start in which isostatic normals carry force and all other normals are open; the tangential
 /// pairs, all still on their `y` side, are left to the form.
-pub(super) fn normal_start(form: &Form, reduction: &Reduction) -> Vec<bool> {
-    let mut t_basic = vec![false; form.order()];
+pub(super) fn normal_start(form: &Equations, reduction: &Reduction) -> Vec<bool> {
+    let mut t_basic = vec![false; form.c.len()];
     for row in reduction.isostatic.iter().filter(|row| **row < form.layout.points) {
         t_basic[*row] = true;
     }

@@ -1,11 +1,11 @@
 //! The form in `t_n`, `b+`, `b-`, `lambda` on the reduced problem.
 
 use super::reduced::{PATTERNS, Pattern, normal_start, tangents_in_i};
-use super::{Form, FormKind, Start, reduced};
+use super::{Equations, Form, FormKind, Start, reduced};
 use crate::reduction::Reduction;
 use crate::system::System;
 
-pub(super) fn build(system: &System, reduction: &Reduction) -> Form {
+pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp::Error> {
     let mut form = reduced::build(FormKind::StewartTrinkle, system, reduction, 3);
     let layout = &form.layout;
     for (k, (point, mu)) in layout.friction.iter().enumerate() {
@@ -22,13 +22,13 @@ pub(super) fn build(system: &System, reduction: &Reduction) -> Form {
         form.a[(row, plus)] = 1.0;
         form.a[(row, minus)] = 1.0;
     }
-    form.starts = starts(&form, reduction);
-    form
+    let starts = starts(&form, reduction);
+    form.into_form(FormKind::StewartTrinkle, starts)
 }
 
 /// `y_nE`, `t_nI` and `(s+, b-, lambda)` or `(s-, b+, lambda)` are basic: sliding. At an isostatic tangential
 /// row `(b+, s-, w)` or `(b-, s+, w)` are: sticking, the force given by equilibrium.
-fn starts(form: &Form, reduction: &Reduction) -> Vec<Start> {
+fn starts(form: &Equations, reduction: &Reduction) -> Vec<Start> {
     let held = tangents_in_i(form, reduction);
     let start = |Pattern { name, forwards }: Pattern| {
         let mut t_basic = normal_start(form, reduction);

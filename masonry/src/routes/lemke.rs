@@ -2,16 +2,15 @@
 //!
 //! The paper's form (3.27) comes first. It is not copositive, and for large friction the method may
 //! end on a ray although there is equilibrium; so a ray is followed by other start bases and
-//! covering vectors, and then by the copositive mixed form. The ray of its first attempt is a motion
-//! of the blocks that no contact stops. Even this is no proof that there is no equilibrium: a rigid
-//! block that just fits between two walls may fall, and may be jammed. The answer of the mixed form
-//! is measured against the paper's form too.
+//! covering vectors, and then by the copositive mixed form. Its ray is a motion of the blocks that
+//! no contact stops. Even this is no proof that there is no equilibrium: a rigid block that just
+//! fits between two walls may fall, and may be jammed. The answer of the mixed form is measured
+//! against the paper's form too.
 
 use std::ops::ControlFlow;
 
 use lcp::{
-    Attempt, AttemptEnd, Basis, Covering, HorizontalLcp, Lemke, LemkeSettings, Progress, Ray,
-    Residuals, Side, Status,
+    Attempt, AttemptEnd, Basis, Covering, Lemke, LemkeSettings, Progress, Residuals, Side, Status,
 };
 
 use crate::forms::{Form, FormKind, RowState, Start};
@@ -20,16 +19,14 @@ use crate::reduction::Reduction;
 use crate::scene;
 use crate::system::System;
 
-/// Start bases of the paper's form that are tried.
+/// Start bases of a reduced form that are tried.
 const STARTS: usize = 2;
 /// Attempts from every one of them: with the covering vector of [`covering`], then a random one.
 const ATTEMPTS_PER_START: usize = 2;
-/// Attempts on the mixed form.
-const MIXED_ATTEMPTS: usize = 4;
+/// Attempts on the mixed form, from its natural start: with a covering vector of ones and another.
+const MIXED_ATTEMPTS: usize = 2;
 /// How far the covering vector opens the friction cone, in units of force.
 const COHESION: f64 = 100.0;
-/// Amplitudes along a ray below this fraction of its largest component are rounding errors.
-const ROUNDING: f64 = 1e-9;
 
 /// What the route is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,9 +46,8 @@ pub struct Answer {
     pub info: SolveInfo,
     /// Contact forces and relative displacements, when solved.
     pub rows: Option<RowState>,
-    /// Rates of the rigid amplitudes along the secondary ray, three per block, when the mixed form
-    /// ended on a ray that moves blocks.
-    pub mechanism: Option<Vec<f64>>,
+    /// Rates of the rigid amplitudes, three per block, along the secondary ray of the mixed form.
+    pub ray: Option<Vec<f64>>,
 }
 
 /// Follows the progress of a solve; `Break` cancels it.
@@ -76,7 +72,7 @@ pub fn solve(
     let mut search = Search { request, attempts: Vec::new(), pivots: 0, coulomb: None };
     let mut answer = None;
     for &kind in kinds {
-        let form = Form::new(kind, system, reduction);
+        let form = Form::new(kind, system, reduction)?;
         let found = search.run(form, observer)?;
         let done = found.rows.is_some() || found.info.status == Status::Cancelled;
         answer = Some(found);
@@ -93,18 +89,20 @@ struct Search<'a> {
     attempts: Vec<String>,
     pivots: usize,
     /// The paper's form, once it was tried: any answer is measured against it.
-    coulomb: Option<(Form, HorizontalLcp)>,
+    coulomb: Option<Form>,
 }
 
 impl Search<'_> {
     fn run(&mut self, form: Form, observer: Observer<'_>) -> Result<Answer, lcp::Error> {
-        let problem = form.problem()?;
         let mut last = None;
-        for settings in self.settings(&form) {
-            let solution = Lemke::new(settings).solve_observed(&problem, observer)?;
+        for (settings, start) in self.settings(&form) {
+            let solution = Lemke::new(settings).solve_observed(&form.problem, observer)?;
             self.pivots += solution.info.pivots;
-            self.attempts.extend(solution.info.attempts.iter().map(|it| describe(form.kind, it)));
-            let stop = matches!(solution.status, Status::Solved | Status::Cancelled);
+            let attempts = solution.info.attempts.iter();
+            self.attempts.extend(attempts.map(|it| describe(form.kind, start, it)));
+            // A singular start was replaced by one that the solver found; so would the next be.
+            let replaced = start.is_some() && !solution.info.attempts.iter().any(is_given);
+            let stop = replaced || matches!(solution.status, Status::Solved | Status::Cancelled);
             last = Some(solution);
             if stop {
                 break;
@@ -121,14 +119,16 @@ impl Search<'_> {
             residuals: solution.residuals,
             coulomb_residuals: rows.as_ref().and_then(|rows| self.against_coulomb(&form, rows)),
         };
-        let mechanism = solution.ray.and_then(|ray| mechanism(&form, &ray));
+        let ray = solution.ray.filter(|_| form.kind == FormKind::Mixed);
+        let ray = ray.and_then(|ray| form.amplitudes(&ray.dt));
         if form.kind == FormKind::Coulomb {
-            self.coulomb = Some((form, problem));
+            self.coulomb = Some(form);
         }
-        Ok(Answer { info, rows, mechanism })
+        Ok(Answer { info, rows, ray })
     }
 
-    fn settings(&self, form: &Form) -> Vec<LemkeSettings> {
+    /// Settings of every run on a form, and the name of the start basis that they give.
+    fn settings(&self, form: &Form) -> Vec<(LemkeSettings, Option<&'static str>)> {
         let common = LemkeSettings {
             tolerance: self.request.tolerance,
             max_pivots: self.request.max_pivots,
@@ -136,22 +136,24 @@ impl Search<'_> {
             ..LemkeSettings::default()
         };
         if form.starts.is_empty() {
-            return vec![common];
+            return vec![(common, None)];
         }
-        let from_start = |start: &Start| LemkeSettings {
-            start: Some(basis(start)),
-            covering: Covering::Given(covering(form, start)),
-            max_attempts: ATTEMPTS_PER_START,
-            ..common.clone()
+        let from_start = |start: &Start| {
+            let settings = LemkeSettings {
+                start: Some(basis(start)),
+                covering: Covering::Given(covering(form, start)),
+                max_attempts: ATTEMPTS_PER_START,
+                ..common.clone()
+            };
+            (settings, Some(start.name))
         };
         form.starts.iter().take(STARTS).map(from_start).collect()
     }
 
     fn against_coulomb(&self, form: &Form, rows: &RowState) -> Option<Residuals> {
-        let (coulomb, problem) =
-            self.coulomb.as_ref().filter(|_| form.kind != FormKind::Coulomb)?;
+        let coulomb = self.coulomb.as_ref().filter(|_| form.kind != FormKind::Coulomb)?;
         let (t, y) = coulomb.pairs(rows, &[]);
-        Some(problem.residuals(&t, &y))
+        Some(coulomb.problem.residuals(&t, &y))
     }
 }
 
@@ -168,7 +170,11 @@ fn covering(form: &Form, start: &Start) -> Vec<f64> {
     (0..form.order()).map(|pair| if cone(pair) { COHESION } else { 1.0 }).collect()
 }
 
-fn describe(kind: FormKind, attempt: &Attempt) -> String {
+fn is_given(attempt: &Attempt) -> bool {
+    attempt.start == "given"
+}
+
+fn describe(kind: FormKind, given: Option<&str>, attempt: &Attempt) -> String {
     let end = match attempt.end {
         AttemptEnd::Complementary => "complementary basis",
         AttemptEnd::Ray => "ray",
@@ -178,21 +184,9 @@ fn describe(kind: FormKind, attempt: &Attempt) -> String {
         AttemptEnd::Cancelled => "cancelled",
         _ => "ended",
     };
-    format!(
-        "{}: start {}, covering vector {}: {end} after {} pivots",
-        kind.name(),
-        attempt.start,
-        attempt.covering,
-        attempt.pivots
-    )
-}
-
-/// The rigid amplitudes \[m\] along a ray, if it moves anything.
-///
-/// Amplitudes are differences of variables: where both grow alike, rounding errors are left.
-fn mechanism(form: &Form, ray: &Ray) -> Option<Vec<f64>> {
-    let largest = |v: &[f64]| v.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    let amplitudes = form.amplitudes(&ray.dt)?;
-    let moved = largest(&amplitudes) > ROUNDING * form.scale.length * largest(&ray.dt);
-    moved.then_some(amplitudes)
+    let start = given.filter(|_| is_given(attempt)).unwrap_or(&attempt.start);
+    let covering = if attempt.covering == "given" { "cohesive" } else { &attempt.covering };
+    let (kind, pivots) = (kind.name(), attempt.pivots);
+    let residual = attempt.residual.map_or(String::new(), |it| format!(", residual {it:.1e}"));
+    format!("{kind}: start {start}, covering {covering}: {end} after {pivots} pivots{residual}")
 }

@@ -7,15 +7,16 @@ use nalgebra::{DMatrix, DVector};
 pub fn solutions(form: &Form) -> Vec<(Vec<f64>, Vec<f64>)> {
     let n = form.order();
     assert!(n <= 16, "{n} pairs have too many bases");
-    let c = DVector::from_column_slice(&form.c);
+    let c = DVector::from_column_slice(form.problem.c());
     (0..1_u32 << n).filter_map(|mask| basic_solution(form, &c, mask)).collect()
 }
 
 fn basic_solution(form: &Form, c: &DVector<f64>, mask: u32) -> Option<(Vec<f64>, Vec<f64>)> {
     let n = form.order();
     let t_basic = |j: usize| mask >> j & 1 == 1;
-    let basis =
-        DMatrix::from_fn(n, n, |i, j| if t_basic(j) { form.a[(i, j)] } else { form.b[(i, j)] });
+    let basis = DMatrix::from_fn(n, n, |i, j| {
+        if t_basic(j) { form.problem.a()[(i, j)] } else { form.problem.b()[(i, j)] }
+    });
     let x = basis.clone().lu().solve(c)?;
     let residual = (basis * &x - c).amax();
     let size = 1.0 + x.amax();
@@ -30,9 +31,10 @@ fn basic_solution(form: &Form, c: &DVector<f64>, mask: u32) -> Option<(Vec<f64>,
 pub fn violation(form: &Form, t: &[f64], y: &[f64]) -> f64 {
     let size = t.iter().chain(y).fold(1.0, |m: f64, x| m.max(x.abs()));
     let row = |i: usize| {
-        let sum: f64 =
-            (0..form.order()).map(|j| form.a[(i, j)] * t[j] + form.b[(i, j)] * y[j]).sum();
-        (sum - form.c[i]).abs()
+        let sum: f64 = (0..form.order())
+            .map(|j| form.problem.a()[(i, j)] * t[j] + form.problem.b()[(i, j)] * y[j])
+            .sum();
+        (sum - form.problem.c()[i]).abs()
     };
     let equation = (0..form.order()).map(row).fold(0.0, f64::max);
     let pairs = t.iter().zip(y).map(|(t, y)| t.min(*y).abs());

@@ -177,7 +177,7 @@ fn unpack(block: &Block, x: &[f64]) -> Vec<Vector2<f64>> {
 pub fn by_reduction(system: &System, reduction: &Reduction, told: &[Told]) -> RowState {
     let rows = system.rows.len();
     let points = system.points();
-    let Form { scale, .. } = Form::new(FormKind::Coulomb, system, reduction);
+    let Form { scale, .. } = Form::new(FormKind::Coulomb, system, reduction).unwrap();
     let (force, length) = (scale.force, scale.length);
     let Reduction { isostatic, others, .. } = reduction;
     let mut matrix = DMatrix::zeros(2 * rows, 2 * rows);

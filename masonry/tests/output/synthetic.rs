@@ -340,7 +340,6 @@ fn plan(model: &Model) -> Plan {
         frictional_points: m,
         rigid_modes: 3 * model.blocks.len(),
         order: 3 * m,
-        dense_bytes: 3 * (3 * m).pow(2) * size_of::<f64>(),
         solver: "lemke".to_owned(),
         because: "friction makes the matrix nonsymmetric, and the order is below 3000".to_owned(),
     }
