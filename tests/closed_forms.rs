@@ -9,6 +9,7 @@ use common::{
     stands,
 };
 use lcp::Status;
+use masonry::contact::PointRule;
 use masonry::ids::{BlockId, SupportId};
 use masonry::model::{Body, Plane};
 use masonry::outcome::Outcome;
@@ -96,6 +97,18 @@ fn a_block_slides_or_tips() {
         let broad = |alpha| pushed(stack(1, [0.6, 1.0], 0.5, material), alpha);
         assert_close(critical([0.0, 1.0], |alpha| stands(&broad(alpha))), 0.5, 1e-6);
         assert_slides(&broad(0.5 * 1.001));
+    }
+}
+
+/// Gauss points lie inside the joint, so that a block tips about the outermost of them and not about
+/// its corner: two on the whole foot of a rigid block, two on each of the two elements of the other.
+#[test]
+fn a_block_on_gauss_points_tips_early() {
+    let inner = 1.0 / 3_f64.sqrt();
+    for (material, arm) in materials().into_iter().zip([inner, 0.5 + 0.5 * inner]) {
+        let block = stack(1, [0.2, 1.0], 0.7, material).contact_points(PointRule::Gauss);
+        let found = critical([0.0, 1.0], |alpha| stands(&pushed(block.clone(), alpha)));
+        assert_close(found, 0.2 * arm, 1e-6);
     }
 }
 
