@@ -1,6 +1,47 @@
 //! Walls and arches of blocks with unilateral Coulomb contact.
 //!
-//! Data flows one way: scene, model, plan, system, reduction, solution, recovery, report.
+//! Blocks, elastic (four-node elements) or rigid, meet in joints that carry no tension and slide by
+//! Coulomb's law. Their displacements are eliminated, and what remains is a linear complementarity
+//! problem in the contact forces, which [`lcp`] solves. [`solve::solve`] does it all:
+//!
+//! ```
+//! use masonry::scene::{Brick, Joint, Load, Material, Scene, Support, Wall};
+//! use masonry::units::Units;
+//! use masonry::{output::table, solve::solve};
+//!
+//! let brick = Brick { length: 0.2, height: 0.1 };
+//! let scene = Scene::new("Three courses", Units::SI)
+//!     .thickness(0.1)
+//!     .material("stone", Material::rigid())
+//!     .joint("bed", Joint::mu(0.6))
+//!     .joint("head", Joint::mu(0.6))
+//!     .wall(Wall::running_bond("wall", "stone", brick, 0.4, 3))
+//!     .support(Support::new("floor", [0.0, 0.0], [0.4, 0.0], "bed"))
+//!     .load(Load::pressure("top", [0.0, 0.3], [0.4, 0.3], 1e4));
+//! let outcome = solve(&scene)?;
+//! assert!((outcome.reactions[0].fy - 400.0).abs() < 1e-9);
+//! assert!(table::report(&outcome).contains("Solved"));
+//! # Ok::<(), masonry::solve::SolveError>(())
+//! ```
+//!
+//! # The way of the data
+//! Every stage is a module and can be used on its own; each knows those before it and none behind it.
+//!
+//! | stage | module | result |
+//! |---|---|---|
+//! | scene: what is there, in its own units | [`scene`], [`units`], [`bond`] | [`scene::Scene`] |
+//! | model: blocks, joints, contact points, in SI units | [`model`], [`geometry`], [`mesh`], [`contact`], [`ids`] | [`model::Model`] |
+//! | plan: what the scene calls for | [`plan`] | [`plan::Plan`] |
+//! | system: stiffness, loads, contact rows (3.2) | [`system`], [`element`], [`rigid`] | [`system::System`] |
+//! | reduction to contact forces (3.18), (3.23) | [`reduction`] | [`reduction::Reduction`] |
+//! | complementarity problem (3.27) and its other forms | [`forms`] | [`forms::Form`] |
+//! | solution | [`routes`] | [`routes::lemke::Answer`] |
+//! | displacements, stresses, reactions | [`recover`] | [`outcome::State`] |
+//! | balances that use nothing of the method | [`check`] | [`check::Checks`] |
+//! | text, pictures, tables, meshes | [`output`] | files |
+//!
+//! Numbers in brackets are equations of N.M. Auciello and A. Ercolano, *Numerical simulation of
+//! masonry panels* (1997). Signs and directions are those of [`model`].
 
 pub mod bond;
 pub mod check;
@@ -24,3 +65,13 @@ pub mod scene;
 pub mod solve;
 pub mod system;
 pub mod units;
+
+/// The programs of the README and of the guide are compiled and run with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct ReadmeDoctest;
+
+/// See [`ReadmeDoctest`].
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/guide.md")]
+struct GuideDoctest;

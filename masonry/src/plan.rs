@@ -1,6 +1,5 @@
 //! The plan: which effects a scene calls for, why, and what they cost.
 
-mod display;
 mod effects;
 
 use serde::Serialize;
@@ -44,6 +43,8 @@ pub struct Plan {
     /// Order of the complementarity problem: m, and two more per frictional point (3m); in the
     /// Stewart-Trinkle form three more (4m), in the mixed form also two per rigid amplitude.
     pub order: usize,
+    /// Order of the largest form that the solver may turn to.
+    pub largest_order: usize,
     /// The solver that will be used.
     pub solver: String,
     /// Why this solver.
@@ -57,10 +58,13 @@ impl Plan {
         let frictional_points = model.contacts.iter().filter(|point| point.mu > 0.0).count();
         let rigid_modes = 3 * model.blocks.len();
         let form = scene.solver.form;
-        let order = contact_points
-            + unknowns_per_friction(form) * frictional_points
-            // Each free rigid amplitude is a difference of two nonnegative unknowns.
-            + if form == Form::Mixed { 2 * rigid_modes } else { 0 };
+        let order_of = |form| {
+            contact_points
+                + unknowns_per_friction(form) * frictional_points
+                // Each free rigid amplitude is a difference of two nonnegative unknowns.
+                + if form == Form::Mixed { 2 * rigid_modes } else { 0 }
+        };
+        let last = if form == Form::Auto { Form::Mixed } else { form };
         let (solver, because) = solver(form, frictional_points);
         Self {
             effects: effects::of(scene, model),
@@ -70,16 +74,19 @@ impl Plan {
             contact_points,
             frictional_points,
             rigid_modes,
-            order,
+            order: order_of(form),
+            largest_order: order_of(last),
             solver: solver.to_owned(),
             because: because.to_owned(),
         }
     }
 
-    /// Memory \[bytes\] that the dense matrices of a pivoting solver take: A, B (3.27) and the
-    /// factors of a basis.
+    /// Memory \[bytes\] that the pivoting solver takes at its peak: about nine dense matrices of the
+    /// largest order it may come to (the problem, its equilibrated copy, the tableau at the start
+    /// and now, factors), as measured on walls.
     pub fn dense_bytes(&self) -> usize {
-        self.order.saturating_mul(self.order).saturating_mul(3 * size_of::<f64>())
+        let order = self.largest_order;
+        order.saturating_mul(order).saturating_mul(9 * size_of::<f64>())
     }
 }
 

@@ -14,7 +14,7 @@ use crate::output::svg::ReferenceLines;
 use crate::plan::Plan;
 use crate::recover;
 use crate::reduction::Reduction;
-use crate::rigid::RigidError;
+use crate::rigid::{FreeMotion, RigidError};
 use crate::routes::lemke::{self, Request};
 use crate::scene::{Scene, SceneError};
 use crate::system::{System, SystemError};
@@ -30,8 +30,19 @@ pub enum SolveError {
     #[error(transparent)]
     System(#[from] SystemError),
     /// A block can move without any contact noticing.
-    #[error(transparent)]
-    Rigid(#[from] RigidError),
+    #[error(
+        "block \"{block}\" can {motion} without changing a gap or sliding against friction \
+         (free motions in all: {free}): let it touch its neighbours or a support, or give its \
+         joints friction"
+    )]
+    Free {
+        /// Name of the block that moves most.
+        block: String,
+        /// How it moves.
+        motion: FreeMotion,
+        /// Number of independent motions that nothing resists.
+        free: usize,
+    },
     /// The solver refused its settings or the data.
     #[error("the complementarity problem was refused: {0}")]
     Solver(#[from] lcp::Error),
@@ -84,7 +95,9 @@ pub fn solve_observed(
     let model = clock.time("model", observer, || Model::from_scene(scene))?;
     let plan = Plan::of(scene, &model);
     let system = clock.time("system", observer, || System::new(&model))?;
-    let reduction = clock.time("reduction", observer, || Reduction::new(&system, None))?;
+    let reduction = clock
+        .time("reduction", observer, || Reduction::new(&system, None))
+        .map_err(|error| named(error, &model))?;
     let request = Request {
         form: scene.solver.form,
         tolerance: scene.solver.tolerance,
@@ -117,6 +130,11 @@ pub fn solve_observed(
         mechanism,
         times: clock.times,
     })
+}
+
+fn named(error: RigidError, model: &Model) -> SolveError {
+    let RigidError::Free { block, motion, free } = error;
+    SolveError::Free { block: model.blocks[block].name.clone(), motion, free }
 }
 
 /// The running-bond lines to compare the principal stresses with: from the inner ends of the

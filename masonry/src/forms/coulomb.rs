@@ -1,6 +1,6 @@
 //! The paper's form (3.26), (3.27) in `t_n`, `p+`, `p-`.
 
-use super::reduced::{PATTERNS, Pattern, normal_start, tangents_in_i};
+use super::reduced::{normal_start, tangents_in_i};
 use super::{Equations, Form, FormKind, Start, reduced};
 use crate::reduction::Reduction;
 use crate::system::System;
@@ -23,13 +23,12 @@ pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp:
 /// equilibrium gives their difference and the cone their sum.
 fn starts(form: &Equations, reduction: &Reduction) -> Vec<Start> {
     let held = tangents_in_i(form, reduction);
-    let start = |Pattern { name, forwards }: Pattern| {
+    reduced::starts(form, |forwards| {
         let mut t_basic = normal_start(form, reduction);
         for (k, held) in held.iter().enumerate() {
             t_basic[form.layout.pair(1, k)] = *held || !forwards(k);
             t_basic[form.layout.pair(2, k)] = *held || forwards(k);
         }
-        Start { name, t_basic }
-    };
-    PATTERNS.into_iter().map(start).collect()
+        t_basic
+    })
 }

@@ -2,7 +2,7 @@
 
 use faer::Mat;
 
-use super::{Equations, FormKind, Layout, Scale};
+use super::{Equations, FormKind, Layout, Scale, Start};
 use crate::reduction::Reduction;
 use crate::system::System;
 
@@ -71,19 +71,24 @@ pub(super) fn tangents_in_i(form: &Equations, reduction: &Reduction) -> Vec<bool
     found
 }
 
-/// A way of giving every frictional point, by its position, a direction of sliding.
-pub(super) struct Pattern {
-    pub(super) name: &'static str,
-    /// `true` is along `+t`.
-    pub(super) forwards: fn(usize) -> bool,
-}
+/// The direction of sliding of a frictional point by its position, `true` for `+t`.
+type Pattern = fn(usize) -> bool;
 
-pub(super) const PATTERNS: [Pattern; 4] = [
-    Pattern { name: "all slide forwards", forwards: |_| true },
-    Pattern { name: "all slide backwards", forwards: |_| false },
-    Pattern { name: "alternating, first forwards", forwards: |k| k.is_multiple_of(2) },
-    Pattern { name: "alternating, first backwards", forwards: |k| !k.is_multiple_of(2) },
+/// Ways of giving every frictional point a direction of sliding.
+const PATTERNS: [(&str, Pattern); 4] = [
+    ("all slide forwards", |_| true),
+    ("all slide backwards", |_| false),
+    ("alternating, first forwards", |k| k.is_multiple_of(2)),
+    ("alternating, first backwards", |k| !k.is_multiple_of(2)),
 ];
+
+/// A start for every pattern, from its rule; the only one there is where nothing has friction.
+pub(super) fn starts(form: &Equations, t_basic: impl Fn(Pattern) -> Vec<bool>) -> Vec<Start> {
+    if form.layout.friction.is_empty() {
+        return vec![Start { name: "isostatic normals", t_basic: t_basic(|_| true) }];
+    }
+    PATTERNS.map(|(name, forwards)| Start { name, t_basic: t_basic(forwards) }).into()
+}
 
 /// A start in which isostatic normals carry force and all other normals are open; the tangential
 /// pairs, all still on their `y` side, are left to the form.

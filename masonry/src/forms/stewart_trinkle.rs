@@ -1,6 +1,6 @@
 //! The form in `t_n`, `b+`, `b-`, `lambda` on the reduced problem.
 
-use super::reduced::{PATTERNS, Pattern, normal_start, tangents_in_i};
+use super::reduced::{normal_start, tangents_in_i};
 use super::{Equations, Form, FormKind, Start, reduced};
 use crate::reduction::Reduction;
 use crate::system::System;
@@ -30,7 +30,7 @@ pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp:
 /// row `(b+, s-, w)` or `(b-, s+, w)` are: sticking, the force given by equilibrium.
 fn starts(form: &Equations, reduction: &Reduction) -> Vec<Start> {
     let held = tangents_in_i(form, reduction);
-    let start = |Pattern { name, forwards }: Pattern| {
+    reduced::starts(form, |forwards| {
         let mut t_basic = normal_start(form, reduction);
         for (k, held) in held.iter().enumerate() {
             let plus = if *held { forwards(k) } else { !forwards(k) };
@@ -38,7 +38,6 @@ fn starts(form: &Equations, reduction: &Reduction) -> Vec<Start> {
             t_basic[form.layout.pair(2, k)] = !plus;
             t_basic[form.layout.pair(3, k)] = !held;
         }
-        Start { name, t_basic }
-    };
-    PATTERNS.into_iter().map(start).collect()
+        t_basic
+    })
 }

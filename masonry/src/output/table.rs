@@ -58,9 +58,15 @@ pub fn plan(plan: &Plan) -> String {
     let lines = pairs(&[
         ("sizes", sizes),
         ("order", plan.order.to_string()),
+        ("memory", format!("about {} MB", memory(plan.dense_bytes()))),
         ("solver", format!("{}: {}", plan.solver, plan.because)),
     ]);
     format!("{}\n\n{lines}", table.trim_fmt())
+}
+
+/// In units of 10^6 bytes, which are few for the smallest scenes.
+fn memory(bytes: usize) -> String {
+    significant(bytes as f64 / 1e6, 2)
 }
 
 fn solution(outcome: &Outcome) -> Vec<(&'static str, String)> {
@@ -158,7 +164,7 @@ fn state_figures(outcome: &Outcome, state: &State) -> Vec<(&'static str, String)
 }
 
 fn times(outcome: &Outcome) -> Vec<(&str, String)> {
-    let seconds = |value: f64| format!("{value:>9.4} s");
+    let seconds = |value: f64| format!("{:>9.3} ms", 1e3 * value);
     let mut rows: Vec<(&str, String)> = Vec::new();
     for time in &outcome.times {
         rows.push((&time.phase, seconds(time.seconds)));

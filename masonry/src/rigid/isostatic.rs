@@ -48,13 +48,12 @@ impl std::fmt::Display for FreeMotion {
 }
 
 /// Why the blocks are not held.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum RigidError {
     /// Some blocks can move without any contact noticing.
     #[error(
         "block {block} can {motion} without changing a gap or sliding against friction \
-         ({free} free motions in all): let it touch its neighbours or a support, \
+         (free motions in all: {free}): let it touch its neighbours or a support, \
          or give its joints friction"
     )]
     Free {

@@ -340,6 +340,7 @@ fn plan(model: &Model) -> Plan {
         frictional_points: m,
         rigid_modes: 3 * model.blocks.len(),
         order: 3 * m,
+        largest_order: 3 * m,
         solver: "lemke".to_owned(),
         because: "friction makes the matrix nonsymmetric, and the order is below 3000".to_owned(),
     }
