@@ -262,7 +262,7 @@ fn a_block_that_can_slide_freely_has_code_two() {
     assert_eq!(output.status.code(), Some(2));
     assert!(output.stdout.is_empty());
     let message = stderr(&output);
-    assert!(message.contains("block") && message.contains("slide"), "{message}");
+    assert!(message.contains("block \"block\" can slide"), "{message}");
 }
 
 #[test]
