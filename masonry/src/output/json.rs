@@ -34,6 +34,7 @@ struct Report<'a> {
     attempts: &'a [String],
     pivots: usize,
     residuals: lcp::Residuals,
+    coulomb_residuals: Option<lcp::Residuals>,
     balance: Option<Balance>,
     reactions: Option<ByName<'a, Force>>,
     contacts: Option<Contacts>,
@@ -145,6 +146,7 @@ impl<'a> Report<'a> {
             attempts: &solve.attempts,
             pivots: solve.pivots,
             residuals: solve.residuals,
+            coulomb_residuals: solve.coulomb_residuals,
             balance: checks.map(|checks| Balance {
                 force: checks.force_balance,
                 moment: checks.moment_balance,

@@ -64,6 +64,15 @@ pub fn plan(plan: &Plan) -> String {
     format!("{}\n\n{lines}", table.trim_fmt())
 }
 
+fn residuals(it: &lcp::Residuals) -> String {
+    listed(&[
+        ("equation", it.equation),
+        ("feasibility", it.feasibility),
+        ("complementarity", it.complementarity),
+        ("natural", it.natural),
+    ])
+}
+
 /// In units of 10^6 bytes, which are few for the smallest scenes.
 fn memory(bytes: usize) -> String {
     significant(bytes as f64 / 1e6, 2)
@@ -79,13 +88,10 @@ fn solution(outcome: &Outcome) -> Vec<(&'static str, String)> {
     for (index, attempt) in solve.attempts.iter().enumerate() {
         rows.push((if index == 0 { "attempts" } else { "" }, attempt.clone()));
     }
-    let residuals = [
-        ("equation", solve.residuals.equation),
-        ("feasibility", solve.residuals.feasibility),
-        ("complementarity", solve.residuals.complementarity),
-        ("natural", solve.residuals.natural),
-    ];
-    rows.push(("residuals", listed(&residuals)));
+    rows.push(("residuals", residuals(&solve.residuals)));
+    if let Some(paper) = &solve.coulomb_residuals {
+        rows.push(("(3.27)", format!("{}, of the same answer in this form", residuals(paper))));
+    }
     if let Some(checks) = &outcome.checks {
         let checks = [
             ("force", checks.force_balance),

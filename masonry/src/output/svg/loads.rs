@@ -126,7 +126,6 @@ fn draw_piece(canvas: &mut Canvas, group: &Group, from: Pixel, to: Pixel) {
     while from.distance(to) / (count + 1.0) > SPACING {
         count += 1.0;
     }
-    let mut tails = Vec::new();
     let mut index = 0.5;
     while index < count {
         let foot = from.between(to, index / count);
@@ -140,11 +139,11 @@ fn draw_piece(canvas: &mut Canvas, group: &Group, from: Pixel, to: Pixel) {
             (foot, foot.shifted(t.x, -t.y, length))
         };
         canvas.arrow(tail, tip, COLOUR);
-        tails.push(tail);
         index += 1.0;
     }
-    if let ([first, .., last], true) = (&tails[..], t.dot(&n) < 0.0 && !group.tangential()) {
-        canvas.line(*first, *last, &format!("stroke=\"{COLOUR}\" stroke-width=\"1\""));
+    if t.dot(&n) < 0.0 && !group.tangential() {
+        let bar = [from, to].map(|end| end.shifted(-t.x, t.y, length));
+        canvas.line(bar[0], bar[1], &format!("stroke=\"{COLOUR}\" stroke-width=\"1\""));
     }
 }
 
