@@ -141,7 +141,7 @@ pub fn reason(outcome: &Outcome) -> Option<String> {
     }
     let what = match outcome.solve.status {
         lcp::Status::RayTermination if outcome.mechanism.is_some() => {
-            "Every attempt ended on a secondary ray, and the last ray is a mechanism: a movement \
+            "The attempts ended on secondary rays, and one of the rays is a mechanism: a movement \
              of the blocks that the supports do not stop. This points to collapse, but with \
              friction it is not a proof."
         }

@@ -2,8 +2,10 @@
 //!
 //! The paper's form (3.27) comes first. It is not copositive, and for large friction the method may
 //! end on a ray although there is equilibrium; so a ray is followed by other start bases and
-//! covering vectors, and then by the copositive mixed form, on which a ray means what it says. The
-//! answer of the mixed form is measured against the paper's form too.
+//! covering vectors, and then by the copositive mixed form. Its ray is a motion of the blocks that
+//! no contact stops. Even this is no proof that there is no equilibrium: a rigid block that just
+//! fits between two walls may fall, and may be jammed. The answer of the mixed form is measured
+//! against the paper's form too.
 
 use std::ops::ControlFlow;
 

@@ -1,0 +1,282 @@
+//! The program: exit codes, and what goes to standard output and what to standard error.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+/// A block on a floor, leaning by `alpha`; it stands up to 0.2.
+fn block(alpha: f64) -> String {
+    format!(
+        "title = \"Block\"\n\
+         thickness = 1.0\n\
+         gravity = [{}, -10.0]\n\
+         units = {{ length = \"m\", force = \"kN\" }}\n\
+         materials.stone.density = 2000.0\n\
+         joints.floor.mu = 0.7\n\
+         [[blocks]]\n\
+         name = \"block\"\n\
+         material = \"stone\"\n\
+         corners = [[0.0, 0.0], [0.2, 0.0], [0.2, 1.0], [0.0, 1.0]]\n\
+         [[supports]]\n\
+         name = \"floor\"\n\
+         from = [-1.0, 0.0]\n\
+         to = [1.0, 0.0]\n\
+         joint = \"floor\"\n",
+        10.0 * alpha
+    )
+}
+
+/// A panel of 2 x 2 bricks between walls, without a floor.
+const NO_FLOOR: &str = r#"
+title = "Panel without a floor"
+plane = "stress"
+thickness = 1.0
+units = { length = "m", force = "kN" }
+materials.brick = { E = 1e5, nu = 0.15 }
+joints = { bed.mu = 1.0, head.mu = 1.0, wall.mu = 1.0 }
+
+[[walls]]
+name = "panel"
+material = "brick"
+origin = [0.0, 0.0]
+brick = { length = 0.1, height = 0.1 }
+width = 0.2
+courses = 2
+mesh = [1, 1]
+
+[[supports]]
+name = "left wall"
+from = [0.0, 0.0]
+to = [0.0, 0.2]
+joint = "wall"
+
+[[supports]]
+name = "right wall"
+from = [0.2, 0.0]
+to = [0.2, 0.2]
+joint = "wall"
+
+[[loads]]
+name = "top"
+from = [0.0, 0.2]
+to = [0.2, 0.2]
+pressure = 10.0
+"#;
+
+/// An empty directory of this test alone.
+fn directory(test: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli").join(test);
+    if path.exists() {
+        fs::remove_dir_all(&path).unwrap();
+    }
+    fs::create_dir_all(&path).unwrap();
+    path
+}
+
+fn written(directory: &Path, scene: &str) -> String {
+    let path = directory.join("scene.toml");
+    fs::write(&path, scene).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+fn masonry(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_masonry")).args(arguments).output().unwrap()
+}
+
+/// The one JSON object on standard output.
+fn object(output: &Output) -> Value {
+    let text = std::str::from_utf8(&output.stdout).unwrap();
+    let value: Value = serde_json::from_str(text).unwrap();
+    assert!(value.is_object());
+    value
+}
+
+fn stderr(output: &Output) -> &str {
+    std::str::from_utf8(&output.stderr).unwrap()
+}
+
+/// Every file that the object lists is there.
+fn assert_files(object: &Value, directory: &Path) {
+    let files = object["files"].as_array().unwrap();
+    assert!(!files.is_empty());
+    for file in files {
+        let path = directory.join(file.as_str().unwrap());
+        assert!(path.metadata().unwrap().len() > 0, "{}", path.display());
+    }
+}
+
+#[test]
+fn plan_says_what_will_be_built() {
+    let directory = directory("plan");
+    let scene = written(&directory, &block(0.1));
+    let output = masonry(&["plan", &scene, "--json"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(output.stderr.is_empty());
+    let plan = object(&output);
+    assert_eq!(plan["blocks"], 1);
+    assert_eq!(plan["contact_points"], 2);
+    assert_eq!(plan["frictional_points"], 2);
+    assert_eq!(plan["order"], 6);
+    let effects = plan["effects"].as_array().unwrap();
+    let is_on = |name: &str| effects.iter().find(|it| it["name"] == name).unwrap()["on"] == true;
+    assert!(is_on("friction") && is_on("self weight") && !is_on("deformation"));
+
+    let text = masonry(&["plan", &scene]);
+    assert_eq!(text.status.code(), Some(0));
+    let text = String::from_utf8(text.stdout).unwrap();
+    assert!(text.starts_with("Block\n") && text.contains("friction"), "{text}");
+    assert_eq!(fs::read_dir(&directory).unwrap().count(), 1, "a plan writes nothing");
+}
+
+#[test]
+fn a_solved_scene_is_one_object_and_code_zero() {
+    let directory = directory("solved");
+    let scene = written(&directory, &block(0.1));
+    let out = directory.join("out").join("deeper");
+    let output = masonry(&["solve", &scene, "--out", out.to_str().unwrap(), "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(output.stderr.is_empty(), "{}", stderr(&output));
+    let result = object(&output);
+    assert_eq!(result["status"], "Solved");
+    assert_eq!(result["order"], 6);
+    assert!(result["plan"].is_object() && result.get("reason").is_none());
+    for key in ["equation", "feasibility", "complementarity"] {
+        assert!(result["residuals"][key].as_f64().unwrap() <= 1e-10, "{key}");
+    }
+    for key in ["force", "moment", "cone_violation", "penetration"] {
+        assert!(result["balance"][key].as_f64().unwrap() <= 1e-9, "{key}");
+    }
+    // 0.2 m2 of 2000 kg/m3 in a field of 10 m/s2, centred at (0.1, 0.5).
+    assert_eq!(result["units"]["force"], "kN");
+    assert!((result["reactions"]["floor"]["fy"].as_f64().unwrap() - 4.0).abs() < 1e-12);
+    assert!((result["reactions"]["floor"]["fx"].as_f64().unwrap() + 0.4).abs() < 1e-12);
+    assert!((result["reactions"]["floor"]["m"].as_f64().unwrap() - 0.6).abs() < 1e-12);
+    let contacts = ["open", "stick", "slip"].map(|key| result["contacts"][key].as_u64().unwrap());
+    assert_eq!(contacts.iter().sum::<u64>(), 2);
+    assert!(result["time_s"]["solve"].as_f64().unwrap() >= 0.0);
+    assert_files(&result, &out);
+    let saved: Value =
+        serde_json::from_str(&fs::read_to_string(out.join("result.json")).unwrap()).unwrap();
+    assert_eq!(saved, result);
+}
+
+#[test]
+fn the_report_for_people_is_no_json() {
+    let directory = directory("report");
+    let scene = written(&directory, &block(0.1));
+    let out = directory.join("out");
+    let output = masonry(&["solve", &scene, "--out", out.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(0));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(serde_json::from_str::<Value>(&text).is_err());
+    assert!(text.contains("Solved") && text.contains("result.json"), "{text}");
+}
+
+#[test]
+fn what_is_not_solved_says_why_and_has_code_one() {
+    for (name, scene) in [("tipped", block(0.21)), ("no_floor", NO_FLOOR.to_owned())] {
+        let directory = directory(name);
+        let scene = written(&directory, &scene);
+        let out = directory.join("out");
+        let output = masonry(&["solve", &scene, "--out", out.to_str().unwrap(), "--json"]);
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        let result = object(&output);
+        assert_ne!(result["status"], "Solved");
+        assert!(!result["reason"].as_str().unwrap().is_empty());
+        for key in ["balance", "reactions", "contacts", "strain_energy", "max_displacement"] {
+            assert!(result[key].is_null(), "{key}");
+        }
+        assert_files(&result, &out);
+        assert!(out.join("mechanism.svg").exists());
+        assert!(!out.join("contacts.csv").exists(), "there are no forces to list");
+    }
+}
+
+/// The place of a mistake in a text, as messages give it.
+fn place_of(text: &str, mistake: &str) -> String {
+    let line = text.lines().position(|line| line.contains(mistake)).unwrap();
+    let column = text.lines().nth(line).unwrap().find(mistake).unwrap();
+    format!("line {}, column {}", line + 1, column + 1)
+}
+
+#[test]
+fn a_mistake_in_a_scene_has_line_and_column_and_code_two() {
+    let good = block(0.1);
+    let cases = [
+        ("number", good.replace("2000.0", "-3.0"), "-3.0"),
+        ("key", good.replace("thickness", "thikness"), "thikness"),
+        ("name", good.replace("joint = \"floor\"", "joint = \"flor\""), "\"flor\""),
+        ("syntax", good.replace("thickness = 1.0", "thickness = one"), "one"),
+        ("geometry", good.replace("to = [1.0, 0.0]", "to = [1.0, 0.5]"), "[[supports]]"),
+    ];
+    for (name, text, mistake) in cases {
+        let directory = directory(&format!("mistake_{name}"));
+        let scene = written(&directory, &text);
+        let out = directory.join("out");
+        for arguments in [
+            &["solve", &scene, "--out", out.to_str().unwrap(), "--json"][..],
+            &["plan", &scene, "--json"],
+            &["draw", &scene],
+        ] {
+            let output = masonry(arguments);
+            assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+            assert!(output.stdout.is_empty(), "{arguments:?}");
+            let message = stderr(&output);
+            assert!(message.contains("scene.toml"), "{message}");
+            assert!(message.contains(&place_of(&text, mistake)), "{message}");
+        }
+        assert_eq!(fs::read_dir(&directory).unwrap().count(), 1, "nothing is written");
+    }
+}
+
+#[test]
+fn what_cannot_be_read_or_understood_has_code_two() {
+    let directory = directory("unreadable");
+    let missing = directory.join("missing.toml");
+    let out = directory.join("out");
+    let output =
+        masonry(&["solve", missing.to_str().unwrap(), "--out", out.to_str().unwrap(), "--json"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(output.stdout.is_empty());
+    assert!(stderr(&output).contains("missing.toml"));
+    assert!(!out.exists());
+
+    for arguments in [&["solve"][..], &["frobnicate"], &["plan", "--no-such-option"]] {
+        let output = masonry(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(output.stdout.is_empty() && !output.stderr.is_empty());
+    }
+}
+
+/// A block that nothing holds against sliding is found out before the solver starts.
+#[test]
+fn a_block_that_can_slide_freely_has_code_two() {
+    let directory = directory("free");
+    let scene = written(&directory, &block(0.1).replace("mu = 0.7", "mu = 0.0"));
+    let out = directory.join("out");
+    let output = masonry(&["solve", &scene, "--out", out.to_str().unwrap(), "--json"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(output.stdout.is_empty());
+    let message = stderr(&output);
+    assert!(message.contains("block \"block\" can slide"), "{message}");
+}
+
+#[test]
+fn draw_makes_a_picture() {
+    let directory = directory("draw");
+    let scene = written(&directory, &block(0.1));
+    assert_eq!(masonry(&["draw", &scene]).status.code(), Some(0));
+    let picture = directory.join("picture.svg");
+    let output = masonry(&["draw", &scene, "--out", picture.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(String::from_utf8(output.stdout).unwrap().trim(), picture.to_str().unwrap());
+    for path in [directory.join("scene.svg"), picture] {
+        let text = fs::read_to_string(path).unwrap();
+        let svg = roxmltree::Document::parse(&text).unwrap();
+        assert_eq!(svg.root_element().tag_name().name(), "svg");
+    }
+}

@@ -1,0 +1,129 @@
+//! Panels that hang between two walls, without a floor.
+//!
+//! Only friction carries them, and only if the walls push: bricks that lie between them without
+//! force have to spread under the load before friction can hold them.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+
+mod common;
+
+use common::{M_KN, applied_load, assert_admissible, assert_close, solved};
+use lcp::Status;
+use masonry::forms::{Form, FormKind, RowState};
+use masonry::model::{Model, Plane};
+use masonry::outcome::Outcome;
+use masonry::output::{summary, table};
+use masonry::reduction::Reduction;
+use masonry::scene::{self, Brick, Joint, Load, Material, Scene, Support, Wall};
+use masonry::solve::{SolveError, solve};
+use masonry::system::{Direction, System};
+
+const BRICK: Brick = Brick { length: 0.1, height: 0.1 };
+
+/// A square panel of `courses` bricks each way, with a pressure of 10 kN/m2 on top.
+fn panel(courses: u32, mu: f64, material: Material) -> Scene {
+    let side = f64::from(courses) * BRICK.length;
+    Scene::new("Panel without a floor", M_KN)
+        .plane(Plane::Stress)
+        .thickness(1.0)
+        .material("brick", material)
+        .joint("bed", Joint::mu(mu))
+        .joint("head", Joint::mu(mu))
+        .wall(Wall::running_bond("panel", "brick", BRICK, side, courses).mesh([2, 2]))
+        .support(Support::new("left wall", [0.0, 0.0], [0.0, side], "head"))
+        .support(Support::new("right wall", [side, 0.0], [side, side], "head"))
+        .load(Load::pressure("top", [0.0, side], [side, side], 10.0))
+}
+
+fn elastic() -> Material {
+    Material::elastic(1e5, 0.15)
+}
+
+/// The panel spreads too little to stay: at a friction of 1 both forms end on rays, and what is
+/// reported is a motion that opens no joint the wrong way and on which the load does work.
+#[test]
+fn a_panel_falls_between_smooth_walls() {
+    for courses in [2, 3, 4] {
+        let outcome = solve(&panel(courses, 1.0, elastic())).unwrap();
+        assert_eq!(outcome.solve.status, Status::RayTermination);
+        assert!(outcome.state.is_none() && outcome.checks.is_none());
+        assert!(outcome.reactions.is_empty());
+        for form in ["coulomb", "mixed"] {
+            let tried = |attempt: &&String| attempt.starts_with(form) && attempt.contains("ray");
+            assert!(outcome.solve.attempts.iter().any(|it| tried(&it)), "{form}");
+        }
+        assert_admissible(&outcome);
+        assert_honest(&outcome);
+    }
+}
+
+/// The report says that nothing was found, and that this is no proof.
+fn assert_honest(outcome: &Outcome) {
+    assert!(table::report(outcome).contains("No equilibrium found"));
+    assert!(summary::reason(outcome).unwrap().contains("not a proof"));
+}
+
+/// Rougher walls hold it: then both carry half the load, and no more than friction allows.
+#[test]
+fn a_panel_hangs_between_rough_walls() {
+    for courses in [3, 4] {
+        let mu = 2.5;
+        let outcome = solved(&panel(courses, mu, elastic()));
+        let [left, right] = outcome.reactions.as_slice() else { panic!("two walls") };
+        let load = applied_load(&outcome.model).y;
+        assert_close(left.fy + right.fy, -load, 1e-9);
+        assert_close(left.fx, -right.fx, 1e-9);
+        for wall in [left, right] {
+            assert!(wall.fy <= mu * wall.fx.abs() * (1.0 + 1e-9), "{wall:?}");
+            // The panel is its own mirror image.
+            assert_close(wall.fy, -0.5 * load, 1e-9);
+        }
+    }
+}
+
+/// Nothing resists without friction, and this is known before anything is solved.
+#[test]
+fn a_panel_between_frictionless_walls_is_refused() {
+    let error = solve(&panel(3, 0.0, elastic())).unwrap_err();
+    let SolveError::Free { block, free, .. } = &error else { panic!("{error}") };
+    assert!(block.starts_with("panel/") && *free > 0, "{error}");
+}
+
+/// A rigid block that just fits between two rigid walls may fall or be jammed: both satisfy the
+/// friction law. So a ray with a mechanism is no proof that there is no equilibrium, and what is
+/// said must not claim one.
+#[test]
+fn a_ray_is_no_proof() {
+    let scene = panel(1, 1.0, Material::rigid());
+    let model = Model::from_scene(&scene).unwrap();
+    let system = System::new(&model).unwrap();
+    let reduction = Reduction::new(&system, None).unwrap();
+    // Four points, each with a thrust of 1 kN and a quarter of the load of 1 kN upwards.
+    let jammed = RowState {
+        t: system
+            .rows
+            .iter()
+            .map(|row| {
+                let contact = &model.contacts[row.contact.index()];
+                let tangent = model.joints[contact.joint.index()].tangent();
+                if row.direction == Direction::Normal { 1e3 } else { 250.0 * tangent.y }
+            })
+            .collect(),
+        y: vec![0.0; system.rows.len()],
+    };
+    for kind in [FormKind::Coulomb, FormKind::StewartTrinkle, FormKind::Mixed] {
+        let form = Form::new(kind, &system, &reduction).unwrap();
+        let (t, y) = form.pairs(&jammed, &[0.0; 3]);
+        let residuals = form.problem.residuals(&t, &y);
+        assert!(residuals.worst() < 1e-14, "{kind:?}: {residuals:?}");
+    }
+
+    for form in [scene::Form::Auto, scene::Form::Coulomb, scene::Form::Mixed] {
+        let outcome = solve(&scene.clone().form(form)).unwrap();
+        if outcome.solve.status == Status::RayTermination {
+            assert_honest(&outcome);
+        } else {
+            assert_eq!(outcome.solve.status, Status::Solved);
+        }
+    }
+}
