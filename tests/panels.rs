@@ -2,20 +2,22 @@
 //! discretisation: 1 m x 1 m, bricks 0.1 m high, elements of 0.05 m, a contact pair at every pair
 //! of coincident nodes, friction coefficient 1, 10 kN/m2 on top.
 
-#![allow(clippy::unwrap_used)] // a test may panic
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
-mod support;
+mod common;
 
 use std::sync::LazyLock;
+
+use common::panels;
 
 use masonry::model::{Body, ContactPoint};
 use masonry::outcome::{Outcome, State};
 use masonry::scene::{Form, Scene};
 use masonry::solve::solve;
 
-static OPEN: LazyLock<Outcome> = LazyLock::new(|| support::solved("panel_square"));
-static FULL: LazyLock<Outcome> = LazyLock::new(|| support::solved("panel_square_full_floor"));
-static RECTANGULAR: LazyLock<Outcome> = LazyLock::new(|| support::solved("panel_rectangular"));
+static OPEN: LazyLock<Outcome> = LazyLock::new(|| panels::solved("panel_square"));
+static FULL: LazyLock<Outcome> = LazyLock::new(|| panels::solved("panel_square_full_floor"));
+static RECTANGULAR: LazyLock<Outcome> = LazyLock::new(|| panels::solved("panel_rectangular"));
 
 fn state(outcome: &Outcome) -> &State {
     outcome.state.as_ref().unwrap()
@@ -150,7 +152,7 @@ fn rectangular_panel_is_one_of_the_two_solutions() {
 #[test]
 fn the_default_contact_points_are_the_nodal_pairs_here() {
     for name in ["panel_square", "panel_rectangular"] {
-        let scene = support::scene(name);
+        let scene = panels::scene(name);
         let mut pairs = scene.clone();
         pairs.contact.points = masonry::contact::PointRule::NodalPairs;
         let model = |scene: &Scene| masonry::model::Model::from_scene(scene).unwrap();
@@ -170,21 +172,21 @@ fn the_default_contact_points_are_the_nodal_pairs_here() {
 fn the_staircase_of_open_joints() {
     // Square bricks: every bed joint on the staircase is open from end to end.
     for course in 1..=4_u8 {
-        let [from, to] = support::stair(0.1, course);
-        let joint = support::bed_joint(&OPEN, from, to, course);
+        let [from, to] = panels::stair(0.1, course);
+        let joint = panels::bed_joint(&OPEN, from, to, course);
         let gaps: Vec<f64> = joint.iter().map(|s| s.y_n).collect();
         assert!(gaps.iter().all(|&gap| gap > 0.0), "course {course}: {gaps:?}");
     }
     // Rectangular bricks: it carries next to nothing of what the joint before it carries, and its
     // head joints gape.
     for course in 1..=2_u8 {
-        let [from, to] = support::stair(0.2, course);
+        let [from, to] = panels::stair(0.2, course);
         let carried = |from: f64, to: f64| -> f64 {
-            support::bed_joint(&RECTANGULAR, from, to, course).iter().map(|s| s.t_n).sum()
+            panels::bed_joint(&RECTANGULAR, from, to, course).iter().map(|s| s.t_n).sum()
         };
         let (on, before) = (carried(from, to), carried(from - 0.1, from));
         assert!(on < 0.12 * before, "course {course}: {on} N against {before} N");
-        let head = support::head_joint(&RECTANGULAR, from, course);
+        let head = panels::head_joint(&RECTANGULAR, from, course);
         let top = head.iter().filter(|(y, _)| *y > 0.1 * f64::from(course) - 0.06);
         assert!(top.clone().count() >= 2);
         assert!(top.clone().all(|(_, s)| s.y_n > 0.0), "head joint of course {course}");
@@ -198,12 +200,12 @@ fn the_staircase_of_open_joints() {
 fn bricks_behind_the_staircase_are_unloaded() {
     for (outcome, length, courses) in [(&*OPEN, 0.1, 4), (&*RECTANGULAR, 0.2, 2)] {
         for course in 1..=courses {
-            let [edge, _] = support::stair(length, course);
-            let before = support::mean_compression(outcome, [edge - length, edge], course);
-            let behind = support::mean_compression(outcome, [edge, edge + length], course);
+            let [edge, _] = panels::stair(length, course);
+            let before = panels::mean_compression(outcome, [edge - length, edge], course);
+            let behind = panels::mean_compression(outcome, [edge, edge + length], course);
             assert!(before > 3.0 * behind, "course {course}: {before} Pa and {behind} Pa");
         }
-        let middle = support::mean_compression(outcome, [0.4, 0.6], 1);
+        let middle = panels::mean_compression(outcome, [0.4, 0.6], 1);
         assert!(middle < 0.1 * 10e3, "{middle} Pa");
     }
 }
@@ -211,7 +213,7 @@ fn bricks_behind_the_staircase_are_unloaded() {
 /// Without any floor the friction of the walls cannot carry the load at mu = 1.
 #[test]
 fn without_a_floor_there_is_no_equilibrium() {
-    let outcome = solve(&support::scene("panel_no_floor")).unwrap();
+    let outcome = solve(&panels::scene("panel_no_floor")).unwrap();
     assert_eq!(outcome.solve.status, lcp::Status::RayTermination);
     assert!(outcome.state.is_none());
     let tried = |form: &str| outcome.solve.attempts.iter().any(|line| line.starts_with(form));
@@ -223,7 +225,7 @@ fn without_a_floor_there_is_no_equilibrium() {
 /// The forms are different problems with the same answer.
 #[test]
 fn the_mixed_form_alone_gives_the_same_answer() {
-    let mut scene = support::scene("panel_square_full_floor");
+    let mut scene = panels::scene("panel_square_full_floor");
     scene.solver.form = Form::Mixed;
     let outcome = solve(&scene).unwrap();
     let (a, b) = (state(&outcome).strain_energy, state(&FULL).strain_energy);

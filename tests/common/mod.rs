@@ -3,6 +3,8 @@
 #![allow(dead_code, reason = "every test binary uses its own part of this module")]
 #![allow(unreachable_pub, reason = "a module of helpers, compiled into each test binary")]
 
+pub mod panels;
+
 use lcp::Status;
 use masonry::ids::BlockId;
 use masonry::model::{Anchor, Body, Model};

@@ -141,13 +141,14 @@ pub fn reason(outcome: &Outcome) -> Option<String> {
     }
     let what = match outcome.solve.status {
         lcp::Status::RayTermination if outcome.mechanism.is_some() => {
-            "The attempts ended on secondary rays, and one of the rays is a mechanism: a movement \
-             of the blocks that the supports do not stop. This points to collapse, but with \
-             friction it is not a proof."
+            "No attempt found an equilibrium, and one ended on a secondary ray that is a mechanism: \
+             a movement of the blocks that the supports do not stop and on which the loads do \
+             work. This points to collapse, but with friction it is not a proof."
         }
         lcp::Status::RayTermination => {
-            "Every attempt ended on a secondary ray. With friction this is not a proof of \
-             collapse: an equilibrium may exist that the pivots did not reach."
+            "No attempt found an equilibrium, and the last form ended on secondary rays. With \
+             friction this is not a proof of collapse: an equilibrium may exist that the pivots did \
+             not reach."
         }
         lcp::Status::PivotLimit => {
             "The limit on pivots was reached. This says nothing about the structure: a larger \

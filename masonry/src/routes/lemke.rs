@@ -28,6 +28,9 @@ const MIXED_ATTEMPTS: usize = 2;
 /// How far the covering vector opens the friction cone, in units of force.
 const COHESION: f64 = 100.0;
 
+/// Displacements below this, in the dimensionless units of a form, are rounding errors.
+const ROUNDING: f64 = 1e-14;
+
 /// What the route is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Request {
@@ -152,7 +155,9 @@ impl Search<'_> {
 
     fn against_coulomb(&self, form: &Form, rows: &RowState) -> Option<Residuals> {
         let coulomb = self.coulomb.as_ref().filter(|_| form.kind != FormKind::Coulomb)?;
-        let (t, y) = coulomb.pairs(rows, &[]);
+        let (t, mut y) = coulomb.pairs(rows, &[]);
+        // Where nothing moves, rounding errors must not be measured against each other.
+        y.iter_mut().filter(|y| y.abs() <= ROUNDING).for_each(|y| *y = 0.0);
         Some(coulomb.problem.residuals(&t, &y))
     }
 }

@@ -1,34 +1,29 @@
 //! Scenes of the repository and joints found by their place.
 
-#![allow(clippy::unwrap_used)] // a test may panic
-
 use std::path::Path;
 
 use masonry::model::Joint;
 use masonry::outcome::{ContactState, Outcome};
 use masonry::scene::Scene;
-use masonry::solve::solve;
 
-pub(crate) fn scene(name: &str) -> Scene {
+pub fn scene(name: &str) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     Scene::read(&folder.join(name).with_extension("toml")).unwrap()
 }
 
-pub(crate) fn solved(name: &str) -> Outcome {
-    let outcome = solve(&scene(name)).unwrap();
-    assert_eq!(outcome.solve.status, lcp::Status::Solved, "{name}");
-    outcome
+pub fn solved(name: &str) -> Outcome {
+    super::solved(&scene(name))
 }
 
 /// Ends of the step of the staircase on top of a course: half a brick further in every course,
 /// from the inner end of a foot of one brick.
-pub(crate) fn stair(length: f64, course: u8) -> [f64; 2] {
+pub fn stair(length: f64, course: u8) -> [f64; 2] {
     let from = length + 0.5 * length * (f64::from(course) - 1.0);
     [from, from + 0.5 * length]
 }
 
 /// States of the points of the bed joint between `from` and `to` on top of a course.
-pub(crate) fn bed_joint(outcome: &Outcome, from: f64, to: f64, course: u8) -> Vec<ContactState> {
+pub fn bed_joint(outcome: &Outcome, from: f64, to: f64, course: u8) -> Vec<ContactState> {
     let level = 0.1 * f64::from(course);
     let found = joint(outcome, |joint| {
         let (left, right) = (joint.from.x.min(joint.to.x), joint.from.x.max(joint.to.x));
@@ -39,7 +34,7 @@ pub(crate) fn bed_joint(outcome: &Outcome, from: f64, to: f64, course: u8) -> Ve
 }
 
 /// Heights and states of the points of the head joint at `x` in a course.
-pub(crate) fn head_joint(outcome: &Outcome, x: f64, course: u8) -> Vec<(f64, ContactState)> {
+pub fn head_joint(outcome: &Outcome, x: f64, course: u8) -> Vec<(f64, ContactState)> {
     let middle = 0.1 * f64::from(course) - 0.05;
     joint(outcome, |joint| {
         let height = 0.5 * (joint.from.y + joint.to.y) - middle;
@@ -57,7 +52,7 @@ fn joint(outcome: &Outcome, is_it: impl Fn(&Joint) -> bool) -> Vec<(f64, Contact
 }
 
 /// Mean of the compressive principal stress \[Pa\] of the elements between two abscissas in a course.
-pub(crate) fn mean_compression(outcome: &Outcome, [from, to]: [f64; 2], course: u8) -> f64 {
+pub fn mean_compression(outcome: &Outcome, [from, to]: [f64; 2], course: u8) -> f64 {
     let middle = 0.1 * f64::from(course) - 0.05;
     let stresses = outcome.state.as_ref().unwrap().stresses.iter();
     let found: Vec<f64> = stresses
