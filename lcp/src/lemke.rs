@@ -49,7 +49,7 @@ pub struct Progress {
 /// [`RayTermination`](Status::RayTermination), which is not a proof.
 ///
 /// # Cost
-/// Memory of about five dense matrices of order `n`; a pivot costs about `200 n` flops and its
+/// Memory of about nine dense matrices of order `n` at the peak; a pivot costs about `200 n` flops and its
 /// share of a blocked matrix product, `2 n^2` flops.
 #[derive(Debug, Clone, Default)]
 pub struct Lemke {
@@ -106,8 +106,12 @@ impl<'a> Search<'a> {
     }
 
     fn run(mut self, observer: &mut dyn FnMut(&Progress) -> ControlFlow<()>) -> Solution {
-        let Some((mut start, mut name)) = self.first_start() else {
-            return self.give_up(Status::NoComplementaryBasis);
+        if self.problem.c().iter().all(|&c| c == 0.0) {
+            return self.give_up(Status::Solved);
+        }
+        let (mut start, mut name) = match self.first_start() {
+            Ok(found) => found,
+            Err(status) => return self.give_up(status),
         };
         let first = start.clone();
         for attempt in 1..=self.settings.max_attempts {
@@ -146,20 +150,21 @@ impl<'a> Search<'a> {
         self.conclude()
     }
 
-    fn first_start(&mut self) -> Option<(StartTableau, String)> {
+    fn first_start(&self) -> Result<(StartTableau, String), Status> {
         let c = self.problem.c();
         if let Some(given) = &self.settings.start
             && let Some(start) = self.scaling.tableau(given, c)
         {
-            return Some((start, "given".to_owned()));
+            return Ok((start, "given".to_owned()));
         }
-        let basis = self.scaling.find_basis()?;
+        let basis = self.scaling.find_basis().ok_or(Status::NoComplementaryBasis)?;
         let name = match basis.sides() {
             sides if sides.iter().all(|&side| side == Side::Y) => "all y",
             sides if sides.iter().all(|&side| side == Side::T) => "all t",
             _ => "found",
         };
-        Some((self.scaling.tableau(&basis, c)?, name.to_owned()))
+        let start = self.scaling.tableau(&basis, c).ok_or(Status::NumericalTrouble)?;
+        Ok((start, name.to_owned()))
     }
 
     /// The covering vector asked for; one that was given refers to the rows of the start basis that
@@ -194,7 +199,7 @@ impl<'a> Search<'a> {
             residual: None,
         });
         if end == AttemptEnd::Ray && self.ray.is_none() {
-            self.ray = Some(in_problem_units(&path, start));
+            self.ray = Some(in_problem_units(&path, start, self.problem));
         }
         (end, (end == AttemptEnd::Complementary).then(|| path.basis()))
     }
@@ -270,7 +275,7 @@ fn covering_name(covering: &Covering) -> String {
     }
 }
 
-fn in_problem_units(path: &Path<'_>, start: &StartTableau) -> Ray {
+fn in_problem_units(path: &Path<'_>, start: &StartTableau, problem: &HorizontalLcp) -> Ray {
     let (dw, dz, dz0) = path.ray();
     let n = dw.len();
     let (mut dt, mut dy) = (vec![0.0; n], vec![0.0; n]);
@@ -281,5 +286,10 @@ fn in_problem_units(path: &Path<'_>, start: &StartTableau) -> Ray {
             Side::Y => (basic, nonbasic),
         };
     }
-    Ray { dt, dy, dz0 }
+    let mut covering = vec![0.0; n];
+    for (pair, d) in path.covering().enumerate() {
+        let column = problem.column(pair, start.basis.sides()[pair]);
+        covering.iter_mut().zip(column).for_each(|(sum, v)| *sum += d * v);
+    }
+    Ray { dt, dy, dz0, covering }
 }

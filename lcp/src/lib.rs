@@ -38,6 +38,8 @@ mod scaling;
 mod settings;
 mod solution;
 
+pub use faer;
+
 pub use basis::{Basis, Side};
 pub use error::Error;
 pub use lemke::{Lemke, Progress};

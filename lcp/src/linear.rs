@@ -31,6 +31,11 @@ impl Lu {
         self.0.solve_in_place(rhs);
     }
 
+    /// Overwrites the right-hand sides with the solutions of the transposed system.
+    pub(crate) fn solve_transpose_in_place(&self, rhs: MatMut<'_, f64>) {
+        self.0.solve_transpose_in_place(rhs);
+    }
+
     /// Overwrites one right-hand side with the solution.
     pub(crate) fn solve_vector(&self, rhs: &mut [f64]) {
         let n = rhs.len();

@@ -211,7 +211,7 @@ fn pair_residuals(t: &[f64], y: &[f64], t_max: f64, y_max: f64) -> (f64, f64, f6
     for (&t, &y) in t.iter().zip(y) {
         let (t, y) = (relative(t, t_max), relative(y, y_max));
         let least = t.min(y);
-        residuals.0 = residuals.0.max(-least);
+        residuals.0 = residuals.0.max(-least + 0.0);
         residuals.1 = residuals.1.max(least);
         residuals.2 = residuals.2.max(least.abs());
     }

@@ -12,14 +12,15 @@ pub enum Status {
     /// A complementary basis was found, but its residuals, recomputed from the original data, are
     /// above the tolerance asked for (and below the square root of it).
     AlmostSolved,
-    /// Every attempt ended on a secondary ray. This does not prove that there is no solution.
+    /// No attempt found a solution, and at least one ended on a secondary ray. This does not prove
+    /// that there is none.
     RayTermination,
     /// The limit on pivots was reached.
     PivotLimit,
-    /// A basis came back on every attempt.
+    /// No attempt found a solution, and in at least one a basis came back again and again.
     Cycling,
-    /// No choice of one column from every pair gives a nonsingular matrix, so that no
-    /// complementary basis exists to start from.
+    /// No choice of one column from every pair gives a matrix that is nonsingular to working
+    /// precision, so that there is no complementary basis to start from.
     NoComplementaryBasis,
     /// Rounding errors could not be brought under control.
     NumericalTrouble,
@@ -58,18 +59,21 @@ impl Residuals {
 
 /// The secondary ray on which an attempt ended.
 ///
-/// For every `s >= 0` the point `(t, y) + s (dt, dy)` of the attempt satisfies
-/// `A t + B y = c + d z0` with the covering vector `d`: along the ray the artificial variable `z0`
-/// does not decrease, `A dt + B dy = d dz0` with `dt, dy, dz0 >= 0` and `dt.dy = 0`.
+/// `A dt + B dy = covering dz0` with `dt, dy, dz0 >= 0` and `dt.dy = 0`: for every `s >= 0` the last
+/// point of the attempt plus `s (dt, dy, dz0)` satisfies `A t + B y = c + covering z0`, so that along
+/// the ray the artificial variable `z0` does not decrease.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Ray {
     /// Direction in `t`.
     pub dt: Vec<f64>,
     /// Direction in `y`.
     pub dy: Vec<f64>,
-    /// Rate of the artificial variable, in multiples of the largest component of the direction.
+    /// Rate of the artificial variable.
     pub dz0: f64,
+    /// The covering vector in the rows of the problem.
+    pub covering: Vec<f64>,
 }
 
 /// How one attempt of a pivoting method ended.
@@ -94,6 +98,7 @@ pub enum AttemptEnd {
 /// One attempt: where it started, with which covering vector, and how it ended.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Attempt {
     /// The start basis, in words.
     pub start: String,
@@ -110,6 +115,7 @@ pub struct Attempt {
 /// What it cost.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Info {
     /// Pivots over all attempts.
     pub pivots: usize,
@@ -124,6 +130,7 @@ pub struct Info {
 /// The answer of a solver: always with the residuals of the point that it carries.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
 pub struct Solution {
     /// What the solver found.
     pub status: Status,

@@ -67,7 +67,6 @@ fn kostreva_without_a_solution_ends_on_rays() {
     assert!(ray.dt.iter().zip(&ray.dy).all(|(t, y)| t * y == 0.0));
 }
 
-/// Along a ray `A dt + B dy` is a multiple of the covering vector, here of all ones.
 #[test]
 fn the_ray_is_a_direction_of_the_augmented_problem() {
     let m = mat![[-1.0, 0.0], [0.0, 1.0]];
@@ -75,14 +74,39 @@ fn the_ray_is_a_direction_of_the_augmented_problem() {
     let covering = Covering::Given(vec![1.0, 3.0]);
     let settings = LemkeSettings { max_attempts: 1, covering, ..LemkeSettings::default() };
     let ray = Lemke::new(settings).solve(&problem).unwrap().ray.unwrap();
-    let mut image = [0.0; 2];
-    for j in 0..2 {
-        for (i, image) in image.iter_mut().enumerate() {
-            *image += problem.a()[(i, j)] * ray.dt[j] + problem.b()[(i, j)] * ray.dy[j];
-        }
+    assert_eq!(ray.covering, [1.0, 3.0]);
+    for i in 0..2 {
+        let image: f64 =
+            (0..2).map(|j| problem.a()[(i, j)] * ray.dt[j] + problem.b()[(i, j)] * ray.dy[j]).sum();
+        assert!((image - ray.covering[i] * ray.dz0).abs() < 1e-14, "row {i}: {image}");
     }
-    assert!((image[1] - 3.0 * image[0]).abs() < 1e-14, "{image:?}");
-    assert!(image[0] >= 0.0);
+}
+
+/// A pair that demands a negative value is not forgiven because another is large.
+#[test]
+fn infeasible_whatever_the_size_of_the_others() {
+    for s in [1.0, 1e6, 1e13, 1e14, 1e16, 1e20] {
+        let b = mat![[-1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, -1.0]];
+        let problem = HorizontalLcp::new(Mat::identity(3, 3), b, vec![-s, -1.0, s]).unwrap();
+        let solution = Lemke::default().solve(&problem).unwrap();
+        assert_ne!(solution.status, Status::Solved, "s = {s}: {:?}", solution.t);
+    }
+}
+
+/// The second factorisation sees only rounding errors of the first.
+#[test]
+fn a_start_basis_is_found_where_rounding_looks_like_rank() {
+    let a = mat![[0.0, 2.0], [-1.0, 2.0]];
+    let b = mat![[-1.0, 2.0], [-1.0, 2.0]];
+    let problem = HorizontalLcp::new(a, b, vec![2.0, 1.0]).unwrap();
+    assert_eq!(once().solve(&problem).unwrap().status, Status::Solved);
+}
+
+#[test]
+fn zero_solves_a_homogeneous_problem() {
+    let zero = Mat::<f64>::zeros(2, 2);
+    let problem = HorizontalLcp::new(zero.clone(), zero, vec![0.0; 2]).unwrap();
+    assert_eq!(once().solve(&problem).unwrap().status, Status::Solved);
 }
 
 /// Murty's problems take exactly 2^n pivots with a covering vector of ones in the given data.

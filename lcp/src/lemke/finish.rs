@@ -1,5 +1,7 @@
 //! From a complementary basis to a point that the original data vouches for.
 
+use faer::Mat;
+
 use super::start::Equilibrated;
 use crate::linear::Lu;
 use crate::problem::max_abs;
@@ -16,7 +18,7 @@ pub(super) struct Point {
 }
 
 /// Solves for the basic variables with the original columns, refines, and sets negative values to
-/// zero: if that is more than rounding, the equation residual tells.
+/// zero. How far that is more than rounding goes into the feasibility residual.
 pub(super) fn solve_basis(
     problem: &HorizontalLcp,
     scaling: &Equilibrated,
@@ -40,7 +42,35 @@ pub(super) fn solve_basis(
         }
         x.iter_mut().zip(&residual).for_each(|(x, dx)| *x += dx);
     }
-    Some(point(problem, scaling, basis, &x))
+    if x.iter().any(|x| !x.is_finite()) {
+        return None;
+    }
+    let infeasibility = infeasibility(&matrix, &lu, &right, &x);
+    let mut point = point(problem, scaling, basis, &x);
+    point.residuals.feasibility = point.residuals.feasibility.max(infeasibility);
+    point.residuals.natural = point.residuals.natural.max(infeasibility);
+    Some(point)
+}
+
+/// The largest negative value, each relative to the size that its variable could have by the data:
+/// row `j` of `|M^-1| (|M||x| + |c|)`. This does not depend on the units of rows or variables, so a
+/// negative value is not forgiven because others are large.
+fn infeasibility(matrix: &Mat<f64>, lu: &Lu, right: &[f64], x: &[f64]) -> f64 {
+    let negative: Vec<usize> = (0..x.len()).filter(|&j| x[j] < 0.0).collect();
+    let mut size: Vec<f64> = right.iter().map(|c| c.abs()).collect();
+    for (j, x) in x.iter().enumerate() {
+        let column = matrix.col_as_slice(j);
+        size.iter_mut().zip(column).for_each(|(size, a)| *size += (a * x).abs());
+    }
+    let mut inverse_rows = Mat::zeros(x.len(), negative.len());
+    negative.iter().enumerate().for_each(|(k, &j)| inverse_rows[(j, k)] = 1.0);
+    lu.solve_transpose_in_place(inverse_rows.as_mut());
+    let relative = negative.iter().enumerate().map(|(k, &j)| {
+        let row = inverse_rows.col_as_slice(k);
+        let bound: f64 = row.iter().zip(&size).map(|(v, size)| v.abs() * size).sum();
+        if bound > 0.0 { -x[j] / bound } else { f64::INFINITY }
+    });
+    relative.fold(0.0, f64::max)
 }
 
 fn point(problem: &HorizontalLcp, scaling: &Equilibrated, basis: &Basis, x: &[f64]) -> Point {

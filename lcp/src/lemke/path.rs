@@ -22,6 +22,8 @@ const DRIFT: f64 = 1e-10;
 /// Bases that may come back, which only rounding errors in ties bring about, before the path is
 /// called a cycle.
 const MAX_RETURNS: u64 = 20;
+/// Size of the perturbation that parts ties after a return, relative to the largest basic value.
+const PERTURBATION: f64 = 1e-8;
 /// Below this multiple of its first value the artificial variable is zero.
 const ARTIFICIAL_ZERO: f64 = 1e-10;
 
@@ -57,6 +59,8 @@ pub(super) struct Limits<'a> {
 pub(super) struct Path<'a> {
     start: &'a StartTableau,
     covering: Vec<f64>,
+    /// `q` of the start, with what perturbations have added to it.
+    q: Vec<f64>,
     tableau: Tableau,
     /// Values of the basic variables, row by row.
     pub(super) values: Vec<f64>,
@@ -76,6 +80,8 @@ pub(super) struct Path<'a> {
     row: Vec<f64>,
     /// The variable that nothing blocked, at a ray.
     unblocked: Var,
+    /// Pivots at the last rebuilding of the tableau.
+    rebuilt_at: Option<usize>,
 }
 
 impl<'a> Path<'a> {
@@ -86,6 +92,7 @@ impl<'a> Path<'a> {
         Self {
             start,
             covering,
+            q: start.q.clone(),
             tableau: Tableau::new(t),
             values: start.q.clone(),
             basic: (0..n).collect(),
@@ -101,6 +108,7 @@ impl<'a> Path<'a> {
             column: vec![0.0; n],
             row: vec![0.0; n + 1],
             unblocked: 2 * n,
+            rebuilt_at: None,
         }
     }
 
@@ -123,12 +131,6 @@ impl<'a> Path<'a> {
     /// Size of the basic values, against which a tie is judged.
     pub(super) fn value_scale(&self) -> f64 {
         self.scale
-    }
-
-    /// Ties are broken by the lexicographic rule until a basis comes back, and by a draw from then
-    /// on, which leaves any cycle.
-    pub(super) fn tie_breaker(&self) -> Option<u64> {
-        (self.returns > 0).then(|| SplitMix::new(self.signature ^ self.pivots as u64).next_u64())
     }
 
     /// Entry `(row, k)` of the inverse of the present basis.
@@ -167,6 +169,7 @@ impl<'a> Path<'a> {
                 if self.returns > MAX_RETURNS {
                     return AttemptEnd::Cycle;
                 }
+                self.perturb();
             }
             let entering_col = self.col_of(entering);
             let mut column = std::mem::take(&mut self.column);
@@ -175,9 +178,32 @@ impl<'a> Path<'a> {
             self.column = column;
             match leaving {
                 Some(row) => entering = self.exchange(row, entering_col),
-                None => return self.at_ray(entering_col),
+                // What looks like a ray may be drift: only a column that the data confirm counts.
+                None if self.is_true_column(entering_col, &self.column) => {
+                    return self.at_ray(entering_col);
+                }
+                None if self.rebuilt_at == Some(self.pivots) => return AttemptEnd::Singular,
+                None if !self.refactorise() => return AttemptEnd::Singular,
+                None => {}
             }
         }
+    }
+
+    /// Parts the ties of a degenerate basis: every basic value that is zero up to rounding becomes a
+    /// small positive number. The final basis is judged by the data as given.
+    fn perturb(&mut self) {
+        let mut random = SplitMix::new(self.signature ^ self.pivots as u64);
+        let size = PERTURBATION * self.scale;
+        for row in 0..self.order() {
+            if self.values[row] <= size {
+                let shift = size * (0.5 + random.next_f64());
+                self.values[row] += shift;
+                let mut q = std::mem::take(&mut self.q);
+                self.add_start_column(self.basic[row], shift, &mut q);
+                self.q = q;
+            }
+        }
+        self.visited.clear();
     }
 
     /// The row that the artificial variable takes: the most negative value for its covering, the
@@ -257,8 +283,12 @@ impl<'a> Path<'a> {
         Basis::new(sides.collect())
     }
 
-    /// The direction of the ray: values of `(w, z, z0)` per unit of the entering variable, in the
-    /// units of the problem.
+    /// The covering vector in units of the basic variables of the start basis.
+    pub(super) fn covering(&self) -> impl Iterator<Item = f64> {
+        self.covering.iter().zip(&self.start.row_factor).map(|(d, row)| d / row)
+    }
+
+    /// The direction of the ray, `(w, z, z0)`, in the units of the problem.
     pub(super) fn ray(&self) -> (Vec<f64>, Vec<f64>, f64) {
         let n = self.order();
         let mut direction = vec![0.0; 2 * n + 1];
@@ -288,35 +318,38 @@ impl<'a> Path<'a> {
 
     /// Compares the basic values, and one column of the tableau, with the start data.
     fn has_drifted(&self) -> bool {
-        let n = self.order();
-        let mut residual: Vec<f64> = self.start.q.iter().map(|q| -q).collect();
-        for (&var, &value) in self.basic.iter().zip(&self.values) {
-            if value != 0.0 {
-                self.add_start_column(var, value, &mut residual);
-            }
-        }
-        // NaN must count as drift.
-        let small = |residual: &[f64], size: f64| max_abs_or_nan(residual) <= DRIFT * size;
-        if !small(&residual, self.scale.max(1.0)) {
+        let mut residual: Vec<f64> = self.q.iter().map(|q| -q).collect();
+        self.add_basis_product(&self.values, &mut residual);
+        if !is_small(&residual, self.scale.max(1.0)) {
             return true;
         }
-        let probe = self.pivots % (n + 1);
-        let mut column = vec![0.0; n];
+        let probe = self.pivots % (self.order() + 1);
+        let mut column = vec![0.0; self.order()];
         self.tableau.column(probe, &mut column);
-        let mut residual = vec![0.0; n];
-        self.add_start_column(self.nonbasic[probe], -1.0, &mut residual);
-        for (&var, &value) in self.basic.iter().zip(&column) {
-            if value != 0.0 {
-                self.add_start_column(var, value, &mut residual);
+        !self.is_true_column(probe, &column)
+    }
+
+    /// Whether a column of the tableau, times the basis, is what it was in the start data.
+    fn is_true_column(&self, col: usize, column: &[f64]) -> bool {
+        let mut residual = vec![0.0; self.order()];
+        self.add_start_column(self.nonbasic[col], -1.0, &mut residual);
+        self.add_basis_product(column, &mut residual);
+        is_small(&residual, max_abs(column).max(1.0))
+    }
+
+    fn add_basis_product(&self, factors: &[f64], out: &mut [f64]) {
+        for (&var, &factor) in self.basic.iter().zip(factors) {
+            if factor != 0.0 {
+                self.add_start_column(var, factor, out);
             }
         }
-        !small(&residual, max_abs(&column).max(1.0))
     }
 
     /// Rebuilds the tableau and the values from the start data: with the `p` rows whose `w` is
     /// nonbasic and the `p` other basic columns, one LU of order `p` and products.
     fn refactorise(&mut self) -> bool {
         self.refactorisations += 1;
+        self.rebuilt_at = Some(self.pivots);
         let n = self.order();
         let left: Vec<usize> = (0..n).filter(|&k| matches!(self.place[k], Place::Col(_))).collect();
         let z_rows: Vec<usize> = (0..n).filter(|&i| self.basic[i] >= n).collect();
@@ -364,13 +397,14 @@ impl<'a> Path<'a> {
         for (col, &var) in self.nonbasic.iter().enumerate() {
             self.add_start_column(var, 1.0, right.col_as_slice_mut(col));
         }
-        right.col_as_slice_mut(n + 1).copy_from_slice(&self.start.q);
+        right.col_as_slice_mut(n + 1).copy_from_slice(&self.q);
         right
     }
 }
 
-fn max_abs_or_nan(v: &[f64]) -> f64 {
-    v.iter().fold(0.0, |max: f64, x| if x.is_nan() { f64::NAN } else { max.max(x.abs()) })
+/// Whether all entries are rounding errors of the given size; a NaN is not.
+fn is_small(residual: &[f64], size: f64) -> bool {
+    residual.iter().all(|r| r.abs() <= DRIFT * size)
 }
 
 /// A fixed pseudo-random key for every variable: the exclusive or over a basis is its signature.

@@ -34,14 +34,8 @@ pub(super) fn leaving_row(path: &Path<'_>, column: &[f64]) -> Option<usize> {
         .filter(|&i| path.values[i].max(0.0) - shortest * column[i] <= window)
         .collect();
     let best = tied.iter().fold(0.0_f64, |max, &i| max.max(column[i]));
-    let safe: Vec<usize> = tied.into_iter().filter(|&i| column[i] >= TIE_PIVOT * best).collect();
-    match path.tie_breaker() {
-        None => Some(lexicographic_minimum(path, column, safe)),
-        Some(draw) => {
-            let count = safe.len() as u64;
-            usize::try_from(draw % count).ok().map(|chosen| safe[chosen])
-        }
-    }
+    let safe = tied.into_iter().filter(|&i| column[i] >= TIE_PIVOT * best).collect();
+    Some(lexicographic_minimum(path, column, safe))
 }
 
 /// Of tied rows the one whose row of the inverse basis, divided by its pivot, comes first in

@@ -83,8 +83,9 @@ impl Equilibrated {
             let lu = Lu::new(matrix.as_ref())?;
             lu.solve_in_place(t.as_mut());
             lu.solve_vector(&mut q);
+            drop_rounding(&mut t);
         }
-        if !all_finite(&t) || t.norm_max() > LARGEST_GROWTH {
+        if !all_finite(&t) || t.norm_max() > LARGEST_GROWTH || q.iter().any(|q| !q.is_finite()) {
             return None;
         }
         let (rows, cols) = equilibrate(n, &columns(&t));
@@ -116,7 +117,8 @@ impl Equilibrated {
         }
         let (mut chosen, mut complement) = self.independent_columns();
         while complement.ncols() > 0 {
-            chosen = self.exchange(&chosen, &complement)?;
+            let tolerances = [1e-5, 1e-8, 4.0 * n as f64 * f64::EPSILON];
+            chosen = tolerances.iter().find_map(|&it| self.exchange(&chosen, &complement, it))?;
             complement = orthogonal_complement(self.partial(&chosen).as_ref());
         }
         let sides = chosen.into_iter().collect::<Option<Vec<Side>>>()?;
@@ -129,7 +131,7 @@ impl Equilibrated {
     fn independent_columns(&self) -> (Vec<Option<Side>>, Mat<f64>) {
         let n = self.order();
         let mut chosen = vec![None; n];
-        let (independent, complement) = pivot_columns(&self.b);
+        let (independent, complement) = pivot_columns(&self.b, 0.0);
         for k in independent {
             chosen[k] = Some(Side::Y);
         }
@@ -138,7 +140,7 @@ impl Equilibrated {
         for (j, &k) in others.iter().enumerate() {
             a.col_as_slice_mut(j).copy_from_slice(self.a.col_as_slice(k));
         }
-        let (independent, rest) = pivot_columns(&(complement.transpose() * &a));
+        let (independent, rest) = pivot_columns(&(complement.transpose() * &a), a.norm_max());
         for j in independent {
             chosen[others[j]] = Some(Side::T);
         }
@@ -159,6 +161,7 @@ impl Equilibrated {
         &self,
         chosen: &[Option<Side>],
         complement: &Mat<f64>,
+        tolerance: f64,
     ) -> Option<Vec<Option<Side>>> {
         let n = self.order();
         let picked: Vec<usize> = (0..n).filter(|&k| chosen[k].is_some()).collect();
@@ -183,7 +186,7 @@ impl Equilibrated {
         while head < queue.len() {
             let (pair, side, _) = queue[head];
             let x = coordinates(pair, side);
-            let tolerance = RANK_TOLERANCE.sqrt() * max_abs(&x);
+            let tolerance = tolerance * max_abs(&x);
             if max_abs(&x[picked.len()..]) > tolerance {
                 let mut next = chosen.to_vec();
                 let mut at = Some(head);
@@ -235,17 +238,29 @@ fn is_diagonal(m: &Mat<f64>) -> bool {
     (0..m.ncols()).all(|j| m.col_as_slice(j).iter().enumerate().all(|(i, &v)| i == j || v == 0.0))
 }
 
+/// Sets to zero what the solution of an equilibrated system leaves in place of zeros: a row of
+/// nothing else would be scaled up to coefficients.
+fn drop_rounding(t: &mut Mat<f64>) {
+    const ROUNDING: f64 = 1e-14;
+    for j in 0..t.ncols() {
+        let column = t.col_as_slice_mut(j);
+        let least = ROUNDING * max_abs(column).max(1.0);
+        column.iter_mut().filter(|v| v.abs() < least).for_each(|v| *v = 0.0);
+    }
+}
+
 /// Independent columns by QR with column pivoting, up to the numerical rank, and an orthonormal basis
-/// of the complement of their span.
-fn pivot_columns(m: &Mat<f64>) -> (Vec<usize>, Mat<f64>) {
+/// of the complement of their span. `reference` is the size of the data that `m` was computed from:
+/// a matrix of nothing but rounding errors has rank zero.
+fn pivot_columns(m: &Mat<f64>, reference: f64) -> (Vec<usize>, Mat<f64>) {
     let (rows, size) = (m.nrows(), m.nrows().min(m.ncols()));
     if size == 0 || m.norm_max() == 0.0 {
         return (Vec::new(), Mat::identity(rows, rows));
     }
     let qr = m.col_piv_qr();
     let r = qr.R();
-    let first = r[(0, 0)].abs();
-    let rank = (0..size).take_while(|&k| r[(k, k)].abs() > RANK_TOLERANCE * first).count();
+    let least = RANK_TOLERANCE * r[(0, 0)].abs().max(reference);
+    let rank = (0..size).take_while(|&k| r[(k, k)].abs() > least).count();
     let columns = qr.P().arrays().0[..rank].to_vec();
     if rank == rows {
         return (columns, Mat::zeros(rows, 0));
