@@ -52,11 +52,16 @@ pub(super) fn solve_basis(
     Some(point)
 }
 
-/// The largest negative value, each relative to the size that its variable could have by the data:
-/// row `j` of `|M^-1| (|M||x| + |c|)`. This does not depend on the units of rows or variables, so a
-/// negative value is not forgiven because others are large.
+/// Negative values up to this multiple of the largest value, in equilibrated units, are rounding
+/// errors, of the data if not of the solution.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// The largest negative value beyond rounding, each relative to the size that its variable could have
+/// by the data: row `j` of `|M^-1| (|M||x| + |c|)`. So a negative value is not forgiven because others
+/// are large.
 fn infeasibility(matrix: &Mat<f64>, lu: &Lu, right: &[f64], x: &[f64]) -> f64 {
-    let negative: Vec<usize> = (0..x.len()).filter(|&j| x[j] < 0.0).collect();
+    let rounding = ROUNDING * max_abs(x);
+    let negative: Vec<usize> = (0..x.len()).filter(|&j| x[j] < -rounding).collect();
     let mut size: Vec<f64> = right.iter().map(|c| c.abs()).collect();
     for (j, x) in x.iter().enumerate() {
         let column = matrix.col_as_slice(j);

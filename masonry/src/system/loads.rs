@@ -49,14 +49,19 @@ fn edge_shares(mesh: &BlockMesh, load: &EdgeLoad) -> Vec<(usize, f64)> {
 }
 
 /// Work of self weight and edge loads in the three rigid motions of a block, `N^T f` \[N\].
+///
+/// What rounding leaves of loads that cancel, or of the arm of a load through the centroid, is zero:
+/// no contact might be able to balance it.
 pub fn resultant(model: &Model, block: &Block) -> [f64; 3] {
+    const ROUNDING: f64 = 16.0 * f64::EPSILON;
     let modes = Modes::of(&block.corners);
-    let mut sum = [0.0; 3];
+    let (mut sum, mut size) = ([0.0; 3], 0.0);
     for (place, force) in point_loads(model, block) {
         let add = modes.resultant(place, force);
         sum.iter_mut().zip(add).for_each(|(s, a)| *s += a);
+        size += force.norm();
     }
-    sum
+    sum.map(|value| if value.abs() <= ROUNDING * size { 0.0 } else { value })
 }
 
 /// The resultant force \[N\] of every load of a block, and the place where it acts \[m\].
