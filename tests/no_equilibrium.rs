@@ -14,9 +14,10 @@ use masonry::model::{Model, Plane};
 use masonry::outcome::Outcome;
 use masonry::output::{summary, table};
 use masonry::reduction::Reduction;
-use masonry::scene::{self, Brick, Joint, Load, Material, Scene, Support, Wall};
+use masonry::scene::{self, Block, Brick, Joint, Load, Material, Scene, Support, Wall};
 use masonry::solve::{SolveError, solve};
 use masonry::system::{Direction, System};
+use masonry::units::Units;
 
 const BRICK: Brick = Brick { length: 0.1, height: 0.1 };
 
@@ -126,4 +127,69 @@ fn a_ray_is_no_proof() {
             assert_eq!(outcome.solve.status, Status::Solved);
         }
     }
+}
+
+/// A stiff, light block falls far before it meets the floor, which it cannot stay on: compliance, load
+/// and displacement differ by thirteen orders, and no form may take the fall for an answer.
+#[test]
+fn a_block_that_slides_away_after_a_fall_is_not_called_solved() {
+    let falling = |lateral: f64| {
+        let corners = [[0.0, 0.4], [1.0, 0.4], [1.0, 1.4], [0.0, 1.4]];
+        let mut scene = Scene::new("fall", Units::SI)
+            .thickness(1.0)
+            .plane(Plane::Stress)
+            .gravity([lateral, -10.0])
+            .material("stone", Material::elastic(1e15, 0.2).density(1.0))
+            .joint("floor", Joint::mu(0.5))
+            .block(Block::new("block", "stone", corners).mesh([1, 1]))
+            .support(Support::new("floor", [-1.0, 0.0], [2.0, 0.0], "floor"));
+        scene.contact.gap_limit = 0.5;
+        scene
+    };
+    for form in
+        [scene::Form::Auto, scene::Form::Coulomb, scene::Form::StewartTrinkle, scene::Form::Mixed]
+    {
+        let outcome = solve(&falling(6.0).form(form)).unwrap();
+        assert_ne!(outcome.solve.status, Status::Solved, "{form:?}");
+        let outcome = solve(&falling(0.0).form(form)).unwrap();
+        if outcome.solve.status == Status::Solved {
+            let checks = outcome.checks.unwrap();
+            assert!(checks.force_balance <= 1e-9 && checks.moment_balance <= 1e-9, "{form:?}");
+        }
+    }
+}
+
+/// A block held by friction beside one on a smooth floor: the tangents see nothing of the motion that
+/// is free, and rounding must not pass for seeing.
+#[test]
+fn a_free_block_is_named_beside_one_that_is_held() {
+    let square = |x: f64| [[x, 0.7], [x + 1.0, 0.7], [x + 1.0, 1.7], [x, 1.7]];
+    let scene = Scene::new("two blocks", Units::SI)
+        .thickness(1.0)
+        .gravity([0.0, -10.0])
+        .material("stone", Material::rigid().density(1000.0))
+        .joint("rough", Joint::mu(0.5))
+        .joint("smooth", Joint::mu(0.0))
+        .block(Block::new("held", "stone", square(0.3)))
+        .block(Block::new("loose", "stone", square(3.3)))
+        .support(Support::new("floor", [0.3, 0.7], [1.3, 0.7], "rough"))
+        .support(Support::new("left", [0.3, 0.7], [0.3, 1.7], "rough"))
+        .support(Support::new("right", [1.3, 0.7], [1.3, 1.7], "rough"))
+        .support(Support::new("ice", [2.3, 0.7], [5.3, 0.7], "smooth"));
+    let error = solve(&scene).unwrap_err();
+    assert!(matches!(&error, SolveError::Free { block, .. } if block == "loose"), "{error}");
+}
+
+#[test]
+fn what_fits_into_no_memory_is_refused() {
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let scene = Scene::new("too fine", Units::SI)
+        .thickness(1.0)
+        .plane(Plane::Stress)
+        .material("stone", Material::elastic(1e10, 0.2))
+        .joint("floor", Joint::mu(0.5))
+        .block(Block::new("block", "stone", corners).mesh([1000, 1000]))
+        .support(Support::new("floor", [0.0, 0.0], [1.0, 0.0], "floor"));
+    let error = solve(&scene).unwrap_err();
+    assert!(matches!(error, SolveError::TooLarge { .. }), "{error}");
 }

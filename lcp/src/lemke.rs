@@ -88,6 +88,27 @@ impl Lemke {
     }
 }
 
+/// What an attempt varies besides its start basis.
+struct Trial {
+    covering: Covering,
+    /// Seed of the perturbation of the right-hand side.
+    perturbation: Option<u64>,
+}
+
+impl Trial {
+    /// After a cycle the same once more without ties; else another covering vector, and plain data
+    /// only where the last basis is nearly right.
+    fn after(last: &Self, end: AttemptEnd, seed: u64) -> Self {
+        let covering = match (end, &last.covering) {
+            (AttemptEnd::Cycle, covering) if last.perturbation.is_none() => covering.clone(),
+            (_, Covering::Random { .. }) => Covering::Ones,
+            _ => Covering::Random { seed },
+        };
+        let perturbation = (end != AttemptEnd::Complementary).then_some(seed);
+        Self { covering, perturbation }
+    }
+}
+
 /// The attempts on one problem.
 struct Search<'a> {
     settings: &'a LemkeSettings,
@@ -114,14 +135,11 @@ impl<'a> Search<'a> {
             Err(status) => return self.give_up(status),
         };
         let first = start.clone();
+        let mut trial = Trial { covering: self.first_covering(&first), perturbation: None };
         for attempt in 1..=self.settings.max_attempts {
             let seed = attempt as u64;
-            let covering = match (attempt, attempt % 2) {
-                (1, _) => self.first_covering(&first),
-                (_, 0) => Covering::Random { seed },
-                _ => Covering::Ones,
-            };
-            let (end, basis) = self.attempt(&start, &name, &covering, attempt, observer);
+            let (end, basis) = self.attempt(&start, &name, &trial, attempt, observer);
+            trial = Trial::after(&trial, end, seed);
             match (end, basis) {
                 (AttemptEnd::Cancelled, _) => return self.give_up(Status::Cancelled),
                 (_, Some(basis)) => {
@@ -138,7 +156,7 @@ impl<'a> Search<'a> {
                         (start, name) = (next, "last basis".to_owned());
                     }
                 }
-                _ if attempt % 2 == 0 => {
+                (AttemptEnd::Ray, None) if attempt % 2 == 0 => {
                     let flipped = first.flipped(seed);
                     if let Some(next) = self.scaling.tableau(&flipped, self.problem.c()) {
                         (start, name) = (next, format!("flipped, seed {seed}"));
@@ -180,20 +198,22 @@ impl<'a> Search<'a> {
         &mut self,
         start: &StartTableau,
         name: &str,
-        covering: &Covering,
+        trial: &Trial,
         attempt: usize,
         observer: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
     ) -> (AttemptEnd, Option<Basis>) {
         let order = self.problem.order();
         let max_pivots = self.settings.max_pivots.unwrap_or(100 * order + 1000);
         let mut keep_going = |pivots| observer(&Progress { attempt, pivots, order }).is_continue();
-        let mut path = Path::new(start, covering_entries(covering, start));
+        let mut path =
+            Path::new(start, covering_entries(&trial.covering, start), trial.perturbation);
         let end = path.run(&mut Limits { max_pivots, keep_going: &mut keep_going });
         self.info.pivots += path.pivots;
         self.info.refactorisations += path.refactorisations;
         self.info.attempts.push(Attempt {
             start: name.to_owned(),
-            covering: covering_name(covering),
+            covering: covering_name(&trial.covering),
+            perturbed: trial.perturbation.is_some(),
             end,
             pivots: path.pivots,
             residual: None,

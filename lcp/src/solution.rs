@@ -17,7 +17,7 @@ pub enum Status {
     RayTermination,
     /// The limit on pivots was reached.
     PivotLimit,
-    /// No attempt found a solution, and in at least one a basis came back again and again.
+    /// No attempt found a solution, and in at least one a basis came back.
     Cycling,
     /// No choice of one column from every pair gives a matrix that is nonsingular to working
     /// precision, so that there is no complementary basis to start from.
@@ -104,6 +104,8 @@ pub struct Attempt {
     pub start: String,
     /// The covering vector, in words.
     pub covering: String,
+    /// Whether the right-hand side was perturbed to part ties.
+    pub perturbed: bool,
     /// How the attempt ended.
     pub end: AttemptEnd,
     /// Pivots that it took.

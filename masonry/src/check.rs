@@ -29,7 +29,18 @@ pub struct Checks {
     pub slip: usize,
 }
 
+/// Balances and violations up to this are rounding.
+const LARGEST_ERROR: f64 = 1e-9;
+
 impl Checks {
+    /// Whether every block balances, no friction cone is left and nothing penetrates, to
+    /// 1e-9 or to the tolerance that was asked for, whichever is larger.
+    pub fn hold(&self, tolerance: f64) -> bool {
+        let errors =
+            [self.force_balance, self.moment_balance, self.cone_violation, self.penetration];
+        errors.iter().all(|&error| error <= tolerance.max(LARGEST_ERROR))
+    }
+
     /// Recomputes everything from the contact forces, the displacements and the loads of the model:
     /// resultants of the geometry, no matrix of the method.
     ///

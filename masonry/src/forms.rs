@@ -32,8 +32,9 @@ pub enum FormKind {
     /// `w = mu t_n - b+ - b-` (a force, while `lambda` is a displacement).
     StewartTrinkle,
     /// The same with the rigid amplitudes `alpha = alpha+ - alpha-` as unknowns and equilibrium
-    /// as complementary rows, order `m + 3 m_f + 6 r` for `r` blocks. With `B = 1` and a copositive
-    /// `-A` it is a standard problem that Lemke's method solves whenever a solution exists.
+    /// as complementary rows, order `m + 3 m_f + 6 r` for `r` blocks: a standard problem, `B = 1`,
+    /// with a copositive `-A`. A ray of it is a motion of the blocks that no contact stops and on
+    /// which the loads do work.
     Mixed,
 }
 

@@ -45,6 +45,8 @@ pub struct Plan {
     pub order: usize,
     /// Order of the largest form that the solver may turn to.
     pub largest_order: usize,
+    /// Displacement unknowns of the block with the finest mesh.
+    pub largest_block: usize,
     /// The solver that will be used.
     pub solver: String,
     /// Why this solver.
@@ -76,17 +78,20 @@ impl Plan {
             rigid_modes,
             order: order_of(form),
             largest_order: order_of(last),
+            largest_block: 2 * block_nodes(model).max().unwrap_or(0),
             solver: solver.to_owned(),
             because: because.to_owned(),
         }
     }
 
-    /// Memory \[bytes\] that the pivoting solver takes at its peak: about nine dense matrices of the
-    /// largest order it may come to (the problem, its equilibrated copy, the tableau at the start
-    /// and now, factors), as measured on walls.
+    /// Memory \[bytes\] at the peak: about nine dense matrices of the largest order that the pivoting
+    /// solver may come to (the problem, its equilibrated copy, the tableau at the start and now,
+    /// factors), as measured on walls, and the stiffness and factor of the largest block.
     pub fn dense_bytes(&self) -> usize {
-        let order = self.largest_order;
-        order.saturating_mul(order).saturating_mul(9 * size_of::<f64>())
+        let square = |n: usize| n.saturating_mul(n);
+        let matrices = square(self.largest_order).saturating_mul(9);
+        let stiffness = square(self.largest_block).saturating_mul(3);
+        matrices.saturating_add(stiffness).saturating_mul(size_of::<f64>())
     }
 }
 
@@ -99,7 +104,11 @@ fn unknowns_per_friction(form: Form) -> usize {
 }
 
 fn nodes(model: &Model) -> usize {
-    model.blocks.iter().filter_map(|block| block.mesh.as_ref()).map(|mesh| mesh.nodes.len()).sum()
+    block_nodes(model).sum()
+}
+
+fn block_nodes(model: &Model) -> impl Iterator<Item = usize> {
+    model.blocks.iter().filter_map(|block| block.mesh.as_ref()).map(|mesh| mesh.nodes.len())
 }
 
 fn solver(form: Form, frictional_points: usize) -> (&'static str, &'static str) {

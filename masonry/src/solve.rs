@@ -43,6 +43,17 @@ pub enum SolveError {
         /// Number of independent motions that nothing resists.
         free: usize,
     },
+    /// The matrices would not fit into any machine that this program is meant for.
+    #[error(
+        "about {gigabytes:.0} GB of memory would be needed, and the limit is {limit:.0} GB: use \
+         fewer elements or contact points"
+    )]
+    TooLarge {
+        /// Memory needed \[10^9 bytes\].
+        gigabytes: f64,
+        /// The limit \[10^9 bytes\].
+        limit: f64,
+    },
     /// The solver refused its settings or the data.
     #[error("the complementarity problem was refused: {0}")]
     Solver(#[from] lcp::Error),
@@ -94,6 +105,7 @@ pub fn solve_observed(
     let mut clock = Clock::default();
     let model = clock.time("model", observer, || Model::from_scene(scene))?;
     let plan = Plan::of(scene, &model);
+    check_size(&plan)?;
     let system = clock.time("system", observer, || System::new(&model))?;
     let reduction = clock
         .time("reduction", observer, || Reduction::new(&system, None))
@@ -116,6 +128,12 @@ pub fn solve_observed(
         })
     });
     let checks = state.as_ref().map(|state| Checks::of(&model, state));
+    let mut info = answer.info;
+    // The complementarity problem may be solved to its tolerance and the structure not: forces and
+    // displacements of very different size meet in one vector.
+    if checks.as_ref().is_some_and(|checks| !checks.hold(request.tolerance)) {
+        info.status = lcp::Status::AlmostSolved;
+    }
     let reactions =
         state.as_ref().map_or_else(Vec::new, |state| recover::reactions(&model, &state.contacts));
     let mechanism = answer.ray.and_then(|rates| recover::mechanism(&model, &system, &rates));
@@ -123,13 +141,24 @@ pub fn solve_observed(
         title: scene.title.clone(),
         model,
         plan,
-        solve: answer.info,
+        solve: info,
         state,
         checks,
         reactions,
         mechanism,
         times: clock.times,
     })
+}
+
+/// Memory \[10^9 bytes\] above which nothing is assembled.
+const MEMORY_LIMIT: f64 = 64.0;
+
+fn check_size(plan: &Plan) -> Result<(), SolveError> {
+    let gigabytes = plan.dense_bytes() as f64 / 1e9;
+    if gigabytes > MEMORY_LIMIT {
+        return Err(SolveError::TooLarge { gigabytes, limit: MEMORY_LIMIT });
+    }
+    Ok(())
 }
 
 fn named(error: RigidError, model: &Model) -> SolveError {

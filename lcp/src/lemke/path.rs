@@ -19,10 +19,7 @@ use crate::{AttemptEnd, Basis, Side};
 /// Drift of the basic values, or of a column, against the start data above which the tableau is
 /// rebuilt, relative to their size.
 const DRIFT: f64 = 1e-10;
-/// Bases that may come back, which only rounding errors in ties bring about, before the path is
-/// called a cycle.
-const MAX_RETURNS: u64 = 20;
-/// Size of the perturbation that parts ties after a return, relative to the largest basic value.
+/// Size of the perturbation that parts ties, relative to the largest entry of `q`.
 const PERTURBATION: f64 = 1e-8;
 /// Below this multiple of its first value the artificial variable is zero.
 const ARTIFICIAL_ZERO: f64 = 1e-10;
@@ -59,7 +56,7 @@ pub(super) struct Limits<'a> {
 pub(super) struct Path<'a> {
     start: &'a StartTableau,
     covering: Vec<f64>,
-    /// `q` of the start, with what perturbations have added to it.
+    /// `q` of the start, perturbed where that was asked for.
     q: Vec<f64>,
     tableau: Tableau,
     /// Values of the basic variables, row by row.
@@ -74,8 +71,6 @@ pub(super) struct Path<'a> {
     pub(super) refactorisations: usize,
     visited: HashSet<u64>,
     signature: u64,
-    /// How often a basis has come back.
-    returns: u64,
     column: Vec<f64>,
     row: Vec<f64>,
     /// The variable that nothing blocked, at a ray.
@@ -85,26 +80,38 @@ pub(super) struct Path<'a> {
 }
 
 impl<'a> Path<'a> {
-    pub(super) fn new(start: &'a StartTableau, covering: Vec<f64>) -> Self {
+    /// `perturbation` is a seed: with it every entry of `q` grows by a small random amount, so that
+    /// basic values do not become zero together. The final basis is judged by the data as given.
+    pub(super) fn new(
+        start: &'a StartTableau,
+        covering: Vec<f64>,
+        perturbation: Option<u64>,
+    ) -> Self {
         let n = start.q.len();
+        let mut q = start.q.clone();
+        if let Some(seed) = perturbation {
+            let mut random = SplitMix::new(seed);
+            for q in &mut q {
+                *q += PERTURBATION * (0.5 + random.next_f64());
+            }
+        }
         let t = Mat::from_fn(n, n + 1, |i, j| if j < n { start.t[(i, j)] } else { -covering[i] });
         let place = (0..n).map(Place::Row).chain((0..=n).map(Place::Col)).collect();
         Self {
             start,
             covering,
-            q: start.q.clone(),
             tableau: Tableau::new(t),
-            values: start.q.clone(),
+            values: q.clone(),
             basic: (0..n).collect(),
             nonbasic: (n..=2 * n).collect(),
             place,
             artificial_start: 0.0,
-            scale: max_abs(&start.q),
+            scale: max_abs(&q),
+            q,
             pivots: 0,
             refactorisations: 0,
             visited: HashSet::new(),
             signature: (0..n).map(key).fold(0, |a, b| a ^ b),
-            returns: 0,
             column: vec![0.0; n],
             row: vec![0.0; n + 1],
             unblocked: 2 * n,
@@ -164,12 +171,9 @@ impl<'a> Path<'a> {
                     return AttemptEnd::Singular;
                 }
             }
+            // The rule is deterministic: a basis that came back comes back for ever.
             if !self.visited.insert(self.signature) {
-                self.returns += 1;
-                if self.returns > MAX_RETURNS {
-                    return AttemptEnd::Cycle;
-                }
-                self.perturb();
+                return AttemptEnd::Cycle;
             }
             let entering_col = self.col_of(entering);
             let mut column = std::mem::take(&mut self.column);
@@ -187,23 +191,6 @@ impl<'a> Path<'a> {
                 None => {}
             }
         }
-    }
-
-    /// Parts the ties of a degenerate basis: every basic value that is zero up to rounding becomes a
-    /// small positive number. The final basis is judged by the data as given.
-    fn perturb(&mut self) {
-        let mut random = SplitMix::new(self.signature ^ self.pivots as u64);
-        let size = PERTURBATION * self.scale;
-        for row in 0..self.order() {
-            if self.values[row] <= size {
-                let shift = size * (0.5 + random.next_f64());
-                self.values[row] += shift;
-                let mut q = std::mem::take(&mut self.q);
-                self.add_start_column(self.basic[row], shift, &mut q);
-                self.q = q;
-            }
-        }
-        self.visited.clear();
     }
 
     /// The row that the artificial variable takes: the most negative value for its covering, the

@@ -10,7 +10,7 @@ use crate::plan::Plan;
 /// The object of `result.json` and of `masonry solve --json`, pretty-printed.
 ///
 /// Physical quantities are in the units of the scene, which `units` names one by one. Without a
-/// solution `balance`, `reactions`, `contacts`, `strain_energy`, `max_displacement` and the stresses
+/// solution `residuals`, `balance`, `reactions`, `contacts`, `strain_energy`, `max_displacement` and the stresses
 /// are null, and `reason` says why. Numbers that are not finite become null.
 ///
 /// # Errors
@@ -33,7 +33,7 @@ struct Report<'a> {
     order: usize,
     attempts: &'a [String],
     pivots: usize,
-    residuals: lcp::Residuals,
+    residuals: Option<lcp::Residuals>,
     coulomb_residuals: Option<lcp::Residuals>,
     balance: Option<Balance>,
     reactions: Option<ByName<'a, Force>>,
@@ -145,7 +145,7 @@ impl<'a> Report<'a> {
             order: solve.order,
             attempts: &solve.attempts,
             pivots: solve.pivots,
-            residuals: solve.residuals,
+            residuals: state.map(|_| solve.residuals),
             coulomb_residuals: solve.coulomb_residuals,
             balance: checks.map(|checks| Balance {
                 force: checks.force_balance,

@@ -136,10 +136,12 @@ pub fn area_and_centroid(corners: &[Point2<f64>; 4]) -> (f64, Point2<f64>) {
 
 /// Why there is no state, in a sentence or two; `None` when there is one.
 pub fn reason(outcome: &Outcome) -> Option<String> {
-    if outcome.state.is_some() {
-        return None;
-    }
     let what = match outcome.solve.status {
+        lcp::Status::Solved => return None,
+        lcp::Status::AlmostSolved if outcome.state.is_some() => {
+            "The complementarity problem was solved, but the balance of the blocks, recomputed from \
+             forces and loads, does not hold. What was computed is kept for inspection only."
+        }
         lcp::Status::RayTermination if outcome.mechanism.is_some() => {
             "No attempt found an equilibrium, and one ended on a secondary ray that is a mechanism: \
              a movement of the blocks that the supports do not stop and on which the loads do \
@@ -162,6 +164,11 @@ pub fn reason(outcome: &Outcome) -> Option<String> {
             "The best point found satisfies the conditions only to a looser tolerance, which is \
              not accepted as an equilibrium."
         }
+        lcp::Status::Cycling => {
+            "The pivots came back to where they had been, in every way that was tried. This says \
+             nothing about the structure: another mesh or another form may find an equilibrium."
+        }
+        lcp::Status::Cancelled => "The solve was cancelled before it came to an end.",
         _ => "The solver returned no equilibrium.",
     };
     Some(what.to_owned())

@@ -88,7 +88,9 @@ fn solution(outcome: &Outcome) -> Vec<(&'static str, String)> {
     for (index, attempt) in solve.attempts.iter().enumerate() {
         rows.push((if index == 0 { "attempts" } else { "" }, attempt.clone()));
     }
-    rows.push(("residuals", residuals(&solve.residuals)));
+    if outcome.state.is_some() {
+        rows.push(("residuals", residuals(&solve.residuals)));
+    }
     if let Some(paper) = &solve.coulomb_residuals {
         rows.push(("(3.27)", format!("{}, of the same answer in this form", residuals(paper))));
     }

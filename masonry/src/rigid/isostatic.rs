@@ -90,11 +90,12 @@ pub fn choose(
         Some(w) => Mat::from_fn(g.nrows(), g.ncols(), |i, j| g[(i, j)] * w[i]),
     };
     let normals = select_rows(&weighted, &(0..normal).collect::<Vec<_>>());
-    let first = Pivoted::of(normals.transpose());
+    let first = Pivoted::of(normals.transpose(), 0.0);
     let mut rows = first.columns;
     if rows.len() < g.ncols() {
         let tangents = select_rows(&weighted, &(normal..g.nrows()).collect::<Vec<_>>());
-        let second = Pivoted::of((&tangents * &first.complement).transpose());
+        let seen = (&tangents * &first.complement).transpose().to_owned();
+        let second = Pivoted::of(seen.as_ref(), tangents.norm_max());
         if second.columns.len() < first.complement.ncols() {
             return Err(describe(&(&first.complement * &second.complement), modes));
         }
@@ -117,14 +118,16 @@ struct Pivoted {
 }
 
 impl Pivoted {
-    fn of(matrix: MatRef<'_, f64>) -> Self {
+    /// `reference` is the size of the data that the matrix was computed from: one of nothing but
+    /// rounding errors has rank zero.
+    fn of(matrix: MatRef<'_, f64>, reference: f64) -> Self {
         let (height, width) = matrix.shape();
         if width == 0 {
             return Self { columns: Vec::new(), complement: Mat::identity(height, height) };
         }
         let qr = ColPivQr::new(matrix);
         let pivot = |k: usize| qr.thin_R()[(k, k)].abs();
-        let least = RANK_TOLERANCE * pivot(0);
+        let least = RANK_TOLERANCE * pivot(0).max(reference);
         let rank = (0..height.min(width)).take_while(|k| pivot(*k) > least).count();
         let columns = qr.P().arrays().0[..rank].to_vec();
         let complement = qr.compute_Q().subcols(rank, height - rank).to_owned();

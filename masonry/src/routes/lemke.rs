@@ -23,8 +23,8 @@ use crate::system::System;
 const STARTS: usize = 2;
 /// Attempts from every one of them: with the covering vector of [`covering`], then a random one.
 const ATTEMPTS_PER_START: usize = 2;
-/// Attempts on the mixed form, from its natural start: with a covering vector of ones and another.
-const MIXED_ATTEMPTS: usize = 2;
+/// Attempts on the mixed form.
+const MIXED_ATTEMPTS: usize = 3;
 /// How far the covering vector opens the friction cone, in units of force.
 const COHESION: f64 = 100.0;
 
@@ -193,5 +193,8 @@ fn describe(kind: FormKind, given: Option<&str>, attempt: &Attempt) -> String {
     let covering = if attempt.covering == "given" { "cohesive" } else { &attempt.covering };
     let (kind, pivots) = (kind.name(), attempt.pivots);
     let residual = attempt.residual.map_or(String::new(), |it| format!(", residual {it:.1e}"));
-    format!("{kind}: start {start}, covering {covering}: {end} after {pivots} pivots{residual}")
+    let perturbed = if attempt.perturbed { ", perturbed" } else { "" };
+    format!(
+        "{kind}: start {start}, covering {covering}{perturbed}: {end} after {pivots} pivots{residual}"
+    )
 }

@@ -341,6 +341,7 @@ fn plan(model: &Model) -> Plan {
         rigid_modes: 3 * model.blocks.len(),
         order: 3 * m,
         largest_order: 3 * m,
+        largest_block: 18,
         solver: "lemke".to_owned(),
         because: "friction makes the matrix nonsymmetric, and the order is below 3000".to_owned(),
     }
