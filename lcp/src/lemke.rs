@@ -243,10 +243,10 @@ impl<'a> Search<'a> {
 
     /// No attempt reached the tolerance: the best point if it is near, else what the attempts say.
     fn conclude(mut self) -> Solution {
-        if let Some((point, basis)) = self.almost.take() {
-            let near = point.residuals.worst() <= self.settings.tolerance.sqrt();
-            let status = if near { Status::AlmostSolved } else { Status::NumericalTrouble };
-            return self.answer(status, point, basis);
+        if let Some((point, basis)) = self.almost.take()
+            && point.residuals.worst() <= self.settings.tolerance.sqrt()
+        {
+            return self.answer(Status::AlmostSolved, point, basis);
         }
         let ended = |end| self.info.attempts.iter().any(|attempt| attempt.end == end);
         let status = if ended(AttemptEnd::Ray) {

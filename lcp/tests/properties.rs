@@ -48,8 +48,14 @@ fn same(a: &[f64], b: &[f64], q: &[f64]) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-9 * size)
 }
 
+/// At least so many cases; more by the environment variable `PROPTEST_CASES`.
+fn cases(least: u32) -> ProptestConfig {
+    let default = ProptestConfig::default();
+    ProptestConfig { cases: default.cases.max(least), ..default }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 256, ..ProptestConfig::default() })]
+    #![proptest_config(cases(256))]
 
     #[test]
     fn positive_definite_problems_are_solved_at_once((m, q) in positive_definite()) {
