@@ -3,16 +3,17 @@
 use std::error::Error;
 use std::path::Path;
 
+use masonry::output::svg::ReferenceLines;
 use masonry::output::{self, Options, table};
 use masonry::scene::Scene;
-use masonry::solve::{reference_lines, solve};
+use masonry::solve::solve;
 
 /// Solves `scenes/NAME.toml`, prints the report and writes all files into `target/NAME/`.
 pub(crate) fn run(name: &str) -> Result<(), Box<dyn Error>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let scene = Scene::read(&root.join("scenes").join(name).with_extension("toml"))?;
     let outcome = solve(&scene)?;
-    let options = Options { reference: reference_lines(&scene), ..Options::default() };
+    let options = Options { reference: ReferenceLines::of(&scene), ..Options::default() };
     let files = output::write_all(&outcome, &root.join("target").join(name), &options)?;
     println!("{}", table::report(&outcome));
     for file in files {

@@ -12,10 +12,11 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand};
 
 use crate::model::Model;
+use crate::output::svg::ReferenceLines;
 use crate::output::{self, Options, json, svg, table};
 use crate::plan::Plan;
 use crate::scene::Scene;
-use crate::solve::{reference_lines, solve_observed};
+use crate::solve::solve_observed;
 use progress::Progress;
 
 /// How a wall or an arch of blocks carries its load.
@@ -102,7 +103,7 @@ fn solve(args: &SolveArgs) -> Result<u8, Failure> {
     let mut progress = Progress::new();
     let outcome = solve_observed(&scene, &mut |event| progress.show(event))?;
     progress.clear();
-    let options = Options { reference: reference_lines(&scene), ..Options::default() };
+    let options = Options { reference: ReferenceLines::of(&scene), ..Options::default() };
     let written = output::write_all(&outcome, &args.out, &options);
     // What was computed is printed even when a file could not be written.
     let files = written.as_deref().unwrap_or_default();

@@ -13,6 +13,7 @@ use nalgebra::{Point2, Vector2};
 use crate::geometry::{self, SegmentOverlap};
 use crate::ids::{BlockId, JointId, SupportId};
 use crate::model::{Anchor, Block, Body, ContactPoint, Joint, JointClass, Support};
+pub use crate::scene::PointRule;
 
 mod points;
 mod search;
@@ -26,21 +27,6 @@ pub enum JointKind {
     Head,
     /// Between a support and a block.
     Support(SupportId),
-}
-
-/// Where on a joint the contact law is enforced.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum PointRule {
-    /// At both ends of every part of the overlap on which the shape functions of both sides are
-    /// linear, with trapezoidal weights.
-    #[default]
-    Vertices,
-    /// Only where a node of each side lies (on a support: at the nodes of the block), weighted by
-    /// tributary length: the node pairs of the paper.
-    NodalPairs,
-    /// At two Gauss points in every part on which the shape functions of both sides are linear.
-    Gauss,
 }
 
 /// How joints are searched and points placed.

@@ -25,7 +25,7 @@
 //! ```
 //!
 //! # The way of the data
-//! Every stage is a module and can be used on its own; each knows those before it and none behind it.
+//! Every stage is a module and can be used on its own; each builds on those before it.
 //!
 //! | stage | module | result |
 //! |---|---|---|

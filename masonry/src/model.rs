@@ -18,6 +18,7 @@ use nalgebra::{Point2, Vector2};
 
 use crate::ids::{BlockId, JointId, SupportId};
 use crate::mesh::BlockMesh;
+pub use crate::scene::Plane;
 use crate::units::Units;
 
 /// Everything that the mechanics needs of a scene, in SI units (m, N, Pa, kg/m^3).
@@ -41,16 +42,6 @@ pub struct Model {
     pub gravity: Vector2<f64>,
     /// The units of the scene, in which results are reported.
     pub units: Units,
-}
-
-/// The two-dimensional idealisation of elasticity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Plane {
-    /// Free out of the plane: `sigma_z = 0`.
-    Stress,
-    /// Held out of the plane: `eps_z = 0`.
-    Strain,
 }
 
 /// Linear elasticity of a deformable block.

@@ -37,8 +37,6 @@ pub(crate) use self::error::Fault;
 pub use self::error::{SceneError, SceneErrorKind};
 pub use self::key_path::KeyPath;
 use self::source::Source;
-use crate::contact::PointRule;
-use crate::model::Plane;
 use crate::units::Units;
 
 /// A scene as its author describes it, in the scene's own units.
@@ -105,6 +103,16 @@ pub struct Scene {
     /// The text that the scene was read from, for the places of errors.
     #[serde(skip)]
     source: Source,
+}
+
+/// The two-dimensional idealisation of elasticity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Plane {
+    /// Free out of the plane: `sigma_z = 0`.
+    Stress,
+    /// Held out of the plane: `eps_z = 0`.
+    Strain,
 }
 
 /// A material: rigid without `E`, elastic with `E` and `nu`.
@@ -251,19 +259,25 @@ pub struct Load {
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     /// Where on a joint the contact law is enforced.
-    #[serde(default, with = "PointRuleKeys")]
+    #[serde(default)]
     pub points: PointRule,
     /// Bodies closer than this may meet \[length\]; zero: only bodies that touch.
     #[serde(default)]
     pub gap_limit: f64,
 }
 
-// The names of the rules in scene files.
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "PointRule", rename_all = "snake_case")]
-enum PointRuleKeys {
+/// Where on a joint the contact law is enforced.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PointRule {
+    /// At both ends of every part of the overlap on which the shape functions of both sides are
+    /// linear, with trapezoidal weights.
+    #[default]
     Vertices,
+    /// Only where a node of each side lies (on a support: at the nodes of the block), weighted by
+    /// tributary length: the node pairs of the paper.
     NodalPairs,
+    /// At two Gauss points in every part on which the shape functions of both sides are linear.
     Gauss,
 }
 

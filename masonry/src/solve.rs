@@ -5,12 +5,9 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use nalgebra::Point2;
-
 use crate::check::Checks;
 use crate::model::Model;
 use crate::outcome::{Outcome, PhaseTime};
-use crate::output::svg::ReferenceLines;
 use crate::plan::Plan;
 use crate::recover;
 use crate::reduction::Reduction;
@@ -164,30 +161,6 @@ fn check_size(plan: &Plan) -> Result<(), SolveError> {
 fn named(error: RigidError, model: &Model) -> SolveError {
     let RigidError::Free { block, motion, free } = error;
     SolveError::Free { block: model.blocks[block].name.clone(), motion, free }
-}
-
-/// The running-bond lines to compare the principal stresses with: from the inner ends of the
-/// lowest supports at both corners of the first wall, half a brick sideways for every course.
-/// `None` for a scene without such a wall or with a support all along its foot.
-pub fn reference_lines(scene: &Scene) -> Option<ReferenceLines> {
-    let wall = scene.walls.first()?;
-    let [_, foot] = wall.origin;
-    let level = |y: f64| (y - foot).abs() <= 1e-9 * wall.brick.height;
-    let mut feet: Vec<(f64, f64)> = scene
-        .supports
-        .iter()
-        .filter(|support| level(support.from[1]) && level(support.to[1]))
-        .map(|support| (support.from[0].min(support.to[0]), support.from[0].max(support.to[0])))
-        .collect();
-    feet.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let ((_, left), (right, _)) = (*feet.first()?, *feet.last()?);
-    if left >= right {
-        return None;
-    }
-    let metres = scene.units.length_to_si();
-    let origins = [left, right].map(|x| Point2::new(x, foot) * metres);
-    let angle = (wall.brick.length / (2.0 * wall.brick.height)).atan();
-    Some(ReferenceLines { origins, angle, label: "arctan(l / 2h)".to_owned() })
 }
 
 #[derive(Default)]

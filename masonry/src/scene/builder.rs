@@ -4,11 +4,9 @@ use std::collections::BTreeMap;
 
 use super::source::Source;
 use super::{
-    Block, Brick, Contact, Courses, Form, Joint, Load, Material, Output, Scene, Solver, Support,
-    Wall,
+    Block, Brick, Contact, Courses, Form, Joint, Load, Material, Output, Plane, PointRule, Scene,
+    Solver, Support, Wall,
 };
-use crate::contact::PointRule;
-use crate::model::Plane;
 use crate::units::Units;
 
 impl Scene {

@@ -9,6 +9,7 @@ use crate::model::Model;
 use crate::outcome::{ElementStress, State};
 use crate::output::format::{InUnits, round_down};
 use crate::output::summary::{area_and_centroid, extreme_stresses};
+use crate::scene::Scene;
 
 const REFERENCE: &str = "#009e73";
 
@@ -22,6 +23,32 @@ pub struct ReferenceLines {
     pub angle: f64,
     /// What the legend calls them, such as `arctan(l / 2h) = 26.57°`.
     pub label: String,
+}
+
+impl ReferenceLines {
+    /// The running-bond lines to compare the principal stresses with: from the inner ends of the
+    /// lowest supports at both corners of the first wall, half a brick sideways for every course.
+    /// `None` for a scene without such a wall or with a support all along its foot.
+    pub fn of(scene: &Scene) -> Option<Self> {
+        let wall = scene.walls.first()?;
+        let [_, foot] = wall.origin;
+        let level = |y: f64| (y - foot).abs() <= 1e-9 * wall.brick.height;
+        let mut feet: Vec<(f64, f64)> = scene
+            .supports
+            .iter()
+            .filter(|support| level(support.from[1]) && level(support.to[1]))
+            .map(|support| (support.from[0].min(support.to[0]), support.from[0].max(support.to[0])))
+            .collect();
+        feet.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let ((_, left), (right, _)) = (*feet.first()?, *feet.last()?);
+        if left >= right {
+            return None;
+        }
+        let metres = scene.units.length_to_si();
+        let origins = [left, right].map(|x| Point2::new(x, foot) * metres);
+        let angle = (wall.brick.length / (2.0 * wall.brick.height)).atan();
+        Some(Self { origins, angle, label: "arctan(l / 2h)".to_owned() })
+    }
 }
 
 /// Principal stresses of every element as crosses whose strokes are proportional to the stresses,
