@@ -10,6 +10,7 @@
 
 use nalgebra::{Point2, Vector2};
 
+pub(crate) use self::search::near_pairs;
 use crate::geometry::{self, SegmentOverlap};
 use crate::ids::{BlockId, JointId, SupportId};
 use crate::model::{Anchor, Block, Body, ContactPoint, Joint, JointClass, Support};
@@ -104,7 +105,7 @@ pub fn find(
         joints.push(meeting.joint(blocks, class));
         Ok(())
     };
-    for [first, second] in search::near_pairs(blocks, options) {
+    for [first, second] in near_pairs(blocks, options) {
         for meeting in between_blocks(blocks, first, second, options) {
             add(&meeting)?;
         }

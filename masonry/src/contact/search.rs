@@ -11,7 +11,7 @@ use crate::model::Block;
 ///
 /// Boxes are swept along the longer side of the whole structure, so that only neighbours in that
 /// direction are compared.
-pub(super) fn near_pairs(blocks: &[Block], options: &Options) -> Vec<[BlockId; 2]> {
+pub(crate) fn near_pairs(blocks: &[Block], options: &Options) -> Vec<[BlockId; 2]> {
     let boxes: Vec<Bounds> = blocks
         .iter()
         .map(|b| {

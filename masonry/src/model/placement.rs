@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::Point2;
 
 use super::{Block, Body, Joint, Support};
+use crate::contact::{Options, near_pairs};
 use crate::geometry::{self, Quad};
 use crate::scene::{Fault, KeyPath, SceneErrorKind};
 use crate::units::Units;
@@ -31,8 +32,8 @@ pub(super) fn check_overlaps(
     keys: &[KeyPath],
     units: Units,
 ) -> Result<(), Fault> {
-    for (i, j) in near_pairs(blocks) {
-        let (first, second) = (&blocks[i], &blocks[j]);
+    for [i, j] in near_pairs(blocks, &Options::default()) {
+        let (first, second) = (&blocks[i.index()], &blocks[j.index()]);
         let area = geometry::overlap_area(&first.corners, &second.corners);
         let size = geometry::size(&first.corners).min(geometry::size(&second.corners));
         if area > TOLERANCE * size * size {
@@ -42,38 +43,10 @@ pub(super) fn check_overlaps(
                 area: rounded(area / (units.length_to_si() * units.length_to_si())),
                 unit: units.length_name(),
             };
-            return Err(Fault::new(keys[j].clone(), kind));
+            return Err(Fault::new(keys[j.index()].clone(), kind));
         }
     }
     Ok(())
-}
-
-/// Pairs of blocks whose bounding boxes overlap, found by a sweep from left to right; in increasing
-/// order, so that the first overlap reported does not depend on the sweep.
-fn near_pairs(blocks: &[Block]) -> Vec<(usize, usize)> {
-    let boxes: Vec<[[f64; 2]; 2]> = blocks.iter().map(|block| bounds(&block.corners)).collect();
-    let mut order: Vec<usize> = (0..blocks.len()).collect();
-    order.sort_by(|i, j| boxes[*i][0][0].total_cmp(&boxes[*j][0][0]));
-    let mut open: Vec<usize> = Vec::new();
-    let mut pairs = Vec::new();
-    for new in order {
-        let ([left, low], [_, high]) = (boxes[new][0], boxes[new][1]);
-        open.retain(|old| boxes[*old][1][0] > left);
-        let meets = |old: &&usize| boxes[**old][0][1] < high && boxes[**old][1][1] > low;
-        pairs.extend(open.iter().filter(meets).map(|old| (new.min(*old), new.max(*old))));
-        open.push(new);
-    }
-    pairs.sort_unstable();
-    pairs
-}
-
-/// Lower left and upper right corner of the bounding box.
-fn bounds(quad: &Quad) -> [[f64; 2]; 2] {
-    let fold = |f: fn(f64, f64) -> f64| {
-        let of = |axis: usize| quad[1..].iter().fold(quad[0][axis], |x, p| f(x, p[axis]));
-        [of(0), of(1)]
-    };
-    [fold(f64::min), fold(f64::max)]
 }
 
 /// Refuses supports that run through the inside of a block.

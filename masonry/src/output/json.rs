@@ -11,7 +11,8 @@ use crate::plan::Plan;
 ///
 /// Physical quantities are in the units of the scene, which `units` names one by one. Without a
 /// solution `residuals`, `balance`, `reactions`, `contacts`, `strain_energy`, `max_displacement` and the stresses
-/// are null, and `reason` says why. Numbers that are not finite become null.
+/// are null, and `reason` says why; `mechanism` gives displacement rates of the corners of every
+/// block, the largest component one, where one is known. Numbers that are not finite become null.
 ///
 /// # Errors
 /// None that this data can cause; the signature is that of the serialiser.
@@ -42,6 +43,7 @@ struct Report<'a> {
     max_displacement: Option<Displacement<'a>>,
     max_compression: Option<Stress<'a>>,
     max_tension: Option<Stress<'a>>,
+    mechanism: Option<ByName<'a, [[f64; 2]; 4]>>,
     time_s: ByName<'a, f64>,
     files: &'a [String],
 }
@@ -173,6 +175,10 @@ impl<'a> Report<'a> {
             ),
             max_compression: compression.map(stress),
             max_tension: tension.map(stress),
+            mechanism: outcome.mechanism.as_ref().map(|rates| {
+                let names = model.blocks.iter().map(|block| block.name.as_str());
+                ByName(names.zip(rates.iter().map(|corners| corners.map(Into::into))).collect())
+            }),
             time_s: ByName(
                 outcome.times.iter().map(|time| (time.phase.as_str(), time.seconds)).collect(),
             ),

@@ -2,6 +2,7 @@
 
 use nalgebra::{Point2, Vector2};
 
+use crate::geometry;
 use crate::ids::BlockId;
 use crate::model::{Block, EdgeLoad, Model};
 use crate::outcome::{Outcome, State};
@@ -95,7 +96,8 @@ pub fn applied_load(model: &Model) -> Resultant {
             total.add(load.traction * area, nalgebra::center(&from, &to));
         }
         if let Some(density) = block.density {
-            let (area, centroid) = area_and_centroid(&block.corners);
+            let (area, centroid) =
+                (geometry::area(&block.corners), geometry::centroid(&block.corners));
             total.add(model.gravity * (density * area * model.thickness), centroid);
         }
     }
@@ -114,24 +116,8 @@ pub fn total_reaction(outcome: &Outcome) -> Resultant {
 
 /// Start and end of the loaded part of an edge \[m\].
 pub fn loaded_part(block: &Block, load: &EdgeLoad) -> (Point2<f64>, Point2<f64>) {
-    let start = block.corners[load.edge % 4];
-    let along = block.corners[(load.edge + 1) % 4] - start;
-    (start + along * load.from, start + along * load.to)
-}
-
-/// Area and centroid of a polygon with counter-clockwise corners.
-pub fn area_and_centroid(corners: &[Point2<f64>; 4]) -> (f64, Point2<f64>) {
-    // Relative to a corner, so that a distant origin costs no digits.
-    let base = corners[0];
-    let mut area = 0.0;
-    let mut moment = Vector2::zeros();
-    for k in 1..3 {
-        let (p, q) = (corners[k] - base, corners[k + 1] - base);
-        let triangle = 0.5 * (p.x * q.y - p.y * q.x);
-        area += triangle;
-        moment += (p + q) * (triangle / 3.0);
-    }
-    if area > 0.0 { (area, base + moment / area) } else { (0.0, base) }
+    let place = |at| geometry::on_edge(&block.corners, load.edge, at);
+    (place(load.from), place(load.to))
 }
 
 /// Why there is no state, in a sentence or two; `None` when there is one.

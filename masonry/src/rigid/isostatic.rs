@@ -51,11 +51,7 @@ impl std::fmt::Display for FreeMotion {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum RigidError {
     /// Some blocks can move without any contact noticing.
-    #[error(
-        "block {block} can {motion} without changing a gap or sliding against friction \
-         (free motions in all: {free}): let it touch its neighbours or a support, \
-         or give its joints friction"
-    )]
+    #[error("block {block} can {motion}, and no contact resists (free motions in all: {free})")]
     Free {
         /// The position in the model of the block that moves most.
         block: usize,

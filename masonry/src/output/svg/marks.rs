@@ -4,10 +4,10 @@ use nalgebra::{Point2, Vector2};
 
 use super::canvas::{Canvas, Pixel, fixed};
 use super::sheet::{Bounds, Frame, Sheet};
+use crate::geometry;
 use crate::ids::SupportId;
 use crate::model::{Block, Body, ContactPoint, Model, Support};
 use crate::outcome::{ContactState, ContactStatus};
-use crate::output::summary::area_and_centroid;
 
 /// Compression: a blue that the colour-blind tell from [`TENSION`].
 pub(super) const COMPRESSION: &str = "#0072b2";
@@ -34,7 +34,7 @@ pub(super) fn bounds(model: &Model) -> Bounds {
 /// Size of a middling brick in pixels, from which widths of strokes and marks follow.
 pub(super) fn brick_size(model: &Model, frame: &Frame) -> f64 {
     let mut areas: Vec<f64> =
-        model.blocks.iter().map(|block| area_and_centroid(&block.corners).0).collect();
+        model.blocks.iter().map(|block| geometry::area(&block.corners)).collect();
     areas.sort_by(f64::total_cmp);
     areas.get(areas.len() / 2).copied().unwrap_or(0.0).max(0.0).sqrt() * frame.scale
 }

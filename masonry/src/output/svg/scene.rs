@@ -6,9 +6,9 @@ use super::canvas::{Anchor, Pixel, fixed, text_width};
 use super::loads;
 use super::marks::{self, BRICK, OUTLINE};
 use super::sheet::Sheet;
+use crate::geometry;
 use crate::model::Model;
 use crate::output::format::{InUnits, significant};
-use crate::output::summary::area_and_centroid;
 
 /// Colours of joint classes, told apart by the colour-blind too (Okabe and Ito).
 const CLASSES: [&str; 5] = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9"];
@@ -85,7 +85,7 @@ fn draw_names(sheet: &mut Sheet, model: &Model) {
     if size < 7.0 {
         return;
     }
-    let centres = model.blocks.iter().map(|block| area_and_centroid(&block.corners).1);
+    let centres = model.blocks.iter().map(|block| geometry::centroid(&block.corners));
     sheet.canvas.group("class=\"names\"", |canvas| {
         for (block, centre) in model.blocks.iter().zip(centres) {
             let at = frame.at(centre);
@@ -97,7 +97,7 @@ fn draw_names(sheet: &mut Sheet, model: &Model) {
 
 /// Lengths of the horizontal and of the vertical line through the centroid of a block \[m\].
 fn room(corners: &[Point2<f64>; 4]) -> (f64, f64) {
-    let centre = area_and_centroid(corners).1;
+    let centre = geometry::centroid(corners);
     let chord = |along: usize, across: usize| {
         let crossings = (0..4).filter_map(|k| {
             let (p, q) = (corners[k], corners[(k + 1) % 4]);

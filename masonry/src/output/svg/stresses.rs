@@ -5,10 +5,11 @@ use nalgebra::Point2;
 use super::canvas::{Canvas, Pixel, fixed};
 use super::marks::{self, BRICK, COMPRESSION, OUTLINE, TENSION};
 use super::sheet::{Frame, Margins, Sheet, draw_bar};
+use crate::geometry;
 use crate::model::Model;
 use crate::outcome::{ElementStress, State};
 use crate::output::format::{InUnits, round_down};
-use crate::output::summary::{area_and_centroid, extreme_stresses};
+use crate::output::summary::extreme_stresses;
 use crate::scene::Scene;
 
 const REFERENCE: &str = "#009e73";
@@ -163,7 +164,7 @@ fn element_size(model: &Model, state: &State) -> f64 {
     for stress in &state.stresses {
         if let Some(mesh) = &model.blocks[stress.block.index()].mesh {
             let corners = mesh.elements[stress.element].map(|node| mesh.nodes[node]);
-            areas.push(area_and_centroid(&corners).0);
+            areas.push(geometry::area(&corners));
         }
     }
     areas.sort_by(f64::total_cmp);
