@@ -171,17 +171,19 @@ impl<'a> Path<'a> {
                     return AttemptEnd::Singular;
                 }
             }
-            // The rule is deterministic: a basis that came back comes back for ever.
-            if !self.visited.insert(self.signature) {
-                return AttemptEnd::Cycle;
-            }
             let entering_col = self.col_of(entering);
             let mut column = std::mem::take(&mut self.column);
             self.tableau.column(entering_col, &mut column);
             let leaving = leaving_row(self, &column);
             self.column = column;
             match leaving {
-                Some(row) => entering = self.exchange(row, entering_col),
+                Some(row) => {
+                    // The rule is deterministic: a basis that came back comes back for ever.
+                    if !self.visited.insert(self.signature) {
+                        return AttemptEnd::Cycle;
+                    }
+                    entering = self.exchange(row, entering_col);
+                }
                 // What looks like a ray may be drift: only a column that the data confirm counts.
                 None if self.is_true_column(entering_col, &self.column) => {
                     return self.at_ray(entering_col);
