@@ -109,29 +109,30 @@ fn zero_solves_a_homogeneous_problem() {
     assert_eq!(once().solve(&problem).unwrap().status, Status::Solved);
 }
 
-/// Murty's problems take exactly 2^n pivots with a covering vector of ones in the given data.
+/// Murty's problems take exactly 2^n pivots with a covering vector of ones in the data as given; they
+/// and Fathi's stop at the limit on pivots when it is lower.
 #[test]
 fn exponential_families_take_their_pivots_or_stop_at_the_limit() {
     for n in [3_usize, 6, 9] {
-        let mut q = vec![-1.0; n];
-        let problem = lcp(murty(n), &q);
-        let solution = once().solve(&problem).unwrap();
-        assert_eq!(solution.status, Status::Solved);
-        let mut z = vec![0.0; n];
-        z[0] = 1.0;
-        assert_close(&solution.t, &z);
-
-        q.fill(-1.0);
-        let fathi = &murty(n) * murty(n).transpose();
-        let limited = LemkeSettings {
-            max_pivots: Some(4),
-            max_attempts: 1,
+        let ones = LemkeSettings {
             start: Some(Basis::all(Side::Y, n)),
+            covering: Covering::Given(vec![1.0; n]),
+            max_attempts: 1,
             ..LemkeSettings::default()
         };
-        let solution = Lemke::new(limited).solve(&lcp(fathi, &q)).unwrap();
-        assert!(matches!(solution.status, Status::PivotLimit | Status::Solved));
-        assert!(solution.info.pivots <= 4);
+        let limited = LemkeSettings { max_pivots: Some(n), ..ones.clone() };
+        let mut first = vec![0.0; n];
+        first[0] = 1.0;
+        let fathi = &murty(n) * murty(n).transpose();
+        for (m, pivots) in [(murty(n), Some(1 << n)), (fathi, None)] {
+            let problem = lcp(m, &vec![-1.0; n]);
+            let solution = Lemke::new(ones.clone()).solve(&problem).unwrap();
+            assert_eq!(solution.status, Status::Solved);
+            assert_close(&solution.t, &first);
+            assert!(pivots.is_none_or(|pivots| solution.info.pivots == pivots));
+            let stopped = Lemke::new(limited.clone()).solve(&problem).unwrap();
+            assert_eq!((stopped.status, stopped.info.pivots), (Status::PivotLimit, n));
+        }
     }
 }
 
