@@ -49,7 +49,10 @@ fn lexicographic_minimum(path: &Path<'_>, column: &[f64], mut tied: Vec<usize>) 
         keys.clear();
         keys.extend(tied.iter().map(|&i| path.inverse_entry(i, k) / column[i]));
         let least = keys.iter().copied().fold(f64::INFINITY, f64::min);
-        let scale = keys.iter().fold(0.0_f64, |max, key| max.max(key.abs()));
+        // Entries of an equilibrated tableau are of order one: where all keys are rounding errors of
+        // zero they must not be measured against each other.
+        let smallest_pivot = tied.iter().fold(f64::INFINITY, |min, &i| min.min(column[i]));
+        let scale = keys.iter().fold(1.0 / smallest_pivot, |max, key| max.max(key.abs()));
         let mut key = keys.iter();
         tied.retain(|_| key.next().is_some_and(|&v| v - least <= TIE_WINDOW * scale));
     }
