@@ -6,12 +6,17 @@ mod dense;
 mod feasibility;
 mod finish;
 mod kernel;
+mod parametric;
 mod path;
 mod ratio;
 mod search;
 mod start;
 mod tableau;
 mod trial;
+
+pub use parametric::{
+    Breakpoint, Parametric, ParametricEnd, ParametricPath, ParametricRay, ParametricSettings,
+};
 
 use std::ops::ControlFlow;
 use std::time::Instant;

@@ -45,7 +45,10 @@ pub use faer;
 
 pub use basis::{Basis, Side};
 pub use error::Error;
-pub use lemke::{Lemke, Progress};
+pub use lemke::{
+    Breakpoint, Lemke, Parametric, ParametricEnd, ParametricPath, ParametricRay,
+    ParametricSettings, Progress,
+};
 pub use matrix::Matrix;
 pub use problem::{BoxedLcp, HorizontalLcp, Lcp, MixedLcp};
 pub use residual::Residuals;

@@ -356,23 +356,15 @@ fn in_problem_units<K: Kernel>(
     covering: &[f64],
     problem: &Equilibrated<'_>,
 ) -> Ray {
-    let (dw, dz, dz0) = path.ray();
-    let n = dw.len();
+    let n = start.q.len();
+    let along = path.ray();
     let (mut dt, mut dy) = (vec![0.0; n], vec![0.0; n]);
     for pair in 0..n {
-        let (mut basic, mut nonbasic) = (dw[pair], dz[pair]);
-        let side = start.nonbasic_side(pair);
-        if let Some(ratio) = problem.opposite(pair) {
-            // One unit of `y` is `ratio` units of `-t`.
-            let unit = if side == Side::T { ratio } else { 1.0 / ratio };
-            let net = basic - nonbasic / unit;
-            (basic, nonbasic) = (net.max(0.0), (-net * unit).max(0.0));
-        }
-        (dt[pair], dy[pair]) = match side {
-            Side::T => (nonbasic, basic),
-            Side::Y => (basic, nonbasic),
-        };
+        let dw = along[pair] / start.row_factor[pair];
+        let dz = along[n + pair] * start.col_factor[pair];
+        (dt[pair], dy[pair]) = problem.sides(pair, start.nonbasic_side(pair), dw, dz);
     }
+    let dz0 = along[2 * n];
     let mut in_rows = vec![0.0; n];
     for (pair, (d, row)) in covering.iter().zip(&start.row_factor).enumerate() {
         let column = problem.problem.column(pair, start.basis.sides()[pair]);
