@@ -1,5 +1,6 @@
 //! Lemke's method on the general form.
 
+mod artificial;
 mod basis_matrix;
 mod crash;
 mod dense;

@@ -23,8 +23,7 @@ fn lambdas(path: &ParametricPath) -> Vec<f64> {
     path.breakpoints.iter().map(|it| it.lambda).collect()
 }
 
-/// Two springs of stiffness 1 one behind the other, with gaps 1 and 3, pushed by `lambda`: the first
-/// closes at 1, both carry from 3 on; `w = z1 + z2` ... each pair on its own.
+/// Two coupled contacts with gaps 1 and 3, on which a load presses.
 #[test]
 fn gaps_close_one_after_the_other() {
     let problem = lcp(mat![[2.0, 1.0], [1.0, 2.0]], &[1.0, 3.0]);

@@ -44,7 +44,7 @@ impl HorizontalLcp {
     }
 
     /// From parts that are known to fit and to be finite.
-    pub(super) fn from_parts(a: Matrix, b: Matrix, c: Vec<f64>) -> Self {
+    pub(crate) fn from_parts(a: Matrix, b: Matrix, c: Vec<f64>) -> Self {
         Self { a, b, c }
     }
 
