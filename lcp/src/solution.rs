@@ -232,6 +232,9 @@ pub struct Info {
     pub attempts: Vec<Attempt>,
     /// Wall-clock time \[s\].
     pub seconds: f64,
+    /// The part of it spent on pivots; the rest is start bases, scaling, final solves and proofs
+    /// \[s\].
+    pub pivot_seconds: f64,
 }
 
 /// The answer of a solver: always with the residuals of the point that it carries.

@@ -184,6 +184,25 @@ fn both_matrices_singular() {
     assert_close(&solution.y, &[0.0, 3.0]);
 }
 
+/// A start basis that solves the problem is not left for the rounding errors of its values.
+#[test]
+fn a_start_basis_that_solves_the_problem_is_enough() {
+    let (a, b) = (mat![[2.0, -1.0], [-3.0, 2.0]], mat![[3.0, 3.0], [-5.0, 2.0]]);
+    let problem = HorizontalLcp::new(a, b, vec![3.0, -5.0]).unwrap();
+    let solution = once().solve(&problem).unwrap();
+    assert_eq!((solution.status, solution.info.pivots), (Status::Solved, 0));
+    assert_close(&solution.y, &[1.0, 0.0]);
+}
+
+/// `M = [0, 1; 1, 0]`: from all `y` every covering vector ends on a ray, so that the start has to change.
+#[test]
+fn bimatrix_games_are_solved() {
+    let swap = mat![[0.0, 1.0], [1.0, 0.0]];
+    let solution = Lemke::default().solve(&lcp(swap, &[-1.0, -1.0])).unwrap();
+    assert_eq!(solution.status, Status::Solved);
+    assert_close(&solution.t, &[1.0, 1.0]);
+}
+
 /// Only an exchange finds the start basis: column choices that look best block each other.
 #[test]
 fn the_start_basis_needs_an_exchange() {

@@ -68,6 +68,9 @@ impl<'a> Search<'a> {
             Ok(found) => found,
             Err(status) => return self.give_up(status),
         };
+        if let Some(point) = self.solution_at(&first_start) {
+            return self.answer(Status::Solved, point);
+        }
         let first = Trial {
             start: kind,
             covering: self.first_covering(kind),
@@ -130,6 +133,18 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// The point of the start basis where it solves the problem. The values of a basis that had to be
+    /// factorised are not zero where they should be, so that a path would start at rounding errors.
+    fn solution_at(&self, start: &Start) -> Option<Point> {
+        const ROUNDING: f64 = 1e-12;
+        let is_negative = |(k, &q): (usize, &f64)| q < -ROUNDING && !start.is_free(k);
+        if start.q.iter().enumerate().any(is_negative) {
+            return None;
+        }
+        let point = solve_basis(&self.problem, &start.basis)?;
+        (point.residuals.worst() <= self.settings.tolerance).then_some(point)
+    }
+
     /// The covering vector asked for; one that was given refers to the rows of the start basis that
     /// was given with it, and not to those of another.
     fn first_covering(&self, start: AttemptStart) -> AttemptCovering {
@@ -188,6 +203,7 @@ impl<'a> Search<'a> {
             Path::new(kernel, data, &covering, data.q.clone(), interval, settings.trace);
         let max_pivots = settings.max_pivots.unwrap_or(100 * order + 1000);
         let deadline = self.deadline;
+        let began = Instant::now();
         let end = path.run(&mut |pivots| {
             let progress = Progress { attempt: number, pivots, order };
             if pivots >= max_pivots {
@@ -198,6 +214,7 @@ impl<'a> Search<'a> {
                 observer(&progress).is_break().then_some(AttemptEnd::Cancelled)
             }
         });
+        self.info.pivot_seconds += began.elapsed().as_secs_f64();
         self.info.pivots += path.pivots;
         self.info.refactorisations += path.refactorisations;
         self.info.attempts.push(Attempt {
