@@ -134,6 +134,8 @@ fn contacts_have_their_forces() {
     assert_eq!((&answer["kind"], &answer["n"]), (&"friction".into(), &3.into()));
     assert_near(&answer["contacts"]["normal"], &[1.0]);
     assert_near(&answer["contacts"]["tangential"], &[0.25]);
+    let report = Run::of(&["solve", &file]).out;
+    assert!(report.contains("tangential") && report.contains("2.50000000e-1"), "{report}");
 }
 
 #[test]
@@ -233,6 +235,19 @@ fn info_says_what_a_file_holds() {
     let facts = Run::of(&["info", &folder.file("sparse.json", sparse), "--json"]).json();
     assert_eq!((&facts["n"], &facts["pairs"], &facts["free"]), (&1.into(), &2.into(), &0.into()));
     assert_eq!(facts["matrices"][0]["storage"], "sparse");
+}
+
+/// Three million unknowns: five dense matrices of them are more than any memory.
+#[test]
+fn an_order_beyond_the_memory_is_refused() {
+    let folder = Folder::new("memory");
+    let order = 3_000_000;
+    let q = vec!["1"; order].join(",");
+    let m = format!(r#"{{"rows": {order}, "cols": {order}, "triplets": []}}"#);
+    let text = format!(r#"{{"kind": "lcp", "m": {m}, "q": [{q}]}}"#);
+    let run = Run::of(&["solve", &folder.file("large.json", &text), "--json"]);
+    assert_eq!((run.code, run.out.as_str()), (2, ""));
+    assert!(run.err.contains("order 3000000 takes about 360000 GB"), "{}", run.err);
 }
 
 #[test]

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::io::{Format, ProblemFile, read_file};
+use crate::io::{Format, ProblemFile, ReadError, read_file};
 use crate::{LemkeSettings, Residuals};
 
 /// Solves linear complementarity problems: w = M z + q, z >= 0, w >= 0, z.w = 0, and their relatives
@@ -136,7 +136,10 @@ fn execute(command: &Command, out: &mut dyn Write) -> Result<u8, Failure> {
 impl InputArgs {
     fn read(&self) -> Result<ProblemFile, Failure> {
         let format = self.format.as_deref().and_then(Format::from_name);
-        read_file(&self.file, format).map_err(|error| in_file(&self.file, &error))
+        read_file(&self.file, format).map_err(|error| match error {
+            ReadError::File { .. } => error.into(),
+            _ => in_file(&self.file, &error),
+        })
     }
 }
 

@@ -44,7 +44,9 @@ pub(super) fn run(args: &SolveArgs, out: &mut dyn Write) -> Result<u8, Failure> 
     let solver = match args.solver {
         Solver::Auto | Solver::Lemke => "lemke",
     };
-    let solution = Lemke::new(settings(args)?).solve(&file.problem.to_general())?;
+    let problem = file.problem.to_general();
+    check_memory(problem.order())?;
+    let solution = Lemke::new(settings(args)?).solve(&problem)?;
     if let Some(path) = &args.trace {
         let trace = serde_json::to_string(&solution.trace)? + "\n";
         std::fs::write(path, trace).map_err(|error| in_file(path, &error))?;
@@ -56,6 +58,22 @@ pub(super) fn run(args: &SolveArgs, out: &mut dyn Write) -> Result<u8, Failure> 
         print(out, &report(&file, &answer))?;
     }
     Ok(if solution.is_solved() { SOLVED } else { NOT_SOLVED })
+}
+
+/// Refuses orders for which the system has not the memory that [`Lemke`] takes, before it takes it.
+fn check_memory(order: usize) -> Result<(), Failure> {
+    const MATRICES: usize = 5;
+    let entries = order.checked_mul(order).and_then(|square| square.checked_mul(MATRICES));
+    let mut trial: Vec<f64> = Vec::new();
+    match trial.try_reserve_exact(std::hint::black_box(entries.unwrap_or(usize::MAX))) {
+        Ok(()) => Ok(()),
+        Err(_) => Err(format!(
+            "order {order} takes about {:.0} GB, which the system does not have: the method works \
+             with {MATRICES} dense matrices of this order",
+            (MATRICES * size_of::<f64>()) as f64 * (order as f64).powi(2) / 1e9
+        )
+        .into()),
+    }
 }
 
 fn settings(args: &SolveArgs) -> Result<LemkeSettings, Failure> {
@@ -115,12 +133,17 @@ fn report(file: &ProblemFile, answer: &Answer<'_>) -> String {
         }
         return text;
     }
-    let _ = writeln!(text, "\n{:>5} {:>16} {:>16}", "", "z", "w");
-    for (i, (z, w)) in answer.z.iter().zip(&answer.w).enumerate().take(LONGEST) {
-        let _ = writeln!(text, "{i:>5} {z:>16.8e} {w:>16.8e}");
+    let (names, columns) = match &answer.contacts {
+        Some(forces) => (["normal", "tangential"], [&forces.normal, &forces.tangential]),
+        None => (["z", "w"], [&answer.z, &answer.w]),
+    };
+    let _ = writeln!(text, "\n{:>5} {:>16} {:>16}", "", names[0], names[1]);
+    for (i, (first, second)) in columns[0].iter().zip(columns[1]).enumerate().take(LONGEST) {
+        let _ = writeln!(text, "{i:>5} {first:>16.8e} {second:>16.8e}");
     }
-    if *n > LONGEST {
-        let _ = writeln!(text, "      and {} more, all of them with --json", n - LONGEST);
+    let more = columns[0].len().saturating_sub(LONGEST);
+    if more > 0 {
+        let _ = writeln!(text, "      and {more} more, all of them with --json");
     }
     text
 }
