@@ -4,7 +4,9 @@ use crate::matrix::Column;
 
 /// Entries below this, once the largest of their row and column is near one, are rounding errors
 /// of a computed tableau and have no say in its scaling.
-const NOISE: f64 = 1e-13;
+pub(crate) const COMPUTED: f64 = 1e-13;
+/// Of data as they were given every nonzero entry counts.
+pub(crate) const GIVEN: f64 = 0.0;
 
 /// Row and column factors, all powers of two, that bring the entries of a matrix, given by its
 /// columns, near one.
@@ -12,11 +14,11 @@ const NOISE: f64 = 1e-13;
 /// The largest entries of rows and columns alone (Ruiz 2001) leave a freedom: in `[A, -R^T; R, 0]`
 /// the size of `A`, and with it the units of the problem, would stay whatever they are. So the
 /// logarithms of all entries are balanced in between (Curtis and Reid 1972). A row or column of
-/// zeros keeps the factor one.
-pub(crate) fn equilibrate(rows: usize, columns: &[Column<'_>]) -> (Vec<f64>, Vec<f64>) {
+/// zeros keeps the factor one. Entries up to `noise` do not count in the balance.
+pub(crate) fn equilibrate(rows: usize, columns: &[Column<'_>], noise: f64) -> (Vec<f64>, Vec<f64>) {
     let mut factors = Factors { row: vec![1.0; rows], col: vec![1.0; columns.len()] };
     factors.damp_largest(columns);
-    factors.balance_logarithms(columns);
+    factors.balance_logarithms(columns, noise);
     factors.damp_largest(columns);
     let Factors { mut row, mut col } = factors;
     row.iter_mut().chain(&mut col).for_each(|f| *f = power_of_two(*f));
@@ -54,7 +56,7 @@ impl Factors {
 
     /// Least squares of `log |m_ij| + log row_i + log col_j` over the nonzero entries, by
     /// alternating means, until no logarithm moves by more than a quarter.
-    fn balance_logarithms(&mut self, columns: &[Column<'_>]) {
+    fn balance_logarithms(&mut self, columns: &[Column<'_>], noise: f64) {
         const SWEEPS: usize = 6;
         const SETTLED: f64 = 0.25;
         let mut row = vec![0.0; self.row.len()];
@@ -62,14 +64,14 @@ impl Factors {
         for sweep in 0..SWEEPS {
             let mut sums = Sums::new(row.len());
             for ((column, log_col), factor) in columns.iter().zip(&col).zip(&self.col) {
-                sums.add(*column, &self.row, *factor, *log_col);
+                sums.add(*column, &self.row, (*factor, *log_col), noise);
             }
             let before = std::mem::replace(&mut row, sums.negative_means());
             if sweep > 0 && row.iter().zip(&before).all(|(a, b)| (a - b).abs() <= SETTLED) {
                 break;
             }
             for ((column, log_col), factor) in columns.iter().zip(&mut col).zip(&self.col) {
-                *log_col = negative_column_mean(*column, &self.row, *factor, &row);
+                *log_col = negative_column_mean(*column, (&self.row, &row), *factor, noise);
             }
         }
         self.row.iter_mut().zip(row).for_each(|(factor, log)| *factor *= log.exp2());
@@ -115,18 +117,19 @@ impl Sums {
     }
 
     /// Adds the logarithms of the scaled entries of a column, each with its present correction.
-    fn add(&mut self, column: Column<'_>, row: &[f64], col: f64, correction: f64) {
+    fn add(&mut self, column: Column<'_>, row: &[f64], col: (f64, f64), noise: f64) {
+        let (col, correction) = col;
         match column {
             Column::Dense(values) => {
                 let sums = self.sums.iter_mut().zip(&mut self.counts);
                 for ((v, row), (sum, count)) in values.iter().zip(row).zip(sums) {
-                    let (log, kept) = logarithm(v * row * col);
+                    let (log, kept) = logarithm(v * row * col, noise);
                     *sum += kept * (log + correction);
                     *count += kept;
                 }
             }
             Column::Sparse { .. } => column.for_each(|i, v| {
-                let (log, kept) = logarithm(v * row[i] * col);
+                let (log, kept) = logarithm(v * row[i] * col, noise);
                 self.sums[i] += kept * (log + correction);
                 self.counts[i] += kept;
             }),
@@ -139,7 +142,12 @@ impl Sums {
 }
 
 /// Minus the mean of the logarithms of the scaled entries, each with the correction of its row.
-fn negative_column_mean(column: Column<'_>, row: &[f64], col: f64, correction: &[f64]) -> f64 {
+fn negative_column_mean(
+    column: Column<'_>,
+    (row, correction): (&[f64], &[f64]),
+    col: f64,
+    noise: f64,
+) -> f64 {
     let mut sums = [(0.0, 0.0); LANES];
     match column {
         Column::Dense(values) => {
@@ -147,14 +155,14 @@ fn negative_column_mean(column: Column<'_>, row: &[f64], col: f64, correction: &
             for ((values, rows), corrections) in chunks.zip(correction.chunks(LANES)) {
                 let entries = values.iter().zip(rows).zip(corrections);
                 for (((v, row), correction), sum) in entries.zip(&mut sums) {
-                    let (log, kept) = logarithm(v * row * col);
+                    let (log, kept) = logarithm(v * row * col, noise);
                     sum.0 += kept * (log + correction);
                     sum.1 += kept;
                 }
             }
         }
         Column::Sparse { .. } => column.for_each(|i, v| {
-            let (log, kept) = logarithm(v * row[i] * col);
+            let (log, kept) = logarithm(v * row[i] * col, noise);
             sums[0].0 += kept * (log + correction[i]);
             sums[0].1 += kept;
         }),
@@ -167,17 +175,17 @@ fn negative_mean((sum, count): (f64, f64)) -> f64 {
     if count > 0.0 { -sum / count } else { 0.0 }
 }
 
-/// The logarithm to base 2 of the size of a number, to within 0.09, and one; for noise zeros. Exponent
+/// The logarithm to base 2 of the size of a number, to within 0.09, and one, or zero for noise. Exponent
 /// and mantissa as they stand in memory are nearly the logarithm; they become a number by being
 /// put below the exponent of 2^52. The factors are rounded to powers of two in the end.
-fn logarithm(v: f64) -> (f64, f64) {
+fn logarithm(v: f64, noise: f64) -> (f64, f64) {
     const DROPPED: u32 = 12;
     const UNIT: f64 = 1.0 / (1_u64 << (52 - DROPPED)) as f64;
     const BIAS: f64 = 1023.0;
     const SHIFT: f64 = (1_u64 << 52) as f64;
     let v = v.abs();
     let digits = f64::from_bits(SHIFT.to_bits() | v.to_bits() >> DROPPED) - SHIFT;
-    let kept = if v > NOISE { 1.0 } else { 0.0 };
+    let kept = if v > noise { 1.0 } else { 0.0 };
     (digits * UNIT - BIAS, kept)
 }
 
@@ -210,7 +218,7 @@ mod tests {
             let sparse = Matrix::from_entries(4, 4, nonzero.collect::<Vec<_>>().into_iter());
             for m in [Matrix::from(m), sparse] {
                 let columns: Vec<_> = (0..4).map(|j| m.slice(j)).collect();
-                let (rows, cols) = equilibrate(4, &columns);
+                let (rows, cols) = equilibrate(4, &columns, GIVEN);
                 for (i, j) in [(0, 0), (1, 1), (0, 2), (3, 1)] {
                     let v = rows[i] * m[(i, j)] * cols[j];
                     assert!(v > 0.05 && v < 4.0, "{scale}: {v}");

@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used)] // a test may panic
 
 use faer::{Mat, mat};
-use lcp::{AttemptEnd, Basis, Covering, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side, Status, WarmStart};
+use lcp::{
+    AttemptEnd, Basis, Covering, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side, Status, WarmStart,
+};
 
 fn lcp(m: Mat<f64>, q: &[f64]) -> HorizontalLcp {
     Lcp::new(m, q.to_vec()).unwrap().into()

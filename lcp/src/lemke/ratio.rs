@@ -24,7 +24,8 @@ pub(super) fn leaving_row<K: Kernel>(path: &Path<'_, K>, column: &[f64]) -> Opti
     let blocks = |&i: &usize| column[i] > smallest_pivot && path.is_bounded(i);
     let value = |i: usize| path.values[i].max(0.0);
 
-    let shortest = (0..column.len()).filter(blocks).map(|i| value(i) / column[i]).reduce(f64::min)?;
+    let shortest =
+        (0..column.len()).filter(blocks).map(|i| value(i) / column[i]).reduce(f64::min)?;
     if let Some(row) = path.artificial_row() {
         let after = path.values[row] - shortest * column[row];
         if column[row] > NOISE && after <= ARTIFICIAL_WINDOW * path.artificial_start {

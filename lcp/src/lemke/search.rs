@@ -148,8 +148,7 @@ impl<'a> Search<'a> {
     /// The covering vector asked for; one that was given refers to the rows of the start basis that
     /// was given with it, and not to those of another.
     fn first_covering(&self, start: AttemptStart) -> AttemptCovering {
-        let was_replaced =
-            self.settings.start != WarmStart::None && start != AttemptStart::Given;
+        let was_replaced = self.settings.start != WarmStart::None && start != AttemptStart::Given;
         match &self.settings.covering {
             Covering::Ones => AttemptCovering::Ones,
             Covering::Random { seed } => AttemptCovering::Random { seed: *seed },
@@ -199,8 +198,7 @@ impl<'a> Search<'a> {
         let data = perturbed.as_ref().unwrap_or(start);
         let kernel = Dense::new(data.t.as_ref(), &covering, &data.q);
         let interval = settings.refactor_interval;
-        let mut path =
-            Path::new(kernel, data, &covering, data.q.clone(), interval, settings.trace);
+        let mut path = Path::new(kernel, data, &covering, data.q.clone(), interval, settings.trace);
         let max_pivots = settings.max_pivots.unwrap_or(100 * order + 1000);
         let deadline = self.deadline;
         let began = Instant::now();

@@ -6,7 +6,7 @@ use crate::linear::{Lu, all_finite};
 use crate::matrix::Column;
 use crate::problem::max_abs;
 use crate::random::SplitMix;
-use crate::scaling::equilibrate;
+use crate::scaling::{COMPUTED, GIVEN, equilibrate};
 use crate::{Basis, HorizontalLcp, Side};
 
 use super::tableau::Tableau;
@@ -31,7 +31,7 @@ impl<'a> Equilibrated<'a> {
             .into_iter()
             .flat_map(|side| (0..n).map(move |j| problem.column(j, side)))
             .collect();
-        let (row, factors) = equilibrate(n, &columns);
+        let (row, factors) = equilibrate(n, &columns, GIVEN);
         let (t_factor, y_factor) = (factors[..n].to_vec(), factors[n..].to_vec());
         let opposite = |j| opposite(problem.column(j, Side::T), problem.column(j, Side::Y));
         Self { problem, row, t_factor, y_factor, opposite: (0..n).map(opposite).collect() }
@@ -113,7 +113,7 @@ impl<'a> Equilibrated<'a> {
                 return None;
             }
             let columns: Vec<_> = (0..n).map(|j| Column::Dense(t.col_as_slice(j))).collect();
-            let (rows, cols) = equilibrate(n, &columns);
+            let (rows, cols) = equilibrate(n, &columns, COMPUTED);
             for (j, col) in cols.iter().enumerate() {
                 let column = t.col_as_slice_mut(j);
                 column.iter_mut().zip(&rows).for_each(|(v, row)| *v *= row * col);

@@ -83,7 +83,8 @@ impl Tableau {
             let Held { at, before } = self.held[k];
             let first = before.map_or(since, |before| before.max(since));
             let u = &self.u_rows.col_as_slice(at)[first..k];
-            let stored = if before.is_none_or(|it| it < since) { out[self.rows[at].row] } else { 0.0 };
+            let stored =
+                if before.is_none_or(|it| it < since) { out[self.rows[at].row] } else { 0.0 };
             v[k] = stored + dot(u, &v[first..k]);
         }
         let right = MatRef::from_column_major_slice(&v[since..held], held - since, 1);

@@ -38,10 +38,16 @@ impl Trial {
                 let random = AttemptCovering::Random { seed };
                 let proximal = |weight| Perturbation::Proximal { weight };
                 match number {
-                    2 => Self { covering: other(last.covering, seed), perturbation: parted, ..*first },
-                    3 | 8 | 10 => {
-                        Self { start: flipped, covering: AttemptCovering::Ones, perturbation: parted }
-                    }
+                    2 => Self {
+                        covering: other(last.covering, seed),
+                        perturbation: parted,
+                        ..*first
+                    },
+                    3 | 8 | 10 => Self {
+                        start: flipped,
+                        covering: AttemptCovering::Ones,
+                        perturbation: parted,
+                    },
                     5 => Self { perturbation: proximal(1.0), ..*first },
                     6 => Self { perturbation: proximal(1e-3), ..*first },
                     7 => Self { perturbation: proximal(1e-6), ..*first },

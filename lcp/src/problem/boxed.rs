@@ -107,7 +107,9 @@ impl BoxedLcp {
             self.m.slice(j).add_to(shift, &mut c);
         }
         let both = kinds.iter().zip(&self.lower).zip(&self.upper);
-        c.extend(both.filter(|((kind, _), _)| matches!(kind, Kind::Both(_))).map(|((_, l), u)| u - l));
+        c.extend(
+            both.filter(|((kind, _), _)| matches!(kind, Kind::Both(_))).map(|((_, l), u)| u - l),
+        );
 
         let (mut a, mut b) = (Entries::default(), Entries::default());
         for (j, &kind) in kinds.iter().enumerate() {
