@@ -24,13 +24,19 @@
 //! # Ok::<(), lcp::Error>(())
 //! ```
 //!
+//! With the feature `io` problems are read from files, and with `cli` there is the program `lcp`.
+//!
 //! A status says what the mathematics decided; an [`Error`] says that the input was unusable. A
 //! solver says [`Status::Solved`] only after the residuals were computed from the data that it was
 //! given, and all tolerances are relative to that data: units do not matter. The library does not
 //! print.
 
 mod basis;
+#[cfg(feature = "cli")]
+pub mod cli;
 mod error;
+#[cfg(feature = "io")]
+pub mod io;
 mod lemke;
 mod linear;
 mod matrix;
