@@ -56,7 +56,7 @@ pub use lemke::{
     ParametricSettings, Progress,
 };
 pub use matrix::Matrix;
-pub use problem::{BoxedLcp, HorizontalLcp, Lcp, MixedLcp};
+pub use problem::{BoxedLcp, ErrorBound, HorizontalLcp, Lcp, MixedLcp, Monotonicity};
 pub use residual::Residuals;
 pub use settings::{Covering, LemkeSettings, WarmStart};
 pub use solution::{
