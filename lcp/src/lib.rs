@@ -30,6 +30,8 @@
 
 mod basis;
 mod error;
+#[cfg(feature = "exact")]
+pub mod exact;
 mod lemke;
 mod linear;
 mod problem;
