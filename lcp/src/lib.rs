@@ -32,6 +32,7 @@ mod basis;
 mod error;
 #[cfg(feature = "exact")]
 pub mod exact;
+pub mod families;
 mod lemke;
 mod linear;
 mod problem;

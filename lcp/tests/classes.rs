@@ -1,0 +1,177 @@
+//! What the theory promises for a class of matrices, and what every answer owes whatever the class.
+
+#![allow(clippy::unwrap_used)] // a test may panic
+
+use faer::Mat;
+use lcp::exact::{ExactVerdict, verify_basis};
+use lcp::families::{self, Instance, Known};
+use lcp::{HorizontalLcp, Lcp, Lemke, LemkeSettings, Solution, Status};
+use proptest::collection::vec;
+use proptest::prelude::*;
+
+/// The promises are for the first path: no second attempt is needed.
+fn first_attempt(problem: &HorizontalLcp) -> Solution {
+    let once = LemkeSettings { max_attempts: 1, ..LemkeSettings::default() };
+    Lemke::new(once).solve(problem).unwrap()
+}
+
+fn default(problem: &HorizontalLcp) -> Solution {
+    Lemke::default().solve(problem).unwrap()
+}
+
+fn general(instance: Instance<Lcp>) -> Instance {
+    Instance { problem: instance.problem.into(), known: instance.known }
+}
+
+/// Solved, and rightly: residuals computed anew, and a small basis in exact arithmetic.
+fn assert_solved(problem: &HorizontalLcp, solution: &Solution) {
+    assert_eq!(solution.status, Status::Solved, "{:?}", solution.info);
+    assert_right(problem, solution);
+}
+
+fn assert_right(problem: &HorizontalLcp, solution: &Solution) {
+    let (t, y) = (&solution.t, &solution.y);
+    assert!(problem.residuals(t, y).worst() <= 1e-10);
+    assert!(t.iter().chain(y).all(|&v| v >= 0.0));
+    if let (true, Some(basis)) = (problem.order() <= 8, &solution.basis) {
+        let verdict = verify_basis(problem, basis);
+        assert!(matches!(verdict, ExactVerdict::Solution { .. }), "{verdict:?}");
+    }
+}
+
+/// The planted answer, to 1e-10 of its largest entry.
+fn assert_planted(solution: &Solution, known: &Known) {
+    let Known::Unique { t, y } = known else { panic!("the class has one solution: {known:?}") };
+    for (found, planted) in [(&solution.t, t), (&solution.y, y)] {
+        let size = planted.iter().fold(0.0_f64, |max, v| max.max(*v));
+        let is_near = |(f, p): (&f64, &f64)| (f - p).abs() <= 1e-10 * size;
+        assert!(found.iter().zip(planted).all(is_near), "{found:?} {planted:?}");
+    }
+}
+
+/// At least so many cases; more by the environment variable `PROPTEST_CASES`.
+fn cases(least: u32) -> ProptestConfig {
+    let default = ProptestConfig::default();
+    ProptestConfig { cases: default.cases.max(least), ..default }
+}
+
+proptest! {
+    #![proptest_config(cases(256))]
+
+    #[test]
+    fn positive_definite(n in 1..24_usize, seed in any::<u64>()) {
+        let Instance { problem, known } = general(families::positive_definite(n, seed));
+        let solution = first_attempt(&problem);
+        assert_solved(&problem, &solution);
+        assert_planted(&solution, &known);
+    }
+
+    #[test]
+    fn p_matrix(n in 1..24_usize, seed in any::<u64>()) {
+        let Instance { problem, known } = general(families::p_matrix(n, seed));
+        let solution = first_attempt(&problem);
+        assert_solved(&problem, &solution);
+        assert_planted(&solution, &known);
+    }
+
+    #[test]
+    fn harker_pang(n in 1..40_usize, seed in any::<u64>()) {
+        let problem = general(families::harker_pang(n, seed)).problem;
+        assert_solved(&problem, &first_attempt(&problem));
+    }
+
+    #[test]
+    fn positive_semidefinite(n in 1..24_usize, seed in any::<u64>()) {
+        let problem = general(families::positive_semidefinite(n, seed)).problem;
+        assert_solved(&problem, &first_attempt(&problem));
+    }
+
+    #[test]
+    fn ties(n in 1..24_usize, seed in any::<u64>()) {
+        let problem = general(families::ties(n, seed)).problem;
+        assert_solved(&problem, &first_attempt(&problem));
+    }
+
+    #[test]
+    fn strictly_copositive(n in 1..24_usize, seed in any::<u64>()) {
+        let problem = general(families::strictly_copositive(n, seed)).problem;
+        assert_solved(&problem, &first_attempt(&problem));
+    }
+
+    #[test]
+    fn copositive_plus(n in 1..24_usize, seed in any::<u64>()) {
+        let problem = general(families::copositive_plus(n, seed)).problem;
+        assert_solved(&problem, &first_attempt(&problem));
+    }
+
+    /// Monotone in the general form, with singular `A` and `B`: principal pivots keep it so.
+    #[test]
+    fn horizontal_monotone(n in 1..24_usize, seed in any::<u64>()) {
+        let problem = families::horizontal_monotone(n, seed).problem;
+        assert_solved(&problem, &default(&problem));
+    }
+
+    #[test]
+    fn infeasible_semidefinite(n in 2..24_usize, seed in any::<u64>()) {
+        let problem = general(families::infeasible_semidefinite(n, seed)).problem;
+        prop_assert_eq!(default(&problem).status, Status::RayTermination);
+    }
+
+    #[test]
+    fn infeasible(n in 1..24_usize, seed in any::<u64>()) {
+        prop_assert_ne!(default(&families::infeasible(n, seed).problem).status, Status::Solved);
+    }
+
+    /// No class: perhaps a ray, but never a wrong answer.
+    #[test]
+    fn no_class(n in 1..16_usize, seed in any::<u64>()) {
+        let games = general(families::bimatrix(n / 2, n - n / 2, seed));
+        for problem in [games.problem, families::horizontal_singular(n, seed).problem] {
+            let solution = default(&problem);
+            if solution.is_solved() {
+                assert_right(&problem, &solution);
+            } else {
+                prop_assert_eq!(solution.status, Status::RayTermination);
+            }
+        }
+    }
+
+    /// Anything at all: no panic, and `Solved` means solved.
+    #[test]
+    fn anything(
+        (n, a, b, c) in (1..8_usize).prop_flat_map(|n| {
+            let entries = |count| vec((-3..=3_i8).prop_map(f64::from), count);
+            (Just(n), entries(n * n), entries(n * n), entries(n))
+        })
+    ) {
+        let matrix = |values: &[f64]| Mat::from_fn(n, n, |i, j| values[i * n + j]);
+        let problem = HorizontalLcp::new(matrix(&a), matrix(&b), c).unwrap();
+        let solution = default(&problem);
+        if solution.is_solved() {
+            assert_right(&problem, &solution);
+        }
+    }
+}
+
+/// Membranes of some size: the contact zone is found exactly.
+#[test]
+fn obstacle() {
+    for side in [1, 2, 5, 10, 20] {
+        let Instance { problem, known } = general(families::obstacle(side));
+        let solution = first_attempt(&problem);
+        assert_eq!(solution.status, Status::Solved);
+        assert_planted(&solution, &known);
+    }
+}
+
+/// Without a class nothing is promised, but most problems are solved by one of the attempts: a floor
+/// under the share.
+#[test]
+fn most_problems_of_no_class_are_solved() {
+    for (n, least) in [(4, 98), (8, 90), (12, 80)] {
+        let is_solved =
+            |seed: &u64| default(&families::horizontal_singular(n, *seed).problem).is_solved();
+        let solved = (0..200_u64).filter(is_solved).count();
+        assert!(solved >= 2 * least, "{solved} of 200 of order {n}");
+    }
+}
