@@ -56,7 +56,7 @@ fn cases(least: u32) -> ProptestConfig {
 }
 
 proptest! {
-    #![proptest_config(cases(256))]
+    #![proptest_config(cases(1024))]
 
     #[test]
     fn positive_definite(n in 1..24_usize, seed in any::<u64>()) {
@@ -130,8 +130,6 @@ proptest! {
             let solution = default(&problem);
             if solution.is_solved() {
                 assert_right(&problem, &solution);
-            } else {
-                prop_assert_eq!(solution.status, Status::RayTermination);
             }
         }
     }
