@@ -31,6 +31,19 @@ pub enum Error {
         /// The entry.
         value: f64,
     },
+    /// A variable that no value fits.
+    #[error(
+        "bounds of variable {index} are {lower} and {upper}: the lower one must not exceed the upper \
+         one, and -inf or inf is for no bound below or above"
+    )]
+    Bounds {
+        /// The variable, from 0.
+        index: usize,
+        /// Its lower bound.
+        lower: f64,
+        /// Its upper bound.
+        upper: f64,
+    },
     /// A setting outside its range.
     #[error("setting `{name}` is {value}, but must be {range}")]
     Setting {
@@ -42,7 +55,7 @@ pub enum Error {
         range: &'static str,
     },
     /// A vector of a setting has the wrong length.
-    #[error("`{name}` has {len} entries, but the problem has {expected} pairs")]
+    #[error("`{name}` has {len} entries, but must have {expected}")]
     Length {
         /// Name of the vector.
         name: &'static str,

@@ -8,12 +8,12 @@
 //! |---|---|---|
 //! | [`positive_definite`], [`harker_pang`], [`obstacle`] | positive definite | solves, unique |
 //! | [`p_matrix`], [`murty`], [`fathi`], [`kostreva_1`] | P | solves, unique |
-//! | [`positive_semidefinite`], [`ties`], [`horizontal_monotone`] | monotone | solves when feasible |
+//! | [`positive_semidefinite`], [`ties`], [`horizontal_monotone`], [`mixed_monotone`] | monotone | solves when feasible |
 //! | [`strictly_copositive`] | strictly copositive | solves |
 //! | [`copositive_plus`] | copositive-plus | solves when feasible |
 //! | [`infeasible_semidefinite`], [`kostreva_2`], [`infeasible`] | infeasible | no solution |
 //! | [`bimatrix`] | games | has a solution, may end on a ray |
-//! | [`horizontal_singular`] | none | may end on a ray |
+//! | [`horizontal_singular`], [`mixed_singular`] | none | may end on a ray |
 //!
 //! ```
 //! use lcp::{Lemke, families};
@@ -27,10 +27,12 @@
 //! ```
 
 mod horizontal;
+mod mixed;
 mod standard;
 mod textbook;
 
 pub use horizontal::{horizontal_monotone, horizontal_singular, infeasible};
+pub use mixed::{mixed_monotone, mixed_singular};
 pub use standard::{
     bimatrix, copositive_plus, harker_pang, infeasible_semidefinite, p_matrix, positive_definite,
     positive_semidefinite, strictly_copositive, ties,
@@ -40,7 +42,7 @@ pub use textbook::{fathi, kostreva_1, kostreva_2, murty, obstacle};
 use faer::Mat;
 
 use crate::random::SplitMix;
-use crate::{HorizontalLcp, Lcp};
+use crate::{HorizontalLcp, Lcp, Matrix};
 
 /// A problem and what is known of it.
 #[derive(Debug, Clone)]
@@ -51,7 +53,8 @@ pub struct Instance<P = HorizontalLcp> {
     pub known: Known,
 }
 
-/// What is known of a problem. In the standard form `t` is `z` and `y` is `w`.
+/// What is known of a problem. In the standard and in the mixed form `t` is `z` and `y`
+/// is `w`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Known {
     /// It has exactly one solution.
@@ -134,15 +137,20 @@ impl Integers {
 }
 
 /// `w = M z + q` with `q` such that `z` and `w` solve it.
-fn with_solution(m: Mat<f64>, z: &[f64], w: &[f64]) -> Lcp {
+fn with_solution(m: impl Into<Matrix>, z: &[f64], w: &[f64]) -> Lcp {
+    let m = m.into();
     let q = product(&m, z).iter().zip(w).map(|(mz, w)| w - mz).collect();
     standard(m, q)
 }
 
-fn standard(m: Mat<f64>, q: Vec<f64>) -> Lcp {
+fn standard(m: impl Into<Matrix>, q: Vec<f64>) -> Lcp {
     Lcp::new(m, q).expect("finite and of one order")
 }
 
-fn product(m: &Mat<f64>, x: &[f64]) -> Vec<f64> {
-    (0..m.nrows()).map(|i| x.iter().enumerate().map(|(j, x)| m[(i, j)] * x).sum()).collect()
+fn product(m: &Matrix, x: &[f64]) -> Vec<f64> {
+    let mut sum = vec![0.0; m.nrows()];
+    for (j, x) in x.iter().enumerate() {
+        m.column(j).for_each(|(i, v)| sum[i] += v * x);
+    }
+    sum
 }

@@ -7,7 +7,8 @@
 //! Frictional contact, games, obstacle problems and quadratic programs lead here. Both matrices
 //! may be singular; the standard form `w = M z + q` is the special case `A = -M`, `B = 1`.
 //!
-//! * [`HorizontalLcp`] and [`Lcp`] are the problems, checked when they are made.
+//! * [`HorizontalLcp`] is the problem; [`Lcp`], [`MixedLcp`] (with free variables) and [`BoxedLcp`]
+//!   (with bounds) convert into it and back. Matrices are dense or sparse ([`Matrix`]).
 //! * [`Lemke`] with [`LemkeSettings`] solves them by complementary pivoting.
 //! * [`Solution`] carries the point, its [`Status`], its complementary [`Basis`], its
 //!   [`Residuals`] from the original data, and what it cost ([`Info`]).
@@ -35,8 +36,10 @@ pub mod exact;
 pub mod families;
 mod lemke;
 mod linear;
+mod matrix;
 mod problem;
 mod random;
+mod residual;
 mod scaling;
 mod settings;
 mod solution;
@@ -46,6 +49,11 @@ pub use faer;
 pub use basis::{Basis, Side};
 pub use error::Error;
 pub use lemke::{Lemke, Progress};
-pub use problem::{HorizontalLcp, Lcp};
-pub use settings::{Covering, LemkeSettings};
-pub use solution::{Attempt, AttemptEnd, Info, Ray, Residuals, Solution, Status};
+pub use matrix::Matrix;
+pub use problem::{BoxedLcp, HorizontalLcp, Lcp, MixedLcp};
+pub use residual::Residuals;
+pub use settings::{Covering, LemkeSettings, WarmStart};
+pub use solution::{
+    Attempt, AttemptCovering, AttemptEnd, AttemptStart, Info, Perturbation, PivotRecord, Ray,
+    Solution, Status, Variable,
+};

@@ -2,6 +2,7 @@
 
 use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::{PartialPivLu, Solve};
+use faer::linalg::triangular_solve::solve_unit_lower_triangular_in_place;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 /// An LU factorisation that is known not to be singular to working precision.
@@ -31,15 +32,16 @@ impl Lu {
         self.0.solve_in_place(rhs);
     }
 
-    /// Overwrites the right-hand sides with the solutions of the transposed system.
-    pub(crate) fn solve_transpose_in_place(&self, rhs: MatMut<'_, f64>) {
-        self.0.solve_transpose_in_place(rhs);
-    }
-
     /// Overwrites one right-hand side with the solution.
     pub(crate) fn solve_vector(&self, rhs: &mut [f64]) {
         let n = rhs.len();
         self.0.solve_in_place(MatMut::from_column_major_slice_mut(rhs, n, 1));
+    }
+
+    /// Overwrites one right-hand side with the solution of the transposed system.
+    pub(crate) fn solve_transpose_vector(&self, rhs: &mut [f64]) {
+        let n = rhs.len();
+        self.0.solve_transpose_in_place(MatMut::from_column_major_slice_mut(rhs, n, 1));
     }
 }
 
@@ -51,6 +53,12 @@ pub(crate) fn add_product(
     right: MatRef<'_, f64>,
 ) {
     matmul(out, Accum::Add, left, right, factor, Par::Seq);
+}
+
+/// Overwrites the right-hand sides with the solutions for a lower triangular matrix whose diagonal is
+/// taken for one, on one thread.
+pub(crate) fn solve_unit_lower(matrix: MatRef<'_, f64>, rhs: MatMut<'_, f64>) {
+    solve_unit_lower_triangular_in_place(matrix, rhs, Par::Seq);
 }
 
 /// Whether every entry is finite.

@@ -1,10 +1,12 @@
 //! Equilibration by powers of two: exact, so that it costs no accuracy.
 
-use faer::Mat;
+use crate::matrix::Column;
 
 /// Entries below this, once the largest of their row and column is near one, are rounding errors
 /// of a computed tableau and have no say in its scaling.
-const NOISE: f64 = 1e-13;
+pub(crate) const COMPUTED: f64 = 1e-13;
+/// Of data as they were given every nonzero entry counts.
+pub(crate) const GIVEN: f64 = 0.0;
 
 /// Row and column factors, all powers of two, that bring the entries of a matrix, given by its
 /// columns, near one.
@@ -12,21 +14,15 @@ const NOISE: f64 = 1e-13;
 /// The largest entries of rows and columns alone (Ruiz 2001) leave a freedom: in `[A, -R^T; R, 0]`
 /// the size of `A`, and with it the units of the problem, would stay whatever they are. So the
 /// logarithms of all entries are balanced in between (Curtis and Reid 1972). A row or column of
-/// zeros keeps the factor one.
-pub(crate) fn equilibrate(rows: usize, columns: &[&[f64]]) -> (Vec<f64>, Vec<f64>) {
-    const SWEEPS: usize = 3;
+/// zeros keeps the factor one. Entries up to `noise` do not count in the balance.
+pub(crate) fn equilibrate(rows: usize, columns: &[Column<'_>], noise: f64) -> (Vec<f64>, Vec<f64>) {
     let mut factors = Factors { row: vec![1.0; rows], col: vec![1.0; columns.len()] };
-    (0..SWEEPS).for_each(|_| factors.damp_largest(columns));
-    factors.balance_logarithms(columns);
-    (0..SWEEPS).for_each(|_| factors.damp_largest(columns));
+    factors.damp_largest(columns);
+    factors.balance_logarithms(columns, noise);
+    factors.damp_largest(columns);
     let Factors { mut row, mut col } = factors;
     row.iter_mut().chain(&mut col).for_each(|f| *f = power_of_two(*f));
     (row, col)
-}
-
-/// The columns of an owned matrix.
-pub(crate) fn columns(m: &Mat<f64>) -> Vec<&[f64]> {
-    (0..m.ncols()).map(|j| m.col_as_slice(j)).collect()
 }
 
 struct Factors {
@@ -35,56 +31,143 @@ struct Factors {
 }
 
 impl Factors {
-    /// Divides every row and column by the root of its largest entry (Ruiz).
-    fn damp_largest(&mut self, columns: &[&[f64]]) {
-        let mut row_max = vec![0.0_f64; self.row.len()];
-        let mut col_max = vec![0.0_f64; self.col.len()];
-        for ((column, col_max), col) in columns.iter().zip(&mut col_max).zip(&self.col) {
-            let mut largest = 0.0_f64;
-            for ((v, row), row_max) in column.iter().zip(&self.row).zip(&mut row_max) {
-                let v = (v * row * col).abs();
-                largest = if v > largest { v } else { largest };
-                *row_max = if v > *row_max { v } else { *row_max };
+    /// Divides every row and column by the root of its largest entry (Ruiz), a few times or until
+    /// all of these are within a factor of two of one.
+    fn damp_largest(&mut self, columns: &[Column<'_>]) {
+        const SWEEPS: usize = 3;
+        for _ in 0..SWEEPS {
+            let mut row_max = vec![0.0_f64; self.row.len()];
+            let mut col_max = vec![0.0_f64; self.col.len()];
+            for ((column, col_max), &col) in columns.iter().zip(&mut col_max).zip(&self.col) {
+                *col_max = col * largest(*column, &self.row, col, &mut row_max);
             }
-            *col_max = largest;
+            row_max.iter_mut().zip(&self.row).for_each(|(max, row)| *max *= row);
+            let pairs = self.row.iter_mut().zip(row_max).chain(self.col.iter_mut().zip(col_max));
+            let mut is_even = true;
+            for (factor, max) in pairs.filter(|(_, max)| *max > 0.0) {
+                *factor /= max.sqrt();
+                is_even &= (0.5..=2.0).contains(&max);
+            }
+            if is_even {
+                break;
+            }
         }
-        let pairs = self.row.iter_mut().zip(row_max).chain(self.col.iter_mut().zip(col_max));
-        pairs.filter(|(_, max)| *max > 0.0).for_each(|(factor, max)| *factor /= max.sqrt());
     }
 
     /// Least squares of `log |m_ij| + log row_i + log col_j` over the nonzero entries, by
-    /// alternating means.
-    fn balance_logarithms(&mut self, columns: &[&[f64]]) {
+    /// alternating means, until no logarithm moves by more than a quarter.
+    fn balance_logarithms(&mut self, columns: &[Column<'_>], noise: f64) {
         const SWEEPS: usize = 6;
-        let logarithms: Vec<Vec<(usize, f64)>> = columns
-            .iter()
-            .zip(&self.col)
-            .map(|(column, col)| {
-                let sizes = column.iter().zip(&self.row).map(|(v, row)| (v * row * col).abs());
-                let kept = sizes.enumerate().filter(|(_, v)| *v > NOISE);
-                kept.map(|(i, v)| (i, v.log2())).collect()
-            })
-            .collect();
+        const SETTLED: f64 = 0.25;
         let mut row = vec![0.0; self.row.len()];
         let mut col = vec![0.0; self.col.len()];
-        for _ in 0..SWEEPS {
-            let mut sums = vec![(0.0, 0.0); row.len()];
-            for (column, col) in logarithms.iter().zip(&col) {
-                for (i, log) in column {
-                    sums[*i].0 += log + col;
-                    sums[*i].1 += 1.0;
-                }
+        for sweep in 0..SWEEPS {
+            let mut sums = Sums::new(row.len());
+            for ((column, log_col), factor) in columns.iter().zip(&col).zip(&self.col) {
+                sums.add(*column, &self.row, (*factor, *log_col), noise);
             }
-            row = sums.into_iter().map(negative_mean).collect();
-            let sum = |column: &Vec<(usize, f64)>| {
-                let total = column.iter().map(|(i, log)| log + row[*i]).sum();
-                negative_mean((total, column.len() as f64))
-            };
-            col = logarithms.iter().map(sum).collect();
+            let before = std::mem::replace(&mut row, sums.negative_means());
+            if sweep > 0 && row.iter().zip(&before).all(|(a, b)| (a - b).abs() <= SETTLED) {
+                break;
+            }
+            for ((column, log_col), factor) in columns.iter().zip(&mut col).zip(&self.col) {
+                *log_col = negative_column_mean(*column, (&self.row, &row), *factor, noise);
+            }
         }
         self.row.iter_mut().zip(row).for_each(|(factor, log)| *factor *= log.exp2());
         self.col.iter_mut().zip(col).for_each(|(factor, log)| *factor *= log.exp2());
     }
+}
+
+/// Lanes of the loops over dense columns, which the compiler turns into vector instructions.
+const LANES: usize = 8;
+
+/// The largest `|v| row` of a column; raises `row_max` to `|v| col`.
+fn largest(column: Column<'_>, row: &[f64], col: f64, row_max: &mut [f64]) -> f64 {
+    let max = |a: f64, b: f64| if a > b { a } else { b };
+    let mut lanes = [0.0_f64; LANES];
+    match column {
+        Column::Dense(values) => {
+            let chunks = values.chunks(LANES).zip(row.chunks(LANES));
+            for ((values, rows), row_max) in chunks.zip(row_max.chunks_mut(LANES)) {
+                let entries = values.iter().zip(rows).zip(row_max);
+                for (((v, row), row_max), lane) in entries.zip(&mut lanes) {
+                    *lane = max(v.abs() * row, *lane);
+                    *row_max = max(v.abs() * col, *row_max);
+                }
+            }
+        }
+        Column::Sparse { .. } => column.for_each(|i, v| {
+            lanes[0] = max(v.abs() * row[i], lanes[0]);
+            row_max[i] = max(v.abs() * col, row_max[i]);
+        }),
+    }
+    lanes.into_iter().fold(0.0, max)
+}
+
+/// Sums of logarithms along rows, and how many they are.
+struct Sums {
+    sums: Vec<f64>,
+    counts: Vec<f64>,
+}
+
+impl Sums {
+    fn new(rows: usize) -> Self {
+        Self { sums: vec![0.0; rows], counts: vec![0.0; rows] }
+    }
+
+    /// Adds the logarithms of the scaled entries of a column, each with its present correction.
+    fn add(&mut self, column: Column<'_>, row: &[f64], col: (f64, f64), noise: f64) {
+        let (col, correction) = col;
+        match column {
+            Column::Dense(values) => {
+                let sums = self.sums.iter_mut().zip(&mut self.counts);
+                for ((v, row), (sum, count)) in values.iter().zip(row).zip(sums) {
+                    let (log, kept) = logarithm(v * row * col, noise);
+                    *sum += kept * (log + correction);
+                    *count += kept;
+                }
+            }
+            Column::Sparse { .. } => column.for_each(|i, v| {
+                let (log, kept) = logarithm(v * row[i] * col, noise);
+                self.sums[i] += kept * (log + correction);
+                self.counts[i] += kept;
+            }),
+        }
+    }
+
+    fn negative_means(self) -> Vec<f64> {
+        self.sums.into_iter().zip(self.counts).map(negative_mean).collect()
+    }
+}
+
+/// Minus the mean of the logarithms of the scaled entries, each with the correction of its row.
+fn negative_column_mean(
+    column: Column<'_>,
+    (row, correction): (&[f64], &[f64]),
+    col: f64,
+    noise: f64,
+) -> f64 {
+    let mut sums = [(0.0, 0.0); LANES];
+    match column {
+        Column::Dense(values) => {
+            let chunks = values.chunks(LANES).zip(row.chunks(LANES));
+            for ((values, rows), corrections) in chunks.zip(correction.chunks(LANES)) {
+                let entries = values.iter().zip(rows).zip(corrections);
+                for (((v, row), correction), sum) in entries.zip(&mut sums) {
+                    let (log, kept) = logarithm(v * row * col, noise);
+                    sum.0 += kept * (log + correction);
+                    sum.1 += kept;
+                }
+            }
+        }
+        Column::Sparse { .. } => column.for_each(|i, v| {
+            let (log, kept) = logarithm(v * row[i] * col, noise);
+            sums[0].0 += kept * (log + correction[i]);
+            sums[0].1 += kept;
+        }),
+    }
+    negative_mean(sums.iter().fold((0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1)))
 }
 
 /// Minus the mean of so many values with that sum; zero for none.
@@ -92,26 +175,33 @@ fn negative_mean((sum, count): (f64, f64)) -> f64 {
     if count > 0.0 { -sum / count } else { 0.0 }
 }
 
+/// The logarithm to base 2 of the size of a number, to within 0.09, and one, or zero for noise. Exponent
+/// and mantissa as they stand in memory are nearly the logarithm; they become a number by being
+/// put below the exponent of 2^52. The factors are rounded to powers of two in the end.
+fn logarithm(v: f64, noise: f64) -> (f64, f64) {
+    const DROPPED: u32 = 12;
+    const UNIT: f64 = 1.0 / (1_u64 << (52 - DROPPED)) as f64;
+    const BIAS: f64 = 1023.0;
+    const SHIFT: f64 = (1_u64 << 52) as f64;
+    let v = v.abs();
+    let digits = f64::from_bits(SHIFT.to_bits() | v.to_bits() >> DROPPED) - SHIFT;
+    let kept = if v > noise { 1.0 } else { 0.0 };
+    (digits * UNIT - BIAS, kept)
+}
+
 /// The power of two nearest to a positive number, on a logarithmic scale.
 fn power_of_two(x: f64) -> f64 {
     x.log2().round().clamp(-1000.0, 1000.0).exp2()
 }
 
-/// `diag(rows) m diag(cols)`.
-pub(crate) fn scaled(m: &Mat<f64>, rows: &[f64], cols: &[f64]) -> Mat<f64> {
-    let mut out = m.clone();
-    for (j, col) in cols.iter().enumerate() {
-        let column = out.col_as_slice_mut(j);
-        column.iter_mut().zip(rows).for_each(|(v, row)| *v *= row * col);
-    }
-    out
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use faer::Mat;
 
-    /// The block that maxima alone would leave at its units comes near one.
+    use super::*;
+    use crate::Matrix;
+
+    /// The block that maxima alone would leave at its units comes near one, dense or sparse.
     #[test]
     fn units_of_a_block_are_removed() {
         let block = |scale: f64| {
@@ -123,10 +213,16 @@ mod tests {
         };
         for scale in [1e-9, 1.0, 1e9] {
             let m = block(scale);
-            let (rows, cols) = equilibrate(4, &columns(&m));
-            let m = scaled(&m, &rows, &cols);
-            for (i, j) in [(0, 0), (1, 1), (0, 2), (3, 1)] {
-                assert!(m[(i, j)] > 0.05 && m[(i, j)] < 4.0, "{scale}: {}", m[(i, j)]);
+            let nonzero = (0..4).flat_map(|i| (0..4).map(move |j| (i, j)));
+            let nonzero = nonzero.map(|(i, j)| (i, j, m[(i, j)])).filter(|(_, _, v)| *v != 0.0);
+            let sparse = Matrix::from_entries(4, 4, nonzero.collect::<Vec<_>>().into_iter());
+            for m in [Matrix::from(m), sparse] {
+                let columns: Vec<_> = (0..4).map(|j| m.slice(j)).collect();
+                let (rows, cols) = equilibrate(4, &columns, GIVEN);
+                for (i, j) in [(0, 0), (1, 1), (0, 2), (3, 1)] {
+                    let v = rows[i] * m[(i, j)] * cols[j];
+                    assert!(v > 0.05 && v < 4.0, "{scale}: {v}");
+                }
             }
         }
     }

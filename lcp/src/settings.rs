@@ -1,8 +1,12 @@
 //! Settings of the pivoting method.
 
+use std::time::Duration;
+
+use crate::problem::check_length;
 use crate::{Basis, Error};
 
-/// The covering vector `d > 0` of the artificial variable, in the rows of the start basis.
+/// The covering vector `d > 0` of the artificial variable, in the rows of the start basis. In rows
+/// of free variables, which may be negative, it is zero.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Covering {
@@ -19,6 +23,26 @@ pub enum Covering {
     Given(Vec<f64>),
 }
 
+/// Where the path starts.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum WarmStart {
+    /// The solver finds a complementary basis.
+    #[default]
+    None,
+    /// From a complementary basis. Where it is singular, from one that shares as many of its columns
+    /// as the solver can keep.
+    Basis(Basis),
+    /// From a point, for instance the solution of a similar problem: its basis takes from every pair
+    /// the variable that is larger, in units of the largest of its vector.
+    Point {
+        /// The first variable of every pair.
+        t: Vec<f64>,
+        /// The second variable of every pair.
+        y: Vec<f64>,
+    },
+}
+
 /// Settings of [`Lemke`](crate::Lemke).
 ///
 /// ```
@@ -32,14 +56,24 @@ pub struct LemkeSettings {
     pub tolerance: f64,
     /// Pivots of one attempt; `None` is `100 n + 1000`.
     pub max_pivots: Option<usize>,
-    /// Attempts, each with another covering vector or start basis, before a ray is reported. At
-    /// least 1.
+    /// Wall-clock time of all attempts together, looked at before every pivot; `None` is no limit.
+    pub time_limit: Option<Duration>,
+    /// Attempts, each with another covering vector, start basis or perturbation, before a ray is
+    /// reported. At least 1.
     pub max_attempts: usize,
     /// Covering vector of the first attempt.
     pub covering: Covering,
-    /// Complementary basis to start from; `None` lets the solver find one. A singular one is
-    /// replaced by one that the solver finds.
-    pub start: Option<Basis>,
+    /// Where the first attempt starts.
+    pub start: WarmStart,
+    /// Pivots after which the tableau is rebuilt from the data even if it has not drifted; `None`
+    /// leaves it to the measured drift. At least 1.
+    pub refactor_interval: Option<usize>,
+    /// Whether the first ray is followed by a search for a proof that there is no solution, of up to
+    /// `4 n` pivots of the dual simplex method. Without it the status is never
+    /// [`Infeasible`](crate::Status::Infeasible).
+    pub prove_infeasible: bool,
+    /// Whether [`Solution::trace`](crate::Solution::trace) records every pivot.
+    pub trace: bool,
 }
 
 impl Default for LemkeSettings {
@@ -47,9 +81,13 @@ impl Default for LemkeSettings {
         Self {
             tolerance: 1e-10,
             max_pivots: None,
-            max_attempts: 8,
+            time_limit: None,
+            max_attempts: 12,
             covering: Covering::Ones,
-            start: None,
+            start: WarmStart::None,
+            refactor_interval: None,
+            prove_infeasible: true,
+            trace: false,
         }
     }
 }
@@ -58,25 +96,34 @@ impl LemkeSettings {
     /// Checks the settings for a problem of order `n`.
     ///
     /// # Errors
-    /// [`Error::Setting`] or [`Error::Length`] with the name of the setting.
+    /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
     pub fn validate(&self, n: usize) -> Result<(), Error> {
         let tolerance = self.tolerance;
         if !(tolerance > 0.0 && tolerance < 1.0) {
             let range = "between 0 and 1";
             return Err(Error::Setting { name: "tolerance", value: tolerance, range });
         }
-        if self.max_attempts == 0 {
-            return Err(Error::Setting { name: "max_attempts", value: 0.0, range: "at least 1" });
+        let counts = [
+            ("max_attempts", Some(self.max_attempts)),
+            ("refactor_interval", self.refactor_interval),
+        ];
+        for (name, _) in counts.into_iter().filter(|(_, count)| *count == Some(0)) {
+            return Err(Error::Setting { name, value: 0.0, range: "at least 1" });
         }
-        if let Some(basis) = &self.start
-            && basis.len() != n
-        {
-            return Err(Error::Length { name: "start", len: basis.len(), expected: n });
+        match &self.start {
+            WarmStart::None => {}
+            WarmStart::Basis(basis) => check_length("start", basis.len(), n)?,
+            WarmStart::Point { t, y } => {
+                for (name, v) in [("start.t", t), ("start.y", y)] {
+                    check_length(name, v.len(), n)?;
+                    if let Some(row) = v.iter().position(|x| !x.is_finite()) {
+                        return Err(Error::NotFinite { what: name, row, col: 0, value: v[row] });
+                    }
+                }
+            }
         }
         if let Covering::Given(d) = &self.covering {
-            if d.len() != n {
-                return Err(Error::Length { name: "covering", len: d.len(), expected: n });
-            }
+            check_length("covering", d.len(), n)?;
             if let Some(&value) = d.iter().find(|&&d| !(d > 0.0 && d.is_finite())) {
                 let range = "positive and finite in every entry";
                 return Err(Error::Setting { name: "covering", value, range });

@@ -1,6 +1,6 @@
 //! What a solver returns.
 
-use crate::Basis;
+use crate::{Basis, Residuals};
 
 /// Outcome of a solve. Decided by the mathematics and the limits, never by misuse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -12,11 +12,16 @@ pub enum Status {
     /// A complementary basis was found, but its residuals, recomputed from the original data, are
     /// above the tolerance asked for (and below the square root of it).
     AlmostSolved,
+    /// There is no solution: `A t + B y = c` has none with `t >= 0` and `y >= 0`, which
+    /// [`Solution::farkas`] proves.
+    Infeasible,
     /// No attempt found a solution, and at least one ended on a secondary ray. This does not prove
     /// that there is none.
     RayTermination,
     /// The limit on pivots was reached.
     PivotLimit,
+    /// The limit on wall-clock time was reached.
+    TimeLimit,
     /// No attempt found a solution, and in at least one a basis came back.
     Cycling,
     /// No choice of one column from every pair gives a matrix that is nonsingular to working
@@ -31,29 +36,6 @@ pub enum Status {
 impl std::fmt::Display for Status {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         std::fmt::Debug::fmt(self, f)
-    }
-}
-
-/// The one measure of a point `(t, y)`: dimensionless, from the original data.
-///
-/// See [`HorizontalLcp::residuals`](crate::HorizontalLcp::residuals) for the definitions.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Residuals {
-    /// Largest row-wise relative residual of `A t + B y = c`.
-    pub equation: f64,
-    /// Most negative component of `t` and of `y`, each relative to the largest of its vector.
-    pub feasibility: f64,
-    /// Largest `min(t_i / max t, y_i / max y)` over the pairs.
-    pub complementarity: f64,
-    /// Largest `|min(t_i / max t, y_i / max y)|`: feasibility and complementarity in one number.
-    pub natural: f64,
-}
-
-impl Residuals {
-    /// The largest of the residuals.
-    pub fn worst(&self) -> f64 {
-        self.equation.max(self.feasibility).max(self.complementarity)
     }
 }
 
@@ -93,6 +75,100 @@ pub enum AttemptEnd {
     Singular,
     /// The observer asked to stop.
     Cancelled,
+    /// The limit on wall-clock time was reached.
+    TimeLimit,
+}
+
+/// The start basis of an attempt.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub enum AttemptStart {
+    /// The basis of the settings, or that of the point of the settings.
+    Given,
+    /// All `y`.
+    AllY,
+    /// All `t`.
+    AllT,
+    /// One that the solver found.
+    Found,
+    /// The basis on which the last attempt ended.
+    LastBasis,
+    /// The first one after exchanges of pairs drawn at random.
+    Flipped {
+        /// Seed of the generator.
+        seed: u64,
+    },
+}
+
+impl std::fmt::Display for AttemptStart {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Given => f.write_str("given"),
+            Self::AllY => f.write_str("all y"),
+            Self::AllT => f.write_str("all t"),
+            Self::Found => f.write_str("found"),
+            Self::LastBasis => f.write_str("last basis"),
+            Self::Flipped { seed } => write!(f, "flipped, seed {seed}"),
+        }
+    }
+}
+
+/// The covering vector of an attempt.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub enum AttemptCovering {
+    /// All ones after equilibration.
+    Ones,
+    /// Pseudo-random.
+    Random {
+        /// Seed of the generator.
+        seed: u64,
+    },
+    /// The one of the settings.
+    Given,
+}
+
+impl std::fmt::Display for AttemptCovering {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Ones => f.write_str("ones"),
+            Self::Random { seed } => write!(f, "random, seed {seed}"),
+            Self::Given => f.write_str("given"),
+        }
+    }
+}
+
+/// What an attempt changed in the data of its path. The basis on which it ends is always judged by
+/// the data as given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub enum Perturbation {
+    /// Nothing.
+    None,
+    /// A small random increase of every entry of the right-hand side, to part ties.
+    RightHandSide {
+        /// Seed of the generator.
+        seed: u64,
+    },
+    /// The proximal problem `w = M z + q + weight (z - center)` instead of `w = M z + q`, where the
+    /// center is zero or the point on which the proximal attempt before ended.
+    Proximal {
+        /// The weight, in equilibrated units.
+        weight: f64,
+    },
+}
+
+impl std::fmt::Display for Perturbation {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::None => f.write_str("none"),
+            Self::RightHandSide { .. } => f.write_str("perturbed"),
+            Self::Proximal { weight } => write!(f, "proximal, weight {weight:.0e}"),
+        }
+    }
 }
 
 /// One attempt: where it started, with which covering vector, and how it ended.
@@ -100,18 +176,47 @@ pub enum AttemptEnd {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Attempt {
-    /// The start basis, in words.
-    pub start: String,
-    /// The covering vector, in words.
-    pub covering: String,
-    /// Whether the right-hand side was perturbed to part ties.
-    pub perturbed: bool,
+    /// The start basis.
+    pub start: AttemptStart,
+    /// The covering vector.
+    pub covering: AttemptCovering,
+    /// What was changed in the data of the path.
+    pub perturbation: Perturbation,
     /// How the attempt ended.
     pub end: AttemptEnd,
     /// Pivots that it took.
     pub pivots: usize,
     /// The worst residual of its complementary basis, where it ended on one that could be solved.
     pub residual: Option<f64>,
+}
+
+/// A variable of the pivoting method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum Variable {
+    /// The first variable of a pair.
+    T(usize),
+    /// The second variable of a pair.
+    Y(usize),
+    /// The artificial variable.
+    Artificial,
+}
+
+/// One pivot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct PivotRecord {
+    /// The attempt, from 1.
+    pub attempt: usize,
+    /// The variable that became basic.
+    pub entering: Variable,
+    /// The variable that left the basis.
+    pub leaving: Variable,
+    /// Value of the entering variable after the pivot, in equilibrated units.
+    pub step: f64,
+    /// Value of the artificial variable after the pivot, relative to its first one.
+    pub artificial: f64,
 }
 
 /// What it cost.
@@ -127,6 +232,9 @@ pub struct Info {
     pub attempts: Vec<Attempt>,
     /// Wall-clock time \[s\].
     pub seconds: f64,
+    /// The part of it spent on pivots; the rest is start bases, scaling, final solves and proofs
+    /// \[s\].
+    pub pivot_seconds: f64,
 }
 
 /// The answer of a solver: always with the residuals of the point that it carries.
@@ -147,6 +255,14 @@ pub struct Solution {
     /// The ray on which the first of the attempts that met one ended, when the status is
     /// [`RayTermination`](Status::RayTermination).
     pub ray: Option<Ray>,
+    /// With the status [`Infeasible`](Status::Infeasible) the proof: a vector `pi` of the rows with
+    /// `A^T pi <= 0`, `B^T pi <= 0` and `c.pi > 0` (Farkas). It was checked against the original data:
+    /// no component of the products exceeds the rounding error of its computation.
+    pub farkas: Option<Vec<f64>>,
+    /// Estimate of the condition number, in the 1-norm, of the equilibrated matrix of the basis.
+    pub condition: Option<f64>,
+    /// Every pivot, if the settings asked for it.
+    pub trace: Vec<PivotRecord>,
     /// What it cost.
     pub info: Info,
 }

@@ -2,9 +2,10 @@
 
 #![allow(clippy::unwrap_used)] // a test may panic
 
-use lcp::exact::{EnumerationSettings, RBig, enumerate};
+use faer::Mat;
+use lcp::exact::{EnumerationSettings, ExactVerdict, RBig, enumerate, verify_basis};
 use lcp::families::{self, Instance, Known};
-use lcp::{HorizontalLcp, Lcp};
+use lcp::{Basis, HorizontalLcp, Lcp, MixedLcp, Side};
 use proptest::prelude::*;
 
 fn exact(value: f64) -> RBig {
@@ -53,6 +54,12 @@ fn general(instance: Instance<Lcp>) -> Instance {
     Instance { problem: instance.problem.into(), known: instance.known }
 }
 
+fn mixed(Instance { problem, known }: Instance<MixedLcp>) -> Instance {
+    let Known::Solution { t, y } = known else { panic!("planted: {known:?}") };
+    let (t, y) = problem.to_pairs(&t, &y);
+    Instance { problem: problem.to_general(), known: Known::Solution { t, y } }
+}
+
 proptest! {
     #[test]
     fn random_families_know_their_answers(n in 0..8_usize, seed in any::<u64>()) {
@@ -69,6 +76,9 @@ proptest! {
             assert_true(&general(family(n, seed)));
         }
         assert_true(&general(families::bimatrix(n / 2, n - n / 2, seed)));
+        for family in [families::mixed_monotone, families::mixed_singular] {
+            assert_true(&mixed(family(n, seed)));
+        }
         for family in [
             families::horizontal_monotone,
             families::horizontal_singular,
@@ -90,18 +100,26 @@ fn textbook_families_know_their_answers() {
     (0..4).for_each(|side| assert_true(&general(families::obstacle(side))));
 }
 
-/// Monotone in the general form, and neither matrix is nonsingular: no standard form by `A^-1` or `B^-1`.
+fn assert_singular(problem: &HorizontalLcp, side: Side) {
+    let verdict = verify_basis(problem, &Basis::all(side, problem.order()));
+    assert!(matches!(verdict, ExactVerdict::Singular { .. }), "{verdict:?}");
+}
+
+/// There is no way to the standard form by `A^-1` or `B^-1`, nor by eliminating the free variables.
 #[test]
 fn general_families_have_singular_matrices() {
-    use lcp::exact::{ExactVerdict, verify_basis};
-    use lcp::{Basis, Side};
     for seed in 0..20 {
         for family in [families::horizontal_monotone, families::horizontal_singular] {
             let problem = family(12, seed).problem;
-            for side in [Side::T, Side::Y] {
-                let verdict = verify_basis(&problem, &Basis::all(side, 12));
-                assert!(matches!(verdict, ExactVerdict::Singular { .. }));
-            }
+            assert_singular(&problem, Side::T);
+            assert_singular(&problem, Side::Y);
+        }
+        for family in [families::mixed_monotone, families::mixed_singular] {
+            let problem = family(12, seed).problem;
+            let free = problem.free().iter().filter(|free| **free).count();
+            let block = Mat::from_fn(free, free, |i, j| problem.m()[(i, j)]);
+            let zero = vec![0.0; free];
+            assert_singular(&HorizontalLcp::new(block.clone(), block, zero).unwrap(), Side::T);
         }
     }
 }

@@ -66,13 +66,15 @@ fn cases(least: u32) -> ProptestConfig {
 proptest! {
     #![proptest_config(cases(1024))]
 
-    /// Whatever the scaling: solved only what has a solution, and no basis only where there is none.
+    /// Whatever the scaling: solved only what has a solution, infeasible only what
+    /// is, and no basis only where there is none.
     #[test]
     fn no_verdict_is_wrong((a, b, c, exponents) in general()) {
         let problem = scaled(&a, &b, &c, &exponents);
         let (truth, solution) = (truth(&problem), Lemke::default().solve(&problem).unwrap());
         match solution.status {
             Status::Solved => prop_assert!(truth.is_solvable(), "{:?}", solution.t),
+            Status::Infeasible => prop_assert!(!truth.is_feasible()),
             Status::NoComplementaryBasis => prop_assert!(!truth.has_basis),
             _ => {}
         }
@@ -104,7 +106,7 @@ proptest! {
     fn semidefinite_problems_are_decided((a, b, c, exponents) in semidefinite()) {
         let problem = scaled(&a, &b, &c, &exponents);
         let (truth, solution) = (truth(&problem), Lemke::default().solve(&problem).unwrap());
-        let expected = if truth.is_solvable() { Status::Solved } else { Status::RayTermination };
+        let expected = if truth.is_solvable() { Status::Solved } else { Status::Infeasible };
         prop_assert_eq!(solution.status, expected);
     }
 }

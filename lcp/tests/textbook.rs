@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used)] // a test may panic
 
 use faer::{Mat, mat};
-use lcp::{AttemptEnd, Basis, Covering, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side, Status};
+use lcp::{
+    AttemptEnd, Basis, Covering, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side, Status, WarmStart,
+};
 
 fn lcp(m: Mat<f64>, q: &[f64]) -> HorizontalLcp {
     Lcp::new(m, q.to_vec()).unwrap().into()
@@ -55,13 +57,23 @@ fn kostreva_does_not_cycle() {
     assert_solves_at_once(&m, &[-1.0; 3], &[1.0 / 3.0; 3]);
 }
 
+/// Its third row alone, `w3 = -z1 - 2 z2 - 1`, has no solution.
 #[test]
-fn kostreva_without_a_solution_ends_on_rays() {
+fn kostreva_without_a_solution_is_proved_infeasible() {
     let m = mat![[1.0, -1.0, 3.0], [2.0, -1.0, 3.0], [-1.0, -2.0, 0.0]];
-    let problem = lcp(m, &[-1.0; 3]);
+    let solution = Lemke::default().solve(&lcp(m, &[-1.0; 3])).unwrap();
+    assert_eq!(solution.status, Status::Infeasible);
+    assert_eq!(solution.farkas, Some(vec![0.0, 0.0, -1.0]));
+}
+
+/// `w1 = -z1 + z2 / 2 - 1`, `w2 = z2 - 1`: feasible, but without a complementary solution.
+#[test]
+fn rays_where_there_is_no_proof() {
+    let problem = lcp(mat![[-1.0, 0.5], [0.0, 1.0]], &[-1.0; 2]);
     let solution = Lemke::default().solve(&problem).unwrap();
     assert_eq!(solution.status, Status::RayTermination);
-    assert!(solution.info.attempts.iter().all(|attempt| attempt.end == AttemptEnd::Ray));
+    assert_eq!(solution.farkas, None);
+    assert!(solution.info.attempts.iter().any(|attempt| attempt.end == AttemptEnd::Ray));
     let ray = solution.ray.unwrap();
     assert!(ray.dt.iter().chain(&ray.dy).all(|&v| v >= 0.0));
     assert!(ray.dt.iter().zip(&ray.dy).all(|(t, y)| t * y == 0.0));
@@ -69,7 +81,7 @@ fn kostreva_without_a_solution_ends_on_rays() {
 
 #[test]
 fn the_ray_is_a_direction_of_the_augmented_problem() {
-    let m = mat![[-1.0, 0.0], [0.0, 1.0]];
+    let m = mat![[-1.0, 0.5], [0.0, 1.0]];
     let problem = lcp(m, &[-1.0, -1.0]);
     let covering = Covering::Given(vec![1.0, 3.0]);
     let settings = LemkeSettings { max_attempts: 1, covering, ..LemkeSettings::default() };
@@ -111,27 +123,29 @@ fn zero_solves_a_homogeneous_problem() {
 
 /// Murty's and Fathi's problems take exactly 2^n lexicographic pivots with a covering vector of ones in
 /// the data as given, nearly all of them at ties, and stop at the limit on pivots when it is lower.
+/// Murty's last pair is alone in its row up to the others' terms, `w = z + ...`, so that `z - w` is a free
+/// variable, and the path is that of order `n - 1`.
 #[test]
 fn exponential_families_take_their_pivots_or_stop_at_the_limit() {
     for n in [3_usize, 6, 9] {
         let ones = LemkeSettings {
-            start: Some(Basis::all(Side::Y, n)),
+            start: WarmStart::Basis(Basis::all(Side::Y, n)),
             covering: Covering::Given(vec![1.0; n]),
             max_attempts: 1,
             ..LemkeSettings::default()
         };
-        let limited = LemkeSettings { max_pivots: Some(n), ..ones.clone() };
+        let limited = LemkeSettings { max_pivots: Some(3), ..ones.clone() };
         let mut first = vec![0.0; n];
         first[0] = 1.0;
         let fathi = &murty(n) * murty(n).transpose();
-        for m in [murty(n), fathi] {
+        for (m, order) in [(murty(n), n - 1), (fathi, n)] {
             let problem = lcp(m, &vec![-1.0; n]);
             let solution = Lemke::new(ones.clone()).solve(&problem).unwrap();
             assert_eq!(solution.status, Status::Solved);
             assert_close(&solution.t, &first);
-            assert_eq!(solution.info.pivots, 1 << n);
+            assert_eq!(solution.info.pivots, 1 << order);
             let stopped = Lemke::new(limited.clone()).solve(&problem).unwrap();
-            assert_eq!((stopped.status, stopped.info.pivots), (Status::PivotLimit, n));
+            assert_eq!((stopped.status, stopped.info.pivots), (Status::PivotLimit, 3));
         }
     }
 }
@@ -147,8 +161,8 @@ fn a_continuum_is_met() {
 #[test]
 fn order_one() {
     let solve = |m: f64, q: f64| Lemke::default().solve(&lcp(mat![[m]], &[q])).unwrap();
-    assert_eq!(solve(-1.0, -1.0).status, Status::RayTermination);
-    assert_eq!(solve(0.0, -1.0).status, Status::RayTermination);
+    assert_eq!(solve(-1.0, -1.0).status, Status::Infeasible);
+    assert_eq!(solve(0.0, -1.0).status, Status::Infeasible);
     assert_eq!(solve(-1.0, 1.0).status, Status::Solved);
     assert_close(&solve(2.0, -1.0).t, &[0.5]);
     assert_close(&solve(2.0, 1.0).y, &[1.0]);
@@ -170,6 +184,25 @@ fn both_matrices_singular() {
     assert_eq!(solution.status, Status::Solved);
     assert_close(&solution.t, &[1.0, 0.0]);
     assert_close(&solution.y, &[0.0, 3.0]);
+}
+
+/// A start basis that solves the problem is not left for the rounding errors of its values.
+#[test]
+fn a_start_basis_that_solves_the_problem_is_enough() {
+    let (a, b) = (mat![[2.0, -1.0], [-3.0, 2.0]], mat![[3.0, 3.0], [-5.0, 2.0]]);
+    let problem = HorizontalLcp::new(a, b, vec![3.0, -5.0]).unwrap();
+    let solution = once().solve(&problem).unwrap();
+    assert_eq!((solution.status, solution.info.pivots), (Status::Solved, 0));
+    assert_close(&solution.y, &[1.0, 0.0]);
+}
+
+/// `M = [0, 1; 1, 0]`: from all `y` every covering vector ends on a ray, so that the start has to change.
+#[test]
+fn bimatrix_games_are_solved() {
+    let swap = mat![[0.0, 1.0], [1.0, 0.0]];
+    let solution = Lemke::default().solve(&lcp(swap, &[-1.0, -1.0])).unwrap();
+    assert_eq!(solution.status, Status::Solved);
+    assert_close(&solution.t, &[1.0, 1.0]);
 }
 
 /// Only an exchange finds the start basis: column choices that look best block each other.

@@ -3,7 +3,7 @@
 use faer::Mat;
 
 use super::{Instance, Integers, Known, Planting, product};
-use crate::HorizontalLcp;
+use crate::{HorizontalLcp, Matrix};
 
 /// Monotone with both matrices singular (from order 6 on): a semidefinite problem with a matrix of a
 /// third of its order as rank, the variables of every other pair swapped, and every row plus or minus
@@ -43,26 +43,28 @@ pub fn horizontal_singular(n: usize, seed: u64) -> Instance {
 }
 
 /// Random integers with the signs of columns and of `c` such that a random vector proves
-/// infeasibility.
+/// infeasibility. In every pair one column outweighs the rest of its row, so that there is a
+/// complementary basis.
 pub fn infeasible(n: usize, seed: u64) -> Instance {
     let n = n.max(1);
     let mut random = Integers::new(seed);
     let mut farkas = random.vector(n, -2, 2);
     farkas[0] = 1.0;
+    let in_a: Vec<bool> = (0..n).map(|_| random.index(2) == 0).collect();
     let value = |v: &[f64]| v.iter().zip(&farkas).map(|(v, f)| v * f).sum::<f64>();
-    let mut matrix = || {
+    let mut matrix = |is_a: bool| {
         let mut m = random.matrix(n, n, -3, 3);
         for j in 0..n {
             let column = m.col_as_slice_mut(j);
-            if value(column) > 0.0 {
-                for v in column.iter_mut() {
-                    *v = 0.0 - *v;
-                }
+            column[j] += if in_a[j] == is_a { 3.0 * n as f64 + 1.0 } else { 0.0 };
+            let sign = if value(column) > 0.0 { -1.0 } else { 1.0 };
+            for v in column {
+                *v *= sign;
             }
         }
         m
     };
-    let (a, b) = (matrix(), matrix());
+    let (a, b) = (matrix(true), matrix(false));
     let mut c = random.vector(n, -3, 3);
     // `farkas[0]` is one: the first entry makes up for what the others lack.
     c[0] += (1.0 - value(&c)).max(0.0);
@@ -70,10 +72,11 @@ pub fn infeasible(n: usize, seed: u64) -> Instance {
 }
 
 fn with_solution(a: Mat<f64>, b: Mat<f64>, t: &[f64], y: &[f64]) -> HorizontalLcp {
+    let (a, b) = (a.into(), b.into());
     let c = product(&a, t).iter().zip(product(&b, y)).map(|(at, by)| at + by).collect();
     general(a, b, c)
 }
 
-fn general(a: Mat<f64>, b: Mat<f64>, c: Vec<f64>) -> HorizontalLcp {
+fn general(a: impl Into<Matrix>, b: impl Into<Matrix>, c: Vec<f64>) -> HorizontalLcp {
     HorizontalLcp::new(a, b, c).expect("finite and of one order")
 }

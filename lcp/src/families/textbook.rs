@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use faer::{Mat, mat};
 
 use super::{Instance, Known, standard, with_solution};
-use crate::Lcp;
+use crate::{Lcp, Matrix};
 
 /// Ones on the diagonal and twos below it, `q = -1` (Murty, Mathematical Programming Study 7, 1978):
 /// the solution is the first unit vector, and Lemke's method takes `2^n` pivots to it with a covering
@@ -53,18 +53,21 @@ pub fn kostreva_2() -> Instance<Lcp> {
     Instance { problem: standard(m, vec![-1.0; 3]), known }
 }
 
-/// A membrane over an obstacle on a square grid of `side` by `side` points: the five-point Laplacian.
+/// A membrane over an obstacle on a square grid of `side` by `side` points: the five-point Laplacian,
+/// sparse.
 ///
 /// The gap `z` is a paraboloid over a disc in the middle; outside of it the membrane lies on the
 /// obstacle, and the contact pressure `w` is 1.
 pub fn obstacle(side: usize) -> Instance<Lcp> {
     let n = side * side;
-    let step = |k: usize, l: usize| k.abs_diff(l);
-    let m = Mat::from_fn(n, n, |i, j| match step(i / side, j / side) + step(i % side, j % side) {
-        0 => 4.0,
-        1 => -1.0,
-        _ => 0.0,
-    });
+    let neighbours = |i: usize| {
+        let (row, column) = (i / side, i % side);
+        let below = (row + 1 < side).then_some((i, i + side));
+        let beside = (column + 1 < side).then_some((i, i + 1));
+        below.into_iter().chain(beside).flat_map(|(i, j)| [(i, j, -1.0), (j, i, -1.0)])
+    };
+    let entries = (0..n).flat_map(|i| neighbours(i).chain([(i, i, 4.0)]));
+    let m = Matrix::from_entries(n, n, entries);
     // Coordinates from the middle, in half steps: integers.
     let coordinate = |k: usize| 2.0 * k as f64 + 1.0 - side as f64;
     let radius_squared = (side * side / 2) as f64;

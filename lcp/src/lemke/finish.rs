@@ -1,55 +1,64 @@
 //! From a complementary basis to a point that the original data vouches for.
 
-use faer::Mat;
-
+use super::basis_matrix::BasisMatrix;
 use super::start::Equilibrated;
-use crate::linear::Lu;
 use crate::problem::max_abs;
-use crate::{Basis, HorizontalLcp, Residuals, Side};
+use crate::{Basis, Residuals, Side};
 
 /// Steps of iterative refinement.
 const REFINEMENTS: usize = 3;
+/// With a condition number above this, residuals are computed with twice the working precision.
+const ILL_CONDITIONED: f64 = 1e6;
 
 /// A point and what the original data says of it.
+#[derive(Debug, Clone)]
 pub(super) struct Point {
     pub(super) t: Vec<f64>,
     pub(super) y: Vec<f64>,
+    pub(super) basis: Basis,
     pub(super) residuals: Residuals,
+    pub(super) condition: f64,
 }
 
 /// Solves for the basic variables with the original columns, refines, and sets negative values to
 /// zero. How far that is more than rounding goes into the feasibility residual.
-pub(super) fn solve_basis(
-    problem: &HorizontalLcp,
-    scaling: &Equilibrated,
-    basis: &Basis,
-) -> Option<Point> {
-    let matrix = problem.basis_matrix(basis, &scaling.row, |j, side| scaling.factor(j, side));
-    let lu = Lu::new(matrix.as_ref())?;
-    let right: Vec<f64> = problem.c().iter().zip(&scaling.row).map(|(c, r)| c * r).collect();
-    let mut x = right.clone();
-    lu.solve_vector(&mut x);
-    for _ in 0..REFINEMENTS {
-        let mut residual = right.clone();
-        for (j, &x) in x.iter().enumerate() {
-            let column = matrix.col_as_slice(j);
-            residual.iter_mut().zip(column).for_each(|(r, a)| *r -= a * x);
-        }
-        let before = max_abs(&residual);
-        lu.solve_vector(&mut residual);
-        if !before.is_finite() || before == 0.0 {
-            break;
-        }
-        x.iter_mut().zip(&residual).for_each(|(x, dx)| *x += dx);
-    }
-    if x.iter().any(|x| !x.is_finite()) {
+pub(super) fn solve_basis(problem: &Equilibrated<'_>, basis: &Basis) -> Option<Point> {
+    let matrix = BasisMatrix::new(problem, basis)?;
+    let right = problem.right_hand_side();
+    let condition = matrix.condition();
+    let x = refined(&matrix, &right, condition > ILL_CONDITIONED);
+    if !condition.is_finite() || x.iter().any(|x| !x.is_finite()) {
         return None;
     }
-    let infeasibility = infeasibility(&matrix, &lu, &right, &x);
-    let mut point = point(problem, scaling, basis, &x);
+    let infeasibility = infeasibility(problem, &matrix, &right, &x);
+    let mut point = point(problem, basis, &x, condition);
     point.residuals.feasibility = point.residuals.feasibility.max(infeasibility);
     point.residuals.natural = point.residuals.natural.max(infeasibility);
     Some(point)
+}
+
+fn refined(matrix: &BasisMatrix, right: &[f64], accurate: bool) -> Vec<f64> {
+    let mut x = right.to_vec();
+    matrix.solve(&mut x);
+    let mut low = vec![0.0; x.len()];
+    for _ in 0..REFINEMENTS {
+        let mut step = if accurate {
+            matrix.accurate_residual(right, &x, &low)
+        } else {
+            matrix.residual(right, &x)
+        };
+        let size = max_abs(&step);
+        if !size.is_finite() || size == 0.0 {
+            break;
+        }
+        matrix.solve(&mut step);
+        for ((x, low), step) in x.iter_mut().zip(&mut low).zip(&step) {
+            let sum = *x + (*low + step);
+            *low = if accurate { (*low + step) - (sum - *x) } else { 0.0 };
+            *x = sum;
+        }
+    }
+    x
 }
 
 /// Negative values up to this multiple of the largest value, in equilibrated units, are rounding
@@ -59,35 +68,41 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// The largest negative value beyond rounding, each relative to the size that its variable could have
 /// by the data: row `j` of `|M^-1| (|M||x| + |c|)`. So a negative value is not forgiven because others
 /// are large.
-fn infeasibility(matrix: &Mat<f64>, lu: &Lu, right: &[f64], x: &[f64]) -> f64 {
+fn infeasibility(
+    problem: &Equilibrated<'_>,
+    matrix: &BasisMatrix,
+    right: &[f64],
+    x: &[f64],
+) -> f64 {
     let rounding = ROUNDING * max_abs(x);
-    let negative: Vec<usize> = (0..x.len()).filter(|&j| x[j] < -rounding).collect();
-    let mut size: Vec<f64> = right.iter().map(|c| c.abs()).collect();
-    for (j, x) in x.iter().enumerate() {
-        let column = matrix.col_as_slice(j);
-        size.iter_mut().zip(column).for_each(|(size, a)| *size += (a * x).abs());
-    }
-    let mut inverse_rows = Mat::zeros(x.len(), negative.len());
-    negative.iter().enumerate().for_each(|(k, &j)| inverse_rows[(j, k)] = 1.0);
-    lu.solve_transpose_in_place(inverse_rows.as_mut());
-    let relative = negative.iter().enumerate().map(|(k, &j)| {
-        let row = inverse_rows.col_as_slice(k);
+    let negative = (0..x.len()).filter(|&j| x[j] < -rounding && problem.opposite(j).is_none());
+    let size = matrix.sizes(right, x);
+    let relative = negative.map(|j| {
+        let mut row = vec![0.0; x.len()];
+        row[j] = 1.0;
+        matrix.solve_transpose(&mut row);
         let bound: f64 = row.iter().zip(&size).map(|(v, size)| v.abs() * size).sum();
         if bound > 0.0 { -x[j] / bound } else { f64::INFINITY }
     });
     relative.fold(0.0, f64::max)
 }
 
-fn point(problem: &HorizontalLcp, scaling: &Equilibrated, basis: &Basis, x: &[f64]) -> Point {
+/// The pairs; a negative free variable is a positive one on the other side.
+fn point(problem: &Equilibrated<'_>, basis: &Basis, x: &[f64], condition: f64) -> Point {
     let n = problem.order();
     let (mut t, mut y) = (vec![0.0; n], vec![0.0; n]);
-    for (j, (&side, &x)) in basis.sides().iter().zip(x).enumerate() {
-        let value = (x * scaling.factor(j, side)).max(0.0);
+    let mut sides = basis.sides().to_vec();
+    for (j, (side, &x)) in sides.iter_mut().zip(x).enumerate() {
+        let mut value = x * problem.factor(j, *side);
+        if let Some(ratio) = problem.opposite(j).filter(|_| value < 0.0) {
+            value = if *side == Side::T { -value / ratio } else { -value * ratio };
+            *side = side.complement();
+        }
         match side {
-            Side::T => t[j] = value,
-            Side::Y => y[j] = value,
+            Side::T => t[j] = value.max(0.0),
+            Side::Y => y[j] = value.max(0.0),
         }
     }
-    let residuals = problem.residuals(&t, &y);
-    Point { t, y, residuals }
+    let residuals = problem.problem.residuals(&t, &y);
+    Point { t, y, basis: Basis::new(sides), residuals, condition }
 }

@@ -7,113 +7,88 @@
 
 use std::collections::HashSet;
 
-use faer::{Mat, MatRef};
-
+use super::kernel::{Kernel, Var};
 use super::ratio::leaving_row;
-use super::tableau::Tableau;
-use crate::linear::{Lu, add_product, all_finite};
+use super::start::Start;
+use crate::AttemptEnd;
 use crate::problem::max_abs;
 use crate::random::SplitMix;
-use crate::{AttemptEnd, Basis, Side};
 
 /// Drift of the basic values, or of a column, against the start data above which the tableau is
 /// rebuilt, relative to their size.
 const DRIFT: f64 = 1e-10;
-/// Size of the perturbation that parts ties, relative to the largest entry of `q`.
-const PERTURBATION: f64 = 1e-8;
 /// Below this multiple of its first value the artificial variable is zero.
 const ARTIFICIAL_ZERO: f64 = 1e-10;
 
-/// `w + T z = q`, equilibrated.
-#[derive(Debug, Clone)]
-pub(super) struct StartTableau {
-    /// The start basis: `w_i` is its side of pair `i`.
-    pub(super) basis: Basis,
-    pub(super) t: Mat<f64>,
-    pub(super) q: Vec<f64>,
-    /// Value of `w_i` in the problem's units: `w_i / row_factor[i]`.
-    pub(super) row_factor: Vec<f64>,
-    /// Value of `z_i` in the problem's units: `z_i * col_factor[i]`.
-    pub(super) col_factor: Vec<f64>,
-}
-
-/// A variable: `w_k` is `k`, `z_k` is `n + k`, the artificial one `2 n`.
-type Var = usize;
-
+/// One exchange.
 #[derive(Debug, Clone, Copy)]
-enum Place {
-    Row(usize),
-    Col(usize),
+pub(super) struct Exchange {
+    pub(super) entering: Var,
+    pub(super) leaving: Var,
+    /// Value of the entering variable after the exchange, in equilibrated units.
+    pub(super) step: f64,
+    /// Value of the artificial variable after the exchange, relative to its first one.
+    pub(super) artificial: f64,
 }
 
-/// Limits and the observer's answer.
-pub(super) struct Limits<'a> {
-    pub(super) max_pivots: usize,
-    pub(super) keep_going: &'a mut dyn FnMut(usize) -> bool,
-}
+/// Called before every pivot with the number of those done; may end the path.
+pub(super) type Limits<'a> = &'a mut dyn FnMut(usize) -> Option<AttemptEnd>;
 
 /// The state of a path.
-pub(super) struct Path<'a> {
-    start: &'a StartTableau,
-    covering: Vec<f64>,
-    /// `q` of the start, perturbed where that was asked for.
-    q: Vec<f64>,
-    tableau: Tableau,
+pub(super) struct Path<'a, K> {
+    pub(super) kernel: K,
+    start: &'a Start,
+    covering: &'a [f64],
     /// Values of the basic variables, row by row.
     pub(super) values: Vec<f64>,
     basic: Vec<Var>,
-    nonbasic: Vec<Var>,
-    place: Vec<Place>,
+    /// Row of every variable, where it is basic.
+    row_of: Vec<Option<usize>>,
     /// First value of the artificial variable.
     pub(super) artificial_start: f64,
     scale: f64,
     pub(super) pivots: usize,
     pub(super) refactorisations: usize,
+    /// Pivots after which the tableau is rebuilt in any case.
+    interval: Option<usize>,
+    /// Every exchange, where that was asked for.
+    pub(super) trace: Option<Vec<Exchange>>,
     visited: HashSet<u64>,
     signature: u64,
     column: Vec<f64>,
-    row: Vec<f64>,
     /// The variable that nothing blocked, at a ray.
     unblocked: Var,
     /// Pivots at the last rebuilding of the tableau.
     rebuilt_at: Option<usize>,
 }
 
-impl<'a> Path<'a> {
-    /// `perturbation` is a seed: with it every entry of `q` grows by a small random amount, so that
-    /// basic values do not become zero together. The final basis is judged by the data as given.
+impl<'a, K: Kernel> Path<'a, K> {
+    /// `values` are those of the start basis. Rows of free variables have a covering of zero.
     pub(super) fn new(
-        start: &'a StartTableau,
-        covering: Vec<f64>,
-        perturbation: Option<u64>,
+        kernel: K,
+        start: &'a Start,
+        covering: &'a [f64],
+        values: Vec<f64>,
+        interval: Option<usize>,
+        with_trace: bool,
     ) -> Self {
-        let n = start.q.len();
-        let mut q = start.q.clone();
-        if let Some(seed) = perturbation {
-            let mut random = SplitMix::new(seed);
-            for q in &mut q {
-                *q += PERTURBATION * (0.5 + random.next_f64());
-            }
-        }
-        let t = Mat::from_fn(n, n + 1, |i, j| if j < n { start.t[(i, j)] } else { -covering[i] });
-        let place = (0..n).map(Place::Row).chain((0..=n).map(Place::Col)).collect();
+        let n = values.len();
         Self {
+            kernel,
             start,
             covering,
-            tableau: Tableau::new(t),
-            values: q.clone(),
+            scale: max_abs(&values),
+            values,
             basic: (0..n).collect(),
-            nonbasic: (n..=2 * n).collect(),
-            place,
+            row_of: (0..=2 * n).map(|var| (var < n).then_some(var)).collect(),
             artificial_start: 0.0,
-            scale: max_abs(&q),
-            q,
             pivots: 0,
             refactorisations: 0,
+            interval,
+            trace: with_trace.then(Vec::new),
             visited: HashSet::new(),
             signature: (0..n).map(key).fold(0, |a, b| a ^ b),
             column: vec![0.0; n],
-            row: vec![0.0; n + 1],
             unblocked: 2 * n,
             rebuilt_at: None,
         }
@@ -129,10 +104,14 @@ impl<'a> Path<'a> {
 
     /// The row in which the artificial variable is basic.
     pub(super) fn artificial_row(&self) -> Option<usize> {
-        match self.place[self.artificial()] {
-            Place::Row(row) => Some(row),
-            Place::Col(_) => None,
-        }
+        self.row_of[self.artificial()]
+    }
+
+    /// Whether the basic variable of a row must not be negative. A free variable, once basic, stays.
+    pub(super) fn is_bounded(&self, row: usize) -> bool {
+        let n = self.order();
+        let var = self.basic[row];
+        var == 2 * n || !self.start.is_free(var % n)
     }
 
     /// Size of the basic values, against which a tie is judged.
@@ -140,56 +119,52 @@ impl<'a> Path<'a> {
         self.scale
     }
 
-    /// Entry `(row, k)` of the inverse of the present basis.
-    pub(super) fn inverse_entry(&self, row: usize, k: usize) -> f64 {
-        match self.place[k] {
-            Place::Row(at) => f64::from(u8::from(at == row)),
-            Place::Col(col) => self.tableau.entry(row, col),
+    /// Entry `(row, k)` of the inverse of the present basis, given that row of it.
+    pub(super) fn inverse_entry(&self, row: usize, inverse_row: &K::Row, k: usize) -> f64 {
+        match self.row_of[k] {
+            Some(at) => f64::from(u8::from(at == row)),
+            None => self.kernel.entry(inverse_row, k),
         }
     }
 
     /// Follows the path to its end.
-    pub(super) fn run(&mut self, limits: &mut Limits<'_>) -> AttemptEnd {
-        let n = self.order();
+    pub(super) fn run(&mut self, limits: Limits<'_>) -> AttemptEnd {
         let Some(first) = self.first_row() else { return AttemptEnd::Complementary };
-        self.tableau.column(n, &mut self.column);
-        self.artificial_start = self.values[first] / self.column[first];
-        let mut entering = self.exchange(first, n);
+        let mut column = std::mem::take(&mut self.column);
+        let end = self.follow(first, &mut column, limits);
+        self.column = column;
+        end
+    }
+
+    fn follow(&mut self, first: usize, column: &mut [f64], limits: Limits<'_>) -> AttemptEnd {
+        self.kernel.column(self.artificial(), column);
+        self.artificial_start = self.values[first] / column[first];
+        let mut entering = self.exchange(first, self.artificial(), column);
         loop {
             if entering == self.artificial() {
                 return AttemptEnd::Complementary;
             }
-            if self.pivots >= limits.max_pivots {
-                return AttemptEnd::PivotLimit;
+            if let Some(end) = limits(self.pivots) {
+                return end;
             }
-            if self.tableau.is_full() {
-                if !(limits.keep_going)(self.pivots) {
-                    return AttemptEnd::Cancelled;
-                }
-                self.tableau.apply();
-                if self.has_drifted() && !self.refactorise() {
-                    return AttemptEnd::Singular;
-                }
+            if self.kernel.is_due() && !self.tidy() {
+                return AttemptEnd::Singular;
             }
-            let entering_col = self.col_of(entering);
-            let mut column = std::mem::take(&mut self.column);
-            self.tableau.column(entering_col, &mut column);
-            let leaving = leaving_row(self, &column);
-            self.column = column;
-            match leaving {
+            self.kernel.column(entering, column);
+            match leaving_row(self, column) {
                 Some(row) => {
                     // The rule is deterministic: a basis that came back comes back for ever.
                     if !self.visited.insert(self.signature) {
                         return AttemptEnd::Cycle;
                     }
-                    entering = self.exchange(row, entering_col);
+                    entering = self.exchange(row, entering, column);
                 }
                 // What looks like a ray may be drift: only a column that the data confirm counts.
-                None if self.is_true_column(entering_col, &self.column) => {
-                    return self.at_ray(entering_col);
+                None if self.is_true_column(entering, column) => {
+                    return self.at_ray(entering, column);
                 }
                 None if self.rebuilt_at == Some(self.pivots) => return AttemptEnd::Singular,
-                None if !self.refactorise() => return AttemptEnd::Singular,
+                None if !self.rebuild() => return AttemptEnd::Singular,
                 None => {}
             }
         }
@@ -200,33 +175,36 @@ impl<'a> Path<'a> {
     fn first_row(&self) -> Option<usize> {
         let mut worst = None;
         let mut ratio = 0.0;
-        for (i, (&q, &d)) in self.values.iter().zip(&self.covering).enumerate() {
-            if q < 0.0 && q / d <= ratio {
+        for (i, (&q, &d)) in self.values.iter().zip(self.covering).enumerate() {
+            if d > 0.0 && q < 0.0 && q / d <= ratio {
                 (worst, ratio) = (Some(i), q / d);
             }
         }
         worst
     }
 
-    /// Exchanges the basic variable of `row` with the nonbasic one of `col`, whose column of the
-    /// tableau is in `self.column`. Returns the variable that has to enter next: the complement of
-    /// the one that left.
-    fn exchange(&mut self, row: usize, col: usize) -> Var {
-        let step = self.values[row] / self.column[row];
-        for (value, a) in self.values.iter_mut().zip(&self.column) {
+    /// Exchanges the basic variable of `row` with the entering one, given its column. Returns the
+    /// variable that has to enter next: the complement of the one that left.
+    fn exchange(&mut self, row: usize, entering: Var, column: &[f64]) -> Var {
+        let step = self.values[row] / column[row];
+        for (value, a) in self.values.iter_mut().zip(column) {
             *value -= step * a;
         }
         self.values[row] = step;
-        self.tableau.pivot(row, col, &self.column, &mut self.row);
-        let (entered, left) = (self.nonbasic[col], self.basic[row]);
-        self.basic[row] = entered;
-        self.nonbasic[col] = left;
-        self.place[entered] = Place::Row(row);
-        self.place[left] = Place::Col(col);
-        self.signature ^= key(entered) ^ key(left);
+        let leaving = self.basic[row];
+        self.kernel.exchange(row, entering, leaving, column);
+        self.basic[row] = entering;
+        self.row_of[entering] = Some(row);
+        self.row_of[leaving] = None;
+        self.signature ^= key(entering) ^ key(leaving);
         self.pivots += 1;
         self.scale = max_abs(&self.values);
-        self.complement(left)
+        let artificial =
+            self.artificial_row().map_or(0.0, |row| self.values[row] / self.artificial_start);
+        if let Some(trace) = &mut self.trace {
+            trace.push(Exchange { entering, leaving, step, artificial });
+        }
+        self.complement(leaving)
     }
 
     fn complement(&self, var: Var) -> Var {
@@ -240,49 +218,39 @@ impl<'a> Path<'a> {
         }
     }
 
-    fn col_of(&self, var: Var) -> usize {
-        match self.place[var] {
-            Place::Col(col) => col,
-            Place::Row(_) => unreachable!("the complement of a leaving variable is nonbasic"),
-        }
-    }
-
     /// A column that nothing blocks is a ray only when the artificial variable is not already
     /// zero: then the basis solves the problem, and it leaves on its own row.
-    fn at_ray(&mut self, col: usize) -> AttemptEnd {
+    fn at_ray(&mut self, entering: Var, column: &[f64]) -> AttemptEnd {
         if let Some(row) = self.artificial_row()
             && self.values[row] <= ARTIFICIAL_ZERO * self.artificial_start
-            && self.column[row].abs() > 0.0
+            && column[row].abs() > 0.0
         {
-            self.exchange(row, col);
+            self.exchange(row, entering, column);
             return AttemptEnd::Complementary;
         }
-        self.unblocked = self.nonbasic[col];
+        self.unblocked = entering;
         AttemptEnd::Ray
     }
 
-    /// The complementary basis, once the artificial variable has left.
-    pub(super) fn basis(&self) -> Basis {
+    /// For every pair whether its `z` is basic.
+    pub(super) fn z_is_basic(&self) -> Vec<bool> {
         let n = self.order();
-        let sides =
-            self.start.basis.sides().iter().enumerate().map(|(k, side)| match self.place[n + k] {
-                Place::Row(_) => side.complement(),
-                Place::Col(_) => *side,
-            });
-        Basis::new(sides.collect())
+        (0..n).map(|k| self.row_of[n + k].is_some()).collect()
     }
 
-    /// The covering vector in units of the basic variables of the start basis.
-    pub(super) fn covering(&self) -> impl Iterator<Item = f64> {
-        self.covering.iter().zip(&self.start.row_factor).map(|(d, row)| d / row)
+    /// Values of `z`, in equilibrated units.
+    pub(super) fn z(&self) -> Vec<f64> {
+        let n = self.order();
+        (0..n).map(|k| self.row_of[n + k].map_or(0.0, |row| self.values[row])).collect()
     }
 
-    /// The direction of the ray, `(w, z, z0)`, in the units of the problem.
+    /// The direction of the ray, `(w, z, z0)`, in the units of the problem; for a free variable with
+    /// its sign.
     pub(super) fn ray(&self) -> (Vec<f64>, Vec<f64>, f64) {
         let n = self.order();
         let mut direction = vec![0.0; 2 * n + 1];
-        for (&var, a) in self.basic.iter().zip(&self.column) {
-            direction[var] = (-a).max(0.0);
+        for (row, (&var, a)) in self.basic.iter().zip(&self.column).enumerate() {
+            direction[var] = if self.is_bounded(row) { (-a).max(0.0) } else { -a };
         }
         direction[self.unblocked] = 1.0;
         let mut dw = direction[..n].to_vec();
@@ -292,36 +260,44 @@ impl<'a> Path<'a> {
         (dw, dz, direction[2 * n])
     }
 
-    /// Column of a variable in the start data.
-    fn add_start_column(&self, var: Var, factor: f64, out: &mut [f64]) {
-        let n = self.order();
-        if var < n {
-            out[var] += factor;
-        } else if var < 2 * n {
-            let column = self.start.t.col_as_slice(var - n);
-            out.iter_mut().zip(column).for_each(|(out, v)| *out += factor * v);
-        } else {
-            out.iter_mut().zip(&self.covering).for_each(|(out, d)| *out -= factor * d);
+    /// Deals with the exchanges held back, and starts anew where the result has drifted.
+    fn tidy(&mut self) -> bool {
+        if !self.kernel.apply(&self.basic) {
+            return false;
         }
+        let last = self.rebuilt_at.unwrap_or(0);
+        let is_due = self.interval.is_some_and(|interval| self.pivots >= last + interval);
+        if is_due || self.has_drifted() { self.rebuild() } else { true }
     }
 
-    /// Compares the basic values, and one column of the tableau, with the start data.
-    fn has_drifted(&self) -> bool {
-        let mut residual: Vec<f64> = self.q.iter().map(|q| -q).collect();
-        self.add_basis_product(&self.values, &mut residual);
-        if !is_small(&residual, self.scale.max(1.0)) {
-            return true;
-        }
-        let probe = self.pivots % (self.order() + 1);
-        let mut column = vec![0.0; self.order()];
-        self.tableau.column(probe, &mut column);
-        !self.is_true_column(probe, &column)
+    fn rebuild(&mut self) -> bool {
+        self.refactorisations += 1;
+        self.rebuilt_at = Some(self.pivots);
+        let rebuilt = self.kernel.rebuild(&self.basic, &mut self.values);
+        self.scale = max_abs(&self.values);
+        rebuilt
+    }
+
+    /// Compares the basic values, together with one column of the tableau, with the start data.
+    fn has_drifted(&mut self) -> bool {
+        let nonbasic = (0..=2 * self.order()).filter(|&var| self.row_of[var].is_none());
+        let mut around = nonbasic.cycle();
+        let Some(probe) = around.nth(self.pivots % (self.order() + 1)) else { return false };
+        let mut sum = vec![0.0; self.order()];
+        self.kernel.column(probe, &mut sum);
+        let size = self.scale.max(1.0);
+        let weight = size / max_abs(&sum).max(1.0);
+        sum.iter_mut().zip(&self.values).for_each(|(sum, value)| *sum = weight * *sum + value);
+        let mut residual: Vec<f64> = self.kernel.right_hand_side().iter().map(|q| -q).collect();
+        self.kernel.add_start_column(probe, -weight, &mut residual);
+        self.add_basis_product(&sum, &mut residual);
+        !is_small(&residual, size)
     }
 
     /// Whether a column of the tableau, times the basis, is what it was in the start data.
-    fn is_true_column(&self, col: usize, column: &[f64]) -> bool {
+    fn is_true_column(&self, var: Var, column: &[f64]) -> bool {
         let mut residual = vec![0.0; self.order()];
-        self.add_start_column(self.nonbasic[col], -1.0, &mut residual);
+        self.kernel.add_start_column(var, -1.0, &mut residual);
         self.add_basis_product(column, &mut residual);
         is_small(&residual, max_abs(column).max(1.0))
     }
@@ -329,65 +305,9 @@ impl<'a> Path<'a> {
     fn add_basis_product(&self, factors: &[f64], out: &mut [f64]) {
         for (&var, &factor) in self.basic.iter().zip(factors) {
             if factor != 0.0 {
-                self.add_start_column(var, factor, out);
+                self.kernel.add_start_column(var, factor, out);
             }
         }
-    }
-
-    /// Rebuilds the tableau and the values from the start data: with the `p` rows whose `w` is
-    /// nonbasic and the `p` other basic columns, one LU of order `p` and products.
-    fn refactorise(&mut self) -> bool {
-        self.refactorisations += 1;
-        self.rebuilt_at = Some(self.pivots);
-        let n = self.order();
-        let left: Vec<usize> = (0..n).filter(|&k| matches!(self.place[k], Place::Col(_))).collect();
-        let z_rows: Vec<usize> = (0..n).filter(|&i| self.basic[i] >= n).collect();
-        let w_rows: Vec<usize> = (0..n).filter(|&i| self.basic[i] < n).collect();
-        let columns = self.start_columns(&z_rows);
-        let rows_of = |m: MatRef<'_, f64>, rows: &[usize]| {
-            Mat::from_fn(rows.len(), m.ncols(), |i, j| m[(rows[i], j)])
-        };
-        let Some(lu) = Lu::new(rows_of(columns.as_ref(), &left).as_ref()) else { return false };
-
-        let right = self.start_right_hand_sides();
-        let mut solved = rows_of(right.as_ref(), &left);
-        lu.solve_in_place(solved.as_mut());
-        let w_index: Vec<usize> = w_rows.iter().map(|&i| self.basic[i]).collect();
-        let mut rest = rows_of(right.as_ref(), &w_index);
-        let coupling = rows_of(columns.as_ref(), &w_index);
-        add_product(rest.as_mut(), -1.0, coupling.as_ref(), solved.as_ref());
-        if !all_finite(&solved) || !all_finite(&rest) {
-            return false;
-        }
-        let mut t = Mat::zeros(n, n + 2);
-        for j in 0..n + 2 {
-            z_rows.iter().enumerate().for_each(|(k, &i)| t[(i, j)] = solved[(k, j)]);
-            w_rows.iter().enumerate().for_each(|(k, &i)| t[(i, j)] = rest[(k, j)]);
-        }
-        self.values.copy_from_slice(t.col_as_slice(n + 1));
-        self.scale = max_abs(&self.values);
-        t.truncate(n, n + 1);
-        self.tableau = Tableau::new(t);
-        true
-    }
-
-    fn start_columns(&self, rows: &[usize]) -> Mat<f64> {
-        let mut columns = Mat::zeros(self.order(), rows.len());
-        for (k, &row) in rows.iter().enumerate() {
-            self.add_start_column(self.basic[row], 1.0, columns.col_as_slice_mut(k));
-        }
-        columns
-    }
-
-    /// The nonbasic columns and `q`, in the start data.
-    fn start_right_hand_sides(&self) -> Mat<f64> {
-        let n = self.order();
-        let mut right = Mat::zeros(n, n + 2);
-        for (col, &var) in self.nonbasic.iter().enumerate() {
-            self.add_start_column(var, 1.0, right.col_as_slice_mut(col));
-        }
-        right.col_as_slice_mut(n + 1).copy_from_slice(&self.q);
-        right
     }
 }
 
@@ -399,11 +319,4 @@ fn is_small(residual: &[f64], size: f64) -> bool {
 /// A fixed pseudo-random key for every variable: the exclusive or over a basis is its signature.
 fn key(var: Var) -> u64 {
     SplitMix::new(var as u64).next_u64()
-}
-
-impl StartTableau {
-    /// Side of the problem on which `z_k` of a pair lies.
-    pub(super) fn nonbasic_side(&self, pair: usize) -> Side {
-        self.basis.sides()[pair].complement()
-    }
 }

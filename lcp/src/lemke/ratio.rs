@@ -1,5 +1,6 @@
 //! The ratio test: which basic variable leaves.
 
+use super::kernel::Kernel;
 use super::path::Path;
 
 /// Entries of the entering column below this multiple of its largest one are taken for zero.
@@ -9,19 +10,22 @@ const NOISE: f64 = 1e-13;
 /// The artificial variable leaves when the step would bring it below this multiple of the value
 /// it started from. Narrower windows run past the solution onto false rays, wider ones stop early.
 const ARTIFICIAL_WINDOW: f64 = 1e-10;
-/// Basic variables within this of zero after the step tie.
+/// A step may bring basic variables this far below zero, relative to the largest.
 const TIE_WINDOW: f64 = 1e-12;
 /// Among tied rows, pivots below this multiple of the largest are not used.
 const TIE_PIVOT: f64 = 1e-4;
 
-/// The row that leaves, or `None` when nothing blocks the entering variable.
-pub(super) fn leaving_row(path: &Path<'_>, column: &[f64]) -> Option<usize> {
+/// The row that leaves, or `None` when nothing blocks the entering variable. In two passes: the
+/// longest step that brings no variable below zero by more than the window, then among the rows that
+/// block within it those with sound pivots.
+pub(super) fn leaving_row<K: Kernel>(path: &Path<'_, K>, column: &[f64]) -> Option<usize> {
     let largest = column.iter().fold(0.0_f64, |max, a| max.max(a.abs()));
     let smallest_pivot = (PIVOT_TOLERANCE * largest).max(NOISE);
-    let blocks = |&i: &usize| column[i] > smallest_pivot;
-    let step = |i: usize| path.values[i].max(0.0) / column[i];
+    let blocks = |&i: &usize| column[i] > smallest_pivot && path.is_bounded(i);
+    let value = |i: usize| path.values[i].max(0.0);
 
-    let shortest = (0..column.len()).filter(blocks).map(step).reduce(f64::min)?;
+    let shortest =
+        (0..column.len()).filter(blocks).map(|i| value(i) / column[i]).reduce(f64::min)?;
     if let Some(row) = path.artificial_row() {
         let after = path.values[row] - shortest * column[row];
         if column[row] > NOISE && after <= ARTIFICIAL_WINDOW * path.artificial_start {
@@ -31,7 +35,7 @@ pub(super) fn leaving_row(path: &Path<'_>, column: &[f64]) -> Option<usize> {
     let window = TIE_WINDOW * path.value_scale();
     let tied: Vec<usize> = (0..column.len())
         .filter(blocks)
-        .filter(|&i| path.values[i].max(0.0) - shortest * column[i] <= window)
+        .filter(|&i| value(i) - shortest * column[i] <= window)
         .collect();
     let best = tied.iter().fold(0.0_f64, |max, &i| max.max(column[i]));
     let safe = tied.into_iter().filter(|&i| column[i] >= TIE_PIVOT * best).collect();
@@ -40,21 +44,38 @@ pub(super) fn leaving_row(path: &Path<'_>, column: &[f64]) -> Option<usize> {
 
 /// Of tied rows the one whose row of the inverse basis, divided by its pivot, comes first in
 /// lexicographic order. In exact arithmetic no basis comes back along a path of such choices.
-fn lexicographic_minimum(path: &Path<'_>, column: &[f64], mut tied: Vec<usize>) -> usize {
+fn lexicographic_minimum<K: Kernel>(
+    path: &Path<'_, K>,
+    column: &[f64],
+    mut tied: Vec<usize>,
+) -> usize {
+    if tied.len() == 1 {
+        return tied[0];
+    }
+    let mut rows: Vec<K::Row> = tied.iter().map(|&i| path.kernel.row(i)).collect();
     let mut keys = Vec::with_capacity(tied.len());
     for k in 0..column.len() {
-        if tied.len() == 1 {
-            break;
-        }
         keys.clear();
-        keys.extend(tied.iter().map(|&i| path.inverse_entry(i, k) / column[i]));
+        let key = |(&i, row): (&usize, &K::Row)| path.inverse_entry(i, row, k) / column[i];
+        keys.extend(tied.iter().zip(&rows).map(key));
         let least = keys.iter().copied().fold(f64::INFINITY, f64::min);
         // Entries of an equilibrated tableau are of order one: where all keys are rounding errors of
         // zero they must not be measured against each other.
         let smallest_pivot = tied.iter().fold(f64::INFINITY, |min, &i| min.min(column[i]));
         let scale = keys.iter().fold(1.0 / smallest_pivot, |max, key| max.max(key.abs()));
-        let mut key = keys.iter();
-        tied.retain(|_| key.next().is_some_and(|&v| v - least <= TIE_WINDOW * scale));
+        let is_least = |key: &f64| key - least <= TIE_WINDOW * scale;
+        if !keys.iter().all(is_least) {
+            retain(&mut tied, keys.iter().map(is_least));
+            retain(&mut rows, keys.iter().map(is_least));
+        }
+        if tied.len() == 1 {
+            break;
+        }
     }
     tied[0]
+}
+
+fn retain<T>(items: &mut Vec<T>, keep: impl Iterator<Item = bool>) {
+    let mut keep = keep;
+    items.retain(|_| keep.next().unwrap_or(true));
 }

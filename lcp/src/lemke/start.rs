@@ -1,49 +1,44 @@
-//! Start bases: one column of every pair, together nonsingular.
+//! From a complementary basis to the problem `w + T z = q` that a path follows.
 
-use faer::{Mat, MatRef};
+use faer::Mat;
 
-use super::path::StartTableau;
-use super::tableau::Tableau;
 use crate::linear::{Lu, all_finite};
+use crate::matrix::Column;
 use crate::problem::max_abs;
 use crate::random::SplitMix;
-use crate::scaling::{columns, equilibrate, scaled};
+use crate::scaling::{COMPUTED, GIVEN, equilibrate};
 use crate::{Basis, HorizontalLcp, Side};
 
-/// Columns whose part outside the span of those chosen before is below this multiple of the
-/// largest are taken for dependent.
-const RANK_TOLERANCE: f64 = 1e-10;
+use super::tableau::Tableau;
+
 /// Entries of an equilibrated inverse basis beyond this betray a nearly singular basis.
 const LARGEST_GROWTH: f64 = 1e10;
 
 /// The problem with equilibrated rows and columns: `row * A * t_factor`, `row * B * y_factor`.
-pub(super) struct Equilibrated {
-    pub(super) a: Mat<f64>,
-    pub(super) b: Mat<f64>,
+pub(super) struct Equilibrated<'a> {
+    pub(super) problem: &'a HorizontalLcp,
     pub(super) row: Vec<f64>,
     t_factor: Vec<f64>,
     y_factor: Vec<f64>,
+    /// For a free pair the positive `r` with `B_j = -r A_j`.
+    opposite: Vec<Option<f64>>,
 }
 
-impl Equilibrated {
-    pub(super) fn new(problem: &HorizontalLcp) -> Self {
+impl<'a> Equilibrated<'a> {
+    pub(super) fn new(problem: &'a HorizontalLcp) -> Self {
         let n = problem.order();
-        let (a, b) = problem.matrices();
-        let (row, factors) = equilibrate(n, &[columns(a), columns(b)].concat());
+        let columns: Vec<Column<'_>> = [Side::T, Side::Y]
+            .into_iter()
+            .flat_map(|side| (0..n).map(move |j| problem.column(j, side)))
+            .collect();
+        let (row, factors) = equilibrate(n, &columns, GIVEN);
         let (t_factor, y_factor) = (factors[..n].to_vec(), factors[n..].to_vec());
-        let (a, b) = (scaled(a, &row, &t_factor), scaled(b, &row, &y_factor));
-        Self { a, b, row, t_factor, y_factor }
+        let opposite = |j| opposite(problem.column(j, Side::T), problem.column(j, Side::Y));
+        Self { problem, row, t_factor, y_factor, opposite: (0..n).map(opposite).collect() }
     }
 
-    fn order(&self) -> usize {
+    pub(super) fn order(&self) -> usize {
         self.row.len()
-    }
-
-    fn side(&self, side: Side) -> &Mat<f64> {
-        match side {
-            Side::T => &self.a,
-            Side::Y => &self.b,
-        }
     }
 
     /// Value in the problem's units of one unit of a scaled variable.
@@ -54,188 +49,127 @@ impl Equilibrated {
         }
     }
 
-    fn columns(&self, sides: impl Fn(usize) -> Side) -> Mat<f64> {
-        let n = self.order();
-        let mut m = Mat::zeros(n, n);
-        for j in 0..n {
-            m.col_as_slice_mut(j).copy_from_slice(self.side(sides(j)).col_as_slice(j));
+    /// For a free pair the positive `r` with `B_j = -r A_j`: one unit of `y` is `r` units of `-t`.
+    pub(super) fn opposite(&self, pair: usize) -> Option<f64> {
+        self.opposite[pair]
+    }
+
+    /// Adds an equilibrated column, times a factor.
+    pub(super) fn add_column(&self, pair: usize, side: Side, factor: f64, out: &mut [f64]) {
+        let factor = factor * self.factor(pair, side);
+        match self.problem.column(pair, side) {
+            Column::Dense(values) => {
+                let scaled = values.iter().zip(&self.row).map(|(v, row)| v * row);
+                out.iter_mut().zip(scaled).for_each(|(out, v)| *out += factor * v);
+            }
+            sparse => sparse.for_each(|i, v| out[i] += factor * (v * self.row[i])),
+        }
+    }
+
+    /// Equilibrated columns, one beside the other.
+    pub(super) fn columns(&self, picked: &[(usize, Side)]) -> Mat<f64> {
+        let mut m = Mat::zeros(self.order(), picked.len());
+        for (k, &(pair, side)) in picked.iter().enumerate() {
+            self.add_column(pair, side, 1.0, m.col_as_slice_mut(k));
         }
         m
     }
 
+    pub(super) fn right_hand_side(&self) -> Vec<f64> {
+        self.problem.c().iter().zip(&self.row).map(|(c, row)| c * row).collect()
+    }
+
+    /// The equilibrated diagonal of a side all of whose columns have their only entry there.
+    pub(super) fn diagonal(&self, side: impl Fn(usize) -> Side) -> Option<Vec<f64>> {
+        (0..self.order())
+            .map(|j| match self.problem.column(j, side(j)).single() {
+                Some((i, v)) if i == j => Some(v * self.row[i] * self.factor(j, side(j))),
+                _ => None,
+            })
+            .collect()
+    }
+
     /// `w + T z = q` for a basis, or `None` when it is singular to working precision.
-    pub(super) fn tableau(&self, basis: &Basis, c: &[f64]) -> Option<StartTableau> {
+    pub(super) fn start(&self, basis: &Basis) -> Option<Start> {
         let n = self.order();
-        let sides = basis.sides();
-        let matrix = self.columns(|j| sides[j]);
-        let mut t = self.columns(|j| sides[j].complement());
-        let mut q: Vec<f64> = c.iter().zip(&self.row).map(|(c, row)| c * row).collect();
-        if is_diagonal(&matrix) {
-            let diagonal: Vec<f64> = (0..n).map(|i| matrix[(i, i)]).collect();
-            if diagonal.contains(&0.0) {
-                return None;
-            }
+        let side = |j: usize| basis.sides()[j];
+        let others: Vec<_> = (0..n).map(|j| (j, side(j).complement())).collect();
+        let mut t = self.columns(&others);
+        let mut q = self.right_hand_side();
+        let (rows, cols) = if let Some(diagonal) = self.diagonal(side) {
+            // Already equilibrated: the entries of such columns are one.
             for j in 0..n {
                 t.col_as_slice_mut(j).iter_mut().zip(&diagonal).for_each(|(v, d)| *v /= d);
             }
             q.iter_mut().zip(&diagonal).for_each(|(v, d)| *v /= d);
+            (vec![1.0; n], vec![1.0; n])
         } else {
-            let lu = Lu::new(matrix.as_ref())?;
+            let picked: Vec<_> = (0..n).map(|j| (j, side(j))).collect();
+            let lu = Lu::new(self.columns(&picked).as_ref())?;
             lu.solve_in_place(t.as_mut());
             lu.solve_vector(&mut q);
             drop_rounding(&mut t);
-        }
-        if !all_finite(&t) || t.norm_max() > LARGEST_GROWTH || q.iter().any(|q| !q.is_finite()) {
+            if !all_finite(&t) || t.norm_max() > LARGEST_GROWTH {
+                return None;
+            }
+            let columns: Vec<_> = (0..n).map(|j| Column::Dense(t.col_as_slice(j))).collect();
+            let (rows, cols) = equilibrate(n, &columns, COMPUTED);
+            for (j, col) in cols.iter().enumerate() {
+                let column = t.col_as_slice_mut(j);
+                column.iter_mut().zip(&rows).for_each(|(v, row)| *v *= row * col);
+            }
+            (rows, cols)
+        };
+        q.iter_mut().zip(&rows).for_each(|(q, r)| *q *= r);
+        if q.iter().any(|q| !q.is_finite()) {
             return None;
         }
-        let (rows, cols) = equilibrate(n, &columns(&t));
-        q.iter_mut().zip(&rows).for_each(|(q, r)| *q *= r);
         let q_size = max_abs(&q);
         if q_size > 0.0 {
-            q = q.iter().map(|q| q / q_size).collect();
+            q.iter_mut().for_each(|q| *q /= q_size);
         }
-        let row_factor = (0..n).map(|i| rows[i] / self.factor(i, sides[i]));
-        let col_factor = (0..n).map(|i| cols[i] * self.factor(i, sides[i].complement()));
-        Some(StartTableau {
+        let row_factor = (0..n).map(|i| rows[i] / self.factor(i, side(i)));
+        let col_factor = (0..n).map(|i| cols[i] * self.factor(i, side(i).complement()));
+        Some(Start {
             basis: basis.clone(),
-            t: scaled(&t, &rows, &cols),
-            q,
+            free: self.opposite.iter().map(Option::is_some).collect(),
             row_factor: row_factor.collect(),
             col_factor: col_factor.collect(),
+            q,
+            t,
         })
     }
+}
 
-    /// A nonsingular complementary basis: all `y`, all `t`, or one grown from independent columns
-    /// of `B`, of `A`, and exchanges. `None` when there is none to working precision.
-    pub(super) fn find_basis(&self) -> Option<Basis> {
-        let n = self.order();
-        for side in [Side::Y, Side::T] {
-            let m = self.side(side);
-            if is_diagonal(m) && (0..n).all(|i| m[(i, i)] != 0.0) {
-                return Some(Basis::all(side, n));
+/// The positive `r` with `b = -r a`, entry by entry up to rounding.
+fn opposite(a: Column<'_>, b: Column<'_>) -> Option<f64> {
+    const ROUNDING: f64 = 4.0 * f64::EPSILON;
+    let nonzero = |column: Column<'_>| {
+        let mut entries = Vec::new();
+        column.for_each(|i, v| {
+            if v != 0.0 {
+                entries.push((i, v));
             }
-        }
-        let (mut chosen, mut complement) = self.independent_columns();
-        while complement.ncols() > 0 {
-            let tolerances = [1e-5, 1e-8, 4.0 * n as f64 * f64::EPSILON];
-            chosen = tolerances.iter().find_map(|&it| self.exchange(&chosen, &complement, it))?;
-            complement = orthogonal_complement(self.partial(&chosen).as_ref());
-        }
-        let sides = chosen.into_iter().collect::<Option<Vec<Side>>>()?;
-        Some(Basis::new(sides))
-    }
-
-    /// As many independent columns as two pivoted QR factorisations find, first among `B`, then
-    /// among the columns of `A` of the other pairs outside the span of the first, with an
-    /// orthonormal basis of what they leave out.
-    fn independent_columns(&self) -> (Vec<Option<Side>>, Mat<f64>) {
-        let n = self.order();
-        let mut chosen = vec![None; n];
-        let (independent, complement) = pivot_columns(&self.b, 0.0);
-        for k in independent {
-            chosen[k] = Some(Side::Y);
-        }
-        let others: Vec<usize> = (0..n).filter(|&k| chosen[k].is_none()).collect();
-        let mut a = Mat::zeros(n, others.len());
-        for (j, &k) in others.iter().enumerate() {
-            a.col_as_slice_mut(j).copy_from_slice(self.a.col_as_slice(k));
-        }
-        let (independent, rest) = pivot_columns(&(complement.transpose() * &a), a.norm_max());
-        for j in independent {
-            chosen[others[j]] = Some(Side::T);
-        }
-        (chosen, complement * rest)
-    }
-
-    fn partial(&self, chosen: &[Option<Side>]) -> Mat<f64> {
-        let picked: Vec<(usize, Side)> =
-            chosen.iter().enumerate().filter_map(|(k, side)| side.map(|side| (k, side))).collect();
-        Mat::from_fn(self.order(), picked.len(), |i, j| self.side(picked[j].1)[(i, picked[j].0)])
-    }
-
-    /// Raises the number of pairs with a chosen column by one, through the shortest chain of
-    /// exchanges: a column of a free pair takes the place of one chosen before, whose complement
-    /// takes the next place, until one of them reaches outside the present span (an augmenting
-    /// path of the matroid intersection of independence and pairs; Edmonds 1970).
-    fn exchange(
-        &self,
-        chosen: &[Option<Side>],
-        complement: &Mat<f64>,
-        tolerance: f64,
-    ) -> Option<Vec<Option<Side>>> {
-        let n = self.order();
-        let picked: Vec<usize> = (0..n).filter(|&k| chosen[k].is_some()).collect();
-        let partial = self.partial(chosen);
-        let spanning = Mat::from_fn(n, n, |i, j| {
-            if j < picked.len() { partial[(i, j)] } else { complement[(i, j - picked.len())] }
         });
-        let lu = Lu::new(spanning.as_ref())?;
-        let coordinates = |pair: usize, side: Side| {
-            let mut x = self.side(side).col_as_slice(pair).to_vec();
-            lu.solve_vector(&mut x);
-            x
-        };
-
-        // Breadth first over columns (pair, side); `from` remembers how a pair's column came up.
-        let mut queue: Vec<(usize, Side, Option<usize>)> = Vec::new();
-        for pair in (0..n).filter(|&k| chosen[k].is_none()) {
-            queue.extend([(pair, Side::Y, None), (pair, Side::T, None)]);
+        entries
+    };
+    // Most pairs are told apart by their first entries, without a pass over the others.
+    let first = |column: Column<'_>| match column {
+        Column::Dense(values) => values.iter().copied().enumerate().find(|(_, v)| *v != 0.0),
+        Column::Sparse { rows, values } => {
+            rows.iter().copied().zip(values.iter().copied()).find(|(_, v)| *v != 0.0)
         }
-        let mut seen = vec![false; n];
-        let mut head = 0;
-        while head < queue.len() {
-            let (pair, side, _) = queue[head];
-            let x = coordinates(pair, side);
-            let tolerance = tolerance * max_abs(&x);
-            if max_abs(&x[picked.len()..]) > tolerance {
-                let mut next = chosen.to_vec();
-                let mut at = Some(head);
-                while let Some(i) = at {
-                    let (pair, side, from) = queue[i];
-                    next[pair] = Some(side);
-                    at = from;
-                }
-                return Some(next);
-            }
-            for (j, &other) in picked.iter().enumerate() {
-                if x[j].abs() > tolerance && !seen[other] {
-                    seen[other] = true;
-                    if let Some(side) = chosen[other] {
-                        queue.push((other, side.complement(), Some(head)));
-                    }
-                }
-            }
-            head += 1;
-        }
-        None
+    };
+    let ((i, a_first), (j, b_first)) = (first(a)?, first(b)?);
+    let ratio = -b_first / a_first;
+    if i != j || ratio <= 0.0 {
+        return None;
     }
-}
-
-impl StartTableau {
-    /// Another start basis: principal pivots on pairs drawn at random, where the pivot is sound.
-    pub(super) fn flipped(&self, seed: u64) -> Basis {
-        const SOUND: f64 = 1e-2;
-        let n = self.q.len();
-        let mut random = SplitMix::new(seed);
-        let mut tableau = Tableau::new(self.t.clone());
-        let (mut column, mut row) = (vec![0.0; n], vec![0.0; n]);
-        let mut sides = self.basis.sides().to_vec();
-        for (pair, side) in sides.iter_mut().enumerate() {
-            if random.next_f64() < 0.5 {
-                continue;
-            }
-            tableau.column(pair, &mut column);
-            if column[pair].abs() >= SOUND * max_abs(&column) && column[pair] != 0.0 {
-                tableau.pivot(pair, pair, &column, &mut row);
-                *side = side.complement();
-            }
-        }
-        Basis::new(sides)
-    }
-}
-
-fn is_diagonal(m: &Mat<f64>) -> bool {
-    (0..m.ncols()).all(|j| m.col_as_slice(j).iter().enumerate().all(|(i, &v)| i == j || v == 0.0))
+    let (a, b) = (nonzero(a), nonzero(b));
+    let is_opposite = |((i, a), (j, b)): (&(usize, f64), &(usize, f64))| {
+        i == j && (b + ratio * a).abs() <= ROUNDING * b.abs()
+    };
+    (a.len() == b.len() && a.iter().zip(&b).all(is_opposite)).then_some(ratio)
 }
 
 /// Sets to zero what the solution of an equilibrated system leaves in place of zeros: a row of
@@ -249,31 +183,78 @@ fn drop_rounding(t: &mut Mat<f64>) {
     }
 }
 
-/// Independent columns by QR with column pivoting, up to the numerical rank, and an orthonormal basis
-/// of the complement of their span. `reference` is the size of the data that `m` was computed from:
-/// a matrix of nothing but rounding errors has rank zero.
-fn pivot_columns(m: &Mat<f64>, reference: f64) -> (Vec<usize>, Mat<f64>) {
-    let (rows, size) = (m.nrows(), m.nrows().min(m.ncols()));
-    if size == 0 || m.norm_max() == 0.0 {
-        return (Vec::new(), Mat::identity(rows, rows));
-    }
-    let qr = m.col_piv_qr();
-    let r = qr.R();
-    let least = RANK_TOLERANCE * r[(0, 0)].abs().max(reference);
-    let rank = (0..size).take_while(|&k| r[(k, k)].abs() > least).count();
-    let columns = qr.P().arrays().0[..rank].to_vec();
-    if rank == rows {
-        return (columns, Mat::zeros(rows, 0));
-    }
-    (columns, qr.compute_Q().subcols(rank, rows - rank).to_owned())
+/// `w + T z = q`, equilibrated.
+#[derive(Debug, Clone)]
+pub(super) struct Start {
+    /// The start basis: `w_i` is its side of pair `i`.
+    pub(super) basis: Basis,
+    free: Vec<bool>,
+    /// Values of the start basis, the largest one.
+    pub(super) q: Vec<f64>,
+    /// Value of `w_i` in the problem's units: `w_i / row_factor[i]`.
+    pub(super) row_factor: Vec<f64>,
+    /// Value of `z_i` in the problem's units: `z_i * col_factor[i]`.
+    pub(super) col_factor: Vec<f64>,
+    pub(super) t: Mat<f64>,
 }
 
-/// An orthonormal basis of the orthogonal complement of independent columns.
-fn orthogonal_complement(m: MatRef<'_, f64>) -> Mat<f64> {
-    let (n, k) = (m.nrows(), m.ncols());
-    if k == 0 {
-        return Mat::identity(n, n);
+impl Start {
+    /// Whether the pair is the two parts of a free variable.
+    pub(super) fn is_free(&self, pair: usize) -> bool {
+        self.free[pair]
     }
-    let q = m.qr().compute_Q();
-    q.subcols(k, n - k).to_owned()
+
+    /// Side of the problem on which `z_k` of a pair lies.
+    pub(super) fn nonbasic_side(&self, pair: usize) -> Side {
+        self.basis.sides()[pair].complement()
+    }
+
+    /// The complementary basis in which these `z` are basic.
+    pub(super) fn basis_with(&self, z_is_basic: &[bool]) -> Basis {
+        let sides = self.basis.sides().iter().zip(z_is_basic);
+        Basis::new(sides.map(|(side, &z)| if z { side.complement() } else { *side }).collect())
+    }
+
+    /// Another start basis: principal pivots on pairs drawn at random, where the pivot is sound; where
+    /// the diagonal is not, together with the pair that makes a block of order two sound.
+    pub(super) fn flipped(&self, seed: u64) -> Basis {
+        const SOUND: f64 = 1e-2;
+        let n = self.q.len();
+        let mut random = SplitMix::new(seed);
+        let mut tableau = Tableau::new(self.t.clone());
+        let mut column = vec![0.0; n];
+        let mut flipped = vec![false; n];
+        for pair in (0..n).filter(|&pair| !self.is_free(pair)) {
+            if flipped[pair] || random.next_f64() < 0.5 {
+                continue;
+            }
+            tableau.column(pair, &mut column);
+            let sound = SOUND * max_abs(&column);
+            if sound == 0.0 {
+                continue;
+            }
+            if column[pair].abs() >= sound {
+                tableau.pivot(pair, pair, &column);
+                flipped[pair] = true;
+                continue;
+            }
+            let partners: Vec<usize> = (0..n)
+                .filter(|&k| k != pair && !flipped[k] && !self.is_free(k))
+                .filter(|&k| column[k].abs() >= sound)
+                .collect();
+            let skip = (random.next_f64() * partners.len() as f64) as usize;
+            if let Some(&partner) = partners.get(skip) {
+                // Row `partner` of column `pair`, then row `pair` of column `partner`.
+                let mut trial = tableau.clone();
+                trial.pivot(partner, pair, &column);
+                trial.column(partner, &mut column);
+                if column[pair].abs() >= SOUND * max_abs(&column) {
+                    trial.pivot(pair, partner, &column);
+                    tableau = trial;
+                    (flipped[pair], flipped[partner]) = (true, true);
+                }
+            }
+        }
+        self.basis_with(&flipped)
+    }
 }

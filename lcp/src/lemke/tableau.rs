@@ -1,102 +1,208 @@
-//! The condensed tableau, with pivots kept as factors and applied in blocks.
+//! The condensed tableau, with pivots held back and applied in blocks.
 //!
 //! A pivot on entry `(r, s)` of `T` is one rank-1 change of the whole matrix. Done at once it moves
-//! the matrix through memory for every pivot. Here up to [`BLOCK`] pivots are held as
-//! `T = stored + U V`; a pivot then needs one column and one row of `T`, each a product with the
-//! thin factors, and the block is applied by one matrix product.
+//! the matrix through memory for every pivot. Lemke's method only ever asks for the entering
+//! column. So up to a block of pivots are held as columns `u_k`: a column of `T` is the stored one
+//! with the held pivots done on it, one after the other (`x_r -> 0`, `x -> x + x_r u_k`), and a full
+//! block is applied to all columns by one matrix product.
 
-use faer::Mat;
+use faer::{Mat, MatMut, MatRef};
 
-use crate::linear::add_product;
+use crate::linear::{add_product, solve_unit_lower};
 
-/// Pivots held back before they are applied.
-pub(crate) const BLOCK: usize = 48;
-
-/// `T = stored + U V`.
+/// `T` after the held pivots.
 #[derive(Debug, Clone)]
 pub(super) struct Tableau {
     stored: Mat<f64>,
     u: Mat<f64>,
-    v: Mat<f64>,
-    held: usize,
+    /// The held pivots, in order.
+    held: Vec<Held>,
+    /// The rows of the held pivots, each once.
+    rows: Vec<PivotRow>,
+    /// Column `i` is row `rows[i]` of `u`.
+    u_rows: Mat<f64>,
+    /// For every column the number of the first held pivot that still has to be done on it.
+    since: Vec<usize>,
+    /// Where the pivots meet a column: room for one column.
+    factors: Vec<f64>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Held {
+    /// Position in `Tableau::rows`.
+    at: usize,
+    /// The held pivot before it in the same row.
+    before: Option<usize>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct PivotRow {
+    row: usize,
+    /// The last held pivot in it.
+    last: usize,
+}
+
+/// One row of `T` in terms of the stored matrix.
+#[derive(Debug)]
+pub(super) struct Row {
+    /// Factors of the stored rows.
+    factors: Vec<(usize, f64)>,
+    /// Entry in the column that the held pivot of this number exchanged.
+    exchanged: Vec<f64>,
 }
 
 impl Tableau {
     pub(super) fn new(t: Mat<f64>) -> Self {
-        let (u, v) = (Mat::zeros(t.nrows(), BLOCK), Mat::zeros(BLOCK, t.ncols()));
-        Self { stored: t, u, v, held: 0 }
+        let block = block(t.nrows());
+        Self {
+            u: Mat::zeros(t.nrows(), block),
+            held: Vec::with_capacity(block),
+            rows: Vec::with_capacity(block),
+            u_rows: Mat::zeros(block, block),
+            since: vec![0; t.ncols()],
+            factors: vec![0.0; block],
+            stored: t,
+        }
     }
 
     /// Whether the next pivot needs the held ones applied first.
     pub(super) fn is_full(&self) -> bool {
-        self.held == BLOCK
+        self.held.len() == self.u.ncols()
     }
 
-    /// One column of `T`.
-    pub(super) fn column(&self, s: usize, out: &mut [f64]) {
+    /// One column of `T`: the stored one plus the columns `u_k`, times what the pivots meet.
+    pub(super) fn column(&mut self, s: usize, out: &mut [f64]) {
+        let (n, held, since) = (out.len(), self.held.len(), self.since[s]);
         out.copy_from_slice(self.stored.col_as_slice(s));
-        let v = self.v.col_as_slice(s);
-        for (k, &factor) in v[..self.held].iter().enumerate() {
-            if factor != 0.0 {
-                for (out, u) in out.iter_mut().zip(self.u.col_as_slice(k)) {
-                    *out += factor * u;
-                }
+        if since == held {
+            return;
+        }
+        let v = &mut self.factors;
+        v[..since].fill(0.0);
+        for k in since..held {
+            let Held { at, before } = self.held[k];
+            let first = before.map_or(since, |before| before.max(since));
+            let u = &self.u_rows.col_as_slice(at)[first..k];
+            let stored =
+                if before.is_none_or(|it| it < since) { out[self.rows[at].row] } else { 0.0 };
+            v[k] = stored + dot(u, &v[first..k]);
+        }
+        let right = MatRef::from_column_major_slice(&v[since..held], held - since, 1);
+        let left = self.u.subcols(since, held - since);
+        add_product(MatMut::from_column_major_slice_mut(out, n, 1), 1.0, left, right);
+        // Subtracting a pivot row from itself would leave rounding errors.
+        for (i, pivot_row) in self.rows.iter().enumerate().filter(|(_, it)| it.last >= since) {
+            let u = &self.u_rows.col_as_slice(i)[pivot_row.last..held];
+            out[pivot_row.row] = dot(u, &v[pivot_row.last..held]);
+        }
+    }
+
+    /// One row of `T`, whose entries [`entry`](Self::entry) gives: the held pivots, transposed, in
+    /// the opposite order.
+    pub(super) fn row(&self, r: usize) -> Row {
+        let held = self.held.len();
+        // The row itself, then the pivot rows.
+        let mut own = 1.0;
+        let mut of_rows = vec![0.0; self.rows.len()];
+        if let Some(at) = self.rows.iter().position(|it| it.row == r) {
+            (own, of_rows[at]) = (0.0, 1.0);
+        }
+        let mut exchanged = vec![0.0; held];
+        for (k, Held { at, .. }) in self.held.iter().enumerate().rev() {
+            let met = of_rows.iter().enumerate().map(|(i, factor)| factor * self.u_rows[(k, i)]);
+            let value = own * self.u[(r, k)] + met.sum::<f64>();
+            exchanged[k] = value;
+            of_rows[*at] = value;
+        }
+        let mut factors = vec![(r, own)];
+        factors.extend(self.rows.iter().zip(of_rows).map(|(it, factor)| (it.row, factor)));
+        Row { factors, exchanged }
+    }
+
+    /// The entry of a row in column `s`.
+    pub(super) fn entry(&self, row: &Row, s: usize) -> f64 {
+        match self.since[s] {
+            0 => {
+                let column = self.stored.col_as_slice(s);
+                row.factors.iter().map(|&(i, factor)| factor * column[i]).sum()
             }
+            since => row.exchanged[since - 1],
         }
-    }
-
-    /// One row of `T`.
-    pub(super) fn row(&self, r: usize, out: &mut [f64]) {
-        let mut u = [0.0; BLOCK];
-        for (k, u) in u[..self.held].iter_mut().enumerate() {
-            *u = self.u[(r, k)];
-        }
-        for (j, out) in out.iter_mut().enumerate() {
-            *out = self.stored[(r, j)] + dot(&u[..self.held], &self.v.col_as_slice(j)[..self.held]);
-        }
-    }
-
-    /// One entry of `T`.
-    pub(super) fn entry(&self, r: usize, s: usize) -> f64 {
-        let v = self.v.col_as_slice(s);
-        let held = (0..self.held).map(|k| self.u[(r, k)] * v[k]).sum::<f64>();
-        self.stored[(r, s)] + held
     }
 
     /// Exchanges the basic variable of row `r` with the nonbasic one of column `s`, given that
-    /// column of `T`. Row and column are cleared before the rank-1 term is added: subtracting them
-    /// from themselves would leave their rounding errors behind.
-    pub(super) fn pivot(&mut self, r: usize, s: usize, column: &[f64], row: &mut [f64]) {
+    /// column of `T`. The column of the variable that left is `u` itself.
+    pub(super) fn pivot(&mut self, r: usize, s: usize, column: &[f64]) {
         if self.is_full() {
             self.apply();
         }
-        self.row(r, row);
-        row[s] = 1.0;
-        for (j, &v) in row.iter().enumerate() {
-            self.v[(self.held, j)] = v;
-            self.stored[(r, j)] = 0.0;
-        }
-        self.stored.col_as_slice_mut(s).fill(0.0);
-        for k in 0..self.held {
-            self.u[(r, k)] = 0.0;
-            self.v[(k, s)] = 0.0;
-        }
+        let k = self.held.len();
         let inverse = 1.0 / column[r];
-        let u = self.u.col_as_slice_mut(self.held);
-        for (u, a) in u.iter_mut().zip(column) {
-            *u = -a * inverse;
-        }
+        let u = self.u.col_as_slice_mut(k);
+        u.iter_mut().zip(column).for_each(|(u, a)| *u = -a * inverse);
         u[r] = inverse;
-        self.held += 1;
+        self.stored.col_as_slice_mut(s).copy_from_slice(self.u.col_as_slice(k));
+        self.since[s] = k + 1;
+        let known = self.rows.iter().position(|it| it.row == r);
+        let before = known.map(|at| self.rows[at].last);
+        let at = known.unwrap_or(self.rows.len());
+        if known.is_some() {
+            self.rows[at].last = k;
+        } else {
+            self.rows.push(PivotRow { row: r, last: k });
+            let column = self.u_rows.col_as_slice_mut(at);
+            column[..k].iter_mut().enumerate().for_each(|(j, u)| *u = self.u[(r, j)]);
+        }
+        self.held.push(Held { at, before });
+        for (i, pivot_row) in self.rows.iter().enumerate() {
+            self.u_rows[(k, i)] = self.u[(pivot_row.row, k)];
+        }
     }
 
-    /// Applies the held pivots to the stored matrix.
+    /// Applies the held pivots to the stored matrix: `stored + U V`, where `V` are the factors that
+    /// the recurrence of [`column`](Self::column) meets, a triangular system for all columns.
     pub(super) fn apply(&mut self) {
-        let u = self.u.subcols(0, self.held);
-        let v = self.v.subrows(0, self.held);
-        add_product(self.stored.as_mut(), 1.0, u, v);
-        self.held = 0;
+        let held = self.held.len();
+        let columns = self.stored.ncols();
+        let mut v = Mat::zeros(held, columns);
+        for (s, &since) in self.since.iter().enumerate() {
+            let (v, column) = (v.col_as_slice_mut(s), self.stored.col_as_slice(s));
+            for (k, Held { at, before }) in self.held.iter().enumerate().skip(since) {
+                if before.is_none_or(|before| before < since) {
+                    v[k] = column[self.rows[*at].row];
+                }
+            }
+        }
+        let recurrence = Mat::from_fn(held, held, |k, j| {
+            let Held { at, before } = self.held[k];
+            let is_met = j < k && before.is_none_or(|before| j >= before);
+            if is_met { -self.u_rows[(j, at)] } else { 0.0 }
+        });
+        solve_unit_lower(recurrence.as_ref(), v.as_mut());
+        let last = Mat::from_fn(self.rows.len(), held, |i, k| {
+            if k >= self.rows[i].last { self.u_rows[(k, i)] } else { 0.0 }
+        });
+        let mut pivot_rows = Mat::zeros(self.rows.len(), columns);
+        add_product(pivot_rows.as_mut(), 1.0, last.as_ref(), v.as_ref());
+        let u = self.u.subcols(0, held);
+        add_product(self.stored.as_mut(), 1.0, u, v.as_ref());
+        for (s, since) in self.since.iter_mut().enumerate() {
+            let since = std::mem::take(since);
+            let (column, values) = (self.stored.col_as_slice_mut(s), pivot_rows.col_as_slice(s));
+            for (pivot_row, value) in self.rows.iter().zip(values) {
+                if pivot_row.last >= since {
+                    column[pivot_row.row] = *value;
+                }
+            }
+        }
+        self.held.clear();
+        self.rows.clear();
     }
+}
+
+/// Pivots held back: with more, the product moves less memory for each, and a column costs more.
+fn block(n: usize) -> usize {
+    (n / 16).clamp(16, 96)
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -107,44 +213,54 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
+    fn entry(tableau: &Tableau, i: usize, j: usize) -> f64 {
+        tableau.entry(&tableau.row(i), j)
+    }
+
     /// Pivoting twice on the same place undoes the exchange.
     #[test]
     fn a_pivot_is_its_own_inverse() {
         let n = 7;
         let t = Mat::from_fn(n, n + 1, |i, j| ((3 * i + 5 * j * j + i * j) % 11) as f64 - 4.5);
         let mut tableau = Tableau::new(t.clone());
-        let (mut column, mut row) = (vec![0.0; n], vec![0.0; n + 1]);
-        for _ in 0..2 * BLOCK {
+        let mut column = vec![0.0; n];
+        for _ in 0..2 * block(n) {
             for (r, s) in [(2, 3), (2, 3), (5, 0), (5, 0)] {
                 tableau.column(s, &mut column);
-                tableau.pivot(r, s, &column, &mut row);
+                tableau.pivot(r, s, &column);
             }
         }
         for i in 0..n {
             for j in 0..=n {
-                assert!((tableau.entry(i, j) - t[(i, j)]).abs() < 1e-11);
+                assert!((entry(&tableau, i, j) - t[(i, j)]).abs() < 1e-11);
             }
         }
     }
 
+    /// One pivot, held and applied, by columns and by rows.
     #[test]
     fn a_pivot_matches_the_textbook_formula() {
         let t = Mat::from_fn(3, 4, |i, j| (i + 2 * j) as f64 + 1.0);
         let mut tableau = Tableau::new(t.clone());
-        let (mut column, mut row) = (vec![0.0; 3], vec![0.0; 4]);
+        let mut column = vec![0.0; 3];
         tableau.column(2, &mut column);
-        tableau.pivot(1, 2, &column, &mut row);
+        tableau.pivot(1, 2, &column);
         let p = t[(1, 2)];
-        for i in 0..3 {
+        for _ in 0..2 {
             for j in 0..4 {
-                let expected = match (i == 1, j == 2) {
-                    (true, true) => 1.0 / p,
-                    (true, false) => t[(1, j)] / p,
-                    (false, true) => -t[(i, 2)] / p,
-                    (false, false) => t[(i, j)] - t[(i, 2)] * t[(1, j)] / p,
-                };
-                assert!((tableau.entry(i, j) - expected).abs() < 1e-14);
+                tableau.column(j, &mut column);
+                for i in 0..3 {
+                    let expected = match (i == 1, j == 2) {
+                        (true, true) => 1.0 / p,
+                        (true, false) => t[(1, j)] / p,
+                        (false, true) => -t[(i, 2)] / p,
+                        (false, false) => t[(i, j)] - t[(i, 2)] * t[(1, j)] / p,
+                    };
+                    assert!((column[i] - expected).abs() < 1e-14);
+                    assert!((entry(&tableau, i, j) - expected).abs() < 1e-14);
+                }
             }
+            tableau.apply();
         }
     }
 }

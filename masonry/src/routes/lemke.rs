@@ -10,7 +10,8 @@
 use std::ops::ControlFlow;
 
 use lcp::{
-    Attempt, AttemptEnd, Basis, Covering, Lemke, LemkeSettings, Progress, Residuals, Side, Status,
+    Attempt, AttemptCovering, AttemptEnd, AttemptStart, Basis, Covering, Lemke, LemkeSettings,
+    Perturbation, Progress, Residuals, Side, Status, WarmStart,
 };
 
 use crate::forms::{Form, FormKind, RowState, Start};
@@ -136,6 +137,7 @@ impl Search<'_> {
             tolerance: self.request.tolerance,
             max_pivots: self.request.max_pivots,
             max_attempts: MIXED_ATTEMPTS,
+            prove_infeasible: false,
             ..LemkeSettings::default()
         };
         if form.starts.is_empty() {
@@ -143,7 +145,7 @@ impl Search<'_> {
         }
         let from_start = |start: &Start| {
             let settings = LemkeSettings {
-                start: Some(basis(start)),
+                start: WarmStart::Basis(basis(start)),
                 covering: Covering::Given(covering(form, start)),
                 max_attempts: ATTEMPTS_PER_START,
                 ..common.clone()
@@ -176,7 +178,7 @@ fn covering(form: &Form, start: &Start) -> Vec<f64> {
 }
 
 fn is_given(attempt: &Attempt) -> bool {
-    attempt.start == "given"
+    attempt.start == AttemptStart::Given
 }
 
 fn describe(kind: FormKind, given: Option<&str>, attempt: &Attempt) -> String {
@@ -189,11 +191,20 @@ fn describe(kind: FormKind, given: Option<&str>, attempt: &Attempt) -> String {
         AttemptEnd::Cancelled => "cancelled",
         _ => "ended",
     };
-    let start = given.filter(|_| is_given(attempt)).unwrap_or(&attempt.start);
-    let covering = if attempt.covering == "given" { "cohesive" } else { &attempt.covering };
+    let start = match given {
+        Some(name) if is_given(attempt) => name.to_owned(),
+        _ => attempt.start.to_string(),
+    };
+    let covering = match attempt.covering {
+        AttemptCovering::Given => "cohesive".to_owned(),
+        covering => covering.to_string(),
+    };
     let (kind, pivots) = (kind.name(), attempt.pivots);
     let residual = attempt.residual.map_or(String::new(), |it| format!(", residual {it:.1e}"));
-    let perturbed = if attempt.perturbed { ", perturbed" } else { "" };
+    let perturbed = match attempt.perturbation {
+        Perturbation::None => String::new(),
+        perturbation => format!(", {perturbation}"),
+    };
     format!(
         "{kind}: start {start}, covering {covering}{perturbed}: {end} after {pivots} pivots{residual}"
     )

@@ -1,0 +1,163 @@
+//! The matrix of a complementary basis, factorised.
+
+use faer::Mat;
+
+use super::start::Equilibrated;
+use crate::linear::Lu;
+use crate::problem::max_abs;
+use crate::{Basis, Side};
+
+/// The equilibrated matrix of a basis. Columns with one entry only, as all those of `y` in the
+/// standard form, are solved by substitution; only the others are factorised.
+pub(super) struct BasisMatrix {
+    singles: Vec<Single>,
+    /// Positions of the other columns, which fill the rows that are left.
+    core: Vec<usize>,
+    core_rows: Vec<usize>,
+    /// The other columns, all rows.
+    columns: Mat<f64>,
+    lu: Lu,
+}
+
+struct Single {
+    position: usize,
+    row: usize,
+    value: f64,
+}
+
+impl BasisMatrix {
+    /// `None` when the matrix is singular to working precision.
+    pub(super) fn new(problem: &Equilibrated<'_>, basis: &Basis) -> Option<Self> {
+        let columns: Vec<_> = basis.sides().iter().copied().enumerate().collect();
+        Self::from_columns(problem, &columns)
+    }
+
+    /// Of any columns, as many as there are rows.
+    pub(super) fn from_columns(
+        problem: &Equilibrated<'_>,
+        columns: &[(usize, Side)],
+    ) -> Option<Self> {
+        let n = problem.order();
+        let mut taken = vec![false; n];
+        let (mut singles, mut core) = (Vec::new(), Vec::new());
+        for (position, &(pair, side)) in columns.iter().enumerate() {
+            match problem.problem.column(pair, side).single() {
+                Some((row, value)) if !taken[row] => {
+                    taken[row] = true;
+                    let value = value * problem.row[row] * problem.factor(pair, side);
+                    singles.push(Single { position, row, value });
+                }
+                _ => core.push(position),
+            }
+        }
+        let picked: Vec<(usize, Side)> = core.iter().map(|&j| columns[j]).collect();
+        let columns = problem.columns(&picked);
+        let core_rows: Vec<usize> = (0..n).filter(|&i| !taken[i]).collect();
+        let square = Mat::from_fn(core.len(), core.len(), |i, j| columns[(core_rows[i], j)]);
+        let lu = Lu::new(square.as_ref())?;
+        Some(Self { singles, core, core_rows, columns, lu })
+    }
+
+    /// Overwrites a right-hand side with the solution.
+    pub(super) fn solve(&self, x: &mut [f64]) {
+        let mut inner: Vec<f64> = self.core_rows.iter().map(|&i| x[i]).collect();
+        self.lu.solve_vector(&mut inner);
+        let mut rest = x.to_vec();
+        for (j, value) in inner.iter().enumerate() {
+            let column = self.columns.col_as_slice(j);
+            rest.iter_mut().zip(column).for_each(|(rest, a)| *rest -= a * value);
+        }
+        self.core.iter().zip(&inner).for_each(|(&j, &value)| x[j] = value);
+        self.singles.iter().for_each(|single| x[single.position] = rest[single.row] / single.value);
+    }
+
+    /// Overwrites a right-hand side with the solution of the transposed system.
+    pub(super) fn solve_transpose(&self, x: &mut [f64]) {
+        let mut out = vec![0.0; x.len()];
+        self.singles.iter().for_each(|single| out[single.row] = x[single.position] / single.value);
+        let right = self.core.iter().enumerate().map(|(j, &position)| {
+            let column = self.columns.col_as_slice(j);
+            x[position] - column.iter().zip(&out).map(|(a, y)| a * y).sum::<f64>()
+        });
+        let mut inner: Vec<f64> = right.collect();
+        self.lu.solve_transpose_vector(&mut inner);
+        self.core_rows.iter().zip(&inner).for_each(|(&i, &value)| out[i] = value);
+        x.copy_from_slice(&out);
+    }
+
+    /// Calls with `(position, row, entry)` for all entries.
+    fn for_each(&self, mut f: impl FnMut(usize, usize, f64)) {
+        for (j, &position) in self.core.iter().enumerate() {
+            let column = self.columns.col_as_slice(j);
+            column.iter().enumerate().for_each(|(i, &v)| f(position, i, v));
+        }
+        self.singles.iter().for_each(|single| f(single.position, single.row, single.value));
+    }
+
+    /// `right - M x`.
+    pub(super) fn residual(&self, right: &[f64], x: &[f64]) -> Vec<f64> {
+        let mut residual = right.to_vec();
+        self.for_each(|j, i, v| residual[i] -= v * x[j]);
+        residual
+    }
+
+    /// `right - M (x + low)` with twice the working precision (Ogita, Rump and Oishi 2005).
+    pub(super) fn accurate_residual(&self, right: &[f64], x: &[f64], low: &[f64]) -> Vec<f64> {
+        let mut high = right.to_vec();
+        let mut error = vec![0.0; right.len()];
+        let mut add = |i: usize, a: f64, b: f64| {
+            let product = a * b;
+            let product_error = a.mul_add(b, -product);
+            let sum = high[i] + product;
+            let part = sum - high[i];
+            error[i] += (high[i] - (sum - part)) + (product - part) + product_error;
+            high[i] = sum;
+        };
+        self.for_each(|j, i, v| {
+            add(i, -v, x[j]);
+            add(i, -v, low[j]);
+        });
+        high.iter().zip(&error).map(|(high, error)| high + error).collect()
+    }
+
+    /// `|right| + |M||x|`.
+    pub(super) fn sizes(&self, right: &[f64], x: &[f64]) -> Vec<f64> {
+        let mut size: Vec<f64> = right.iter().map(|c| c.abs()).collect();
+        self.for_each(|j, i, v| size[i] += (v * x[j]).abs());
+        size
+    }
+
+    /// Estimate of the condition number in the 1-norm (Hager 1984; Higham 1988).
+    pub(super) fn condition(&self) -> f64 {
+        const STEPS: usize = 5;
+        let n = self.singles.len() + self.core.len();
+        if n == 0 {
+            return 1.0;
+        }
+        let mut sums = vec![0.0; n];
+        self.for_each(|j, _, v| sums[j] += v.abs());
+        let mut x = vec![1.0 / n as f64; n];
+        let mut estimate = 0.0_f64;
+        for _ in 0..STEPS {
+            let mut image = x.clone();
+            self.solve(&mut image);
+            let size: f64 = image.iter().map(|v| v.abs()).sum();
+            if size <= estimate {
+                break;
+            }
+            estimate = size;
+            let mut gradient: Vec<f64> = image.iter().map(|v| v.signum()).collect();
+            self.solve_transpose(&mut gradient);
+            let largest = max_abs(&gradient);
+            let inner: f64 = gradient.iter().zip(&x).map(|(g, x)| g * x).sum();
+            if largest <= inner {
+                break;
+            }
+            x.fill(0.0);
+            if let Some(j) = gradient.iter().position(|g| g.abs() >= largest) {
+                x[j] = 1.0;
+            }
+        }
+        estimate * max_abs(&sums)
+    }
+}

@@ -1,0 +1,173 @@
+//! Start bases: one column of every pair, together nonsingular.
+
+use faer::{Mat, MatRef};
+
+use super::start::Equilibrated;
+use crate::linear::Lu;
+use crate::problem::max_abs;
+use crate::{Basis, Side};
+
+/// Columns whose part outside the span of those chosen before is below this multiple of the
+/// largest are taken for dependent.
+const RANK_TOLERANCE: f64 = 1e-10;
+
+/// As many independent columns as there are, at most one of every pair.
+pub(super) enum Crash {
+    /// One of every pair.
+    Complete(Basis),
+    /// Pairs without a column, as many as there are columns of the orthonormal basis of what the
+    /// chosen ones leave out.
+    Partial { chosen: Vec<Option<Side>>, complement: Mat<f64> },
+}
+
+/// A nonsingular complementary basis: the preferred sides or all `y` or all `t` where these are
+/// diagonal, or one grown from independent columns of the preferred sides, of the others, and
+/// exchanges.
+pub(super) fn find_basis(problem: &Equilibrated<'_>, preferred: Option<&Basis>) -> Crash {
+    let n = problem.order();
+    let (all_y, all_t) = (Basis::all(Side::Y, n), Basis::all(Side::T, n));
+    for basis in preferred.into_iter().chain([&all_y, &all_t]) {
+        let diagonal = problem.diagonal(|j| basis.sides()[j]);
+        if diagonal.is_some_and(|diagonal| diagonal.iter().all(|&d| d != 0.0)) {
+            return Crash::Complete(basis.clone());
+        }
+    }
+    let search = Search { problem, preferred: preferred.unwrap_or(&all_y).sides() };
+    let (mut chosen, mut complement) = search.independent_columns();
+    while complement.ncols() > 0 {
+        let tolerances = [1e-5, 1e-8, 4.0 * n as f64 * f64::EPSILON];
+        match tolerances.iter().find_map(|&it| search.exchange(&chosen, &complement, it)) {
+            Some(next) => chosen = next,
+            None => return Crash::Partial { chosen, complement },
+        }
+        complement = orthogonal_complement(search.partial(&chosen).as_ref());
+    }
+    match chosen.iter().copied().collect::<Option<Vec<Side>>>() {
+        Some(sides) => Crash::Complete(Basis::new(sides)),
+        None => Crash::Partial { chosen, complement },
+    }
+}
+
+struct Search<'a> {
+    problem: &'a Equilibrated<'a>,
+    preferred: &'a [Side],
+}
+
+impl Search<'_> {
+    /// As many independent columns as two pivoted QR factorisations find, first among the preferred
+    /// sides, then among the other columns of the other pairs outside the span of the first, with an
+    /// orthonormal basis of what they leave out.
+    fn independent_columns(&self) -> (Vec<Option<Side>>, Mat<f64>) {
+        let n = self.problem.order();
+        let mut chosen = vec![None; n];
+        let picked: Vec<_> = (0..n).map(|k| (k, self.preferred[k])).collect();
+        let (independent, complement) = pivot_columns(&self.problem.columns(&picked), 0.0);
+        for k in independent {
+            chosen[k] = Some(self.preferred[k]);
+        }
+        let others: Vec<(usize, Side)> = (0..n)
+            .filter(|&k| chosen[k].is_none())
+            .map(|k| (k, self.preferred[k].complement()))
+            .collect();
+        let columns = self.problem.columns(&others);
+        let outside = complement.transpose() * &columns;
+        let (independent, rest) = pivot_columns(&outside, columns.norm_max());
+        for j in independent {
+            let (k, side) = others[j];
+            chosen[k] = Some(side);
+        }
+        (chosen, complement * rest)
+    }
+
+    fn partial(&self, chosen: &[Option<Side>]) -> Mat<f64> {
+        let picked: Vec<(usize, Side)> =
+            chosen.iter().enumerate().filter_map(|(k, side)| side.map(|side| (k, side))).collect();
+        self.problem.columns(&picked)
+    }
+
+    /// Raises the number of pairs with a chosen column by one, through the shortest chain of
+    /// exchanges: a column of a free pair takes the place of one chosen before, whose complement
+    /// takes the next place, until one of them reaches outside the present span (an augmenting
+    /// path of the matroid intersection of independence and pairs; Edmonds 1970).
+    fn exchange(
+        &self,
+        chosen: &[Option<Side>],
+        complement: &Mat<f64>,
+        tolerance: f64,
+    ) -> Option<Vec<Option<Side>>> {
+        let n = self.problem.order();
+        let picked: Vec<usize> = (0..n).filter(|&k| chosen[k].is_some()).collect();
+        let mut spanning = self.partial(chosen);
+        spanning.resize_with(n, n, |i, j| complement[(i, j - picked.len())]);
+        let lu = Lu::new(spanning.as_ref())?;
+        let coordinates = |pair: usize, side: Side| {
+            let mut x = vec![0.0; n];
+            self.problem.add_column(pair, side, 1.0, &mut x);
+            lu.solve_vector(&mut x);
+            x
+        };
+
+        // Breadth first over columns (pair, side); `from` remembers how a pair's column came up.
+        let mut queue: Vec<(usize, Side, Option<usize>)> = Vec::new();
+        for pair in (0..n).filter(|&k| chosen[k].is_none()) {
+            let side = self.preferred[pair];
+            queue.extend([(pair, side, None), (pair, side.complement(), None)]);
+        }
+        let mut seen = vec![false; n];
+        let mut head = 0;
+        while head < queue.len() {
+            let (pair, side, _) = queue[head];
+            let x = coordinates(pair, side);
+            let tolerance = tolerance * max_abs(&x);
+            if max_abs(&x[picked.len()..]) > tolerance {
+                let mut next = chosen.to_vec();
+                let mut at = Some(head);
+                while let Some(i) = at {
+                    let (pair, side, from) = queue[i];
+                    next[pair] = Some(side);
+                    at = from;
+                }
+                return Some(next);
+            }
+            for (j, &other) in picked.iter().enumerate() {
+                if x[j].abs() > tolerance && !seen[other] {
+                    seen[other] = true;
+                    if let Some(side) = chosen[other] {
+                        queue.push((other, side.complement(), Some(head)));
+                    }
+                }
+            }
+            head += 1;
+        }
+        None
+    }
+}
+
+/// Independent columns by QR with column pivoting, up to the numerical rank, and an orthonormal basis
+/// of the complement of their span. `reference` is the size of the data that `m` was computed from:
+/// a matrix of nothing but rounding errors has rank zero.
+fn pivot_columns(m: &Mat<f64>, reference: f64) -> (Vec<usize>, Mat<f64>) {
+    let (rows, size) = (m.nrows(), m.nrows().min(m.ncols()));
+    if size == 0 || m.norm_max() == 0.0 {
+        return (Vec::new(), Mat::identity(rows, rows));
+    }
+    let qr = m.col_piv_qr();
+    let r = qr.R();
+    let least = RANK_TOLERANCE * r[(0, 0)].abs().max(reference);
+    let rank = (0..size).take_while(|&k| r[(k, k)].abs() > least).count();
+    let columns = qr.P().arrays().0[..rank].to_vec();
+    if rank == rows {
+        return (columns, Mat::zeros(rows, 0));
+    }
+    (columns, qr.compute_Q().subcols(rank, rows - rank).to_owned())
+}
+
+/// An orthonormal basis of the orthogonal complement of independent columns.
+fn orthogonal_complement(m: MatRef<'_, f64>) -> Mat<f64> {
+    let (n, k) = (m.nrows(), m.ncols());
+    if k == 0 {
+        return Mat::identity(n, n);
+    }
+    let q = m.qr().compute_Q();
+    q.subcols(k, n - k).to_owned()
+}

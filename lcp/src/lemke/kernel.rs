@@ -1,0 +1,41 @@
+//! What a path needs of the linear algebra, dense or sparse.
+
+/// A variable of a path: `w_k` is `k`, `z_k` is `n + k`, the artificial one `2 n`.
+pub(super) type Var = usize;
+
+/// The columns of `w + T z - d z0 = q` in terms of the present basis.
+///
+/// Start coordinates are those in which the data are held: for the dense kernel the basic variables
+/// of the start basis, for the sparse one the equilibrated rows of the problem.
+pub(super) trait Kernel {
+    /// One row of the inverse of the basis.
+    type Row;
+
+    /// `q` in start coordinates.
+    fn right_hand_side(&self) -> &[f64];
+
+    /// Adds the column of a variable, times a factor, in start coordinates.
+    fn add_start_column(&self, var: Var, factor: f64, out: &mut [f64]);
+
+    /// The column of a nonbasic variable in the present basis.
+    fn column(&mut self, var: Var, out: &mut [f64]);
+
+    /// The variable `entering` takes the place of `leaving` in `row`; `column` is its column.
+    fn exchange(&mut self, row: usize, entering: Var, leaving: Var, column: &[f64]);
+
+    /// A row of the inverse of the basis.
+    fn row(&self, row: usize) -> Self::Row;
+
+    /// The entry of that row in the column of a nonbasic variable.
+    fn entry(&self, row: &Self::Row, var: Var) -> f64;
+
+    /// Whether the exchanges held back should be dealt with.
+    fn is_due(&self) -> bool;
+
+    /// Deals with the exchanges held back. `false` when the basis is singular.
+    fn apply(&mut self, basic: &[Var]) -> bool;
+
+    /// Starts anew from the start data with the given basis, whose values it computes. `false`, and
+    /// nothing changed, when the basis is singular.
+    fn rebuild(&mut self, basic: &[Var], values: &mut [f64]) -> bool;
+}

@@ -1,0 +1,382 @@
+//! The attempts on one problem, and what they come to.
+
+use std::borrow::Cow;
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use super::Progress;
+use super::crash::{Crash, find_basis};
+use super::dense::Dense;
+use super::feasibility::farkas_vector;
+use super::finish::{Point, solve_basis};
+use super::kernel::{Kernel, Var};
+use super::path::{Exchange, Path};
+use super::start::{Equilibrated, Start};
+use super::trial::Trial;
+use crate::problem::max_abs;
+use crate::{
+    Attempt, AttemptCovering, AttemptEnd, AttemptStart, Basis, Covering, HorizontalLcp, Info,
+    LemkeSettings, Perturbation, PivotRecord, Ray, Side, Solution, Status, Variable, WarmStart,
+};
+
+pub(super) type Observer<'a> = &'a mut dyn FnMut(&Progress) -> ControlFlow<()>;
+
+pub(super) struct Search<'a> {
+    settings: &'a LemkeSettings,
+    deadline: Option<Instant>,
+    problem: Equilibrated<'a>,
+    info: Info,
+    trace: Vec<PivotRecord>,
+    /// The best complementary point so far that is above the tolerance.
+    almost: Option<Point>,
+    ray: Option<Ray>,
+    farkas: Option<Vec<f64>>,
+}
+
+/// How an attempt ended, with what it ended on.
+struct Outcome {
+    end: AttemptEnd,
+    basis: Option<Basis>,
+    /// Values of `z`, in equilibrated units.
+    z: Vec<f64>,
+}
+
+impl<'a> Search<'a> {
+    pub(super) fn new(
+        settings: &'a LemkeSettings,
+        problem: &'a HorizontalLcp,
+        deadline: Option<Instant>,
+    ) -> Self {
+        Self {
+            settings,
+            deadline,
+            problem: Equilibrated::new(problem),
+            info: Info::default(),
+            trace: Vec::new(),
+            almost: None,
+            ray: None,
+            farkas: None,
+        }
+    }
+
+    pub(super) fn run(mut self, observer: Observer<'_>) -> Solution {
+        let n = self.problem.order();
+        if self.problem.problem.c().iter().all(|&c| c == 0.0) {
+            return self.give_up(Status::Solved);
+        }
+        let (first_start, kind) = match self.first_start() {
+            Ok(found) => found,
+            Err(status) => return self.give_up(status),
+        };
+        if let Some(point) = self.solution_at(&first_start) {
+            return self.answer(Status::Solved, point);
+        }
+        let first = Trial {
+            start: kind,
+            covering: self.first_covering(kind),
+            perturbation: Perturbation::None,
+        };
+        let mut trial = first;
+        let mut last_basis = None;
+        let mut center = vec![0.0; n];
+        for number in 1..=self.settings.max_attempts {
+            let start = self.start_of(&mut trial, &first, &first_start, last_basis.as_ref());
+            let outcome = self.attempt(&start, &trial, &center, number, observer);
+            match outcome.end {
+                AttemptEnd::Cancelled => return self.give_up(Status::Cancelled),
+                AttemptEnd::TimeLimit => return self.give_up(Status::TimeLimit),
+                _ => {}
+            }
+            if let Some(basis) = outcome.basis {
+                let point = solve_basis(&self.problem, &basis);
+                self.note_residual(point.as_ref());
+                match point {
+                    Some(point) if point.residuals.worst() <= self.settings.tolerance => {
+                        return self.answer(Status::Solved, point);
+                    }
+                    Some(point) => self.keep_better(point),
+                    None => {}
+                }
+                last_basis = Some(basis);
+            }
+            // The first ray asks the question; its answer does not depend on the attempt.
+            let is_first_ray = self.ray_count() == 1 && outcome.end == AttemptEnd::Ray;
+            if is_first_ray && self.settings.prove_infeasible {
+                self.farkas = farkas_vector(&self.problem, &first_start, self.deadline);
+                if self.farkas.is_some() {
+                    return self.give_up(Status::Infeasible);
+                }
+            }
+            trial = Trial::after(&trial, outcome.end, number + 1, &first);
+            center = outcome.z;
+        }
+        self.conclude()
+    }
+
+    fn first_start(&self) -> Result<(Start, AttemptStart), Status> {
+        let preferred = match &self.settings.start {
+            WarmStart::None => None,
+            WarmStart::Basis(basis) => Some(basis.clone()),
+            WarmStart::Point { t, y } => Some(basis_of(t, y)),
+        };
+        if let Some(given) = &preferred
+            && let Some(start) = self.problem.start(given)
+        {
+            return Ok((start, AttemptStart::Given));
+        }
+        match find_basis(&self.problem, preferred.as_ref()) {
+            Crash::Complete(basis) => {
+                let start = self.problem.start(&basis).ok_or(Status::NumericalTrouble)?;
+                Ok((start, kind_of(&basis)))
+            }
+            Crash::Partial { .. } => Err(Status::NoComplementaryBasis),
+        }
+    }
+
+    /// The point of the start basis where it solves the problem. The values of a basis that had to be
+    /// factorised are not zero where they should be, so that a path would start at rounding errors.
+    fn solution_at(&self, start: &Start) -> Option<Point> {
+        const ROUNDING: f64 = 1e-12;
+        let is_negative = |(k, &q): (usize, &f64)| q < -ROUNDING && !start.is_free(k);
+        if start.q.iter().enumerate().any(is_negative) {
+            return None;
+        }
+        let point = solve_basis(&self.problem, &start.basis)?;
+        (point.residuals.worst() <= self.settings.tolerance).then_some(point)
+    }
+
+    /// The covering vector asked for; one that was given refers to the rows of the start basis that
+    /// was given with it, and not to those of another.
+    fn first_covering(&self, start: AttemptStart) -> AttemptCovering {
+        let was_replaced = self.settings.start != WarmStart::None && start != AttemptStart::Given;
+        match &self.settings.covering {
+            Covering::Ones => AttemptCovering::Ones,
+            Covering::Random { seed } => AttemptCovering::Random { seed: *seed },
+            Covering::Given(_) if was_replaced => AttemptCovering::Ones,
+            Covering::Given(_) => AttemptCovering::Given,
+        }
+    }
+
+    /// The start basis of a trial; where it is singular, the first one instead.
+    fn start_of<'b>(
+        &self,
+        trial: &mut Trial,
+        first: &Trial,
+        first_start: &'b Start,
+        last_basis: Option<&Basis>,
+    ) -> Cow<'b, Start> {
+        let other = match trial.start {
+            AttemptStart::Flipped { seed } => self.problem.start(&first_start.flipped(seed)),
+            AttemptStart::LastBasis => last_basis.and_then(|basis| self.problem.start(basis)),
+            _ => return Cow::Borrowed(first_start),
+        };
+        match other {
+            Some(other) => Cow::Owned(other),
+            None => {
+                trial.start = first.start;
+                Cow::Borrowed(first_start)
+            }
+        }
+    }
+
+    fn attempt(
+        &mut self,
+        start: &Start,
+        trial: &Trial,
+        center: &[f64],
+        number: usize,
+        observer: Observer<'_>,
+    ) -> Outcome {
+        let order = self.problem.order();
+        let settings = self.settings;
+        let given: &[f64] = match &settings.covering {
+            Covering::Given(d) => d,
+            _ => &[],
+        };
+        let covering = trial.covering(start, given);
+        let perturbed = trial.perturbed(start, center);
+        let data = perturbed.as_ref().unwrap_or(start);
+        let kernel = Dense::new(data.t.as_ref(), &covering, &data.q);
+        let interval = settings.refactor_interval;
+        let mut path = Path::new(kernel, data, &covering, data.q.clone(), interval, settings.trace);
+        let max_pivots = settings.max_pivots.unwrap_or(100 * order + 1000);
+        let deadline = self.deadline;
+        let began = Instant::now();
+        let end = path.run(&mut |pivots| {
+            let progress = Progress { attempt: number, pivots, order };
+            if pivots >= max_pivots {
+                Some(AttemptEnd::PivotLimit)
+            } else if deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+                Some(AttemptEnd::TimeLimit)
+            } else {
+                observer(&progress).is_break().then_some(AttemptEnd::Cancelled)
+            }
+        });
+        self.info.pivot_seconds += began.elapsed().as_secs_f64();
+        self.info.pivots += path.pivots;
+        self.info.refactorisations += path.refactorisations;
+        self.info.attempts.push(Attempt {
+            start: trial.start,
+            covering: trial.covering,
+            perturbation: trial.perturbation,
+            end,
+            pivots: path.pivots,
+            residual: None,
+        });
+        let exchanges = path.trace.take().unwrap_or_default();
+        self.trace.extend(exchanges.into_iter().map(|it| record(it, number, start)));
+        if end == AttemptEnd::Ray && self.ray.is_none() && perturbed.is_none() {
+            self.ray = Some(in_problem_units(&path, start, &covering, &self.problem));
+        }
+        let is_complementary = end == AttemptEnd::Complementary;
+        let basis = is_complementary.then(|| start.basis_with(&path.z_is_basic()));
+        let z = if is_complementary { path.z() } else { vec![0.0; order] };
+        Outcome { end, basis, z }
+    }
+
+    /// What the original data says of the last attempt's basis.
+    fn note_residual(&mut self, point: Option<&Point>) {
+        if let Some(attempt) = self.info.attempts.last_mut() {
+            match point {
+                Some(point) => attempt.residual = Some(point.residuals.worst()),
+                None => attempt.end = AttemptEnd::Singular,
+            }
+        }
+    }
+
+    fn keep_better(&mut self, point: Point) {
+        let worst = point.residuals.worst();
+        if self.almost.as_ref().is_none_or(|best| worst < best.residuals.worst()) {
+            self.almost = Some(point);
+        }
+    }
+
+    fn ray_count(&self) -> usize {
+        self.info.attempts.iter().filter(|attempt| attempt.end == AttemptEnd::Ray).count()
+    }
+
+    fn has_ended(&self, end: AttemptEnd) -> bool {
+        self.info.attempts.iter().any(|attempt| attempt.end == end)
+    }
+
+    /// No attempt reached the tolerance: the best point if it is near, else what the attempts say.
+    fn conclude(mut self) -> Solution {
+        if let Some(point) = self.almost.take()
+            && point.residuals.worst() <= self.settings.tolerance.sqrt()
+        {
+            return self.answer(Status::AlmostSolved, point);
+        }
+        let status = if self.has_ended(AttemptEnd::Ray) {
+            Status::RayTermination
+        } else if self.has_ended(AttemptEnd::PivotLimit) {
+            Status::PivotLimit
+        } else if self.has_ended(AttemptEnd::Cycle) {
+            Status::Cycling
+        } else {
+            Status::NumericalTrouble
+        };
+        self.give_up(status)
+    }
+
+    fn answer(self, status: Status, point: Point) -> Solution {
+        let Point { t, y, basis, residuals, condition } = point;
+        Solution {
+            status,
+            t,
+            y,
+            basis: Some(basis),
+            residuals,
+            ray: None,
+            farkas: None,
+            condition: Some(condition),
+            trace: self.trace,
+            info: self.info,
+        }
+    }
+
+    /// Without a point there is still an answer: zero, with its residuals.
+    fn give_up(self, status: Status) -> Solution {
+        let zero = vec![0.0; self.problem.order()];
+        let residuals = self.problem.problem.residuals(&zero, &zero);
+        let says_ray = matches!(status, Status::RayTermination | Status::Infeasible);
+        Solution {
+            status,
+            t: zero.clone(),
+            y: zero,
+            basis: None,
+            residuals,
+            ray: self.ray.filter(|_| says_ray),
+            farkas: self.farkas,
+            condition: None,
+            trace: self.trace,
+            info: self.info,
+        }
+    }
+}
+
+/// Of every pair the variable that is larger, in units of the largest of its vector.
+fn basis_of(t: &[f64], y: &[f64]) -> Basis {
+    let (t_max, y_max) = (max_abs(t), max_abs(y));
+    let side = |(t, y): (&f64, &f64)| if t * y_max > y * t_max { Side::T } else { Side::Y };
+    Basis::new(t.iter().zip(y).map(side).collect())
+}
+
+fn kind_of(basis: &Basis) -> AttemptStart {
+    let is_all = |side| basis.sides().iter().all(|&it| it == side);
+    if is_all(Side::Y) {
+        AttemptStart::AllY
+    } else if is_all(Side::T) {
+        AttemptStart::AllT
+    } else {
+        AttemptStart::Found
+    }
+}
+
+fn record(exchange: Exchange, attempt: usize, start: &Start) -> PivotRecord {
+    let n = start.q.len();
+    let variable = |var: Var| {
+        if var == 2 * n {
+            return Variable::Artificial;
+        }
+        let pair = var % n;
+        let nonbasic = start.nonbasic_side(pair);
+        match if var < n { nonbasic.complement() } else { nonbasic } {
+            Side::T => Variable::T(pair),
+            Side::Y => Variable::Y(pair),
+        }
+    };
+    let Exchange { entering, leaving, step, artificial } = exchange;
+    let (entering, leaving) = (variable(entering), variable(leaving));
+    PivotRecord { attempt, entering, leaving, step, artificial }
+}
+
+fn in_problem_units<K: Kernel>(
+    path: &Path<'_, K>,
+    start: &Start,
+    covering: &[f64],
+    problem: &Equilibrated<'_>,
+) -> Ray {
+    let (dw, dz, dz0) = path.ray();
+    let n = dw.len();
+    let (mut dt, mut dy) = (vec![0.0; n], vec![0.0; n]);
+    for pair in 0..n {
+        let (mut basic, mut nonbasic) = (dw[pair], dz[pair]);
+        let side = start.nonbasic_side(pair);
+        if let Some(ratio) = problem.opposite(pair) {
+            // One unit of `y` is `ratio` units of `-t`.
+            let unit = if side == Side::T { ratio } else { 1.0 / ratio };
+            let net = basic - nonbasic / unit;
+            (basic, nonbasic) = (net.max(0.0), (-net * unit).max(0.0));
+        }
+        (dt[pair], dy[pair]) = match side {
+            Side::T => (nonbasic, basic),
+            Side::Y => (basic, nonbasic),
+        };
+    }
+    let mut in_rows = vec![0.0; n];
+    for (pair, (d, row)) in covering.iter().zip(&start.row_factor).enumerate() {
+        let column = problem.problem.column(pair, start.basis.sides()[pair]);
+        column.add_to(d / row, &mut in_rows);
+    }
+    Ray { dt, dy, dz0, covering: in_rows }
+}

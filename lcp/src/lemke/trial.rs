@@ -1,0 +1,107 @@
+//! What the attempts vary, and in which order.
+
+use super::start::Start;
+use crate::random::SplitMix;
+use crate::{AttemptCovering, AttemptEnd, AttemptStart, Perturbation};
+
+/// Size of the perturbation that parts ties, relative to the largest entry of `q`.
+const TIES: f64 = 1e-8;
+
+/// One attempt before it is made.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Trial {
+    pub(super) start: AttemptStart,
+    pub(super) covering: AttemptCovering,
+    pub(super) perturbation: Perturbation,
+}
+
+impl Trial {
+    /// The attempt of this number, from 2, after one that ended so. After a cycle the same once more
+    /// without ties. After a basis that is not quite right from there on. After a ray first another
+    /// covering vector, then other start bases, proximal problems, and both by turns.
+    pub(super) fn after(last: &Self, end: AttemptEnd, number: usize, first: &Self) -> Self {
+        let seed = number as u64;
+        let parted = Perturbation::RightHandSide { seed };
+        let is_proximal = matches!(last.perturbation, Perturbation::Proximal { .. });
+        match end {
+            AttemptEnd::Cycle if last.perturbation == Perturbation::None => {
+                Self { perturbation: parted, ..*last }
+            }
+            AttemptEnd::Complementary if !is_proximal => Self {
+                start: AttemptStart::LastBasis,
+                covering: other(last.covering, seed),
+                perturbation: Perturbation::None,
+            },
+            AttemptEnd::Complementary => *last,
+            _ => {
+                let flipped = AttemptStart::Flipped { seed };
+                let random = AttemptCovering::Random { seed };
+                let proximal = |weight| Perturbation::Proximal { weight };
+                match number {
+                    2 => Self {
+                        covering: other(last.covering, seed),
+                        perturbation: parted,
+                        ..*first
+                    },
+                    3 | 8 | 10 => Self {
+                        start: flipped,
+                        covering: AttemptCovering::Ones,
+                        perturbation: parted,
+                    },
+                    5 => Self { perturbation: proximal(1.0), ..*first },
+                    6 => Self { perturbation: proximal(1e-3), ..*first },
+                    7 => Self { perturbation: proximal(1e-6), ..*first },
+                    _ => Self { start: flipped, covering: random, perturbation: parted },
+                }
+            }
+        }
+    }
+
+    /// The covering vector in the rows of a start basis; zero for free variables. `given` is that of
+    /// the settings, in units of the basic variables.
+    pub(super) fn covering(&self, start: &Start, given: &[f64]) -> Vec<f64> {
+        let n = start.q.len();
+        let mut covering: Vec<f64> = match self.covering {
+            AttemptCovering::Ones => vec![1.0; n],
+            AttemptCovering::Random { seed } => {
+                let mut random = SplitMix::new(seed);
+                (0..n).map(|_| (6.0 * random.next_f64() - 3.0).exp2()).collect()
+            }
+            AttemptCovering::Given => {
+                given.iter().zip(&start.row_factor).map(|(d, row)| d * row).collect()
+            }
+        };
+        (0..n).filter(|&k| start.is_free(k)).for_each(|k| covering[k] = 0.0);
+        covering
+    }
+
+    /// The start data that the path follows, where they are not those of the start basis. `center` is
+    /// that of a proximal problem.
+    pub(super) fn perturbed(&self, start: &Start, center: &[f64]) -> Option<Start> {
+        let n = start.q.len();
+        match self.perturbation {
+            Perturbation::None => None,
+            Perturbation::RightHandSide { seed } => {
+                let mut random = SplitMix::new(seed);
+                let mut start = start.clone();
+                start.q.iter_mut().for_each(|q| *q += TIES * (0.5 + random.next_f64()));
+                Some(start)
+            }
+            Perturbation::Proximal { weight } => {
+                let mut start = start.clone();
+                for k in (0..n).filter(|&k| !start.is_free(k)).collect::<Vec<_>>() {
+                    start.t[(k, k)] -= weight;
+                    start.q[k] -= weight * center[k];
+                }
+                Some(start)
+            }
+        }
+    }
+}
+
+fn other(covering: AttemptCovering, seed: u64) -> AttemptCovering {
+    match covering {
+        AttemptCovering::Random { .. } => AttemptCovering::Ones,
+        _ => AttemptCovering::Random { seed },
+    }
+}

@@ -1,0 +1,226 @@
+//! Matrices of problems: dense or sparse, by columns.
+
+use std::ops::Index;
+
+use faer::Mat;
+use faer::sparse::{SparseColMat, Triplet};
+
+use crate::Error;
+
+/// A matrix of a problem, dense or sparse.
+///
+/// ```
+/// use faer::mat;
+/// use lcp::Matrix;
+/// let m = Matrix::from(mat![[2.0, 0.0], [1.0, 3.0]]);
+/// assert_eq!(m[(1, 0)], 1.0);
+/// assert_eq!(m.column(1).collect::<Vec<_>>(), [(0, 0.0), (1, 3.0)]);
+/// assert_eq!(Matrix::identity(2).column(1).collect::<Vec<_>>(), [(1, 1.0)]);
+/// ```
+#[derive(Debug, Clone)]
+pub enum Matrix {
+    /// All entries.
+    Dense(Mat<f64>),
+    /// The nonzero entries, by columns.
+    Sparse(SparseColMat<usize, f64>),
+}
+
+impl Matrix {
+    /// The identity of order `n`, sparse.
+    pub fn identity(n: usize) -> Self {
+        Self::diagonal(n, 1.0)
+    }
+
+    /// `value` times the identity of order `n`, sparse.
+    pub(crate) fn diagonal(n: usize, value: f64) -> Self {
+        Self::from_entries(n, n, (0..n).map(|i| (i, i, value)))
+    }
+
+    /// A sparse matrix from entries `(row, column, value)`, which add up where they coincide.
+    pub(crate) fn from_entries(
+        rows: usize,
+        cols: usize,
+        entries: impl Iterator<Item = (usize, usize, f64)>,
+    ) -> Self {
+        let triplets: Vec<_> = entries.map(|(i, j, v)| Triplet::new(i, j, v)).collect();
+        let built = SparseColMat::try_new_from_triplets(rows, cols, &triplets);
+        Self::Sparse(built.unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}")))
+    }
+
+    /// Number of rows.
+    pub fn nrows(&self) -> usize {
+        match self {
+            Self::Dense(m) => m.nrows(),
+            Self::Sparse(m) => m.nrows(),
+        }
+    }
+
+    /// Number of columns.
+    pub fn ncols(&self) -> usize {
+        match self {
+            Self::Dense(m) => m.ncols(),
+            Self::Sparse(m) => m.ncols(),
+        }
+    }
+
+    /// Whether only nonzero entries are stored.
+    pub fn is_sparse(&self) -> bool {
+        matches!(self, Self::Sparse(_))
+    }
+
+    /// Number of stored entries.
+    pub fn stored(&self) -> usize {
+        match self {
+            Self::Dense(m) => m.nrows() * m.ncols(),
+            Self::Sparse(m) => m.compute_nnz(),
+        }
+    }
+
+    /// The stored entries `(row, value)` of column `j`, rows in ascending order.
+    ///
+    /// # Panics
+    /// If there is no such column.
+    pub fn column(&self, j: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let (dense, sparse) = match self.slice(j) {
+            Column::Dense(values) => (Some(values.iter().copied().enumerate()), None),
+            Column::Sparse { rows, values } => {
+                (None, Some(rows.iter().copied().zip(values.iter().copied())))
+            }
+        };
+        dense.into_iter().flatten().chain(sparse.into_iter().flatten())
+    }
+
+    /// The same matrix with all entries stored.
+    pub fn to_dense(&self) -> Mat<f64> {
+        match self {
+            Self::Dense(m) => m.clone(),
+            Self::Sparse(m) => m.to_dense(),
+        }
+    }
+
+    pub(crate) fn slice(&self, j: usize) -> Column<'_> {
+        match self {
+            Self::Dense(m) => Column::Dense(m.col_as_slice(j)),
+            Self::Sparse(m) => {
+                let m = m.as_ref();
+                Column::Sparse { rows: m.row_idx_of_col_raw(j), values: m.val_of_col(j) }
+            }
+        }
+    }
+
+    /// All entries, with the sign changed.
+    #[must_use]
+    pub(crate) fn negated(self) -> Self {
+        match self {
+            Self::Dense(m) => Self::Dense(-m),
+            Self::Sparse(m) => {
+                let (symbolic, mut values) = m.into_parts();
+                values.iter_mut().for_each(|v| *v = -*v);
+                Self::Sparse(SparseColMat::new(symbolic, values))
+            }
+        }
+    }
+
+    /// That the matrix is `rows` by `cols` and has finite entries.
+    pub(crate) fn check(&self, what: &'static str, rows: usize, cols: usize) -> Result<(), Error> {
+        if self.nrows() != rows || self.ncols() != cols {
+            return Err(Error::Shape {
+                what,
+                rows: self.nrows(),
+                cols: self.ncols(),
+                expected_rows: rows,
+                expected_cols: cols,
+            });
+        }
+        for col in 0..cols {
+            if let Some((row, value)) = self.column(col).find(|(_, v)| !v.is_finite()) {
+                return Err(Error::NotFinite { what, row, col, value });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Index<(usize, usize)> for Matrix {
+    type Output = f64;
+
+    fn index(&self, (i, j): (usize, usize)) -> &f64 {
+        match self {
+            Self::Dense(m) => &m[(i, j)],
+            Self::Sparse(m) => {
+                assert!(i < m.nrows(), "row {i} of a matrix of {} rows", m.nrows());
+                m.get(i, j).unwrap_or(&0.0)
+            }
+        }
+    }
+}
+
+impl From<Mat<f64>> for Matrix {
+    fn from(m: Mat<f64>) -> Self {
+        Self::Dense(m)
+    }
+}
+
+impl From<SparseColMat<usize, f64>> for Matrix {
+    fn from(m: SparseColMat<usize, f64>) -> Self {
+        Self::Sparse(m)
+    }
+}
+
+/// One column of a matrix.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Column<'a> {
+    Dense(&'a [f64]),
+    Sparse { rows: &'a [usize], values: &'a [f64] },
+}
+
+impl Column<'_> {
+    /// `out += factor * column`.
+    pub(crate) fn add_to(self, factor: f64, out: &mut [f64]) {
+        match self {
+            Self::Dense(values) => {
+                out.iter_mut().zip(values).for_each(|(out, v)| *out += factor * v);
+            }
+            Self::Sparse { rows, values } => {
+                rows.iter().zip(values).for_each(|(&i, v)| out[i] += factor * v);
+            }
+        }
+    }
+
+    /// The scalar product with a vector.
+    pub(crate) fn dot(self, x: &[f64]) -> f64 {
+        match self {
+            Self::Dense(values) => values.iter().zip(x).map(|(v, x)| v * x).sum(),
+            Self::Sparse { rows, values } => rows.iter().zip(values).map(|(&i, v)| v * x[i]).sum(),
+        }
+    }
+
+    pub(crate) fn for_each(self, mut f: impl FnMut(usize, f64)) {
+        match self {
+            Self::Dense(values) => values.iter().enumerate().for_each(|(i, &v)| f(i, v)),
+            Self::Sparse { rows, values } => rows.iter().zip(values).for_each(|(&i, &v)| f(i, v)),
+        }
+    }
+
+    /// The only nonzero entry, if there is only one.
+    pub(crate) fn single(self) -> Option<(usize, f64)> {
+        let mut found = None;
+        match self {
+            Self::Dense(values) => {
+                for (i, &v) in values.iter().enumerate().filter(|(_, v)| **v != 0.0) {
+                    if found.replace((i, v)).is_some() {
+                        return None;
+                    }
+                }
+            }
+            Self::Sparse { rows, values } => {
+                for (&i, &v) in rows.iter().zip(values).filter(|(_, v)| **v != 0.0) {
+                    if found.replace((i, v)).is_some() {
+                        return None;
+                    }
+                }
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,256 @@
+//! Variables between bounds.
+
+use super::{HorizontalLcp, check_length, check_vector};
+use crate::matrix::Column;
+use crate::{Error, Matrix, Residuals};
+
+/// The problem `w = M z + q`, `lower <= z <= upper` of order `n`, where `w_i >= 0` if `z_i` is at
+/// its lower bound, `w_i <= 0` if it is at its upper one, and `w_i = 0` in between.
+///
+/// Bounds may be infinite. With `lower = 0` and `upper = inf` it is the standard problem; without
+/// bounds a system of equations.
+///
+/// ```
+/// use faer::mat;
+/// use lcp::{BoxedLcp, Lemke};
+/// let m = mat![[2.0, 1.0], [1.0, 2.0]];
+/// let boxed = BoxedLcp::new(m, vec![-9.0, 2.0], vec![-1.0, -1.0], vec![3.0, f64::INFINITY])?;
+/// let solution = Lemke::default().solve(&boxed.to_general())?;
+/// let (z, w) = boxed.recover(&solution.t, &solution.y);
+/// assert_eq!((z, w), (vec![3.0, -1.0], vec![-4.0, 3.0]));
+/// # Ok::<(), lcp::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct BoxedLcp {
+    m: Matrix,
+    q: Vec<f64>,
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+}
+
+/// What the bounds make of a variable, and its pairs `(t, y)` in the general form.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kind {
+    /// `z = t - y`, `w = 0`.
+    Free,
+    /// `z = lower + t`, `w = y`.
+    Lower,
+    /// `z = upper - t`, `w = -y`.
+    Upper,
+    /// `z` is known, `w = y - t`.
+    Fixed,
+    /// `z = lower + t`, `w = y - y'`, with the pair `(t', y')` of this index and `t + t' = upper - lower`.
+    Both(usize),
+}
+
+impl BoxedLcp {
+    /// A problem of order `n` from `M` (n x n), `q`, `lower` and `upper` (n).
+    ///
+    /// # Errors
+    /// [`Error::Shape`] or [`Error::Length`] when the shapes do not fit, [`Error::NotFinite`] for a
+    /// NaN or an infinity other than those of bounds, [`Error::Bounds`] for a lower bound above the
+    /// upper one, a lower bound of `+inf` or an upper one of `-inf`.
+    pub fn new(
+        m: impl Into<Matrix>,
+        q: Vec<f64>,
+        lower: Vec<f64>,
+        upper: Vec<f64>,
+    ) -> Result<Self, Error> {
+        let (m, n) = (m.into(), q.len());
+        m.check("M", n, n)?;
+        check_vector("q", &q)?;
+        check_length("lower", lower.len(), n)?;
+        check_length("upper", upper.len(), n)?;
+        for (index, (&lower, &upper)) in lower.iter().zip(&upper).enumerate() {
+            let fits = lower <= upper && lower < f64::INFINITY && upper > f64::NEG_INFINITY;
+            if !fits {
+                return Err(Error::Bounds { index, lower, upper });
+            }
+        }
+        Ok(Self { m, q, lower, upper })
+    }
+
+    /// Number of variables.
+    pub fn order(&self) -> usize {
+        self.q.len()
+    }
+
+    /// The matrix.
+    pub fn m(&self) -> &Matrix {
+        &self.m
+    }
+
+    /// The vector.
+    pub fn q(&self) -> &[f64] {
+        &self.q
+    }
+
+    /// The lower bounds.
+    pub fn lower(&self) -> &[f64] {
+        &self.lower
+    }
+
+    /// The upper bounds.
+    pub fn upper(&self) -> &[f64] {
+        &self.upper
+    }
+
+    /// The general problem: `n` pairs, and one more for every variable with two finite, different
+    /// bounds. Row `i` is `w - M z = q` for variable `i`; the further rows are the distances of the
+    /// two bounds.
+    pub fn to_general(&self) -> HorizontalLcp {
+        let kinds = self.kinds();
+        let n = self.order();
+        let shift: Vec<f64> = (0..n).map(|i| self.shift(i, kinds[i])).collect();
+        let mut c = self.q.clone();
+        for (j, &shift) in shift.iter().enumerate().filter(|(_, shift)| **shift != 0.0) {
+            self.m.slice(j).add_to(shift, &mut c);
+        }
+        let both = kinds.iter().zip(&self.lower).zip(&self.upper);
+        c.extend(
+            both.filter(|((kind, _), _)| matches!(kind, Kind::Both(_))).map(|((_, l), u)| u - l),
+        );
+
+        let (mut a, mut b) = (Entries::default(), Entries::default());
+        for (j, &kind) in kinds.iter().enumerate() {
+            let m = self.m.slice(j);
+            match kind {
+                Kind::Free => {
+                    a.column(m, -1.0, j);
+                    b.column(m, 1.0, j);
+                }
+                Kind::Lower => {
+                    a.column(m, -1.0, j);
+                    b.one(j, j, 1.0);
+                }
+                Kind::Upper => {
+                    a.column(m, 1.0, j);
+                    b.one(j, j, -1.0);
+                }
+                Kind::Fixed => {
+                    a.one(j, j, -1.0);
+                    b.one(j, j, 1.0);
+                }
+                Kind::Both(k) => {
+                    a.column(m, -1.0, j);
+                    a.one(k, j, 1.0);
+                    b.one(j, j, 1.0);
+                    a.one(k, k, 1.0);
+                    b.one(j, k, -1.0);
+                }
+            }
+        }
+        let a = a.into_matrix(c.len(), self.m.is_sparse());
+        HorizontalLcp::from_parts(a, b.into_matrix(c.len(), true), c)
+    }
+
+    /// `(z, w)` from a point of the general problem.
+    ///
+    /// # Panics
+    /// If `t` or `y` does not have one entry for every pair of the general problem.
+    pub fn recover(&self, t: &[f64], y: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let kinds = self.kinds();
+        let pairs = pairs(&kinds);
+        assert!(t.len() == pairs && y.len() == pairs, "a point has one entry for every pair");
+        let value = |(i, &kind): (usize, &Kind)| match kind {
+            Kind::Free => (t[i] - y[i], 0.0),
+            Kind::Lower => (self.lower[i] + t[i], y[i]),
+            Kind::Upper => (self.upper[i] - t[i], -y[i]),
+            Kind::Fixed => (self.lower[i], y[i] - t[i]),
+            // From the bound that is nearer, so that it is met exactly.
+            Kind::Both(k) if t[k] < t[i] => (self.upper[i] - t[k], y[i] - y[k]),
+            Kind::Both(k) => (self.lower[i] + t[i], y[i] - y[k]),
+        };
+        kinds.iter().enumerate().map(value).unzip()
+    }
+
+    /// The point of the general problem that belongs to `(z, w)`.
+    ///
+    /// # Panics
+    /// If `z` or `w` does not have `n` entries.
+    pub fn to_pairs(&self, z: &[f64], w: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let n = self.order();
+        assert!(z.len() == n && w.len() == n, "one entry for every variable");
+        let kinds = self.kinds();
+        let pairs = pairs(&kinds);
+        let (mut t, mut y) = (vec![0.0; pairs], vec![0.0; pairs]);
+        for (i, &kind) in kinds.iter().enumerate() {
+            let (z, w) = (z[i], w[i]);
+            match kind {
+                Kind::Free => (t[i], y[i]) = (z.max(0.0), (-z).max(0.0)),
+                Kind::Lower => (t[i], y[i]) = (z - self.lower[i], w),
+                Kind::Upper => (t[i], y[i]) = (self.upper[i] - z, -w),
+                Kind::Fixed => (t[i], y[i]) = ((-w).max(0.0), w.max(0.0)),
+                Kind::Both(k) => {
+                    (t[i], y[i]) = (z - self.lower[i], w.max(0.0));
+                    (t[k], y[k]) = (self.upper[i] - z, (-w).max(0.0));
+                }
+            }
+        }
+        (t, y)
+    }
+
+    /// Residuals of `(z, w)`, those of its pairs in the general problem.
+    ///
+    /// # Panics
+    /// If `z` or `w` does not have `n` entries.
+    pub fn residuals(&self, z: &[f64], w: &[f64]) -> Residuals {
+        let (t, y) = self.to_pairs(z, w);
+        self.to_general().residuals(&t, &y)
+    }
+
+    fn kinds(&self) -> Vec<Kind> {
+        let mut next = self.order();
+        let kind = |(&lower, &upper): (&f64, &f64)| match (lower.is_finite(), upper.is_finite()) {
+            (false, false) => Kind::Free,
+            (true, false) => Kind::Lower,
+            (false, true) => Kind::Upper,
+            (true, true) if lower.total_cmp(&upper).is_eq() => Kind::Fixed,
+            (true, true) => {
+                next += 1;
+                Kind::Both(next - 1)
+            }
+        };
+        self.lower.iter().zip(&self.upper).map(kind).collect()
+    }
+
+    /// `z` where its pairs are zero.
+    fn shift(&self, i: usize, kind: Kind) -> f64 {
+        match kind {
+            Kind::Free => 0.0,
+            Kind::Upper => self.upper[i],
+            Kind::Lower | Kind::Fixed | Kind::Both(_) => self.lower[i],
+        }
+    }
+}
+
+fn pairs(kinds: &[Kind]) -> usize {
+    kinds.len() + kinds.iter().filter(|kind| matches!(kind, Kind::Both(_))).count()
+}
+
+/// Entries of a matrix that is being put together.
+#[derive(Default)]
+struct Entries(Vec<(usize, usize, f64)>);
+
+impl Entries {
+    fn one(&mut self, i: usize, j: usize, value: f64) {
+        self.0.push((i, j, value));
+    }
+
+    fn column(&mut self, column: Column<'_>, factor: f64, j: usize) {
+        column.for_each(|i, v| {
+            if v != 0.0 {
+                self.0.push((i, j, factor * v));
+            }
+        });
+    }
+
+    fn into_matrix(self, n: usize, sparse: bool) -> Matrix {
+        if sparse {
+            return Matrix::from_entries(n, n, self.0.into_iter());
+        }
+        let mut dense = faer::Mat::zeros(n, n);
+        self.0.into_iter().for_each(|(i, j, v)| dense[(i, j)] += v);
+        Matrix::Dense(dense)
+    }
+}

@@ -1,0 +1,83 @@
+//! The general (horizontal) form.
+
+use super::check_vector;
+use crate::matrix::Column;
+use crate::{Error, Matrix, Side};
+
+/// The general (horizontal) linear complementarity problem
+/// `A t + B y = c`, `t >= 0`, `y >= 0`, `t.y = 0`, with square `A` and `B` of order `n`.
+///
+/// Both matrices may be singular, and each may be dense or sparse. A pair whose columns are
+/// opposite, `B_i = -A_i`, is a free variable `t_i - y_i`: the methods treat it as one.
+///
+/// ```
+/// use faer::mat;
+/// use lcp::{HorizontalLcp, Lemke};
+///
+/// // 2 t + t' - y = 1,  t + 2 t' - y' = 1
+/// let a = mat![[2.0, 1.0], [1.0, 2.0]];
+/// let b = mat![[-1.0, 0.0], [0.0, -1.0]];
+/// let problem = HorizontalLcp::new(a, b, vec![1.0, 1.0])?;
+/// let solution = Lemke::default().solve(&problem)?;
+/// assert!(solution.is_solved());
+/// assert!((solution.t[0] - 1.0 / 3.0).abs() < 1e-15);
+/// # Ok::<(), lcp::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct HorizontalLcp {
+    a: Matrix,
+    b: Matrix,
+    c: Vec<f64>,
+}
+
+impl HorizontalLcp {
+    /// A problem of order `n` from `A` (n x n), `B` (n x n) and `c` (n).
+    ///
+    /// # Errors
+    /// [`Error::Shape`] when the shapes do not fit, [`Error::NotFinite`] for a NaN or an infinity.
+    pub fn new(a: impl Into<Matrix>, b: impl Into<Matrix>, c: Vec<f64>) -> Result<Self, Error> {
+        let (a, b, n) = (a.into(), b.into(), c.len());
+        a.check("A", n, n)?;
+        b.check("B", n, n)?;
+        check_vector("c", &c)?;
+        Ok(Self { a, b, c })
+    }
+
+    /// From parts that are known to fit and to be finite.
+    pub(super) fn from_parts(a: Matrix, b: Matrix, c: Vec<f64>) -> Self {
+        Self { a, b, c }
+    }
+
+    /// Number of pairs.
+    pub fn order(&self) -> usize {
+        self.c.len()
+    }
+
+    /// The matrix of `t`.
+    pub fn a(&self) -> &Matrix {
+        &self.a
+    }
+
+    /// The matrix of `y`.
+    pub fn b(&self) -> &Matrix {
+        &self.b
+    }
+
+    /// The right-hand side.
+    pub fn c(&self) -> &[f64] {
+        &self.c
+    }
+
+    /// Whether both matrices are sparse.
+    pub fn is_sparse(&self) -> bool {
+        self.a.is_sparse() && self.b.is_sparse()
+    }
+
+    /// Column `pair` of `A` or of `B`.
+    pub(crate) fn column(&self, pair: usize, side: Side) -> Column<'_> {
+        match side {
+            Side::T => self.a.slice(pair),
+            Side::Y => self.b.slice(pair),
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Complementary pairs together with free variables.
+
+use super::{BoxedLcp, HorizontalLcp, check_length};
+use crate::{Error, Matrix, Residuals};
+
+/// The mixed problem `w = M z + q` of order `n`, where every `z_i` is either free, with `w_i = 0`,
+/// or complementary: `z_i >= 0`, `w_i >= 0`, `z_i w_i = 0`.
+///
+/// The block of the free variables may be singular: nothing is eliminated with its inverse.
+///
+/// ```
+/// use faer::mat;
+/// use lcp::{Lemke, MixedLcp};
+/// // u free and v >= 0:  v - 1 = 0,  w = -u + v + 1: the block of u is zero
+/// let mixed = MixedLcp::new(mat![[0.0, 1.0], [-1.0, 1.0]], vec![-1.0, 1.0], vec![true, false])?;
+/// let general = mixed.to_general();
+/// let solution = Lemke::default().solve(&general)?;
+/// let (z, w) = mixed.recover(&solution.t, &solution.y);
+/// assert_eq!((z, w), (vec![2.0, 1.0], vec![0.0, 0.0]));
+/// # Ok::<(), lcp::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct MixedLcp {
+    boxed: BoxedLcp,
+    free: Vec<bool>,
+}
+
+impl MixedLcp {
+    /// A problem of order `n` from `M` (n x n), `q` (n) and which variables are free (n).
+    ///
+    /// # Errors
+    /// [`Error::Shape`] or [`Error::Length`] when the shapes do not fit, [`Error::NotFinite`] for a
+    /// NaN or an infinity.
+    pub fn new(m: impl Into<Matrix>, q: Vec<f64>, free: Vec<bool>) -> Result<Self, Error> {
+        check_length("free", free.len(), q.len())?;
+        let bound = |&free: &bool| if free { f64::NEG_INFINITY } else { 0.0 };
+        let lower = free.iter().map(bound).collect();
+        let upper = vec![f64::INFINITY; free.len()];
+        Ok(Self { boxed: BoxedLcp::new(m, q, lower, upper)?, free })
+    }
+
+    /// Number of variables, free and complementary.
+    pub fn order(&self) -> usize {
+        self.free.len()
+    }
+
+    /// The matrix.
+    pub fn m(&self) -> &Matrix {
+        self.boxed.m()
+    }
+
+    /// The vector.
+    pub fn q(&self) -> &[f64] {
+        self.boxed.q()
+    }
+
+    /// Which variables are free.
+    pub fn free(&self) -> &[bool] {
+        &self.free
+    }
+
+    /// The general problem, of the same order: a complementary variable gives the pair
+    /// `(z_i, w_i)`, a free one the pair of its positive and its negative part.
+    pub fn to_general(&self) -> HorizontalLcp {
+        self.boxed.to_general()
+    }
+
+    /// `(z, w)` from a point of the general problem.
+    ///
+    /// # Panics
+    /// If `t` or `y` does not have one entry for every pair of the general problem.
+    pub fn recover(&self, t: &[f64], y: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        self.boxed.recover(t, y)
+    }
+
+    /// The point of the general problem that belongs to `(z, w)`.
+    ///
+    /// # Panics
+    /// If `z` or `w` does not have `n` entries.
+    pub fn to_pairs(&self, z: &[f64], w: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        self.boxed.to_pairs(z, w)
+    }
+
+    /// Residuals of `(z, w)`, those of its pairs in the general problem.
+    ///
+    /// # Panics
+    /// If `z` or `w` does not have `n` entries.
+    pub fn residuals(&self, z: &[f64], w: &[f64]) -> Residuals {
+        self.boxed.residuals(z, w)
+    }
+}

@@ -1,0 +1,58 @@
+//! The standard form.
+
+use super::{HorizontalLcp, check_vector};
+use crate::{Error, Matrix};
+
+/// The standard linear complementarity problem `w = M z + q`, `z >= 0`, `w >= 0`, `z.w = 0`.
+///
+/// As a general problem `t = z`, `y = w`, `A = -M`, `B = 1`, `c = q`.
+///
+/// ```
+/// use faer::mat;
+/// use lcp::{Lcp, Lemke};
+/// let lcp = Lcp::new(mat![[2.0, 1.0], [1.0, 2.0]], vec![-5.0, -6.0])?;
+/// let solution = Lemke::default().solve(&lcp.into())?;
+/// assert!((solution.t[0] - 4.0 / 3.0).abs() < 1e-15);
+/// assert!((solution.t[1] - 7.0 / 3.0).abs() < 1e-15);
+/// # Ok::<(), lcp::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Lcp {
+    m: Matrix,
+    q: Vec<f64>,
+}
+
+impl Lcp {
+    /// A problem of order `n` from `M` (n x n) and `q` (n).
+    ///
+    /// # Errors
+    /// [`Error::Shape`] when the shapes do not fit, [`Error::NotFinite`] for a NaN or an infinity.
+    pub fn new(m: impl Into<Matrix>, q: Vec<f64>) -> Result<Self, Error> {
+        let m = m.into();
+        m.check("M", q.len(), q.len())?;
+        check_vector("q", &q)?;
+        Ok(Self { m, q })
+    }
+
+    /// Number of pairs.
+    pub fn order(&self) -> usize {
+        self.q.len()
+    }
+
+    /// The matrix.
+    pub fn m(&self) -> &Matrix {
+        &self.m
+    }
+
+    /// The vector.
+    pub fn q(&self) -> &[f64] {
+        &self.q
+    }
+}
+
+impl From<Lcp> for HorizontalLcp {
+    fn from(lcp: Lcp) -> Self {
+        let n = lcp.order();
+        Self::from_parts(lcp.m.negated(), Matrix::identity(n), lcp.q)
+    }
+}
