@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used)] // a test may panic
 
+mod common;
+
+use common::cases;
 use faer::{Mat, mat};
 use lcp::exact::{
     Enumeration, EnumerationSettings, ExactPoint, ExactVerdict, Face, Feasibility, RBig, enumerate,
@@ -240,12 +243,6 @@ fn restricted(problem: &HorizontalLcp, t: &[bool], y: &[bool]) -> HorizontalLcp 
 fn bases(n: usize) -> impl Iterator<Item = Basis> {
     let side = |bit: bool| if bit { Side::T } else { Side::Y };
     (0..1_u32 << n).map(move |bits| Basis::new((0..n).map(|j| side(bits >> j & 1 == 1)).collect()))
-}
-
-/// At least so many cases; more by the environment variable `PROPTEST_CASES`.
-fn cases(least: u32) -> ProptestConfig {
-    let default = ProptestConfig::default();
-    ProptestConfig { cases: default.cases.max(least), ..default }
 }
 
 proptest! {

@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used)] // a test may panic
 
+mod common;
+
+use common::cases;
 use faer::Mat;
 use lcp::exact::{EnumerationSettings, ExactVerdict, RBig, enumerate, verify_basis};
 use lcp::families::{self, Instance, Known};
@@ -61,6 +64,8 @@ fn mixed(Instance { problem, known }: Instance<MixedLcp>) -> Instance {
 }
 
 proptest! {
+    #![proptest_config(cases(256))]
+
     #[test]
     fn random_families_know_their_answers(n in 0..8_usize, seed in any::<u64>()) {
         for family in [

@@ -5,6 +5,9 @@
 
 #![allow(clippy::unwrap_used)] // a test may panic
 
+mod common;
+
+use common::cases;
 use faer::Mat;
 use lcp::families::{self, Instance, Known};
 use lcp::{HorizontalLcp, Lemke, LemkeSettings, Solution, Status};
@@ -58,12 +61,6 @@ fn unique() -> impl Strategy<Value = Case> {
         let a = Mat::from_fn(n, n, |i, j| -problem.m()[(i, j)]);
         Case { a, b: Mat::identity(n, n), c: problem.q().to_vec(), t, y }
     })
-}
-
-/// At least so many cases; more by the environment variable `PROPTEST_CASES`.
-fn cases(least: u32) -> ProptestConfig {
-    let default = ProptestConfig::default();
-    ProptestConfig { cases: default.cases.max(least), ..default }
 }
 
 proptest! {

@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used)] // a test may panic
 
+mod common;
+
+use common::cases;
 use faer::Mat;
 use lcp::exact::{Enumeration, EnumerationSettings, ExactVerdict, enumerate, verify_basis};
 use lcp::{HorizontalLcp, Lemke, Status};
@@ -55,12 +58,6 @@ fn semidefinite() -> impl Strategy<Value = (Integers, Integers, Vec<i8>, Vec<i32
             },
         )
     })
-}
-
-/// At least so many cases; more by the environment variable `PROPTEST_CASES`.
-fn cases(least: u32) -> ProptestConfig {
-    let default = ProptestConfig::default();
-    ProptestConfig { cases: default.cases.max(least), ..default }
 }
 
 proptest! {
