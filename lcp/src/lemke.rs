@@ -1,17 +1,23 @@
 //! Lemke's method on the general form.
 
+mod artificial;
 mod basis_matrix;
 mod crash;
 mod dense;
 mod feasibility;
 mod finish;
 mod kernel;
+mod parametric;
 mod path;
 mod ratio;
 mod search;
 mod start;
 mod tableau;
 mod trial;
+
+pub use parametric::{
+    Breakpoint, Parametric, ParametricEnd, ParametricPath, ParametricRay, ParametricSettings,
+};
 
 use std::ops::ControlFlow;
 use std::time::Instant;

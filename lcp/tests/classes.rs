@@ -6,7 +6,7 @@ mod common;
 
 use common::cases;
 use faer::Mat;
-use lcp::exact::{EnumerationSettings, ExactVerdict, enumerate, verify_basis};
+use lcp::exact::{Enumeration, EnumerationSettings, ExactVerdict, enumerate, verify_basis};
 use lcp::families::{self, Instance, Known};
 use lcp::{HorizontalLcp, Lcp, Lemke, LemkeSettings, Solution, Status};
 use proptest::collection::vec;
@@ -37,9 +37,23 @@ fn assert_right(problem: &HorizontalLcp, solution: &Solution) {
     assert!(problem.residuals(t, y).worst() <= 1e-10);
     assert!(t.iter().chain(y).all(|&v| v >= 0.0));
     if let (true, Some(basis)) = (problem.order() <= 8, &solution.basis) {
-        let verdict = verify_basis(problem, basis);
-        assert!(matches!(verdict, ExactVerdict::Solution { .. }), "{verdict:?}");
+        match verify_basis(problem, basis) {
+            ExactVerdict::Solution { .. } => {}
+            ExactVerdict::Infeasible { pair, side, relative } => {
+                panic!("{side:?} of pair {pair} is {relative}")
+            }
+            // Only where there is no other.
+            ExactVerdict::Singular { .. } => {
+                let all = all_solutions(problem);
+                assert!(!all.has_basis && all.is_solvable());
+            }
+        }
     }
+}
+
+fn all_solutions(problem: &HorizontalLcp) -> Enumeration {
+    let limits = EnumerationSettings { max_order: 16, max_generators: 1_000_000 };
+    enumerate(problem, &limits).unwrap()
 }
 
 /// Infeasible, with a proof that holds up to rounding.
@@ -175,10 +189,7 @@ proptest! {
             let solution = default(&problem);
             match solution.status {
                 Status::Solved => assert_right(&problem, &solution),
-                Status::NoComplementaryBasis => {
-                    let limits = EnumerationSettings { max_order: 16, max_generators: 1_000_000 };
-                    prop_assert!(!enumerate(&problem, &limits).unwrap().has_basis);
-                }
+                Status::NoComplementaryBasis => prop_assert!(!all_solutions(&problem).has_basis),
                 status => prop_assert_eq!(status, Status::RayTermination),
             }
         }

@@ -75,7 +75,7 @@ fn multipliers(
     Some(pi)
 }
 
-fn is_proof(problem: &Equilibrated<'_>, pi: &[f64]) -> bool {
+pub(super) fn is_proof(problem: &Equilibrated<'_>, pi: &[f64]) -> bool {
     let columns = [Side::T, Side::Y]
         .into_iter()
         .flat_map(|side| (0..pi.len()).map(move |pair| problem.problem.column(pair, side)));

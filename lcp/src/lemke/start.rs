@@ -54,6 +54,19 @@ impl<'a> Equilibrated<'a> {
         self.opposite[pair]
     }
 
+    /// `(t, y)` of a pair from its basic and its nonbasic variable. A free variable is put on the side
+    /// that its sign asks for.
+    pub(super) fn sides(&self, pair: usize, nonbasic: Side, w: f64, z: f64) -> (f64, f64) {
+        let (t, y) = if nonbasic == Side::T { (z, w) } else { (w, z) };
+        match self.opposite[pair] {
+            Some(ratio) => {
+                let net = t - ratio * y;
+                (net.max(0.0), (-net / ratio).max(0.0))
+            }
+            None => (t, y),
+        }
+    }
+
     /// Adds an equilibrated column, times a factor.
     pub(super) fn add_column(&self, pair: usize, side: Side, factor: f64, out: &mut [f64]) {
         let factor = factor * self.factor(pair, side);
@@ -135,6 +148,7 @@ impl<'a> Equilibrated<'a> {
             free: self.opposite.iter().map(Option::is_some).collect(),
             row_factor: row_factor.collect(),
             col_factor: col_factor.collect(),
+            size: if q_size > 0.0 { q_size } else { 1.0 },
             q,
             t,
         })
@@ -189,11 +203,12 @@ pub(super) struct Start {
     /// The start basis: `w_i` is its side of pair `i`.
     pub(super) basis: Basis,
     free: Vec<bool>,
-    /// Values of the start basis, the largest one.
+    /// Values of the start basis in units of `size`, the largest one.
     pub(super) q: Vec<f64>,
-    /// Value of `w_i` in the problem's units: `w_i / row_factor[i]`.
+    pub(super) size: f64,
+    /// Value of `w_i` in the problem's units: `size * w_i / row_factor[i]`.
     pub(super) row_factor: Vec<f64>,
-    /// Value of `z_i` in the problem's units: `z_i * col_factor[i]`.
+    /// Value of `z_i` in the problem's units: `size * z_i * col_factor[i]`.
     pub(super) col_factor: Vec<f64>,
     pub(super) t: Mat<f64>,
 }
@@ -202,6 +217,13 @@ impl Start {
     /// Whether the pair is the two parts of a free variable.
     pub(super) fn is_free(&self, pair: usize) -> bool {
         self.free[pair]
+    }
+
+    /// The same with free variables as two parts that are bounded like all others, so that a change of
+    /// sign is a pivot.
+    pub(super) fn bounded(mut self) -> Self {
+        self.free.fill(false);
+        self
     }
 
     /// Side of the problem on which `z_k` of a pair lies.
