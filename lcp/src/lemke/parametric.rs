@@ -22,18 +22,12 @@ const ROUNDING: f64 = 1e-14;
 const STANDSTILL: f64 = 1e-13;
 
 /// Settings of [`Parametric`].
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct ParametricSettings {
     /// For the solution at the start, and the tolerance of all points.
     pub lemke: LemkeSettings,
     /// Largest number of breakpoints; `None` is `100 n + 1000`.
     pub max_breakpoints: Option<usize>,
-}
-
-impl Default for ParametricSettings {
-    fn default() -> Self {
-        Self { lemke: LemkeSettings::default(), max_breakpoints: None }
-    }
 }
 
 /// How a trace ended.

@@ -158,6 +158,9 @@ impl<'a, K: Kernel> Path<'a, K> {
     }
 
     fn follow(&mut self, first: usize, column: &mut [f64], limits: Limits<'_>) -> AttemptEnd {
+        if let Some(end) = limits(self.pivots) {
+            return end;
+        }
         self.kernel.column(self.artificial(), column);
         self.artificial_start = self.values[first] / column[first];
         let mut entering = self.exchange(first, self.artificial(), column);

@@ -221,13 +221,13 @@ impl<'a> Search<'a> {
             AttemptStart::LastBasis => last_basis.and_then(|basis| self.problem.start(basis)),
             _ => return Cow::Borrowed(first_start),
         };
-        match other {
-            Some(other) => Cow::Owned(other),
-            None => {
+        other.map_or_else(
+            || {
                 trial.start = first.start;
                 Cow::Borrowed(first_start)
-            }
-        }
+            },
+            Cow::Owned,
+        )
     }
 
     fn attempt(

@@ -75,7 +75,9 @@ impl<'a> Equilibrated<'a> {
                 let scaled = values.iter().zip(&self.row).map(|(v, row)| v * row);
                 out.iter_mut().zip(scaled).for_each(|(out, v)| *out += factor * v);
             }
-            sparse => sparse.for_each(|i, v| out[i] += factor * (v * self.row[i])),
+            sparse @ Column::Sparse { .. } => {
+                sparse.for_each(|i, v| out[i] += factor * (v * self.row[i]));
+            }
         }
     }
 
@@ -139,7 +141,7 @@ impl<'a> Equilibrated<'a> {
         }
         let q_size = max_abs(&q);
         if q_size > 0.0 {
-            q.iter_mut().for_each(|q| *q /= q_size);
+            q = q.into_iter().map(|q| q / q_size).collect();
         }
         let row_factor = (0..n).map(|i| rows[i] / self.factor(i, side(i)));
         let col_factor = (0..n).map(|i| cols[i] * self.factor(i, side(i).complement()));
@@ -264,8 +266,7 @@ impl Start {
                 .filter(|&k| k != pair && !flipped[k] && !self.is_free(k))
                 .filter(|&k| column[k].abs() >= sound)
                 .collect();
-            let skip = (random.next_f64() * partners.len() as f64) as usize;
-            if let Some(&partner) = partners.get(skip) {
+            if let Some(&partner) = random.pick(&partners) {
                 // Row `partner` of column `pair`, then row `pair` of column `partner`.
                 let mut trial = tableau.clone();
                 trial.pivot(partner, pair, &column);
