@@ -118,6 +118,15 @@ impl<'a, K: Kernel> Path<'a, K> {
         2 * self.order()
     }
 
+    /// The basic variables, row by row.
+    pub(super) fn basic(&self) -> impl Iterator<Item = Var> + '_ {
+        self.basic.iter().copied()
+    }
+
+    pub(super) fn is_nonbasic(&self, var: Var) -> bool {
+        self.row_of[var].is_none()
+    }
+
     /// The row in which the artificial variable is basic.
     pub(super) fn artificial_row(&self) -> Option<usize> {
         self.row_of[self.artificial()]
@@ -150,20 +159,19 @@ impl<'a, K: Kernel> Path<'a, K> {
 
     /// Follows the path to its end.
     pub(super) fn run(&mut self, limits: Limits<'_>) -> AttemptEnd {
-        let Some(first) = self.first_row() else { return AttemptEnd::Complementary };
         let mut column = std::mem::take(&mut self.column);
-        let end = self.follow(first, &mut column, limits);
+        let end = self.follow(&mut column, limits);
         self.column = column;
         end
     }
 
-    fn follow(&mut self, first: usize, column: &mut [f64], limits: Limits<'_>) -> AttemptEnd {
+    fn follow(&mut self, column: &mut [f64], limits: Limits<'_>) -> AttemptEnd {
         if let Some(end) = limits(self.pivots) {
             return end;
         }
-        self.kernel.column(self.artificial(), column);
-        self.artificial_start = self.values[first] / column[first];
-        let mut entering = self.exchange(first, self.artificial(), column);
+        let Some(mut entering) = self.enter_artificial(column) else {
+            return AttemptEnd::Complementary;
+        };
         loop {
             if entering == self.artificial() {
                 return AttemptEnd::Complementary;
@@ -192,6 +200,15 @@ impl<'a, K: Kernel> Path<'a, K> {
                 None => {}
             }
         }
+    }
+
+    /// The first pivot: the artificial variable enters. Returns the variable that follows, or `None`
+    /// where the start basis is already the solution.
+    pub(super) fn enter_artificial(&mut self, column: &mut [f64]) -> Option<Var> {
+        let first = self.first_row()?;
+        self.kernel.column(self.artificial(), column);
+        self.artificial_start = self.values[first] / column[first];
+        Some(self.exchange(first, self.artificial(), column))
     }
 
     /// The row that the artificial variable takes: the most negative value for its covering, the

@@ -120,7 +120,7 @@ impl<'a> Search<'a> {
             // The first ray asks the question; its answer does not depend on the attempt.
             let is_first_ray = self.ray_count() == 1 && outcome.end == AttemptEnd::Ray;
             if is_first_ray && self.settings.prove_infeasible {
-                self.farkas = farkas_vector(&self.problem, &first_start, self.deadline);
+                self.farkas = self.proof(&first_start, number, observer);
                 if self.farkas.is_some() {
                     return self.give_up(Status::Infeasible);
                 }
@@ -283,6 +283,25 @@ impl<'a> Search<'a> {
         let basis = is_complementary.then(|| start.basis_with(&path.z_is_basic()));
         let z = if is_complementary { path.z() } else { vec![0.0; order] };
         Outcome { end, basis, z }
+    }
+
+    /// A proof that there is no solution.
+    fn proof(&self, start: &Start, number: usize, observer: Observer<'_>) -> Option<Vec<f64>> {
+        let trial = Trial {
+            start: AttemptStart::Found,
+            covering: AttemptCovering::Ones,
+            perturbation: Perturbation::None,
+        };
+        let covering = trial.covering(start, &[]);
+        let kernel = Dense::new(start.t.as_ref(), &covering, &start.q);
+        let path = Path::new(kernel, start, &covering, start.q.clone(), None, false);
+        let order = self.problem.order();
+        let deadline = self.deadline;
+        farkas_vector(&self.problem, start, path, &mut |pivots| {
+            let is_late = deadline.is_some_and(|deadline| Instant::now() >= deadline);
+            let is_cancelled = observer(&Progress { attempt: number, pivots, order }).is_break();
+            (pivots > 20 * order + 100 || is_late || is_cancelled).then_some(AttemptEnd::Cancelled)
+        })
     }
 
     /// What the original data says of the last attempt's basis.
