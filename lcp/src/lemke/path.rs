@@ -160,20 +160,62 @@ impl<'a, K: Kernel> Path<'a, K> {
     /// Follows the path to its end.
     pub(super) fn run(&mut self, limits: Limits<'_>) -> AttemptEnd {
         let mut column = std::mem::take(&mut self.column);
-        let end = self.follow(&mut column, limits);
+        let end = match limits(self.pivots) {
+            Some(end) => end,
+            None => match self.enter_artificial(&mut column) {
+                Some(entering) => self.follow(entering, &mut column, limits),
+                None => AttemptEnd::Complementary,
+            },
+        };
         self.column = column;
         end
     }
 
-    fn follow(&mut self, column: &mut [f64], limits: Limits<'_>) -> AttemptEnd {
-        if let Some(end) = limits(self.pivots) {
-            return end;
-        }
-        let Some(mut entering) = self.enter_artificial(column) else {
-            return AttemptEnd::Complementary;
+    /// The same without an artificial variable: that of a pair takes its place, and the path ends when
+    /// it, or its complement, leaves (Lemke and Howson 1964). It, and those that follow it, must
+    /// lift every negative value without lowering others below zero, or there is no such path.
+    pub(super) fn run_driven(&mut self, pair: usize, limits: Limits<'_>) -> AttemptEnd {
+        let mut column = std::mem::take(&mut self.column);
+        let end = match limits(self.pivots) {
+            Some(end) => end,
+            None => match self.lift(self.order() + pair, &mut column) {
+                Some(entering) => self.follow(entering, &mut column, limits),
+                None => AttemptEnd::Ray,
+            },
         };
+        self.column = column;
+        end
+    }
+
+    /// Exchanges until no value is negative. Returns the variable that follows.
+    fn lift(&mut self, driver: Var, column: &mut [f64]) -> Option<Var> {
+        let mut entering = driver;
         loop {
-            if entering == self.artificial() {
+            let negative = |path: &Self, i: &usize| path.values[*i] < 0.0 && path.is_bounded(*i);
+            if !(0..column.len()).any(|i| negative(self, &i)) {
+                return Some(entering);
+            }
+            if !self.is_nonbasic(entering) || self.kernel.is_due() {
+                return None;
+            }
+            self.kernel.column(entering, column);
+            let least = -DRIFT * max_abs(column);
+            let step = |i: usize| self.values[i] / column[i];
+            let lifted = (0..column.len()).filter(|i| negative(self, i) && column[*i] < least);
+            let row = lifted.max_by(|&i, &j| step(i).total_cmp(&step(j)))?;
+            let after = |i: usize| self.values[i] - step(row) * column[i];
+            let is_kept = |i: usize| negative(self, &i) || !self.is_bounded(i) || after(i) >= 0.0;
+            if !(0..column.len()).all(is_kept) {
+                return None;
+            }
+            entering = self.exchange(row, entering, column);
+        }
+    }
+
+    fn follow(&mut self, mut entering: Var, column: &mut [f64], limits: Limits<'_>) -> AttemptEnd {
+        loop {
+            // The artificial variable has left, or one of a pair that was basic with both.
+            if entering == self.artificial() || !self.is_nonbasic(entering) {
                 return AttemptEnd::Complementary;
             }
             if let Some(end) = limits(self.pivots) {

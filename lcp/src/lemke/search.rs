@@ -253,7 +253,7 @@ impl<'a> Search<'a> {
         let max_pivots = settings.max_pivots.unwrap_or(100 * order + 1000);
         let deadline = self.deadline;
         let began = Instant::now();
-        let end = path.run(&mut |pivots| {
+        let mut limits = |pivots| {
             let progress = Progress { attempt: number, pivots, order };
             if pivots >= max_pivots {
                 Some(AttemptEnd::PivotLimit)
@@ -262,7 +262,11 @@ impl<'a> Search<'a> {
             } else {
                 observer(&progress).is_break().then_some(AttemptEnd::Cancelled)
             }
-        });
+        };
+        let end = match trial.covering {
+            AttemptCovering::Column { pair } => path.run_driven(pair, &mut limits),
+            _ => path.run(&mut limits),
+        };
         self.info.pivot_seconds += began.elapsed().as_secs_f64();
         self.info.pivots += path.pivots;
         self.info.refactorisations += path.refactorisations;
@@ -276,7 +280,8 @@ impl<'a> Search<'a> {
         });
         let exchanges = path.trace.take().unwrap_or_default();
         self.trace.extend(exchanges.into_iter().map(|it| record(it, number, start)));
-        if end == AttemptEnd::Ray && self.ray.is_none() && perturbed.is_none() {
+        let has_artificial = path.artificial_row().is_some();
+        if end == AttemptEnd::Ray && self.ray.is_none() && has_artificial && perturbed.is_none() {
             self.ray = Some(in_problem_units(&path, start, &covering, &self.problem));
         }
         let is_complementary = end == AttemptEnd::Complementary;
