@@ -246,7 +246,7 @@ impl Start {
         let n = self.q.len();
         let mut random = SplitMix::new(seed);
         let mut tableau = Tableau::new(self.t.clone());
-        let mut column = vec![0.0; n];
+        let (mut column, mut other) = (vec![0.0; n], vec![0.0; n]);
         let mut flipped = vec![false; n];
         for pair in (0..n).filter(|&pair| !self.is_free(pair)) {
             if flipped[pair] || random.next_f64() < 0.5 {
@@ -267,13 +267,14 @@ impl Start {
                 .filter(|&k| column[k].abs() >= sound)
                 .collect();
             if let Some(&partner) = random.pick(&partners) {
-                // Row `partner` of column `pair`, then row `pair` of column `partner`.
-                let mut trial = tableau.clone();
-                trial.pivot(partner, pair, &column);
-                trial.column(partner, &mut column);
-                if column[pair].abs() >= SOUND * max_abs(&column) {
-                    trial.pivot(pair, partner, &column);
-                    tableau = trial;
+                // Row `partner` of column `pair`, and then row `pair` of column `partner`, as it will be.
+                tableau.column(partner, &mut other);
+                let factor = other[partner] / column[partner];
+                other.iter_mut().zip(&column).for_each(|(other, a)| *other -= factor * a);
+                other[partner] = factor;
+                if other[pair].abs() >= SOUND * max_abs(&other) && other[pair] != 0.0 {
+                    tableau.pivot(partner, pair, &column);
+                    tableau.pivot(pair, partner, &other);
                     (flipped[pair], flipped[partner]) = (true, true);
                 }
             }
