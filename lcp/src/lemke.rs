@@ -1,5 +1,6 @@
 //! Lemke's method on the general form.
 
+mod any_kernel;
 mod basis_matrix;
 mod crash;
 mod dense;
@@ -9,6 +10,7 @@ mod kernel;
 mod path;
 mod ratio;
 mod search;
+mod sparse;
 mod start;
 mod tableau;
 mod trial;

@@ -7,9 +7,10 @@
 
 use std::time::Instant;
 
+use super::any_kernel::AnyKernel;
 use super::basis_matrix::BasisMatrix;
+use super::kernel::{Kernel, Var};
 use super::start::{Equilibrated, Start};
-use super::tableau::Tableau;
 use crate::Side;
 use crate::problem::max_abs;
 
@@ -31,7 +32,8 @@ pub(super) fn farkas_vector(
     deadline: Option<Instant>,
 ) -> Option<Vec<f64>> {
     let n = start.q.len();
-    let mut simplex = DualSimplex::new(start);
+    let covering = vec![0.0; n];
+    let mut simplex = DualSimplex::new(start, start.kernel(&covering, None));
     // A row whose value is a rounding error proves nothing; others may.
     let mut is_refuted = vec![false; n];
     for step in 0..4 * n + 40 {
@@ -42,8 +44,10 @@ pub(super) fn farkas_vector(
         // which does not (the criss-cross method; Terlaky 1985).
         let by_index = step > 2 * n + 20;
         let row = simplex.negative_row(by_index, &is_refuted)?;
-        if let Some(col) = simplex.raising_column(row, by_index) {
-            simplex.pivot(row, col);
+        if let Some(at) = simplex.raising_variable(row, by_index) {
+            if !simplex.pivot(row, at) {
+                return None;
+            }
             is_refuted.fill(false);
         } else {
             let proof = multipliers(problem, &simplex.basis(), row);
@@ -96,19 +100,19 @@ fn is_proof(problem: &Equilibrated<'_>, pi: &[f64]) -> bool {
 /// `w + T z = q` with any of the variables basic. `w_k` is `k`, `z_k` is `n + k`.
 struct DualSimplex<'a> {
     start: &'a Start,
-    tableau: Tableau,
+    kernel: AnyKernel<'a>,
     values: Vec<f64>,
-    basic: Vec<usize>,
-    nonbasic: Vec<usize>,
+    basic: Vec<Var>,
+    nonbasic: Vec<Var>,
     column: Vec<f64>,
 }
 
 impl<'a> DualSimplex<'a> {
-    fn new(start: &'a Start) -> Self {
+    fn new(start: &'a Start, kernel: AnyKernel<'a>) -> Self {
         let n = start.q.len();
         Self {
             start,
-            tableau: Tableau::new(start.t.clone()),
+            kernel,
             values: start.q.clone(),
             basic: (0..n).collect(),
             nonbasic: (n..2 * n).collect(),
@@ -143,25 +147,29 @@ impl<'a> DualSimplex<'a> {
         }
     }
 
-    fn raising_column(&self, row: usize, by_index: bool) -> Option<usize> {
-        let n = self.order();
-        let inverse_row = self.tableau.row(row);
-        let entries: Vec<f64> = (0..n).map(|col| self.tableau.entry(&inverse_row, col)).collect();
+    /// Position in `nonbasic`.
+    fn raising_variable(&self, row: usize, by_index: bool) -> Option<usize> {
+        let inverse_row = self.kernel.row(row);
+        let entry = |&var: &Var| self.kernel.entry(&inverse_row, var);
+        let entries: Vec<f64> = self.nonbasic.iter().map(entry).collect();
         let smallest = -PIVOT_TOLERANCE * max_abs(&entries).max(1.0);
-        let raising = (0..n).filter(|&col| entries[col] < smallest);
+        let raising = (0..entries.len()).filter(|&at| entries[at] < smallest);
         if by_index {
-            raising.min_by_key(|&col| self.nonbasic[col])
+            raising.min_by_key(|&at| self.nonbasic[at])
         } else {
             raising.min_by(|&i, &j| entries[i].total_cmp(&entries[j]))
         }
     }
 
-    fn pivot(&mut self, row: usize, col: usize) {
-        self.tableau.column(col, &mut self.column);
+    /// `false` when the basis has become singular.
+    fn pivot(&mut self, row: usize, at: usize) -> bool {
+        let (entering, leaving) = (self.nonbasic[at], self.basic[row]);
+        self.kernel.column(entering, &mut self.column);
         let step = self.values[row] / self.column[row];
         self.values.iter_mut().zip(&self.column).for_each(|(value, a)| *value -= step * a);
         self.values[row] = step;
-        self.tableau.pivot(row, col, &self.column);
-        std::mem::swap(&mut self.basic[row], &mut self.nonbasic[col]);
+        self.kernel.exchange(row, entering, leaving, &self.column);
+        (self.basic[row], self.nonbasic[at]) = (entering, leaving);
+        self.kernel.tidy(&self.basic, &mut self.values)
     }
 }

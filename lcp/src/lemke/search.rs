@@ -6,7 +6,6 @@ use std::time::Instant;
 
 use super::Progress;
 use super::crash::{Crash, find_basis};
-use super::dense::Dense;
 use super::feasibility::farkas_vector;
 use super::finish::{Point, solve_basis};
 use super::kernel::{Kernel, Var};
@@ -196,8 +195,8 @@ impl<'a> Search<'a> {
         let covering = trial.covering(start, given);
         let perturbed = trial.perturbed(start, center);
         let data = perturbed.as_ref().unwrap_or(start);
-        let kernel = Dense::new(data.t.as_ref(), &covering, &data.q);
         let interval = settings.refactor_interval;
+        let kernel = data.kernel(&covering, interval);
         let mut path = Path::new(kernel, data, &covering, data.q.clone(), interval, settings.trace);
         let max_pivots = settings.max_pivots.unwrap_or(100 * order + 1000);
         let deadline = self.deadline;
