@@ -34,7 +34,7 @@ pub enum Error {
     /// A variable that no value fits.
     #[error(
         "bounds of variable {index} are {lower} and {upper}: the lower one must not exceed the upper \
-         one, and -inf or inf is for no bound below or above"
+         one, their distance must be a finite number, and -inf or inf is for no bound"
     )]
     Bounds {
         /// The variable, from 0.

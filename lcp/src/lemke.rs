@@ -1,12 +1,14 @@
 //! Lemke's method on the general form.
 
 mod any_kernel;
+mod artificial;
 mod basis_matrix;
 mod crash;
 mod dense;
 mod feasibility;
 mod finish;
 mod kernel;
+mod parametric;
 mod path;
 mod ratio;
 mod search;
@@ -14,6 +16,10 @@ mod sparse;
 mod start;
 mod tableau;
 mod trial;
+
+pub use parametric::{
+    Breakpoint, Parametric, ParametricEnd, ParametricPath, ParametricRay, ParametricSettings,
+};
 
 use std::ops::ControlFlow;
 use std::time::Instant;

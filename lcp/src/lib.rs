@@ -24,13 +24,19 @@
 //! # Ok::<(), lcp::Error>(())
 //! ```
 //!
+//! With the feature `io` problems are read from files, and with `cli` there is the program `lcp`.
+//!
 //! A status says what the mathematics decided; an [`Error`] says that the input was unusable. A
 //! solver says [`Status::Solved`] only after the residuals were computed from the data that it was
 //! given, and all tolerances are relative to that data: units do not matter. The library does not
 //! print.
 
 mod basis;
+#[cfg(feature = "cli")]
+pub mod cli;
 mod error;
+#[cfg(feature = "io")]
+pub mod io;
 mod lemke;
 mod linear;
 mod matrix;
@@ -46,7 +52,10 @@ pub use faer;
 
 pub use basis::{Basis, Side};
 pub use error::Error;
-pub use lemke::{Lemke, Progress};
+pub use lemke::{
+    Breakpoint, Lemke, Parametric, ParametricEnd, ParametricPath, ParametricRay,
+    ParametricSettings, Progress,
+};
 pub use matrix::Matrix;
 pub use problem::{BoxedLcp, HorizontalLcp, Lcp, MixedLcp};
 pub use residual::Residuals;

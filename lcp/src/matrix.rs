@@ -115,7 +115,9 @@ impl Matrix {
             Self::Dense(m) => Self::Dense(-m),
             Self::Sparse(m) => {
                 let (symbolic, mut values) = m.into_parts();
-                values.iter_mut().for_each(|v| *v = -*v);
+                for v in &mut values {
+                    *v = -*v;
+                }
                 Self::Sparse(SparseColMat::new(symbolic, values))
             }
         }

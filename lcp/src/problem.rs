@@ -16,7 +16,7 @@ pub(crate) fn max_abs(v: &[f64]) -> f64 {
     v.iter().fold(0.0, |max, x| max.max(x.abs()))
 }
 
-fn check_vector(what: &'static str, v: &[f64]) -> Result<(), Error> {
+pub(crate) fn check_vector(what: &'static str, v: &[f64]) -> Result<(), Error> {
     match v.iter().position(|x| !x.is_finite()) {
         Some(row) => Err(Error::NotFinite { what, row, col: 0, value: v[row] }),
         None => Ok(()),

@@ -21,4 +21,11 @@ impl SplitMix {
     pub(crate) fn next_f64(&mut self) -> f64 {
         (self.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
     }
+
+    /// One of the items, unless there is none.
+    pub(crate) fn pick<'a, T>(&mut self, items: &'a [T]) -> Option<&'a T> {
+        let draw = self.next_u64();
+        let count = u64::try_from(items.len()).ok().filter(|&count| count > 0)?;
+        items.get(usize::try_from(draw % count).ok()?)
+    }
 }

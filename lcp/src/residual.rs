@@ -47,6 +47,12 @@ impl HorizontalLcp {
     /// # Panics
     /// If `t` or `y` does not have one entry for every pair.
     pub fn residuals(&self, t: &[f64], y: &[f64]) -> Residuals {
+        let c: Vec<(f64, f64)> = self.c().iter().map(|c| (*c, c.abs())).collect();
+        self.residuals_with(&c, t, y)
+    }
+
+    /// The same for another right-hand side, of which every entry comes with the size of its terms.
+    pub(crate) fn residuals_with(&self, c: &[(f64, f64)], t: &[f64], y: &[f64]) -> Residuals {
         let n = self.order();
         assert!(t.len() == n && y.len() == n, "a point has one entry for every pair");
         if t.iter().chain(y).any(|v| !v.is_finite()) {
@@ -54,17 +60,18 @@ impl HorizontalLcp {
         }
         let (t_max, y_max) = (max_abs(t), max_abs(y));
         let (feasibility, complementarity, natural) = pair_residuals(t, y, t_max, y_max);
-        let equation = self.equation_residual(t, y, t_max, y_max);
+        let equation = self.equation_residual(c, (t, t_max), (y, y_max));
         Residuals { equation, feasibility, complementarity, natural }
     }
 
-    fn equation_residual(&self, t: &[f64], y: &[f64], t_max: f64, y_max: f64) -> f64 {
+    /// Each vector with its largest entry.
+    fn equation_residual(&self, c: &[(f64, f64)], t: (&[f64], f64), y: (&[f64], f64)) -> f64 {
         const FLOOR: f64 = 1.0 / (1 << 10) as f64;
         let n = self.order();
-        let mut sum: Vec<f64> = self.c().iter().map(|c| -c).collect();
-        let mut size: Vec<f64> = self.c().iter().map(|c| c.abs()).collect();
+        let (mut sum, mut size): (Vec<f64>, Vec<f64>) =
+            c.iter().map(|(c, size)| (-c, size)).unzip();
         let mut largest = vec![0.0_f64; n];
-        for (side, x, x_max) in [(Side::T, t, t_max), (Side::Y, y, y_max)] {
+        for (side, (x, x_max)) in [(Side::T, t), (Side::Y, y)] {
             for (pair, &x) in x.iter().enumerate() {
                 self.column(pair, side).for_each(|i, v| {
                     sum[i] += v * x;

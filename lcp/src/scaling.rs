@@ -5,8 +5,8 @@ use crate::matrix::Column;
 /// Entries below this, once the largest of their row and column is near one, are rounding errors
 /// of a computed tableau and have no say in its scaling.
 pub(crate) const COMPUTED: f64 = 1e-13;
-/// Of data as they were given every nonzero entry counts.
-pub(crate) const GIVEN: f64 = 0.0;
+/// Of data as they were given only entries below the rounding errors of the others do not count.
+pub(crate) const GIVEN: f64 = 1e-15;
 
 /// Row and column factors, all powers of two, that bring the entries of a matrix, given by its
 /// columns, near one.

@@ -107,7 +107,7 @@ impl LemkeSettings {
             ("max_attempts", Some(self.max_attempts)),
             ("refactor_interval", self.refactor_interval),
         ];
-        for (name, _) in counts.into_iter().filter(|(_, count)| *count == Some(0)) {
+        if let Some((name, _)) = counts.into_iter().find(|(_, count)| *count == Some(0)) {
             return Err(Error::Setting { name, value: 0.0, range: "at least 1" });
         }
         match &self.start {

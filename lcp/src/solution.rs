@@ -25,7 +25,8 @@ pub enum Status {
     /// No attempt found a solution, and in at least one a basis came back.
     Cycling,
     /// No choice of one column from every pair gives a matrix that is nonsingular to working
-    /// precision, so that there is no complementary basis to start from.
+    /// precision, so that there is no complementary basis to start from, and with artificial columns
+    /// no solution was found either.
     NoComplementaryBasis,
     /// Rounding errors could not be brought under control.
     NumericalTrouble,

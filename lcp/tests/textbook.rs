@@ -219,11 +219,24 @@ fn the_start_basis_needs_an_exchange() {
     }
 }
 
+/// Columns that are all the same, so that two of them never make a basis.
 #[test]
-fn no_complementary_basis_is_said() {
-    let a = mat![[1.0, 1.0], [1.0, 1.0]];
-    let problem = HorizontalLcp::new(a.clone(), a, vec![1.0, 1.0]).unwrap();
+fn artificial_columns_complete_a_basis() {
+    let ones = Mat::full(2, 2, 1.0);
+    let problem = HorizontalLcp::new(ones.clone(), ones.clone(), vec![1.0, 1.0]).unwrap();
     let solution = Lemke::default().solve(&problem).unwrap();
+    assert_eq!(solution.status, Status::Solved);
+    assert_close(&[solution.t.iter().chain(&solution.y).sum::<f64>()], &[1.0]);
+
+    let outside = HorizontalLcp::new(ones.clone(), ones.clone(), vec![1.0, 2.0]).unwrap();
+    let solution = Lemke::default().solve(&outside).unwrap();
+    assert_eq!(solution.status, Status::Infeasible);
+    let pi = solution.farkas.unwrap();
+    assert_close(&[pi[0] + pi[1]], &[0.0]);
+    assert!(pi[0] + 2.0 * pi[1] > 0.0);
+
+    let negative = HorizontalLcp::new(ones.clone(), ones, vec![-1.0, -1.0]).unwrap();
+    let solution = Lemke::default().solve(&negative).unwrap();
     assert_eq!(solution.status, Status::NoComplementaryBasis);
 }
 

@@ -3,6 +3,7 @@
 use faer::{Mat, MatRef};
 
 use super::start::Equilibrated;
+use super::tableau::Tableau;
 use crate::linear::Lu;
 use crate::problem::max_abs;
 use crate::{Basis, Side};
@@ -43,9 +44,42 @@ pub(super) fn find_basis(problem: &Equilibrated<'_>, preferred: Option<&Basis>) 
         complement = orthogonal_complement(search.partial(&chosen).as_ref());
     }
     match chosen.iter().copied().collect::<Option<Vec<Side>>>() {
-        Some(sides) => Crash::Complete(Basis::new(sides)),
+        Some(sides) => Crash::Complete(enlarged(problem, Basis::new(sides))),
         None => Crash::Partial { chosen, complement },
     }
+}
+
+/// A basis whose determinant no exchange of a single pair makes larger: those found by independence
+/// alone may be so poor that every path from them ends on a ray.
+fn enlarged(problem: &Equilibrated<'_>, basis: Basis) -> Basis {
+    const GAIN: f64 = 1.0 + 1e-6;
+    const SWEEPS: usize = 8;
+    let n = problem.order();
+    let pick = |complement: bool| -> Vec<(usize, Side)> {
+        let sides = basis.sides().iter().copied().enumerate();
+        sides.map(|(k, side)| (k, if complement { side.complement() } else { side })).collect()
+    };
+    let Some(lu) = Lu::new(problem.columns(&pick(false)).as_ref()) else { return basis };
+    let mut t = problem.columns(&pick(true));
+    lu.solve_in_place(t.as_mut());
+    let mut tableau = Tableau::new(t);
+    let mut column = vec![0.0; n];
+    let mut sides = basis.sides().to_vec();
+    for _ in 0..SWEEPS {
+        let mut is_settled = true;
+        for (k, side) in sides.iter_mut().enumerate() {
+            tableau.column(k, &mut column);
+            if column[k].abs() > GAIN {
+                tableau.pivot(k, k, &column);
+                *side = side.complement();
+                is_settled = false;
+            }
+        }
+        if is_settled {
+            break;
+        }
+    }
+    Basis::new(sides)
 }
 
 struct Search<'a> {

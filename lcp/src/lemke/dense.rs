@@ -35,7 +35,9 @@ impl<'a> Dense<'a> {
     fn nonbasic(&self, basic: &[Var]) -> Vec<Var> {
         let n = self.order();
         let mut is_basic = vec![false; 2 * n + 1];
-        basic.iter().for_each(|&var| is_basic[var] = true);
+        for &var in basic {
+            is_basic[var] = true;
+        }
         let mut nonbasic = vec![0; n + 1];
         (0..=2 * n).filter(|&var| !is_basic[var]).for_each(|var| nonbasic[self.col_of[var]] = var);
         nonbasic
@@ -100,7 +102,9 @@ impl Kernel for Dense<'_> {
         let w_rows: Vec<usize> = (0..n).filter(|&i| basic[i] < n).collect();
         let w_index: Vec<usize> = w_rows.iter().map(|&i| basic[i]).collect();
         let mut is_left = vec![true; n];
-        w_index.iter().for_each(|&k| is_left[k] = false);
+        for &k in &w_index {
+            is_left[k] = false;
+        }
         let left: Vec<usize> = (0..n).filter(|&k| is_left[k]).collect();
 
         let mut columns = Mat::zeros(n, z_rows.len());

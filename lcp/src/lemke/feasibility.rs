@@ -75,11 +75,10 @@ fn multipliers(
     pi.iter_mut().filter(|pi| pi.abs() < least).for_each(|pi| *pi = 0.0);
     pi.iter_mut().zip(&problem.row).for_each(|(pi, row)| *pi *= row);
     let largest = max_abs(&pi);
-    pi.iter_mut().for_each(|pi| *pi /= largest);
-    Some(pi)
+    Some(pi.into_iter().map(|pi| pi / largest).collect())
 }
 
-fn is_proof(problem: &Equilibrated<'_>, pi: &[f64]) -> bool {
+pub(super) fn is_proof(problem: &Equilibrated<'_>, pi: &[f64]) -> bool {
     let columns = [Side::T, Side::Y]
         .into_iter()
         .flat_map(|side| (0..pi.len()).map(move |pair| problem.problem.column(pair, side)));

@@ -44,6 +44,8 @@ pub(super) struct Path<'a, K> {
     basic: Vec<Var>,
     /// Row of every variable, where it is basic.
     row_of: Vec<Option<usize>>,
+    /// Whether the artificial variable is a parameter, which may have any value.
+    is_parametric: bool,
     /// First value of the artificial variable.
     pub(super) artificial_start: f64,
     scale: f64,
@@ -81,6 +83,7 @@ impl<'a, K: Kernel> Path<'a, K> {
             values,
             basic: (0..n).collect(),
             row_of: (0..=2 * n).map(|var| (var < n).then_some(var)).collect(),
+            is_parametric: false,
             artificial_start: 0.0,
             pivots: 0,
             refactorisations: 0,
@@ -94,11 +97,24 @@ impl<'a, K: Kernel> Path<'a, K> {
         }
     }
 
+    /// A path along which the artificial variable is a parameter: it may have any value, and does not
+    /// leave when it is zero.
+    pub(super) fn parametric(
+        kernel: K,
+        start: &'a Start,
+        rate: &'a [f64],
+        values: Vec<f64>,
+        interval: Option<usize>,
+    ) -> Self {
+        let path = Self::new(kernel, start, rate, values, interval, false);
+        Self { is_parametric: true, artificial_start: 1.0, ..path }
+    }
+
     fn order(&self) -> usize {
         self.values.len()
     }
 
-    fn artificial(&self) -> Var {
+    pub(super) fn artificial(&self) -> Var {
         2 * self.order()
     }
 
@@ -107,11 +123,16 @@ impl<'a, K: Kernel> Path<'a, K> {
         self.row_of[self.artificial()]
     }
 
+    /// The row in which the artificial variable stands to become zero.
+    pub(super) fn driven_row(&self) -> Option<usize> {
+        self.artificial_row().filter(|_| !self.is_parametric)
+    }
+
     /// Whether the basic variable of a row must not be negative. A free variable, once basic, stays.
     pub(super) fn is_bounded(&self, row: usize) -> bool {
         let n = self.order();
         let var = self.basic[row];
-        var == 2 * n || !self.start.is_free(var % n)
+        if var == 2 * n { !self.is_parametric } else { !self.start.is_free(var % n) }
     }
 
     /// Size of the basic values, against which a tie is judged.
@@ -134,6 +155,9 @@ impl<'a, K: Kernel> Path<'a, K> {
     }
 
     fn follow(&mut self, first: usize, column: &mut [f64], limits: Limits<'_>) -> AttemptEnd {
+        if let Some(end) = limits(self.pivots) {
+            return end;
+        }
         self.kernel.column(self.artificial(), column);
         self.artificial_start = self.values[first] / column[first];
         let mut entering = self.exchange(first, self.artificial(), column);
@@ -151,7 +175,7 @@ impl<'a, K: Kernel> Path<'a, K> {
             match leaving_row(self, column) {
                 Some(row) => {
                     // The rule is deterministic: a basis that came back comes back for ever.
-                    if !self.visited.insert(self.signature) {
+                    if !self.is_new() {
                         return AttemptEnd::Cycle;
                     }
                     entering = self.exchange(row, entering, column);
@@ -182,7 +206,7 @@ impl<'a, K: Kernel> Path<'a, K> {
 
     /// Exchanges the basic variable of `row` with the entering one, given its column. Returns the
     /// variable that has to enter next: the complement of the one that left.
-    fn exchange(&mut self, row: usize, entering: Var, column: &[f64]) -> Var {
+    pub(super) fn exchange(&mut self, row: usize, entering: Var, column: &[f64]) -> Var {
         let step = self.values[row] / column[row];
         for (value, a) in self.values.iter_mut().zip(column) {
             *value -= step * a;
@@ -238,33 +262,51 @@ impl<'a, K: Kernel> Path<'a, K> {
     /// Values of `z`, in equilibrated units.
     pub(super) fn z(&self) -> Vec<f64> {
         let n = self.order();
-        (0..n).map(|k| self.row_of[n + k].map_or(0.0, |row| self.values[row])).collect()
+        (n..2 * n).map(|var| self.value(var)).collect()
     }
 
-    /// The direction of the ray, `(w, z, z0)`, in the units of the problem; for a free variable with
-    /// its sign.
-    pub(super) fn ray(&self) -> (Vec<f64>, Vec<f64>, f64) {
-        let n = self.order();
-        let mut direction = vec![0.0; 2 * n + 1];
-        for (row, (&var, a)) in self.basic.iter().zip(&self.column).enumerate() {
+    /// Value of a variable, in equilibrated units.
+    pub(super) fn value(&self, var: Var) -> f64 {
+        self.row_of[var].map_or(0.0, |row| self.values[row])
+    }
+
+    /// The direction of the ray, `(w, z, z0)` one after the other, in equilibrated units; for a free
+    /// variable with its sign.
+    pub(super) fn ray(&self) -> Vec<f64> {
+        self.direction(self.unblocked, &self.column)
+    }
+
+    /// Rates of all variables for one unit of the entering one, given its column.
+    pub(super) fn direction(&self, entering: Var, column: &[f64]) -> Vec<f64> {
+        let mut direction = vec![0.0; 2 * self.order() + 1];
+        for (row, (&var, a)) in self.basic.iter().zip(column).enumerate() {
             direction[var] = if self.is_bounded(row) { (-a).max(0.0) } else { -a };
         }
-        direction[self.unblocked] = 1.0;
-        let mut dw = direction[..n].to_vec();
-        let mut dz = direction[n..2 * n].to_vec();
-        dw.iter_mut().zip(&self.start.row_factor).for_each(|(w, r)| *w /= r);
-        dz.iter_mut().zip(&self.start.col_factor).for_each(|(z, c)| *z *= c);
-        (dw, dz, direction[2 * n])
+        direction[entering] = 1.0;
+        direction
+    }
+
+    /// Moves the basic variables by a step of the entering one, given its column, without a pivot.
+    pub(super) fn advance(&mut self, step: f64, column: &[f64]) {
+        for (row, a) in column.iter().enumerate() {
+            let value = self.values[row] - step * a;
+            self.values[row] = if self.is_bounded(row) { value.max(0.0) } else { value };
+        }
+    }
+
+    /// Remembers the present basis; `false` if it was met before.
+    pub(super) fn is_new(&mut self) -> bool {
+        self.visited.insert(self.signature)
     }
 
     /// Deals with the exchanges held back, and starts anew where the result has drifted.
-    fn tidy(&mut self) -> bool {
+    pub(super) fn tidy(&mut self) -> bool {
         let last = self.rebuilt_at.unwrap_or(0);
         let is_due = self.interval.is_some_and(|interval| self.pivots >= last + interval);
         if !self.kernel.apply() || is_due || self.has_drifted() { self.rebuild() } else { true }
     }
 
-    fn rebuild(&mut self) -> bool {
+    pub(super) fn rebuild(&mut self) -> bool {
         self.refactorisations += 1;
         self.rebuilt_at = Some(self.pivots);
         let rebuilt = self.kernel.rebuild(&self.basic, &mut self.values);

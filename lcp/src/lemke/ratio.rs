@@ -26,7 +26,7 @@ pub(super) fn leaving_row<K: Kernel>(path: &Path<'_, K>, column: &[f64]) -> Opti
 
     let shortest =
         (0..column.len()).filter(blocks).map(|i| value(i) / column[i]).reduce(f64::min)?;
-    if let Some(row) = path.artificial_row() {
+    if let Some(row) = path.driven_row() {
         let after = path.values[row] - shortest * column[row];
         if column[row] > NOISE && after <= ARTIFICIAL_WINDOW * path.artificial_start {
             return Some(row);

@@ -4,7 +4,10 @@ use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+use faer::Mat;
+
 use super::Progress;
+use super::artificial::{completed, part_outside, without_artificial};
 use super::crash::{Crash, find_basis};
 use super::feasibility::farkas_vector;
 use super::finish::{Point, solve_basis};
@@ -40,6 +43,18 @@ struct Outcome {
     z: Vec<f64>,
 }
 
+/// The first start basis.
+enum First {
+    Found(Start, AttemptStart),
+    /// One was found that is nonsingular, but not to working precision.
+    Singular,
+    /// Some pairs have no column that reaches outside the span of the others.
+    Incomplete {
+        chosen: Vec<Option<Side>>,
+        complement: Mat<f64>,
+    },
+}
+
 impl<'a> Search<'a> {
     pub(super) fn new(
         settings: &'a LemkeSettings,
@@ -64,8 +79,11 @@ impl<'a> Search<'a> {
             return self.give_up(Status::Solved);
         }
         let (first_start, kind) = match self.first_start() {
-            Ok(found) => found,
-            Err(status) => return self.give_up(status),
+            First::Found(start, kind) => (start, kind),
+            First::Singular => return self.give_up(Status::NumericalTrouble),
+            First::Incomplete { chosen, complement } => {
+                return self.completed(&chosen, &complement, observer);
+            }
         };
         if let Some(point) = self.solution_at(&first_start) {
             return self.answer(Status::Solved, point);
@@ -112,7 +130,40 @@ impl<'a> Search<'a> {
         self.conclude()
     }
 
-    fn first_start(&self) -> Result<(Start, AttemptStart), Status> {
+    /// Without a complementary basis: with artificial columns, on either side of the pairs that need
+    /// one.
+    fn completed(
+        mut self,
+        chosen: &[Option<Side>],
+        complement: &Mat<f64>,
+        observer: Observer<'_>,
+    ) -> Solution {
+        self.farkas = part_outside(&self.problem, complement);
+        if self.farkas.is_some() {
+            return self.give_up(Status::Infeasible);
+        }
+        let settings = LemkeSettings { start: WarmStart::None, ..self.settings.clone() };
+        for side in [Side::Y, Side::T] {
+            let completed = completed(&self.problem, chosen, complement, side);
+            let solution = Search::new(&settings, &completed, self.deadline).run(observer);
+            let point = without_artificial(self.problem.problem, chosen, side, &solution);
+            self.info.pivots += solution.info.pivots;
+            self.info.refactorisations += solution.info.refactorisations;
+            self.info.pivot_seconds += solution.info.pivot_seconds;
+            self.info.attempts.extend(solution.info.attempts);
+            self.trace.extend(solution.trace);
+            match (solution.status, point) {
+                (Status::Cancelled | Status::TimeLimit, _) => return self.give_up(solution.status),
+                (_, Some(point)) if point.residuals.worst() <= self.settings.tolerance => {
+                    return self.answer(Status::Solved, point);
+                }
+                _ => {}
+            }
+        }
+        self.give_up(Status::NoComplementaryBasis)
+    }
+
+    fn first_start(&self) -> First {
         let preferred = match &self.settings.start {
             WarmStart::None => None,
             WarmStart::Basis(basis) => Some(basis.clone()),
@@ -121,14 +172,14 @@ impl<'a> Search<'a> {
         if let Some(given) = &preferred
             && let Some(start) = self.problem.start(given)
         {
-            return Ok((start, AttemptStart::Given));
+            return First::Found(start, AttemptStart::Given);
         }
         match find_basis(&self.problem, preferred.as_ref()) {
-            Crash::Complete(basis) => {
-                let start = self.problem.start(&basis).ok_or(Status::NumericalTrouble)?;
-                Ok((start, kind_of(&basis)))
-            }
-            Crash::Partial { .. } => Err(Status::NoComplementaryBasis),
+            Crash::Complete(basis) => match self.problem.start(&basis) {
+                Some(start) => First::Found(start, kind_of(&basis)),
+                None => First::Singular,
+            },
+            Crash::Partial { chosen, complement } => First::Incomplete { chosen, complement },
         }
     }
 
@@ -169,13 +220,13 @@ impl<'a> Search<'a> {
             AttemptStart::LastBasis => last_basis.and_then(|basis| self.problem.start(basis)),
             _ => return Cow::Borrowed(first_start),
         };
-        match other {
-            Some(other) => Cow::Owned(other),
-            None => {
+        other.map_or_else(
+            || {
                 trial.start = first.start;
                 Cow::Borrowed(first_start)
-            }
-        }
+            },
+            Cow::Owned,
+        )
     }
 
     fn attempt(
@@ -355,23 +406,15 @@ fn in_problem_units<K: Kernel>(
     covering: &[f64],
     problem: &Equilibrated<'_>,
 ) -> Ray {
-    let (dw, dz, dz0) = path.ray();
-    let n = dw.len();
+    let n = start.q.len();
+    let along = path.ray();
     let (mut dt, mut dy) = (vec![0.0; n], vec![0.0; n]);
     for pair in 0..n {
-        let (mut basic, mut nonbasic) = (dw[pair], dz[pair]);
-        let side = start.nonbasic_side(pair);
-        if let Some(ratio) = problem.opposite(pair) {
-            // One unit of `y` is `ratio` units of `-t`.
-            let unit = if side == Side::T { ratio } else { 1.0 / ratio };
-            let net = basic - nonbasic / unit;
-            (basic, nonbasic) = (net.max(0.0), (-net * unit).max(0.0));
-        }
-        (dt[pair], dy[pair]) = match side {
-            Side::T => (nonbasic, basic),
-            Side::Y => (basic, nonbasic),
-        };
+        let dw = along[pair] / start.row_factor[pair];
+        let dz = along[n + pair] * start.col_factor[pair];
+        (dt[pair], dy[pair]) = problem.sides(pair, start.nonbasic_side(pair), dw, dz);
     }
+    let dz0 = along[2 * n];
     let mut in_rows = vec![0.0; n];
     for (pair, (d, row)) in covering.iter().zip(&start.row_factor).enumerate() {
         let column = problem.problem.column(pair, start.basis.sides()[pair]);

@@ -60,6 +60,19 @@ impl<'a> Equilibrated<'a> {
         self.opposite[pair]
     }
 
+    /// `(t, y)` of a pair from its basic and its nonbasic variable. A free variable is put on the side
+    /// that its sign asks for.
+    pub(super) fn sides(&self, pair: usize, nonbasic: Side, w: f64, z: f64) -> (f64, f64) {
+        let (t, y) = if nonbasic == Side::T { (z, w) } else { (w, z) };
+        match self.opposite[pair] {
+            Some(ratio) => {
+                let net = t - ratio * y;
+                (net.max(0.0), (-net / ratio).max(0.0))
+            }
+            None => (t, y),
+        }
+    }
+
     /// Adds an equilibrated column, times a factor.
     pub(super) fn add_column(&self, pair: usize, side: Side, factor: f64, out: &mut [f64]) {
         let factor = factor * self.factor(pair, side);
@@ -68,7 +81,9 @@ impl<'a> Equilibrated<'a> {
                 let scaled = values.iter().zip(&self.row).map(|(v, row)| v * row);
                 out.iter_mut().zip(scaled).for_each(|(out, v)| *out += factor * v);
             }
-            sparse => sparse.for_each(|i, v| out[i] += factor * (v * self.row[i])),
+            sparse @ Column::Sparse { .. } => {
+                sparse.for_each(|i, v| out[i] += factor * (v * self.row[i]));
+            }
         }
     }
 
@@ -146,7 +161,7 @@ impl<'a> Equilibrated<'a> {
         }
         let q_size = max_abs(&q);
         if q_size > 0.0 {
-            q.iter_mut().for_each(|q| *q /= q_size);
+            q = q.into_iter().map(|q| q / q_size).collect();
         }
         let (row_factor, col_factor) = self.factors(basis, &rows, &cols);
         Some(Start {
@@ -154,6 +169,7 @@ impl<'a> Equilibrated<'a> {
             free: self.free(),
             row_factor,
             col_factor,
+            size: if q_size > 0.0 { q_size } else { 1.0 },
             q,
             data: StartData::Dense(t),
         })
@@ -212,11 +228,12 @@ pub(super) struct Start {
     /// The start basis: `w_i` is its side of pair `i`.
     pub(super) basis: Basis,
     free: Vec<bool>,
-    /// Values of the start basis, the largest one.
+    /// Values of the start basis in units of `size`, the largest one.
     pub(super) q: Vec<f64>,
-    /// Value of `w_i` in the problem's units: `w_i / row_factor[i]`.
+    pub(super) size: f64,
+    /// Value of `w_i` in the problem's units: `size * w_i / row_factor[i]`.
     pub(super) row_factor: Vec<f64>,
-    /// Value of `z_i` in the problem's units: `z_i * col_factor[i]`.
+    /// Value of `z_i` in the problem's units: `size * z_i * col_factor[i]`.
     pub(super) col_factor: Vec<f64>,
     data: StartData,
 }
@@ -232,6 +249,13 @@ impl Start {
     /// Whether the pair is the two parts of a free variable.
     pub(super) fn is_free(&self, pair: usize) -> bool {
         self.free[pair]
+    }
+
+    /// The same with free variables as two parts that are bounded like all others, so that a change of
+    /// sign is a pivot.
+    pub(super) fn bounded(mut self) -> Self {
+        self.free.fill(false);
+        self
     }
 
     /// Side of the problem on which `z_k` of a pair lies.
@@ -318,8 +342,7 @@ impl Start {
                 .filter(|&k| k != pair && !flipped[k] && !self.is_free(k))
                 .filter(|&k| column[k].abs() >= sound)
                 .collect();
-            let skip = (random.next_f64() * partners.len() as f64) as usize;
-            if let Some(&partner) = partners.get(skip) {
+            if let Some(&partner) = random.pick(&partners) {
                 // Row `partner` of column `pair`, then row `pair` of column `partner`.
                 kernel.exchange(partner, n + pair, partner, &column);
                 kernel.column(n + partner, &mut column);

@@ -18,42 +18,36 @@ pub(super) struct Trial {
 impl Trial {
     /// The attempt of this number, from 2, after one that ended so. After a cycle the same once more
     /// without ties. After a basis that is not quite right from there on. After a ray first another
-    /// covering vector, then other start bases, proximal problems, and both by turns.
+    /// covering vector, then another start basis, then proximal problems of falling weight, each
+    /// centered where the last one ended, then more start bases.
     pub(super) fn after(last: &Self, end: AttemptEnd, number: usize, first: &Self) -> Self {
         let seed = number as u64;
         let parted = Perturbation::RightHandSide { seed };
         let is_proximal = matches!(last.perturbation, Perturbation::Proximal { .. });
         match end {
             AttemptEnd::Cycle if last.perturbation == Perturbation::None => {
-                Self { perturbation: parted, ..*last }
+                return Self { perturbation: parted, ..*last };
             }
-            AttemptEnd::Complementary if !is_proximal => Self {
-                start: AttemptStart::LastBasis,
-                covering: other(last.covering, seed),
-                perturbation: Perturbation::None,
-            },
-            AttemptEnd::Complementary => *last,
-            _ => {
-                let flipped = AttemptStart::Flipped { seed };
-                let random = AttemptCovering::Random { seed };
-                let proximal = |weight| Perturbation::Proximal { weight };
-                match number {
-                    2 => Self {
-                        covering: other(last.covering, seed),
-                        perturbation: parted,
-                        ..*first
-                    },
-                    3 | 8 | 10 => Self {
-                        start: flipped,
-                        covering: AttemptCovering::Ones,
-                        perturbation: parted,
-                    },
-                    5 => Self { perturbation: proximal(1.0), ..*first },
-                    6 => Self { perturbation: proximal(1e-3), ..*first },
-                    7 => Self { perturbation: proximal(1e-6), ..*first },
-                    _ => Self { start: flipped, covering: random, perturbation: parted },
-                }
+            AttemptEnd::Complementary if !is_proximal => {
+                let covering = other(last.covering, seed);
+                let start = AttemptStart::LastBasis;
+                return Self { start, covering, perturbation: Perturbation::None };
             }
+            _ => {}
+        }
+        let flipped = AttemptStart::Flipped { seed };
+        let random = AttemptCovering::Random { seed };
+        let proximal = |weight| Self { perturbation: Perturbation::Proximal { weight }, ..*first };
+        match number {
+            2 => Self { covering: other(last.covering, seed), perturbation: parted, ..*first },
+            5 => proximal(1.0),
+            6 => proximal(1e-2),
+            7 => proximal(1e-4),
+            8 => proximal(1e-6),
+            _ if number % 2 == 1 => {
+                Self { start: flipped, covering: AttemptCovering::Ones, perturbation: parted }
+            }
+            _ => Self { start: flipped, covering: random, perturbation: parted },
         }
     }
 

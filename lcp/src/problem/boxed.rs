@@ -62,7 +62,10 @@ impl BoxedLcp {
         check_length("lower", lower.len(), n)?;
         check_length("upper", upper.len(), n)?;
         for (index, (&lower, &upper)) in lower.iter().zip(&upper).enumerate() {
-            let fits = lower <= upper && lower < f64::INFINITY && upper > f64::NEG_INFINITY;
+            let is_ordered = lower <= upper && lower < f64::INFINITY && upper > f64::NEG_INFINITY;
+            let distance = upper - lower;
+            let fits =
+                is_ordered && (distance.is_finite() || lower.is_infinite() || upper.is_infinite());
             if !fits {
                 return Err(Error::Bounds { index, lower, upper });
             }
@@ -190,13 +193,25 @@ impl BoxedLcp {
         (t, y)
     }
 
-    /// Residuals of `(z, w)`, those of its pairs in the general problem.
+    /// Residuals of `(z, w)`, those of its pairs in the general problem; the `w` of a free variable,
+    /// which should be zero, counts in its row of the equation.
     ///
     /// # Panics
     /// If `z` or `w` does not have `n` entries.
     pub fn residuals(&self, z: &[f64], w: &[f64]) -> Residuals {
         let (t, y) = self.to_pairs(z, w);
-        self.to_general().residuals(&t, &y)
+        let mut residuals = self.to_general().residuals(&t, &y);
+        let mut sizes: Vec<f64> = self.q.iter().map(|q| q.abs()).collect();
+        for (j, z) in z.iter().enumerate() {
+            self.m.slice(j).for_each(|i, v| sizes[i] += (v * z).abs());
+        }
+        for (i, kind) in self.kinds().into_iter().enumerate() {
+            if kind == Kind::Free && w[i] != 0.0 {
+                let relative = w[i].abs() / (sizes[i] + w[i].abs());
+                residuals.equation = residuals.equation.max(relative);
+            }
+        }
+        residuals
     }
 
     fn kinds(&self) -> Vec<Kind> {

@@ -1,6 +1,6 @@
 //! The general (horizontal) form.
 
-use super::check_vector;
+use super::{check_length, check_vector};
 use crate::matrix::Column;
 use crate::{Error, Matrix, Side};
 
@@ -44,7 +44,7 @@ impl HorizontalLcp {
     }
 
     /// From parts that are known to fit and to be finite.
-    pub(super) fn from_parts(a: Matrix, b: Matrix, c: Vec<f64>) -> Self {
+    pub(crate) fn from_parts(a: Matrix, b: Matrix, c: Vec<f64>) -> Self {
         Self { a, b, c }
     }
 
@@ -66,6 +66,16 @@ impl HorizontalLcp {
     /// The right-hand side.
     pub fn c(&self) -> &[f64] {
         &self.c
+    }
+
+    /// The same problem for another right-hand side.
+    ///
+    /// # Errors
+    /// [`Error::Length`] when it does not fit, [`Error::NotFinite`] for a NaN or an infinity.
+    pub fn with_right_hand_side(&self, c: Vec<f64>) -> Result<Self, Error> {
+        check_length("c", c.len(), self.order())?;
+        check_vector("c", &c)?;
+        Ok(Self { a: self.a.clone(), b: self.b.clone(), c })
     }
 
     /// Whether both matrices are sparse.

@@ -75,6 +75,7 @@ impl Equilibrated<'_> {
             free: self.free(),
             row_factor,
             col_factor,
+            size: if size > 0.0 { size } else { 1.0 },
             q,
             data: StartData::Sparse(SparseStart { columns, right, lu }),
         })

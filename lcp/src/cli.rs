@@ -1,0 +1,175 @@
+//! The command-line program `lcp`.
+//!
+//! `--json` prints one JSON object on standard output and nothing else there; errors go to standard
+//! error. The exit code is 0 when solved, 1 when not solved, 2 for bad input.
+
+mod check;
+mod info;
+mod solve;
+
+use std::ffi::OsString;
+use std::fmt::Write as _;
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use clap::builder::PossibleValuesParser;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::io::{Format, ProblemFile, ReadError, read_file};
+use crate::{LemkeSettings, Residuals};
+
+/// Solves linear complementarity problems: w = M z + q, z >= 0, w >= 0, z.w = 0, and their relatives
+/// with free and bounded variables, in general form, and for contact with friction.
+#[derive(Debug, Parser)]
+#[command(name = "lcp", version, about, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Solve a problem.
+    Solve(SolveArgs),
+    /// Say how well a given point solves a problem.
+    Check(CheckArgs),
+    /// Say what a file holds.
+    Info(InfoArgs),
+}
+
+#[derive(Debug, Args)]
+struct SolveArgs {
+    #[command(flatten)]
+    input: InputArgs,
+    /// The method.
+    #[arg(long, value_enum, default_value_t = Solver::Auto)]
+    solver: Solver,
+    /// Largest residual, relative to the data, of an answer called solved.
+    #[arg(long, value_name = "T")]
+    tol: Option<f64>,
+    /// Pivots of one attempt.
+    #[arg(long, value_name = "N")]
+    max_pivots: Option<usize>,
+    /// Time after which the search ends, in seconds.
+    #[arg(long, value_name = "S")]
+    time_limit: Option<f64>,
+    /// A file to write the pivots into, as JSON.
+    #[arg(long, value_name = "FILE")]
+    trace: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+struct CheckArgs {
+    #[command(flatten)]
+    input: InputArgs,
+    /// The point: a JSON object with `z`, and `w` unless it is M z + q; other fields do not matter.
+    solution: PathBuf,
+    /// Largest residual of a point that counts as a solution.
+    #[arg(long, value_name = "T", default_value_t = LemkeSettings::default().tolerance)]
+    tol: f64,
+}
+
+#[derive(Debug, Args)]
+struct InfoArgs {
+    #[command(flatten)]
+    input: InputArgs,
+}
+
+#[derive(Debug, Args)]
+struct InputArgs {
+    /// The file with the problem.
+    file: PathBuf,
+    /// The format of the file; by default what its content fits.
+    #[arg(long, value_name = "F", value_parser = PossibleValuesParser::new(Format::ALL.map(Format::name)))]
+    format: Option<String>,
+    /// Print one JSON object instead of the report.
+    #[arg(long)]
+    json: bool,
+}
+
+/// A method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Solver {
+    /// The method that suits the problem best.
+    Auto,
+    /// Lemke's method.
+    Lemke,
+}
+
+type Failure = Box<dyn std::error::Error>;
+
+const SOLVED: u8 = 0;
+const NOT_SOLVED: u8 = 1;
+const BAD_INPUT: u8 = 2;
+
+/// Runs the program on its arguments, the first of which is its name, and gives the exit code.
+pub fn run(
+    args: impl IntoIterator<Item = OsString>,
+    out: &mut dyn Write,
+    err: &mut dyn Write,
+) -> u8 {
+    let (code, message) = match Cli::try_parse_from(args) {
+        Ok(cli) => match execute(&cli.command, out) {
+            Ok(code) => return code,
+            Err(failure) => (BAD_INPUT, format!("error: {failure}\n")),
+        },
+        Err(usage) if usage.use_stderr() => (BAD_INPUT, usage.to_string()),
+        // Help and version were asked for.
+        Err(asked) => match print(out, &asked.to_string()) {
+            Ok(()) => return SOLVED,
+            Err(failure) => (BAD_INPUT, format!("error: {failure}\n")),
+        },
+    };
+    // Where standard error is closed, the exit code still says what happened.
+    let _ = err.write_all(message.as_bytes());
+    code
+}
+
+fn execute(command: &Command, out: &mut dyn Write) -> Result<u8, Failure> {
+    match command {
+        Command::Solve(args) => solve::run(args, out),
+        Command::Check(args) => check::run(args, out),
+        Command::Info(args) => info::run(args, out),
+    }
+}
+
+impl InputArgs {
+    fn read(&self) -> Result<ProblemFile, Failure> {
+        let format = self.format.as_deref().and_then(Format::from_name);
+        read_file(&self.file, format).map_err(|error| match error {
+            ReadError::File { .. } => error.into(),
+            _ => in_file(&self.file, &error),
+        })
+    }
+}
+
+/// The failure with the name of the file, which the error of a place in it does not have.
+fn in_file(path: &Path, error: &dyn std::fmt::Display) -> Failure {
+    format!("{}: {error}", path.display()).into()
+}
+
+fn residual_lines(residuals: &Residuals) -> String {
+    let Residuals { equation, feasibility, complementarity, natural } = residuals;
+    let named = [
+        ("equation", equation),
+        ("feasibility", feasibility),
+        ("complementarity", complementarity),
+        ("natural", natural),
+    ];
+    named.iter().fold("residuals, relative to the data\n".to_owned(), |mut lines, (name, value)| {
+        let _ = writeln!(lines, "  {name:<16} {value:.1e}");
+        lines
+    })
+}
+
+fn print_json(out: &mut dyn Write, object: &impl serde::Serialize) -> Result<(), Failure> {
+    print(out, &(serde_json::to_string(object)? + "\n"))
+}
+
+/// A closed pipe is the reader's choice, not a failure of ours.
+fn print(out: &mut dyn Write, text: &str) -> Result<(), Failure> {
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        other => Ok(other?),
+    }
+}

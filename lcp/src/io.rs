@@ -1,0 +1,172 @@
+//! Problems in files.
+//!
+//! [`read_file`] and [`read`] give the problem and the format in which they found it. The format is
+//! known by the content, or named by the caller; a file that fits two formats is refused rather
+//! than guessed at.
+//!
+//! # JSON
+//! One object with a `kind` and the fields of that kind, all of them and no others:
+//!
+//! | `kind` | fields | problem |
+//! |---|---|---|
+//! | `"lcp"` | `m`, `q` | [`Lcp`] |
+//! | `"horizontal"` | `a`, `b`, `c` | [`HorizontalLcp`] |
+//! | `"mixed"` | `m`, `q`, `free` (booleans) | [`MixedLcp`] |
+//! | `"boxed"` | `m`, `q`, `lower`, `upper` (`null`: no bound) | [`BoxedLcp`] |
+//! | `"friction"` | `w`, `q`, `mu` | [`Friction2d`] |
+//!
+//! A matrix is an array of its rows, or `{"rows": 2, "cols": 2, "triplets": [[0, 1, 2.5]]}` with
+//! indices from 0 and values that add up where they coincide. [`to_json`] writes this form, with
+//! every digit that the numbers have.
+//!
+//! # Plain text
+//! `n`, then the `n x n` numbers of `M` by rows, then the `n` numbers of `q`, separated by white
+//! space; `#` begins a comment. The problem is an [`Lcp`].
+//!
+//! # Siconos
+//! The `.dat` files of that library for linear complementarity problems, mixed ones, and contact
+//! with friction in the plane; dense, in sparse blocks, or sparse.
+
+mod error;
+mod friction;
+mod json;
+mod problem;
+mod siconos;
+mod text;
+mod tokens;
+
+use std::path::Path;
+
+#[cfg(doc)]
+use crate::{BoxedLcp, HorizontalLcp, Lcp, MixedLcp};
+
+pub use error::{Position, ReadError};
+pub use friction::{ContactForces, Friction2d};
+pub use json::to_json;
+pub use problem::Problem;
+
+/// A format of files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Format {
+    /// Our JSON.
+    Json,
+    /// Plain text: `n`, `M` by rows, `q`.
+    Text,
+    /// A linear complementarity problem of Siconos.
+    SiconosLcp,
+    /// A mixed linear complementarity problem of Siconos.
+    SiconosMlcp,
+    /// A contact problem of Siconos with friction in the plane.
+    SiconosFriction,
+}
+
+impl Format {
+    /// All formats.
+    pub const ALL: [Self; 5] =
+        [Self::Json, Self::Text, Self::SiconosLcp, Self::SiconosMlcp, Self::SiconosFriction];
+
+    /// The name, as it is typed.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Json => "json",
+            Self::Text => "text",
+            Self::SiconosLcp => "siconos-lcp",
+            Self::SiconosMlcp => "siconos-mlcp",
+            Self::SiconosFriction => "siconos-friction",
+        }
+    }
+
+    /// The format of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|format| format.name() == name)
+    }
+
+    fn parse(self, text: &str) -> Result<Problem, ReadError> {
+        match self {
+            Self::Json => json::read(text),
+            Self::Text => text::read(text),
+            Self::SiconosLcp => siconos::read_lcp(text),
+            Self::SiconosMlcp => siconos::read_mlcp(text),
+            Self::SiconosFriction => siconos::read_friction(text),
+        }
+    }
+}
+
+impl std::fmt::Display for Format {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A problem, and the format that it was read from.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct ProblemFile {
+    /// The format.
+    pub format: Format,
+    /// The problem.
+    pub problem: Problem,
+}
+
+/// Reads a file. A name that ends in `.json` names the format, like `format` does.
+///
+/// # Errors
+/// [`ReadError`], with the place in the file.
+pub fn read_file(path: &Path, format: Option<Format>) -> Result<ProblemFile, ReadError> {
+    let is_json = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+    let bytes = std::fs::read(path)
+        .map_err(|error| ReadError::File { path: path.to_owned(), reason: error.to_string() })?;
+    read(&bytes, format.or(is_json.then_some(Format::Json)))
+}
+
+/// Reads the content of a file, in that format or in the one that it fits.
+///
+/// What is allocated is in proportion to the content, whatever sizes the content announces.
+///
+/// ```
+/// use lcp::io::{Format, read};
+/// let file = read(b"2   2 1  1 2   -5 -6  # n, M by rows, q", None)?;
+/// assert_eq!(file.format, Format::Text);
+/// assert_eq!(file.problem.order(), 2);
+/// # Ok::<(), lcp::io::ReadError>(())
+/// ```
+///
+/// # Errors
+/// [`ReadError`], with the place in the content.
+pub fn read(content: &[u8], format: Option<Format>) -> Result<ProblemFile, ReadError> {
+    let text = String::from_utf8_lossy(content);
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    let is_json = text.trim_start().starts_with('{');
+    match format.or(is_json.then_some(Format::Json)) {
+        Some(format) => Ok(ProblemFile { format, problem: format.parse(text)? }),
+        None => read_by_content(text),
+    }
+}
+
+/// The one format that fits; where none does, the failure of the one that came furthest.
+fn read_by_content(text: &str) -> Result<ProblemFile, ReadError> {
+    let mut fits: Vec<ProblemFile> = Vec::new();
+    let mut failure: Option<(Format, ReadError)> = None;
+    for format in Format::ALL.into_iter().filter(|&format| format != Format::Json) {
+        match format.parse(text) {
+            Ok(problem) => fits.push(ProblemFile { format, problem }),
+            Err(error) => {
+                let best = failure.as_ref().and_then(|(_, error)| error.position());
+                if failure.is_none() || error.position() > best {
+                    failure = Some((format, error));
+                }
+            }
+        }
+    }
+    match (fits.pop(), failure) {
+        (Some(file), _) if fits.is_empty() => Ok(file),
+        (None, Some((format, source))) => {
+            Err(ReadError::Unrecognised { format, source: Box::new(source) })
+        }
+        (last, _) => {
+            let formats = fits.into_iter().chain(last).map(|file| file.format).collect();
+            Err(ReadError::Ambiguous { formats })
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Why a file was not read.
+
+use std::path::PathBuf;
+
+use super::Format;
+
+/// A place in a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Position {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in bytes, from 1.
+    pub column: usize,
+}
+
+impl std::fmt::Display for Position {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "line {}, column {}", self.line, self.column)
+    }
+}
+
+/// Why a file was not read: the place, what was expected there, and the remedy.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// Something else stands where the format expects a datum.
+    #[error("{at}: expected {expected}, found {found}; {remedy}")]
+    Unexpected {
+        /// Where.
+        at: Position,
+        /// What the format has there.
+        expected: String,
+        /// What the file has there.
+        found: String,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// A header announces more data than the file holds.
+    #[error(
+        "{at}: {what} needs {needed} more numbers, but at most {left} are left in the file; \
+         correct the sizes, or complete the file"
+    )]
+    TooShort {
+        /// Where the data begin.
+        at: Position,
+        /// Which datum.
+        what: &'static str,
+        /// Numbers that it needs (`usize::MAX` when that is beyond counting).
+        needed: usize,
+        /// Words that the file still has.
+        left: usize,
+    },
+    /// The file is not the JSON that is described in [`crate::io`].
+    #[error("{at}: {message}; the fields of every kind are listed in the documentation of lcp::io")]
+    Json {
+        /// Where.
+        at: Position,
+        /// What is wrong.
+        message: String,
+    },
+    /// The data were read, but do not make a problem.
+    #[error("{at}: {source}")]
+    Refused {
+        /// Where the data begin.
+        at: Position,
+        /// What is wrong with them.
+        source: crate::Error,
+    },
+    /// No format fits; this one came furthest.
+    #[error(
+        "{source} (read as {format}, the format that fits best; name another if that is wrong)"
+    )]
+    Unrecognised {
+        /// The format.
+        format: Format,
+        /// Why it does not fit.
+        source: Box<ReadError>,
+    },
+    /// More than one format fits.
+    #[error("the file can be read as {}; name the format", list(.formats))]
+    Ambiguous {
+        /// The formats that fit.
+        formats: Vec<Format>,
+    },
+    /// The file could not be opened or read.
+    #[error("cannot read {}: {reason}", .path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        reason: String,
+    },
+}
+
+impl ReadError {
+    /// Where in the file, if the error has a place.
+    pub fn position(&self) -> Option<Position> {
+        match self {
+            Self::Unexpected { at, .. }
+            | Self::TooShort { at, .. }
+            | Self::Json { at, .. }
+            | Self::Refused { at, .. } => Some(*at),
+            Self::Unrecognised { source, .. } => source.position(),
+            Self::Ambiguous { .. } | Self::File { .. } => None,
+        }
+    }
+}
+
+fn list(formats: &[Format]) -> String {
+    let names: Vec<String> = formats.iter().map(ToString::to_string).collect();
+    names.join(" or as ")
+}

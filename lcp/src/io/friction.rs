@@ -1,0 +1,120 @@
+//! Contact with friction in the plane.
+
+use faer::Mat;
+
+use crate::{Error, Lcp, Matrix};
+
+/// Contact with Coulomb's friction in the plane, reduced to the contacts: the relative velocities
+/// `W r + q` of the forces `r`, where every contact has a normal and a tangential component, in this
+/// order.
+///
+/// At every contact the normal force and the normal velocity are complementary, and the tangential
+/// force is at most `mu` times the normal one, against the sliding.
+///
+/// As a standard problem it has the three variables `r_N`, `l = r_T + mu r_N` and the sliding `s >= 0`
+/// for every contact, with
+/// ```text
+/// w1 = (W_NN - W_NT mu) r_N + W_NT l     + q_N
+/// w2 = (W_TN - W_TT mu) r_N + W_TT l + s + q_T
+/// w3 = 2 mu r_N - l.
+/// ```
+#[derive(Debug, Clone)]
+pub struct Friction2d {
+    w: Matrix,
+    q: Vec<f64>,
+    mu: Vec<f64>,
+    standard: Lcp,
+}
+
+/// The forces at the contacts.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[non_exhaustive]
+pub struct ContactForces {
+    /// The normal force at every contact.
+    pub normal: Vec<f64>,
+    /// The tangential force at every contact.
+    pub tangential: Vec<f64>,
+}
+
+impl Friction2d {
+    /// A problem of `nc` contacts from `W` (2 nc x 2 nc), `q` (2 nc) and the coefficients of friction
+    /// (nc), which are not negative.
+    pub(super) fn new(w: Matrix, q: Vec<f64>, mu: Vec<f64>) -> Result<Self, Error> {
+        if q.len() != 2 * mu.len() {
+            return Err(Error::Length { name: "q", len: q.len(), expected: 2 * mu.len() });
+        }
+        w.check("W", q.len(), q.len())?;
+        let standard = standard_form(&w, &q, &mu)?;
+        Ok(Self { w, q, mu, standard })
+    }
+
+    /// Number of contacts.
+    pub fn contacts(&self) -> usize {
+        self.mu.len()
+    }
+
+    /// Number of variables of the standard problem: three for every contact.
+    pub fn order(&self) -> usize {
+        3 * self.contacts()
+    }
+
+    /// The matrix.
+    pub fn w(&self) -> &Matrix {
+        &self.w
+    }
+
+    /// The relative velocities without forces.
+    pub fn q(&self) -> &[f64] {
+        &self.q
+    }
+
+    /// The coefficients of friction.
+    pub fn mu(&self) -> &[f64] {
+        &self.mu
+    }
+
+    /// The standard problem, with the variables `r_N`, `l`, `s` of the first contact, then those of
+    /// the second, and so on.
+    pub fn standard(&self) -> &Lcp {
+        &self.standard
+    }
+
+    /// The forces at the contacts, from the variables of the standard problem.
+    ///
+    /// # Panics
+    /// If `z` does not have three entries for every contact.
+    pub fn forces(&self, z: &[f64]) -> ContactForces {
+        assert_eq!(z.len(), self.order(), "three entries for every contact");
+        let normal: Vec<f64> = z.chunks_exact(3).map(|z| z[0]).collect();
+        let tangential = z.chunks_exact(3).zip(&self.mu).map(|(z, mu)| z[1] - mu * z[0]).collect();
+        ContactForces { normal, tangential }
+    }
+}
+
+fn standard_form(w: &Matrix, q: &[f64], mu: &[f64]) -> Result<Lcp, Error> {
+    let order = 3 * mu.len();
+    let mut entries = Vec::with_capacity(2 * w.stored() + order);
+    for (contact, &mu) in mu.iter().enumerate() {
+        let [normal, shifted, sliding] = [0, 1, 2].map(|k| 3 * contact + k);
+        let place = |row: usize| 3 * (row / 2) + row % 2;
+        entries.extend(w.column(2 * contact).map(|(row, v)| (place(row), normal, v)));
+        for (row, v) in w.column(2 * contact + 1) {
+            entries.push((place(row), normal, -v * mu));
+            entries.push((place(row), shifted, v));
+        }
+        entries.push((shifted, sliding, 1.0));
+        entries.push((sliding, normal, 2.0 * mu));
+        entries.push((sliding, shifted, -1.0));
+    }
+    let matrix = if w.is_sparse() {
+        Matrix::from_entries(order, order, entries.into_iter())
+    } else {
+        let mut dense = Mat::zeros(order, order);
+        for (i, j, v) in entries {
+            dense[(i, j)] += v;
+        }
+        dense.into()
+    };
+    let vector = q.chunks_exact(2).flat_map(|q| [q[0], q[1], 0.0]).collect();
+    Lcp::new(matrix, vector)
+}

@@ -1,0 +1,116 @@
+//! Our JSON.
+
+mod fields;
+mod write;
+
+use fields::Fields;
+use serde::Deserialize;
+use serde_json::value::RawValue;
+
+use super::{Problem, ReadError};
+
+pub use write::to_json;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Kind {
+    Lcp,
+    Horizontal,
+    Mixed,
+    Boxed,
+    Friction,
+}
+
+impl std::fmt::Display for Kind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Lcp => "lcp",
+            Self::Horizontal => "horizontal",
+            Self::Mixed => "mixed",
+            Self::Boxed => "boxed",
+            Self::Friction => "friction",
+        })
+    }
+}
+
+/// The fields of all kinds, as they stand in the text, so that every error has its place.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Document<'a> {
+    kind: Kind,
+    #[serde(borrow)]
+    m: Option<&'a RawValue>,
+    #[serde(borrow)]
+    q: Option<&'a RawValue>,
+    #[serde(borrow)]
+    a: Option<&'a RawValue>,
+    #[serde(borrow)]
+    b: Option<&'a RawValue>,
+    #[serde(borrow)]
+    c: Option<&'a RawValue>,
+    #[serde(borrow)]
+    free: Option<&'a RawValue>,
+    #[serde(borrow)]
+    lower: Option<&'a RawValue>,
+    #[serde(borrow)]
+    upper: Option<&'a RawValue>,
+    #[serde(borrow)]
+    w: Option<&'a RawValue>,
+    #[serde(borrow)]
+    mu: Option<&'a RawValue>,
+}
+
+pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
+    let document: Document<'_> =
+        serde_json::from_str(text).map_err(|error| fields::whole(&error))?;
+    let mut fields = Fields::new(
+        text,
+        document.kind,
+        [
+            ("m", document.m),
+            ("q", document.q),
+            ("a", document.a),
+            ("b", document.b),
+            ("c", document.c),
+            ("free", document.free),
+            ("lower", document.lower),
+            ("upper", document.upper),
+            ("w", document.w),
+            ("mu", document.mu),
+        ],
+    );
+    let problem = match document.kind {
+        Kind::Lcp => {
+            let q = fields.vector("q")?;
+            let m = fields.matrix("m", q.len())?;
+            Problem::lcp(m, q, fields.begin())
+        }
+        Kind::Horizontal => {
+            let c = fields.vector("c")?;
+            let a = fields.matrix("a", c.len())?;
+            let b = fields.matrix("b", c.len())?;
+            Problem::horizontal(a, b, c, fields.begin())
+        }
+        Kind::Mixed => {
+            let q = fields.vector("q")?;
+            let m = fields.matrix("m", q.len())?;
+            let free = fields.flags("free", q.len())?;
+            Problem::mixed(m, q, free, fields.begin())
+        }
+        Kind::Boxed => {
+            let q = fields.vector("q")?;
+            let m = fields.matrix("m", q.len())?;
+            let lower = fields.bounds("lower", q.len(), f64::NEG_INFINITY)?;
+            let upper = fields.bounds("upper", q.len(), f64::INFINITY)?;
+            Problem::boxed(m, q, lower, upper, fields.begin())
+        }
+        Kind::Friction => {
+            let mu = fields.frictions("mu")?;
+            let q = fields.vector_of("q", 2 * mu.len())?;
+            let w = fields.matrix("w", q.len())?;
+            Problem::friction(w, q, mu, fields.begin())
+        }
+    }?;
+    fields.none_left()?;
+    Ok(problem)
+}

@@ -1,0 +1,165 @@
+//! The problems that files hold.
+
+use super::{Friction2d, Position, ReadError};
+use crate::{BoxedLcp, HorizontalLcp, Lcp, Matrix, MixedLcp, Residuals};
+
+/// A problem of any kind that files hold.
+///
+/// All kinds have the vectors `z` and `w`: in the general form `z = t` and `w = y`; in contact with
+/// friction those of its standard form.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub enum Problem {
+    /// The standard form.
+    Lcp(Lcp),
+    /// The general form.
+    Horizontal(HorizontalLcp),
+    /// Complementary pairs together with free variables.
+    Mixed(MixedLcp),
+    /// Variables between bounds.
+    Boxed(BoxedLcp),
+    /// Contact with friction in the plane.
+    Friction(Friction2d),
+}
+
+impl Problem {
+    /// The name of the kind.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Lcp(_) => "lcp",
+            Self::Horizontal(_) => "horizontal",
+            Self::Mixed(_) => "mixed",
+            Self::Boxed(_) => "boxed",
+            Self::Friction(_) => "friction",
+        }
+    }
+
+    /// Number of entries of `z` and of `w`.
+    pub fn order(&self) -> usize {
+        match self {
+            Self::Lcp(problem) => problem.order(),
+            Self::Horizontal(problem) => problem.order(),
+            Self::Mixed(problem) => problem.order(),
+            Self::Boxed(problem) => problem.order(),
+            Self::Friction(problem) => problem.order(),
+        }
+    }
+
+    /// The matrices, with their names.
+    pub fn matrices(&self) -> Vec<(&'static str, &Matrix)> {
+        match self {
+            Self::Lcp(problem) => vec![("M", problem.m())],
+            Self::Horizontal(problem) => vec![("A", problem.a()), ("B", problem.b())],
+            Self::Mixed(problem) => vec![("M", problem.m())],
+            Self::Boxed(problem) => vec![("M", problem.m())],
+            Self::Friction(problem) => vec![("W", problem.w())],
+        }
+    }
+
+    /// The general problem, for a solver.
+    pub fn to_general(&self) -> HorizontalLcp {
+        match self {
+            Self::Lcp(problem) => problem.clone().into(),
+            Self::Horizontal(problem) => problem.clone(),
+            Self::Mixed(problem) => problem.to_general(),
+            Self::Boxed(problem) => problem.to_general(),
+            Self::Friction(problem) => problem.standard().clone().into(),
+        }
+    }
+
+    /// `(z, w)` from a point of the general problem.
+    ///
+    /// # Panics
+    /// If `t` or `y` does not have one entry for every pair of the general problem.
+    pub fn recover(&self, t: &[f64], y: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        match self {
+            Self::Mixed(problem) => problem.recover(t, y),
+            Self::Boxed(problem) => problem.recover(t, y),
+            Self::Lcp(_) | Self::Horizontal(_) | Self::Friction(_) => (t.to_vec(), y.to_vec()),
+        }
+    }
+
+    /// `w = M z + q`, for the kinds that have it so: all but the general form.
+    ///
+    /// # Panics
+    /// If `z` does not have one entry for every variable.
+    pub fn w_of(&self, z: &[f64]) -> Option<Vec<f64>> {
+        match self {
+            Self::Lcp(problem) => Some(affine(problem.m(), z, problem.q())),
+            Self::Mixed(problem) => Some(affine(problem.m(), z, problem.q())),
+            Self::Boxed(problem) => Some(affine(problem.m(), z, problem.q())),
+            Self::Friction(problem) => {
+                let problem = problem.standard();
+                Some(affine(problem.m(), z, problem.q()))
+            }
+            Self::Horizontal(_) => None,
+        }
+    }
+
+    /// Residuals of a point, those of its pairs in the general problem.
+    ///
+    /// # Panics
+    /// If `z` or `w` does not have one entry for every variable.
+    pub fn residuals(&self, z: &[f64], w: &[f64]) -> Residuals {
+        match self {
+            Self::Horizontal(problem) => problem.residuals(z, w),
+            Self::Mixed(problem) => problem.residuals(z, w),
+            Self::Boxed(problem) => problem.residuals(z, w),
+            Self::Lcp(_) | Self::Friction(_) => self.to_general().residuals(z, w),
+        }
+    }
+
+    pub(super) fn lcp(m: Matrix, q: Vec<f64>, at: Position) -> Result<Self, ReadError> {
+        refused(Lcp::new(m, q), at).map(Self::Lcp)
+    }
+
+    pub(super) fn horizontal(
+        a: Matrix,
+        b: Matrix,
+        c: Vec<f64>,
+        at: Position,
+    ) -> Result<Self, ReadError> {
+        refused(HorizontalLcp::new(a, b, c), at).map(Self::Horizontal)
+    }
+
+    pub(super) fn mixed(
+        m: Matrix,
+        q: Vec<f64>,
+        free: Vec<bool>,
+        at: Position,
+    ) -> Result<Self, ReadError> {
+        refused(MixedLcp::new(m, q, free), at).map(Self::Mixed)
+    }
+
+    pub(super) fn boxed(
+        m: Matrix,
+        q: Vec<f64>,
+        lower: Vec<f64>,
+        upper: Vec<f64>,
+        at: Position,
+    ) -> Result<Self, ReadError> {
+        refused(BoxedLcp::new(m, q, lower, upper), at).map(Self::Boxed)
+    }
+
+    pub(super) fn friction(
+        w: Matrix,
+        q: Vec<f64>,
+        mu: Vec<f64>,
+        at: Position,
+    ) -> Result<Self, ReadError> {
+        refused(Friction2d::new(w, q, mu), at).map(Self::Friction)
+    }
+}
+
+fn affine(m: &Matrix, z: &[f64], q: &[f64]) -> Vec<f64> {
+    assert_eq!(z.len(), q.len(), "one entry for every variable");
+    let mut w = q.to_vec();
+    for (j, z) in z.iter().enumerate() {
+        m.column(j).for_each(|(i, v)| w[i] += v * z);
+    }
+    w
+}
+
+fn refused<T>(result: Result<T, crate::Error>, at: Position) -> Result<T, ReadError> {
+    result.map_err(|source| ReadError::Refused { at, source })
+}

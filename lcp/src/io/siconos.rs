@@ -1,0 +1,45 @@
+//! The `.dat` files of Siconos: linear complementarity problems, mixed ones, and contact with
+//! friction in the plane.
+//!
+//! White space separates the words; whatever follows the last number is ignored.
+
+mod matrix;
+mod mixed;
+
+use super::tokens::Tokens;
+use super::{Problem, ReadError};
+
+pub(super) use mixed::read_mlcp;
+
+/// `n`, matrix `M`, `q`.
+pub(super) fn read_lcp(text: &str) -> Result<Problem, ReadError> {
+    let mut tokens = Tokens::new(text);
+    let n = tokens.count("the order n")?;
+    tokens.room_for(Some(n), "q")?;
+    let at = tokens.position();
+    let m = matrix::read(&mut tokens, n)?;
+    let q = tokens.numbers(n, "q")?;
+    Problem::lcp(m, q, at)
+}
+
+/// `2`, `nc`, matrix `W`, `q`, `mu`.
+pub(super) fn read_friction(text: &str) -> Result<Problem, ReadError> {
+    let mut tokens = Tokens::new(text);
+    tokens.fixed("the dimension", 2)?;
+    let contacts = tokens.count("the number of contacts")?;
+    tokens.room_for(contacts.checked_mul(3), "q and mu")?;
+    let at = tokens.position();
+    let w = matrix::read(&mut tokens, 2 * contacts)?;
+    let q = tokens.numbers(2 * contacts, "q")?;
+    let mut mu = Vec::with_capacity(contacts);
+    for _ in 0..contacts {
+        let token = tokens.expect(|| "a coefficient of friction".to_owned())?;
+        let value = token.number(|| "a coefficient of friction".to_owned())?;
+        if value < 0.0 {
+            let expected = "a coefficient of friction of 0 or more".to_owned();
+            return Err(token.unexpected(expected, "friction acts against the sliding"));
+        }
+        mu.push(value);
+    }
+    Problem::friction(w, q, mu, at)
+}

@@ -1,0 +1,153 @@
+//! Mixed problems of Siconos: `A u + C v + a = 0`, `w = D u + B v + b`, `0 <= v`, `0 <= w`,
+//! `v.w = 0`.
+
+use faer::Mat;
+
+use super::matrix;
+use crate::Matrix;
+use crate::io::tokens::Tokens;
+use crate::io::{Position, Problem, ReadError};
+
+/// Two flags, which of two representations follow; `n` equalities and `m` complementarities; then
+/// the representations.
+pub(in crate::io) fn read_mlcp(text: &str) -> Result<Problem, ReadError> {
+    let mut tokens = Tokens::new(text);
+    let in_one = flag(&mut tokens, "storage type 1: 0 or 1")?;
+    let in_four = flag(&mut tokens, "storage type 2: 0 or 1")?;
+    let n = tokens.count("the number of equalities")?;
+    let m = tokens.count("the number of complementarities")?;
+    tokens.room_for(n.checked_add(m), "the vectors")?;
+    let at = tokens.position();
+    let mixed = match (in_one, in_four) {
+        (true, false) => Mixed::one_matrix(&mut tokens, n, m)?,
+        (false, true) => Mixed::four_matrices(&mut tokens, n, m)?,
+        (true, true) => {
+            let mixed = Mixed::one_matrix(&mut tokens, n, m)?;
+            let at = tokens.position();
+            let again = Mixed::four_matrices(&mut tokens, n, m)?;
+            mixed.check_against(&again, at)?;
+            mixed
+        }
+        (false, false) => {
+            return Err(ReadError::Unexpected {
+                at,
+                expected: "one of the two representations".to_owned(),
+                found: "storage types 0 and 0".to_owned(),
+                remedy: "set one of the storage types to 1",
+            });
+        }
+    };
+    let Mixed { m, q, free } = mixed;
+    Problem::mixed(m, q, free, at)
+}
+
+fn flag(tokens: &mut Tokens<'_>, what: &'static str) -> Result<bool, ReadError> {
+    let token = tokens.expect(|| what.to_owned())?;
+    match token.text {
+        "0" => Ok(false),
+        "1" => Ok(true),
+        _ => Err(token.unexpected(what.to_owned(), "it is one of these two")),
+    }
+}
+
+/// `w = M z + q`, where `free[i]`: `z_i` free and `w_i = 0`.
+struct Mixed {
+    m: Matrix,
+    q: Vec<f64>,
+    free: Vec<bool>,
+}
+
+impl Mixed {
+    /// Where the blocks end, which of them are equalities, `M` and `q`.
+    fn one_matrix(tokens: &mut Tokens<'_>, n: usize, m: usize) -> Result<Self, ReadError> {
+        let order = n + m;
+        tokens.fixed("the begin of the first block", 0)?;
+        let mut ends = Vec::new();
+        let mut end = 0;
+        while end < order {
+            let token = tokens.expect(|| "the end of a block".to_owned())?;
+            let next = token.count("the end of a block")?;
+            if next <= end || next > order {
+                let expected = format!("an end of a block above {end} and up to {order}");
+                let remedy = "the blocks together have n + m rows";
+                return Err(token.unexpected(expected, remedy));
+            }
+            end = next;
+            ends.push(end);
+        }
+        let at = tokens.position();
+        let mut free = Vec::with_capacity(order);
+        for end in ends {
+            let is_complementarity = flag(tokens, "0 (equalities) or 1 (complementarities)")?;
+            free.resize(end, !is_complementarity);
+        }
+        let equalities = free.iter().filter(|&&free| free).count();
+        if equalities != n {
+            return Err(ReadError::Unexpected {
+                at,
+                expected: format!("blocks with {n} equalities"),
+                found: equalities.to_string(),
+                remedy: "the kinds of the blocks must agree with n and m",
+            });
+        }
+        Ok(Self { m: matrix::read(tokens, order)?, q: tokens.numbers(order, "q")?, free })
+    }
+
+    /// `A` (n x n), `B` (m x m), `C` (n x m) and `D` (m x n) by rows, `a` and `b`.
+    fn four_matrices(tokens: &mut Tokens<'_>, n: usize, m: usize) -> Result<Self, ReadError> {
+        let order = n + m;
+        let all = order.checked_mul(order).and_then(|square| square.checked_add(order));
+        tokens.room_for(all, "the four matrices and two vectors")?;
+        let mut matrix = Mat::zeros(order, order);
+        let blocks = [
+            ("A", 0..n, 0..n),
+            ("B", n..order, n..order),
+            ("C", 0..n, n..order),
+            ("D", n..order, 0..n),
+        ];
+        for (what, rows, cols) in blocks {
+            for row in rows {
+                let values = tokens.numbers(cols.len(), what)?;
+                cols.clone().zip(values).for_each(|(col, v)| matrix[(row, col)] = v);
+            }
+        }
+        let mut q = tokens.numbers(n, "a")?;
+        q.extend(tokens.numbers(m, "b")?);
+        let free = (0..order).map(|row| row < n).collect();
+        Ok(Self { m: matrix.into(), q, free })
+    }
+
+    /// Refuses a file whose two representations are different problems.
+    ///
+    /// `again` has the equalities first.
+    fn check_against(&self, again: &Self, at: Position) -> Result<(), ReadError> {
+        let (first, second) = (&self.m, &again.m);
+        let order = self.q.len();
+        let equalities = (0..order).filter(|&row| self.free[row]);
+        let place: Vec<usize> =
+            equalities.chain((0..order).filter(|&row| !self.free[row])).collect();
+        let differs = |name: String, first: f64, second: f64| ReadError::Unexpected {
+            at,
+            expected: format!("{name} = {first}, as in the first representation"),
+            found: second.to_string(),
+            remedy: "the two representations of the problem must agree",
+        };
+        for (i, &row) in place.iter().enumerate() {
+            if !agree(self.q[row], again.q[i]) {
+                return Err(differs(format!("q[{row}]"), self.q[row], again.q[i]));
+            }
+            for (j, &col) in place.iter().enumerate() {
+                let values = (first[(row, col)], second[(i, j)]);
+                if !agree(values.0, values.1) {
+                    return Err(differs(format!("M[{row}, {col}]"), values.0, values.1));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Up to the six digits with which some files are written.
+fn agree(x: f64, y: f64) -> bool {
+    (x - y).abs() <= 1e-5 * x.abs().max(y.abs())
+}

@@ -1,0 +1,275 @@
+//! Published problems, where their files are at hand: the right verdict and the known answer, as the
+//! problems stand and in equivalent forms.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+#![allow(clippy::unreadable_literal, reason = "answers as they are published")]
+
+#[path = "lcp_files/transform.rs"]
+#[allow(unreachable_pub, reason = "a module of this test")]
+mod transform;
+
+use std::path::PathBuf;
+
+use lcp::Lemke;
+use lcp::faer::Mat;
+use lcp::io::{Problem, read_file};
+use transform::{Equivalent, extended, permuted, premultiplied, scaled, swapped};
+
+/// What is known of the solutions `(z, w)`.
+enum Answer {
+    /// `z` is this point, which is known to six decimals.
+    Rounded(Vec<f64>),
+    /// `z` is one of these points.
+    OneOf(Vec<Vec<f64>>),
+    /// These combinations of `z` have these values, and there is nothing else to know.
+    Equations(Vec<(Vec<f64>, f64)>),
+    /// The sum of these entries of `z`, and how many of them are positive.
+    Sum { of: fn(usize) -> bool, sum: f64, positive: usize },
+    /// Nothing but the residuals.
+    Residuals,
+}
+
+fn all(_: usize) -> bool {
+    true
+}
+
+fn normal_force(index: usize) -> bool {
+    index.is_multiple_of(3)
+}
+
+fn published() -> Vec<(&'static str, Answer)> {
+    use Answer::{Equations, OneOf, Residuals, Rounded, Sum};
+    let trivial = (1..=9).map(|k| 1.0 / f64::from(k)).collect();
+    let pd_sym = vec![-2.049212, -1.518139, -0.751748, 0.760924, 0.412631, 0.625117, 0.325553];
+    vec![
+        ("lcp_CPS_1", Equations(vec![(vec![1.0, 1.0], 1.0)])),
+        ("lcp_CPS_2", OneOf(vec![vec![0.0, 1.0, 3.0]])),
+        (
+            "lcp_CPS_3",
+            OneOf(vec![
+                vec![1.0 / 10.0, 0.0, 1.0 / 10.0, 0.0],
+                vec![0.0, 1.0 / 15.0, 0.0, 1.0 / 15.0],
+                vec![1.0 / 90.0, 2.0 / 45.0, 1.0 / 90.0, 2.0 / 45.0],
+            ]),
+        ),
+        ("lcp_CPS_5", Equations(vec![(vec![-1.0, 1.0], 1.0)])),
+        ("lcp_deudeu", OneOf(vec![vec![4.0 / 3.0, 7.0 / 3.0]])),
+        ("lcp_trivial", OneOf(vec![trivial])),
+        ("lcp_ortiz", OneOf(vec![vec![2.0 / 3.0, 0.0, 1.0 / 3.0, 0.0]])),
+        (
+            "lcp_inf_sol_perturbed",
+            Equations(vec![(vec![1.0, 0.0, 0.0], 1.0), (vec![0.0, -1.0, 1.0], 1e-4)]),
+        ),
+        ("lcp_exp_murty2", OneOf(vec![vec![0.0, 0.0, 0.0, 0.0, 0.0, 64.0]])),
+        ("lcp_mmc", Sum { of: all, sum: 1.53002195098466e-3, positive: 22 }),
+        ("m3n2_mlcp", OneOf(vec![vec![1.0, -1.0, 0.0, 4.0, 0.0]])),
+        ("PDSym_mlcp", Rounded(pd_sym)),
+        ("relay2_mlcp", OneOf(vec![vec![10.0, -1.4, 0.0, -0.014, 9.999, 3.0]])),
+        ("RCD_mlcp", Residuals),
+        ("diodeBridge_mlcp", Residuals),
+        (
+            "FrictionContactProblem00031",
+            Sum { of: normal_force, sum: 6.34608856152e-4, positive: 1 },
+        ),
+        ("FrictionContactProblem00374", Sum { of: normal_force, sum: 1624.54273209, positive: 10 }),
+        (
+            "FC2D_SliderCrankLagrangian00000",
+            Sum { of: normal_force, sum: 0.11100381623, positive: 2 },
+        ),
+    ]
+}
+
+/// Digits to which the published numbers and the answers agree.
+const PRECISION: f64 = 1e-8;
+
+/// The published problems, where their files are at hand.
+fn problems() -> Vec<(&'static str, Problem, Answer)> {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/lcp-problems");
+    if !folder.is_dir() {
+        eprintln!("the published problems are not at hand: nothing is tested");
+        return Vec::new();
+    }
+    let read = |name| read_file(&folder.join(name).with_extension("dat"), None).unwrap().problem;
+    published().into_iter().map(|(name, answer)| (name, read(name), answer)).collect()
+}
+
+/// Whether `(z, w)` is as the answer says.
+fn agrees(answer: &Answer, z: &[f64]) -> Result<(), String> {
+    let size = z.iter().fold(0.0_f64, |max, z| max.max(z.abs()));
+    let near = |x: f64, y: f64, unit: f64| (x - y).abs() <= PRECISION * unit;
+    match answer {
+        Answer::OneOf(points) => {
+            let is = |point: &Vec<f64>| point.iter().zip(z).all(|(x, y)| near(*x, *y, size));
+            if points.iter().any(is) { Ok(()) } else { Err(format!("z = {z:?}")) }
+        }
+        Answer::Equations(equations) => {
+            for (row, value) in equations {
+                let sum: f64 = row.iter().zip(z).map(|(a, z)| a * z).sum();
+                if !near(sum, *value, size) {
+                    return Err(format!("{row:?} z = {sum}, but not {value}"));
+                }
+            }
+            Ok(())
+        }
+        Answer::Sum { of, sum, positive } => {
+            let z: Vec<f64> = (0..z.len()).filter(|&i| of(i)).map(|i| z[i]).collect();
+            let found: f64 = z.iter().sum();
+            let count = z.iter().filter(|z| **z > PRECISION * size).count();
+            if near(found, *sum, *sum) && count == *positive {
+                return Ok(());
+            }
+            Err(format!("{count} positive entries with the sum {found}"))
+        }
+        Answer::Rounded(point) => {
+            let is = point.iter().zip(z).all(|(x, y)| (x - y).abs() <= 0.51e-6);
+            if is { Ok(()) } else { Err(format!("z = {z:?}")) }
+        }
+        Answer::Residuals => Ok(()),
+    }
+}
+
+/// Solves an equivalent problem and judges its solution as one of the original problem.
+fn verdict(original: &Problem, equivalent: &Equivalent, answer: &Answer) -> Result<(), String> {
+    let solution = Lemke::default().solve(&equivalent.problem).unwrap();
+    if !solution.is_solved() {
+        let attempts = solution.info.attempts.iter();
+        let ends: Vec<_> = attempts.map(|attempt| (attempt.end, attempt.pivots)).collect();
+        return Err(format!("{} after {ends:?}", solution.status));
+    }
+    let (t, y) = (equivalent.back)(&(solution.t, solution.y));
+    let residuals = original.to_general().residuals(&t, &y);
+    if residuals.worst() > PRECISION {
+        return Err(format!("a wrong answer: {residuals:?}"));
+    }
+    let (z, _) = original.recover(&t, &y);
+    agrees(answer, &z).map_err(|difference| format!("a wrong answer: {difference}"))
+}
+
+/// Every published problem in every form that `forms` makes of it.
+fn solve_all(forms: impl Fn(&mut Random, Equivalent) -> Vec<Equivalent>) {
+    let mut failures = Vec::new();
+    for (number, (name, problem, answer)) in problems().into_iter().enumerate() {
+        let mut random = Random::new(number as u64);
+        for form in forms(&mut random, Equivalent::original(problem.to_general())) {
+            if let Err(failure) = verdict(&problem, &form, &answer) {
+                failures.push(format!("{name}, {}: {failure}", form.name));
+            }
+        }
+    }
+    assert!(failures.is_empty(), "{} failures\n{}", failures.len(), failures.join("\n"));
+}
+
+#[test]
+fn as_they_stand() {
+    solve_all(|_, original| vec![original]);
+}
+
+#[test]
+fn in_other_units() {
+    const FACTORS: [f64; 3] = [1e-8, 1.0, 1e8];
+    solve_all(|_, original| {
+        let forms = FACTORS.iter().flat_map(|&s| FACTORS.iter().map(move |&r| (s, r)));
+        forms.map(|(s, r)| scaled(&original.problem, s, r)).collect()
+    });
+}
+
+#[test]
+fn with_a_tiny_and_with_a_huge_vector() {
+    solve_all(|_, original| [1e-12, 1e12].map(|r| scaled(&original.problem, 1.0, r)).into());
+}
+
+#[test]
+fn in_another_order() {
+    solve_all(|random, original| {
+        let n = original.problem.order();
+        (0..8).map(|_| permuted(&original.problem, random.order(n))).collect()
+    });
+}
+
+#[test]
+fn with_pairs_swapped() {
+    solve_all(|random, original| {
+        let n = original.problem.order();
+        (0..8).map(|_| swapped(&original.problem, random.choices(n))).collect()
+    });
+}
+
+#[test]
+fn with_rows_premultiplied() {
+    solve_all(|random, original| {
+        let n = original.problem.order();
+        (0..8).map(|_| premultiplied(&original.problem, &random.orthogonal(n))).collect()
+    });
+}
+
+#[test]
+fn with_a_pair_more() {
+    solve_all(|random, original| {
+        let form = |size| extended(&original.problem, size);
+        let n = original.problem.order() + 1;
+        let mixed = |random: &mut Random, size| {
+            let extended = form(size).then(|problem| permuted(problem, random.order(n)));
+            extended.then(|problem| swapped(problem, random.choices(n)))
+        };
+        vec![form(1.0), form(-1.0), mixed(random, 1.0), mixed(random, -1.0)]
+    });
+}
+
+#[test]
+fn in_compositions_of_these() {
+    solve_all(|random, original| {
+        let n = original.problem.order();
+        let form = |random: &mut Random| {
+            let (s, r) = (random.factor(), random.factor());
+            Equivalent::original(original.problem.clone())
+                .then(|problem| scaled(problem, s, r))
+                .then(|problem| permuted(problem, random.order(n)))
+                .then(|problem| swapped(problem, random.choices(n)))
+                .then(|problem| premultiplied(problem, &random.orthogonal(n)))
+        };
+        (0..8).map(|_| form(random)).collect()
+    });
+}
+
+/// A small generator (`SplitMix64`), so that every run has the same problems.
+struct Random(u64);
+
+impl Random {
+    fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// Uniform between 0 and 1.
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn order(&mut self, n: usize) -> Vec<usize> {
+        let mut keyed: Vec<(f64, usize)> = (0..n).map(|i| (self.next(), i)).collect();
+        keyed.sort_by(|x, y| x.0.total_cmp(&y.0));
+        keyed.into_iter().map(|(_, i)| i).collect()
+    }
+
+    fn choices(&mut self, n: usize) -> Vec<bool> {
+        (0..n).map(|_| self.next() < 0.5).collect()
+    }
+
+    /// Between 1e-6 and 1e6, by its logarithm.
+    fn factor(&mut self) -> f64 {
+        10_f64.powf(12.0 * self.next() - 6.0)
+    }
+
+    /// A product of two reflections.
+    fn orthogonal(&mut self, n: usize) -> Mat<f64> {
+        self.reflection(n) * self.reflection(n)
+    }
+
+    fn reflection(&mut self, n: usize) -> Mat<f64> {
+        let v: Vec<f64> = (0..n).map(|_| self.next() - 0.5).collect();
+        let square: f64 = v.iter().map(|v| v * v).sum();
+        Mat::from_fn(n, n, |i, j| f64::from(u8::from(i == j)) - 2.0 * v[i] * v[j] / square)
+    }
+}
