@@ -3,7 +3,7 @@
 mod lu;
 mod order;
 
-pub(crate) use lu::{Growing, SparseLu};
+pub(crate) use lu::{Growing, SparseLu, row_counts};
 pub(crate) use order::elimination_order;
 
 /// Columns of nonzero entries, one after the other.
