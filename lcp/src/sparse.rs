@@ -48,6 +48,7 @@ impl Columns {
     }
 
     /// The entries `(row, value)` of a column.
+    #[inline]
     pub(crate) fn entries(&self, j: usize) -> impl DoubleEndedIterator<Item = (usize, f64)> + '_ {
         let range = self.starts[j]..self.starts[j + 1];
         let values = self.values[range.clone()].iter();
@@ -55,11 +56,13 @@ impl Columns {
     }
 
     /// `out += factor * column`.
+    #[inline]
     pub(crate) fn add_to(&self, j: usize, factor: f64, out: &mut [f64]) {
         self.entries(j).for_each(|(i, v)| out[i] += factor * v);
     }
 
     /// The scalar product of a column with a vector.
+    #[inline]
     pub(crate) fn dot(&self, j: usize, x: &[f64]) -> f64 {
         self.entries(j).map(|(i, v)| v * x[i]).sum()
     }

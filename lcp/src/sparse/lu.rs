@@ -1,5 +1,6 @@
 //! Sparse LU factorisation, column by column (Gilbert and Peierls 1988).
 
+use super::order::{Turn, elimination_order};
 use super::{Columns, index};
 
 /// Of the entries at least this large against the largest one, that in the emptiest row is the pivot.
@@ -50,15 +51,16 @@ impl Growing {
         self.step_of_row.len()
     }
 
-    /// Takes column `j` of a matrix for the place `slot`; `false`, and nothing changed, where no entry
+    /// Takes a column of a matrix for the place `slot`; `false`, and nothing changed, where no entry
     /// outside the span of the columns before is larger than `tolerance` times its largest entry.
     pub(crate) fn offer(
         &mut self,
         slot: usize,
         columns: &Columns,
-        j: usize,
+        turn: Turn,
         tolerance: f64,
     ) -> bool {
+        let j = turn.column;
         self.reach(columns.rows(j));
         columns.add_to(j, 1.0, &mut self.x);
         let (mut largest, mut pivot) = (0.0_f64, 0.0_f64);
@@ -73,7 +75,7 @@ impl Growing {
             }
         }
         let is_taken = pivot.is_finite() && largest.is_finite() && pivot > tolerance * largest;
-        if is_taken && let Some(row) = self.pivot_row(THRESHOLD * pivot) {
+        if is_taken && let Some(row) = self.pivot_row(turn.row, THRESHOLD * pivot) {
             self.take(slot, row);
         }
         for row in self.reached.drain(..) {
@@ -110,8 +112,14 @@ impl Growing {
         }
     }
 
-    fn pivot_row(&self, least: f64) -> Option<u32> {
+    /// The preferred row where its entry is large enough, else of those that are the one with fewest
+    /// entries.
+    fn pivot_row(&self, preferred: Option<usize>, least: f64) -> Option<u32> {
         let size = |row: u32| self.x[row as usize].abs();
+        let is_fit = |&row: &usize| self.step_of_row[row] == NONE && self.x[row].abs() >= least;
+        if let Some(row) = preferred.filter(is_fit) {
+            return Some(index(row));
+        }
         let free =
             self.reached.iter().copied().filter(|&row| self.step_of_row[row as usize] == NONE);
         free.filter(|&row| size(row) >= least).min_by(|&a, &b| {
@@ -160,7 +168,10 @@ impl Growing {
         self.lower.rows.iter_mut().for_each(|row| *row = self.step_of_row[*row as usize]);
         let upper_rows = self.upper.transposed(n);
         let Self { lower, upper, diagonal, row_of_step, slot_of_step, .. } = self;
-        (SparseLu { lower, upper, upper_rows, diagonal, row_of_step, slot_of_step }, replaced)
+        let first_below = (0..n).find(|&k| !lower.rows(k).is_empty()).unwrap_or(n);
+        let lu =
+            SparseLu { lower, upper, upper_rows, diagonal, row_of_step, slot_of_step, first_below };
+        (lu, replaced)
     }
 }
 
@@ -173,6 +184,8 @@ pub(crate) struct SparseLu {
     diagonal: Vec<f64>,
     row_of_step: Vec<u32>,
     slot_of_step: Vec<u32>,
+    /// The first step that has entries below the diagonal: those before eliminate nothing.
+    first_below: usize,
 }
 
 impl SparseLu {
@@ -183,8 +196,8 @@ impl SparseLu {
         let n = columns.len();
         let tolerance = 4.0 * n as f64 * f64::EPSILON;
         let mut growing = Growing::new(row_counts(n, columns));
-        for j in super::elimination_order(n, columns) {
-            growing.offer(j, columns, j, tolerance);
+        for turn in elimination_order(n, columns) {
+            growing.offer(turn.column, columns, turn, tolerance);
         }
         growing.finish()
     }
@@ -203,7 +216,7 @@ impl SparseLu {
     pub(crate) fn solve(&self, x: &mut [f64], work: &mut Vec<f64>) {
         work.clear();
         work.extend(self.row_of_step.iter().map(|&row| x[row as usize]));
-        for k in 0..work.len() {
+        for k in self.first_below..work.len() {
             if work[k] != 0.0 {
                 self.lower.add_to(k, -work[k], work);
             }
@@ -227,7 +240,7 @@ impl SparseLu {
                 self.upper_rows.add_to(k, -work[k], work);
             }
         }
-        for k in (0..work.len()).rev() {
+        for k in (self.first_below..work.len()).rev() {
             work[k] -= self.lower.dot(k, work);
         }
         work.iter().zip(&self.row_of_step).for_each(|(&v, &row)| x[row as usize] = v);
@@ -239,4 +252,77 @@ pub(crate) fn row_counts(rows: usize, columns: &Columns) -> Vec<u32> {
     let mut counts = vec![0; rows];
     columns.rows.iter().for_each(|&row| counts[row as usize] += 1);
     counts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn columns(n: usize, entry: impl Fn(usize, usize) -> f64) -> Columns {
+        let mut columns = Columns::default();
+        for j in 0..n {
+            (0..n).filter(|&i| entry(i, j) != 0.0).for_each(|i| columns.push(i, entry(i, j)));
+            columns.close();
+        }
+        columns
+    }
+
+    fn product(m: &Columns, x: &[f64], is_transposed: bool) -> Vec<f64> {
+        if is_transposed {
+            return (0..m.len()).map(|j| m.dot(j, x)).collect();
+        }
+        let mut out = vec![0.0; m.len()];
+        (0..m.len()).for_each(|j| m.add_to(j, x[j], &mut out));
+        out
+    }
+
+    /// Zeros on the diagonal, a singleton column, and a dense row and column.
+    fn sample(i: usize, j: usize) -> f64 {
+        match (i, j) {
+            (4, 4) => 3.0,
+            (_, 4) => 0.0,
+            (7, _) | (_, 7) => 1.0 + (i + 2 * j) as f64 / 8.0,
+            _ if (i + 1) % 11 == j => 2.0,
+            _ if (2 * i + 5) % 11 == j => -1.0 - i as f64 / 4.0,
+            _ => 0.0,
+        }
+    }
+
+    #[test]
+    fn systems_are_solved() {
+        let m = columns(11, sample);
+        let (lu, replaced) = SparseLu::new(&m);
+        assert!(replaced.is_empty());
+        let x: Vec<f64> = (0..11_u8).map(|k| f64::from(k % 4) - 1.5).collect();
+        for is_transposed in [false, true] {
+            let mut found = product(&m, &x, is_transposed);
+            let mut work = Vec::new();
+            if is_transposed {
+                lu.solve_transpose(&mut found, &mut work);
+            } else {
+                lu.solve(&mut found, &mut work);
+            }
+            assert!(found.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-13), "{found:?}");
+        }
+    }
+
+    /// A column that is the sum of two others, and an empty one, give way to unit columns.
+    #[test]
+    fn dependent_columns_are_replaced() {
+        let m = columns(11, |i, j| match j {
+            2 => sample(i, 0) + sample(i, 1),
+            9 => 0.0,
+            _ => sample(i, j),
+        });
+        let (lu, replaced) = SparseLu::new(&m);
+        let slots: Vec<usize> = replaced.iter().map(|it| it.0).collect();
+        assert!(slots.len() == 2 && slots.contains(&9), "{replaced:?}");
+        assert!(slots.iter().any(|slot| [0, 1, 2].contains(slot)));
+        for (slot, row) in replaced {
+            let mut x = vec![0.0; 11];
+            x[row] = 1.0;
+            lu.solve(&mut x, &mut Vec::new());
+            assert!((0..11).all(|k| (x[k] - f64::from(u8::from(k == slot))).abs() < 1e-14));
+        }
+    }
 }

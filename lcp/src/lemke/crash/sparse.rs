@@ -150,9 +150,9 @@ impl<'a> Search<'a> {
                 entries.for_each(|(i, v)| columns.push(i, v));
                 columns.close();
             }
-            for j in elimination_order(n, &columns) {
-                let (pair, side) = open[j];
-                if sides[pair].is_none() && growing.offer(pair, &columns, j, RANK_TOLERANCE) {
+            for turn in elimination_order(n, &columns) {
+                let (pair, side) = open[turn.column];
+                if sides[pair].is_none() && growing.offer(pair, &columns, turn, RANK_TOLERANCE) {
                     sides[pair] = Some(side);
                 }
             }
