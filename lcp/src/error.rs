@@ -64,4 +64,18 @@ pub enum Error {
         /// Entries that it must have.
         expected: usize,
     },
+    /// Something is larger than a limit in the settings.
+    #[error(
+        "the {what} is {value}, but `{name}` allows {limit}: raise it or take a smaller problem"
+    )]
+    Limit {
+        /// What is too large.
+        what: &'static str,
+        /// Its value.
+        value: usize,
+        /// Name of the setting.
+        name: &'static str,
+        /// The limit that it sets.
+        limit: usize,
+    },
 }

@@ -25,6 +25,8 @@
 //! ```
 //!
 //! With the feature `io` problems are read from files, and with `cli` there is the program `lcp`.
+//! With `exact` all solutions of a small problem are found in rational arithmetic. The module
+//! [`families`] makes problems whose answers are known.
 //!
 //! A status says what the mathematics decided; an [`Error`] says that the input was unusable. A
 //! solver says [`Status::Solved`] only after the residuals were computed from the data that it was
@@ -35,6 +37,9 @@ mod basis;
 #[cfg(feature = "cli")]
 pub mod cli;
 mod error;
+#[cfg(feature = "exact")]
+pub mod exact;
+pub mod families;
 #[cfg(feature = "io")]
 pub mod io;
 mod lemke;
@@ -57,7 +62,7 @@ pub use lemke::{
     ParametricSettings, Progress,
 };
 pub use matrix::Matrix;
-pub use problem::{BoxedLcp, HorizontalLcp, Lcp, MixedLcp};
+pub use problem::{BoxedLcp, ErrorBound, HorizontalLcp, Lcp, MixedLcp, Monotonicity};
 pub use residual::Residuals;
 pub use settings::{Covering, LemkeSettings, WarmStart};
 pub use solution::{

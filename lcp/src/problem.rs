@@ -1,10 +1,12 @@
 //! Problems: the general (horizontal) form, and the forms that convert into it.
 
+mod bound;
 mod boxed;
 mod horizontal;
 mod mixed;
 mod standard;
 
+pub use bound::{ErrorBound, Monotonicity};
 pub use boxed::BoxedLcp;
 pub use horizontal::HorizontalLcp;
 pub use mixed::MixedLcp;

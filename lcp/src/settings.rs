@@ -68,8 +68,8 @@ pub struct LemkeSettings {
     /// Pivots after which the tableau is rebuilt from the data even if it has not drifted; `None`
     /// leaves it to the measured drift. At least 1.
     pub refactor_interval: Option<usize>,
-    /// Whether the first ray is followed by a search for a proof that there is no solution, of up to
-    /// `4 n` pivots of the dual simplex method. Without it the status is never
+    /// Whether the first ray is followed by a search for a proof that there is no solution, by the
+    /// simplex method. Without it the status is never
     /// [`Infeasible`](crate::Status::Infeasible).
     pub prove_infeasible: bool,
     /// Whether [`Solution::trace`](crate::Solution::trace) records every pivot.

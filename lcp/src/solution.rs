@@ -129,6 +129,12 @@ pub enum AttemptCovering {
     },
     /// The one of the settings.
     Given,
+    /// The column of the nonbasic variable of a pair, which takes the place of the artificial one
+    /// (Lemke and Howson 1964).
+    Column {
+        /// The pair, from 0.
+        pair: usize,
+    },
 }
 
 impl std::fmt::Display for AttemptCovering {
@@ -137,6 +143,7 @@ impl std::fmt::Display for AttemptCovering {
             Self::Ones => f.write_str("ones"),
             Self::Random { seed } => write!(f, "random, seed {seed}"),
             Self::Given => f.write_str("given"),
+            Self::Column { pair } => write!(f, "column of pair {pair}"),
         }
     }
 }

@@ -2,9 +2,9 @@
 
 #![allow(clippy::unwrap_used)] // a test may panic
 
-use faer::Mat;
 use faer::sparse::{SparseColMat, Triplet};
-use lcp::{BoxedLcp, Error, Lemke, Matrix, MixedLcp, Status};
+use faer::{Mat, mat};
+use lcp::{BoxedLcp, Error, Lcp, Lemke, Matrix, MixedLcp, Monotonicity, Status};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -125,6 +125,37 @@ proptest! {
             }
         }
     }
+}
+
+proptest! {
+    #![proptest_config(cases(256))]
+
+    /// The bound holds for any point, and for a solution it is at rounding level.
+    #[test]
+    fn error_bounds_hold((c, q, _) in data(), shifts in vec(-1.0..1.0_f64, 8), exponent in 0..12_i32) {
+        let n = q.len();
+        let lcp = Lcp::new(monotone(n, &c), q.clone()).unwrap();
+        let is_strong = matches!(lcp.monotonicity(), Monotonicity::Strong { modulus } if modulus > 0.9);
+        prop_assert!(is_strong);
+        let solution = Lemke::default().solve(&lcp.clone().into()).unwrap().t;
+        let size = 1.0 + solution.iter().fold(0.0_f64, |max, z| max.max(z.abs()));
+        prop_assert!(lcp.error_bound(&solution).unwrap().distance.unwrap() <= 1e-11 * size);
+        let step = 10.0_f64.powi(-exponent);
+        let near: Vec<f64> =
+            solution.iter().zip(&shifts).map(|(z, shift)| (z + step * shift).max(0.0)).collect();
+        let error = solution.iter().zip(&near).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+        let bound = lcp.error_bound(&near).unwrap().distance.unwrap();
+        prop_assert!(error <= bound + 1e-13 * size, "{} > {}", error, bound);
+    }
+}
+
+#[test]
+fn monotonicity_is_told() {
+    let of = |m: Mat<f64>| Lcp::new(m, vec![0.0, 0.0]).unwrap().monotonicity();
+    assert!(matches!(of(mat![[2.0, 5.0], [-5.0, 1.0]]), Monotonicity::Strong { .. }));
+    assert_eq!(of(mat![[1.0, 1.0], [1.0, 1.0]]), Monotonicity::Weak);
+    assert_eq!(of(mat![[0.0, 1.0], [-1.0, 0.0]]), Monotonicity::Weak);
+    assert_eq!(of(mat![[1.0, 2.0], [2.0, 1.0]]), Monotonicity::None);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)] // a test may panic
 
 use faer::{Mat, mat};
+use lcp::families;
 use lcp::{
     AttemptEnd, Basis, Covering, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side, Status, WarmStart,
 };
@@ -33,15 +34,6 @@ fn assert_solves_at_once(m: &Mat<f64>, q: &[f64], z: &[f64]) {
     }
 }
 
-/// Ones on the diagonal and twos below it (Murty 1978).
-fn murty(n: usize) -> Mat<f64> {
-    Mat::from_fn(n, n, |i, j| match i.cmp(&j) {
-        std::cmp::Ordering::Less => 0.0,
-        std::cmp::Ordering::Equal => 1.0,
-        std::cmp::Ordering::Greater => 2.0,
-    })
-}
-
 #[test]
 fn cottle_pang_stone_examples() {
     let m = mat![[2.0, 1.0], [1.0, 2.0]];
@@ -53,15 +45,15 @@ fn cottle_pang_stone_examples() {
 /// Cycles under the plain ratio test (Kostreva 1979): the lexicographic rule does not.
 #[test]
 fn kostreva_does_not_cycle() {
-    let m = mat![[1.0, 2.0, 0.0], [0.0, 1.0, 2.0], [2.0, 0.0, 1.0]];
-    assert_solves_at_once(&m, &[-1.0; 3], &[1.0 / 3.0; 3]);
+    let kostreva = families::kostreva_1().problem;
+    assert_solves_at_once(&kostreva.m().to_dense(), kostreva.q(), &[1.0 / 3.0; 3]);
 }
 
 /// Its third row alone, `w3 = -z1 - 2 z2 - 1`, has no solution.
 #[test]
 fn kostreva_without_a_solution_is_proved_infeasible() {
-    let m = mat![[1.0, -1.0, 3.0], [2.0, -1.0, 3.0], [-1.0, -2.0, 0.0]];
-    let solution = Lemke::default().solve(&lcp(m, &[-1.0; 3])).unwrap();
+    let problem = families::kostreva_2().problem.into();
+    let solution = Lemke::default().solve(&problem).unwrap();
     assert_eq!(solution.status, Status::Infeasible);
     assert_eq!(solution.farkas, Some(vec![0.0, 0.0, -1.0]));
 }
@@ -137,9 +129,8 @@ fn exponential_families_take_their_pivots_or_stop_at_the_limit() {
         let limited = LemkeSettings { max_pivots: Some(3), ..ones.clone() };
         let mut first = vec![0.0; n];
         first[0] = 1.0;
-        let fathi = &murty(n) * murty(n).transpose();
-        for (m, order) in [(murty(n), n - 1), (fathi, n)] {
-            let problem = lcp(m, &vec![-1.0; n]);
+        for (instance, order) in [(families::murty(n), n - 1), (families::fathi(n), n)] {
+            let problem = instance.problem.into();
             let solution = Lemke::new(ones.clone()).solve(&problem).unwrap();
             assert_eq!(solution.status, Status::Solved);
             assert_close(&solution.t, &first);

@@ -5,10 +5,17 @@
 //! basis. A solution in which all artificial variables are zero solves the problem as given, which
 //! the residuals of the original data decide.
 
-use super::feasibility::is_proof;
+use super::feasibility::{in_problem_rows, is_proof};
 use super::finish::Point;
 use super::start::Equilibrated;
+use crate::problem::max_abs;
 use crate::{Basis, HorizontalLcp, Matrix, Side, Solution};
+
+/// A part of `c` below this is rounding errors, in equilibrated rows.
+const LEAST_PART: f64 = 1e-9;
+
+/// Entries of that part below this multiple of the largest are rounding errors.
+const NOISE: f64 = 1e-13;
 
 /// The problem in which the missing pairs have an artificial column instead of that of `side`.
 pub(super) fn completed(
@@ -69,7 +76,12 @@ pub(super) fn part_outside(problem: &Equilibrated<'_>, complement: &Matrix) -> O
         let column = complement.slice(k);
         column.add_to(column.dot(&right), &mut outside);
     }
-    let pi: Vec<f64> = outside.iter().zip(&problem.row).map(|(pi, row)| pi * row).collect();
+    if max_abs(&outside) <= LEAST_PART * max_abs(&right) {
+        return None;
+    }
+    let least = NOISE * max_abs(&outside);
+    outside.iter_mut().filter(|part| part.abs() < least).for_each(|part| *part = 0.0);
+    let pi = in_problem_rows(problem, &outside);
     is_proof(problem, &pi).then_some(pi)
 }
 

@@ -118,6 +118,15 @@ impl<'a, K: Kernel> Path<'a, K> {
         2 * self.order()
     }
 
+    /// The basic variables, row by row.
+    pub(super) fn basic(&self) -> impl Iterator<Item = Var> + '_ {
+        self.basic.iter().copied()
+    }
+
+    pub(super) fn is_nonbasic(&self, var: Var) -> bool {
+        self.row_of[var].is_none()
+    }
+
     /// The row in which the artificial variable is basic.
     pub(super) fn artificial_row(&self) -> Option<usize> {
         self.row_of[self.artificial()]
@@ -147,22 +156,63 @@ impl<'a, K: Kernel> Path<'a, K> {
 
     /// Follows the path to its end.
     pub(super) fn run(&mut self, limits: Limits<'_>) -> AttemptEnd {
-        let Some(first) = self.first_row() else { return AttemptEnd::Complementary };
         let mut column = std::mem::take(&mut self.column);
-        let end = self.follow(first, &mut column, limits);
+        let end = match limits(self.pivots) {
+            Some(end) => end,
+            None => match self.enter_artificial(&mut column) {
+                Some(entering) => self.follow(entering, &mut column, limits),
+                None => AttemptEnd::Complementary,
+            },
+        };
         self.column = column;
         end
     }
 
-    fn follow(&mut self, first: usize, column: &mut [f64], limits: Limits<'_>) -> AttemptEnd {
-        if let Some(end) = limits(self.pivots) {
-            return end;
-        }
-        self.kernel.column(self.artificial(), column);
-        self.artificial_start = self.values[first] / column[first];
-        let mut entering = self.exchange(first, self.artificial(), column);
+    /// The same without an artificial variable: that of a pair takes its place, and the path ends when
+    /// it, or its complement, leaves (Lemke and Howson 1964). It, and those that follow it, must
+    /// lift every negative value without lowering others below zero, or there is no such path.
+    pub(super) fn run_driven(&mut self, pair: usize, limits: Limits<'_>) -> AttemptEnd {
+        let mut column = std::mem::take(&mut self.column);
+        let end = match limits(self.pivots) {
+            Some(end) => end,
+            None => match self.lift(self.order() + pair, &mut column) {
+                Some(entering) => self.follow(entering, &mut column, limits),
+                None => AttemptEnd::Ray,
+            },
+        };
+        self.column = column;
+        end
+    }
+
+    /// Exchanges until no value is negative. Returns the variable that follows.
+    fn lift(&mut self, driver: Var, column: &mut [f64]) -> Option<Var> {
+        let mut entering = driver;
         loop {
-            if entering == self.artificial() {
+            let negative = |path: &Self, i: &usize| path.values[*i] < 0.0 && path.is_bounded(*i);
+            if !(0..column.len()).any(|i| negative(self, &i)) {
+                return Some(entering);
+            }
+            if !self.is_nonbasic(entering) || self.kernel.is_due() {
+                return None;
+            }
+            self.kernel.column(entering, column);
+            let least = -DRIFT * max_abs(column);
+            let step = |i: usize| self.values[i] / column[i];
+            let lifted = (0..column.len()).filter(|i| negative(self, i) && column[*i] < least);
+            let row = lifted.max_by(|&i, &j| step(i).total_cmp(&step(j)))?;
+            let after = |i: usize| self.values[i] - step(row) * column[i];
+            let is_kept = |i: usize| negative(self, &i) || !self.is_bounded(i) || after(i) >= 0.0;
+            if !(0..column.len()).all(is_kept) {
+                return None;
+            }
+            entering = self.exchange(row, entering, column);
+        }
+    }
+
+    fn follow(&mut self, mut entering: Var, column: &mut [f64], limits: Limits<'_>) -> AttemptEnd {
+        loop {
+            // The artificial variable has left, or one of a pair that was basic with both.
+            if entering == self.artificial() || !self.is_nonbasic(entering) {
                 return AttemptEnd::Complementary;
             }
             if let Some(end) = limits(self.pivots) {
@@ -189,6 +239,15 @@ impl<'a, K: Kernel> Path<'a, K> {
                 None => {}
             }
         }
+    }
+
+    /// The first pivot: the artificial variable enters. Returns the variable that follows, or `None`
+    /// where the start basis is already the solution.
+    pub(super) fn enter_artificial(&mut self, column: &mut [f64]) -> Option<Var> {
+        let first = self.first_row()?;
+        self.kernel.column(self.artificial(), column);
+        self.artificial_start = self.values[first] / column[first];
+        Some(self.exchange(first, self.artificial(), column))
     }
 
     /// The row that the artificial variable takes: the most negative value for its covering, the

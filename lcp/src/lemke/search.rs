@@ -124,7 +124,7 @@ impl<'a> Search<'a> {
             // The first ray asks the question; its answer does not depend on the attempt.
             let is_first_ray = self.ray_count() == 1 && outcome.end == AttemptEnd::Ray;
             if is_first_ray && self.settings.prove_infeasible {
-                self.farkas = farkas_vector(&self.problem, &first_start, self.deadline);
+                self.farkas = self.proof(&first_start, number, observer);
                 if self.farkas.is_some() {
                     return self.give_up(Status::Infeasible);
                 }
@@ -258,7 +258,7 @@ impl<'a> Search<'a> {
         let max_pivots = settings.max_pivots.unwrap_or(100 * order + 1000);
         let deadline = self.deadline;
         let began = Instant::now();
-        let end = path.run(&mut |pivots| {
+        let mut limits = |pivots| {
             let progress = Progress { attempt: number, pivots, order };
             if pivots >= max_pivots {
                 Some(AttemptEnd::PivotLimit)
@@ -267,7 +267,11 @@ impl<'a> Search<'a> {
             } else {
                 observer(&progress).is_break().then_some(AttemptEnd::Cancelled)
             }
-        });
+        };
+        let end = match trial.covering {
+            AttemptCovering::Column { pair } => path.run_driven(pair, &mut limits),
+            _ => path.run(&mut limits),
+        };
         self.info.pivot_seconds += began.elapsed().as_secs_f64();
         self.info.pivots += path.pivots;
         self.info.refactorisations += path.refactorisations;
@@ -281,13 +285,33 @@ impl<'a> Search<'a> {
         });
         let exchanges = path.trace.take().unwrap_or_default();
         self.trace.extend(exchanges.into_iter().map(|it| record(it, number, start)));
-        if end == AttemptEnd::Ray && self.ray.is_none() && perturbed.is_none() {
+        let has_artificial = path.artificial_row().is_some();
+        if end == AttemptEnd::Ray && self.ray.is_none() && has_artificial && perturbed.is_none() {
             self.ray = Some(in_problem_units(&path, start, &covering, &self.problem));
         }
         let is_complementary = end == AttemptEnd::Complementary;
         let basis = is_complementary.then(|| start.basis_with(&path.z_is_basic()));
         let z = if is_complementary { path.z() } else { vec![0.0; order] };
         Outcome { end, basis, z }
+    }
+
+    /// A proof that there is no solution.
+    fn proof(&self, start: &Start, number: usize, observer: Observer<'_>) -> Option<Vec<f64>> {
+        let trial = Trial {
+            start: AttemptStart::Found,
+            covering: AttemptCovering::Ones,
+            perturbation: Perturbation::None,
+        };
+        let covering = trial.covering(start, &[]);
+        let kernel = start.kernel(&covering, None);
+        let path = Path::new(kernel, start, &covering, start.q.clone(), None, false);
+        let order = self.problem.order();
+        let deadline = self.deadline;
+        farkas_vector(&self.problem, start, path, &mut |pivots| {
+            let is_late = deadline.is_some_and(|deadline| Instant::now() >= deadline);
+            let is_cancelled = observer(&Progress { attempt: number, pivots, order }).is_break();
+            (pivots > 20 * order + 100 || is_late || is_cancelled).then_some(AttemptEnd::Cancelled)
+        })
     }
 
     /// What the original data says of the last attempt's basis.

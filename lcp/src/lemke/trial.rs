@@ -18,7 +18,7 @@ pub(super) struct Trial {
 impl Trial {
     /// The attempt of this number, from 2, after one that ended so. After a cycle the same once more
     /// without ties. After a basis that is not quite right from there on. After a ray first another
-    /// covering vector, then another start basis, then proximal problems of falling weight, each
+    /// covering vector, another start basis, a pair in place of the artificial variable, then proximal problems of falling weight, each
     /// centered where the last one ended, then more start bases.
     pub(super) fn after(last: &Self, end: AttemptEnd, number: usize, first: &Self) -> Self {
         let seed = number as u64;
@@ -39,6 +39,7 @@ impl Trial {
         let random = AttemptCovering::Random { seed };
         let proximal = |weight| Self { perturbation: Perturbation::Proximal { weight }, ..*first };
         match number {
+            4 => Self { covering: AttemptCovering::Column { pair: 0 }, ..*first },
             2 => Self { covering: other(last.covering, seed), perturbation: parted, ..*first },
             5 => proximal(1.0),
             6 => proximal(1e-2),
@@ -56,7 +57,7 @@ impl Trial {
     pub(super) fn covering(&self, start: &Start, given: &[f64]) -> Vec<f64> {
         let n = start.q.len();
         let mut covering: Vec<f64> = match self.covering {
-            AttemptCovering::Ones => vec![1.0; n],
+            AttemptCovering::Ones | AttemptCovering::Column { .. } => vec![1.0; n],
             AttemptCovering::Random { seed } => {
                 let mut random = SplitMix::new(seed);
                 (0..n).map(|_| (6.0 * random.next_f64() - 3.0).exp2()).collect()

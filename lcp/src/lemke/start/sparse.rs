@@ -84,16 +84,33 @@ impl Equilibrated<'_> {
     /// Equilibrated columns, without zeros.
     pub(crate) fn sparse_columns(&self, picked: impl Iterator<Item = (usize, Side)>) -> Columns {
         let mut columns = Columns::default();
-        for (pair, side) in picked {
-            let factor = self.factor(pair, side);
-            self.problem.column(pair, side).for_each(|i, v| {
-                if v != 0.0 {
-                    columns.push(i, factor * (v * self.row[i]));
-                }
-            });
-            columns.close();
+        picked.for_each(|(pair, side)| self.push_column(pair, side, &mut columns));
+        columns
+    }
+
+    /// The same; none is the right-hand side.
+    pub(crate) fn sparse_columns_or_right(&self, picked: &[Option<(usize, Side)>]) -> Columns {
+        let mut columns = Columns::default();
+        for column in picked {
+            if let Some((pair, side)) = *column {
+                self.push_column(pair, side, &mut columns);
+            } else {
+                let right = self.right_hand_side().into_iter().enumerate();
+                right.filter(|(_, v)| *v != 0.0).for_each(|(i, v)| columns.push(i, v));
+                columns.close();
+            }
         }
         columns
+    }
+
+    fn push_column(&self, pair: usize, side: Side, columns: &mut Columns) {
+        let factor = self.factor(pair, side);
+        self.problem.column(pair, side).for_each(|i, v| {
+            if v != 0.0 {
+                columns.push(i, factor * (v * self.row[i]));
+            }
+        });
+        columns.close();
     }
 
     /// The factorised matrix of some columns, as many as there are rows; `None` when it is singular to

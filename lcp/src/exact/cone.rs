@@ -1,0 +1,74 @@
+//! Extreme rays of a polyhedral cone, by the double description method.
+
+use dashu_int::ops::{Gcd, UnsignedAbs};
+use dashu_int::{IBig, UBig};
+
+use crate::Error;
+
+/// A generator of a cone with the inequalities that it meets with equality, as bits.
+struct Generator {
+    entries: Vec<IBig>,
+    tight: u64,
+}
+
+/// The extreme rays, as primitive integer vectors, of `{x >= 0 : g.x >= 0 for every g}`.
+///
+/// From the orthant on one inequality after the other cuts the cone; a new ray lies between two
+/// neighbours on either side of the cut, and two rays are neighbours when no third one meets all the
+/// inequalities with equality that both do (Fukuda and Prodon 1996). At most 64 inequalities, those
+/// of the orthant included.
+///
+/// # Errors
+/// When there are more than `limit` rays on the way.
+pub(super) fn extreme_rays(
+    dimension: usize,
+    inequalities: &[Vec<IBig>],
+    limit: usize,
+) -> Result<Vec<Vec<IBig>>, Error> {
+    let unit = |k: usize| {
+        let entries = (0..dimension).map(|j| IBig::from(u8::from(j == k))).collect();
+        Generator { entries, tight: ((1 << dimension) - 1) & !(1 << k) }
+    };
+    let mut rays: Vec<Generator> = (0..dimension).map(unit).collect();
+    for (k, inequality) in inequalities.iter().enumerate() {
+        rays = cut(rays, inequality, 1 << (dimension + k));
+        if rays.len() > limit {
+            let what = "number of vertices and rays of a face";
+            return Err(Error::Limit { what, value: rays.len(), name: "max_generators", limit });
+        }
+    }
+    Ok(rays.into_iter().map(|ray| ray.entries).collect())
+}
+
+fn cut(rays: Vec<Generator>, inequality: &[IBig], bit: u64) -> Vec<Generator> {
+    let values: Vec<IBig> = rays.iter().map(|ray| product(inequality, &ray.entries)).collect();
+    let mut new = Vec::new();
+    for (above, a) in rays.iter().zip(&values).filter(|(_, a)| **a > IBig::ZERO) {
+        for (below, b) in rays.iter().zip(&values).filter(|(_, b)| **b < IBig::ZERO) {
+            let shared = above.tight & below.tight;
+            if rays.iter().filter(|ray| ray.tight & shared == shared).count() == 2 {
+                let pairs = above.entries.iter().zip(&below.entries);
+                let entries = pairs.map(|(above, below)| a * below - b * above).collect();
+                new.push(Generator { entries: primitive(entries), tight: shared | bit });
+            }
+        }
+    }
+    for (mut ray, value) in rays.into_iter().zip(values).filter(|(_, v)| *v >= IBig::ZERO) {
+        ray.tight |= if value.is_zero() { bit } else { 0 };
+        new.push(ray);
+    }
+    new
+}
+
+pub(super) fn product(a: &[IBig], b: &[IBig]) -> IBig {
+    a.iter().zip(b).fold(IBig::ZERO, |sum, (a, b)| sum + a * b)
+}
+
+/// The vector divided by the largest integer that divides all of its entries.
+fn primitive(entries: Vec<IBig>) -> Vec<IBig> {
+    let magnitudes = entries.iter().filter(|v| !v.is_zero()).map(UnsignedAbs::unsigned_abs);
+    let content = IBig::from(
+        magnitudes.fold(UBig::ZERO, |gcd, v| if gcd.is_zero() { v } else { gcd.gcd(v) }),
+    );
+    entries.into_iter().map(|v| v / &content).collect()
+}

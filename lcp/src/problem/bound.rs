@@ -1,0 +1,142 @@
+//! How far a point can be from the solution of a monotone problem.
+
+use faer::{Mat, Side as Triangle};
+
+use super::{Lcp, check_length, max_abs};
+use crate::Error;
+
+/// What the symmetric part of `M` says about the problem `w = M z + q`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum Monotonicity {
+    /// Positive definite: there is exactly one solution, whatever `q`.
+    Strong {
+        /// A lower bound on the smallest eigenvalue of the symmetric part.
+        modulus: f64,
+    },
+    /// Positive semidefinite up to rounding: the solutions form a convex set, empty only if the problem
+    /// is infeasible.
+    Weak,
+    /// Neither.
+    None,
+}
+
+/// How wrong a point is. See [`Lcp::error_bound`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct ErrorBound {
+    /// What the symmetric part of `M` says.
+    pub monotonicity: Monotonicity,
+    /// Euclidean norm of the components of `z` that are set to zero to make the point complementary.
+    pub moved: f64,
+    /// Euclidean norm of the change of `q` that makes that point an exact solution: its backward error.
+    pub perturbation: f64,
+    /// Where the problem is strongly monotone: the solution is within this of `z`, in the Euclidean
+    /// norm.
+    pub distance: Option<f64>,
+}
+
+impl Lcp {
+    /// Whether the problem is monotone, from the eigenvalues of the symmetric part of `M`. An
+    /// eigenvalue within `n eps` of zero, relative to the largest, counts as zero.
+    ///
+    /// Costs `O(n^3)`, and memory for a dense matrix.
+    pub fn monotonicity(&self) -> Monotonicity {
+        let n = self.order();
+        let m = self.m().to_dense();
+        let symmetric = Mat::from_fn(n, n, |i, j| 0.5 * m[(i, j)] + 0.5 * m[(j, i)]);
+        let Ok(eigenvalues) = symmetric.self_adjoint_eigenvalues(Triangle::Lower) else {
+            return Monotonicity::None;
+        };
+        let rounding = n as f64 * f64::EPSILON * max_abs(&eigenvalues);
+        let least = eigenvalues.into_iter().fold(f64::INFINITY, f64::min);
+        if n == 0 || least > 2.0 * rounding {
+            Monotonicity::Strong { modulus: if n == 0 { 1.0 } else { least - rounding } }
+        } else if least >= -rounding {
+            Monotonicity::Weak
+        } else {
+            Monotonicity::None
+        }
+    }
+
+    /// How far `z >= 0` is from solving the problem, and, for a strongly monotone one, from its
+    /// solution.
+    ///
+    /// Of every pair the smaller of `z_i max|M e_i|` and `w_i` is set to zero, the first by moving `z` by
+    /// `r`, the second by changing `q` by `v`. So `z - r` solves the problem with another `q`, and,
+    /// since solutions of strongly monotone problems depend on `q` with the constant
+    /// `1 / modulus`, the solution is within `|r| + |v - M r| / modulus` of `z`. The rounding errors of
+    /// computing `w` are included. For a problem that is only monotone every solution `s` satisfies
+    /// `(z - r - s) M (z - r - s) <= perturbation |z - r - s|`.
+    ///
+    /// Costs as much as [`monotonicity`](Self::monotonicity).
+    ///
+    /// ```
+    /// use faer::mat;
+    /// use lcp::Lcp;
+    /// let lcp = Lcp::new(mat![[2.0, 1.0], [1.0, 2.0]], vec![-5.0, -6.0])?;
+    /// let bound = lcp.error_bound(&[1.3, 2.3])?.distance.expect("positive definite");
+    /// let error = f64::hypot(4.0 / 3.0 - 1.3, 7.0 / 3.0 - 2.3);
+    /// assert!(error <= bound && bound < 4.0 * error);
+    /// # Ok::<(), lcp::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Length`] when `z` does not fit, [`Error::Setting`] for a component that is negative or
+    /// not a number.
+    pub fn error_bound(&self, z: &[f64]) -> Result<ErrorBound, Error> {
+        let n = self.order();
+        check_length("z", z.len(), n)?;
+        if let Some(&value) = z.iter().find(|&&z| !(z >= 0.0 && z.is_finite())) {
+            return Err(Error::Setting { name: "z", value, range: "nonnegative and finite" });
+        }
+        let monotonicity = self.monotonicity();
+        let mut w = self.q().to_vec();
+        let mut size: Vec<f64> = w.iter().map(|q| q.abs()).collect();
+        for (j, &z) in z.iter().enumerate() {
+            self.m().slice(j).for_each(|i, v| {
+                w[i] += v * z;
+                size[i] += (v * z).abs();
+            });
+        }
+        let rounding = (n as f64 + 2.0) * f64::EPSILON;
+        let largest = |j| {
+            let mut largest = 0.0_f64;
+            self.m().slice(j).for_each(|_, v| largest = largest.max(v.abs()));
+            largest
+        };
+        let stiffness: Vec<f64> = (0..n).map(largest).collect();
+        let (mut r, mut v) = (vec![0.0; n], vec![0.0; n]);
+        for i in 0..n {
+            let error = rounding * size[i];
+            if z[i] * stiffness[i] < w[i] {
+                r[i] = z[i];
+                v[i] = if w[i] >= error { 0.0 } else { error - w[i] };
+            } else if z[i] > 0.0 {
+                v[i] = w[i].abs() + error;
+            } else {
+                v[i] = (-w[i]).max(0.0) + error;
+            }
+        }
+        for (j, &r) in r.iter().enumerate().filter(|(_, r)| **r > 0.0) {
+            self.m().slice(j).for_each(|i, m| v[i] += (m * r).abs());
+        }
+        let (moved, perturbation) = (norm(&r), norm(&v));
+        let distance = match monotonicity {
+            Monotonicity::Strong { modulus } => Some(moved + perturbation / modulus),
+            _ => None,
+        };
+        Ok(ErrorBound { monotonicity, moved, perturbation, distance })
+    }
+}
+
+/// Euclidean, without overflow.
+fn norm(v: &[f64]) -> f64 {
+    let largest = max_abs(v);
+    if largest > 0.0 {
+        largest * v.iter().map(|x| (x / largest) * (x / largest)).sum::<f64>().sqrt()
+    } else {
+        0.0
+    }
+}

@@ -1,0 +1,130 @@
+//! What the generated problems say of themselves, against exact arithmetic.
+
+#![allow(clippy::unwrap_used)] // a test may panic
+
+mod common;
+
+use common::cases;
+use faer::Mat;
+use lcp::exact::{EnumerationSettings, ExactVerdict, RBig, enumerate, verify_basis};
+use lcp::families::{self, Instance, Known};
+use lcp::{Basis, HorizontalLcp, Lcp, MixedLcp, Side};
+use proptest::prelude::*;
+
+fn exact(value: f64) -> RBig {
+    RBig::try_from(value).unwrap()
+}
+
+fn dot(a: impl Iterator<Item = f64>, b: &[f64]) -> RBig {
+    a.zip(b).fold(RBig::ZERO, |sum, (a, b)| sum + exact(a) * exact(*b))
+}
+
+/// Whether `A t + B y = c` without any rounding, and the rest of the conditions.
+fn solves(problem: &HorizontalLcp, t: &[f64], y: &[f64]) -> bool {
+    let n = problem.order();
+    let equation = |i: usize| {
+        let row = |m: &dyn Fn(usize) -> f64, x: &[f64]| dot((0..n).map(m), x);
+        row(&|j| problem.a()[(i, j)], t) + row(&|j| problem.b()[(i, j)], y)
+    };
+    (0..n).all(|i| equation(i) == exact(problem.c()[i]))
+        && t.iter().zip(y).all(|(&t, &y)| t.min(y) == 0.0)
+}
+
+fn proves_infeasibility(problem: &HorizontalLcp, farkas: &[f64]) -> bool {
+    let n = problem.order();
+    let column = |m: &dyn Fn(usize) -> f64| dot((0..n).map(m), farkas);
+    (0..n).all(|j| column(&|i| problem.a()[(i, j)]) <= RBig::ZERO)
+        && (0..n).all(|j| column(&|i| problem.b()[(i, j)]) <= RBig::ZERO)
+        && dot(problem.c().iter().copied(), farkas) > RBig::ZERO
+}
+
+fn assert_true(instance: &Instance) {
+    let problem = &instance.problem;
+    let all = enumerate(problem, &EnumerationSettings::default()).unwrap();
+    match &instance.known {
+        Known::Unique { t, y } => {
+            assert_eq!(all.unique().unwrap().rounded(), (t.clone(), y.clone()));
+        }
+        Known::Solution { t, y } => assert!(solves(problem, t, y)),
+        Known::Solvable => assert!(all.is_solvable()),
+        Known::Infeasible { farkas } => {
+            assert!(proves_infeasibility(problem, farkas) && !all.is_feasible());
+        }
+    }
+}
+
+fn general(instance: Instance<Lcp>) -> Instance {
+    Instance { problem: instance.problem.into(), known: instance.known }
+}
+
+fn mixed(Instance { problem, known }: Instance<MixedLcp>) -> Instance {
+    let Known::Solution { t, y } = known else { panic!("planted: {known:?}") };
+    let (t, y) = problem.to_pairs(&t, &y);
+    Instance { problem: problem.to_general(), known: Known::Solution { t, y } }
+}
+
+proptest! {
+    #![proptest_config(cases(256))]
+
+    #[test]
+    fn random_families_know_their_answers(n in 0..8_usize, seed in any::<u64>()) {
+        for family in [
+            families::positive_definite,
+            families::positive_semidefinite,
+            families::p_matrix,
+            families::strictly_copositive,
+            families::copositive_plus,
+            families::ties,
+            families::harker_pang,
+            families::infeasible_semidefinite,
+        ] {
+            assert_true(&general(family(n, seed)));
+        }
+        assert_true(&general(families::bimatrix(n / 2, n - n / 2, seed)));
+        for family in [families::mixed_monotone, families::mixed_singular] {
+            assert_true(&mixed(family(n, seed)));
+        }
+        for family in [
+            families::horizontal_monotone,
+            families::horizontal_singular,
+            families::infeasible,
+        ] {
+            assert_true(&family(n, seed));
+        }
+    }
+}
+
+#[test]
+fn textbook_families_know_their_answers() {
+    for n in 0..8 {
+        assert_true(&general(families::murty(n)));
+        assert_true(&general(families::fathi(n)));
+    }
+    assert_true(&general(families::kostreva_1()));
+    assert_true(&general(families::kostreva_2()));
+    (0..4).for_each(|side| assert_true(&general(families::obstacle(side))));
+}
+
+fn assert_singular(problem: &HorizontalLcp, side: Side) {
+    let verdict = verify_basis(problem, &Basis::all(side, problem.order()));
+    assert!(matches!(verdict, ExactVerdict::Singular { .. }), "{verdict:?}");
+}
+
+/// There is no way to the standard form by `A^-1` or `B^-1`, nor by eliminating the free variables.
+#[test]
+fn general_families_have_singular_matrices() {
+    for seed in 0..20 {
+        for family in [families::horizontal_monotone, families::horizontal_singular] {
+            let problem = family(12, seed).problem;
+            assert_singular(&problem, Side::T);
+            assert_singular(&problem, Side::Y);
+        }
+        for family in [families::mixed_monotone, families::mixed_singular] {
+            let problem = family(12, seed).problem;
+            let free = problem.free().iter().filter(|free| **free).count();
+            let block = Mat::from_fn(free, free, |i, j| problem.m()[(i, j)]);
+            let zero = vec![0.0; free];
+            assert_singular(&HorizontalLcp::new(block.clone(), block, zero).unwrap(), Side::T);
+        }
+    }
+}
