@@ -1,5 +1,6 @@
 //! Lemke's method on the general form.
 
+mod any_kernel;
 mod artificial;
 mod basis_matrix;
 mod crash;
@@ -11,6 +12,7 @@ mod parametric;
 mod path;
 mod ratio;
 mod search;
+mod sparse;
 mod start;
 mod tableau;
 mod trial;

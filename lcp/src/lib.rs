@@ -51,6 +51,7 @@ mod residual;
 mod scaling;
 mod settings;
 mod solution;
+mod sparse;
 
 pub use faer;
 

@@ -5,6 +5,8 @@ use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::linalg::triangular_solve::solve_unit_lower_triangular_in_place;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
+use crate::problem::max_abs;
+
 /// An LU factorisation that is known not to be singular to working precision.
 #[derive(Debug)]
 pub(crate) struct Lu(PartialPivLu<f64>);
@@ -59,6 +61,35 @@ pub(crate) fn add_product(
 /// taken for one, on one thread.
 pub(crate) fn solve_unit_lower(matrix: MatRef<'_, f64>, rhs: MatMut<'_, f64>) {
     solve_unit_lower_triangular_in_place(matrix, rhs, Par::Seq);
+}
+
+/// Estimate of the 1-norm of the inverse of a matrix of order `n` (Hager 1984; Higham 1988), given what
+/// overwrites a vector with the solution of the system, or of the transposed one.
+pub(crate) fn inverse_norm(n: usize, mut solve: impl FnMut(&mut [f64], bool)) -> f64 {
+    const STEPS: usize = 5;
+    let mut x = vec![1.0 / n as f64; n];
+    let mut estimate = 0.0_f64;
+    for _ in 0..STEPS {
+        let mut image = x.clone();
+        solve(&mut image, false);
+        let size: f64 = image.iter().map(|v| v.abs()).sum();
+        if size <= estimate {
+            break;
+        }
+        estimate = size;
+        let mut gradient: Vec<f64> = image.iter().map(|v| v.signum()).collect();
+        solve(&mut gradient, true);
+        let largest = max_abs(&gradient);
+        let inner: f64 = gradient.iter().zip(&x).map(|(g, x)| g * x).sum();
+        if largest <= inner {
+            break;
+        }
+        x.fill(0.0);
+        if let Some(j) = gradient.iter().position(|g| g.abs() >= largest) {
+            x[j] = 1.0;
+        }
+    }
+    estimate
 }
 
 /// Whether every entry is finite.

@@ -5,8 +5,6 @@
 //! basis. A solution in which all artificial variables are zero solves the problem as given, which
 //! the residuals of the original data decide.
 
-use faer::Mat;
-
 use super::feasibility::{in_problem_rows, is_proof};
 use super::finish::Point;
 use super::start::Equilibrated;
@@ -23,23 +21,30 @@ const NOISE: f64 = 1e-13;
 pub(super) fn completed(
     problem: &Equilibrated<'_>,
     chosen: &[Option<Side>],
-    complement: &Mat<f64>,
+    complement: &Matrix,
     side: Side,
 ) -> HorizontalLcp {
-    let mut dense = match side {
-        Side::T => problem.problem.a().to_dense(),
-        Side::Y => problem.problem.b().to_dense(),
+    let (a, b) = (problem.problem.a(), problem.problem.b());
+    let matrix = if side == Side::T { a } else { b };
+    let completed = if problem.problem.is_sparse() {
+        let kept = (0..chosen.len()).filter(|&pair| chosen[pair].is_some());
+        let kept = kept.flat_map(|pair| matrix.column(pair).map(move |(i, v)| (i, pair, v)));
+        let artificial = missing(chosen).zip(0..complement.ncols()).flat_map(|(pair, k)| {
+            complement.column(k).map(move |(i, e)| (i, pair, e / problem.row[i]))
+        });
+        Matrix::from_entries(chosen.len(), chosen.len(), kept.chain(artificial))
+    } else {
+        let mut dense = matrix.to_dense();
+        for (pair, k) in missing(chosen).zip(0..complement.ncols()) {
+            let out = dense.col_as_slice_mut(pair);
+            complement.column(k).for_each(|(i, e)| out[i] = e / problem.row[i]);
+        }
+        Matrix::Dense(dense)
     };
-    for (pair, column) in missing(chosen).zip(0..complement.ncols()) {
-        let artificial = complement.col_as_slice(column).iter().zip(&problem.row);
-        let out = dense.col_as_slice_mut(pair);
-        out.iter_mut().zip(artificial).for_each(|(out, (e, row))| *out = e / row);
-    }
-    let (a, b) = (problem.problem.a().clone(), problem.problem.b().clone());
     let c = problem.problem.c().to_vec();
     match side {
-        Side::T => HorizontalLcp::from_parts(Matrix::Dense(dense), b, c),
-        Side::Y => HorizontalLcp::from_parts(a, Matrix::Dense(dense), c),
+        Side::T => HorizontalLcp::from_parts(completed, b.clone(), c),
+        Side::Y => HorizontalLcp::from_parts(a.clone(), completed, c),
     }
 }
 
@@ -64,13 +69,12 @@ pub(super) fn without_artificial(
 
 /// Where no column at all reaches outside the span of those chosen, but `c` does: the part of `c`
 /// outside is a Farkas vector.
-pub(super) fn part_outside(problem: &Equilibrated<'_>, complement: &Mat<f64>) -> Option<Vec<f64>> {
+pub(super) fn part_outside(problem: &Equilibrated<'_>, complement: &Matrix) -> Option<Vec<f64>> {
     let right = problem.right_hand_side();
     let mut outside = vec![0.0; right.len()];
     for k in 0..complement.ncols() {
-        let column = complement.col_as_slice(k);
-        let share: f64 = column.iter().zip(&right).map(|(e, c)| e * c).sum();
-        outside.iter_mut().zip(column).for_each(|(out, e)| *out += share * e);
+        let column = complement.slice(k);
+        column.add_to(column.dot(&right), &mut outside);
     }
     if max_abs(&outside) <= LEAST_PART * max_abs(&right) {
         return None;

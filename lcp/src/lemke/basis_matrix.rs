@@ -3,14 +3,21 @@
 use faer::Mat;
 
 use super::start::Equilibrated;
-use crate::linear::Lu;
+use crate::linear::{Lu, inverse_norm};
 use crate::problem::max_abs;
 use crate::random::SplitMix;
+use crate::sparse::{Columns, SparseLu};
 use crate::{Basis, Side};
 
-/// The equilibrated matrix of a basis. Columns with one entry only, as all those of `y` in the
-/// standard form, are solved by substitution; only the others are factorised.
-pub(super) struct BasisMatrix {
+/// The equilibrated matrix of a basis.
+pub(super) enum BasisMatrix {
+    Dense(Bordered),
+    Sparse { columns: Columns, lu: SparseLu },
+}
+
+/// Columns with one entry only, as all those of `y` in the standard form, are solved by substitution;
+/// only the others are factorised.
+pub(super) struct Bordered {
     singles: Vec<Single>,
     /// Positions of the other columns, which fill the rows that are left.
     core: Vec<usize>,
@@ -38,71 +45,45 @@ impl BasisMatrix {
         problem: &Equilibrated<'_>,
         columns: &[Option<(usize, Side)>],
     ) -> Option<Self> {
-        let n = problem.order();
-        let mut taken = vec![false; n];
-        let (mut singles, mut core) = (Vec::new(), Vec::new());
-        for (position, &column) in columns.iter().enumerate() {
-            let single = column.and_then(|(pair, side)| {
-                let (row, value) = problem.problem.column(pair, side).single()?;
-                Some((row, value * problem.row[row] * problem.factor(pair, side)))
-            });
-            match single {
-                Some((row, value)) if !taken[row] => {
-                    taken[row] = true;
-                    singles.push(Single { position, row, value });
-                }
-                _ => core.push(position),
-            }
+        if problem.problem.is_sparse() {
+            let sparse = problem.sparse_columns_or_right(columns);
+            let (lu, replaced) = SparseLu::new(&sparse);
+            return replaced.is_empty().then_some(Self::Sparse { columns: sparse, lu });
         }
-        let mut picked = Mat::zeros(n, core.len());
-        for (k, &position) in core.iter().enumerate() {
-            let out = picked.col_as_slice_mut(k);
-            match columns[position] {
-                Some((pair, side)) => problem.add_column(pair, side, 1.0, out),
-                None => out.copy_from_slice(&problem.right_hand_side()),
-            }
+        Bordered::new(problem, columns).map(Self::Dense)
+    }
+
+    fn order(&self) -> usize {
+        match self {
+            Self::Dense(it) => it.singles.len() + it.core.len(),
+            Self::Sparse { lu, .. } => lu.order(),
         }
-        let columns = picked;
-        let core_rows: Vec<usize> = (0..n).filter(|&i| !taken[i]).collect();
-        let square = Mat::from_fn(core.len(), core.len(), |i, j| columns[(core_rows[i], j)]);
-        let lu = Lu::new(square.as_ref())?;
-        Some(Self { singles, core, core_rows, columns, lu })
     }
 
     /// Overwrites a right-hand side with the solution.
     pub(super) fn solve(&self, x: &mut [f64]) {
-        let mut inner: Vec<f64> = self.core_rows.iter().map(|&i| x[i]).collect();
-        self.lu.solve_vector(&mut inner);
-        let mut rest = x.to_vec();
-        for (j, value) in inner.iter().enumerate() {
-            let column = self.columns.col_as_slice(j);
-            rest.iter_mut().zip(column).for_each(|(rest, a)| *rest -= a * value);
+        match self {
+            Self::Dense(it) => it.solve(x),
+            Self::Sparse { lu, .. } => lu.solve(x, &mut Vec::new()),
         }
-        self.core.iter().zip(&inner).for_each(|(&j, &value)| x[j] = value);
-        self.singles.iter().for_each(|single| x[single.position] = rest[single.row] / single.value);
     }
 
     /// Overwrites a right-hand side with the solution of the transposed system.
     pub(super) fn solve_transpose(&self, x: &mut [f64]) {
-        let mut out = vec![0.0; x.len()];
-        self.singles.iter().for_each(|single| out[single.row] = x[single.position] / single.value);
-        let right = self.core.iter().enumerate().map(|(j, &position)| {
-            let column = self.columns.col_as_slice(j);
-            x[position] - column.iter().zip(&out).map(|(a, y)| a * y).sum::<f64>()
-        });
-        let mut inner: Vec<f64> = right.collect();
-        self.lu.solve_transpose_vector(&mut inner);
-        self.core_rows.iter().zip(&inner).for_each(|(&i, &value)| out[i] = value);
-        x.copy_from_slice(&out);
+        match self {
+            Self::Dense(it) => it.solve_transpose(x),
+            Self::Sparse { lu, .. } => lu.solve_transpose(x, &mut Vec::new()),
+        }
     }
 
     /// Calls with `(position, row, entry)` for all entries.
     fn for_each(&self, mut f: impl FnMut(usize, usize, f64)) {
-        for (j, &position) in self.core.iter().enumerate() {
-            let column = self.columns.col_as_slice(j);
-            column.iter().enumerate().for_each(|(i, &v)| f(position, i, v));
+        match self {
+            Self::Dense(it) => it.for_each(&mut f),
+            Self::Sparse { columns, .. } => {
+                (0..columns.len()).for_each(|j| columns.entries(j).for_each(|(i, v)| f(j, i, v)));
+            }
         }
-        self.singles.iter().for_each(|single| f(single.position, single.row, single.value));
     }
 
     /// `right - M x`.
@@ -147,7 +128,7 @@ impl BasisMatrix {
 
     /// Row `position` of the inverse, refined, without the rounding errors in place of zeros.
     pub(super) fn inverse_row(&self, position: usize) -> Vec<f64> {
-        let n = self.singles.len() + self.core.len();
+        let n = self.order();
         let mut y = vec![0.0; n];
         y[position] = 1.0;
         self.solve_transpose(&mut y);
@@ -163,38 +144,89 @@ impl BasisMatrix {
         refined.zip(errors).map(|(y, error)| if y.abs() > error { y } else { 0.0 }).collect()
     }
 
-    /// Estimate of the condition number in the 1-norm (Hager 1984; Higham 1988).
+    /// Estimate of the condition number in the 1-norm.
     pub(super) fn condition(&self) -> f64 {
-        const STEPS: usize = 5;
-        let n = self.singles.len() + self.core.len();
+        let n = self.order();
         if n == 0 {
             return 1.0;
         }
         let mut sums = vec![0.0; n];
         self.for_each(|j, _, v| sums[j] += v.abs());
-        let mut x = vec![1.0 / n as f64; n];
-        let mut estimate = 0.0_f64;
-        for _ in 0..STEPS {
-            let mut image = x.clone();
-            self.solve(&mut image);
-            let size: f64 = image.iter().map(|v| v.abs()).sum();
-            if size <= estimate {
-                break;
-            }
-            estimate = size;
-            let mut gradient: Vec<f64> = image.iter().map(|v| v.signum()).collect();
-            self.solve_transpose(&mut gradient);
-            let largest = max_abs(&gradient);
-            let inner: f64 = gradient.iter().zip(&x).map(|(g, x)| g * x).sum();
-            if largest <= inner {
-                break;
-            }
-            x.fill(0.0);
-            if let Some(j) = gradient.iter().position(|g| g.abs() >= largest) {
-                x[j] = 1.0;
+        let norm =
+            inverse_norm(
+                n,
+                |x, is_transposed| {
+                    if is_transposed { self.solve_transpose(x) } else { self.solve(x) }
+                },
+            );
+        norm * max_abs(&sums)
+    }
+}
+
+impl Bordered {
+    fn new(problem: &Equilibrated<'_>, columns: &[Option<(usize, Side)>]) -> Option<Self> {
+        let n = problem.order();
+        let mut taken = vec![false; n];
+        let (mut singles, mut core) = (Vec::new(), Vec::new());
+        for (position, &column) in columns.iter().enumerate() {
+            let single = column.and_then(|(pair, side)| {
+                let (row, value) = problem.problem.column(pair, side).single()?;
+                Some((row, value * problem.row[row] * problem.factor(pair, side)))
+            });
+            match single {
+                Some((row, value)) if !taken[row] => {
+                    taken[row] = true;
+                    singles.push(Single { position, row, value });
+                }
+                _ => core.push(position),
             }
         }
-        estimate * max_abs(&sums)
+        let mut picked = Mat::zeros(n, core.len());
+        for (k, &position) in core.iter().enumerate() {
+            let out = picked.col_as_slice_mut(k);
+            match columns[position] {
+                Some((pair, side)) => problem.add_column(pair, side, 1.0, out),
+                None => out.copy_from_slice(&problem.right_hand_side()),
+            }
+        }
+        let columns = picked;
+        let core_rows: Vec<usize> = (0..n).filter(|&i| !taken[i]).collect();
+        let square = Mat::from_fn(core.len(), core.len(), |i, j| columns[(core_rows[i], j)]);
+        let lu = Lu::new(square.as_ref())?;
+        Some(Self { singles, core, core_rows, columns, lu })
+    }
+
+    fn solve(&self, x: &mut [f64]) {
+        let mut inner: Vec<f64> = self.core_rows.iter().map(|&i| x[i]).collect();
+        self.lu.solve_vector(&mut inner);
+        let mut rest = x.to_vec();
+        for (j, value) in inner.iter().enumerate() {
+            let column = self.columns.col_as_slice(j);
+            rest.iter_mut().zip(column).for_each(|(rest, a)| *rest -= a * value);
+        }
+        self.core.iter().zip(&inner).for_each(|(&j, &value)| x[j] = value);
+        self.singles.iter().for_each(|single| x[single.position] = rest[single.row] / single.value);
+    }
+
+    fn solve_transpose(&self, x: &mut [f64]) {
+        let mut out = vec![0.0; x.len()];
+        self.singles.iter().for_each(|single| out[single.row] = x[single.position] / single.value);
+        let right = self.core.iter().enumerate().map(|(j, &position)| {
+            let column = self.columns.col_as_slice(j);
+            x[position] - column.iter().zip(&out).map(|(a, y)| a * y).sum::<f64>()
+        });
+        let mut inner: Vec<f64> = right.collect();
+        self.lu.solve_transpose_vector(&mut inner);
+        self.core_rows.iter().zip(&inner).for_each(|(&i, &value)| out[i] = value);
+        x.copy_from_slice(&out);
+    }
+
+    fn for_each(&self, f: &mut impl FnMut(usize, usize, f64)) {
+        for (j, &position) in self.core.iter().enumerate() {
+            let column = self.columns.col_as_slice(j);
+            column.iter().enumerate().for_each(|(i, &v)| f(position, i, v));
+        }
+        self.singles.iter().for_each(|single| f(single.position, single.row, single.value));
     }
 }
 

@@ -1,24 +1,33 @@
 //! Start bases: one column of every pair, together nonsingular.
 
+mod matching;
+mod sparse;
+
 use faer::{Mat, MatRef};
+
+use sparse::find_sparse;
 
 use super::start::Equilibrated;
 use super::tableau::Tableau;
 use crate::linear::Lu;
 use crate::problem::max_abs;
-use crate::{Basis, Side};
+use crate::{Basis, Matrix, Side};
 
 /// Columns whose part outside the span of those chosen before is below this multiple of the
 /// largest are taken for dependent.
 const RANK_TOLERANCE: f64 = 1e-10;
 
+/// Sparse problems up to this order, for which the sparse search finds no basis, are searched with dense
+/// matrices.
+const DENSE_SEARCH: usize = 2000;
+
 /// As many independent columns as there are, at most one of every pair.
 pub(super) enum Crash {
     /// One of every pair.
     Complete(Basis),
-    /// Pairs without a column, as many as there are columns of the orthonormal basis of what the
-    /// chosen ones leave out.
-    Partial { chosen: Vec<Option<Side>>, complement: Mat<f64> },
+    /// Pairs without a column, as many as there are columns that complete the chosen ones: an
+    /// orthonormal basis of what these leave out, or unit columns.
+    Partial { chosen: Vec<Option<Side>>, complement: Matrix },
 }
 
 /// A nonsingular complementary basis: the preferred sides or all `y` or all `t` where these are
@@ -33,19 +42,25 @@ pub(super) fn find_basis(problem: &Equilibrated<'_>, preferred: Option<&Basis>) 
             return Crash::Complete(basis.clone());
         }
     }
+    if problem.problem.is_sparse() {
+        match find_sparse(problem, preferred.unwrap_or(&all_y)) {
+            Crash::Partial { .. } if n <= DENSE_SEARCH => {}
+            found => return found,
+        }
+    }
     let search = Search { problem, preferred: preferred.unwrap_or(&all_y).sides() };
     let (mut chosen, mut complement) = search.independent_columns();
     while complement.ncols() > 0 {
         let tolerances = [1e-5, 1e-8, 4.0 * n as f64 * f64::EPSILON];
         match tolerances.iter().find_map(|&it| search.exchange(&chosen, &complement, it)) {
             Some(next) => chosen = next,
-            None => return Crash::Partial { chosen, complement },
+            None => return Crash::Partial { chosen, complement: complement.into() },
         }
         complement = orthogonal_complement(search.partial(&chosen).as_ref());
     }
     match chosen.iter().copied().collect::<Option<Vec<Side>>>() {
         Some(sides) => Crash::Complete(enlarged(problem, Basis::new(sides))),
-        None => Crash::Partial { chosen, complement },
+        None => Crash::Partial { chosen, complement: complement.into() },
     }
 }
 

@@ -81,11 +81,15 @@ impl Kernel for Dense<'_> {
         self.tableau.entry(row, self.col_of[var])
     }
 
+    fn column_for_rows(&self, _var: Var, _rows: usize) -> Option<Vec<f64>> {
+        None
+    }
+
     fn is_due(&self) -> bool {
         self.tableau.is_full()
     }
 
-    fn apply(&mut self, _basic: &[Var]) -> bool {
+    fn apply(&mut self) -> bool {
         self.tableau.apply();
         true
     }

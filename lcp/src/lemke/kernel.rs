@@ -29,13 +29,21 @@ pub(super) trait Kernel {
     /// The entry of that row in the column of a nonbasic variable.
     fn entry(&self, row: &Self::Row, var: Var) -> f64;
 
+    /// The column of a nonbasic variable in the present basis, where it costs less than so many rows.
+    fn column_for_rows(&self, var: Var, rows: usize) -> Option<Vec<f64>>;
+
     /// Whether the exchanges held back should be dealt with.
     fn is_due(&self) -> bool;
 
-    /// Deals with the exchanges held back. `false` when the basis is singular.
-    fn apply(&mut self, basic: &[Var]) -> bool;
+    /// Deals with the exchanges held back. `false` when that takes a new start.
+    fn apply(&mut self) -> bool;
 
     /// Starts anew from the start data with the given basis, whose values it computes. `false`, and
     /// nothing changed, when the basis is singular.
     fn rebuild(&mut self, basic: &[Var], values: &mut [f64]) -> bool;
+
+    /// Deals with what is due, if anything is. `false` when the basis is singular.
+    fn tidy(&mut self, basic: &[Var], values: &mut [f64]) -> bool {
+        !self.is_due() || self.apply() || self.rebuild(basic, values)
+    }
 }

@@ -8,7 +8,6 @@ use std::time::Instant;
 
 use super::basis_matrix::BasisMatrix;
 use super::crash::{Crash, find_basis};
-use super::dense::Dense;
 use super::kernel::{Kernel, Var};
 use super::path::Path;
 use super::ratio::leaving_row;
@@ -226,7 +225,7 @@ impl Tracer<'_> {
         let size = max_abs(&rate);
         let unit = if size > 0.0 { 1.0 / size } else { 1.0 };
         let rate: Vec<f64> = rate.iter().map(|rate| rate * unit).collect();
-        let kernel = Dense::new(start.t.as_ref(), &rate, &start.q);
+        let kernel = start.kernel(&rate, self.settings.lemke.refactor_interval);
         let values = start.q.iter().map(|q| q.max(0.0)).collect();
         let interval = self.settings.lemke.refactor_interval;
         let path = Path::parametric(kernel, start, &rate, values, interval);

@@ -149,12 +149,9 @@ impl<'a, K: Kernel> Path<'a, K> {
         self.scale
     }
 
-    /// Entry `(row, k)` of the inverse of the present basis, given that row of it.
-    pub(super) fn inverse_entry(&self, row: usize, inverse_row: &K::Row, k: usize) -> f64 {
-        match self.row_of[k] {
-            Some(at) => f64::from(u8::from(at == row)),
-            None => self.kernel.entry(inverse_row, k),
-        }
+    /// The row in which a variable is basic.
+    pub(super) fn row_of(&self, var: Var) -> Option<usize> {
+        self.row_of[var]
     }
 
     /// Follows the path to its end.
@@ -363,12 +360,9 @@ impl<'a, K: Kernel> Path<'a, K> {
 
     /// Deals with the exchanges held back, and starts anew where the result has drifted.
     pub(super) fn tidy(&mut self) -> bool {
-        if !self.kernel.apply(&self.basic) {
-            return false;
-        }
         let last = self.rebuilt_at.unwrap_or(0);
         let is_due = self.interval.is_some_and(|interval| self.pivots >= last + interval);
-        if is_due || self.has_drifted() { self.rebuild() } else { true }
+        if !self.kernel.apply() || is_due || self.has_drifted() { self.rebuild() } else { true }
     }
 
     pub(super) fn rebuild(&mut self) -> bool {

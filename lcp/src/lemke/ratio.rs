@@ -49,30 +49,50 @@ fn lexicographic_minimum<K: Kernel>(
     column: &[f64],
     mut tied: Vec<usize>,
 ) -> usize {
-    if tied.len() == 1 {
+    let mut left = tied.len();
+    if left == 1 {
         return tied[0];
     }
-    let mut rows: Vec<K::Row> = tied.iter().map(|&i| path.kernel.row(i)).collect();
-    let mut keys = Vec::with_capacity(tied.len());
+    let mut is_out = vec![false; column.len()];
+    let mut rows: Option<Vec<K::Row>> = None;
     for k in 0..column.len() {
-        keys.clear();
-        let key = |(&i, row): (&usize, &K::Row)| path.inverse_entry(i, row, k) / column[i];
-        keys.extend(tied.iter().zip(&rows).map(key));
+        if left == 1 {
+            break;
+        }
+        // Where `w_k` is basic its column of the inverse is a unit column: among zeros the one of
+        // that row, which is positive, is not the least.
+        if let Some(at) = path.row_of(k) {
+            if !is_out[at] && tied.binary_search(&at).is_ok() {
+                is_out[at] = true;
+                left -= 1;
+            }
+            continue;
+        }
+        if let Some(rows) = &mut rows {
+            retain(rows, tied.iter().map(|&i| !is_out[i]));
+        }
+        tied.retain(|&i| !is_out[i]);
+        let entries: Vec<f64> = match path.kernel.column_for_rows(k, left) {
+            Some(entries) if rows.is_none() => tied.iter().map(|&i| entries[i]).collect(),
+            _ => {
+                let kernel = &path.kernel;
+                let rows =
+                    rows.get_or_insert_with(|| tied.iter().map(|&i| kernel.row(i)).collect());
+                rows.iter().map(|row| kernel.entry(row, k)).collect()
+            }
+        };
+        let keys: Vec<f64> = tied.iter().zip(entries).map(|(&i, v)| v / column[i]).collect();
         let least = keys.iter().copied().fold(f64::INFINITY, f64::min);
         // Entries of an equilibrated tableau are of order one: where all keys are rounding errors of
         // zero they must not be measured against each other.
         let smallest_pivot = tied.iter().fold(f64::INFINITY, |min, &i| min.min(column[i]));
         let scale = keys.iter().fold(1.0 / smallest_pivot, |max, key| max.max(key.abs()));
-        let is_least = |key: &f64| key - least <= TIE_WINDOW * scale;
-        if !keys.iter().all(is_least) {
-            retain(&mut tied, keys.iter().map(is_least));
-            retain(&mut rows, keys.iter().map(is_least));
+        for (&i, key) in tied.iter().zip(&keys) {
+            is_out[i] = key - least > TIE_WINDOW * scale;
         }
-        if tied.len() == 1 {
-            break;
-        }
+        left = tied.iter().filter(|&&i| !is_out[i]).count();
     }
-    tied[0]
+    tied.iter().copied().find(|&i| !is_out[i]).unwrap_or(tied[0])
 }
 
 fn retain<T>(items: &mut Vec<T>, keep: impl Iterator<Item = bool>) {

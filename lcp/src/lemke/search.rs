@@ -4,12 +4,9 @@ use std::borrow::Cow;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use faer::Mat;
-
 use super::Progress;
 use super::artificial::{completed, part_outside, without_artificial};
 use super::crash::{Crash, find_basis};
-use super::dense::Dense;
 use super::feasibility::farkas_vector;
 use super::finish::{Point, solve_basis};
 use super::kernel::{Kernel, Var};
@@ -19,7 +16,8 @@ use super::trial::Trial;
 use crate::problem::max_abs;
 use crate::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Basis, Covering, HorizontalLcp, Info,
-    LemkeSettings, Perturbation, PivotRecord, Ray, Side, Solution, Status, Variable, WarmStart,
+    LemkeSettings, Matrix, Perturbation, PivotRecord, Ray, Side, Solution, Status, Variable,
+    WarmStart,
 };
 
 pub(super) type Observer<'a> = &'a mut dyn FnMut(&Progress) -> ControlFlow<()>;
@@ -34,6 +32,8 @@ pub(super) struct Search<'a> {
     almost: Option<Point>,
     ray: Option<Ray>,
     farkas: Option<Vec<f64>>,
+    /// Whether the problem has artificial columns already.
+    is_completed: bool,
 }
 
 /// How an attempt ended, with what it ended on.
@@ -52,7 +52,7 @@ enum First {
     /// Some pairs have no column that reaches outside the span of the others.
     Incomplete {
         chosen: Vec<Option<Side>>,
-        complement: Mat<f64>,
+        complement: Matrix,
     },
 }
 
@@ -71,6 +71,7 @@ impl<'a> Search<'a> {
             almost: None,
             ray: None,
             farkas: None,
+            is_completed: false,
         }
     }
 
@@ -82,6 +83,9 @@ impl<'a> Search<'a> {
         let (first_start, kind) = match self.first_start() {
             First::Found(start, kind) => (start, kind),
             First::Singular => return self.give_up(Status::NumericalTrouble),
+            First::Incomplete { .. } if self.is_completed => {
+                return self.give_up(Status::NoComplementaryBasis);
+            }
             First::Incomplete { chosen, complement } => {
                 return self.completed(&chosen, &complement, observer);
             }
@@ -136,7 +140,7 @@ impl<'a> Search<'a> {
     fn completed(
         mut self,
         chosen: &[Option<Side>],
-        complement: &Mat<f64>,
+        complement: &Matrix,
         observer: Observer<'_>,
     ) -> Solution {
         self.farkas = part_outside(&self.problem, complement);
@@ -146,7 +150,8 @@ impl<'a> Search<'a> {
         let settings = LemkeSettings { start: WarmStart::None, ..self.settings.clone() };
         for side in [Side::Y, Side::T] {
             let completed = completed(&self.problem, chosen, complement, side);
-            let solution = Search::new(&settings, &completed, self.deadline).run(observer);
+            let search = Search::new(&settings, &completed, self.deadline);
+            let solution = Search { is_completed: true, ..search }.run(observer);
             let point = without_artificial(self.problem.problem, chosen, side, &solution);
             self.info.pivots += solution.info.pivots;
             self.info.refactorisations += solution.info.refactorisations;
@@ -247,8 +252,8 @@ impl<'a> Search<'a> {
         let covering = trial.covering(start, given);
         let perturbed = trial.perturbed(start, center);
         let data = perturbed.as_ref().unwrap_or(start);
-        let kernel = Dense::new(data.t.as_ref(), &covering, &data.q);
         let interval = settings.refactor_interval;
+        let kernel = data.kernel(&covering, interval);
         let mut path = Path::new(kernel, data, &covering, data.q.clone(), interval, settings.trace);
         let max_pivots = settings.max_pivots.unwrap_or(100 * order + 1000);
         let deadline = self.deadline;
@@ -298,7 +303,7 @@ impl<'a> Search<'a> {
             perturbation: Perturbation::None,
         };
         let covering = trial.covering(start, &[]);
-        let kernel = Dense::new(start.t.as_ref(), &covering, &start.q);
+        let kernel = start.kernel(&covering, None);
         let path = Path::new(kernel, start, &covering, start.q.clone(), None, false);
         let order = self.problem.order();
         let deadline = self.deadline;

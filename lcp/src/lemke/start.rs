@@ -1,5 +1,7 @@
 //! From a complementary basis to the problem `w + T z = q` that a path follows.
 
+mod sparse;
+
 use faer::Mat;
 
 use crate::linear::{Lu, all_finite};
@@ -9,7 +11,11 @@ use crate::random::SplitMix;
 use crate::scaling::{COMPUTED, GIVEN, equilibrate};
 use crate::{Basis, HorizontalLcp, Side};
 
-use super::tableau::Tableau;
+use super::any_kernel::AnyKernel;
+use super::dense::Dense;
+use super::kernel::{Kernel, Var};
+use super::sparse::Sparse;
+pub(super) use sparse::SparseStart;
 
 /// Entries of an equilibrated inverse basis beyond this betray a nearly singular basis.
 const LARGEST_GROWTH: f64 = 1e10;
@@ -106,6 +112,20 @@ impl<'a> Equilibrated<'a> {
 
     /// `w + T z = q` for a basis, or `None` when it is singular to working precision.
     pub(super) fn start(&self, basis: &Basis) -> Option<Start> {
+        if self.problem.is_sparse() { self.sparse_start(basis) } else { self.dense_start(basis) }
+    }
+
+    /// `row_factor`, `col_factor` where `rows` and `cols` have been multiplied with the equilibrated
+    /// rows and columns of `T`.
+    fn factors(&self, basis: &Basis, rows: &[f64], cols: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let side = |j: usize| basis.sides()[j];
+        let n = self.order();
+        let row_factor = (0..n).map(|i| rows[i] / self.factor(i, side(i)));
+        let col_factor = (0..n).map(|i| cols[i] * self.factor(i, side(i).complement()));
+        (row_factor.collect(), col_factor.collect())
+    }
+
+    fn dense_start(&self, basis: &Basis) -> Option<Start> {
         let n = self.order();
         let side = |j: usize| basis.sides()[j];
         let others: Vec<_> = (0..n).map(|j| (j, side(j).complement())).collect();
@@ -143,17 +163,20 @@ impl<'a> Equilibrated<'a> {
         if q_size > 0.0 {
             q = q.into_iter().map(|q| q / q_size).collect();
         }
-        let row_factor = (0..n).map(|i| rows[i] / self.factor(i, side(i)));
-        let col_factor = (0..n).map(|i| cols[i] * self.factor(i, side(i).complement()));
+        let (row_factor, col_factor) = self.factors(basis, &rows, &cols);
         Some(Start {
             basis: basis.clone(),
-            free: self.opposite.iter().map(Option::is_some).collect(),
-            row_factor: row_factor.collect(),
-            col_factor: col_factor.collect(),
+            free: self.free(),
+            row_factor,
+            col_factor,
             size: if q_size > 0.0 { q_size } else { 1.0 },
             q,
-            t,
+            data: StartData::Dense(t),
         })
+    }
+
+    fn free(&self) -> Vec<bool> {
+        self.opposite.iter().map(Option::is_some).collect()
     }
 }
 
@@ -212,7 +235,14 @@ pub(super) struct Start {
     pub(super) row_factor: Vec<f64>,
     /// Value of `z_i` in the problem's units: `size * z_i * col_factor[i]`.
     pub(super) col_factor: Vec<f64>,
-    pub(super) t: Mat<f64>,
+    data: StartData,
+}
+
+/// `T`, or what it is made of.
+#[derive(Debug, Clone)]
+enum StartData {
+    Dense(Mat<f64>),
+    Sparse(SparseStart),
 }
 
 impl Start {
@@ -239,26 +269,72 @@ impl Start {
         Basis::new(sides.map(|(side, &z)| if z { side.complement() } else { *side }).collect())
     }
 
+    /// The columns of `w + T z - d z0 = q` before the first pivot, for that covering vector. At most so
+    /// many pivots are done before the sparse ones are factorised anew.
+    pub(super) fn kernel<'a>(
+        &'a self,
+        covering: &'a [f64],
+        interval: Option<usize>,
+    ) -> AnyKernel<'a> {
+        match &self.data {
+            StartData::Dense(t) => {
+                AnyKernel::Dense(Box::new(Dense::new(t.as_ref(), covering, &self.q)))
+            }
+            StartData::Sparse(data) => {
+                AnyKernel::Sparse(Box::new(Sparse::new(data, covering, interval)))
+            }
+        }
+    }
+
+    /// Adds to `q`, for the basic variable `w_k` of every pair.
+    pub(super) fn add_to_values(&mut self, increase: &[f64]) {
+        self.q.iter_mut().zip(increase).for_each(|(q, v)| *q += v);
+        if let StartData::Sparse(data) = &mut self.data {
+            data.add_to_values(increase);
+        }
+    }
+
+    /// Adds to the diagonal of `T`.
+    pub(super) fn add_to_diagonal(&mut self, increase: &[f64]) {
+        match &mut self.data {
+            StartData::Dense(t) => {
+                increase.iter().enumerate().for_each(|(k, v)| t[(k, k)] += v);
+            }
+            StartData::Sparse(data) => data.add_to_diagonal(increase),
+        }
+    }
+
     /// Another start basis: principal pivots on pairs drawn at random, where the pivot is sound; where
-    /// the diagonal is not, together with the pair that makes a block of order two sound.
+    /// the diagonal is not, together with the pair that makes a block of order two sound. Of many
+    /// sparse pairs no more than some hundreds are drawn.
     pub(super) fn flipped(&self, seed: u64) -> Basis {
         const SOUND: f64 = 1e-2;
+        const MANY: f64 = 500.0;
         let n = self.q.len();
+        let is_sparse = matches!(self.data, StartData::Sparse(_));
+        let share = if is_sparse { (MANY / n as f64).min(0.5) } else { 0.5 };
         let mut random = SplitMix::new(seed);
-        let mut tableau = Tableau::new(self.t.clone());
-        let (mut column, mut other) = (vec![0.0; n], vec![0.0; n]);
+        let covering = vec![0.0; n];
+        let mut kernel = self.kernel(&covering, None);
+        let mut column = vec![0.0; n];
+        let mut values = vec![0.0; n];
+        let mut basic: Vec<Var> = (0..n).collect();
         let mut flipped = vec![false; n];
         for pair in (0..n).filter(|&pair| !self.is_free(pair)) {
-            if flipped[pair] || random.next_f64() < 0.5 {
+            if flipped[pair] || random.next_f64() >= share {
                 continue;
             }
-            tableau.column(pair, &mut column);
+            if !kernel.tidy(&basic, &mut values) {
+                break;
+            }
+            kernel.column(n + pair, &mut column);
             let sound = SOUND * max_abs(&column);
             if sound == 0.0 {
                 continue;
             }
             if column[pair].abs() >= sound {
-                tableau.pivot(pair, pair, &column);
+                kernel.exchange(pair, n + pair, pair, &column);
+                basic[pair] = n + pair;
                 flipped[pair] = true;
                 continue;
             }
@@ -267,15 +343,16 @@ impl Start {
                 .filter(|&k| column[k].abs() >= sound)
                 .collect();
             if let Some(&partner) = random.pick(&partners) {
-                // Row `partner` of column `pair`, and then row `pair` of column `partner`, as it will be.
-                tableau.column(partner, &mut other);
-                let factor = other[partner] / column[partner];
-                other.iter_mut().zip(&column).for_each(|(other, a)| *other -= factor * a);
-                other[partner] = factor;
-                if other[pair].abs() >= SOUND * max_abs(&other) && other[pair] != 0.0 {
-                    tableau.pivot(partner, pair, &column);
-                    tableau.pivot(pair, partner, &other);
+                // Row `partner` of column `pair`, then row `pair` of column `partner`.
+                kernel.exchange(partner, n + pair, partner, &column);
+                kernel.column(n + partner, &mut column);
+                if column[pair].abs() >= SOUND * max_abs(&column) {
+                    kernel.exchange(pair, n + partner, pair, &column);
+                    (basic[partner], basic[pair]) = (n + pair, n + partner);
                     (flipped[pair], flipped[partner]) = (true, true);
+                } else {
+                    kernel.column(partner, &mut column);
+                    kernel.exchange(partner, partner, n + pair, &column);
                 }
             }
         }

@@ -79,15 +79,18 @@ impl Trial {
             Perturbation::RightHandSide { seed } => {
                 let mut random = SplitMix::new(seed);
                 let mut start = start.clone();
-                start.q.iter_mut().for_each(|q| *q += TIES * (0.5 + random.next_f64()));
+                let increase: Vec<f64> = (0..n).map(|_| TIES * (0.5 + random.next_f64())).collect();
+                start.add_to_values(&increase);
                 Some(start)
             }
             Perturbation::Proximal { weight } => {
                 let mut start = start.clone();
-                for k in (0..n).filter(|&k| !start.is_free(k)).collect::<Vec<_>>() {
-                    start.t[(k, k)] -= weight;
-                    start.q[k] -= weight * center[k];
-                }
+                let weights: Vec<f64> =
+                    (0..n).map(|k| if start.is_free(k) { 0.0 } else { -weight }).collect();
+                start.add_to_diagonal(&weights);
+                let increase: Vec<f64> =
+                    weights.iter().zip(center).map(|(weight, z)| weight * z).collect();
+                start.add_to_values(&increase);
                 Some(start)
             }
         }

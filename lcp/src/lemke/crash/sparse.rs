@@ -1,0 +1,203 @@
+//! Start bases of sparse problems.
+//!
+//! Columns are offered to a factorisation that refuses those that depend on the ones before: first
+//! those of the preferred sides, then the others of the pairs that have none yet. Where pairs stay
+//! without a column the sides of a structural matching are tried in the same way, and at last
+//! exchanges.
+
+use super::matching::matched_sides;
+use super::{Crash, RANK_TOLERANCE};
+use crate::lemke::kernel::{Kernel, Var};
+use crate::lemke::start::Equilibrated;
+use crate::problem::max_abs;
+use crate::sparse::{Columns, Growing, SparseLu, elimination_order, row_counts};
+use crate::{Basis, Matrix, Side};
+
+/// Solves that the search for exchanges may take.
+const SOLVES: usize = 5000;
+/// Up to this order bases are enlarged, which takes several times as many solves.
+const ENLARGED: usize = 1000;
+/// A column depends on another if its coordinate exceeds this multiple of its largest one.
+const TOLERANCE: f64 = 1e-8;
+
+/// A complementary basis, or as many columns as were found, completed by unit columns.
+pub(super) fn find_sparse(problem: &Equilibrated<'_>, preferred: &Basis) -> Crash {
+    let n = problem.order();
+    let all_t = Basis::all(Side::T, n);
+    let mut best: Option<Chosen> = None;
+    for sides in [Some(preferred.sides()), Some(all_t.sides()), None] {
+        let search = Search::new(problem, sides.unwrap_or(preferred.sides()));
+        let first = if sides.is_none() {
+            matched_sides(&search.columns, search.preferred)
+        } else {
+            search.preferred.iter().copied().map(Some).collect()
+        };
+        let found = search.independent(&first);
+        if found.missing.is_empty() {
+            best = Some(found);
+            break;
+        }
+        if best.as_ref().is_none_or(|best| found.missing.len() < best.missing.len()) {
+            best = Some(found);
+        }
+    }
+    let search = Search::new(problem, preferred.sides());
+    let mut chosen = best.unwrap_or_else(|| search.independent(&vec![None; n]));
+    let mut solves = 0;
+    while !chosen.missing.is_empty() {
+        match search.exchange(&chosen, &mut solves) {
+            Some(sides) => {
+                let next = search.independent(&sides);
+                if next.missing.len() >= chosen.missing.len() {
+                    break;
+                }
+                chosen = next;
+            }
+            None => break,
+        }
+    }
+    match chosen.into_crash(n) {
+        Crash::Complete(basis) if n <= ENLARGED => Crash::Complete(enlarged(problem, basis)),
+        found => found,
+    }
+}
+
+/// A basis whose determinant no exchange of a single pair makes larger, as for dense problems.
+fn enlarged(problem: &Equilibrated<'_>, basis: Basis) -> Basis {
+    const GAIN: f64 = 1.0 + 1e-6;
+    let n = basis.len();
+    let Some(start) = problem.start(&basis) else { return basis };
+    let covering = vec![0.0; n];
+    let mut kernel = start.kernel(&covering, None);
+    let (mut column, mut values) = (vec![0.0; n], vec![0.0; n]);
+    let mut basic: Vec<Var> = (0..n).collect();
+    let mut settled = 0;
+    for k in (0..n).cycle().take(SOLVES) {
+        if settled == n || !kernel.tidy(&basic, &mut values) {
+            break;
+        }
+        settled += 1;
+        let entering = if basic[k] == k { n + k } else { k };
+        kernel.column(entering, &mut column);
+        if column[k].abs() > GAIN {
+            kernel.exchange(k, entering, basic[k], &column);
+            basic[k] = entering;
+            settled = 0;
+        }
+    }
+    start.basis_with(&basic.iter().map(|&var| var >= n).collect::<Vec<_>>())
+}
+
+/// Independent columns.
+struct Chosen {
+    sides: Vec<Option<Side>>,
+    /// The pairs without a column, and rows whose unit columns take their places.
+    missing: Vec<(usize, usize)>,
+    lu: SparseLu,
+}
+
+impl Chosen {
+    fn into_crash(self, n: usize) -> Crash {
+        match self.sides.iter().copied().collect::<Option<Vec<Side>>>() {
+            Some(sides) => Crash::Complete(Basis::new(sides)),
+            None => {
+                let units = self.missing.iter().enumerate().map(|(k, &(_, row))| (row, k, 1.0));
+                let complement = Matrix::from_entries(n, self.missing.len(), units);
+                Crash::Partial { chosen: self.sides, complement }
+            }
+        }
+    }
+}
+
+struct Search<'a> {
+    preferred: &'a [Side],
+    /// The columns of the preferred sides, then the others.
+    columns: Columns,
+}
+
+impl<'a> Search<'a> {
+    fn new(problem: &Equilibrated<'_>, preferred: &'a [Side]) -> Self {
+        let own = preferred.iter().copied().enumerate();
+        let others = own.clone().map(|(pair, side)| (pair, side.complement()));
+        Self { preferred, columns: problem.sparse_columns(own.chain(others)) }
+    }
+
+    fn order(&self) -> usize {
+        self.preferred.len()
+    }
+
+    /// Position of a column in `columns`.
+    fn position(&self, pair: usize, side: Side) -> usize {
+        if side == self.preferred[pair] { pair } else { self.order() + pair }
+    }
+
+    /// As many of the given columns as are independent, then other columns of the pairs without one.
+    fn independent(&self, first: &[Option<Side>]) -> Chosen {
+        let n = self.order();
+        let given = (0..n).filter_map(|pair| Some((pair, first[pair]?)));
+        let others = |pair: usize| match first[pair] {
+            Some(side) => vec![(pair, side.complement())],
+            None => vec![(pair, self.preferred[pair]), (pair, self.preferred[pair].complement())],
+        };
+        let mut sides = vec![None; n];
+        let mut growing = Growing::new(row_counts(n, &self.columns));
+        for candidates in [given.collect::<Vec<_>>(), (0..n).flat_map(others).collect()] {
+            let open = candidates.into_iter().filter(|&(pair, _)| sides[pair].is_none());
+            let open: Vec<(usize, Side)> = open.collect();
+            let mut columns = Columns::default();
+            for &(pair, side) in &open {
+                let entries = self.columns.entries(self.position(pair, side));
+                entries.for_each(|(i, v)| columns.push(i, v));
+                columns.close();
+            }
+            for turn in elimination_order(n, &columns) {
+                let (pair, side) = open[turn.column];
+                if sides[pair].is_none() && growing.offer(pair, &columns, turn, RANK_TOLERANCE) {
+                    sides[pair] = Some(side);
+                }
+            }
+        }
+        let (lu, missing) = growing.finish();
+        Chosen { sides, missing, lu }
+    }
+
+    /// One more pair with a column, through the shortest chain of exchanges, as for dense problems.
+    fn exchange(&self, chosen: &Chosen, solves: &mut usize) -> Option<Vec<Option<Side>>> {
+        let n = self.order();
+        let mut queue: Vec<(usize, Side, Option<usize>)> = Vec::new();
+        for &(pair, _) in &chosen.missing {
+            let side = self.preferred[pair];
+            queue.extend([(pair, side, None), (pair, side.complement(), None)]);
+        }
+        let mut seen = vec![false; n];
+        let mut work = Vec::new();
+        let mut head = 0;
+        while head < queue.len() && *solves < SOLVES {
+            let (pair, side, _) = queue[head];
+            let mut x = vec![0.0; n];
+            self.columns.add_to(self.position(pair, side), 1.0, &mut x);
+            chosen.lu.solve(&mut x, &mut work);
+            *solves += 1;
+            let tolerance = TOLERANCE * max_abs(&x);
+            if chosen.missing.iter().any(|&(slot, _)| x[slot].abs() > tolerance) {
+                let mut next = chosen.sides.clone();
+                let mut at = Some(head);
+                while let Some(i) = at {
+                    let (pair, side, from) = queue[i];
+                    next[pair] = Some(side);
+                    at = from;
+                }
+                return Some(next);
+            }
+            for other in (0..n).filter(|&k| x[k].abs() > tolerance) {
+                if let Some(side) = chosen.sides[other]
+                    && !std::mem::replace(&mut seen[other], true)
+                {
+                    queue.push((other, side.complement(), Some(head)));
+                }
+            }
+            head += 1;
+        }
+        None
+    }
+}

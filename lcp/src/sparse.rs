@@ -1,0 +1,93 @@
+//! Sparse linear algebra: columns, their order, and an LU factorisation that grows by columns.
+
+mod lu;
+mod order;
+
+pub(crate) use lu::{Growing, SparseLu, row_counts};
+pub(crate) use order::elimination_order;
+
+/// Columns of nonzero entries, one after the other.
+#[derive(Debug, Clone)]
+pub(crate) struct Columns {
+    starts: Vec<usize>,
+    rows: Vec<u32>,
+    values: Vec<f64>,
+}
+
+impl Default for Columns {
+    fn default() -> Self {
+        Self { starts: vec![0], rows: Vec::new(), values: Vec::new() }
+    }
+}
+
+impl Columns {
+    /// Number of columns.
+    pub(crate) fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Number of entries.
+    pub(crate) fn stored(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Adds an entry to the column that [`close`](Self::close) will end.
+    pub(crate) fn push(&mut self, row: usize, value: f64) {
+        self.rows.push(index(row));
+        self.values.push(value);
+    }
+
+    /// Ends a column.
+    pub(crate) fn close(&mut self) {
+        self.starts.push(self.rows.len());
+    }
+
+    /// Rows of the entries of a column.
+    pub(crate) fn rows(&self, j: usize) -> &[u32] {
+        &self.rows[self.starts[j]..self.starts[j + 1]]
+    }
+
+    /// The entries `(row, value)` of a column.
+    #[inline]
+    pub(crate) fn entries(&self, j: usize) -> impl DoubleEndedIterator<Item = (usize, f64)> + '_ {
+        let range = self.starts[j]..self.starts[j + 1];
+        let values = self.values[range.clone()].iter();
+        self.rows[range].iter().map(|&row| row as usize).zip(values.copied())
+    }
+
+    /// `out += factor * column`.
+    #[inline]
+    pub(crate) fn add_to(&self, j: usize, factor: f64, out: &mut [f64]) {
+        self.entries(j).for_each(|(i, v)| out[i] += factor * v);
+    }
+
+    /// The scalar product of a column with a vector.
+    #[inline]
+    pub(crate) fn dot(&self, j: usize, x: &[f64]) -> f64 {
+        self.entries(j).map(|(i, v)| v * x[i]).sum()
+    }
+
+    /// The same entries by rows: column `i` of the result is row `i`, of `count` rows.
+    pub(crate) fn transposed(&self, count: usize) -> Self {
+        let mut starts = vec![0; count + 1];
+        self.rows.iter().for_each(|&row| starts[row as usize + 1] += 1);
+        for i in 0..count {
+            starts[i + 1] += starts[i];
+        }
+        let mut next = starts.clone();
+        let mut rows = vec![0; self.rows.len()];
+        let mut values = vec![0.0; self.rows.len()];
+        for j in 0..self.len() {
+            for (i, v) in self.entries(j) {
+                (rows[next[i]], values[next[i]]) = (index(j), v);
+                next[i] += 1;
+            }
+        }
+        Self { starts, rows, values }
+    }
+}
+
+/// A row or column number in half the space.
+fn index(i: usize) -> u32 {
+    u32::try_from(i).unwrap_or_else(|_| unreachable!("more than 2^32 rows do not fit in memory"))
+}

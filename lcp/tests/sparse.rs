@@ -1,0 +1,380 @@
+//! Sparse problems: the same answers as with dense matrices, and orders that dense ones do not reach.
+
+#![allow(clippy::unwrap_used)] // a test may panic
+
+use faer::Mat;
+use faer::sparse::{SparseColMat, Triplet};
+use lcp::{
+    Covering, HorizontalLcp, Lcp, Lemke, LemkeSettings, MixedLcp, Solution, Status, WarmStart,
+};
+use proptest::collection::vec;
+use proptest::prelude::*;
+
+type Sparse = SparseColMat<usize, f64>;
+
+fn sparse(m: &Mat<f64>) -> Sparse {
+    let entries: Vec<_> = (0..m.nrows())
+        .flat_map(|i| (0..m.ncols()).map(move |j| (i, j)))
+        .filter(|&(i, j)| m[(i, j)] != 0.0)
+        .map(|(i, j)| Triplet::new(i, j, m[(i, j)]))
+        .collect();
+    Sparse::try_new_from_triplets(m.nrows(), m.ncols(), &entries).unwrap()
+}
+
+fn first_attempt() -> Lemke {
+    Lemke::new(LemkeSettings { max_attempts: 1, ..LemkeSettings::default() })
+}
+
+/// The problem with both kinds of matrices.
+fn both(a: &Mat<f64>, b: &Mat<f64>, c: &[f64]) -> [HorizontalLcp; 2] {
+    let dense = HorizontalLcp::new(a.clone(), b.clone(), c.to_vec()).unwrap();
+    let sparse = HorizontalLcp::new(sparse(a), sparse(b), c.to_vec()).unwrap();
+    assert!(sparse.is_sparse() && !dense.is_sparse());
+    [dense, sparse]
+}
+
+fn standard(m: &Mat<f64>, q: &[f64]) -> [HorizontalLcp; 2] {
+    both(&-m, &Mat::identity(q.len(), q.len()), q)
+}
+
+fn close(a: &[f64], b: &[f64]) -> bool {
+    let size = a.iter().chain(b).fold(1.0_f64, |max, v| max.max(v.abs()));
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-9 * size)
+}
+
+fn value() -> impl Strategy<Value = f64> {
+    prop_oneof![-4.0..4.0_f64, (-3..=3_i8).prop_map(f64::from)]
+}
+
+/// A matrix with a few entries in every row.
+fn scattered(n: usize) -> impl Strategy<Value = Mat<f64>> {
+    vec((0..n, 0..n, (-2..=2_i8).prop_map(f64::from)), 0..3 * n).prop_map(move |entries| {
+        let mut m = Mat::zeros(n, n);
+        entries.into_iter().for_each(|(i, j, v)| m[(i, j)] = v);
+        m
+    })
+}
+
+/// A band of random width whose symmetric part is positive definite, and a vector, of reals or of
+/// small integers, which tie.
+fn banded() -> impl Strategy<Value = (Mat<f64>, Vec<f64>)> {
+    (1..40_usize, 1..4_usize).prop_flat_map(|(n, width)| {
+        (vec(value(), n * (2 * width + 1)), vec((-3..=3_i8).prop_map(f64::from), n)).prop_map(
+            move |(entries, q)| {
+                let at = |i: usize, j: usize| entries[i * (2 * width + 1) + j + width - i];
+                let mut m = Mat::from_fn(n, n, |i, j| {
+                    if i != j && i.abs_diff(j) <= width { at(i, j) } else { 0.0 }
+                });
+                for i in 0..n {
+                    let sum = |f: &dyn Fn(usize) -> f64| (0..n).map(|j| f(j).abs()).sum::<f64>();
+                    m[(i, i)] = 1.0 + sum(&|j| m[(i, j)]).max(sum(&|j| m[(j, i)]));
+                }
+                (m, q)
+            },
+        )
+    })
+}
+
+/// At least so many cases; more by the environment variable `PROPTEST_CASES`.
+fn cases(least: u32) -> ProptestConfig {
+    let default = ProptestConfig::default();
+    ProptestConfig { cases: default.cases.max(least), ..default }
+}
+
+proptest! {
+    #![proptest_config(cases(256))]
+
+    /// One path: the same pivots.
+    #[test]
+    fn bands((m, q) in banded()) {
+        let [dense, sparse] = standard(&m, &q).map(|it| first_attempt().solve(&it).unwrap());
+        prop_assert_eq!(sparse.status, Status::Solved);
+        prop_assert_eq!(sparse.info.pivots, dense.info.pivots);
+        prop_assert!(close(&sparse.t, &dense.t) && close(&sparse.y, &dense.y));
+    }
+
+    /// However often the basis is factorised.
+    #[test]
+    fn factorisations_do_not_matter((m, q) in banded(), interval in 1..6_usize) {
+        let settings = LemkeSettings { refactor_interval: Some(interval), ..LemkeSettings::default() };
+        let [dense, sparse] = standard(&m, &q);
+        let dense = first_attempt().solve(&dense).unwrap();
+        let often = Lemke::new(settings).solve(&sparse).unwrap();
+        prop_assert_eq!(often.status, Status::Solved);
+        prop_assert!(often.info.refactorisations + 1 >= often.info.pivots / interval);
+        prop_assert!(close(&often.t, &dense.t) && close(&often.y, &dense.y));
+    }
+
+    /// The general form: neighbouring rows mixed, pairs swapped, columns of every size.
+    #[test]
+    fn general_problems(
+        (m, q) in banded(),
+        mix in vec(-1.0..1.0_f64, 40),
+        swap in vec(any::<bool>(), 40),
+        exponents in vec(-6..=6_i32, 80),
+    ) {
+        let n = q.len();
+        let mix = Mat::from_fn(n, n, |i, j| match i.abs_diff(j) {
+            0 => 2.0,
+            1 if j > i => mix[i],
+            _ => 0.0,
+        });
+        let c: Vec<f64> = (0..n).map(|i| (0..n).map(|j| mix[(i, j)] * q[j]).sum()).collect();
+        let (t, y) = (&mix * -&m, mix.clone());
+        let size = |j: usize| 10.0_f64.powi(exponents[j]);
+        let a = Mat::from_fn(n, n, |i, j| size(j) * if swap[j] { y[(i, j)] } else { t[(i, j)] });
+        let b = Mat::from_fn(n, n, |i, j| {
+            size(40 + j) * if swap[j] { t[(i, j)] } else { y[(i, j)] }
+        });
+        let [plain, _] = standard(&m, &q).map(|it| Lemke::default().solve(&it).unwrap());
+        let [_, sparse] = both(&a, &b, &c);
+        let solution = Lemke::default().solve(&sparse).unwrap();
+        prop_assert_eq!(solution.status, Status::Solved);
+        let z: Vec<f64> = (0..n)
+            .map(|j| if swap[j] { solution.y[j] * size(40 + j) } else { solution.t[j] * size(j) })
+            .collect();
+        prop_assert!(close(&z, &plain.t), "{:?} {:?}", z, plain.t);
+    }
+
+    /// Positive semidefinite: solved or infeasible, as for dense matrices; `w` is unique.
+    #[test]
+    fn semidefinite_problems(
+        (c, q) in (1..12_usize).prop_flat_map(|n| {
+            (scattered(n), vec((-3..=3_i8).prop_map(f64::from), n))
+        })
+    ) {
+        let m = &c * c.transpose();
+        let [dense, sparse] = standard(&m, &q).map(|it| Lemke::default().solve(&it).unwrap());
+        prop_assert_eq!(sparse.status, dense.status);
+        prop_assert!(matches!(sparse.status, Status::Solved | Status::Infeasible));
+        if sparse.is_solved() {
+            prop_assert!(close(&sparse.y, &dense.y));
+        }
+    }
+
+    /// A quadratic programme: `x` is free, as are the multipliers of equations; others are not.
+    #[test]
+    fn mixed_problems(
+        (m, c, q, kinds) in banded().prop_flat_map(|(m, q)| {
+            let n = q.len();
+            (Just(m), scattered(n), vec(value(), 2 * n), vec(any::<bool>(), n))
+        })
+    ) {
+        let n = m.nrows();
+        let saddle = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+            (true, true) => m[(i, j)],
+            (true, false) => -c[(j - n, i)],
+            (false, true) => c[(i - n, j)],
+            (false, false) => if i == j { 0.5 } else { 0.0 },
+        });
+        let free: Vec<bool> = (0..2 * n).map(|i| i < n || kinds[i - n]).collect();
+        let solve = |problem: MixedLcp| {
+            let solution = Lemke::default().solve(&problem.to_general()).unwrap();
+            let (z, _) = problem.recover(&solution.t, &solution.y);
+            (solution.status, z)
+        };
+        let sparse = MixedLcp::new(sparse(&saddle), q.clone(), free.clone()).unwrap();
+        prop_assert!(sparse.to_general().is_sparse());
+        let (status, z) = solve(sparse);
+        let (_, expected) = solve(MixedLcp::new(saddle, q, free).unwrap());
+        prop_assert_eq!(status, Status::Solved);
+        prop_assert!(close(&z, &expected), "{:?} {:?}", z, expected);
+    }
+
+    /// Anything at all: no panic, `Solved` means solved, and no proof against a solution.
+    #[test]
+    fn no_verdict_is_wrong(
+        (a, b, c) in (1..8_usize).prop_flat_map(|n| {
+            (scattered(n), scattered(n), vec((-2..=2_i8).prop_map(f64::from), n))
+        })
+    ) {
+        let problems = both(&a, &b, &c);
+        let [dense, sparse] = problems.each_ref().map(|it| Lemke::default().solve(it).unwrap());
+        if sparse.is_solved() {
+            prop_assert!(problems[0].residuals(&sparse.t, &sparse.y).worst() <= 1e-10);
+            prop_assert!(sparse.t.iter().chain(&sparse.y).all(|&v| v >= 0.0));
+            prop_assert_ne!(dense.status, Status::Infeasible);
+        }
+        if dense.is_solved() {
+            prop_assert_ne!(sparse.status, Status::Infeasible);
+        }
+    }
+}
+
+/// A string of tension one, held at height one at both ends, under the load `p`, over the ground at
+/// zero. From each end to the first of the nodes on the ground, node `k`, it is a parabola.
+struct StringOnGround {
+    n: usize,
+    load: f64,
+}
+
+impl StringOnGround {
+    /// With `k` such that some hundreds of nodes are above the ground.
+    fn touching_near(n: usize, k: f64) -> Self {
+        let h = 1.0 / (n as f64 + 1.0);
+        Self { n, load: 2.0 / (k * h).powi(2) }
+    }
+
+    fn problem(&self) -> HorizontalLcp {
+        let n = self.n;
+        let stiffness = (n as f64 + 1.0).powi(2);
+        let mut entries = Vec::new();
+        for i in 0..n {
+            entries.push(Triplet::new(i, i, 2.0 * stiffness));
+            if i + 1 < n {
+                entries.push(Triplet::new(i, i + 1, -stiffness));
+                entries.push(Triplet::new(i + 1, i, -stiffness));
+            }
+        }
+        let mut q = vec![self.load; n];
+        q[0] -= stiffness;
+        q[n - 1] -= stiffness;
+        Lcp::new(Sparse::try_new_from_triplets(n, n, &entries).unwrap(), q).unwrap().into()
+    }
+
+    /// Second differences are `p h^2` above the ground, and the last of them, at node `k`, is less.
+    fn heights(&self) -> Vec<f64> {
+        let drop = self.load / (self.n as f64 + 1.0).powi(2);
+        let slope = |k: f64| (1.0 - drop * k * (k - 1.0) / 2.0) / k;
+        let k = (1..=self.n).find(|&k| slope(k as f64) <= drop).unwrap();
+        let from_end = |i: usize| {
+            let j = (k as f64 - i as f64).max(0.0);
+            slope(k as f64) * j + drop * j * (j - 1.0) / 2.0
+        };
+        (1..=self.n).map(|i| from_end(i).max(from_end(self.n + 1 - i))).collect()
+    }
+
+    fn assert_solved(&self, solution: &Solution) {
+        assert_eq!(solution.status, Status::Solved);
+        let expected = self.heights();
+        for (i, (z, u)) in solution.t.iter().zip(&expected).enumerate() {
+            assert!((z - u).abs() < 1e-9, "node {i}: {z} is not {u}");
+        }
+        let above = expected.iter().filter(|u| **u > 1e-9).count();
+        assert!(above > 60 && solution.info.pivots <= above + 3, "{}", solution.info.pivots);
+    }
+}
+
+#[test]
+fn a_string_touches_the_ground_where_it_should() {
+    let string = StringOnGround::touching_near(2000, 150.3);
+    string.assert_solved(&first_attempt().solve(&string.problem()).unwrap());
+}
+
+/// A dense tableau of this order takes 3.2 GB, and one pass over it longer than this test.
+#[test]
+fn large_orders_need_little_memory_and_time() {
+    let string = StringOnGround::touching_near(20_000, 50.6);
+    let solution = first_attempt().solve(&string.problem()).unwrap();
+    string.assert_solved(&solution);
+    assert!(solution.info.seconds < 10.0, "{} s", solution.info.seconds);
+}
+
+/// Five-point Laplacian on a square of `m` by `m` nodes.
+fn membrane(m: usize) -> Sparse {
+    let mut entries = Vec::new();
+    for (i, j) in (0..m).flat_map(|i| (0..m).map(move |j| (i, j))) {
+        entries.push(Triplet::new(i * m + j, i * m + j, 4.0));
+        let right = (j + 1 < m).then_some(i * m + j + 1);
+        let below = (i + 1 < m).then_some(i * m + j + m);
+        for other in right.into_iter().chain(below) {
+            entries.push(Triplet::new(i * m + j, other, -1.0));
+            entries.push(Triplet::new(other, i * m + j, -1.0));
+        }
+    }
+    Sparse::try_new_from_triplets(m * m, m * m, &entries).unwrap()
+}
+
+/// A membrane under a load that pulls it up in the middle and presses it to the ground elsewhere.
+#[test]
+fn a_membrane_is_the_same_dense_and_sparse() {
+    let m = 60;
+    let matrix = membrane(m);
+    let load = |k: usize| {
+        let (x, y) = ((k / m) as f64 / m as f64 - 0.45, (k % m) as f64 / m as f64 - 0.5);
+        if x * x + 2.0 * y * y < 0.04 { -1.0 - x } else { 0.3 + y }
+    };
+    let q: Vec<f64> = (0..m * m).map(load).collect();
+    let dense = Lcp::new(matrix.to_dense(), q.clone()).unwrap().into();
+    let sparse = Lcp::new(matrix, q).unwrap().into();
+    let [dense, sparse] = [dense, sparse].map(|it| first_attempt().solve(&it).unwrap());
+    assert_eq!((sparse.status, dense.status), (Status::Solved, Status::Solved));
+    assert!(sparse.info.pivots > 500);
+    assert_eq!(sparse.info.pivots, dense.info.pivots);
+    assert_eq!(sparse.basis, dense.basis);
+    assert!(close(&sparse.t, &dense.t));
+}
+
+/// An even load on an even membrane: at the start all rows tie, and later those that mirror each other.
+#[test]
+fn ties_of_all_rows_are_resolved() {
+    let m = 24;
+    for load in [-1.0, -1e-9] {
+        let problem = Lcp::new(membrane(m), vec![load; m * m]).unwrap().into();
+        let solution = first_attempt().solve(&problem).unwrap();
+        assert_eq!(solution.status, Status::Solved);
+        assert!(solution.t.iter().all(|&z| z > 0.0));
+        let mirrored: Vec<f64> = solution.t.iter().rev().copied().collect();
+        assert!(solution.t.iter().zip(&mirrored).all(|(a, b)| (a - b).abs() <= 1e-9 * a));
+    }
+}
+
+/// `w1 = z2 - 1`, `w2 = -z2 - 1` and many sound pairs around it.
+#[test]
+fn infeasible_problems_are_proved_so() {
+    let n = 3000;
+    let entries = (0..n - 1).map(|i| Triplet::new(i, i, 2.0));
+    let entries: Vec<_> = entries.chain([Triplet::new(n - 1, n - 1, -1.0)]).collect();
+    let m = Sparse::try_new_from_triplets(n, n, &entries).unwrap();
+    let q: Vec<f64> = (0..n).map(|i| if i < n - 20 { 1.0 } else { -1.0 }).collect();
+    let solution = Lemke::default().solve(&Lcp::new(m, q).unwrap().into()).unwrap();
+    assert_eq!(solution.status, Status::Infeasible);
+    let pi = solution.farkas.unwrap();
+    assert!(pi[n - 1].abs() > 0.0);
+}
+
+/// The solution of a neighbouring problem, as a basis and as a point, saves pivots.
+#[test]
+fn warm_starts() {
+    let string = StringOnGround::touching_near(2000, 150.3);
+    let solution = Lemke::default().solve(&string.problem()).unwrap();
+    let neighbour = StringOnGround { load: 0.9 * string.load, ..string };
+    let Solution { t, y, basis, .. } = solution;
+    for start in [WarmStart::Basis(basis.unwrap()), WarmStart::Point { t, y }] {
+        let settings =
+            LemkeSettings { start, covering: Covering::Ones, ..LemkeSettings::default() };
+        let solution = Lemke::new(settings).solve(&neighbour.problem()).unwrap();
+        neighbour.assert_solved(&solution);
+        assert!(solution.info.pivots < 60, "{}", solution.info.pivots);
+    }
+}
+
+/// Bodies on the ground, tied to each other by stiff rods whose forces are free: a large saddle point
+/// problem in which no single side of the pairs is nonsingular.
+#[test]
+fn large_mixed_problems_find_a_basis() {
+    let n = 5000;
+    // Free heights u_i, free rod forces between neighbours 2k and 2k + 1, contact forces.
+    let (rods, order) = (n / 2, n + n / 2 + n);
+    let mut entries = Vec::new();
+    for i in 0..n {
+        if i + 1 < n {
+            entries.extend([(i, i, 1.0), (i + 1, i + 1, 1.0), (i, i + 1, -1.0), (i + 1, i, -1.0)]);
+        }
+        entries.extend([(i, n + rods + i, -1.0), (n + rods + i, i, 1.0)]);
+    }
+    for k in 0..rods {
+        for (i, v) in [(2 * k, 1.0), (2 * k + 1, -1.0)] {
+            entries.extend([(i, n + k, v), (n + k, i, -v)]);
+        }
+    }
+    let entries: Vec<_> = entries.into_iter().map(|(i, j, v)| Triplet::new(i, j, v)).collect();
+    let m = Sparse::try_new_from_triplets(order, order, &entries).unwrap();
+    // One unit of weight on every body.
+    let q: Vec<f64> = (0..order).map(|i| if i < n { 1.0 } else { 0.0 }).collect();
+    let free: Vec<bool> = (0..order).map(|i| i < n + rods).collect();
+    let problem = MixedLcp::new(m, q, free).unwrap();
+    let settings = LemkeSettings { max_pivots: Some(200), max_attempts: 1, ..Default::default() };
+    let solution = Lemke::new(settings).solve(&problem.to_general()).unwrap();
+    assert!(matches!(solution.status, Status::Solved | Status::PivotLimit), "{}", solution.status);
+}
