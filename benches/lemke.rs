@@ -1,47 +1,76 @@
 //! What a pivot of Lemke's method costs, against the textbook's pivot in the same run.
 //!
-//! `cargo bench --bench lemke`. The textbook keeps the condensed tableau, n by n + 1, in memory and
-//! changes all of it at every pivot: one rank-1 update, which is bound by memory. The table gives
-//! both times per pivot and their ratio; start, scaling and the final solve are included in ours.
+//! `cargo bench --bench lemke` prints a table; with `-- --write` it also puts it into the README. The
+//! textbook keeps the condensed tableau, n by n + 1, in memory and changes all of it at every pivot: one
+//! rank-1 update, which is bound by memory. Of the method the table has the time per pivot along the
+//! path, and that of the whole solve, with scaling, start basis and final solve, divided by the pivots.
 
+use std::fmt::Write as _;
 use std::hint::black_box;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use faer::Mat;
-use lcp::{HorizontalLcp, Lcp, Lemke};
+use lcp::{HorizontalLcp, Lcp, Lemke, Solution};
+use masonry::forms::{Form, FormKind};
+use masonry::model::Model;
+use masonry::reduction::Reduction;
+use masonry::scene::Scene;
+use masonry::system::System;
 
 fn main() {
     // `cargo test --benches` runs this without the flag that `cargo bench` gives.
     if !std::env::args().any(|argument| argument == "--bench") {
         return;
     }
-    println!(
-        "{:>6} {:>8} {:>14} {:>16} {:>7}",
-        "n", "pivots", "ms per pivot", "ms per rank-1", "ratio"
+    let random = [100, 200, 400, 800, 1600];
+    let random = random.map(|n| ("random positive definite".to_owned(), positive_definite(n)));
+    let panels = ["panel_rectangular", "panel_square"];
+    let panels = panels.map(|name| (format!("`{name}`, mixed form"), panel(name)));
+    let mut table = String::from(
+        "| problem | order | pivots | pivot \\[ms\\] | whole solve / pivots \\[ms\\] | rank-1 update \\[ms\\] | \
+         pivot / update | whole / update |\n|---|--:|--:|--:|--:|--:|--:|--:|\n",
     );
-    for n in [100, 200, 400, 800, 1600] {
-        let problem = positive_definite(n);
-        let (pivots, ours) = per_pivot(&problem);
-        let textbook = rank_one(n);
-        let ratio = ours / textbook;
-        println!("{n:>6} {pivots:>8} {:>14.4} {:>16.4} {ratio:>7.2}", 1e3 * ours, 1e3 * textbook);
+    println!("{table}");
+    for (name, problem) in random.into_iter().chain(panels) {
+        let line = line(&name, &problem);
+        println!("{line}");
+        let _ = writeln!(table, "{line}");
+    }
+    if std::env::args().any(|argument| argument == "--write") {
+        write_into(&root().join("README.md"), &table);
     }
 }
 
-const RUNS: usize = 5;
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
+}
 
-/// Pivots, and seconds per pivot of the fastest of several solves.
-fn per_pivot(problem: &HorizontalLcp) -> (usize, f64) {
-    let solve = || Lemke::default().solve(problem).expect("default settings are valid");
-    let solution = solve();
+fn line(name: &str, problem: &HorizontalLcp) -> String {
+    let n = problem.order();
+    let runs = (3200 / n).clamp(2, 20);
+    let solutions: Vec<Solution> = (0..runs).map(|_| solve(problem)).collect();
+    let pivots = solutions[0].info.pivots;
+    let fastest = |seconds: fn(&Solution) -> f64| {
+        let all = solutions.iter().map(seconds);
+        1e3 * all.fold(f64::INFINITY, f64::min) / pivots as f64
+    };
+    let (pivot, whole) = (fastest(|it| it.info.pivot_seconds), fastest(|it| it.info.seconds));
+    let update = 1e3 * rank_one(n, 10 * runs);
+    let (ratio, whole_ratio) = (pivot / update, whole / update);
+    format!(
+        "| {name} | {n} | {pivots} | {pivot:.4} | {whole:.4} | {update:.4} | {ratio:.2} | {whole_ratio:.2} |"
+    )
+}
+
+fn solve(problem: &HorizontalLcp) -> Solution {
+    let solution = Lemke::default().solve(problem).expect("default settings are valid");
     assert!(solution.is_solved(), "{:?}", solution.status);
-    let pivots = solution.info.pivots;
-    let fastest = (0..RUNS).map(|_| solve().info.seconds).fold(f64::INFINITY, f64::min);
-    (pivots, fastest / pivots as f64)
+    solution
 }
 
 /// Seconds of one rank-1 update of an n by n + 1 tableau, the fastest of several.
-fn rank_one(n: usize) -> f64 {
+fn rank_one(n: usize, runs: usize) -> f64 {
     let mut tableau = Mat::<f64>::full(n, n + 1, 1.0);
     let column: Vec<f64> = (0..n).map(|i| wave(i) * 1e-3).collect();
     let row: Vec<f64> = (0..=n).map(wave).collect();
@@ -54,7 +83,7 @@ fn rank_one(n: usize) -> f64 {
         black_box(&mut tableau);
         began.elapsed().as_secs_f64()
     };
-    (0..10 * RUNS).map(|_| update()).fold(f64::INFINITY, f64::min)
+    (0..runs).map(|_| update()).fold(f64::INFINITY, f64::min)
 }
 
 /// `M = C C^T + 1` with entries of `C` between -1/2 and 1/2, `q` likewise.
@@ -65,8 +94,28 @@ fn positive_definite(n: usize) -> HorizontalLcp {
     Lcp::new(m, q).expect("finite data").into()
 }
 
+/// The general problem that a panel of the repository leads to.
+fn panel(name: &str) -> HorizontalLcp {
+    let path = root().join("scenes").join(name).with_extension("toml");
+    let scene = Scene::read(&path).expect("the scene is part of the repository");
+    let model = Model::from_scene(&scene).expect("the scene is sound");
+    let system = System::new(&model).expect("the blocks are sound");
+    let reduction = Reduction::new(&system, None).expect("no block is free");
+    Form::new(FormKind::Mixed, &system, &reduction).expect("finite data").problem
+}
+
 /// A number between -1/2 and 1/2 that looks random.
 fn wave(k: usize) -> f64 {
     let x = (k as f64 * 12.9898).sin() * 43_758.545_3;
     x - x.floor() - 0.5
+}
+
+/// Replaces what stands between the marks of this bench.
+fn write_into(path: &Path, table: &str) {
+    const MARKS: [&str; 2] = ["<!-- begin: bench lemke -->\n", "<!-- end: bench lemke -->"];
+    let text = std::fs::read_to_string(path).expect("the file is part of the repository");
+    let (before, rest) = text.split_once(MARKS[0]).expect("the file has the first mark");
+    let (_, after) = rest.split_once(MARKS[1]).expect("the file has the second mark");
+    let text = format!("{before}{}{table}{}{after}", MARKS[0], MARKS[1]);
+    std::fs::write(path, text).expect("the file can be written");
 }

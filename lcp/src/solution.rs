@@ -10,7 +10,8 @@ pub enum Status {
     /// The residuals, recomputed from the original data, are below the tolerance.
     Solved,
     /// A complementary basis was found, but its residuals, recomputed from the original data, are
-    /// above the tolerance asked for (and below the square root of it).
+    /// above the tolerance asked for, and below the square root of it, also when the equation is
+    /// measured by the right-hand side alone.
     AlmostSolved,
     /// There is no solution: `A t + B y = c` has none with `t >= 0` and `y >= 0`, which
     /// [`Solution::farkas`] proves.

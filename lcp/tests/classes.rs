@@ -153,36 +153,27 @@ proptest! {
     }
 
     #[test]
-    fn infeasible_semidefinite(n in 2..10_usize, seed in any::<u64>()) {
+    fn infeasible_semidefinite(n in 2..40_usize, seed in any::<u64>()) {
         assert_proved_infeasible(&general(families::infeasible_semidefinite(n, seed)).problem);
     }
 
     #[test]
-    fn infeasible(n in 1..10_usize, seed in any::<u64>()) {
+    fn infeasible(n in 1..40_usize, seed in any::<u64>()) {
         assert_proved_infeasible(&families::infeasible(n, seed).problem);
     }
 
-    /// The search for a proof is bounded, so that large problems may end without one, but with nothing
-    /// else.
+    /// From all `w` every covering vector ends on a ray; with a pair in place of the artificial variable
+    /// the path of Lemke and Howson always ends on an equilibrium.
     #[test]
-    fn infeasible_of_any_order(n in 10..40_usize, seed in any::<u64>()) {
-        for problem in [
-            general(families::infeasible_semidefinite(n, seed)).problem,
-            families::infeasible(n, seed).problem,
-        ] {
-            let solution = default(&problem);
-            match solution.status {
-                Status::Infeasible => assert_proof(&problem, &solution),
-                status => prop_assert_eq!(status, Status::RayTermination),
-            }
-        }
+    fn bimatrix(rows in 1..12_usize, columns in 1..12_usize, seed in any::<u64>()) {
+        let problem = general(families::bimatrix(rows, columns, seed)).problem;
+        assert_solved(&problem, &default(&problem));
     }
 
     /// No class: perhaps a ray, but never a wrong answer.
     #[test]
     fn no_class(n in 1..16_usize, seed in any::<u64>()) {
         for problem in [
-            general(families::bimatrix(n / 2, n - n / 2, seed)).problem,
             families::horizontal_singular(n, seed).problem,
             families::mixed_singular(n, seed).problem.to_general(),
         ] {
@@ -229,18 +220,15 @@ fn obstacle() {
 fn most_problems_of_no_class_are_solved() {
     let horizontal = |n, seed| families::horizontal_singular(n, seed).problem;
     let mixed = |n, seed| families::mixed_singular(n, seed).problem.to_general();
-    let game = |n, seed| general(families::bimatrix(n / 2, n - n / 2, seed)).problem;
     let shares = |problem: &dyn Fn(usize, u64) -> HorizontalLcp| {
         [4, 8, 12].map(|n| {
             let is_solved = |seed: &u64| default(&problem(n, *seed)).is_solved();
             (0..200).filter(is_solved).count() / 2
         })
     };
-    for (name, found, floor) in [
-        ("horizontal", shares(&horizontal), [95, 90, 80]),
-        ("mixed", shares(&mixed), [90, 92, 90]),
-        ("game", shares(&game), [98, 60, 25]),
-    ] {
+    for (name, found, floor) in
+        [("horizontal", shares(&horizontal), [97, 96, 85]), ("mixed", shares(&mixed), [95, 96, 96])]
+    {
         assert!(found.iter().zip(floor).all(|(found, floor)| *found >= floor), "{name}: {found:?}");
     }
 }

@@ -20,6 +20,21 @@ pub(super) struct Point {
     pub(super) condition: f64,
 }
 
+impl Point {
+    /// Whether the equation holds to this part of the right-hand side itself, in equilibrated rows. Far
+    /// enough out nearly everything holds compared with the terms.
+    pub(super) fn is_near(&self, problem: &Equilibrated<'_>, part: f64) -> bool {
+        let mut rest = problem.problem.c().to_vec();
+        for (side, x) in [(Side::T, &self.t), (Side::Y, &self.y)] {
+            for (pair, &x) in x.iter().enumerate().filter(|(_, x)| **x > 0.0) {
+                problem.problem.column(pair, side).add_to(-x, &mut rest);
+            }
+        }
+        let rest: Vec<f64> = rest.iter().zip(&problem.row).map(|(rest, row)| rest * row).collect();
+        max_abs(&rest) <= part * max_abs(&problem.right_hand_side())
+    }
+}
+
 /// Solves for the basic variables with the original columns, refines, and sets negative values to
 /// zero. How far that is more than rounding goes into the feasibility residual.
 pub(super) fn solve_basis(problem: &Equilibrated<'_>, basis: &Basis) -> Option<Point> {

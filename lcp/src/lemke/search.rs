@@ -341,8 +341,10 @@ impl<'a> Search<'a> {
 
     /// No attempt reached the tolerance: the best point if it is near, else what the attempts say.
     fn conclude(mut self) -> Solution {
+        let nearly = self.settings.tolerance.sqrt();
         if let Some(point) = self.almost.take()
-            && point.residuals.worst() <= self.settings.tolerance.sqrt()
+            && point.residuals.worst() <= nearly
+            && point.is_near(&self.problem, nearly)
         {
             return self.answer(Status::AlmostSolved, point);
         }
