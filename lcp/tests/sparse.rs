@@ -387,3 +387,26 @@ fn large_mixed_problems_find_a_basis() {
         assert!((z - expected(i)).abs() < 1e-9, "unknown {i} is {z}");
     }
 }
+
+/// A pair with two empty columns has no place in a basis: without it the string is solved, and where its
+/// row, which is empty too, asks for something there is no solution.
+#[test]
+fn empty_pairs_are_left_out() {
+    let string = StringOnGround::touching_near(2500, 80.4);
+    let n = string.n;
+    let grown = |m: &lcp::Matrix| {
+        let entries = (0..n).flat_map(|j| m.column(j).map(move |(i, v)| Triplet::new(i, j, v)));
+        Sparse::try_new_from_triplets(n + 1, n + 1, &entries.collect::<Vec<_>>()).unwrap()
+    };
+    let problem = string.problem();
+    for (last, status) in [(0.0, Status::Solved), (1.0, Status::Infeasible)] {
+        let c = problem.c().iter().copied().chain([last]).collect();
+        let grown = HorizontalLcp::new(grown(problem.a()), grown(problem.b()), c).unwrap();
+        let solution = Lemke::default().solve(&grown).unwrap();
+        assert_eq!(solution.status, status);
+        if solution.is_solved() {
+            let expected = string.heights();
+            assert!(solution.t.iter().zip(&expected).all(|(z, u)| (z - u).abs() < 1e-9));
+        }
+    }
+}
