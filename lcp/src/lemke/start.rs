@@ -251,7 +251,7 @@ pub(super) struct Start {
 #[derive(Debug, Clone)]
 enum StartData {
     Dense(Mat<f64>),
-    Sparse(SparseStart),
+    Sparse(Box<SparseStart>),
 }
 
 impl Start {
