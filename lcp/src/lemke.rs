@@ -15,6 +15,7 @@ mod search;
 mod sparse;
 mod start;
 mod tableau;
+mod translate;
 mod trial;
 
 pub use parametric::{

@@ -10,8 +10,10 @@
 //! * [`HorizontalLcp`] is the problem; [`Lcp`], [`MixedLcp`] (with free variables) and [`BoxedLcp`]
 //!   (with bounds) convert into it and back. Matrices are dense or sparse ([`Matrix`]).
 //! * [`Lemke`] with [`LemkeSettings`] solves them by complementary pivoting.
+//! * [`Parametric`] traces the solutions along a line of right-hand sides.
 //! * [`Solution`] carries the point, its [`Status`], its complementary [`Basis`], its
-//!   [`Residuals`] from the original data, and what it cost ([`Info`]).
+//!   [`Residuals`] from the original data, and what it cost ([`Info`]); where there is no solution,
+//!   the proof. [`Lcp::error_bound`] says how far a point of a monotone problem is from the solution.
 //!
 //! ```
 //! use faer::mat;

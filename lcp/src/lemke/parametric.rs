@@ -4,6 +4,10 @@
 //! at the start solves the problem, the parameter enters, and the complement of whatever left follows.
 //! Between two pivots all variables, and the parameter, are linear in the entering one.
 
+mod outcome;
+
+pub use outcome::{Breakpoint, ParametricEnd, ParametricPath, ParametricRay};
+
 use std::time::Instant;
 
 use super::basis_matrix::BasisMatrix;
@@ -27,103 +31,6 @@ pub struct ParametricSettings {
     pub lemke: LemkeSettings,
     /// Largest number of breakpoints; `None` is `100 n + 1000`.
     pub max_breakpoints: Option<usize>,
-}
-
-/// How a trace ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[non_exhaustive]
-pub enum ParametricEnd {
-    /// The parameter has reached its last value.
-    Reached,
-    /// From the last breakpoint on nothing blocks: along [`ParametricPath::ray`] the solution goes on
-    /// for ever.
-    Ray,
-    /// The path has turned back to the first value of the parameter.
-    TurnedBack,
-    /// There is no solution to start from: the solve at the first value ended so.
-    NoStart(Status),
-    /// The limit on breakpoints was reached.
-    BreakpointLimit,
-    /// The limit on wall-clock time was reached.
-    TimeLimit,
-    /// A basis came back.
-    Cycle,
-    /// Rounding errors could not be brought under control.
-    NumericalTrouble,
-}
-
-/// A point of the path.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Breakpoint {
-    /// Value of the parameter.
-    pub lambda: f64,
-    /// The first variable of every pair.
-    pub t: Vec<f64>,
-    /// The second variable of every pair.
-    pub y: Vec<f64>,
-}
-
-/// The direction of a path that goes on for ever.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct ParametricRay {
-    /// Rate of the parameter.
-    pub dlambda: f64,
-    /// Direction in `t`.
-    pub dt: Vec<f64>,
-    /// Direction in `y`.
-    pub dy: Vec<f64>,
-}
-
-/// A piecewise linear path of solutions: between two breakpoints that follow each other every point
-/// on the straight line solves the problem for the parameter on that line.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[non_exhaustive]
-pub struct ParametricPath {
-    /// How the trace ended.
-    pub end: ParametricEnd,
-    /// The breakpoints, from the first value of the parameter on. The parameter need not grow from one
-    /// to the next: the path turns where the problem is not monotone, and stands still where solutions
-    /// for one value form a segment.
-    pub breakpoints: Vec<Breakpoint>,
-    /// The complementary basis between every two breakpoints, and after the last one where the path
-    /// ends on a ray.
-    pub bases: Vec<Basis>,
-    /// Where the path goes on for ever.
-    pub ray: Option<ParametricRay>,
-    /// The worst residual of all breakpoints, from the original data.
-    pub residual: f64,
-}
-
-impl ParametricPath {
-    /// Every solution that the path passes for a value of the parameter, in order: none outside the
-    /// traced values, several where the path turns.
-    pub fn solutions_at(&self, lambda: f64) -> Vec<Breakpoint> {
-        let mut found: Vec<Breakpoint> = Vec::new();
-        for pair in self.breakpoints.windows(2) {
-            let (a, b) = (&pair[0], &pair[1]);
-            let (low, high) = (a.lambda.min(b.lambda), a.lambda.max(b.lambda));
-            if !(low..=high).contains(&lambda) {
-                continue;
-            }
-            let share = if high > low { (lambda - a.lambda) / (b.lambda - a.lambda) } else { 0.0 };
-            let mix = |(a, b): (&f64, &f64)| (1.0 - share) * a + share * b;
-            let t = a.t.iter().zip(&b.t).map(mix).collect();
-            let point = Breakpoint { lambda, t, y: a.y.iter().zip(&b.y).map(mix).collect() };
-            if found.last() != Some(&point) {
-                found.push(point);
-            }
-        }
-        if let ([only], []) = (self.breakpoints.as_slice(), found.as_slice())
-            && only.lambda.total_cmp(&lambda).is_eq()
-        {
-            found.push(only.clone());
-        }
-        found
-    }
 }
 
 /// Traces the solutions of `A t + B y = c0 + lambda c1` from one value of `lambda` to another
