@@ -48,7 +48,7 @@ fn root() -> PathBuf {
 
 fn line(name: &str, problem: &HorizontalLcp) -> String {
     let n = problem.order();
-    let runs = (3200 / n).clamp(2, 20);
+    let runs = (8000 / n).clamp(3, 20);
     let solutions: Vec<Solution> = (0..runs).map(|_| solve(problem)).collect();
     let pivots = solutions[0].info.pivots;
     let fastest = |seconds: fn(&Solution) -> f64| {

@@ -63,6 +63,12 @@ pub struct Progress {
 /// # Cost
 /// Memory of about five dense matrices of order `n` at the peak; a pivot costs about `100 n` flops
 /// and its share of a blocked matrix product, `2 n^2` flops.
+///
+/// Where both matrices are sparse ([`HorizontalLcp::is_sparse`]) nothing dense of order `n` is made:
+/// memory is that of the LU factors of a basis and some vectors, and a pivot costs three solves with
+/// them, more where rows tie, and its share of a factorisation. There is one exception: where no
+/// complementary basis is found otherwise, one is searched with dense matrices up to order 2000;
+/// beyond that a start basis should be given ([`LemkeSettings::start`]).
 #[derive(Debug, Clone, Default)]
 pub struct Lemke {
     settings: LemkeSettings,

@@ -66,7 +66,8 @@ pub struct LemkeSettings {
     /// Where the first attempt starts.
     pub start: WarmStart,
     /// Pivots after which the tableau is rebuilt from the data even if it has not drifted; `None`
-    /// leaves it to the measured drift. At least 1.
+    /// leaves it to the measured drift. For sparse problems the largest number of pivots between two
+    /// factorisations; `None` is a number between 16 and 256 that grows with the fill. At least 1.
     pub refactor_interval: Option<usize>,
     /// Whether the first ray is followed by a search for a proof that there is no solution, by the
     /// simplex method. Without it the status is [`Infeasible`](crate::Status::Infeasible) only where

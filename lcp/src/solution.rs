@@ -27,7 +27,8 @@ pub enum Status {
     Cycling,
     /// No choice of one column from every pair gives a matrix that is nonsingular to working
     /// precision, so that there is no complementary basis to start from, and with artificial columns
-    /// no solution was found either.
+    /// no solution was found either. For sparse problems of order above 2000: the solver found no such
+    /// choice, which does not exclude that there is one. Then a start basis should be given.
     NoComplementaryBasis,
     /// Rounding errors could not be brought under control.
     NumericalTrouble,
@@ -235,7 +236,7 @@ pub struct PivotRecord {
 pub struct Info {
     /// Pivots over all attempts.
     pub pivots: usize,
-    /// Times that the tableau was rebuilt from the data.
+    /// Times that the tableau was rebuilt from the data, or a sparse basis factorised.
     pub refactorisations: usize,
     /// Every attempt, in order.
     pub attempts: Vec<Attempt>,

@@ -226,6 +226,14 @@ fn artificial_columns_complete_a_basis() {
     assert_close(&[pi[0] + pi[1]], &[0.0]);
     assert!(pi[0] + 2.0 * pi[1] > 0.0);
 
+    // The part of `c` outside the span is nothing but rounding errors, which prove nothing.
+    let a = mat![[0.0, 0.0, -1.0], [0.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    let b = mat![[1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]];
+    let inside = HorizontalLcp::new(a, b, vec![0.0, 1.0, 0.0]).unwrap();
+    let solution = Lemke::default().solve(&inside).unwrap();
+    assert_eq!(solution.status, Status::Solved);
+    assert_close(&solution.t, &[0.0, 0.0, 1.0]);
+
     let negative = HorizontalLcp::new(ones.clone(), ones, vec![-1.0, -1.0]).unwrap();
     let solution = Lemke::default().solve(&negative).unwrap();
     assert_eq!(solution.status, Status::NoComplementaryBasis);

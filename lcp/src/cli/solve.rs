@@ -10,7 +10,7 @@ use super::{
     Failure, NOT_SOLVED, SOLVED, SolveArgs, Solver, in_file, print, print_json, residual_lines,
 };
 use crate::io::{ContactForces, Problem, ProblemFile};
-use crate::{Attempt, Lemke, LemkeSettings, Ray, Residuals, Solution, Status};
+use crate::{Attempt, Lemke, LemkeSettings, Perturbation, Ray, Residuals, Solution, Status};
 
 /// What `--json` prints.
 #[derive(Debug, Serialize)]
@@ -45,7 +45,9 @@ pub(super) fn run(args: &SolveArgs, out: &mut dyn Write) -> Result<u8, Failure> 
         Solver::Auto | Solver::Lemke => "lemke",
     };
     let problem = file.problem.to_general();
-    check_memory(problem.order())?;
+    if !problem.is_sparse() {
+        check_memory(problem.order())?;
+    }
     let solution = Lemke::new(settings(args)?).solve(&problem)?;
     if let Some(path) = &args.trace {
         let trace = serde_json::to_string(&solution.trace)? + "\n";
@@ -60,7 +62,7 @@ pub(super) fn run(args: &SolveArgs, out: &mut dyn Write) -> Result<u8, Failure> 
     Ok(if solution.is_solved() { SOLVED } else { NOT_SOLVED })
 }
 
-/// Refuses orders for which the system has not the memory that [`Lemke`] takes, before it takes it.
+/// Refuses orders of dense problems for which the system has not the memory that [`Lemke`] takes, before it takes it.
 fn check_memory(order: usize) -> Result<(), Failure> {
     const MATRICES: usize = 5;
     let entries = order.checked_mul(order).and_then(|square| square.checked_mul(MATRICES));
@@ -116,19 +118,51 @@ fn answer<'a>(problem: &Problem, solution: &'a Solution, solver: &'static str) -
     }
 }
 
+/// What a status means for the user, where its name does not say it.
+fn meaning(status: Status) -> Option<&'static str> {
+    Some(match status {
+        Status::AlmostSolved => {
+            "The residuals are above the tolerance; the best point is printed with --json."
+        }
+        Status::Infeasible => "There is no solution; --json prints the proof.",
+        Status::RayTermination => {
+            "No solution was found. That is no proof that there is none; --json prints the first ray."
+        }
+        Status::NoComplementaryBasis => {
+            "No complementary basis is nonsingular, and with artificial columns no solution was found."
+        }
+        Status::PivotLimit => "The pivots were used up; --max-pivots allows more.",
+        Status::TimeLimit => "The time was used up; --time-limit allows more.",
+        Status::Cycling => {
+            "A basis came back in an attempt, and the others found no solution either."
+        }
+        Status::NumericalTrouble => "Rounding errors could not be brought under control.",
+        _ => return None,
+    })
+}
+
 fn report(file: &ProblemFile, answer: &Answer<'_>) -> String {
     const LONGEST: usize = 40;
     let Answer { status, solver, n, pivots, time_s, .. } = answer;
     let mut text = format!("{} of order {n}, read as {}\n", answer.kind, file.format);
-    let _ = writeln!(text, "{status}: {solver}, {pivots} pivots, {time_s:.3} s\n");
+    let _ = writeln!(text, "{status}: {solver}, {pivots} pivots, {time_s:.3} s");
+    if let Some(meaning) = meaning(*status) {
+        let _ = writeln!(text, "{meaning}");
+    }
+    text.push('\n');
     text += &residual_lines(&answer.residuals);
     if *status != Status::Solved {
         for (number, attempt) in answer.attempts.iter().enumerate() {
-            let Attempt { start, covering, end, pivots, .. } = attempt;
+            let Attempt { start, covering, perturbation, end, pivots, .. } = attempt;
+            let perturbation = match perturbation {
+                Perturbation::None => "as given".to_owned(),
+                other => other.to_string(),
+            };
             let number = number + 1;
             let _ = writeln!(
                 text,
-                "attempt {number}: start {start}, covering {covering}: {end:?} after {pivots} pivots"
+                "attempt {number}: start {start}, covering {covering}, data {perturbation}: {end:?} after \
+                 {pivots} pivots"
             );
         }
         return text;
@@ -146,4 +180,18 @@ fn report(file: &ProblemFile, answer: &Answer<'_>) -> String {
         let _ = writeln!(text, "      and {more} more, all of them with --json");
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three million unknowns: five dense matrices of them are more than any memory.
+    #[test]
+    fn an_order_beyond_the_memory_is_refused() {
+        let message = check_memory(3_000_000).map_err(|error| error.to_string());
+        let expected = "order 3000000 takes about 360000 GB, which the system does not have";
+        assert!(message.is_err_and(|message| message.starts_with(expected)));
+        assert!(check_memory(10).is_ok());
+    }
 }

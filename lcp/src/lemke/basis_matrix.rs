@@ -9,6 +9,9 @@ use crate::random::SplitMix;
 use crate::sparse::{Columns, SparseLu};
 use crate::{Basis, Side};
 
+/// Entries of a row of the inverse below this multiple of the largest are no numbers of the problem.
+const NOTHING: f64 = 1e-24;
+
 /// The equilibrated matrix of a basis.
 pub(super) enum BasisMatrix {
     Dense(Bordered),
@@ -140,8 +143,13 @@ impl BasisMatrix {
         });
         self.solve_transpose(&mut step);
         let errors = sampled(&sizes, |sample| self.solve_transpose(sample));
+        // What refinement has made smaller and smaller is below the error of nothing.
+        let least = NOTHING * max_abs(&y);
         let refined = y.iter().zip(&step).map(|(y, step)| y + step);
-        refined.zip(errors).map(|(y, error)| if y.abs() > error { y } else { 0.0 }).collect()
+        refined
+            .zip(errors)
+            .map(|(y, error)| if y.abs() > error.max(least) { y } else { 0.0 })
+            .collect()
     }
 
     /// Estimate of the condition number in the 1-norm.

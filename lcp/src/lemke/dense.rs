@@ -20,9 +20,7 @@ pub(super) struct Dense<'a> {
 impl<'a> Dense<'a> {
     pub(super) fn new(start: MatRef<'a, f64>, covering: &'a [f64], q: &'a [f64]) -> Self {
         let n = q.len();
-        let mut t = Mat::zeros(n, n + 1);
-        t.subcols_mut(0, n).copy_from(start);
-        t.col_as_slice_mut(n).iter_mut().zip(covering).for_each(|(t, d)| *t = -d);
+        let t = Mat::from_fn(n, n + 1, |i, j| if j < n { start[(i, j)] } else { -covering[i] });
         let col_of = (0..n).map(|_| usize::MAX).chain(0..=n).collect();
         Self { start, covering, q, tableau: Tableau::new(t), col_of }
     }

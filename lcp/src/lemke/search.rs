@@ -286,7 +286,8 @@ impl<'a> Search<'a> {
         let exchanges = path.trace.take().unwrap_or_default();
         self.trace.extend(exchanges.into_iter().map(|it| record(it, number, start)));
         let has_artificial = path.artificial_row().is_some();
-        if end == AttemptEnd::Ray && self.ray.is_none() && has_artificial && perturbed.is_none() {
+        let is_proximal = matches!(trial.perturbation, Perturbation::Proximal { .. });
+        if end == AttemptEnd::Ray && self.ray.is_none() && has_artificial && !is_proximal {
             self.ray = Some(in_problem_units(&path, start, &covering, &self.problem));
         }
         let is_complementary = end == AttemptEnd::Complementary;

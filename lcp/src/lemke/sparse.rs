@@ -293,10 +293,10 @@ impl Kernel for Sparse<'_> {
     }
 }
 
-/// Pivots between two factorisations. One of `m` nonzeros costs about `1500 m` flops' time, and `k`
-/// pivots cost factorisations of `S` of together `k^4 / 6` flops: the sum, for every pivot, is least
-/// near the fourth root of `3000 m`.
+/// Pivots between two factorisations. One with `m` nonzeros takes the time of some `500 m` flops, and
+/// `k` pivots take factorisations of `S` of together `k^4 / 6` flops: for every pivot the sum is least
+/// near the fourth root of `1000 m`, and flat around it.
 fn pivot_limit(stored: usize, interval: Option<usize>) -> usize {
-    let best = (3000.0 * stored as f64).powf(0.25).clamp(16.0, 256.0);
-    interval.unwrap_or(usize::MAX).min(best as usize)
+    let best = stored.saturating_mul(1000).isqrt().isqrt().clamp(16, 256);
+    interval.map_or(best, |interval| interval.min(best))
 }

@@ -89,6 +89,14 @@ impl<'a> Equilibrated<'a> {
 
     /// Equilibrated columns, one beside the other.
     pub(super) fn columns(&self, picked: &[(usize, Side)]) -> Mat<f64> {
+        let dense = |&(pair, side): &(usize, Side)| match self.problem.column(pair, side) {
+            Column::Dense(values) => Some((values, self.factor(pair, side))),
+            Column::Sparse { .. } => None,
+        };
+        if let Some(dense) = picked.iter().map(dense).collect::<Option<Vec<_>>>() {
+            let scaled = |i: usize, k: usize| dense[k].1 * (dense[k].0[i] * self.row[i]);
+            return Mat::from_fn(self.order(), picked.len(), scaled);
+        }
         let mut m = Mat::zeros(self.order(), picked.len());
         for (k, &(pair, side)) in picked.iter().enumerate() {
             self.add_column(pair, side, 1.0, m.col_as_slice_mut(k));
@@ -132,8 +140,9 @@ impl<'a> Equilibrated<'a> {
         let mut t = self.columns(&others);
         let mut q = self.right_hand_side();
         let (rows, cols) = if let Some(diagonal) = self.diagonal(side) {
-            // Already equilibrated: the entries of such columns are one.
-            for j in 0..n {
+            // Already equilibrated: the entries of such columns are near one, if not one.
+            let is_identity = diagonal.iter().all(|d| d.total_cmp(&1.0).is_eq());
+            for j in (0..n).filter(|_| !is_identity) {
                 t.col_as_slice_mut(j).iter_mut().zip(&diagonal).for_each(|(v, d)| *v /= d);
             }
             q.iter_mut().zip(&diagonal).for_each(|(v, d)| *v /= d);
@@ -242,7 +251,7 @@ pub(super) struct Start {
 #[derive(Debug, Clone)]
 enum StartData {
     Dense(Mat<f64>),
-    Sparse(SparseStart),
+    Sparse(Box<SparseStart>),
 }
 
 impl Start {

@@ -127,7 +127,9 @@ impl Core {
         let mut entries = self.entries.clone();
         for range in self.starts.windows(2) {
             let column = &mut entries[range[0]..range[1]];
-            column.iter_mut().for_each(|row| *row = column_of_row[*row]);
+            for row in column.iter_mut() {
+                *row = column_of_row[*row];
+            }
             column.sort_unstable();
         }
         let pattern = Pattern { starts: self.starts.clone(), entries };

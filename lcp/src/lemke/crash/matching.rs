@@ -59,16 +59,15 @@ impl Matching<'_> {
             };
             (step.row, step.is_other) = (row, is_other);
             self.seen[row] = round;
-            match self.pair_of_row[row] {
-                Some(pair) => path.push(Step { pair, at: 0, row: 0, is_other: false }),
-                None => {
-                    for step in path {
-                        self.pair_of_row[step.row] = Some(step.pair);
-                        self.is_other[step.pair] = Some(step.is_other);
-                    }
-                    return;
-                }
+            if let Some(pair) = self.pair_of_row[row] {
+                path.push(Step { pair, at: 0, row: 0, is_other: false });
+                continue;
             }
+            for step in path {
+                self.pair_of_row[step.row] = Some(step.pair);
+                self.is_other[step.pair] = Some(step.is_other);
+            }
+            return;
         }
     }
 

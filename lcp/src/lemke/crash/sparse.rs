@@ -98,14 +98,12 @@ struct Chosen {
 
 impl Chosen {
     fn into_crash(self, n: usize) -> Crash {
-        match self.sides.iter().copied().collect::<Option<Vec<Side>>>() {
-            Some(sides) => Crash::Complete(Basis::new(sides)),
-            None => {
-                let units = self.missing.iter().enumerate().map(|(k, &(_, row))| (row, k, 1.0));
-                let complement = Matrix::from_entries(n, self.missing.len(), units);
-                Crash::Partial { chosen: self.sides, complement }
-            }
+        if let Some(sides) = self.sides.iter().copied().collect::<Option<Vec<Side>>>() {
+            return Crash::Complete(Basis::new(sides));
         }
+        let units = self.missing.iter().enumerate().map(|(k, &(_, row))| (row, k, 1.0));
+        let complement = Matrix::from_entries(n, self.missing.len(), units);
+        Crash::Partial { chosen: self.sides, complement }
     }
 }
 

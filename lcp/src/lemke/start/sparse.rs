@@ -52,8 +52,7 @@ impl Equilibrated<'_> {
         let norm = inverse_norm(n, |x, is_transposed| {
             if is_transposed { lu.solve_transpose(x, &mut work) } else { lu.solve(x, &mut work) }
         });
-        // Written so that a NaN is refused.
-        if !(norm <= LARGEST_GROWTH) {
+        if norm.is_nan() || norm > LARGEST_GROWTH {
             return None;
         }
         let mut right = self.right_hand_side();
@@ -77,7 +76,7 @@ impl Equilibrated<'_> {
             col_factor,
             size: if size > 0.0 { size } else { 1.0 },
             q,
-            data: StartData::Sparse(SparseStart { columns, right, lu }),
+            data: StartData::Sparse(Box::new(SparseStart { columns, right, lu })),
         })
     }
 
