@@ -71,3 +71,13 @@ pub use solution::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Info, Perturbation, PivotRecord, Ray,
     Solution, Status, Variable,
 };
+
+/// The programs of the README are compiled and run with the tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeDoctest;
+
+/// See [`ReadmeDoctest`].
+#[cfg(all(doctest, feature = "exact", feature = "io"))]
+#[doc = include_str!("../../docs/lcp.md")]
+struct GuideDoctest;

@@ -70,8 +70,8 @@ pub struct LemkeSettings {
     /// factorisations; `None` is a number between 16 and 256 that grows with the fill. At least 1.
     pub refactor_interval: Option<usize>,
     /// Whether the first ray is followed by a search for a proof that there is no solution, by the
-    /// simplex method. Without it the status is never
-    /// [`Infeasible`](crate::Status::Infeasible).
+    /// simplex method. Without it the status is [`Infeasible`](crate::Status::Infeasible) only where
+    /// there is no complementary basis and the right-hand side is outside the span of all columns.
     pub prove_infeasible: bool,
     /// Whether [`Solution::trace`](crate::Solution::trace) records every pivot.
     pub trace: bool,

@@ -262,8 +262,9 @@ pub struct Solution {
     pub basis: Option<Basis>,
     /// Residuals of `(t, y)`, from the original data.
     pub residuals: Residuals,
-    /// The ray on which the first of the attempts that met one ended, when the status is
-    /// [`RayTermination`](Status::RayTermination).
+    /// The ray on which the first of the attempts with an artificial variable, proximal ones aside, that
+    /// met one ended, when the status is [`RayTermination`](Status::RayTermination) or
+    /// [`Infeasible`](Status::Infeasible).
     pub ray: Option<Ray>,
     /// With the status [`Infeasible`](Status::Infeasible) the proof: a vector `pi` of the rows with
     /// `A^T pi <= 0`, `B^T pi <= 0` and `c.pi > 0` (Farkas). It was checked against the original data:

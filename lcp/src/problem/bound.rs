@@ -66,7 +66,7 @@ impl Lcp {
     /// Of every pair the smaller of `z_i max|M e_i|` and `w_i` is set to zero, the first by moving `z` by
     /// `r`, the second by changing `q` by `v`. So `z - r` solves the problem with another `q`, and,
     /// since solutions of strongly monotone problems depend on `q` with the constant
-    /// `1 / modulus`, the solution is within `|r| + |v - M r| / modulus` of `z`. The rounding errors of
+    /// `1 / modulus`, the solution is within `|r| + |v + M r| / modulus` of `z`. The rounding errors of
     /// computing `w` are included. For a problem that is only monotone every solution `s` satisfies
     /// `(z - r - s) M (z - r - s) <= perturbation |z - r - s|`.
     ///
