@@ -106,6 +106,21 @@ fn warm_starts_save_pivots() {
     }
 }
 
+/// Where one of the vectors vanishes the other one decides.
+#[test]
+fn a_point_without_one_of_the_vectors_is_a_start() {
+    let m = faer::mat![[2.0, 1.0], [1.0, 2.0]];
+    for (q, t, y) in [
+        (vec![-5.0, -6.0], vec![4.0 / 3.0, 7.0 / 3.0], vec![0.0; 2]),
+        (vec![5.0, 6.0], vec![0.0; 2], vec![5.0, 6.0]),
+    ] {
+        let problem = lcp::Lcp::new(m.clone(), q).unwrap().into();
+        let start = WarmStart::Point { t, y };
+        let solution = with(LemkeSettings { start, ..LemkeSettings::default() }, &problem);
+        assert_eq!((solution.status, solution.info.pivots), (Status::Solved, 0));
+    }
+}
+
 /// However often the tableau is rebuilt from the data.
 #[test]
 fn refactorisation_changes_nothing() {

@@ -62,10 +62,10 @@ impl Kernel for AnyKernel<'_> {
         }
     }
 
-    fn column_for_rows(&self, var: Var, rows: usize) -> Option<Vec<f64>> {
+    fn parting(&self, ties: usize) -> Option<Vec<f64>> {
         match self {
-            Self::Dense(kernel) => kernel.column_for_rows(var, rows),
-            Self::Sparse(kernel) => kernel.column_for_rows(var, rows),
+            Self::Dense(kernel) => kernel.parting(ties),
+            Self::Sparse(kernel) => kernel.parting(ties),
         }
     }
 

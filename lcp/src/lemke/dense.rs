@@ -79,7 +79,7 @@ impl Kernel for Dense<'_> {
         self.tableau.entry(row, self.col_of[var])
     }
 
-    fn column_for_rows(&self, _var: Var, _rows: usize) -> Option<Vec<f64>> {
+    fn parting(&self, _ties: usize) -> Option<Vec<f64>> {
         None
     }
 

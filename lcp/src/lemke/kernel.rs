@@ -29,8 +29,9 @@ pub(super) trait Kernel {
     /// The entry of that row in the column of a nonbasic variable.
     fn entry(&self, row: &Self::Row, var: Var) -> f64;
 
-    /// The column of a nonbasic variable in the present basis, where it costs less than so many rows.
-    fn column_for_rows(&self, var: Var, rows: usize) -> Option<Vec<f64>>;
+    /// Where rows cost more: in terms of the present basis a vector, always the same in start
+    /// coordinates, that parts so many ties as adding a little of it to the right-hand side would.
+    fn parting(&self, ties: usize) -> Option<Vec<f64>>;
 
     /// Whether the exchanges held back should be dealt with.
     fn is_due(&self) -> bool;

@@ -38,8 +38,22 @@ pub(super) fn leaving_row<K: Kernel>(path: &Path<'_, K>, column: &[f64]) -> Opti
         .filter(|&i| value(i) - shortest * column[i] <= window)
         .collect();
     let best = tied.iter().fold(0.0_f64, |max, &i| max.max(column[i]));
-    let safe = tied.into_iter().filter(|&i| column[i] >= TIE_PIVOT * best).collect();
-    Some(lexicographic_minimum(path, column, safe))
+    let safe: Vec<usize> = tied.into_iter().filter(|&i| column[i] >= TIE_PIVOT * best).collect();
+    match path.kernel.parting(safe.len()) {
+        Some(parting) => first_parted(&parting, column, &safe),
+        None => Some(lexicographic_minimum(path, column, safe)),
+    }
+}
+
+/// Of many tied rows the one that a small change of the right-hand side, the same all along the path,
+/// would make the first; in exact arithmetic that parts them all, unless by chance.
+fn first_parted(parting: &[f64], column: &[f64], tied: &[usize]) -> Option<usize> {
+    let key = |&i: &usize| parting[i] / column[i];
+    let least = tied.iter().map(key).fold(f64::INFINITY, f64::min);
+    let scale = tied.iter().map(key).fold(0.0_f64, |max, key| max.max(key.abs()));
+    let is_first = |i: &&usize| key(i) - least <= TIE_WINDOW * scale;
+    let first = tied.iter().filter(is_first);
+    first.max_by(|&&i, &&j| column[i].total_cmp(&column[j])).copied()
 }
 
 /// Of tied rows the one whose row of the inverse basis, divided by its pivot, comes first in
@@ -72,16 +86,10 @@ fn lexicographic_minimum<K: Kernel>(
             retain(rows, tied.iter().map(|&i| !is_out[i]));
         }
         tied.retain(|&i| !is_out[i]);
-        let entries: Vec<f64> = match path.kernel.column_for_rows(k, left) {
-            Some(entries) if rows.is_none() => tied.iter().map(|&i| entries[i]).collect(),
-            _ => {
-                let kernel = &path.kernel;
-                let rows =
-                    rows.get_or_insert_with(|| tied.iter().map(|&i| kernel.row(i)).collect());
-                rows.iter().map(|row| kernel.entry(row, k)).collect()
-            }
-        };
-        let keys: Vec<f64> = tied.iter().zip(entries).map(|(&i, v)| v / column[i]).collect();
+        let kernel = &path.kernel;
+        let rows = rows.get_or_insert_with(|| tied.iter().map(|&i| kernel.row(i)).collect());
+        let key = |(&i, row): (&usize, &K::Row)| kernel.entry(row, k) / column[i];
+        let keys: Vec<f64> = tied.iter().zip(rows.iter()).map(key).collect();
         let least = keys.iter().copied().fold(f64::INFINITY, f64::min);
         // Entries of an equilibrated tableau are of order one: where all keys are rounding errors of
         // zero they must not be measured against each other.

@@ -20,19 +20,22 @@ use super::kernel::{Kernel, Var};
 use super::start::SparseStart;
 use crate::linear::Lu;
 use crate::problem::max_abs;
+use crate::random::SplitMix;
 use crate::sparse::{Columns, SparseLu};
 
 /// Residual of the values of a factorised basis above which it is taken for singular, relative to
 /// their size.
 const SINGULAR: f64 = 1e-9;
-/// Rows whose entries cost more than a column.
-const MANY_ROWS: usize = 8;
+/// Ties up to this number are resolved by rows of the inverse.
+const FEW_TIES: usize = 8;
 
 /// A factorised basis with the pivots done since.
 pub(super) struct Sparse<'a> {
     start: &'a SparseStart,
     /// The column of the artificial variable.
     artificial: Vec<f64>,
+    /// What parts many ties.
+    parting: Vec<f64>,
     factored: Factored<'a>,
     /// Pivots since the factorisation, and how many are allowed.
     pivots: usize,
@@ -63,10 +66,18 @@ impl<'a> Sparse<'a> {
         for (k, &d) in covering.iter().enumerate().filter(|(_, d)| **d != 0.0) {
             start.columns.add_to(k, -d, &mut artificial);
         }
+        // Of ties in the first pivot the last row goes: there the part is the smallest.
+        let mut parting = vec![0.0; n];
+        let mut random = SplitMix::new(n as u64);
+        for (k, &d) in covering.iter().enumerate() {
+            let part = d * (1.0 + ((n - k) as f64 + random.next_f64()) / n as f64);
+            start.columns.add_to(k, part, &mut parting);
+        }
         let factored = Factored::new(Cow::Borrowed(&start.lu));
         Self {
             start,
             artificial,
+            parting,
             pivots: 0,
             limit: pivot_limit(factored.lu.stored(), interval),
             factored,
@@ -264,10 +275,9 @@ impl Kernel for Sparse<'_> {
         self.start_dot(var, row)
     }
 
-    fn column_for_rows(&self, var: Var, rows: usize) -> Option<Vec<f64>> {
-        (rows > MANY_ROWS).then(|| {
-            let mut out = vec![0.0; self.order()];
-            self.add_start_column(var, 1.0, &mut out);
+    fn parting(&self, ties: usize) -> Option<Vec<f64>> {
+        (ties > FEW_TIES).then(|| {
+            let mut out = self.parting.clone();
             self.solve(&self.factored, &mut out, &mut Vec::new());
             out
         })

@@ -9,7 +9,10 @@ use crate::{AttemptStart, Basis, PivotRecord, Ray, Side, Variable};
 /// Of every pair the variable that is larger, in units of the largest of its vector.
 pub(super) fn basis_of(t: &[f64], y: &[f64]) -> Basis {
     let (t_max, y_max) = (max_abs(t), max_abs(y));
-    let side = |(t, y): (&f64, &f64)| if t * y_max > y * t_max { Side::T } else { Side::Y };
+    let share = |v: f64, max: f64| if max > 0.0 { v / max } else { 0.0 };
+    let side = |(&t, &y): (&f64, &f64)| {
+        if share(t, t_max) > share(y, y_max) { Side::T } else { Side::Y }
+    };
     Basis::new(t.iter().zip(y).map(side).collect())
 }
 
