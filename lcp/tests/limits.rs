@@ -65,6 +65,29 @@ fn an_observer_stops_at_any_pivot() {
     assert_eq!(seen, (0..=5).map(|pivots| (1, pivots, 40)).collect::<Vec<_>>());
 }
 
+/// In the search for a proof too: the path ends on a ray after one pivot.
+#[test]
+fn an_observer_stops_a_proof() {
+    let problem: HorizontalLcp = families::infeasible_semidefinite(12, 1).problem.into();
+    let settings = LemkeSettings { max_attempts: 1, ..LemkeSettings::default() };
+    let mut calls = 0;
+    let mut on_path = 0;
+    let solution = Lemke::new(settings.clone())
+        .solve_observed(&problem, &mut |_| {
+            calls += 1;
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    assert_eq!(solution.status, Status::Infeasible);
+    // The last call belongs to the proof.
+    let mut observer = |_: &Progress| {
+        on_path += 1;
+        if on_path == calls { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let stopped = Lemke::new(settings).solve_observed(&problem, &mut observer).unwrap();
+    assert_eq!(stopped.status, Status::Cancelled);
+}
+
 /// The trace begins with the artificial variable, follows complements, and ends with it.
 #[test]
 fn the_trace_is_a_complementary_path() {

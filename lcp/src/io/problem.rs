@@ -151,13 +151,19 @@ impl Problem {
     }
 }
 
+/// `M z + q`, where what cancels up to rounding is zero.
 fn affine(m: &Matrix, z: &[f64], q: &[f64]) -> Vec<f64> {
+    const ROUNDING: f64 = 8.0 * f64::EPSILON;
     assert_eq!(z.len(), q.len(), "one entry for every variable");
-    let mut w = q.to_vec();
+    let mut terms: Vec<(f64, f64)> = q.iter().map(|q| (*q, q.abs())).collect();
     for (j, z) in z.iter().enumerate() {
-        m.column(j).for_each(|(i, v)| w[i] += v * z);
+        m.column(j).for_each(|(i, v)| {
+            terms[i].0 += v * z;
+            terms[i].1 += (v * z).abs();
+        });
     }
-    w
+    let kept = |(sum, size): (f64, f64)| if sum.abs() > ROUNDING * size { sum } else { 0.0 };
+    terms.into_iter().map(kept).collect()
 }
 
 fn refused<T>(result: Result<T, crate::Error>, at: Position) -> Result<T, ReadError> {

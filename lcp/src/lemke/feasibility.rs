@@ -10,8 +10,8 @@ use super::kernel::{Kernel, Var};
 use super::path::Path;
 use super::ratio::leaving_row;
 use super::start::{Equilibrated, Start};
+use crate::Side;
 use crate::problem::max_abs;
-use crate::{AttemptEnd, Side};
 
 /// Reduced costs below this multiple of the largest entry of their row are taken for zero.
 const COST_TOLERANCE: f64 = 1e-9;
@@ -20,18 +20,19 @@ const ROUNDING: f64 = 1e-12;
 /// Least value of `c.pi` of a proof, relative to `|c|.|pi|`.
 const LEAST_GAP: f64 = 1e-9;
 
-/// A checked Farkas vector, if one is found along a path that has not begun.
+/// A checked Farkas vector, if one is found along a path that has not begun. `is_over` is asked before
+/// every pivot.
 pub(super) fn farkas_vector<K: Kernel>(
     problem: &Equilibrated<'_>,
     start: &Start,
     mut path: Path<'_, K>,
-    limits: &mut dyn FnMut(usize) -> Option<AttemptEnd>,
+    is_over: &mut dyn FnMut(usize) -> bool,
 ) -> Option<Vec<f64>> {
     let n = problem.order();
     let mut column = vec![0.0; n];
     path.enter_artificial(&mut column)?;
     loop {
-        if limits(path.pivots).is_some() || (path.kernel.is_due() && !path.tidy()) {
+        if is_over(path.pivots) || (path.kernel.is_due() && !path.tidy()) {
             return None;
         }
         let row = path.artificial_row()?;

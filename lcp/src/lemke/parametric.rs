@@ -80,6 +80,8 @@ impl Parametric {
         if to.is_nan() {
             return Err(Error::Setting { name: "to", value: to, range: "a number or infinite" });
         }
+        let time_limit = self.settings.lemke.time_limit;
+        let deadline = time_limit.and_then(|limit| Instant::now().checked_add(limit));
         let at_start = problem.with_right_hand_side(right_hand_side(problem, c1, from))?;
         let solution = Lemke::new(self.settings.lemke.clone()).solve(&at_start)?;
         let mut path = ParametricPath {
@@ -106,7 +108,7 @@ impl Parametric {
             path.end = ParametricEnd::NumericalTrouble;
             return Ok(path);
         };
-        Tracer { settings: &self.settings, problem, c1, from, to }.follow(
+        Tracer { settings: &self.settings, deadline, problem, c1, from, to }.follow(
             &equilibrated,
             &start,
             &mut path,
@@ -117,6 +119,7 @@ impl Parametric {
 
 struct Tracer<'a> {
     settings: &'a ParametricSettings,
+    deadline: Option<Instant>,
     problem: &'a HorizontalLcp,
     c1: &'a [f64],
     from: f64,
@@ -165,8 +168,6 @@ impl Tracer<'_> {
     ) -> ParametricEnd {
         let n = self.problem.order();
         let limit = self.settings.max_breakpoints.unwrap_or(100 * n + 1000);
-        let time_limit = self.settings.lemke.time_limit;
-        let deadline = time_limit.and_then(|limit| Instant::now().checked_add(limit));
         let last = (self.to - self.from).abs() / unit;
         let parameter = path.artificial();
         let mut entering = parameter;
@@ -175,7 +176,7 @@ impl Tracer<'_> {
             if out.breakpoints.len() > limit {
                 return ParametricEnd::BreakpointLimit;
             }
-            if deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+            if self.deadline.is_some_and(|deadline| Instant::now() >= deadline) {
                 return ParametricEnd::TimeLimit;
             }
             if path.kernel.is_due() && !path.tidy() {

@@ -175,9 +175,9 @@ impl<'a, K: Kernel> Path<'a, K> {
         let mut column = std::mem::take(&mut self.column);
         let end = match limits(self.pivots) {
             Some(end) => end,
-            None => match self.lift(self.order() + pair, &mut column) {
-                Some(entering) => self.follow(entering, &mut column, limits),
-                None => AttemptEnd::Ray,
+            None => match self.lift(self.order() + pair, &mut column, limits) {
+                Ok(entering) => self.follow(entering, &mut column, limits),
+                Err(end) => end,
             },
         };
         self.column = column;
@@ -185,25 +185,34 @@ impl<'a, K: Kernel> Path<'a, K> {
     }
 
     /// Exchanges until no value is negative. Returns the variable that follows.
-    fn lift(&mut self, driver: Var, column: &mut [f64]) -> Option<Var> {
+    fn lift(
+        &mut self,
+        driver: Var,
+        column: &mut [f64],
+        limits: Limits<'_>,
+    ) -> Result<Var, AttemptEnd> {
         let mut entering = driver;
         loop {
             let negative = |path: &Self, i: &usize| path.values[*i] < 0.0 && path.is_bounded(*i);
             if !(0..column.len()).any(|i| negative(self, &i)) {
-                return Some(entering);
+                return Ok(entering);
+            }
+            if let Some(end) = limits(self.pivots) {
+                return Err(end);
             }
             if !self.is_nonbasic(entering) || self.kernel.is_due() {
-                return None;
+                return Err(AttemptEnd::Ray);
             }
             self.kernel.column(entering, column);
             let least = -DRIFT * max_abs(column);
             let step = |i: usize| self.values[i] / column[i];
             let lifted = (0..column.len()).filter(|i| negative(self, i) && column[*i] < least);
-            let row = lifted.max_by(|&i, &j| step(i).total_cmp(&step(j)))?;
+            let row = lifted.max_by(|&i, &j| step(i).total_cmp(&step(j)));
+            let row = row.ok_or(AttemptEnd::Ray)?;
             let after = |i: usize| self.values[i] - step(row) * column[i];
             let is_kept = |i: usize| negative(self, &i) || !self.is_bounded(i) || after(i) >= 0.0;
             if !(0..column.len()).all(is_kept) {
-                return None;
+                return Err(AttemptEnd::Ray);
             }
             entering = self.exchange(row, entering, column);
         }

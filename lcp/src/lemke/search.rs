@@ -122,9 +122,13 @@ impl<'a> Search<'a> {
             // The first ray asks the question; its answer does not depend on the attempt.
             let is_first_ray = self.ray_count() == 1 && outcome.end == AttemptEnd::Ray;
             if is_first_ray && self.settings.prove_infeasible {
-                self.farkas = self.proof(&first_start, number, observer);
-                if self.farkas.is_some() {
-                    return self.give_up(Status::Infeasible);
+                match self.proof(&first_start, number, observer) {
+                    Err(stopped) => return self.give_up(stopped),
+                    Ok(None) => {}
+                    Ok(proof) => {
+                        self.farkas = proof;
+                        return self.give_up(Status::Infeasible);
+                    }
                 }
             }
             trial = Trial::after(&trial, outcome.end, number + 1, &first);
@@ -295,7 +299,12 @@ impl<'a> Search<'a> {
     }
 
     /// A proof that there is no solution.
-    fn proof(&self, start: &Start, number: usize, observer: Observer<'_>) -> Option<Vec<f64>> {
+    fn proof(
+        &self,
+        start: &Start,
+        number: usize,
+        observer: Observer<'_>,
+    ) -> Result<Option<Vec<f64>>, Status> {
         let trial = Trial {
             start: AttemptStart::Found,
             covering: AttemptCovering::Ones,
@@ -306,11 +315,16 @@ impl<'a> Search<'a> {
         let path = Path::new(kernel, start, &covering, start.q.clone(), None, false);
         let order = self.problem.order();
         let deadline = self.deadline;
-        farkas_vector(&self.problem, start, path, &mut |pivots| {
-            let is_late = deadline.is_some_and(|deadline| Instant::now() >= deadline);
-            let is_cancelled = observer(&Progress { attempt: number, pivots, order }).is_break();
-            (pivots > 20 * order + 100 || is_late || is_cancelled).then_some(AttemptEnd::Cancelled)
-        })
+        let mut stop = None;
+        let found = farkas_vector(&self.problem, start, path, &mut |pivots| {
+            if deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+                stop = Some(Status::TimeLimit);
+            } else if observer(&Progress { attempt: number, pivots, order }).is_break() {
+                stop = Some(Status::Cancelled);
+            }
+            stop.is_some() || pivots > 20 * order + 100
+        });
+        stop.map_or(Ok(found), Err)
     }
 
     /// What the original data says of the last attempt's basis.
