@@ -214,6 +214,14 @@ fn a_file_that_fits_two_formats_is_refused() {
     assert_eq!(parts(&named.problem).1, [-1.0, -2.0, -3.0, -4.0]);
 }
 
+/// One number short of a plain text file, and not a friction problem, although it begins with 2.
+#[test]
+fn a_file_that_is_nearly_complete_is_of_its_format() {
+    let error = read(b"2\n1 0\n0 1\n-1\n", None).unwrap_err();
+    assert!(matches!(&error, ReadError::Unrecognised { format: Format::Text, .. }), "{error}");
+    assert!(error.to_string().contains("M and q needs 6 more numbers, but at most 5"), "{error}");
+}
+
 #[test]
 fn a_file_that_fits_no_format_names_the_one_that_comes_furthest() {
     let error = error("2 0 2 2 2 2\n1 2\n3 4\n-5 oops");

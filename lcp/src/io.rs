@@ -152,8 +152,8 @@ fn read_by_content(text: &str) -> Result<ProblemFile, ReadError> {
         match format.parse(text) {
             Ok(problem) => fits.push(ProblemFile { format, problem }),
             Err(error) => {
-                let best = failure.as_ref().and_then(|(_, error)| error.position());
-                if failure.is_none() || error.position() > best {
+                let best = failure.as_ref().map(|(_, error)| error.reach());
+                if best.is_none_or(|best| error.reach() > best) {
                     failure = Some((format, error));
                 }
             }

@@ -93,6 +93,16 @@ pub enum ReadError {
 }
 
 impl ReadError {
+    /// How far a reader came: first whether to the end of what is there, in a file that is nearly
+    /// complete, then the place.
+    pub(super) fn reach(&self) -> (bool, Option<Position>) {
+        let is_nearly_complete = match self {
+            Self::TooShort { needed, left, .. } => *left >= needed / 2 && *needed > 0,
+            _ => false,
+        };
+        (is_nearly_complete, self.position())
+    }
+
     /// Where in the file, if the error has a place.
     pub fn position(&self) -> Option<Position> {
         match self {
