@@ -196,6 +196,19 @@ fn bimatrix_games_are_solved() {
     assert_close(&solution.t, &[1.0, 1.0]);
 }
 
+/// With a condition number of 4e9 the second value, 2e-6, lies below the error that rounding of the
+/// data makes, and is a value all the same.
+#[test]
+fn small_values_of_ill_conditioned_problems_are_kept() {
+    let problem =
+        lcp(mat![[1.0, 1.0], [1.0, 1.0 + 1e-9]], &[-1.0 - 2e-6, -1.0 - 2e-6 * (1.0 + 1e-9)]);
+    let start = WarmStart::Basis(Basis::all(Side::T, 2));
+    let settings = LemkeSettings { start, max_attempts: 1, ..LemkeSettings::default() };
+    let solution = Lemke::new(settings).solve(&problem).unwrap();
+    assert_eq!(solution.status, Status::Solved);
+    assert!(solution.residuals.worst() <= 1e-14, "{:?}", solution.residuals);
+}
+
 /// Only an exchange finds the start basis: column choices that look best block each other.
 #[test]
 fn the_start_basis_needs_an_exchange() {

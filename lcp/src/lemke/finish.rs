@@ -41,25 +41,43 @@ pub(super) fn solve_basis(problem: &Equilibrated<'_>, basis: &Basis) -> Option<P
     let matrix = BasisMatrix::new(problem, basis)?;
     let right = problem.right_hand_side();
     let condition = matrix.condition();
-    let mut x = refined(&matrix, &right, condition > ILL_CONDITIONED);
+    let x = refined(&matrix, &right, condition > ILL_CONDITIONED);
     if !condition.is_finite() || x.iter().any(|x| !x.is_finite()) {
         return None;
     }
-    drop_rounding(&matrix, &right, &mut x);
-    let infeasibility = infeasibility(problem, &matrix, &right, &x);
-    let mut point = point(problem, basis, &x, condition);
-    point.residuals.feasibility = point.residuals.feasibility.max(infeasibility);
-    point.residuals.natural = point.residuals.natural.max(infeasibility);
-    Some(point)
+    let judged = |x: &[f64]| {
+        let infeasibility = infeasibility(problem, &matrix, &right, x);
+        let mut point = point(problem, basis, x, condition);
+        point.residuals.feasibility = point.residuals.feasibility.max(infeasibility);
+        point.residuals.natural = point.residuals.natural.max(infeasibility);
+        point
+    };
+    let mut cleared = x.clone();
+    let is_changed = drop_rounding(&matrix, &right, &mut cleared);
+    let point = judged(&cleared);
+    if !is_changed {
+        return Some(point);
+    }
+    // With an ill-conditioned basis values of the solution too are smaller than those errors.
+    let as_solved = judged(&x);
+    let is_worse = point.residuals.worst() > as_solved.residuals.worst();
+    Some(if is_worse { as_solved } else { point })
 }
 
 /// Sets to zero what rounding has left in place of zeros: values below the errors that rounding of the
-/// data makes, and what refinement has made smaller and smaller without an end.
-fn drop_rounding(matrix: &BasisMatrix, right: &[f64], x: &mut [f64]) {
+/// data makes, and what refinement has made smaller and smaller without an end. Says whether there
+/// were any.
+fn drop_rounding(matrix: &BasisMatrix, right: &[f64], x: &mut [f64]) -> bool {
     let least = f64::EPSILON * f64::EPSILON * max_abs(x);
     let errors = matrix.errors(right, x);
-    let noise = x.iter_mut().zip(&errors).filter(|(x, error)| x.abs() <= error.max(least));
-    noise.for_each(|(x, _)| *x = 0.0);
+    let mut is_changed = false;
+    for (x, error) in x.iter_mut().zip(&errors) {
+        if *x != 0.0 && x.abs() <= error.max(least) {
+            *x = 0.0;
+            is_changed = true;
+        }
+    }
+    is_changed
 }
 
 fn refined(matrix: &BasisMatrix, right: &[f64], accurate: bool) -> Vec<f64> {
