@@ -31,6 +31,22 @@ pub enum Error {
         /// The entry.
         value: f64,
     },
+    /// A matrix that must be symmetric and is not.
+    #[error(
+        "{what} must be symmetric, but {what}[{row}, {col}] is {value} and {what}[{col}, {row}] is {mirrored}"
+    )]
+    NotSymmetric {
+        /// Which matrix.
+        what: &'static str,
+        /// Row of the entry, from 0.
+        row: usize,
+        /// Column of the entry, from 0.
+        col: usize,
+        /// The entry.
+        value: f64,
+        /// The mirrored entry.
+        mirrored: f64,
+    },
     /// A variable that no value fits.
     #[error(
         "bounds of variable {index} are {lower} and {upper}: the lower one must not exceed the upper \
@@ -77,5 +93,13 @@ pub enum Error {
         name: &'static str,
         /// The limit that it sets.
         limit: usize,
+    },
+    /// A method that cannot treat a problem of this kind.
+    #[error("{solver} cannot treat this problem: {reason}")]
+    NotTreated {
+        /// The method.
+        solver: &'static str,
+        /// What is in the way, and which method to take instead.
+        reason: String,
     },
 }

@@ -28,7 +28,6 @@
 //! with friction in the plane; dense, in sparse blocks, or sparse.
 
 mod error;
-mod friction;
 mod json;
 mod problem;
 mod siconos;
@@ -38,10 +37,9 @@ mod tokens;
 use std::path::Path;
 
 #[cfg(doc)]
-use crate::{BoxedLcp, HorizontalLcp, Lcp, MixedLcp};
+use crate::{BoxedLcp, Friction2d, HorizontalLcp, Lcp, MixedLcp};
 
 pub use error::{Position, ReadError};
-pub use friction::{ContactForces, Friction2d};
 pub use json::to_json;
 pub use problem::Problem;
 

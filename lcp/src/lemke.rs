@@ -76,9 +76,15 @@ pub struct Lemke {
 }
 
 impl Lemke {
+    pub(crate) const NAME: &str = "lemke";
+
     /// A solver with the given settings.
     pub fn new(settings: LemkeSettings) -> Self {
         Self { settings }
+    }
+
+    pub(crate) fn settings(&self) -> &LemkeSettings {
+        &self.settings
     }
 
     /// Solves a problem.
@@ -103,6 +109,7 @@ impl Lemke {
         let began = Instant::now();
         let deadline = self.settings.time_limit.and_then(|limit| began.checked_add(limit));
         let mut solution = Search::new(&self.settings, problem, deadline).run(observer);
+        solution.info.solver = Self::NAME;
         solution.info.seconds = began.elapsed().as_secs_f64();
         Ok(solution)
     }

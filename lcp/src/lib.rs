@@ -53,6 +53,7 @@ mod residual;
 mod scaling;
 mod settings;
 mod solution;
+mod solve;
 mod sparse;
 
 pub use faer;
@@ -64,13 +65,17 @@ pub use lemke::{
     ParametricSettings, Progress,
 };
 pub use matrix::Matrix;
-pub use problem::{BoxedLcp, ErrorBound, HorizontalLcp, Lcp, MixedLcp, Monotonicity};
+pub use problem::{
+    BoxedLcp, Contact2d, ContactForces, ContactState, ErrorBound, Friction2d, HorizontalLcp, Lcp,
+    MixedLcp, Monotonicity, StandardForm,
+};
 pub use residual::Residuals;
 pub use settings::{Covering, LemkeSettings, WarmStart};
 pub use solution::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Info, Perturbation, PivotRecord, Ray,
     Solution, Status, Variable,
 };
+pub use solve::{Iteration, Solver};
 
 /// The programs of the README are compiled and run with the tests.
 #[cfg(doctest)]

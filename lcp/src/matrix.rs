@@ -98,6 +98,37 @@ impl Matrix {
         }
     }
 
+    /// The same matrix with only its nonzero entries stored.
+    pub(crate) fn into_sparse(self) -> SparseColMat<usize, f64> {
+        if let Self::Sparse(m) = self {
+            return m;
+        }
+        let (rows, cols) = (self.nrows(), self.ncols());
+        let entries = (0..cols).flat_map(|j| self.column(j).map(move |(i, v)| (i, j, v)));
+        match Self::from_entries(rows, cols, entries.filter(|(_, _, v)| *v != 0.0)) {
+            Self::Sparse(m) => m,
+            Self::Dense(_) => unreachable!("made of entries"),
+        }
+    }
+
+    /// That a square matrix is symmetric to rounding, measured by the roots of its diagonal entries, as
+    /// fits one that is positive semidefinite.
+    pub(crate) fn check_symmetric(&self, what: &'static str) -> Result<(), Error> {
+        const ROUNDING: f64 = 1e-12;
+        let n = self.ncols();
+        let size: Vec<f64> = (0..n).map(|i| self[(i, i)].abs().sqrt()).collect();
+        for col in 0..n {
+            for (row, v) in self.column(col) {
+                let mirrored = self[(col, row)];
+                let largest = v.abs().max(mirrored.abs()).max(size[row] * size[col]);
+                if (v - mirrored).abs() > ROUNDING * largest {
+                    return Err(Error::NotSymmetric { what, row, col, value: v, mirrored });
+                }
+            }
+        }
+        Ok(())
+    }
+
     pub(crate) fn slice(&self, j: usize) -> Column<'_> {
         match self {
             Self::Dense(m) => Column::Dense(m.col_as_slice(j)),

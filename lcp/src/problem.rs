@@ -2,12 +2,19 @@
 
 mod bound;
 mod boxed;
+mod contact;
+mod disguised;
+mod friction;
 mod horizontal;
 mod mixed;
 mod standard;
 
 pub use bound::{ErrorBound, Monotonicity};
 pub use boxed::BoxedLcp;
+pub(crate) use contact::column_of;
+pub use contact::{Contact2d, ContactState};
+pub use disguised::StandardForm;
+pub use friction::{ContactForces, Friction2d};
 pub use horizontal::HorizontalLcp;
 pub use mixed::MixedLcp;
 pub use standard::Lcp;

@@ -26,7 +26,7 @@ impl Residuals {
     }
 
     /// Of a point that is not a number.
-    fn infinite() -> Self {
+    pub(crate) fn infinite() -> Self {
         let inf = f64::INFINITY;
         Self { equation: inf, feasibility: inf, complementarity: inf, natural: inf }
     }

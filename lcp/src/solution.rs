@@ -21,6 +21,11 @@ pub enum Status {
     RayTermination,
     /// The limit on pivots was reached.
     PivotLimit,
+    /// The limit on iterations was reached.
+    IterationLimit,
+    /// The residuals stopped decreasing above the tolerance, or the method cannot go on from where it
+    /// is. Another method may.
+    Stalled,
     /// The limit on wall-clock time was reached.
     TimeLimit,
     /// No attempt found a solution, and in at least one a basis came back.
@@ -234,16 +239,22 @@ pub struct PivotRecord {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Info {
+    /// The method that the point comes from.
+    pub solver: &'static str,
     /// Pivots over all attempts.
     pub pivots: usize,
-    /// Times that the tableau was rebuilt from the data, or a sparse basis factorised.
-    pub refactorisations: usize,
-    /// Every attempt, in order.
+    /// Sweeps, or steps of a method that has no pivots.
+    pub iterations: usize,
+    /// Times that a matrix was factorised numerically, or a tableau rebuilt from the data.
+    pub factorisations: usize,
+    /// Every attempt of a pivoting method, in order.
     pub attempts: Vec<Attempt>,
+    /// The residual by which an iterative method stops, at its start and after every iteration.
+    pub history: Vec<f64>,
     /// Wall-clock time \[s\].
     pub seconds: f64,
-    /// The part of it spent on pivots; the rest is start bases, scaling, final solves and proofs
-    /// \[s\].
+    /// The part of it spent on pivots; the rest of a pivoting method is start bases, scaling, final
+    /// solves and proofs \[s\].
     pub pivot_seconds: f64,
 }
 
@@ -279,6 +290,29 @@ pub struct Solution {
 }
 
 impl Solution {
+    /// A point that is judged by residuals: [`Solved`](Status::Solved) where they are below the
+    /// tolerance, else what the method says.
+    pub(crate) fn judged(
+        (t, y): (Vec<f64>, Vec<f64>),
+        residuals: Residuals,
+        tolerance: f64,
+        otherwise: Status,
+    ) -> Self {
+        let is_solved = residuals.worst() <= tolerance;
+        Self {
+            status: if is_solved { Status::Solved } else { otherwise },
+            t,
+            y,
+            basis: None,
+            residuals,
+            ray: None,
+            farkas: None,
+            condition: None,
+            trace: Vec::new(),
+            info: Info::default(),
+        }
+    }
+
     /// Whether the status is [`Status::Solved`].
     pub fn is_solved(&self) -> bool {
         self.status == Status::Solved

@@ -9,8 +9,10 @@ use serde::Serialize;
 use super::{
     Failure, NOT_SOLVED, SOLVED, SolveArgs, Solver, in_file, print, print_json, residual_lines,
 };
-use crate::io::{ContactForces, Problem, ProblemFile};
-use crate::{Attempt, Lemke, LemkeSettings, Perturbation, Ray, Residuals, Solution, Status};
+use crate::io::{Problem, ProblemFile};
+use crate::{
+    Attempt, ContactForces, Lemke, LemkeSettings, Perturbation, Ray, Residuals, Solution, Status,
+};
 
 /// What `--json` prints.
 #[derive(Debug, Serialize)]

@@ -1,7 +1,7 @@
 //! The problems that files hold.
 
-use super::{Friction2d, Position, ReadError};
-use crate::{BoxedLcp, HorizontalLcp, Lcp, Matrix, MixedLcp, Residuals};
+use super::{Position, ReadError};
+use crate::{BoxedLcp, Friction2d, HorizontalLcp, Lcp, Matrix, MixedLcp, Residuals};
 
 /// A problem of any kind that files hold.
 ///

@@ -50,7 +50,7 @@ pub(super) struct Path<'a, K> {
     pub(super) artificial_start: f64,
     scale: f64,
     pub(super) pivots: usize,
-    pub(super) refactorisations: usize,
+    pub(super) factorisations: usize,
     /// Pivots after which the tableau is rebuilt in any case.
     interval: Option<usize>,
     /// Every exchange, where that was asked for.
@@ -86,7 +86,7 @@ impl<'a, K: Kernel> Path<'a, K> {
             is_parametric: false,
             artificial_start: 0.0,
             pivots: 0,
-            refactorisations: 0,
+            factorisations: 0,
             interval,
             trace: with_trace.then(Vec::new),
             visited: HashSet::new(),
@@ -375,7 +375,7 @@ impl<'a, K: Kernel> Path<'a, K> {
     }
 
     pub(super) fn rebuild(&mut self) -> bool {
-        self.refactorisations += 1;
+        self.factorisations += 1;
         self.rebuilt_at = Some(self.pivots);
         let rebuilt = self.kernel.rebuild(&self.basic, &mut self.values);
         self.scale = max_abs(&self.values);

@@ -156,7 +156,7 @@ impl<'a> Search<'a> {
             let solution = Search { is_completed: true, ..search }.run(observer);
             let point = without_artificial(self.problem.problem, chosen, side, &solution);
             self.info.pivots += solution.info.pivots;
-            self.info.refactorisations += solution.info.refactorisations;
+            self.info.factorisations += solution.info.factorisations;
             self.info.pivot_seconds += solution.info.pivot_seconds;
             self.info.attempts.extend(solution.info.attempts);
             self.trace.extend(solution.trace);
@@ -276,7 +276,7 @@ impl<'a> Search<'a> {
         };
         self.info.pivot_seconds += began.elapsed().as_secs_f64();
         self.info.pivots += path.pivots;
-        self.info.refactorisations += path.refactorisations;
+        self.info.factorisations += path.factorisations;
         self.info.attempts.push(Attempt {
             start: trial.start,
             covering: trial.covering,

@@ -2,6 +2,7 @@
 
 use faer::Mat;
 
+use super::{check_length, check_vector};
 use crate::{Error, Lcp, Matrix};
 
 /// Contact with Coulomb's friction in the plane, reduced to the contacts: the relative velocities
@@ -27,7 +28,8 @@ pub struct Friction2d {
 }
 
 /// The forces at the contacts.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct ContactForces {
     /// The normal force at every contact.
@@ -39,11 +41,19 @@ pub struct ContactForces {
 impl Friction2d {
     /// A problem of `nc` contacts from `W` (2 nc x 2 nc), `q` (2 nc) and the coefficients of friction
     /// (nc), which are not negative.
-    pub(super) fn new(w: Matrix, q: Vec<f64>, mu: Vec<f64>) -> Result<Self, Error> {
-        if q.len() != 2 * mu.len() {
-            return Err(Error::Length { name: "q", len: q.len(), expected: 2 * mu.len() });
-        }
+    ///
+    /// # Errors
+    /// [`Error::Shape`] or [`Error::Length`] when the shapes do not fit, [`Error::NotFinite`] for a NaN
+    /// or an infinity, [`Error::Setting`] for a negative coefficient of friction.
+    pub fn new(w: impl Into<Matrix>, q: Vec<f64>, mu: Vec<f64>) -> Result<Self, Error> {
+        let w = w.into();
+        check_length("q", q.len(), 2 * mu.len())?;
         w.check("W", q.len(), q.len())?;
+        check_vector("q", &q)?;
+        check_vector("mu", &mu)?;
+        if let Some(&value) = mu.iter().find(|mu| **mu < 0.0) {
+            return Err(Error::Setting { name: "mu", value, range: "at least zero" });
+        }
         let standard = standard_form(&w, &q, &mu)?;
         Ok(Self { w, q, mu, standard })
     }

@@ -1,0 +1,383 @@
+//! Contact with friction in the plane, sparse, with the displacements as free variables.
+
+use faer::sparse::SparseColMat;
+
+use super::{HorizontalLcp, MixedLcp, check_length, check_vector, max_abs};
+use crate::{Error, Matrix, Residuals};
+
+/// Unilateral contact with Coulomb's friction between elastic or rigid bodies in the plane:
+///
+/// ```text
+/// K u = f + C_n^T t_n + C_t^T t_t,    g = C_n u + x_0,    s = C_t u + s_0,
+/// 0 <= t_n  _|_  g >= 0,
+/// 0 <= mu t_n + t_t  _|_  s+ >= 0,    0 <= mu t_n - t_t  _|_  s- >= 0,    s = s+ - s-,
+/// ```
+///
+/// with `n` displacements `u`, or velocities, and `m` contact points: normal forces `t_n`, tangential
+/// forces `t_t`, gaps `g`, slips `s`. `K` is symmetric positive semidefinite; zero modes, as those of
+/// bodies that float, are welcome, and so are rigid bodies, whose `u` are the amplitudes of their motions
+/// and whose `K` is zero (in statics) or their mass. A point with `mu = 0` has no tangential force,
+/// whatever its row of `C_t`.
+///
+/// ```
+/// use faer::mat;
+/// use lcp::{Contact2d, Lemke, Solver};
+/// // A body of weight 2 on a plane (mu = 0.5), pushed by 0.4, with the stiffness 3 behind it
+/// let contact = Contact2d::new(
+///     mat![[0.0, 0.0], [0.0, 3.0]], vec![-2.0, 0.4],
+///     mat![[1.0, 0.0]], mat![[0.0, 1.0]], vec![0.0], vec![0.0], vec![0.5],
+/// )?;
+/// let solution = Solver::<Contact2d>::solve(&Lemke::default(), &contact)?;
+/// let state = contact.recover(&solution.t, &solution.y);
+/// assert!((state.t_n[0] - 2.0).abs() < 1e-14 && (state.t_t[0] + 0.4).abs() < 1e-14);
+/// # Ok::<(), lcp::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Contact2d {
+    k: SparseColMat<usize, f64>,
+    f: Vec<f64>,
+    c_n: SparseColMat<usize, f64>,
+    c_t: SparseColMat<usize, f64>,
+    x_0: Vec<f64>,
+    s_0: Vec<f64>,
+    mu: Vec<f64>,
+    /// The points with friction.
+    friction: Vec<usize>,
+}
+
+/// Displacements and contact forces with the gaps and slips that belong to them.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct ContactState {
+    /// The displacements.
+    pub u: Vec<f64>,
+    /// The normal force at every point, compression positive.
+    pub t_n: Vec<f64>,
+    /// The tangential force at every point; zero without friction.
+    pub t_t: Vec<f64>,
+    /// The gap at every point.
+    pub gap: Vec<f64>,
+    /// The slip at every point, also without friction.
+    pub slip: Vec<f64>,
+}
+
+impl Contact2d {
+    /// A problem from `K` (n x n), `f` (n), `C_n` and `C_t` (m x n), `x_0`, `s_0` and `mu` (m).
+    ///
+    /// # Errors
+    /// [`Error::Shape`] or [`Error::Length`] when the shapes do not fit, [`Error::NotFinite`] for a
+    /// NaN or an infinity, [`Error::Setting`] for a negative coefficient of friction, and
+    /// [`Error::NotSymmetric`] for a `K` that is not symmetric to rounding.
+    pub fn new(
+        k: impl Into<Matrix>,
+        f: Vec<f64>,
+        c_n: impl Into<Matrix>,
+        c_t: impl Into<Matrix>,
+        x_0: Vec<f64>,
+        s_0: Vec<f64>,
+        mu: Vec<f64>,
+    ) -> Result<Self, Error> {
+        let (k, c_n, c_t) = (k.into(), c_n.into(), c_t.into());
+        let (n, m) = (f.len(), mu.len());
+        for (what, matrix, rows) in [("K", &k, n), ("C_n", &c_n, m), ("C_t", &c_t, m)] {
+            matrix.check(what, rows, n)?;
+        }
+        check_length("x_0", x_0.len(), m)?;
+        check_length("s_0", s_0.len(), m)?;
+        for (what, vector) in [("f", &f), ("x_0", &x_0), ("s_0", &s_0), ("mu", &mu)] {
+            check_vector(what, vector)?;
+        }
+        if let Some(&value) = mu.iter().find(|mu| **mu < 0.0) {
+            return Err(Error::Setting { name: "mu", value, range: "at least zero" });
+        }
+        k.check_symmetric("K")?;
+        let friction = (0..m).filter(|&i| mu[i] > 0.0).collect();
+        let [k, c_n, c_t] = [k, c_n, c_t].map(Matrix::into_sparse);
+        Ok(Self { k, f, c_n, c_t, x_0, s_0, mu, friction })
+    }
+
+    /// Number of displacements.
+    pub fn displacements(&self) -> usize {
+        self.f.len()
+    }
+
+    /// Number of contact points.
+    pub fn points(&self) -> usize {
+        self.mu.len()
+    }
+
+    /// The points with friction, `mu > 0`.
+    pub fn frictional(&self) -> &[usize] {
+        &self.friction
+    }
+
+    /// The stiffness `K`.
+    pub fn stiffness(&self) -> &SparseColMat<usize, f64> {
+        &self.k
+    }
+
+    /// The loads `f`.
+    pub fn loads(&self) -> &[f64] {
+        &self.f
+    }
+
+    /// `C_n`: the gaps for unit displacements.
+    pub fn normal(&self) -> &SparseColMat<usize, f64> {
+        &self.c_n
+    }
+
+    /// `C_t`: the slips for unit displacements.
+    pub fn tangent(&self) -> &SparseColMat<usize, f64> {
+        &self.c_t
+    }
+
+    /// The gaps without displacements, `x_0`.
+    pub fn initial_gaps(&self) -> &[f64] {
+        &self.x_0
+    }
+
+    /// The slips without displacements, `s_0`.
+    pub fn initial_slips(&self) -> &[f64] {
+        &self.s_0
+    }
+
+    /// The coefficients of friction.
+    pub fn mu(&self) -> &[f64] {
+        &self.mu
+    }
+
+    /// Number of pairs of the general problem: `n + m`, and two for every point with friction.
+    pub fn order(&self) -> usize {
+        self.displacements() + self.points() + 2 * self.friction.len()
+    }
+
+    /// The general problem. Its pairs are the displacements (free), then `(t_n, g)` of all points, then
+    /// `(mu t_n + t_t, s+)` and then `(mu t_n - t_t, s-)` of the points with friction.
+    pub fn to_general(&self) -> HorizontalLcp {
+        let (n, m, order) = (self.displacements(), self.points(), self.order());
+        let (mut a, mut b) = (Vec::new(), Vec::new());
+        for j in 0..n {
+            let column = column_of(&self.k, j);
+            let gaps = column_of(&self.c_n, j).map(|(i, v)| (n + i, -v));
+            let slips = self.friction_rows(j).map(|(k, v)| (n + m + k, -v));
+            for (i, v) in column.chain(gaps).chain(slips) {
+                a.push((i, j, v));
+                b.push((i, j, -v));
+            }
+            a.extend(column_of(&self.c_n, j).map(|(i, v)| (j, n + i, -v)));
+            for (k, v) in self.friction_rows(j) {
+                let [plus, minus] = self.tangential_pairs(k);
+                a.push((j, plus, -0.5 * v));
+                a.push((j, minus, 0.5 * v));
+            }
+        }
+        b.extend((n..n + m).map(|i| (i, i, 1.0)));
+        for (k, &point) in self.friction.iter().enumerate() {
+            let [plus, minus] = self.tangential_pairs(k);
+            b.extend([(plus, plus, 1.0), (plus, minus, -1.0)]);
+            a.extend([(minus, n + point, -2.0 * self.mu[point])]);
+            a.extend([(minus, plus, 1.0), (minus, minus, 1.0)]);
+        }
+        let mut c = self.f.clone();
+        c.extend(&self.x_0);
+        c.extend(self.friction.iter().map(|&i| self.s_0[i]));
+        c.resize(order, 0.0);
+        let [a, b] = [a, b].map(|entries| Matrix::from_entries(order, order, entries.into_iter()));
+        HorizontalLcp::from_parts(a, b, c)
+    }
+
+    /// The mixed problem with the variables `u` (free), `t_n` and, for every point with friction, the
+    /// parts `b+`, `b-` of `t_t = b+ - b-` and the slip `l` to either side (Stewart and Trinkle 1996):
+    /// `w = (g, l + s, l - s, mu t_n - b+ - b-)`. It is copositive, which makes Lemke's method safer on
+    /// it than on the general problem, and larger by a pair for every point with friction.
+    pub fn to_mixed(&self) -> MixedLcp {
+        let (n, m, count) = (self.displacements(), self.points(), self.friction.len());
+        let order = n + m + 3 * count;
+        let mut entries = Vec::new();
+        for j in 0..n {
+            entries.extend(column_of(&self.k, j).map(|(i, v)| (i, j, v)));
+            for (i, v) in column_of(&self.c_n, j) {
+                entries.extend([(n + i, j, v), (j, n + i, -v)]);
+            }
+            for (k, v) in self.friction_rows(j) {
+                let [plus, minus, _] = [0, 1, 2].map(|part| n + m + part * count + k);
+                entries.extend([(plus, j, v), (j, plus, -v), (minus, j, -v), (j, minus, v)]);
+            }
+        }
+        let mut q: Vec<f64> = self.f.iter().map(|f| -f).chain(self.x_0.iter().copied()).collect();
+        q.resize(order, 0.0);
+        for (k, &point) in self.friction.iter().enumerate() {
+            let [plus, minus, slip] = [0, 1, 2].map(|part| n + m + part * count + k);
+            entries.extend([(plus, slip, 1.0), (minus, slip, 1.0)]);
+            entries.extend([(slip, plus, -1.0), (slip, minus, -1.0)]);
+            entries.push((slip, n + point, self.mu[point]));
+            (q[plus], q[minus]) = (self.s_0[point], -self.s_0[point]);
+        }
+        let matrix = Matrix::from_entries(order, order, entries.into_iter());
+        let free = (0..order).map(|i| i < n).collect();
+        MixedLcp::new(matrix, q, free).unwrap_or_else(|e| unreachable!("of checked parts: {e}"))
+    }
+
+    /// Displacements and forces from the variables `z` of the mixed problem.
+    ///
+    /// # Panics
+    /// If `z` does not have one entry for every variable.
+    pub fn from_mixed(&self, z: &[f64]) -> ContactState {
+        let (n, m, count) = (self.displacements(), self.points(), self.friction.len());
+        assert_eq!(z.len(), n + m + 3 * count, "one entry for every variable");
+        let mut t_t = vec![0.0; m];
+        for (k, &point) in self.friction.iter().enumerate() {
+            t_t[point] = z[n + m + k] - z[n + m + count + k];
+        }
+        self.state(z[..n].to_vec(), z[n..n + m].to_vec(), t_t)
+    }
+
+    /// Displacements and forces from a point of the general problem.
+    ///
+    /// # Panics
+    /// If `t` or `y` does not have one entry for every pair.
+    pub fn recover(&self, t: &[f64], y: &[f64]) -> ContactState {
+        let (n, m, order) = (self.displacements(), self.points(), self.order());
+        assert!(t.len() == order && y.len() == order, "a point has one entry for every pair");
+        let u = (0..n).map(|j| t[j] - y[j]).collect();
+        let mut t_t = vec![0.0; m];
+        for (k, &point) in self.friction.iter().enumerate() {
+            let [plus, minus] = self.tangential_pairs(k);
+            t_t[point] = 0.5 * (t[plus] - t[minus]);
+        }
+        self.state(u, t[n..n + m].to_vec(), t_t)
+    }
+
+    /// The state with these displacements and forces; its gaps and slips are computed.
+    ///
+    /// # Panics
+    /// If the lengths are not those of the problem.
+    pub fn state(&self, u: Vec<f64>, t_n: Vec<f64>, t_t: Vec<f64>) -> ContactState {
+        let m = self.points();
+        assert!(u.len() == self.displacements() && t_n.len() == m && t_t.len() == m);
+        let (mut gap, mut slip) = (self.x_0.clone(), self.s_0.clone());
+        for (j, &u) in u.iter().enumerate() {
+            column_of(&self.c_n, j).for_each(|(i, v)| gap[i] += v * u);
+            column_of(&self.c_t, j).for_each(|(i, v)| slip[i] += v * u);
+        }
+        ContactState { u, t_n, t_t, gap, slip }
+    }
+
+    /// The point of the general problem that belongs to a state.
+    ///
+    /// # Panics
+    /// If the lengths are not those of the problem.
+    pub fn to_pairs(&self, state: &ContactState) -> (Vec<f64>, Vec<f64>) {
+        let order = self.order();
+        let mut t: Vec<f64> = state.u.iter().map(|u| u.max(0.0)).collect();
+        let mut y: Vec<f64> = state.u.iter().map(|u| (-u).max(0.0)).collect();
+        t.extend(&state.t_n);
+        y.extend(&state.gap);
+        t.resize(order, 0.0);
+        y.resize(order, 0.0);
+        for (k, &i) in self.friction.iter().enumerate() {
+            let [plus, minus] = self.tangential_pairs(k);
+            let bound = self.mu[i] * state.t_n[i];
+            (t[plus], t[minus]) = (bound + state.t_t[i], bound - state.t_t[i]);
+            (y[plus], y[minus]) = (state.slip[i].max(0.0), (-state.slip[i]).max(0.0));
+        }
+        (t, y)
+    }
+
+    /// Residuals of a state, dimensionless, from the original data.
+    ///
+    /// * equation: `|K u - f - C^T t|_i / (|K||u| + |f| + |C^T||t|)_i`, the largest over the rows, where
+    ///   the denominator is at least 2^-10 of the largest one that the row could have with the largest
+    ///   displacement and the largest force.
+    /// * feasibility, complementarity and natural: forces are measured in units of the largest one,
+    ///   loads included, gaps and slips in units of the largest term of any of them.
+    ///
+    /// # Panics
+    /// If the lengths are not those of the problem.
+    pub fn residuals(&self, state: &ContactState) -> Residuals {
+        let ContactState { u, t_n, t_t, gap, slip } = state;
+        let all = [u, t_n, t_t, gap, slip];
+        if all.iter().any(|v| v.iter().any(|v| !v.is_finite())) {
+            return Residuals::infinite();
+        }
+        let force = max_abs(t_n).max(max_abs(t_t)).max(max_abs(&self.f));
+        let length = self.length(u);
+        let mut worst = (0.0_f64, 0.0_f64, 0.0_f64);
+        let mut pair = |t: f64, y: f64| {
+            let relative = |v: f64, unit: f64| if unit > 0.0 { v / unit } else { 0.0 };
+            let least = relative(t, force).min(relative(y, length));
+            worst.0 = worst.0.max(-least + 0.0);
+            worst.1 = worst.1.max(least);
+            worst.2 = worst.2.max(least.abs());
+        };
+        t_n.iter().zip(gap).for_each(|(t, g)| pair(*t, *g));
+        for &i in &self.friction {
+            pair(self.mu[i] * t_n[i] + t_t[i], slip[i].max(0.0));
+            pair(self.mu[i] * t_n[i] - t_t[i], (-slip[i]).max(0.0));
+        }
+        let (feasibility, complementarity, natural) = worst;
+        let equation = self.equation_residual(u, t_n, t_t);
+        Residuals { equation, feasibility, complementarity, natural }
+    }
+
+    fn equation_residual(&self, u: &[f64], t_n: &[f64], t_t: &[f64]) -> f64 {
+        const FLOOR: f64 = 1.0 / (1 << 10) as f64;
+        let (u_max, t_max) = (max_abs(u), max_abs(t_n).max(max_abs(t_t)));
+        let mut worst = 0.0_f64;
+        // K is symmetric: its columns are its rows.
+        for (j, &f) in self.f.iter().enumerate() {
+            let (mut sum, mut size, mut largest) = (-f, f.abs(), 0.0_f64);
+            let mut add = |v: f64, x: f64, max: f64| {
+                sum += v * x;
+                size += (v * x).abs();
+                largest = largest.max(v.abs() * max);
+            };
+            column_of(&self.k, j).for_each(|(i, v)| add(v, u[i], u_max));
+            column_of(&self.c_n, j).for_each(|(i, v)| add(-v, t_n[i], t_max));
+            column_of(&self.c_t, j)
+                .filter(|(i, _)| self.mu[*i] > 0.0)
+                .for_each(|(i, v)| add(-v, t_t[i], t_max));
+            let denominator = size.max(FLOOR * largest);
+            if denominator > 0.0 {
+                worst = worst.max(sum.abs() / denominator);
+            }
+        }
+        worst
+    }
+
+    /// The largest term of any gap or slip.
+    fn length(&self, u: &[f64]) -> f64 {
+        let mut length = max_abs(&self.x_0);
+        for &i in &self.friction {
+            length = length.max(self.s_0[i].abs());
+        }
+        for (j, u) in u.iter().enumerate() {
+            column_of(&self.c_n, j).for_each(|(_, v)| length = length.max((v * u).abs()));
+            self.friction_rows(j).for_each(|(_, v)| length = length.max((v * u).abs()));
+        }
+        length
+    }
+
+    /// Pairs `(mu t_n + t_t, s+)` and `(mu t_n - t_t, s-)` of a point by its position among those with
+    /// friction.
+    fn tangential_pairs(&self, k: usize) -> [usize; 2] {
+        let first = self.displacements() + self.points();
+        [first + k, first + self.friction.len() + k]
+    }
+
+    /// Entries of a column of `C_t`, by positions among the points with friction.
+    fn friction_rows(&self, j: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        column_of(&self.c_t, j)
+            .filter_map(|(i, v)| Some((self.friction.binary_search(&i).ok()?, v)))
+    }
+}
+
+/// The entries of a column.
+pub(crate) fn column_of(
+    matrix: &SparseColMat<usize, f64>,
+    j: usize,
+) -> impl Iterator<Item = (usize, f64)> + '_ {
+    let matrix = matrix.as_ref();
+    matrix.row_idx_of_col_raw(j).iter().copied().zip(matrix.val_of_col(j).iter().copied())
+}

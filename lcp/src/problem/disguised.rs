@@ -1,0 +1,117 @@
+//! General problems that are standard ones in disguise.
+
+use faer::Mat;
+
+use super::{HorizontalLcp, Lcp};
+use crate::{Matrix, Side};
+
+/// A general problem written in the standard form. See [`HorizontalLcp::to_standard`].
+#[derive(Debug, Clone)]
+pub struct StandardForm {
+    lcp: Lcp,
+    /// Which variable of every pair is `w`.
+    sides: Vec<Side>,
+}
+
+impl HorizontalLcp {
+    /// The same problem in the standard form, where that takes no elimination: of every pair one column
+    /// has a single entry, all of them in different rows. The variable of that column is `w`, the
+    /// other one is `z`. `None` for all other problems.
+    ///
+    /// ```
+    /// use faer::mat;
+    /// use lcp::HorizontalLcp;
+    /// // The second pair is the other way round.
+    /// let problem = HorizontalLcp::new(
+    ///     mat![[-2.0, 0.0], [-1.0, 4.0]], mat![[1.0, -1.0], [0.0, -8.0]], vec![-5.0, -24.0])?;
+    /// let standard = problem.to_standard().expect("columns y_1 and t_2 have one entry");
+    /// assert_eq!(standard.lcp().m()[(1, 0)], 0.25);
+    /// assert_eq!(standard.to_pairs(&[1.0, 2.0], &[3.0, 4.0]), (vec![1.0, 4.0], vec![3.0, 2.0]));
+    /// # Ok::<(), lcp::Error>(())
+    /// ```
+    pub fn to_standard(&self) -> Option<StandardForm> {
+        let n = self.order();
+        let mut of_row: Vec<Option<(usize, f64)>> = vec![None; n];
+        let mut sides = vec![Side::Y; n];
+        let mut undecided = Vec::new();
+        for pair in 0..n {
+            let [t, y] = [Side::T, Side::Y].map(|side| self.column(pair, side).single());
+            let (side, (row, value)) = match (t, y) {
+                (None, None) => return None,
+                (Some(_), Some(_)) => {
+                    undecided.push(pair);
+                    continue;
+                }
+                (Some(single), None) => (Side::T, single),
+                (None, Some(single)) => (Side::Y, single),
+            };
+            sides[pair] = side;
+            if of_row[row].replace((pair, value)).is_some() {
+                return None;
+            }
+        }
+        for pair in undecided {
+            let single = |side| Some((side, self.column(pair, side).single()?));
+            let mut singles = [Side::Y, Side::T].into_iter().filter_map(single);
+            let (side, (row, value)) = singles.find(|(_, (row, _))| of_row[*row].is_none())?;
+            sides[pair] = side;
+            of_row[row] = Some((pair, value));
+        }
+        let of_row: Vec<(usize, f64)> = of_row.into_iter().collect::<Option<_>>()?;
+        Some(StandardForm { lcp: self.divided(&sides, &of_row)?, sides })
+    }
+
+    /// `M` and `q`: rows in the order of their `w`, divided by its coefficient.
+    fn divided(&self, sides: &[Side], of_row: &[(usize, f64)]) -> Option<Lcp> {
+        let n = self.order();
+        let mut q = vec![0.0; n];
+        of_row.iter().zip(self.c()).for_each(|((pair, value), c)| q[*pair] = c / value);
+        let entries = (0..n).flat_map(|j| {
+            let matrix = if sides[j] == Side::T { self.b() } else { self.a() };
+            matrix.column(j).map(move |(row, v)| {
+                let (pair, value) = of_row[row];
+                (pair, j, -v / value)
+            })
+        });
+        let m: Matrix = if self.is_sparse() {
+            Matrix::from_entries(n, n, entries)
+        } else {
+            let mut dense = Mat::zeros(n, n);
+            entries.for_each(|(i, j, v)| dense[(i, j)] = v);
+            dense.into()
+        };
+        // Divisions may overflow.
+        Lcp::new(m, q).ok()
+    }
+}
+
+impl StandardForm {
+    /// The standard problem.
+    pub fn lcp(&self) -> &Lcp {
+        &self.lcp
+    }
+
+    /// The point of the general problem that belongs to `(z, w)`.
+    ///
+    /// # Panics
+    /// If `z` or `w` does not have one entry for every pair.
+    pub fn to_pairs(&self, z: &[f64], w: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        self.exchanged(z, w)
+    }
+
+    /// `(z, w)` of a point of the general problem.
+    ///
+    /// # Panics
+    /// If `t` or `y` does not have one entry for every pair.
+    pub fn from_pairs(&self, t: &[f64], y: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        self.exchanged(t, y)
+    }
+
+    /// Exchanges the entries of the pairs whose `t` is `w`, which is its own inverse.
+    fn exchanged(&self, first: &[f64], second: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let n = self.sides.len();
+        assert!(first.len() == n && second.len() == n, "a point has one entry for every pair");
+        let pairs = first.iter().zip(second).zip(&self.sides);
+        pairs.map(|((a, b), side)| if *side == Side::Y { (*a, *b) } else { (*b, *a) }).unzip()
+    }
+}

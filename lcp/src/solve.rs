@@ -1,0 +1,141 @@
+//! What all solvers have in common.
+
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use crate::{Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Lemke, Solution, Status};
+
+/// A method that treats problems of type `P`.
+///
+/// The solution carries a point of the general form of the problem: `(z, w)` as `(t, y)` for [`Lcp`]
+/// and [`Friction2d`], and the pairs that [`Contact2d::to_general`] describes.
+///
+/// ```
+/// use faer::mat;
+/// use lcp::{HorizontalLcp, Lcp, Lemke, Solver};
+/// let routes: [Box<dyn Solver<Lcp>>; 1] = [Box::new(Lemke::default())];
+/// let lcp = Lcp::new(mat![[2.0, 1.0], [1.0, 2.0]], vec![-5.0, -6.0])?;
+/// for route in routes {
+///     assert!(route.solve(&lcp)?.is_solved(), "{}", route.name());
+/// }
+/// # Ok::<(), lcp::Error>(())
+/// ```
+pub trait Solver<P> {
+    /// The name of the method.
+    fn name(&self) -> &'static str;
+
+    /// Solves a problem.
+    ///
+    /// # Errors
+    /// [`Error::NotTreated`] for a problem that the method cannot treat, and errors of the settings.
+    /// What the mathematics decides is in [`Solution::status`].
+    fn solve(&self, problem: &P) -> Result<Solution, Error>;
+}
+
+impl Solver<HorizontalLcp> for Lemke {
+    fn name(&self) -> &'static str {
+        Self::NAME
+    }
+
+    fn solve(&self, problem: &HorizontalLcp) -> Result<Solution, Error> {
+        self.solve(problem)
+    }
+}
+
+impl Solver<Lcp> for Lemke {
+    fn name(&self) -> &'static str {
+        Self::NAME
+    }
+
+    fn solve(&self, problem: &Lcp) -> Result<Solution, Error> {
+        self.solve(&problem.clone().into())
+    }
+}
+
+impl Solver<Friction2d> for Lemke {
+    fn name(&self) -> &'static str {
+        Self::NAME
+    }
+
+    fn solve(&self, problem: &Friction2d) -> Result<Solution, Error> {
+        self.solve(&problem.standard().clone().into())
+    }
+}
+
+/// On the mixed problem of [`Contact2d::to_mixed`]. A start of the settings has its pairs.
+impl Solver<Contact2d> for Lemke {
+    fn name(&self) -> &'static str {
+        Self::NAME
+    }
+
+    fn solve(&self, problem: &Contact2d) -> Result<Solution, Error> {
+        let mixed = problem.to_mixed();
+        let mut solution = self.solve(&mixed.to_general())?;
+        let (z, _) = mixed.recover(&solution.t, &solution.y);
+        let state = problem.from_mixed(&z);
+        solution.residuals = problem.residuals(&state);
+        (solution.t, solution.y) = problem.to_pairs(&state);
+        let is_exact = solution.residuals.worst() <= self.settings().tolerance;
+        if solution.is_solved() && !is_exact {
+            solution.status = Status::AlmostSolved;
+        }
+        // These belong to the pairs of the mixed problem.
+        (solution.basis, solution.ray, solution.farkas) = (None, None, None);
+        Ok(solution)
+    }
+}
+
+/// How far an iterative method has come, for an observer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Iteration {
+    /// Sweeps or steps done.
+    pub iteration: usize,
+    /// The residual by which the method stops.
+    pub residual: f64,
+}
+
+/// Watches over the iterations of a method: limits, history, observer.
+pub(crate) struct Monitor<'a> {
+    began: Instant,
+    deadline: Option<Instant>,
+    max_iterations: usize,
+    observer: &'a mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    /// The residual at the start and after every iteration.
+    pub(crate) history: Vec<f64>,
+}
+
+impl<'a> Monitor<'a> {
+    pub(crate) fn new(
+        max_iterations: usize,
+        time_limit: Option<Duration>,
+        observer: &'a mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Self {
+        let began = Instant::now();
+        let deadline = time_limit.and_then(|limit| began.checked_add(limit));
+        Self { began, deadline, max_iterations, observer, history: Vec::new() }
+    }
+
+    /// Notes the residual before an iteration; a status where there must be none.
+    pub(crate) fn stop(&mut self, residual: f64) -> Option<Status> {
+        let iteration = self.history.len();
+        self.history.push(residual);
+        if (self.observer)(&Iteration { iteration, residual }).is_break() {
+            return Some(Status::Cancelled);
+        }
+        if iteration >= self.max_iterations {
+            return Some(Status::IterationLimit);
+        }
+        let is_late = self.deadline.is_some_and(|deadline| Instant::now() >= deadline);
+        is_late.then_some(Status::TimeLimit)
+    }
+
+    /// Iterations done.
+    pub(crate) fn iterations(&self) -> usize {
+        self.history.len().saturating_sub(1)
+    }
+
+    pub(crate) fn seconds(&self) -> f64 {
+        self.began.elapsed().as_secs_f64()
+    }
+}
