@@ -42,7 +42,7 @@ pub(crate) fn picture(frames: &[Frame], box_width: f64) -> String {
     let total = height + LEGEND;
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {total:.0}\" \
-         width=\"{width:.0}\" height=\"{total:.0}\" font-family=\"sans-serif\" font-size=\"16\">\n\
+         width=\"{width:.0}\" height=\"{total:.0}\" font-family=\"sans-serif\" font-size=\"14\">\n\
          <style>.disc {{fill: #ecdfc8; stroke: #8a6d3b; stroke-width: 1.2}} \
          .mark {{stroke: #8a6d3b}} .wall {{stroke: #777}} .scale {{stroke: black}} \
          .stick {{stroke: #1f5fa8; fill: #1f5fa8}} .slip {{stroke: #d9480f; fill: #d9480f}} \
@@ -95,14 +95,14 @@ fn draw_legend(svg: &mut String, [x, y]: [f64; 2], largest: f64, per_newton: f64
     for (class, label) in [("stick", "sticking"), ("slip", "slipping")] {
         line(svg, &format!("force {class}"), per_newton * force, [at, y], [at + 40.0, y]);
         text(svg, [at + 50.0, y + 5.0], &format!("{force} N, {label}"));
-        at += 190.0;
+        at += 170.0;
     }
-    let end = at + 0.5 * SCALE;
+    let end = at + 0.2 * SCALE;
     line(svg, "scale", 1.0, [at, y], [end, y]);
     for x in [at, end] {
         line(svg, "scale", 1.0, [x, y - 5.0], [x, y + 5.0]);
     }
-    text(svg, [end + 10.0, y + 5.0], "0.5 m");
+    text(svg, [end + 10.0, y + 5.0], "0.2 m");
 }
 
 fn disc(svg: &mut String, class: &str, [x, y]: [f64; 2], r: f64) {
