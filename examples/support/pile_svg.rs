@@ -95,7 +95,7 @@ fn draw_legend(svg: &mut String, [x, y]: [f64; 2], largest: f64, per_newton: f64
     for (class, label) in [("stick", "sticking"), ("slip", "slipping")] {
         line(svg, &format!("force {class}"), per_newton * force, [at, y], [at + 40.0, y]);
         text(svg, [at + 50.0, y + 5.0], &format!("{force} N, {label}"));
-        at += 170.0;
+        at += 180.0;
     }
     let end = at + 0.2 * SCALE;
     line(svg, "scale", 1.0, [at, y], [end, y]);

@@ -10,8 +10,8 @@ use proptest::prelude::*;
 
 /// The states that the method finds on the mixed and on the general form of a problem, judged by the data.
 fn found(problem: &Contact2d) -> [Option<ContactState>; 2] {
-    let mixed = Solver::<Contact2d>::solve(&Lemke::default(), problem).unwrap();
-    let general = Lemke::default().solve(&problem.to_general()).unwrap();
+    let mixed = Solver::<Contact2d>::solve(&Lemke::default(), problem).expect("valid settings");
+    let general = Lemke::default().solve(&problem.to_general()).expect("valid settings");
     [mixed, general].map(|solution| {
         let state = problem.recover(&solution.t, &solution.y);
         let worst = problem.residuals(&state).worst();
@@ -40,7 +40,8 @@ fn mass(load: [f64; 2], normals: &[[f64; 2]], mu: f64) -> Contact2d {
     let c_n = Mat::from_fn(m, 2, |i, j| normals[i][j]);
     let c_t = Mat::from_fn(m, 2, |i, j| [-normals[i][1], normals[i][0]][j]);
     let k = mat![[2.0, 0.0], [0.0, 2.0]];
-    Contact2d::new(k, load.to_vec(), c_n, c_t, vec![0.0; m], vec![0.0; m], vec![mu; m]).unwrap()
+    Contact2d::new(k, load.to_vec(), c_n, c_t, vec![0.0; m], vec![0.0; m], vec![mu; m])
+        .expect("a valid problem")
 }
 
 #[test]
@@ -150,7 +151,7 @@ fn problems() -> impl Strategy<Value = Contact2d> {
             let r = matrix(n, n, &r);
             let k = &r * r.transpose() + Mat::<f64>::identity(n, n);
             let (c_n, c_t) = (matrix(m, n, &c_n), matrix(m, n, &c_t));
-            Contact2d::new(k, f, c_n, c_t, x_0, s_0, mu).unwrap()
+            Contact2d::new(k, f, c_n, c_t, x_0, s_0, mu).expect("a valid problem")
         })
     })
 }
@@ -195,7 +196,8 @@ fn stacks() -> impl Strategy<Value = Contact2d> {
                 inertia(j) * f64::from(velocities[j]) - if j % 3 == 1 { 1.0 } else { 0.0 }
             };
             let (f, zero) = ((0..n).map(load).collect(), vec![0.0; m]);
-            Contact2d::new(k, f, c_n, c_t, zero.clone(), zero, vec![mu; m]).unwrap()
+            Contact2d::new(k, f, c_n, c_t, zero.clone(), zero, vec![mu; m])
+                .expect("a valid problem")
         },
     )
 }
