@@ -29,11 +29,6 @@ impl Multifrontal {
         Ok(Self { analysis, fronts })
     }
 
-    /// Number of entries of both factors.
-    pub(crate) fn stored(&self) -> usize {
-        self.fronts.stored()
-    }
-
     /// Factorises for the values of the entries, in the order of the pattern. Gives the number of pivots
     /// that were replaced.
     pub(crate) fn factorise(&mut self, values: &[f64]) -> usize {

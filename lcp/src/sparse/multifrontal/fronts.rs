@@ -41,10 +41,6 @@ impl Fronts {
         }
     }
 
-    pub(super) fn stored(&self) -> usize {
-        self.factors.iter().map(|factor| factor.lower.len() + factor.upper.len()).sum()
-    }
-
     pub(super) fn factorise(&mut self, analysis: &Analysis, values: &[f64]) -> usize {
         let mut replaced = 0;
         // What every supernode leaves for its parent, until that is assembled.
