@@ -186,7 +186,7 @@ impl Run<'_, '_> {
         let (mut least, mut since) = (f64::INFINITY, 0);
         loop {
             let forces: Vec<(f64, f64)> = at.points.iter().map(|p| (p.t_n, p.t_t)).collect();
-            let worst = self.judge(&at.u, &forces, None);
+            let worst = self.judge(&at.u, &forces);
             let is_solved = worst <= self.settings.tolerance;
             if self.settings.crossover && (is_solved || worst <= NEARER * tried) {
                 tried = worst;
@@ -215,23 +215,20 @@ impl Run<'_, '_> {
 
     /// Whether the states of the contacts, or those that they lead to, are those of a solution.
     fn cross_over(&mut self, u: &[f64], forces: &[(f64, f64)], contacts: Vec<Contact>) -> bool {
-        let Self { scaled, condensed, .. } = self;
-        let Some(vertex) = cross_over(scaled, condensed, u, forces, contacts) else {
-            return false;
-        };
-        let (u, forces) = (vertex.u.clone(), vertex.forces.clone());
-        let is_consistent = vertex.is_consistent;
-        self.judge(&u, &forces, Some(vertex)) <= self.settings.tolerance && is_consistent
+        let Self { settings, problem, scaled, condensed, best, .. } = self;
+        cross_over(scaled, condensed, u, forces, contacts, |vertex| {
+            let judged = problem.judge(scaled, &vertex.u, &vertex.forces);
+            let is_solution = judged.residuals.worst() <= settings.tolerance;
+            keep_better(best, judged, is_solution.then_some(vertex));
+            is_solution
+        })
     }
 
     /// The worst residual of a point, which is kept if none was better.
-    fn judge(&mut self, u: &[f64], forces: &[(f64, f64)], vertex: Option<Vertex>) -> f64 {
+    fn judge(&mut self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
         let judged = self.problem.judge(&self.scaled, u, forces);
         let worst = judged.residuals.worst();
-        let is_better = |(best, _): &(Judged, _)| worst < best.residuals.worst();
-        if self.best.as_ref().is_none_or(is_better) {
-            self.best = Some((judged, vertex.filter(|vertex| vertex.is_consistent)));
-        }
+        keep_better(&mut self.best, judged, None);
         worst
     }
 
@@ -256,6 +253,18 @@ impl Run<'_, '_> {
         solution.info.seconds = self.monitor.seconds();
         solution.info.history = self.monitor.history;
         solution
+    }
+}
+
+/// An exact solution is better than a point inside, whose residuals may be smaller.
+fn keep_better(
+    best: &mut Option<(Judged, Option<Vertex>)>,
+    judged: Judged,
+    vertex: Option<&Vertex>,
+) {
+    let is_better = |(other, _): &(Judged, _)| judged.residuals.worst() < other.residuals.worst();
+    if vertex.is_some() || best.as_ref().is_none_or(is_better) {
+        *best = Some((judged, vertex.cloned()));
     }
 }
 

@@ -12,10 +12,12 @@ use crate::problem::max_abs;
 const STIFF: f64 = 1e8;
 /// Rounds of exchanges.
 const ROUNDS: usize = 12;
-/// Rounds without a decrease of the number of contradictions.
-const PATIENCE: usize = 3;
+/// Rounds without a decrease of the number of contradictions by a quarter.
+const PATIENCE: usize = 2;
 /// Steps of refinement.
 const REFINEMENTS: usize = 12;
+/// Contradictions smaller than this part of the largest are left to what its exchange makes of them.
+const LARGE: f64 = 0.01;
 /// Contradictions up to this part of the largest force or displacement are rounding errors.
 const ROUNDING: f64 = 1e-13;
 
@@ -33,12 +35,11 @@ pub(super) enum Contact {
 }
 
 /// What belongs to the states of the contacts, by the equations.
+#[derive(Debug, Clone)]
 pub(super) struct Vertex {
     pub(super) u: Vec<f64>,
     pub(super) forces: Vec<(f64, f64)>,
     pub(super) contacts: Vec<Contact>,
-    /// Whether no contact contradicts its state.
-    pub(super) is_consistent: bool,
 }
 
 /// The states that a point inside is nearest to.
@@ -61,31 +62,33 @@ fn nearest(point: &Point, at: &Pairs) -> Contact {
 }
 
 /// Solves for given states and exchanges those that contradict, as long as these become fewer. The forces
-/// are those nearest to the given ones where redundant contacts leave a choice.
+/// are those nearest to the given ones where redundant contacts leave a choice. Says whether one of the
+/// points is a solution.
 pub(super) fn cross_over(
     problem: &Scaled,
     condensed: &mut Condensed,
     u: &[f64],
     forces: &[(f64, f64)],
     contacts: Vec<Contact>,
-) -> Option<Vertex> {
-    let mut vertex =
-        Vertex { u: u.to_vec(), forces: forces.to_vec(), contacts, is_consistent: false };
+    mut is_solution: impl FnMut(&Vertex) -> bool,
+) -> bool {
+    let mut vertex = Vertex { u: u.to_vec(), forces: forces.to_vec(), contacts };
     let (mut fewest, mut since) = (usize::MAX, 0);
     for _ in 0..ROUNDS {
-        vertex.solve(problem, condensed)?;
-        let exchanged = vertex.exchange(problem);
-        if exchanged == 0 {
-            vertex.is_consistent = true;
-            break;
+        if vertex.solve(problem, condensed).is_none() {
+            return false;
         }
-        since = if exchanged < fewest { 0 } else { since + 1 };
+        if is_solution(&vertex) {
+            return true;
+        }
+        let exchanged = vertex.exchange(problem);
+        since = if exchanged < fewest - fewest / 4 { 0 } else { since + 1 };
         fewest = fewest.min(exchanged);
-        if since >= PATIENCE {
-            break;
+        if exchanged == 0 || since >= PATIENCE {
+            return false;
         }
     }
-    Some(vertex)
+    false
 }
 
 impl Vertex {
@@ -132,30 +135,37 @@ impl Vertex {
         Some(())
     }
 
-    /// Gives every contact that contradicts its state another one; says how many did.
+    /// Gives the contacts that contradict their states most other states; says how many contradict.
     fn exchange(&mut self, problem: &Scaled) -> usize {
         let force =
             self.forces.iter().fold(max_abs(&problem.f), |max, (t_n, _)| max.max(t_n.abs()));
-        let length = self.u.iter().fold(0.0_f64, |max, u| max.max(u.abs()));
-        let (force, length) = (ROUNDING * force, ROUNDING * length);
-        let mut exchanged = 0;
+        let length = max_abs(&self.u);
+        let relative = |v: f64, unit: f64| if unit > 0.0 { v / unit } else { 0.0 };
+        let mut contradictions = Vec::new();
         for (i, point) in problem.points.iter().enumerate() {
             let (t_n, t_t) = self.forces[i];
-            let bound = point.mu * t_n;
-            let next = match self.contacts[i] {
-                Contact::Open if point.gap(&self.u) < -length => Contact::Stick,
-                Contact::Open => continue,
-                _ if t_n < -force => Contact::Open,
-                Contact::Stick if point.mu > 0.0 && t_t > bound + force => Contact::SlipMinus,
-                Contact::Stick if point.mu > 0.0 && -t_t > bound + force => Contact::SlipPlus,
-                Contact::SlipPlus if point.slip(&self.u) < -length => Contact::Stick,
-                Contact::SlipMinus if point.slip(&self.u) > length => Contact::Stick,
-                _ => continue,
+            let bound = point.mu * t_n.max(0.0);
+            let (gap, slip) = (point.gap(&self.u), point.slip(&self.u));
+            let (size, next) = match self.contacts[i] {
+                Contact::Open => (relative(-gap, length), Contact::Stick),
+                _ if t_n < 0.0 => (relative(-t_n, force), Contact::Open),
+                Contact::Stick if point.mu == 0.0 => continue,
+                Contact::Stick if t_t > 0.0 => (relative(t_t - bound, force), Contact::SlipMinus),
+                Contact::Stick => (relative(-t_t - bound, force), Contact::SlipPlus),
+                Contact::SlipPlus => (relative(-slip, length), Contact::Stick),
+                Contact::SlipMinus => (relative(slip, length), Contact::Stick),
             };
-            self.contacts[i] = next;
-            exchanged += 1;
+            if size > ROUNDING {
+                contradictions.push((size, i, next));
+            }
         }
-        exchanged
+        let largest = contradictions.iter().fold(0.0_f64, |max, (size, ..)| max.max(*size));
+        for (size, i, next) in &contradictions {
+            if *size >= LARGE * largest {
+                self.contacts[*i] = *next;
+            }
+        }
+        contradictions.len()
     }
 }
 
