@@ -4,7 +4,7 @@ mod lu;
 mod order;
 
 pub(crate) use lu::{Growing, SparseLu, row_counts};
-pub(crate) use order::elimination_order;
+pub(crate) use order::{Turn, elimination_order};
 
 /// Columns of nonzero entries, one after the other.
 #[derive(Debug, Clone)]
