@@ -13,7 +13,8 @@ use std::time::Duration;
 use crate::problem::{check_length, check_vector, max_abs};
 use crate::solve::Monitor;
 use crate::{
-    Basis, Error, HorizontalLcp, Iteration, Lcp, Side, Solution, Solver, Status, WarmStart,
+    Basis, Error, HorizontalLcp, Iteration, Lcp, Residuals, Side, Solution, Solver, Status,
+    WarmStart,
 };
 use exchange::{Exchanges, Next};
 use system::{Point, System};
@@ -144,8 +145,7 @@ impl SemismoothNewton {
     ) -> Result<Solution, Error> {
         self.solve_judged(lcp, observer, |z, w| {
             let problem: HorizontalLcp = lcp.clone().into();
-            let residuals = problem.residuals(&z, &w);
-            ((z, w), residuals)
+            ((z.to_vec(), w.to_vec()), problem.residuals(z, w))
         })
     }
 
@@ -154,7 +154,7 @@ impl SemismoothNewton {
         &self,
         lcp: &Lcp,
         observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-        judge: impl FnOnce(Vec<f64>, Vec<f64>) -> ((Vec<f64>, Vec<f64>), crate::Residuals),
+        judge: impl Fn(&[f64], &[f64]) -> ((Vec<f64>, Vec<f64>), Residuals),
     ) -> Result<Solution, Error> {
         let settings = &self.settings;
         settings.validate(lcp.order())?;
@@ -163,7 +163,11 @@ impl SemismoothNewton {
         let mut system = System::new(lcp);
         let (status, best) = self.run(lcp, &mut system, &mut monitor);
         let Point { z, w, is_free, .. } = best;
-        let (point, residuals) = judge(z, w);
+        let clipped = |v: &[f64]| v.iter().map(|v| v.max(0.0)).collect::<Vec<_>>();
+        let (mut point, mut residuals) = judge(&clipped(&z), &clipped(&w));
+        if residuals.worst() > settings.tolerance {
+            (point, residuals) = judge(&z, &w);
+        }
         let mut solution = Solution::judged(point, residuals, settings.tolerance, status);
         solution.basis = Some(basis_of(&is_free));
         solution.info.solver = Self::NAME;
@@ -321,7 +325,7 @@ impl Solver<HorizontalLcp> for SemismoothNewton {
         let inner = Self::new(SemismoothNewtonSettings { start, ..settings.clone() });
         let observer = &mut |_: &Iteration| ControlFlow::Continue(());
         let mut solution = inner.solve_judged(standard.lcp(), observer, |z, w| {
-            let (t, y) = standard.to_pairs(&z, &w);
+            let (t, y) = standard.to_pairs(z, w);
             let residuals = problem.residuals(&t, &y);
             ((t, y), residuals)
         })?;

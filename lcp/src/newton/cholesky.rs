@@ -3,15 +3,17 @@
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::sparse::linalg::amd;
+use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 
+use super::dense::is_vanishing;
 use super::forest::{NONE, postordered};
-use super::system::Kernel;
+use super::system::{Kernel, Outcome};
 use crate::Matrix;
 
 /// Cholesky's method in an order of the whole matrix, by supernodes where these are large.
@@ -59,13 +61,36 @@ impl<'a> SparseCholesky<'a> {
             .ok()?;
         Some(symbolic)
     }
+
+    fn is_singular(&self, symbolic: &SymbolicCholesky<usize>) -> bool {
+        let is_vanishing = |k: usize, l: f64| {
+            let j = self.free[k];
+            is_vanishing(l, self.m[(j, j)])
+        };
+        match symbolic.raw() {
+            SymbolicCholeskyRaw::Simplicial(symbolic) => {
+                let starts = symbolic.col_ptr().iter().take(self.free.len());
+                starts.enumerate().any(|(k, &start)| is_vanishing(k, self.values[start]))
+            }
+            SymbolicCholeskyRaw::Supernodal(symbolic) => {
+                let factor = SupernodalLltRef::new(symbolic, &self.values);
+                (0..symbolic.n_supernodes()).any(|s| {
+                    let node = factor.supernode(s);
+                    let l = node.val();
+                    (0..l.ncols()).any(|k| is_vanishing(node.start() + k, l[(k, k)]))
+                })
+            }
+        }
+    }
 }
 
 impl Kernel for SparseCholesky<'_> {
-    fn factorise(&mut self, is_free: &[bool]) -> bool {
+    fn factorise(&mut self, is_free: &[bool]) -> Outcome {
         self.symbolic = None;
-        self.symbolic = self.factorised(is_free);
-        self.symbolic.is_some()
+        let Some(symbolic) = self.factorised(is_free) else { return Outcome::Unsuited };
+        let is_singular = self.is_singular(&symbolic);
+        self.symbolic = Some(symbolic);
+        if is_singular { Outcome::Singular } else { Outcome::Regular }
     }
 
     fn solve(&mut self, x: &mut [f64]) {

@@ -3,7 +3,7 @@
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{Mat, MatMut, Side};
 
-use super::system::Kernel;
+use super::system::{Kernel, Outcome, VANISHING};
 use crate::Matrix;
 use crate::linear::Lu;
 use crate::scaling::{GIVEN, equilibrate};
@@ -22,12 +22,17 @@ impl<'a> DenseCholesky<'a> {
 }
 
 impl Kernel for DenseCholesky<'_> {
-    fn factorise(&mut self, is_free: &[bool]) -> bool {
+    fn factorise(&mut self, is_free: &[bool]) -> Outcome {
         self.free = indices(is_free);
         let free = &self.free;
         let block = Mat::from_fn(free.len(), free.len(), |i, j| self.m[(free[i], free[j])]);
         self.factor = Llt::new(block.as_ref(), Side::Lower).ok();
-        self.factor.is_some()
+        let Some(factor) = &self.factor else { return Outcome::Unsuited };
+        let l = factor.L();
+        if (0..free.len()).any(|k| is_vanishing(l[(k, k)], block[(k, k)])) {
+            return Outcome::Singular;
+        }
+        Outcome::Regular
     }
 
     fn solve(&mut self, x: &mut [f64]) {
@@ -55,13 +60,13 @@ impl<'a> DenseLu<'a> {
 }
 
 impl Kernel for DenseLu<'_> {
-    fn factorise(&mut self, is_free: &[bool]) -> bool {
+    fn factorise(&mut self, is_free: &[bool]) -> Outcome {
         self.free = indices(is_free);
         let (free, (rows, cols)) = (&self.free, &self.scales);
         let entry = |i: usize, j: usize| rows[i] * self.m[(i, j)] * cols[j];
         let block = Mat::from_fn(free.len(), free.len(), |i, j| entry(free[i], free[j]));
         self.factor = Lu::new(block.as_ref());
-        self.factor.is_some()
+        if self.factor.is_some() { Outcome::Regular } else { Outcome::Singular }
     }
 
     fn solve(&mut self, x: &mut [f64]) {
@@ -72,6 +77,13 @@ impl Kernel for DenseLu<'_> {
             self.free.iter().zip(packed).for_each(|(&i, v)| x[i] = cols[i] * v);
         }
     }
+}
+
+/// Whether a pivot, the square of a diagonal entry of `L`, is a rounding error against the diagonal entry of
+/// the matrix from which it comes.
+pub(super) fn is_vanishing(l: f64, diagonal: f64) -> bool {
+    let root = (VANISHING * diagonal).sqrt();
+    l.is_nan() || l <= root
 }
 
 /// Factors of rows and columns, powers of two, that bring the entries of a matrix near one.

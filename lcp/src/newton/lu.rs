@@ -1,7 +1,7 @@
 //! Sparse matrices of free sets that are not symmetric positive definite.
 
 use super::dense::scales;
-use super::system::Kernel;
+use super::system::{Kernel, Outcome, VANISHING};
 use crate::Matrix;
 use crate::sparse::{Columns, Growing, SparseLu, Turn, elimination_order, row_counts};
 
@@ -56,19 +56,18 @@ impl RestrictedLu {
 }
 
 impl Kernel for RestrictedLu {
-    fn factorise(&mut self, is_free: &[bool]) -> bool {
+    fn factorise(&mut self, is_free: &[bool]) -> Outcome {
         let block = self.block(is_free);
         let count = block.len();
-        let tolerance = 4.0 * count as f64 * f64::EPSILON;
         let mut growing = Growing::new(row_counts(count, &block));
         let turns = self.order.iter().filter(|turn| is_free[turn.column]);
         let is_regular = turns.into_iter().all(|turn| {
             let column = self.number[turn.column];
             let row = turn.row.filter(|&row| is_free[row]).map(|row| self.number[row]);
-            growing.offer(column, &block, Turn { column, row }, tolerance)
+            growing.offer(column, &block, Turn { column, row }, VANISHING)
         });
         self.factor = is_regular.then(|| growing.finish().0);
-        is_regular
+        if is_regular { Outcome::Regular } else { Outcome::Singular }
     }
 
     fn solve(&mut self, x: &mut [f64]) {

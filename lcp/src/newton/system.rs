@@ -14,12 +14,24 @@ const USABLE: f64 = 1e-6;
 /// Residuals that a step of refinement would not decrease.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 const REFINEMENTS: usize = 3;
+/// Pivots, and right-hand sides, below this relative to the terms that they come from are rounding errors.
+pub(super) const VANISHING: f64 = 1024.0 * f64::EPSILON;
+
+/// What came of a factorisation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Outcome {
+    /// Systems can be solved.
+    Regular,
+    /// The matrix is singular to working precision.
+    Singular,
+    /// This is not a matrix for this kind of factorisation.
+    Unsuited,
+}
 
 /// A factorisation of `M_FF`.
 pub(super) trait Kernel {
-    /// Factorises the matrix of some pairs, at least one. `false` where it is found to be singular, or, by
-    /// Cholesky's method, not positive definite.
-    fn factorise(&mut self, is_free: &[bool]) -> bool;
+    /// Factorises the matrix of some pairs, at least one.
+    fn factorise(&mut self, is_free: &[bool]) -> Outcome;
 
     /// Overwrites a right-hand side, zero for pairs that are not free, with the solution.
     fn solve(&mut self, x: &mut [f64]);
@@ -45,8 +57,8 @@ pub(super) struct System<'a> {
     is_z_matrix: bool,
     diagonal: Vec<f64>,
     kernel: Box<dyn Kernel + 'a>,
-    /// Whether the kernel takes any nonsingular matrix.
-    is_general: bool,
+    /// For what is not positive definite, made when there is such a thing.
+    general: Option<Box<dyn Kernel + 'a>>,
     factorisations: usize,
 }
 
@@ -65,7 +77,7 @@ impl<'a> System<'a> {
             is_z_matrix: (0..n).all(is_off_diagonal_nonpositive),
             diagonal: (0..n).map(|i| m[(i, i)]).collect(),
             kernel,
-            is_general: !is_symmetric,
+            general: None,
             factorisations: 0,
         }
     }
@@ -88,50 +100,24 @@ impl<'a> System<'a> {
 
     /// The point of a free set; none where its matrix is singular to working precision.
     pub(super) fn point(&mut self, is_free: &[bool]) -> Option<Point> {
-        if let Some(point) = self.try_point(is_free) {
-            return Some(point);
+        if !is_free.contains(&true) {
+            let z = vec![0.0; is_free.len()];
+            let image = Image::new(self.lcp, &z);
+            return Some(self.judged(is_free.to_vec(), z, image));
         }
-        if self.is_general {
+        let mut kernel = &mut self.kernel;
+        self.factorisations += 1;
+        let mut outcome = kernel.factorise(is_free);
+        if outcome == Outcome::Unsuited {
+            kernel = self.general.get_or_insert_with(|| general(self.lcp));
+            self.factorisations += 1;
+            outcome = kernel.factorise(is_free);
+        }
+        if outcome != Outcome::Regular {
             return None;
         }
-        // Symmetric, but not positive definite.
-        self.kernel = general(self.lcp);
-        self.is_general = true;
-        self.try_point(is_free)
-    }
-
-    fn try_point(&mut self, is_free: &[bool]) -> Option<Point> {
-        let mut z = vec![0.0; is_free.len()];
-        if is_free.contains(&true) {
-            self.factorisations += 1;
-            if !self.kernel.factorise(is_free) {
-                return None;
-            }
-            free_entries(&mut z, self.lcp.q(), is_free);
-            self.kernel.solve(&mut z);
-        }
-        let mut image = Image::new(self.lcp, &z);
-        let mut error = image.error(is_free);
-        for _ in 0..REFINEMENTS {
-            if error <= ROUNDING || !error.is_finite() {
-                break;
-            }
-            let mut step = vec![0.0; z.len()];
-            free_entries(&mut step, &image.w, is_free);
-            self.kernel.solve(&mut step);
-            step.iter_mut().zip(&z).for_each(|(step, z)| *step += z);
-            let refined = Image::new(self.lcp, &step);
-            let refined_error = refined.error(is_free);
-            if refined_error >= error {
-                break;
-            }
-            let is_settled = refined_error > 0.5 * error;
-            (z, image, error) = (step, refined, refined_error);
-            if is_settled {
-                break;
-            }
-        }
-        (error <= USABLE).then(|| self.judged(is_free.to_vec(), z, image))
+        let (z, image) = solved(self.lcp, kernel.as_mut(), is_free)?;
+        Some(self.judged(is_free.to_vec(), z, image))
     }
 
     fn judged(&self, is_free: Vec<bool>, mut z: Vec<f64>, image: Image) -> Point {
@@ -159,12 +145,49 @@ impl<'a> System<'a> {
     }
 }
 
+/// `M_FF z_F = -q_F`, with refinement; none where it cannot be solved.
+fn solved(lcp: &Lcp, kernel: &mut dyn Kernel, is_free: &[bool]) -> Option<(Vec<f64>, Image)> {
+    let mut z = vec![0.0; is_free.len()];
+    free_entries(&mut z, lcp.q(), is_free);
+    kernel.solve(&mut z);
+    let mut image = Image::new(lcp, &z);
+    let mut error = image.error(is_free);
+    for _ in 0..REFINEMENTS {
+        if error <= ROUNDING || !error.is_finite() {
+            break;
+        }
+        let mut refined = vec![0.0; z.len()];
+        free_entries(&mut refined, &image.w, is_free);
+        kernel.solve(&mut refined);
+        refined.iter_mut().zip(&z).for_each(|(refined, z)| *refined += z);
+        let refined_image = Image::new(lcp, &refined);
+        let refined_error = refined_image.error(is_free);
+        let is_settled = refined_error > 0.5 * error;
+        if refined_error < error {
+            (z, image, error) = (refined, refined_image, refined_error);
+        }
+        if is_settled {
+            break;
+        }
+    }
+    let is_solved = error <= USABLE && !is_in_kernel(lcp, is_free, &image.size);
+    is_solved.then_some((z, image))
+}
+
 fn general<'a>(lcp: &'a Lcp) -> Box<dyn Kernel + 'a> {
     if lcp.m().is_sparse() {
         Box::new(RestrictedLu::new(lcp.m()))
     } else {
         Box::new(DenseLu::new(lcp.m()))
     }
+}
+
+/// Whether `q` has no share in the equations of a solution: then that is in the kernel of `M_FF`, for which
+/// a factorisation does not always find a vanishing pivot.
+fn is_in_kernel(lcp: &Lcp, is_free: &[bool], size: &[f64]) -> bool {
+    let mut rows = lcp.q().iter().zip(size).zip(is_free).filter(|(_, is_free)| **is_free);
+    lcp.q().iter().zip(is_free).any(|(q, is_free)| *is_free && *q != 0.0)
+        && rows.all(|((q, size), _)| q.abs() <= VANISHING * size)
 }
 
 /// Minus the entries of the free pairs.
