@@ -102,7 +102,7 @@ impl SemismoothNewtonSettings {
 /// has no positive entry off its diagonal, else those with `q < 0`.
 ///
 /// References: Hintermüller, Ito, Kunisch, SIAM J. Optim. 13 (2003), doi:10.1137/S1052623401383558;
-/// Júdice, Pires, Computers & Operations Research 21 (1994), doi:10.1016/0305-0548(94)90106-6;
+/// Júdice, Pires, Computers & Operations Research 21 (1994);
 /// Murty, Linear Algebra and its Applications 9 (1974); Chandrasekaran, Opsearch 7 (1970).
 ///
 /// ```
