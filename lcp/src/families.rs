@@ -6,7 +6,7 @@
 //!
 //! | family | class | what the theory says of Lemke's method |
 //! |---|---|---|
-//! | [`positive_definite`], [`harker_pang`], [`obstacle`] | positive definite | solves, unique |
+//! | [`positive_definite`], [`harker_pang`], [`obstacle()`], [`Obstacle`] | positive definite | solves, unique |
 //! | [`p_matrix`], [`murty`], [`fathi`], [`kostreva_1`] | P | solves, unique |
 //! | [`positive_semidefinite`], [`ties`], [`horizontal_monotone`], [`mixed_monotone`] | monotone | solves when feasible |
 //! | [`strictly_copositive`] | strictly copositive | solves |
@@ -28,11 +28,13 @@
 
 mod horizontal;
 mod mixed;
+mod obstacle;
 mod standard;
 mod textbook;
 
 pub use horizontal::{horizontal_monotone, horizontal_singular, infeasible};
 pub use mixed::{mixed_monotone, mixed_singular};
+pub use obstacle::{Ground, Obstacle};
 pub use standard::{
     bimatrix, copositive_plus, harker_pang, infeasible_semidefinite, p_matrix, positive_definite,
     positive_semidefinite, strictly_copositive, ties,

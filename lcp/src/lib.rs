@@ -48,6 +48,7 @@ pub mod io;
 mod lemke;
 mod linear;
 mod matrix;
+mod newton;
 mod problem;
 mod random;
 mod residual;
@@ -67,6 +68,7 @@ pub use lemke::{
     ParametricSettings, Progress,
 };
 pub use matrix::Matrix;
+pub use newton::{SemismoothNewton, SemismoothNewtonSettings};
 pub use problem::{
     BoxedLcp, Contact2d, ContactForces, ContactState, ErrorBound, Friction2d, HorizontalLcp, Lcp,
     MixedLcp, Monotonicity, StandardForm,

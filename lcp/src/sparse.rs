@@ -6,7 +6,7 @@ mod order;
 
 pub(crate) use lu::{Growing, SparseLu, row_counts};
 pub(crate) use multifrontal::Multifrontal;
-pub(crate) use order::elimination_order;
+pub(crate) use order::{Turn, elimination_order};
 
 /// Columns of nonzero entries, one after the other.
 #[derive(Debug, Clone)]

@@ -1,0 +1,335 @@
+//! A primal-dual active set method, which is a semismooth Newton method, with a safeguard.
+
+mod cholesky;
+mod dense;
+mod exchange;
+mod forest;
+mod lu;
+mod system;
+
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+use crate::problem::{check_length, check_vector, max_abs};
+use crate::solve::Monitor;
+use crate::{
+    Basis, Error, HorizontalLcp, Iteration, Lcp, Residuals, Side, Solution, Solver, Status,
+    WarmStart,
+};
+use exchange::{Exchanges, Next};
+use system::{Point, System};
+
+/// Settings of [`SemismoothNewton`].
+///
+/// ```
+/// use lcp::{SemismoothNewton, SemismoothNewtonSettings};
+/// let settings = SemismoothNewtonSettings { max_iterations: 50, ..Default::default() };
+/// let solver = SemismoothNewton::new(settings);
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct SemismoothNewtonSettings {
+    /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`. The method ends with
+    /// the signs of all variables right to rounding errors, whatever the tolerance; only where they
+    /// cannot be told from rounding errors it is satisfied with the tolerance.
+    pub tolerance: f64,
+    /// Exchanges of pairs between the sets, each followed by a factorisation.
+    pub max_iterations: usize,
+    /// Wall-clock time, looked at before every exchange; `None` is no limit.
+    pub time_limit: Option<Duration>,
+    /// Which `z` are free at the start: those that are basic. Where the matrix of the free ones is
+    /// singular the method starts from its own.
+    pub start: WarmStart,
+}
+
+impl Default for SemismoothNewtonSettings {
+    fn default() -> Self {
+        Self { tolerance: 1e-10, max_iterations: 1000, time_limit: None, start: WarmStart::None }
+    }
+}
+
+impl SemismoothNewtonSettings {
+    /// Checks the settings for a problem of order `n`.
+    ///
+    /// # Errors
+    /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
+    pub fn validate(&self, n: usize) -> Result<(), Error> {
+        let tolerance = self.tolerance;
+        if !(tolerance > 0.0 && tolerance < 1.0) {
+            let range = "between 0 and 1";
+            return Err(Error::Setting { name: "tolerance", value: tolerance, range });
+        }
+        match &self.start {
+            WarmStart::None => Ok(()),
+            WarmStart::Basis(basis) => check_length("start", basis.len(), n),
+            WarmStart::Point { t, y } => {
+                [("start.t", t), ("start.y", y)].into_iter().try_for_each(|(name, v)| {
+                    check_length(name, v.len(), n)?;
+                    check_vector(name, v)
+                })
+            }
+        }
+    }
+}
+
+/// The primal-dual active set method for `w = M z + q`, `z >= 0`, `w >= 0`, `z.w = 0`.
+///
+/// Of every pair one variable is zero. The method solves `M_FF z_F = -q_F` for the free `z`, computes
+/// the other `w`, and exchanges all pairs whose variable came out negative, until there is none: Newton's
+/// method for `min(z, w) = 0`, which ends with the exact solution after finitely many steps. A
+/// symmetric positive definite `M_FF` is factorised by Cholesky's method, any other one by LU, dense or
+/// sparse as `M` is. The fill-reducing order of a sparse matrix is computed once and restricted to
+/// every free set. Every solve is followed by a step of iterative refinement.
+///
+/// Where the number of negative variables has not decreased for some steps, or a free set comes back,
+/// only half as many pairs are exchanged, those with the least index, and so on down to single ones,
+/// until that number is less than ever before (Júdice and Pires 1994, after Murty 1974).
+///
+/// * M-matrices (obstacle problems, no entry positive off the diagonal): converges from every start,
+///   and monotonically after the first step (Hintermüller, Ito and Kunisch 2003). From a start that is
+///   off by so many layers of a grid it takes about as many steps;
+///   [`families::Obstacle`](crate::families::Obstacle) gives good ones by nested grids.
+/// * Other matrices without a positive entry off the diagonal: solves whenever the problem is feasible,
+///   if need be anew from the pairs with `q < 0` (Chandrasekaran 1970).
+/// * P-matrices (positive definite ones in particular): the safeguard makes it finite; in the worst
+///   case exponentially many steps.
+/// * Others with a positive diagonal: often solves, without a guarantee. The status is then
+///   [`Cycling`](Status::Cycling), [`Stalled`](Status::Stalled) where every next matrix is singular, or
+///   one of the limits. Friction makes it cycle.
+/// * A diagonal entry that is not positive, and a general problem that is not a standard one in disguise
+///   ([`HorizontalLcp::to_standard`]): refused.
+///
+/// A step costs a factorisation of `M_FF`. Without a start the first free set has all pairs where `M`
+/// has no positive entry off its diagonal, else those with `q < 0`.
+///
+/// References: Hintermüller, Ito, Kunisch, SIAM J. Optim. 13 (2003), doi:10.1137/S1052623401383558;
+/// Júdice, Pires, Computers & Operations Research 21 (1994);
+/// Murty, Linear Algebra and its Applications 9 (1974); Chandrasekaran, Opsearch 7 (1970).
+///
+/// ```
+/// use faer::mat;
+/// use lcp::{Lcp, SemismoothNewton};
+/// let lcp = Lcp::new(mat![[2.0, 1.0], [1.0, 2.0]], vec![-5.0, -6.0])?;
+/// let solution = SemismoothNewton::default()
+///     .solve_observed(&lcp, &mut |_| std::ops::ControlFlow::Continue(()))?;
+/// assert!(solution.is_solved());
+/// assert!((solution.t[0] - 4.0 / 3.0).abs() < 1e-15);
+/// # Ok::<(), lcp::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SemismoothNewton {
+    settings: SemismoothNewtonSettings,
+}
+
+impl SemismoothNewton {
+    /// The name of the method.
+    pub const NAME: &'static str = "semismooth Newton";
+
+    /// A solver with these settings.
+    pub fn new(settings: SemismoothNewtonSettings) -> Self {
+        Self { settings }
+    }
+
+    /// The settings.
+    pub fn settings(&self) -> &SemismoothNewtonSettings {
+        &self.settings
+    }
+
+    /// Solves a problem and tells the observer about every step.
+    ///
+    /// # Errors
+    /// [`Error::NotTreated`] for a diagonal entry of `M` that is not positive, and errors of the settings.
+    pub fn solve_observed(
+        &self,
+        lcp: &Lcp,
+        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Solution, Error> {
+        self.solve_judged(lcp, observer, |z, w| {
+            let problem: HorizontalLcp = lcp.clone().into();
+            ((z.to_vec(), w.to_vec()), problem.residuals(z, w))
+        })
+    }
+
+    /// `judge` turns `(z, w)` into a point of the problem as it was given, with its residuals.
+    fn solve_judged(
+        &self,
+        lcp: &Lcp,
+        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+        judge: impl Fn(&[f64], &[f64]) -> ((Vec<f64>, Vec<f64>), Residuals),
+    ) -> Result<Solution, Error> {
+        let settings = &self.settings;
+        settings.validate(lcp.order())?;
+        check_diagonal(lcp)?;
+        let mut monitor = Monitor::new(settings.max_iterations, settings.time_limit, observer);
+        let mut system = System::new(lcp);
+        let (status, best) = self.run(lcp, &mut system, &mut monitor);
+        let Point { z, w, is_free, .. } = best;
+        let clipped = |v: &[f64]| v.iter().map(|v| v.max(0.0)).collect::<Vec<_>>();
+        let (mut point, mut residuals) = judge(&clipped(&z), &clipped(&w));
+        if residuals.worst() > settings.tolerance {
+            (point, residuals) = judge(&z, &w);
+        }
+        let mut solution = Solution::judged(point, residuals, settings.tolerance, status);
+        solution.basis = Some(basis_of(&is_free));
+        solution.info.solver = Self::NAME;
+        solution.info.iterations = monitor.iterations();
+        solution.info.factorisations = system.factorisations();
+        solution.info.seconds = monitor.seconds();
+        solution.info.history = monitor.history;
+        Ok(solution)
+    }
+
+    /// The status if the residuals of the point, the best that was met, are not small.
+    fn run(
+        &self,
+        lcp: &Lcp,
+        system: &mut System<'_>,
+        monitor: &mut Monitor<'_>,
+    ) -> (Status, Point) {
+        let point = self.first_point(lcp, system);
+        let (status, best) = self.iterate(system, point, monitor);
+        let is_stuck = matches!(status, Status::Cycling | Status::Stalled);
+        if !is_stuck || !system.is_z_matrix() || best.residual <= self.settings.tolerance {
+            return (status, best);
+        }
+        // The one start that solves every feasible problem with such a matrix.
+        match system.point(&pushed(lcp)) {
+            Some(point) => {
+                let (status, again) = self.iterate(system, point, monitor);
+                (status, if again.residual < best.residual { again } else { best })
+            }
+            None => (status, best),
+        }
+    }
+
+    fn iterate(
+        &self,
+        system: &mut System<'_>,
+        mut point: Point,
+        monitor: &mut Monitor<'_>,
+    ) -> (Status, Point) {
+        let mut best = point.clone();
+        let mut exchanges = Exchanges::new(system.is_z_matrix());
+        loop {
+            if point.residual < best.residual {
+                best.clone_from(&point);
+            }
+            let stopped = monitor.stop(point.residual);
+            if point.violated.is_empty() {
+                return (Status::NumericalTrouble, point);
+            }
+            if let Some(status) = stopped {
+                return (status, best);
+            }
+            let is_within = best.residual <= self.settings.tolerance;
+            let count = match exchanges.next(point.hash, point.violated.len()) {
+                // The signs that are left cannot be told from rounding errors.
+                Next::Fewer(_) | Next::Cycle if is_within => return (Status::Stalled, best),
+                Next::Exchange(count) | Next::Fewer(count) => count,
+                Next::Cycle => return (Status::Cycling, best),
+            };
+            // Where all of them make the matrix singular, fewer may not.
+            let counts = std::iter::successors(Some(count), |count| Some(count / 2));
+            let mut points = counts.take_while(|count| *count > 0);
+            match points.find_map(|count| system.exchanged(&point, count)) {
+                Some(next) => point = next,
+                None => return (Status::Stalled, best),
+            }
+        }
+    }
+
+    fn first_point(&self, lcp: &Lcp, system: &mut System<'_>) -> Point {
+        let n = lcp.order();
+        let given = match &self.settings.start {
+            WarmStart::None => None,
+            WarmStart::Basis(basis) => {
+                Some(basis.sides().iter().map(|side| *side == Side::T).collect())
+            }
+            WarmStart::Point { t, y } => Some(larger(t, y)),
+        };
+        let all = system.is_z_matrix().then(|| vec![true; n]);
+        let starts = given.into_iter().chain(all);
+        let starts = starts.chain([pushed(lcp), vec![false; n]]);
+        let mut points = starts.filter_map(|is_free| system.point(&is_free));
+        points.next().unwrap_or_else(|| unreachable!("without free variables nothing is solved"))
+    }
+}
+
+/// The pairs whose `w` is negative at `z = 0`.
+fn pushed(lcp: &Lcp) -> Vec<bool> {
+    lcp.q().iter().map(|q| *q < 0.0).collect()
+}
+
+/// Where `t` is the larger one of the pair, each in units of the largest of its vector.
+fn larger(t: &[f64], y: &[f64]) -> Vec<bool> {
+    let unit = |v: &[f64]| Some(max_abs(v)).filter(|max| *max > 0.0).unwrap_or(1.0);
+    let (t_unit, y_unit) = (unit(t), unit(y));
+    t.iter().zip(y).map(|(t, y)| t / t_unit > y / y_unit).collect()
+}
+
+fn basis_of(is_free: &[bool]) -> Basis {
+    Basis::new(is_free.iter().map(|&it| if it { Side::T } else { Side::Y }).collect())
+}
+
+fn check_diagonal(lcp: &Lcp) -> Result<(), Error> {
+    let not_positive = |i: &usize| lcp.m()[(*i, *i)] <= 0.0;
+    match (0..lcp.order()).find(not_positive) {
+        None => Ok(()),
+        Some(i) => Err(Error::NotTreated {
+            solver: SemismoothNewton::NAME,
+            reason: format!(
+                "M[{i}, {i}] is {}, but every diagonal entry must be positive: take Lemke",
+                lcp.m()[(i, i)]
+            ),
+        }),
+    }
+}
+
+impl Solver<Lcp> for SemismoothNewton {
+    fn name(&self) -> &'static str {
+        Self::NAME
+    }
+
+    fn solve(&self, problem: &Lcp) -> Result<Solution, Error> {
+        self.solve_observed(problem, &mut |_| ControlFlow::Continue(()))
+    }
+}
+
+/// Problems that are standard ones in disguise ([`HorizontalLcp::to_standard`]).
+impl Solver<HorizontalLcp> for SemismoothNewton {
+    fn name(&self) -> &'static str {
+        Self::NAME
+    }
+
+    fn solve(&self, problem: &HorizontalLcp) -> Result<Solution, Error> {
+        let settings = &self.settings;
+        settings.validate(problem.order())?;
+        let standard = problem.to_standard().ok_or_else(|| Error::NotTreated {
+            solver: Self::NAME,
+            reason:
+                "it is not a standard problem in disguise, with a column of one entry in every \
+                     pair, all in different rows: take Lemke"
+                    .to_owned(),
+        })?;
+        let exchanged = |basis: &Basis| {
+            let indicator = |it| basis.sides().iter().map(|s| f64::from(*s == it)).collect();
+            let (t, y): (Vec<f64>, Vec<f64>) = (indicator(Side::T), indicator(Side::Y));
+            let (z, w) = standard.from_pairs(&t, &y);
+            basis_of(&larger(&z, &w))
+        };
+        let start = match &settings.start {
+            WarmStart::None => WarmStart::None,
+            WarmStart::Basis(basis) => WarmStart::Basis(exchanged(basis)),
+            // In units of the vectors of the problem as it was given.
+            WarmStart::Point { t, y } => WarmStart::Basis(exchanged(&basis_of(&larger(t, y)))),
+        };
+        let inner = Self::new(SemismoothNewtonSettings { start, ..settings.clone() });
+        let observer = &mut |_: &Iteration| ControlFlow::Continue(());
+        let mut solution = inner.solve_judged(standard.lcp(), observer, |z, w| {
+            let (t, y) = standard.to_pairs(z, w);
+            let residuals = problem.residuals(&t, &y);
+            ((t, y), residuals)
+        })?;
+        solution.basis = solution.basis.as_ref().map(exchanged);
+        Ok(solution)
+    }
+}

@@ -1,0 +1,232 @@
+//! The points that belong to free sets.
+
+use super::cholesky::SparseCholesky;
+use super::dense::{DenseCholesky, DenseLu};
+use super::lu::RestrictedLu;
+use crate::Lcp;
+use crate::problem::max_abs;
+use crate::random::SplitMix;
+
+/// Signs below this, relative to the terms of their row, are rounding errors.
+const NOISE: f64 = 64.0 * f64::EPSILON;
+/// Largest residual, relative to the terms of its row, of a system that counts as solved.
+const USABLE: f64 = 1e-6;
+/// Residuals that a step of refinement would not decrease.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+const REFINEMENTS: usize = 3;
+/// Pivots, and right-hand sides, below this relative to the terms that they come from are rounding errors.
+pub(super) const VANISHING: f64 = 1024.0 * f64::EPSILON;
+
+/// What came of a factorisation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Outcome {
+    /// Systems can be solved.
+    Regular,
+    /// The matrix is singular to working precision.
+    Singular,
+    /// This is not a matrix for this kind of factorisation.
+    Unsuited,
+}
+
+/// A factorisation of `M_FF`.
+pub(super) trait Kernel {
+    /// Factorises the matrix of some pairs, at least one.
+    fn factorise(&mut self, is_free: &[bool]) -> Outcome;
+
+    /// Overwrites a right-hand side, zero for pairs that are not free, with the solution.
+    fn solve(&mut self, x: &mut [f64]);
+}
+
+/// A complementary point: `z` is free for some pairs, `w` for the others.
+#[derive(Debug, Clone)]
+pub(super) struct Point {
+    pub(super) is_free: Vec<bool>,
+    pub(super) z: Vec<f64>,
+    pub(super) w: Vec<f64>,
+    /// Pairs with a negative variable, in ascending order.
+    pub(super) violated: Vec<usize>,
+    /// The most negative variable, in units of the largest of its vector.
+    pub(super) residual: f64,
+    /// Of the free set.
+    pub(super) hash: u64,
+}
+
+/// The problem, with a factorisation for its free sets.
+pub(super) struct System<'a> {
+    lcp: &'a Lcp,
+    is_z_matrix: bool,
+    diagonal: Vec<f64>,
+    kernel: Box<dyn Kernel + 'a>,
+    /// For what is not positive definite, made when there is such a thing.
+    general: Option<Box<dyn Kernel + 'a>>,
+    factorisations: usize,
+}
+
+impl<'a> System<'a> {
+    pub(super) fn new(lcp: &'a Lcp) -> Self {
+        let (m, n) = (lcp.m(), lcp.order());
+        let is_off_diagonal_nonpositive = |j: usize| m.column(j).all(|(i, v)| i == j || v <= 0.0);
+        let is_symmetric = m.check_symmetric("M").is_ok();
+        let kernel: Box<dyn Kernel + 'a> = match (is_symmetric, m.is_sparse()) {
+            (true, true) => Box::new(SparseCholesky::new(m)),
+            (true, false) => Box::new(DenseCholesky::new(m)),
+            (false, _) => general(lcp),
+        };
+        Self {
+            lcp,
+            is_z_matrix: (0..n).all(is_off_diagonal_nonpositive),
+            diagonal: (0..n).map(|i| m[(i, i)]).collect(),
+            kernel,
+            general: None,
+            factorisations: 0,
+        }
+    }
+
+    /// Whether no entry off the diagonal is positive.
+    pub(super) fn is_z_matrix(&self) -> bool {
+        self.is_z_matrix
+    }
+
+    pub(super) fn factorisations(&self) -> usize {
+        self.factorisations
+    }
+
+    /// The point after the exchange of so many of the pairs with a negative variable, the first ones.
+    pub(super) fn exchanged(&mut self, point: &Point, count: usize) -> Option<Point> {
+        let mut is_free = point.is_free.clone();
+        point.violated.iter().take(count).for_each(|&i| is_free[i] = !is_free[i]);
+        self.point(&is_free)
+    }
+
+    /// The point of a free set; none where its matrix is singular to working precision.
+    pub(super) fn point(&mut self, is_free: &[bool]) -> Option<Point> {
+        if !is_free.contains(&true) {
+            let z = vec![0.0; is_free.len()];
+            let image = Image::new(self.lcp, &z);
+            return Some(self.judged(is_free.to_vec(), z, image));
+        }
+        let mut kernel = &mut self.kernel;
+        self.factorisations += 1;
+        let mut outcome = kernel.factorise(is_free);
+        if outcome == Outcome::Unsuited {
+            kernel = self.general.get_or_insert_with(|| general(self.lcp));
+            self.factorisations += 1;
+            outcome = kernel.factorise(is_free);
+        }
+        if outcome != Outcome::Regular {
+            return None;
+        }
+        let (z, image) = solved(self.lcp, kernel.as_mut(), is_free)?;
+        Some(self.judged(is_free.to_vec(), z, image))
+    }
+
+    fn judged(&self, is_free: Vec<bool>, mut z: Vec<f64>, image: Image) -> Point {
+        let Image { mut w, size } = image;
+        let (mut violated, mut hash) = (Vec::new(), 0);
+        for i in 0..z.len() {
+            let value = if is_free[i] {
+                hash ^= SplitMix::new(i as u64).next_u64();
+                w[i] = 0.0;
+                z[i] * self.diagonal[i]
+            } else {
+                w[i]
+            };
+            if value < -NOISE * size[i] {
+                violated.push(i);
+            } else if value < 0.0 {
+                (z[i], w[i]) = (0.0, 0.0);
+            }
+        }
+        let (z_max, w_max) = (max_abs(&z), max_abs(&w));
+        let residual = violated.iter().fold(0.0_f64, |worst, &i| {
+            worst.max(if is_free[i] { -z[i] / z_max } else { -w[i] / w_max })
+        });
+        Point { is_free, z, w, violated, residual, hash }
+    }
+}
+
+/// `M_FF z_F = -q_F`, with refinement; none where it cannot be solved.
+fn solved(lcp: &Lcp, kernel: &mut dyn Kernel, is_free: &[bool]) -> Option<(Vec<f64>, Image)> {
+    let mut z = vec![0.0; is_free.len()];
+    free_entries(&mut z, lcp.q(), is_free);
+    kernel.solve(&mut z);
+    let mut image = Image::new(lcp, &z);
+    let mut error = image.error(is_free);
+    for _ in 0..REFINEMENTS {
+        if error <= ROUNDING || !error.is_finite() {
+            break;
+        }
+        let mut refined = vec![0.0; z.len()];
+        free_entries(&mut refined, &image.w, is_free);
+        kernel.solve(&mut refined);
+        refined.iter_mut().zip(&z).for_each(|(refined, z)| *refined += z);
+        let refined_image = Image::new(lcp, &refined);
+        let refined_error = refined_image.error(is_free);
+        let is_settled = refined_error > 0.5 * error;
+        if refined_error < error {
+            (z, image, error) = (refined, refined_image, refined_error);
+        }
+        if is_settled {
+            break;
+        }
+    }
+    let is_solved = error <= USABLE && !is_in_kernel(lcp, is_free, &image.size);
+    is_solved.then_some((z, image))
+}
+
+fn general<'a>(lcp: &'a Lcp) -> Box<dyn Kernel + 'a> {
+    if lcp.m().is_sparse() {
+        Box::new(RestrictedLu::new(lcp.m()))
+    } else {
+        Box::new(DenseLu::new(lcp.m()))
+    }
+}
+
+/// Whether `q` has no share in the equations of a solution: then that is in the kernel of `M_FF`, for which
+/// a factorisation does not always find a vanishing pivot.
+fn is_in_kernel(lcp: &Lcp, is_free: &[bool], size: &[f64]) -> bool {
+    let mut rows = lcp.q().iter().zip(size).zip(is_free).filter(|(_, is_free)| **is_free);
+    lcp.q().iter().zip(is_free).any(|(q, is_free)| *is_free && *q != 0.0)
+        && rows.all(|((q, size), _)| q.abs() <= VANISHING * size)
+}
+
+/// Minus the entries of the free pairs.
+fn free_entries(out: &mut [f64], v: &[f64], is_free: &[bool]) {
+    for ((out, v), is_free) in out.iter_mut().zip(v).zip(is_free) {
+        *out = if *is_free { -v } else { 0.0 };
+    }
+}
+
+/// `w = M z + q`, and the sums of the sizes of its terms.
+struct Image {
+    w: Vec<f64>,
+    size: Vec<f64>,
+}
+
+impl Image {
+    fn new(lcp: &Lcp, z: &[f64]) -> Self {
+        let mut w = lcp.q().to_vec();
+        let mut size: Vec<f64> = w.iter().map(|q| q.abs()).collect();
+        for (j, &z) in z.iter().enumerate().filter(|(_, z)| **z != 0.0) {
+            lcp.m().slice(j).for_each(|i, v| {
+                w[i] += v * z;
+                size[i] += (v * z).abs();
+            });
+        }
+        Self { w, size }
+    }
+
+    /// The largest `|w_i|` of a free pair, relative to its terms; not finite where a `w` is not.
+    fn error(&self, is_free: &[bool]) -> f64 {
+        let mut worst = 0.0_f64;
+        for ((w, size), is_free) in self.w.iter().zip(&self.size).zip(is_free) {
+            if !w.is_finite() || !size.is_finite() {
+                return f64::INFINITY;
+            }
+            if *is_free && *size > 0.0 {
+                worst = worst.max(w.abs() / size);
+            }
+        }
+        worst
+    }
+}
