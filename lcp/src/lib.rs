@@ -47,6 +47,7 @@ pub mod io;
 mod lemke;
 mod linear;
 mod matrix;
+mod pgs;
 mod problem;
 mod random;
 mod residual;
@@ -65,6 +66,10 @@ pub use lemke::{
     ParametricSettings, Progress,
 };
 pub use matrix::Matrix;
+pub use pgs::{
+    Constraint, MatrixRows, ProjectedGaussSeidel, ProjectedGaussSeidelSettings, Rows, RowsSolution,
+    SweepOrder, Sweepable,
+};
 pub use problem::{
     BoxedLcp, Contact2d, ContactForces, ContactState, ErrorBound, Friction2d, HorizontalLcp, Lcp,
     MixedLcp, Monotonicity, StandardForm,
