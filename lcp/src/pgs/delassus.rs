@@ -97,6 +97,17 @@ impl Compliance {
         self.bodies.iter().for_each(|body| body.solve(&mut u));
         u
     }
+
+    /// The displacements `u` that belong to `free` ones without contact and to the forces `z`, those put to
+    /// zero that cancel to `tolerance` of their parts.
+    pub(super) fn cleared(&self, u: &[f64], free: &[f64], z: &[f64], tolerance: f64) -> Vec<f64> {
+        let mut sizes: Vec<f64> = free.iter().map(|u| u.abs()).collect();
+        for (row, z) in z.iter().enumerate().filter(|(_, z)| **z != 0.0) {
+            self.columns.entries(row).for_each(|(j, v)| sizes[j] += (v * z).abs());
+        }
+        let places = u.iter().zip(sizes);
+        places.map(|(&u, size)| if u.abs() <= tolerance * size { 0.0 } else { u }).collect()
+    }
 }
 
 impl<'a> Delassus<'a> {
