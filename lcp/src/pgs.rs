@@ -1,6 +1,7 @@
 //! Projected Gauss-Seidel sweeps.
 
 mod block;
+mod body;
 mod contact;
 mod coulomb;
 mod delassus;
@@ -35,7 +36,9 @@ use crate::{Error, Info, Iteration, Residuals, Solution, Solver, Status, WarmSta
 ///
 /// The end is decided by residuals, computed anew from the data of the user, of the point `z` with
 /// the part of `w` that its bounds allow: the point is always feasible and complementary, and all
-/// that is wrong with it stands in the equation. The best point that was met is returned.
+/// that is wrong with it stands in the equation. With [`Contact2d`](crate::Contact2d) it stands in the
+/// gaps and slips of the displacements that follow from the forces, or, where everything
+/// rests, in their equation. The best point that was met is returned.
 ///
 /// # Problems
 /// [`Lcp`](crate::Lcp); [`BoxedLcp`](crate::BoxedLcp) in the pairs of its general form;
@@ -46,11 +49,17 @@ use crate::{Error, Info, Iteration, Residuals, Solution, Solver, Status, WarmSta
 /// diagonal entries, else the answer is [`Error::NotTreated`].
 ///
 /// # Guarantee
-/// The sweeps converge, at the rate of a geometric series, for symmetric positive definite `M` with `omega`
-/// in `(0, 2)`, and for strictly diagonally dominant `M` with `omega` in `(0, 1]` (Cryer 1971; Cottle, Pang
-/// and Stone 1992, section 5.2). Symmetric positive semidefinite problems converge if they are
-/// strictly feasible, and contact without friction is of this kind. There is no guarantee with friction,
-/// nor for skew or indefinite parts: then the status may be [`Status::Stalled`].
+/// With positive diagonals the sweeps converge, like a geometric series, for symmetric positive definite
+/// `M` with `omega` in `(0, 2)`, and for strictly diagonally dominant `M` with `omega` in `(0, 1]`
+/// (Cryer 1971; Cottle, Pang and Stone 1992, section 5.2); for symmetric positive semidefinite `M` they do
+/// so if there is a solution (Luo and Tseng 1991). This holds for contact without friction.
+///
+/// # Failure
+/// There is no guarantee with friction, nor for skew or indefinite parts: the sweeps may go round in
+/// circles or grow, and end as [`Status::Stalled`]. Ill-conditioned problems are slow: long
+/// chains of bodies, large differences of mass or stiffness. Where there is no solution and `z` grows
+/// slowly, the residual, being relative to the terms of the rows, decreases like one over the number
+/// of sweeps.
 ///
 /// # Cost
 /// A sweep is one product with the matrix. Their number grows with the condition of `M`, for the five-point
@@ -60,6 +69,8 @@ use crate::{Error, Info, Iteration, Residuals, Solution, Solver, Status, WarmSta
 /// # References
 /// * C. W. Cryer, The solution of a quadratic programming problem using systematic overrelaxation, SIAM
 ///   Journal on Control 9 (1971), [doi:10.1137/0309028](https://doi.org/10.1137/0309028)
+/// * Z.-Q. Luo, P. Tseng, On the convergence of a matrix splitting algorithm for the symmetric monotone
+///   linear complementarity problem, SIAM Journal on Control and Optimization 29 (1991)
 /// * M. Jean, The non-smooth contact dynamics method, Computer Methods in Applied Mechanics and
 ///   Engineering 177 (1999), [doi:10.1016/S0045-7825(98)00383-1](https://doi.org/10.1016/S0045-7825(98)00383-1)
 /// * R. W. Cottle, J.-S. Pang, R. E. Stone, The Linear Complementarity Problem, 1992, chapter 5

@@ -349,7 +349,8 @@ fn where_it_cannot_converge_it_stalls() {
     let skew = Lcp::new(mat![[0.1, 4.0], [-4.0, 0.1]], vec![-1.0, 1.0]).unwrap();
     let growing = Lcp::new(mat![[1.0, -3.0], [-3.0, 1.0]], vec![-1.0, -1.0]).unwrap();
     for problem in [inconsistent, skew, growing] {
-        let solution = to(1e-8).solve(&problem).unwrap();
+        let settings = ProjectedGaussSeidelSettings { stall_window: Some(500), ..settings() };
+        let solution = ProjectedGaussSeidel::new(settings).solve(&problem).unwrap();
         check_honest(&solution, &problem.into(), 1e-8);
         assert_eq!(solution.status, Status::Stalled);
         assert!(solution.info.iterations < 10_000);

@@ -25,9 +25,9 @@ impl Sweepable for Contact2d {
         let q = layout.velocities(&free);
         let judged = |forces: &[f64]| {
             let u = compliance.displacements(self.loads(), forces);
-            // Where everything rests, gaps and slips have no unit but what is left of the displacements:
-            // so what cancels to the tolerance may be zero.
-            let rest = compliance.cleared(&u, &free, forces, solver.settings.tolerance);
+            // Where everything rests, gaps and slips have no unit but what is left of the displacements,
+            // which are then as well put to zero: the forces alone say how near that is.
+            let rest = compliance.at_rest(&u);
             let [moving, resting] = [u, rest].map(|u| {
                 let state = layout.state(u, forces);
                 let residuals = self.residuals(&state);

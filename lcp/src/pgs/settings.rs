@@ -55,8 +55,10 @@ pub struct ProjectedGaussSeidelSettings {
     /// repeats the last one. At least 1.
     pub residual_interval: usize,
     /// Sweeps after which the best residual must have decreased by the factor `stall_factor`, else the
-    /// status is [`Stalled`](crate::Status::Stalled). `None` is 500, or the number of rows where that is
-    /// more, since what one row says may take a sweep to get to the next. At least 1.
+    /// status is [`Stalled`](crate::Status::Stalled). `None` is 2000, or the number of rows where that is
+    /// more. What one row says spreads from row to row, so that the largest residual may stand still for a
+    /// while and decrease then: along a chain of `n` bodies it takes about `n^2` sweeps without
+    /// over-relaxation. At least 1.
     pub stall_window: Option<usize>,
     /// See `stall_window`. In `(0, 1]`.
     pub stall_factor: f64,

@@ -77,9 +77,12 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
         let mut stall = Stall::new(self.settings, self.z.len());
         let (mut sweep, mut change) = (0, f64::INFINITY);
         let mut residual = f64::INFINITY;
+        // Below which changes the residual may be small.
+        let mut small = tolerance;
         let (status, is_judged) = loop {
-            let is_due = sweep % residual_interval == 0 || change <= tolerance;
+            let is_due = sweep % residual_interval == 0 || change < small;
             if is_due {
+                small = small.min(0.5 * change);
                 let residuals = self.judged(judge, &mut best);
                 residual = residuals.map_or(residual, |residuals| residuals.worst());
                 if residuals.is_none() {
@@ -187,7 +190,7 @@ struct Stall {
 
 impl Stall {
     fn new(settings: &ProjectedGaussSeidelSettings, rows: usize) -> Self {
-        const LEAST: usize = 500;
+        const LEAST: usize = 2000;
         let window = settings.stall_window.unwrap_or(LEAST.max(rows));
         Self { window, factor: settings.stall_factor, since: 0, residual: f64::INFINITY }
     }

@@ -108,6 +108,45 @@ fn blocks_on_each_other() {
     }
 }
 
+/// Masses on top of each other, pushed to the side, come to rest: every contact carries what is above,
+/// and holds all pushes above. Without any displacement there is no length to measure gaps by.
+#[test]
+fn a_pile_comes_to_rest() {
+    const COUNT: usize = 12;
+    let n = 2 * COUNT;
+    let entry = |i: usize, j: usize, axis: usize| {
+        let (body, is_same) = (j / 2, j % 2 == axis);
+        if is_same && body == i {
+            1.0
+        } else if is_same && body + 1 == i {
+            -1.0
+        } else {
+            0.0
+        }
+    };
+    let masses = Mat::from_fn(n, n, |i, j| if i == j { 1.0 + (i / 2 % 3) as f64 } else { 0.0 });
+    let loads: Vec<f64> = (0..n).map(|j| if j % 2 == 0 { 0.1 } else { -1.0 }).collect();
+    let [tangent, normal] = [0, 1].map(|axis| Mat::from_fn(COUNT, n, |i, j| entry(i, j, axis)));
+    let none = || vec![0.0; COUNT];
+    let contact =
+        Contact2d::new(masses, loads, normal, tangent, none(), none(), vec![0.2; COUNT]).unwrap();
+    let above: Vec<f64> = (0..COUNT).map(|i| (COUNT - i) as f64).collect();
+    let pushes: Vec<f64> = above.iter().map(|above| -0.1 * above).collect();
+    for tolerance in [1e-4, 1e-8, 1e-12] {
+        let settings = ProjectedGaussSeidelSettings { tolerance, relaxation: 1.6, ..settings() };
+        let solution = ProjectedGaussSeidel::new(settings).solve(&contact).unwrap();
+        assert_eq!(solution.status, Status::Solved);
+        let state = contact.recover(&solution.t, &solution.y);
+        assert!(contact.residuals(&state).worst() <= tolerance);
+        assert!(state.u.iter().all(|u| u.abs() <= 0.0));
+        assert!(distance(&state.t_n, &above) <= 1e2 * tolerance);
+        assert!(distance(&state.t_t, &pushes) <= 1e2 * tolerance);
+        // It is the residual that decreases, not a threshold that is met.
+        let history = &solution.info.history;
+        assert!(history[history.len() / 2] <= 0.1);
+    }
+}
+
 /// An elastic chain of which every node may touch a floor, with friction at every other one.
 fn elastic(nodes: usize, q: &[f64]) -> Contact2d {
     let n = 2 * nodes;
