@@ -37,8 +37,8 @@ use crate::{Error, Info, Iteration, Residuals, Solution, Solver, Status, WarmSta
 /// The end is decided by residuals, computed anew from the data of the user, of the point `z` with
 /// the part of `w` that its bounds allow: the point is always feasible and complementary, and all
 /// that is wrong with it stands in the equation. With [`Contact2d`](crate::Contact2d) it stands in the
-/// gaps and slips of the displacements that follow from the forces, or, where everything
-/// rests, in their equation. The best point that was met is returned.
+/// gaps and slips of the displacements that follow from the forces. The best point that was met is
+/// returned.
 ///
 /// # Problems
 /// [`Lcp`](crate::Lcp); [`BoxedLcp`](crate::BoxedLcp) in the pairs of its general form;

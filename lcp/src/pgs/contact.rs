@@ -23,26 +23,17 @@ impl Sweepable for Contact2d {
         let compliance = Compliance::new(self.stiffness(), layout.rows()?)?;
         let free = compliance.displacements(self.loads(), &vec![0.0; layout.order]);
         let q = layout.velocities(&free);
-        let judged = |forces: &[f64]| {
-            let u = compliance.displacements(self.loads(), forces);
-            // Where everything rests, gaps and slips have no unit but what is left of the displacements,
-            // which are then as well put to zero: the forces alone say how near that is.
-            let rest = compliance.at_rest(&u);
-            let [moving, resting] = [u, rest].map(|u| {
-                let state = layout.state(u, forces);
-                let residuals = self.residuals(&state);
-                (state, residuals)
-            });
-            if resting.1.worst() < moving.1.worst() { resting } else { moving }
-        };
+        let state =
+            |forces: &[f64]| layout.state(compliance.displacements(self.loads(), forces), forces);
         let constraint = |&mu: &f64| {
             if mu > 0.0 { Constraint::Friction { mu } } else { Constraint::NONNEGATIVE }
         };
         let constraints: Vec<Constraint> = self.mu().iter().map(constraint).collect();
         let mut rows = Delassus::new(&compliance);
         let sweeps = Sweeps::new(&solver.settings, &mut rows, &q, &constraints, start)?;
-        let (best, status) = sweeps.run(&mut monitor, &mut |point: &Point<'_>| judged(point.z).1);
-        let pairs = self.to_pairs(&judged(&best.z).0);
+        let (best, status) =
+            sweeps.run(&mut monitor, &mut |point: &Point<'_>| self.residuals(&state(point.z)));
+        let pairs = self.to_pairs(&state(&best.z));
         let mut solution = solver.solution(pairs, best.residuals, status, monitor);
         solution.info.factorisations = compliance.factorisations();
         Ok(solution)

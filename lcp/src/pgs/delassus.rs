@@ -85,12 +85,6 @@ impl Compliance {
         self.bodies.iter().for_each(|body| body.solve(&mut u));
         u
     }
-
-    /// Displacements with those put to zero that the contacts see.
-    pub(super) fn at_rest(&self, u: &[f64]) -> Vec<f64> {
-        let is_seen = |j: usize| !self.contacts.rows(j).is_empty();
-        u.iter().enumerate().map(|(j, u)| if is_seen(j) { 0.0 } else { *u }).collect()
-    }
 }
 
 impl<'a> Delassus<'a> {

@@ -138,7 +138,7 @@ fn a_pile_comes_to_rest() {
         assert_eq!(solution.status, Status::Solved);
         let state = contact.recover(&solution.t, &solution.y);
         assert!(contact.residuals(&state).worst() <= tolerance);
-        assert!(state.u.iter().all(|u| u.abs() <= 0.0));
+        assert!(state.u.iter().all(|u| u.abs() <= 1e2 * tolerance));
         assert!(distance(&state.t_n, &above) <= 1e2 * tolerance);
         assert!(distance(&state.t_t, &pushes) <= 1e2 * tolerance);
         // It is the residual that decreases, not a threshold that is met.
