@@ -49,6 +49,7 @@ mod lemke;
 mod linear;
 mod matrix;
 mod newton;
+mod pgs;
 mod problem;
 mod random;
 mod residual;
@@ -69,6 +70,10 @@ pub use lemke::{
 };
 pub use matrix::Matrix;
 pub use newton::{SemismoothNewton, SemismoothNewtonSettings};
+pub use pgs::{
+    Constraint, MatrixRows, ProjectedGaussSeidel, ProjectedGaussSeidelSettings, Rows, RowsSolution,
+    SweepOrder, Sweepable,
+};
 pub use problem::{
     BoxedLcp, Contact2d, ContactForces, ContactState, ErrorBound, Friction2d, HorizontalLcp, Lcp,
     MixedLcp, Monotonicity, StandardForm,

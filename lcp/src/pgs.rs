@@ -1,0 +1,251 @@
+//! Projected Gauss-Seidel sweeps.
+
+mod block;
+mod body;
+mod contact;
+mod coulomb;
+mod delassus;
+mod matrix_rows;
+mod order;
+mod problems;
+mod rows;
+mod settings;
+mod sweep;
+
+pub use matrix_rows::MatrixRows;
+pub use rows::{Constraint, Rows};
+pub use settings::{ProjectedGaussSeidelSettings, SweepOrder};
+
+use std::ops::ControlFlow;
+
+use sweep::{Best, Point, Sweeps};
+
+use crate::solve::Monitor;
+use crate::{Error, Info, Iteration, Residuals, Solution, Solver, Status, WarmStart};
+
+/// Projected Gauss-Seidel, with over-relaxation: for `w = M z + q` with bounds on `z`, and for contact
+/// with friction.
+///
+/// A sweep solves one row after the other for its own variable and cuts that off at its bounds,
+/// `z_i <- mid(lower_i, z_i - omega w_i / M_ii, upper_i)`, where `w_i` has the newest `z`. A contact
+/// with friction takes its normal and its tangential row together and solves its 2 x 2 problem of
+/// Coulomb exactly: open, sticking, or sliding to either side. Where none of them fits, which
+/// takes a coefficient of friction above `W_NN / |W_NT|` or an indefinite block, the normal force is
+/// corrected first, then the tangential one. Over-relaxation divides the diagonal block by `omega`,
+/// so that forces within the cone stay there.
+///
+/// The end is decided by residuals, computed anew from the data of the user, of the point `z` with
+/// the part of `w` that its bounds allow: the point is always feasible and complementary, and all
+/// that is wrong with it stands in the equation. With [`Contact2d`](crate::Contact2d) it stands in the
+/// gaps and slips of the displacements that follow from the forces. The best point that was met is
+/// returned.
+///
+/// # Problems
+/// [`Lcp`](crate::Lcp); [`BoxedLcp`](crate::BoxedLcp) in the pairs of its general form;
+/// [`HorizontalLcp`](crate::HorizontalLcp) where [`to_standard`](crate::HorizontalLcp::to_standard)
+/// applies; [`Friction2d`](crate::Friction2d) by contacts; [`Contact2d`](crate::Contact2d) where `K` is
+/// positive definite, by contacts, on the matrix `C K^-1 C^T`, which is not formed; and whatever knows
+/// its [`Rows`], by [`solve_rows`](Self::solve_rows). All rows that are relaxed must have positive
+/// diagonal entries, else the answer is [`Error::NotTreated`].
+///
+/// # Guarantee
+/// With positive diagonals the sweeps converge, like a geometric series, for symmetric positive definite
+/// `M` with `omega` in `(0, 2)`, and for strictly diagonally dominant `M` with `omega` in `(0, 1]`
+/// (Cryer 1971; Cottle, Pang and Stone 1992, section 5.2); for symmetric positive semidefinite `M` they do
+/// so if there is a solution (Luo and Tseng 1991). This holds for contact without friction.
+///
+/// # Failure
+/// There is no guarantee with friction, nor for skew or indefinite parts: the sweeps may go round in
+/// circles or grow, and end as [`Status::Stalled`]. Ill-conditioned problems are slow: long
+/// chains of bodies, large differences of mass or stiffness. Where there is no solution and `z` grows
+/// slowly, the residual, being relative to the terms of the rows, decreases like one over the number
+/// of sweeps.
+///
+/// # Cost
+/// A sweep is one product with the matrix. Their number grows with the condition of `M`, for the five-point
+/// Laplacian with the number of grid points, or its root with the best `omega`; every digit
+/// costs as many as the one before.
+///
+/// # References
+/// * C. W. Cryer, The solution of a quadratic programming problem using systematic overrelaxation, SIAM
+///   Journal on Control 9 (1971), [doi:10.1137/0309028](https://doi.org/10.1137/0309028)
+/// * Z.-Q. Luo, P. Tseng, On the convergence of a matrix splitting algorithm for the symmetric monotone
+///   linear complementarity problem, SIAM Journal on Control and Optimization 29 (1991)
+/// * M. Jean, The non-smooth contact dynamics method, Computer Methods in Applied Mechanics and
+///   Engineering 177 (1999), [doi:10.1016/S0045-7825(98)00383-1](https://doi.org/10.1016/S0045-7825(98)00383-1)
+/// * R. W. Cottle, J.-S. Pang, R. E. Stone, The Linear Complementarity Problem, 1992, chapter 5
+///
+/// ```
+/// use lcp::{ProjectedGaussSeidel, families};
+/// let problem = families::obstacle(16).problem;
+/// let solution = ProjectedGaussSeidel::default().solve(&problem)?;
+/// assert!(solution.is_solved() && solution.residuals.worst() <= 1e-8);
+/// # Ok::<(), lcp::Error>(())
+/// ```
+#[derive(Debug, Clone, Default)]
+pub struct ProjectedGaussSeidel {
+    settings: ProjectedGaussSeidelSettings,
+}
+
+/// A problem that [`ProjectedGaussSeidel`] knows how to sweep.
+pub trait Sweepable {
+    /// Solves the problem, calling the observer before every sweep.
+    ///
+    /// # Errors
+    /// See [`ProjectedGaussSeidel::solve`].
+    fn solve_by(
+        &self,
+        solver: &ProjectedGaussSeidel,
+        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Solution, Error>;
+}
+
+/// The answer to a problem that is known by its [`Rows`].
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct RowsSolution {
+    /// What the sweeps came to.
+    pub status: Status,
+    /// The point. It meets the constraints exactly.
+    pub z: Vec<f64>,
+    /// `M z + q`, computed anew.
+    pub w: Vec<f64>,
+    /// The largest part of a `w_i` that the constraints do not allow at `z`, relative to the larger of
+    /// `|q_i| + sum_j |M_ij z_j|` ([`Rows::size`]) and 2^-10 of `M_ii max|z|`.
+    pub residual: f64,
+    /// What it cost.
+    pub info: Info,
+}
+
+impl ProjectedGaussSeidel {
+    pub(crate) const NAME: &str = "pgs";
+
+    /// A solver with the given settings.
+    pub fn new(settings: ProjectedGaussSeidelSettings) -> Self {
+        Self { settings }
+    }
+
+    /// Solves a problem.
+    ///
+    /// # Errors
+    /// [`Error::NotTreated`] for a row without a positive diagonal entry, and what else cannot be swept;
+    /// errors of the settings. What the mathematics decides is in [`Solution::status`].
+    pub fn solve(&self, problem: &impl Sweepable) -> Result<Solution, Error> {
+        self.solve_observed(problem, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// Solves a problem, calling the observer before every sweep; `Break` stops with
+    /// [`Status::Cancelled`].
+    ///
+    /// # Errors
+    /// As for [`solve`](Self::solve).
+    pub fn solve_observed(
+        &self,
+        problem: &impl Sweepable,
+        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Solution, Error> {
+        problem.solve_by(self, observer)
+    }
+
+    /// Solves a problem that is known by the products of its rows, with the constraints on the entries of
+    /// `z`. A point of the settings to start from has `z` as its `t`.
+    ///
+    /// # Errors
+    /// [`Error::Length`] where `q` or the constraints do not fit, [`Error::Bounds`] or [`Error::Setting`]
+    /// for a constraint that nothing meets, and as for [`solve`](Self::solve).
+    pub fn solve_rows<R: Rows + ?Sized>(
+        &self,
+        rows: &mut R,
+        q: &[f64],
+        constraints: &[Constraint],
+    ) -> Result<RowsSolution, Error> {
+        self.solve_rows_observed(rows, q, constraints, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// The same, calling the observer before every sweep; `Break` stops with [`Status::Cancelled`].
+    ///
+    /// # Errors
+    /// As for [`solve_rows`](Self::solve_rows).
+    pub fn solve_rows_observed<R: Rows + ?Sized>(
+        &self,
+        rows: &mut R,
+        q: &[f64],
+        constraints: &[Constraint],
+        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<RowsSolution, Error> {
+        self.settings.validate(rows.order())?;
+        let mut monitor = self.monitor(observer);
+        let start = self.start(|t, _| t.to_vec())?;
+        let sweeps = Sweeps::new(&self.settings, rows, q, constraints, start)?;
+        let (best, status) = sweeps.run(&mut monitor, &mut residuals_of_rows);
+        let Best { z, w, residuals, .. } = best;
+        Ok(RowsSolution { status, z, w, residual: residuals.worst(), info: info(monitor) })
+    }
+
+    fn monitor<'a>(
+        &self,
+        observer: &'a mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Monitor<'a> {
+        Monitor::new(self.settings.max_iterations, self.settings.time_limit, observer)
+    }
+
+    /// The `z` to start from, of the point `(t, y)` of the settings.
+    fn start(&self, z: impl Fn(&[f64], &[f64]) -> Vec<f64>) -> Result<Option<Vec<f64>>, Error> {
+        match &self.settings.start {
+            WarmStart::None => Ok(None),
+            WarmStart::Point { t, y } => Ok(Some(z(t, y))),
+            WarmStart::Basis(_) => Err(Self::not_treated(
+                "sweeps start from a point, and a basis is none: give a point, or take Lemke's method",
+            )),
+        }
+    }
+
+    fn not_treated(reason: impl Into<String>) -> Error {
+        Error::NotTreated { solver: Self::NAME, reason: reason.into() }
+    }
+
+    /// The solution with the pairs of the best point.
+    fn solution(
+        &self,
+        pairs: (Vec<f64>, Vec<f64>),
+        residuals: Residuals,
+        status: Status,
+        monitor: Monitor<'_>,
+    ) -> Solution {
+        let mut solution = Solution::judged(pairs, residuals, self.settings.tolerance, status);
+        solution.info = info(monitor);
+        solution
+    }
+}
+
+impl<P: Sweepable> Solver<P> for ProjectedGaussSeidel {
+    fn name(&self) -> &'static str {
+        Self::NAME
+    }
+
+    fn solve(&self, problem: &P) -> Result<Solution, Error> {
+        self.solve(problem)
+    }
+}
+
+fn info(monitor: Monitor<'_>) -> Info {
+    Info {
+        solver: ProjectedGaussSeidel::NAME,
+        iterations: monitor.iterations(),
+        seconds: monitor.seconds(),
+        history: monitor.history,
+        ..Info::default()
+    }
+}
+
+/// See [`RowsSolution::residual`].
+fn residuals_of_rows(point: &Point<'_>) -> Residuals {
+    let rows = point.w.iter().zip(point.allowed).zip(point.sizes);
+    let relative = rows.map(|((w, allowed), size)| {
+        let error = (w - allowed).abs();
+        if error > 0.0 { error / size } else { 0.0 }
+    });
+    let equation = relative.fold(0.0, f64::max);
+    Residuals { equation, feasibility: 0.0, complementarity: 0.0, natural: 0.0 }
+}

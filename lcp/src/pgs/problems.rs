@@ -1,0 +1,144 @@
+//! Problems with a matrix.
+
+use std::ops::ControlFlow;
+
+use super::{Constraint, MatrixRows, Point, ProjectedGaussSeidel, Sweepable, Sweeps};
+use crate::{BoxedLcp, Error, Friction2d, HorizontalLcp, Iteration, Lcp, Matrix, Solution};
+
+type Pairs = (Vec<f64>, Vec<f64>);
+type Start<'a> = dyn Fn(&[f64], &[f64]) -> Vec<f64> + 'a;
+type PairsOf<'a> = dyn Fn(&[f64], &[f64]) -> Pairs + 'a;
+
+/// A matrix problem, and the general one by whose residuals it is judged.
+struct Task<'a> {
+    general: &'a HorizontalLcp,
+    matrix: &'a Matrix,
+    q: &'a [f64],
+    constraints: &'a [Constraint],
+    /// `z` from a point of the general problem.
+    start: &'a Start<'a>,
+    /// The point of the general problem, from `z` and the part of `w` that the constraints allow.
+    pairs: &'a PairsOf<'a>,
+}
+
+impl Sweepable for Lcp {
+    fn solve_by(
+        &self,
+        solver: &ProjectedGaussSeidel,
+        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Solution, Error> {
+        let task = Task {
+            general: &self.clone().into(),
+            matrix: self.m(),
+            q: self.q(),
+            constraints: &vec![Constraint::NONNEGATIVE; self.order()],
+            start: &|t, _| t.to_vec(),
+            pairs: &|z, w| (z.to_vec(), w.to_vec()),
+        };
+        solver.sweep_matrix(&task, observer)
+    }
+}
+
+/// Judged on the problem as it stands.
+impl Sweepable for HorizontalLcp {
+    fn solve_by(
+        &self,
+        solver: &ProjectedGaussSeidel,
+        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Solution, Error> {
+        let standard = self.to_standard().ok_or_else(|| {
+            ProjectedGaussSeidel::not_treated(
+                "it is not in the standard form, with a column of a single entry in every pair, each in \
+                 another row: take Lemke's method",
+            )
+        })?;
+        let task = Task {
+            general: self,
+            matrix: standard.lcp().m(),
+            q: standard.lcp().q(),
+            constraints: &vec![Constraint::NONNEGATIVE; self.order()],
+            start: &|t, y| standard.from_pairs(t, y).0,
+            pairs: &|z, w| standard.to_pairs(z, w),
+        };
+        solver.sweep_matrix(&task, observer)
+    }
+}
+
+/// In the pairs of [`BoxedLcp::to_general`].
+impl Sweepable for BoxedLcp {
+    fn solve_by(
+        &self,
+        solver: &ProjectedGaussSeidel,
+        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Solution, Error> {
+        let bounds = self.lower().iter().zip(self.upper());
+        let constraints: Vec<Constraint> =
+            bounds.map(|(&lower, &upper)| Constraint::Bounds { lower, upper }).collect();
+        let task = Task {
+            general: &self.to_general(),
+            matrix: self.m(),
+            q: self.q(),
+            constraints: &constraints,
+            start: &|t, y| self.recover(t, y).0,
+            pairs: &|z, w| self.to_pairs(z, w),
+        };
+        solver.sweep_matrix(&task, observer)
+    }
+}
+
+/// In the pairs of [`Friction2d::standard`].
+impl Sweepable for Friction2d {
+    fn solve_by(
+        &self,
+        solver: &ProjectedGaussSeidel,
+        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Solution, Error> {
+        let constraints: Vec<Constraint> =
+            self.mu().iter().map(|&mu| Constraint::Friction { mu }).collect();
+        let task = Task {
+            general: &self.standard().clone().into(),
+            matrix: self.w(),
+            q: self.q(),
+            constraints: &constraints,
+            start: &|t, _| {
+                let forces = self.forces(t);
+                let both = forces.normal.into_iter().zip(forces.tangential);
+                both.flat_map(|(normal, tangential)| [normal, tangential]).collect()
+            },
+            pairs: &|r, v| standard_pairs(self.mu(), r, v),
+        };
+        solver.sweep_matrix(&task, observer)
+    }
+}
+
+/// The variables of the standard problem, from forces within the cones and the velocities that they
+/// allow: sliding is what the velocity is at the border of the cone.
+fn standard_pairs(mu: &[f64], r: &[f64], v: &[f64]) -> Pairs {
+    let contacts = r.chunks_exact(2).zip(v.chunks_exact(2)).zip(mu);
+    let pairs = contacts.flat_map(|((r, v), mu)| {
+        let bound = mu * r[0];
+        let (shifted, rest) = (r[1] + bound, bound - r[1]);
+        [(r[0], v[0]), (shifted, v[1].max(0.0)), ((-v[1]).max(0.0), rest)]
+    });
+    pairs.unzip()
+}
+
+impl ProjectedGaussSeidel {
+    fn sweep_matrix(
+        &self,
+        task: &Task<'_>,
+        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Solution, Error> {
+        self.settings.validate(task.general.order())?;
+        let mut monitor = self.monitor(observer);
+        let start = self.start(task.start)?;
+        let mut rows = MatrixRows::new(task.matrix);
+        let sweeps = Sweeps::new(&self.settings, &mut rows, task.q, task.constraints, start)?;
+        let (best, status) = sweeps.run(&mut monitor, &mut |point: &Point<'_>| {
+            let (t, y) = (task.pairs)(point.z, point.allowed);
+            task.general.residuals(&t, &y)
+        });
+        let pairs = (task.pairs)(&best.z, &best.allowed);
+        Ok(self.solution(pairs, best.residuals, status, monitor))
+    }
+}

@@ -1,0 +1,113 @@
+//! Problems known by the products of their rows.
+
+/// A square matrix `M` known by the products of its rows with a vector `z`, which may be carried along as
+/// a state instead.
+///
+/// The sweeps change one entry of `z` at a time and say so by [`moved`](Self::moved). An implementation
+/// with a state can do with three short functions. In contact between rigid bodies, for instance, the
+/// forces `z` change the velocities of the bodies by `M_b^-1 J^T z`, and a row product is a row of `J`
+/// times these velocities; the matrix `J M_b^-1 J^T` is never formed:
+///
+/// ```
+/// use lcp::{Constraint, ProjectedGaussSeidel, Rows, Status};
+///
+/// struct Impulses {
+///     j: Vec<Vec<(usize, f64)>>, // rows of J: (component of the velocity, entry)
+///     inverse_mass: Vec<f64>,
+///     velocity: Vec<f64>, // M_b^-1 J^T z
+/// }
+///
+/// impl Rows for Impulses {
+///     fn order(&self) -> usize {
+///         self.j.len()
+///     }
+///     fn product(&self, i: usize, _z: &[f64]) -> f64 {
+///         self.j[i].iter().map(|&(k, v)| v * self.velocity[k]).sum()
+///     }
+///     fn moved(&mut self, i: usize, change: f64) {
+///         for &(k, v) in &self.j[i] {
+///             self.velocity[k] += self.inverse_mass[k] * v * change;
+///         }
+///     }
+///     fn clear(&mut self) {
+///         self.velocity.fill(0.0);
+///     }
+/// }
+///
+/// // Two balls of mass 1 and 2, one on top of the other, fall on the ground with the velocity 3.
+/// let mut balls = Impulses {
+///     j: vec![vec![(0, 1.0)], vec![(0, -1.0), (1, 1.0)]],
+///     inverse_mass: vec![1.0, 0.5],
+///     velocity: vec![0.0; 2],
+/// };
+/// let free = [-3.0, 0.0]; // J times the velocities without impulses
+/// let solution = ProjectedGaussSeidel::default()
+///     .solve_rows(&mut balls, &free, &[Constraint::NONNEGATIVE; 2])?;
+/// assert_eq!(solution.status, Status::Solved);
+/// assert!((solution.z[0] - 9.0).abs() < 1e-6 && (solution.z[1] - 6.0).abs() < 1e-6);
+/// # Ok::<(), lcp::Error>(())
+/// ```
+pub trait Rows {
+    /// Number of rows.
+    fn order(&self) -> usize;
+
+    /// `(M z)_i`, either from `z` or from the state, which belongs to the same `z`.
+    fn product(&self, i: usize, z: &[f64]) -> f64;
+
+    /// `z_i` has been changed by `change`: an implementation with a state carries it along. The state has
+    /// to be linear in the changes. Nothing to do without a state.
+    fn moved(&mut self, _i: usize, _change: f64) {}
+
+    /// `z = 0` from here on: an implementation with a state sets it to zero. It is called before every
+    /// evaluation of the residual, after which all of `z` is told again, so that no rounding errors of
+    /// the state get into it.
+    fn clear(&mut self) {}
+
+    /// `sum_j |M_ij z_j|`, against which the residual of the row is measured. What is smaller, as
+    /// `|(M z)_i|` by default, makes the residual larger and harder to meet.
+    fn size(&self, i: usize, z: &[f64]) -> f64 {
+        self.product(i, z).abs()
+    }
+
+    /// The rows `j` with `M_ij != 0`, for the colouring; `None` where that is not known.
+    fn neighbours(&self, _i: usize) -> Option<Vec<usize>> {
+        None
+    }
+}
+
+/// What is asked of the entries of `z` that one relaxation changes together. In the order of the rows:
+/// every bound takes one row, and every contact takes two.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum Constraint {
+    /// `lower <= z_i <= upper`, either of which may be infinite, with `w_i >= 0` at the lower bound,
+    /// `w_i <= 0` at the upper one, and `w_i = 0` in between.
+    Bounds {
+        /// The lower bound.
+        lower: f64,
+        /// The upper bound.
+        upper: f64,
+    },
+    /// Unilateral contact with Coulomb's friction in the plane, `z_i` and `z_(i + 1)` being the normal and
+    /// the tangential force, `w_i` and `w_(i + 1)` the velocities: `z_i` and `w_i` are complementary, and
+    /// the tangential force is at most `mu z_i`, against the sliding.
+    Friction {
+        /// The coefficient of friction.
+        mu: f64,
+    },
+}
+
+impl Constraint {
+    /// `z_i >= 0`.
+    pub const NONNEGATIVE: Self = Self::Bounds { lower: 0.0, upper: f64::INFINITY };
+    /// No bound: an equation `w_i = 0`.
+    pub const FREE: Self = Self::Bounds { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
+
+    /// Number of rows.
+    pub fn rows(self) -> usize {
+        match self {
+            Self::Bounds { .. } => 1,
+            Self::Friction { .. } => 2,
+        }
+    }
+}

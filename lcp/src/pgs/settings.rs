@@ -1,0 +1,126 @@
+//! Settings of the sweeps.
+
+use std::time::Duration;
+
+use crate::problem::check_length;
+use crate::{Error, WarmStart};
+
+/// The order in which a sweep goes over the rows, or over the contacts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum SweepOrder {
+    /// From the first to the last.
+    #[default]
+    Forward,
+    /// Every second sweep from the last to the first.
+    Symmetric,
+    /// By colours, so that no two rows of one colour are coupled: red-black for the five-point Laplacian.
+    /// Colours are given greedily, in the order of the rows. A dense matrix has as many colours as rows,
+    /// which is [`Forward`](Self::Forward), and so is a matrix whose
+    /// [`neighbours`](crate::Rows::neighbours) are not known. The rows of a colour could be
+    /// relaxed at the same time; they are relaxed on one thread.
+    Coloured,
+}
+
+/// Settings of [`ProjectedGaussSeidel`](crate::ProjectedGaussSeidel).
+///
+/// ```
+/// use lcp::{ProjectedGaussSeidel, ProjectedGaussSeidelSettings, SweepOrder};
+/// let settings = ProjectedGaussSeidelSettings {
+///     relaxation: 1.5,
+///     order: SweepOrder::Coloured,
+///     ..ProjectedGaussSeidelSettings::default()
+/// };
+/// let solver = ProjectedGaussSeidel::new(settings);
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct ProjectedGaussSeidelSettings {
+    /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`. The default is `1e-8`:
+    /// every further digit costs as many sweeps as the one before.
+    pub tolerance: f64,
+    /// Sweeps.
+    pub max_iterations: usize,
+    /// Wall-clock time, looked at before every sweep; `None` is no limit.
+    pub time_limit: Option<Duration>,
+    /// Where the sweeps start: from zero, or from a point, of which the `z` counts. A basis is refused,
+    /// since it says nothing about the size of `z`.
+    pub start: WarmStart,
+    /// The over-relaxation `omega`: the diagonal is divided by it. In `(0, 2)`, outside of which the
+    /// sweeps do not converge even for symmetric positive definite matrices.
+    pub relaxation: f64,
+    /// The order of the rows.
+    pub order: SweepOrder,
+    /// Sweeps from one evaluation of the residual to the next, which costs as much as several sweeps. It is
+    /// evaluated earlier where the changes of a sweep are below the tolerance. In between the history
+    /// repeats the last one. At least 1.
+    pub residual_interval: usize,
+    /// Sweeps after which the best residual must have decreased by the factor `stall_factor`, else the
+    /// status is [`Stalled`](crate::Status::Stalled). `None` is 2000, or the number of rows where that is
+    /// more. What one row says spreads from row to row, so that the largest residual may stand still for a
+    /// while and decrease then: along a chain of `n` bodies it takes about `n^2` sweeps without
+    /// over-relaxation. At least 1.
+    pub stall_window: Option<usize>,
+    /// See `stall_window`. In `(0, 1]`.
+    pub stall_factor: f64,
+}
+
+impl Default for ProjectedGaussSeidelSettings {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-8,
+            max_iterations: 10_000,
+            time_limit: None,
+            start: WarmStart::None,
+            relaxation: 1.0,
+            order: SweepOrder::Forward,
+            residual_interval: 20,
+            stall_window: None,
+            stall_factor: 0.9,
+        }
+    }
+}
+
+impl ProjectedGaussSeidelSettings {
+    /// Checks the settings for a problem of `n` pairs.
+    ///
+    /// # Errors
+    /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
+    pub fn validate(&self, n: usize) -> Result<(), Error> {
+        let Self { tolerance, relaxation, stall_factor, .. } = *self;
+        let ranges = [
+            ("tolerance", tolerance, tolerance > 0.0 && tolerance < 1.0, "between 0 and 1"),
+            ("relaxation", relaxation, relaxation > 0.0 && relaxation < 2.0, "between 0 and 2"),
+            (
+                "stall_factor",
+                stall_factor,
+                stall_factor > 0.0 && stall_factor <= 1.0,
+                "above 0 and at most 1",
+            ),
+        ];
+        if let Some(&(name, value, _, range)) =
+            ranges.iter().find(|(_, _, is_within, _)| !is_within)
+        {
+            return Err(Error::Setting { name, value, range });
+        }
+        let counts = [
+            ("residual_interval", Some(self.residual_interval)),
+            ("stall_window", self.stall_window),
+        ];
+        if let Some((name, _)) = counts.into_iter().find(|(_, count)| *count == Some(0)) {
+            return Err(Error::Setting { name, value: 0.0, range: "at least 1" });
+        }
+        match &self.start {
+            WarmStart::None => {}
+            WarmStart::Basis(basis) => check_length("start", basis.len(), n)?,
+            WarmStart::Point { t, y } => {
+                for (name, v) in [("start.t", t), ("start.y", y)] {
+                    check_length(name, v.len(), n)?;
+                    if let Some(row) = v.iter().position(|x| !x.is_finite()) {
+                        return Err(Error::NotFinite { what: name, row, col: 0, value: v[row] });
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,458 @@
+//! Projected Gauss-Seidel: closed forms, agreement with Lemke's method, friction, rows without a matrix,
+//! and honest ends where the sweeps do not converge.
+
+#![allow(clippy::unwrap_used)] // a test may panic
+
+mod common;
+#[path = "pgs/contact.rs"]
+mod contact;
+#[path = "pgs/rows.rs"]
+mod rows;
+
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+use common::cases;
+use faer::sparse::{SparseColMat, Triplet};
+use faer::{Mat, mat};
+use lcp::families::{self, Known};
+use lcp::{
+    Basis, BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Lemke, Matrix,
+    ProjectedGaussSeidel, ProjectedGaussSeidelSettings, Side, Solution, Solver, Status, SweepOrder,
+    WarmStart,
+};
+use proptest::collection::vec;
+use proptest::prelude::*;
+
+const INF: f64 = f64::INFINITY;
+const LARGEST: usize = 30;
+
+fn settings() -> ProjectedGaussSeidelSettings {
+    ProjectedGaussSeidelSettings::default()
+}
+
+fn to(tolerance: f64) -> ProjectedGaussSeidel {
+    ProjectedGaussSeidel::new(ProjectedGaussSeidelSettings { tolerance, ..settings() })
+}
+
+fn by(order: SweepOrder, relaxation: f64) -> ProjectedGaussSeidel {
+    let settings =
+        ProjectedGaussSeidelSettings { order, relaxation, tolerance: 1e-11, ..settings() };
+    ProjectedGaussSeidel::new(settings)
+}
+
+fn largest(v: &[f64]) -> f64 {
+    v.iter().fold(0.0, |max, v| max.max(v.abs()))
+}
+
+/// The largest difference, relative to the largest entry.
+fn distance(found: &[f64], expected: &[f64]) -> f64 {
+    assert_eq!(found.len(), expected.len());
+    let difference: Vec<f64> = found.iter().zip(expected).map(|(a, b)| a - b).collect();
+    let size = largest(expected);
+    if size > 0.0 { largest(&difference) / size } else { largest(&difference) }
+}
+
+fn sparse(m: &Mat<f64>) -> Matrix {
+    let places = (0..m.ncols()).flat_map(|j| (0..m.nrows()).map(move |i| (i, j)));
+    let triplets: Vec<_> = places
+        .filter(|&place| m[place] != 0.0)
+        .map(|(i, j)| Triplet::new(i, j, m[(i, j)]))
+        .collect();
+    SparseColMat::try_new_from_triplets(m.nrows(), m.ncols(), &triplets).unwrap().into()
+}
+
+/// A point that is called solved must be one, and none may hold anything but numbers.
+fn check_honest(solution: &Solution, problem: &HorizontalLcp, tolerance: f64) {
+    let residuals = problem.residuals(&solution.t, &solution.y);
+    assert!(solution.t.iter().chain(&solution.y).all(|v| v.is_finite()));
+    assert_eq!(residuals, solution.residuals);
+    assert_eq!(solution.is_solved(), residuals.worst() <= tolerance, "{:?}", solution.status);
+    assert_eq!(solution.info.history.len(), solution.info.iterations + 1);
+}
+
+// Closed forms
+
+#[test]
+fn two_by_two() {
+    let lcp = Lcp::new(mat![[2.0, 1.0], [1.0, 2.0]], vec![-5.0, -6.0]).unwrap();
+    let solution = to(1e-14).solve(&lcp).unwrap();
+    assert!(solution.is_solved());
+    assert!(distance(&solution.t, &[4.0 / 3.0, 7.0 / 3.0]) <= 1e-13);
+}
+
+/// A triangular matrix is solved by one sweep in its order.
+#[test]
+fn triangular_problems_take_one_sweep() {
+    for n in [1, 5, 20] {
+        let families::Instance { problem, known } = families::murty(n);
+        let settings = ProjectedGaussSeidelSettings { residual_interval: 1, ..settings() };
+        let solution = ProjectedGaussSeidel::new(settings).solve(&problem).unwrap();
+        let Known::Unique { t, y } = known else { panic!("one solution") };
+        assert_eq!((solution.status, solution.info.iterations), (Status::Solved, 1));
+        assert_eq!((solution.t, solution.y), (t, y));
+    }
+}
+
+#[test]
+fn nothing_to_do() {
+    for n in [0, 3] {
+        let lcp = Lcp::new(Mat::<f64>::identity(n, n), vec![1.0; n]).unwrap();
+        let solution = to(1e-12).solve(&lcp).unwrap();
+        assert_eq!((solution.status, solution.info.iterations), (Status::Solved, 0));
+        assert_eq!((solution.t, solution.y), (vec![0.0; n], vec![1.0; n]));
+    }
+}
+
+/// The membrane over an obstacle, by all orders: red and black end where forward ends.
+#[test]
+fn orders_have_one_fixed_point() {
+    let families::Instance { problem, known } = families::obstacle(12);
+    let Known::Unique { t, .. } = known else { panic!("one solution") };
+    let mut sweeps = Vec::new();
+    for order in [SweepOrder::Forward, SweepOrder::Symmetric, SweepOrder::Coloured] {
+        for relaxation in [0.7, 1.0, 1.6] {
+            let solution = by(order, relaxation).solve(&problem).unwrap();
+            assert!(solution.is_solved(), "{order:?} {relaxation}");
+            assert!(distance(&solution.t, &t) <= 1e-9, "{order:?} {relaxation}");
+            sweeps.push(solution.info.iterations);
+        }
+    }
+    // Over-relaxation pays in every order.
+    assert!(sweeps.chunks(3).all(|by| by[2] < by[1] && by[1] < by[0]), "{sweeps:?}");
+}
+
+/// Free variables make it the method for equations; a fixed one needs no diagonal.
+#[test]
+fn bounds_of_every_kind() {
+    let m = mat![
+        [4.0, 1.0, 0.0, 1.0, 1.0],
+        [1.0, 4.0, 1.0, 0.0, 1.0],
+        [0.0, 1.0, 4.0, 1.0, 1.0],
+        [1.0, 0.0, 1.0, 4.0, 1.0],
+        [1.0, 1.0, 1.0, 1.0, 0.0],
+    ];
+    let lower = vec![-INF, -1.0, -INF, 0.0, 2.0];
+    let upper = vec![INF, INF, -1.0, 1.0, 2.0];
+    let q = vec![-3.0, 8.0, -4.0, -9.0, 1.0];
+    let boxed = BoxedLcp::new(m, q, lower, upper).unwrap();
+    let solution = to(1e-13).solve(&boxed).unwrap();
+    check_honest(&solution, &boxed.to_general(), 1e-13);
+    assert!(solution.is_solved());
+    let (z, w) = boxed.recover(&solution.t, &solution.y);
+    assert_eq!(z[1..], [-1.0, -1.0, 1.0, 2.0]);
+    // 4 z_0 - 1 + 1 + 2 - 3 = 0
+    assert!((z[0] - 0.25).abs() <= 1e-12 && w[0].abs() <= 0.0, "{z:?}");
+    assert!(distance(&w[1..], &[5.25, -6.0, -3.75, 0.25]) <= 1e-12, "{w:?}");
+}
+
+// Agreement with Lemke's method
+
+#[derive(Debug, Clone, Copy)]
+enum Family {
+    Dominant,
+    Definite,
+    MMatrix,
+}
+
+/// Strictly diagonally dominant, symmetric positive definite, or an M-matrix, neither of the last two
+/// ill-conditioned.
+fn matrix(family: Family, n: usize, entries: &[f64]) -> Mat<f64> {
+    let raw = Mat::from_fn(n, n, |i, j| entries[i * n + j]);
+    match family {
+        Family::Definite => {
+            &raw * raw.transpose() / faer::Scale(n as f64)
+                + Mat::<f64>::identity(n, n) * faer::Scale(0.5)
+        }
+        Family::Dominant | Family::MMatrix => Mat::from_fn(n, n, |i, j| {
+            let others: f64 = (0..n).filter(|j| *j != i).map(|j| raw[(i, j)].abs()).sum();
+            match (i == j, family) {
+                (true, _) => 1.25 * others + 0.5,
+                (false, Family::MMatrix) => -raw[(i, j)].abs(),
+                (false, _) => raw[(i, j)],
+            }
+        }),
+    }
+}
+
+fn easy() -> impl Strategy<Value = Lcp> {
+    let family = prop_oneof![Just(Family::Dominant), Just(Family::Definite), Just(Family::MMatrix)];
+    (1..=LARGEST, family, any::<bool>()).prop_flat_map(|(n, family, is_sparse)| {
+        (vec(-2.0..2.0_f64, n * n), vec(-3.0..2.0_f64, n)).prop_map(move |(entries, q)| {
+            let m = matrix(family, n, &entries);
+            Lcp::new(if is_sparse { sparse(&m) } else { m.into() }, q).unwrap()
+        })
+    })
+}
+
+proptest! {
+    #![proptest_config(cases(128))]
+
+    /// To each tolerance the point of Lemke's method, up to the condition of the family.
+    #[test]
+    fn agreement_with_lemke(lcp in easy(), order in 0..3_usize, relaxation in 0.7..=1.0_f64) {
+        let order = [SweepOrder::Forward, SweepOrder::Symmetric, SweepOrder::Coloured][order];
+        let expected = Lemke::default().solve(&lcp.clone().into()).unwrap();
+        prop_assert!(expected.is_solved());
+        for tolerance in [1e-4, 1e-8, 1e-12] {
+            let settings = ProjectedGaussSeidelSettings { order, relaxation, tolerance, ..settings() };
+            let solution = ProjectedGaussSeidel::new(settings).solve(&lcp).unwrap();
+            check_honest(&solution, &lcp.clone().into(), tolerance);
+            prop_assert_eq!(solution.status, Status::Solved);
+            let error = distance(&solution.t, &expected.t);
+            prop_assert!(error <= 1e3 * tolerance, "{} at {}", error, tolerance);
+        }
+    }
+
+    /// The general problem with rows in other units and pairs the other way round is the same one.
+    #[test]
+    fn standard_problems_in_disguise(lcp in easy(), swaps in vec(any::<bool>(), LARGEST), k in -9..9_i32) {
+        let n = lcp.order();
+        let factor = f64::from(k).exp2();
+        let dense = lcp.m().to_dense();
+        let unit = |i: usize, j: usize| if i == j { factor } else { 0.0 };
+        let entry = |i: usize, j: usize, is_w: bool| {
+            if is_w { unit(i, j) } else { -factor * dense[(i, j)] }
+        };
+        let a = Mat::from_fn(n, n, |i, j| entry(i, j, swaps[j]));
+        let b = Mat::from_fn(n, n, |i, j| entry(i, j, !swaps[j]));
+        let c = lcp.q().iter().map(|q| q * factor).collect();
+        let general = HorizontalLcp::new(a, b, c).unwrap();
+        let (found, expected) = (to(1e-10).solve(&general).unwrap(), to(1e-10).solve(&lcp).unwrap());
+        check_honest(&found, &general, 1e-10);
+        prop_assert!(found.is_solved() && expected.is_solved());
+        for i in 0..n {
+            let (z, w) = if swaps[i] { (found.y[i], found.t[i]) } else { (found.t[i], found.y[i]) };
+            prop_assert!((z - expected.t[i]).abs() <= 1e-7 * largest(&expected.t));
+            prop_assert!((w - expected.y[i]).abs() <= 1e-7 * (1.0 + largest(&expected.y)));
+        }
+    }
+
+    /// Powers of two as units change nothing at all.
+    #[test]
+    fn units(lcp in easy(), force in -300..300_i32, stiffness in -300..300_i32) {
+        let (force, stiffness) = (f64::from(force).exp2(), f64::from(stiffness).exp2());
+        let m = lcp.m().to_dense() * faer::Scale(stiffness);
+        let q = lcp.q().iter().map(|q| q * force * stiffness).collect();
+        let scaled = Lcp::new(m, q).unwrap();
+        let dense = Lcp::new(lcp.m().to_dense(), lcp.q().to_vec()).unwrap();
+        let (found, expected) = (to(1e-9).solve(&scaled).unwrap(), to(1e-9).solve(&dense).unwrap());
+        prop_assert_eq!(found.status, expected.status);
+        prop_assert_eq!(found.info.history, expected.info.history);
+        let t: Vec<f64> = expected.t.iter().map(|t| t * force).collect();
+        prop_assert_eq!(found.t, t);
+    }
+
+    /// The variables in another order, each in its own unit, and rows in units of their own.
+    #[test]
+    fn order_and_units_of_variables(
+        lcp in easy(),
+        order in Just((0..LARGEST).collect::<Vec<_>>()).prop_shuffle(),
+        exponents in vec(-4..=4_i32, 2 * LARGEST),
+    ) {
+        let n = lcp.order();
+        let order: Vec<usize> = order.into_iter().filter(|&k| k < n).collect();
+        let unit = |k: usize| f64::from(exponents[k]).exp2();
+        let dense = lcp.m().to_dense();
+        let m = Mat::from_fn(n, n, |i, j| {
+            unit(order[i]) * dense[(order[i], order[j])] * unit(LARGEST + order[j])
+        });
+        let q = order.iter().map(|&i| unit(i) * lcp.q()[i]).collect();
+        let scaled = Lcp::new(m, q).unwrap();
+        let (found, expected) = (to(1e-11).solve(&scaled).unwrap(), to(1e-11).solve(&lcp).unwrap());
+        prop_assert!(found.is_solved() && expected.is_solved());
+        for (k, &i) in order.iter().enumerate() {
+            let z = found.t[k] * unit(LARGEST + i);
+            prop_assert!((z - expected.t[i]).abs() <= 1e-7 * largest(&expected.t));
+        }
+    }
+
+    /// A warm start at the solution needs no sweep.
+    #[test]
+    fn warm_starts(lcp in easy()) {
+        let Solution { t, y, .. } = to(1e-9).solve(&lcp).unwrap();
+        let start = WarmStart::Point { t, y };
+        let again = ProjectedGaussSeidel::new(ProjectedGaussSeidelSettings { start, ..settings() });
+        let solution = again.solve(&lcp).unwrap();
+        prop_assert_eq!((solution.status, solution.info.iterations), (Status::Solved, 0));
+    }
+
+    /// Boxes against Lemke's method, with bounds of all kinds.
+    #[test]
+    fn boxes(
+        lcp in easy(),
+        bounds in vec((-3..=3_i8, 0..=3_u8, any::<bool>(), any::<bool>()), LARGEST),
+    ) {
+        let n = lcp.order();
+        let bounds = bounds.into_iter().take(n).map(|(lower, width, below, above)| {
+            let lower = f64::from(lower);
+            let upper = lower + f64::from(width);
+            (if below { lower } else { -INF }, if above { upper } else { INF })
+        });
+        let (lower, upper) = bounds.unzip();
+        let boxed = BoxedLcp::new(lcp.m().clone(), lcp.q().to_vec(), lower, upper).unwrap();
+        let general = boxed.to_general();
+        let expected = Lemke::default().solve(&general).unwrap();
+        prop_assert!(expected.is_solved());
+        let solution = to(1e-11).solve(&boxed).unwrap();
+        check_honest(&solution, &general, 1e-11);
+        prop_assert_eq!(solution.status, Status::Solved);
+        let (z, _) = boxed.recover(&solution.t, &solution.y);
+        let (other, _) = boxed.recover(&expected.t, &expected.y);
+        prop_assert!(distance(&z, &other) <= 1e-8);
+    }
+}
+
+// Degenerate problems
+
+/// Both variables of many pairs are zero, and the solution is not unique: any will do.
+#[test]
+fn degenerate_problems() {
+    let mut solved = 0;
+    for seed in 0..20 {
+        for problem in [
+            families::ties(12, seed).problem,
+            families::positive_semidefinite(12, seed).problem,
+            families::copositive_plus(12, seed).problem,
+        ] {
+            match to(1e-9).solve(&problem) {
+                Ok(solution) => {
+                    check_honest(&solution, &problem.into(), 1e-9);
+                    solved += usize::from(solution.is_solved());
+                }
+                Err(error) => assert!(matches!(error, Error::NotTreated { .. }), "{error}"),
+            }
+        }
+    }
+    assert!(solved >= 20, "{solved}");
+}
+
+/// A degenerate answer to a definite problem: `q = -M z` on some pairs, and zero on both sides of others.
+#[test]
+fn without_strict_complementarity() {
+    let m = mat![[2.0, -1.0, 0.0], [-1.0, 2.0, -1.0], [0.0, -1.0, 2.0]];
+    // z = (1, 0, 0), w = (0, 0, 1)
+    let lcp = Lcp::new(m, vec![-2.0, 1.0, 1.0]).unwrap();
+    for tolerance in [1e-4, 1e-8, 1e-12] {
+        let solution = to(tolerance).solve(&lcp).unwrap();
+        assert!(solution.is_solved());
+        assert!(distance(&solution.t, &[1.0, 0.0, 0.0]) <= 10.0 * tolerance);
+    }
+}
+
+// Ends
+
+/// Inconsistent, though semidefinite; skew but for a small diagonal; and growing without bound.
+#[test]
+fn where_it_cannot_converge_it_stalls() {
+    let inconsistent = Lcp::new(mat![[1.0, -1.0], [-1.0, 1.0]], vec![-1.0, -1.0]).unwrap();
+    let skew = Lcp::new(mat![[0.1, 4.0], [-4.0, 0.1]], vec![-1.0, 1.0]).unwrap();
+    let growing = Lcp::new(mat![[1.0, -3.0], [-3.0, 1.0]], vec![-1.0, -1.0]).unwrap();
+    for problem in [inconsistent, skew, growing] {
+        let settings = ProjectedGaussSeidelSettings { stall_window: Some(500), ..settings() };
+        let solution = ProjectedGaussSeidel::new(settings).solve(&problem).unwrap();
+        check_honest(&solution, &problem.into(), 1e-8);
+        assert_eq!(solution.status, Status::Stalled);
+        assert!(solution.info.iterations < 10_000);
+        let best = solution.info.history.iter().copied().fold(INF, f64::min);
+        assert_eq!(best.to_bits(), solution.residuals.worst().to_bits());
+    }
+}
+
+/// Even where nothing else stops it, growth ends before there is anything but numbers, and nothing is
+/// called solved on the way.
+#[test]
+fn growth_ends_in_numbers() {
+    for size in [1.0, 1e-300, 1e290] {
+        let growing = Lcp::new(mat![[1.0, -3.0], [-3.0, 1.0]], vec![-size; 2]).unwrap();
+        let settings = ProjectedGaussSeidelSettings {
+            stall_window: Some(100_000),
+            residual_interval: 1,
+            tolerance: 0.4,
+            ..settings()
+        };
+        let solution = ProjectedGaussSeidel::new(settings).solve(&growing).unwrap();
+        check_honest(&solution, &growing.into(), 0.4);
+        assert_eq!(solution.status, Status::Stalled);
+        assert!(solution.info.iterations < 1000 && solution.residuals.worst() <= 1.0);
+    }
+}
+
+#[test]
+fn rows_that_cannot_be_relaxed_are_named() {
+    let reason = |result: Result<Solution, Error>| match result {
+        Err(Error::NotTreated { solver: "pgs", reason }) => reason,
+        other => panic!("{other:?}"),
+    };
+    let zero = Lcp::new(mat![[1.0, 1.0], [-1.0, 0.0]], vec![-1.0, 1.0]).unwrap();
+    assert!(reason(to(1e-8).solve(&zero)).starts_with("row 1 has the diagonal entry 0"));
+    let negative = Lcp::new(mat![[-2.0]], vec![1.0]).unwrap();
+    assert!(reason(to(1e-8).solve(&negative)).starts_with("row 0 has the diagonal entry -2"));
+    let general = families::horizontal_singular(6, 1).problem;
+    assert!(reason(to(1e-8).solve(&general)).contains("standard form"));
+    let start = WarmStart::Basis(Basis::new(vec![Side::T; 1]));
+    let solver = ProjectedGaussSeidel::new(ProjectedGaussSeidelSettings { start, ..settings() });
+    assert!(reason(solver.solve(&negative)).contains("basis"));
+}
+
+#[test]
+fn limits_hold() {
+    let problem = families::obstacle(20).problem;
+    let general: HorizontalLcp = problem.clone().into();
+    let every = || ProjectedGaussSeidelSettings { residual_interval: 1, ..settings() };
+    let needed = ProjectedGaussSeidel::new(every()).solve(&problem).unwrap().info.iterations;
+    for max_iterations in [0, 1, 37, needed - 1] {
+        let settings = ProjectedGaussSeidelSettings { max_iterations, ..every() };
+        let solution = ProjectedGaussSeidel::new(settings).solve(&problem).unwrap();
+        check_honest(&solution, &general, 1e-8);
+        assert_eq!(
+            (solution.status, solution.info.iterations),
+            (Status::IterationLimit, max_iterations)
+        );
+    }
+    let none = ProjectedGaussSeidelSettings { time_limit: Some(Duration::ZERO), ..settings() };
+    let solution = ProjectedGaussSeidel::new(none).solve(&problem).unwrap();
+    assert_eq!((solution.status, solution.info.iterations), (Status::TimeLimit, 0));
+    let solution = to(1e-8)
+        .solve_observed(&problem, &mut |at| {
+            if at.iteration == 25 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        })
+        .unwrap();
+    check_honest(&solution, &general, 1e-8);
+    assert_eq!((solution.status, solution.info.iterations), (Status::Cancelled, 25));
+}
+
+#[test]
+fn settings_out_of_range_are_named() {
+    let problem = Lcp::new(mat![[1.0]], vec![-1.0]).unwrap();
+    let wrong = [
+        ("tolerance", ProjectedGaussSeidelSettings { tolerance: 0.0, ..settings() }),
+        ("relaxation", ProjectedGaussSeidelSettings { relaxation: 2.0, ..settings() }),
+        ("relaxation", ProjectedGaussSeidelSettings { relaxation: f64::NAN, ..settings() }),
+        ("stall_factor", ProjectedGaussSeidelSettings { stall_factor: 1.5, ..settings() }),
+        ("stall_window", ProjectedGaussSeidelSettings { stall_window: Some(0), ..settings() }),
+        ("residual_interval", ProjectedGaussSeidelSettings { residual_interval: 0, ..settings() }),
+    ];
+    for (expected, settings) in wrong {
+        let error = ProjectedGaussSeidel::new(settings).solve(&problem).unwrap_err();
+        assert!(matches!(error, Error::Setting { name, .. } if name == expected), "{error}");
+    }
+    let start = WarmStart::Point { t: vec![1.0; 2], y: vec![0.0; 2] };
+    let long = ProjectedGaussSeidelSettings { start, ..settings() };
+    let error = ProjectedGaussSeidel::new(long).solve(&problem).unwrap_err();
+    assert!(matches!(error, Error::Length { name: "start.t", len: 2, expected: 1 }));
+}
+
+/// All problems through one trait.
+#[test]
+fn it_is_a_solver_of_everything() {
+    let routes: [Box<dyn Solver<Lcp>>; 2] = [Box::new(Lemke::default()), Box::new(to(1e-9))];
+    let lcp = families::obstacle(6).problem;
+    let [lemke, pgs] = routes.map(|route| route.solve(&lcp).unwrap());
+    assert!(pgs.is_solved() && distance(&pgs.t, &lemke.t) <= 1e-7);
+    let _: [Box<dyn Solver<HorizontalLcp>>; 1] = [Box::new(to(1e-9))];
+    let _: [Box<dyn Solver<BoxedLcp>>; 1] = [Box::new(to(1e-9))];
+    let _: [Box<dyn Solver<Friction2d>>; 1] = [Box::new(to(1e-9))];
+    let _: [Box<dyn Solver<Contact2d>>; 1] = [Box::new(to(1e-9))];
+    assert_eq!((pgs.info.solver, Solver::<Lcp>::name(&to(1e-9))), ("pgs", "pgs"));
+}
