@@ -48,6 +48,8 @@ mod lemke;
 mod linear;
 mod matrix;
 mod problem;
+#[cfg(feature = "clarabel")]
+mod qp;
 mod random;
 mod residual;
 mod scaling;
@@ -68,6 +70,10 @@ pub use matrix::Matrix;
 pub use problem::{
     BoxedLcp, Contact2d, ContactForces, ContactState, ErrorBound, Friction2d, HorizontalLcp, Lcp,
     MixedLcp, Monotonicity, StandardForm,
+};
+#[cfg(feature = "clarabel")]
+pub use qp::{
+    ContactForm, QuadraticProgram, QuadraticProgramSettings, SoftConstraints, SoftSolution,
 };
 pub use residual::Residuals;
 pub use settings::{Covering, LemkeSettings, WarmStart};
