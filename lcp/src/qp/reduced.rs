@@ -45,6 +45,9 @@ const PROXIMAL: f64 = 1e-9;
 const STEPS: usize = 60;
 /// Residual, where loads are near one, of which nothing is left.
 const VANISHING: f64 = 1e-30;
+/// Unknowns, where loads are near one, that are zero. Without gaps or stiffness nothing else gives displacements
+/// a size, so that rounding errors would be all that they are.
+const ZERO: f64 = 1e-24;
 /// A share of nonzero entries above which the matrix is factorised as a dense one.
 const DENSE: f64 = 0.3;
 
@@ -62,18 +65,20 @@ pub(super) fn solve_reduced(
     let system = System::new(form, law, places)?;
     let mut point = start.clone();
     put_at_bounds(form, law, places, &mut point.lambda);
-    let mut best = (point.clone(), f64::INFINITY);
+    let mut best = (point.clone(), Sizes([f64::INFINITY; 2]));
+    let mut least = best.1;
     let mut idle = 0;
     for _ in 0..STEPS {
         let mut residual = system.residual(form, &point);
-        let size = max_abs(&residual);
-        if size < best.1 {
-            idle = if size < 0.9 * best.1 { 0 } else { idle + 1 };
-            best = (point.clone(), size);
+        let sizes = Sizes::of(&residual, form.unknowns());
+        least = least.min(sizes);
+        if sizes.is_better(best.1, least) {
+            idle = 0;
+            best = (point.clone(), sizes);
         } else {
             idle += 1;
         }
-        if size <= VANISHING || idle >= 3 {
+        if sizes.max() <= VANISHING || idle >= 3 {
             break;
         }
         system.factor.solve(&mut residual);
@@ -88,7 +93,37 @@ pub(super) fn solve_reduced(
             break;
         }
     }
-    best.0.is_finite().then_some(best.0)
+    let mut point = best.0;
+    let all = point.x.iter_mut().chain(&mut point.lambda);
+    all.filter(|v| v.abs() <= ZERO).for_each(|v| *v = 0.0);
+    point.is_finite().then_some(point)
+}
+
+/// Sizes of the residuals of stationarity and of slacks. Either may come to rest at its rounding errors
+/// while the other one still goes down.
+#[derive(Debug, Clone, Copy)]
+struct Sizes([f64; 2]);
+
+impl Sizes {
+    fn of(residual: &[f64], unknowns: usize) -> Self {
+        let (stationarity, slacks) = residual.split_at(unknowns);
+        Self([max_abs(stationarity), max_abs(slacks)])
+    }
+
+    fn max(self) -> f64 {
+        self.0[0].max(self.0[1])
+    }
+
+    fn min(self, other: Self) -> Self {
+        Self([self.0[0].min(other.0[0]), self.0[1].min(other.0[1])])
+    }
+
+    /// Whether they are smaller, or one is while the other stays near the `least` that it has been.
+    fn is_better(self, than: Self, least: Self) -> bool {
+        let down = |i: usize| self.0[i] < 0.9 * than.0[i];
+        let rests = |i: usize| self.0[i] <= 4.0 * least.0[i];
+        self.max() < 0.9 * than.max() || (down(0) && rests(1)) || (down(1) && rests(0))
+    }
 }
 
 /// Gives the multipliers that are not inside the value of their bound.
