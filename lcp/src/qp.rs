@@ -25,7 +25,7 @@ use farkas::farkas_vector;
 use form::{Form, Point};
 use interior::{Effort, End};
 use monotone::{MixedForm, standard_candidate, standard_form};
-use program::{Assemble, Best, solve_convex};
+use program::{Assemble, Best, Proof, solve_convex};
 use scale::Scaled;
 pub use settings::{ContactForm, QuadraticProgramSettings, SoftConstraints};
 pub use soft::SoftSolution;
@@ -166,6 +166,8 @@ impl QuadraticProgram {
                         .to_owned(),
             });
         }
+        let search = || farkas_vector(&contact.to_general(), effort());
+        let mut proof = Proof::new(&search);
         let mut best = Best::new(assemble(&Point::zero(&form), None));
         let rows = Rows::of_contact(contact);
         let scaled = Scaled::new(&form);
@@ -177,11 +179,11 @@ impl QuadraticProgram {
             contact::ContactProgram::new(form, settings.form, effort())
         {
             let limits = (settings.tolerance, &effort as &dyn Fn() -> Effort);
-            solve_contact(contact, &mut program, limits, (&mut best, &mut monitor))
+            solve_contact(contact, &mut program, limits, (&mut best, &mut monitor, &mut proof))
         } else {
             Ok(End::Failed)
         };
-        Ok(self.concluded(best, end, &monitor, || farkas_vector(&contact.to_general(), effort())))
+        Ok(self.concluded(best, end, &monitor, proof))
     }
 
     fn solve_form(
@@ -209,7 +211,8 @@ impl QuadraticProgram {
                 Ok(end)
             }
         };
-        self.concluded(best, end, &monitor, || farkas_vector(general, self.effort(began)))
+        let search = || farkas_vector(general, self.effort(began));
+        self.concluded(best, end, &monitor, Proof::new(&search))
     }
 
     /// The solution that the best point is, or the proof that there is none.
@@ -218,7 +221,7 @@ impl QuadraticProgram {
         best: Best,
         end: Result<End, Status>,
         monitor: &Monitor<'_>,
-        prove: impl FnOnce() -> Option<Vec<f64>>,
+        proof: Proof<'_>,
     ) -> Solution {
         let tolerance = self.settings.tolerance;
         let mut farkas = None;
@@ -228,7 +231,7 @@ impl QuadraticProgram {
             Ok(End::TimeLimit) => Status::TimeLimit,
             Ok(End::IterationLimit) => Status::IterationLimit,
             Ok(End::Point | End::NoPoint | End::Failed) | Err(_) => {
-                farkas = prove();
+                farkas = proof.into_farkas();
                 match end {
                     _ if farkas.is_some() => Status::Infeasible,
                     Err(status) => status,

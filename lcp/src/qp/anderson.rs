@@ -5,9 +5,17 @@ use faer::prelude::SolveLstsq;
 
 /// Steps that are remembered.
 const MEMORY: usize = 5;
+/// Share of the residual that is added. Where more load goes into friction at one place it is missing at
+/// others, so that whole steps swing to and fro.
+const DAMPING: f64 = 0.5;
+/// Steps without progress after which the acceleration is left off.
+const IDLE: usize = 8;
+/// Steps without progress, then, after which there is no hope.
+const PLAIN_IDLE: usize = 20;
 
 /// The next point of the iteration `g = T(g)` from the ones before (Anderson 1965; Walker and Ni 2011),
-/// kept from going astray: an accelerated step that is worse than what was met before is taken back.
+/// damped and kept from going astray: an accelerated step that is worse than what was met before is taken
+/// back, and where there is no progress the iteration goes on with damped steps alone.
 #[derive(Debug, Default)]
 pub(super) struct Anderson {
     /// Points and their `T(g) - g`, the newest last.
@@ -16,23 +24,30 @@ pub(super) struct Anderson {
     best: Option<(Vec<f64>, Vec<f64>, f64)>,
     /// Steps since the residual went down by more than a tenth.
     idle: usize,
-    plain: bool,
+    /// Whether the last step was a damped one without acceleration.
+    was_plain: bool,
+    is_plain: bool,
 }
 
 impl Anderson {
-    /// Rounds without progress so far.
+    /// Steps without progress so far.
     pub(super) fn idle(&self) -> usize {
         self.idle
     }
 
-    /// Forgets the points, but not the best one, to which it goes back by half.
+    /// Whether the iteration does not contract.
+    pub(super) fn is_stalled(&self) -> bool {
+        self.is_plain && self.idle > PLAIN_IDLE
+    }
+
+    /// A point between the best one and one that has no image; none where there is no best one.
     pub(super) fn retreat(&mut self, from: &[f64]) -> Option<Vec<f64>> {
-        self.steps.clear();
-        self.plain = true;
-        self.idle += 1;
         let (g, residual, _) = self.best.as_ref()?;
-        let target = g.iter().zip(residual).map(|(g, r)| (g + 0.5 * r).max(0.0));
-        Some(target.zip(from).map(|(target, from)| 0.5 * (target + from)).collect())
+        let target = damped(g, residual);
+        self.steps.clear();
+        self.was_plain = true;
+        self.count(false);
+        Some(target.iter().zip(from).map(|(target, from)| 0.5 * (target + from)).collect())
     }
 
     /// The next point, not negative, after `image = T(g)`.
@@ -40,23 +55,40 @@ impl Anderson {
         let residual: Vec<f64> = image.iter().zip(g).map(|(image, g)| image - g).collect();
         let size = norm(&residual);
         let least = self.best.as_ref().map_or(f64::INFINITY, |(_, _, size)| *size);
-        self.idle = if size < 0.9 * least { 0 } else { self.idle + 1 };
-        let is_astray = size > 2.0 * least && !self.plain;
+        let is_first = self.best.is_none();
+        self.count(size < 0.9 * least);
+        let is_astray = size > 2.0 * least && !self.was_plain;
         if size < least {
             self.best = Some((g.to_vec(), residual.clone(), size));
         }
+        if is_first {
+            // The first bounds are a guess from which nothing is to be kept.
+            return image.iter().map(|v| v.max(0.0)).collect();
+        }
+        self.was_plain = true;
+        if self.is_plain {
+            return damped(g, &residual);
+        }
         if is_astray && let Some((best, residual, _)) = &self.best {
             self.steps.clear();
-            self.plain = true;
-            return best.iter().zip(residual).map(|(g, r)| (g + 0.5 * r).max(0.0)).collect();
+            return damped(best, residual);
         }
         self.steps.push((g.to_vec(), residual));
         if self.steps.len() > MEMORY + 1 {
             self.steps.remove(0);
         }
-        let mixed = self.mixed();
-        self.plain = mixed.is_none();
-        mixed.unwrap_or_else(|| image.to_vec()).into_iter().map(|g| g.max(0.0)).collect()
+        if let Some(mixed) = self.mixed() {
+            self.was_plain = false;
+            return mixed.into_iter().map(|v| v.max(0.0)).collect();
+        }
+        self.steps.last().map_or_else(|| image.to_vec(), |(g, residual)| damped(g, residual))
+    }
+
+    fn count(&mut self, is_progress: bool) {
+        self.idle = if is_progress { 0 } else { self.idle + 1 };
+        if !self.is_plain && self.idle > IDLE {
+            (self.is_plain, self.idle) = (true, 0);
+        }
     }
 
     /// The combination of the last images whose residual is least.
@@ -85,14 +117,18 @@ impl Anderson {
         let next: Vec<f64> = (0..n)
             .map(|i| {
                 let change = (0..count).map(|k| {
-                    let of_image = difference(k, i) + last.0[i] - older[k].0[i];
+                    let of_image = DAMPING * difference(k, i) + last.0[i] - older[k].0[i];
                     weights[(k, 0)] / sizes[k] * of_image
                 });
-                last.0[i] + last.1[i] - change.sum::<f64>()
+                last.0[i] + DAMPING * last.1[i] - change.sum::<f64>()
             })
             .collect();
         next.iter().all(|v| v.is_finite()).then_some(next)
     }
+}
+
+fn damped(g: &[f64], residual: &[f64]) -> Vec<f64> {
+    g.iter().zip(residual).map(|(g, r)| (g + DAMPING * r).max(0.0)).collect()
 }
 
 fn norm(v: &[f64]) -> f64 {
@@ -109,7 +145,7 @@ mod tests {
         let map = |g: &[f64]| vec![0.99 * g[0] + 0.02, -0.95 * g[1] + 3.9, 0.5 * g[2] + 0.5];
         let mut anderson = Anderson::default();
         let mut g = vec![0.0; 3];
-        for _ in 0..8 {
+        for _ in 0..12 {
             g = anderson.next(&g, &map(&g));
         }
         let error = g.iter().zip([2.0, 2.0, 1.0]).map(|(g, exact)| (g - exact).abs());

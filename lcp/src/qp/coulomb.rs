@@ -4,13 +4,13 @@ use super::anderson::Anderson;
 use super::contact::{ContactProgram, assemble};
 use super::form::{Bounds, Form};
 use super::interior::{Effort, End};
-use super::program::Best;
+use super::program::{Best, Proof};
 use super::reduced::Law;
 use crate::solve::Monitor;
 use crate::{Contact2d, Status};
 
-/// Rounds without progress after which the fixed point is given up.
-const IDLE: usize = 12;
+/// Rounds without progress after which it is asked whether there is a solution at all.
+const DOUBTS: usize = 4;
 /// Times that larger bounds are tried where no bounds were large enough yet.
 const ENLARGED: usize = 4;
 
@@ -23,7 +23,7 @@ pub(super) fn solve_contact(
     contact: &Contact2d,
     program: &mut ContactProgram,
     (tolerance, effort): (f64, &dyn Fn() -> Effort),
-    (best, monitor): (&mut Best, &mut Monitor<'_>),
+    (best, monitor, proof): (&mut Best, &mut Monitor<'_>, &mut Proof<'_>),
 ) -> Result<End, Status> {
     let has_cones = program.scaled.form.has_cones();
     let mut limits = generous(&program.scaled.form);
@@ -38,15 +38,17 @@ pub(super) fn solve_contact(
         best.factorisations += found.iterations;
         match found.end {
             End::Failed => return Ok(End::Failed),
-            End::NoPoint if !has_cones || enlarged >= ENLARGED => return Ok(End::NoPoint),
+            End::NoPoint if !has_cones || proof.is_found() || enlarged >= ENLARGED => {
+                return Ok(End::NoPoint);
+            }
             // The bounds are too small to hold the bodies.
             End::NoPoint => {
                 limits = anderson.retreat(&limits).unwrap_or_else(|| {
                     enlarged += 1;
                     limits.iter().map(|limit| 16.0 * limit).collect()
                 });
-                if anderson.idle() > IDLE {
-                    return Ok(End::NoPoint);
+                if anderson.is_stalled() {
+                    return Err(Status::Stalled);
                 }
                 continue;
             }
@@ -65,7 +67,7 @@ pub(super) fn solve_contact(
         }
         let image = scaled.form.limits(&found.point.lambda);
         limits = anderson.next(&limits, &image);
-        if anderson.idle() > IDLE {
+        if anderson.is_stalled() || (anderson.idle() >= DOUBTS && proof.is_found()) {
             monitor.history.push(best.residual());
             return Err(Status::Stalled);
         }

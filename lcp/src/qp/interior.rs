@@ -190,7 +190,9 @@ impl Interior {
             Layout::Unknowns { row, cones, .. } => {
                 let x = solution.x[..form.unknowns()].to_vec();
                 let mut lambda: Vec<f64> = row.iter().map(|&row| solution.z[row]).collect();
-                cones.iter().for_each(|(i, _)| lambda[*i] -= limits[*i]);
+                for (i, _) in cones {
+                    lambda[*i] -= limits[*i];
+                }
                 Point { x, lambda }
             }
         };
@@ -207,7 +209,9 @@ impl Interior {
             Layout::Multipliers { b, cones } if !cones.is_empty() => {
                 let mut b = b.clone();
                 for (i, rows) in cones {
-                    rows.iter().for_each(|&row| b[row] = limits[*i]);
+                    for &row in rows {
+                        b[row] = limits[*i];
+                    }
                 }
                 self.solver.update_b(&b).ok()
             }

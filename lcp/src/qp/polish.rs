@@ -62,7 +62,9 @@ pub(super) fn polish(
             return round + 1;
         };
         let mut next = places.clone();
-        wrong.iter().for_each(|wrong| next[wrong.row] = wrong.right);
+        for wrong in &wrong {
+            next[wrong.row] = wrong.right;
+        }
         if seen.contains(&next) {
             next.clone_from(&places);
             next[worst.row] = worst.right;

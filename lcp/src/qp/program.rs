@@ -27,6 +27,27 @@ impl Candidate {
 /// places of the multipliers.
 pub(super) type Assemble<'a> = dyn Fn(&Point, Option<&[Place]>) -> Candidate + 'a;
 
+/// The proof that there is no solution, looked for at most once.
+pub(super) struct Proof<'a> {
+    search: &'a dyn Fn() -> Option<Vec<f64>>,
+    /// None as long as it was not looked for.
+    answer: Option<Option<Vec<f64>>>,
+}
+
+impl<'a> Proof<'a> {
+    pub(super) fn new(search: &'a dyn Fn() -> Option<Vec<f64>>) -> Self {
+        Self { search, answer: None }
+    }
+
+    pub(super) fn is_found(&mut self) -> bool {
+        self.answer.get_or_insert_with(self.search).is_some()
+    }
+
+    pub(super) fn into_farkas(self) -> Option<Vec<f64>> {
+        self.answer.unwrap_or_else(self.search)
+    }
+}
+
 /// The best point so far, and what it cost.
 pub(super) struct Best {
     pub(super) candidate: Candidate,

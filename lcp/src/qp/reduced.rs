@@ -220,7 +220,9 @@ impl Factor {
         }
         if entries.len() as f64 > DENSE * (order * order) as f64 {
             let mut dense = Mat::<f64>::zeros(order, order);
-            entries.into_iter().for_each(|(i, j, v)| dense[(i, j)] += v);
+            for (i, j, v) in entries {
+                dense[(i, j)] += v;
+            }
             return Some(Self::Dense(dense.partial_piv_lu()));
         }
         let matrix = Matrix::from_entries(order, order, entries.into_iter()).into_sparse();

@@ -6,7 +6,7 @@ use std::time::Instant;
 use super::definite::indefiniteness;
 use super::farkas::farkas_vector;
 use super::interior::End;
-use super::program::{Best, Candidate};
+use super::program::{Best, Candidate, Proof};
 use super::settings::{SoftConstraints, check_epsilon};
 use super::{Observer, QuadraticProgram, QuadraticProgramSettings, refused};
 use crate::problem::{column_of, max_abs};
@@ -126,9 +126,8 @@ impl QuadraticProgram {
             }
             centre = state.u;
         };
-        Ok(self.concluded(best, end, &monitor, || {
-            farkas_vector(&contact.to_general(), self.effort(began))
-        }))
+        let search = || farkas_vector(&contact.to_general(), self.effort(began));
+        Ok(self.concluded(best, end, &monitor, Proof::new(&search)))
     }
 
     /// The same solver for a problem that has its springs.
