@@ -4,6 +4,7 @@ mod anderson;
 mod contact;
 mod coulomb;
 mod definite;
+mod drift;
 mod farkas;
 mod form;
 mod interior;
@@ -168,13 +169,13 @@ impl QuadraticProgram {
         }
         let search = || farkas_vector(&contact.to_general(), effort());
         let mut proof = Proof::new(&search);
-        let mut best = Best::new(assemble(&Point::zero(&form), None));
-        let rows = Rows::of_contact(contact);
         let scaled = Scaled::new(&form);
+        let mut best = Best::new(&scaled, &assemble);
+        let rows = Rows::of_contact(contact);
         rows.try_start(&settings.start, &scaled, &assemble, &mut best);
-        let end = if best.residual() <= settings.tolerance || form.rows() == 0 {
+        let end = if best.residual <= settings.tolerance || form.rows() == 0 {
             best.polish_zero(&scaled, &assemble);
-            monitor.stop(best.residual()).map_or(Ok(End::Point), Err)
+            monitor.stop(best.residual).map_or(Ok(End::Point), Err)
         } else if let Some(mut program) =
             contact::ContactProgram::new(form, settings.form, effort())
         {
@@ -196,18 +197,18 @@ impl QuadraticProgram {
         let settings = &self.settings;
         let began = Instant::now();
         let mut monitor = Monitor::new(1, settings.time_limit, observer);
-        let mut best = Best::new(assemble(&Point::zero(form), None));
         let scaled = Scaled::new(form);
+        let mut best = Best::new(&scaled, assemble);
         rows.try_start(&settings.start, &scaled, assemble, &mut best);
-        let end = match monitor.stop(best.residual()) {
+        let end = match monitor.stop(best.residual) {
             Some(status) => Err(status),
-            None if best.residual() <= settings.tolerance => {
+            None if best.residual <= settings.tolerance => {
                 best.polish_zero(&scaled, assemble);
                 Ok(End::Point)
             }
             None => {
                 let end = solve_convex(&scaled, self.effort(began), assemble, &mut best);
-                monitor.history.push(best.residual());
+                monitor.history.push(best.residual);
                 Ok(end)
             }
         };
@@ -226,7 +227,7 @@ impl QuadraticProgram {
         let tolerance = self.settings.tolerance;
         let mut farkas = None;
         let otherwise = match end {
-            _ if best.residual() <= tolerance => Status::Solved,
+            _ if best.residual <= tolerance => Status::Solved,
             Err(status @ (Status::Cancelled | Status::TimeLimit)) => status,
             Ok(End::TimeLimit) => Status::TimeLimit,
             Ok(End::IterationLimit) => Status::IterationLimit,
@@ -240,9 +241,11 @@ impl QuadraticProgram {
                 }
             }
         };
-        let Best { candidate, factorisations } = best;
+        let Best { candidate, factorisations, .. } = best;
         let point = (candidate.t, candidate.y);
         let mut solution = Solution::judged(point, candidate.residuals, tolerance, otherwise);
+        // Residuals may be small for a point that is far away.
+        solution.status = otherwise;
         solution.farkas = farkas;
         solution.info.solver = Self::NAME;
         solution.info.iterations = monitor.iterations();

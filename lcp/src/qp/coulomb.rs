@@ -2,10 +2,10 @@
 
 use super::anderson::Anderson;
 use super::contact::{ContactProgram, assemble};
-use super::form::{Bounds, Form};
+use super::form::{Bounds, Form, Point};
 use super::interior::{Effort, End};
 use super::program::{Best, Proof};
-use super::reduced::Law;
+use super::reduced::{Law, Place};
 use crate::solve::Monitor;
 use crate::{Contact2d, Status};
 
@@ -29,7 +29,7 @@ pub(super) fn solve_contact(
     let mut limits = generous(&program.scaled.form);
     let mut anderson = Anderson::default();
     let mut enlarged = 0;
-    let mut residual = best.residual();
+    let mut residual = best.residual;
     loop {
         if let Some(status) = monitor.stop(residual) {
             return Err(status);
@@ -55,20 +55,17 @@ pub(super) fn solve_contact(
             End::Point | End::IterationLimit | End::TimeLimit => {}
         }
         let scaled = &program.scaled;
-        let candidate = assemble(contact, &scaled.unscaled(&found.point), None);
-        residual = candidate.residuals.worst();
-        best.offer(candidate);
-        best.polish(scaled, Law::Coulomb, &found.point, &|point, places| {
-            assemble(contact, point, places)
-        });
-        if !has_cones || best.residual() <= tolerance || found.end != End::Point {
-            monitor.history.push(best.residual());
+        let assemble = |point: &Point, places: Option<&[Place]>| assemble(contact, point, places);
+        residual = best.offer(scaled, (&found.point, None), &assemble);
+        best.polish(scaled, Law::Coulomb, &found.point, &assemble);
+        if !has_cones || best.residual <= tolerance || found.end != End::Point {
+            monitor.history.push(best.residual);
             return Ok(found.end);
         }
         let image = scaled.form.limits(&found.point.lambda);
         limits = anderson.next(&limits, &image);
         if anderson.is_stalled() || (anderson.idle() >= DOUBTS && proof.is_found()) {
-            monitor.history.push(best.residual());
+            monitor.history.push(best.residual);
             return Err(Status::Stalled);
         }
     }

@@ -1,5 +1,6 @@
 //! A form that is solved: interior point, polish, and the best of what was met.
 
+use super::drift::load_residual;
 use super::form::{Form, Point};
 use super::interior::{Effort, End, Interior};
 use super::polish::{places_of, polish};
@@ -51,22 +52,33 @@ impl<'a> Proof<'a> {
 /// The best point so far, and what it cost.
 pub(super) struct Best {
     pub(super) candidate: Candidate,
+    /// Its worst residual, also in units of the loads.
+    pub(super) residual: f64,
     pub(super) factorisations: usize,
 }
 
 impl Best {
-    pub(super) fn new(candidate: Candidate) -> Self {
-        Self { candidate, factorisations: 0 }
+    /// The zero point of a form.
+    pub(super) fn new(scaled: &Scaled, assemble: &Assemble<'_>) -> Self {
+        let zero = Point::zero(&scaled.form);
+        let candidate = assemble(&zero, None);
+        let residual = judged(scaled, &zero, None, &candidate);
+        Self { candidate, residual, factorisations: 0 }
     }
 
-    pub(super) fn residual(&self) -> f64 {
-        self.candidate.residuals.worst()
-    }
-
-    pub(super) fn offer(&mut self, candidate: Candidate) {
-        if candidate.residuals.worst() < self.residual() {
-            self.candidate = candidate;
+    /// Takes a scaled point if it is better.
+    pub(super) fn offer(
+        &mut self,
+        scaled: &Scaled,
+        (point, places): (&Point, Option<&[Place]>),
+        assemble: &Assemble<'_>,
+    ) -> f64 {
+        let candidate = assemble(&scaled.unscaled(point), places);
+        let residual = judged(scaled, point, places, &candidate);
+        if residual < self.residual {
+            (self.candidate, self.residual) = (candidate, residual);
         }
+        residual
     }
 
     /// Polishes a scaled point, from the places that it suggests.
@@ -83,7 +95,7 @@ impl Best {
 
     /// Polishes the zero point, which may be good to a tolerance that is large.
     pub(super) fn polish_zero(&mut self, scaled: &Scaled, assemble: &Assemble<'_>) {
-        if self.residual() > EXACT {
+        if self.residual > EXACT {
             self.polish(scaled, Law::Coulomb, &Point::zero(&scaled.form), assemble);
         }
     }
@@ -97,13 +109,14 @@ impl Best {
         assemble: &Assemble<'_>,
     ) {
         let systems = polish(&scaled.form, law, start, &mut |point, places| {
-            let candidate = assemble(&scaled.unscaled(point), Some(places));
-            let is_exact = candidate.residuals.worst() <= EXACT;
-            self.offer(candidate);
-            is_exact
+            self.offer(scaled, (point, Some(places)), assemble) <= EXACT
         });
         self.factorisations += systems;
     }
+}
+
+fn judged(scaled: &Scaled, point: &Point, places: Option<&[Place]>, candidate: &Candidate) -> f64 {
+    candidate.residuals.worst().max(load_residual(&scaled.form, point, places))
 }
 
 /// Residuals at which there is nothing left to gain.
@@ -127,7 +140,7 @@ pub(super) fn solve_convex(
     let found = interior.solve(form, &limits, effort.time);
     best.factorisations += found.iterations;
     if matches!(found.end, End::Point | End::IterationLimit | End::TimeLimit) {
-        best.offer(assemble(&scaled.unscaled(&found.point), None));
+        best.offer(scaled, (&found.point, None), assemble);
         best.polish(scaled, law, &found.point, assemble);
     }
     found.end

@@ -3,10 +3,14 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+use super::contact::primal_form;
 use super::definite::indefiniteness;
 use super::farkas::farkas_vector;
+use super::form::Point;
 use super::interior::End;
 use super::program::{Best, Candidate, Proof};
+use super::reduced::Place;
+use super::scale::Scaled;
 use super::settings::{SoftConstraints, check_epsilon};
 use super::{Observer, QuadraticProgram, QuadraticProgramSettings, refused};
 use crate::problem::{column_of, max_abs};
@@ -94,11 +98,12 @@ impl QuadraticProgram {
         let began = Instant::now();
         let mut monitor = Monitor::new(soft.max_recentrings, settings.time_limit, observer);
         let mut centre = vec![0.0; contact.displacements()];
-        let zero =
-            contact.state(centre.clone(), vec![0.0; contact.points()], vec![0.0; contact.points()]);
-        let mut best = Best::new(Candidate::of(contact, &zero));
+        let scaled = Scaled::new(&primal_form(contact));
+        let assemble =
+            |point: &Point, _: Option<&[Place]>| Candidate::of(contact, &state_of(contact, point));
+        let mut best = Best::new(&scaled, &assemble);
         let (mut idle, mut least) = (0, f64::INFINITY);
-        let mut residual = best.residual();
+        let mut residual = best.residual;
         let end = loop {
             if residual <= settings.tolerance {
                 monitor.stop(residual);
@@ -114,9 +119,8 @@ impl QuadraticProgram {
                 break Err(solution.status);
             }
             let state = contact.recover(&solution.t, &solution.y);
-            let candidate = Candidate::of(contact, &state);
-            residual = candidate.residuals.worst();
-            best.offer(candidate);
+            let point = scaled.scaled(&point_of(contact, &state));
+            residual = best.offer(&scaled, (&point, None), &assemble);
             let share = springs.share(contact, &springs.forces(&state.u, &centre));
             idle = if share < 0.9 * least { 0 } else { idle + 1 };
             least = least.min(share);
@@ -134,6 +138,21 @@ impl QuadraticProgram {
     fn without_soft(&self) -> Self {
         Self::new(QuadraticProgramSettings { soft: None, ..self.settings.clone() })
     }
+}
+
+/// Unknowns of the primal form.
+fn point_of(contact: &Contact2d, state: &ContactState) -> Point {
+    let friction = contact.frictional().iter().map(|&i| state.t_t[i]);
+    Point { x: state.u.clone(), lambda: state.t_n.iter().copied().chain(friction).collect() }
+}
+
+fn state_of(contact: &Contact2d, point: &Point) -> ContactState {
+    let (t_n, friction) = point.lambda.split_at(contact.points());
+    let mut t_t = vec![0.0; contact.points()];
+    for (&i, t) in contact.frictional().iter().zip(friction) {
+        t_t[i] = *t;
+    }
+    contact.state(point.x.clone(), t_n.to_vec(), t_t)
 }
 
 /// The stiffnesses of the springs.
