@@ -5,6 +5,9 @@
 
 mod common;
 
+use std::ops::ControlFlow;
+use std::time::Duration;
+
 use common::cases;
 use faer::{Mat, mat};
 use lcp::families::{self, Known};
@@ -174,9 +177,9 @@ proptest! {
         prop_assert_eq!(first.status, second.status);
         prop_assert_eq!(first.info.factorisations, second.info.factorisations);
         for (first, second) in first.t.iter().zip(&second.t) {
-            prop_assert_eq!(first * b / a, *second);
+            prop_assert_eq!((first * b / a).to_bits(), second.to_bits());
         }
-        let unit = |i: usize| if i % 2 == 0 { a.sqrt() } else { 1.0 };
+        let unit = |i: usize| if i.is_multiple_of(2) { a.sqrt() } else { 1.0 };
         let paired = Lcp::new(
             Mat::from_fn(n, n, |i, j| unit(i) * m[(i, j)] * unit(j)),
             lcp.q().iter().enumerate().map(|(i, q)| unit(i) * q).collect(),
@@ -223,9 +226,12 @@ fn a_degenerate_pair_is_exact() {
 fn infeasible_problems_are_proved_so() {
     for (n, seed) in (2..14).flat_map(|n| (0..6).map(move |seed| (n, seed))) {
         let instance = families::infeasible_semidefinite(n, seed);
-        let solution = solve_lcp(&instance.problem, 1e-10);
-        assert_eq!(solution.status, Status::Infeasible, "{n} {seed} {:?}", solution.info);
-        assert_proof(&instance.problem.into(), &solution);
+        let general: HorizontalLcp = instance.problem.clone().into();
+        for tolerance in TOLERANCES {
+            let solution = solve_lcp(&instance.problem, tolerance);
+            assert_eq!(solution.status, Status::Infeasible, "{n} {seed} {:?}", solution.info);
+            assert_proof(&general, &solution);
+        }
     }
 }
 
@@ -320,7 +326,7 @@ fn disguised_problems_are_solved() {
         let q: Vec<f64> =
             lcp.q().iter().enumerate().map(|(i, q)| q * (1.0 + (i + seed) as f64)).collect();
         let (a, b) = (Mat::from_fn(n, n, |i, j| -lcp.m()[(i, j)]), Mat::<f64>::identity(n, n));
-        let swapped = |j: usize| (j + seed) % 3 == 0;
+        let swapped = |j: usize| (j + seed).is_multiple_of(3);
         let choose = |first: &Mat<f64>, second: &Mat<f64>| {
             Mat::from_fn(n, n, |i, j| if swapped(j) { second[(i, j)] } else { first[(i, j)] })
         };
@@ -466,10 +472,10 @@ fn units_of_contact_do_not_matter() {
             solve_contact(&contact((k, f), rows, x_0, vec![0.3; n]), settings());
         assert!(solution.is_solved());
         for (a, b) in reference.t_n.iter().zip(&state.t_n) {
-            assert_eq!(a * force, *b);
+            assert_eq!((a * force).to_bits(), b.to_bits());
         }
         for (a, b) in reference.u.iter().zip(&state.u) {
-            assert_eq!(a * length, *b);
+            assert_eq!((a * length).to_bits(), b.to_bits());
         }
     }
 }
@@ -586,4 +592,143 @@ fn springs_do_not_make_an_equilibrium() {
     assert_proof(&incline.to_general(), &solution);
     let history = &solution.info.history;
     assert!(history.last().unwrap() > &0.1 && history.len() > 5, "{history:?}");
+}
+
+proptest! {
+    #![proptest_config(cases(48))]
+
+    /// Structures that are not held: what is solved is not proved infeasible by the other method.
+    #[test]
+    fn floating_contacts_do_not_contradict_lemke(
+        (n, c, k, v, mu) in (2..=7_usize).prop_flat_map(|n| {
+            (Just(n), vec(-2..=2_i8, 6 * n), vec(-2..=2_i8, n), vec(-2..=2_i8, n + 6), 0..3_u8)
+        })
+    ) {
+        let m = 3;
+        let real = |v: Vec<i8>| v.into_iter().map(f64::from).collect::<Vec<_>>();
+        let (c, k, v) = (real(c), gram(&real(k), n, 1), real(v));
+        let rows = |first: usize| Mat::from_fn(m, n, |i, j| c[first + i * n + j]);
+        let x_0 = v[n..n + m].iter().map(|x| x.abs()).collect();
+        let offsets = (x_0, v[n + m..].to_vec());
+        let problem = contact(
+            (k, v[..n].to_vec()), (rows(0), rows(m * n)), offsets, vec![0.5 * f64::from(mu); m],
+        );
+        let lemke = Solver::<Contact2d>::solve(&Lemke::default(), &problem).unwrap().status;
+        for tolerance in TOLERANCES {
+            let (_, solution) =
+                solve_contact(&problem, QuadraticProgramSettings { tolerance, ..settings() });
+            match solution.status {
+                Status::Solved => prop_assert!(lemke != Status::Infeasible, "{:?}", solution),
+                Status::Infeasible => {
+                    prop_assert!(lemke != Status::Solved);
+                    assert_proof(&problem.to_general(), &solution);
+                }
+                _ => prop_assert!(mu > 0, "{:?}", solution),
+            }
+            if mu == 0 {
+                prop_assert_eq!(solution.is_solved(), lemke == Status::Solved);
+            }
+        }
+    }
+
+    #[test]
+    fn order_does_not_matter(lcp in symmetric_lcp(true), seed in 0..1000_usize) {
+        let (m, n) = (lcp.m().to_dense(), lcp.order());
+        let mut order: Vec<usize> = (0..n).collect();
+        order.sort_by_key(|i| (i * 7919 + seed) % 101);
+        let permuted = Lcp::new(
+            Mat::from_fn(n, n, |i, j| m[(order[i], order[j])]),
+            order.iter().map(|&i| lcp.q()[i]).collect(),
+        )
+        .unwrap();
+        let [first, second] = [&lcp, &permuted].map(|lcp| solve_lcp(lcp, 1e-12));
+        prop_assert!(first.is_solved() && second.is_solved());
+        let size = first.t.iter().fold(1.0_f64, |max, z| max.max(*z));
+        for (i, &from) in order.iter().enumerate() {
+            prop_assert!((second.t[i] - first.t[from]).abs() <= 1e-9 * size);
+        }
+    }
+}
+
+/// Friction would have to hold the body, but its spring keeps it away from the wall: there is no
+/// solution, although equilibrium alone is possible.
+#[test]
+fn a_fixed_point_that_is_none_is_reported() {
+    let k = mat![[4.0, 0.0], [0.0, 0.0]];
+    let rows = (mat![[1.0, 0.0]], mat![[0.0, 1.0]]);
+    let problem = contact((k, vec![0.0, 0.5]), rows, (vec![1.0], vec![0.0]), vec![0.5]);
+    let (_, solution) = solve_contact(&problem, settings());
+    assert_eq!(solution.status, Status::Stalled, "{solution:?}");
+    let history = &solution.info.history;
+    assert!(history.len() > 10 && history.iter().all(|r| *r > 1e-2), "{history:?}");
+    assert!(solution.farkas.is_none());
+    assert!(solution.t.iter().chain(&solution.y).all(|v| v.is_finite()));
+
+    let few = QuadraticProgramSettings { max_outer: 3, ..settings() };
+    let (_, solution) = solve_contact(&problem, few);
+    assert_eq!(solution.status, Status::IterationLimit, "{solution:?}");
+    assert_eq!(solution.info.iterations, 3);
+}
+
+#[test]
+fn limits_and_observers_end_a_solve() {
+    let late = QuadraticProgramSettings { time_limit: Some(Duration::ZERO), ..settings() };
+    let (state, solution) = solve_contact(&pile(5, 0.3), late.clone());
+    assert_eq!(solution.status, Status::TimeLimit);
+    assert!(state.u.iter().all(|u| u.is_finite()));
+    let lcp = families::obstacle(4).problem;
+    let solution = QuadraticProgram::new(late).solve(&lcp).unwrap();
+    assert_eq!(solution.status, Status::TimeLimit);
+    let stop = &mut |_: &lcp::Iteration| ControlFlow::Break(());
+    let solver = QuadraticProgram::new(settings());
+    assert_eq!(solver.solve_observed(&lcp, stop).unwrap().status, Status::Cancelled);
+    let solution = solver.solve_contact_observed(&pile(5, 0.3), stop).unwrap();
+    assert_eq!(solution.status, Status::Cancelled);
+    let short = QuadraticProgramSettings { max_iterations: 1, ..settings() };
+    let solution = QuadraticProgram::new(short).solve(&families::obstacle(6).problem).unwrap();
+    assert!(solution.is_solved() || solution.status == Status::IterationLimit);
+}
+
+#[test]
+fn the_dual_form_needs_a_stiffness() {
+    let dual = QuadraticProgramSettings { form: ContactForm::Dual, ..settings() };
+    match QuadraticProgram::new(dual).solve(&pile(3, 0.0)) {
+        Err(Error::NotTreated { reason, .. }) => assert!(reason.contains("primal"), "{reason}"),
+        other => panic!("{other:?}"),
+    }
+}
+
+/// An elastic bar that slides down an incline: far down, what holds it is small against the forces that
+/// its displacements would cause if they were not rigid.
+#[test]
+fn a_body_far_away_is_not_taken_for_one_at_rest() {
+    let mut k = Mat::zeros(4, 4);
+    (k[(1, 1)], k[(1, 3)], k[(3, 1)], k[(3, 3)]) = (100.0, -100.0, -100.0, 100.0);
+    let rows = |first: usize| Mat::from_fn(2, 4, |i, j| f64::from(u8::from(j == 2 * i + first)));
+    let f = vec![-1.0, 0.3, -1.0, 0.3];
+    let bar = contact((k, f), (rows(0), rows(1)), (vec![0.0; 2], vec![0.0; 2]), vec![0.0; 2]);
+    let soft = SoftConstraints { epsilon: 1e-6, max_recentrings: 40 };
+    for soft in [None, Some(soft)] {
+        for tolerance in [1e-2, 1e-4, 1e-8] {
+            let settings = QuadraticProgramSettings { tolerance, soft, ..settings() };
+            let (_, solution) = solve_contact(&bar, settings);
+            assert_eq!(solution.status, Status::Infeasible, "{solution:?}");
+        }
+    }
+}
+
+/// Nothing to solve, or no pairs at all.
+#[test]
+fn trivial_problems_are_solved() {
+    let empty = Lcp::new(Mat::zeros(0, 0), Vec::new()).unwrap();
+    assert!(solve_lcp(&empty, 1e-12).is_solved());
+    let zero = Lcp::new(Mat::zeros(2, 2), vec![0.0, 3.0]).unwrap();
+    let solution = solve_lcp(&zero, 1e-12);
+    assert!(solution.is_solved() && solution.y[1] == 3.0);
+    let none = Mat::zeros(0, 2);
+    let k = mat![[2.0, 1.0], [1.0, 2.0]];
+    let body = contact((k, vec![3.0, 3.0]), (none.clone(), none), (vec![], vec![]), vec![]);
+    let (state, solution) = solve_contact(&body, settings());
+    assert!(solution.is_solved(), "{solution:?}");
+    assert!(near(state.u[0], 1.0) && near(state.u[1], 1.0));
 }
