@@ -168,7 +168,7 @@ impl QuadraticProgram {
             });
         }
         let search = || farkas_vector(&contact.to_general(), effort());
-        let mut proof = Proof::new(&search);
+        let proof = Proof::new(&search);
         let scaled = Scaled::new(&form);
         let mut best = Best::new(&scaled, &assemble);
         let rows = Rows::of_contact(contact);
@@ -180,7 +180,7 @@ impl QuadraticProgram {
             contact::ContactProgram::new(form, settings.form, effort())
         {
             let limits = (settings.tolerance, &effort as &dyn Fn() -> Effort);
-            solve_contact(contact, &mut program, limits, (&mut best, &mut monitor, &mut proof))
+            solve_contact(contact, &mut program, limits, (&mut best, &mut monitor, &proof))
         } else {
             Ok(End::Failed)
         };

@@ -23,7 +23,7 @@ pub(super) fn solve_contact(
     contact: &Contact2d,
     program: &mut ContactProgram,
     (tolerance, effort): (f64, &dyn Fn() -> Effort),
-    (best, monitor, proof): (&mut Best, &mut Monitor<'_>, &mut Proof<'_>),
+    (best, monitor, proof): (&mut Best, &mut Monitor<'_>, &Proof<'_>),
 ) -> Result<End, Status> {
     let has_cones = program.scaled.form.has_cones();
     let mut limits = generous(&program.scaled.form);

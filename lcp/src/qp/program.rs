@@ -1,5 +1,7 @@
 //! A form that is solved: interior point, polish, and the best of what was met.
 
+use std::cell::OnceCell;
+
 use super::drift::load_residual;
 use super::form::{Form, Point};
 use super::interior::{Effort, End, Interior};
@@ -31,21 +33,20 @@ pub(super) type Assemble<'a> = dyn Fn(&Point, Option<&[Place]>) -> Candidate + '
 /// The proof that there is no solution, looked for at most once.
 pub(super) struct Proof<'a> {
     search: &'a dyn Fn() -> Option<Vec<f64>>,
-    /// None as long as it was not looked for.
-    answer: Option<Option<Vec<f64>>>,
+    answer: OnceCell<Option<Vec<f64>>>,
 }
 
 impl<'a> Proof<'a> {
     pub(super) fn new(search: &'a dyn Fn() -> Option<Vec<f64>>) -> Self {
-        Self { search, answer: None }
+        Self { search, answer: OnceCell::new() }
     }
 
-    pub(super) fn is_found(&mut self) -> bool {
-        self.answer.get_or_insert_with(self.search).is_some()
+    pub(super) fn is_found(&self) -> bool {
+        self.answer.get_or_init(self.search).is_some()
     }
 
     pub(super) fn into_farkas(self) -> Option<Vec<f64>> {
-        self.answer.unwrap_or_else(self.search)
+        self.answer.into_inner().unwrap_or_else(self.search)
     }
 }
 

@@ -94,7 +94,6 @@ impl QuadraticProgram {
         const IDLE: usize = 6;
         let settings = &self.settings;
         let springs = Springs::new(contact, soft.epsilon);
-        let solver = self.without_soft();
         let began = Instant::now();
         let mut monitor = Monitor::new(soft.max_recentrings, settings.time_limit, observer);
         let mut centre = vec![0.0; contact.displacements()];
@@ -113,6 +112,8 @@ impl QuadraticProgram {
                 break Err(status);
             }
             let sprung = springs.attached(contact, &centre)?;
+            let mut solver = self.without_soft();
+            solver.settings.time_limit = self.effort(began).time;
             let solution = solver.solve_plain(&sprung, &mut |_| ControlFlow::Continue(()))?;
             best.factorisations += solution.info.factorisations;
             if !solution.is_solved() {
