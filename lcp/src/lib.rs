@@ -42,6 +42,7 @@ mod error;
 #[cfg(feature = "exact")]
 pub mod exact;
 pub mod families;
+mod interior;
 #[cfg(feature = "io")]
 pub mod io;
 mod lemke;
@@ -62,6 +63,7 @@ pub use faer;
 
 pub use basis::{Basis, Side};
 pub use error::Error;
+pub use interior::{InteriorPoint, InteriorPointSettings};
 pub use lemke::{
     Breakpoint, Lemke, Parametric, ParametricEnd, ParametricPath, ParametricRay,
     ParametricSettings, Progress,
@@ -79,7 +81,7 @@ pub use residual::Residuals;
 pub use settings::{Covering, LemkeSettings, WarmStart};
 pub use solution::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Info, Perturbation, PivotRecord, Ray,
-    Solution, Status, Variable,
+    SoftSprings, Solution, Status, Variable,
 };
 pub use solve::{Iteration, Solver};
 

@@ -2,8 +2,12 @@
 
 use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::{PartialPivLu, Solve};
-use faer::linalg::triangular_solve::solve_unit_lower_triangular_in_place;
-use faer::{Accum, Mat, MatMut, MatRef, Par};
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_unit_lower_triangular_in_place,
+    solve_upper_triangular_in_place,
+};
+use faer::prelude::{Reborrow, ReborrowMut};
+use faer::{Accum, Mat, MatMut, MatRef, Par, unzip, zip};
 
 use crate::problem::max_abs;
 
@@ -61,6 +65,87 @@ pub(crate) fn add_product(
 /// taken for one, on one thread.
 pub(crate) fn solve_unit_lower(matrix: MatRef<'_, f64>, rhs: MatMut<'_, f64>) {
     solve_unit_lower_triangular_in_place(matrix, rhs, Par::Seq);
+}
+
+/// Overwrites the right-hand sides with the solutions for an upper triangular matrix.
+pub(crate) fn solve_upper(matrix: MatRef<'_, f64>, rhs: MatMut<'_, f64>) {
+    solve_upper_triangular_in_place(matrix, rhs, Par::Seq);
+}
+
+/// Overwrites `rows` with the solution of `X U = rows` for an upper triangular matrix `U`.
+pub(crate) fn solve_right_upper(upper: MatRef<'_, f64>, rows: MatMut<'_, f64>) {
+    solve_lower_triangular_in_place(upper.transpose(), rows.transpose_mut(), Par::Seq);
+}
+
+/// LU factorisation in place of a block with row exchanges, which `beside` follows: row `i` becomes what
+/// was row `rows[i]`. Pivots below `vanishing` times the largest entry of the block are replaced by that
+/// bound; gives their number.
+///
+/// Blocks of sparse problems are narrow, for which this is as fast as anything blocked.
+pub(crate) fn factorise_block(
+    mut block: MatMut<'_, f64>,
+    mut beside: MatMut<'_, f64>,
+    rows: &mut [usize],
+    vanishing: f64,
+) -> usize {
+    const PANEL: usize = 32;
+    let n = block.nrows();
+    let least = vanishing * block.norm_max();
+    let mut replaced = 0;
+    rows.iter_mut().enumerate().for_each(|(i, row)| *row = i);
+    for start in (0..n).step_by(PANEL) {
+        let end = n.min(start + PANEL);
+        for k in start..end {
+            let column = block.rb().col(k).try_as_col_major().map(|column| column.as_slice());
+            let column = column.unwrap_or_else(|| unreachable!("blocks are stored by columns"));
+            let pivot = (k..n).fold(
+                k,
+                |best, i| {
+                    if column[i].abs() > column[best].abs() { i } else { best }
+                },
+            );
+            if pivot != k {
+                rows.swap(k, pivot);
+                swap_rows(block.rb_mut(), k, pivot);
+                swap_rows(beside.rb_mut(), k, pivot);
+            }
+            if block[(k, k)].abs() <= least {
+                block[(k, k)] = if least > 0.0 { least.copysign(block[(k, k)]) } else { 1.0 };
+                replaced += 1;
+            }
+            let inverse = 1.0 / block[(k, k)];
+            for i in k + 1..n {
+                block[(i, k)] *= inverse;
+            }
+            let (left, right) = block.rb_mut().split_at_col_mut(k + 1);
+            let multipliers = left.rb().subrows(k + 1, n - k - 1).col(k);
+            let right = right.subcols_mut(0, end - k - 1);
+            for mut column in right.col_iter_mut() {
+                let factor = column[k];
+                if factor != 0.0 {
+                    let below = column.rb_mut().subrows_mut(k + 1, n - k - 1);
+                    zip!(below, multipliers).for_each(|unzip!(v, l)| *v -= factor * *l);
+                }
+            }
+        }
+        // The panel is finished: the columns to its right follow.
+        let (left, right) = block.rb_mut().split_at_col_mut(end);
+        let (mut top, below) = right.split_at_row_mut(end);
+        let top = top.rb_mut().subrows_mut(start, end - start);
+        let panel = left.rb().subcols(start, end - start);
+        let mut top = top;
+        solve_unit_lower(panel.subrows(start, end - start), top.rb_mut());
+        add_product(below, -1.0, panel.subrows(end, n - end), top.rb());
+    }
+    replaced
+}
+
+fn swap_rows(mut matrix: MatMut<'_, f64>, i: usize, j: usize) {
+    for mut column in matrix.rb_mut().col_iter_mut() {
+        let value = column[i];
+        column[i] = column[j];
+        column[j] = value;
+    }
 }
 
 /// Estimate of the 1-norm of the inverse of a matrix of order `n` (Hager 1984; Higham 1988), given what

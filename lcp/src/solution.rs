@@ -16,6 +16,9 @@ pub enum Status {
     /// There is no solution: `A t + B y = c` has none with `t >= 0` and `y >= 0`, which
     /// [`Solution::farkas`] proves.
     Infeasible,
+    /// There is no equilibrium, by the evidence of [`Solution::springs`]: soft springs on all
+    /// displacements keep their share of the load, however soft they are. That is no proof.
+    NoEquilibrium,
     /// No attempt found a solution, and at least one ended on a secondary ray. This does not prove
     /// that there is none.
     RayTermination,
@@ -234,6 +237,20 @@ pub struct PivotRecord {
     pub artificial: f64,
 }
 
+/// What soft springs on all displacements of a contact problem carry when they are made softer and softer.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct SoftSprings {
+    /// The stiffnesses, relative to that of the bodies.
+    pub stiffness: Vec<f64>,
+    /// The share of the load that the springs of each stiffness carry: it tends to zero like the
+    /// stiffness where there is an equilibrium, and to a constant where there is none.
+    pub shares: Vec<f64>,
+    /// The displacements with the softest springs: the mechanism, as large as the springs let it become.
+    pub motion: Vec<f64>,
+}
+
 /// What it cost.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -281,6 +298,8 @@ pub struct Solution {
     /// `A^T pi <= 0`, `B^T pi <= 0` and `c.pi > 0` (Farkas). It was checked against the original data:
     /// no component of the products exceeds the rounding error of its computation.
     pub farkas: Option<Vec<f64>>,
+    /// With the status [`NoEquilibrium`](Status::NoEquilibrium) the evidence.
+    pub springs: Option<SoftSprings>,
     /// Estimate of the condition number, in the 1-norm, of the equilibrated matrix of the basis.
     pub condition: Option<f64>,
     /// Every pivot, if the settings asked for it.
@@ -307,6 +326,7 @@ impl Solution {
             residuals,
             ray: None,
             farkas: None,
+            springs: None,
             condition: None,
             trace: Vec::new(),
             info: Info::default(),

@@ -3,7 +3,10 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use crate::{Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Lemke, Solution, Status};
+use crate::{
+    Basis, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Lemke, Side, Solution, Status,
+    WarmStart,
+};
 
 /// A method that treats problems of type `P`.
 ///
@@ -62,7 +65,8 @@ impl Solver<Friction2d> for Lemke {
     }
 }
 
-/// On the mixed problem of [`Contact2d::to_mixed`]. A start of the settings has its pairs.
+/// On the mixed problem of [`Contact2d::to_mixed`]. A start of the settings has its pairs; without one
+/// the path starts from open contacts, with the displacements that they leave free.
 impl Solver<Contact2d> for Lemke {
     fn name(&self) -> &'static str {
         Self::NAME
@@ -70,7 +74,13 @@ impl Solver<Contact2d> for Lemke {
 
     fn solve(&self, problem: &Contact2d) -> Result<Solution, Error> {
         let mixed = problem.to_mixed();
-        let mut solution = self.solve(&mixed.to_general())?;
+        let mut settings = self.settings().clone();
+        if settings.start == WarmStart::None {
+            // From there the problem is copositive, if `K` is regular; from a basis with contact forces
+            // it is not, and a path may end on a ray.
+            settings.start = WarmStart::Basis(Basis::all(Side::Y, mixed.order()));
+        }
+        let mut solution = Self::new(settings).solve(&mixed.to_general())?;
         let (z, _) = mixed.recover(&solution.t, &solution.y);
         let state = problem.from_mixed(&z);
         solution.residuals = problem.residuals(&state);

@@ -1,9 +1,11 @@
 //! Sparse linear algebra: columns, their order, and an LU factorisation that grows by columns.
 
 mod lu;
+mod multifrontal;
 mod order;
 
 pub(crate) use lu::{Growing, SparseLu, row_counts};
+pub(crate) use multifrontal::Multifrontal;
 pub(crate) use order::elimination_order;
 
 /// Columns of nonzero entries, one after the other.

@@ -18,7 +18,10 @@ use crate::system::System;
 mod coulomb;
 mod mixed;
 mod reduced;
+mod sparse;
 mod stewart_trinkle;
+
+pub use sparse::Sparse;
 
 /// Which variables are used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -288,10 +288,15 @@ impl Contact2d {
     /// Residuals of a state, dimensionless, from the original data.
     ///
     /// * equation: `|K u - f - C^T t|_i / (|K||u| + |f| + |C^T||t|)_i`, the largest over the rows, where
-    ///   the denominator is at least 2^-10 of the largest one that the row could have with the largest
-    ///   displacement and the largest force.
-    /// * feasibility, complementarity and natural: forces are measured in units of the largest one,
-    ///   loads included, gaps and slips in units of the largest term of any of them.
+    ///   the denominator is at least 2^-10 of the largest term that the row could have: of a force with
+    ///   the largest one, of a displacement with `sqrt(K_ii) max_j sqrt(K_jj) |u_j|`, which does not
+    ///   compare translations with rotations.
+    /// * feasibility, complementarity and natural: forces are measured in units of the largest one, gaps
+    ///   and slips in units of the largest term of any of them. With both goes what the loads alone would
+    ///   make, by the diagonal of `K`: so nothing is measured by noise where all bodies are at rest, or
+    ///   all contacts open.
+    ///
+    /// Units do not matter, not even those of single displacements: a moment is not compared with a force.
     ///
     /// # Panics
     /// If the lengths are not those of the problem.
@@ -301,8 +306,9 @@ impl Contact2d {
         if all.iter().any(|v| v.iter().any(|v| !v.is_finite())) {
             return Residuals::infinite();
         }
-        let force = max_abs(t_n).max(max_abs(t_t)).max(max_abs(&self.f));
-        let length = self.length(u);
+        let (load_force, load_length) = self.load_sizes();
+        let force = max_abs(t_n).max(max_abs(t_t)).max(load_force);
+        let length = self.length(u).max(load_length);
         let mut worst = (0.0_f64, 0.0_f64, 0.0_f64);
         let mut pair = |t: f64, y: f64| {
             let relative = |v: f64, unit: f64| if unit > 0.0 { v / unit } else { 0.0 };
@@ -323,17 +329,19 @@ impl Contact2d {
 
     fn equation_residual(&self, u: &[f64], t_n: &[f64], t_t: &[f64]) -> f64 {
         const FLOOR: f64 = 1.0 / (1 << 10) as f64;
-        let (u_max, t_max) = (max_abs(u), max_abs(t_n).max(max_abs(t_t)));
+        let t_max = max_abs(t_n).max(max_abs(t_t));
+        let root = |j: usize| self.root(j);
+        let energy = u.iter().enumerate().fold(0.0_f64, |max, (j, u)| max.max(root(j) * u.abs()));
         let mut worst = 0.0_f64;
         // K is symmetric: its columns are its rows.
         for (j, &f) in self.f.iter().enumerate() {
-            let (mut sum, mut size, mut largest) = (-f, f.abs(), 0.0_f64);
+            let (mut sum, mut size, mut largest) = (-f, f.abs(), root(j) * energy);
             let mut add = |v: f64, x: f64, max: f64| {
                 sum += v * x;
                 size += (v * x).abs();
                 largest = largest.max(v.abs() * max);
             };
-            column_of(&self.k, j).for_each(|(i, v)| add(v, u[i], u_max));
+            column_of(&self.k, j).for_each(|(i, v)| add(v, u[i], 0.0));
             column_of(&self.c_n, j).for_each(|(i, v)| add(-v, t_n[i], t_max));
             column_of(&self.c_t, j)
                 .filter(|(i, _)| self.mu[*i] > 0.0)
@@ -344,6 +352,31 @@ impl Contact2d {
             }
         }
         worst
+    }
+
+    /// Sizes of the contact force that would balance the largest load, and of the gap that the loads
+    /// would make without contact, both as if `K` were diagonal. Loads without stiffness are balanced
+    /// directly, and make no gap of finite size.
+    fn load_sizes(&self) -> (f64, f64) {
+        let (mut load, mut contact, mut direct) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for (j, f) in self.f.iter().enumerate() {
+            let entries = column_of(&self.c_n, j).chain(self.friction_rows(j));
+            let largest = entries.fold(0.0_f64, |max, (_, v)| max.max(v.abs()));
+            let root = self.root(j);
+            if root > 0.0 {
+                load = load.max(f.abs() / root);
+                contact = contact.max(largest / root);
+            } else if largest > 0.0 {
+                direct = direct.max(f.abs() / largest);
+            }
+        }
+        let balancing = if contact > 0.0 { load / contact } else { 0.0 };
+        (direct.max(balancing), load * contact)
+    }
+
+    /// The root of a diagonal entry of `K`: displacements times it can be compared.
+    fn root(&self, j: usize) -> f64 {
+        self.k.get(j, j).map_or(0.0, |v| v.abs().sqrt())
     }
 
     /// The largest term of any gap or slip.

@@ -3,7 +3,7 @@
 use faer::Mat;
 
 use super::{HorizontalLcp, Lcp};
-use crate::{Matrix, Side};
+use crate::{Basis, Matrix, Side, Solution, Status, WarmStart};
 
 /// A general problem written in the standard form. See [`HorizontalLcp::to_standard`].
 #[derive(Debug, Clone)]
@@ -105,6 +105,37 @@ impl StandardForm {
     /// If `t` or `y` does not have one entry for every pair.
     pub fn from_pairs(&self, t: &[f64], y: &[f64]) -> (Vec<f64>, Vec<f64>) {
         self.exchanged(t, y)
+    }
+
+    /// The start for the standard problem that belongs to one for the general problem.
+    pub(crate) fn start(&self, start: &WarmStart) -> WarmStart {
+        match start {
+            WarmStart::None => WarmStart::None,
+            WarmStart::Basis(basis) => WarmStart::Basis(self.basis(basis)),
+            WarmStart::Point { t, y } => {
+                let (t, y) = self.from_pairs(t, y);
+                WarmStart::Point { t, y }
+            }
+        }
+    }
+
+    /// Makes a solution of the standard problem one of the general problem, judged by that.
+    pub(crate) fn restore(&self, solution: &mut Solution, problem: &HorizontalLcp, tolerance: f64) {
+        (solution.t, solution.y) = self.to_pairs(&solution.t, &solution.y);
+        solution.basis = solution.basis.as_ref().map(|basis| self.basis(basis));
+        solution.residuals = problem.residuals(&solution.t, &solution.y);
+        if solution.is_solved() && solution.residuals.worst() > tolerance {
+            solution.status = Status::AlmostSolved;
+        }
+    }
+
+    /// A basis of the one problem as one of the other.
+    fn basis(&self, basis: &Basis) -> Basis {
+        let exchanged = |(side, w): (&Side, &Side)| match w {
+            Side::Y => *side,
+            Side::T => side.complement(),
+        };
+        Basis::new(basis.sides().iter().zip(&self.sides).map(exchanged).collect())
     }
 
     /// Exchanges the entries of the pairs whose `t` is `w`, which is its own inverse.

@@ -1,0 +1,137 @@
+//! The linear system of a step, condensed to the displacements.
+
+use faer::sparse::{FaerError, Pair, SymbolicSparseColMat};
+
+use super::scaled::Scaled;
+use crate::problem::max_abs;
+use crate::sparse::Multifrontal;
+
+/// The stiffness `s` with which a contact point answers to changes of its gap and slip:
+/// `dt_n = -nn dg`, `dt_t = -tn dg - tt ds`.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Springs {
+    pub(super) nn: f64,
+    pub(super) tn: f64,
+    pub(super) tt: f64,
+}
+
+impl Springs {
+    /// `(nn gap, tn gap + tt slip)`.
+    pub(super) fn forces(&self, gap: f64, slip: f64) -> (f64, f64) {
+        (self.nn * gap, self.tn * gap + self.tt * slip)
+    }
+}
+
+/// `K + delta 1 + C^T S C` for any springs `S`: its pattern, where its terms go, and its factors.
+pub(super) struct Condensed {
+    starts: Vec<usize>,
+    rows: Vec<usize>,
+    values: Vec<f64>,
+    /// Places of the entries of `K`, and of the diagonal.
+    of_stiffness: Vec<usize>,
+    of_diagonal: Vec<usize>,
+    /// Places of the terms of every point, columns one after the other.
+    of_points: Vec<Vec<u32>>,
+    factors: Multifrontal,
+    pub(super) factorisations: usize,
+}
+
+/// Steps of iterative refinement.
+const REFINEMENTS: usize = 2;
+
+impl Condensed {
+    pub(super) fn new(problem: &Scaled) -> Result<Self, FaerError> {
+        let n = problem.order();
+        let mut pairs: Vec<Pair<usize, usize>> = (0..n).map(|j| Pair::new(j, j)).collect();
+        let k = problem.k.as_ref();
+        for j in 0..n {
+            for &i in k.row_idx_of_col_raw(j) {
+                pairs.extend([Pair::new(i, j), Pair::new(j, i)]);
+            }
+        }
+        for point in &problem.points {
+            for &j in &point.columns {
+                pairs.extend(point.columns.iter().map(|&i| Pair::new(i, j)));
+            }
+        }
+        let (pattern, _) = SymbolicSparseColMat::try_new_from_indices(n, n, &pairs)
+            .map_err(|_| FaerError::OutOfMemory)?;
+        drop(pairs);
+        let place = |i: usize, j: usize| {
+            let start = pattern.col_ptr()[j];
+            let found = pattern.row_idx_of_col_raw(j).binary_search(&i);
+            start + found.unwrap_or_else(|_| unreachable!("the pattern has all entries"))
+        };
+        let of_diagonal = (0..n).map(|j| place(j, j)).collect();
+        let of_stiffness = (0..n)
+            .flat_map(|j| k.row_idx_of_col_raw(j).iter().map(move |&i| (i, j)))
+            .map(|(i, j)| place(i, j))
+            .collect();
+        let index = |i: usize| {
+            u32::try_from(i).unwrap_or_else(|_| unreachable!("2^32 entries do not fit in memory"))
+        };
+        let of_points = problem
+            .points
+            .iter()
+            .map(|point| {
+                let columns = &point.columns;
+                let pairs = columns.iter().flat_map(|&j| columns.iter().map(move |&i| (i, j)));
+                pairs.map(|(i, j)| index(place(i, j))).collect()
+            })
+            .collect();
+        let factors = Multifrontal::new(pattern.as_ref())?;
+        let values = vec![0.0; pattern.compute_nnz()];
+        let (starts, rows) = (pattern.col_ptr().to_vec(), pattern.row_idx().to_vec());
+        Ok(Self {
+            starts,
+            rows,
+            values,
+            of_stiffness,
+            of_diagonal,
+            of_points,
+            factors,
+            factorisations: 0,
+        })
+    }
+
+    /// Factorises for these springs of the points, and a spring `delta` on every displacement.
+    pub(super) fn factorise(&mut self, problem: &Scaled, springs: &[Springs], delta: f64) {
+        self.values.fill(0.0);
+        self.of_stiffness.iter().zip(problem.k.val()).for_each(|(&e, v)| self.values[e] += v);
+        self.of_diagonal.iter().for_each(|&e| self.values[e] += delta);
+        for ((point, springs), places) in problem.points.iter().zip(springs).zip(&self.of_points) {
+            let mut places = places.iter();
+            for (n_j, t_j) in point.normal.iter().zip(&point.tangent) {
+                let along = (springs.nn * n_j, springs.tn * n_j + springs.tt * t_j);
+                for ((n_i, t_i), &place) in point.normal.iter().zip(&point.tangent).zip(&mut places)
+                {
+                    self.values[place as usize] += n_i * along.0 + t_i * along.1;
+                }
+            }
+        }
+        self.factors.factorise(&self.values);
+        self.factorisations += 1;
+    }
+
+    /// Overwrites a right-hand side with the solution.
+    pub(super) fn solve(&self, x: &mut [f64]) {
+        let right = x.to_vec();
+        self.factors.solve(x);
+        let mut last = f64::INFINITY;
+        for _ in 0..REFINEMENTS {
+            let mut rest = right.clone();
+            for (j, x) in x.iter().enumerate().filter(|(_, x)| **x != 0.0) {
+                let range = self.starts[j]..self.starts[j + 1];
+                let entries = self.rows[range.clone()].iter().zip(&self.values[range]);
+                entries.for_each(|(&i, v)| rest[i] -= v * x);
+            }
+            let size = max_abs(&rest);
+            if !(size < 0.5 * last) || size == 0.0 {
+                break;
+            }
+            last = size;
+            self.factors.solve(&mut rest);
+            x.iter_mut().zip(&rest).for_each(|(x, step)| *x += step);
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Where there may be no equilibrium: soft springs that are reduced step by step.
+
+use super::condensed::Condensed;
+use super::iterate::{Defect, Iterate};
+use super::path::{advance, start};
+use super::scaled::Scaled;
+use crate::solution::SoftSprings;
+
+/// The first springs, relative to the stiffness, and the last.
+const FIRST: f64 = 0.1;
+const LAST: f64 = 1e-9;
+/// Factors from one spring to the next.
+const FACTOR: f64 = 0.1;
+/// Steps for one spring.
+const STEPS: usize = 60;
+/// The natural residual up to which the problem with springs is solved, relative to the largest force.
+const ACCURACY: f64 = 1e-5;
+/// Springs that carry less than this share of the load have nothing to say any more.
+const NOTHING: f64 = 1e-7;
+/// Where a tenth of the spring still carries this part of what the spring carried, several times in
+/// sequence, the share does not tend to zero.
+const CONSTANT: f64 = 0.8;
+const IN_SEQUENCE: usize = 4;
+
+/// How the continuation ended.
+pub(super) enum End {
+    /// The springs carry nothing any more.
+    Standing(Iterate),
+    /// They keep their share of the load.
+    Falling(SoftSprings),
+    /// Neither, within the steps that there were.
+    Open,
+}
+
+/// Follows the solution from stiff springs to soft ones. `go_on` is asked before every step.
+pub(super) fn follow(
+    problem: &Scaled,
+    condensed: &mut Condensed,
+    mut go_on: impl FnMut() -> bool,
+) -> End {
+    let load: f64 = problem.f.iter().map(|f| f.abs()).sum();
+    let mut spring = FIRST;
+    let mut at = start(problem, condensed, spring);
+    let mut path = SoftSprings::default();
+    let mut constant = 0;
+    while spring >= LAST {
+        let Some(next) = solve(problem, condensed, at, spring, &mut go_on) else {
+            return End::Open;
+        };
+        at = next;
+        let share = spring * at.u.iter().map(|u| u.abs()).sum::<f64>() / load;
+        if !(share > NOTHING) {
+            return End::Standing(at);
+        }
+        let is_constant = path.shares.last().is_some_and(|last| share > CONSTANT * last);
+        constant = if is_constant { constant + 1 } else { 0 };
+        path.stiffness.push(spring);
+        path.shares.push(share);
+        if constant >= IN_SEQUENCE {
+            path.motion = problem.displacements(&at.u);
+            return End::Falling(path);
+        }
+        spring *= FACTOR;
+    }
+    End::Open
+}
+
+fn solve(
+    problem: &Scaled,
+    condensed: &mut Condensed,
+    mut at: Iterate,
+    spring: f64,
+    go_on: &mut impl FnMut() -> bool,
+) -> Option<Iterate> {
+    for _ in 0..STEPS {
+        let size = at.points.iter().fold(1.0_f64, |max, pairs| max.max(pairs.t_n));
+        let lack = Defect::of(problem, &at, spring).size();
+        if at.natural(problem).max(lack) <= ACCURACY * size {
+            return Some(at);
+        }
+        if !go_on() {
+            return None;
+        }
+        let (next, alpha) = advance(problem, condensed, &at, spring);
+        if !next.is_finite() || alpha < 1e-6 {
+            return None;
+        }
+        at = next;
+    }
+    None
+}

@@ -1,0 +1,189 @@
+//! From a point inside to the exact one on the boundary: the state of every contact is guessed, the
+//! equations of these states are solved, and the few contacts that contradict change their state.
+
+use super::condensed::{Condensed, Springs};
+use super::iterate::{Iterate, Pairs};
+use super::path::PROXIMAL;
+use super::scaled::{Point, Scaled};
+use crate::problem::max_abs;
+
+/// Stiffness of a closed contact, relative to the bodies: the equations are solved to the last digit by
+/// refinement, so that it is no penalty but the size of a proximal step, which redundant contacts need.
+const STIFF: f64 = 1e8;
+/// Rounds of exchanges.
+const ROUNDS: usize = 12;
+/// Rounds without a decrease of the number of contradictions.
+const PATIENCE: usize = 3;
+/// Steps of refinement.
+const REFINEMENTS: usize = 12;
+/// Contradictions up to this part of the largest force or displacement are rounding errors.
+const ROUNDING: f64 = 1e-13;
+
+/// The state of a contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Contact {
+    /// No force.
+    Open,
+    /// No gap and, with friction, no slip.
+    Stick,
+    /// No gap, slip forwards against all friction.
+    SlipPlus,
+    /// The same backwards.
+    SlipMinus,
+}
+
+/// What belongs to the states of the contacts, by the equations.
+pub(super) struct Vertex {
+    pub(super) u: Vec<f64>,
+    pub(super) forces: Vec<(f64, f64)>,
+    pub(super) contacts: Vec<Contact>,
+    /// Whether no contact contradicts its state.
+    pub(super) is_consistent: bool,
+}
+
+/// The states that a point inside is nearest to.
+pub(super) fn contacts(problem: &Scaled, at: &Iterate) -> Vec<Contact> {
+    problem.points.iter().zip(&at.points).map(|(point, pairs)| nearest(point, pairs)).collect()
+}
+
+fn nearest(point: &Point, at: &Pairs) -> Contact {
+    let mut pairs = at.pairs(point.mu);
+    let larger = |pair: Option<(f64, f64)>| pair.is_some_and(|(t, y)| y > t);
+    if larger(pairs.next()) {
+        return Contact::Open;
+    }
+    match (larger(pairs.next()), larger(pairs.next())) {
+        (true, _) if at.slip_plus >= at.slip_minus => Contact::SlipPlus,
+        (_, true) => Contact::SlipMinus,
+        (true, false) => Contact::SlipPlus,
+        (false, false) => Contact::Stick,
+    }
+}
+
+/// Solves for given states and exchanges those that contradict, as long as these become fewer. The forces
+/// are those nearest to the given ones where redundant contacts leave a choice.
+pub(super) fn cross_over(
+    problem: &Scaled,
+    condensed: &mut Condensed,
+    u: &[f64],
+    forces: &[(f64, f64)],
+    contacts: Vec<Contact>,
+) -> Option<Vertex> {
+    let mut vertex =
+        Vertex { u: u.to_vec(), forces: forces.to_vec(), contacts, is_consistent: false };
+    let (mut fewest, mut since) = (usize::MAX, 0);
+    for _ in 0..ROUNDS {
+        vertex.solve(problem, condensed)?;
+        let exchanged = vertex.exchange(problem);
+        if exchanged == 0 {
+            vertex.is_consistent = true;
+            break;
+        }
+        since = if exchanged < fewest { 0 } else { since + 1 };
+        fewest = fewest.min(exchanged);
+        if since >= PATIENCE {
+            break;
+        }
+    }
+    Some(vertex)
+}
+
+impl Vertex {
+    /// Solves the equations of the states; `None` where they have no solution.
+    fn solve(&mut self, problem: &Scaled, condensed: &mut Condensed) -> Option<()> {
+        let springs: Vec<Springs> =
+            problem.points.iter().zip(&self.contacts).map(|(p, c)| springs(p, *c)).collect();
+        condensed.factorise(problem, &springs, PROXIMAL);
+        for ((point, contact), (t_n, t_t)) in
+            problem.points.iter().zip(&self.contacts).zip(&mut self.forces)
+        {
+            (*t_n, *t_t) = on_cone(point, *contact, (*t_n, *t_t));
+        }
+        let mut last = f64::INFINITY;
+        for _ in 0..REFINEMENTS {
+            let mut u = problem.unbalanced(&self.u, self.forces.iter().copied());
+            let mut size = max_abs(&u);
+            let mut fixed = Vec::with_capacity(springs.len());
+            for ((point, contact), springs) in
+                problem.points.iter().zip(&self.contacts).zip(&springs)
+            {
+                let open = open(point, *contact, &self.u);
+                size = size.max(open.0.abs()).max(open.1.abs());
+                let (t_n, t_t) = springs.forces(-open.0, -open.1);
+                point.add_forces(t_n, t_t, &mut u);
+                fixed.push((t_n, t_t));
+            }
+            if !size.is_finite() {
+                return None;
+            }
+            if size == 0.0 || size > 0.5 * last {
+                break;
+            }
+            last = size;
+            condensed.solve(&mut u);
+            for (i, point) in problem.points.iter().enumerate() {
+                let moved = (point.gap(&u) - point.x_0, point.slip(&u) - point.s_0);
+                let (t_n, t_t) = springs[i].forces(moved.0, moved.1);
+                self.forces[i].0 += fixed[i].0 - t_n;
+                self.forces[i].1 += fixed[i].1 - t_t;
+            }
+            self.u.iter_mut().zip(&u).for_each(|(u, du)| *u += du);
+        }
+        Some(())
+    }
+
+    /// Gives every contact that contradicts its state another one; says how many did.
+    fn exchange(&mut self, problem: &Scaled) -> usize {
+        let force =
+            self.forces.iter().fold(max_abs(&problem.f), |max, (t_n, _)| max.max(t_n.abs()));
+        let length = self.u.iter().fold(0.0_f64, |max, u| max.max(u.abs()));
+        let (force, length) = (ROUNDING * force, ROUNDING * length);
+        let mut exchanged = 0;
+        for (i, point) in problem.points.iter().enumerate() {
+            let (t_n, t_t) = self.forces[i];
+            let bound = point.mu * t_n;
+            let next = match self.contacts[i] {
+                Contact::Open if point.gap(&self.u) < -length => Contact::Stick,
+                Contact::Open => continue,
+                _ if t_n < -force => Contact::Open,
+                Contact::Stick if point.mu > 0.0 && t_t > bound + force => Contact::SlipMinus,
+                Contact::Stick if point.mu > 0.0 && -t_t > bound + force => Contact::SlipPlus,
+                Contact::SlipPlus if point.slip(&self.u) < -length => Contact::Stick,
+                Contact::SlipMinus if point.slip(&self.u) > length => Contact::Stick,
+                _ => continue,
+            };
+            self.contacts[i] = next;
+            exchanged += 1;
+        }
+        exchanged
+    }
+}
+
+fn springs(point: &Point, contact: Contact) -> Springs {
+    let tangential = if point.mu > 0.0 { STIFF } else { 0.0 };
+    match contact {
+        Contact::Open => Springs::default(),
+        Contact::Stick => Springs { nn: STIFF, tn: 0.0, tt: tangential },
+        Contact::SlipPlus => Springs { nn: STIFF, tn: -point.mu * STIFF, tt: 0.0 },
+        Contact::SlipMinus => Springs { nn: STIFF, tn: point.mu * STIFF, tt: 0.0 },
+    }
+}
+
+/// The forces that a state allows, from any.
+fn on_cone(point: &Point, contact: Contact, (t_n, t_t): (f64, f64)) -> (f64, f64) {
+    match contact {
+        Contact::Open => (0.0, 0.0),
+        Contact::Stick => (t_n, t_t),
+        Contact::SlipPlus => (t_n, -point.mu * t_n),
+        Contact::SlipMinus => (t_n, point.mu * t_n),
+    }
+}
+
+/// Gap and slip where the state asks for none.
+fn open(point: &Point, contact: Contact, u: &[f64]) -> (f64, f64) {
+    match contact {
+        Contact::Open => (0.0, 0.0),
+        Contact::Stick if point.mu > 0.0 => (point.gap(u), point.slip(u)),
+        _ => (point.gap(u), 0.0),
+    }
+}

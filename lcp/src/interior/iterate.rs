@@ -1,0 +1,249 @@
+//! Points inside the cone, and Newton's steps between them.
+
+use super::condensed::{Condensed, Springs};
+use super::scaled::{Point, Scaled};
+use crate::problem::max_abs;
+
+/// Compliance of a contact, relative to that of the bodies, below which a step does not go: forces are
+/// differences of gaps times a stiffness, and lose their digits when that is too large. A step is a
+/// proximal one then, which changes nothing where the iteration ends.
+const COMPLIANCE: f64 = 1e-8;
+
+/// A point with all forces inside their cones and all gaps open; or a step between two of them.
+#[derive(Debug, Clone)]
+pub(super) struct Iterate {
+    pub(super) u: Vec<f64>,
+    pub(super) points: Vec<Pairs>,
+}
+
+/// The variables of a contact point. Those of friction are zero where there is none.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Pairs {
+    pub(super) t_n: f64,
+    pub(super) t_t: f64,
+    pub(super) gap: f64,
+    pub(super) slip_plus: f64,
+    pub(super) slip_minus: f64,
+}
+
+impl Pairs {
+    /// `(t, y)` of the pairs: one without friction, else three.
+    pub(super) fn pairs(&self, mu: f64) -> impl Iterator<Item = (f64, f64)> {
+        let (plus, minus) = (mu * self.t_n + self.t_t, mu * self.t_n - self.t_t);
+        let all = [(self.t_n, self.gap), (plus, self.slip_plus), (minus, self.slip_minus)];
+        all.into_iter().take(if mu > 0.0 { 3 } else { 1 })
+    }
+
+    fn plus(&self, step: &Self, alpha: f64) -> Self {
+        Self {
+            t_n: self.t_n + alpha * step.t_n,
+            t_t: self.t_t + alpha * step.t_t,
+            gap: self.gap + alpha * step.gap,
+            slip_plus: self.slip_plus + alpha * step.slip_plus,
+            slip_minus: self.slip_minus + alpha * step.slip_minus,
+        }
+    }
+}
+
+/// What the equations lack at a point.
+pub(super) struct Defect {
+    /// `f + C^T t - K u`, with the springs of the continuation.
+    balance: Vec<f64>,
+    /// `C_n u + x_0 - g` and `C_t u + s_0 - (s+ - s-)`.
+    gaps: Vec<(f64, f64)>,
+}
+
+impl Defect {
+    /// `spring` is the stiffness that holds every displacement.
+    pub(super) fn of(problem: &Scaled, at: &Iterate, spring: f64) -> Self {
+        let forces = at.points.iter().map(|pairs| (pairs.t_n, pairs.t_t));
+        let mut balance = problem.unbalanced(&at.u, forces);
+        balance.iter_mut().zip(&at.u).for_each(|(b, u)| *b -= spring * u);
+        let gaps = problem.points.iter().zip(&at.points).map(|(point, pairs)| {
+            let slip = if point.mu > 0.0 {
+                point.slip(&at.u) - (pairs.slip_plus - pairs.slip_minus)
+            } else {
+                0.0
+            };
+            (point.gap(&at.u) - pairs.gap, slip)
+        });
+        Self { balance, gaps: gaps.collect() }
+    }
+
+    pub(super) fn none(problem: &Scaled) -> Self {
+        Self { balance: vec![0.0; problem.order()], gaps: vec![(0.0, 0.0); problem.points.len()] }
+    }
+
+    pub(super) fn size(&self) -> f64 {
+        self.gaps.iter().fold(max_abs(&self.balance), |max, (g, s)| max.max(g.abs()).max(s.abs()))
+    }
+}
+
+/// The linear system of a point: factorised, for any right-hand side.
+pub(super) struct Tangent<'a> {
+    problem: &'a Scaled,
+    condensed: &'a Condensed,
+    at: &'a Iterate,
+    springs: Vec<Springs>,
+}
+
+impl<'a> Tangent<'a> {
+    pub(super) fn new(
+        problem: &'a Scaled,
+        condensed: &'a mut Condensed,
+        at: &'a Iterate,
+        spring: f64,
+    ) -> Self {
+        let springs = problem.points.iter().zip(&at.points).map(|(p, pairs)| springs(p, pairs));
+        let springs: Vec<Springs> = springs.collect();
+        condensed.factorise(problem, &springs, spring);
+        Self { problem, condensed, at, springs }
+    }
+
+    /// The step that makes good the defect and changes the products of the pairs by `targets`, to first
+    /// order: `y dt + t dy = target`.
+    pub(super) fn step(&self, defect: &Defect, targets: &[[f64; 3]]) -> Iterate {
+        let mut u = defect.balance.clone();
+        // Forces that do not depend on the displacements.
+        let mut fixed = Vec::with_capacity(targets.len());
+        for (i, (point, at)) in self.problem.points.iter().zip(&self.at.points).enumerate() {
+            let springs = self.springs[i];
+            let normal = targets[i][0] / at.t_n - defect.gaps[i].0;
+            let along = if point.mu > 0.0 {
+                let (plus, minus) = at.strengths(point.mu);
+                targets[i][1] / plus - targets[i][2] / minus - defect.gaps[i].1
+            } else {
+                0.0
+            };
+            let (t_n, t_t) = springs.forces(normal, along);
+            point.add_forces(t_n, t_t, &mut u);
+            fixed.push((t_n, t_t));
+        }
+        self.condensed.solve(&mut u);
+        let points = fixed.iter().enumerate().map(|(i, fixed)| {
+            let point = &self.problem.points[i];
+            let moved = (point.gap(&u) - point.x_0, point.slip(&u) - point.s_0);
+            let (t_n, t_t) = self.springs[i].forces(moved.0, moved.1);
+            let (t_n, t_t) = (fixed.0 - t_n, fixed.1 - t_t);
+            let opened = (moved.0 + defect.gaps[i].0, moved.1 + defect.gaps[i].1);
+            self.at.points[i].change(point.mu, (t_n, t_t), opened, &targets[i])
+        });
+        let points = points.collect();
+        Iterate { u, points }
+    }
+}
+
+/// The springs that Newton's method puts in the place of a contact.
+fn springs(point: &Point, pairs: &Pairs) -> Springs {
+    let nn = 1.0 / (pairs.gap / pairs.t_n + COMPLIANCE);
+    if point.mu == 0.0 {
+        return Springs { nn, ..Springs::default() };
+    }
+    let (plus, minus) = pairs.ratios(point.mu);
+    let tt = 1.0 / (plus + minus + COMPLIANCE);
+    Springs { nn, tn: -point.mu * (plus - minus) * tt * nn, tt }
+}
+
+impl Pairs {
+    /// The step of all variables from that of the forces and those of gap and slip by the displacements.
+    /// Of the two equations for `dy`, compatibility and `y dt + t dy = target`, each pair uses the one
+    /// that keeps the digits: the second where `t` is the larger one.
+    fn change(
+        &self,
+        mu: f64,
+        (t_n, t_t): (f64, f64),
+        opened: (f64, f64),
+        target: &[f64; 3],
+    ) -> Self {
+        let gap =
+            if self.t_n > self.gap { (target[0] - self.gap * t_n) / self.t_n } else { opened.0 };
+        if mu == 0.0 {
+            return Self { t_n, gap, ..Self::default() };
+        }
+        let (plus, minus) = self.strengths(mu);
+        let slip_plus = (target[1] - self.slip_plus * (mu * t_n + t_t)) / plus;
+        let slip_minus = (target[2] - self.slip_minus * (mu * t_n - t_t)) / minus;
+        let (slip_plus, slip_minus) = match self.ratios(mu) {
+            (plus, minus) if plus.max(minus) < 1.0 => (slip_plus, slip_minus),
+            (plus, minus) if plus > minus => (slip_minus + opened.1, slip_minus),
+            _ => (slip_plus, slip_plus - opened.1),
+        };
+        Self { t_n, t_t, gap, slip_plus, slip_minus }
+    }
+
+    /// `mu t_n + t_t` and `mu t_n - t_t`.
+    fn strengths(&self, mu: f64) -> (f64, f64) {
+        (mu * self.t_n + self.t_t, mu * self.t_n - self.t_t)
+    }
+
+    /// Slips to either side, each relative to what is left of the friction that resists it.
+    fn ratios(&self, mu: f64) -> (f64, f64) {
+        let (plus, minus) = self.strengths(mu);
+        (self.slip_plus / plus, self.slip_minus / minus)
+    }
+}
+
+impl Iterate {
+    /// The point of displacements and forces, with the gaps and slips that belong to them, wherever it is.
+    pub(super) fn outside(problem: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Self {
+        let points = problem.points.iter().zip(forces).map(|(point, &(t_n, t_t))| {
+            let slip = if point.mu > 0.0 { point.slip(u) } else { 0.0 };
+            let (slip_plus, slip_minus) = (slip.max(0.0), (-slip).max(0.0));
+            Pairs { t_n, t_t, gap: point.gap(u), slip_plus, slip_minus }
+        });
+        Self { u: u.to_vec(), points: points.collect() }
+    }
+
+    /// The mean of the products of the pairs.
+    pub(super) fn gap(&self, problem: &Scaled) -> f64 {
+        let products = problem.points.iter().zip(&self.points);
+        let (sum, count) = products
+            .flat_map(|(point, pairs)| pairs.pairs(point.mu))
+            .fold((0.0, 0_usize), |(sum, count), (t, y)| (sum + t * y, count + 1));
+        sum / count.max(1) as f64
+    }
+
+    /// Largest `|min(t, y)|` over the pairs.
+    pub(super) fn natural(&self, problem: &Scaled) -> f64 {
+        let pairs = problem.points.iter().zip(&self.points);
+        pairs
+            .flat_map(|(point, pairs)| pairs.pairs(point.mu))
+            .fold(0.0, |max, (t, y)| max.max(t.min(y).abs()))
+    }
+
+    pub(super) fn is_finite(&self) -> bool {
+        let sum: f64 = self.u.iter().sum();
+        let forces: f64 = self.points.iter().map(|pairs| pairs.t_n + pairs.t_t).sum();
+        (sum + forces).is_finite()
+    }
+
+    /// The largest step, at most one, that leaves all pairs positive.
+    pub(super) fn longest(&self, problem: &Scaled, step: &Iterate) -> f64 {
+        let mut alpha = 1.0_f64;
+        let points = problem.points.iter().zip(self.points.iter().zip(&step.points));
+        for (point, (at, step)) in points {
+            for ((t, y), (dt, dy)) in at.pairs(point.mu).zip(step.pairs(point.mu)) {
+                if dt < 0.0 {
+                    alpha = alpha.min(-t / dt);
+                }
+                if dy < 0.0 {
+                    alpha = alpha.min(-y / dy);
+                }
+            }
+        }
+        alpha
+    }
+
+    pub(super) fn moved(&self, step: &Iterate, alpha: f64) -> Self {
+        let u = self.u.iter().zip(&step.u).map(|(u, du)| u + alpha * du).collect();
+        let points = self.points.iter().zip(&step.points).map(|(p, d)| p.plus(d, alpha)).collect();
+        Self { u, points }
+    }
+
+    /// `(1 - share) self + share other`.
+    pub(super) fn mixed(&self, other: &Iterate, share: f64) -> Self {
+        let zero =
+            Self { u: vec![0.0; self.u.len()], points: vec![Pairs::default(); self.points.len()] };
+        zero.moved(self, 1.0 - share).moved(other, share)
+    }
+}

@@ -1,0 +1,155 @@
+//! The problems that the method treats, as contact problems, and back.
+
+use super::crossover::Contact;
+use super::scaled::{Point, Scaled};
+use crate::{Basis, Contact2d, MixedLcp, Residuals, Side};
+
+/// A point of the general form of a problem.
+#[derive(Debug, Clone)]
+pub(super) struct Judged {
+    pub(super) t: Vec<f64>,
+    pub(super) y: Vec<f64>,
+    pub(super) residuals: Residuals,
+}
+
+/// A problem as it was given.
+pub(super) trait Original {
+    fn scaled(&self) -> Scaled;
+
+    /// The point that belongs to displacements and forces of the scaled problem.
+    fn judge(&self, scaled: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Judged;
+
+    /// Number of pairs of the general form.
+    fn order(&self) -> usize;
+
+    /// Displacements and forces of the scaled problem from a point of the general form.
+    fn point(&self, scaled: &Scaled, t: &[f64], y: &[f64]) -> (Vec<f64>, Vec<(f64, f64)>);
+
+    /// The complementary basis of these states of the contacts; free variables are on the side of their
+    /// sign.
+    fn basis(&self, contacts: &[Contact], judged: &Judged, slips: &[f64]) -> Basis;
+
+    /// The states of the contacts that belong to a basis.
+    fn contacts(&self, basis: &Basis) -> Vec<Contact>;
+}
+
+impl Original for Contact2d {
+    fn scaled(&self) -> Scaled {
+        Scaled::of_contact(self)
+    }
+
+    fn judge(&self, scaled: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Judged {
+        let u = scaled.displacements(u);
+        let normal = forces.iter().map(|(t_n, _)| t_n.max(0.0) * scaled.force()).collect();
+        let tangential = forces.iter().zip(self.mu()).map(|((t_n, t_t), mu)| {
+            let bound = mu * t_n.max(0.0);
+            t_t.clamp(-bound, bound) * scaled.force()
+        });
+        let state = self.state(u, normal, tangential.collect());
+        let residuals = self.residuals(&state);
+        let (t, y) = self.to_pairs(&state);
+        Judged { t, y, residuals }
+    }
+
+    fn order(&self) -> usize {
+        self.order()
+    }
+
+    fn point(&self, scaled: &Scaled, t: &[f64], y: &[f64]) -> (Vec<f64>, Vec<(f64, f64)>) {
+        let state = self.recover(t, y);
+        let force = scaled.force();
+        let forces = state.t_n.iter().zip(&state.t_t).map(|(n, t)| (n / force, t / force));
+        (scaled.of_displacements(&state.u), forces.collect())
+    }
+
+    fn basis(&self, contacts: &[Contact], judged: &Judged, slips: &[f64]) -> Basis {
+        let n = self.displacements();
+        let mut sides: Vec<Side> =
+            (0..n).map(|j| if judged.y[j] > 0.0 { Side::Y } else { Side::T }).collect();
+        sides.extend(contacts.iter().map(|c| if *c == Contact::Open { Side::Y } else { Side::T }));
+        // An open contact slides to the side of its motion, without a force.
+        let slides = |i: usize, forwards: bool| match contacts[i] {
+            Contact::Open => (slips[i] >= 0.0) == forwards,
+            Contact::Stick => false,
+            Contact::SlipPlus => forwards,
+            Contact::SlipMinus => !forwards,
+        };
+        for forwards in [true, false] {
+            let side = |&i: &usize| if slides(i, forwards) { Side::Y } else { Side::T };
+            sides.extend(self.frictional().iter().map(side));
+        }
+        Basis::new(sides)
+    }
+
+    fn contacts(&self, basis: &Basis) -> Vec<Contact> {
+        let (n, m) = (self.displacements(), self.points());
+        let sides = basis.sides();
+        let mut contacts: Vec<Contact> = sides[n..n + m]
+            .iter()
+            .map(|side| if *side == Side::T { Contact::Stick } else { Contact::Open })
+            .collect();
+        let count = self.frictional().len();
+        for (k, &i) in self.frictional().iter().enumerate() {
+            if contacts[i] == Contact::Stick {
+                contacts[i] = match (sides[n + m + k], sides[n + m + count + k]) {
+                    (Side::Y, _) => Contact::SlipPlus,
+                    (Side::T, Side::Y) => Contact::SlipMinus,
+                    (Side::T, Side::T) => Contact::Stick,
+                };
+            }
+        }
+        contacts
+    }
+}
+
+/// A mixed problem is one of contact without friction: `M z + q = w` has the stiffness `M`, the load `-q`
+/// and the contact forces `w`, and the gaps are the variables themselves.
+impl Original for MixedLcp {
+    fn scaled(&self) -> Scaled {
+        Scaled::of_mixed(self)
+    }
+
+    fn judge(&self, scaled: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Judged {
+        let mut z = scaled.displacements(u);
+        let mut w = vec![0.0; z.len()];
+        for (point, (t_n, _)) in scaled.points.iter().zip(forces) {
+            let j = point.columns[0];
+            z[j] = z[j].max(0.0);
+            w[j] = t_n.max(0.0) * scaled.force_of(j);
+        }
+        let (t, y) = self.to_pairs(&z, &w);
+        Judged { residuals: self.residuals(&z, &w), t, y }
+    }
+
+    fn order(&self) -> usize {
+        self.order()
+    }
+
+    fn point(&self, scaled: &Scaled, t: &[f64], y: &[f64]) -> (Vec<f64>, Vec<(f64, f64)>) {
+        let (z, w) = self.recover(t, y);
+        let force = |point: &Point| {
+            let j = point.columns[0];
+            (w[j] / scaled.force_of(j), 0.0)
+        };
+        (scaled.of_displacements(&z), scaled.points.iter().map(force).collect())
+    }
+
+    fn basis(&self, contacts: &[Contact], judged: &Judged, _: &[f64]) -> Basis {
+        let mut contacts = contacts.iter();
+        let side = |(j, free): (usize, &bool)| {
+            let is_y = if *free {
+                judged.y[j] > 0.0
+            } else {
+                // A closed contact has a force, w, and no gap, z.
+                contacts.next().is_some_and(|contact| *contact != Contact::Open)
+            };
+            if is_y { Side::Y } else { Side::T }
+        };
+        Basis::new(self.free().iter().enumerate().map(side).collect())
+    }
+
+    fn contacts(&self, basis: &Basis) -> Vec<Contact> {
+        let sides = basis.sides().iter().zip(self.free()).filter(|(_, free)| !**free);
+        sides.map(|(s, _)| if *s == Side::Y { Contact::Stick } else { Contact::Open }).collect()
+    }
+}

@@ -1,0 +1,163 @@
+//! The interior-point iteration: predictor, correctors, and what to do when they get nowhere.
+
+use super::condensed::{Condensed, Springs};
+use super::iterate::{Defect, Iterate, Pairs, Tangent};
+use super::scaled::Scaled;
+
+/// Springs on every displacement that keep bodies without contact in place during a step, relative to the
+/// stiffness.
+pub(super) const PROXIMAL: f64 = 1e-12;
+/// Part of the longest step that is taken.
+const BACK: f64 = 0.995;
+/// Correctors of the centrality of a step, at most.
+const CORRECTORS: usize = 2;
+/// A step of this length needs none, and a corrector has to make it longer by this.
+const LONG: f64 = 0.9;
+const LONGER: f64 = 0.03;
+/// Products of the pairs, relative to what they should be, that correctors leave alone.
+const CENTRAL: (f64, f64) = (0.1, 10.0);
+/// Products are not driven below this part of their mean by a corrector.
+const LEAST_AIM: f64 = 0.01;
+/// Below this length a step is replaced by a mixture of the predictor and of centring.
+const SHORT: f64 = 0.05;
+/// Shares of centring that are tried.
+const MIXTURES: [f64; 12] = [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98];
+/// A mixture must reduce the products by this part, except at points that are central already.
+const PROGRESS: f64 = 0.05;
+/// Products between these multiples of their mean make a point central.
+const IS_CENTRAL: (f64, f64) = (0.3, 3.0);
+
+/// A start from the forces that the contacts would carry if they were springs in both directions.
+pub(super) fn start(problem: &Scaled, condensed: &mut Condensed, spring: f64) -> Iterate {
+    let tangential = |mu: f64| if mu > 0.0 { 1.0 } else { 0.0 };
+    let springs: Vec<Springs> = problem
+        .points
+        .iter()
+        .map(|point| Springs { nn: 1.0, tn: 0.0, tt: tangential(point.mu) })
+        .collect();
+    condensed.factorise(problem, &springs, spring);
+    let mut u = problem.f.clone();
+    for point in &problem.points {
+        point.add_forces(-point.x_0, -tangential(point.mu) * point.s_0, &mut u);
+    }
+    condensed.solve(&mut u);
+    let gaps: Vec<f64> = problem.points.iter().map(|point| point.gap(&u)).collect();
+    let mean = gaps.iter().map(|g| g.abs()).sum::<f64>() / gaps.len().max(1) as f64;
+    let shift = if mean > 0.0 && mean.is_finite() { mean } else { 1.0 };
+    let points = problem.points.iter().zip(&gaps).map(|(point, gap)| {
+        let t_n = (-gap).max(0.0) + shift;
+        let pairs = Pairs { t_n, gap: gap.max(0.0) + shift, ..Pairs::default() };
+        if point.mu == 0.0 {
+            return pairs;
+        }
+        let (slip, bound) = (point.slip(&u), 0.5 * point.mu * t_n);
+        Pairs {
+            t_t: (-slip).clamp(-bound, bound),
+            slip_plus: slip.max(0.0) + shift,
+            slip_minus: (-slip).max(0.0) + shift,
+            ..pairs
+        }
+    });
+    Iterate { points: points.collect(), u }
+}
+
+/// One step of Mehrotra's method (1992) with Gondzio's correctors (1996), which costs one factorisation.
+/// The problem is not monotone with friction: where the step is short, the best mixture of predictor and
+/// centring takes its place. Gives the new point and the length of the step.
+pub(super) fn advance(
+    problem: &Scaled,
+    condensed: &mut Condensed,
+    at: &Iterate,
+    spring: f64,
+) -> (Iterate, f64) {
+    let tangent = Tangent::new(problem, condensed, at, spring.max(PROXIMAL));
+    let defect = Defect::of(problem, at, spring);
+    let gap = at.gap(problem);
+    let predictor = tangent.step(&defect, &targets(problem, at, 0.0, None));
+    let left = at.moved(&predictor, at.longest(problem, &predictor)).gap(problem);
+    let aim = gap * (left / gap).powi(3).clamp(0.0, 1.0);
+    let mut step = tangent.step(&defect, &targets(problem, at, aim, Some(&predictor)));
+    let mut alpha = at.longest(problem, &step);
+    for _ in 0..CORRECTORS {
+        if alpha >= LONG {
+            break;
+        }
+        let trial = at.moved(&step, (1.5 * alpha + 0.3).min(1.0));
+        let corrections = corrections(problem, &trial, aim.max(LEAST_AIM * gap));
+        let corrected = step.moved(&tangent.step(&Defect::none(problem), &corrections), 1.0);
+        let reached = at.longest(problem, &corrected);
+        if reached < alpha + LONGER {
+            break;
+        }
+        (step, alpha) = (corrected, reached);
+    }
+    if alpha < SHORT {
+        let centring = tangent.step(&defect, &targets(problem, at, gap, None));
+        (step, alpha) = mixture(problem, at, &predictor, &centring);
+    }
+    let alpha = (BACK * alpha).min(1.0);
+    (at.moved(&step, alpha), alpha)
+}
+
+/// The mixture that reduces the products most, or centring alone where none reduces them much.
+fn mixture(
+    problem: &Scaled,
+    at: &Iterate,
+    predictor: &Iterate,
+    centring: &Iterate,
+) -> (Iterate, f64) {
+    let reduction =
+        |share: f64| (1.0 - share) * at.longest(problem, &predictor.mixed(centring, share));
+    let tried = MIXTURES.map(|share| (reduction(share), share));
+    let (best, share) = tried.into_iter().fold((0.0, 1.0), |a, b| if b.0 > a.0 { b } else { a });
+    let share = if best < PROGRESS && !is_central(problem, at) { 1.0 } else { share };
+    let step = predictor.mixed(centring, share);
+    let alpha = at.longest(problem, &step);
+    (step, alpha)
+}
+
+fn is_central(problem: &Scaled, at: &Iterate) -> bool {
+    let gap = at.gap(problem);
+    let mut products = problem.points.iter().zip(&at.points).flat_map(|(p, at)| at.pairs(p.mu));
+    products.all(|(t, y)| (IS_CENTRAL.0 * gap..=IS_CENTRAL.1 * gap).contains(&(t * y)))
+}
+
+/// What the products of the pairs lack of `aim`, less the second-order term of the predictor.
+fn targets(problem: &Scaled, at: &Iterate, aim: f64, predictor: Option<&Iterate>) -> Vec<[f64; 3]> {
+    let target = |i: usize| {
+        let mu = problem.points[i].mu;
+        let mut targets = [0.0; 3];
+        for (target, (t, y)) in targets.iter_mut().zip(at.points[i].pairs(mu)) {
+            *target = aim - t * y;
+        }
+        if let Some(predictor) = predictor {
+            for (target, (dt, dy)) in targets.iter_mut().zip(predictor.points[i].pairs(mu)) {
+                *target -= dt * dy;
+            }
+        }
+        targets
+    };
+    (0..problem.points.len()).map(target).collect()
+}
+
+/// What brings the products of a trial point back among those that are central.
+fn corrections(problem: &Scaled, trial: &Iterate, aim: f64) -> Vec<[f64; 3]> {
+    let (low, high) = (CENTRAL.0 * aim, CENTRAL.1 * aim);
+    let correction = |i: usize| {
+        let mut targets = [0.0; 3];
+        let pairs = trial.points[i].pairs(problem.points[i].mu);
+        for (target, (t, y)) in targets.iter_mut().zip(pairs) {
+            // Two negative values are as far outside as one.
+            let product = if t < 0.0 && y < 0.0 { -t * y } else { t * y };
+            *target = if product < low {
+                low - product
+            } else if product > high {
+                (high - product).max(-high)
+            } else {
+                0.0
+            };
+        }
+        targets
+    };
+    (0..problem.points.len()).map(correction).collect()
+}

@@ -1,0 +1,241 @@
+//! The contact problem in units of its own.
+
+use faer::sparse::SparseColMat;
+
+use crate::problem::{column_of, max_abs};
+use crate::{Contact2d, MixedLcp};
+
+/// A contact problem whose stiffness, forces and gaps are of order one whatever the units: with the
+/// displacements `u = length * column * u'`, forces `t = force * t'`, gaps and slips `y = length * y'`.
+pub(super) struct Scaled {
+    /// Stiffness, columns of `(row, value)` one after the other.
+    pub(super) k: SparseColMat<usize, f64>,
+    pub(super) f: Vec<f64>,
+    pub(super) points: Vec<Point>,
+    column: Vec<f64>,
+    force: f64,
+    length: f64,
+}
+
+/// A contact point: the displacements that it depends on, with their coefficients in gap and slip.
+pub(super) struct Point {
+    pub(super) columns: Vec<usize>,
+    pub(super) normal: Vec<f64>,
+    pub(super) tangent: Vec<f64>,
+    pub(super) x_0: f64,
+    pub(super) s_0: f64,
+    pub(super) mu: f64,
+}
+
+impl Point {
+    pub(super) fn gap(&self, u: &[f64]) -> f64 {
+        self.x_0 + dot(&self.normal, &self.columns, u)
+    }
+
+    pub(super) fn slip(&self, u: &[f64]) -> f64 {
+        self.s_0 + dot(&self.tangent, &self.columns, u)
+    }
+
+    /// Adds the forces of the point to those on the displacements.
+    pub(super) fn add_forces(&self, t_n: f64, t_t: f64, out: &mut [f64]) {
+        for ((&j, n), t) in self.columns.iter().zip(&self.normal).zip(&self.tangent) {
+            out[j] += n * t_n + t * t_t;
+        }
+    }
+}
+
+fn dot(row: &[f64], columns: &[usize], u: &[f64]) -> f64 {
+    row.iter().zip(columns).map(|(v, &j)| v * u[j]).sum()
+}
+
+impl Scaled {
+    pub(super) fn of_contact(problem: &Contact2d) -> Self {
+        let n = problem.displacements();
+        let column = columns(problem);
+        let diagonal = diagonal(problem.stiffness());
+        let mut stiff: Vec<f64> =
+            (0..n).map(|j| diagonal[j] * column[j] * column[j]).filter(|k| *k > 0.0).collect();
+        let load = (0..n).fold(0.0_f64, |max, j| max.max((problem.loads()[j] * column[j]).abs()));
+        let gap = max_abs(problem.initial_gaps()).max(max_abs(problem.initial_slips()));
+        let stiffness = median(&mut stiff);
+        // Without loads only gaps move anything, without stiffness only they have a length.
+        let (force, length) = match stiffness {
+            Some(k) if load > 0.0 => (load, load / k),
+            Some(k) if gap > 0.0 => (gap * k, gap),
+            Some(k) => (k, 1.0),
+            None => (if load > 0.0 { load } else { 1.0 }, if gap > 0.0 { gap } else { 1.0 }),
+        };
+        let (force, length) = (power_of_two(force), power_of_two(length));
+        let k = congruent(problem.stiffness().clone(), &column, length / force);
+        let f = problem.loads().iter().zip(&column).map(|(f, d)| f * d / force).collect();
+        let mut points: Vec<Point> = (0..problem.points())
+            .map(|i| Point {
+                columns: Vec::new(),
+                normal: Vec::new(),
+                tangent: Vec::new(),
+                x_0: problem.initial_gaps()[i] / length,
+                s_0: problem.initial_slips()[i] / length,
+                mu: problem.mu()[i],
+            })
+            .collect();
+        for (j, d) in column.iter().enumerate() {
+            for (i, v) in column_of(problem.normal(), j) {
+                points[i].columns.push(j);
+                points[i].normal.push(v * d);
+                points[i].tangent.push(0.0);
+            }
+            for (i, v) in column_of(problem.tangent(), j).filter(|(i, _)| problem.mu()[*i] > 0.0) {
+                let point = &mut points[i];
+                if point.columns.last() != Some(&j) {
+                    point.columns.push(j);
+                    point.normal.push(0.0);
+                    point.tangent.push(0.0);
+                }
+                if let Some(tangent) = point.tangent.last_mut() {
+                    *tangent += v * d;
+                }
+            }
+        }
+        Self { k, f, points, column, force, length }
+    }
+
+    /// A mixed problem as one of contact without friction: stiffness `M`, loads `-q`, and a contact for
+    /// every variable that is not free, whose gap it is.
+    pub(super) fn of_mixed(problem: &MixedLcp) -> Self {
+        let m = problem.m().clone().into_sparse();
+        let n = problem.order();
+        let mut largest = vec![0.0_f64; n];
+        for j in 0..n {
+            for (i, v) in column_of(&m, j) {
+                let size = if i == j { v.abs() } else { 0.0 };
+                largest[j] = largest[j].max(size);
+            }
+        }
+        // Without a diagonal entry the others have to do.
+        for j in 0..n {
+            for (i, v) in column_of(&m, j) {
+                for k in [i, j] {
+                    if m.get(k, k).is_none_or(|d| *d == 0.0) {
+                        largest[k] = largest[k].max(v.abs());
+                    }
+                }
+            }
+        }
+        let factor = |v: &f64| if *v > 0.0 { power_of_two(1.0 / v.sqrt()) } else { 1.0 };
+        let column: Vec<f64> = largest.iter().map(factor).collect();
+        let load =
+            problem.q().iter().zip(&column).fold(0.0_f64, |max, (q, d)| max.max((q * d).abs()));
+        let force = if load > 0.0 { power_of_two(load) } else { 1.0 };
+        let k = congruent(m, &column, 1.0);
+        let f = problem.q().iter().zip(&column).map(|(q, d)| -q * d / force).collect();
+        let bounded = (0..n).filter(|&j| !problem.free()[j]);
+        let points = bounded.map(|j| Point {
+            columns: vec![j],
+            normal: vec![1.0],
+            tangent: vec![0.0],
+            x_0: 0.0,
+            s_0: 0.0,
+            mu: 0.0,
+        });
+        Self { k, f, points: points.collect(), column, force, length: force }
+    }
+
+    /// The unit of contact forces.
+    pub(super) fn force(&self) -> f64 {
+        self.force
+    }
+
+    /// The unit of the force on a displacement.
+    pub(super) fn force_of(&self, j: usize) -> f64 {
+        self.force / self.column[j]
+    }
+
+    /// Displacements in the units of the original problem.
+    pub(super) fn displacements(&self, u: &[f64]) -> Vec<f64> {
+        u.iter().zip(&self.column).map(|(u, d)| u * d * self.length).collect()
+    }
+
+    /// Displacements in the units of this problem.
+    pub(super) fn of_displacements(&self, u: &[f64]) -> Vec<f64> {
+        u.iter().zip(&self.column).map(|(u, d)| u / d / self.length).collect()
+    }
+
+    /// Number of displacements.
+    pub(super) fn order(&self) -> usize {
+        self.f.len()
+    }
+
+    /// What equilibrium lacks: `f + C^T t - K u`.
+    pub(super) fn unbalanced(
+        &self,
+        u: &[f64],
+        forces: impl Iterator<Item = (f64, f64)>,
+    ) -> Vec<f64> {
+        let mut rest = self.f.clone();
+        for (j, u) in u.iter().enumerate() {
+            column_of(&self.k, j).for_each(|(i, v)| rest[i] -= v * u);
+        }
+        for (point, (t_n, t_t)) in self.points.iter().zip(forces) {
+            point.add_forces(t_n, t_t, &mut rest);
+        }
+        rest
+    }
+}
+
+/// Factors that bring the largest coefficient of every displacement in a gap or a slip near one; those of
+/// displacements that no contact sees bring their stiffness to that of the others.
+fn columns(problem: &Contact2d) -> Vec<f64> {
+    let n = problem.displacements();
+    let diagonal = diagonal(problem.stiffness());
+    let mut largest = vec![0.0_f64; n];
+    for (j, largest) in largest.iter_mut().enumerate() {
+        column_of(problem.normal(), j).for_each(|(_, v)| *largest = largest.max(v.abs()));
+        let tangent = column_of(problem.tangent(), j).filter(|(i, _)| problem.mu()[*i] > 0.0);
+        tangent.for_each(|(_, v)| *largest = largest.max(v.abs()));
+    }
+    let seen = (0..n).filter(|&j| largest[j] > 0.0 && diagonal[j] > 0.0);
+    let stiffness =
+        median(&mut seen.map(|j| diagonal[j] / (largest[j] * largest[j])).collect::<Vec<_>>());
+    let stiffness = stiffness
+        .or_else(|| median(&mut diagonal.iter().copied().filter(|k| *k > 0.0).collect::<Vec<_>>()));
+    let factor = |(largest, diagonal): (&f64, &f64)| {
+        if *largest > 0.0 {
+            power_of_two(1.0 / largest)
+        } else if let Some(stiffness) = stiffness.filter(|_| *diagonal > 0.0) {
+            power_of_two((stiffness / diagonal).sqrt())
+        } else {
+            1.0
+        }
+    };
+    largest.iter().zip(&diagonal).map(factor).collect()
+}
+
+/// `factor D K D`.
+fn congruent(
+    mut k: SparseColMat<usize, f64>,
+    diagonal: &[f64],
+    factor: f64,
+) -> SparseColMat<usize, f64> {
+    let (starts, rows) = (k.col_ptr().to_vec(), k.row_idx().to_vec());
+    let values = k.val_mut();
+    for (j, d) in diagonal.iter().enumerate() {
+        for e in starts[j]..starts[j + 1] {
+            values[e] *= diagonal[rows[e]] * d * factor;
+        }
+    }
+    k
+}
+
+fn diagonal(k: &SparseColMat<usize, f64>) -> Vec<f64> {
+    (0..k.ncols()).map(|j| k.get(j, j).copied().unwrap_or(0.0)).collect()
+}
+
+fn median(values: &mut [f64]) -> Option<f64> {
+    let middle = values.len() / 2;
+    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
+}
+
+/// Factors that are powers of two cost no accuracy.
+fn power_of_two(x: f64) -> f64 {
+    x.log2().round().clamp(-1000.0, 1000.0).exp2()
+}

@@ -1,0 +1,62 @@
+//! Settings of the interior-point method.
+
+use std::time::Duration;
+
+use crate::problem::{check_length, check_vector};
+use crate::{Error, WarmStart};
+
+/// Settings of [`InteriorPoint`](crate::InteriorPoint).
+#[derive(Debug, Clone, PartialEq)]
+pub struct InteriorPointSettings {
+    /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`.
+    pub tolerance: f64,
+    /// Steps, each with one factorisation; those of the continuation count too.
+    pub max_iterations: usize,
+    /// Wall-clock time, looked at before every step; `None` is no limit.
+    pub time_limit: Option<Duration>,
+    /// A point or a basis, of the pairs of the general form, that may be the solution of a similar
+    /// problem: before the first step the states of its contacts are tried.
+    pub start: WarmStart,
+    /// Whether the exact point on the boundary is looked for. Without it the answer is a point inside,
+    /// which has no basis, and accuracy ends where Newton's method loses its digits, at about 1e-9.
+    pub crossover: bool,
+    /// Whether the method goes on with soft springs on all displacements where it jams.
+    pub continuation: bool,
+}
+
+impl Default for InteriorPointSettings {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-10,
+            max_iterations: 300,
+            time_limit: None,
+            start: WarmStart::None,
+            crossover: true,
+            continuation: true,
+        }
+    }
+}
+
+impl InteriorPointSettings {
+    /// Checks the settings for a problem of `n` pairs.
+    ///
+    /// # Errors
+    /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
+    pub fn validate(&self, n: usize) -> Result<(), Error> {
+        let tolerance = self.tolerance;
+        if !(tolerance > 0.0 && tolerance < 1.0) {
+            let range = "between 0 and 1";
+            return Err(Error::Setting { name: "tolerance", value: tolerance, range });
+        }
+        match &self.start {
+            WarmStart::None => Ok(()),
+            WarmStart::Basis(basis) => check_length("start", basis.len(), n),
+            WarmStart::Point { t, y } => {
+                check_length("start.t", t.len(), n)?;
+                check_length("start.y", y.len(), n)?;
+                check_vector("start.t", t)?;
+                check_vector("start.y", y)
+            }
+        }
+    }
+}

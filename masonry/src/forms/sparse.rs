@@ -1,0 +1,82 @@
+//! The contact problem with all displacements as unknowns: larger than the reduced forms, but sparse.
+
+use faer::sparse::{SparseColMat, Triplet};
+use lcp::Contact2d;
+
+use crate::system::{BodySystem, System};
+
+/// A [`System`] as a sparse contact problem in SI units, and back.
+#[derive(Debug, Clone)]
+pub struct Sparse {
+    /// `K u = f + C^T t` (3.2) with the contact law. The displacements are those of the nodes, block by
+    /// block; of a rigid block the amplitudes of its three motions.
+    pub problem: Contact2d,
+    /// The first displacement of every block, and one past the last.
+    starts: Vec<usize>,
+}
+
+impl Sparse {
+    /// Sets up the problem.
+    ///
+    /// # Errors
+    /// [`lcp::Error::NotFinite`] when the data of the scene overflow.
+    pub fn new(system: &System) -> Result<Self, lcp::Error> {
+        let mut starts = vec![0];
+        for body in &system.bodies {
+            starts.push(starts[starts.len() - 1] + unknowns(body));
+        }
+        let (n, m) = (starts[starts.len() - 1], system.points());
+        let (mut k, mut f) = (Vec::new(), Vec::with_capacity(n));
+        let (mut c_n, mut c_t) = (Vec::new(), Vec::new());
+        for (body, &start) in system.bodies.iter().zip(&starts) {
+            if let Some(stiffness) = body.stiffness.map(|k| &system.stiffnesses[k].matrix) {
+                let entries = (0..stiffness.ncols()).flat_map(|j| {
+                    stiffness.col_as_slice(j).iter().enumerate().map(move |(i, v)| (i, j, *v))
+                });
+                let nonzero = entries.filter(|(_, _, v)| *v != 0.0);
+                k.extend(nonzero.map(|(i, j, v)| Triplet::new(start + i, start + j, v)));
+                f.extend(&body.load);
+            } else {
+                f.extend(body.resultant);
+            }
+            for row in &body.rows {
+                let (rows, point) = match row.row.checked_sub(m) {
+                    None => (&mut c_n, row.row),
+                    Some(position) => (&mut c_t, system.friction[position].0.index()),
+                };
+                if body.stiffness.is_some() {
+                    rows.extend(
+                        row.entries.iter().map(|&(j, v)| Triplet::new(point, start + j, v)),
+                    );
+                } else {
+                    let modes = row.modes.iter().enumerate();
+                    rows.extend(modes.map(|(j, &v)| Triplet::new(point, start + j, v)));
+                }
+            }
+        }
+        let (mut s_0, mut mu) = (vec![0.0; m], vec![0.0; m]);
+        for ((point, value), row) in system.friction.iter().zip(&system.rows[m..]) {
+            mu[point.index()] = *value;
+            s_0[point.index()] = row.offset;
+        }
+        let x_0 = system.rows[..m].iter().map(|row| row.offset).collect();
+        let [k, c_n, c_t] = [(n, k), (m, c_n), (m, c_t)].map(|(rows, entries)| {
+            let built = SparseColMat::try_new_from_triplets(rows, n, &entries);
+            built.unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}"))
+        });
+        let problem = Contact2d::new(k, f, c_n, c_t, x_0, s_0, mu)?;
+        Ok(Self { problem, starts })
+    }
+
+    /// The displacements of one block: of its nodes, or the amplitudes of its rigid motions.
+    ///
+    /// # Panics
+    /// If there is no such block, or `u` is not one of the displacements of the problem.
+    pub fn of_block<'a>(&self, block: usize, u: &'a [f64]) -> &'a [f64] {
+        &u[self.starts[block]..self.starts[block + 1]]
+    }
+}
+
+fn unknowns(body: &BodySystem) -> usize {
+    if body.stiffness.is_some() { body.load.len() } else { body.resultant.len() }
+}
