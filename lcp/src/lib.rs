@@ -51,6 +51,8 @@ mod matrix;
 mod newton;
 mod pgs;
 mod problem;
+#[cfg(feature = "clarabel")]
+mod qp;
 mod random;
 mod residual;
 mod scaling;
@@ -77,6 +79,10 @@ pub use pgs::{
 pub use problem::{
     BoxedLcp, Contact2d, ContactForces, ContactState, ErrorBound, Friction2d, HorizontalLcp, Lcp,
     MixedLcp, Monotonicity, StandardForm,
+};
+#[cfg(feature = "clarabel")]
+pub use qp::{
+    ContactForm, QuadraticProgram, QuadraticProgramSettings, SoftConstraints, SoftSolution,
 };
 pub use residual::Residuals;
 pub use settings::{Covering, LemkeSettings, WarmStart};

@@ -1,0 +1,77 @@
+//! Whether a symmetric matrix is positive semidefinite.
+
+use faer::sparse::SparseColMat;
+use faer::{Mat, Side};
+
+use crate::Matrix;
+use crate::problem::column_of;
+
+/// Eigenvalues down to minus this, of the matrix with a diagonal of ones, are taken for zero.
+const ROUNDING: f64 = 1e-10;
+/// Above this order the matrix is not looked at as a dense one to say how far it is from semidefinite.
+const DENSE: usize = 300;
+
+/// What is in the way of a symmetric matrix being positive semidefinite, if anything is.
+///
+/// By a Cholesky factorisation of the matrix, scaled to a diagonal of ones so that units do not matter,
+/// plus a small multiple of the identity: that of a semidefinite matrix goes through, whatever its
+/// kernel; that of a matrix with an eigenvalue below `-1e-10` does not.
+pub(super) fn indefiniteness(what: &str, matrix: &SparseColMat<usize, f64>) -> Option<String> {
+    let n = matrix.ncols();
+    let diagonal: Vec<f64> = (0..n).map(|i| *matrix.get(i, i).unwrap_or(&0.0)).collect();
+    if let Some(i) = diagonal.iter().position(|d| *d < 0.0) {
+        return Some(format!(
+            "{what} is not positive semidefinite: {what}[{i}, {i}] is {}",
+            diagonal[i]
+        ));
+    }
+    let scaled = unit_diagonal(matrix, &diagonal, ROUNDING);
+    match scaled.sp_cholesky(Side::Lower) {
+        Ok(_) => None,
+        Err(_) if n <= DENSE => {
+            let least = least_eigenvalue(&scaled) - ROUNDING;
+            Some(format!(
+                "{what}, scaled to a diagonal of ones, has the eigenvalue {least:.3e}, so that it is \
+                 not positive semidefinite"
+            ))
+        }
+        Err(_) => Some(format!(
+            "{what}, scaled to a diagonal of ones, has an eigenvalue below {:.0e}, so that it is not \
+             positive semidefinite",
+            -ROUNDING
+        )),
+    }
+}
+
+/// Whether a symmetric positive semidefinite matrix is safely nonsingular.
+pub(super) fn is_definite(matrix: &SparseColMat<usize, f64>) -> bool {
+    const MODULUS: f64 = 1e-8;
+    let n = matrix.ncols();
+    let diagonal: Vec<f64> = (0..n).map(|i| *matrix.get(i, i).unwrap_or(&0.0)).collect();
+    diagonal.iter().all(|d| *d > 0.0)
+        && unit_diagonal(matrix, &diagonal, -MODULUS).sp_cholesky(Side::Lower).is_ok()
+}
+
+/// The matrix with rows and columns divided by the roots of its diagonal, and `shift` on the diagonal.
+/// What is on the diagonal at the rounding level of the whole does not give the unit of its row.
+fn unit_diagonal(
+    matrix: &SparseColMat<usize, f64>,
+    diagonal: &[f64],
+    shift: f64,
+) -> SparseColMat<usize, f64> {
+    let n = matrix.ncols();
+    let largest = diagonal.iter().fold(0.0_f64, |max, d| max.max(*d));
+    let floor = if largest > 0.0 { 4.0 * f64::EPSILON * largest } else { 1.0 };
+    let unit: Vec<f64> = diagonal.iter().map(|d| d.max(floor).sqrt()).collect();
+    let entries = (0..n).flat_map(|j| {
+        let unit = &unit;
+        column_of(matrix, j).map(move |(i, v)| (i, j, v / unit[i] / unit[j]))
+    });
+    Matrix::from_entries(n, n, entries.chain((0..n).map(|i| (i, i, shift)))).into_sparse()
+}
+
+fn least_eigenvalue(matrix: &SparseColMat<usize, f64>) -> f64 {
+    let dense: Mat<f64> = matrix.to_dense();
+    let values = dense.self_adjoint_eigenvalues(Side::Lower).unwrap_or_default();
+    values.into_iter().fold(f64::INFINITY, f64::min)
+}

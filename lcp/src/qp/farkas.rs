@@ -1,0 +1,122 @@
+//! Proof that there is no solution: `A t + B y = c` has none with `t >= 0` and `y >= 0`.
+//!
+//! The vector of the cone `A^T pi <= 0`, `B^T pi <= 0` that is nearest to `c` is zero where there is a
+//! solution, and a proof where there is none: `c . pi = |pi|^2` (Moreau 1962). So the proof is
+//! itself the unique solution of a convex quadratic program, which has an interior-point solution and
+//! can be polished, whatever made the problem infeasible.
+
+use super::form::{Bounds, Form, Point};
+use super::interior::{Effort, End, Interior};
+use super::polish::{places_of, polish};
+use super::reduced::Law;
+use super::scale::Scaled;
+use crate::problem::max_abs;
+use crate::scaling::{GIVEN, equilibrate};
+use crate::{HorizontalLcp, Matrix, Side};
+
+/// Rounding of a component of `A^T pi`, relative to `|A|^T |pi|`.
+const ROUNDING: f64 = 1e-12;
+/// Least value of `c.pi` of a proof, relative to `|c|.|pi|`.
+const LEAST_GAP: f64 = 1e-9;
+
+/// A checked Farkas vector with a largest entry of one, if one is found.
+pub(super) fn farkas_vector(problem: &HorizontalLcp, effort: Effort) -> Option<Vec<f64>> {
+    let n = problem.order();
+    let (form, rows) = projection(problem);
+    let scaled = Scaled::new(&form);
+    let limits = vec![0.0; form.rows()];
+    let law = Law::Tresca(&limits);
+    let found = Interior::new(&scaled.form, effort)?.solve(&scaled.form, &limits, effort.time);
+    if matches!(found.end, End::NoPoint | End::Failed) {
+        return None;
+    }
+    let mut proof = None;
+    let mut judge = |point: &Point| {
+        let pi = scaled.unscaled(point).x;
+        let pi: Vec<f64> = (0..n).map(|i| pi[i] * rows[i]).collect();
+        proof = cleaned(problem, &pi);
+        proof.is_some()
+    };
+    if !judge(&found.point) {
+        let places = places_of(&scaled.form, law, &found.point);
+        polish(&scaled.form, law, (places, &found.point), &mut |point, _| judge(point));
+    }
+    proof
+}
+
+/// `min |r - c|^2 / 2` subject to `A^T r <= 0` and `B^T r <= 0`, in equilibrated rows, with their factors.
+/// The two conditions of a free variable, whose columns are opposite, are one equation.
+fn projection(problem: &HorizontalLcp) -> (Form, Vec<f64>) {
+    let n = problem.order();
+    let columns: Vec<_> = [Side::T, Side::Y]
+        .into_iter()
+        .flat_map(|side| (0..n).map(move |pair| problem.column(pair, side)))
+        .collect();
+    let (rows, cols) = equilibrate(n, &columns, GIVEN);
+    let is_free: Vec<bool> = (0..n).map(|pair| is_free(problem, pair)).collect();
+    let mut entries = Vec::new();
+    let mut bounds = Vec::new();
+    for (k, column) in columns.iter().enumerate() {
+        if k >= n && is_free[k - n] {
+            continue;
+        }
+        let row = bounds.len();
+        column.for_each(|i, v| {
+            if v != 0.0 {
+                entries.push((row, i, -v * rows[i] * cols[k]));
+            }
+        });
+        bounds.push(if is_free[k % n] { Bounds::Free } else { Bounds::Nonnegative });
+    }
+    let m = bounds.len();
+    let form = Form {
+        p: Matrix::identity(n).into_sparse(),
+        d: Matrix::from_entries(m, n, entries.into_iter()).into_sparse(),
+        s: Matrix::diagonal(m, 0.0).into_sparse(),
+        linear: problem.c().iter().zip(&rows).map(|(c, row)| -c * row).collect(),
+        offset: vec![0.0; m],
+        bounds,
+    };
+    (form, rows)
+}
+
+/// Whether the columns of a pair are opposite.
+fn is_free(problem: &HorizontalLcp, pair: usize) -> bool {
+    let nonzero = |matrix: &Matrix, factor: f64| -> Vec<(usize, f64)> {
+        let entries = matrix.column(pair).map(|(i, v)| (i, factor * v));
+        entries.filter(|(_, v)| *v != 0.0).collect()
+    };
+    nonzero(problem.a(), 1.0) == nonzero(problem.b(), -1.0)
+}
+
+/// The proof that a vector is, after what is rounding error in it was set to zero.
+fn cleaned(problem: &HorizontalLcp, pi: &[f64]) -> Option<Vec<f64>> {
+    const NOISE: [f64; 6] = [0.0, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11];
+    let largest = max_abs(pi);
+    if !(largest > 0.0 && largest.is_finite()) {
+        return None;
+    }
+    let pi: Vec<f64> = pi.iter().map(|pi| pi / largest).collect();
+    let candidates = NOISE.into_iter().map(|noise| {
+        pi.iter().map(|pi| if pi.abs() <= noise { 0.0 } else { *pi }).collect::<Vec<_>>()
+    });
+    candidates.into_iter().find(|pi| is_proof(problem, pi))
+}
+
+fn is_proof(problem: &HorizontalLcp, pi: &[f64]) -> bool {
+    let columns = [Side::T, Side::Y]
+        .into_iter()
+        .flat_map(|side| (0..pi.len()).map(move |pair| problem.column(pair, side)));
+    let mut holds = pi.iter().all(|pi| pi.is_finite());
+    for column in columns {
+        let (mut sum, mut size) = (0.0, 0.0);
+        column.for_each(|i, v| {
+            sum += v * pi[i];
+            size += (v * pi[i]).abs();
+        });
+        holds &= sum <= ROUNDING * size;
+    }
+    let terms = problem.c().iter().zip(pi).map(|(c, pi)| c * pi);
+    let (gap, size) = terms.fold((0.0, 0.0), |(gap, size), v: f64| (gap + v, size + v.abs()));
+    holds && gap > LEAST_GAP * size
+}

@@ -1,0 +1,112 @@
+//! Settings of the convex quadratic program.
+
+use std::time::Duration;
+
+use crate::{Error, WarmStart};
+
+/// Which of its two programs a contact problem becomes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub enum ContactForm {
+    /// The dual one where `K` is positive definite and there are few contacts, else the primal one.
+    #[default]
+    Auto,
+    /// In the displacements, as sparse as `K`.
+    Primal,
+    /// In the contact forces, with the dense matrix `C K^-1 C^T`: for `K` positive definite.
+    Dual,
+}
+
+/// Springs that hold the displacements of a contact problem while it is solved, and are taken away
+/// again.
+///
+/// Every displacement has a spring of the stiffness `epsilon k_j`, with `k_j = K_jj` where that is not
+/// zero. Where `K` has no stiffness, as for rigid bodies, `k_j = k c_j^2` with the norm `c_j` of
+/// the column `j` of `[C_n; C_t]` and for `k` the geometric mean of `K_jj / c_j^2` over the other
+/// displacements, or, where all of `K` is zero, the largest `|f_j| / c_j` over the largest initial gap or
+/// slip (over one, without any: then the stiffness only sets the unit of the displacements). In this way
+/// units do not matter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct SoftConstraints {
+    /// Stiffness of the springs, relative to that of the bodies. In `(0, 1]`.
+    pub epsilon: f64,
+    /// Times that the springs are centred anew at the last solution.
+    pub max_recentrings: usize,
+}
+
+impl Default for SoftConstraints {
+    fn default() -> Self {
+        Self { epsilon: 1e-4, max_recentrings: 50 }
+    }
+}
+
+/// Settings of [`QuadraticProgram`](crate::QuadraticProgram).
+#[derive(Debug, Clone, PartialEq)]
+pub struct QuadraticProgramSettings {
+    /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`. The polish usually
+    /// reaches 1e-14, so that it costs nothing to ask for 1e-12.
+    pub tolerance: f64,
+    /// Iterations of one run of the interior-point method. At least 1.
+    pub max_iterations: usize,
+    /// Rounds of the fixed point of Coulomb's friction. At least 1.
+    pub max_outer: usize,
+    /// Wall-clock time; `None` is no limit. Looked at before every run of the interior-point method and
+    /// in it before every iteration.
+    pub time_limit: Option<Duration>,
+    /// Which program a contact problem becomes.
+    pub form: ContactForm,
+    /// Springs for contact problems; `None` is none.
+    pub soft: Option<SoftConstraints>,
+    /// A point or a basis, in the pairs of the general problem, from which the polish is tried before
+    /// anything else.
+    pub start: WarmStart,
+}
+
+impl Default for QuadraticProgramSettings {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-10,
+            max_iterations: 200,
+            max_outer: 60,
+            time_limit: None,
+            form: ContactForm::Auto,
+            soft: None,
+            start: WarmStart::None,
+        }
+    }
+}
+
+impl QuadraticProgramSettings {
+    /// Checks the settings for a problem with `n` pairs.
+    ///
+    /// # Errors
+    /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
+    pub fn validate(&self, n: usize) -> Result<(), Error> {
+        let tolerance = self.tolerance;
+        if !(tolerance > 0.0 && tolerance < 1.0) {
+            let range = "between 0 and 1";
+            return Err(Error::Setting { name: "tolerance", value: tolerance, range });
+        }
+        for (name, count) in
+            [("max_iterations", self.max_iterations), ("max_outer", self.max_outer)]
+        {
+            if count == 0 {
+                return Err(Error::Setting { name, value: 0.0, range: "at least 1" });
+            }
+        }
+        if let Some(soft) = self.soft {
+            check_epsilon(soft.epsilon)?;
+        }
+        let start = crate::LemkeSettings { start: self.start.clone(), ..Default::default() };
+        start.validate(n)
+    }
+}
+
+pub(super) fn check_epsilon(epsilon: f64) -> Result<(), Error> {
+    if epsilon > 0.0 && epsilon <= 1.0 {
+        return Ok(());
+    }
+    Err(Error::Setting { name: "epsilon", value: epsilon, range: "in (0, 1]" })
+}
