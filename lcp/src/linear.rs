@@ -96,7 +96,7 @@ pub(crate) fn factorise_block(
     for start in (0..n).step_by(PANEL) {
         let end = n.min(start + PANEL);
         for k in start..end {
-            let column = block.rb().col(k).try_as_col_major().map(|column| column.as_slice());
+            let column = block.rb().col(k).try_as_col_major().map(faer::ColRef::as_slice);
             let column = column.unwrap_or_else(|| unreachable!("blocks are stored by columns"));
             let pivot = (k..n).fold(
                 k,

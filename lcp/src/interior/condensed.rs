@@ -126,7 +126,7 @@ impl Condensed {
                 entries.for_each(|(&i, v)| rest[i] -= v * x);
             }
             let size = max_abs(&rest);
-            if !(size < 0.5 * last) || size == 0.0 {
+            if size.is_nan() || size >= 0.5 * last || size == 0.0 {
                 break;
             }
             last = size;

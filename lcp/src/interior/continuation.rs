@@ -49,7 +49,7 @@ pub(super) fn follow(
         };
         at = next;
         let share = spring * at.u.iter().map(|u| u.abs()).sum::<f64>() / load;
-        if !(share > NOTHING) {
+        if share <= NOTHING {
             return End::Standing(at);
         }
         let is_constant = path.shares.last().is_some_and(|last| share > CONSTANT * last);

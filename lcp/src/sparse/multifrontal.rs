@@ -102,7 +102,7 @@ mod tests {
         assert_eq!(solver.factorise(matrix(0.0).val()), 0);
         let mut x = [2.0, 3.0];
         solver.solve(&mut x);
-        assert_eq!(x, [1.0, 1.0]);
+        assert!(x.iter().all(|x| (x - 1.0).abs() < 1e-15), "{x:?}");
         assert_eq!(solver.factorise(&[0.0, 0.0, 0.0, 1.0]), 1);
     }
 }
