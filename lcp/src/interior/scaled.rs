@@ -187,6 +187,35 @@ impl Scaled {
     }
 }
 
+/// Rounding errors of a sum, relative to its terms.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
+/// More than this of the loads is not a rounding error, however large the terms are.
+const LARGEST_ROUNDING: f64 = 1e-6;
+
+impl Scaled {
+    /// What equations and gaps lack in units of the loads, apart from rounding errors. Residuals are relative
+    /// to the terms of their row: where bodies can move without forces, or forces grow without effect, a
+    /// point far out makes all terms large and the residuals small, also where there is no solution.
+    pub(super) fn drift(&self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
+        let rest = self.unbalanced(u, forces.iter().copied());
+        let mut terms: Vec<f64> = self.f.iter().map(|f| f.abs()).collect();
+        for (j, u) in u.iter().enumerate() {
+            column_of(&self.k, j).for_each(|(i, v)| terms[i] += (v * u).abs());
+        }
+        let beyond = |v: f64, terms: f64| v - (ROUNDING * terms).min(LARGEST_ROUNDING);
+        let mut worst = 0.0_f64;
+        for (point, (t_n, t_t)) in self.points.iter().zip(forces) {
+            let mut gap = point.x_0.abs();
+            for ((&j, n), t) in point.columns.iter().zip(&point.normal).zip(&point.tangent) {
+                terms[j] += (n * t_n).abs() + (t * t_t).abs();
+                gap += (n * u[j]).abs();
+            }
+            worst = worst.max(beyond(-point.gap(u), gap));
+        }
+        rest.iter().zip(&terms).fold(worst, |max, (v, terms)| max.max(beyond(v.abs(), *terms)))
+    }
+}
+
 /// Factors that bring the largest coefficient of every displacement in a gap or a slip near one; those of
 /// displacements that no contact sees bring their stiffness to that of the others.
 fn columns(problem: &Contact2d) -> Vec<f64> {
