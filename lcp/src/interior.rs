@@ -136,7 +136,7 @@ struct Run<'a, 'b> {
 
 impl Run<'_, '_> {
     fn solve(mut self) -> Solution {
-        let (mut status, mut springs) = (self.try_start(), None);
+        let (mut status, mut springs) = (self.try_start().or_else(|| self.try_rest()), None);
         let attempts = if status.is_none() { &WIDTHS[..] } else { &[] };
         for width in attempts {
             let at = start(&self.scaled, &mut self.condensed, PROXIMAL);
@@ -155,11 +155,11 @@ impl Run<'_, '_> {
             });
             status = Some(match end {
                 End::Standing(at) => self.iterate(at, WIDTHS[0]),
-                End::Falling(path) => {
+                End::Falling(path) if self.problem.has_bodies() => {
                     springs = Some(path);
                     Status::NoEquilibrium
                 }
-                End::Open => limit.unwrap_or(Status::Stalled),
+                End::Falling(_) | End::Open => limit.unwrap_or(Status::Stalled),
             });
         }
         let mut solution = self.finish(status.unwrap_or(Status::Stalled));
@@ -186,16 +186,36 @@ impl Run<'_, '_> {
         self.cross_over((&u, &forces), contacts, &Effort::THOROUGH).then_some(Status::Solved)
     }
 
+    /// Whether nothing moves and no force acts, a point that iterations only come nearer to without end.
+    fn try_rest(&mut self) -> Option<Status> {
+        let (u, forces) =
+            (vec![0.0; self.scaled.order()], vec![(0.0, 0.0); self.scaled.points.len()]);
+        if self.judge(&u, &forces) > self.settings.tolerance {
+            return None;
+        }
+        let contacts = contacts(&self.scaled, &Iterate::outside(&self.scaled, &u, &forces));
+        if self.settings.crossover {
+            self.cross_over((&u, &forces), contacts, &Effort::THOROUGH);
+        }
+        Some(Status::Solved)
+    }
+
     /// The interior-point iteration from a point inside.
     fn iterate(&mut self, mut at: Iterate, width: f64) -> Status {
         let mut tried = NEAR / NEARER;
+        let (_, first) = at.sizes();
         let (mut least, mut since) = (f64::INFINITY, 0);
         loop {
             let forces: Vec<(f64, f64)> = at.points.iter().map(|p| (p.t_n, p.t_t)).collect();
             let worst = self.judge(&at.u, &forces);
             let is_solved = worst <= self.settings.tolerance;
-            if self.settings.crossover && (is_solved || worst <= NEARER * tried) {
-                tried = worst;
+            // Where nothing moves the residuals measure gaps by noise.
+            let (force, length) = at.sizes();
+            let units = (force.max(1.0), length.max(first));
+            let defect = Defect::of(&self.scaled, &at, 0.0).relative(units);
+            let near = at.natural(&self.scaled, units).max(defect).min(worst);
+            if self.settings.crossover && (is_solved || near <= NEARER * tried) {
+                tried = near;
                 let contacts = contacts(&self.scaled, &at);
                 let effort = if is_solved { Effort::THOROUGH } else { Effort::QUICK };
                 if self.cross_over((&at.u, &forces), contacts, &effort) {
