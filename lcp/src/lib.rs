@@ -35,6 +35,7 @@
 //! given, and all tolerances are relative to that data: units do not matter. The library does not
 //! print.
 
+mod auto;
 mod basis;
 #[cfg(feature = "cli")]
 pub mod cli;
@@ -63,6 +64,7 @@ mod sparse;
 
 pub use faer;
 
+pub use auto::{Auto, AutoSettings, Choice};
 pub use basis::{Basis, Side};
 pub use error::Error;
 pub use interior::{InteriorPoint, InteriorPointSettings};
@@ -88,7 +90,7 @@ pub use residual::Residuals;
 pub use settings::{Covering, LemkeSettings, WarmStart};
 pub use solution::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Info, Perturbation, PivotRecord, Ray,
-    SoftSprings, Solution, Status, Variable,
+    Route, RouteEnd, SoftSprings, Solution, Status, Variable,
 };
 pub use solve::{Iteration, Solver};
 
