@@ -47,6 +47,7 @@ pub struct Choice {
 /// | [`BoxedLcp`](crate::BoxedLcp), sparse and larger | interior point‡, sweeps†, Lemke |
 /// | [`Friction2d`](crate::Friction2d), dense, or up to order 500 | Lemke, interior point, sweeps† |
 /// | [`Friction2d`](crate::Friction2d), sparse and larger | interior point, sweeps†, Lemke |
+/// | [`Contact2d`](crate::Contact2d), up to 40 points | Lemke, interior point, quadratic programs, sweeps |
 /// | [`Contact2d`](crate::Contact2d), up to 500 points, with friction | interior point, Lemke, quadratic programs, sweeps |
 /// | [`Contact2d`](crate::Contact2d), up to 500 points, without friction | interior point, quadratic program, Lemke, sweeps |
 /// | [`Contact2d`](crate::Contact2d), larger | interior point, quadratic programs, sweeps, Lemke |
@@ -55,12 +56,13 @@ pub struct Choice {
 /// variables and skew between them; † where the diagonal is positive; ‡ without free variables.
 ///
 /// # When it ends
-/// With [`Solved`](crate::Status::Solved), [`Infeasible`](crate::Status::Infeasible) (its proof is checked),
-/// and when the time is over. A method that does not treat the problem, or takes more memory than there is,
+/// With [`Solved`](crate::Status::Solved), with [`Infeasible`](crate::Status::Infeasible) and a proof, which
+/// was checked, and when the time is over. A method that does not treat the problem, or takes more memory than there is,
 /// is passed over. After [`NoEquilibrium`](crate::Status::NoEquilibrium) of more than 500 contact points only
 /// the quadratic program is asked, which may find a proof.
 ///
-/// Without such an end it gives, in this order: a point with residuals below the root of the tolerance;
+/// Without such an end it gives, in this order: [`Infeasible`](crate::Status::Infeasible) of Lemke's method for
+/// contact, whose proof is one of other pairs; a point with residuals below the root of the tolerance;
 /// the evidence of [`NoEquilibrium`](crate::Status::NoEquilibrium); a ray
 /// ([`RayTermination`](crate::Status::RayTermination)); the point with the smallest residual. Where an answer
 /// comes near a solution and is none, the next method starts from it.

@@ -12,7 +12,10 @@ const NEAR: f64 = 1e-4;
 /// How much an answer says; what comes first says more.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 enum Rank {
+    /// Solved, or with a proof that there is no solution.
     Decided,
+    /// There is no solution, by a proof in other pairs, which the answer does not have.
+    Infeasible,
     /// With residuals below the root of the tolerance.
     Near,
     /// There is no equilibrium, by what soft springs show.
@@ -53,10 +56,10 @@ pub(super) fn run<P: Planned>(problem: &P, settings: &AutoSettings) -> Result<So
         let seconds = route_began.elapsed().as_secs_f64();
         routes.push(Route { solver: step.method.name(), reason: step.reason, end, seconds });
         let Some(solution) = solution else { continue };
-        let status = solution.status;
+        let (is_last, is_late) = (is_final(&solution), solution.status == Status::TimeLimit);
         best = Some(better(best, solution, settings.tolerance));
-        if is_final(status) {
-            is_cut = status == Status::TimeLimit;
+        if is_last {
+            is_cut = is_late;
             break;
         }
     }
@@ -72,9 +75,12 @@ pub(super) fn run<P: Planned>(problem: &P, settings: &AutoSettings) -> Result<So
 }
 
 /// After these no other method is asked.
-fn is_final(status: Status) -> bool {
-    use Status::{Cancelled, Infeasible, Solved, TimeLimit};
-    matches!(status, Solved | Infeasible | Cancelled | TimeLimit)
+fn is_final(solution: &Solution) -> bool {
+    match solution.status {
+        Status::Solved | Status::Cancelled | Status::TimeLimit => true,
+        Status::Infeasible => solution.farkas.is_some(),
+        _ => false,
+    }
 }
 
 /// Where an unsolved answer is near a solution, the next method may start from it.
@@ -95,7 +101,9 @@ fn better(best: Option<Solution>, other: Solution, tolerance: f64) -> Solution {
 fn rank(solution: &Solution, tolerance: f64) -> (Rank, f64) {
     let residual = solution.residuals.worst();
     let rank = match solution.status {
-        Status::Solved | Status::Infeasible => Rank::Decided,
+        Status::Solved => Rank::Decided,
+        Status::Infeasible if solution.farkas.is_some() => Rank::Decided,
+        Status::Infeasible => Rank::Infeasible,
         Status::AlmostSolved => Rank::Near,
         _ if residual <= tolerance.sqrt() => Rank::Near,
         Status::NoEquilibrium if solution.springs.is_some() => Rank::Evidence,
@@ -171,6 +179,10 @@ mod tests {
         assert_eq!(status(&falling, &stalled), Status::NoEquilibrium);
         assert_eq!(status(&falling, &near), Status::Stalled);
         assert_eq!(status(&near, &solved), Status::Solved);
-        assert_eq!(status(&falling, &with(Status::Infeasible, 1.0)), Status::Infeasible);
+        let unproved = with(Status::Infeasible, 1.0);
+        assert_eq!(status(&near, &unproved), Status::Infeasible);
+        let mut proved = unproved.clone();
+        proved.farkas = Some(vec![-1.0]);
+        assert!(better(Some(unproved), proved, 1e-10).farkas.is_some());
     }
 }

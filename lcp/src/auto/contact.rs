@@ -6,7 +6,9 @@ use super::method::{Effort, Method, Planned, Step, not_in_chain};
 use super::standard::{common_steps, program_step};
 use crate::{Contact2d, Error, Friction2d, Solution, Solver, WarmStart};
 
-/// Up to so many contact points pivots are fast.
+/// Up to so many contact points pivots take no time.
+const VERY_FEW: usize = 40;
+/// Up to so many they are fast.
 const FEW: usize = 500;
 
 impl Planned for Friction2d {
@@ -62,25 +64,23 @@ impl Planned for Contact2d {
             Method::ProjectedGaussSeidel,
             "sweeps over the contacts, if K is positive definite, promise little",
         );
-        let pivots = |words| step(Method::Lemke, words);
-        let is_small = points <= FEW;
         let program = program_step(Some(program));
-        let mut steps = vec![inside];
-        if is_small && friction > 0 {
-            steps.push(pivots("pivots are fast, need no convergence and may find a proof"));
-            steps.extend(program);
-            steps.push(sweeps);
-        } else {
-            steps.extend(program);
-            if is_small {
-                steps.push(pivots("pivots are fast, need no convergence and may find a proof"));
-                steps.push(sweeps);
+        let pivots = step(
+            Method::Lemke,
+            if points <= FEW {
+                "pivots are fast, need no convergence and may find a proof"
             } else {
-                steps.push(sweeps);
-                steps.push(pivots("pivots take long at this number, but need no convergence"));
-            }
+                "pivots take long at this number, but need no convergence"
+            },
+        );
+        let in_order = |steps: [Option<Step>; 4]| steps.into_iter().flatten().collect();
+        let (pivots, inside, sweeps) = (Some(pivots), Some(inside), Some(sweeps));
+        match points {
+            0..=VERY_FEW => in_order([pivots, inside, program, sweeps]),
+            0..=FEW if friction > 0 => in_order([inside, pivots, program, sweeps]),
+            0..=FEW => in_order([inside, program, pivots, sweeps]),
+            _ => in_order([inside, program, sweeps, pivots]),
         }
-        steps
     }
 
     fn attempt(&self, method: Method, effort: &Effort<'_>) -> Result<Solution, Error> {
