@@ -48,8 +48,7 @@ pub struct Choice {
 /// | [`Friction2d`](crate::Friction2d), dense, or up to order 500 | Lemke, interior point, sweeps† |
 /// | [`Friction2d`](crate::Friction2d), sparse and larger | interior point, sweeps†, Lemke |
 /// | [`Contact2d`](crate::Contact2d), up to 40 points | Lemke, interior point, quadratic programs, sweeps |
-/// | [`Contact2d`](crate::Contact2d), up to 500 points, with friction | interior point, Lemke, quadratic programs, sweeps |
-/// | [`Contact2d`](crate::Contact2d), up to 500 points, without friction | interior point, quadratic program, Lemke, sweeps |
+/// | [`Contact2d`](crate::Contact2d), up to 500 points | interior point, quadratic programs, Lemke, sweeps |
 /// | [`Contact2d`](crate::Contact2d), larger | interior point, quadratic programs, sweeps, Lemke |
 ///
 /// \* with the feature `clarabel`, where `M` is symmetric, for mixed problems within the two kinds of

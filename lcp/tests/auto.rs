@@ -129,7 +129,7 @@ fn other_forms_have_their_plans() {
 #[test]
 fn points_and_friction_decide_about_contact() {
     assert_eq!(plan!(&masses(1, 0.5, 1.0)), [LEMKE, INTERIOR, PROGRAM, SWEEPS]);
-    assert_eq!(plan!(&masses(60, 0.5, 1.0)), [INTERIOR, LEMKE, PROGRAM, SWEEPS]);
+    assert_eq!(plan!(&masses(60, 0.5, 1.0)), [INTERIOR, PROGRAM, LEMKE, SWEEPS]);
     assert_eq!(plan!(&masses(60, 0.0, 1.0)), [INTERIOR, PROGRAM, LEMKE, SWEEPS]);
     assert_eq!(plan!(&masses(600, 0.5, 1.0)), [INTERIOR, PROGRAM, SWEEPS, LEMKE]);
 }
@@ -327,20 +327,23 @@ fn without_equilibrium_the_chain_looks_for_a_proof() {
     }
 }
 
-/// With a negative stiffness the quadratic program refuses, and the sweeps as well; pivots do not.
+/// `w = -z1 + z2 / 2 + 1` and the like: neither the interior point, which may stall, nor the program, which
+/// is not convex, are for this; `z = 0` is a solution that pivots find at once.
 #[test]
 fn a_method_that_refuses_is_passed_over() {
-    let k = mat![[4.0, 0.0], [0.0, -1.0]];
-    let (c_n, c_t) = (mat![[1.0, 0.0]], mat![[0.0, 1.0]]);
-    let zeros = || vec![0.0; 1];
-    let problem =
-        Contact2d::new(k, vec![-2.0, 1.4], c_n, c_t, zeros(), zeros(), vec![0.5]).unwrap();
+    let entry = |i: usize, j: usize| match (i == j, i / 2 == j / 2) {
+        (true, _) => -1.0,
+        (false, true) => 0.5,
+        (false, false) => 0.0,
+    };
+    let problem = Lcp::new(sparse(600, entry, &[1]), vec![1.0; 600]).unwrap();
     let solution = auto().solve(&problem).unwrap();
-    assert!(solution.is_solved() && solution.residuals.worst() <= 1e-10);
-    // w = -z1 - 1 is negative; a diagonal that is not positive is not swept, and the program not convex.
-    let none = Lcp::new(mat![[-1.0, 0.0], [0.0, -1.0]], vec![1.0, 1.0]).unwrap();
-    assert_eq!(plan!(&none), [LEMKE, INTERIOR, PROGRAM]);
-    assert!(auto().solve(&none).unwrap().is_solved());
+    assert_eq!((solution.status, solution.info.solver), (Status::Solved, LEMKE));
+    assert_routes(&solution, &[INTERIOR, PROGRAM, LEMKE]);
+    let routes = &solution.info.routes;
+    assert!(matches!(routes[0].end, RouteEnd::Ended { status, .. } if status != Status::Solved));
+    let RouteEnd::Refused { reason } = &routes[1].end else { panic!("{:?}", routes[1]) };
+    assert!(reason.contains("M[0, 0] is -1"), "{reason}");
 }
 
 #[test]

@@ -77,7 +77,7 @@ impl Planned for Contact2d {
         let (pivots, inside, sweeps) = (Some(pivots), Some(inside), Some(sweeps));
         match points {
             0..=VERY_FEW => in_order([pivots, inside, program, sweeps]),
-            0..=FEW if friction > 0 => in_order([inside, pivots, program, sweeps]),
+            // Where the interior point comes near, the program goes on from there, without an iteration.
             0..=FEW => in_order([inside, program, pivots, sweeps]),
             _ => in_order([inside, program, sweeps, pivots]),
         }

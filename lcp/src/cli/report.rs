@@ -28,15 +28,20 @@ pub(super) fn text(file: &ProblemFile, answer: &Answer<'_>) -> String {
 impl std::fmt::Display for Work {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match *self {
-            Self::Pivots { pivots } => write!(f, "{pivots} pivots"),
-            Self::Iterations { iterations, factorisations: 0 } => {
-                write!(f, "{iterations} iterations")
-            }
+            Self::Pivots { pivots } => f.write_str(&counted(pivots, "pivot")),
             Self::Iterations { iterations, factorisations } => {
-                write!(f, "{iterations} iterations, {factorisations} factorisations")
+                f.write_str(&counted(iterations, "iteration"))?;
+                if factorisations > 0 {
+                    write!(f, ", {}", counted(factorisations, "factorisation"))?;
+                }
+                Ok(())
             }
         }
     }
+}
+
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 /// What a status means for the user, where its name does not say it.
