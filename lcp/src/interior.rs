@@ -207,7 +207,10 @@ impl Run<'_, '_> {
             since = if merit < 0.9 * least { 0 } else { since + 1 };
             least = least.min(merit);
             if !next.is_finite() || alpha < NO_STEP || since > PATIENCE {
-                return Status::Stalled;
+                // The residual is no guide where all of one side vanishes, which it is measured by.
+                let contacts = contacts(&self.scaled, &at);
+                let is_exact = self.settings.crossover && self.cross_over(&at.u, &forces, contacts);
+                return if is_exact { Status::Solved } else { Status::Stalled };
             }
             at = next;
         }

@@ -125,7 +125,7 @@ impl Vertex {
             last = size;
             condensed.solve(&mut u);
             for (i, point) in problem.points.iter().enumerate() {
-                let moved = (point.gap(&u) - point.x_0, point.slip(&u) - point.s_0);
+                let moved = point.moved(&u);
                 let (t_n, t_t) = springs[i].forces(moved.0, moved.1);
                 self.forces[i].0 += fixed[i].0 - t_n;
                 self.forces[i].1 += fixed[i].1 - t_t;

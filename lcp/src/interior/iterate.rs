@@ -122,7 +122,7 @@ impl<'a> Tangent<'a> {
         self.condensed.solve(&mut u);
         let points = fixed.iter().enumerate().map(|(i, fixed)| {
             let point = &self.problem.points[i];
-            let moved = (point.gap(&u) - point.x_0, point.slip(&u) - point.s_0);
+            let moved = point.moved(&u);
             let (t_n, t_t) = self.springs[i].forces(moved.0, moved.1);
             let (t_n, t_t) = (fixed.0 - t_n, fixed.1 - t_t);
             let opened = (moved.0 + defect.gaps[i].0, moved.1 + defect.gaps[i].1);

@@ -36,6 +36,11 @@ impl Point {
         self.s_0 + dot(&self.tangent, &self.columns, u)
     }
 
+    /// The changes of gap and slip by a step of the displacements, which may be far smaller than both.
+    pub(super) fn moved(&self, u: &[f64]) -> (f64, f64) {
+        (dot(&self.normal, &self.columns, u), dot(&self.tangent, &self.columns, u))
+    }
+
     /// Adds the forces of the point to those on the displacements.
     pub(super) fn add_forces(&self, t_n: f64, t_t: f64, out: &mut [f64]) {
         for ((&j, n), t) in self.columns.iter().zip(&self.normal).zip(&self.tangent) {
