@@ -9,7 +9,8 @@
 //!
 //! * [`HorizontalLcp`] is the problem; [`Lcp`], [`MixedLcp`] (with free variables) and [`BoxedLcp`]
 //!   (with bounds) convert into it and back. Matrices are dense or sparse ([`Matrix`]).
-//! * [`Lemke`] with [`LemkeSettings`] solves them by complementary pivoting.
+//! * [`Lemke`] with [`LemkeSettings`] solves them by complementary pivoting; [`Auto`] chooses the method that
+//!   suits a problem, says why, and goes on with another one where that fails.
 //! * [`Parametric`] traces the solutions along a line of right-hand sides.
 //! * [`Solution`] carries the point, its [`Status`], its complementary [`Basis`], its
 //!   [`Residuals`] from the original data, and what it cost ([`Info`]); where there is no solution,

@@ -327,23 +327,27 @@ fn without_equilibrium_the_chain_looks_for_a_proof() {
     }
 }
 
-/// `w = -z1 + z2 / 2 + 1` and the like: neither the interior point, which may stall, nor the program, which
-/// is not convex, are for this; `z = 0` is a solution that pivots find at once.
+/// Blocks of a symmetric matrix that is copositive and not semidefinite: the active set method cycles, the
+/// interior point jams, the program is not convex; sweeps decrease a function that is bounded below.
 #[test]
 fn a_method_that_refuses_is_passed_over() {
-    let entry = |i: usize, j: usize| match (i == j, i / 2 == j / 2) {
-        (true, _) => -1.0,
-        (false, true) => 0.5,
-        (false, false) => 0.0,
+    let block = families::strictly_copositive(30, 1).problem;
+    let entry = |i: usize, j: usize| {
+        let (k, l) = (i % 30, j % 30);
+        if i / 30 == j / 30 { 0.5 * (block.m()[(k, l)] + block.m()[(l, k)]) } else { 0.0 }
     };
-    let problem = Lcp::new(sparse(600, entry, &[1]), vec![1.0; 600]).unwrap();
+    let offsets: Vec<usize> = (1..30).collect();
+    let q = (0..600).map(|i| block.q()[i % 30]).collect();
+    let problem = Lcp::new(sparse(600, entry, &offsets), q).unwrap();
     let solution = auto().solve(&problem).unwrap();
-    assert_eq!((solution.status, solution.info.solver), (Status::Solved, LEMKE));
-    assert_routes(&solution, &[INTERIOR, PROGRAM, LEMKE]);
+    assert_eq!((solution.status, solution.info.solver), (Status::Solved, SWEEPS));
+    assert_routes(&solution, &[NEWTON, INTERIOR, PROGRAM, SWEEPS]);
     let routes = &solution.info.routes;
-    assert!(matches!(routes[0].end, RouteEnd::Ended { status, .. } if status != Status::Solved));
-    let RouteEnd::Refused { reason } = &routes[1].end else { panic!("{:?}", routes[1]) };
-    assert!(reason.contains("M[0, 0] is -1"), "{reason}");
+    let failed =
+        |end: &RouteEnd| matches!(end, RouteEnd::Ended { status, .. } if *status != Status::Solved);
+    assert!(failed(&routes[0].end) && failed(&routes[1].end));
+    let RouteEnd::Refused { reason } = &routes[2].end else { panic!("{:?}", routes[2]) };
+    assert!(reason.contains("not positive semidefinite"), "{reason}");
 }
 
 #[test]

@@ -75,11 +75,13 @@ impl Planned for Contact2d {
         );
         let in_order = |steps: [Option<Step>; 4]| steps.into_iter().flatten().collect();
         let (pivots, inside, sweeps) = (Some(pivots), Some(inside), Some(sweeps));
-        match points {
-            0..=VERY_FEW => in_order([pivots, inside, program, sweeps]),
-            // Where the interior point comes near, the program goes on from there, without an iteration.
-            0..=FEW => in_order([inside, program, pivots, sweeps]),
-            _ => in_order([inside, program, sweeps, pivots]),
+        if points <= VERY_FEW {
+            in_order([pivots, inside, program, sweeps])
+        } else if points <= FEW {
+            // Where the interior point comes near, the program starts from there and need only polish.
+            in_order([inside, program, pivots, sweeps])
+        } else {
+            in_order([inside, program, sweeps, pivots])
         }
     }
 
