@@ -85,7 +85,9 @@ impl Planned for BoxedLcp {
             }
             Method::InteriorPoint => effort.interior_point().solve(&self.to_general()),
             Method::ProjectedGaussSeidel => effort.sweeps().solve(self),
-            other => Err(not_in_chain(other)),
+            Method::SemismoothNewton => Err(not_in_chain(method)),
+            #[cfg(feature = "clarabel")]
+            Method::QuadraticProgram => Err(not_in_chain(method)),
         }
     }
 }
