@@ -85,7 +85,7 @@ const PATIENCE: usize = 30;
 const NO_STEP: f64 = 1e-7;
 
 impl InteriorPoint {
-    const NAME: &str = "interior point";
+    pub(crate) const NAME: &str = "interior point";
 
     /// A solver with the given settings.
     pub fn new(settings: InteriorPointSettings) -> Self {

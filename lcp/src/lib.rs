@@ -9,7 +9,8 @@
 //!
 //! * [`HorizontalLcp`] is the problem; [`Lcp`], [`MixedLcp`] (with free variables) and [`BoxedLcp`]
 //!   (with bounds) convert into it and back. Matrices are dense or sparse ([`Matrix`]).
-//! * [`Lemke`] with [`LemkeSettings`] solves them by complementary pivoting.
+//! * [`Lemke`] with [`LemkeSettings`] solves them by complementary pivoting; [`Auto`] chooses the method that
+//!   suits a problem, says why, and goes on with another one where that fails.
 //! * [`Parametric`] traces the solutions along a line of right-hand sides.
 //! * [`Solution`] carries the point, its [`Status`], its complementary [`Basis`], its
 //!   [`Residuals`] from the original data, and what it cost ([`Info`]); where there is no solution,
@@ -35,6 +36,7 @@
 //! given, and all tolerances are relative to that data: units do not matter. The library does not
 //! print.
 
+mod auto;
 mod basis;
 #[cfg(feature = "cli")]
 pub mod cli;
@@ -63,6 +65,7 @@ mod sparse;
 
 pub use faer;
 
+pub use auto::{Auto, AutoSettings, Choice};
 pub use basis::{Basis, Side};
 pub use error::Error;
 pub use interior::{InteriorPoint, InteriorPointSettings};
@@ -88,7 +91,7 @@ pub use residual::Residuals;
 pub use settings::{Covering, LemkeSettings, WarmStart};
 pub use solution::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Info, Perturbation, PivotRecord, Ray,
-    SoftSprings, Solution, Status, Variable,
+    Route, RouteEnd, SoftSprings, Solution, Status, Variable,
 };
 pub use solve::{Iteration, Solver};
 

@@ -251,6 +251,49 @@ pub struct SoftSprings {
     pub motion: Vec<f64>,
 }
 
+/// How a method that [`Auto`](crate::Auto) asked ended.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "lowercase"))]
+#[non_exhaustive]
+pub enum RouteEnd {
+    /// With an answer.
+    Ended {
+        /// Its status.
+        status: Status,
+        /// The worst of its residuals.
+        residual: f64,
+    },
+    /// It does not treat the problem.
+    Refused {
+        /// What is in the way.
+        reason: String,
+    },
+}
+
+impl std::fmt::Display for RouteEnd {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Ended { status, residual } => write!(f, "{status}, residual {residual:.1e}"),
+            Self::Refused { reason } => write!(f, "refused: {reason}"),
+        }
+    }
+}
+
+/// A method that [`Auto`](crate::Auto) asked.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct Route {
+    /// Its name.
+    pub solver: &'static str,
+    /// Why it was its turn.
+    pub reason: String,
+    /// How it ended.
+    pub end: RouteEnd,
+    /// Wall-clock time \[s\].
+    pub seconds: f64,
+}
+
 /// What it cost.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -268,6 +311,9 @@ pub struct Info {
     pub attempts: Vec<Attempt>,
     /// The residual by which an iterative method stops, at its start and after every iteration.
     pub history: Vec<f64>,
+    /// The methods that [`Auto`](crate::Auto) asked, in order; the point comes from one of them, and so do
+    /// the other numbers here but for the time.
+    pub routes: Vec<Route>,
     /// Wall-clock time \[s\].
     pub seconds: f64,
     /// The part of it spent on pivots; the rest of a pivoting method is start bases, scaling, final
