@@ -98,6 +98,6 @@ pub use solve::{Iteration, Solver};
 struct ReadmeDoctest;
 
 /// See [`ReadmeDoctest`].
-#[cfg(all(doctest, feature = "exact", feature = "io"))]
+#[cfg(all(doctest, feature = "clarabel", feature = "exact", feature = "io"))]
 #[doc = include_str!("../../docs/lcp.md")]
 struct GuideDoctest;
