@@ -7,6 +7,7 @@ mod common;
 use std::ops::ControlFlow;
 use std::time::Duration;
 
+use faer::sparse::SparseColMat;
 use faer::{Mat, mat};
 use lcp::families::{self, Ground, Known, Obstacle};
 use lcp::{
@@ -265,7 +266,7 @@ fn problems() -> impl Strategy<Value = Contact2d> {
 fn in_units(problem: &Contact2d, force: f64, length: f64, unit: &[f64]) -> Contact2d {
     let (n, m) = (problem.displacements(), problem.points());
     let [k, c_n, c_t] =
-        [problem.stiffness(), problem.normal(), problem.tangent()].map(|it| it.to_dense());
+        [problem.stiffness(), problem.normal(), problem.tangent()].map(SparseColMat::to_dense);
     let scaled = |v: &[f64], by: f64| -> Vec<f64> { v.iter().map(|v| v * by).collect() };
     Contact2d::new(
         Mat::from_fn(n, n, |i, j| force / length * k[(i, j)] * unit[i] * unit[j]),
