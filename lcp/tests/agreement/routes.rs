@@ -1,12 +1,12 @@
 //! The methods, and what they owe.
 
-#[cfg(feature = "clarabel")]
-use lcp::{QuadraticProgram, QuadraticProgramSettings};
 use lcp::{
     Error, InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings, ProjectedGaussSeidel,
     ProjectedGaussSeidelSettings, SemismoothNewton, SemismoothNewtonSettings, Solution, Solver,
     Status,
 };
+#[cfg(feature = "clarabel")]
+use lcp::{QuadraticProgram, QuadraticProgramSettings};
 
 pub(crate) const TOLERANCES: [f64; 3] = [1e-4, 1e-8, 1e-12];
 
