@@ -101,7 +101,8 @@ fn wrong_places(form: &Form, law: Law<'_>, places: &[Place], point: &Point) -> V
     let (lambda, slacks) = (&point.lambda, form.slacks(point));
     let unit = |v: f64| if v > 0.0 { v } else { 1.0 };
     let lambda_unit = unit(max_abs(lambda));
-    let slack_unit = unit(max_abs(&slacks).max(max_abs(&point.x)));
+    // With the offset, where all slacks vanish there would be nothing but noise to measure them by.
+    let slack_unit = unit(max_abs(&slacks).max(max_abs(&point.x)).max(max_abs(&form.offset)));
     let wrong = |(row, bounds): (usize, &Bounds)| {
         let (lambda_i, slack) = (lambda[row] / lambda_unit, slacks[row] / slack_unit);
         let (right, by) = match (*bounds, places[row]) {
