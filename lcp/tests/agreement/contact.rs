@@ -50,10 +50,15 @@ struct Data {
 }
 
 impl Data {
-    fn new(k: Mat<f64>, f: Vec<f64>, [c_n, c_t]: [Mat<f64>; 2], x_0: Vec<f64>, mu: Vec<f64>) -> Self {
+    fn new(
+        k: Mat<f64>,
+        f: Vec<f64>,
+        [c_n, c_t]: [Mat<f64>; 2],
+        x_0: Vec<f64>,
+        mu: Vec<f64>,
+    ) -> Self {
         let s_0 = vec![0.0; mu.len()];
-        let problem =
-            Contact2d::new(k.clone(), f, c_n.clone(), c_t.clone(), x_0, s_0, mu).unwrap();
+        let problem = Contact2d::new(k.clone(), f, c_n.clone(), c_t.clone(), x_0, s_0, mu).unwrap();
         Self { problem, k, c_n, c_t }
     }
 
@@ -187,9 +192,8 @@ fn elastic(mu: impl Strategy<Value = f64> + Clone) -> impl Strategy<Value = Data
             }
             let mut f: Vec<f64> = push.iter().zip(&weight).flat_map(|(x, y)| [*x, *y]).collect();
             f[1] -= 5.0;
-            let rows = [1, 0].map(|axis| {
-                Mat::from_fn(nodes, n, |i, j| f64::from(u8::from(j == 2 * i + axis)))
-            });
+            let rows = [1, 0]
+                .map(|axis| Mat::from_fn(nodes, n, |i, j| f64::from(u8::from(j == 2 * i + axis))));
             Data::new(k, f, rows, gaps.iter().map(|g| 0.25 * g).collect(), mu)
         })
     })
