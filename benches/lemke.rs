@@ -5,9 +5,11 @@
 //! rank-1 update, which is bound by memory. Of the method the table has the time per pivot along the
 //! path, and that of the whole solve, with scaling, start basis and final solve, divided by the pivots.
 
+mod common;
+
 use std::fmt::Write as _;
 use std::hint::black_box;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
 use faer::Mat;
@@ -19,8 +21,7 @@ use masonry::scene::Scene;
 use masonry::system::System;
 
 fn main() {
-    // `cargo test --benches` runs this without the flag that `cargo bench` gives.
-    if !std::env::args().any(|argument| argument == "--bench") {
+    if !common::is_bench() {
         return;
     }
     let random = [100, 200, 400, 800, 1600];
@@ -37,13 +38,7 @@ fn main() {
         println!("{line}");
         let _ = writeln!(table, "{line}");
     }
-    if std::env::args().any(|argument| argument == "--write") {
-        write_into(&root().join("README.md"), &table);
-    }
-}
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
+    common::write_if_asked("lemke", &table);
 }
 
 fn line(name: &str, problem: &HorizontalLcp) -> String {
@@ -96,7 +91,8 @@ fn positive_definite(n: usize) -> HorizontalLcp {
 
 /// The general problem that a panel of the repository leads to.
 fn panel(name: &str) -> HorizontalLcp {
-    let path = root().join("scenes").join(name).with_extension("toml");
+    let path =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name).with_extension("toml");
     let scene = Scene::read(&path).expect("the scene is part of the repository");
     let model = Model::from_scene(&scene).expect("the scene is sound");
     let system = System::new(&model).expect("the blocks are sound");
@@ -108,14 +104,4 @@ fn panel(name: &str) -> HorizontalLcp {
 fn wave(k: usize) -> f64 {
     let x = (k as f64 * 12.9898).sin() * 43_758.545_3;
     x - x.floor() - 0.5
-}
-
-/// Replaces what stands between the marks of this bench.
-fn write_into(path: &Path, table: &str) {
-    const MARKS: [&str; 2] = ["<!-- begin: bench lemke -->\n", "<!-- end: bench lemke -->"];
-    let text = std::fs::read_to_string(path).expect("the file is part of the repository");
-    let (before, rest) = text.split_once(MARKS[0]).expect("the file has the first mark");
-    let (_, after) = rest.split_once(MARKS[1]).expect("the file has the second mark");
-    let text = format!("{before}{}{table}{}{after}", MARKS[0], MARKS[1]);
-    std::fs::write(path, text).expect("the file can be written");
 }

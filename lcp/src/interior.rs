@@ -8,6 +8,7 @@ mod original;
 mod path;
 mod scaled;
 mod settings;
+mod turn;
 
 use std::ops::ControlFlow;
 
@@ -15,10 +16,10 @@ pub use settings::InteriorPointSettings;
 
 use condensed::Condensed;
 use continuation::End;
-use crossover::{Contact, Vertex, contacts, cross_over};
+use crossover::{Contact, Effort, Vertex, contacts, cross_over};
 use iterate::{Defect, Iterate};
 use original::{Judged, Original};
-use path::{PROXIMAL, advance, start};
+use path::{PROXIMAL, WIDTHS, advance, start};
 use scaled::Scaled;
 
 use crate::solve::{Iteration, Monitor};
@@ -74,11 +75,12 @@ pub struct InteriorPoint {
 }
 
 /// Residuals above which no crossover is tried.
-const NEAR: f64 = 1e-4;
+const NEAR: f64 = 3e-6;
 /// The residual must have decreased by this factor before it is tried again.
 const NEARER: f64 = 0.03;
-/// Steps without a reduction of the products by a tenth after which the iteration has jammed.
-const PATIENCE: usize = 25;
+/// Steps without a reduction of the products by a tenth after which the iteration has jammed. On a path that
+/// turns back they may grow for a while.
+const PATIENCE: usize = 30;
 /// Steps shorter than this are none.
 const NO_STEP: f64 = 1e-7;
 
@@ -135,9 +137,13 @@ struct Run<'a, 'b> {
 impl Run<'_, '_> {
     fn solve(mut self) -> Solution {
         let (mut status, mut springs) = (self.try_start(), None);
-        if status.is_none() {
+        let attempts = if status.is_none() { &WIDTHS[..] } else { &[] };
+        for width in attempts {
             let at = start(&self.scaled, &mut self.condensed, PROXIMAL);
-            status = Some(self.iterate(at));
+            status = Some(self.iterate(at, *width));
+            if status != Some(Status::Stalled) {
+                break;
+            }
         }
         if status == Some(Status::Stalled) && self.settings.continuation {
             let Self { scaled, condensed, monitor, .. } = &mut self;
@@ -148,7 +154,7 @@ impl Run<'_, '_> {
                 limit.is_none()
             });
             status = Some(match end {
-                End::Standing(at) => self.iterate(at),
+                End::Standing(at) => self.iterate(at, WIDTHS[0]),
                 End::Falling(path) => {
                     springs = Some(path);
                     Status::NoEquilibrium
@@ -177,11 +183,11 @@ impl Run<'_, '_> {
                 (u, forces, contacts)
             }
         };
-        self.cross_over(&u, &forces, contacts).then_some(Status::Solved)
+        self.cross_over((&u, &forces), contacts, &Effort::THOROUGH).then_some(Status::Solved)
     }
 
     /// The interior-point iteration from a point inside.
-    fn iterate(&mut self, mut at: Iterate) -> Status {
+    fn iterate(&mut self, mut at: Iterate, width: f64) -> Status {
         let mut tried = NEAR / NEARER;
         let (mut least, mut since) = (f64::INFINITY, 0);
         loop {
@@ -191,7 +197,8 @@ impl Run<'_, '_> {
             if self.settings.crossover && (is_solved || worst <= NEARER * tried) {
                 tried = worst;
                 let contacts = contacts(&self.scaled, &at);
-                if self.cross_over(&at.u, &forces, contacts) {
+                let effort = if is_solved { Effort::THOROUGH } else { Effort::QUICK };
+                if self.cross_over((&at.u, &forces), contacts, &effort) {
                     return Status::Solved;
                 }
             }
@@ -201,24 +208,33 @@ impl Run<'_, '_> {
             if let Some(status) = self.monitor.stop(worst) {
                 return status;
             }
-            let (next, alpha) = advance(&self.scaled, &mut self.condensed, &at, 0.0);
+            let (next, alpha) = advance(&self.scaled, &mut self.condensed, &at, (0.0, width));
             let lack = Defect::of(&self.scaled, &next, 0.0).size();
             let merit = next.gap(&self.scaled) + lack * lack;
             since = if merit < 0.9 * least { 0 } else { since + 1 };
             least = least.min(merit);
             if !next.is_finite() || alpha < NO_STEP || since > PATIENCE {
-                return Status::Stalled;
+                // The residual is no guide where all of one side vanishes, which it is measured by.
+                let contacts = contacts(&self.scaled, &at);
+                let is_exact = self.settings.crossover
+                    && self.cross_over((&at.u, &forces), contacts, &Effort::THOROUGH);
+                return if is_exact { Status::Solved } else { Status::Stalled };
             }
             at = next;
         }
     }
 
     /// Whether the states of the contacts, or those that they lead to, are those of a solution.
-    fn cross_over(&mut self, u: &[f64], forces: &[(f64, f64)], contacts: Vec<Contact>) -> bool {
+    fn cross_over(
+        &mut self,
+        at: (&[f64], &[(f64, f64)]),
+        contacts: Vec<Contact>,
+        effort: &Effort,
+    ) -> bool {
         let Self { settings, problem, scaled, condensed, best, .. } = self;
-        cross_over(scaled, condensed, u, forces, contacts, |vertex| {
+        cross_over(scaled, condensed, at, contacts, effort, |vertex| {
             let judged = problem.judge(scaled, &vertex.u, &vertex.forces);
-            let is_solution = judged.residuals.worst() <= settings.tolerance;
+            let is_solution = judged.worst <= settings.tolerance;
             keep_better(best, judged, is_solution.then_some(vertex));
             is_solution
         })
@@ -227,7 +243,7 @@ impl Run<'_, '_> {
     /// The worst residual of a point, which is kept if none was better.
     fn judge(&mut self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
         let judged = self.problem.judge(&self.scaled, u, forces);
-        let worst = judged.residuals.worst();
+        let worst = judged.worst;
         keep_better(&mut self.best, judged, None);
         worst
     }
@@ -241,11 +257,14 @@ impl Run<'_, '_> {
             let slips: Vec<f64> = points.map(|point| point.slip(&vertex.u)).collect();
             self.problem.basis(&vertex.contacts, &judged, &slips)
         });
-        let Judged { t, y, residuals } = judged;
+        let Judged { t, y, residuals, worst } = judged;
         let tolerance = self.settings.tolerance;
         // Steps may end with a point that is solved and another that the iteration gave up.
         let otherwise = if otherwise == Status::Solved { Status::Stalled } else { otherwise };
         let mut solution = Solution::judged((t, y), residuals, tolerance, otherwise);
+        if worst > tolerance {
+            solution.status = otherwise;
+        }
         solution.basis = basis;
         solution.info.solver = InteriorPoint::NAME;
         solution.info.iterations = self.monitor.iterations();
@@ -262,8 +281,12 @@ fn keep_better(
     judged: Judged,
     vertex: Option<&Vertex>,
 ) {
-    let is_better = |(other, _): &(Judged, _)| judged.residuals.worst() < other.residuals.worst();
-    if vertex.is_some() || best.as_ref().is_none_or(is_better) {
+    let is_better = best.as_ref().is_none_or(|(other, exact)| match (vertex, exact) {
+        (Some(_), None) => true,
+        (None, Some(_)) => false,
+        _ => judged.worst < other.worst,
+    });
+    if is_better {
         *best = Some((judged, vertex.cloned()));
     }
 }

@@ -42,7 +42,7 @@ impl HorizontalLcp {
     /// * feasibility, complementarity and natural: `t` is measured in units of `max t` and `y` in
     ///   units of `max y`.
     ///
-    /// A NaN in the point makes the residuals infinite.
+    /// A NaN in the point makes the residuals infinite, and so do terms that overflow.
     ///
     /// # Panics
     /// If `t` or `y` does not have one entry for every pair.
@@ -82,8 +82,20 @@ impl HorizontalLcp {
         }
         (0..n).fold(0.0, |worst: f64, i| {
             let denominator = size[i].max(FLOOR * largest[i]);
-            if denominator > 0.0 { worst.max(sum[i].abs() / denominator) } else { worst }
+            worst.max(ratio(sum[i], denominator))
         })
+    }
+}
+
+/// What a row lacks, relative to its terms. Terms beyond the range of numbers say nothing, which is no
+/// small residual.
+pub(crate) fn ratio(lack: f64, terms: f64) -> f64 {
+    if !(lack.is_finite() && terms.is_finite()) {
+        f64::INFINITY
+    } else if terms > 0.0 {
+        lack.abs() / terms
+    } else {
+        0.0
     }
 }
 

@@ -5,7 +5,8 @@
 use faer::{Mat, mat};
 use lcp::families;
 use lcp::{
-    AttemptEnd, Basis, Covering, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side, Status, WarmStart,
+    AttemptEnd, Basis, Contact2d, Covering, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side, Status,
+    WarmStart,
 };
 
 fn lcp(m: Mat<f64>, q: &[f64]) -> HorizontalLcp {
@@ -264,4 +265,25 @@ fn misuse_is_an_error() {
     let covering = Covering::Given(vec![-1.0]);
     let settings = LemkeSettings { covering, ..LemkeSettings::default() };
     assert!(Lemke::new(settings).solve(&problem).is_err());
+}
+
+/// `1e200 * 1e200` is beyond the range of numbers: the sum of such terms must not look small.
+#[test]
+fn terms_that_overflow_make_the_residuals_infinite() {
+    let problem = HorizontalLcp::new(mat![[1e200]], mat![[-1.0]], vec![1.0])
+        .unwrap()
+        .residuals(&[1e200], &[0.0]);
+    assert!(problem.worst().is_infinite() && problem.natural < 1.0);
+    let contact = Contact2d::new(
+        mat![[1e200]],
+        vec![1.0],
+        mat![[1.0]],
+        mat![[0.0]],
+        vec![0.0],
+        vec![0.0],
+        vec![0.0],
+    )
+    .unwrap();
+    let state = contact.state(vec![1e150], vec![0.0], vec![0.0]);
+    assert!(contact.residuals(&state).worst().is_infinite());
 }

@@ -113,6 +113,12 @@ impl Condensed {
         self.factorisations += 1;
     }
 
+    /// Whether the determinant of the last matrix is negative, and with it that of Newton's equations: what
+    /// was eliminated is positive.
+    pub(super) fn is_negative(&self) -> bool {
+        self.factors.is_negative()
+    }
+
     /// Overwrites a right-hand side with the solution.
     pub(super) fn solve(&self, x: &mut [f64]) {
         let right = x.to_vec();

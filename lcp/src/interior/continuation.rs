@@ -2,7 +2,7 @@
 
 use super::condensed::Condensed;
 use super::iterate::{Defect, Iterate};
-use super::path::{advance, start};
+use super::path::{WIDTHS, advance, start};
 use super::scaled::Scaled;
 use crate::solution::SoftSprings;
 
@@ -81,7 +81,7 @@ fn solve(
         if !go_on() {
             return None;
         }
-        let (next, alpha) = advance(problem, condensed, &at, spring);
+        let (next, alpha) = advance(problem, condensed, &at, (spring, WIDTHS[0]));
         if !next.is_finite() || alpha < 1e-6 {
             return None;
         }

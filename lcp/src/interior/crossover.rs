@@ -10,16 +10,34 @@ use crate::problem::max_abs;
 /// Stiffness of a closed contact, relative to the bodies: the equations are solved to the last digit by
 /// refinement, so that it is no penalty but the size of a proximal step, which redundant contacts need.
 const STIFF: f64 = 1e8;
-/// Rounds of exchanges.
-const ROUNDS: usize = 12;
-/// Rounds without a decrease of the number of contradictions by a quarter.
-const PATIENCE: usize = 2;
 /// Steps of refinement.
 const REFINEMENTS: usize = 12;
 /// Contradictions smaller than this part of the largest are left to what its exchange makes of them.
 const LARGE: f64 = 0.01;
 /// Contradictions up to this part of the largest force or displacement are rounding errors.
 const ROUNDING: f64 = 1e-13;
+
+/// How much is spent on exchanges. Every round costs a factorisation, as a step of the iteration does.
+pub(super) struct Effort {
+    /// Rounds of exchanges.
+    rounds: usize,
+    /// Rounds without a decrease of the number of contradictions by a quarter.
+    patience: usize,
+    /// Points for one contradiction that is allowed, beyond a few.
+    points: usize,
+}
+
+impl Effort {
+    /// While the iteration comes nearer, when few contacts are left to exchange.
+    pub(super) const QUICK: Self = Self { rounds: 8, patience: 2, points: 400 };
+    /// Where it does not come any nearer.
+    pub(super) const THOROUGH: Self = Self { rounds: 60, patience: 10, points: 20 };
+
+    /// Contradictions with which it makes sense to begin.
+    fn most(&self, points: usize) -> usize {
+        10 + points / self.points
+    }
+}
 
 /// The state of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,32 +81,32 @@ fn nearest(point: &Point, at: &Pairs) -> Contact {
 
 /// Solves for given states and exchanges those that contradict, as long as these become fewer. The forces
 /// are those nearest to the given ones where redundant contacts leave a choice. Says whether one of the
-/// points is a solution.
+/// points is a solution; exchanges go on from there to one whose states contradict nowhere.
 pub(super) fn cross_over(
     problem: &Scaled,
     condensed: &mut Condensed,
-    u: &[f64],
-    forces: &[(f64, f64)],
+    (u, forces): (&[f64], &[(f64, f64)]),
     contacts: Vec<Contact>,
+    effort: &Effort,
     mut is_solution: impl FnMut(&Vertex) -> bool,
 ) -> bool {
     let mut vertex = Vertex { u: u.to_vec(), forces: forces.to_vec(), contacts };
-    let (mut fewest, mut since) = (usize::MAX, 0);
-    for _ in 0..ROUNDS {
+    let (mut fewest, mut since) = (effort.most(problem.points.len()), 0);
+    let mut is_found = false;
+    for _ in 0..effort.rounds {
         if vertex.solve(problem, condensed).is_none() {
-            return false;
+            break;
         }
-        if is_solution(&vertex) {
-            return true;
-        }
+        is_found |= is_solution(&vertex);
         let exchanged = vertex.exchange(problem);
         since = if exchanged < fewest - fewest / 4 { 0 } else { since + 1 };
-        fewest = fewest.min(exchanged);
-        if exchanged == 0 || since >= PATIENCE {
-            return false;
+        let is_hopeless = exchanged > fewest && (is_found || exchanged > 10 * fewest);
+        if exchanged == 0 || since > effort.patience || is_hopeless {
+            break;
         }
+        fewest = fewest.min(exchanged);
     }
-    false
+    is_found
 }
 
 impl Vertex {
@@ -125,7 +143,7 @@ impl Vertex {
             last = size;
             condensed.solve(&mut u);
             for (i, point) in problem.points.iter().enumerate() {
-                let moved = (point.gap(&u) - point.x_0, point.slip(&u) - point.s_0);
+                let moved = point.moved(&u);
                 let (t_n, t_t) = springs[i].forces(moved.0, moved.1);
                 self.forces[i].0 += fixed[i].0 - t_n;
                 self.forces[i].1 += fixed[i].1 - t_t;

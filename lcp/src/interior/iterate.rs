@@ -100,6 +100,12 @@ impl<'a> Tangent<'a> {
         Self { problem, condensed, at, springs }
     }
 
+    /// Whether the products of the pairs grow on the way forwards along the central path, see
+    /// [`turn`](super::turn::turn).
+    pub(super) fn is_backwards(&self) -> bool {
+        self.condensed.is_negative()
+    }
+
     /// The step that makes good the defect and changes the products of the pairs by `targets`, to first
     /// order: `y dt + t dy = target`.
     pub(super) fn step(&self, defect: &Defect, targets: &[[f64; 3]]) -> Iterate {
@@ -122,7 +128,7 @@ impl<'a> Tangent<'a> {
         self.condensed.solve(&mut u);
         let points = fixed.iter().enumerate().map(|(i, fixed)| {
             let point = &self.problem.points[i];
-            let moved = (point.gap(&u) - point.x_0, point.slip(&u) - point.s_0);
+            let moved = point.moved(&u);
             let (t_n, t_t) = self.springs[i].forces(moved.0, moved.1);
             let (t_n, t_t) = (fixed.0 - t_n, fixed.1 - t_t);
             let opened = (moved.0 + defect.gaps[i].0, moved.1 + defect.gaps[i].1);
@@ -232,6 +238,13 @@ impl Iterate {
             }
         }
         alpha
+    }
+
+    /// The smallest product of a pair, relative to the mean.
+    pub(super) fn centrality(&self, problem: &Scaled) -> f64 {
+        let points = problem.points.iter().zip(&self.points);
+        let products = points.flat_map(|(point, pairs)| pairs.pairs(point.mu)).map(|(t, y)| t * y);
+        products.fold(f64::INFINITY, f64::min) / self.gap(problem)
     }
 
     pub(super) fn moved(&self, step: &Iterate, alpha: f64) -> Self {

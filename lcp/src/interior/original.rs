@@ -10,6 +10,14 @@ pub(super) struct Judged {
     pub(super) t: Vec<f64>,
     pub(super) y: Vec<f64>,
     pub(super) residuals: Residuals,
+    /// The largest of the residuals, and of what the equations lack in units of the loads.
+    pub(super) worst: f64,
+}
+
+impl Judged {
+    fn new((t, y): (Vec<f64>, Vec<f64>), residuals: Residuals, drift: f64) -> Self {
+        Self { t, y, worst: residuals.worst().max(drift), residuals }
+    }
 }
 
 /// A problem as it was given.
@@ -39,6 +47,7 @@ impl Original for Contact2d {
     }
 
     fn judge(&self, scaled: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Judged {
+        let drift = scaled.drift(u, forces);
         let u = scaled.displacements(u);
         let normal = forces.iter().map(|(t_n, _)| t_n.max(0.0) * scaled.force()).collect();
         let tangential = forces.iter().zip(self.mu()).map(|((t_n, t_t), mu)| {
@@ -47,8 +56,7 @@ impl Original for Contact2d {
         });
         let state = self.state(u, normal, tangential.collect());
         let residuals = self.residuals(&state);
-        let (t, y) = self.to_pairs(&state);
-        Judged { t, y, residuals }
+        Judged::new(self.to_pairs(&state), residuals, drift)
     }
 
     fn order(&self) -> usize {
@@ -117,8 +125,8 @@ impl Original for MixedLcp {
             z[j] = z[j].max(0.0);
             w[j] = t_n.max(0.0) * scaled.force_of(j);
         }
-        let (t, y) = self.to_pairs(&z, &w);
-        Judged { residuals: self.residuals(&z, &w), t, y }
+        let residuals = self.residuals(&z, &w);
+        Judged::new(self.to_pairs(&z, &w), residuals, scaled.drift(u, forces))
     }
 
     fn order(&self) -> usize {

@@ -3,12 +3,20 @@
 use super::condensed::{Condensed, Springs};
 use super::iterate::{Defect, Iterate, Pairs, Tangent};
 use super::scaled::Scaled;
+use super::turn::turn;
 
 /// Springs on every displacement that keep bodies without contact in place during a step, relative to the
 /// stiffness.
 pub(super) const PROXIMAL: f64 = 1e-12;
+/// Least products of a pair, relative to the mean, one after the other: where the path turns often, it has to
+/// be followed closely, but how closely cannot be foreseen.
+pub(super) const WIDTHS: [f64; 3] = [0.1, 0.01, 0.3];
 /// Part of the longest step that is taken.
 const BACK: f64 = 0.995;
+/// A step that makes a product smaller than it may be is shortened by this.
+const SHORTER: f64 = 0.7;
+/// No step is made shorter than this for it.
+const SHORTEST: f64 = 1e-4;
 /// Correctors of the centrality of a step, at most.
 const CORRECTORS: usize = 2;
 /// A step of this length needs none, and a corrector has to make it longer by this.
@@ -63,20 +71,37 @@ pub(super) fn start(problem: &Scaled, condensed: &mut Condensed, spring: f64) ->
 
 /// One step of Mehrotra's method (1992) with Gondzio's correctors (1996), which costs one factorisation.
 /// The problem is not monotone with friction: where the step is short, the best mixture of predictor and
-/// centring takes its place. Gives the new point and the length of the step.
+/// centring takes its place, and where the path turns back, a step along it. No product of a pair
+/// becomes smaller than `width` times the mean. Gives the new point and the length of the step.
 pub(super) fn advance(
     problem: &Scaled,
     condensed: &mut Condensed,
     at: &Iterate,
-    spring: f64,
+    (spring, width): (f64, f64),
 ) -> (Iterate, f64) {
     let tangent = Tangent::new(problem, condensed, at, spring.max(PROXIMAL));
     let defect = Defect::of(problem, at, spring);
-    let gap = at.gap(problem);
     let predictor = tangent.step(&defect, &targets(problem, at, 0.0, None));
-    let left = at.moved(&predictor, at.longest(problem, &predictor)).gap(problem);
+    let (step, alpha) = if tangent.is_backwards() {
+        turn(problem, &tangent, at, &predictor)
+    } else {
+        forwards(problem, &tangent, at, &defect, &predictor)
+    };
+    within(problem, at, &step, (BACK * alpha).min(1.0), width)
+}
+
+/// A step that makes the products smaller.
+fn forwards(
+    problem: &Scaled,
+    tangent: &Tangent<'_>,
+    at: &Iterate,
+    defect: &Defect,
+    predictor: &Iterate,
+) -> (Iterate, f64) {
+    let gap = at.gap(problem);
+    let left = at.moved(predictor, at.longest(problem, predictor)).gap(problem);
     let aim = gap * (left / gap).powi(3).clamp(0.0, 1.0);
-    let mut step = tangent.step(&defect, &targets(problem, at, aim, Some(&predictor)));
+    let mut step = tangent.step(defect, &targets(problem, at, aim, Some(predictor)));
     let mut alpha = at.longest(problem, &step);
     for _ in 0..CORRECTORS {
         if alpha >= LONG {
@@ -92,11 +117,27 @@ pub(super) fn advance(
         (step, alpha) = (corrected, reached);
     }
     if alpha < SHORT {
-        let centring = tangent.step(&defect, &targets(problem, at, gap, None));
-        (step, alpha) = mixture(problem, at, &predictor, &centring);
+        let centring = tangent.step(defect, &targets(problem, at, gap, None));
+        (step, alpha) = mixture(problem, at, predictor, &centring);
     }
-    let alpha = (BACK * alpha).min(1.0);
-    (at.moved(&step, alpha), alpha)
+    if alpha < SHORT { turn(problem, tangent, at, predictor) } else { (step, alpha) }
+}
+
+/// The longest part of a step that keeps the products near their mean.
+fn within(
+    problem: &Scaled,
+    at: &Iterate,
+    step: &Iterate,
+    mut alpha: f64,
+    width: f64,
+) -> (Iterate, f64) {
+    let least = width.min(0.9 * at.centrality(problem));
+    let mut moved = at.moved(step, alpha);
+    while alpha > SHORTEST && moved.centrality(problem) < least {
+        alpha *= SHORTER;
+        moved = at.moved(step, alpha);
+    }
+    (moved, alpha)
 }
 
 /// The mixture that reduces the products most, or centring alone where none reduces them much.

@@ -36,6 +36,11 @@ impl Point {
         self.s_0 + dot(&self.tangent, &self.columns, u)
     }
 
+    /// The changes of gap and slip by a step of the displacements, which may be far smaller than both.
+    pub(super) fn moved(&self, u: &[f64]) -> (f64, f64) {
+        (dot(&self.normal, &self.columns, u), dot(&self.tangent, &self.columns, u))
+    }
+
     /// Adds the forces of the point to those on the displacements.
     pub(super) fn add_forces(&self, t_n: f64, t_t: f64, out: &mut [f64]) {
         for ((&j, n), t) in self.columns.iter().zip(&self.normal).zip(&self.tangent) {
@@ -179,6 +184,35 @@ impl Scaled {
             point.add_forces(t_n, t_t, &mut rest);
         }
         rest
+    }
+}
+
+/// Rounding errors of a sum, relative to its terms.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
+/// More than this of the loads is not a rounding error, however large the terms are.
+const LARGEST_ROUNDING: f64 = 1e-6;
+
+impl Scaled {
+    /// What equations and gaps lack in units of the loads, apart from rounding errors. Residuals are relative
+    /// to the terms of their row: where bodies can move without forces, or forces grow without effect, a
+    /// point far out makes all terms large and the residuals small, also where there is no solution.
+    pub(super) fn drift(&self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
+        let rest = self.unbalanced(u, forces.iter().copied());
+        let mut terms: Vec<f64> = self.f.iter().map(|f| f.abs()).collect();
+        for (j, u) in u.iter().enumerate() {
+            column_of(&self.k, j).for_each(|(i, v)| terms[i] += (v * u).abs());
+        }
+        let beyond = |v: f64, terms: f64| v - (ROUNDING * terms).min(LARGEST_ROUNDING);
+        let mut worst = 0.0_f64;
+        for (point, (t_n, t_t)) in self.points.iter().zip(forces) {
+            let mut gap = point.x_0.abs();
+            for ((&j, n), t) in point.columns.iter().zip(&point.normal).zip(&point.tangent) {
+                terms[j] += (n * t_n).abs() + (t * t_t).abs();
+                gap += (n * u[j]).abs();
+            }
+            worst = worst.max(beyond(-point.gap(u), gap));
+        }
+        rest.iter().zip(&terms).fold(worst, |max, (v, terms)| max.max(beyond(v.abs(), *terms)))
     }
 }
 

@@ -35,6 +35,11 @@ impl Multifrontal {
         self.fronts.factorise(&self.analysis, values)
     }
 
+    /// Whether the determinant of the last factorised matrix is negative.
+    pub(crate) fn is_negative(&self) -> bool {
+        self.fronts.is_negative()
+    }
+
     /// Overwrites a right-hand side with the solution for the last factorisation.
     pub(crate) fn solve(&self, x: &mut [f64]) {
         self.fronts.solve(&self.analysis, x);
@@ -100,6 +105,7 @@ mod tests {
         };
         let mut solver = Multifrontal::new(matrix(0.0).symbolic()).expect("memory");
         assert_eq!(solver.factorise(matrix(0.0).val()), 0);
+        assert!(solver.is_negative());
         let mut x = [2.0, 3.0];
         solver.solve(&mut x);
         assert!(x.iter().all(|x| (x - 1.0).abs() < 1e-15), "{x:?}");

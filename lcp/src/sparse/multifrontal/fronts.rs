@@ -67,6 +67,11 @@ impl Fronts {
         replaced
     }
 
+    /// Whether the determinant of the last matrix is negative.
+    pub(super) fn is_negative(&self) -> bool {
+        self.factors.iter().fold(false, |negative, factor| negative ^ factor.is_negative())
+    }
+
     pub(super) fn solve(&self, analysis: &Analysis, x: &mut [f64]) {
         let mut ordered: Vec<f64> = analysis.order.iter().map(|&i| x[i]).collect();
         let largest = analysis.supernodes.iter().map(|node| node.width).max().unwrap_or(0);
@@ -120,6 +125,24 @@ fn remainder(front: &[f64], node: &Supernode) -> Vec<f64> {
 }
 
 impl Factor {
+    /// Whether the determinant of the block is negative.
+    fn is_negative(&self) -> bool {
+        let width = self.rows.len();
+        let order = self.lower.len() / width.max(1);
+        let pivots = (0..width).filter(|k| self.lower[k * (order + 1)] < 0.0).count();
+        // A cycle of even length is an odd number of exchanges.
+        let mut seen = vec![false; width];
+        let mut exchanges = 0;
+        for first in 0..width {
+            let mut row = first;
+            while !std::mem::replace(&mut seen[row], true) {
+                row = self.rows[row];
+                exchanges += usize::from(row != first);
+            }
+        }
+        (pivots + exchanges) % 2 == 1
+    }
+
     fn forward(&self, node: &Supernode, x: &mut [f64], block: &mut [f64]) {
         let (width, order) = (node.width, node.order());
         let block = &mut block[..width];

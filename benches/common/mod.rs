@@ -1,0 +1,23 @@
+//! What the benches share.
+
+use std::path::Path;
+
+/// Whether this is `cargo bench`: `cargo test --benches` runs the same programs without the flag.
+pub(crate) fn is_bench() -> bool {
+    std::env::args().any(|argument| argument == "--bench")
+}
+
+/// With `-- --write`, puts the table between the marks of the bench in the README.
+pub(crate) fn write_if_asked(bench: &str, table: &str) {
+    if !std::env::args().any(|argument| argument == "--write") {
+        return;
+    }
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let marks =
+        [format!("<!-- begin: bench {bench} -->\n"), format!("<!-- end: bench {bench} -->")];
+    let text = std::fs::read_to_string(&path).expect("the file is part of the repository");
+    let (before, rest) = text.split_once(&marks[0]).expect("the file has the first mark");
+    let (_, after) = rest.split_once(&marks[1]).expect("the file has the second mark");
+    let text = format!("{before}{}{table}{}{after}", marks[0], marks[1]);
+    std::fs::write(path, text).expect("the file can be written");
+}

@@ -1,0 +1,111 @@
+//! Walls of many bricks with friction by the interior-point method, against one sparse factorisation of
+//! the matrix of its steps in the same run.
+//!
+//! `cargo bench --bench wall` prints a table; with `-- --write` it also puts it into the README. All is on
+//! one thread. The yardstick is faer's Cholesky factorisation, symbolic and numeric, of
+//! `K + k C^T C`, which has the pattern of the matrices that the method factorises; those are unsymmetric,
+//! which doubles the operations of the numeric part.
+
+mod common;
+#[path = "common/sparse.rs"]
+mod sparse;
+
+use std::fmt::Write as _;
+
+use faer::sparse::{SparseColMat, Triplet};
+use lcp::{Contact2d, InteriorPoint, InteriorPointSettings, Solver};
+use masonry::forms::Sparse;
+use masonry::model::Model;
+use masonry::scene::{Brick, Joint, Load, Material, Plane, Scene, Support, Wall};
+use masonry::system::System;
+use masonry::units::Units;
+
+/// Length of the walls in metres, and courses.
+const WALLS: [(f64, u32); 3] = [(5.0, 20), (10.0, 40), (20.0, 100)];
+const FRICTION: [f64; 3] = [0.5, 0.7, 1.0];
+const TOLERANCE: f64 = 1e-8;
+
+fn main() {
+    if !common::is_bench() {
+        return;
+    }
+    let mut table = String::from(
+        "| blocks | contact points | order | mu | Cholesky, symbolic + numeric \\[s\\] | whole solve \\[s\\] | \
+         solve / Cholesky | steps | factorisations | worst residual | peak memory \\[MB\\] |\n\
+         |--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
+    );
+    println!("{table}");
+    for (width, courses) in WALLS {
+        for mu in FRICTION {
+            let line = line(width, courses, mu);
+            println!("{line}");
+            let _ = writeln!(table, "{line}");
+        }
+    }
+    common::write_if_asked("wall", &table);
+}
+
+fn line(width: f64, courses: u32, mu: f64) -> String {
+    let (blocks, problem) = wall(width, courses, mu);
+    let matrix = condensed(&problem);
+    let (symbolic, numeric) =
+        sparse::fastest(3, |(s, n): &(f64, f64)| s + n, || sparse::cholesky(&matrix));
+    drop(matrix);
+    sparse::forget_peak();
+    let settings =
+        InteriorPointSettings { tolerance: TOLERANCE, ..InteriorPointSettings::default() };
+    let solution = InteriorPoint::new(settings).solve(&problem).expect("memory suffices");
+    let peak = sparse::peak().map_or_else(|| "-".to_owned(), |it| format!("{it:.0}"));
+    assert!(solution.is_solved(), "{:?}", solution.status);
+    format!(
+        "| {blocks} | {} | {} | {mu} | {symbolic:.2} + {numeric:.2} | {:.1} | {:.0} | {} | {} | {:.0e} | {peak} |",
+        problem.points(),
+        problem.order(),
+        solution.info.seconds,
+        solution.info.seconds / (symbolic + numeric),
+        solution.info.iterations,
+        solution.info.factorisations,
+        solution.residuals.worst(),
+    )
+}
+
+/// A wall in running bond of elastic bricks on a full floor, under its weight and a load on top that is
+/// five times as heavy as the upper course and leans by a tenth. Gives the number of blocks, too.
+fn wall(width: f64, courses: u32, mu: f64) -> (usize, Contact2d) {
+    let top = 0.1 * f64::from(courses);
+    let brick = Brick { length: 0.2, height: 0.1 };
+    let scene = Scene::new("A wall", Units::SI)
+        .plane(Plane::Stress)
+        .thickness(0.1)
+        .material("brick", Material::elastic(1e9, 0.15).density(2000.0))
+        .joint("bed", Joint::mu(mu))
+        .joint("head", Joint::mu(mu))
+        .joint("floor", Joint::mu(mu))
+        .wall(Wall::running_bond("wall", "brick", brick, width, courses).mesh([1, 1]))
+        .support(Support::new("floor", [0.0, 0.0], [width, 0.0], "floor"))
+        .load(Load::traction("top", [0.0, top], [width, top], [1000.0, -10_000.0]));
+    let model = Model::from_scene(&scene).expect("the scene is sound");
+    let system = System::new(&model).expect("the blocks are sound");
+    let problem = Sparse::new(&system).expect("the data are finite").problem;
+    (model.blocks.len(), problem)
+}
+
+/// `K + k C^T C` with the mean diagonal entry of `K` for `k`.
+fn condensed(problem: &Contact2d) -> SparseColMat<usize, f64> {
+    let n = problem.displacements();
+    let k = problem.stiffness();
+    let mean = (0..n).map(|j| k.get(j, j).copied().unwrap_or(0.0)).sum::<f64>() / n as f64;
+    let mut entries: Vec<Triplet<usize, usize, f64>> = Vec::new();
+    for rows in [problem.normal(), problem.tangent()] {
+        let transposed = rows.as_ref().transpose().to_col_major().expect("memory suffices");
+        for i in 0..problem.points() {
+            let columns = transposed.row_idx_of_col_raw(i).iter().zip(transposed.val_of_col(i));
+            let columns: Vec<(usize, f64)> = columns.map(|(j, v)| (*j, *v)).collect();
+            for &(i, v) in &columns {
+                entries.extend(columns.iter().map(|&(j, w)| Triplet::new(i, j, mean * v * w)));
+            }
+        }
+    }
+    entries.extend(k.triplet_iter().map(|entry| Triplet::new(entry.row, entry.col, *entry.val)));
+    SparseColMat::try_new_from_triplets(n, n, &entries).expect("memory suffices")
+}

@@ -1,0 +1,52 @@
+//! Where the central path turns back.
+
+use super::iterate::{Defect, Iterate, Tangent};
+use super::scaled::Scaled;
+
+/// Largest relative change of a variable by a piece of the path; the first that leaves a step of length
+/// [`LONG`] is taken.
+const PIECES: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.0];
+const LONG: f64 = 0.7;
+
+/// A step along the central path where it turns, or nearly.
+///
+/// The points whose products all have one value `tau` form a path. Of a monotone problem it leads straight
+/// to the solution as `tau` tends to zero, but with friction `tau` may have to grow again for a while. At
+/// such a turn the determinant of Newton's equations changes its sign: while it is negative, the way
+/// forwards along the path is the one on which `tau` grows (Allgower and Georg 1990, for paths in
+/// general). Near a turn the equations for a fixed `tau` have no solution or two, so that corrections at
+/// a fixed `tau` grow beyond bounds. The correction here leaves the place along the path alone: `tau`
+/// becomes whatever belongs to it. To that comes a piece of the path.
+pub(super) fn turn(
+    problem: &Scaled,
+    tangent: &Tangent<'_>,
+    at: &Iterate,
+    predictor: &Iterate,
+) -> (Iterate, f64) {
+    let along = tangent.step(&Defect::none(problem), &vec![[1.0; 3]; problem.points.len()]);
+    let (mut product, mut square, mut largest) = (0.0, 0.0, 0.0_f64);
+    for (i, point) in problem.points.iter().enumerate() {
+        let [at, along, predictor] = [at, &along, predictor].map(|it| it.points[i].pairs(point.mu));
+        for (((t, y), (t_along, y_along)), (dt, dy)) in at.zip(along).zip(predictor) {
+            for (along, change) in [(t_along / t, dt / t), (y_along / y, dy / y)] {
+                product += along * change;
+                square += along * along;
+                largest = largest.max(along.abs());
+            }
+        }
+    }
+    let aim = -product / square;
+    let sense = if tangent.is_backwards() { 1.0 } else { -1.0 };
+    let mut best: Option<(Iterate, f64)> = None;
+    for piece in PIECES {
+        let step = predictor.moved(&along, aim + sense * piece / largest);
+        let alpha = at.longest(problem, &step);
+        if best.as_ref().is_none_or(|(_, longest)| alpha > *longest) {
+            best = Some((step, alpha));
+        }
+        if alpha > LONG {
+            break;
+        }
+    }
+    best.unwrap_or_else(|| unreachable!("there are pieces"))
+}
