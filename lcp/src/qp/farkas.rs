@@ -21,7 +21,6 @@ const LEAST_GAP: f64 = 1e-9;
 
 /// A checked Farkas vector with a largest entry of one, if one is found.
 pub(super) fn farkas_vector(problem: &HorizontalLcp, effort: Effort) -> Option<Vec<f64>> {
-    let n = problem.order();
     let (form, rows) = projection(problem);
     let scaled = Scaled::new(&form);
     let limits = vec![0.0; form.rows()];
