@@ -312,7 +312,7 @@ fn sweeps_refuse_bricks_that_float() {
     for name in ["block_on_floor", "stack", "wedge", "panel_square", "panel_rectangular"] {
         match sweeps(1e-8).solve(&Case::new(name).problem) {
             Err(Error::NotTreated { solver: "pgs", reason }) => {
-                assert!(reason.contains("definite"))
+                assert!(reason.contains("definite"));
             }
             other => panic!("{name}: {other:?}"),
         }

@@ -30,7 +30,7 @@ fn planted() -> impl Strategy<Value = (BoxedLcp, Vec<f64>, Vec<f64>)> {
                     4 => (lower[i], upper[i]) = (value - size, value + size),
                     _ => {
                         (lower[i], upper[i], w[i]) =
-                            (value, value, if size > 2.0 { -push } else { push })
+                            (value, value, if size > 2.0 { -push } else { push });
                     }
                 }
             }
