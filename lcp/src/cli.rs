@@ -5,6 +5,8 @@
 
 mod check;
 mod info;
+mod method;
+mod report;
 mod solve;
 
 use std::ffi::OsString;
@@ -44,16 +46,19 @@ struct SolveArgs {
     /// The method.
     #[arg(long, value_enum, default_value_t = Solver::Auto)]
     solver: Solver,
-    /// Largest residual, relative to the data, of an answer called solved.
+    /// Largest residual, relative to the data, of an answer called solved; 1e-10, for pgs 1e-8.
     #[arg(long, value_name = "T")]
     tol: Option<f64>,
-    /// Pivots of one attempt.
+    /// Pivots of one attempt of lemke; auto then takes that.
     #[arg(long, value_name = "N")]
     max_pivots: Option<usize>,
+    /// Iterations of pgs, qp, newton or interior.
+    #[arg(long, value_name = "N")]
+    max_iterations: Option<usize>,
     /// Time after which the search ends, in seconds.
     #[arg(long, value_name = "S")]
     time_limit: Option<f64>,
-    /// A file to write the pivots into, as JSON.
+    /// A file to write the pivots of lemke into, as JSON; auto then takes that.
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
 }
@@ -90,10 +95,18 @@ struct InputArgs {
 /// A method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Solver {
-    /// The method that suits the problem best.
+    /// The method that suits the problem best, and the next one where it fails.
     Auto,
-    /// Lemke's method.
+    /// Lemke's method: any problem.
     Lemke,
+    /// Projected Gauss-Seidel: positive diagonals; bounds, friction.
+    Pgs,
+    /// Convex quadratic program: symmetric positive semidefinite matrices.
+    Qp,
+    /// Semismooth Newton, the active set method: positive diagonals, above all M-matrices.
+    Newton,
+    /// Interior-point method: large sparse problems.
+    Interior,
 }
 
 type Failure = Box<dyn std::error::Error>;

@@ -7,13 +7,31 @@
 //! Frictional contact, games, obstacle problems and quadratic programs lead here. Both matrices
 //! may be singular; the standard form `w = M z + q` is the special case `A = -M`, `B = 1`.
 //!
-//! * [`HorizontalLcp`] is the problem; [`Lcp`], [`MixedLcp`] (with free variables) and [`BoxedLcp`]
+//! Problems:
+//!
+//! * [`HorizontalLcp`] is the general form; [`Lcp`], [`MixedLcp`] (with free variables) and [`BoxedLcp`]
 //!   (with bounds) convert into it and back. Matrices are dense or sparse ([`Matrix`]).
-//! * [`Lemke`] with [`LemkeSettings`] solves them by complementary pivoting.
-//! * [`Parametric`] traces the solutions along a line of right-hand sides.
-//! * [`Solution`] carries the point, its [`Status`], its complementary [`Basis`], its
-//!   [`Residuals`] from the original data, and what it cost ([`Info`]); where there is no solution,
-//!   the proof. [`Lcp::error_bound`] says how far a point of a monotone problem is from the solution.
+//! * [`Contact2d`] is contact with friction in the plane with sparse matrices and the displacements as
+//!   unknowns, [`Friction2d`] the same reduced to the contacts.
+//!
+//! Methods, each with settings of its own. [`Solver`] is implemented for the problems that a method treats:
+//!
+//! * [`Auto`] chooses one by class and size, says why, and goes on with another where that fails.
+//! * [`Lemke`]: complementary pivoting. Treats everything, proves infeasibility; the one to start with.
+//! * [`SemismoothNewton`]: active sets, for obstacle problems, M- and P-matrices.
+//! * `QuadraticProgram` (feature `clarabel`, on by default): symmetric positive semidefinite problems and contact, with friction
+//!   as a sequence of programs; soft constraints.
+//! * [`InteriorPoint`]: large sparse contact problems with friction, and mixed problems.
+//! * [`ProjectedGaussSeidel`]: sweeps, also over rows without a matrix ([`Rows`]).
+//! * [`Parametric`]: the solutions along a line of right-hand sides.
+//!
+//! Answers:
+//!
+//! * [`Solution`] carries the point, its [`Status`], its complementary [`Basis`] where the method has one,
+//!   its [`Residuals`] from the original data, and what it cost ([`Info`]); where there is no solution,
+//!   the proof, or the evidence ([`SoftSprings`]). Any point or basis is a [`WarmStart`] for any method
+//!   that can use it.
+//! * [`Lcp::error_bound`] says how far a point of a monotone problem is from the solution.
 //!
 //! ```
 //! use faer::mat;
@@ -26,6 +44,9 @@
 //! # Ok::<(), lcp::Error>(())
 //! ```
 //!
+//! The guides `docs/lcp.md` and `docs/methods.md` of the repository say which method to take when, and how
+//! each works.
+//!
 //! With the feature `io` problems are read from files, and with `cli` there is the program `lcp`.
 //! With `exact` all solutions of a small problem are found in rational arithmetic. The module
 //! [`families`] makes problems whose answers are known.
@@ -35,6 +56,7 @@
 //! given, and all tolerances are relative to that data: units do not matter. The library does not
 //! print.
 
+mod auto;
 mod basis;
 #[cfg(feature = "cli")]
 pub mod cli;
@@ -63,6 +85,7 @@ mod sparse;
 
 pub use faer;
 
+pub use auto::{Auto, AutoSettings, Choice};
 pub use basis::{Basis, Side};
 pub use error::Error;
 pub use interior::{InteriorPoint, InteriorPointSettings};
@@ -88,7 +111,7 @@ pub use residual::Residuals;
 pub use settings::{Covering, LemkeSettings, WarmStart};
 pub use solution::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Info, Perturbation, PivotRecord, Ray,
-    SoftSprings, Solution, Status, Variable,
+    Route, RouteEnd, SoftSprings, Solution, Status, Variable,
 };
 pub use solve::{Iteration, Solver};
 
@@ -98,6 +121,6 @@ pub use solve::{Iteration, Solver};
 struct ReadmeDoctest;
 
 /// See [`ReadmeDoctest`].
-#[cfg(all(doctest, feature = "exact", feature = "io"))]
+#[cfg(all(doctest, feature = "clarabel", feature = "exact", feature = "io"))]
 #[doc = include_str!("../../docs/lcp.md")]
 struct GuideDoctest;

@@ -23,11 +23,13 @@ pub enum Covering {
     Given(Vec<f64>),
 }
 
-/// Where the path starts.
+/// Where a method starts, in the pairs of the general form of the problem: those of its answers, of which
+/// any may be the start of another method. What is said here of a basis is what [`Lemke`](crate::Lemke) does;
+/// the settings of the other methods say what they make of a start.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum WarmStart {
-    /// The solver finds a complementary basis.
+    /// The method finds its own.
     #[default]
     None,
     /// From a complementary basis. Where it is singular, from one that shares as many of its columns

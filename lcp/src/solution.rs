@@ -11,10 +11,12 @@ pub enum Status {
     Solved,
     /// A complementary basis was found, but its residuals, recomputed from the original data, are
     /// above the tolerance asked for, and below the square root of it, also when the equation is
-    /// measured by the right-hand side alone.
+    /// measured by the right-hand side alone. Of a problem that was solved in another form: it is solved
+    /// there, but the residuals in the form given are above the tolerance.
     AlmostSolved,
     /// There is no solution: `A t + B y = c` has none with `t >= 0` and `y >= 0`, which
-    /// [`Solution::farkas`] proves.
+    /// [`Solution::farkas`] proves. (Of [`Lemke`](crate::Lemke) on a [`Contact2d`](crate::Contact2d) the
+    /// proof was checked in the mixed form, and is not given.)
     Infeasible,
     /// There is no equilibrium, by the evidence of [`Solution::springs`]: soft springs on all
     /// displacements keep their share of the load, however soft they are. That is no proof.
@@ -31,7 +33,8 @@ pub enum Status {
     Stalled,
     /// The limit on wall-clock time was reached.
     TimeLimit,
-    /// No attempt found a solution, and in at least one a basis came back.
+    /// No attempt found a solution, and in at least one a basis came back; or the single exchanges of an
+    /// active set method did.
     Cycling,
     /// No choice of one column from every pair gives a matrix that is nonsingular to working
     /// precision, so that there is no complementary basis to start from, and with artificial columns
@@ -251,6 +254,49 @@ pub struct SoftSprings {
     pub motion: Vec<f64>,
 }
 
+/// How a method that [`Auto`](crate::Auto) asked ended.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "lowercase"))]
+#[non_exhaustive]
+pub enum RouteEnd {
+    /// With an answer.
+    Ended {
+        /// Its status.
+        status: Status,
+        /// The worst of its residuals.
+        residual: f64,
+    },
+    /// It does not treat the problem.
+    Refused {
+        /// What is in the way.
+        reason: String,
+    },
+}
+
+impl std::fmt::Display for RouteEnd {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Ended { status, residual } => write!(f, "{status}, residual {residual:.1e}"),
+            Self::Refused { reason } => write!(f, "refused: {reason}"),
+        }
+    }
+}
+
+/// A method that [`Auto`](crate::Auto) asked.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct Route {
+    /// Its name.
+    pub solver: &'static str,
+    /// Why it was its turn.
+    pub reason: String,
+    /// How it ended.
+    pub end: RouteEnd,
+    /// Wall-clock time \[s\].
+    pub seconds: f64,
+}
+
 /// What it cost.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -260,7 +306,7 @@ pub struct Info {
     pub solver: &'static str,
     /// Pivots over all attempts.
     pub pivots: usize,
-    /// Sweeps, or steps of a method that has no pivots.
+    /// Sweeps, steps, or programs of a method that has no pivots.
     pub iterations: usize,
     /// Times that a matrix was factorised numerically, or a tableau rebuilt from the data.
     pub factorisations: usize,
@@ -268,6 +314,9 @@ pub struct Info {
     pub attempts: Vec<Attempt>,
     /// The residual by which an iterative method stops, at its start and after every iteration.
     pub history: Vec<f64>,
+    /// The methods that [`Auto`](crate::Auto) asked, in order; the point comes from one of them, and so do
+    /// the other numbers here but for the time.
+    pub routes: Vec<Route>,
     /// Wall-clock time \[s\].
     pub seconds: f64,
     /// The part of it spent on pivots; the rest of a pivoting method is start bases, scaling, final
@@ -286,7 +335,8 @@ pub struct Solution {
     pub t: Vec<f64>,
     /// The second variable of every pair.
     pub y: Vec<f64>,
-    /// The complementary basis of the point, where there is one.
+    /// The complementary basis of the point, of methods that end on one: of pivots, of active sets, and of
+    /// interior points after a crossover.
     pub basis: Option<Basis>,
     /// Residuals of `(t, y)`, from the original data.
     pub residuals: Residuals,
@@ -294,7 +344,8 @@ pub struct Solution {
     /// met one ended, when the status is [`RayTermination`](Status::RayTermination) or
     /// [`Infeasible`](Status::Infeasible).
     pub ray: Option<Ray>,
-    /// With the status [`Infeasible`](Status::Infeasible) the proof: a vector `pi` of the rows with
+    /// With the status [`Infeasible`](Status::Infeasible), but for [`Lemke`](crate::Lemke) on a
+    /// [`Contact2d`](crate::Contact2d), the proof: a vector `pi` of the rows with
     /// `A^T pi <= 0`, `B^T pi <= 0` and `c.pi > 0` (Farkas). It was checked against the original data:
     /// no component of the products exceeds the rounding error of its computation.
     pub farkas: Option<Vec<f64>>,

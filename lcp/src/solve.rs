@@ -11,15 +11,21 @@ use crate::{
 /// A method that treats problems of type `P`.
 ///
 /// The solution carries a point of the general form of the problem: `(z, w)` as `(t, y)` for [`Lcp`]
-/// and [`Friction2d`], and the pairs that [`Contact2d::to_general`] describes.
+/// and, of the standard problem, for [`Friction2d`]; and the pairs of `to_general` for
+/// [`Contact2d`](Contact2d::to_general), [`MixedLcp`](crate::MixedLcp::to_general) and
+/// [`BoxedLcp`](crate::BoxedLcp::to_general), whose `recover` leads back.
 ///
 /// ```
 /// use faer::mat;
-/// use lcp::{HorizontalLcp, Lcp, Lemke, Solver};
-/// let routes: [Box<dyn Solver<Lcp>>; 1] = [Box::new(Lemke::default())];
+/// use lcp::{Lcp, Lemke, ProjectedGaussSeidel, SemismoothNewton, Solver};
+/// let methods: [Box<dyn Solver<Lcp>>; 3] = [
+///     Box::new(Lemke::default()),
+///     Box::new(SemismoothNewton::default()),
+///     Box::new(ProjectedGaussSeidel::default()),
+/// ];
 /// let lcp = Lcp::new(mat![[2.0, 1.0], [1.0, 2.0]], vec![-5.0, -6.0])?;
-/// for route in routes {
-///     assert!(route.solve(&lcp)?.is_solved(), "{}", route.name());
+/// for method in methods {
+///     assert!(method.solve(&lcp)?.is_solved(), "{}", method.name());
 /// }
 /// # Ok::<(), lcp::Error>(())
 /// ```
@@ -65,8 +71,9 @@ impl Solver<Friction2d> for Lemke {
     }
 }
 
-/// On the mixed problem of [`Contact2d::to_mixed`]. A start of the settings has its pairs; without one
-/// the path starts from open contacts, with the displacements that they leave free.
+/// On the mixed problem of [`Contact2d::to_mixed`]. A start of the settings has its pairs, which are not those
+/// of the answer; without one the path starts from open contacts, with the displacements that they leave
+/// free. The answer has neither basis, ray nor Farkas vector, which would belong to the mixed problem.
 impl Solver<Contact2d> for Lemke {
     fn name(&self) -> &'static str {
         Self::NAME

@@ -11,6 +11,9 @@ const FIRST: f64 = 0.1;
 const LAST: f64 = 1e-9;
 /// Factors from one spring to the next.
 const FACTOR: f64 = 0.1;
+/// Where one spring ends the pairs are too near the boundary for the next: they are lifted by this part of
+/// the largest force and gap.
+const LIFT: f64 = 0.1;
 /// Steps for one spring.
 const STEPS: usize = 60;
 /// The natural residual up to which the problem with springs is solved, relative to the largest force.
@@ -61,6 +64,7 @@ pub(super) fn follow(
             return End::Falling(path);
         }
         spring *= FACTOR;
+        at = at.lifted(problem, LIFT);
     }
     End::Open
 }
@@ -75,7 +79,7 @@ fn solve(
     for _ in 0..STEPS {
         let size = at.points.iter().fold(1.0_f64, |max, pairs| max.max(pairs.t_n));
         let lack = Defect::of(problem, &at, spring).size();
-        if at.natural(problem).max(lack) <= ACCURACY * size {
+        if at.natural(problem, (1.0, 1.0)).max(lack) <= ACCURACY * size {
             return Some(at);
         }
         if !go_on() {

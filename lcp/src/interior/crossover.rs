@@ -120,6 +120,7 @@ impl Vertex {
         {
             (*t_n, *t_t) = on_cone(point, *contact, (*t_n, *t_t));
         }
+        let before = max_abs(&self.u);
         let mut last = f64::INFINITY;
         for _ in 0..REFINEMENTS {
             let mut u = problem.unbalanced(&self.u, self.forces.iter().copied());
@@ -149,6 +150,10 @@ impl Vertex {
                 self.forces[i].1 += fixed[i].1 - t_t;
             }
             self.u.iter_mut().zip(&u).for_each(|(u, du)| *u += du);
+        }
+        if max_abs(&self.u) <= ROUNDING * before.max(1.0) {
+            // Bodies at rest: what is left is noise, by which nothing should be measured.
+            self.u.fill(0.0);
         }
         Some(())
     }

@@ -75,7 +75,13 @@ impl Defect {
     }
 
     pub(super) fn size(&self) -> f64 {
-        self.gaps.iter().fold(max_abs(&self.balance), |max, (g, s)| max.max(g.abs()).max(s.abs()))
+        self.relative((1.0, 1.0))
+    }
+
+    /// The largest defect in these units of force and length.
+    pub(super) fn relative(&self, (force, length): (f64, f64)) -> f64 {
+        let gaps = self.gaps.iter().fold(0.0_f64, |max, (g, s)| max.max(g.abs()).max(s.abs()));
+        (max_abs(&self.balance) / force).max(gaps / length)
     }
 }
 
@@ -209,12 +215,12 @@ impl Iterate {
         sum / count.max(1) as f64
     }
 
-    /// Largest `|min(t, y)|` over the pairs.
-    pub(super) fn natural(&self, problem: &Scaled) -> f64 {
+    /// Largest `|min(t, y)|` over the pairs, in these units of force and length.
+    pub(super) fn natural(&self, problem: &Scaled, (force, length): (f64, f64)) -> f64 {
         let pairs = problem.points.iter().zip(&self.points);
         pairs
             .flat_map(|(point, pairs)| pairs.pairs(point.mu))
-            .fold(0.0, |max, (t, y)| max.max(t.min(y).abs()))
+            .fold(0.0, |max, (t, y)| max.max((t / force).min(y / length).abs()))
     }
 
     pub(super) fn is_finite(&self) -> bool {
@@ -238,6 +244,28 @@ impl Iterate {
             }
         }
         alpha
+    }
+
+    /// The largest normal force, and the largest gap or slip.
+    pub(super) fn sizes(&self) -> (f64, f64) {
+        self.points.iter().fold((0.0, 0.0), |(force, length): (f64, f64), pairs| {
+            let largest = pairs.gap.max(pairs.slip_plus).max(pairs.slip_minus);
+            (force.max(pairs.t_n), length.max(largest))
+        })
+    }
+
+    /// All pairs further inside, by a part of the largest of their kind.
+    pub(super) fn lifted(mut self, problem: &Scaled, part: f64) -> Self {
+        let (force, length) = self.sizes();
+        for (point, pairs) in problem.points.iter().zip(&mut self.points) {
+            pairs.t_n += part * force;
+            pairs.gap += part * length;
+            if point.mu > 0.0 {
+                pairs.slip_plus += part * length;
+                pairs.slip_minus += part * length;
+            }
+        }
+        self
     }
 
     /// The smallest product of a pair, relative to the mean.

@@ -22,6 +22,10 @@ impl Judged {
 
 /// A problem as it was given.
 pub(super) trait Original {
+    /// Whether soft springs that keep their share of the load are evidence against a solution. They are none
+    /// where the stiffness may be that of no body.
+    fn has_bodies(&self) -> bool;
+
     fn scaled(&self) -> Scaled;
 
     /// The point that belongs to displacements and forces of the scaled problem.
@@ -42,6 +46,10 @@ pub(super) trait Original {
 }
 
 impl Original for Contact2d {
+    fn has_bodies(&self) -> bool {
+        true
+    }
+
     fn scaled(&self) -> Scaled {
         Scaled::of_contact(self)
     }
@@ -113,6 +121,10 @@ impl Original for Contact2d {
 /// A mixed problem is one of contact without friction: `M z + q = w` has the stiffness `M`, the load `-q`
 /// and the contact forces `w`, and the gaps are the variables themselves.
 impl Original for MixedLcp {
+    fn has_bodies(&self) -> bool {
+        false
+    }
+
     fn scaled(&self) -> Scaled {
         Scaled::of_mixed(self)
     }

@@ -202,7 +202,11 @@ impl Scaled {
         for (j, u) in u.iter().enumerate() {
             column_of(&self.k, j).for_each(|(i, v)| terms[i] += (v * u).abs());
         }
-        let beyond = |v: f64, terms: f64| v - (ROUNDING * terms).min(LARGEST_ROUNDING);
+        let beyond = |v: f64, terms: f64| match ROUNDING * terms {
+            // The loads are lost in the terms, and anything can be in balance with them.
+            rounding if rounding > 1.0 => f64::INFINITY,
+            rounding => v - rounding.min(LARGEST_ROUNDING),
+        };
         let mut worst = 0.0_f64;
         for (point, (t_n, t_t)) in self.points.iter().zip(forces) {
             let mut gap = point.x_0.abs();

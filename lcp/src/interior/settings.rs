@@ -10,7 +10,8 @@ use crate::{Error, WarmStart};
 pub struct InteriorPointSettings {
     /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`.
     pub tolerance: f64,
-    /// Steps, each with one factorisation; those of the continuation count too.
+    /// Steps, each with one factorisation; those of the continuation count too. The systems of the crossover
+    /// come on top.
     pub max_iterations: usize,
     /// Wall-clock time, looked at before every step; `None` is no limit.
     pub time_limit: Option<Duration>,

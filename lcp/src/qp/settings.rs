@@ -48,9 +48,11 @@ pub struct QuadraticProgramSettings {
     /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`. The polish usually
     /// reaches 1e-14, so that it costs nothing to ask for 1e-12.
     pub tolerance: f64,
-    /// Iterations of one run of the interior-point method. At least 1.
+    /// Iterations of one run of the interior-point method, which are among
+    /// [`Info::factorisations`](crate::Info::factorisations). At least 1.
     pub max_iterations: usize,
-    /// Rounds of the fixed point of Coulomb's friction. At least 1.
+    /// Rounds of the fixed point of Coulomb's friction, which are programs, as
+    /// [`Info::iterations`](crate::Info::iterations) counts them. At least 1.
     pub max_outer: usize,
     /// Wall-clock time; `None` is no limit. Looked at before every run of the interior-point method and
     /// in it before every iteration.

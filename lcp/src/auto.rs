@@ -1,0 +1,121 @@
+//! The method that suits a problem, and the next one where it fails.
+
+mod chain;
+mod contact;
+mod facts;
+pub(crate) mod memory;
+mod method;
+mod mixed;
+mod settings;
+mod standard;
+
+pub use settings::AutoSettings;
+
+use method::Planned;
+
+use crate::{Error, Solution, Solver};
+
+/// A method of a plan, and why it stands there.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct Choice {
+    /// The name of the method.
+    pub solver: &'static str,
+    /// What speaks for it at this place, with the numbers that it was told from.
+    pub reason: String,
+}
+
+/// Chooses the methods for a problem by its class and size, and goes from one to the next until an answer
+/// is found, the residuals of which every method checks on the data as given.
+///
+/// What decides is seen without a factorisation: the order, whether matrices are stored sparse, signs,
+/// symmetry, dominance of the diagonal, friction, the number of contact points. None of it depends on units.
+/// [`plan`](Self::plan) says what is chosen and why, and
+/// [`Info::routes`](crate::Info::routes) what was tried and how it ended.
+///
+/// | problem | chain |
+/// |---|---|
+/// | [`Lcp`](crate::Lcp), positive diagonal, no positive entry off it | semismooth Newton, then as below |
+/// | [`Lcp`](crate::Lcp), dense, or up to order 500 | Lemke, interior point, quadratic program\*, sweeps† |
+/// | [`Lcp`](crate::Lcp), sparse and larger, symmetric | semismooth Newton†, interior point, quadratic program\*, sweeps†, Lemke |
+/// | [`Lcp`](crate::Lcp), sparse and larger, not symmetric | interior point, semismooth Newton†, sweeps†, Lemke |
+/// | [`HorizontalLcp`](crate::HorizontalLcp) | as the standard problem that it is in disguise, else Lemke |
+/// | [`MixedLcp`](crate::MixedLcp), dense, or up to order 500 | Lemke, interior point, quadratic program\* |
+/// | [`MixedLcp`](crate::MixedLcp), sparse and larger | interior point, quadratic program\*, Lemke |
+/// | [`BoxedLcp`](crate::BoxedLcp), dense, or up to order 500 | Lemke, interior point‡, sweeps† |
+/// | [`BoxedLcp`](crate::BoxedLcp), sparse and larger | interior point‡, sweeps†, Lemke |
+/// | [`Friction2d`](crate::Friction2d), dense, or up to order 500 | Lemke, interior point, sweeps† |
+/// | [`Friction2d`](crate::Friction2d), sparse and larger | interior point, sweeps†, Lemke |
+/// | [`Contact2d`](crate::Contact2d), up to 40 points | Lemke, interior point, quadratic programs, sweeps |
+/// | [`Contact2d`](crate::Contact2d), up to 500 points | interior point, quadratic programs, Lemke, sweeps |
+/// | [`Contact2d`](crate::Contact2d), larger | interior point, quadratic programs, sweeps, Lemke |
+///
+/// \* with the feature `clarabel`, where `M` is symmetric, for mixed problems within the two kinds of
+/// variables and skew between them; † where the diagonal is positive; ‡ without free variables.
+///
+/// # When it ends
+/// With [`Solved`](crate::Status::Solved), with [`Infeasible`](crate::Status::Infeasible) and a proof, which
+/// was checked, and when the time is over. A method that does not treat the problem, or takes more memory than there is,
+/// is passed over. After [`NoEquilibrium`](crate::Status::NoEquilibrium) of more than 500 contact points only
+/// the quadratic program is asked, which may find a proof.
+///
+/// Without such an end it gives, in this order: [`Infeasible`](crate::Status::Infeasible) of Lemke's method for
+/// contact, whose proof is one of other pairs; a point with residuals below the root of the tolerance;
+/// the evidence of [`NoEquilibrium`](crate::Status::NoEquilibrium); a ray
+/// ([`RayTermination`](crate::Status::RayTermination)); the point with the smallest residual. Where an answer
+/// comes near a solution and is none, the next method starts from it.
+///
+/// # Cost
+/// That of the methods that were tried. A method that fails may take long: set
+/// [`AutoSettings::time_limit`] where that matters.
+///
+/// ```
+/// use lcp::{Auto, Solver, families};
+/// let problem = families::obstacle(40).problem;
+/// let auto = Auto::default();
+/// let first = &auto.plan(&problem)[0];
+/// assert_eq!(first.solver, "semismooth Newton");
+/// assert!(first.reason.starts_with("order 1600, sparse with 7840 nonzeros, symmetric"));
+/// let solution = auto.solve(&problem)?;
+/// assert!(solution.is_solved());
+/// assert_eq!(solution.info.solver, "semismooth Newton");
+/// assert_eq!(solution.info.routes.len(), 1);
+/// # Ok::<(), lcp::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Auto {
+    settings: AutoSettings,
+}
+
+impl Auto {
+    /// The name of the choice, as [`Solver::name`] has it.
+    pub const NAME: &'static str = "auto";
+
+    /// A solver with these settings.
+    pub fn new(settings: AutoSettings) -> Self {
+        Self { settings }
+    }
+
+    /// The settings.
+    pub fn settings(&self) -> &AutoSettings {
+        &self.settings
+    }
+
+    /// The methods for a problem in the order in which they would be asked.
+    pub fn plan<P: Planned>(&self, problem: &P) -> Vec<Choice> {
+        let steps = problem.steps().into_iter();
+        steps.map(|step| Choice { solver: step.method.name(), reason: step.reason }).collect()
+    }
+}
+
+/// Of the problems in the table of [`Auto`].
+impl<P: Planned> Solver<P> for Auto {
+    fn name(&self) -> &'static str {
+        Self::NAME
+    }
+
+    fn solve(&self, problem: &P) -> Result<Solution, Error> {
+        chain::run(problem, &self.settings)
+    }
+}

@@ -1,0 +1,188 @@
+//! One method after the other.
+
+use std::time::{Duration, Instant};
+
+use super::method::{Effort, Planned};
+use super::{Auto, AutoSettings};
+use crate::{Error, Route, RouteEnd, Solution, Status, WarmStart};
+
+/// A point with larger residuals is no better start than the one that was given.
+const NEAR: f64 = 1e-4;
+
+/// How much an answer says; what comes first says more.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
+enum Rank {
+    /// Solved, or with a proof that there is no solution.
+    Decided,
+    /// There is no solution, by a proof in other pairs, which the answer does not have.
+    Infeasible,
+    /// With residuals below the root of the tolerance.
+    Near,
+    /// There is no equilibrium, by what soft springs show.
+    Evidence,
+    Ray,
+    Open,
+}
+
+/// Tries the methods of a problem until one has the answer.
+pub(super) fn run<P: Planned>(problem: &P, settings: &AutoSettings) -> Result<Solution, Error> {
+    settings.validate(problem.pairs())?;
+    let began = Instant::now();
+    let mut routes = Vec::new();
+    let mut best: Option<Solution> = None;
+    let mut is_cut = false;
+    for step in problem.steps() {
+        let time_limit = settings.time_limit.map(|limit| limit.saturating_sub(began.elapsed()));
+        if best.is_some() && time_limit == Some(Duration::ZERO) {
+            is_cut = true;
+            break;
+        }
+        let is_falling = best.as_ref().is_some_and(|best| best.status == Status::NoEquilibrium);
+        if is_falling && !problem.is_worth_a_proof(step.method) {
+            continue;
+        }
+        let near = best.as_ref().and_then(near_point);
+        let start = near.as_ref().unwrap_or(&settings.start);
+        let effort = Effort { tolerance: settings.tolerance, time_limit, start };
+        let route_began = Instant::now();
+        let (end, solution) = match problem.attempt(step.method, &effort) {
+            Ok(solution) => {
+                let residual = solution.residuals.worst();
+                (RouteEnd::Ended { status: solution.status, residual }, Some(solution))
+            }
+            Err(Error::NotTreated { reason, .. }) => (RouteEnd::Refused { reason }, None),
+            Err(error) => return Err(error),
+        };
+        let seconds = route_began.elapsed().as_secs_f64();
+        routes.push(Route { solver: step.method.name(), reason: step.reason, end, seconds });
+        let Some(solution) = solution else { continue };
+        let (is_last, is_late) = (is_final(&solution), solution.status == Status::TimeLimit);
+        best = Some(better(best, solution, settings.tolerance));
+        if is_last {
+            is_cut = is_late;
+            break;
+        }
+    }
+    let mut solution = best.ok_or_else(|| all_refused(&routes))?;
+    let (rank, _) = rank(&solution, settings.tolerance);
+    let is_open = matches!(rank, Rank::Near | Rank::Open);
+    if is_cut && is_open && solution.status != Status::AlmostSolved {
+        solution.status = Status::TimeLimit;
+    }
+    solution.info.routes = routes;
+    solution.info.seconds = began.elapsed().as_secs_f64();
+    Ok(solution)
+}
+
+/// After these no other method is asked.
+fn is_final(solution: &Solution) -> bool {
+    match solution.status {
+        Status::Solved | Status::Cancelled | Status::TimeLimit => true,
+        Status::Infeasible => solution.farkas.is_some(),
+        _ => false,
+    }
+}
+
+/// Where an unsolved answer is near a solution, the next method may start from it.
+fn near_point(solution: &Solution) -> Option<WarmStart> {
+    let Solution { t, y, .. } = solution;
+    let is_near = solution.residuals.worst() <= NEAR;
+    is_near.then(|| WarmStart::Point { t: t.clone(), y: y.clone() })
+}
+
+/// The one that says more; the earlier one where both say the same.
+fn better(best: Option<Solution>, other: Solution, tolerance: f64) -> Solution {
+    match best {
+        Some(best) if rank(&best, tolerance) <= rank(&other, tolerance) => best,
+        _ => other,
+    }
+}
+
+fn rank(solution: &Solution, tolerance: f64) -> (Rank, f64) {
+    let residual = solution.residuals.worst();
+    let rank = match solution.status {
+        Status::Solved => Rank::Decided,
+        Status::Infeasible if solution.farkas.is_some() => Rank::Decided,
+        Status::Infeasible => Rank::Infeasible,
+        Status::AlmostSolved => Rank::Near,
+        _ if residual <= tolerance.sqrt() => Rank::Near,
+        Status::NoEquilibrium if solution.springs.is_some() => Rank::Evidence,
+        Status::RayTermination if solution.ray.is_some() => Rank::Ray,
+        _ => Rank::Open,
+    };
+    (rank, residual)
+}
+
+fn all_refused(routes: &[Route]) -> Error {
+    let reasons = routes.iter().filter_map(|route| match &route.end {
+        RouteEnd::Refused { reason } => Some(format!("{}: {reason}", route.solver)),
+        RouteEnd::Ended { .. } => None,
+    });
+    let reasons: Vec<String> = reasons.collect();
+    let reason = format!("no method of its chain does. {}", reasons.join("; "));
+    Error::NotTreated { solver: Auto::NAME, reason }
+}
+
+#[cfg(test)]
+mod tests {
+    use faer::mat;
+
+    use super::*;
+    use crate::auto::method::{Method, Step};
+    use crate::{Lcp, Solver};
+
+    /// `w = 2 z - 1` for methods that refuse, or are too slow.
+    struct Refusing;
+
+    impl Planned for Refusing {
+        fn pairs(&self) -> usize {
+            1
+        }
+
+        fn steps(&self) -> Vec<Step> {
+            [Method::Lemke, Method::ProjectedGaussSeidel].map(|it| Step::new(it, "a test")).into()
+        }
+
+        fn attempt(&self, method: Method, _: &Effort<'_>) -> Result<Solution, Error> {
+            let reason = format!("{} is not at home", method.name());
+            Err(Error::NotTreated { solver: method.name(), reason })
+        }
+    }
+
+    #[test]
+    fn where_all_refuse_all_reasons_are_given() {
+        let error = run(&Refusing, &AutoSettings::default()).map(|solution| solution.status);
+        let Err(Error::NotTreated { solver: "auto", reason }) = error else {
+            panic!("{error:?}");
+        };
+        assert!(reason.contains("lemke: lemke is not at home"), "{reason}");
+        assert!(reason.contains("pgs: pgs is not at home"), "{reason}");
+    }
+
+    #[test]
+    fn evidence_says_more_than_a_stall_and_less_than_a_point_that_is_near() {
+        let lcp = Lcp::new(mat![[2.0]], vec![-1.0]).expect("one number each");
+        let solved = Solver::<Lcp>::solve(&Auto::default(), &lcp).expect("valid settings");
+        let with = |status, residual: f64| {
+            let mut solution = solved.clone();
+            (solution.status, solution.residuals.equation) = (status, residual);
+            solution
+        };
+        let mut falling = with(Status::NoEquilibrium, 0.5);
+        falling.springs = Some(crate::SoftSprings::default());
+        let stalled = with(Status::Stalled, 0.1);
+        let near = with(Status::Stalled, 1e-9);
+        let status = |best: &Solution, other: &Solution| {
+            better(Some(best.clone()), other.clone(), 1e-10).status
+        };
+        assert_eq!(status(&stalled, &falling), Status::NoEquilibrium);
+        assert_eq!(status(&falling, &stalled), Status::NoEquilibrium);
+        assert_eq!(status(&falling, &near), Status::Stalled);
+        assert_eq!(status(&near, &solved), Status::Solved);
+        let unproved = with(Status::Infeasible, 1.0);
+        assert_eq!(status(&near, &unproved), Status::Infeasible);
+        let mut proved = unproved.clone();
+        proved.farkas = Some(vec![-1.0]);
+        assert!(better(Some(unproved), proved, 1e-10).farkas.is_some());
+    }
+}

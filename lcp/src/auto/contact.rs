@@ -1,0 +1,106 @@
+//! The chains of contact with friction.
+
+use super::facts::Facts;
+use super::memory;
+use super::method::{Effort, Method, Planned, Step, not_in_chain};
+use super::standard::{common_steps, program_step};
+use crate::{Contact2d, Error, Friction2d, Solution, Solver, WarmStart};
+
+/// Up to so many contact points pivots take no time.
+const VERY_FEW: usize = 40;
+/// Up to so many they are fast.
+const FEW: usize = 500;
+
+impl Planned for Friction2d {
+    fn pairs(&self) -> usize {
+        self.order()
+    }
+
+    fn steps(&self) -> Vec<Step> {
+        let facts = Facts::of(self.standard().m());
+        let w = Facts::of(self.w());
+        let mut steps = common_steps(&facts, None, w.has_positive_diagonal);
+        for step in &mut steps {
+            step.reason = format!("{} contacts, {}", self.contacts(), step.reason);
+        }
+        steps
+    }
+
+    fn attempt(&self, method: Method, effort: &Effort<'_>) -> Result<Solution, Error> {
+        match method {
+            Method::Lemke => {
+                memory::check(self.standard().m().is_sparse(), self.order())?;
+                Solver::<Self>::solve(&effort.lemke(), self)
+            }
+            Method::InteriorPoint => effort.interior_point().solve(self),
+            Method::ProjectedGaussSeidel => effort.sweeps().solve(self),
+            Method::SemismoothNewton => Err(not_in_chain(method)),
+            #[cfg(feature = "clarabel")]
+            Method::QuadraticProgram => Err(not_in_chain(method)),
+        }
+    }
+}
+
+impl Planned for Contact2d {
+    fn pairs(&self) -> usize {
+        self.order()
+    }
+
+    fn steps(&self) -> Vec<Step> {
+        let (points, friction) = (self.points(), self.frictional().len());
+        let text = format!(
+            "{points} contact points, {friction} of them with friction, {} displacements",
+            self.displacements()
+        );
+        let step = |method, words: &str| Step::new(method, format!("{text}: {words}"));
+        let inside = step(
+            Method::InteriorPoint,
+            "the interior-point method for contact takes tens of sparse factorisations",
+        );
+        let program = if friction == 0 {
+            format!("{text}: a convex quadratic program, if K is positive semidefinite")
+        } else {
+            format!("{text}: a sequence of quadratic programs with the friction forces held")
+        };
+        let sweeps = step(
+            Method::ProjectedGaussSeidel,
+            "sweeps over the contacts, if K is positive definite, promise little",
+        );
+        let program = program_step(Some(program));
+        let pivots = step(
+            Method::Lemke,
+            if points <= FEW {
+                "pivots are fast, need no convergence and may find a proof"
+            } else {
+                "pivots take long at this number, but need no convergence"
+            },
+        );
+        let in_order = |steps: [Option<Step>; 4]| steps.into_iter().flatten().collect();
+        let (pivots, inside, sweeps) = (Some(pivots), Some(inside), Some(sweeps));
+        if points <= VERY_FEW {
+            in_order([pivots, inside, program, sweeps])
+        } else if points <= FEW {
+            // Where the interior point comes near, the program starts from there and need only polish.
+            in_order([inside, program, pivots, sweeps])
+        } else {
+            in_order([inside, program, sweeps, pivots])
+        }
+    }
+
+    fn attempt(&self, method: Method, effort: &Effort<'_>) -> Result<Solution, Error> {
+        match method {
+            // A start has the pairs of the general problem, and this works on others.
+            Method::Lemke => Solver::<Self>::solve(&effort.from(&WarmStart::None).lemke(), self),
+            Method::InteriorPoint => effort.interior_point().solve(self),
+            #[cfg(feature = "clarabel")]
+            Method::QuadraticProgram => effort.quadratic_program().solve(self),
+            Method::ProjectedGaussSeidel => effort.sweeps().solve(self),
+            Method::SemismoothNewton => Err(not_in_chain(method)),
+        }
+    }
+
+    fn is_worth_a_proof(&self, method: Method) -> bool {
+        let is_cheap = !matches!(method, Method::Lemke | Method::ProjectedGaussSeidel);
+        self.points() <= FEW || is_cheap
+    }
+}

@@ -1,0 +1,144 @@
+//! The methods with the settings that they get.
+
+use std::time::Duration;
+
+use crate::{
+    Error, InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings, ProjectedGaussSeidel,
+    ProjectedGaussSeidelSettings, SemismoothNewton, SemismoothNewtonSettings, Solution, WarmStart,
+};
+#[cfg(feature = "clarabel")]
+use crate::{QuadraticProgram, QuadraticProgramSettings};
+
+/// A method of the library.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    Lemke,
+    SemismoothNewton,
+    InteriorPoint,
+    #[cfg(feature = "clarabel")]
+    QuadraticProgram,
+    ProjectedGaussSeidel,
+}
+
+impl Method {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Lemke => Lemke::NAME,
+            Self::SemismoothNewton => SemismoothNewton::NAME,
+            Self::InteriorPoint => InteriorPoint::NAME,
+            #[cfg(feature = "clarabel")]
+            Self::QuadraticProgram => QuadraticProgram::NAME,
+            Self::ProjectedGaussSeidel => ProjectedGaussSeidel::NAME,
+        }
+    }
+}
+
+/// A method of a plan, and why it stands there.
+#[derive(Debug, Clone)]
+pub struct Step {
+    pub(super) method: Method,
+    pub(super) reason: String,
+}
+
+impl Step {
+    pub(super) fn new(method: Method, reason: impl Into<String>) -> Self {
+        Self { method, reason: reason.into() }
+    }
+}
+
+/// A problem with a chain of methods. Only the problems of the library are.
+pub trait Planned {
+    /// Pairs of a start.
+    fn pairs(&self) -> usize;
+
+    /// The chain.
+    fn steps(&self) -> Vec<Step>;
+
+    /// Solves the problem by a method of the chain.
+    ///
+    /// # Errors
+    /// Those of the method.
+    fn attempt(&self, method: Method, effort: &Effort<'_>) -> Result<Solution, Error>;
+
+    /// Whether a method is worth its time where there is evidence, and no proof yet, that there is no
+    /// solution.
+    fn is_worth_a_proof(&self, _: Method) -> bool {
+        true
+    }
+}
+
+/// What a method gets.
+#[derive(Debug, Clone, Copy)]
+pub struct Effort<'a> {
+    pub(super) tolerance: f64,
+    pub(super) time_limit: Option<Duration>,
+    pub(super) start: &'a WarmStart,
+}
+
+impl Effort<'_> {
+    /// Another start.
+    pub(super) fn from(self, start: &WarmStart) -> Effort<'_> {
+        Effort { start, ..self }
+    }
+
+    pub(super) fn lemke(&self) -> Lemke {
+        let Self { tolerance, time_limit, .. } = *self;
+        let start = self.start.clone();
+        Lemke::new(LemkeSettings { tolerance, time_limit, start, ..Default::default() })
+    }
+
+    /// Steps are factorisations: where the method does not promise to arrive, they are few.
+    pub(super) fn newton(&self, is_sure: bool) -> SemismoothNewton {
+        const TRIAL: usize = 100;
+        let Self { tolerance, time_limit, .. } = *self;
+        let start = self.start.clone();
+        let sure = SemismoothNewtonSettings { tolerance, time_limit, start, ..Default::default() };
+        let max_iterations = if is_sure { sure.max_iterations } else { TRIAL };
+        SemismoothNewton::new(SemismoothNewtonSettings { max_iterations, ..sure })
+    }
+
+    pub(super) fn interior_point(&self) -> InteriorPoint {
+        let Self { tolerance, time_limit, .. } = *self;
+        let start = self.start.clone();
+        InteriorPoint::new(InteriorPointSettings {
+            tolerance,
+            time_limit,
+            start,
+            ..Default::default()
+        })
+    }
+
+    #[cfg(feature = "clarabel")]
+    pub(super) fn quadratic_program(&self) -> QuadraticProgram {
+        let Self { tolerance, time_limit, .. } = *self;
+        let start = self.start.clone();
+        QuadraticProgram::new(QuadraticProgramSettings {
+            tolerance,
+            time_limit,
+            start,
+            ..Default::default()
+        })
+    }
+
+    /// A basis says nothing about the size of `z`, so that sweeps cannot start from it.
+    pub(super) fn sweeps(&self) -> ProjectedGaussSeidel {
+        let Self { tolerance, time_limit, .. } = *self;
+        let start = match self.start {
+            WarmStart::Basis(_) => WarmStart::None,
+            other => other.clone(),
+        };
+        ProjectedGaussSeidel::new(ProjectedGaussSeidelSettings {
+            tolerance,
+            time_limit,
+            start,
+            ..Default::default()
+        })
+    }
+}
+
+pub(super) fn not_in_chain(method: Method) -> Error {
+    Error::NotTreated {
+        solver: method.name(),
+        reason: "it is not in the chain of this problem".to_owned(),
+    }
+}

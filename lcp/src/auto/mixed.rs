@@ -1,0 +1,93 @@
+//! The chains of problems with free and with bounded variables.
+
+use super::facts::Facts;
+use super::memory;
+use super::method::{Effort, Method, Planned, Step, not_in_chain};
+use super::standard::common_steps;
+use crate::{BoxedLcp, Error, MixedLcp, Solution, Solver};
+
+impl Planned for MixedLcp {
+    fn pairs(&self) -> usize {
+        self.order()
+    }
+
+    fn steps(&self) -> Vec<Step> {
+        let facts = Facts::of(self.m());
+        let free = self.free().iter().filter(|free| **free).count();
+        let program = is_program(self).then(|| {
+            format!(
+                "{}, M = [P, -G^T; G, S]: a quadratic program, convex if P and S are positive \
+                 semidefinite",
+                facts.size()
+            )
+        });
+        let mut steps = common_steps(&facts, program, false);
+        for step in &mut steps {
+            step.reason = format!("{free} free variables, {}", step.reason);
+        }
+        steps
+    }
+
+    fn attempt(&self, method: Method, effort: &Effort<'_>) -> Result<Solution, Error> {
+        match method {
+            Method::Lemke => {
+                memory::check(self.m().is_sparse(), self.order())?;
+                effort.lemke().solve(&self.to_general())
+            }
+            Method::InteriorPoint => effort.interior_point().solve(self),
+            #[cfg(feature = "clarabel")]
+            Method::QuadraticProgram => effort.quadratic_program().solve(self),
+            other => Err(not_in_chain(other)),
+        }
+    }
+}
+
+/// Whether `M` is symmetric within the free and within the other variables, and skew between them.
+fn is_program(mixed: &MixedLcp) -> bool {
+    const ROUNDING: f64 = 1e-12;
+    let (m, free) = (mixed.m(), mixed.free());
+    let size: Vec<f64> = (0..mixed.order()).map(|i| m[(i, i)].abs().sqrt()).collect();
+    let fits = |i: usize, j: usize, v: f64| {
+        let mirrored = m[(j, i)];
+        let wrong = if free[i] == free[j] { v - mirrored } else { v + mirrored };
+        let largest = v.abs().max(mirrored.abs()).max(size[i] * size[j]);
+        wrong.abs() <= ROUNDING * largest
+    };
+    (0..mixed.order()).all(|j| m.column(j).all(|(i, v)| fits(i, j, v)))
+}
+
+impl Planned for BoxedLcp {
+    fn pairs(&self) -> usize {
+        let bounds = self.lower().iter().zip(self.upper());
+        let is_between = |l: f64, u: f64| l.is_finite() && u.is_finite() && l < u;
+        self.order() + bounds.filter(|(l, u)| is_between(**l, **u)).count()
+    }
+
+    fn steps(&self) -> Vec<Step> {
+        let facts = Facts::of(self.m());
+        let general = self.to_general();
+        let mut steps = common_steps(&facts, None, facts.has_positive_diagonal);
+        // Where a variable is free the general problem is no standard one.
+        let is_standard = general.to_standard().is_some();
+        steps.retain(|step| is_standard || step.method != Method::InteriorPoint);
+        for step in &mut steps {
+            step.reason =
+                format!("{} pairs with those of the bounds, {}", general.order(), step.reason);
+        }
+        steps
+    }
+
+    fn attempt(&self, method: Method, effort: &Effort<'_>) -> Result<Solution, Error> {
+        match method {
+            Method::Lemke => {
+                memory::check(self.m().is_sparse(), self.pairs())?;
+                effort.lemke().solve(&self.to_general())
+            }
+            Method::InteriorPoint => effort.interior_point().solve(&self.to_general()),
+            Method::ProjectedGaussSeidel => effort.sweeps().solve(self),
+            Method::SemismoothNewton => Err(not_in_chain(method)),
+            #[cfg(feature = "clarabel")]
+            Method::QuadraticProgram => Err(not_in_chain(method)),
+        }
+    }
+}

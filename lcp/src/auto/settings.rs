@@ -1,0 +1,35 @@
+//! Settings of the choice.
+
+use std::time::Duration;
+
+use crate::{Error, LemkeSettings, WarmStart};
+
+/// Settings of [`Auto`](crate::Auto).
+#[derive(Debug, Clone, PartialEq)]
+pub struct AutoSettings {
+    /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`. Every method gets it.
+    pub tolerance: f64,
+    /// Wall-clock time of all methods together: every one gets what those before it have left. `None` is
+    /// no limit, and then a method of the chain may take very long where those before it failed.
+    pub time_limit: Option<Duration>,
+    /// A point or a basis, of the pairs of the general form, that may be the solution of a similar
+    /// problem. It goes to the methods that can start from it.
+    pub start: WarmStart,
+}
+
+impl Default for AutoSettings {
+    fn default() -> Self {
+        Self { tolerance: 1e-10, time_limit: None, start: WarmStart::None }
+    }
+}
+
+impl AutoSettings {
+    /// Checks the settings for a problem of `n` pairs.
+    ///
+    /// # Errors
+    /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
+    pub fn validate(&self, n: usize) -> Result<(), Error> {
+        let Self { tolerance, start, .. } = self.clone();
+        LemkeSettings { tolerance, start, ..LemkeSettings::default() }.validate(n)
+    }
+}

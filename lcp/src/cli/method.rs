@@ -1,0 +1,170 @@
+//! The method that the command line asks for, on the problem of the file.
+
+use std::time::Duration;
+
+use super::{Failure, SolveArgs, Solver};
+use crate::auto::memory;
+use crate::io::Problem;
+use crate::{
+    Auto, AutoSettings, Error, HorizontalLcp, InteriorPoint, InteriorPointSettings, Lemke,
+    LemkeSettings, ProjectedGaussSeidel, ProjectedGaussSeidelSettings, QuadraticProgram,
+    QuadraticProgramSettings, SemismoothNewton, SemismoothNewtonSettings, Solution,
+};
+
+/// Every method gets the problem in its own form where it treats that, else in the general form, whose
+/// pairs the solution has in any case.
+pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Failure> {
+    let time_limit = time_limit(args)?;
+    let solution = match method(args)? {
+        Solver::Auto => {
+            let defaults = AutoSettings::default();
+            let tolerance = args.tol.unwrap_or(defaults.tolerance);
+            auto(&Auto::new(AutoSettings { tolerance, time_limit, ..defaults }), problem)
+        }
+        Solver::Lemke => {
+            let defaults = LemkeSettings::default();
+            let settings = LemkeSettings {
+                tolerance: args.tol.unwrap_or(defaults.tolerance),
+                max_pivots: args.max_pivots,
+                trace: args.trace.is_some(),
+                time_limit,
+                ..defaults
+            };
+            lemke(&Lemke::new(settings), &problem.to_general())
+        }
+        Solver::Pgs => {
+            let defaults = ProjectedGaussSeidelSettings::default();
+            let settings = ProjectedGaussSeidelSettings {
+                tolerance: args.tol.unwrap_or(defaults.tolerance),
+                max_iterations: args.max_iterations.unwrap_or(defaults.max_iterations),
+                time_limit,
+                ..defaults
+            };
+            sweep(&ProjectedGaussSeidel::new(settings), problem)
+        }
+        Solver::Qp => {
+            let defaults = QuadraticProgramSettings::default();
+            let settings = QuadraticProgramSettings {
+                tolerance: args.tol.unwrap_or(defaults.tolerance),
+                max_iterations: args.max_iterations.unwrap_or(defaults.max_iterations),
+                time_limit,
+                ..defaults
+            };
+            program(&QuadraticProgram::new(settings), problem)
+        }
+        Solver::Newton => {
+            let defaults = SemismoothNewtonSettings::default();
+            let settings = SemismoothNewtonSettings {
+                tolerance: args.tol.unwrap_or(defaults.tolerance),
+                max_iterations: args.max_iterations.unwrap_or(defaults.max_iterations),
+                time_limit,
+                ..defaults
+            };
+            newton(&SemismoothNewton::new(settings), problem)
+        }
+        Solver::Interior => {
+            let defaults = InteriorPointSettings::default();
+            let settings = InteriorPointSettings {
+                tolerance: args.tol.unwrap_or(defaults.tolerance),
+                max_iterations: args.max_iterations.unwrap_or(defaults.max_iterations),
+                time_limit,
+                ..defaults
+            };
+            interior(&InteriorPoint::new(settings), problem)
+        }
+    };
+    Ok(solution?)
+}
+
+/// The method, after a look at the options that only some of them have.
+fn method(args: &SolveArgs) -> Result<Solver, Failure> {
+    let pivots = [("--max-pivots", args.max_pivots.is_some()), ("--trace", args.trace.is_some())];
+    let asked = pivots.iter().find_map(|&(option, is_given)| is_given.then_some(option));
+    match (args.solver, asked) {
+        (Solver::Auto | Solver::Lemke, _) if args.max_iterations.is_some() => Err(
+            "--max-iterations is for one of the iterative methods: choose it by --solver pgs, qp, newton \
+             or interior, or leave the option out; pivots of lemke have --max-pivots"
+                .into(),
+        ),
+        (Solver::Auto, Some(_)) => Ok(Solver::Lemke),
+        (solver, None) | (solver @ Solver::Lemke, _) => Ok(solver),
+        (solver, Some(option)) => Err(format!(
+            "{option} is about the pivots of Lemke's method, and {} has none: leave it out, or take \
+             --solver lemke",
+            solver.name()
+        )
+        .into()),
+    }
+}
+
+fn time_limit(args: &SolveArgs) -> Result<Option<Duration>, Failure> {
+    let limit = |seconds| {
+        Duration::try_from_secs_f64(seconds)
+            .map_err(|error| format!("--time-limit {seconds}: {error}").into())
+    };
+    args.time_limit.map(limit).transpose()
+}
+
+fn auto(solver: &Auto, problem: &Problem) -> Result<Solution, Error> {
+    use crate::Solver;
+    match problem {
+        Problem::Lcp(problem) => solver.solve(problem),
+        Problem::Horizontal(problem) => solver.solve(problem),
+        Problem::Mixed(problem) => solver.solve(problem),
+        Problem::Boxed(problem) => solver.solve(problem),
+        Problem::Friction(problem) => solver.solve(problem),
+    }
+}
+
+fn lemke(solver: &Lemke, problem: &HorizontalLcp) -> Result<Solution, Error> {
+    memory::check(problem.is_sparse(), problem.order())?;
+    solver.solve(problem)
+}
+
+fn sweep(solver: &ProjectedGaussSeidel, problem: &Problem) -> Result<Solution, Error> {
+    match problem {
+        Problem::Lcp(problem) => solver.solve(problem),
+        Problem::Horizontal(problem) => solver.solve(problem),
+        Problem::Mixed(problem) => solver.solve(&problem.to_general()),
+        Problem::Boxed(problem) => solver.solve(problem),
+        Problem::Friction(problem) => solver.solve(problem),
+    }
+}
+
+fn program(solver: &QuadraticProgram, problem: &Problem) -> Result<Solution, Error> {
+    use crate::Solver;
+    match problem {
+        Problem::Lcp(problem) => solver.solve(problem),
+        Problem::Mixed(problem) => solver.solve(problem),
+        Problem::Friction(problem) => solver.solve(problem.standard()),
+        Problem::Horizontal(_) | Problem::Boxed(_) => solver.solve(&problem.to_general()),
+    }
+}
+
+fn newton(solver: &SemismoothNewton, problem: &Problem) -> Result<Solution, Error> {
+    use crate::Solver;
+    match problem {
+        Problem::Lcp(problem) => solver.solve(problem),
+        Problem::Friction(problem) => solver.solve(problem.standard()),
+        Problem::Horizontal(_) | Problem::Mixed(_) | Problem::Boxed(_) => {
+            solver.solve(&problem.to_general())
+        }
+    }
+}
+
+fn interior(solver: &InteriorPoint, problem: &Problem) -> Result<Solution, Error> {
+    use crate::Solver;
+    match problem {
+        Problem::Lcp(problem) => solver.solve(problem),
+        Problem::Mixed(problem) => solver.solve(problem),
+        Problem::Friction(problem) => solver.solve(problem),
+        Problem::Horizontal(_) | Problem::Boxed(_) => solver.solve(&problem.to_general()),
+    }
+}
+
+impl Solver {
+    fn name(self) -> String {
+        clap::ValueEnum::to_possible_value(&self)
+            .map_or_else(String::new, |it| it.get_name().into())
+    }
+}

@@ -1,0 +1,141 @@
+//! The report of `lcp solve`.
+
+use std::fmt::Write as _;
+
+use super::residual_lines;
+use super::solve::{Answer, Work};
+use crate::io::ProblemFile;
+use crate::{Attempt, Perturbation, Status};
+
+pub(super) fn text(file: &ProblemFile, answer: &Answer<'_>) -> String {
+    let Answer { status, solver, n, work, time_s, .. } = answer;
+    let mut text = format!("{} of order {n}, read as {}\n", answer.kind, file.format);
+    let _ = writeln!(text, "{status}: {solver}, {work}, {time_s:.3} s");
+    if let Some(meaning) = meaning(answer) {
+        let _ = writeln!(text, "{meaning}");
+    }
+    text += &route_lines(answer);
+    text.push('\n');
+    text += &residual_lines(&answer.residuals);
+    if *status == Status::Solved {
+        text += &point_lines(answer);
+    } else {
+        text += &attempt_lines(answer.attempts);
+    }
+    text
+}
+
+impl std::fmt::Display for Work {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match *self {
+            Self::Pivots { pivots } => f.write_str(&counted(pivots, "pivot")),
+            Self::Iterations { iterations, factorisations } => {
+                f.write_str(&counted(iterations, "iteration"))?;
+                if factorisations > 0 {
+                    write!(f, ", {}", counted(factorisations, "factorisation"))?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+/// What a status means for the user, where its name does not say it.
+fn meaning(answer: &Answer<'_>) -> Option<&'static str> {
+    let is_auto = !answer.routes.is_empty();
+    Some(match answer.status {
+        Status::AlmostSolved => {
+            "The residuals are above the tolerance; the best point is printed with --json."
+        }
+        Status::Infeasible => "There is no solution; --json prints the proof.",
+        Status::NoEquilibrium => {
+            "Soft springs keep their share of the load, however soft they are, so that there seems to be \
+             no solution. That is no proof; --json prints the evidence."
+        }
+        Status::RayTermination => {
+            "No solution was found. That is no proof that there is none; --json prints the first ray."
+        }
+        Status::NoComplementaryBasis => {
+            "No complementary basis is nonsingular, and with artificial columns no solution was found."
+        }
+        Status::PivotLimit => "The pivots were used up; --max-pivots allows more.",
+        Status::Cycling if !answer.attempts.is_empty() => {
+            "A basis came back in an attempt, and the others found no solution either."
+        }
+        Status::Cycling | Status::Stalled | Status::IterationLimit if is_auto => {
+            "No method of the chain found a solution."
+        }
+        Status::IterationLimit => "The iterations were used up; --max-iterations allows more.",
+        Status::TimeLimit => "The time was used up; --time-limit allows more.",
+        Status::Cycling => {
+            "The method came back to where it had been; another --solver may succeed."
+        }
+        Status::Stalled => {
+            "The method cannot go on from where it is; another --solver may succeed."
+        }
+        Status::NumericalTrouble => "Rounding errors could not be brought under control.",
+        _ => return None,
+    })
+}
+
+/// What the choice of the method was, and how it ended where it was not the only one.
+fn route_lines(answer: &Answer<'_>) -> String {
+    let mut lines = String::new();
+    match answer.routes {
+        [] => {}
+        [only] => {
+            let _ = writeln!(lines, "auto chose {}: {}", only.solver, only.reason);
+        }
+        routes => {
+            for (number, route) in routes.iter().enumerate() {
+                let verb = if number == 0 { "auto chose" } else { "then" };
+                let _ = writeln!(
+                    lines,
+                    "{verb} {}: {}\n  {}, {:.3} s",
+                    route.solver, route.reason, route.end, route.seconds
+                );
+            }
+        }
+    }
+    lines
+}
+
+fn attempt_lines(attempts: &[Attempt]) -> String {
+    let mut lines = String::new();
+    for (number, attempt) in attempts.iter().enumerate() {
+        let Attempt { start, covering, perturbation, end, pivots, .. } = attempt;
+        let perturbation = match perturbation {
+            Perturbation::None => "as given".to_owned(),
+            other => other.to_string(),
+        };
+        let number = number + 1;
+        let _ = writeln!(
+            lines,
+            "attempt {number}: start {start}, covering {covering}, data {perturbation}: {end:?} after \
+             {pivots} pivots"
+        );
+    }
+    lines
+}
+
+/// The first entries of the answer.
+fn point_lines(answer: &Answer<'_>) -> String {
+    const LONGEST: usize = 40;
+    let (names, columns) = match &answer.contacts {
+        Some(forces) => (["normal", "tangential"], [&forces.normal, &forces.tangential]),
+        None => (["z", "w"], [&answer.z, &answer.w]),
+    };
+    let mut lines = format!("\n{:>5} {:>16} {:>16}\n", "", names[0], names[1]);
+    for (i, (first, second)) in columns[0].iter().zip(columns[1]).enumerate().take(LONGEST) {
+        let _ = writeln!(lines, "{i:>5} {first:>16.8e} {second:>16.8e}");
+    }
+    let more = columns[0].len().saturating_sub(LONGEST);
+    if more > 0 {
+        let _ = writeln!(lines, "      and {more} more, all of them with --json");
+    }
+    lines
+}

@@ -1,0 +1,362 @@
+//! The interior-point method: closed forms, families with known answers, limits, and what has no solution.
+
+#![allow(clippy::unwrap_used)] // a test may panic
+
+mod common;
+
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+use faer::sparse::SparseColMat;
+use faer::{Mat, mat};
+use lcp::families::{self, Ground, Known, Obstacle};
+use lcp::{
+    Contact2d, ContactState, Error, HorizontalLcp, InteriorPoint, InteriorPointSettings, Lcp,
+    Lemke, MixedLcp, Solution, Solver, Status, WarmStart,
+};
+use proptest::collection::vec;
+use proptest::prelude::*;
+
+fn default() -> InteriorPointSettings {
+    InteriorPointSettings::default()
+}
+
+fn solve(problem: &Contact2d) -> Solution {
+    InteriorPoint::default().solve(problem).unwrap()
+}
+
+/// The state of an exact solution, whose basis leads to it again without a step.
+fn state(problem: &Contact2d) -> ContactState {
+    let solution = solve(problem);
+    assert!(solution.is_solved(), "{:?}: {:?}", solution.status, solution.residuals);
+    assert!(solution.residuals.worst() < 1e-13, "{:?}", solution.residuals);
+    let start = WarmStart::Basis(solution.basis.clone().expect("a basis"));
+    let again = InteriorPoint::new(InteriorPointSettings { start, ..default() });
+    let again = again.solve(problem).unwrap();
+    assert!(again.is_solved() && again.info.iterations == 0, "{:?}", again.status);
+    problem.recover(&solution.t, &solution.y)
+}
+
+fn assert_close(found: &[f64], expected: &[f64]) {
+    let size = expected.iter().fold(1.0_f64, |max, v| max.max(v.abs()));
+    let is_close = found.len() == expected.len()
+        && found.iter().zip(expected).all(|(a, b)| (a - b).abs() <= 1e-12 * size);
+    assert!(is_close, "{found:?} instead of {expected:?}");
+}
+
+/// A body of two displacements under a load, with springs of this stiffness, on planes through the origin.
+fn body(stiffness: [f64; 2], load: [f64; 2], normals: &[[f64; 2]], mu: f64) -> Contact2d {
+    let m = normals.len();
+    let c_n = Mat::from_fn(m, 2, |i, j| normals[i][j]);
+    let c_t = Mat::from_fn(m, 2, |i, j| [-normals[i][1], normals[i][0]][j]);
+    let k = mat![[stiffness[0], 0.0], [0.0, stiffness[1]]];
+    let zero = vec![0.0; m];
+    Contact2d::new(k, load.to_vec(), c_n, c_t, zero.clone(), zero, vec![mu; m]).unwrap()
+}
+
+#[test]
+fn a_block_on_a_plane_sticks_slides_or_leaves() {
+    let on_plane = |push: f64, lift: f64| body([2.0, 2.0], [push, lift], &[[0.0, 1.0]], 0.5);
+    for (push, force, way) in
+        [(0.0, 0.0, 0.0), (3.0, 3.0, 0.0), (9.0, 5.0, 2.0), (-9.0, -5.0, -2.0)]
+    {
+        let ContactState { u, t_n, t_t, gap, slip, .. } = state(&on_plane(push, -10.0));
+        // The tangent points to the left.
+        assert_close(&[t_n[0], t_t[0], u[0], slip[0], gap[0]], &[10.0, force, way, -way, 0.0]);
+    }
+    let ContactState { u, t_n, gap, .. } = state(&on_plane(1.0, 4.0));
+    assert_close(&[u[0], u[1], t_n[0], gap[0]], &[0.5, 2.0, 0.0, 2.0]);
+}
+
+/// Just below and just above the force at which a rigid block without springs begins to slide.
+#[test]
+fn a_rigid_block_stands_up_to_the_friction_and_not_beyond() {
+    let rigid = |push: f64| body([0.0, 0.0], [push, -10.0], &[[0.0, 1.0]], 0.5);
+    for push in [0.0, 4.9, -4.9, 5.0 * (1.0 - 1e-6)] {
+        let ContactState { t_n, t_t, .. } = state(&rigid(push));
+        assert_close(&[t_n[0], t_t[0]], &[10.0, push]);
+    }
+    for push in [5.0 * (1.0 + 1e-2), 6.0, -50.0] {
+        let solution = solve(&rigid(push));
+        assert_eq!(solution.status, Status::NoEquilibrium);
+        let springs = solution.springs.expect("the evidence");
+        // What friction leaves over, of the whole load.
+        let share = (push.abs() - 5.0) / (push.abs() + 10.0);
+        let last = *springs.shares.last().unwrap();
+        assert!((last - share).abs() < 0.1 * share, "{last} instead of {share}");
+        assert!(springs.motion[0] * push > 0.0 && springs.stiffness.len() == springs.shares.len());
+    }
+}
+
+#[test]
+fn a_body_that_nothing_holds_falls() {
+    let solution = solve(&body([0.0, 0.0], [0.0, 3.0], &[[0.0, 1.0]], 0.5));
+    assert_eq!(solution.status, Status::NoEquilibrium);
+    assert!(solution.springs.is_some_and(|springs| springs.motion[1] > 0.0));
+    let without = InteriorPointSettings { continuation: false, ..default() };
+    let falling = body([0.0, 0.0], [6.0, -10.0], &[[0.0, 1.0]], 0.5);
+    let solution = InteriorPoint::new(without).solve(&falling).unwrap();
+    assert_eq!(solution.status, Status::Stalled);
+    assert!(solution.springs.is_none());
+}
+
+#[test]
+fn a_wedge_is_held_by_two_planes() {
+    let (first, second) = (0.3_f64, 0.8_f64);
+    let normals = [[first.sin(), first.cos()], [-second.sin(), second.cos()]];
+    let part = 10.0 / (first + second).sin();
+    for stiffness in [[2.0, 2.0], [0.0, 0.0]] {
+        let ContactState { t_n, u, .. } = state(&body(stiffness, [0.0, -10.0], &normals, 0.0));
+        assert_close(&t_n, &[part * second.sin(), part * first.sin()]);
+        assert_close(&u, &[0.0, 0.0]);
+        let ContactState { u, .. } = state(&body(stiffness, [0.0, -10.0], &normals, 0.5));
+        assert_close(&u, &[0.0, 0.0]);
+    }
+}
+
+/// A rigid beam on more supports than it needs: the forces are not unique, their resultants are.
+#[test]
+fn a_beam_on_many_supports_is_carried() {
+    let m = 40;
+    let at = |i: usize| i as f64 - 19.5;
+    let c_n = Mat::from_fn(m, 3, |i, j| [0.0, 1.0, at(i)][j]);
+    let c_t = Mat::from_fn(m, 3, |_, j| [-1.0, 0.0, 0.0][j]);
+    let (zero, mu) = (vec![0.0; m], vec![0.5; m]);
+    let load = vec![3.0, -70.0, 35.0];
+    let problem = Contact2d::new(Mat::zeros(3, 3), load, c_n, c_t, zero.clone(), zero, mu).unwrap();
+    let ContactState { t_n, t_t, .. } = state(&problem);
+    let moment: f64 = t_n.iter().enumerate().map(|(i, t)| at(i) * t).sum();
+    let (sum, friction): (f64, f64) = (t_n.iter().sum(), t_t.iter().sum());
+    assert_close(&[sum, moment, friction], &[70.0, -35.0, 3.0]);
+}
+
+/// A surface that moves on drags the body into a wall, and its friction pushes it back no further: there is
+/// no solution, which must not be called one.
+#[test]
+fn a_driven_body_may_jam() {
+    let one = |v: f64| mat![[v]];
+    let problem =
+        Contact2d::new(one(1.0), vec![1.0], one(-1.0), one(-2.0), vec![0.0], vec![1.0], vec![0.5]);
+    let solution = solve(&problem.unwrap());
+    assert!(!solution.is_solved(), "{:?}", solution.residuals);
+}
+
+#[test]
+fn standard_problems_with_known_answers_are_solved() {
+    for seed in 0..20 {
+        for n in [1, 5, 30] {
+            let instances = [
+                families::positive_definite(n, seed),
+                families::positive_semidefinite(n, seed),
+                families::harker_pang(n, seed),
+                families::ties(n, seed),
+            ];
+            for instance in instances {
+                let solution = InteriorPoint::default().solve(&instance.problem).unwrap();
+                assert!(solution.is_solved(), "{n}, {seed}: {:?}", solution.status);
+                if let Known::Unique { t, y } = instance.known {
+                    let size = t.iter().chain(&y).fold(1.0_f64, |max, v| max.max(v.abs()));
+                    let pairs = solution.t.iter().zip(&t).chain(solution.y.iter().zip(&y));
+                    let error = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                    assert!(error < 1e-8 * size, "{n}, {seed}: {error}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn mixed_problems_with_known_answers_are_solved() {
+    for seed in 0..20 {
+        for n in [2, 5, 30] {
+            let problem = families::mixed_monotone(n, seed).problem;
+            let solution = InteriorPoint::default().solve(&problem).unwrap();
+            assert!(solution.is_solved(), "{n}, {seed}: {:?}", solution.status);
+            let (z, w) = problem.recover(&solution.t, &solution.y);
+            assert!(problem.residuals(&z, &w).worst() < 1e-10);
+        }
+    }
+}
+
+/// Residuals are relative to the terms: a point far enough out has small ones.
+#[test]
+fn infeasible_problems_are_never_called_solved() {
+    for seed in 0..40 {
+        for n in [4, 12] {
+            let problem = families::infeasible_semidefinite(n, seed).problem;
+            let solution = InteriorPoint::default().solve(&problem).unwrap();
+            assert!(!solution.is_solved(), "{n}, {seed}: {:?}", solution.residuals);
+            assert!(solution.t.iter().chain(&solution.y).all(|v| v.is_finite()));
+        }
+    }
+}
+
+/// The obstacle problem in three forms.
+#[test]
+fn a_membrane_over_an_obstacle() {
+    let problem = Obstacle::new(30, 30, Ground::Disc { radius: 0.6 }).problem();
+    let route = InteriorPoint::default();
+    let solution = route.solve(&problem).unwrap();
+    assert!(solution.is_solved() && solution.residuals.worst() < 1e-14);
+    let general = HorizontalLcp::from(problem.clone());
+    let free = vec![false; problem.order()];
+    let mixed = MixedLcp::new(problem.m().clone(), problem.q().to_vec(), free).unwrap();
+    for other in [route.solve(&general).unwrap(), route.solve(&mixed).unwrap()] {
+        assert!(other.is_solved());
+        assert_close(&other.t, &solution.t);
+    }
+}
+
+#[test]
+fn what_is_no_standard_problem_is_refused_with_a_remedy() {
+    let a = mat![[1.0, 2.0], [2.0, 1.0]];
+    let problem = HorizontalLcp::new(a.clone(), a, vec![1.0, 1.0]).unwrap();
+    let error = InteriorPoint::default().solve(&problem).unwrap_err();
+    assert!(matches!(error, Error::NotTreated { solver: "interior point", .. }));
+    assert!(error.to_string().contains("Lemke's method treats it"), "{error}");
+}
+
+#[test]
+fn limits_are_kept_and_leave_the_best_point() {
+    let problem = Obstacle::new(20, 20, Ground::Hills { count: 2 }).problem();
+    let run = |settings| InteriorPoint::new(settings).solve(&problem).unwrap();
+    let few = run(InteriorPointSettings { max_iterations: 2, ..default() });
+    assert_eq!((few.status, few.info.iterations), (Status::IterationLimit, 2));
+    assert!(few.residuals.worst().is_finite() && few.info.history.len() == 3);
+    let late = run(InteriorPointSettings { time_limit: Some(Duration::ZERO), ..default() });
+    assert_eq!((late.status, late.info.iterations), (Status::TimeLimit, 0));
+    let block = body([2.0, 2.0], [9.0, -10.0], &[[0.0, 1.0]], 0.5);
+    let cancelled =
+        InteriorPoint::default().solve_observed(&block, &mut |_| ControlFlow::Break(()));
+    assert_eq!(cancelled.unwrap().status, Status::Cancelled);
+}
+
+#[test]
+fn settings_out_of_range_are_errors() {
+    let block = body([2.0, 2.0], [9.0, -10.0], &[[0.0, 1.0]], 0.5);
+    for tolerance in [0.0, 1.0, f64::NAN] {
+        let settings = InteriorPointSettings { tolerance, ..default() };
+        let error = InteriorPoint::new(settings).solve(&block).unwrap_err();
+        assert!(matches!(error, Error::Setting { name: "tolerance", .. }), "{error}");
+    }
+    let start = WarmStart::Point { t: vec![0.0; 3], y: vec![0.0; 5] };
+    let settings = InteriorPointSettings { start, ..default() };
+    let error = InteriorPoint::new(settings).solve(&block).unwrap_err();
+    assert!(matches!(error, Error::Length { name: "start.t", len: 3, expected: 5 }), "{error}");
+}
+
+/// Rows of blocks on each other, each of which may slide and lift; small integers.
+fn problems() -> impl Strategy<Value = Contact2d> {
+    let entries = |n: usize, most: i8| vec((-most..=most).prop_map(f64::from), n);
+    (1..=6usize, 1..=5usize).prop_flat_map(move |(n, m)| {
+        let matrices = (entries(n * n, 2), entries(m * n, 2), entries(m * n, 2));
+        let mu = vec(prop::sample::select(std::vec![0.0, 0.125, 0.25, 0.5]), m);
+        let gaps = vec((0..=2i8).prop_map(f64::from), m);
+        (matrices, entries(n, 6), gaps, mu).prop_map(move |((r, c_n, c_t), f, x_0, mu)| {
+            let r = Mat::from_fn(n, n, |i, j| r[i * n + j]);
+            let k = &r * r.transpose() + Mat::<f64>::identity(n, n);
+            let c_n = Mat::from_fn(m, n, |i, j| c_n[i * n + j]);
+            let c_t = Mat::from_fn(m, n, |i, j| c_t[i * n + j]);
+            Contact2d::new(k, f, c_n, c_t, x_0, vec![0.0; m], mu).unwrap()
+        })
+    })
+}
+
+/// The same with these units of force and length and of every displacement.
+fn in_units(problem: &Contact2d, force: f64, length: f64, unit: &[f64]) -> Contact2d {
+    let (n, m) = (problem.displacements(), problem.points());
+    let [k, c_n, c_t] =
+        [problem.stiffness(), problem.normal(), problem.tangent()].map(SparseColMat::to_dense);
+    let scaled = |v: &[f64], by: f64| -> Vec<f64> { v.iter().map(|v| v * by).collect() };
+    Contact2d::new(
+        Mat::from_fn(n, n, |i, j| force / length * k[(i, j)] * unit[i] * unit[j]),
+        problem.loads().iter().zip(unit).map(|(f, unit)| force * f * unit).collect(),
+        Mat::from_fn(m, n, |i, j| c_n[(i, j)] * unit[j]),
+        Mat::from_fn(m, n, |i, j| c_t[(i, j)] * unit[j]),
+        scaled(problem.initial_gaps(), length),
+        scaled(problem.initial_slips(), length),
+        problem.mu().to_vec(),
+    )
+    .unwrap()
+}
+
+proptest! {
+    #![proptest_config(common::cases(256))]
+
+    /// Gaps that are not negative and a regular stiffness: there is a solution. Its energy is that of
+    /// Lemke's where there is no friction, and with it both are solutions, of which there may be several.
+    #[test]
+    fn elastic_bodies_are_solved(problem in problems()) {
+        let solution = solve(&problem);
+        prop_assert!(solution.is_solved(), "{:?}", solution.status);
+        let found = problem.recover(&solution.t, &solution.y);
+        prop_assert!(problem.residuals(&found).worst() <= 1e-10);
+        if problem.frictional().is_empty() {
+            let lemke = Solver::<Contact2d>::solve(&Lemke::default(), &problem).unwrap();
+            prop_assert!(lemke.is_solved());
+            assert_close(&found.u, &problem.recover(&lemke.t, &lemke.y).u);
+        }
+    }
+
+    #[test]
+    fn units_do_not_matter(
+        problem in problems(),
+        (force, length) in (-30..30i32, -30..30i32),
+        units in vec(-10..10i32, 6),
+    ) {
+        let (force, length) = (f64::from(force).exp2(), f64::from(length).exp2());
+        let unit: Vec<f64> = units[..problem.displacements()].iter().map(|u| f64::from(*u).exp2()).collect();
+        let other = in_units(&problem, force, length, &unit);
+        let (first, second) = (solve(&problem), solve(&other));
+        prop_assert!(first.is_solved() && second.is_solved(), "{:?}", second.status);
+        if problem.frictional().is_empty() {
+            let (u, other) = (
+                problem.recover(&first.t, &first.y).u,
+                other.recover(&second.t, &second.y).u,
+            );
+            let back: Vec<f64> = other.iter().zip(&unit).map(|(u, unit)| u * unit / length).collect();
+            assert_close(&back, &u);
+        }
+    }
+
+    /// A point near a solution has its states.
+    #[test]
+    fn a_point_is_a_start(problem in problems()) {
+        let solution = solve(&problem);
+        prop_assert!(solution.is_solved());
+        let start = WarmStart::Point { t: solution.t.clone(), y: solution.y.clone() };
+        let again = InteriorPoint::new(InteriorPointSettings { start, ..default() });
+        let again = again.solve(&problem).unwrap();
+        prop_assert!(again.is_solved());
+        prop_assert!(again.info.factorisations <= solution.info.factorisations);
+    }
+
+    /// Without crossover the answer is a point inside, as good as was asked for. Where no body is near any
+    /// contact, its forces have nothing by which they could be measured.
+    #[test]
+    fn points_inside_are_as_good_as_asked_for(problem in problems(), digits in 2..8i32) {
+        prop_assume!(problem.normal().val().iter().any(|v| *v != 0.0));
+        let tolerance = 10.0_f64.powi(-digits);
+        let settings = InteriorPointSettings { tolerance, crossover: false, ..default() };
+        let solution = InteriorPoint::new(settings).solve(&problem).unwrap();
+        prop_assert!(solution.is_solved(), "{:?}", solution.status);
+        let state = problem.recover(&solution.t, &solution.y);
+        prop_assert!(solution.basis.is_none() && problem.residuals(&state).worst() <= tolerance);
+    }
+}
+
+/// A standard problem as small as it can be, and one without pairs.
+#[test]
+fn the_smallest_problems() {
+    let route = InteriorPoint::default();
+    let one = Lcp::new(mat![[2.0]], vec![-4.0]).unwrap();
+    let solution = route.solve(&one).unwrap();
+    assert!(solution.is_solved());
+    assert_close(&[solution.t[0], solution.y[0]], &[2.0, 0.0]);
+    let free = MixedLcp::new(mat![[2.0, 1.0], [1.0, 3.0]], vec![-4.0, 3.0], vec![true; 2]).unwrap();
+    let solution = route.solve(&free).unwrap();
+    assert!(solution.is_solved(), "{:?}", solution.status);
+    assert_close(&free.recover(&solution.t, &solution.y).0, &[3.0, -2.0]);
+    let none = Lcp::new(Mat::zeros(0, 0), Vec::new()).unwrap();
+    assert!(route.solve(&none).unwrap().is_solved());
+}
