@@ -37,6 +37,10 @@ use crate::{
 /// normal force makes its values unsymmetric. Small proximal terms keep bodies that float and redundant
 /// contacts regular and vanish with the steps.
 ///
+/// With friction the path of the points with equal products can turn back: the products have to grow for a
+/// while. The sign of the determinant, which the factorisation gives, tells on which side of a turn a
+/// point is, and steps follow the path around it (Allgower and Georg 1990).
+///
 /// Near the solution comes the crossover: the state of every contact (open, sticking, sliding) is
 /// read off, the equations of these states are solved to the last digit, and the few contacts that
 /// contradict are exchanged, until the answer is a complementary basis with residuals at rounding level.
@@ -48,8 +52,8 @@ use crate::{
 ///
 /// # Guarantee
 /// None is proved. For monotone problems (no friction, positive semidefinite `M`) with a strictly feasible
-/// point the theory of such methods promises convergence. With friction the problem is not monotone, and
-/// steps are safeguarded only; walls of 10^5 contact points took 30 to 80 steps.
+/// point the theory of such methods promises convergence. With friction the path is followed, but may lead
+/// nowhere; walls of 6e4 contact points took 30 to 70 steps for `mu` from 1/2 to 1.
 ///
 /// # Failure
 /// [`Status::Stalled`] where neither the iteration nor the springs come to an end. [`Status::NoEquilibrium`]
@@ -57,7 +61,7 @@ use crate::{
 /// nevertheless. It has no Farkas vector.
 ///
 /// # Cost
-/// One sparse factorisation and two to five solves a step. A mixed problem whose `M` is dense is
+/// One sparse factorisation and two to six solves a step. A mixed problem whose `M` is dense is
 /// treated, but not faster than by dense methods.
 ///
 /// # References

@@ -36,8 +36,9 @@ pub(super) struct Condensed {
     pub(super) factorisations: usize,
 }
 
-/// Steps of iterative refinement.
+/// Steps of iterative refinement, and the residual, relative to the right-hand side, that needs none.
 const REFINEMENTS: usize = 2;
+const ENOUGH: f64 = 1e-11;
 
 impl Condensed {
     pub(super) fn new(problem: &Scaled) -> Result<Self, FaerError> {
@@ -122,6 +123,7 @@ impl Condensed {
     /// Overwrites a right-hand side with the solution.
     pub(super) fn solve(&self, x: &mut [f64]) {
         let right = x.to_vec();
+        let largest = max_abs(&right);
         self.factors.solve(x);
         let mut last = f64::INFINITY;
         for _ in 0..REFINEMENTS {
@@ -132,7 +134,7 @@ impl Condensed {
                 entries.for_each(|(&i, v)| rest[i] -= v * x);
             }
             let size = max_abs(&rest);
-            if size.is_nan() || size >= 0.5 * last || size == 0.0 {
+            if size.is_nan() || size >= 0.5 * last || size <= ENOUGH * largest {
                 break;
             }
             last = size;
