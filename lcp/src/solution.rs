@@ -287,7 +287,7 @@ impl std::fmt::Display for RouteEnd {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Route {
-    /// Its name.
+    /// Its short name.
     pub solver: &'static str,
     /// Why it was its turn.
     pub reason: String,
@@ -302,7 +302,7 @@ pub struct Route {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Info {
-    /// The method that the point comes from.
+    /// The short name of the method that the point comes from: `lemke`, `pgs`, `qp`, `newton` or `interior`.
     pub solver: &'static str,
     /// Pivots over all attempts.
     pub pivots: usize,
