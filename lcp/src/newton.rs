@@ -145,14 +145,23 @@ impl SemismoothNewton {
         let mut monitor = Monitor::new(settings.max_iterations, settings.time_limit, observer);
         let mut system = System::new(lcp);
         let (status, best) = self.run(lcp, &mut system, &mut monitor);
-        let Point { z, w, is_free, .. } = best;
         let clipped = |v: &[f64]| v.iter().map(|v| v.max(0.0)).collect::<Vec<_>>();
-        let (mut point, mut residuals) = judge(&clipped(&z), &clipped(&w));
-        if residuals.worst() > settings.tolerance {
-            (point, residuals) = judge(&z, &w);
+        let judge_clipped = |it: &Point| judge(&clipped(&it.z), &clipped(&it.w));
+        let (mut point, mut residuals) = judge_clipped(&best);
+        let mut is_free = &best.is_free;
+        let is_solved = |residuals: &Residuals| residuals.worst() <= settings.tolerance;
+        let clean = if is_solved(&residuals) { None } else { system.without_noise(&best) };
+        if let Some(clean) = &clean {
+            let (clean_point, clean_residuals) = judge_clipped(clean);
+            if is_solved(&clean_residuals) {
+                (point, residuals, is_free) = (clean_point, clean_residuals, &clean.is_free);
+            }
+        }
+        if !is_solved(&residuals) {
+            (point, residuals) = judge(&best.z, &best.w);
         }
         let mut solution = Solution::judged(point, residuals, settings.tolerance, status);
-        solution.basis = Some(basis_of(&is_free));
+        solution.basis = Some(basis_of(is_free));
         solution.info.solver = Self::NAME;
         solution.info.iterations = monitor.iterations();
         solution.info.factorisations = system.factorisations();

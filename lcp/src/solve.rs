@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use crate::{
-    Basis, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Lemke, Progress, Side, Solution,
-    Status, WarmStart,
+    Basis, Contact2d, Covering, Error, Friction2d, HorizontalLcp, Lcp, Lemke, LemkeSettings,
+    Progress, Side, Solution, Status, WarmStart,
 };
 
 /// A method that treats problems of type `P`.
@@ -105,9 +105,9 @@ impl Solver<Friction2d> for Lemke {
     }
 }
 
-/// On the mixed problem of [`Contact2d::to_mixed`]. A start of the settings has its pairs, which are not those
-/// of the answer; without one the path starts from open contacts, with the displacements that they leave
-/// free. The answer has neither basis, ray nor Farkas vector, which would belong to the mixed problem.
+/// On the mixed problem of [`Contact2d::to_mixed`], to which a given covering vector belongs. Without a start
+/// the path begins from open contacts, with the displacements that they leave free. The answer has neither a
+/// basis nor a ray, which would belong to the mixed problem.
 impl Solver<Contact2d> for Lemke {
     fn name(&self) -> &'static str {
         Self::NAME
@@ -119,7 +119,10 @@ impl Solver<Contact2d> for Lemke {
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         let mixed = problem.to_mixed();
-        let mut settings = self.settings().clone();
+        let mut settings = LemkeSettings { covering: Covering::Ones, ..self.settings().clone() };
+        settings.validate(problem.order())?;
+        settings.covering = self.settings().covering.clone();
+        settings.start = problem.mixed_start(&mixed, &settings.start);
         if settings.start == WarmStart::None {
             // From there the problem is copositive, if `K` is regular; from a basis with contact forces
             // it is not, and a path may end on a ray.
@@ -135,7 +138,8 @@ impl Solver<Contact2d> for Lemke {
             solution.status = Status::AlmostSolved;
         }
         // These belong to the pairs of the mixed problem.
-        (solution.basis, solution.ray, solution.farkas) = (None, None, None);
+        (solution.basis, solution.ray) = (None, None);
+        solution.farkas = solution.farkas.map(|pi| problem.farkas_of_mixed(&pi));
         Ok(solution)
     }
 }

@@ -4,7 +4,9 @@ mod common;
 
 use faer::{Mat, mat};
 use lcp::exact::{EnumerationSettings, enumerate};
-use lcp::{Contact2d, ContactState, Lemke, Solver};
+use lcp::{
+    Contact2d, ContactState, InteriorPoint, Lemke, LemkeSettings, Solver, Status, WarmStart,
+};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -128,6 +130,46 @@ fn a_beam_on_many_supports_is_carried() {
         let moment: f64 = state.t_n.iter().enumerate().map(|(i, t)| at(i) * t).sum();
         let (sum, friction): (f64, f64) = (state.t_n.iter().sum(), state.t_t.iter().sum());
         assert_close(&[sum, moment, friction], &[70.0, -35.0, 3.0]);
+    }
+}
+
+/// A body of no stiffness between two walls that are too near to each other, and one that is lifted.
+#[test]
+fn what_cannot_be_is_proved() {
+    let zero = Mat::<f64>::zeros(2, 2);
+    let walls = mat![[1.0, 0.0], [-1.0, 0.0]];
+    let ways = mat![[0.0, 1.0], [0.0, 1.0]];
+    let squeezed = Contact2d::new(
+        zero.clone(),
+        vec![0.0, 0.0],
+        walls,
+        ways,
+        vec![-1.0, -1.0],
+        vec![0.0; 2],
+        vec![0.5; 2],
+    );
+    let lifted = Contact2d::new(
+        zero,
+        vec![0.0, 3.0],
+        mat![[0.0, 1.0]],
+        mat![[-1.0, 0.0]],
+        vec![0.0],
+        vec![0.0],
+        vec![0.5],
+    );
+    for problem in [squeezed.unwrap(), lifted.unwrap()] {
+        let solution = Solver::<Contact2d>::solve(&Lemke::default(), &problem).unwrap();
+        assert_eq!(solution.status, Status::Infeasible);
+        let pi = solution.farkas.expect("the proof");
+        let general = problem.to_general();
+        for matrix in [general.a(), general.b()] {
+            for j in 0..general.order() {
+                let product: f64 = matrix.column(j).map(|(i, v)| v * pi[i]).sum();
+                assert!(product <= 1e-14, "{j}: {product}");
+            }
+        }
+        let gain: f64 = general.c().iter().zip(&pi).map(|(c, pi)| c * pi).sum();
+        assert!(gain > 0.1, "{gain}");
     }
 }
 
@@ -283,6 +325,22 @@ proptest! {
                 assert_close(&state.t_n, &only.t_n);
                 assert_close(&state.t_t, &only.t_t);
             }
+        }
+    }
+
+    /// A solution, in the pairs of the general problem, is a start for the next solve.
+    #[test]
+    fn an_answer_is_a_start(problem in problems()) {
+        let solution = Solver::<Contact2d>::solve(&Lemke::default(), &problem).unwrap();
+        prop_assume!(solution.is_solved());
+        let start = WarmStart::Point { t: solution.t.clone(), y: solution.y.clone() };
+        let from_point = Lemke::new(LemkeSettings { start, ..LemkeSettings::default() });
+        let again = Solver::<Contact2d>::solve(&from_point, &problem).unwrap();
+        prop_assert!(again.is_solved());
+        if let Some(basis) = InteriorPoint::default().solve(&problem).unwrap().basis {
+            let start = WarmStart::Basis(basis);
+            let from_basis = Lemke::new(LemkeSettings { start, ..LemkeSettings::default() });
+            prop_assert!(Solver::<Contact2d>::solve(&from_basis, &problem).unwrap().is_solved());
         }
     }
 

@@ -11,6 +11,8 @@ use crate::random::SplitMix;
 const NOISE: f64 = 64.0 * f64::EPSILON;
 /// Largest residual, relative to the terms of its row, of a system that counts as solved.
 const USABLE: f64 = 1e-6;
+/// A variable below this, relative to the largest, may be one that vanishes.
+const MAY_VANISH: f64 = 1e-11;
 /// Residuals that a step of refinement would not decrease.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 const REFINEMENTS: usize = 3;
@@ -96,6 +98,22 @@ impl<'a> System<'a> {
         let mut is_free = point.is_free.clone();
         point.violated.iter().take(count).for_each(|&i| is_free[i] = !is_free[i]);
         self.point(&is_free)
+    }
+
+    /// The point without the free variables that may be zero. Where both variables of a pair vanish, `z` is
+    /// nothing but noise, which leaves rows with nothing larger in them a residual. None where there are
+    /// no such variables.
+    pub(super) fn without_noise(&mut self, point: &Point) -> Option<Point> {
+        let roots = self.diagonal.iter().zip(&point.z).map(|(d, z)| d.sqrt() * z.abs());
+        let size: Vec<f64> = roots.collect();
+        let noise = MAY_VANISH * max_abs(&size);
+        let is_kept: Vec<bool> = point
+            .is_free
+            .iter()
+            .zip(&size)
+            .map(|(is_free, size)| *is_free && *size > noise)
+            .collect();
+        if is_kept == point.is_free { None } else { self.point(&is_kept) }
     }
 
     /// The point of a free set; none where its matrix is singular to working precision.

@@ -1,10 +1,11 @@
 //! Contact with friction in the plane, sparse, with the displacements as free variables.
 
+mod mixed;
 mod residual;
 
 use faer::sparse::SparseColMat;
 
-use super::{HorizontalLcp, MixedLcp, check_length, check_vector};
+use super::{HorizontalLcp, check_length, check_vector};
 use crate::{Error, Matrix};
 
 /// Unilateral contact with Coulomb's friction between elastic or rigid bodies in the plane:
@@ -187,52 +188,6 @@ impl Contact2d {
         c.resize(order, 0.0);
         let [a, b] = [a, b].map(|entries| Matrix::from_entries(order, order, entries.into_iter()));
         HorizontalLcp::from_parts(a, b, c)
-    }
-
-    /// The mixed problem with the variables `u` (free), `t_n` and, for every point with friction, the
-    /// parts `b+`, `b-` of `t_t = b+ - b-` and the slip `l` to either side (Stewart and Trinkle 1996):
-    /// `w = (g, l + s, l - s, mu t_n - b+ - b-)`. It is copositive, which makes Lemke's method safer on
-    /// it than on the general problem, and larger by a pair for every point with friction.
-    pub fn to_mixed(&self) -> MixedLcp {
-        let (n, m, count) = (self.displacements(), self.points(), self.friction.len());
-        let order = n + m + 3 * count;
-        let mut entries = Vec::new();
-        for j in 0..n {
-            entries.extend(column_of(&self.k, j).map(|(i, v)| (i, j, v)));
-            for (i, v) in column_of(&self.c_n, j) {
-                entries.extend([(n + i, j, v), (j, n + i, -v)]);
-            }
-            for (k, v) in self.friction_rows(j) {
-                let [plus, minus, _] = [0, 1, 2].map(|part| n + m + part * count + k);
-                entries.extend([(plus, j, v), (j, plus, -v), (minus, j, -v), (j, minus, v)]);
-            }
-        }
-        let mut q: Vec<f64> = self.f.iter().map(|f| -f).chain(self.x_0.iter().copied()).collect();
-        q.resize(order, 0.0);
-        for (k, &point) in self.friction.iter().enumerate() {
-            let [plus, minus, slip] = [0, 1, 2].map(|part| n + m + part * count + k);
-            entries.extend([(plus, slip, 1.0), (minus, slip, 1.0)]);
-            entries.extend([(slip, plus, -1.0), (slip, minus, -1.0)]);
-            entries.push((slip, n + point, self.mu[point]));
-            (q[plus], q[minus]) = (self.s_0[point], -self.s_0[point]);
-        }
-        let matrix = Matrix::from_entries(order, order, entries.into_iter());
-        let free = (0..order).map(|i| i < n).collect();
-        MixedLcp::new(matrix, q, free).unwrap_or_else(|e| unreachable!("of checked parts: {e}"))
-    }
-
-    /// Displacements and forces from the variables `z` of the mixed problem.
-    ///
-    /// # Panics
-    /// If `z` does not have one entry for every variable.
-    pub fn from_mixed(&self, z: &[f64]) -> ContactState {
-        let (n, m, count) = (self.displacements(), self.points(), self.friction.len());
-        assert_eq!(z.len(), n + m + 3 * count, "one entry for every variable");
-        let mut t_t = vec![0.0; m];
-        for (k, &point) in self.friction.iter().enumerate() {
-            t_t[point] = z[n + m + k] - z[n + m + count + k];
-        }
-        self.state(z[..n].to_vec(), z[n..n + m].to_vec(), t_t)
     }
 
     /// Displacements and forces from a point of the general problem.

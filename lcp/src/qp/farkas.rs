@@ -21,7 +21,6 @@ const LEAST_GAP: f64 = 1e-9;
 
 /// A checked Farkas vector with a largest entry of one, if one is found.
 pub(super) fn farkas_vector(problem: &HorizontalLcp, effort: Effort) -> Option<Vec<f64>> {
-    let n = problem.order();
     let (form, rows) = projection(problem);
     let scaled = Scaled::new(&form);
     let limits = vec![0.0; form.rows()];
@@ -33,8 +32,7 @@ pub(super) fn farkas_vector(problem: &HorizontalLcp, effort: Effort) -> Option<V
     let mut proof = None;
     let mut judge = |point: &Point| {
         let pi = scaled.unscaled(point).x;
-        let pi: Vec<f64> = (0..n).map(|i| pi[i] * rows[i]).collect();
-        proof = cleaned(problem, &pi);
+        proof = cleaned(problem, (&pi, &rows));
         proof.is_some()
     };
     if !judge(&found.point) {
@@ -89,8 +87,9 @@ fn is_free(problem: &HorizontalLcp, pair: usize) -> bool {
     nonzero(problem.a(), 1.0) == nonzero(problem.b(), -1.0)
 }
 
-/// The proof that a vector is, after what is rounding error in it was set to zero.
-fn cleaned(problem: &HorizontalLcp, pi: &[f64]) -> Option<Vec<f64>> {
+/// The proof that a vector of equilibrated rows is, after what is rounding error in it was set to zero: in
+/// the units of the user a displacement and a force could not be compared.
+fn cleaned(problem: &HorizontalLcp, (pi, rows): (&[f64], &[f64])) -> Option<Vec<f64>> {
     const NOISE: [f64; 6] = [0.0, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11];
     let largest = max_abs(pi);
     if !(largest > 0.0 && largest.is_finite()) {
@@ -98,7 +97,10 @@ fn cleaned(problem: &HorizontalLcp, pi: &[f64]) -> Option<Vec<f64>> {
     }
     let pi: Vec<f64> = pi.iter().map(|pi| pi / largest).collect();
     let candidates = NOISE.into_iter().map(|noise| {
-        pi.iter().map(|pi| if pi.abs() <= noise { 0.0 } else { *pi }).collect::<Vec<_>>()
+        let kept = pi.iter().map(|pi| if pi.abs() <= noise { 0.0 } else { *pi });
+        let pi: Vec<f64> = kept.zip(rows).map(|(pi, row)| pi * row).collect();
+        let largest = max_abs(&pi);
+        pi.iter().map(|pi| pi / largest).collect::<Vec<_>>()
     });
     candidates.into_iter().find(|pi| is_proof(problem, pi))
 }

@@ -8,6 +8,8 @@ use crate::problem::max_abs;
 const ROUNDS: usize = 30;
 /// What is wrong by less than this, relative to the largest of its kind, is a rounding error.
 const ROUNDING: f64 = 1e-14;
+/// A multiplier below this, relative to the largest, may be one that vanishes.
+const NOISE: f64 = 1e-11;
 
 /// The places of the multipliers that a point suggests: of every pair what is larger is taken to be
 /// the one that does not vanish.
@@ -59,7 +61,11 @@ pub(super) fn polish(
         }
         let wrong = wrong_places(form, law, &places, &point);
         let Some(worst) = wrong.iter().max_by(|a, b| a.by.total_cmp(&b.by)).copied() else {
-            return round + 1;
+            let Some(places) = without_noise(form, &places, &point) else { return round + 1 };
+            if let Some(point) = solve_reduced(form, law, &places, start) {
+                judge(&point, &places);
+            }
+            return round + 2;
         };
         let mut next = places.clone();
         for wrong in &wrong {
@@ -77,11 +83,26 @@ pub(super) fn polish(
     ROUNDS
 }
 
+/// Where both variables of a pair vanish, a multiplier inside is nothing but noise, which leaves its row
+/// with a residual if it is negative, or others that it should cancel are. Such multipliers are put at
+/// zero; none where there is no such one.
+fn without_noise(form: &Form, places: &[Place], point: &Point) -> Option<Vec<Place>> {
+    let size = NOISE * max_abs(&point.lambda);
+    let is_noise = |i: usize| {
+        form.bounds[i] == Bounds::Nonnegative
+            && places[i] == Place::Inside
+            && point.lambda[i].abs() <= size
+    };
+    let clean = |i: usize| if is_noise(i) { Place::Lower } else { places[i] };
+    (0..form.rows()).any(is_noise).then(|| (0..form.rows()).map(clean).collect())
+}
+
 fn wrong_places(form: &Form, law: Law<'_>, places: &[Place], point: &Point) -> Vec<Wrong> {
     let (lambda, slacks) = (&point.lambda, form.slacks(point));
     let unit = |v: f64| if v > 0.0 { v } else { 1.0 };
     let lambda_unit = unit(max_abs(lambda));
-    let slack_unit = unit(max_abs(&slacks).max(max_abs(&point.x)));
+    // With the offset, where all slacks vanish there would be nothing but noise to measure them by.
+    let slack_unit = unit(max_abs(&slacks).max(max_abs(&point.x)).max(max_abs(&form.offset)));
     let wrong = |(row, bounds): (usize, &Bounds)| {
         let (lambda_i, slack) = (lambda[row] / lambda_unit, slacks[row] / slack_unit);
         let (right, by) = match (*bounds, places[row]) {
