@@ -52,7 +52,7 @@ struct SolveArgs {
     /// Pivots of one attempt of lemke; auto then takes that.
     #[arg(long, value_name = "N")]
     max_pivots: Option<usize>,
-    /// Iterations of pgs, qp, newton or interior.
+    /// Iterations of pgs, newton or interior; of qp those within one program.
     #[arg(long, value_name = "N")]
     max_iterations: Option<usize>,
     /// Time after which the search ends, in seconds.

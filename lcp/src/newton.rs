@@ -31,9 +31,9 @@ pub struct SemismoothNewtonSettings {
     /// the signs of all variables right to rounding errors, whatever the tolerance; only where they
     /// cannot be told from rounding errors it is satisfied with the tolerance.
     pub tolerance: f64,
-    /// Exchanges of pairs between the sets, each followed by a factorisation.
+    /// Steps: exchanges of pairs between the sets, each followed by a factorisation.
     pub max_iterations: usize,
-    /// Wall-clock time, looked at before every exchange; `None` is no limit.
+    /// Wall-clock time, looked at before every step; `None` is no limit.
     pub time_limit: Option<Duration>,
     /// Which `z` are free at the start: those that are basic. Where the matrix of the free ones is
     /// singular the method starts from its own.

@@ -62,9 +62,11 @@ use crate::{Contact2d, Error, HorizontalLcp, Lcp, MixedLcp, Observer, Solution, 
 /// conditioned that neither point nor proof comes out.
 ///
 /// **Cost**: 10 to 20 factorisations of the sparse matrix `[K, C^T; C, -D]` for every program, and one for
-/// every round of the polish. [`Info::iterations`](crate::Info::iterations) counts programs,
-/// [`Info::factorisations`](crate::Info::factorisations) all of these. The observer is asked before every
-/// program.
+/// every round of the polish. [`Info::iterations`](crate::Info::iterations) counts programs, and not the
+/// iterations within them, which [`max_iterations`](QuadraticProgramSettings::max_iterations) limits;
+/// [`Info::factorisations`](crate::Info::factorisations) counts all factorisations. The observer is asked before
+/// every program. With [`soft`](QuadraticProgramSettings::soft) both count the times that the springs are
+/// centred.
 ///
 /// References: P. J. Goulart and Y. Chen, *Clarabel: an interior-point solver for conic programs with
 /// quadratic objectives* (2024), arXiv:2405.12762; B. Stellato et al., *OSQP*, Math. Prog. Comp. 12

@@ -306,7 +306,9 @@ pub struct Info {
     pub solver: &'static str,
     /// Pivots over all attempts.
     pub pivots: usize,
-    /// Sweeps, steps, or programs of a method that has no pivots.
+    /// Sweeps, steps, or programs of a method that has no pivots. Of `QuadraticProgram` they are programs, or
+    /// times that soft springs were centred, and not the iterations within a program that its
+    /// `max_iterations` limits.
     pub iterations: usize,
     /// Times that a matrix was factorised numerically, or a tableau rebuilt from the data.
     pub factorisations: usize,

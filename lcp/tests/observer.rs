@@ -74,6 +74,12 @@ fn check<P>(solver: &dyn Solver<P>, problem: &P) {
     assert_eq!(observed.info.solver, source);
 }
 
+fn check_all<P>(solvers: &[&dyn Solver<P>], problem: &P) {
+    for solver in solvers {
+        check(*solver, problem);
+    }
+}
+
 #[test]
 fn every_method_lets_itself_be_watched_on_all_that_it_treats() {
     let lcp = standard();
@@ -81,18 +87,12 @@ fn every_method_lets_itself_be_watched_on_all_that_it_treats() {
     let (lemke, pgs) = (Lemke::default(), ProjectedGaussSeidel::default());
     let (newton, interior) = (SemismoothNewton::default(), InteriorPoint::default());
     let auto = Auto::default();
-    let of_standard: [&dyn Solver<Lcp>; 5] = [&lemke, &pgs, &newton, &interior, &auto];
-    of_standard.iter().for_each(|it| check(*it, &lcp));
-    let of_general: [&dyn Solver<HorizontalLcp>; 5] = [&lemke, &pgs, &newton, &interior, &auto];
-    of_general.iter().for_each(|it| check(*it, &general));
-    let of_contact: [&dyn Solver<Contact2d>; 4] = [&lemke, &pgs, &interior, &auto];
-    of_contact.iter().for_each(|it| check(*it, &contact()));
-    let of_friction: [&dyn Solver<Friction2d>; 4] = [&lemke, &pgs, &interior, &auto];
-    of_friction.iter().for_each(|it| check(*it, &friction()));
-    let of_mixed: [&dyn Solver<MixedLcp>; 2] = [&interior, &auto];
-    of_mixed.iter().for_each(|it| check(*it, &mixed()));
-    let of_boxed: [&dyn Solver<BoxedLcp>; 2] = [&pgs, &auto];
-    of_boxed.iter().for_each(|it| check(*it, &boxed()));
+    check_all::<Lcp>(&[&lemke, &pgs, &newton, &interior, &auto], &lcp);
+    check_all::<HorizontalLcp>(&[&lemke, &pgs, &newton, &interior, &auto], &general);
+    check_all::<Contact2d>(&[&lemke, &pgs, &interior, &auto], &contact());
+    check_all::<Friction2d>(&[&lemke, &pgs, &interior, &auto], &friction());
+    check_all::<MixedLcp>(&[&interior, &auto], &mixed());
+    check_all::<BoxedLcp>(&[&pgs, &auto], &boxed());
 }
 
 #[cfg(feature = "clarabel")]
