@@ -55,7 +55,7 @@ impl Original for Contact2d {
     }
 
     fn judge(&self, scaled: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Judged {
-        let drift = scaled.drift(u, forces);
+        let drift = scaled.drift(u, forces).max(scaled.slack(u, forces));
         let u = scaled.displacements(u);
         let normal = forces.iter().map(|(t_n, _)| t_n.max(0.0) * scaled.force()).collect();
         let tangential = forces.iter().zip(self.mu()).map(|((t_n, t_t), mu)| {

@@ -218,6 +218,40 @@ impl Scaled {
         }
         rest.iter().zip(&terms).fold(worst, |max, (v, terms)| max.max(beyond(v.abs(), *terms)))
     }
+
+    /// Largest `min(t, y)` over the pairs, with gaps and slips in units of what the bodies are deformed by:
+    /// where one slides far, all gaps are small against that, also those that should carry no force.
+    /// Bodies without stiffness have no such unit.
+    pub(super) fn slack(&self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
+        let mut pulled = vec![0.0; self.order()];
+        let mut diagonal = vec![0.0_f64; self.order()];
+        for (j, u) in u.iter().enumerate() {
+            for (i, v) in column_of(&self.k, j) {
+                pulled[i] += v * u;
+                diagonal[i] = if i == j { v } else { diagonal[i] };
+            }
+        }
+        let deformed = pulled.iter().zip(&diagonal).filter(|(_, k)| **k > 0.0);
+        let deformation = deformed.fold(0.0_f64, |max, (force, k)| max.max((force / k).abs()));
+        if deformation <= 0.0 {
+            return 0.0;
+        }
+        let force = forces.iter().fold(1.0_f64, |max, (t_n, _)| max.max(*t_n));
+        let length = deformation.max(1.0);
+        let pairs = self.points.iter().zip(forces).flat_map(|(point, &(t_n, t_t))| {
+            let terms = |row: &[f64], first: f64| {
+                let all = row.iter().zip(&point.columns).map(|(v, &j)| (v * u[j]).abs());
+                ROUNDING * all.fold(first.abs(), f64::max)
+            };
+            let gap = point.gap(u) - terms(&point.normal, point.x_0);
+            let (slip, rounding) = (point.slip(u), terms(&point.tangent, point.s_0));
+            let bound = point.mu * t_n;
+            let pairs =
+                [(t_n, gap), (bound + t_t, slip - rounding), (bound - t_t, -slip - rounding)];
+            pairs.into_iter().take(if point.mu > 0.0 { 3 } else { 1 })
+        });
+        pairs.fold(0.0, |max, (t, y)| max.max((t / force).min(y / length)))
+    }
 }
 
 /// Factors that bring the largest coefficient of every displacement in a gap or a slip near one; those of
