@@ -103,7 +103,9 @@ fn the_report_is_short_and_readable() {
     let folder = Folder::new("report");
     let run = Run::of(&["solve", &folder.file("problem.txt", TEXT), "--solver", "lemke"]);
     assert_eq!((run.code, run.err.as_str()), (0, ""));
-    for words in ["lcp of order 2, read as text", "Solved: lemke", "equation", "1.33333333e0"] {
+    for words in
+        ["lcp of order 2, read as text", "Solved: Lemke's method", "equation", "1.33333333e0"]
+    {
         assert!(run.out.contains(words), "{words} in\n{}", run.out);
     }
 }
@@ -166,12 +168,13 @@ fn the_trace_has_a_record_for_every_pivot() {
     assert_eq!(trace.as_array().unwrap().len() as u64, answer["pivots"].as_u64().unwrap());
 }
 
+/// The names for programs and for people.
 const METHODS: [(&str, &str); 5] = [
-    ("lemke", "lemke"),
-    ("pgs", "pgs"),
-    ("qp", "quadratic program"),
+    ("lemke", "Lemke's method"),
+    ("pgs", "projected Gauss-Seidel"),
+    ("qp", "quadratic programming"),
     ("newton", "semismooth Newton"),
-    ("interior", "interior point"),
+    ("interior", "the interior-point method"),
 ];
 
 /// A tridiagonal matrix with 4 on and -1 off the diagonal, of which `z = (1, 2, 1)` is a solution.
@@ -181,11 +184,11 @@ const TRIDIAGONAL: &str = "3  4 -1 0  -1 4 -1  0 -1 4  -2 -6 -2";
 fn every_method_solves_what_is_for_all_of_them() {
     let folder = Folder::new("methods");
     let file = folder.file("problem.txt", TRIDIAGONAL);
-    for (option, name) in METHODS {
+    for (option, full_name) in METHODS {
         let run = Run::of(&["solve", &file, "--json", "--solver", option, "--tol", "1e-12"]);
         assert_eq!(run.code, 0, "{option}");
         let answer = run.json();
-        assert_eq!(answer["solver"], name);
+        assert_eq!(answer["solver"], option);
         assert_near(&answer["z"], &[1.0, 2.0, 1.0]);
         assert_eq!(answer["pivots"].is_u64(), option == "lemke");
         assert_eq!(answer["iterations"].is_u64(), option != "lemke");
@@ -194,7 +197,10 @@ fn every_method_solves_what_is_for_all_of_them() {
         let report = Run::of(&["solve", &file, "--solver", option]).out;
         let unit = if option == "lemke" { "pivot" } else { "iteration" };
         let line = report.lines().nth(1).unwrap();
-        assert!(line.starts_with(&format!("Solved: {name}, ")) && line.contains(unit), "{line}");
+        assert!(
+            line.starts_with(&format!("Solved: {full_name}, ")) && line.contains(unit),
+            "{line}"
+        );
         assert!(!report.contains("auto"), "{report}");
     }
 }
@@ -240,7 +246,7 @@ fn a_method_says_what_it_does_not_treat() {
     let (mixed, games) = (folder.file("mixed.json", mixed), folder.file("games.json", games));
     for (file, option, words) in [
         (&mixed, "newton", "semismooth Newton cannot treat this problem: it is not a standard"),
-        (&mixed, "pgs", "pgs cannot treat this problem"),
+        (&mixed, "pgs", "projected Gauss-Seidel cannot treat this problem"),
         (&games, "newton", "M[0, 0] is 0, but every diagonal entry must be positive: take Lemke"),
         (&games, "pgs", "row 0 has the diagonal entry 0"),
         (&games, "qp", "M is not symmetric: M[1, 0] is 1 and M[0, 1] is 2"),
@@ -257,7 +263,7 @@ fn auto_says_what_it_chose_and_why() {
     let file = folder.file("problem.txt", TRIDIAGONAL);
     let answer = Run::of(&["solve", &file, "--json"]).json();
     let routes = answer["routes"].as_array().unwrap();
-    assert_eq!((&answer["solver"], routes.len()), (&"semismooth Newton".into(), 1));
+    assert_eq!((&answer["solver"], routes.len()), (&"newton".into(), 1));
     assert_eq!(routes[0]["end"]["ended"]["status"], "Solved");
     let report = Run::of(&["solve", &file]).out;
     assert!(report.contains("auto chose semismooth Newton: order 3, dense, symmetric"), "{report}");
@@ -267,10 +273,15 @@ fn auto_says_what_it_chose_and_why() {
     let answer = run.json();
     let solvers: Vec<&Value> =
         answer["routes"].as_array().unwrap().iter().map(|route| &route["solver"]).collect();
-    assert_eq!((run.code, solvers), (1, vec![&"semismooth Newton".into(), &"lemke".into()]));
+    assert_eq!((run.code, solvers), (1, vec![&"newton".into(), &"lemke".into()]));
     assert_eq!(answer["certificate"]["kind"], "farkas");
     let report = Run::of(&["solve", &file]).out;
-    for words in ["Infeasible: lemke", "auto chose semismooth Newton", "Stalled", "then lemke"] {
+    for words in [
+        "Infeasible: Lemke's method",
+        "auto chose semismooth Newton",
+        "Stalled",
+        "then Lemke's method",
+    ] {
         assert!(report.contains(words), "{words} in\n{report}");
     }
 }

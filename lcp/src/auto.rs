@@ -13,14 +13,14 @@ pub use settings::AutoSettings;
 
 use method::Planned;
 
-use crate::{Error, Solution, Solver};
+use crate::{Error, Observer, Solution, Solver};
 
 /// A method of a plan, and why it stands there.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Choice {
-    /// The name of the method.
+    /// The short name of the method.
     pub solver: &'static str,
     /// What speaks for it at this place, with the numbers that it was told from.
     pub reason: String,
@@ -66,6 +66,11 @@ pub struct Choice {
 /// ([`RayTermination`](crate::Status::RayTermination)); the point with the smallest residual. Where an answer
 /// comes near a solution and is none, the next method starts from it.
 ///
+/// # Observer
+/// It goes to the methods in turn, each of which counts its iterations from 0. `Break` ends the chain like the
+/// end of the time: with [`Cancelled`](crate::Status::Cancelled), where the methods before have left neither
+/// evidence nor a ray.
+///
 /// # Cost
 /// That of the methods that were tried. A method that fails may take long: set
 /// [`AutoSettings::time_limit`] where that matters.
@@ -75,11 +80,11 @@ pub struct Choice {
 /// let problem = families::obstacle(40).problem;
 /// let auto = Auto::default();
 /// let first = &auto.plan(&problem)[0];
-/// assert_eq!(first.solver, "semismooth Newton");
+/// assert_eq!(first.solver, "newton");
 /// assert!(first.reason.starts_with("order 1600, sparse with 7840 nonzeros, symmetric"));
 /// let solution = auto.solve(&problem)?;
 /// assert!(solution.is_solved());
-/// assert_eq!(solution.info.solver, "semismooth Newton");
+/// assert_eq!(solution.info.solver, "newton");
 /// assert_eq!(solution.info.routes.len(), 1);
 /// # Ok::<(), lcp::Error>(())
 /// ```
@@ -89,7 +94,7 @@ pub struct Auto {
 }
 
 impl Auto {
-    /// The name of the choice, as [`Solver::name`] has it.
+    /// The short name of the choice, as [`Solver::name`] has it.
     pub const NAME: &'static str = "auto";
 
     /// A solver with these settings.
@@ -115,7 +120,7 @@ impl<P: Planned> Solver<P> for Auto {
         Self::NAME
     }
 
-    fn solve(&self, problem: &P) -> Result<Solution, Error> {
-        chain::run(problem, &self.settings)
+    fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
+        chain::run(problem, &self.settings, observer)
     }
 }

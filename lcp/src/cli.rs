@@ -52,7 +52,7 @@ struct SolveArgs {
     /// Pivots of one attempt of lemke; auto then takes that.
     #[arg(long, value_name = "N")]
     max_pivots: Option<usize>,
-    /// Iterations of pgs, qp, newton or interior.
+    /// Iterations of pgs, newton or interior; of qp those within one program.
     #[arg(long, value_name = "N")]
     max_iterations: Option<usize>,
     /// Time after which the search ends, in seconds.
@@ -96,16 +96,22 @@ struct InputArgs {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Solver {
     /// The method that suits the problem best, and the next one where it fails.
+    #[value(name = crate::Auto::NAME)]
     Auto,
     /// Lemke's method: any problem.
+    #[value(name = crate::Lemke::NAME)]
     Lemke,
     /// Projected Gauss-Seidel: positive diagonals; bounds, friction.
+    #[value(name = crate::ProjectedGaussSeidel::NAME)]
     Pgs,
     /// Convex quadratic program: symmetric positive semidefinite matrices.
+    #[value(name = crate::QuadraticProgram::NAME)]
     Qp,
     /// Semismooth Newton, the active set method: positive diagonals, above all M-matrices.
+    #[value(name = crate::SemismoothNewton::NAME)]
     Newton,
     /// Interior-point method: large sparse problems.
+    #[value(name = crate::InteriorPoint::NAME)]
     Interior,
 }
 

@@ -1,6 +1,10 @@
 //! Misuse: errors name the place and the remedy. What the mathematics decides is a
 //! [`Status`](crate::Status), not an error.
 
+#[cfg(feature = "clarabel")]
+use crate::QuadraticProgram;
+use crate::{Auto, InteriorPoint, Lemke, ProjectedGaussSeidel, SemismoothNewton};
+
 /// Why a problem or a setting was refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -95,11 +99,25 @@ pub enum Error {
         limit: usize,
     },
     /// A method that cannot treat a problem of this kind.
-    #[error("{solver} cannot treat this problem: {reason}")]
+    #[error("{} cannot treat this problem: {reason}", full_name(.solver))]
     NotTreated {
-        /// The method.
+        /// The short name of the method, as [`Solver::name`](crate::Solver::name) has it.
         solver: &'static str,
         /// What is in the way, and which method to take instead.
         reason: String,
     },
+}
+
+/// The name of a method in text for people, from its short one.
+pub(crate) fn full_name(solver: &str) -> &str {
+    match solver {
+        Auto::NAME => "the automatic choice",
+        Lemke::NAME => "Lemke's method",
+        SemismoothNewton::NAME => "semismooth Newton",
+        #[cfg(feature = "clarabel")]
+        QuadraticProgram::NAME => "quadratic programming",
+        InteriorPoint::NAME => "the interior-point method",
+        ProjectedGaussSeidel::NAME => "projected Gauss-Seidel",
+        other => other,
+    }
 }

@@ -10,8 +10,6 @@ mod scaled;
 mod settings;
 mod turn;
 
-use std::ops::ControlFlow;
-
 pub use settings::InteriorPointSettings;
 
 use condensed::Condensed;
@@ -22,9 +20,10 @@ use original::{Judged, Original};
 use path::{PROXIMAL, WIDTHS, advance, start};
 use scaled::Scaled;
 
-use crate::solve::{Iteration, Monitor};
+use crate::solve::Monitor;
 use crate::{
-    Contact2d, Error, Friction2d, HorizontalLcp, Lcp, MixedLcp, Solution, Solver, Status, WarmStart,
+    Contact2d, Error, Friction2d, HorizontalLcp, Lcp, MixedLcp, Observer, Solution, Solver, Status,
+    WarmStart,
 };
 
 /// An interior-point method for the complementarity problem itself, for large sparse problems: contact
@@ -88,7 +87,7 @@ use crate::{
 /// assert!((state.slip[0] - 0.1).abs() < 1e-14 && (state.t_t[0] + 1.0).abs() < 1e-14);
 /// # Ok::<(), lcp::Error>(())
 /// ```
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct InteriorPoint {
     settings: InteriorPointSettings,
 }
@@ -104,31 +103,20 @@ const PATIENCE: usize = 30;
 const NO_STEP: f64 = 1e-7;
 
 impl InteriorPoint {
-    pub(crate) const NAME: &str = "interior point";
+    /// The short name of the method.
+    pub const NAME: &'static str = "interior";
 
-    /// A solver with the given settings.
+    /// A solver with these settings.
     pub fn new(settings: InteriorPointSettings) -> Self {
         Self { settings }
     }
 
-    /// Solves a contact problem, calling the observer before every step; `Break` stops with
-    /// [`Status::Cancelled`].
-    ///
-    /// # Errors
-    /// For settings out of range, and [`Error::NotTreated`] where the memory does not suffice.
-    pub fn solve_observed(
-        &self,
-        problem: &Contact2d,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-    ) -> Result<Solution, Error> {
-        self.run(problem, observer)
+    /// The settings.
+    pub fn settings(&self) -> &InteriorPointSettings {
+        &self.settings
     }
 
-    fn run(
-        &self,
-        problem: &dyn Original,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-    ) -> Result<Solution, Error> {
+    fn run(&self, problem: &dyn Original, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         self.settings.validate(problem.order())?;
         let monitor =
             Monitor::new(self.settings.max_iterations, self.settings.time_limit, observer);
@@ -330,17 +318,17 @@ fn keep_better(
     }
 }
 
-fn unobserved(_: &Iteration) -> ControlFlow<()> {
-    ControlFlow::Continue(())
-}
-
 impl Solver<Contact2d> for InteriorPoint {
     fn name(&self) -> &'static str {
         Self::NAME
     }
 
-    fn solve(&self, problem: &Contact2d) -> Result<Solution, Error> {
-        self.run(problem, &mut unobserved)
+    fn solve_observed(
+        &self,
+        problem: &Contact2d,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
+        self.run(problem, observer)
     }
 }
 
@@ -350,8 +338,12 @@ impl Solver<MixedLcp> for InteriorPoint {
         Self::NAME
     }
 
-    fn solve(&self, problem: &MixedLcp) -> Result<Solution, Error> {
-        self.run(problem, &mut unobserved)
+    fn solve_observed(
+        &self,
+        problem: &MixedLcp,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
+        self.run(problem, observer)
     }
 }
 
@@ -360,10 +352,14 @@ impl Solver<Lcp> for InteriorPoint {
         Self::NAME
     }
 
-    fn solve(&self, problem: &Lcp) -> Result<Solution, Error> {
+    fn solve_observed(
+        &self,
+        problem: &Lcp,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
         let free = vec![false; problem.order()];
         let mixed = MixedLcp::new(problem.m().clone(), problem.q().to_vec(), free)?;
-        self.run(&mixed, &mut unobserved)
+        self.run(&mixed, observer)
     }
 }
 
@@ -372,8 +368,12 @@ impl Solver<Friction2d> for InteriorPoint {
         Self::NAME
     }
 
-    fn solve(&self, problem: &Friction2d) -> Result<Solution, Error> {
-        self.solve(problem.standard())
+    fn solve_observed(
+        &self,
+        problem: &Friction2d,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
+        self.solve_observed(problem.standard(), observer)
     }
 }
 
@@ -383,7 +383,11 @@ impl Solver<HorizontalLcp> for InteriorPoint {
         Self::NAME
     }
 
-    fn solve(&self, problem: &HorizontalLcp) -> Result<Solution, Error> {
+    fn solve_observed(
+        &self,
+        problem: &HorizontalLcp,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
         let standard = problem.to_standard().ok_or_else(|| Error::NotTreated {
             solver: Self::NAME,
             reason:
@@ -394,7 +398,7 @@ impl Solver<HorizontalLcp> for InteriorPoint {
         let mut settings = self.settings.clone();
         settings.validate(problem.order())?;
         settings.start = standard.start(&settings.start);
-        let mut solution = Self::new(settings).solve(standard.lcp())?;
+        let mut solution = Self::new(settings).solve_observed(standard.lcp(), observer)?;
         standard.restore(&mut solution, problem, self.settings.tolerance);
         Ok(solution)
     }

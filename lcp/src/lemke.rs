@@ -29,8 +29,9 @@ use search::Search;
 
 use crate::{Error, HorizontalLcp, LemkeSettings, Solution};
 
-/// How far a solve has come, for an observer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// How far a solve of [`Lemke`] has come, for an observer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Progress {
     /// The attempt, from 1.
     pub attempt: usize,
@@ -38,6 +39,9 @@ pub struct Progress {
     pub pivots: usize,
     /// Order of the problem.
     pub order: usize,
+    /// Value of the artificial variable, relative to its first one: 1 before it enters, and in attempts in which
+    /// the variable of a pair takes its place.
+    pub artificial: f64,
 }
 
 /// Lemke's method (Lemke 1965; Cottle, Pang and Stone, *The Linear Complementarity Problem*,
@@ -70,20 +74,22 @@ pub struct Progress {
 /// them, more where rows tie, and its share of a factorisation. There is one exception: where no
 /// complementary basis is found otherwise, one is searched with dense matrices up to order 2000;
 /// beyond that a start basis should be given ([`LemkeSettings::start`]).
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Lemke {
     settings: LemkeSettings,
 }
 
 impl Lemke {
-    pub(crate) const NAME: &str = "lemke";
+    /// The short name of the method.
+    pub const NAME: &'static str = "lemke";
 
-    /// A solver with the given settings.
+    /// A solver with these settings.
     pub fn new(settings: LemkeSettings) -> Self {
         Self { settings }
     }
 
-    pub(crate) fn settings(&self) -> &LemkeSettings {
+    /// The settings.
+    pub fn settings(&self) -> &LemkeSettings {
         &self.settings
     }
 

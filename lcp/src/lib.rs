@@ -113,7 +113,7 @@ pub use solution::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Info, Perturbation, PivotRecord, Ray,
     Route, RouteEnd, SoftSprings, Solution, Status, Variable,
 };
-pub use solve::{Iteration, Solver};
+pub use solve::{Iteration, Observer, Solver};
 
 /// The programs of the README are compiled and run with the tests.
 #[cfg(doctest)]

@@ -7,13 +7,12 @@ mod forest;
 mod lu;
 mod system;
 
-use std::ops::ControlFlow;
 use std::time::Duration;
 
 use crate::problem::{check_length, check_vector, max_abs};
 use crate::solve::Monitor;
 use crate::{
-    Basis, Error, HorizontalLcp, Iteration, Lcp, Residuals, Side, Solution, Solver, Status,
+    Basis, Error, HorizontalLcp, Lcp, Observer, Residuals, Side, Solution, Solver, Status,
     WarmStart,
 };
 use exchange::{Exchanges, Next};
@@ -32,9 +31,9 @@ pub struct SemismoothNewtonSettings {
     /// the signs of all variables right to rounding errors, whatever the tolerance; only where they
     /// cannot be told from rounding errors it is satisfied with the tolerance.
     pub tolerance: f64,
-    /// Exchanges of pairs between the sets, each followed by a factorisation.
+    /// Steps: exchanges of pairs between the sets, each followed by a factorisation.
     pub max_iterations: usize,
-    /// Wall-clock time, looked at before every exchange; `None` is no limit.
+    /// Wall-clock time, looked at before every step; `None` is no limit.
     pub time_limit: Option<Duration>,
     /// Which `z` are free at the start: those that are basic. Where the matrix of the free ones is
     /// singular the method starts from its own.
@@ -107,10 +106,9 @@ impl SemismoothNewtonSettings {
 ///
 /// ```
 /// use faer::mat;
-/// use lcp::{Lcp, SemismoothNewton};
+/// use lcp::{Lcp, SemismoothNewton, Solver};
 /// let lcp = Lcp::new(mat![[2.0, 1.0], [1.0, 2.0]], vec![-5.0, -6.0])?;
-/// let solution = SemismoothNewton::default()
-///     .solve_observed(&lcp, &mut |_| std::ops::ControlFlow::Continue(()))?;
+/// let solution = SemismoothNewton::default().solve(&lcp)?;
 /// assert!(solution.is_solved());
 /// assert!((solution.t[0] - 4.0 / 3.0).abs() < 1e-15);
 /// # Ok::<(), lcp::Error>(())
@@ -121,8 +119,8 @@ pub struct SemismoothNewton {
 }
 
 impl SemismoothNewton {
-    /// The name of the method.
-    pub const NAME: &'static str = "semismooth Newton";
+    /// The short name of the method.
+    pub const NAME: &'static str = "newton";
 
     /// A solver with these settings.
     pub fn new(settings: SemismoothNewtonSettings) -> Self {
@@ -134,26 +132,11 @@ impl SemismoothNewton {
         &self.settings
     }
 
-    /// Solves a problem and tells the observer about every step.
-    ///
-    /// # Errors
-    /// [`Error::NotTreated`] for a diagonal entry of `M` that is not positive, and errors of the settings.
-    pub fn solve_observed(
-        &self,
-        lcp: &Lcp,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-    ) -> Result<Solution, Error> {
-        self.solve_judged(lcp, observer, |z, w| {
-            let problem: HorizontalLcp = lcp.clone().into();
-            ((z.to_vec(), w.to_vec()), problem.residuals(z, w))
-        })
-    }
-
     /// `judge` turns `(z, w)` into a point of the problem as it was given, with its residuals.
     fn solve_judged(
         &self,
         lcp: &Lcp,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+        observer: &mut Observer<'_>,
         judge: impl Fn(&[f64], &[f64]) -> ((Vec<f64>, Vec<f64>), Residuals),
     ) -> Result<Solution, Error> {
         let settings = &self.settings;
@@ -298,8 +281,15 @@ impl Solver<Lcp> for SemismoothNewton {
         Self::NAME
     }
 
-    fn solve(&self, problem: &Lcp) -> Result<Solution, Error> {
-        self.solve_observed(problem, &mut |_| ControlFlow::Continue(()))
+    fn solve_observed(
+        &self,
+        problem: &Lcp,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
+        self.solve_judged(problem, observer, |z, w| {
+            let general: HorizontalLcp = problem.clone().into();
+            ((z.to_vec(), w.to_vec()), general.residuals(z, w))
+        })
     }
 }
 
@@ -309,7 +299,11 @@ impl Solver<HorizontalLcp> for SemismoothNewton {
         Self::NAME
     }
 
-    fn solve(&self, problem: &HorizontalLcp) -> Result<Solution, Error> {
+    fn solve_observed(
+        &self,
+        problem: &HorizontalLcp,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
         let settings = &self.settings;
         settings.validate(problem.order())?;
         let standard = problem.to_standard().ok_or_else(|| Error::NotTreated {
@@ -332,7 +326,6 @@ impl Solver<HorizontalLcp> for SemismoothNewton {
             WarmStart::Point { t, y } => WarmStart::Basis(exchanged(&basis_of(&larger(t, y)))),
         };
         let inner = Self::new(SemismoothNewtonSettings { start, ..settings.clone() });
-        let observer = &mut |_: &Iteration| ControlFlow::Continue(());
         let mut solution = inner.solve_judged(standard.lcp(), observer, |z, w| {
             let (t, y) = standard.to_pairs(z, w);
             let residuals = problem.residuals(&t, &y);

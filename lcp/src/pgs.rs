@@ -21,7 +21,7 @@ use std::ops::ControlFlow;
 use sweep::{Best, Point, Sweeps};
 
 use crate::solve::Monitor;
-use crate::{Error, Info, Iteration, Residuals, Solution, Solver, Status, WarmStart};
+use crate::{Error, Info, Observer, Residuals, Solution, Solver, Status, WarmStart};
 
 /// Projected Gauss-Seidel, with over-relaxation: for `w = M z + q` with bounds on `z`, and for contact
 /// with friction.
@@ -76,13 +76,13 @@ use crate::{Error, Info, Iteration, Residuals, Solution, Solver, Status, WarmSta
 /// * R. W. Cottle, J.-S. Pang, R. E. Stone, The Linear Complementarity Problem, 1992, chapter 5
 ///
 /// ```
-/// use lcp::{ProjectedGaussSeidel, families};
+/// use lcp::{ProjectedGaussSeidel, Solver, families};
 /// let problem = families::obstacle(16).problem;
 /// let solution = ProjectedGaussSeidel::default().solve(&problem)?;
 /// assert!(solution.is_solved() && solution.residuals.worst() <= 1e-8);
 /// # Ok::<(), lcp::Error>(())
 /// ```
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct ProjectedGaussSeidel {
     settings: ProjectedGaussSeidelSettings,
 }
@@ -92,11 +92,12 @@ pub trait Sweepable {
     /// Solves the problem, calling the observer before every sweep.
     ///
     /// # Errors
-    /// See [`ProjectedGaussSeidel::solve`].
+    /// [`Error::NotTreated`] for a row without a positive diagonal entry, and what else cannot be swept;
+    /// errors of the settings.
     fn solve_by(
         &self,
         solver: &ProjectedGaussSeidel,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+        observer: &mut Observer<'_>,
     ) -> Result<Solution, Error>;
 }
 
@@ -119,33 +120,17 @@ pub struct RowsSolution {
 }
 
 impl ProjectedGaussSeidel {
-    pub(crate) const NAME: &str = "pgs";
+    /// The short name of the method.
+    pub const NAME: &'static str = "pgs";
 
-    /// A solver with the given settings.
+    /// A solver with these settings.
     pub fn new(settings: ProjectedGaussSeidelSettings) -> Self {
         Self { settings }
     }
 
-    /// Solves a problem.
-    ///
-    /// # Errors
-    /// [`Error::NotTreated`] for a row without a positive diagonal entry, and what else cannot be swept;
-    /// errors of the settings. What the mathematics decides is in [`Solution::status`].
-    pub fn solve(&self, problem: &impl Sweepable) -> Result<Solution, Error> {
-        self.solve_observed(problem, &mut |_| ControlFlow::Continue(()))
-    }
-
-    /// Solves a problem, calling the observer before every sweep; `Break` stops with
-    /// [`Status::Cancelled`].
-    ///
-    /// # Errors
-    /// As for [`solve`](Self::solve).
-    pub fn solve_observed(
-        &self,
-        problem: &impl Sweepable,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-    ) -> Result<Solution, Error> {
-        problem.solve_by(self, observer)
+    /// The settings.
+    pub fn settings(&self) -> &ProjectedGaussSeidelSettings {
+        &self.settings
     }
 
     /// Solves a problem that is known by the products of its rows, with the constraints on the entries of
@@ -153,7 +138,7 @@ impl ProjectedGaussSeidel {
     ///
     /// # Errors
     /// [`Error::Length`] where `q` or the constraints do not fit, [`Error::Bounds`] or [`Error::Setting`]
-    /// for a constraint that nothing meets, and as for [`solve`](Self::solve).
+    /// for a constraint that nothing meets, and as for [`Sweepable::solve_by`].
     pub fn solve_rows<R: Rows + ?Sized>(
         &self,
         rows: &mut R,
@@ -172,7 +157,7 @@ impl ProjectedGaussSeidel {
         rows: &mut R,
         q: &[f64],
         constraints: &[Constraint],
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+        observer: &mut Observer<'_>,
     ) -> Result<RowsSolution, Error> {
         self.settings.validate(rows.order())?;
         let mut monitor = self.monitor(observer);
@@ -183,10 +168,7 @@ impl ProjectedGaussSeidel {
         Ok(RowsSolution { status, z, w, residual: residuals.worst(), info: info(monitor) })
     }
 
-    fn monitor<'a>(
-        &self,
-        observer: &'a mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-    ) -> Monitor<'a> {
+    fn monitor<'a>(&self, observer: &'a mut Observer<'a>) -> Monitor<'a> {
         Monitor::new(self.settings.max_iterations, self.settings.time_limit, observer)
     }
 
@@ -224,8 +206,8 @@ impl<P: Sweepable> Solver<P> for ProjectedGaussSeidel {
         Self::NAME
     }
 
-    fn solve(&self, problem: &P) -> Result<Solution, Error> {
-        self.solve(problem)
+    fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
+        problem.solve_by(self, observer)
     }
 }
 

@@ -17,7 +17,6 @@ mod settings;
 mod soft;
 mod start;
 
-use std::ops::ControlFlow;
 use std::time::Instant;
 
 use coulomb::solve_contact;
@@ -33,7 +32,7 @@ pub use soft::SoftSolution;
 use start::Rows;
 
 use crate::solve::Monitor;
-use crate::{Contact2d, Error, HorizontalLcp, Iteration, Lcp, MixedLcp, Solution, Solver, Status};
+use crate::{Contact2d, Error, HorizontalLcp, Lcp, MixedLcp, Observer, Solution, Solver, Status};
 
 /// Complementarity problems that are the conditions of a convex quadratic program.
 ///
@@ -63,9 +62,11 @@ use crate::{Contact2d, Error, HorizontalLcp, Iteration, Lcp, MixedLcp, Solution,
 /// conditioned that neither point nor proof comes out.
 ///
 /// **Cost**: 10 to 20 factorisations of the sparse matrix `[K, C^T; C, -D]` for every program, and one for
-/// every round of the polish. [`Info::iterations`](crate::Info::iterations) counts programs,
-/// [`Info::factorisations`](crate::Info::factorisations) all of these. The observer is asked before every
-/// program.
+/// every round of the polish. [`Info::iterations`](crate::Info::iterations) counts programs, and not the
+/// iterations within them, which [`max_iterations`](QuadraticProgramSettings::max_iterations) limits;
+/// [`Info::factorisations`](crate::Info::factorisations) counts all factorisations. The observer is asked before
+/// every program. With [`soft`](QuadraticProgramSettings::soft) both count the times that the springs are
+/// centred.
 ///
 /// References: P. J. Goulart and Y. Chen, *Clarabel: an interior-point solver for conic programs with
 /// quadratic objectives* (2024), arXiv:2405.12762; B. Stellato et al., *OSQP*, Math. Prog. Comp. 12
@@ -85,17 +86,14 @@ use crate::{Contact2d, Error, HorizontalLcp, Iteration, Lcp, MixedLcp, Solution,
 /// assert!(solution.t[1].abs() < 1e-14 && (solution.t[0] - 0.5).abs() < 1e-14);
 /// # Ok::<(), lcp::Error>(())
 /// ```
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct QuadraticProgram {
     settings: QuadraticProgramSettings,
 }
 
-/// The solve in progress: its observer and clock.
-type Observer<'a> = dyn FnMut(&Iteration) -> ControlFlow<()> + 'a;
-
 impl QuadraticProgram {
-    /// The name of the method.
-    pub const NAME: &'static str = "quadratic program";
+    /// The short name of the method.
+    pub const NAME: &'static str = "qp";
 
     /// A solver with these settings.
     pub fn new(settings: QuadraticProgramSettings) -> Self {
@@ -105,44 +103,6 @@ impl QuadraticProgram {
     /// The settings.
     pub fn settings(&self) -> &QuadraticProgramSettings {
         &self.settings
-    }
-
-    /// A standard problem; the observer is asked before every program whether to go on.
-    ///
-    /// # Errors
-    /// As [`Solver::solve`].
-    pub fn solve_observed(
-        &self,
-        lcp: &Lcp,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
-        self.settings.validate(lcp.order())?;
-        let form = standard_form(lcp).map_err(|reason| refused(&reason))?;
-        let general = HorizontalLcp::from(lcp.clone());
-        let assemble = |point: &Point, places: Option<&[_]>| {
-            standard_candidate(&form, &general, &|z, w| (z, w), (point, places))
-        };
-        let rows = Rows::of_pairs(0..lcp.order());
-        Ok(self.solve_form(&form, &general, (&rows, &assemble), observer))
-    }
-
-    /// A contact problem; the observer is asked before every program whether to go on.
-    ///
-    /// # Errors
-    /// As [`Solver::solve`].
-    pub fn solve_contact_observed(
-        &self,
-        contact: &Contact2d,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
-        self.settings.validate(contact.order())?;
-        if let Some(reason) = indefiniteness("K", contact.stiffness()) {
-            return Err(refused(&reason));
-        }
-        match self.settings.soft {
-            Some(soft) => self.solve_recentred(contact, soft, observer),
-            None => self.solve_plain(contact, observer),
-        }
     }
 
     /// Without springs, of a `K` that is known to be semidefinite.
@@ -279,8 +239,19 @@ impl Solver<Lcp> for QuadraticProgram {
         Self::NAME
     }
 
-    fn solve(&self, problem: &Lcp) -> Result<Solution, Error> {
-        self.solve_observed(problem, &mut |_| ControlFlow::Continue(()))
+    fn solve_observed(
+        &self,
+        problem: &Lcp,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
+        self.settings.validate(problem.order())?;
+        let form = standard_form(problem).map_err(|reason| refused(&reason))?;
+        let general = HorizontalLcp::from(problem.clone());
+        let assemble = |point: &Point, places: Option<&[_]>| {
+            standard_candidate(&form, &general, &|z, w| (z, w), (point, places))
+        };
+        let rows = Rows::of_pairs(0..problem.order());
+        Ok(self.solve_form(&form, &general, (&rows, &assemble), observer))
     }
 }
 
@@ -290,7 +261,11 @@ impl Solver<HorizontalLcp> for QuadraticProgram {
         Self::NAME
     }
 
-    fn solve(&self, problem: &HorizontalLcp) -> Result<Solution, Error> {
+    fn solve_observed(
+        &self,
+        problem: &HorizontalLcp,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
         self.settings.validate(problem.order())?;
         let standard = problem.to_standard().ok_or_else(|| {
             refused(
@@ -304,7 +279,6 @@ impl Solver<HorizontalLcp> for QuadraticProgram {
             standard_candidate(&form, problem, &to_pairs, (point, places))
         };
         let rows = Rows::of_standard(&standard);
-        let observer = &mut |_: &Iteration| ControlFlow::Continue(());
         Ok(self.solve_form(&form, problem, (&rows, &assemble), observer))
     }
 }
@@ -315,13 +289,16 @@ impl Solver<MixedLcp> for QuadraticProgram {
         Self::NAME
     }
 
-    fn solve(&self, problem: &MixedLcp) -> Result<Solution, Error> {
+    fn solve_observed(
+        &self,
+        problem: &MixedLcp,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
         self.settings.validate(problem.order())?;
         let mixed = MixedForm::new(problem).map_err(|reason| refused(&reason))?;
         let assemble =
             |point: &Point, places: Option<&[_]>| mixed.candidate(problem, point, places);
         let rows = Rows::of_pairs((0..problem.order()).filter(|&i| !problem.free()[i]));
-        let observer = &mut |_: &Iteration| ControlFlow::Continue(());
         let general = problem.to_general();
         Ok(self.solve_form(&mixed.form, &general, (&rows, &assemble), observer))
     }
@@ -332,7 +309,18 @@ impl Solver<Contact2d> for QuadraticProgram {
         Self::NAME
     }
 
-    fn solve(&self, problem: &Contact2d) -> Result<Solution, Error> {
-        self.solve_contact_observed(problem, &mut |_| ControlFlow::Continue(()))
+    fn solve_observed(
+        &self,
+        problem: &Contact2d,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
+        self.settings.validate(problem.order())?;
+        if let Some(reason) = indefiniteness("K", problem.stiffness()) {
+            return Err(refused(&reason));
+        }
+        match self.settings.soft {
+            Some(soft) => self.solve_recentred(problem, soft, observer),
+            None => self.solve_plain(problem, observer),
+        }
     }
 }

@@ -56,7 +56,7 @@ pub enum WarmStart {
 pub struct LemkeSettings {
     /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`.
     pub tolerance: f64,
-    /// Pivots of one attempt; `None` is `100 n + 1000`.
+    /// Pivots of one attempt, not of all together; `None` is `100 n + 1000`.
     pub max_pivots: Option<usize>,
     /// Wall-clock time of all attempts together, looked at before every pivot; `None` is no limit.
     pub time_limit: Option<Duration>,

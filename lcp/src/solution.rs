@@ -287,7 +287,7 @@ impl std::fmt::Display for RouteEnd {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Route {
-    /// Its name.
+    /// Its short name.
     pub solver: &'static str,
     /// Why it was its turn.
     pub reason: String,
@@ -302,11 +302,13 @@ pub struct Route {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Info {
-    /// The method that the point comes from.
+    /// The short name of the method that the point comes from: `lemke`, `pgs`, `qp`, `newton` or `interior`.
     pub solver: &'static str,
     /// Pivots over all attempts.
     pub pivots: usize,
-    /// Sweeps, steps, or programs of a method that has no pivots.
+    /// Sweeps, steps, or programs of a method that has no pivots. Of `QuadraticProgram` they are programs, or
+    /// times that soft springs were centred, and not the iterations within a program that its
+    /// `max_iterations` limits.
     pub iterations: usize,
     /// Times that a matrix was factorised numerically, or a tableau rebuilt from the data.
     pub factorisations: usize,

@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use crate::{
-    Basis, Contact2d, Covering, Error, Friction2d, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side,
-    Solution, Status, WarmStart,
+    Basis, Contact2d, Covering, Error, Friction2d, HorizontalLcp, Lcp, Lemke, LemkeSettings,
+    Progress, Side, Solution, Status, WarmStart,
 };
 
 /// A method that treats problems of type `P`.
@@ -30,15 +30,37 @@ use crate::{
 /// # Ok::<(), lcp::Error>(())
 /// ```
 pub trait Solver<P> {
-    /// The name of the method.
+    /// The short name of the method, as [`Info::solver`](crate::Info::solver) has it.
     fn name(&self) -> &'static str;
 
-    /// Solves a problem.
+    /// Solves a problem, calling the observer before every sweep, step, program or pivot; `Break` stops with
+    /// [`Status::Cancelled`], unless the point at hand is a solution.
     ///
     /// # Errors
     /// [`Error::NotTreated`] for a problem that the method cannot treat, and errors of the settings.
     /// What the mathematics decides is in [`Solution::status`].
-    fn solve(&self, problem: &P) -> Result<Solution, Error>;
+    fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error>;
+
+    /// Solves a problem.
+    ///
+    /// # Errors
+    /// As for [`solve_observed`](Self::solve_observed).
+    fn solve(&self, problem: &P) -> Result<Solution, Error> {
+        self.solve_observed(problem, &mut |_| ControlFlow::Continue(()))
+    }
+}
+
+impl Lemke {
+    /// With an observer of any method: see [`Iteration`].
+    fn solve_iterating(
+        &self,
+        problem: &HorizontalLcp,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
+        self.solve_observed(problem, &mut |at: &Progress| {
+            observer(&Iteration { iteration: at.pivots, residual: at.artificial })
+        })
+    }
 }
 
 impl Solver<HorizontalLcp> for Lemke {
@@ -46,8 +68,12 @@ impl Solver<HorizontalLcp> for Lemke {
         Self::NAME
     }
 
-    fn solve(&self, problem: &HorizontalLcp) -> Result<Solution, Error> {
-        self.solve(problem)
+    fn solve_observed(
+        &self,
+        problem: &HorizontalLcp,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
+        self.solve_iterating(problem, observer)
     }
 }
 
@@ -56,8 +82,12 @@ impl Solver<Lcp> for Lemke {
         Self::NAME
     }
 
-    fn solve(&self, problem: &Lcp) -> Result<Solution, Error> {
-        self.solve(&problem.clone().into())
+    fn solve_observed(
+        &self,
+        problem: &Lcp,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
+        self.solve_iterating(&problem.clone().into(), observer)
     }
 }
 
@@ -66,8 +96,12 @@ impl Solver<Friction2d> for Lemke {
         Self::NAME
     }
 
-    fn solve(&self, problem: &Friction2d) -> Result<Solution, Error> {
-        self.solve(&problem.standard().clone().into())
+    fn solve_observed(
+        &self,
+        problem: &Friction2d,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
+        self.solve_iterating(&problem.standard().clone().into(), observer)
     }
 }
 
@@ -79,7 +113,11 @@ impl Solver<Contact2d> for Lemke {
         Self::NAME
     }
 
-    fn solve(&self, problem: &Contact2d) -> Result<Solution, Error> {
+    fn solve_observed(
+        &self,
+        problem: &Contact2d,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
         let mixed = problem.to_mixed();
         let mut settings = LemkeSettings { covering: Covering::Ones, ..self.settings().clone() };
         settings.validate(problem.order())?;
@@ -90,7 +128,7 @@ impl Solver<Contact2d> for Lemke {
             // it is not, and a path may end on a ray.
             settings.start = WarmStart::Basis(Basis::all(Side::Y, mixed.order()));
         }
-        let mut solution = Self::new(settings).solve(&mixed.to_general())?;
+        let mut solution = Self::new(settings).solve_iterating(&mixed.to_general(), observer)?;
         let (z, _) = mixed.recover(&solution.t, &solution.y);
         let state = problem.from_mixed(&z);
         solution.residuals = problem.residuals(&state);
@@ -106,22 +144,27 @@ impl Solver<Contact2d> for Lemke {
     }
 }
 
-/// How far an iterative method has come, for an observer.
+/// How far a method has come, for an observer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Iteration {
-    /// Sweeps or steps done.
+    /// Sweeps, steps or programs done; of [`Lemke`] the pivots of the attempt, each of which begins at 0.
+    /// With [`Auto`](crate::Auto) every method begins at 0.
     pub iteration: usize,
-    /// The residual by which the method stops.
+    /// The residual by which the method stops. [`Lemke`] has none on its path: in its place is the artificial
+    /// variable relative to its first value, which a solution makes zero ([`Progress::artificial`]).
     pub residual: f64,
 }
+
+/// What is called while a method is at work, and says whether it goes on.
+pub type Observer<'a> = dyn FnMut(&Iteration) -> ControlFlow<()> + 'a;
 
 /// Watches over the iterations of a method: limits, history, observer.
 pub(crate) struct Monitor<'a> {
     began: Instant,
     deadline: Option<Instant>,
     max_iterations: usize,
-    observer: &'a mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    observer: &'a mut Observer<'a>,
     /// The residual at the start and after every iteration.
     pub(crate) history: Vec<f64>,
 }
@@ -130,7 +173,7 @@ impl<'a> Monitor<'a> {
     pub(crate) fn new(
         max_iterations: usize,
         time_limit: Option<Duration>,
-        observer: &'a mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+        observer: &'a mut Observer<'a>,
     ) -> Self {
         let began = Instant::now();
         let deadline = time_limit.and_then(|limit| began.checked_add(limit));

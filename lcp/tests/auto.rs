@@ -15,9 +15,9 @@ use lcp::{
 use proptest::prelude::*;
 
 const LEMKE: &str = "lemke";
-const NEWTON: &str = "semismooth Newton";
-const INTERIOR: &str = "interior point";
-const PROGRAM: &str = "quadratic program";
+const NEWTON: &str = "newton";
+const INTERIOR: &str = "interior";
+const PROGRAM: &str = "qp";
 const SWEEPS: &str = "pgs";
 
 fn auto() -> Auto {

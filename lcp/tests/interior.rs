@@ -212,7 +212,7 @@ fn what_is_no_standard_problem_is_refused_with_a_remedy() {
     let a = mat![[1.0, 2.0], [2.0, 1.0]];
     let problem = HorizontalLcp::new(a.clone(), a, vec![1.0, 1.0]).unwrap();
     let error = InteriorPoint::default().solve(&problem).unwrap_err();
-    assert!(matches!(error, Error::NotTreated { solver: "interior point", .. }));
+    assert!(matches!(error, Error::NotTreated { solver: "interior", .. }));
     assert!(error.to_string().contains("Lemke's method treats it"), "{error}");
 }
 

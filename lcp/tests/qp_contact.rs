@@ -352,7 +352,7 @@ fn limits_and_observers_end_a_solve() {
     let stop = &mut |_: &lcp::Iteration| ControlFlow::Break(());
     let solver = QuadraticProgram::new(settings());
     assert_eq!(solver.solve_observed(&lcp, stop).unwrap().status, Status::Cancelled);
-    let solution = solver.solve_contact_observed(&pile(5, 0.3), stop).unwrap();
+    let solution = solver.solve_observed(&pile(5, 0.3), stop).unwrap();
     assert_eq!(solution.status, Status::Cancelled);
     let short = QuadraticProgramSettings { max_iterations: 1, ..settings() };
     let solution = QuadraticProgram::new(short).solve(&families::obstacle(6).problem).unwrap();

@@ -57,7 +57,7 @@ pub enum SolveError {
 }
 
 /// How far a solve has come.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
     /// A phase begins.
     Phase(&'static str),

@@ -4,7 +4,8 @@ use std::time::{Duration, Instant};
 
 use super::method::{Effort, Planned};
 use super::{Auto, AutoSettings};
-use crate::{Error, Route, RouteEnd, Solution, Status, WarmStart};
+use crate::error::full_name;
+use crate::{Error, Observer, Route, RouteEnd, Solution, Status, WarmStart};
 
 /// A point with larger residuals is no better start than the one that was given.
 const NEAR: f64 = 1e-4;
@@ -25,16 +26,20 @@ enum Rank {
 }
 
 /// Tries the methods of a problem until one has the answer.
-pub(super) fn run<P: Planned>(problem: &P, settings: &AutoSettings) -> Result<Solution, Error> {
+pub(super) fn run<P: Planned>(
+    problem: &P,
+    settings: &AutoSettings,
+    observer: &mut Observer<'_>,
+) -> Result<Solution, Error> {
     settings.validate(problem.pairs())?;
     let began = Instant::now();
     let mut routes = Vec::new();
     let mut best: Option<Solution> = None;
-    let mut is_cut = false;
+    let mut cut = None;
     for step in problem.steps() {
         let time_limit = settings.time_limit.map(|limit| limit.saturating_sub(began.elapsed()));
         if best.is_some() && time_limit == Some(Duration::ZERO) {
-            is_cut = true;
+            cut = Some(Status::TimeLimit);
             break;
         }
         let is_falling = best.as_ref().is_some_and(|best| best.status == Status::NoEquilibrium);
@@ -45,7 +50,7 @@ pub(super) fn run<P: Planned>(problem: &P, settings: &AutoSettings) -> Result<So
         let start = near.as_ref().unwrap_or(&settings.start);
         let effort = Effort { tolerance: settings.tolerance, time_limit, start };
         let route_began = Instant::now();
-        let (end, solution) = match problem.attempt(step.method, &effort) {
+        let (end, solution) = match problem.attempt(step.method, &effort, observer) {
             Ok(solution) => {
                 let residual = solution.residuals.worst();
                 (RouteEnd::Ended { status: solution.status, residual }, Some(solution))
@@ -56,18 +61,21 @@ pub(super) fn run<P: Planned>(problem: &P, settings: &AutoSettings) -> Result<So
         let seconds = route_began.elapsed().as_secs_f64();
         routes.push(Route { solver: step.method.name(), reason: step.reason, end, seconds });
         let Some(solution) = solution else { continue };
-        let (is_last, is_late) = (is_final(&solution), solution.status == Status::TimeLimit);
+        let (is_last, status) = (is_final(&solution), solution.status);
         best = Some(better(best, solution, settings.tolerance));
         if is_last {
-            is_cut = is_late;
+            cut = Some(status).filter(|it| matches!(it, Status::Cancelled | Status::TimeLimit));
             break;
         }
     }
     let mut solution = best.ok_or_else(|| all_refused(&routes))?;
     let (rank, _) = rank(&solution, settings.tolerance);
     let is_open = matches!(rank, Rank::Near | Rank::Open);
-    if is_cut && is_open && solution.status != Status::AlmostSolved {
-        solution.status = Status::TimeLimit;
+    if let Some(status) = cut
+        && is_open
+        && solution.status != Status::AlmostSolved
+    {
+        solution.status = status;
     }
     solution.info.routes = routes;
     solution.info.seconds = began.elapsed().as_secs_f64();
@@ -115,7 +123,7 @@ fn rank(solution: &Solution, tolerance: f64) -> (Rank, f64) {
 
 fn all_refused(routes: &[Route]) -> Error {
     let reasons = routes.iter().filter_map(|route| match &route.end {
-        RouteEnd::Refused { reason } => Some(format!("{}: {reason}", route.solver)),
+        RouteEnd::Refused { reason } => Some(format!("{}: {reason}", full_name(route.solver))),
         RouteEnd::Ended { .. } => None,
     });
     let reasons: Vec<String> = reasons.collect();
@@ -125,11 +133,13 @@ fn all_refused(routes: &[Route]) -> Error {
 
 #[cfg(test)]
 mod tests {
+    use std::ops::ControlFlow;
+
     use faer::mat;
 
     use super::*;
     use crate::auto::method::{Method, Step};
-    use crate::{Lcp, Solver};
+    use crate::{Iteration, Lcp, Solver};
 
     /// `w = 2 z - 1` for methods that refuse, or are too slow.
     struct Refusing;
@@ -143,7 +153,12 @@ mod tests {
             [Method::Lemke, Method::ProjectedGaussSeidel].map(|it| Step::new(it, "a test")).into()
         }
 
-        fn attempt(&self, method: Method, _: &Effort<'_>) -> Result<Solution, Error> {
+        fn attempt(
+            &self,
+            method: Method,
+            _: &Effort<'_>,
+            _: &mut Observer<'_>,
+        ) -> Result<Solution, Error> {
             let reason = format!("{} is not at home", method.name());
             Err(Error::NotTreated { solver: method.name(), reason })
         }
@@ -151,12 +166,13 @@ mod tests {
 
     #[test]
     fn where_all_refuse_all_reasons_are_given() {
-        let error = run(&Refusing, &AutoSettings::default()).map(|solution| solution.status);
+        let ignore = &mut |_: &Iteration| ControlFlow::Continue(());
+        let error = run(&Refusing, &AutoSettings::default(), ignore).map(|it| it.status);
         let Err(Error::NotTreated { solver: "auto", reason }) = error else {
             panic!("{error:?}");
         };
-        assert!(reason.contains("lemke: lemke is not at home"), "{reason}");
-        assert!(reason.contains("pgs: pgs is not at home"), "{reason}");
+        assert!(reason.contains("Lemke's method: lemke is not at home"), "{reason}");
+        assert!(reason.contains("projected Gauss-Seidel: pgs is not at home"), "{reason}");
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::facts::Facts;
 use super::memory;
 use super::method::{Effort, Method, Planned, Step, not_in_chain};
 use super::standard::{common_steps, program_step};
-use crate::{Contact2d, Error, Friction2d, Solution, Solver, WarmStart};
+use crate::{Contact2d, Error, Friction2d, Observer, Solution, Solver, WarmStart};
 
 /// Up to so many contact points pivots take no time.
 const VERY_FEW: usize = 40;
@@ -26,14 +26,19 @@ impl Planned for Friction2d {
         steps
     }
 
-    fn attempt(&self, method: Method, effort: &Effort<'_>) -> Result<Solution, Error> {
+    fn attempt(
+        &self,
+        method: Method,
+        effort: &Effort<'_>,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
         match method {
             Method::Lemke => {
                 memory::check(self.standard().m().is_sparse(), self.order())?;
-                Solver::<Self>::solve(&effort.lemke(), self)
+                Solver::<Self>::solve_observed(&effort.lemke(), self, observer)
             }
-            Method::InteriorPoint => effort.interior_point().solve(self),
-            Method::ProjectedGaussSeidel => effort.sweeps().solve(self),
+            Method::InteriorPoint => effort.interior_point().solve_observed(self, observer),
+            Method::ProjectedGaussSeidel => effort.sweeps().solve_observed(self, observer),
             Method::SemismoothNewton => Err(not_in_chain(method)),
             #[cfg(feature = "clarabel")]
             Method::QuadraticProgram => Err(not_in_chain(method)),
@@ -87,14 +92,22 @@ impl Planned for Contact2d {
         }
     }
 
-    fn attempt(&self, method: Method, effort: &Effort<'_>) -> Result<Solution, Error> {
+    fn attempt(
+        &self,
+        method: Method,
+        effort: &Effort<'_>,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
         match method {
             // A start has the pairs of the general problem, and this works on others.
-            Method::Lemke => Solver::<Self>::solve(&effort.from(&WarmStart::None).lemke(), self),
-            Method::InteriorPoint => effort.interior_point().solve(self),
+            Method::Lemke => {
+                let lemke = effort.from(&WarmStart::None).lemke();
+                Solver::<Self>::solve_observed(&lemke, self, observer)
+            }
+            Method::InteriorPoint => effort.interior_point().solve_observed(self, observer),
             #[cfg(feature = "clarabel")]
-            Method::QuadraticProgram => effort.quadratic_program().solve(self),
-            Method::ProjectedGaussSeidel => effort.sweeps().solve(self),
+            Method::QuadraticProgram => effort.quadratic_program().solve_observed(self, observer),
+            Method::ProjectedGaussSeidel => effort.sweeps().solve_observed(self, observer),
             Method::SemismoothNewton => Err(not_in_chain(method)),
         }
     }

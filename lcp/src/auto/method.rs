@@ -3,8 +3,9 @@
 use std::time::Duration;
 
 use crate::{
-    Error, InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings, ProjectedGaussSeidel,
-    ProjectedGaussSeidelSettings, SemismoothNewton, SemismoothNewtonSettings, Solution, WarmStart,
+    Error, InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings, Observer,
+    ProjectedGaussSeidel, ProjectedGaussSeidelSettings, SemismoothNewton, SemismoothNewtonSettings,
+    Solution, WarmStart,
 };
 #[cfg(feature = "clarabel")]
 use crate::{QuadraticProgram, QuadraticProgramSettings};
@@ -58,7 +59,12 @@ pub trait Planned {
     ///
     /// # Errors
     /// Those of the method.
-    fn attempt(&self, method: Method, effort: &Effort<'_>) -> Result<Solution, Error>;
+    fn attempt(
+        &self,
+        method: Method,
+        effort: &Effort<'_>,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error>;
 
     /// Whether a method is worth its time where there is evidence, and no proof yet, that there is no
     /// solution.

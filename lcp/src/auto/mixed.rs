@@ -4,7 +4,7 @@ use super::facts::Facts;
 use super::memory;
 use super::method::{Effort, Method, Planned, Step, not_in_chain};
 use super::standard::common_steps;
-use crate::{BoxedLcp, Error, MixedLcp, Solution, Solver};
+use crate::{BoxedLcp, Error, HorizontalLcp, MixedLcp, Observer, Solution, Solver};
 
 impl Planned for MixedLcp {
     fn pairs(&self) -> usize {
@@ -28,15 +28,21 @@ impl Planned for MixedLcp {
         steps
     }
 
-    fn attempt(&self, method: Method, effort: &Effort<'_>) -> Result<Solution, Error> {
+    fn attempt(
+        &self,
+        method: Method,
+        effort: &Effort<'_>,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
         match method {
             Method::Lemke => {
                 memory::check(self.m().is_sparse(), self.order())?;
-                effort.lemke().solve(&self.to_general())
+                let general = self.to_general();
+                Solver::<HorizontalLcp>::solve_observed(&effort.lemke(), &general, observer)
             }
-            Method::InteriorPoint => effort.interior_point().solve(self),
+            Method::InteriorPoint => effort.interior_point().solve_observed(self, observer),
             #[cfg(feature = "clarabel")]
-            Method::QuadraticProgram => effort.quadratic_program().solve(self),
+            Method::QuadraticProgram => effort.quadratic_program().solve_observed(self, observer),
             other => Err(not_in_chain(other)),
         }
     }
@@ -77,14 +83,22 @@ impl Planned for BoxedLcp {
         steps
     }
 
-    fn attempt(&self, method: Method, effort: &Effort<'_>) -> Result<Solution, Error> {
+    fn attempt(
+        &self,
+        method: Method,
+        effort: &Effort<'_>,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
         match method {
             Method::Lemke => {
                 memory::check(self.m().is_sparse(), self.pairs())?;
-                effort.lemke().solve(&self.to_general())
+                let general = self.to_general();
+                Solver::<HorizontalLcp>::solve_observed(&effort.lemke(), &general, observer)
             }
-            Method::InteriorPoint => effort.interior_point().solve(&self.to_general()),
-            Method::ProjectedGaussSeidel => effort.sweeps().solve(self),
+            Method::InteriorPoint => {
+                effort.interior_point().solve_observed(&self.to_general(), observer)
+            }
+            Method::ProjectedGaussSeidel => effort.sweeps().solve_observed(self, observer),
             Method::SemismoothNewton => Err(not_in_chain(method)),
             #[cfg(feature = "clarabel")]
             Method::QuadraticProgram => Err(not_in_chain(method)),

@@ -3,7 +3,7 @@
 use super::facts::{Facts, Symmetry, is_z_matrix};
 use super::memory;
 use super::method::{Effort, Method, Planned, Step};
-use crate::{Error, HorizontalLcp, Lcp, Solution, Solver};
+use crate::{Error, HorizontalLcp, Lcp, Observer, Solution, Solver};
 
 /// Up to this order pivots on a sparse matrix are as fast as factorisations, and say more.
 const FEW: usize = 500;
@@ -89,17 +89,24 @@ impl Planned for Lcp {
         standard_steps(&Facts::of(self.m()))
     }
 
-    fn attempt(&self, method: Method, effort: &Effort<'_>) -> Result<Solution, Error> {
+    fn attempt(
+        &self,
+        method: Method,
+        effort: &Effort<'_>,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
         match method {
             Method::Lemke => {
                 memory::check(self.m().is_sparse(), self.order())?;
-                Solver::<Self>::solve(&effort.lemke(), self)
+                Solver::<Self>::solve_observed(&effort.lemke(), self, observer)
             }
-            Method::SemismoothNewton => effort.newton(is_z_matrix(self.m())).solve(self),
-            Method::InteriorPoint => effort.interior_point().solve(self),
+            Method::SemismoothNewton => {
+                effort.newton(is_z_matrix(self.m())).solve_observed(self, observer)
+            }
+            Method::InteriorPoint => effort.interior_point().solve_observed(self, observer),
             #[cfg(feature = "clarabel")]
-            Method::QuadraticProgram => effort.quadratic_program().solve(self),
-            Method::ProjectedGaussSeidel => effort.sweeps().solve(self),
+            Method::QuadraticProgram => effort.quadratic_program().solve_observed(self, observer),
+            Method::ProjectedGaussSeidel => effort.sweeps().solve_observed(self, observer),
         }
     }
 }
@@ -125,20 +132,25 @@ impl Planned for HorizontalLcp {
         vec![Step::new(Method::Lemke, reason)]
     }
 
-    fn attempt(&self, method: Method, effort: &Effort<'_>) -> Result<Solution, Error> {
+    fn attempt(
+        &self,
+        method: Method,
+        effort: &Effort<'_>,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
         match method {
             Method::Lemke => {
                 memory::check(self.is_sparse(), self.order())?;
-                effort.lemke().solve(self)
+                Solver::<Self>::solve_observed(&effort.lemke(), self, observer)
             }
             Method::SemismoothNewton => {
                 let is_sure = self.to_standard().is_some_and(|it| is_z_matrix(it.lcp().m()));
-                effort.newton(is_sure).solve(self)
+                effort.newton(is_sure).solve_observed(self, observer)
             }
-            Method::InteriorPoint => effort.interior_point().solve(self),
+            Method::InteriorPoint => effort.interior_point().solve_observed(self, observer),
             #[cfg(feature = "clarabel")]
-            Method::QuadraticProgram => effort.quadratic_program().solve(self),
-            Method::ProjectedGaussSeidel => effort.sweeps().solve(self),
+            Method::QuadraticProgram => effort.quadratic_program().solve_observed(self, observer),
+            Method::ProjectedGaussSeidel => effort.sweeps().solve_observed(self, observer),
         }
     }
 }

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use super::{Failure, SolveArgs, Solver};
 use crate::auto::memory;
+use crate::error::full_name;
 use crate::io::Problem;
 use crate::{
     Auto, AutoSettings, Error, HorizontalLcp, InteriorPoint, InteriorPointSettings, Lemke,
@@ -91,7 +92,7 @@ fn method(args: &SolveArgs) -> Result<Solver, Failure> {
         (solver, Some(option)) => Err(format!(
             "{option} is about the pivots of Lemke's method, and {} has none: leave it out, or take \
              --solver lemke",
-            solver.name()
+            full_name(&solver.name())
         )
         .into()),
     }
@@ -122,6 +123,7 @@ fn lemke(solver: &Lemke, problem: &HorizontalLcp) -> Result<Solution, Error> {
 }
 
 fn sweep(solver: &ProjectedGaussSeidel, problem: &Problem) -> Result<Solution, Error> {
+    use crate::Solver;
     match problem {
         Problem::Lcp(problem) => solver.solve(problem),
         Problem::Horizontal(problem) => solver.solve(problem),

@@ -26,13 +26,13 @@ pub(super) fn farkas_vector<K: Kernel>(
     problem: &Equilibrated<'_>,
     start: &Start,
     mut path: Path<'_, K>,
-    is_over: &mut dyn FnMut(usize) -> bool,
+    is_over: &mut dyn FnMut(usize, f64) -> bool,
 ) -> Option<Vec<f64>> {
     let n = problem.order();
     let mut column = vec![0.0; n];
     path.enter_artificial(&mut column)?;
     loop {
-        if is_over(path.pivots) || (path.kernel.is_due() && !path.tidy()) {
+        if is_over(path.pivots, path.artificial_left()) || (path.kernel.is_due() && !path.tidy()) {
             return None;
         }
         let row = path.artificial_row()?;

@@ -48,15 +48,20 @@ pub struct ParametricSettings {
 /// assert_eq!(path.solutions_at(2.0)[0].t, [1.0]);
 /// # Ok::<(), lcp::Error>(())
 /// ```
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Parametric {
     settings: ParametricSettings,
 }
 
 impl Parametric {
-    /// A tracer with the given settings.
+    /// A tracer with these settings.
     pub fn new(settings: ParametricSettings) -> Self {
         Self { settings }
+    }
+
+    /// The settings.
+    pub fn settings(&self) -> &ParametricSettings {
+        &self.settings
     }
 
     /// Traces from `lambda = from` to `to`, which may be smaller, or infinite. `problem` holds `A`,

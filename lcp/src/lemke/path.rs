@@ -31,8 +31,9 @@ pub(super) struct Exchange {
     pub(super) artificial: f64,
 }
 
-/// Called before every pivot with the number of those done; may end the path.
-pub(super) type Limits<'a> = &'a mut dyn FnMut(usize) -> Option<AttemptEnd>;
+/// Called before every pivot with the number of those done and the artificial variable
+/// ([`Path::artificial_left`]); may end the path.
+pub(super) type Limits<'a> = &'a mut dyn FnMut(usize, f64) -> Option<AttemptEnd>;
 
 /// The state of a path.
 pub(super) struct Path<'a, K> {
@@ -132,6 +133,11 @@ impl<'a, K: Kernel> Path<'a, K> {
         self.row_of[self.artificial()]
     }
 
+    /// The artificial variable relative to its first value: one until it is basic, and where there is none.
+    pub(super) fn artificial_left(&self) -> f64 {
+        self.artificial_row().map_or(1.0, |row| self.values[row] / self.artificial_start)
+    }
+
     /// The row in which the artificial variable stands to become zero.
     pub(super) fn driven_row(&self) -> Option<usize> {
         self.artificial_row().filter(|_| !self.is_parametric)
@@ -157,7 +163,7 @@ impl<'a, K: Kernel> Path<'a, K> {
     /// Follows the path to its end.
     pub(super) fn run(&mut self, limits: Limits<'_>) -> AttemptEnd {
         let mut column = std::mem::take(&mut self.column);
-        let end = match limits(self.pivots) {
+        let end = match limits(self.pivots, self.artificial_left()) {
             Some(end) => end,
             None => match self.enter_artificial(&mut column) {
                 Some(entering) => self.follow(entering, &mut column, limits),
@@ -173,7 +179,7 @@ impl<'a, K: Kernel> Path<'a, K> {
     /// lift every negative value without lowering others below zero, or there is no such path.
     pub(super) fn run_driven(&mut self, pair: usize, limits: Limits<'_>) -> AttemptEnd {
         let mut column = std::mem::take(&mut self.column);
-        let end = match limits(self.pivots) {
+        let end = match limits(self.pivots, self.artificial_left()) {
             Some(end) => end,
             None => match self.lift(self.order() + pair, &mut column, limits) {
                 Ok(entering) => self.follow(entering, &mut column, limits),
@@ -197,7 +203,7 @@ impl<'a, K: Kernel> Path<'a, K> {
             if !(0..column.len()).any(|i| negative(self, &i)) {
                 return Ok(entering);
             }
-            if let Some(end) = limits(self.pivots) {
+            if let Some(end) = limits(self.pivots, self.artificial_left()) {
                 return Err(end);
             }
             if !self.is_nonbasic(entering) || self.kernel.is_due() {
@@ -224,7 +230,7 @@ impl<'a, K: Kernel> Path<'a, K> {
             if entering == self.artificial() || !self.is_nonbasic(entering) {
                 return AttemptEnd::Complementary;
             }
-            if let Some(end) = limits(self.pivots) {
+            if let Some(end) = limits(self.pivots, self.artificial_left()) {
                 return end;
             }
             if self.kernel.is_due() && !self.tidy() {

@@ -260,8 +260,8 @@ impl<'a> Search<'a> {
         let max_pivots = settings.max_pivots.unwrap_or(100 * order + 1000);
         let deadline = self.deadline;
         let began = Instant::now();
-        let mut limits = |pivots| {
-            let progress = Progress { attempt: number, pivots, order };
+        let mut limits = |pivots, artificial| {
+            let progress = Progress { attempt: number, pivots, order, artificial };
             if pivots >= max_pivots {
                 Some(AttemptEnd::PivotLimit)
             } else if deadline.is_some_and(|deadline| Instant::now() >= deadline) {
@@ -316,10 +316,11 @@ impl<'a> Search<'a> {
         let order = self.problem.order();
         let deadline = self.deadline;
         let mut stop = None;
-        let found = farkas_vector(&self.problem, start, path, &mut |pivots| {
+        let found = farkas_vector(&self.problem, start, path, &mut |pivots, artificial| {
+            let progress = Progress { attempt: number, pivots, order, artificial };
             if deadline.is_some_and(|deadline| Instant::now() >= deadline) {
                 stop = Some(Status::TimeLimit);
-            } else if observer(&Progress { attempt: number, pivots, order }).is_break() {
+            } else if observer(&progress).is_break() {
                 stop = Some(Status::Cancelled);
             }
             stop.is_some() || pivots > 20 * order + 100

@@ -1,12 +1,10 @@
 //! Contact with the displacements eliminated.
 
-use std::ops::ControlFlow;
-
 use super::delassus::{Compliance, Delassus};
 use super::{Constraint, Point, ProjectedGaussSeidel, Sweepable, Sweeps};
 use crate::problem::column_of;
 use crate::sparse::Columns;
-use crate::{Contact2d, ContactState, Error, Iteration, Solution};
+use crate::{Contact2d, ContactState, Error, Observer, Solution};
 
 /// On the forces, in the pairs of [`Contact2d::to_general`]: the displacements follow from them where `K`
 /// is positive definite. Bodies that `K` does not couple are eliminated one by one.
@@ -14,7 +12,7 @@ impl Sweepable for Contact2d {
     fn solve_by(
         &self,
         solver: &ProjectedGaussSeidel,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+        observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         solver.settings.validate(self.order())?;
         let mut monitor = solver.monitor(observer);

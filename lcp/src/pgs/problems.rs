@@ -1,9 +1,7 @@
 //! Problems with a matrix.
 
-use std::ops::ControlFlow;
-
 use super::{Constraint, MatrixRows, Point, ProjectedGaussSeidel, Sweepable, Sweeps};
-use crate::{BoxedLcp, Error, Friction2d, HorizontalLcp, Iteration, Lcp, Matrix, Solution};
+use crate::{BoxedLcp, Error, Friction2d, HorizontalLcp, Lcp, Matrix, Observer, Solution};
 
 type Pairs = (Vec<f64>, Vec<f64>);
 type Start<'a> = dyn Fn(&[f64], &[f64]) -> Vec<f64> + 'a;
@@ -25,7 +23,7 @@ impl Sweepable for Lcp {
     fn solve_by(
         &self,
         solver: &ProjectedGaussSeidel,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+        observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         let task = Task {
             general: &self.clone().into(),
@@ -44,7 +42,7 @@ impl Sweepable for HorizontalLcp {
     fn solve_by(
         &self,
         solver: &ProjectedGaussSeidel,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+        observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         let standard = self.to_standard().ok_or_else(|| {
             ProjectedGaussSeidel::not_treated(
@@ -69,7 +67,7 @@ impl Sweepable for BoxedLcp {
     fn solve_by(
         &self,
         solver: &ProjectedGaussSeidel,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+        observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         let bounds = self.lower().iter().zip(self.upper());
         let constraints: Vec<Constraint> =
@@ -91,7 +89,7 @@ impl Sweepable for Friction2d {
     fn solve_by(
         &self,
         solver: &ProjectedGaussSeidel,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+        observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         let constraints: Vec<Constraint> =
             self.mu().iter().map(|&mu| Constraint::Friction { mu }).collect();
@@ -127,7 +125,7 @@ impl ProjectedGaussSeidel {
     fn sweep_matrix(
         &self,
         task: &Task<'_>,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+        observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         self.settings.validate(task.general.order())?;
         let mut monitor = self.monitor(observer);

@@ -48,22 +48,23 @@ pub struct QuadraticProgramSettings {
     /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`. The polish usually
     /// reaches 1e-14, so that it costs nothing to ask for 1e-12.
     pub tolerance: f64,
-    /// Iterations of one run of the interior-point method, which are among
+    /// Iterations of one run of Clarabel's interior-point method, that is, within one program. Their number is
+    /// not in [`Info::iterations`](crate::Info::iterations), which counts programs, but they are among
     /// [`Info::factorisations`](crate::Info::factorisations). At least 1.
     pub max_iterations: usize,
-    /// Rounds of the fixed point of Coulomb's friction, which are programs, as
+    /// Rounds of the fixed point of Coulomb's friction, each of which is a program, as
     /// [`Info::iterations`](crate::Info::iterations) counts them. At least 1.
     pub max_outer: usize,
     /// Wall-clock time; `None` is no limit. Looked at before every run of the interior-point method and
     /// in it before every iteration.
     pub time_limit: Option<Duration>,
+    /// A point or a basis, of the pairs of the general form, from which the polish is tried before anything
+    /// else.
+    pub start: WarmStart,
     /// Which program a contact problem becomes.
     pub form: ContactForm,
     /// Springs for contact problems; `None` is none.
     pub soft: Option<SoftConstraints>,
-    /// A point or a basis, in the pairs of the general problem, from which the polish is tried before
-    /// anything else.
-    pub start: WarmStart,
 }
 
 impl Default for QuadraticProgramSettings {
@@ -73,9 +74,9 @@ impl Default for QuadraticProgramSettings {
             max_iterations: 200,
             max_outer: 60,
             time_limit: None,
+            start: WarmStart::None,
             form: ContactForm::Auto,
             soft: None,
-            start: WarmStart::None,
         }
     }
 }

@@ -12,10 +12,12 @@ use super::program::{Best, Candidate, Proof};
 use super::reduced::Place;
 use super::scale::Scaled;
 use super::settings::{SoftConstraints, check_epsilon};
-use super::{Observer, QuadraticProgram, QuadraticProgramSettings, refused};
+use super::{QuadraticProgram, QuadraticProgramSettings, refused};
 use crate::problem::{column_of, max_abs};
 use crate::solve::Monitor;
-use crate::{Contact2d, ContactState, Error, Iteration, Matrix, Residuals, Solution, Status};
+use crate::{
+    Contact2d, ContactState, Error, Iteration, Matrix, Observer, Residuals, Solution, Status,
+};
 
 /// A contact problem with soft springs on all displacements, solved, and what the springs changed.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,7 @@
 //! Problems with bounds: the sweeps against Lemke's method on the general form.
 
 use faer::{Mat, Side as Triangle};
-use lcp::BoxedLcp;
+use lcp::{BoxedLcp, Solver};
 use proptest::collection::vec;
 use proptest::prelude::*;
 

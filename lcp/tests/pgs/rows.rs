@@ -3,7 +3,7 @@
 use faer::Mat;
 use lcp::{
     Constraint, Error, Friction2d, MatrixRows, ProjectedGaussSeidel, ProjectedGaussSeidelSettings,
-    Rows, Status, SweepOrder,
+    Rows, Solver, Status, SweepOrder,
 };
 
 use super::{by, distance, settings, to};
