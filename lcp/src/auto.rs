@@ -60,8 +60,7 @@ pub struct Choice {
 /// is passed over. After [`NoEquilibrium`](crate::Status::NoEquilibrium) of more than 500 contact points only
 /// the quadratic program is asked, which may find a proof.
 ///
-/// Without such an end it gives, in this order: [`Infeasible`](crate::Status::Infeasible) of Lemke's method for
-/// contact, whose proof is one of other pairs; a point with residuals below the root of the tolerance;
+/// Without such an end it gives, in this order: a point with residuals below the root of the tolerance;
 /// the evidence of [`NoEquilibrium`](crate::Status::NoEquilibrium); a ray
 /// ([`RayTermination`](crate::Status::RayTermination)); the point with the smallest residual. Where an answer
 /// comes near a solution and is none, the next method starts from it.

