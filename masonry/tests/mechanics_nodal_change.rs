@@ -72,7 +72,9 @@ fn move_both(moves: [(usize, [f64; 2]); 2]) -> Option<NodalChange> {
 /// The places of the four nodes after the moves, in the reference square.
 fn places(moves: [(usize, [f64; 2]); 2]) -> [[f64; 2]; 4] {
     let mut places = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-    moves.iter().for_each(|(node, place)| places[*node] = *place);
+    for (node, place) in moves {
+        places[node] = place;
+    }
     places
 }
 
