@@ -46,13 +46,18 @@ fn stress_free(k: &Matrix8, points: &[Point2<f64>; 4]) -> bool {
 prop_compose! {
     /// A convex quadrilateral near the square of side 2.
     fn quad()(d in prop::array::uniform8(-0.3..0.3_f64)) -> Nodes {
-        let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-        std::array::from_fn(|k| Point2::new(corners[k][0] + d[2 * k], corners[k][1] + d[2 * k + 1]))
+        std::array::from_fn(|k| Point2::new(CORNERS[k][0] + d[2 * k], CORNERS[k][1] + d[2 * k + 1]))
     }
 }
 
+const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+
 prop_compose! {
-    fn place()(x in -1.6..1.6_f64, y in -1.6..1.6_f64) -> [f64; 2] { [x, y] }
+    /// A node and a place of the reference square on its own side of the middle, in- or outside.
+    fn node_and_place()(node in 0..4_usize, x in 0.3..1.7_f64, y in 0.3..1.7_f64)
+        -> (usize, [f64; 2]) {
+        (node, [CORNERS[node][0] * x, CORNERS[node][1] * y])
+    }
 }
 
 /// Moves of quadrilateral nodes, the second in terms of what the first has made.
@@ -71,7 +76,7 @@ fn move_both(moves: [(usize, [f64; 2]); 2]) -> Option<NodalChange> {
 
 /// The places of the four nodes after the moves, in the reference square.
 fn places(moves: [(usize, [f64; 2]); 2]) -> [[f64; 2]; 4] {
-    let mut places = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    let mut places = CORNERS;
     for (node, place) in moves {
         places[node] = place;
     }
@@ -81,7 +86,7 @@ fn places(moves: [(usize, [f64; 2]); 2]) -> [[f64; 2]; 4] {
 proptest! {
     #[test]
     fn moved_quads_equal_direct_assembly(
-        nodes in quad(), first in (0..4_usize, place()), second in (0..4_usize, place()),
+        nodes in quad(), first in node_and_place(), second in node_and_place(),
     ) {
         let moves = [first, second];
         let change = move_both(moves);
@@ -112,7 +117,7 @@ proptest! {
 
     /// The new functions are one at their own node and zero at the others.
     #[test]
-    fn moved_functions_are_nodal(moves in [(0..4_usize, place()), (0..4_usize, place())]) {
+    fn moved_functions_are_nodal(moves in [node_and_place(), node_and_place()]) {
         let change = move_both(moves);
         prop_assume!(change.is_some());
         let change = change.unwrap();
@@ -124,9 +129,8 @@ proptest! {
     }
 
     #[test]
-    fn a_move_forth_and_back_changes_nothing(node in 0..4_usize, to in place()) {
-        let home = places([(0, [-1.0, -1.0]), (0, [-1.0, -1.0])])[node];
-        let change = move_both([(node, to), (node, home)]);
+    fn a_move_forth_and_back_changes_nothing((node, place) in node_and_place()) {
+        let change = move_both([(node, place), (node, CORNERS[node])]);
         prop_assume!(change.is_some());
         prop_assert!((change.unwrap().matrix() - Matrix4::identity()).amax() < 1e-12);
     }
