@@ -97,7 +97,7 @@ impl Recipe {
             .thickness(0.25)
             .gravity([side * factor * self.lean * GRAVITY, -factor * GRAVITY])
             .material("brick", material)
-            .joint("bed", joint)
+            .joint("bed", joint.clone())
             .joint("head", joint)
             .support(Support::new("floor", at(0.0, 0.0), at(width, 0.0), "bed"));
         for (name, there, x) in [("near", self.walls[0], 0.0), ("far", self.walls[1], width)] {

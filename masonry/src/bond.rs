@@ -1,9 +1,26 @@
 //! The bricks of a wall: running bond, or courses given brick by brick.
 
-use crate::scene::{Courses, Wall};
+use crate::scene::{Courses, Joint, Scene, Wall};
 
 /// Parts of a brick shorter than this fraction of it are rounding errors, not bricks.
 const SLIVER: f64 = 1e-9;
+
+/// Thicknesses \[length\] of the joints between the bricks of a wall; zero for dry joints.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct JointThickness {
+    /// Of the beds: the pitch of courses is the height of a brick and this.
+    pub bed: f64,
+    /// Of the heads: the pitch of bricks is the length of a brick and this.
+    pub head: f64,
+}
+
+impl JointThickness {
+    /// Those of the classes `bed` and `head` of a scene, to which all joints between blocks belong.
+    pub fn of(scene: &Scene) -> Self {
+        let of = |class: &str| scene.joints.get(class).map_or(0.0, Joint::mortar_thickness);
+        Self { bed: of(crate::model::BED), head: of(crate::model::HEAD) }
+    }
+}
 
 /// A brick in its place, in the units of the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,7 +33,7 @@ pub struct PlacedBrick {
     pub low: [f64; 2],
     /// Upper right corner \[length\].
     pub high: [f64; 2],
-    /// Length in units of one brick \[-\].
+    /// Length in units of one brick \[-\], without mortar.
     pub fraction: f64,
 }
 
@@ -45,24 +62,68 @@ impl PlacedBrick {
     }
 }
 
-/// The bricks of a wall, course by course from the bottom, each from left to right.
+/// The bricks of a dry wall, course by course from the bottom, each from left to right.
 ///
 /// Ends of bricks that meet, in one course or one above another, have the same coordinates bit by
 /// bit wherever the lengths are halves of a brick.
 pub fn bricks(wall: &Wall) -> Vec<PlacedBrick> {
+    bricks_in_mortar(wall, JointThickness::default())
+}
+
+/// The bricks of a wall with mortar between them, in the order of [`bricks`].
+///
+/// Every brick is laid with a head joint at its right end, so that lengths in courses count brick and
+/// joint: whole bricks have their length `l`, half bricks `(l - t_y) / 2`. The wall ends with a brick:
+/// one of `n` whole bricks is `n (l + t_y) - t_y` wide, one of `n` courses `n (h + t_y) - t_y` high.
+///
+/// ```
+/// use masonry::bond::{JointThickness, bricks_in_mortar};
+/// use masonry::scene::{Brick, Wall};
+///
+/// let brick = Brick { length: 0.2, height: 0.1 };
+/// let wall = Wall::running_bond("wall", "brick", brick, 1.3, 2);
+/// let laid = bricks_in_mortar(&wall, JointThickness { bed: 0.02, head: 0.02 });
+/// let half = &laid[6];
+/// assert!((half.high[0] - half.low[0] - 0.09).abs() < 1e-15);
+/// assert!((laid[12].high[0] - 1.3).abs() < 1e-15 && (laid[12].low[1] - 0.12).abs() < 1e-15);
+/// ```
+pub fn bricks_in_mortar(wall: &Wall, joints: JointThickness) -> Vec<PlacedBrick> {
+    courses(wall, joints)
+        .enumerate()
+        .flat_map(|(course, stretches)| lay(wall, joints, course, &stretches))
+        .collect()
+}
+
+/// The first course and place in it, from 0 and with openings counted, at which the head joint
+/// leaves nothing of a brick.
+pub(crate) fn first_without_length(wall: &Wall, joints: JointThickness) -> Option<[usize; 2]> {
+    let gone = |&[start, end]: &Stretch| left_of(end - start, wall, joints) <= SLIVER;
+    // Two courses show all there is of a running bond.
+    let repeated = if matches!(wall.courses, Courses::RunningBond(_)) { 2 } else { usize::MAX };
+    let mut places = courses(wall, joints).take(repeated).enumerate();
+    places.find_map(|(course, stretches)| {
+        let brick = stretches.iter().position(gone)?;
+        let Courses::List(lists) = &wall.courses else { return Some([course, brick]) };
+        let bricks = lists[course].iter().enumerate().filter(|(_, length)| **length > 0.0);
+        bricks.map(|(place, _)| [course, place]).nth(brick)
+    })
+}
+
+/// The stretches of all courses in units of one brick and its head joint.
+fn courses(wall: &Wall, joints: JointThickness) -> Box<dyn Iterator<Item = Vec<Stretch>> + '_> {
     match &wall.courses {
         Courses::RunningBond(count) => {
-            let width = snap(wall.width.unwrap_or(wall.brick.length) / wall.brick.length);
-            (0..*count as usize)
-                .flat_map(|course| lay(wall, course, &running_bond(course, width)))
-                .collect()
+            let width = wall.width.unwrap_or(wall.brick.length);
+            let width = snap((width + joints.head) / (wall.brick.length + joints.head));
+            Box::new((0..*count as usize).map(move |course| running_bond(course, width)))
         }
-        Courses::List(courses) => courses
-            .iter()
-            .enumerate()
-            .flat_map(|(course, lengths)| lay(wall, course, &given(lengths)))
-            .collect(),
+        Courses::List(lists) => Box::new(lists.iter().map(|lengths| given(lengths))),
     }
+}
+
+/// Length in units of one brick of what stands on a stretch besides the head joint.
+fn left_of(stretch: f64, wall: &Wall, joints: JointThickness) -> f64 {
+    stretch + joints.head / wall.brick.length * (stretch - 1.0)
 }
 
 /// A number of half bricks where it is one but for rounding.
@@ -71,7 +132,7 @@ fn snap(bricks: f64) -> f64 {
     if (bricks - halves).abs() < SLIVER { halves } else { bricks }
 }
 
-/// A stretch of a course in units of one brick, from its start to its end.
+/// A stretch of a course in units of one brick and its head joint, from its start to its end.
 type Stretch = [f64; 2];
 
 /// A course of a wall `width` bricks wide; every other one begins with a half brick.
@@ -96,15 +157,21 @@ fn given(lengths: &[f64]) -> Vec<Stretch> {
     stretches
 }
 
-fn lay(wall: &Wall, course: usize, stretches: &[Stretch]) -> Vec<PlacedBrick> {
-    let x = |bricks: f64| wall.origin[0] + bricks * wall.brick.length;
-    let y = |course: usize| wall.origin[1] + course as f64 * wall.brick.height;
+fn lay(
+    wall: &Wall,
+    joints: JointThickness,
+    course: usize,
+    stretches: &[Stretch],
+) -> Vec<PlacedBrick> {
+    let pitch = [wall.brick.length + joints.head, wall.brick.height + joints.bed];
+    let x = |bricks: f64| wall.origin[0] + bricks * pitch[0];
+    let y = |course: usize| wall.origin[1] + course as f64 * pitch[1];
     let laid = stretches.iter().enumerate().map(|(place, [start, end])| PlacedBrick {
         course: course + 1,
         place: place + 1,
         low: [x(*start), y(course)],
-        high: [x(*end), y(course + 1)],
-        fraction: end - start,
+        high: [x(*end) - joints.head, y(course + 1) - joints.bed],
+        fraction: left_of(end - start, wall, joints),
     });
     laid.collect()
 }

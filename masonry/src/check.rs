@@ -60,7 +60,8 @@ impl Checks {
             (-s.t_n).max(s.t_t.abs() - contact.mu * s.t_n)
         };
         let contacts = model.contacts.iter().zip(&state.contacts);
-        let depth = model.contacts.iter().map(|contact| -gap(model, state, contact));
+        let both = model.contacts.iter().zip(&state.contacts);
+        let depth = both.map(|(contact, s)| -gap(model, state, contact, s));
         let displacement = largest(state.displacements.iter().flatten().map(Vector2::norm));
         let count = |status| state.contacts.iter().filter(|s| s.status == status).count();
         Self {
@@ -92,7 +93,11 @@ fn unbalanced(model: &Model, state: &State) -> Vec<Unbalanced> {
         let on_b = normal * s.t_n + Vector2::new(normal.y, -normal.x) * s.t_t;
         for (anchor, force) in [(Some(contact.b), on_b), (contact.a, -on_b)] {
             let Some(Anchor { block, edge, at }) = anchor else { continue };
-            let place = geometry::on_edge(&model.blocks[block.index()].corners, edge, at);
+            // The faces of a film feel its force in the middle between them.
+            let place = match contact.film {
+                Some(_) => contact.position,
+                None => geometry::on_edge(&model.blocks[block.index()].corners, edge, at),
+            };
             forces[block.index()].push((place, force));
         }
     }
@@ -123,11 +128,12 @@ fn total_load(model: &Model) -> f64 {
     model.blocks.iter().flat_map(|block| loads(model, block)).map(|(_, force)| force.norm()).sum()
 }
 
-/// The normal gap \[m\] at a contact point, from the displacements.
-fn gap(model: &Model, state: &State, contact: &ContactPoint) -> f64 {
+/// The normal gap \[m\] at a contact point, from the displacements and the compression of its film.
+fn gap(model: &Model, state: &State, contact: &ContactPoint, s: &ContactState) -> f64 {
     let normal = model.joints[contact.joint.index()].normal;
     let relative = recover::relative_displacement(model, &state.displacements, contact);
-    relative.dot(&normal) + contact.gap
+    let compressed = contact.film.map_or(0.0, |film| film.compliance[0] * s.t_n);
+    relative.dot(&normal) + contact.gap + compressed
 }
 
 /// The largest value, at least zero; one that is not a number counts as infinite.

@@ -4,6 +4,9 @@
 //! edges, in general between nodes: the relative displacement is interpolated on each side by
 //! that side's own shape functions, so that meshes need not match.
 //!
+//! In a joint class with mortar the two edges stand apart by the thickness of the mortar, and the joint
+//! is a film between them: a gap is what their distance has beyond that.
+//!
 //! # Orientation
 //! Normals of joints between blocks point upwards in beds (within 45 degrees of the vertical) and to
 //! the right in heads, whatever the order of the blocks; normals of supports point into the block.
@@ -12,8 +15,10 @@ use nalgebra::{Point2, Vector2};
 
 pub(crate) use self::search::near_pairs;
 use crate::geometry::{self, SegmentOverlap};
-use crate::ids::{BlockId, JointId, SupportId};
-use crate::model::{Anchor, Block, Body, ContactPoint, Joint, JointClass, Support};
+use crate::ids::{BlockId, FilmId, JointId, SupportId};
+use crate::model::{
+    Anchor, Block, Body, ContactPoint, Film, FilmPoint, Joint, JointClass, Mortar, Support,
+};
 pub use crate::scene::PointRule;
 
 mod points;
@@ -35,7 +40,7 @@ pub enum JointKind {
 pub struct Options {
     /// The places of the contact points.
     pub points: PointRule,
-    /// The largest initial gap across which two edges make a joint \[m\].
+    /// The largest initial gap across which two edges make a joint \[m\], beyond the mortar.
     pub gap_limit: f64,
     /// Distances below this fraction of the size of the smaller block count as zero.
     pub tolerance: f64,
@@ -62,6 +67,26 @@ pub enum ContactError {
         /// Name of side `b`.
         b: String,
     },
+    /// Two edges that should have mortar between them are too close, or not parallel.
+    #[error(
+        "{a} and {b} stand {nearest:.6} to {farthest:.6} m apart, but their joint, of class \"{class}\", has \
+         mortar of {thickness:.6} m between parallel faces: move them apart by that, or give the joint \
+         no thickness"
+    )]
+    NoRoomForFilm {
+        /// Name of side `a`.
+        a: String,
+        /// Name of side `b`.
+        b: String,
+        /// Name of the joint class.
+        class: String,
+        /// Smaller distance at the ends of their overlap \[m\].
+        nearest: f64,
+        /// Larger distance at the ends of their overlap \[m\].
+        farthest: f64,
+        /// Thickness of the mortar \[m\].
+        thickness: f64,
+    },
 }
 
 /// Finds all joints and places their contact points.
@@ -72,7 +97,8 @@ pub enum ContactError {
 /// only touch at a corner make no joint.
 ///
 /// # Errors
-/// [`ContactError::NoNodalPair`] with [`PointRule::NodalPairs`] on meshes that do not match.
+/// [`ContactError::NoNodalPair`] with [`PointRule::NodalPairs`] on meshes that do not match, and
+/// [`ContactError::NoRoomForFilm`] for edges closer than the mortar between them is thick.
 ///
 /// # Panics
 /// If `class_of` returns an index outside `classes`.
@@ -84,45 +110,80 @@ pub fn find(
     thickness: f64,
     options: &Options,
 ) -> Result<(Vec<Joint>, Vec<ContactPoint>), ContactError> {
-    let mut joints = Vec::new();
+    let mut joints: Vec<Joint> = Vec::new();
     let mut contacts = Vec::new();
-    let mut add = |meeting: &Meeting| {
+    let mut films = 0;
+    let name = |body: Body| match body {
+        Body::Block(id) => blocks[id.index()].name.clone(),
+        Body::Support(id) => supports[id.index()].name.clone(),
+    };
+    let mut add = |candidate: &Candidate| {
+        let class = class_of(candidate.kind);
+        let mortar = classes[class].mortar;
+        let meeting = match candidate.meet(mortar, options) {
+            Ok(Some(meeting)) => meeting,
+            Ok(None) => return Ok(()),
+            Err([nearest, farthest]) => {
+                return Err(ContactError::NoRoomForFilm {
+                    a: name(candidate.a),
+                    b: name(Body::Block(candidate.b)),
+                    class: classes[class].name.clone(),
+                    nearest,
+                    farthest,
+                    thickness: mortar.map_or(0.0, |mortar| mortar.thickness),
+                });
+            }
+        };
         let points = meeting.points(blocks, options);
         if points.is_empty() {
-            let name = |body: Body| match body {
-                Body::Block(id) => blocks[id.index()].name.clone(),
-                Body::Support(id) => supports[id.index()].name.clone(),
-            };
             return Err(ContactError::NoNodalPair {
                 a: name(meeting.a),
                 b: name(Body::Block(meeting.b)),
             });
         }
         let joint = JointId::new(joints.len());
-        let class = class_of(meeting.kind);
+        let film = mortar.map(|mortar| Film { id: FilmId::new(films), mortar });
+        films += usize::from(film.is_some());
         let mu = classes[class].mu;
-        contacts.extend(points.iter().map(|p| meeting.contact(blocks, p, joint, mu, thickness)));
-        joints.push(meeting.joint(blocks, class));
+        contacts.extend(
+            points.iter().map(|p| meeting.contact(blocks, p, (joint, mortar), mu, thickness)),
+        );
+        joints.push(meeting.joint(blocks, class, film));
         Ok(())
     };
-    for [first, second] in near_pairs(blocks, options) {
-        for meeting in between_blocks(blocks, first, second, options) {
-            add(&meeting)?;
+    let thickest = classes.iter().filter_map(|class| class.mortar).map(|it| it.thickness);
+    let reach = options.gap_limit + thickest.fold(0.0, f64::max);
+    for [first, second] in near_pairs(blocks, reach, options.tolerance) {
+        for candidate in between_blocks(blocks, first, second, options) {
+            add(&candidate)?;
         }
     }
     for (k, support) in supports.iter().enumerate() {
         for (b, block) in blocks.iter().enumerate() {
-            for meeting in on_support(support, SupportId::new(k), block, BlockId::new(b), options) {
-                add(&meeting)?;
+            for candidate in on_support(support, SupportId::new(k), block, BlockId::new(b), options)
+            {
+                add(&candidate)?;
             }
         }
     }
     Ok((joints, contacts))
 }
 
-/// Two sides that face each other, before a class and points are given to them.
-struct Meeting {
+/// Two edges that look at each other, at whatever distance.
+struct Candidate {
     kind: JointKind,
+    a: Body,
+    a_edge: usize,
+    b: BlockId,
+    b_edge: usize,
+    /// The edge of side `a`, and of side `b`.
+    edges: [[Point2<f64>; 2]; 2],
+    /// The distance that counts as touching \[m\].
+    slack: f64,
+}
+
+/// Two sides that meet, before points are given to them.
+struct Meeting {
     a: Body,
     a_edge: usize,
     b: BlockId,
@@ -131,41 +192,32 @@ struct Meeting {
     overlap: SegmentOverlap,
 }
 
-/// The joints between two blocks: at most one, unless a gap limit lets more edges see each other.
+/// The pairs of edges of two blocks that could make a joint.
 fn between_blocks(
     blocks: &[Block],
     first: BlockId,
     second: BlockId,
     options: &Options,
-) -> Vec<Meeting> {
+) -> Vec<Candidate> {
     let corners = |id: BlockId| &blocks[id.index()].corners;
     let size = geometry::size(corners(first)).min(geometry::size(corners(second)));
     let slack = options.tolerance * size;
-    let overlap = |a: BlockId, ka: usize, b: BlockId, kb: usize| {
-        let (a, b) = (geometry::edge(corners(a), ka), geometry::edge(corners(b), kb));
-        geometry::facing_overlap(a, b, slack, options.gap_limit)
-    };
-    let mut meetings = Vec::new();
+    let mut candidates = Vec::new();
     for k1 in 0..4 {
         for k2 in 0..4 {
-            let Some(found) = overlap(first, k1, second, k2) else { continue };
-            let (kind, forward) = classify(found.normal, options.tolerance);
-            let meeting = if forward {
-                Some((first, k1, second, k2, found))
+            let edges = [geometry::edge(corners(first), k1), geometry::edge(corners(second), k2)];
+            let Some(normal) = geometry::facing_normal(edges[0], edges[1]) else { continue };
+            let (kind, forward) = classify(normal, options.tolerance);
+            let (a, a_edge, b, b_edge, edges) = if forward {
+                (first, k1, second, k2, edges)
             } else {
-                overlap(second, k2, first, k1).map(|o| (second, k2, first, k1, o))
+                (second, k2, first, k1, [edges[1], edges[0]])
             };
-            meetings.extend(meeting.map(|(a, a_edge, b, b_edge, overlap)| Meeting {
-                kind,
-                a: Body::Block(a),
-                a_edge,
-                b,
-                b_edge,
-                overlap,
-            }));
+            let a = Body::Block(a);
+            candidates.push(Candidate { kind, a, a_edge, b, b_edge, edges, slack });
         }
     }
-    meetings
+    candidates
 }
 
 /// Bed or head, and whether the normal already points the agreed way.
@@ -178,38 +230,63 @@ fn classify(normal: Vector2<f64>, tolerance: f64) -> (JointKind, bool) {
     }
 }
 
-/// The joints between a support and a block; the support may lie on either side of its line.
+/// The edges of a block that could rest on a support, which may lie on either side of its line.
 fn on_support(
     support: &Support,
     id: SupportId,
     block: &Block,
     b: BlockId,
     options: &Options,
-) -> Vec<Meeting> {
+) -> Vec<Candidate> {
     let slack = options.tolerance * geometry::size(&block.corners);
-    let mut meetings = Vec::new();
-    for b_edge in 0..4 {
-        let edge = geometry::edge(&block.corners, b_edge);
-        for line in [[support.from, support.to], [support.to, support.from]] {
-            let overlap = geometry::facing_overlap(line, edge, slack, options.gap_limit);
-            meetings.extend(overlap.map(|overlap| Meeting {
-                kind: JointKind::Support(id),
-                a: Body::Support(id),
-                a_edge: 0,
-                b,
-                b_edge,
-                overlap,
-            }));
-        }
+    let lines = [[support.from, support.to], [support.to, support.from]];
+    let edges = (0..4).flat_map(|k| lines.map(|line| (k, line)));
+    edges
+        .map(|(b_edge, line)| Candidate {
+            kind: JointKind::Support(id),
+            a: Body::Support(id),
+            a_edge: 0,
+            b,
+            b_edge,
+            edges: [line, geometry::edge(&block.corners, b_edge)],
+            slack,
+        })
+        .collect()
+}
+
+impl Candidate {
+    /// The overlap of the two edges, with mortar on that of side `a` if there is any; `None` if they do
+    /// not meet.
+    ///
+    /// The error holds their smallest and largest distance where the mortar does not fit between them.
+    fn meet(&self, mortar: Option<Mortar>, options: &Options) -> Result<Option<Meeting>, [f64; 2]> {
+        let Self { a, a_edge, b, b_edge, edges: [edge_a, edge_b], slack, .. } = *self;
+        let of = |overlap| Meeting { a, a_edge, b, b_edge, overlap };
+        let Some(thickness) = mortar.map(|mortar| mortar.thickness) else {
+            let overlap = geometry::facing_overlap(edge_a, edge_b, slack, options.gap_limit);
+            return Ok(overlap.map(of));
+        };
+        let up = geometry::turn_right((edge_a[1] - edge_a[0]).normalize()) * thickness;
+        let face = edge_a.map(|end| end + up);
+        let filled = geometry::facing_overlap(face, edge_b, slack, options.gap_limit);
+        let Some(overlap) = filled else {
+            let bare = geometry::facing_overlap(edge_a, edge_b, slack, 2.0 * thickness);
+            let gap = bare.map_or([f64::INFINITY; 2], |overlap| overlap.gap);
+            let [nearest, farthest] = [gap[0].min(gap[1]), gap[0].max(gap[1])];
+            let fits = nearest >= thickness - slack;
+            return if fits { Ok(None) } else { Err([nearest, farthest]) };
+        };
+        Ok(Some(of(overlap)))
     }
-    meetings
 }
 
 impl Meeting {
     /// The overlap runs along the first segment, which is against the joint's tangent.
-    fn joint(&self, blocks: &[Block], class: usize) -> Joint {
-        let [to, from] = self.overlap.on_second.map(|at| self.on_b(blocks, at));
-        Joint { a: self.a, b: self.b, class, from, to, normal: self.overlap.normal }
+    fn joint(&self, blocks: &[Block], class: usize, film: Option<Film>) -> Joint {
+        let normal = self.overlap.normal;
+        let half = normal * (0.5 * film.map_or(0.0, |film| film.mortar.thickness));
+        let [to, from] = self.overlap.on_second.map(|at| self.on_b(blocks, at) - half);
+        Joint { a: self.a, b: self.b, class, from, to, normal, film }
     }
 
     fn on_b(&self, blocks: &[Block], at: f64) -> Point2<f64> {
@@ -240,23 +317,34 @@ impl Meeting {
         &self,
         blocks: &[Block],
         place: &points::Place,
-        joint: JointId,
+        (joint, mortar): (JointId, Option<Mortar>),
         mu: f64,
         thickness: f64,
     ) -> ContactPoint {
-        let a = match self.a {
-            Body::Block(block) => Some(Anchor { block, edge: self.a_edge, at: place.on_a }),
+        let on_a = |at| match self.a {
+            Body::Block(block) => Some(Anchor { block, edge: self.a_edge, at }),
             Body::Support(_) => None,
         };
+        let on_b = |at| Anchor { block: self.b, edge: self.b_edge, at };
         let [gap_to, gap_from] = self.overlap.gap;
+        let weight = place.weight * thickness;
+        let film = mortar.map(|mortar| FilmPoint {
+            half: 0.5 * mortar.thickness,
+            length: place.weight,
+            a: on_a(place.span_on_a[0]).zip(on_a(place.span_on_a[1])).map(<[Anchor; 2]>::from),
+            b: place.span_on_b.map(on_b),
+            compliance: mortar.compliance(weight),
+        });
+        let half = self.overlap.normal * film.map_or(0.0, |film| film.half);
         ContactPoint {
             joint,
-            position: self.on_b(blocks, place.on_b),
-            weight: place.weight * thickness,
-            a,
-            b: Anchor { block: self.b, edge: self.b_edge, at: place.on_b },
+            position: self.on_b(blocks, place.on_b) - half,
+            weight,
+            a: on_a(place.on_a),
+            b: on_b(place.on_b),
             gap: gap_from + (gap_to - gap_from) * place.along,
             mu,
+            film,
         }
     }
 }

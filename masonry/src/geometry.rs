@@ -7,7 +7,7 @@ use nalgebra::{Point2, Vector2};
 
 mod overlap;
 
-pub use overlap::{SegmentOverlap, facing_overlap, overlap_area};
+pub use overlap::{SegmentOverlap, facing_normal, facing_overlap, overlap_area};
 
 /// Corners of a quadrilateral, counter-clockwise.
 pub type Quad = [Point2<f64>; 4];

@@ -39,6 +39,10 @@ id!(
     JointId
 );
 id!(
+    /// A mortar film: the films of a model are counted in the order of its joints.
+    FilmId
+);
+id!(
     /// A contact point of [`Model::contacts`](crate::model::Model::contacts).
     ContactId
 );

@@ -16,10 +16,17 @@ mod placement;
 
 use nalgebra::{Point2, Vector2};
 
-use crate::ids::{BlockId, JointId, SupportId};
+use crate::element::constitutive;
+use crate::film::FilmMaterial;
+use crate::ids::{BlockId, FilmId, JointId, SupportId};
 use crate::mesh::BlockMesh;
 pub use crate::scene::Plane;
 use crate::units::Units;
+
+/// Name of the class of the joints between blocks whose normal is closer to the vertical.
+pub(crate) const BED: &str = "bed";
+/// Name of the class of the other joints between blocks.
+pub(crate) const HEAD: &str = "head";
 
 /// Everything that the mechanics needs of a scene, in SI units (m, N, Pa, kg/m^3).
 #[derive(Debug, Clone)]
@@ -101,6 +108,35 @@ pub struct JointClass {
     pub name: String,
     /// Coefficient of Coulomb friction \[-\]. Zero gives the joint no tangential unknowns.
     pub mu: f64,
+    /// The mortar that fills its joints; `None` for dry joints.
+    pub mortar: Option<Mortar>,
+}
+
+/// A layer of mortar.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mortar {
+    /// Thickness `t_y` \[m\].
+    pub thickness: f64,
+    /// What it is made of.
+    pub material: FilmMaterial,
+}
+
+impl Mortar {
+    /// Compression and shear \[m\] of a layer of an area \[m^2\] under a unit of force \[m/N\]:
+    /// `t_y / (C_22 area)` and `t_y / (G area)`, without strain along the joint.
+    pub fn compliance(&self, area: f64) -> [f64; 2] {
+        let matrix = constitutive(self.material.elasticity, self.material.plane);
+        [1, 2].map(|k| self.thickness / (matrix[(k, k)] * area))
+    }
+}
+
+/// The mortar of one joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Film {
+    /// Its place among the films of the model.
+    pub id: FilmId,
+    /// Thickness and material.
+    pub mortar: Mortar,
 }
 
 /// One of the two sides of a joint.
@@ -121,12 +157,14 @@ pub struct Joint {
     pub b: BlockId,
     /// The class, an index into [`Model::joint_classes`].
     pub class: usize,
-    /// Start of the overlap \[m\].
+    /// Start of the overlap \[m\]; of a film, in the middle between its faces.
     pub from: Point2<f64>,
-    /// End of the overlap \[m\].
+    /// End of the overlap \[m\]; of a film, in the middle between its faces.
     pub to: Point2<f64>,
     /// Unit normal from `a` to `b`.
     pub normal: Vector2<f64>,
+    /// The film of mortar between the two sides; `None` for a dry joint.
+    pub film: Option<Film>,
 }
 
 impl Joint {
@@ -138,6 +176,12 @@ impl Joint {
     /// Length of the overlap \[m\].
     pub fn length(&self) -> f64 {
         (self.to - self.from).norm()
+    }
+
+    /// Start and end of the face on side `a`, and of that on side `b` \[m\].
+    pub fn faces(&self) -> [[Point2<f64>; 2]; 2] {
+        let half = self.normal * (0.5 * self.film.map_or(0.0, |film| film.mortar.thickness));
+        [[self.from - half, self.to - half], [self.from + half, self.to + half]]
     }
 }
 
@@ -157,7 +201,7 @@ pub struct Anchor {
 pub struct ContactPoint {
     /// The joint on which it lies.
     pub joint: JointId,
-    /// Its place \[m\].
+    /// Its place \[m\]; in a film half way between the faces, where the film's forces act.
     pub position: Point2<f64>,
     /// The area that it stands for \[m^2\]: traction = force / weight.
     pub weight: f64,
@@ -165,8 +209,26 @@ pub struct ContactPoint {
     pub a: Option<Anchor>,
     /// Where it sits on side `b`.
     pub b: Anchor,
-    /// Initial gap `x_0` \[m\].
+    /// Initial gap `x_0` \[m\]; across a film, what the distance of the faces exceeds its thickness:
+    /// zero for a film in contact.
     pub gap: f64,
     /// Friction coefficient of its joint's class.
     pub mu: f64,
+    /// What else a point of a film needs; `None` in a dry joint.
+    pub film: Option<FilmPoint>,
+}
+
+/// A contact point of a film.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FilmPoint {
+    /// Half the thickness of the film, from either face to the point \[m\].
+    pub half: f64,
+    /// Length of the film that the point stands for \[m\].
+    pub length: f64,
+    /// Start and end of this length along the tangent, on side `a`; `None` when that side is a support.
+    pub a: Option<[Anchor; 2]>,
+    /// The same on side `b`.
+    pub b: [Anchor; 2],
+    /// Compression and shear of this part of the film under a unit of force \[m/N\].
+    pub compliance: [f64; 2],
 }

@@ -4,7 +4,7 @@ use nalgebra::{Point2, Vector2};
 use serde::Serialize;
 
 use crate::check::Checks;
-use crate::ids::BlockId;
+use crate::ids::{BlockId, ContactId, FilmId};
 use crate::model::Model;
 use crate::plan::Plan;
 
@@ -16,9 +16,12 @@ pub struct State {
     pub displacements: Vec<Vec<Vector2<f64>>>,
     /// Force, gap and slip at every contact point.
     pub contacts: Vec<ContactState>,
+    /// Stresses at the contact points of the mortar films, in the order of the points; empty without
+    /// films.
+    pub films: Vec<FilmStress>,
     /// Stresses at the centre of every element; empty when no output shows them.
     pub stresses: Vec<ElementStress>,
-    /// Strain energy of all blocks \[J\].
+    /// Strain energy of all blocks and films \[J\].
     pub strain_energy: f64,
 }
 
@@ -29,9 +32,9 @@ pub struct ContactState {
     pub t_n: f64,
     /// Tangential contact force \[N\] on side `b` along `t`.
     pub t_t: f64,
-    /// Normal gap \[m\].
+    /// Normal gap \[m\]; across a film, beyond its compression.
     pub y_n: f64,
-    /// Slip \[m\] of side `b` relative to `a` along `t`.
+    /// Slip \[m\] of side `b` relative to `a` along `t`; across a film, beyond its shear.
     pub y_t: f64,
     /// Open, stick or slip.
     pub status: ContactStatus,
@@ -47,6 +50,20 @@ pub enum ContactStatus {
     Stick,
     /// Closed, and the sides slide on each other: the force is on the edge of the friction cone.
     Slip,
+}
+
+/// Stress at one contact point of a mortar film, in the film's axes: `x` along the tangent of the
+/// joint and `y` along its normal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FilmStress {
+    /// The film.
+    pub film: FilmId,
+    /// The contact point.
+    pub contact: ContactId,
+    /// Stress across the joint \[Pa\], tension positive: never above zero.
+    pub sigma_y: f64,
+    /// Shear stress \[Pa\].
+    pub tau: f64,
 }
 
 /// Stress at the centre of one element.

@@ -4,9 +4,11 @@ use nalgebra::{SVector, Vector2};
 
 use crate::element::{constitutive, quad4};
 use crate::forms::RowState;
-use crate::ids::BlockId;
+use crate::ids::{BlockId, ContactId};
 use crate::model::{Anchor, Body, ContactPoint, Model};
-use crate::outcome::{ContactState, ContactStatus, ElementStress, Principal, Reaction, State};
+use crate::outcome::{
+    ContactState, ContactStatus, ElementStress, FilmStress, Principal, Reaction, State,
+};
 use crate::reduction::Reduction;
 use crate::system::{BodySystem, System, displaced_nodes};
 
@@ -42,8 +44,10 @@ pub fn recover(
         displacements.push(moved.collect());
     }
     let contacts = contact_states(model, system, rows, &displacements);
+    strain_energy += films_energy(system, rows);
+    let films = film_stresses(model, &contacts);
     let stresses = if with_stresses { stresses(model, &displacements) } else { Vec::new() };
-    State { displacements, contacts, stresses, strain_energy }
+    State { displacements, contacts, films, stresses, strain_energy }
 }
 
 /// `u.K u / 2` of one block \[J\].
@@ -51,6 +55,23 @@ fn energy(system: &System, body: &BodySystem, u: &[f64]) -> f64 {
     let Some(k) = body.stiffness.map(|k| &system.stiffnesses[k].matrix) else { return 0.0 };
     let row = |i: usize| u.iter().enumerate().map(|(j, u_j)| k[(i, j)] * u_j).sum::<f64>();
     u.iter().enumerate().map(|(i, u_i)| 0.5 * u_i * row(i)).sum()
+}
+
+/// The energy of all films \[J\].
+fn films_energy(system: &System, rows: &RowState) -> f64 {
+    system.rows.iter().zip(&rows.t).map(|(row, t)| 0.5 * row.compliance * t * t).sum()
+}
+
+/// Stresses at the points of all films, in the order of the points.
+pub fn film_stresses(model: &Model, contacts: &[ContactState]) -> Vec<FilmStress> {
+    let points = model.contacts.iter().zip(contacts).enumerate();
+    let of_point = |(k, (point, state)): (usize, (&ContactPoint, &ContactState))| {
+        let film = model.joints[point.joint.index()].film.filter(|_| point.film.is_some())?;
+        // Adding zero turns a stress of -0.0 into 0.0.
+        let [sigma_y, tau] = [state.t_n, state.t_t].map(|force| 0.0 - force / point.weight);
+        Some(FilmStress { film: film.id, contact: ContactId::new(k), sigma_y, tau })
+    };
+    points.filter_map(of_point).collect()
 }
 
 /// The displacement \[m\] of a place on a block's edge; `displacements` as in [`State`].
@@ -69,14 +90,20 @@ pub fn displacement_at(
     }
 }
 
-/// `u_b - u_a` \[m\] at a contact point.
+/// `u_b - u_a` \[m\] at a contact point: across a film, of its two faces as they and their mean
+/// rotations carry the middle between them.
 pub fn relative_displacement(
     model: &Model,
     displacements: &[Vec<Vector2<f64>>],
     contact: &ContactPoint,
 ) -> Vector2<f64> {
     let side = |anchor| displacement_at(model, displacements, anchor);
-    side(contact.b) - contact.a.map_or_else(Vector2::zeros, side)
+    let apart = side(contact.b) - contact.a.map_or_else(Vector2::zeros, side);
+    let Some(film) = &contact.film else { return apart };
+    let joint = &model.joints[contact.joint.index()];
+    let turned = |[start, end]: [Anchor; 2]| (side(end) - side(start)).dot(&joint.normal);
+    let turned = turned(film.b) + film.a.map_or(0.0, turned);
+    apart + joint.tangent() * (turned * film.half / film.length)
 }
 
 fn contact_states(

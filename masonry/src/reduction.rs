@@ -3,7 +3,7 @@
 //! With isostatic rows `I` and the others `E`, equilibrium of all blocks is
 //! `t_I = R t_E + t_0` (3.18), and the relative displacements follow from
 //! `y_E = A t_E - R^T y_I + c` (3.23), where `A = W^T F W`, `W` is the identity on `E` and `R` on `I`,
-//! and `F = C K^+ C^T`. Any generalised inverse `K^+` gives the same `A` and `c`, because the
+//! and `F = C K^+ C^T`, with the compliance of mortar films on the diagonal. Any generalised inverse `K^+` gives the same `A` and `c`, because the
 //! columns of `W` and the loads with `t_0` balance on every block.
 
 use faer::linalg::solvers::Solve;
@@ -69,7 +69,7 @@ impl Reduction {
         let t0 = t0.col_as_slice(0).to_vec();
 
         let compliances = compliances(system);
-        let flexibility = Flexibility::assemble(&compliances, &isostatic, &others);
+        let flexibility = Flexibility::assemble(system, &compliances, &isostatic, &others);
         let a = flexibility.reduce(r.as_ref());
 
         let mut t = vec![0.0; system.rows.len()];
@@ -101,9 +101,10 @@ impl Reduction {
         self.g_isostatic.partial_piv_lu().solve(rhs).col_as_slice(0).to_vec()
     }
 
-    /// `F = C K^+ C^T` \[m/N\] of all rows, dense.
-    pub fn flexibility(&self, rows: usize) -> Mat<f64> {
-        let mut f = Mat::zeros(rows, rows);
+    /// `F = C K^+ C^T` \[m/N\] of all rows, with the compliance of films, dense.
+    pub fn flexibility(&self, system: &System) -> Mat<f64> {
+        let mut f = Mat::zeros(system.rows.len(), system.rows.len());
+        system.rows.iter().enumerate().for_each(|(k, row)| f[(k, k)] = row.compliance);
         for block in &self.compliances {
             scatter(&mut f, block, Some, Some);
         }
@@ -137,7 +138,8 @@ fn compliances(system: &System) -> Vec<Compliance> {
 }
 
 fn relative_displacements(system: &System, blocks: &[Compliance], t: &[f64]) -> Vec<f64> {
-    let mut y: Vec<f64> = system.rows.iter().map(|row| row.offset).collect();
+    let own = system.rows.iter().zip(t).map(|(row, t)| row.offset + row.compliance * t);
+    let mut y: Vec<f64> = own.collect();
     for block in blocks {
         for (i, (row, v)) in block.rows.iter().zip(&block.v).enumerate() {
             let f_t: f64 =
@@ -156,7 +158,12 @@ struct Flexibility {
 }
 
 impl Flexibility {
-    fn assemble(blocks: &[Compliance], isostatic: &[usize], others: &[usize]) -> Self {
+    fn assemble(
+        system: &System,
+        blocks: &[Compliance],
+        isostatic: &[usize],
+        others: &[usize],
+    ) -> Self {
         let (i, e) = (isostatic.len(), others.len());
         let place = |list: &[usize]| {
             let mut place = vec![None; i + e];
@@ -165,6 +172,12 @@ impl Flexibility {
         };
         let (in_i, in_e) = (place(isostatic), place(others));
         let mut parts = Self { ee: Mat::zeros(e, e), ie: Mat::zeros(i, e), ii: Mat::zeros(i, i) };
+        for (k, row) in isostatic.iter().enumerate() {
+            parts.ii[(k, k)] = system.rows[*row].compliance;
+        }
+        for (k, row) in others.iter().enumerate() {
+            parts.ee[(k, k)] = system.rows[*row].compliance;
+        }
         for block in blocks {
             scatter(&mut parts.ee, block, |row| in_e[row], |row| in_e[row]);
             scatter(&mut parts.ie, block, |row| in_i[row], |row| in_e[row]);

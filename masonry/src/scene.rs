@@ -130,8 +130,8 @@ pub struct Material {
     pub density: Option<f64>,
 }
 
-/// What resists sliding in a class of joints: exactly one of `mu` and `phi_deg`.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+/// A class of joints: what resists sliding, exactly one of `mu` and `phi_deg`, and the mortar.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
     /// Coefficient of Coulomb friction \[-\]; zero is a frictionless joint.
@@ -140,6 +140,19 @@ pub struct Joint {
     /// Angle of friction \[degrees\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub phi_deg: Option<f64>,
+    /// Thickness of the mortar \[length\]; without it, or with zero, the joint is dry.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thickness: Option<f64>,
+    /// Name of the elastic material of the mortar; required with a thickness above zero.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+}
+
+impl Joint {
+    /// Thickness of the mortar \[length\]; zero for a dry joint.
+    pub fn mortar_thickness(&self) -> f64 {
+        self.thickness.unwrap_or(0.0)
+    }
 }
 
 /// A wall of bricks in courses, built by [`bond`](crate::bond).
@@ -175,9 +188,9 @@ pub struct Wall {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Brick {
-    /// Length along the course \[length\].
+    /// Length along the course, without mortar \[length\].
     pub length: f64,
-    /// Height of the course \[length\].
+    /// Height of the course, without mortar \[length\].
     pub height: f64,
 }
 
@@ -188,7 +201,8 @@ pub enum Courses {
     /// the last brick of a course is cut to the width.
     RunningBond(u32),
     /// Bottom to top, each a list of brick lengths in units of one brick from left to right; a
-    /// negative number is an opening of that length.
+    /// negative number is an opening of that length. In mortar the unit is one brick and one head
+    /// joint: a brick of length `f` measures `f (l + t_y) - t_y`, a half brick `(l - t_y) / 2`.
     List(Vec<Vec<f64>>),
 }
 

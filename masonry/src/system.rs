@@ -3,6 +3,12 @@
 //! `K u = f + C^T t` (3.2), `y = C u + x`. `K` is block-diagonal, so everything is kept per block.
 //! Row `c` of `C`, for `c` below the number of contact points, is the normal row of contact point `c`;
 //! one tangential row follows for each point with friction, in the order of the points.
+//!
+//! A film of mortar is a spring in series with the contact: `y = C u + x + c t`, with the compliance `c`
+//! of the film in the row of the point ([`Row::compliance`]). Its shear is that of the strip (3.38),
+//! `(u_b - u_a).t` and half the thickness times the rotation of both faces, so that no rigid motion
+//! shears it; both faces feel its force in the middle between them. What a strip has beyond that,
+//! the strain along the joint, is left out.
 
 use faer::Mat;
 use nalgebra::{Point2, Vector2};
@@ -70,6 +76,8 @@ pub struct Row {
     pub direction: Direction,
     /// Initial gap `x_0` or initial slip `s_0` \[m\].
     pub offset: f64,
+    /// Compression or shear of the film under a unit of force \[m/N\]; zero in a dry joint.
+    pub compliance: f64,
 }
 
 /// What one block contributes to a contact row.
@@ -128,11 +136,13 @@ impl System {
             contact: ContactId::new(k),
             direction: Direction::Normal,
             offset: contact.gap,
+            compliance: contact.film.map_or(0.0, |film| film.compliance[0]),
         });
         let tangents = friction.iter().map(|(contact, _)| Row {
             contact: *contact,
             direction: Direction::Tangent,
             offset: 0.0,
+            compliance: model.contacts[contact.index()].film.map_or(0.0, |film| film.compliance[1]),
         });
         let rows: Vec<Row> = normals.chain(tangents).collect();
 
@@ -227,15 +237,31 @@ fn add_row(model: &Model, bodies: &mut [BodySystem], k: usize, row: &Row) {
         Direction::Normal => joint.normal,
         Direction::Tangent => joint.tangent(),
     };
-    let sides = [(Some(contact.b), direction), (contact.a, -direction)];
-    for (anchor, direction) in sides {
+    let film = contact.film.as_ref();
+    let spans = [film.map(|film| film.b), film.and_then(|film| film.a)];
+    let sides = [(Some(contact.b), 1.0), (contact.a, -1.0)];
+    for ((anchor, sign), span) in sides.into_iter().zip(spans) {
         let Some(anchor) = anchor else { continue };
+        let direction = direction * sign;
         let block = &model.blocks[anchor.block.index()];
         let body = &mut bodies[anchor.block.index()];
-        let place = geometry::on_edge(&block.corners, anchor.edge, anchor.at);
+        let face = geometry::on_edge(&block.corners, anchor.edge, anchor.at);
+        // From the face to the middle of the film, against the normal on side `b`.
+        let place = face - joint.normal * (sign * film.map_or(0.0, |film| film.half));
         let modes = body.modes.at(place).map(|mode| mode.dot(&direction));
         let entries = match (&block.mesh, body.stiffness) {
-            (Some(mesh), Some(_)) => entries(mesh, anchor, direction),
+            (Some(mesh), Some(_)) => {
+                let mut entries = entries(mesh, anchor, direction);
+                if let (Some(film), Some([start, end]), Direction::Tangent) =
+                    (film, span, row.direction)
+                {
+                    // The mean rotation of the face over the length that the point stands for.
+                    let turned = joint.normal * (film.half / film.length);
+                    entries.extend(self::entries(mesh, end, turned));
+                    entries.extend(self::entries(mesh, start, -turned));
+                }
+                entries
+            }
             _ => Vec::new(),
         };
         body.rows.push(BodyRow { row: k, entries, modes });

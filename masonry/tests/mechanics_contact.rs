@@ -109,7 +109,7 @@ fn nodal_pairs_need_matching_nodes() {
         rectangle("upper", [0.5, 1.5], [1.0, 2.0], Some([1, 1])),
     ];
     let options = Options { points: PointRule::NodalPairs, ..Options::default() };
-    let classes = [masonry::model::JointClass { name: "bed".into(), mu: 0.5 }];
+    let classes = [masonry::model::JointClass { name: "bed".into(), mu: 0.5, mortar: None }];
     let found = masonry::contact::find(&blocks, &[], &classes, |_| 0, 1.0, &options);
     let (a, b) = ("lower".to_string(), "upper".to_string());
     assert_eq!(found.unwrap_err(), ContactError::NoNodalPair { a, b });

@@ -20,7 +20,14 @@ pub(super) struct Place {
     pub(super) on_b: f64,
     /// Length that the point stands for \[m\].
     pub(super) weight: f64,
+    /// Start and end of this length as fractions of the edge of side `a`; zeros for a support.
+    pub(super) span_on_a: [f64; 2],
+    /// The same on the edge of side `b`.
+    pub(super) span_on_b: [f64; 2],
 }
+
+/// Where on the joint a point is, its weight, and the part that it stands for, in fractions of the joint.
+type Weighted = (f64, f64, [f64; 2]);
 
 /// Places the points of a joint of the given length \[m\]; fractions of the joint closer than `slack`
 /// are one place. Empty when nodal pairs are asked for and there are none.
@@ -40,11 +47,13 @@ pub(super) fn place(
     };
     weighted
         .into_iter()
-        .map(|(along, weight)| Place {
+        .map(|(along, weight, span)| Place {
             along,
             on_a: a.map_or(0.0, |side| side.to_edge(along)),
             on_b: b.to_edge(along),
             weight: weight * length,
+            span_on_a: span.map(|s| a.map_or(0.0, |side| side.to_edge(s))),
+            span_on_b: span.map(|s| b.to_edge(s)),
         })
         .collect()
 }
@@ -85,37 +94,41 @@ fn common(a: Option<&[f64]>, b: &[f64], slack: f64) -> Vec<f64> {
 }
 
 /// Half of every part goes to each of its ends.
-fn trapezoid(places: &[f64]) -> Vec<(f64, f64)> {
-    let mut weighted: Vec<(f64, f64)> = places.iter().map(|x| (*x, 0.0)).collect();
+fn trapezoid(places: &[f64]) -> Vec<Weighted> {
+    let mut weighted: Vec<Weighted> = places.iter().map(|x| (*x, 0.0, [*x; 2])).collect();
     for k in 1..places.len() {
         let half = 0.5 * (places[k] - places[k - 1]);
         weighted[k - 1].1 += half;
         weighted[k].1 += half;
+        let middle = places[k - 1] + half;
+        weighted[k - 1].2[1] = middle;
+        weighted[k].2[0] = middle;
     }
     weighted
 }
 
 /// Every point stands for what is nearer to it than to any other.
-fn tributary(places: &[f64]) -> Vec<(f64, f64)> {
+fn tributary(places: &[f64]) -> Vec<Weighted> {
     let middle = |k: usize| 0.5 * (places[k - 1] + places[k]);
     let last = places.len();
     (0..last)
         .map(|k| {
             let from = if k == 0 { 0.0 } else { middle(k) };
             let to = if k + 1 == last { 1.0 } else { middle(k + 1) };
-            (places[k], to - from)
+            (places[k], to - from, [from, to])
         })
         .collect()
 }
 
 /// Two Gauss points in every part.
-fn gauss(places: &[f64]) -> Vec<(f64, f64)> {
+fn gauss(places: &[f64]) -> Vec<Weighted> {
     let offset = 0.5 / 3.0_f64.sqrt();
     places
         .windows(2)
         .flat_map(|part| {
             let (length, middle) = (part[1] - part[0], 0.5 * (part[0] + part[1]));
-            [-offset, offset].map(|s| (middle + s * length, 0.5 * length))
+            [(-offset, [part[0], middle]), (offset, [middle, part[1]])]
+                .map(|(s, span)| (middle + s * length, 0.5 * length, span))
         })
         .collect()
 }

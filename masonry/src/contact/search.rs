@@ -2,20 +2,19 @@
 
 use nalgebra::Point2;
 
-use crate::contact::Options;
 use crate::geometry;
 use crate::ids::BlockId;
 use crate::model::Block;
 
-/// Pairs of blocks whose bounding boxes come within the gap limit, in increasing order.
+/// Pairs of blocks whose bounding boxes come within `reach` \[m\], in increasing order.
 ///
 /// Boxes are swept along the longer side of the whole structure, so that only neighbours in that
 /// direction are compared.
-pub(crate) fn near_pairs(blocks: &[Block], options: &Options) -> Vec<[BlockId; 2]> {
+pub(crate) fn near_pairs(blocks: &[Block], reach: f64, tolerance: f64) -> Vec<[BlockId; 2]> {
     let boxes: Vec<Bounds> = blocks
         .iter()
         .map(|b| {
-            let margin = options.gap_limit + options.tolerance * geometry::size(&b.corners);
+            let margin = reach + tolerance * geometry::size(&b.corners);
             Bounds::of(&b.corners).grown(margin)
         })
         .collect();

@@ -25,7 +25,7 @@ pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp:
     // A row of the system acts on two rows of w, +y_t and -y_t, where it is tangential; and it takes
     // its force from the same two places of z.
     let places: Vec<Vec<(usize, f64)>> = (0..rows).map(|row| layout.terms(row, 1.0)).collect();
-    let f = reduction.flexibility(rows);
+    let f = reduction.flexibility(system);
     let free = reduction.elastic_gaps(system, &vec![0.0; rows]);
     let stiff = scale.force / scale.length;
     let alpha = |k: usize| [(order - 2 * rigid + k, 1.0), (order - rigid + k, -1.0)];

@@ -9,7 +9,9 @@ use crate::system::{BodySystem, System};
 #[derive(Debug, Clone)]
 pub struct Sparse {
     /// `K u = f + C^T t` (3.2) with the contact law. The displacements are those of the nodes, block by
-    /// block; of a rigid block the amplitudes of its three motions.
+    /// block; of a rigid block the amplitudes of its three motions. Then, row by row, how far each
+    /// film gives way at its points: displacements of its free face against the block, held by the
+    /// film's own stiffness `1 / c`, which see the contact force alone, `u = c t`.
     pub problem: Contact2d,
     /// The first displacement of every block, and one past the last.
     starts: Vec<usize>,
@@ -25,7 +27,14 @@ impl Sparse {
         for body in &system.bodies {
             starts.push(starts[starts.len() - 1] + unknowns(body));
         }
-        let (n, m) = (starts[starts.len() - 1], system.points());
+        let films: Vec<usize> =
+            (0..system.rows.len()).filter(|row| system.rows[*row].compliance > 0.0).collect();
+        let blocks_end = starts[starts.len() - 1];
+        let (n, m) = (blocks_end + films.len(), system.points());
+        let point_of = |row: usize| match row.checked_sub(m) {
+            None => row,
+            Some(position) => system.friction[position].0.index(),
+        };
         let (mut k, mut f) = (Vec::new(), Vec::with_capacity(n));
         let (mut c_n, mut c_t) = (Vec::new(), Vec::new());
         for (body, &start) in system.bodies.iter().zip(&starts) {
@@ -40,10 +49,8 @@ impl Sparse {
                 f.extend(body.resultant);
             }
             for row in &body.rows {
-                let (rows, point) = match row.row.checked_sub(m) {
-                    None => (&mut c_n, row.row),
-                    Some(position) => (&mut c_t, system.friction[position].0.index()),
-                };
+                let rows = if row.row < m { &mut c_n } else { &mut c_t };
+                let point = point_of(row.row);
                 if body.stiffness.is_some() {
                     rows.extend(
                         row.entries.iter().map(|&(j, v)| Triplet::new(point, start + j, v)),
@@ -53,6 +60,13 @@ impl Sparse {
                     rows.extend(modes.map(|(j, &v)| Triplet::new(point, start + j, v)));
                 }
             }
+        }
+        for (position, row) in films.into_iter().enumerate() {
+            let gives = blocks_end + position;
+            k.push(Triplet::new(gives, gives, 1.0 / system.rows[row].compliance));
+            f.push(0.0);
+            let rows = if row < m { &mut c_n } else { &mut c_t };
+            rows.push(Triplet::new(point_of(row), gives, 1.0));
         }
         let (mut s_0, mut mu) = (vec![0.0; m], vec![0.0; m]);
         for ((point, value), row) in system.friction.iter().zip(&system.rows[m..]) {

@@ -52,6 +52,14 @@ pub struct SegmentOverlap {
     pub gap: [f64; 2],
 }
 
+/// Unit normal from the first of two segments that look at each other to the second, the mean of the
+/// right-hand normal of the first and the left-hand normal of the second; `None` for segments that
+/// do not run in opposite directions.
+pub fn facing_normal(first: [Point2<f64>; 2], second: [Point2<f64>; 2]) -> Option<Vector2<f64>> {
+    let [e1, e2] = [first, second].map(|[from, to]| (to - from).normalize());
+    (e1.dot(&e2) < 0.0).then(|| turn_right((e1 - e2).normalize()))
+}
+
 /// Overlap of two segments that run in opposite directions and face each other, the second on the
 /// right-hand side of the first: two edges of counter-clockwise blocks, say.
 ///

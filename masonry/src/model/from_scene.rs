@@ -3,19 +3,16 @@
 use nalgebra::{Point2, Vector2};
 
 use super::{
-    Block, Body, ContactPoint, Elasticity, Joint, JointClass, Model, Plane, Support, edge_loads,
-    placement,
+    BED, Block, Body, ContactPoint, Elasticity, HEAD, Joint, JointClass, Model, Mortar, Plane,
+    Support, edge_loads, placement,
 };
-use crate::bond;
-use crate::contact::{self, JointKind, Options};
+use crate::bond::{self, JointThickness};
+use crate::contact::{self, ContactError, JointKind, Options};
+use crate::film::FilmMaterial;
 use crate::geometry::{self, QuadError};
 use crate::mesh::BlockMesh;
 use crate::scene::{self, Fault, KeyPath, Scene, SceneError, SceneErrorKind};
 use crate::units::Units;
-
-/// Names of the classes of the joints between blocks.
-const BED: &str = "bed";
-const HEAD: &str = "head";
 
 impl Model {
     /// The model of a scene: blocks laid and meshed, joints found, all in SI units.
@@ -64,7 +61,7 @@ fn lay_blocks(scene: &Scene) -> Result<(Vec<Block>, Vec<KeyPath>), Fault> {
     let mut blocks = Vec::new();
     let mut keys = Vec::new();
     for (k, wall) in scene.walls.iter().enumerate() {
-        for brick in bond::bricks(wall) {
+        for brick in bond::bricks_in_mortar(wall, JointThickness::of(scene)) {
             let mesh = wall.mesh.map(|whole| brick.mesh(whole));
             blocks.push(block(scene, brick.name(wall), &wall.material, brick.corners(), mesh));
             keys.push(KeyPath::of("walls").item(k).key("courses"));
@@ -90,10 +87,7 @@ fn block(
     let units = scene.units;
     let corners = corners.map(|corner| point(corner, units));
     let material = scene.materials.get(material).copied().unwrap_or_default();
-    let elasticity = material
-        .young
-        .zip(material.poisson)
-        .map(|(young, poisson)| Elasticity { young: young * units.stress_to_si(), poisson });
+    let elasticity = elasticity(&material, units);
     let mesh = mesh.filter(|_| elasticity.is_some());
     Block {
         name,
@@ -103,6 +97,11 @@ fn block(
         mesh: mesh.map(|[nx, ny]| BlockMesh::new(&corners, nx, ny)),
         edge_loads: Vec::new(),
     }
+}
+
+fn elasticity(material: &scene::Material, units: Units) -> Option<Elasticity> {
+    let constants = material.young.zip(material.poisson);
+    constants.map(|(young, poisson)| Elasticity { young: young * units.stress_to_si(), poisson })
 }
 
 /// A brick cut to next to nothing is no block.
@@ -142,12 +141,13 @@ fn find_joints(
     supports: &[Support],
     thickness: f64,
 ) -> Result<Found, Fault> {
-    let mut classes: Vec<JointClass> = scene.joints.iter().map(joint_class).collect();
+    let mut classes: Vec<JointClass> =
+        scene.joints.iter().map(|joint| joint_class(scene, joint)).collect();
     let given = classes.len();
     // A class that is not given stands at the end, to be refused when a joint turns out to need it.
     let mut index = |name: &str| {
         classes.iter().position(|class| class.name == name).unwrap_or_else(|| {
-            classes.push(JointClass { name: name.to_owned(), mu: 0.0 });
+            classes.push(JointClass { name: name.to_owned(), mu: 0.0, mortar: None });
             classes.len() - 1
         })
     };
@@ -167,7 +167,13 @@ fn find_joints(
         blocks, supports, &classes, class_of, thickness, &options,
     )
     .map_err(|error| {
-        Fault::new(KeyPath::of("contact").key("points"), SceneErrorKind::Contact(error))
+        let key = match &error {
+            ContactError::NoRoomForFilm { class, .. } => {
+                KeyPath::of("joints").key(class).key("thickness")
+            }
+            ContactError::NoNodalPair { .. } => KeyPath::of("contact").key("points"),
+        };
+        Fault::new(key, SceneErrorKind::Contact(error))
     })?;
     if let Some(joint) = joints.iter().find(|joint| joint.class >= given) {
         return Err(missing_class(blocks, joint, joint.class == bed));
@@ -176,10 +182,19 @@ fn find_joints(
     Ok(Found { joints, contacts, classes })
 }
 
-fn joint_class((name, joint): (&String, &scene::Joint)) -> JointClass {
+fn joint_class(scene: &Scene, (name, joint): (&String, &scene::Joint)) -> JointClass {
     let of_angle = |phi: f64| phi.to_radians().tan();
     let mu = joint.mu.or(joint.phi_deg.map(of_angle)).unwrap_or(0.0);
-    JointClass { name: name.clone(), mu }
+    JointClass { name: name.clone(), mu, mortar: mortar(scene, joint) }
+}
+
+fn mortar(scene: &Scene, joint: &scene::Joint) -> Option<Mortar> {
+    let thickness = joint.mortar_thickness() * scene.units.length_to_si();
+    let material = scene.materials.get(joint.material.as_ref()?)?;
+    let elasticity = elasticity(material, scene.units)?;
+    // The plane is given wherever a material is elastic.
+    let material = FilmMaterial { elasticity, plane: scene.plane.unwrap_or(Plane::Stress) };
+    (thickness > 0.0).then_some(Mortar { thickness, material })
 }
 
 fn missing_class(blocks: &[Block], joint: &Joint, is_bed: bool) -> Fault {

@@ -32,7 +32,7 @@ pub(super) fn check_overlaps(
     keys: &[KeyPath],
     units: Units,
 ) -> Result<(), Fault> {
-    for [i, j] in near_pairs(blocks, &Options::default()) {
+    for [i, j] in near_pairs(blocks, 0.0, Options::default().tolerance) {
         let (first, second) = (&blocks[i.index()], &blocks[j.index()]);
         let area = geometry::overlap_area(&first.corners, &second.corners);
         let size = geometry::size(&first.corners).min(geometry::size(&second.corners));

@@ -159,12 +159,20 @@ impl Material {
 impl Joint {
     /// A class with a coefficient of friction \[-\].
     pub fn mu(mu: f64) -> Self {
-        Self { mu: Some(mu), phi_deg: None }
+        Self { mu: Some(mu), ..Self::default() }
     }
 
     /// A class with an angle of friction \[degrees\].
     pub fn phi_deg(phi_deg: f64) -> Self {
-        Self { mu: None, phi_deg: Some(phi_deg) }
+        Self { phi_deg: Some(phi_deg), ..Self::default() }
+    }
+
+    /// Fills the joints of the class with mortar of a thickness \[length\] and an elastic material.
+    #[must_use]
+    pub fn mortar(mut self, thickness: f64, material: &str) -> Self {
+        self.thickness = Some(thickness);
+        self.material = Some(material.to_owned());
+        self
     }
 }
 

@@ -9,7 +9,10 @@ use super::{
     Block, Courses, Fault, Joint, KeyPath, Load, Material, Scene, SceneError, SceneErrorKind,
     Support, Wall,
 };
+use crate::bond::JointThickness;
 use crate::geometry::{self, QuadError};
+
+mod mortar;
 
 /// Bricks and blocks of one scene, at most.
 const MOST_BLOCKS: u32 = 1_000_000;
@@ -38,7 +41,9 @@ impl Scene {
             self.check_material(&KeyPath::of("materials").key(name), material)?;
         }
         for (name, joint) in &self.joints {
-            check_joint(&KeyPath::of("joints").key(name), joint)?;
+            let at = KeyPath::of("joints").key(name);
+            check_joint(&at, joint)?;
+            self.check_mortar(&at, joint)?;
         }
         if self.walls.is_empty() && self.blocks.is_empty() {
             return Err(Fault::new(KeyPath::default(), SceneErrorKind::Empty));
@@ -116,6 +121,7 @@ impl Scene {
         if count > f64::from(MOST_BLOCKS) {
             return Err(too_many(at.key("courses"), "bricks", count, MOST_BLOCKS));
         }
+        mortar::check_room(at, wall, JointThickness::of(self))?;
         check_mesh(at, wall.mesh, material)
     }
 

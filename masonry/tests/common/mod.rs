@@ -63,7 +63,7 @@ pub fn model_with(
     let joint_classes: Vec<JointClass> = ["bed", "head", "support"]
         .iter()
         .zip(mu)
-        .map(|(name, mu)| JointClass { name: (*name).into(), mu })
+        .map(|(name, mu)| JointClass { name: (*name).into(), mu, mortar: None })
         .collect();
     let class_of = |kind| match kind {
         JointKind::Bed => 0,

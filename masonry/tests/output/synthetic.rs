@@ -133,7 +133,7 @@ pub(crate) fn model(wall: Wall) -> Model {
         joints: Vec::new(),
         contacts: Vec::new(),
         joint_classes: ["bed", "head", "support, dry"]
-            .map(|name| JointClass { name: name.to_owned(), mu: 1.0 })
+            .map(|name| JointClass { name: name.to_owned(), mu: 1.0, mortar: None })
             .to_vec(),
         plane: Plane::Stress,
         thickness: 1.0,
@@ -222,7 +222,7 @@ fn add_joint(model: &mut Model, (a, b, class): (Body, BlockId, usize), ends: [[f
     let along = (to - from).normalize();
     let normal = (inward - along * inward.dot(&along)).normalize();
     let joint = JointId::new(model.joints.len());
-    model.joints.push(Joint { a, b, class, from, to, normal });
+    model.joints.push(Joint { a, b, class, from, to, normal, film: None });
     for position in [from, to] {
         let anchor = |block| Anchor { block, edge: 0, at: 0.0 };
         model.contacts.push(ContactPoint {
@@ -233,6 +233,7 @@ fn add_joint(model: &mut Model, (a, b, class): (Body, BlockId, usize), ends: [[f
             b: anchor(b),
             gap: 0.0,
             mu: model.joint_classes[class].mu,
+            film: None,
         });
     }
 }
@@ -262,6 +263,7 @@ fn state(model: &Model, wall: Wall) -> State {
         })
         .collect();
     State {
+        films: Vec::new(),
         displacements,
         contacts: model.contacts.iter().map(|contact| contact_state(contact, wall)).collect(),
         stresses: stresses(model, wall),

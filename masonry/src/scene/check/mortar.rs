@@ -1,0 +1,68 @@
+//! Checks of joints with mortar, and of the bricks that it leaves room for.
+
+use super::{Check, missing, not_negative, positive, unknown, unwanted, value};
+use crate::bond::{self, JointThickness};
+use crate::scene::error::Known;
+use crate::scene::{Courses, Joint, KeyPath, Scene, Wall};
+
+impl Scene {
+    /// Thickness and material of the mortar: none, or both, the material elastic.
+    pub(super) fn check_mortar(&self, at: &KeyPath, joint: &Joint) -> Check {
+        let Some(thickness) = joint.thickness else {
+            return match joint.material {
+                Some(_) => {
+                    let because = "has no meaning without `thickness`";
+                    Err(unwanted(at, "material", because, ", or add `thickness`"))
+                }
+                None => Ok(()),
+            };
+        };
+        not_negative(at.key("thickness"), thickness)?;
+        if thickness > 0.0 {
+            positive(at.key("thickness"), thickness)?;
+        }
+        let Some(name) = &joint.material else {
+            let because = "because the joint has a thickness";
+            let remedy = "material = \"mortar\"";
+            return if thickness > 0.0 {
+                Err(missing(at, "material", because, remedy))
+            } else {
+                Ok(())
+            };
+        };
+        let Some(material) = self.materials.get(name) else {
+            let known = Known(self.materials.keys().cloned().collect());
+            return Err(unknown(at.key("material"), "material", name, known, "materials"));
+        };
+        if thickness > 0.0 && material.young.is_none() {
+            let because = "because the material is the mortar of a joint";
+            return Err(missing(&KeyPath::of("materials").key(name), "E", because, "E = 1e6"));
+        }
+        Ok(())
+    }
+}
+
+/// Refuses bricks of which the head joints leave nothing.
+pub(super) fn check_room(at: &KeyPath, wall: &Wall, joints: JointThickness) -> Check {
+    if joints.head <= 0.0 {
+        return Ok(());
+    }
+    let Some(thin) = bond::first_without_length(wall, joints) else { return Ok(()) };
+    match &wall.courses {
+        Courses::RunningBond(_) => {
+            let wanted = "a course would end in a head joint and no brick: with joints of thickness \
+                          t_y give a width of n (length + t_y) - t_y, or one with a longer last \
+                          brick";
+            let width = wall.width.unwrap_or(wall.brick.length);
+            value(at.key("width"), width, false, wanted)
+        }
+        Courses::List(courses) => {
+            let wanted = "the head joint leaves nothing of a brick of this length f: it measures \
+                          f (length + t_y) - t_y, t_y being the thickness of the head joints";
+            let [course, place] = thin;
+            let key = at.key("courses").item(course).item(place);
+            let length = courses.get(course).and_then(|it| it.get(place)).copied();
+            value(key, length.unwrap_or_default(), false, wanted)
+        }
+    }
+}
