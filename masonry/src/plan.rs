@@ -23,7 +23,7 @@ pub struct Effect {
 /// What will be built for a scene, known before anything is assembled.
 ///
 /// Nothing that is off is built: no mesh and no stiffness without an elastic material, no
-/// tangential unknowns without friction, no stresses when no output shows them.
+/// tangential unknowns without friction, no films without a thickness of joints, no stresses when no output shows them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Plan {
     /// Effects, each with its reason.

@@ -11,17 +11,20 @@ use crate::outcome::{ContactStatus, State};
 /// Columns carry the units of the scene in their names: `index`, `joint`, `class`, the names of
 /// the sides `a` and `b`, position `x_m`, `y_m`, `area_m2`, forces `t_n_kN` (compression positive)
 /// and `t_t_kN`, tractions `traction_n_kN/m2` and `traction_t_kN/m2` (force over area), `gap_m`,
-/// `slip_m`, `mu`, and `status` (`open`, `stick`, `slip`). Numbers read back exactly; fields are
+/// `slip_m`, `mu`, and `status` (`open`, `stick`, `slip`). Where there are mortar films, also
+/// `film_sigma_y_kN/m2` (tension positive) and `film_tau_kN/m2`, empty for points of dry joints. Numbers read back exactly; fields are
 /// quoted where RFC 4180 asks for it, and lines end with CR LF.
 pub fn contacts(model: &Model, state: &State) -> String {
     let units = InUnits(model.units);
-    let mut text = header(units);
+    let filled = !state.films.is_empty();
+    let mut text = header(units, filled);
+    let mut films = state.films.iter().peekable();
     for (index, (contact, force)) in model.contacts.iter().zip(&state.contacts).enumerate() {
         let joint = &model.joints[contact.joint.index()];
         let traction = |force: f64| {
             if contact.weight > 0.0 { units.stress(force / contact.weight) } else { 0.0 }
         };
-        let fields = [
+        let mut fields = vec![
             index.to_string().into(),
             contact.joint.index().to_string().into(),
             quoted(model.joint_classes.get(joint.class).map_or("", |class| &class.name)),
@@ -42,18 +45,26 @@ pub fn contacts(model: &Model, state: &State) -> String {
             shortest(contact.mu).into(),
             Cow::Borrowed(status_name(force.status)),
         ];
+        if filled {
+            let film = films.next_if(|film| film.contact.index() == index);
+            fields.extend(film.map_or([Cow::Borrowed(""), Cow::Borrowed("")], |film| {
+                [film.sigma_y, film.tau].map(|stress| shortest(units.stress(stress)).into())
+            }));
+        }
         text += &fields.join(",");
         text += "\r\n";
     }
     text
 }
 
-fn header(units: InUnits) -> String {
+fn header(units: InUnits, films: bool) -> String {
     let (length, force) = (units.0.length_name(), units.0.force_name());
     let stress = units.0.stress_name();
+    let films =
+        if films { format!(",film_sigma_y_{stress},film_tau_{stress}") } else { String::new() };
     format!(
         "index,joint,class,a,b,x_{length},y_{length},area_{length}2,t_n_{force},t_t_{force},\
-         traction_n_{stress},traction_t_{stress},gap_{length},slip_{length},mu,status\r\n"
+         traction_n_{stress},traction_t_{stress},gap_{length},slip_{length},mu,status{films}\r\n"
     )
 }
 

@@ -3,7 +3,7 @@
 use serde::{Serialize, Serializer};
 
 use super::format::{InUnits, block_name};
-use super::summary::{extreme_stresses, largest_displacement, reason};
+use super::summary::{extreme_film_stresses, extreme_stresses, largest_displacement, reason};
 use crate::outcome::{Outcome, Reaction};
 use crate::plan::Plan;
 
@@ -11,7 +11,7 @@ use crate::plan::Plan;
 ///
 /// Physical quantities are in the units of the scene, which `units` names one by one. Without a
 /// solution `residuals`, `balance`, `reactions`, `contacts`, `strain_energy`, `max_displacement` and the stresses
-/// are null, and `reason` says why; `mechanism` gives displacement rates of the corners of every
+/// are null, and `reason` says why; `films`, the extremes of the stresses in mortar films, is there with films only; `mechanism` gives displacement rates of the corners of every
 /// block, the largest component one, where one is known. Numbers that are not finite become null.
 ///
 /// # Errors
@@ -43,6 +43,8 @@ struct Report<'a> {
     max_displacement: Option<Displacement<'a>>,
     max_compression: Option<Stress<'a>>,
     max_tension: Option<Stress<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    films: Option<Films>,
     mechanism: Option<ByName<'a, [[f64; 2]; 4]>>,
     time_s: ByName<'a, f64>,
     files: &'a [String],
@@ -64,6 +66,7 @@ struct UnitNames {
     max_displacement: &'static str,
     max_compression: String,
     max_tension: String,
+    films: String,
     positions: &'static str,
     time_s: &'static str,
 }
@@ -96,6 +99,12 @@ struct Contacts {
     open: usize,
     stick: usize,
     slip: usize,
+}
+
+#[derive(Serialize)]
+struct Films {
+    sigma_y_min: f64,
+    tau_max: f64,
 }
 
 #[derive(Serialize)]
@@ -175,6 +184,10 @@ impl<'a> Report<'a> {
             ),
             max_compression: compression.map(stress),
             max_tension: tension.map(stress),
+            films: state.and_then(extreme_film_stresses).map(|films| Films {
+                sigma_y_min: units.stress(films.compression.sigma_y),
+                tau_max: units.stress(films.shear.tau.abs()),
+            }),
             mechanism: outcome.mechanism.as_ref().map(|rates| {
                 let names = model.blocks.iter().map(|block| block.name.as_str());
                 ByName(names.zip(rates.iter().map(|corners| corners.map(Into::into))).collect())
@@ -205,7 +218,8 @@ impl UnitNames {
             strain_energy: energy,
             max_displacement: length,
             max_compression: stress.clone(),
-            max_tension: stress,
+            max_tension: stress.clone(),
+            films: stress,
             positions: length,
             time_s: "s",
         }

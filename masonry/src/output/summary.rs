@@ -5,7 +5,7 @@ use nalgebra::{Point2, Vector2};
 use crate::geometry;
 use crate::ids::BlockId;
 use crate::model::{Block, EdgeLoad, Model};
-use crate::outcome::{Outcome, State};
+use crate::outcome::{FilmStress, Outcome, State};
 
 /// The displacement component of largest size, with its sign and place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,6 +84,30 @@ pub fn extreme_stresses(state: &State) -> (Option<ExtremeStress>, Option<Extreme
         }
     }
     (compression, tension)
+}
+
+/// Extremes of the stresses in the mortar films.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FilmExtremes {
+    /// Where the film is compressed most across the joint.
+    pub compression: FilmStress,
+    /// Where the film is sheared most, in either direction.
+    pub shear: FilmStress,
+}
+
+/// The largest compression and shear in the mortar films; `None` without films.
+pub fn extreme_film_stresses(state: &State) -> Option<FilmExtremes> {
+    let first = *state.films.first()?;
+    let start = FilmExtremes { compression: first, shear: first };
+    Some(state.films.iter().fold(start, |mut found, film| {
+        if film.sigma_y < found.compression.sigma_y {
+            found.compression = *film;
+        }
+        if film.tau.abs() > found.shear.tau.abs() {
+            found.shear = *film;
+        }
+        found
+    }))
 }
 
 /// The resultant of all edge loads and self weights.

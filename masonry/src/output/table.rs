@@ -4,10 +4,10 @@ use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyl
 
 use super::format::{InUnits, aligned, block_name, significant};
 use super::summary::{
-    ExtremeStress, Resultant, applied_load, extreme_stresses, largest_displacement, reason,
-    total_reaction,
+    ExtremeStress, Resultant, applied_load, extreme_film_stresses, extreme_stresses,
+    largest_displacement, reason, total_reaction,
 };
-use crate::outcome::{Outcome, State};
+use crate::outcome::{FilmStress, Outcome, State};
 use crate::plan::Plan;
 
 const WIDTH: u16 = 100;
@@ -167,6 +167,16 @@ fn state_figures(outcome: &Outcome, state: &State) -> Vec<(&'static str, String)
         let (compression, tension) = extreme_stresses(state);
         rows.push(("largest compression", stress(compression)));
         rows.push(("largest tension", stress(tension)));
+    }
+    if let Some(films) = extreme_film_stresses(state) {
+        let text = |film: FilmStress, value: f64| {
+            let at = model.contacts[film.contact.index()].position;
+            let (value, at) = (significant(units.stress(value), 6), place(at.x, at.y));
+            format!("{value} {} at {at}", units.0.stress_name())
+        };
+        let compression = text(films.compression, 0.0 - films.compression.sigma_y);
+        rows.push(("film compression", compression));
+        rows.push(("film shear", text(films.shear, films.shear.tau.abs())));
     }
     rows
 }

@@ -11,6 +11,7 @@ pub(super) fn of(scene: &Scene, model: &Model) -> Vec<Effect> {
     vec![
         contact(scene, model),
         friction(scene, model),
+        mortar_films(scene, model),
         deformation(scene, model),
         self_weight(scene, model),
         edge_loads(scene, model),
@@ -48,11 +49,38 @@ fn friction(scene: &Scene, model: &Model) -> Effect {
     Effect { name: "friction", on: points > 0, because, unknowns }
 }
 
+/// Films add no unknowns: each of their points adds its compliance to the diagonal of `A`, once for
+/// the normal and once for the tangent.
+fn mortar_films(scene: &Scene, model: &Model) -> Effect {
+    let films = model.joints.iter().filter(|joint| joint.film.is_some()).count();
+    let points = model.contacts.iter().filter(|point| point.film.is_some());
+    let compliances: usize = points.map(|point| 1 + usize::from(point.mu > 0.0)).sum();
+    let filled: BTreeSet<&str> = model
+        .joints
+        .iter()
+        .filter(|joint| joint.film.is_some())
+        .map(|joint| model.joint_classes[joint.class].name.as_str())
+        .collect();
+    let given = scene.joints.values().any(|joint| joint.mortar_thickness() > 0.0);
+    let because = if films > 0 {
+        let (films, entries) = (count(films, "film"), count(compliances, "compliance"));
+        format!("thickness given for {}: {films}, {entries} in A", names(filled.into_iter()))
+    } else if given {
+        "no joint belongs to a class with a thickness".to_owned()
+    } else {
+        "no joint class has a thickness: all joints are dry".to_owned()
+    };
+    Effect { name: "mortar films", on: films > 0, because, unknowns: 0 }
+}
+
 fn deformation(scene: &Scene, model: &Model) -> Effect {
     let elastic = model.blocks.iter().filter(|block| block.elasticity.is_some()).count();
     let because = if elastic > 0 {
-        let given = scene.materials.iter().filter(|(_, material)| material.young.is_some());
-        format!("E given for {}", names(given.map(|(name, _)| name.as_str())))
+        let of_walls = scene.walls.iter().map(|wall| wall.material.as_str());
+        let used: BTreeSet<&str> =
+            of_walls.chain(scene.blocks.iter().map(|block| block.material.as_str())).collect();
+        let elastic = |name: &&str| scene.materials.get(*name).is_some_and(|m| m.young.is_some());
+        format!("E given for {}", names(used.into_iter().filter(elastic)))
     } else {
         "no material has E: all blocks are rigid".to_owned()
     };

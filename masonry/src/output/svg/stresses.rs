@@ -5,6 +5,7 @@ use nalgebra::Point2;
 use super::canvas::{Canvas, Pixel, fixed};
 use super::marks::{self, BRICK, COMPRESSION, OUTLINE, TENSION};
 use super::sheet::{Frame, Margins, Sheet, draw_bar};
+use crate::bond::JointThickness;
 use crate::geometry;
 use crate::model::Model;
 use crate::outcome::{ElementStress, State};
@@ -28,7 +29,8 @@ pub struct ReferenceLines {
 
 impl ReferenceLines {
     /// The running-bond lines to compare the principal stresses with: from the inner ends of the
-    /// lowest supports at both corners of the first wall, half a brick sideways for every course.
+    /// lowest supports at both corners of the first wall, half a brick and half a head joint sideways
+    /// for every course and its bed joint.
     /// `None` for a scene without such a wall or with a support all along its foot.
     pub fn of(scene: &Scene) -> Option<Self> {
         let wall = scene.walls.first()?;
@@ -47,8 +49,11 @@ impl ReferenceLines {
         }
         let metres = scene.units.length_to_si();
         let origins = [left, right].map(|x| Point2::new(x, foot) * metres);
-        let angle = (wall.brick.length / (2.0 * wall.brick.height)).atan();
-        Some(Self { origins, angle, label: "arctan(l / 2h)".to_owned() })
+        let joints = JointThickness::of(scene);
+        let (length, height) = (wall.brick.length + joints.head, wall.brick.height + joints.bed);
+        let dry = joints == JointThickness::default();
+        let label = if dry { "arctan(l / 2h)" } else { "arctan((l + t) / 2(h + t))" };
+        Some(Self { origins, angle: (length / (2.0 * height)).atan(), label: label.to_owned() })
     }
 }
 
