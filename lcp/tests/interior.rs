@@ -141,6 +141,32 @@ fn a_driven_body_may_jam() {
     assert!(!solution.is_solved(), "{:?}", solution.residuals);
 }
 
+/// An edge of every cone of friction is orthogonal to one direction, and nothing else holds the body in it.
+/// Forces 1e9 times the load would, a rounding error outside of their cones.
+#[test]
+fn forces_outside_of_their_cones_are_no_solution() {
+    let c_n = mat![
+        [-0.5981217131583421, -0.7052361320477764],
+        [-1.002669793916862, -0.2733128401256528],
+        [-0.3835857611240087, 0.0984561396193773],
+        [-0.4934509112684303, 1.0872696766222114]
+    ];
+    let c_t = mat![
+        [-0.45876848704111706, -0.15389354002151978],
+        [0.716547539717026, -0.8587125148828603],
+        [-0.32948464737856487, 0.3125039167323995],
+        [0.5422968084938142, -0.8940138451179098]
+    ];
+    let load = vec![0.08024922294046322, 0.31754162063483177];
+    let zero = vec![0.0; 4];
+    let problem =
+        Contact2d::new(Mat::zeros(2, 2), load, c_n, c_t, zero.clone(), zero, vec![1.0; 4]).unwrap();
+    let lemke = Solver::<Contact2d>::solve(&Lemke::default(), &problem).unwrap();
+    assert_eq!(lemke.status, Status::Infeasible);
+    let solution = solve(&problem);
+    assert!(!solution.is_solved(), "{:?}", problem.recover(&solution.t, &solution.y));
+}
+
 #[test]
 fn standard_problems_with_known_answers_are_solved() {
     for seed in 0..20 {
