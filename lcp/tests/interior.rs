@@ -141,6 +141,19 @@ fn a_driven_body_may_jam() {
     assert!(!solution.is_solved(), "{:?}", solution.residuals);
 }
 
+/// Two displacements of which one is so soft that the springs of the continuation carry its load for long.
+#[test]
+fn a_soft_body_is_no_body_that_falls() {
+    for soft in [0.01, 1e-4] {
+        let (k, zero) = (mat![[soft, 0.0], [0.0, 1e6]], vec![0.0; 2]);
+        let c_n = mat![[0.0, -1.0], [1.0, -1.0]];
+        let c_t = Mat::zeros(2, 2);
+        let problem =
+            Contact2d::new(k, vec![1.0, 1.0], c_n, c_t, zero.clone(), zero.clone(), zero).unwrap();
+        assert_ne!(solve(&problem).status, Status::NoEquilibrium, "{soft}");
+    }
+}
+
 /// An edge of every cone of friction is orthogonal to one direction, and nothing else holds the body in it.
 /// Forces 1e9 times the load would, a rounding error outside of their cones.
 #[test]
