@@ -144,13 +144,27 @@ fn a_driven_body_may_jam() {
 /// Two displacements of which one is so soft that the springs of the continuation carry its load for long.
 #[test]
 fn a_soft_body_is_no_body_that_falls() {
-    for soft in [0.01, 1e-4] {
+    for soft in [0.01, 1e-4, 1e-6] {
         let (k, zero) = (mat![[soft, 0.0], [0.0, 1e6]], vec![0.0; 2]);
         let c_n = mat![[0.0, -1.0], [1.0, -1.0]];
         let c_t = Mat::zeros(2, 2);
         let problem =
             Contact2d::new(k, vec![1.0, 1.0], c_n, c_t, zero.clone(), zero.clone(), zero).unwrap();
         assert_ne!(solve(&problem).status, Status::NoEquilibrium, "{soft}");
+    }
+}
+
+/// The pivot of a soft displacement is small against those of closed contacts, and does not vanish.
+#[test]
+fn soft_bodies_next_to_stiff_ones_are_solved() {
+    for (soft, stiff) in [(1.0, 1e4), (0.01, 1e6), (1.0, 1e8), (1e-3, 1e6)] {
+        let (k, zero) = (mat![[soft, 0.0], [0.0, stiff]], vec![0.0; 2]);
+        let c_n = mat![[0.0, -1.0], [1.0, -1.0]];
+        let c_t = Mat::zeros(2, 2);
+        let problem =
+            Contact2d::new(k, vec![1.0, 1.0], c_n, c_t, zero.clone(), zero.clone(), zero).unwrap();
+        let ContactState { u, t_n, .. } = state(&problem);
+        assert_close(&[u[0] * soft, u[1], t_n[0], t_n[1]], &[1.0, 0.0, 1.0, 0.0]);
     }
 }
 
