@@ -11,8 +11,8 @@ use faer::sparse::SparseColMat;
 use faer::{Mat, mat};
 use lcp::families::{self, Ground, Known, Obstacle};
 use lcp::{
-    Contact2d, ContactState, Error, HorizontalLcp, InteriorPoint, InteriorPointSettings, Lcp,
-    Lemke, MixedLcp, Solution, Solver, Status, WarmStart,
+    Auto, AutoSettings, Contact2d, ContactState, Error, HorizontalLcp, InteriorPoint,
+    InteriorPointSettings, Lcp, Lemke, MixedLcp, Solution, Solver, Status, WarmStart,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -282,6 +282,33 @@ fn limits_are_kept_and_leave_the_best_point() {
     let cancelled =
         InteriorPoint::default().solve_observed(&block, &mut |_| ControlFlow::Break(()));
     assert_eq!(cancelled.unwrap().status, Status::Cancelled);
+}
+
+/// Whatever numbers the start has, they are only tried.
+#[test]
+fn a_start_beyond_all_bounds_is_as_good_as_none() {
+    let problems = [
+        body([2.0, 2.0], [9.0, -10.0], &[[0.0, 1.0]], 0.5),
+        body([2.0, 2.0], [1e-20, -1e-20], &[[0.0, 1.0], [0.6, 0.8]], 0.0),
+        body([0.0, 0.0], [0.0, -1e-20], &[[0.0, 1.0], [0.6, 0.8]], 0.0),
+    ];
+    for problem in problems {
+        for size in [1.0, -1.0, 1e150, 1e300, -1e300, f64::MAX] {
+            let order = problem.order();
+            let start = WarmStart::Point { t: vec![size; order], y: vec![0.3 * size; order] };
+            let settings = InteriorPointSettings { start: start.clone(), ..default() };
+            let solution = InteriorPoint::new(settings).solve(&problem).unwrap();
+            assert!(solution.is_solved(), "{size}: {:?}", solution.status);
+            let auto = Auto::new(AutoSettings { start, ..AutoSettings::default() });
+            assert!(auto.solve(&problem).unwrap().is_solved(), "{size}");
+        }
+    }
+    // Forces that overflow where there is no friction.
+    let floating = body([0.0, 0.0], [0.0, -0.1], &[[0.0, 0.0], [0.0, 0.0]], 0.0);
+    let start = WarmStart::Point { t: vec![f64::MAX; 4], y: vec![0.0; 4] };
+    let settings = InteriorPointSettings { start, ..default() };
+    let solution = InteriorPoint::new(settings).solve(&floating).unwrap();
+    assert!(!solution.is_solved() && solution.t.iter().all(|t| t.is_finite()));
 }
 
 #[test]

@@ -59,7 +59,9 @@ impl Original for Contact2d {
         // more than the loads.
         let inside = forces.iter().zip(self.mu()).map(|((t_n, t_t), mu)| {
             let t_n = t_n.max(0.0);
-            (t_n, t_t.clamp(-mu * t_n, mu * t_n))
+            // Forces may have overflowed.
+            let bound = if *mu > 0.0 { mu * t_n } else { 0.0 };
+            (t_n, t_t.clamp(-bound, bound))
         });
         let forces: Vec<(f64, f64)> = inside.collect();
         let drift = scaled.drift(u, &forces).max(scaled.slack(u, &forces));
