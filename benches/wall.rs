@@ -24,6 +24,8 @@ use masonry::units::Units;
 const WALLS: [(f64, u32); 3] = [(5.0, 20), (10.0, 40), (20.0, 100)];
 const FRICTION: [f64; 3] = [0.5, 0.7, 1.0];
 const TOLERANCE: f64 = 1e-8;
+/// A solve that takes longer than this many factorisations of the yardstick is a failure.
+const MOST: f64 = 300.0;
 
 fn main() {
     if !common::is_bench() {
@@ -57,12 +59,14 @@ fn line(width: f64, courses: u32, mu: f64) -> String {
     let solution = InteriorPoint::new(settings).solve(&problem).expect("memory suffices");
     let peak = sparse::peak().map_or_else(|| "-".to_owned(), |it| format!("{it:.0}"));
     assert!(solution.is_solved(), "{:?}", solution.status);
+    let multiple = solution.info.seconds / (symbolic + numeric);
+    assert!(multiple < MOST, "{multiple} factorisations");
     format!(
         "| {blocks} | {} | {} | {mu} | {symbolic:.2} + {numeric:.2} | {:.1} | {:.0} | {} | {} | {:.0e} | {peak} |",
         problem.points(),
         problem.order(),
         solution.info.seconds,
-        solution.info.seconds / (symbolic + numeric),
+        multiple,
         solution.info.iterations,
         solution.info.factorisations,
         solution.residuals.worst(),
