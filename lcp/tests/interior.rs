@@ -171,6 +171,7 @@ fn soft_bodies_next_to_stiff_ones_are_solved() {
 /// An edge of every cone of friction is orthogonal to one direction, and nothing else holds the body in it.
 /// Forces 1e9 times the load would, a rounding error outside of their cones.
 #[test]
+#[allow(clippy::unreadable_literal, reason = "every digit of these counts, and none is read")]
 fn forces_outside_of_their_cones_are_no_solution() {
     let c_n = mat![
         [-0.5981217131583421, -0.7052361320477764],
