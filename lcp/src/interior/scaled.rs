@@ -189,7 +189,8 @@ impl Scaled {
 
 /// Rounding errors of a sum, relative to its terms.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
-/// More than this of the loads is not a rounding error, however large the terms are.
+/// More than this of the loads is not a rounding error, however large the terms are, and terms that are
+/// rounded by more than this say nothing.
 const LARGEST_ROUNDING: f64 = 1e-6;
 
 impl Scaled {
@@ -202,10 +203,13 @@ impl Scaled {
         for (j, u) in u.iter().enumerate() {
             column_of(&self.k, j).for_each(|(i, v)| terms[i] += (v * u).abs());
         }
-        let beyond = |v: f64, terms: f64| match ROUNDING * terms {
-            // The loads are lost in the terms, and anything can be in balance with them.
-            rounding if rounding > 1.0 => f64::INFINITY,
-            rounding => v - rounding.min(LARGEST_ROUNDING),
+        let beyond = |v: f64, terms: f64| {
+            if f64::EPSILON * terms > LARGEST_ROUNDING {
+                // The loads are lost in the terms: these can be in balance by luck.
+                f64::INFINITY
+            } else {
+                v - (ROUNDING * terms).min(LARGEST_ROUNDING)
+            }
         };
         let mut worst = 0.0_f64;
         for (point, (t_n, t_t)) in self.points.iter().zip(forces) {
