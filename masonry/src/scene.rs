@@ -288,17 +288,63 @@ pub struct Solver {
     /// Requested residual \[-\].
     #[serde(default = "default_tolerance")]
     pub tolerance: f64,
-    /// The form of the problem.
+    /// The method, and the problem that it is given.
+    #[serde(default)]
+    pub route: Route,
+    /// The form of the reduced problem; belongs to [`Route::Lemke`].
     #[serde(default)]
     pub form: Form,
     /// Largest number of pivots of one attempt; without it the solver sets a limit by the order.
+    /// Belongs to [`Route::Lemke`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_pivots: Option<u32>,
+    /// Stiffness of springs on all displacements, relative to that of the blocks \[-\], which are
+    /// taken away again; belongs to [`Route::Qp`], and to [`Route::Pgs`], which always has them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub soft: Option<f64>,
 }
 
 impl Default for Solver {
     fn default() -> Self {
-        Self { tolerance: default_tolerance(), form: Form::default(), max_pivots: None }
+        Self {
+            tolerance: default_tolerance(),
+            route: Route::default(),
+            form: Form::default(),
+            max_pivots: None,
+            soft: None,
+        }
+    }
+}
+
+/// The way from the equilibrium of the blocks to contact forces and displacements.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+#[serde(rename_all = "lowercase")]
+pub enum Route {
+    /// Chosen by the size of the scene, and another one where that fails.
+    #[default]
+    Auto,
+    /// Pivots on the problem reduced to contact forces, with dense matrices.
+    Lemke,
+    /// The interior-point method on the sparse problem with all displacements.
+    Interior,
+    /// Convex quadratic programs on the sparse problem, a sequence of them for friction.
+    Qp,
+    /// Projected Gauss-Seidel sweeps on the sparse problem, with blocks held by springs that
+    /// are centred anew until they carry nothing.
+    Pgs,
+}
+
+impl Route {
+    /// The name in scenes and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Lemke => "lemke",
+            Self::Interior => "interior",
+            Self::Qp => "qp",
+            Self::Pgs => "pgs",
+        }
     }
 }
 
