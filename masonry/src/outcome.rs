@@ -181,8 +181,9 @@ pub struct SoftReport {
     pub rounds: usize,
     /// The share of the load that they carried at first \[-\].
     pub share: f64,
-    /// The error of the displacements that they caused at first, relative to these \[-\].
-    pub displacement_error: f64,
+    /// The error of the displacements that they caused at first, relative to these \[-\]; `None` where it
+    /// is not known, as where nothing moves.
+    pub displacement_error: Option<f64>,
 }
 
 /// Wall-clock time of one phase \[s\].

@@ -136,10 +136,12 @@ fn shares(springs: &SpringShares) -> String {
 }
 
 fn bias(soft: &SoftReport) -> String {
-    let (share, error) = (significant(soft.share, 3), significant(soft.displacement_error, 3));
+    let share = significant(soft.share, 3);
+    let error = soft.displacement_error.map_or_else(String::new, |error| {
+        format!(" and changed the displacements by {} of them", significant(error, 3))
+    });
     format!(
-        "of stiffness {:.0e}, centred {} times; at first they carried {share} of the load and changed \
-         displacements by {error}",
+        "of stiffness {:.0e}, centred {} times; at first they carried {share} of the load{error}",
         soft.stiffness, soft.rounds
     )
 }

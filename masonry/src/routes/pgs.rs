@@ -20,14 +20,19 @@ use crate::scene::Route;
 
 /// Stiffness of the springs where the scene gives none: soft ones need fewer rounds, and more sweeps in
 /// each of them.
-pub const SOFT: f64 = 1e-2;
+pub const SOFT: f64 = 1e-3;
 
 /// Rounds at most.
-const MAX_ROUNDS: usize = 5000;
+const MAX_ROUNDS: usize = 2000;
 /// Sweeps of one round at most.
 const SWEEPS: usize = 2000;
-/// How much better than the last round the sweeps of the next one have to be.
+/// How much better than the last round the sweeps of the next one have to be; after a round that was not,
+/// by this factor more, and never more than by the least.
 const BETTER: f64 = 0.1;
+const LEAST: f64 = 1e-6;
+/// How accurate the sweeps are at first, and at most, relative to the tolerance.
+const FIRST: f64 = 1e-3;
+const LAST: f64 = 0.01;
 /// Rounds in which the residual must fall by a tenth.
 const PATIENCE: usize = 200;
 
@@ -70,6 +75,7 @@ struct Rounds<'a> {
     share: f64,
     done: usize,
     factorisations: usize,
+    better: f64,
     least: f64,
     idle: usize,
 }
@@ -89,6 +95,7 @@ impl<'a> Rounds<'a> {
             share: 0.0,
             done: 0,
             factorisations: 0,
+            better: BETTER,
             least: f64::INFINITY,
             idle: 0,
         }
@@ -135,7 +142,7 @@ impl<'a> Rounds<'a> {
         let sprung = self.bedding.attached(self.problem, centre)?;
         let (t, y) = self.problem.to_pairs(&self.state);
         let settings = ProjectedGaussSeidelSettings {
-            tolerance: (BETTER * self.lack()).clamp(BETTER * self.tolerance, 1e-3),
+            tolerance: (self.better * self.lack()).clamp(LAST * self.tolerance, FIRST),
             max_iterations: SWEEPS,
             start: WarmStart::Point { t, y },
             ..Default::default()
@@ -156,6 +163,9 @@ impl<'a> Rounds<'a> {
         self.rest();
         self.done += 1;
         let worst = self.lack();
+        if worst >= self.least {
+            self.better = (BETTER * self.better).max(LEAST);
+        }
         self.idle = if worst < 0.9 * self.least { 0 } else { self.idle + 1 };
         self.least = self.least.min(worst);
         Ok(ControlFlow::Continue(()))
@@ -170,7 +180,7 @@ impl<'a> Rounds<'a> {
             stiffness,
             rounds: self.done,
             share: *share,
-            displacement_error: if change > 0.0 { change / size } else { 0.0 },
+            displacement_error: (size > 0.0).then(|| change / size),
         })
     }
 

@@ -42,7 +42,8 @@ impl Method for Programs<'_> {
                     stiffness: epsilon,
                     rounds: solution.info.iterations,
                     share: biased.spring_share,
-                    displacement_error: biased.displacement_error,
+                    displacement_error: Some(biased.displacement_error)
+                        .filter(|error| error.is_finite()),
                 })
             }
             _ => None,
