@@ -7,7 +7,8 @@ use crate::model::Model;
 use crate::routes::pgs;
 use crate::scene::{Form, Route, Scene};
 
-/// Orders of the reduced problem up to this take seconds by pivots; the time grows with the cube.
+/// Dense matrices of the reduced problem and of blocks up to this order take seconds; the time grows with
+/// the cube.
 const FEW: usize = 4000;
 
 /// A route of a plan.
@@ -31,7 +32,7 @@ pub struct Choice {
 /// The routes in the order in which they are tried.
 pub(super) fn of(scene: &Scene, sizes: &Sizes) -> Vec<Choice> {
     let form = scene.solver.form;
-    let largest = sizes.lemke(form).largest_order;
+    let largest = sizes.lemke(form).largest_order.max(sizes.largest_block);
     let given = |route: Route| format!("solver.route = \"{}\"", route.name());
     let list = match scene.solver.route {
         Route::Auto if form != Form::Auto => {
@@ -44,7 +45,8 @@ pub(super) fn of(scene: &Scene, sizes: &Sizes) -> Vec<Choice> {
             (
                 Route::Lemke,
                 format!(
-                    "pivots take seconds at orders up to {FEW}, and the largest form has order {largest}"
+                    "pivots take seconds on dense matrices of order up to {FEW}, and the largest is of \
+                     order {largest}"
                 ),
             ),
             (Route::Interior, "where pivots end without equilibrium and mechanism".to_owned()),
@@ -54,8 +56,8 @@ pub(super) fn of(scene: &Scene, sizes: &Sizes) -> Vec<Choice> {
             (
                 Route::Interior,
                 format!(
-                    "dense matrices make pivots slow at orders above {FEW}, and the largest form has order \
-                     {largest}; the sparse problem takes tens of factorisations"
+                    "pivots are slow on dense matrices of order above {FEW}, and the largest would be of \
+                     order {largest}; the sparse problem takes tens of factorisations"
                 ),
             ),
             (Route::Qp, "where the interior points come to no end".to_owned()),
