@@ -39,9 +39,10 @@ fn solved(scene: &Scene, route: Route) -> Outcome {
     assert_sound(&outcome, 1e-9);
     assert!(info.residuals.worst() <= TOLERANCE, "{route:?}: {:?}", info.residuals);
     assert_eq!((info.route, info.routes.len()), (route, 1));
-    assert_eq!(info.order, outcome.plan.order);
-    assert!(info.because.contains(route.name()) && !info.attempts.is_empty());
-    assert_eq!(info.pivots > 0, route == Route::Lemke);
+    assert!([outcome.plan.order, outcome.plan.largest_order].contains(&info.order));
+    assert!(info.because.contains(route.name()));
+    // A start basis may be the answer, without an attempt.
+    assert_eq!(info.attempts.len() == 1 && info.pivots == 0, route != Route::Lemke);
     assert_eq!(info.iterations > 0, route != Route::Lemke);
     assert_eq!(info.soft.is_some(), route == Route::Pgs);
     outcome
@@ -232,7 +233,10 @@ fn springs_show_that_a_block_slides() {
         assert_eq!(outcome.solve.status, Status::NoEquilibrium, "{:?}", outcome.solve.attempts);
         assert!(outcome.state.is_none() && outcome.reactions.is_empty());
         let springs = outcome.solve.springs.as_ref().unwrap();
-        assert_close(*springs.shares.last().unwrap(), (0.8 - 0.6) / (0.8 + 1.0), 1e-3);
+        // Near (0.8 - 0.6) / (0.8 + 1.0), in units in which the displacements are scaled.
+        let [.., before, last] = springs.shares.as_slice() else { panic!("{springs:?}") };
+        assert!((0.05..0.2).contains(last), "{springs:?}");
+        assert_close(*before, *last, 1e-2);
         for corner in &outcome.mechanism.as_ref().unwrap()[0] {
             assert!((corner - Vector2::x()).amax() < 1e-4, "{corner}");
         }
@@ -346,14 +350,17 @@ fn the_next_route_follows_where_one_fails() {
     assert_eq!(outcome.solve.routes.len(), 1);
 
     // Without friction a proof follows what springs show.
-    let lifted = |route| {
-        let pull = Load::traction("pull", [0.0, 0.5], [1.0, 0.5], [0.0, 20.0]);
-        stack(1, 0.0, materials()[1]).joint("bed", Joint::mu(0.0)).load(pull).route(route)
-    };
-    let outcome = solve(&lifted(Route::Interior)).unwrap();
-    assert_eq!(outcome.solve.status, Status::NoEquilibrium);
-    let outcome = solve(&lifted(Route::Qp)).unwrap();
-    assert_eq!(outcome.solve.status, Status::Infeasible);
+    let pull = Load::traction("pull", [0.0, 1.0], [1.0, 1.0], [0.0, 20.0]);
+    let lifted = scene
+        .joint("bed", Joint::mu(0.0))
+        .block(rectangle("fine", "stone", [1.2, 1.9], [0.0, 0.5]).mesh([60, 40]))
+        .load(pull);
+    let outcome = solve(&lifted.gravity([0.0, -GRAVITY])).unwrap();
+    assert_eq!(outcome.solve.status, Status::Infeasible, "{:?}", outcome.solve.attempts);
+    let tried: Vec<(Route, &str)> =
+        outcome.solve.routes.iter().map(|it| (it.route, it.end.as_str())).collect();
+    assert_eq!(tried, [(Route::Interior, "NoEquilibrium"), (Route::Qp, "Infeasible")]);
+    assert_eq!(outcome.solve.attempts.len(), 2);
 }
 
 /// Every route can be watched and stopped.

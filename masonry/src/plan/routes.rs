@@ -114,8 +114,8 @@ impl Sizes {
         match route {
             Route::Auto | Route::Lemke => self.lemke(form),
             Route::Interior => sparse,
-            // The matrix of a program has the rows of the contacts too.
-            Route::Qp => Choice { memory_bytes: sparse.memory_bytes.saturating_mul(3), ..sparse },
+            // The matrix of a program, and that of a proof, have the rows of the contacts too.
+            Route::Qp => Choice { memory_bytes: sparse.memory_bytes.saturating_mul(6), ..sparse },
             Route::Pgs => Choice {
                 memory_bytes: sparse.memory_bytes.saturating_add(self.columns()),
                 ..sparse
