@@ -44,7 +44,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn game(a: &Mat<f64>, b: &Mat<f64>) -> Result<Lcp, lcp::Error> {
     let largest = |gains: &Mat<f64>| {
-        gains.col_iter().flat_map(|c| c.iter()).fold(0.0, |max: f64, g| max.max(*g))
+        (0..gains.ncols()).flat_map(|j| gains.col_as_slice(j)).fold(0.0, |max: f64, g| max.max(*g))
     };
     let (rows, n) = (a.nrows(), a.nrows() + a.ncols());
     let (p, q) = (largest(a) + 1.0, largest(b) + 1.0);

@@ -78,8 +78,8 @@ pub(crate) fn solve_right_upper(upper: MatRef<'_, f64>, rows: MatMut<'_, f64>) {
 }
 
 /// LU factorisation in place of a block with row exchanges, which `beside` follows: row `i` becomes what
-/// was row `rows[i]`. Pivots below `vanishing` times the largest entry of the block are replaced by that
-/// bound; gives their number.
+/// was row `rows[i]`. Pivots below `vanishing` times the largest entry of their column are replaced by that
+/// bound; gives their number. (A column by itself may be small against others and exact nevertheless.)
 ///
 /// Blocks of sparse problems are narrow, for which this is as fast as anything blocked.
 pub(crate) fn factorise_block(
@@ -90,7 +90,8 @@ pub(crate) fn factorise_block(
 ) -> usize {
     const PANEL: usize = 32;
     let n = block.nrows();
-    let least = vanishing * block.norm_max();
+    let least: Vec<f64> =
+        block.rb().col_iter().map(|column| vanishing * column.norm_max()).collect();
     let mut replaced = 0;
     rows.iter_mut().enumerate().for_each(|(i, row)| *row = i);
     for start in (0..n).step_by(PANEL) {
@@ -109,8 +110,8 @@ pub(crate) fn factorise_block(
                 swap_rows(block.rb_mut(), k, pivot);
                 swap_rows(beside.rb_mut(), k, pivot);
             }
-            if block[(k, k)].abs() <= least {
-                block[(k, k)] = if least > 0.0 { least.copysign(block[(k, k)]) } else { 1.0 };
+            if block[(k, k)].abs() <= least[k] {
+                block[(k, k)] = if least[k] > 0.0 { least[k].copysign(block[(k, k)]) } else { 1.0 };
                 replaced += 1;
             }
             let inverse = 1.0 / block[(k, k)];

@@ -11,8 +11,8 @@ use faer::sparse::SparseColMat;
 use faer::{Mat, mat};
 use lcp::families::{self, Ground, Known, Obstacle};
 use lcp::{
-    Contact2d, ContactState, Error, HorizontalLcp, InteriorPoint, InteriorPointSettings, Lcp,
-    Lemke, MixedLcp, Solution, Solver, Status, WarmStart,
+    Auto, AutoSettings, Contact2d, ContactState, Error, HorizontalLcp, InteriorPoint,
+    InteriorPointSettings, Lcp, Lemke, MixedLcp, Solution, Solver, Status, WarmStart,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -141,6 +141,60 @@ fn a_driven_body_may_jam() {
     assert!(!solution.is_solved(), "{:?}", solution.residuals);
 }
 
+/// Two displacements of which one is so soft that the springs of the continuation carry its load for long.
+#[test]
+fn a_soft_body_is_no_body_that_falls() {
+    for soft in [0.01, 1e-4, 1e-6] {
+        let (k, zero) = (mat![[soft, 0.0], [0.0, 1e6]], vec![0.0; 2]);
+        let c_n = mat![[0.0, -1.0], [1.0, -1.0]];
+        let c_t = Mat::zeros(2, 2);
+        let problem =
+            Contact2d::new(k, vec![1.0, 1.0], c_n, c_t, zero.clone(), zero.clone(), zero).unwrap();
+        assert_ne!(solve(&problem).status, Status::NoEquilibrium, "{soft}");
+    }
+}
+
+/// The pivot of a soft displacement is small against those of closed contacts, and does not vanish.
+#[test]
+fn soft_bodies_next_to_stiff_ones_are_solved() {
+    for (soft, stiff) in [(1.0, 1e4), (0.01, 1e6), (1.0, 1e8), (1e-3, 1e6)] {
+        let (k, zero) = (mat![[soft, 0.0], [0.0, stiff]], vec![0.0; 2]);
+        let c_n = mat![[0.0, -1.0], [1.0, -1.0]];
+        let c_t = Mat::zeros(2, 2);
+        let problem =
+            Contact2d::new(k, vec![1.0, 1.0], c_n, c_t, zero.clone(), zero.clone(), zero).unwrap();
+        let ContactState { u, t_n, .. } = state(&problem);
+        assert_close(&[u[0] * soft, u[1], t_n[0], t_n[1]], &[1.0, 0.0, 1.0, 0.0]);
+    }
+}
+
+/// An edge of every cone of friction is orthogonal to one direction, and nothing else holds the body in it.
+/// Forces 1e9 times the load would, a rounding error outside of their cones.
+#[test]
+#[allow(clippy::unreadable_literal, reason = "every digit of these counts, and none is read")]
+fn forces_outside_of_their_cones_are_no_solution() {
+    let c_n = mat![
+        [-0.5981217131583421, -0.7052361320477764],
+        [-1.002669793916862, -0.2733128401256528],
+        [-0.3835857611240087, 0.0984561396193773],
+        [-0.4934509112684303, 1.0872696766222114]
+    ];
+    let c_t = mat![
+        [-0.45876848704111706, -0.15389354002151978],
+        [0.716547539717026, -0.8587125148828603],
+        [-0.32948464737856487, 0.3125039167323995],
+        [0.5422968084938142, -0.8940138451179098]
+    ];
+    let load = vec![0.08024922294046322, 0.31754162063483177];
+    let zero = vec![0.0; 4];
+    let problem =
+        Contact2d::new(Mat::zeros(2, 2), load, c_n, c_t, zero.clone(), zero, vec![1.0; 4]).unwrap();
+    let lemke = Solver::<Contact2d>::solve(&Lemke::default(), &problem).unwrap();
+    assert_eq!(lemke.status, Status::Infeasible);
+    let solution = solve(&problem);
+    assert!(!solution.is_solved(), "{:?}", problem.recover(&solution.t, &solution.y));
+}
+
 #[test]
 fn standard_problems_with_known_answers_are_solved() {
     for seed in 0..20 {
@@ -229,6 +283,33 @@ fn limits_are_kept_and_leave_the_best_point() {
     let cancelled =
         InteriorPoint::default().solve_observed(&block, &mut |_| ControlFlow::Break(()));
     assert_eq!(cancelled.unwrap().status, Status::Cancelled);
+}
+
+/// Whatever numbers the start has, they are only tried.
+#[test]
+fn a_start_beyond_all_bounds_is_as_good_as_none() {
+    let problems = [
+        body([2.0, 2.0], [9.0, -10.0], &[[0.0, 1.0]], 0.5),
+        body([2.0, 2.0], [1e-20, -1e-20], &[[0.0, 1.0], [0.6, 0.8]], 0.0),
+        body([0.0, 0.0], [0.0, -1e-20], &[[0.0, 1.0], [0.6, 0.8]], 0.0),
+    ];
+    for problem in problems {
+        for size in [1.0, -1.0, 1e150, 1e300, -1e300, f64::MAX] {
+            let order = problem.order();
+            let start = WarmStart::Point { t: vec![size; order], y: vec![0.3 * size; order] };
+            let settings = InteriorPointSettings { start: start.clone(), ..default() };
+            let solution = InteriorPoint::new(settings).solve(&problem).unwrap();
+            assert!(solution.is_solved(), "{size}: {:?}", solution.status);
+            let auto = Auto::new(AutoSettings { start, ..AutoSettings::default() });
+            assert!(auto.solve(&problem).unwrap().is_solved(), "{size}");
+        }
+    }
+    // Forces that overflow where there is no friction.
+    let floating = body([0.0, 0.0], [0.0, -0.1], &[[0.0, 0.0], [0.0, 0.0]], 0.0);
+    let start = WarmStart::Point { t: vec![f64::MAX; 4], y: vec![0.0; 4] };
+    let settings = InteriorPointSettings { start, ..default() };
+    let solution = InteriorPoint::new(settings).solve(&floating).unwrap();
+    assert!(!solution.is_solved() && solution.t.iter().all(|t| t.is_finite()));
 }
 
 #[test]

@@ -33,6 +33,7 @@
 //! | model: blocks, joints, contact points, in SI units | [`model`], [`geometry`], [`mesh`], [`contact`], [`ids`] | [`model::Model`] |
 //! | plan: what the scene calls for | [`plan`] | [`plan::Plan`] |
 //! | system: stiffness, loads, contact rows (3.2) | [`system`], [`element`], [`rigid`] | [`system::System`] |
+//! | mortar films and their nodes (3.28)-(3.53), not yet part of a scene | [`film`] | [`film::pointwise::PointwiseFilm`] |
 //! | reduction to contact forces (3.18), (3.23) | [`reduction`] | [`reduction::Reduction`] |
 //! | complementarity problem (3.27) and its other forms; the sparse one | [`forms`] | [`forms::Form`], [`forms::Sparse`] |
 //! | solution | [`routes`] | [`routes::Answer`] |
@@ -49,6 +50,7 @@ pub mod check;
 pub mod cli;
 pub mod contact;
 pub mod element;
+pub mod film;
 pub mod forms;
 pub mod geometry;
 pub mod ids;

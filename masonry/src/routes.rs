@@ -7,7 +7,8 @@
 //! | [`qp`] | [`Sparse`](crate::forms::Sparse) | convex quadratic programs, with proofs where nothing stands |
 //! | [`pgs`] | [`Sparse`](crate::forms::Sparse) | sweeps over the contacts of blocks on springs |
 //!
-//! All give an [`Answer`] to a [`Request`]. Which ones a scene is given is in its
+//! All of these give an [`Answer`] to a [`Request`]; [`alm`], the augmented Lagrangian method of the paper,
+//! stands by itself. Which ones a scene is given is in its
 //! [`Plan`](crate::plan::Plan).
 
 use std::ops::ControlFlow;
@@ -16,6 +17,7 @@ use crate::forms::RowState;
 use crate::outcome::SolveInfo;
 use crate::scene::Form;
 
+pub mod alm;
 pub mod interior;
 pub mod lemke;
 pub mod pgs;

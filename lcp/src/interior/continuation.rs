@@ -4,6 +4,7 @@ use super::condensed::Condensed;
 use super::iterate::{Defect, Iterate};
 use super::path::{WIDTHS, advance, start};
 use super::scaled::Scaled;
+use crate::problem::column_of;
 use crate::solution::SoftSprings;
 
 /// The first springs, relative to the stiffness, and the last.
@@ -24,6 +25,8 @@ const NOTHING: f64 = 1e-7;
 /// sequence, the share does not tend to zero.
 const CONSTANT: f64 = 0.8;
 const IN_SEQUENCE: usize = 4;
+/// Resistance of a motion, relative to the terms that it is the sum of, which is a rounding error.
+const ROUNDING: f64 = 1e-12;
 
 /// How the continuation ended.
 pub(super) enum End {
@@ -47,6 +50,7 @@ pub(super) fn follow(
     let mut path = SoftSprings::default();
     let mut constant = 0;
     while spring >= LAST {
+        let before = at.u.clone();
         let Some(next) = solve(problem, condensed, at, spring, &mut go_on) else {
             return End::Open;
         };
@@ -59,7 +63,8 @@ pub(super) fn follow(
         constant = if is_constant { constant + 1 } else { 0 };
         path.stiffness.push(spring);
         path.shares.push(share);
-        if constant >= IN_SEQUENCE {
+        let step: Vec<f64> = at.u.iter().zip(&before).map(|(u, before)| u - before).collect();
+        if constant >= IN_SEQUENCE && is_free(problem, &step, spring) {
             path.motion = problem.displacements(&at.u);
             return End::Falling(path);
         }
@@ -67,6 +72,24 @@ pub(super) fn follow(
         at = at.lifted(problem, LIFT);
     }
     End::Open
+}
+
+/// Whether nothing but the spring resists the motion from one spring to the next. Bodies that are softer than
+/// the springs leave them their share of the load too, as long as they are.
+///
+/// Of bodies that are at rest the motion has a part of the order of the spring, and their resistance is that
+/// of its square.
+fn is_free(problem: &Scaled, motion: &[f64], spring: f64) -> bool {
+    let (mut resistance, mut terms) = (0.0_f64, 0.0);
+    for (j, v) in motion.iter().enumerate() {
+        for (i, k) in column_of(&problem.k, j) {
+            let term = k * v * motion[i];
+            resistance += term;
+            terms += term.abs();
+        }
+    }
+    let size: f64 = motion.iter().map(|v| v * v).sum();
+    resistance <= (spring * spring * size).max(ROUNDING * terms)
 }
 
 fn solve(

@@ -55,14 +55,20 @@ impl Original for Contact2d {
     }
 
     fn judge(&self, scaled: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Judged {
-        let drift = scaled.drift(u, forces).max(scaled.slack(u, forces));
-        let u = scaled.displacements(u);
-        let normal = forces.iter().map(|(t_n, _)| t_n.max(0.0) * scaled.force()).collect();
-        let tangential = forces.iter().zip(self.mu()).map(|((t_n, t_t), mu)| {
-            let bound = mu * t_n.max(0.0);
-            t_t.clamp(-bound, bound) * scaled.force()
+        // What is given back are forces inside their cones: where these are large, what was cut off may be
+        // more than the loads.
+        let inside = forces.iter().zip(self.mu()).map(|((t_n, t_t), mu)| {
+            let t_n = t_n.max(0.0);
+            // Forces may have overflowed.
+            let bound = if *mu > 0.0 { mu * t_n } else { 0.0 };
+            (t_n, t_t.clamp(-bound, bound))
         });
-        let state = self.state(u, normal, tangential.collect());
+        let forces: Vec<(f64, f64)> = inside.collect();
+        let drift = scaled.drift(u, &forces).max(scaled.slack(u, &forces));
+        let u = scaled.displacements(u);
+        let [normal, tangential] = [|it: &(f64, f64)| it.0, |it: &(f64, f64)| it.1]
+            .map(|part| forces.iter().map(|it| part(it) * scaled.force()).collect());
+        let state = self.state(u, normal, tangential);
         let residuals = self.residuals(&state);
         Judged::new(self.to_pairs(&state), residuals, drift)
     }
@@ -130,15 +136,18 @@ impl Original for MixedLcp {
     }
 
     fn judge(&self, scaled: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Judged {
-        let mut z = scaled.displacements(u);
-        let mut w = vec![0.0; z.len()];
-        for (point, (t_n, _)) in scaled.points.iter().zip(forces) {
+        // As for contact, what is judged is what is given back.
+        let (mut u, mut forces) = (u.to_vec(), forces.to_vec());
+        let mut w = vec![0.0; u.len()];
+        for (point, (t_n, _)) in scaled.points.iter().zip(&mut forces) {
             let j = point.columns[0];
-            z[j] = z[j].max(0.0);
-            w[j] = t_n.max(0.0) * scaled.force_of(j);
+            u[j] = u[j].max(0.0);
+            *t_n = t_n.max(0.0);
+            w[j] = *t_n * scaled.force_of(j);
         }
+        let z = scaled.displacements(&u);
         let residuals = self.residuals(&z, &w);
-        Judged::new(self.to_pairs(&z, &w), residuals, scaled.drift(u, forces))
+        Judged::new(self.to_pairs(&z, &w), residuals, scaled.drift(&u, &forces))
     }
 
     fn order(&self) -> usize {

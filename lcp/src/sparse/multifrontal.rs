@@ -12,7 +12,7 @@ use fronts::Fronts;
 /// The multifrontal method (Duff and Reid 1983) on a fixed order by approximate minimum degree.
 ///
 /// Pivots are exchanged within a supernode only, so that pattern, order and memory never change. A
-/// pivot that vanishes against its block is replaced by a small one, which iterative refinement of the
+/// pivot that vanishes against its column is replaced by a small one, which iterative refinement of the
 /// caller has to make good. Costs what two sparse Cholesky factorisations of the pattern cost, nearly
 /// all of it in dense matrix products.
 pub(crate) struct Multifrontal {

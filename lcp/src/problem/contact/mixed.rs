@@ -61,6 +61,10 @@ impl Contact2d {
                 for (j, z) in z.iter().enumerate() {
                     mixed.m().column(j).for_each(|(i, v)| w[i] += v * z);
                 }
+                // Beyond the range of numbers there is nothing to start from.
+                if z.iter().chain(&w).any(|v| !v.is_finite()) {
+                    return WarmStart::None;
+                }
                 let (t, y) = mixed.to_pairs(&z, &w);
                 WarmStart::Point { t, y }
             }

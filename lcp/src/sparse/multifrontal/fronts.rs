@@ -5,7 +5,7 @@ use faer::{MatMut, MatRef};
 use super::analysis::{Analysis, Supernode};
 use crate::linear::{add_product, factorise_block, solve_right_upper, solve_unit_lower};
 
-/// Pivots below this multiple of the largest entry of their block are replaced by it.
+/// Pivots below this multiple of the largest entry of their column of the block are replaced by it.
 const VANISHING: f64 = 1e-15;
 
 /// The factors of all supernodes.

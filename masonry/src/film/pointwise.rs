@@ -1,0 +1,105 @@
+//! Internal forces and tangent of a film with the law at its Gauss points.
+//!
+//! The strip is divided into equal parts with two Gauss points each. Where all of a part sticks, or all of
+//! it is open, its integral is exact; a boundary between states inside a part costs an error of
+//! the order of the square of its length.
+
+use super::law::{FilmLaw, FilmState, PointResponse};
+use super::strip::Strip;
+use super::updating::Updating;
+use super::{FilmError, Matrix8, Vector8};
+use crate::element::quadrature::GAUSS_2;
+
+/// A strip with unilateral contact and friction at Gauss points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointwiseFilm {
+    strip: Strip,
+    law: FilmLaw,
+    parts: usize,
+}
+
+/// The answer of a film to the displacements of its nodes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FilmResponse {
+    /// Internal forces \[N\], conjugate to the displacements: what the nodes must apply to the film.
+    pub force: Vector8,
+    /// Derivative of the forces by the displacements \[N/m\]; not symmetric where points slip.
+    pub tangent: Matrix8,
+    /// The Gauss points, along `x`.
+    pub points: Vec<PointResponse>,
+    /// The part `[x_i, x_f]` \[m\] on which the faces press: `sigma_y` changes sign at its inner ends. `None`
+    /// when the film is open everywhere.
+    pub contact_part: Option<[f64; 2]>,
+    /// Energy dissipated in this step \[J\], never negative.
+    pub dissipation: f64,
+}
+
+impl FilmResponse {
+    /// The states after this step, for the next one.
+    pub fn states(&self) -> Vec<FilmState> {
+        self.points.iter().map(|point| point.state).collect()
+    }
+}
+
+impl PointwiseFilm {
+    /// A film with friction coefficient `mu` and `2 * parts` Gauss points.
+    ///
+    /// # Errors
+    /// [`FilmError::Friction`] and [`FilmError::NoParts`].
+    pub fn new(strip: Strip, mu: f64, parts: usize) -> Result<Self, FilmError> {
+        if parts == 0 {
+            return Err(FilmError::NoParts);
+        }
+        let law = FilmLaw::new(strip.material(), strip.thickness(), mu)?;
+        Ok(Self { strip, law, parts })
+    }
+
+    /// The strip.
+    pub fn strip(&self) -> &Strip {
+        &self.strip
+    }
+
+    /// The law at each point.
+    pub fn law(&self) -> &FilmLaw {
+        &self.law
+    }
+
+    /// The places of the Gauss points, increasing \[m\].
+    pub fn places(&self) -> impl Iterator<Item = f64> {
+        let part = self.strip.length() / self.parts as f64;
+        let start = self.strip.ends()[0];
+        (0..self.parts)
+            .flat_map(move |k| GAUSS_2.map(|xi| start + part * (k as f64 + 0.5 * (1.0 + xi))))
+    }
+
+    /// The states of all Gauss points before anything has slipped.
+    pub fn initial(&self) -> Vec<FilmState> {
+        vec![FilmState::default(); 2 * self.parts]
+    }
+
+    /// Forces and tangent for displacements of the nodes in local axes, from the states before the step.
+    ///
+    /// # Panics
+    /// If there is not one state per Gauss point.
+    pub fn respond(&self, displacements: &Vector8, before: &[FilmState]) -> FilmResponse {
+        assert_eq!(before.len(), 2 * self.parts, "one state per Gauss point");
+        let area = 0.5 * self.strip.length() / self.parts as f64 * self.strip.wall();
+        let volume = area * self.strip.thickness();
+        let mut response = FilmResponse {
+            force: Vector8::zeros(),
+            tangent: Matrix8::zeros(),
+            points: Vec::with_capacity(before.len()),
+            contact_part: Updating::Pointwise.contact_part(&self.strip, displacements),
+            dissipation: 0.0,
+        };
+        for (x, state) in self.places().zip(before) {
+            let b = self.strip.strain_matrix(x);
+            let point = self.law.respond(b * displacements, *state);
+            response.force += b.transpose() * point.stress * volume;
+            response.tangent += b.transpose() * point.tangent * b * volume;
+            response.dissipation += point.dissipation * area;
+            response.points.push(point);
+        }
+        response
+    }
+}
