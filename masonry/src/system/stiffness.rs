@@ -109,7 +109,9 @@ fn factor(
 ) -> Result<Llt<f64>, SystemError> {
     let n = 2 * mesh.nodes.len();
     let mut matrix: Mat<f64> = Mat::zeros(n, n);
-    entries.iter().for_each(|entry| matrix[(entry.row, entry.col)] += entry.val);
+    for entry in entries {
+        matrix[(entry.row, entry.col)] += entry.val;
+    }
     let q = orthonormal_modes(block, mesh);
     let mean = (0..n).map(|i| matrix[(i, i)]).sum::<f64>() / n as f64;
     let held = &matrix + faer::Scale(mean) * &q * q.transpose();
