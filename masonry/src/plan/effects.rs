@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 
 use super::{Effect, nodes, unknowns_per_friction};
 use crate::model::{Block, Model};
-use crate::scene::Scene;
+use crate::scene::{Form, Route, Scene};
 
 /// All effects that a scene can call for.
-pub(super) fn of(scene: &Scene, model: &Model) -> Vec<Effect> {
+pub(super) fn of(scene: &Scene, model: &Model, route: Route) -> Vec<Effect> {
     vec![
         contact(scene, model),
-        friction(scene, model),
+        friction(scene, model, route),
         deformation(scene, model),
         self_weight(scene, model),
         edge_loads(scene, model),
@@ -30,7 +30,7 @@ fn contact(scene: &Scene, model: &Model) -> Effect {
     Effect { name: "contact", on: unknowns > 0, because, unknowns }
 }
 
-fn friction(scene: &Scene, model: &Model) -> Effect {
+fn friction(scene: &Scene, model: &Model, route: Route) -> Effect {
     let points = model.contacts.iter().filter(|point| point.mu > 0.0).count();
     let used: BTreeSet<&str> = model
         .joints
@@ -44,7 +44,8 @@ fn friction(scene: &Scene, model: &Model) -> Effect {
     } else {
         "mu = 0 in all joints".to_owned()
     };
-    let unknowns = unknowns_per_friction(scene.solver.form) * points;
+    let form = if route == Route::Lemke { scene.solver.form } else { Form::Coulomb };
+    let unknowns = unknowns_per_friction(form) * points;
     Effect { name: "friction", on: points > 0, because, unknowns }
 }
 
