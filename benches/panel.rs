@@ -17,7 +17,8 @@ use masonry::output::svg;
 use masonry::plan::Plan;
 use masonry::recover::recover;
 use masonry::reduction::Reduction;
-use masonry::routes::lemke::{self, Request};
+use masonry::routes::lemke::Pivots;
+use masonry::routes::{Method, Request};
 use masonry::scene::{self, Scene};
 use masonry::system::System;
 
@@ -27,10 +28,10 @@ fn panel(c: &mut Criterion) {
     let model = Model::from_scene(&scene).expect("the scene is sound");
     let system = System::new(&model).expect("the blocks are sound");
     let reduction = Reduction::new(&system, None).expect("no block is free");
-    let request = Request { form: scene::Form::Mixed, tolerance: 1e-10, max_pivots: None };
+    let request = Request { form: scene::Form::Mixed, ..Request::new(1e-10) };
     let solve = || {
-        lemke::solve(&system, &reduction, &request, &mut |_| ControlFlow::Continue(()))
-            .expect("the problem is finite")
+        let pivots = Pivots { system: &system, reduction: &reduction };
+        pivots.solve(&request, &mut |_| ControlFlow::Continue(())).expect("the problem is finite")
     };
     let rows = solve().rows.expect("the panel stands");
     let state = recover(&model, &system, &reduction, &rows, true);

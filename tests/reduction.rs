@@ -18,7 +18,8 @@ use masonry::model::{Model, Plane};
 use masonry::outcome::{Outcome, State};
 use masonry::recover::recover;
 use masonry::reduction::Reduction;
-use masonry::routes::lemke::{self, Request};
+use masonry::routes::lemke::Pivots;
+use masonry::routes::{Method, Request};
 use masonry::scene::{Block, Brick, Form, Joint, Load, Material, Scene, Support, Wall};
 use masonry::solve::solve;
 use masonry::system::System;
@@ -132,9 +133,9 @@ fn random_weights(count: usize, seed: u64) -> Vec<f64> {
 fn with_weights(model: &Model, weights: Option<&[f64]>) -> (State, Vec<usize>) {
     let system = System::new(model).unwrap();
     let reduction = Reduction::new(&system, weights).unwrap();
-    let request = Request { form: Form::Auto, tolerance: 1e-10, max_pivots: None };
-    let answer =
-        lemke::solve(&system, &reduction, &request, &mut |_| ControlFlow::Continue(())).unwrap();
+    let pivots = Pivots { system: &system, reduction: &reduction };
+    let request = Request::new(1e-10);
+    let answer = pivots.solve(&request, &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(answer.info.status, Status::Solved, "{:#?}", answer.info.attempts);
     let state = recover(model, &system, &reduction, answer.rows.as_ref().unwrap(), true);
     (state, reduction.isostatic)

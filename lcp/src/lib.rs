@@ -100,8 +100,8 @@ pub use pgs::{
     SweepOrder, Sweepable,
 };
 pub use problem::{
-    BoxedLcp, Contact2d, ContactForces, ContactState, ErrorBound, Friction2d, HorizontalLcp, Lcp,
-    MixedLcp, Monotonicity, StandardForm,
+    Bedding, BoxedLcp, Contact2d, ContactForces, ContactState, ErrorBound, Friction2d,
+    HorizontalLcp, Lcp, MixedLcp, Monotonicity, StandardForm,
 };
 #[cfg(feature = "clarabel")]
 pub use qp::{

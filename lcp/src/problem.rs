@@ -11,8 +11,8 @@ mod standard;
 
 pub use bound::{ErrorBound, Monotonicity};
 pub use boxed::BoxedLcp;
-pub(crate) use contact::column_of;
-pub use contact::{Contact2d, ContactState};
+pub use contact::{Bedding, Contact2d, ContactState};
+pub(crate) use contact::{check_epsilon, column_of};
 pub use disguised::StandardForm;
 pub use friction::{ContactForces, Friction2d};
 pub use horizontal::HorizontalLcp;

@@ -19,7 +19,7 @@ pub struct Checks {
     pub moment_balance: f64,
     /// Largest violation of `|t_t| <= mu t_n`, `t_n >= 0`, relative to the largest contact force.
     pub cone_violation: f64,
-    /// Deepest interpenetration, relative to the largest displacement.
+    /// Deepest interpenetration, relative to the largest displacement or initial gap.
     pub penetration: f64,
     /// Number of open contact points.
     pub open: usize,
@@ -62,7 +62,8 @@ impl Checks {
         let contacts = model.contacts.iter().zip(&state.contacts);
         let both = model.contacts.iter().zip(&state.contacts);
         let depth = both.map(|(contact, s)| -gap(model, state, contact, s));
-        let displacement = largest(state.displacements.iter().flatten().map(Vector2::norm));
+        let displacement = largest(state.displacements.iter().flatten().map(Vector2::norm))
+            .max(largest(model.contacts.iter().map(|contact| contact.gap)));
         let count = |status| state.contacts.iter().filter(|s| s.status == status).count();
         Self {
             force_balance: relative(largest(balances.iter().map(|b| b.force)), reference),

@@ -15,7 +15,7 @@ use crate::model::Model;
 use crate::output::svg::ReferenceLines;
 use crate::output::{self, Options, json, svg, table};
 use crate::plan::Plan;
-use crate::scene::Scene;
+use crate::scene::{Route, Scene};
 use crate::solve::solve_observed;
 use progress::Progress;
 
@@ -41,6 +41,9 @@ enum Command {
 struct PlanArgs {
     /// The scene file (TOML).
     scene: PathBuf,
+    /// The route to the solution, instead of that of the scene.
+    #[arg(long)]
+    route: Option<Route>,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
@@ -53,6 +56,9 @@ struct SolveArgs {
     /// The directory to write into; created when missing.
     #[arg(long)]
     out: PathBuf,
+    /// The route to the solution, instead of that of the scene.
+    #[arg(long)]
+    route: Option<Route>,
     /// Print one JSON object instead of the report.
     #[arg(long)]
     json: bool,
@@ -87,7 +93,7 @@ pub fn run() -> ExitCode {
 }
 
 fn plan(args: &PlanArgs) -> Result<u8, Failure> {
-    let scene = Scene::read(&args.scene)?;
+    let scene = on_route(Scene::read(&args.scene)?, args.route);
     let model = Model::from_scene(&scene)?;
     let plan = Plan::of(&scene, &model);
     if args.json {
@@ -99,7 +105,7 @@ fn plan(args: &PlanArgs) -> Result<u8, Failure> {
 }
 
 fn solve(args: &SolveArgs) -> Result<u8, Failure> {
-    let scene = Scene::read(&args.scene)?;
+    let scene = on_route(Scene::read(&args.scene)?, args.route);
     let mut progress = Progress::new();
     let outcome = solve_observed(&scene, &mut |event| progress.show(event))?;
     progress.clear();
@@ -115,6 +121,14 @@ fn solve(args: &SolveArgs) -> Result<u8, Failure> {
     written?;
     let solved = outcome.solve.status == lcp::Status::Solved;
     Ok(if solved { SOLVED } else { NOT_SOLVED })
+}
+
+/// The scene with another route, if one is asked for; whether its keys fit is checked with the scene.
+fn on_route(scene: Scene, route: Option<Route>) -> Scene {
+    match route {
+        Some(route) => scene.route(route),
+        None => scene,
+    }
 }
 
 fn draw(args: &DrawArgs) -> Result<u8, Failure> {

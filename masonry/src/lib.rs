@@ -35,8 +35,8 @@
 //! | system: stiffness, loads, contact rows (3.2) | [`system`], [`element`], [`rigid`] | [`system::System`] |
 //! | mortar films as strips with nodes (3.28)-(3.53), beside the scene's own | [`film`] | [`film::pointwise::PointwiseFilm`] |
 //! | reduction to contact forces (3.18), (3.23) | [`reduction`] | [`reduction::Reduction`] |
-//! | complementarity problem (3.27) and its other forms | [`forms`] | [`forms::Form`] |
-//! | solution | [`routes`] | [`routes::lemke::Answer`] |
+//! | complementarity problem (3.27) and its other forms; the sparse one | [`forms`] | [`forms::Form`], [`forms::Sparse`] |
+//! | solution | [`routes`] | [`routes::Answer`] |
 //! | displacements, stresses, reactions | [`recover`] | [`outcome::State`] |
 //! | balances that use nothing of the method | [`check`] | [`check::Checks`] |
 //! | text, pictures, tables, meshes | [`output`] | files |

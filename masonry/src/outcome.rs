@@ -7,6 +7,7 @@ use crate::check::Checks;
 use crate::ids::{BlockId, ContactId, FilmId};
 use crate::model::Model;
 use crate::plan::Plan;
+use crate::scene::Route;
 
 /// The mechanical state of a model under its loads, in SI units.
 #[derive(Debug, Clone)]
@@ -110,19 +111,96 @@ pub struct Reaction {
 pub struct SolveInfo {
     /// `Solved`, or why not.
     pub status: lcp::Status,
+    /// The route that gave the answer.
+    pub route: Route,
+    /// Why it was its turn.
+    pub because: String,
+    /// All routes that were tried, in order.
+    pub routes: Vec<RouteEnd>,
     /// The form that was solved: `coulomb`, `stewart-trinkle` or `mixed`
-    /// ([`FormKind`](crate::forms::FormKind)).
+    /// ([`FormKind`](crate::forms::FormKind)) of the pivoting route, `contact` of the others.
     pub form: String,
     /// Order of the complementarity problem.
     pub order: usize,
-    /// One line for each attempt: form, covering vector, start basis, outcome.
+    /// One line for each attempt of any route: form, covering vector, start basis, outcome.
     pub attempts: Vec<String>,
     /// Pivots over all attempts.
     pub pivots: usize,
+    /// Steps of the interior-point method, programs, or times that springs were centred.
+    pub iterations: usize,
+    /// Matrices factorised.
+    pub factorisations: usize,
+    /// The evidence, where springs say that there is no equilibrium.
+    pub springs: Option<SpringShares>,
+    /// Whether the status `Infeasible` is proved, by a vector that was checked in the data.
+    pub proved: bool,
+    /// What the springs of the scene did.
+    pub soft: Option<SoftReport>,
     /// Dimensionless residuals recomputed from the original data.
     pub residuals: lcp::Residuals,
     /// Residuals of the same answer in the paper's form (3.27), where another form found it.
     pub coulomb_residuals: Option<lcp::Residuals>,
+}
+
+impl SolveInfo {
+    /// Nothing but a status and residuals.
+    pub fn new(status: lcp::Status, residuals: lcp::Residuals) -> Self {
+        Self {
+            status,
+            route: Route::Auto,
+            because: String::new(),
+            routes: Vec::new(),
+            form: String::new(),
+            order: 0,
+            attempts: Vec::new(),
+            pivots: 0,
+            iterations: 0,
+            factorisations: 0,
+            springs: None,
+            proved: false,
+            soft: None,
+            residuals,
+            coulomb_residuals: None,
+        }
+    }
+}
+
+/// How a route ended.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RouteEnd {
+    /// The route.
+    pub route: Route,
+    /// Why it was its turn.
+    pub because: String,
+    /// Its status, and what became of it; or why it refused.
+    pub end: String,
+    /// Wall-clock time \[s\].
+    pub seconds: f64,
+}
+
+/// Springs on all displacements that are made softer and softer, and what they carry: a share that does not
+/// tend to zero says that nothing else carries it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SpringShares {
+    /// The stiffnesses, relative to that of the blocks \[-\].
+    pub stiffness: Vec<f64>,
+    /// The share of the load that the springs of each stiffness carry \[-\].
+    pub shares: Vec<f64>,
+}
+
+/// Springs that hold the blocks while a scene is solved, and what they changed before they were
+/// centred anew; the answer itself is without them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SoftReport {
+    /// The stiffness, relative to that of the blocks \[-\].
+    pub stiffness: f64,
+    /// How often the springs were centred.
+    pub rounds: usize,
+    /// The share of the load that they carried at first \[-\].
+    pub share: f64,
+    /// The error of the displacements that they caused at first, relative to these \[-\]; `None` where it
+    /// is not known, as where nothing moves.
+    pub displacement_error: Option<f64>,
 }
 
 /// Wall-clock time of one phase \[s\].
@@ -153,8 +231,8 @@ pub struct Outcome {
     pub checks: Option<Checks>,
     /// The reaction of every support, when solved.
     pub reactions: Vec<Reaction>,
-    /// The mechanism along the secondary ray, when there is no solution and it is one:
-    /// displacement rates of the corners of every block, scaled to a largest component of one.
+    /// The mechanism, when there is no solution and the method found one, along a secondary ray, on soft
+    /// springs or by a proof: displacement rates of the corners of every block, scaled to a largest component of one.
     pub mechanism: Option<Vec<[Vector2<f64>; 4]>>,
     /// Time of every phase.
     pub times: Vec<PhaseTime>,

@@ -1,11 +1,15 @@
 //! The plan: which effects a scene calls for, why, and what they cost.
 
 mod effects;
+mod routes;
 
 use serde::Serialize;
 
+pub use routes::Choice;
+use routes::Sizes;
+
 use crate::model::Model;
-use crate::scene::{Form, Scene};
+use crate::scene::{Form, Route, Scene};
 
 /// One physical effect, on or off, and the reason.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -40,10 +44,11 @@ pub struct Plan {
     pub frictional_points: usize,
     /// Rigid amplitudes: three per block, and as many isostatic rows (3.18).
     pub rigid_modes: usize,
-    /// Order of the complementarity problem: m, and two more per frictional point (3m); in the
-    /// Stewart-Trinkle form three more (4m), in the mixed form also two per rigid amplitude.
+    /// Order of the complementarity problem of the first route. By pivots: m, and two more per frictional
+    /// point (3m); in the Stewart-Trinkle form three more (4m), in the mixed form also two per rigid
+    /// amplitude. On the sparse routes: m, two more per frictional point, and all displacements.
     pub order: usize,
-    /// Order of the largest form that the solver may turn to.
+    /// Order of the largest form that the first route may turn to.
     pub largest_order: usize,
     /// Displacement unknowns of the block with the finest mesh.
     pub largest_block: usize,
@@ -51,47 +56,42 @@ pub struct Plan {
     pub solver: String,
     /// Why this solver.
     pub because: String,
+    /// The routes in the order in which they are tried, until one has an answer.
+    pub routes: Vec<Choice>,
 }
 
 impl Plan {
     /// The plan for a scene and the model made of it.
     pub fn of(scene: &Scene, model: &Model) -> Self {
-        let contact_points = model.contacts.len();
-        let frictional_points = model.contacts.iter().filter(|point| point.mu > 0.0).count();
-        let rigid_modes = 3 * model.blocks.len();
-        let form = scene.solver.form;
-        let order_of = |form| {
-            contact_points
-                + unknowns_per_friction(form) * frictional_points
-                // Each free rigid amplitude is a difference of two nonnegative unknowns.
-                + if form == Form::Mixed { 2 * rigid_modes } else { 0 }
-        };
-        let last = if form == Form::Auto { Form::Mixed } else { form };
-        let (solver, because) = solver(form, frictional_points);
+        let sizes = Sizes::of(model);
+        let routes = routes::of(scene, &sizes);
+        let Choice { route, order, largest_order, .. } = routes[0];
+        let (solver, because) = solver(route, scene.solver.form, sizes.frictional);
         Self {
-            effects: effects::of(scene, model),
+            effects: effects::of(scene, model, route),
             blocks: model.blocks.len(),
             nodes: nodes(model),
             joints: model.joints.len(),
-            contact_points,
-            frictional_points,
-            rigid_modes,
-            order: order_of(form),
-            largest_order: order_of(last),
-            largest_block: 2 * block_nodes(model).max().unwrap_or(0),
+            contact_points: sizes.points,
+            frictional_points: sizes.frictional,
+            rigid_modes: sizes.rigid_modes,
+            order,
+            largest_order,
+            largest_block: sizes.largest_block,
             solver: solver.to_owned(),
             because: because.to_owned(),
+            routes,
         }
     }
 
-    /// Memory \[bytes\] at the peak: about nine dense matrices of the largest order that the pivoting
-    /// solver may come to (the problem, its equilibrated copy, the tableau at the start and now,
-    /// factors), as measured on walls, and the stiffness and factor of the largest block.
-    pub fn dense_bytes(&self) -> usize {
-        let square = |n: usize| n.saturating_mul(n);
-        let matrices = square(self.largest_order).saturating_mul(9);
-        let stiffness = square(self.largest_block).saturating_mul(3);
-        matrices.saturating_add(stiffness).saturating_mul(size_of::<f64>())
+    /// Numbers in dense matrices, over all routes that may be taken; none where all are sparse.
+    pub fn dense_numbers(&self) -> usize {
+        self.routes.iter().map(|choice| choice.dense_numbers).max().unwrap_or(0)
+    }
+
+    /// Memory \[bytes\] at the peak of the route that takes most.
+    pub fn memory_bytes(&self) -> usize {
+        self.routes.iter().map(|choice| choice.memory_bytes).max().unwrap_or(0)
     }
 }
 
@@ -103,27 +103,43 @@ fn unknowns_per_friction(form: Form) -> usize {
     }
 }
 
+/// Rows of the system in which a film gives way: on the sparse routes, displacements.
+fn film_compliances(model: &Model) -> usize {
+    let points = model.contacts.iter().filter(|point| point.film.is_some());
+    points.map(|point| 1 + usize::from(point.mu > 0.0)).sum()
+}
+
 fn nodes(model: &Model) -> usize {
-    block_nodes(model).sum()
+    model.blocks.iter().filter_map(|block| block.mesh.as_ref()).map(|mesh| mesh.nodes.len()).sum()
 }
 
-fn block_nodes(model: &Model) -> impl Iterator<Item = usize> {
-    model.blocks.iter().filter_map(|block| block.mesh.as_ref()).map(|mesh| mesh.nodes.len())
-}
-
-fn solver(form: Form, frictional_points: usize) -> (&'static str, &'static str) {
-    match form {
-        Form::Auto if frictional_points == 0 => {
+fn solver(route: Route, form: Form, frictional_points: usize) -> (&'static str, &'static str) {
+    let has_friction = frictional_points > 0;
+    match (route, form) {
+        (Route::Interior, _) => (
+            "interior points",
+            "every step factorises one sparse matrix of the order of the displacements",
+        ),
+        (Route::Qp, _) if has_friction => (
+            "quadratic programs",
+            "with the friction forces held every program is convex; their fixed point is the answer",
+        ),
+        (Route::Qp, _) => ("quadratic program", "without friction one convex program is enough"),
+        (Route::Pgs, _) => (
+            "projected Gauss-Seidel sweeps",
+            "springs make the stiffness definite, and are centred until they carry nothing",
+        ),
+        (_, Form::Auto) if !has_friction => {
             ("lemke", "no joint has friction: the normal contacts alone make a symmetric problem")
         }
-        Form::Auto => (
+        (_, Form::Auto) => (
             "lemke, Coulomb form; mixed form if it ends on rays",
             "with friction a ray of the Coulomb form does not mean that there is no equilibrium",
         ),
-        Form::Coulomb => ("lemke, Coulomb form", "solver.form = \"coulomb\""),
-        Form::StewartTrinkle => {
+        (_, Form::Coulomb) => ("lemke, Coulomb form", "solver.form = \"coulomb\""),
+        (_, Form::StewartTrinkle) => {
             ("lemke, Stewart-Trinkle form", "solver.form = \"stewart_trinkle\"")
         }
-        Form::Mixed => ("lemke, mixed form", "solver.form = \"mixed\""),
+        (_, Form::Mixed) => ("lemke, mixed form", "solver.form = \"mixed\""),
     }
 }

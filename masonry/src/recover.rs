@@ -3,7 +3,7 @@
 use nalgebra::{SVector, Vector2};
 
 use crate::element::{constitutive, quad4};
-use crate::forms::RowState;
+use crate::forms::{RowState, Sparse};
 use crate::ids::{BlockId, ContactId};
 use crate::model::{Anchor, Body, ContactPoint, Model};
 use crate::outcome::{
@@ -16,8 +16,12 @@ use crate::system::{BodySystem, System, displaced_nodes};
 /// open, sticking or sliding.
 const STATUS_TOLERANCE: f64 = 1e-8;
 
-/// Gap rates above minus this fraction of the largest rate of a mechanism do not close a contact.
-const MECHANISM_TOLERANCE: f64 = 1e-8;
+/// Motions of rigid blocks below this fraction of their size, or below the tolerance, are none.
+const REST: f64 = 1e-9;
+
+mod motion;
+
+pub use motion::mechanism;
 
 /// The state that belongs to the contact forces and relative displacements `rows`: rigid amplitudes
 /// from the isostatic rows, then `u = K^+ (f + C^T t) + N alpha` block by block.
@@ -50,11 +54,59 @@ pub fn recover(
     State { displacements, contacts, films, stresses, strain_energy }
 }
 
+/// The state that belongs to forces and displacements of the sparse problem, solved to `tolerance`.
+///
+/// Where all blocks are rigid and nothing has an initial gap or a film, no displacement has a natural
+/// size, and rounding errors around zero are taken for zero.
+pub fn from_displacements(
+    (model, system, sparse): (&Model, &System, &Sparse),
+    (rows, u): (&RowState, &[f64]),
+    tolerance: f64,
+    with_stresses: bool,
+) -> State {
+    if is_at_rest(system, u, tolerance) {
+        let rest = vec![0.0; u.len()];
+        let rows = RowState { t: rows.t.clone(), y: vec![0.0; rows.y.len()] };
+        return of_blocks((model, system, sparse), (&rows, &rest), with_stresses);
+    }
+    of_blocks((model, system, sparse), (rows, u), with_stresses)
+}
+
+fn is_at_rest(system: &System, u: &[f64], tolerance: f64) -> bool {
+    let are_rigid = system.bodies.iter().all(|body| body.stiffness.is_none());
+    let are_closed = system.rows.iter().all(|row| row.offset.abs() <= 0.0 && row.compliance <= 0.0);
+    let size = system.bodies.iter().map(|body| body.modes.length).fold(0.0, f64::max);
+    let rest = tolerance.max(REST) * size;
+    are_rigid && are_closed && u.iter().all(|u| u.abs() <= rest)
+}
+
+fn of_blocks(
+    (model, system, sparse): (&Model, &System, &Sparse),
+    (rows, u): (&RowState, &[f64]),
+    with_stresses: bool,
+) -> State {
+    let mut strain_energy = 0.0;
+    let mut displacements = Vec::with_capacity(model.blocks.len());
+    for (b, body) in system.bodies.iter().enumerate() {
+        let u = sparse.of_block(b, u);
+        strain_energy += energy(system, body, u);
+        displacements.push(if body.stiffness.is_some() {
+            u.chunks_exact(2).map(|u| Vector2::new(u[0], u[1])).collect()
+        } else {
+            let places = displaced_nodes(model, BlockId::new(b)).iter();
+            places.map(|place| body.modes.displacement(*place, u)).collect::<Vec<_>>()
+        });
+    }
+    let contacts = contact_states(model, system, rows, &displacements);
+    strain_energy += films_energy(system, rows);
+    let films = film_stresses(model, &contacts);
+    let stresses = if with_stresses { stresses(model, &displacements) } else { Vec::new() };
+    State { displacements, contacts, films, stresses, strain_energy }
+}
+
 /// `u.K u / 2` of one block \[J\].
 fn energy(system: &System, body: &BodySystem, u: &[f64]) -> f64 {
-    let Some(k) = body.stiffness.map(|k| &system.stiffnesses[k].matrix) else { return 0.0 };
-    let row = |i: usize| u.iter().enumerate().map(|(j, u_j)| k[(i, j)] * u_j).sum::<f64>();
-    u.iter().enumerate().map(|(i, u_i)| 0.5 * u_i * row(i)).sum()
+    body.stiffness.map_or(0.0, |k| system.stiffnesses[k].energy(u))
 }
 
 /// The energy of all films \[J\].
@@ -216,35 +268,4 @@ pub fn reactions(model: &Model, contacts: &[ContactState]) -> Vec<Reaction> {
         reaction.m += contact.position.x * force.y - contact.position.y * force.x;
     }
     list
-}
-
-/// The mechanism with the rates `amplitudes`, three per block: rates of the four corners of every
-/// block, scaled to a largest component of one.
-///
-/// `None` unless it is one: no closed contact may close further, and the loads must do work on it.
-pub fn mechanism(
-    model: &Model,
-    system: &System,
-    amplitudes: &[f64],
-) -> Option<Vec<[Vector2<f64>; 4]>> {
-    let power: f64 = system.resultants().iter().zip(amplitudes).map(|(f, rate)| f * rate).sum();
-    if power <= 0.0 || !power.is_finite() {
-        return None;
-    }
-    let mut rates: Vec<[Vector2<f64>; 4]> = model
-        .blocks
-        .iter()
-        .zip(&system.bodies)
-        .zip(amplitudes.chunks(3))
-        .map(|((block, body), alpha)| block.corners.map(|p| body.modes.displacement(p, alpha)))
-        .collect();
-    let largest = rates.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max);
-    let closes = |(gap, contact): (f64, &ContactPoint)| {
-        contact.gap <= 0.0 && gap < -MECHANISM_TOLERANCE * largest
-    };
-    if system.gap_rates(amplitudes).into_iter().zip(&model.contacts).any(closes) {
-        return None;
-    }
-    rates.iter_mut().flatten().for_each(|rate| *rate /= largest);
-    Some(rates)
 }

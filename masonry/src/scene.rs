@@ -25,6 +25,7 @@ mod check;
 mod courses;
 mod error;
 mod key_path;
+mod solver;
 mod source;
 mod strict;
 
@@ -36,6 +37,7 @@ use serde::{Deserialize, Serialize};
 pub(crate) use self::error::Fault;
 pub use self::error::{SceneError, SceneErrorKind};
 pub use self::key_path::KeyPath;
+pub use self::solver::{Form, Route, Solver};
 use self::source::Source;
 use crate::units::Units;
 
@@ -293,46 +295,6 @@ pub enum PointRule {
     NodalPairs,
     /// At two Gauss points in every part on which the shape functions of both sides are linear.
     Gauss,
-}
-
-/// How the complementarity problem is solved.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Solver {
-    /// Requested residual \[-\].
-    #[serde(default = "default_tolerance")]
-    pub tolerance: f64,
-    /// The form of the problem.
-    #[serde(default)]
-    pub form: Form,
-    /// Largest number of pivots of one attempt; without it the solver sets a limit by the order.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub max_pivots: Option<u32>,
-}
-
-impl Default for Solver {
-    fn default() -> Self {
-        Self { tolerance: default_tolerance(), form: Form::default(), max_pivots: None }
-    }
-}
-
-fn default_tolerance() -> f64 {
-    1e-10
-}
-
-/// The form in which friction enters the complementarity problem.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Form {
-    /// The Coulomb form first; the mixed form when that ends on rays.
-    #[default]
-    Auto,
-    /// Distances to the two edges of the friction cone (3.27): three unknowns a point.
-    Coulomb,
-    /// Two friction forces and a slip bound: four unknowns a point.
-    StewartTrinkle,
-    /// As Stewart-Trinkle, with the rigid amplitudes kept as unknowns.
-    Mixed,
 }
 
 /// What is written.

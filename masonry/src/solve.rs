@@ -1,19 +1,21 @@
 //! From a scene to an outcome: every stage in order, each timed.
 //!
-//! scene -> model -> plan -> system -> reduction -> route -> recovery -> checks.
+//! scene -> model -> plan -> system -> reduction or sparse form -> route -> recovery -> checks.
+
+mod chain;
 
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use crate::check::Checks;
+use chain::Chain;
+
 use crate::model::Model;
 use crate::outcome::{Outcome, PhaseTime};
 use crate::plan::Plan;
 use crate::recover;
-use crate::reduction::Reduction;
 use crate::rigid::{FreeMotion, RigidError};
-use crate::routes::lemke::{self, Request};
-use crate::scene::{Scene, SceneError};
+use crate::routes::Request;
+use crate::scene::{Scene, SceneError, Solver};
 use crate::system::{System, SystemError};
 
 /// Why a scene could not be brought to a solver.
@@ -63,6 +65,13 @@ pub enum Event {
     Phase(&'static str),
     /// The solver pivots.
     Pivots(lcp::Progress),
+    /// The solver iterates.
+    Iteration {
+        /// Steps, programs, or times that springs were centred, done so far.
+        number: usize,
+        /// The residual by which the solver stops.
+        residual: f64,
+    },
 }
 
 /// Solves a scene.
@@ -103,46 +112,25 @@ pub fn solve_observed(
     let model = clock.time("model", observer, || Model::from_scene(scene))?;
     let plan = Plan::of(scene, &model);
     check_size(&plan)?;
-    let system = clock.time("system", observer, || System::new(&model))?;
-    let reduction = clock
-        .time("reduction", observer, || Reduction::new(&system, None))
-        .map_err(|error| named(error, &model))?;
-    let request = Request {
-        form: scene.solver.form,
-        tolerance: scene.solver.tolerance,
-        max_pivots: scene.solver.max_pivots.map(|limit| limit as usize),
-    };
-    let _ = observer(Event::Phase("solve"));
-    let began = Instant::now();
-    let answer = lemke::solve(&system, &reduction, &request, &mut |progress| {
-        observer(Event::Pivots(*progress))
-    })?;
-    clock.add("solve", began);
+    let build = if plan.dense_numbers() > 0 { System::new } else { System::without_factors };
+    let system = clock.time("system", observer, || build(&model))?;
+    let Solver { tolerance, form, max_pivots, soft, .. } = scene.solver;
+    let max_pivots = max_pivots.map(|limit| limit as usize);
+    let request = Request { tolerance, form, max_pivots, soft };
+    let wanted = (request, scene.output.stresses);
+    let found = Chain::new((&model, &system), wanted, &mut clock, observer).run(&plan.routes)?;
 
-    let state = answer.rows.as_ref().map(|rows| {
-        clock.time("recovery", observer, || {
-            recover::recover(&model, &system, &reduction, rows, scene.output.stresses)
-        })
-    });
-    let checks = state.as_ref().map(|state| Checks::of(&model, state));
-    let mut info = answer.info;
-    // The complementarity problem may be solved to its tolerance and the structure not: forces and
-    // displacements of very different size meet in one vector.
-    if checks.as_ref().is_some_and(|checks| !checks.hold(request.tolerance)) {
-        info.status = lcp::Status::AlmostSolved;
-    }
-    let reactions =
-        state.as_ref().map_or_else(Vec::new, |state| recover::reactions(&model, &state.contacts));
-    let mechanism = answer.ray.and_then(|rates| recover::mechanism(&model, &system, &rates));
+    let contacts = found.state.as_ref().map(|state| &state.contacts);
+    let reactions = contacts.map_or_else(Vec::new, |contacts| recover::reactions(&model, contacts));
     Ok(Outcome {
         title: scene.title.clone(),
         model,
         plan,
-        solve: info,
-        state,
-        checks,
+        solve: found.info,
+        state: found.state,
+        checks: found.checks,
         reactions,
-        mechanism,
+        mechanism: found.mechanism,
         times: clock.times,
     })
 }
@@ -151,7 +139,7 @@ pub fn solve_observed(
 const MEMORY_LIMIT: f64 = 64.0;
 
 fn check_size(plan: &Plan) -> Result<(), SolveError> {
-    let gigabytes = plan.dense_bytes() as f64 / 1e9;
+    let gigabytes = plan.memory_bytes() as f64 / 1e9;
     if gigabytes > MEMORY_LIMIT {
         return Err(SolveError::TooLarge { gigabytes, limit: MEMORY_LIMIT });
     }
@@ -185,6 +173,10 @@ impl Clock {
 
     fn add(&mut self, phase: &str, began: Instant) {
         let seconds = began.elapsed().as_secs_f64();
-        self.times.push(PhaseTime { phase: phase.to_owned(), seconds });
+        // Several routes solve and recover.
+        match self.times.iter_mut().find(|time| time.phase == phase) {
+            Some(time) => time.seconds += seconds,
+            None => self.times.push(PhaseTime { phase: phase.to_owned(), seconds }),
+        }
     }
 }

@@ -23,6 +23,7 @@ mod loads;
 mod stiffness;
 
 pub use loads::{nodal_loads, resultant};
+use stiffness::Parts;
 pub use stiffness::Stiffness;
 
 /// Why the stiffness of a block could not be built.
@@ -125,6 +126,19 @@ impl System {
     /// # Errors
     /// [`SystemError`] names the block whose stiffness cannot be built.
     pub fn new(model: &Model) -> Result<Self, SystemError> {
+        Self::build(model, Parts::MatrixAndFactor)
+    }
+
+    /// The same without the dense factors of the stiffnesses, for [`Sparse`](crate::forms::Sparse): it
+    /// can be neither reduced nor asked for [`elastic_displacements`](Self::elastic_displacements).
+    ///
+    /// # Errors
+    /// As [`System::new`], but for a stiffness that is not positive definite, which only its factor shows.
+    pub fn without_factors(model: &Model) -> Result<Self, SystemError> {
+        Self::build(model, Parts::Matrix)
+    }
+
+    fn build(model: &Model, parts: Parts) -> Result<Self, SystemError> {
         let friction: Vec<(ContactId, f64)> = model
             .contacts
             .iter()
@@ -146,7 +160,7 @@ impl System {
         });
         let rows: Vec<Row> = normals.chain(tangents).collect();
 
-        let mut shared = stiffness::Shared::default();
+        let mut shared = stiffness::Shared::new(parts);
         let mut bodies = Vec::with_capacity(model.blocks.len());
         for block in &model.blocks {
             let elastic = elastic_part(block)?;
@@ -206,7 +220,7 @@ impl System {
     /// a rigid motion, provided that loads and contact forces balance. Empty for a rigid block.
     ///
     /// # Panics
-    /// If `t` is shorter than the number of rows.
+    /// If `t` is shorter than the number of rows, or the system was built without factors.
     pub fn elastic_displacements(&self, body: &BodySystem, t: &[f64]) -> Vec<f64> {
         let Some(stiffness) = body.stiffness.map(|k| &self.stiffnesses[k]) else {
             return Vec::new();

@@ -196,6 +196,54 @@ fn what_is_not_solved_says_why_and_has_code_one() {
     }
 }
 
+/// The option takes the place of the key, and the answer is the same.
+#[test]
+fn a_route_can_be_chosen() {
+    let directory = directory("route");
+    let scene = written(&directory, &block(0.1));
+    let out = directory.join("out");
+    for (option, expected) in [
+        ("auto", "lemke"),
+        ("lemke", "lemke"),
+        ("interior", "interior"),
+        ("qp", "qp"),
+        ("pgs", "pgs"),
+    ] {
+        let plan = object(&masonry(&["plan", &scene, "--route", option, "--json"]));
+        assert_eq!(plan["routes"][0]["route"], expected);
+        assert_eq!(plan["routes"][0]["dense_numbers"] == 0, expected != "lemke");
+        let out = out.to_str().unwrap();
+        let output = masonry(&["solve", &scene, "--out", out, "--route", option, "--json"]);
+        assert_eq!(output.status.code(), Some(0), "{option}: {}", stderr(&output));
+        let result = object(&output);
+        assert_eq!(result["route"], expected);
+        assert_eq!(result["routes"][0]["end"], "Solved");
+        assert!(!result["why"].as_str().unwrap().is_empty());
+        let count = |key: &str| result[key].as_u64().unwrap();
+        let work = if expected == "lemke" { "pivots" } else { "factorisations" };
+        assert!(count(work) > 0 && count("iterations") + count("pivots") > 0, "{option}");
+        assert!(result["memory_bytes"].as_u64().unwrap() > 0);
+        assert!((result["reactions"]["floor"]["fy"].as_f64().unwrap() - 4.0).abs() < 1e-8);
+        assert_eq!(result["soft"].is_object(), option == "pgs");
+    }
+    let falls = written(&directory, &block(0.3));
+    let out = out.to_str().unwrap();
+    let output = masonry(&["solve", &falls, "--out", out, "--route", "interior", "--json"]);
+    assert_eq!(output.status.code(), Some(1));
+    let result = object(&output);
+    assert_eq!(result["status"], "NoEquilibrium");
+    assert!(result["springs"]["shares"].is_array() && result["mechanism"]["block"].is_array());
+    let report = fs::read_to_string(directory.join("out").join("report.txt")).unwrap();
+    assert!(report.contains("Springs on all blocks keep their share"), "{report}");
+    assert!(directory.join("out").join("mechanism.svg").exists());
+
+    let limited = written(&directory, &block(0.1).replace("units", "solver.max_pivots = 9\nunits"));
+    let output = masonry(&["solve", &limited, "--out", out, "--route", "qp"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("solver.max_pivots"), "{}", stderr(&output));
+    assert_eq!(masonry(&["plan", &scene, "--route", "simplex"]).status.code(), Some(2));
+}
+
 /// The place of a mistake in a text, as messages give it.
 fn place_of(text: &str, mistake: &str) -> String {
     let line = text.lines().position(|line| line.contains(mistake)).unwrap();

@@ -249,6 +249,22 @@ fn numbers_out_of_their_range() {
     }
 }
 
+/// Keys of the solver that its route has no use for.
+#[test]
+fn keys_of_another_route() {
+    for (replacement, marked, key, words) in [
+        ("route = \"interior\"\nform = \"mixed\"", "\"mixed\"", "solver.form", "route = \"lemke\""),
+        ("route = \"qp\"\nmax_pivots = 7", "7", "solver.max_pivots", "route = \"lemke\""),
+        ("route = \"lemke\"\nsoft = 1e-4", "1e-4", "solver.soft", "route = \"qp\""),
+        ("soft = 0.125", "0.125", "solver.soft", "route = \"pgs\""),
+        ("route = \"pgs\"\nsoft = 2.0", "2.0", "solver.soft", "at most 1"),
+    ] {
+        assert_error("tolerance = 1e-10", replacement, marked, key, &[words]);
+    }
+    let unknown = r#"route = "simplex""#;
+    assert_error("tolerance = 1e-10", unknown, "\"simplex\"", "", &["interior", "lemke", "pgs"]);
+}
+
 #[test]
 fn keys_that_belong_together() {
     for (piece, replacement, marked, key, words) in [

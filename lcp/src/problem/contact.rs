@@ -1,7 +1,11 @@
 //! Contact with friction in the plane, sparse, with the displacements as free variables.
 
+mod bedding;
 mod mixed;
 mod residual;
+
+pub use bedding::Bedding;
+pub(crate) use bedding::check_epsilon;
 
 use faer::sparse::SparseColMat;
 

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use crate::problem::check_epsilon;
 use crate::{Error, WarmStart};
 
 /// Which of its two programs a contact problem becomes.
@@ -21,12 +22,7 @@ pub enum ContactForm {
 /// Springs that hold the displacements of a contact problem while it is solved, and are taken away
 /// again.
 ///
-/// Every displacement has a spring of the stiffness `epsilon k_j`, with `k_j = K_jj` where that is not
-/// zero. Where `K` has no stiffness, as for rigid bodies, `k_j = k c_j^2` with the norm `c_j` of
-/// the column `j` of `[C_n; C_t]` and for `k` the geometric mean of `K_jj / c_j^2` over the other
-/// displacements, or, where all of `K` is zero, the largest `|f_j| / c_j` over the largest initial gap or
-/// slip (over one, without any: then the stiffness only sets the unit of the displacements). In this way
-/// units do not matter.
+/// Every displacement has a spring, of the stiffness that [`Bedding`](crate::Bedding) says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SoftConstraints {
@@ -105,11 +101,4 @@ impl QuadraticProgramSettings {
         let start = crate::LemkeSettings { start: self.start.clone(), ..Default::default() };
         start.validate(n)
     }
-}
-
-pub(super) fn check_epsilon(epsilon: f64) -> Result<(), Error> {
-    if epsilon > 0.0 && epsilon <= 1.0 {
-        return Ok(());
-    }
-    Err(Error::Setting { name: "epsilon", value: epsilon, range: "in (0, 1]" })
 }

@@ -24,6 +24,9 @@ impl Progress {
             Event::Pivots(at) => {
                 format!("solve: order {}, attempt {}, pivot {}", at.order, at.attempt, at.pivots)
             }
+            Event::Iteration { number, residual } => {
+                format!("solve: iteration {number}, residual {residual:.1e}")
+            }
         });
         self.0.tick();
         ControlFlow::Continue(())

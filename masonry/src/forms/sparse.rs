@@ -1,8 +1,9 @@
 //! The contact problem with all displacements as unknowns: larger than the reduced forms, but sparse.
 
 use faer::sparse::{SparseColMat, Triplet};
-use lcp::Contact2d;
+use lcp::{Contact2d, ContactState};
 
+use super::RowState;
 use crate::system::{BodySystem, System};
 
 /// A [`System`] as a sparse contact problem in SI units, and back.
@@ -39,11 +40,13 @@ impl Sparse {
         let (mut c_n, mut c_t) = (Vec::new(), Vec::new());
         for (body, &start) in system.bodies.iter().zip(&starts) {
             if let Some(stiffness) = body.stiffness.map(|k| &system.stiffnesses[k].matrix) {
-                let entries = (0..stiffness.ncols()).flat_map(|j| {
-                    stiffness.col_as_slice(j).iter().enumerate().map(move |(i, v)| (i, j, *v))
-                });
-                let nonzero = entries.filter(|(_, _, v)| *v != 0.0);
-                k.extend(nonzero.map(|(i, j, v)| Triplet::new(start + i, start + j, v)));
+                let place = |i: usize| start + i;
+                k.extend(
+                    stiffness
+                        .triplet_iter()
+                        .filter(|entry| *entry.val != 0.0)
+                        .map(|entry| Triplet::new(place(entry.row), place(entry.col), *entry.val)),
+                );
                 f.extend(&body.load);
             } else {
                 f.extend(body.resultant);
@@ -80,6 +83,15 @@ impl Sparse {
         });
         let problem = Contact2d::new(k, f, c_n, c_t, x_0, s_0, mu)?;
         Ok(Self { problem, starts })
+    }
+
+    /// Forces and relative displacements of all rows of the system.
+    pub fn rows(&self, state: &ContactState) -> RowState {
+        let friction = self.problem.frictional();
+        let rows = |normal: &[f64], tangential: &[f64]| {
+            normal.iter().copied().chain(friction.iter().map(|&i| tangential[i])).collect()
+        };
+        RowState { t: rows(&state.t_n, &state.t_t), y: rows(&state.gap, &state.slip) }
     }
 
     /// The displacements of one block: of its nodes, or the amplitudes of its rigid motions.

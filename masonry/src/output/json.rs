@@ -4,15 +4,18 @@ use serde::{Serialize, Serializer};
 
 use super::format::{InUnits, block_name};
 use super::summary::{extreme_film_stresses, extreme_stresses, largest_displacement, reason};
-use crate::outcome::{Outcome, Reaction};
+use crate::outcome::{Outcome, Reaction, RouteEnd, SoftReport, SpringShares};
 use crate::plan::Plan;
+use crate::scene::Route;
 
 /// The object of `result.json` and of `masonry solve --json`, pretty-printed.
 ///
 /// Physical quantities are in the units of the scene, which `units` names one by one. Without a
 /// solution `residuals`, `balance`, `reactions`, `contacts`, `strain_energy`, `max_displacement` and the stresses
-/// are null, and `reason` says why; `films`, the extremes of the stresses in mortar films, is there with films only; `mechanism` gives displacement rates of the corners of every
-/// block, the largest component one, where one is known. Numbers that are not finite become null.
+/// are null, and `reason` says why; `mechanism` gives displacement rates of the corners of every
+/// block, the largest component one, where one is known. `films`, the extremes of the stresses in
+/// mortar films, is there with films only. `springs`, `proved` and `soft` are those of
+/// [`SolveInfo`](crate::outcome::SolveInfo). Numbers that are not finite become null.
 ///
 /// # Errors
 /// None that this data can cause; the signature is that of the serialiser.
@@ -30,10 +33,16 @@ struct Report<'a> {
     title: &'a str,
     units: UnitNames,
     plan: &'a Plan,
+    route: Route,
+    why: &'a str,
+    routes: &'a [RouteEnd],
     form: &'a str,
     order: usize,
     attempts: &'a [String],
     pivots: usize,
+    iterations: usize,
+    factorisations: usize,
+    memory_bytes: usize,
     residuals: Option<lcp::Residuals>,
     coulomb_residuals: Option<lcp::Residuals>,
     balance: Option<Balance>,
@@ -45,6 +54,9 @@ struct Report<'a> {
     max_tension: Option<Stress<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     films: Option<Films>,
+    springs: Option<&'a SpringShares>,
+    proved: bool,
+    soft: Option<SoftReport>,
     mechanism: Option<ByName<'a, [[f64; 2]; 4]>>,
     time_s: ByName<'a, f64>,
     files: &'a [String],
@@ -152,10 +164,16 @@ impl<'a> Report<'a> {
             title: &outcome.title,
             units: UnitNames::of(units),
             plan: &outcome.plan,
+            route: solve.route,
+            why: &solve.because,
+            routes: &solve.routes,
             form: &solve.form,
             order: solve.order,
             attempts: &solve.attempts,
             pivots: solve.pivots,
+            iterations: solve.iterations,
+            factorisations: solve.factorisations,
+            memory_bytes: outcome.plan.memory_bytes(),
             residuals: state.map(|_| solve.residuals),
             coulomb_residuals: solve.coulomb_residuals,
             balance: checks.map(|checks| Balance {
@@ -188,6 +206,9 @@ impl<'a> Report<'a> {
                 sigma_y_min: units.stress(films.compression.sigma_y),
                 tau_max: units.stress(films.shear.tau.abs()),
             }),
+            springs: solve.springs.as_ref(),
+            proved: solve.proved,
+            soft: solve.soft,
             mechanism: outcome.mechanism.as_ref().map(|rates| {
                 let names = model.blocks.iter().map(|block| block.name.as_str());
                 ByName(names.zip(rates.iter().map(|corners| corners.map(Into::into))).collect())

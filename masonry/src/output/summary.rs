@@ -162,6 +162,23 @@ pub fn reason(outcome: &Outcome) -> Option<String> {
              friction this is not a proof of collapse: an equilibrium may exist that the pivots did \
              not reach."
         }
+        lcp::Status::Infeasible => {
+            "There is no equilibrium, and this is proved: no contact forces within their limits balance \
+             the loads with displacements that fit together, which a vector shows that was checked in the \
+             data (Farkas)."
+        }
+        lcp::Status::NoEquilibrium => {
+            "Springs on all blocks keep their share of the load however soft they are: nothing else \
+             carries it. This points to collapse, but with friction it is not a proof."
+        }
+        lcp::Status::Stalled => {
+            "The residuals stopped falling before the tolerance was reached. This says nothing about the \
+             structure: another route may find an equilibrium."
+        }
+        lcp::Status::IterationLimit => {
+            "The limit on iterations was reached. This says nothing about the structure: another route \
+             may find an equilibrium."
+        }
         lcp::Status::PivotLimit => {
             "The limit on pivots was reached. This says nothing about the structure: a larger \
              limit or another start may find an equilibrium."

@@ -7,8 +7,9 @@ use super::summary::{
     ExtremeStress, Resultant, applied_load, extreme_film_stresses, extreme_stresses,
     largest_displacement, reason, total_reaction,
 };
-use crate::outcome::{FilmStress, Outcome, State};
+use crate::outcome::{FilmStress, Outcome, SoftReport, SpringShares, State};
 use crate::plan::Plan;
+use crate::scene::Route;
 
 const WIDTH: u16 = 100;
 
@@ -55,12 +56,17 @@ pub fn plan(plan: &Plan) -> String {
         plan.frictional_points,
         plan.rigid_modes
     );
-    let lines = pairs(&[
+    let mut lines = vec![
         ("sizes", sizes),
         ("order", plan.order.to_string()),
-        ("memory", format!("about {} MB", memory(plan.dense_bytes()))),
+        ("memory", format!("about {} MB", memory(plan.memory_bytes()))),
         ("solver", format!("{}: {}", plan.solver, plan.because)),
-    ]);
+    ];
+    for (index, choice) in plan.routes.iter().enumerate() {
+        let head = if index == 0 { "route" } else { "" };
+        lines.push((head, format!("{}: {}", choice.route.name(), choice.because)));
+    }
+    let lines = pairs(&lines);
     format!("{}\n\n{lines}", table.trim_fmt())
 }
 
@@ -82,11 +88,23 @@ fn solution(outcome: &Outcome) -> Vec<(&'static str, String)> {
     let solve = &outcome.solve;
     let mut rows = vec![
         ("status", format!("{:?}", solve.status)),
+        ("route", format!("{}: {}", solve.route.name(), solve.because)),
         ("form", format!("{}, order {}", solve.form, solve.order)),
-        ("pivots", solve.pivots.to_string()),
     ];
+    if solve.route == Route::Lemke {
+        rows.push(("pivots", solve.pivots.to_string()));
+    } else {
+        rows.push(("iterations", solve.iterations.to_string()));
+    }
+    rows.push(("factorisations", solve.factorisations.to_string()));
     for (index, attempt) in solve.attempts.iter().enumerate() {
         rows.push((if index == 0 { "attempts" } else { "" }, attempt.clone()));
+    }
+    if let Some(springs) = &solve.springs {
+        rows.push(("springs", shares(springs)));
+    }
+    if let Some(soft) = &solve.soft {
+        rows.push(("soft springs", bias(soft)));
     }
     if outcome.state.is_some() {
         rows.push(("residuals", residuals(&solve.residuals)));
@@ -104,6 +122,28 @@ fn solution(outcome: &Outcome) -> Vec<(&'static str, String)> {
         rows.push(("balance", listed(&checks)));
     }
     rows
+}
+
+/// Of the stiffest and of the softest springs.
+fn shares(springs: &SpringShares) -> String {
+    let pairs: Vec<(f64, f64)> =
+        springs.stiffness.iter().copied().zip(springs.shares.iter().copied()).collect();
+    let text = |(stiffness, share): &(f64, f64)| {
+        format!("of stiffness {stiffness:.0e} carry {} of the load", significant(*share, 3))
+    };
+    let ends = [pairs.first(), pairs.last()];
+    ends.into_iter().flatten().map(text).collect::<Vec<_>>().join(", ")
+}
+
+fn bias(soft: &SoftReport) -> String {
+    let share = significant(soft.share, 3);
+    let error = soft.displacement_error.map_or_else(String::new, |error| {
+        format!(" and changed the displacements by {} of them", significant(error, 3))
+    });
+    format!(
+        "of stiffness {:.0e}, centred {} times; at first they carried {share} of the load{error}",
+        soft.stiffness, soft.rounds
+    )
 }
 
 fn reactions(outcome: &Outcome) -> String {

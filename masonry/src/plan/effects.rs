@@ -2,16 +2,16 @@
 
 use std::collections::BTreeSet;
 
-use super::{Effect, nodes, unknowns_per_friction};
+use super::{Effect, film_compliances, nodes, unknowns_per_friction};
 use crate::model::{Block, Model};
-use crate::scene::Scene;
+use crate::scene::{Form, Route, Scene};
 
 /// All effects that a scene can call for.
-pub(super) fn of(scene: &Scene, model: &Model) -> Vec<Effect> {
+pub(super) fn of(scene: &Scene, model: &Model, route: Route) -> Vec<Effect> {
     vec![
         contact(scene, model),
-        friction(scene, model),
-        mortar_films(scene, model),
+        friction(scene, model, route),
+        mortar_films(scene, model, route),
         deformation(scene, model),
         self_weight(scene, model),
         edge_loads(scene, model),
@@ -31,7 +31,7 @@ fn contact(scene: &Scene, model: &Model) -> Effect {
     Effect { name: "contact", on: unknowns > 0, because, unknowns }
 }
 
-fn friction(scene: &Scene, model: &Model) -> Effect {
+fn friction(scene: &Scene, model: &Model, route: Route) -> Effect {
     let points = model.contacts.iter().filter(|point| point.mu > 0.0).count();
     let used: BTreeSet<&str> = model
         .joints
@@ -45,16 +45,17 @@ fn friction(scene: &Scene, model: &Model) -> Effect {
     } else {
         "mu = 0 in all joints".to_owned()
     };
-    let unknowns = unknowns_per_friction(scene.solver.form) * points;
+    let form = if route == Route::Lemke { scene.solver.form } else { Form::Coulomb };
+    let unknowns = unknowns_per_friction(form) * points;
     Effect { name: "friction", on: points > 0, because, unknowns }
 }
 
-/// Films add no unknowns: each of their points adds its compliance to the diagonal of `A`, once for
-/// the normal and once for the tangent.
-fn mortar_films(scene: &Scene, model: &Model) -> Effect {
+/// Each point of a film has a compliance across and, with friction, one along the joint. By pivots they
+/// are added to the diagonal of `A` without new unknowns; on the sparse routes each is a displacement.
+fn mortar_films(scene: &Scene, model: &Model, route: Route) -> Effect {
     let films = model.joints.iter().filter(|joint| joint.film.is_some()).count();
-    let points = model.contacts.iter().filter(|point| point.film.is_some());
-    let compliances: usize = points.map(|point| 1 + usize::from(point.mu > 0.0)).sum();
+    let compliances = film_compliances(model);
+    let unknowns = if route == Route::Lemke { 0 } else { compliances };
     let filled: BTreeSet<&str> = model
         .joints
         .iter()
@@ -64,13 +65,13 @@ fn mortar_films(scene: &Scene, model: &Model) -> Effect {
     let given = scene.joints.values().any(|joint| joint.mortar_thickness() > 0.0);
     let because = if films > 0 {
         let (films, entries) = (count(films, "film"), count(compliances, "compliance"));
-        format!("thickness given for {}: {films}, {entries} in A", names(filled.into_iter()))
+        format!("thickness given for {}: {films}, {entries}", names(filled.into_iter()))
     } else if given {
         "no joint belongs to a class with a thickness".to_owned()
     } else {
         "no joint class has a thickness: all joints are dry".to_owned()
     };
-    Effect { name: "mortar films", on: films > 0, because, unknowns: 0 }
+    Effect { name: "mortar films", on: films > 0, because, unknowns }
 }
 
 fn deformation(scene: &Scene, model: &Model) -> Effect {

@@ -7,13 +7,12 @@
 //! fits between two walls may fall, and may be jammed. The answer of the mixed form is measured
 //! against the paper's form too.
 
-use std::ops::ControlFlow;
-
 use lcp::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Basis, Covering, Lemke, LemkeSettings,
-    Perturbation, Progress, Residuals, Side, Status, WarmStart,
+    Perturbation, Residuals, Side, Status, WarmStart,
 };
 
+use super::{Answer, Method, Motion, Observer, Request, Step};
 use crate::forms::{Form, FormKind, RowState, Start};
 use crate::outcome::SolveInfo;
 use crate::reduction::Reduction;
@@ -32,59 +31,38 @@ const COHESION: f64 = 100.0;
 /// Displacements below this, in the dimensionless units of a form, are rounding errors.
 const ROUNDING: f64 = 1e-14;
 
-/// What the route is asked for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Request {
-    /// The form, or `Auto` for the order of the module's description.
-    pub form: scene::Form,
-    /// Largest residual of an answer called solved \[-\].
-    pub tolerance: f64,
-    /// Pivots of one attempt; `None` leaves it to the solver.
-    pub max_pivots: Option<usize>,
+/// The route on a reduced system.
+#[derive(Debug, Clone, Copy)]
+pub struct Pivots<'a> {
+    /// The system.
+    pub system: &'a System,
+    /// Its reduction.
+    pub reduction: &'a Reduction,
 }
 
-/// What the route found.
-#[derive(Debug, Clone)]
-pub struct Answer {
-    /// How it was found.
-    pub info: SolveInfo,
-    /// Contact forces and relative displacements, when solved.
-    pub rows: Option<RowState>,
-    /// Rates of the rigid amplitudes, three per block, along the secondary ray of the mixed form.
-    pub ray: Option<Vec<f64>>,
-}
-
-/// Follows the progress of a solve; `Break` cancels it.
-pub type Observer<'a> = &'a mut dyn FnMut(&Progress) -> ControlFlow<()>;
-
-/// Solves the reduced problem.
-///
-/// # Errors
-/// [`lcp::Error`] for a tolerance out of range or for data that is not finite.
-pub fn solve(
-    system: &System,
-    reduction: &Reduction,
-    request: &Request,
-    observer: Observer<'_>,
-) -> Result<Answer, lcp::Error> {
-    let kinds: &[FormKind] = match request.form {
-        scene::Form::Auto => &[FormKind::Coulomb, FormKind::Mixed],
-        scene::Form::Coulomb => &[FormKind::Coulomb],
-        scene::Form::StewartTrinkle => &[FormKind::StewartTrinkle],
-        scene::Form::Mixed => &[FormKind::Mixed],
-    };
-    let mut search = Search { request, attempts: Vec::new(), pivots: 0, coulomb: None };
-    let mut answer = None;
-    for &kind in kinds {
-        let form = Form::new(kind, system, reduction)?;
-        let found = search.run(form, observer)?;
-        let done = found.rows.is_some() || found.info.status == Status::Cancelled;
-        answer = Some(found);
-        if done {
-            break;
+impl Method for Pivots<'_> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, lcp::Error> {
+        let Self { system, reduction } = *self;
+        let kinds: &[FormKind] = match request.form {
+            scene::Form::Auto => &[FormKind::Coulomb, FormKind::Mixed],
+            scene::Form::Coulomb => &[FormKind::Coulomb],
+            scene::Form::StewartTrinkle => &[FormKind::StewartTrinkle],
+            scene::Form::Mixed => &[FormKind::Mixed],
+        };
+        let mut search =
+            Search { request, attempts: Vec::new(), pivots: 0, factorisations: 0, coulomb: None };
+        let mut answer = None;
+        for &kind in kinds {
+            let form = Form::new(kind, system, reduction)?;
+            let found = search.run(form, observer)?;
+            let done = found.rows.is_some() || found.info.status == Status::Cancelled;
+            answer = Some(found);
+            if done {
+                break;
+            }
         }
+        Ok(answer.unwrap_or_else(|| unreachable!("every choice of a form names at least one")))
     }
-    Ok(answer.unwrap_or_else(|| unreachable!("every choice of a form names at least one")))
 }
 
 /// What the forms tried so far have left.
@@ -92,6 +70,7 @@ struct Search<'a> {
     request: &'a Request,
     attempts: Vec<String>,
     pivots: usize,
+    factorisations: usize,
     /// The paper's form, once it was tried: any answer is measured against it.
     coulomb: Option<Form>,
 }
@@ -100,8 +79,10 @@ impl Search<'_> {
     fn run(&mut self, form: Form, observer: Observer<'_>) -> Result<Answer, lcp::Error> {
         let mut last = None;
         for (settings, start) in self.settings(&form) {
-            let solution = Lemke::new(settings).solve_observed(&form.problem, observer)?;
+            let solution = Lemke::new(settings)
+                .solve_observed(&form.problem, &mut |at| observer(Step::Pivots(*at)))?;
             self.pivots += solution.info.pivots;
+            self.factorisations += solution.info.factorisations;
             let attempts = solution.info.attempts.iter();
             self.attempts.extend(attempts.map(|it| describe(form.kind, start, it)));
             // A singular start was replaced by one that the solver found; so would the next be.
@@ -115,20 +96,21 @@ impl Search<'_> {
         let solution = last.unwrap_or_else(|| unreachable!("there is at least one start"));
         let rows = solution.is_solved().then(|| form.rows(&solution.t, &solution.y));
         let info = SolveInfo {
-            status: solution.status,
+            route: scene::Route::Lemke,
             form: form.kind.name().to_owned(),
             order: form.order(),
             attempts: self.attempts.clone(),
             pivots: self.pivots,
-            residuals: solution.residuals,
+            factorisations: self.factorisations,
             coulomb_residuals: rows.as_ref().and_then(|rows| self.against_coulomb(&form, rows)),
+            ..SolveInfo::new(solution.status, solution.residuals)
         };
         let ray = solution.ray.filter(|_| form.kind == FormKind::Mixed);
         let ray = ray.and_then(|ray| form.amplitudes(&ray.dt));
         if form.kind == FormKind::Coulomb {
             self.coulomb = Some(form);
         }
-        Ok(Answer { info, rows, ray })
+        Ok(Answer { info, rows, displacements: None, motion: ray.map(Motion::Rigid) })
     }
 
     /// Settings of every run on a form, and the name of the start basis that they give.

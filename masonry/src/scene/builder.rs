@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::source::Source;
 use super::{
-    Block, Brick, Contact, Courses, Form, Joint, Load, Material, Output, Plane, PointRule, Scene,
-    Solver, Support, Wall,
+    Block, Brick, Contact, Courses, Form, Joint, Load, Material, Output, Plane, PointRule, Route,
+    Scene, Solver, Support, Wall,
 };
 use crate::units::Units;
 
@@ -112,6 +112,21 @@ impl Scene {
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.solver.tolerance = tolerance;
+        self
+    }
+
+    /// Sets the route to the solution.
+    #[must_use]
+    pub fn route(mut self, route: Route) -> Self {
+        self.solver.route = route;
+        self
+    }
+
+    /// Sets the stiffness of the springs of the routes that have them, relative to that of the
+    /// blocks \[-\].
+    #[must_use]
+    pub fn soft(mut self, stiffness: f64) -> Self {
+        self.solver.soft = Some(stiffness);
         self
     }
 

@@ -6,8 +6,8 @@ use nalgebra::Point2;
 
 use super::error::Known;
 use super::{
-    Block, Courses, Fault, Joint, KeyPath, Load, Material, Scene, SceneError, SceneErrorKind,
-    Support, Wall,
+    Block, Courses, Fault, Form, Joint, KeyPath, Load, Material, Route, Scene, SceneError,
+    SceneErrorKind, Solver, Support, Wall,
 };
 use crate::bond::JointThickness;
 use crate::geometry::{self, QuadError};
@@ -168,7 +168,34 @@ impl Scene {
         value(solver.key("tolerance"), tolerance, tolerance > 0.0 && tolerance < 1.0, wanted)?;
         let pivots = self.solver.max_pivots;
         let wanted = "at least one pivot; leave the key out for a limit by the order";
-        value(solver.key("max_pivots"), 0.0, pivots != Some(0), wanted)
+        value(solver.key("max_pivots"), 0.0, pivots != Some(0), wanted)?;
+        if let Some(soft) = self.solver.soft {
+            let wanted = "springs have a stiffness above 0 and at most 1, that of the blocks";
+            value(solver.key("soft"), soft, soft > 0.0 && soft <= 1.0, wanted)?;
+        }
+        self.check_route(&solver)
+    }
+
+    /// Keys of the solver that the route has no use for.
+    fn check_route(&self, at: &KeyPath) -> Check {
+        let Solver { route, form, max_pivots, soft, .. } = self.solver;
+        let pivots = matches!(route, Route::Auto | Route::Lemke);
+        let springs = matches!(route, Route::Qp | Route::Pgs);
+        let otherwise = ", or set route = \"lemke\"";
+        if form != Form::Auto && !pivots {
+            let because = "is the form of the pivoting route, which is not the one asked for";
+            return Err(unwanted(at, "form", because, otherwise));
+        }
+        if max_pivots.is_some() && !pivots {
+            let because = "limits the pivoting route, which is not the one asked for";
+            return Err(unwanted(at, "max_pivots", because, otherwise));
+        }
+        if soft.is_some() && !springs {
+            let because = "is the stiffness of springs, which only the routes `qp` and `pgs` have";
+            let otherwise = ", or set route = \"qp\" or route = \"pgs\"";
+            return Err(unwanted(at, "soft", because, otherwise));
+        }
+        Ok(())
     }
 
     fn material_of(&self, at: &KeyPath, name: &str) -> Result<&Material, Fault> {

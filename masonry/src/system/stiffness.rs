@@ -1,8 +1,9 @@
 //! Stiffness of single blocks, and a generalised inverse of it.
 
-use faer::linalg::solvers::Solve;
+use faer::linalg::solvers::{Llt, Solve};
+use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, Side};
-use nalgebra::Vector2;
+use nalgebra::{SMatrix, Vector2};
 
 use super::SystemError;
 use crate::element::{constitutive, quad4};
@@ -18,8 +19,18 @@ const SAME_SHAPE: f64 = 1e-12;
 #[derive(Debug, Clone)]
 pub struct Stiffness {
     /// `K` \[N/m\], two rows per node of the mesh.
-    pub matrix: Mat<f64>,
-    factor: faer::linalg::solvers::Llt<f64>,
+    pub matrix: SparseColMat<usize, f64>,
+    /// Of `K` with its rigid motions held; dense, and only where a system is to be reduced.
+    factor: Option<Llt<f64>>,
+}
+
+/// What is built of a stiffness.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Parts {
+    /// The sparse matrix.
+    Matrix,
+    /// Also its dense factor.
+    MatrixAndFactor,
 }
 
 impl Stiffness {
@@ -28,39 +39,87 @@ impl Stiffness {
         mesh: &BlockMesh,
         e: Elasticity,
         model: &Model,
+        parts: Parts,
     ) -> Result<Self, SystemError> {
         let n = 2 * mesh.nodes.len();
-        let d = constitutive(e, model.plane);
-        let mut matrix = Mat::zeros(n, n);
-        for (k, element) in mesh.elements.iter().enumerate() {
-            let nodes = element.map(|n| mesh.nodes[n]);
-            let local = quad4::stiffness(&nodes, &d, model.thickness).ok_or_else(|| {
-                SystemError::FoldedElement { block: block.name.clone(), element: k }
-            })?;
-            let dof = |i: usize| 2 * element[i / 2] + i % 2;
-            for i in 0..8 {
-                for j in 0..8 {
-                    matrix[(dof(i), dof(j))] += 0.5 * (local[(i, j)] + local[(j, i)]);
-                }
-            }
-        }
-        // Springs of the block's own mean stiffness on the rigid motions only: the inverse of the
-        // sum is a generalised inverse of K, because K and the springs act on different motions.
-        let q = orthonormal_modes(block, mesh);
-        let mean = (0..n).map(|i| matrix[(i, i)]).sum::<f64>() / n as f64;
-        let held = &matrix + faer::Scale(mean) * &q * q.transpose();
-        let factor = held.llt(Side::Lower).map_err(|_| SystemError::NotElastic {
-            block: block.name.clone(),
-            young: e.young,
-            poisson: e.poisson,
-        })?;
+        let elements = element_stiffnesses(block, mesh, e, model)?;
+        let entries: Vec<_> = elements.iter().flat_map(Element::entries).collect();
+        let matrix = SparseColMat::try_new_from_triplets(n, n, &entries)
+            .unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}"));
+        let factor = match parts {
+            Parts::Matrix => None,
+            Parts::MatrixAndFactor => Some(factor(block, mesh, e, &entries)?),
+        };
         Ok(Self { matrix, factor })
     }
 
     /// A generalised inverse of `K` \[m/N\] applied to columns of nodal forces \[N\].
+    ///
+    /// # Panics
+    /// If the system was built [without factors](super::System::without_factors).
     pub fn solve(&self, rhs: &Mat<f64>) -> Mat<f64> {
-        self.factor.solve(rhs)
+        let factor = self.factor.as_ref();
+        factor.expect("only a system with factors can be reduced").solve(rhs)
     }
+
+    /// `u.K u / 2` \[J\].
+    pub fn energy(&self, u: &[f64]) -> f64 {
+        let entries = self.matrix.triplet_iter();
+        entries.map(|entry| 0.5 * u[entry.row] * entry.val * u[entry.col]).sum()
+    }
+}
+
+/// The stiffness of one element and its nodes.
+struct Element {
+    nodes: [usize; 4],
+    matrix: SMatrix<f64, 8, 8>,
+}
+
+impl Element {
+    fn entries(&self) -> impl Iterator<Item = Triplet<usize, usize, f64>> + '_ {
+        let dof = |i: usize| 2 * self.nodes[i / 2] + i % 2;
+        let symmetric = |i, j| 0.5 * (self.matrix[(i, j)] + self.matrix[(j, i)]);
+        (0..8).flat_map(move |i| (0..8).map(move |j| Triplet::new(dof(i), dof(j), symmetric(i, j))))
+    }
+}
+
+fn element_stiffnesses(
+    block: &Block,
+    mesh: &BlockMesh,
+    e: Elasticity,
+    model: &Model,
+) -> Result<Vec<Element>, SystemError> {
+    let d = constitutive(e, model.plane);
+    let of_element = |(k, element): (usize, &[usize; 4])| {
+        let nodes = element.map(|n| mesh.nodes[n]);
+        let matrix = quad4::stiffness(&nodes, &d, model.thickness)
+            .ok_or_else(|| SystemError::FoldedElement { block: block.name.clone(), element: k })?;
+        Ok(Element { nodes: *element, matrix })
+    };
+    mesh.elements.iter().enumerate().map(of_element).collect()
+}
+
+/// The factor of `K` with springs of the block's own mean stiffness on the rigid motions only: the
+/// inverse of the sum is a generalised inverse of `K`, because `K` and the springs act on different motions.
+fn factor(
+    block: &Block,
+    mesh: &BlockMesh,
+    e: Elasticity,
+    entries: &[Triplet<usize, usize, f64>],
+) -> Result<Llt<f64>, SystemError> {
+    let n = 2 * mesh.nodes.len();
+    let mut matrix: Mat<f64> = Mat::zeros(n, n);
+    for entry in entries {
+        matrix[(entry.row, entry.col)] += entry.val;
+    }
+    let q = orthonormal_modes(block, mesh);
+    let mean = (0..n).map(|i| matrix[(i, i)]).sum::<f64>() / n as f64;
+    let held = &matrix + faer::Scale(mean) * &q * q.transpose();
+    held.llt(Side::Lower).map_err(|_| SystemError::NotElastic {
+        block: block.name.clone(),
+        young: e.young,
+        poisson: e.poisson,
+    })
 }
 
 /// The rigid motions of the nodes as orthonormal columns.
@@ -72,8 +131,8 @@ fn orthonormal_modes(block: &Block, mesh: &BlockMesh) -> Mat<f64> {
 }
 
 /// Stiffnesses by shape, mesh and material.
-#[derive(Default)]
 pub(super) struct Shared {
+    parts: Parts,
     list: Vec<Stiffness>,
     keys: Vec<Key>,
 }
@@ -85,6 +144,10 @@ struct Key {
 }
 
 impl Shared {
+    pub(super) fn new(parts: Parts) -> Self {
+        Self { parts, list: Vec::new(), keys: Vec::new() }
+    }
+
     /// The stiffness of a block that has a mesh and elastic constants; built when it is new.
     pub(super) fn index_of(
         &mut self,
@@ -99,7 +162,7 @@ impl Shared {
         if let Some(known) = self.keys.iter().position(|known| known.same(&key)) {
             return Ok(known);
         }
-        self.list.push(Stiffness::new(block, mesh, elasticity, model)?);
+        self.list.push(Stiffness::new(block, mesh, elasticity, model, self.parts)?);
         self.keys.push(key);
         Ok(self.list.len() - 1)
     }

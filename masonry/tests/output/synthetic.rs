@@ -8,10 +8,11 @@ use masonry::model::{
     Support,
 };
 use masonry::outcome::{
-    ContactState, ContactStatus, ElementStress, Outcome, PhaseTime, Principal, Reaction, SolveInfo,
-    State,
+    ContactState, ContactStatus, ElementStress, Outcome, PhaseTime, Principal, Reaction, RouteEnd,
+    SolveInfo, State,
 };
-use masonry::plan::{Effect, Plan};
+use masonry::plan::{Choice, Effect, Plan};
+use masonry::scene::Route;
 use masonry::units::{ForceUnit, LengthUnit, Units};
 use nalgebra::{Point2, Vector2};
 
@@ -61,10 +62,23 @@ pub(crate) fn solved(wall: Wall) -> Outcome {
         model,
         solve: SolveInfo {
             status: lcp::Status::Solved,
+            route: Route::Lemke,
+            because: "the order is below 3000".to_owned(),
+            routes: vec![RouteEnd {
+                route: Route::Lemke,
+                because: "the order is below 3000".to_owned(),
+                end: "Solved".to_owned(),
+                seconds: 0.8,
+            }],
             form: "coulomb".to_owned(),
             order: 339,
             attempts: vec!["coulomb, covering vector e, empty basis: solved".to_owned()],
             pivots: 412,
+            iterations: 0,
+            factorisations: 3,
+            springs: None,
+            proved: false,
+            soft: None,
             residuals: lcp::Residuals {
                 equation: 2.3e-15,
                 feasibility: 0.0,
@@ -346,5 +360,13 @@ fn plan(model: &Model) -> Plan {
         largest_block: 18,
         solver: "lemke".to_owned(),
         because: "friction makes the matrix nonsymmetric, and the order is below 3000".to_owned(),
+        routes: vec![Choice {
+            route: Route::Lemke,
+            because: "the order is below 3000".to_owned(),
+            order: 3 * m,
+            largest_order: 3 * m,
+            dense_numbers: 81 * m * m,
+            memory_bytes: 648 * m * m,
+        }],
     }
 }

@@ -1,0 +1,99 @@
+//! Motions that nothing stops, from what the routes say about scenes without equilibrium.
+
+use nalgebra::{Matrix3, Vector2, Vector3};
+
+use crate::forms::Sparse;
+use crate::ids::BlockId;
+use crate::model::{ContactPoint, Model};
+use crate::routes::Motion;
+use crate::system::{System, displaced_nodes};
+
+/// Gap rates above minus this fraction of the largest rate of a mechanism do not close a contact.
+const MECHANISM_TOLERANCE: f64 = 1e-8;
+/// Blocks that are deformed by more than this fraction of the largest displacement are no mechanism.
+const LARGEST_DEFORMATION: f64 = 1e-2;
+
+/// The mechanism of a motion: rates of the four corners of every block, scaled to a largest component
+/// of one. Of displacements the rigid part of every block counts; `sparse` is the problem that they
+/// belong to.
+///
+/// `None` unless it is one: no closed contact may close further, and the loads must do work on it.
+pub fn mechanism(
+    model: &Model,
+    system: &System,
+    sparse: Option<&Sparse>,
+    motion: &Motion,
+) -> Option<Vec<[Vector2<f64>; 4]>> {
+    match (motion, sparse) {
+        (Motion::Rigid(amplitudes), _) => of_amplitudes(model, system, amplitudes, 0.0),
+        (Motion::Displacements(u), Some(sparse)) => {
+            let (amplitudes, deformation) = rigid_part(model, system, sparse, u);
+            of_amplitudes(model, system, &amplitudes, deformation)
+        }
+        (Motion::Displacements(_), None) => None,
+    }
+}
+
+/// `deformation` is what the blocks do besides \[m\].
+fn of_amplitudes(
+    model: &Model,
+    system: &System,
+    amplitudes: &[f64],
+    deformation: f64,
+) -> Option<Vec<[Vector2<f64>; 4]>> {
+    let power: f64 = system.resultants().iter().zip(amplitudes).map(|(f, rate)| f * rate).sum();
+    if power <= 0.0 || !power.is_finite() {
+        return None;
+    }
+    let mut rates: Vec<[Vector2<f64>; 4]> = model
+        .blocks
+        .iter()
+        .zip(&system.bodies)
+        .zip(amplitudes.chunks(3))
+        .map(|((block, body), alpha)| block.corners.map(|p| body.modes.displacement(p, alpha)))
+        .collect();
+    let largest = rates.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max);
+    if deformation > LARGEST_DEFORMATION * largest {
+        return None;
+    }
+    // Two blocks meet at a contact, and both may be deformed.
+    let zero = MECHANISM_TOLERANCE * largest + 3.0 * deformation;
+    let closes = |(gap, contact): (f64, &ContactPoint)| contact.gap <= 0.0 && gap < -zero;
+    if system.gap_rates(amplitudes).into_iter().zip(&model.contacts).any(closes) {
+        return None;
+    }
+    rates.iter_mut().flatten().for_each(|rate| *rate /= largest);
+    Some(rates)
+}
+
+/// The rigid motions nearest to displacements, three amplitudes a block, and the largest displacement that
+/// they leave over \[m\].
+fn rigid_part(model: &Model, system: &System, sparse: &Sparse, u: &[f64]) -> (Vec<f64>, f64) {
+    let mut amplitudes = Vec::with_capacity(3 * model.blocks.len());
+    let mut rest = 0.0_f64;
+    for (b, body) in system.bodies.iter().enumerate() {
+        let u = sparse.of_block(b, u);
+        if body.stiffness.is_none() {
+            amplitudes.extend(u);
+            continue;
+        }
+        let places = displaced_nodes(model, BlockId::new(b));
+        let moved =
+            || places.iter().zip(u.chunks_exact(2)).map(|(p, u)| (p, Vector2::new(u[0], u[1])));
+        let (mut matrix, mut rhs) = (Matrix3::zeros(), Vector3::zeros());
+        for (place, u) in moved() {
+            let modes = body.modes.at(*place);
+            matrix += Matrix3::from_fn(|i, j| modes[i].dot(&modes[j]));
+            rhs += Vector3::from_fn(|i, _| modes[i].dot(&u));
+        }
+        let Some(alpha) = matrix.cholesky().map(|factor| factor.solve(&rhs)) else {
+            return (vec![0.0; 3 * model.blocks.len()], f64::INFINITY);
+        };
+        for (place, u) in moved() {
+            let rigid = body.modes.displacement(*place, alpha.as_slice());
+            rest = rest.max((u - rigid).norm());
+        }
+        amplitudes.extend(alpha.as_slice());
+    }
+    (amplitudes, rest)
+}

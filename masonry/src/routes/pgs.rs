@@ -1,0 +1,198 @@
+//! The route by projected Gauss-Seidel sweeps over the contacts of blocks on springs.
+//!
+//! Sweeps need a definite stiffness, and blocks that only touch have none. So springs hold all
+//! displacements, and are centred anew at the last solution, round after round (proximal steps,
+//! Rockafellar 1976), until forces and displacements solve the problem without them. Every round starts from
+//! the forces of the one before and is solved only a little better than the rounds have come so far.
+
+use std::ops::ControlFlow;
+
+use lcp::{
+    Bedding, Contact2d, ContactState, ProjectedGaussSeidel, ProjectedGaussSeidelSettings,
+    Residuals, Solver, Status, WarmStart,
+};
+
+use super::sparse::Found;
+use super::{Answer, Method, Observer, Request, Step, sparse};
+use crate::forms::Sparse;
+use crate::outcome::SoftReport;
+use crate::scene::Route;
+
+/// Stiffness of the springs where the scene gives none: soft ones need fewer rounds, and more sweeps in
+/// each of them.
+pub const SOFT: f64 = 1e-3;
+
+/// Rounds at most.
+const MAX_ROUNDS: usize = 2000;
+/// Sweeps of one round at most.
+const SWEEPS: usize = 2000;
+/// How much better than the last round the sweeps of the next one have to be; after a round that was not,
+/// by this factor more, and never more than by the least.
+const BETTER: f64 = 0.1;
+const LEAST: f64 = 1e-6;
+/// How accurate the sweeps are at first, and at most, relative to the tolerance.
+const FIRST: f64 = 1e-3;
+const LAST: f64 = 0.01;
+/// Rounds in which the residual must fall by a tenth.
+const PATIENCE: usize = 200;
+
+/// The route on a sparse problem.
+#[derive(Debug, Clone, Copy)]
+pub struct Sweeps<'a> {
+    /// The problem.
+    pub sparse: &'a Sparse,
+}
+
+impl Method for Sweeps<'_> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, lcp::Error> {
+        let problem = &self.sparse.problem;
+        let stiffness = request.soft.unwrap_or(SOFT);
+        let bedding = Bedding::new(problem, stiffness)?;
+        let mut rounds = Rounds::new(problem, &bedding, request.tolerance);
+        let status = loop {
+            if let Some(status) = rounds.stop(observer) {
+                break status;
+            }
+            if rounds.next(observer)?.is_break() {
+                break Status::Cancelled;
+            }
+        };
+        let report = rounds.report(stiffness);
+        Ok(sparse::answer(Route::Pgs, self.sparse, rounds.into_found(status), report))
+    }
+}
+
+/// Rounds of springs that are centred anew.
+struct Rounds<'a> {
+    problem: &'a Contact2d,
+    bedding: &'a Bedding,
+    tolerance: f64,
+    state: ContactState,
+    residuals: Residuals,
+    /// Displacements of the first round, and the share of the load that its springs carried.
+    first: Option<(Vec<f64>, f64)>,
+    /// Of the load, carried by the springs of the last round.
+    share: f64,
+    done: usize,
+    factorisations: usize,
+    better: f64,
+    least: f64,
+    idle: usize,
+}
+
+impl<'a> Rounds<'a> {
+    fn new(problem: &'a Contact2d, bedding: &'a Bedding, tolerance: f64) -> Self {
+        let (n, m) = (problem.displacements(), problem.points());
+        let state = problem.state(vec![0.0; n], vec![0.0; m], vec![0.0; m]);
+        let residuals = problem.residuals(&state);
+        Self {
+            problem,
+            bedding,
+            tolerance,
+            state,
+            residuals,
+            first: None,
+            share: 0.0,
+            done: 0,
+            factorisations: 0,
+            better: BETTER,
+            least: f64::INFINITY,
+            idle: 0,
+        }
+    }
+
+    fn step(&self) -> Step {
+        Step::Iteration { number: self.done, residual: self.lack() }
+    }
+
+    /// The worst residual, or what the springs still carry.
+    fn lack(&self) -> f64 {
+        self.residuals.worst().max(self.share)
+    }
+
+    /// Takes the same forces with all bodies at rest, if that is nearer to a solution: where nothing is
+    /// elastic, motions are rounding errors, which residuals would compare with each other.
+    fn rest(&mut self) {
+        let ContactState { u, t_n, t_t, .. } = &self.state;
+        let rest = self.problem.state(vec![0.0; u.len()], t_n.clone(), t_t.clone());
+        let residuals = self.problem.residuals(&rest);
+        if residuals.worst() < self.residuals.worst() {
+            (self.state, self.residuals) = (rest, residuals);
+        }
+    }
+
+    fn stop(&self, observer: &mut dyn FnMut(Step) -> ControlFlow<()>) -> Option<Status> {
+        let is_cancelled = observer(self.step()).is_break();
+        if self.lack() <= self.tolerance {
+            Some(Status::Solved)
+        } else if is_cancelled {
+            Some(Status::Cancelled)
+        } else if self.done >= MAX_ROUNDS {
+            Some(Status::IterationLimit)
+        } else {
+            (self.idle > PATIENCE).then_some(Status::Stalled)
+        }
+    }
+
+    fn next(
+        &mut self,
+        observer: &mut dyn FnMut(Step) -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, lcp::Error> {
+        let centre = &self.state.u;
+        let sprung = self.bedding.attached(self.problem, centre)?;
+        let (t, y) = self.problem.to_pairs(&self.state);
+        let settings = ProjectedGaussSeidelSettings {
+            tolerance: (self.better * self.lack()).clamp(LAST * self.tolerance, FIRST),
+            max_iterations: SWEEPS,
+            start: WarmStart::Point { t, y },
+            ..Default::default()
+        };
+        let step = self.step();
+        let solution =
+            ProjectedGaussSeidel::new(settings).solve_observed(&sprung, &mut |_| observer(step))?;
+        self.factorisations += solution.info.factorisations;
+        if solution.status == Status::Cancelled {
+            return Ok(ControlFlow::Break(()));
+        }
+        let state = self.problem.recover(&solution.t, &solution.y);
+        let forces = self.bedding.forces(&state.u, centre);
+        self.share = self.bedding.share(self.problem, &forces);
+        self.first.get_or_insert_with(|| (state.u.clone(), self.share));
+        self.residuals = self.problem.residuals(&state);
+        self.state = state;
+        self.rest();
+        self.done += 1;
+        let worst = self.lack();
+        if worst >= self.least {
+            self.better = (BETTER * self.better).max(LEAST);
+        }
+        self.idle = if worst < 0.9 * self.least { 0 } else { self.idle + 1 };
+        self.least = self.least.min(worst);
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn report(&self, stiffness: f64) -> Option<SoftReport> {
+        let (u, share) = self.first.as_ref()?;
+        let moved: Vec<f64> = self.state.u.iter().zip(u).map(|(a, b)| a - b).collect();
+        let size = self.bedding.size(&self.state.u);
+        let change = self.bedding.size(&moved);
+        Some(SoftReport {
+            stiffness,
+            rounds: self.done,
+            share: *share,
+            displacement_error: (size > 0.0).then(|| change / size),
+        })
+    }
+
+    fn into_found(self, status: Status) -> Found {
+        Found {
+            status,
+            state: self.state,
+            residuals: self.residuals,
+            iterations: self.done,
+            factorisations: self.factorisations,
+            springs: None,
+            proof: None,
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! What the routes on the sparse problem have in common: answers in the shape of all routes.
+
+use lcp::{ContactState, Residuals, SoftSprings, Solution, Status};
+
+use super::{Answer, Motion};
+use crate::forms::Sparse;
+use crate::outcome::{SoftReport, SolveInfo, SpringShares};
+use crate::scene::Route;
+
+/// The name of the problem in reports, in the place of a form.
+const FORM: &str = "contact";
+
+/// What a method found on the sparse problem.
+pub(super) struct Found {
+    pub(super) status: Status,
+    pub(super) state: ContactState,
+    pub(super) residuals: Residuals,
+    pub(super) iterations: usize,
+    pub(super) factorisations: usize,
+    pub(super) springs: Option<SoftSprings>,
+    /// Farkas' vector, in the rows of the general problem.
+    pub(super) proof: Option<Vec<f64>>,
+}
+
+impl Found {
+    pub(super) fn of(sparse: &Sparse, solution: Solution) -> Self {
+        Self {
+            status: solution.status,
+            state: sparse.problem.recover(&solution.t, &solution.y),
+            residuals: solution.residuals,
+            iterations: solution.info.iterations,
+            factorisations: solution.info.factorisations,
+            springs: solution.springs,
+            proof: solution.farkas,
+        }
+    }
+}
+
+/// The answer of a route.
+pub(super) fn answer(
+    route: Route,
+    sparse: &Sparse,
+    found: Found,
+    soft: Option<SoftReport>,
+) -> Answer {
+    let problem = &sparse.problem;
+    let info = SolveInfo {
+        route,
+        form: FORM.to_owned(),
+        order: problem.order(),
+        attempts: vec![describe(route, &found)],
+        iterations: found.iterations,
+        factorisations: found.factorisations,
+        springs: found.springs.as_ref().map(|springs| SpringShares {
+            stiffness: springs.stiffness.clone(),
+            shares: springs.shares.clone(),
+        }),
+        proved: found.proof.is_some(),
+        soft,
+        ..SolveInfo::new(found.status, found.residuals)
+    };
+    let motion = match (found.springs, found.proof) {
+        (Some(springs), _) => Some(springs.motion),
+        // In the rows of the displacements a proof is a motion on which the loads do more work than
+        // the contacts can take.
+        (None, Some(mut proof)) => {
+            proof.truncate(problem.displacements());
+            Some(proof)
+        }
+        (None, None) => None,
+    };
+    let state = (found.status == Status::Solved).then_some(found.state);
+    Answer {
+        info,
+        rows: state.as_ref().map(|state| sparse.rows(state)),
+        displacements: state.map(|state| state.u),
+        motion: motion.map(Motion::Displacements),
+    }
+}
+
+fn describe(route: Route, found: &Found) -> String {
+    let end = match found.status {
+        Status::Solved => "solved".to_owned(),
+        Status::NoEquilibrium => "springs keep their share of the load".to_owned(),
+        Status::Infeasible => "proved to have no solution".to_owned(),
+        status => status.to_string(),
+    };
+    let counted = match route {
+        Route::Qp => "programs",
+        Route::Pgs => "rounds",
+        _ => "steps",
+    };
+    format!(
+        "{}: {end} after {} {counted} and {} factorisations, residual {:.1e}",
+        route.name(),
+        found.iterations,
+        found.factorisations,
+        found.residuals.worst()
+    )
+}
