@@ -9,7 +9,8 @@ mod system;
 
 use std::time::Duration;
 
-use crate::problem::{check_length, check_vector, max_abs};
+use crate::problem::max_abs;
+use crate::settings::check_tolerance;
 use crate::solve::Monitor;
 use crate::{
     Basis, Error, HorizontalLcp, Lcp, Observer, Residuals, Side, Solution, Solver, Status,
@@ -52,21 +53,8 @@ impl SemismoothNewtonSettings {
     /// # Errors
     /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
     pub fn validate(&self, n: usize) -> Result<(), Error> {
-        let tolerance = self.tolerance;
-        if !(tolerance > 0.0 && tolerance < 1.0) {
-            let range = "between 0 and 1";
-            return Err(Error::Setting { name: "tolerance", value: tolerance, range });
-        }
-        match &self.start {
-            WarmStart::None => Ok(()),
-            WarmStart::Basis(basis) => check_length("start", basis.len(), n),
-            WarmStart::Point { t, y } => {
-                [("start.t", t), ("start.y", y)].into_iter().try_for_each(|(name, v)| {
-                    check_length(name, v.len(), n)?;
-                    check_vector(name, v)
-                })
-            }
-        }
+        check_tolerance(self.tolerance)?;
+        self.start.validate(n)
     }
 }
 

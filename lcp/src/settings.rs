@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::problem::check_length;
+use crate::problem::{check_length, check_vector};
 use crate::{Basis, Error};
 
 /// The covering vector `d > 0` of the artificial variable, in the rows of the start basis. In rows
@@ -95,17 +95,38 @@ impl Default for LemkeSettings {
     }
 }
 
+/// Checks the tolerance that every method has.
+pub(crate) fn check_tolerance(tolerance: f64) -> Result<(), Error> {
+    if tolerance > 0.0 && tolerance < 1.0 {
+        return Ok(());
+    }
+    Err(Error::Setting { name: "tolerance", value: tolerance, range: "between 0 and 1" })
+}
+
+impl WarmStart {
+    /// Checks a start for a problem of `n` pairs.
+    pub(crate) fn validate(&self, n: usize) -> Result<(), Error> {
+        match self {
+            Self::None => Ok(()),
+            Self::Basis(basis) => check_length("start", basis.len(), n),
+            Self::Point { t, y } => {
+                for (name, v) in [("start.t", t), ("start.y", y)] {
+                    check_length(name, v.len(), n)?;
+                    check_vector(name, v)?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
 impl LemkeSettings {
     /// Checks the settings for a problem of order `n`.
     ///
     /// # Errors
     /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
     pub fn validate(&self, n: usize) -> Result<(), Error> {
-        let tolerance = self.tolerance;
-        if !(tolerance > 0.0 && tolerance < 1.0) {
-            let range = "between 0 and 1";
-            return Err(Error::Setting { name: "tolerance", value: tolerance, range });
-        }
+        check_tolerance(self.tolerance)?;
         let counts = [
             ("max_attempts", Some(self.max_attempts)),
             ("refactor_interval", self.refactor_interval),
@@ -113,18 +134,7 @@ impl LemkeSettings {
         if let Some((name, _)) = counts.into_iter().find(|(_, count)| *count == Some(0)) {
             return Err(Error::Setting { name, value: 0.0, range: "at least 1" });
         }
-        match &self.start {
-            WarmStart::None => {}
-            WarmStart::Basis(basis) => check_length("start", basis.len(), n)?,
-            WarmStart::Point { t, y } => {
-                for (name, v) in [("start.t", t), ("start.y", y)] {
-                    check_length(name, v.len(), n)?;
-                    if let Some(row) = v.iter().position(|x| !x.is_finite()) {
-                        return Err(Error::NotFinite { what: name, row, col: 0, value: v[row] });
-                    }
-                }
-            }
-        }
+        self.start.validate(n)?;
         if let Covering::Given(d) = &self.covering {
             check_length("covering", d.len(), n)?;
             if let Some(&value) = d.iter().find(|&&d| !(d > 0.0 && d.is_finite())) {

@@ -2,7 +2,8 @@
 
 use std::time::Duration;
 
-use crate::{Error, LemkeSettings, WarmStart};
+use crate::settings::check_tolerance;
+use crate::{Error, WarmStart};
 
 /// Settings of [`Auto`](crate::Auto).
 #[derive(Debug, Clone, PartialEq)]
@@ -29,7 +30,7 @@ impl AutoSettings {
     /// # Errors
     /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
     pub fn validate(&self, n: usize) -> Result<(), Error> {
-        let Self { tolerance, start, .. } = self.clone();
-        LemkeSettings { tolerance, start, ..LemkeSettings::default() }.validate(n)
+        check_tolerance(self.tolerance)?;
+        self.start.validate(n)
     }
 }

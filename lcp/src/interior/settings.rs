@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::problem::{check_length, check_vector};
+use crate::settings::check_tolerance;
 use crate::{Error, WarmStart};
 
 /// Settings of [`InteriorPoint`](crate::InteriorPoint).
@@ -44,20 +44,7 @@ impl InteriorPointSettings {
     /// # Errors
     /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
     pub fn validate(&self, n: usize) -> Result<(), Error> {
-        let tolerance = self.tolerance;
-        if !(tolerance > 0.0 && tolerance < 1.0) {
-            let range = "between 0 and 1";
-            return Err(Error::Setting { name: "tolerance", value: tolerance, range });
-        }
-        match &self.start {
-            WarmStart::None => Ok(()),
-            WarmStart::Basis(basis) => check_length("start", basis.len(), n),
-            WarmStart::Point { t, y } => {
-                check_length("start.t", t.len(), n)?;
-                check_length("start.y", y.len(), n)?;
-                check_vector("start.t", t)?;
-                check_vector("start.y", y)
-            }
-        }
+        check_tolerance(self.tolerance)?;
+        self.start.validate(n)
     }
 }

@@ -2,7 +2,6 @@
 
 use std::time::Duration;
 
-use crate::problem::check_length;
 use crate::{Error, WarmStart};
 
 /// The order in which a sweep goes over the rows, or over the contacts.
@@ -109,18 +108,6 @@ impl ProjectedGaussSeidelSettings {
         if let Some((name, _)) = counts.into_iter().find(|(_, count)| *count == Some(0)) {
             return Err(Error::Setting { name, value: 0.0, range: "at least 1" });
         }
-        match &self.start {
-            WarmStart::None => {}
-            WarmStart::Basis(basis) => check_length("start", basis.len(), n)?,
-            WarmStart::Point { t, y } => {
-                for (name, v) in [("start.t", t), ("start.y", y)] {
-                    check_length(name, v.len(), n)?;
-                    if let Some(row) = v.iter().position(|x| !x.is_finite()) {
-                        return Err(Error::NotFinite { what: name, row, col: 0, value: v[row] });
-                    }
-                }
-            }
-        }
-        Ok(())
+        self.start.validate(n)
     }
 }

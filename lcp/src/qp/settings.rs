@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use crate::problem::check_epsilon;
+use crate::settings::check_tolerance;
 use crate::{Error, WarmStart};
 
 /// Which of its two programs a contact problem becomes.
@@ -83,11 +84,7 @@ impl QuadraticProgramSettings {
     /// # Errors
     /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
     pub fn validate(&self, n: usize) -> Result<(), Error> {
-        let tolerance = self.tolerance;
-        if !(tolerance > 0.0 && tolerance < 1.0) {
-            let range = "between 0 and 1";
-            return Err(Error::Setting { name: "tolerance", value: tolerance, range });
-        }
+        check_tolerance(self.tolerance)?;
         for (name, count) in
             [("max_iterations", self.max_iterations), ("max_outer", self.max_outer)]
         {
@@ -98,7 +95,6 @@ impl QuadraticProgramSettings {
         if let Some(soft) = self.soft {
             check_epsilon(soft.epsilon)?;
         }
-        let start = crate::LemkeSettings { start: self.start.clone(), ..Default::default() };
-        start.validate(n)
+        self.start.validate(n)
     }
 }
