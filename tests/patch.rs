@@ -1,6 +1,6 @@
 //! States of uniform stress: every mesh, every joint and every route has to reproduce them exactly.
 //!
-//! The contact patch test is that of Code_Aster's SSNP121 (after Taylor and Papadopoulos): two blocks whose
+//! The contact patch test is that of `Code_Aster`, SSNP121 (after Taylor and Papadopoulos): two blocks whose
 //! meshes do not match, pressed together.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]

@@ -16,7 +16,7 @@ use std::ops::ControlFlow;
 use common::routes::{ROUTES, solved_by};
 use common::{
     GRAVITY, M_KN, all_displacements, all_reactions, all_stresses, applied_load, assert_close,
-    assert_sound, difference, joint_resultant, panels, rectangle, state,
+    difference, joint_resultant, panels, rectangle, state,
 };
 use lcp::Status;
 use masonry::ids::{BlockId, SupportId};

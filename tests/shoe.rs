@@ -1,6 +1,6 @@
-//! A sliding shoe, Code_Aster's SSNV503: a block of 40 x 20 mm hangs 2 mm above a rigid plane, is pressed on
-//! it by 300 N/mm2 and pushed to the side, with friction of 0.3. A push of 0.99 mu F_n moves it not at
-//! all; one of 1.01 mu F_n pushes it 9 mm against a spring of 4 N/mm.
+//! A sliding shoe (`Code_Aster`, test SSNV503): a block of 40 x 20 mm hangs 2 mm above a rigid plane, is
+//! pressed on it by `N` = 300 N/mm2 and pushed to the side, with friction of 0.3. A push of `0.99 mu N` moves
+//! it not at all; one of `1.01 mu N` pushes it 9 mm against a spring of 4 N/mm.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
@@ -79,7 +79,7 @@ fn a_push_above_friction_loads_the_spring() {
         let Some(outcome) = outcome else { continue };
         let near = rounding(route);
         for u in displacements(&outcome, "shoe") {
-            // 0.01 mu F_n / k.
+            // 0.01 mu N / k.
             assert_close(u.x * 1e3, 9.0, 100.0 * near);
             assert_close(u.y * 1e3, -GAP, near);
         }
