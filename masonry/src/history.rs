@@ -16,7 +16,7 @@
 //! | [`energy`] | work of loads and supports, dissipation |
 //! | [`checkpoint`] | everything that the next step needs, as a file |
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
@@ -138,6 +138,7 @@ impl Model {
     /// Gravity and tractions are multiplied by their factors. A support's movement `u_s` takes
     /// `u_s.n` from the gaps and `u_s.t` from the slips of its joints; slips reached before are
     /// taken away at points with friction.
+    #[must_use]
     pub fn under(&self, actions: &Actions, slips: &[f64]) -> Self {
         let mut model = self.clone();
         model.gravity *= actions.gravity;
@@ -211,12 +212,12 @@ impl History {
 
 /// What moves in a scene at all: the names of supports that some stage moves.
 pub(crate) fn moving_supports(scene: &Scene) -> Vec<&str> {
-    let moved: BTreeMap<&str, ()> = scene
+    let moved: BTreeSet<&str> = scene
         .stages
         .iter()
         .flat_map(|stage| &stage.moves)
         .filter(|(_, to)| **to != Movement::default())
-        .map(|(name, _)| (name.as_str(), ()))
+        .map(|(name, _)| name.as_str())
         .collect();
-    moved.into_keys().collect()
+    moved.into_iter().collect()
 }
