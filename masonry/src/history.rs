@@ -78,7 +78,7 @@ impl Actions {
     }
 
     fn towards(&self, end: &Self, fraction: f64) -> Self {
-        let between = |(from, to): (&f64, &f64)| from * (1.0 - fraction) + to * fraction;
+        let between = |(from, to): (&f64, &f64)| from + (to - from) * fraction;
         let moves = self.movements.iter().zip(&end.movements);
         Self {
             gravity: between((&self.gravity, &end.gravity)),
@@ -121,7 +121,10 @@ pub fn steps(scene: &Scene) -> Vec<Step> {
         let end = actions.after(stage, scene);
         let of = stage.steps as usize;
         steps.extend((1..=of).map(|number| {
-            let actions = actions.towards(&end, number as f64 / of as f64);
+            // The end of a stage is exactly what the scene says.
+            let fraction = number as f64 / of as f64;
+            let within = || actions.towards(&end, fraction);
+            let actions = if number == of { end.clone() } else { within() };
             Step { stage: stage.name.clone(), number, of, actions }
         }));
         actions = end;
