@@ -3,6 +3,8 @@
 mod mortar;
 #[path = "scene_errors/places.rs"]
 mod places;
+#[path = "scene_errors/stages.rs"]
+mod stages;
 
 use masonry::model::Model;
 use masonry::scene::{
