@@ -1,0 +1,182 @@
+//! Bricks and whole strips at the nodes of a model, by elements and changes of nodes: nothing of contact points.
+
+use masonry::element::{constitutive, quad4};
+use masonry::film::change::NodalChange;
+use masonry::film::master::MasterFilm;
+use masonry::film::pointwise::{FilmResponse, PointwiseFilm};
+use masonry::film::strip::{Strip, local_axes};
+use masonry::film::{Matrix8, Vector8};
+use masonry::model::{Body, Joint, Model};
+use masonry::system::nodal_loads;
+use nalgebra::{DMatrix, DVector, Point2, Vector2};
+
+/// A part of a film between nodes of its faces, one after another along it.
+pub struct Part {
+    pub joint: usize,
+    pub length: f64,
+    /// Places of the nodes of both faces along the film, from the middle of the part.
+    faces: [[f64; 2]; 2],
+    /// First unknowns of the nodes; none on a support.
+    nodes: [Option<usize>; 4],
+    q: Matrix8,
+}
+
+/// Unknowns of all nodes, two each, block by block.
+pub struct Nodes {
+    starts: Vec<usize>,
+    pub count: usize,
+}
+
+impl Nodes {
+    pub fn of(model: &Model) -> Self {
+        let mut starts = Vec::new();
+        let mut count = 0;
+        for block in &model.blocks {
+            starts.push(count);
+            count += 2 * block.mesh.as_ref().unwrap().nodes.len();
+        }
+        Self { starts, count }
+    }
+
+    /// Displacements or forces of all nodes in one vector.
+    pub fn gathered(&self, values: &[Vec<Vector2<f64>>]) -> DVector<f64> {
+        DVector::from_iterator(self.count, values.iter().flatten().flat_map(|u| [u.x, u.y]))
+    }
+
+    /// Consistent loads of all blocks.
+    pub fn loads(&self, model: &Model) -> DVector<f64> {
+        let of_block = |block: &masonry::model::Block| {
+            nodal_loads(model, block, block.mesh.as_ref().unwrap())
+        };
+        DVector::from_iterator(self.count, model.blocks.iter().flat_map(of_block))
+    }
+
+    /// The stiffness of all blocks, without films.
+    pub fn stiffness(&self, model: &Model) -> DMatrix<f64> {
+        let mut k = DMatrix::zeros(self.count, self.count);
+        for (block, start) in model.blocks.iter().zip(&self.starts) {
+            let mesh = block.mesh.as_ref().unwrap();
+            let d = constitutive(block.elasticity.unwrap(), model.plane);
+            for element in &mesh.elements {
+                let nodes = element.map(|n| mesh.nodes[n]);
+                let matrix = quad4::stiffness(&nodes, &d, model.thickness).unwrap();
+                add(&mut k, &element.map(|n| Some(start + 2 * n)), &matrix);
+            }
+        }
+        k
+    }
+
+    /// All parts of all films, joint by joint along the tangent.
+    pub fn parts(&self, model: &Model) -> Vec<Part> {
+        let filled = model.joints.iter().enumerate().filter(|(_, joint)| joint.film.is_some());
+        filled.flat_map(|(k, joint)| self.parts_of(model, k, joint)).collect()
+    }
+
+    fn parts_of(&self, model: &Model, k: usize, joint: &Joint) -> Vec<Part> {
+        let (tangent, length) = (joint.tangent(), joint.length());
+        let [face_a, face_b] = joint.faces();
+        let b = Some(self.on_line(model, joint.b.index(), face_b[0], joint));
+        let a = match joint.a {
+            Body::Block(id) => Some(self.on_line(model, id.index(), face_a[0], joint)),
+            Body::Support(_) => None,
+        };
+        let mut ends: Vec<f64> = [&a, &b]
+            .into_iter()
+            .flatten()
+            .flatten()
+            .map(|(x, _)| *x)
+            .filter(|x| *x > 1e-9 * length && *x < length * (1.0 - 1e-9))
+            .chain([0.0, length])
+            .collect();
+        ends.sort_by(f64::total_cmp);
+        ends.dedup_by(|x, y| *x - *y < 1e-9 * length);
+        let around = |nodes: &Option<Vec<(f64, usize)>>, middle: f64, half: f64| {
+            let Some(nodes) = nodes else { return ([-half, half], [None; 2]) };
+            let next = nodes.iter().position(|(x, _)| *x > middle).unwrap();
+            let pair = [nodes[next - 1], nodes[next]];
+            (pair.map(|(x, _)| x - middle), pair.map(|(_, node)| Some(node)))
+        };
+        let part = |ends: &[f64]| {
+            let (middle, half) = (0.5 * (ends[0] + ends[1]), 0.5 * (ends[1] - ends[0]));
+            let (on_a, nodes_a) = around(&a, middle, half);
+            let (on_b, nodes_b) = around(&b, middle, half);
+            Part {
+                joint: k,
+                length: 2.0 * half,
+                faces: [on_a, on_b],
+                nodes: [nodes_a[0], nodes_a[1], nodes_b[0], nodes_b[1]],
+                q: local_axes(tangent),
+            }
+        };
+        ends.windows(2).map(part).collect()
+    }
+
+    /// The nodes of a block on the line of a face: places from `origin` along the tangent, and unknowns.
+    fn on_line(
+        &self,
+        model: &Model,
+        block: usize,
+        origin: Point2<f64>,
+        joint: &Joint,
+    ) -> Vec<(f64, usize)> {
+        let nodes = &model.blocks[block].mesh.as_ref().unwrap().nodes;
+        let near = nodes.iter().enumerate().filter(|(_, p)| {
+            (*p - origin).dot(&joint.normal).abs() < 1e-9 * joint.length()
+        });
+        let mut found: Vec<_> = near
+            .map(|(n, p)| ((p - origin).dot(&joint.tangent()), self.starts[block] + 2 * n))
+            .collect();
+        found.sort_by(|x, y| x.0.total_cmp(&y.0));
+        found
+    }
+}
+
+impl Part {
+    fn change(&self) -> NodalChange {
+        NodalChange::of_film("part", self.length, self.faces).unwrap()
+    }
+
+    /// Adds the stiffness of the part, bonded along the whole of it.
+    pub fn add_bonded(&self, model: &Model, k: &mut DMatrix<f64>) {
+        let mortar = model.joints[self.joint].film.unwrap().mortar;
+        let master = MasterFilm::new(mortar.thickness, model.thickness, &mortar.material).unwrap();
+        let local = master.attached("part", self.length, self.faces).unwrap();
+        add(k, &self.nodes, &(self.q.transpose() * local * self.q));
+    }
+
+    /// The answer of the part, with the law at its two Gauss points, to displacements of all nodes; its forces
+    /// are added to `forces`.
+    pub fn respond(
+        &self,
+        model: &Model,
+        u: &DVector<f64>,
+        forces: &mut DVector<f64>,
+    ) -> FilmResponse {
+        let joint = &model.joints[self.joint];
+        let mortar = joint.film.unwrap().mortar;
+        let strip =
+            Strip::new(self.length, mortar.thickness, model.thickness, &mortar.material).unwrap();
+        let film = PointwiseFilm::new(strip, model.joint_classes[joint.class].mu, 1).unwrap();
+        let at_nodes = Vector8::from_fn(|i, _| self.nodes[i / 2].map_or(0.0, |n| u[n + i % 2]));
+        let ends = self.change().displacements(&(self.q * at_nodes));
+        let answer = film.respond(&ends, &film.initial());
+        let back = self.q.transpose() * self.change().forces(&answer.force);
+        for (i, force) in back.iter().enumerate() {
+            if let Some(node) = self.nodes[i / 2] {
+                forces[node + i % 2] += force;
+            }
+        }
+        answer
+    }
+}
+
+fn add(k: &mut DMatrix<f64>, nodes: &[Option<usize>; 4], matrix: &Matrix8) {
+    let unknown = |i: usize| nodes[i / 2].map(|node| node + i % 2);
+    for i in 0..8 {
+        for j in 0..8 {
+            if let Some((row, column)) = unknown(i).zip(unknown(j)) {
+                k[(row, column)] += matrix[(i, j)];
+            }
+        }
+    }
+}
