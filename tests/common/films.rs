@@ -1,12 +1,16 @@
 //! Bricks and whole strips at the nodes of a model, by elements and changes of nodes: nothing of contact points.
 
+use super::{assert_close, state};
 use masonry::element::{constitutive, quad4};
 use masonry::film::change::NodalChange;
+use masonry::film::law::PointContact;
 use masonry::film::master::MasterFilm;
 use masonry::film::pointwise::{FilmResponse, PointwiseFilm};
 use masonry::film::strip::{Strip, local_axes};
 use masonry::film::{Matrix8, Vector8};
 use masonry::model::{Body, Joint, Model};
+use masonry::outcome::{ContactStatus, Outcome};
+use masonry::recover::contact_force;
 use masonry::system::nodal_loads;
 use nalgebra::{DMatrix, DVector, Point2, Vector2};
 
@@ -38,6 +42,11 @@ impl Nodes {
         Self { starts, count }
     }
 
+    /// The first unknown of a block.
+    pub fn start(&self, block: usize) -> usize {
+        self.starts[block]
+    }
+
     /// Displacements or forces of all nodes in one vector.
     pub fn gathered(&self, values: &[Vec<Vector2<f64>>]) -> DVector<f64> {
         DVector::from_iterator(self.count, values.iter().flatten().flat_map(|u| [u.x, u.y]))
@@ -45,9 +54,8 @@ impl Nodes {
 
     /// Consistent loads of all blocks.
     pub fn loads(&self, model: &Model) -> DVector<f64> {
-        let of_block = |block: &masonry::model::Block| {
-            nodal_loads(model, block, block.mesh.as_ref().unwrap())
-        };
+        let of_block =
+            |block: &masonry::model::Block| nodal_loads(model, block, block.mesh.as_ref().unwrap());
         DVector::from_iterator(self.count, model.blocks.iter().flat_map(of_block))
     }
 
@@ -120,9 +128,10 @@ impl Nodes {
         joint: &Joint,
     ) -> Vec<(f64, usize)> {
         let nodes = &model.blocks[block].mesh.as_ref().unwrap().nodes;
-        let near = nodes.iter().enumerate().filter(|(_, p)| {
-            (*p - origin).dot(&joint.normal).abs() < 1e-9 * joint.length()
-        });
+        let near = nodes
+            .iter()
+            .enumerate()
+            .filter(|(_, p)| (*p - origin).dot(&joint.normal).abs() < 1e-9 * joint.length());
         let mut found: Vec<_> = near
             .map(|(n, p)| ((p - origin).dot(&joint.tangent()), self.starts[block] + 2 * n))
             .collect();
@@ -179,4 +188,67 @@ fn add(k: &mut DMatrix<f64>, nodes: &[Option<usize>; 4], matrix: &Matrix8) {
             }
         }
     }
+}
+
+/// `f.u = 2 U + dissipation`, where nothing had a gap before.
+pub fn assert_energy(outcome: &Outcome, tolerance: f64) {
+    let state = state(outcome);
+    let nodes = Nodes::of(&outcome.model);
+    let work = nodes.loads(&outcome.model).dot(&nodes.gathered(&state.displacements));
+    let dissipated: f64 = state.contacts.iter().map(|it| -it.t_t * it.y_t).sum();
+    assert!(dissipated >= 0.0);
+    assert_close(work, 2.0 * state.strain_energy + dissipated, tolerance);
+}
+
+/// Forces of bricks and films at all nodes less what loads and contacts of dry joints give, largest relative to
+/// the loads; and the films' own answers, against stresses and status of the points.
+pub fn assert_films_balance(outcome: &Outcome, tolerance: f64) {
+    let (model, state) = (&outcome.model, state(outcome));
+    let nodes = Nodes::of(model);
+    let u = nodes.gathered(&state.displacements);
+    let mut rest = nodes.stiffness(model) * &u - nodes.loads(model);
+    let load = nodes.loads(model).amax();
+    let mut points = state.films.iter();
+    let pressure = state.films.iter().fold(0.0, |m: f64, film| m.max(film.sigma_y.abs()));
+    for part in nodes.parts(model) {
+        let answer = part.respond(model, &u, &mut rest);
+        for point in answer.points {
+            let film = points.next().unwrap();
+            assert_eq!(model.contacts[film.contact.index()].joint.index(), part.joint);
+            let found = [film.sigma_x.unwrap(), film.sigma_y, film.tau];
+            for (found, expected) in found.iter().zip(point.stress.iter()) {
+                assert!((found - expected).abs() < tolerance * pressure, "{found} and {expected}");
+            }
+            let expected = match point.contact {
+                PointContact::Open => ContactStatus::Open,
+                PointContact::Stick => ContactStatus::Stick,
+                PointContact::Slip => ContactStatus::Slip,
+            };
+            // The law calls a point open where the film would be pulled, however little.
+            if film.sigma_y.abs() > tolerance * pressure {
+                assert_eq!(state.contacts[film.contact.index()].status, expected);
+            }
+        }
+    }
+    assert!(points.next().is_none());
+    for (contact, it) in model.contacts.iter().zip(&state.contacts) {
+        if contact.film.is_some() {
+            continue;
+        }
+        assert!(contact.a.is_none());
+        let mesh = model.blocks[contact.b.block.index()].mesh.as_ref().unwrap();
+        let force = contact_force(model, contact, it);
+        for (node, share) in mesh.interpolate(contact.b.edge, contact.b.at) {
+            let start = nodes.start(contact.b.block.index()) + 2 * node;
+            rest[start] -= share * force.x;
+            rest[start + 1] -= share * force.y;
+        }
+    }
+    assert!(rest.amax() < tolerance * load, "{:e} of {load:e}", rest.amax());
+}
+
+/// `sigma_x`, `sigma_y` and `tau` of all points of strips \[Pa\].
+pub fn film_stresses(outcome: &Outcome) -> Vec<f64> {
+    let films = state(outcome).films.iter();
+    films.flat_map(|film| [film.sigma_x.unwrap(), film.sigma_y, film.tau]).collect()
 }
