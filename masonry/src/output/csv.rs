@@ -78,7 +78,8 @@ fn film_columns(state: &State) -> &'static [FilmColumn] {
 fn header(units: InUnits, films: &[FilmColumn]) -> String {
     let (length, force) = (units.0.length_name(), units.0.force_name());
     let stress = units.0.stress_name();
-    let films: String = films.iter().map(|(name, _)| format!(",{name}_{stress}")).collect();
+    let films: Vec<String> = films.iter().map(|(name, _)| format!(",{name}_{stress}")).collect();
+    let films = films.concat();
     format!(
         "index,joint,class,a,b,x_{length},y_{length},area_{length}2,t_n_{force},t_t_{force},\
          traction_n_{stress},traction_t_{stress},gap_{length},slip_{length},mu,status{films}\r\n"
