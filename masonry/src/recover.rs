@@ -12,7 +12,7 @@ use crate::outcome::{
 use crate::reduction::Reduction;
 use crate::system::{BodySystem, System, displaced_nodes};
 
-/// Gaps and slips below this fraction of the largest displacement count as zero when points are called
+/// Gaps and slips below this fraction of the largest displacement or film compression count as zero when points are called
 /// open, sticking or sliding.
 const STATUS_TOLERANCE: f64 = 1e-8;
 
@@ -211,7 +211,8 @@ fn contact_states(
         .map(|(k, contact)| {
             // Overwritten below where there is a tangential row.
             let tangent = model.joints[contact.joint.index()].tangent();
-            let y_t = relative_displacement(model, displacements, contact).dot(&tangent);
+            let y_t =
+                relative_displacement(model, displacements, contact).dot(&tangent) + contact.slip;
             let (t_n, y_n) = (rows.t[k], rows.y[k]);
             ContactState { t_n, t_t: 0.0, y_n, y_t, status: ContactStatus::Open }
         })
@@ -222,7 +223,9 @@ fn contact_states(
     }
     let relative = states.iter().map(|s| s.y_n.abs().max(s.y_t.abs())).fold(0.0, f64::max);
     let absolute = displacements.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max);
-    let zero = STATUS_TOLERANCE * relative.max(absolute);
+    // Where no block moves and none is deformed, films may be.
+    let films = system.rows.iter().zip(&rows.t).map(|(row, t)| row.compliance * t.abs());
+    let zero = STATUS_TOLERANCE * films.fold(relative.max(absolute), f64::max);
     for state in &mut states {
         state.status = status(state, zero);
     }
