@@ -5,7 +5,9 @@
 
 mod common;
 
-use common::films::{Nodes, assert_energy, assert_films_balance, film_stresses};
+use common::films::{
+    Nodes, assert_energy, assert_films_balance, assert_films_balance_after, film_stresses,
+};
 use common::{
     M_KN, all_displacements, all_reactions, all_stresses, assert_close, difference, solved, state,
 };
@@ -13,7 +15,9 @@ use masonry::contact::PointRule;
 use masonry::model::{Body, Model, Plane};
 use masonry::outcome::{ContactStatus, Outcome};
 use masonry::plan::{Effect, Plan};
-use masonry::scene::{Brick, Films, Form, Joint, Load, Material, Route, Scene, Support, Wall};
+use masonry::scene::{
+    Brick, Films, Form, Joint, Load, Material, Route, Scene, Stage, Support, Wall,
+};
 use masonry::system::System;
 use nalgebra::DVector;
 
@@ -114,6 +118,21 @@ fn all_routes_agree() {
         assert_close(state(&other).strain_energy, state(&reference).strain_energy, 1e-7);
         assert_energy(&other, 1e-7);
     }
+}
+
+/// Pushed, and let go: films have slid, and their law goes on from there.
+#[test]
+fn strips_keep_their_slip_in_a_load_history() {
+    let with_top = |name, left| Stage::new(name).load("top", 1.0).load("left", left);
+    let scene = pushed(0.02, Films::Strips);
+    let pushed = scene.clone().stage(with_top("push", 1.0));
+    let before = solved(&pushed);
+    let after = solved(&pushed.stage(with_top("back", 0.2)));
+    let slips: Vec<f64> = state(&before).contacts.iter().map(|contact| contact.y_t).collect();
+    assert_films_balance(&before, 1e-8);
+    assert_films_balance_after(&after, &slips, 1e-8);
+    let at_once = solved(&scene.stage(with_top("at once", 0.2)));
+    assert!(difference(&all_displacements(&at_once), &all_displacements(&after)) > 1e-2);
 }
 
 /// The dry wall is the limit of thin films; what is left is in proportion to the thickness, and the terms along the

@@ -3,7 +3,7 @@
 use super::{assert_close, state};
 use masonry::element::{constitutive, quad4};
 use masonry::film::change::NodalChange;
-use masonry::film::law::PointContact;
+use masonry::film::law::{FilmState, PointContact};
 use masonry::film::master::MasterFilm;
 use masonry::film::pointwise::{FilmResponse, PointwiseFilm};
 use masonry::film::strip::{Strip, local_axes};
@@ -153,11 +153,12 @@ impl Part {
         add(k, &self.nodes, &(self.q.transpose() * local * self.q));
     }
 
-    /// The answer of the part, with the law at its two Gauss points, to displacements of all nodes; its forces
-    /// are added to `forces`.
+    /// The answer of the part, with the law at its two Gauss points after slips \[m\], to displacements of all
+    /// nodes; its forces are added to `forces`.
     pub fn respond(
         &self,
         model: &Model,
+        before: &[f64],
         u: &DVector<f64>,
         forces: &mut DVector<f64>,
     ) -> FilmResponse {
@@ -166,9 +167,10 @@ impl Part {
         let strip =
             Strip::new(self.length, mortar.thickness, model.thickness, &mortar.material).unwrap();
         let film = PointwiseFilm::new(strip, model.joint_classes[joint.class].mu, 1).unwrap();
+        let before: Vec<_> = before.iter().map(|slip| FilmState { slip: *slip }).collect();
         let at_nodes = Vector8::from_fn(|i, _| self.nodes[i / 2].map_or(0.0, |n| u[n + i % 2]));
         let ends = self.change().displacements(&(self.q * at_nodes));
-        let answer = film.respond(&ends, &film.initial());
+        let answer = film.respond(&ends, &before);
         let back = self.q.transpose() * self.change().forces(&answer.force);
         for (i, force) in back.iter().enumerate() {
             if let Some(node) = self.nodes[i / 2] {
@@ -203,17 +205,23 @@ pub fn assert_energy(outcome: &Outcome, tolerance: f64) {
 /// Forces of bricks and films at all nodes less what loads and contacts of dry joints give, largest relative to
 /// the loads; and the films' own answers, against stresses and status of the points.
 pub fn assert_films_balance(outcome: &Outcome, tolerance: f64) {
+    assert_films_balance_after(outcome, &vec![0.0; outcome.model.contacts.len()], tolerance);
+}
+
+/// The same after slips \[m\] at all contact points.
+pub fn assert_films_balance_after(outcome: &Outcome, slips: &[f64], tolerance: f64) {
     let (model, state) = (&outcome.model, state(outcome));
     let nodes = Nodes::of(model);
     let u = nodes.gathered(&state.displacements);
     let mut rest = nodes.stiffness(model) * &u - nodes.loads(model);
     let load = nodes.loads(model).amax();
-    let mut points = state.films.iter();
+    let mut points = state.films.chunks(2);
     let pressure = state.films.iter().fold(0.0, |m: f64, film| m.max(film.sigma_y.abs()));
     for part in nodes.parts(model) {
-        let answer = part.respond(model, &u, &mut rest);
-        for point in answer.points {
-            let film = points.next().unwrap();
+        let films = points.next().unwrap();
+        let before: Vec<f64> = films.iter().map(|film| slips[film.contact.index()]).collect();
+        let answer = part.respond(model, &before, &u, &mut rest);
+        for (film, point) in films.iter().zip(answer.points) {
             assert_eq!(model.contacts[film.contact.index()].joint.index(), part.joint);
             let found = [film.sigma_x.unwrap(), film.sigma_y, film.tau];
             for (found, expected) in found.iter().zip(point.stress.iter()) {
