@@ -13,11 +13,17 @@
 //! closed contact are held by the proximal term `delta`, without which they would fly off and come back
 //! with huge forces; it vanishes with the steps. The penalties `rho` follow from the stiffness that the contact sees,
 //! and are made smaller where the iteration diverges or comes to rest.
+//!
+//! The unbalanced force is what the last step left over, and convergence is linear: the solution may be many such
+//! steps away. So an answer is called solved when, besides, the rate at which the steps shrink says that displacements
+//! and forces are near.
 
+mod contraction;
 mod matrices;
 
 use std::ops::ControlFlow;
 
+use contraction::Contraction;
 use lcp::{Contact2d, ContactState, Residuals, Status};
 use matrices::{Contact, Matrices, Structure};
 
@@ -36,7 +42,8 @@ const ATTEMPTS: usize = 4;
 /// What the route is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Largest unbalanced force, relative to the loads, and largest residual of an answer called solved \[-\].
+    /// Largest unbalanced force, relative to the loads, largest residual, and largest estimated error of
+    /// displacements and forces, relative to the largest of them, of an answer called solved \[-\].
     pub tolerance: f64,
     /// Iterations of all attempts.
     pub max_iterations: usize,
@@ -56,6 +63,9 @@ pub struct Iteration {
     pub attempt: usize,
     /// Largest unbalanced force after the projection, relative to the largest load \[-\].
     pub unbalance: f64,
+    /// Estimate of the distance from the solution, of displacements and of the forces in the blocks, relative
+    /// to the largest of them or what the loads alone would make \[-\]; infinite until the iteration contracts.
+    pub distance: f64,
     /// Contacts that changed their state.
     pub changes: usize,
 }
@@ -186,6 +196,8 @@ impl Run<'_> {
         let mut contacts = vec![Contact::Stick; problem.points()];
         let mut factors = None;
         let (mut least, mut since) = (f64::INFINITY, 0);
+        let [mut motion, mut pull] = self.structure.units().map(Contraction::new);
+        let mut forces = vec![0.0; problem.displacements()];
         while self.history.len() < self.settings.max_iterations {
             let present = if let Some(present) = factors.take() {
                 present
@@ -201,11 +213,17 @@ impl Run<'_> {
                 factors = Some(present);
             }
             contacts = next;
+            motion.record(&at.u, &trial.u);
             at = problem.state(trial.u, t_n, t_t);
-            let unbalance = self.structure.unbalance(&at);
-            let iteration = Iteration { attempt, unbalance, changes };
+            let pulled = self.structure.block_forces(&at.u);
+            pull.record(&forces, &pulled);
+            forces = pulled;
+            let unbalance = self.structure.unbalance(&at, &forces);
+            let distance = motion.remaining().max(pull.remaining());
+            let iteration = Iteration { attempt, unbalance, distance, changes };
             self.history.push(iteration);
-            let measure = unbalance.max(problem.residuals(&at).worst());
+            let residual = problem.residuals(&at).worst().max(self.structure.slack(&at, &forces));
+            let measure = unbalance.max(residual).max(distance);
             if measure < self.best.measure {
                 self.best = Best { state: at.clone(), measure };
             }

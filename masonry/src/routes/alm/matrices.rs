@@ -8,6 +8,9 @@ use lcp::{Contact2d, ContactState};
 
 use super::AlmError;
 
+/// Rounding errors of a gap, relative to its largest term.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// The state of a contact, which decides what of it stands in the matrix.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Contact {
@@ -24,6 +27,8 @@ pub(super) struct Structure<'a> {
     tangent: Vec<Vec<(usize, f64)>>,
     /// The largest load.
     load: f64,
+    /// The largest displacement that the loads would make, as if `K` were diagonal.
+    way: f64,
 }
 
 impl<'a> Structure<'a> {
@@ -42,8 +47,15 @@ impl<'a> Structure<'a> {
         let mut tangent = rows(problem.tangent());
         let without = problem.mu().iter().enumerate().filter(|(_, mu)| **mu == 0.0);
         without.for_each(|(i, _)| tangent[i].clear());
-        let load = problem.loads().iter().fold(0.0_f64, |max, f| max.max(f.abs()));
-        Ok(Self { problem, diagonal, normal: rows(problem.normal()), tangent, load })
+        let load = largest(problem.loads());
+        let ways = problem.loads().iter().zip(&diagonal).map(|(f, k)| f / k);
+        let way = largest(&ways.collect::<Vec<_>>());
+        Ok(Self { problem, diagonal, normal: rows(problem.normal()), tangent, load, way })
+    }
+
+    /// Natural units of displacements and forces.
+    pub(super) fn units(&self) -> [f64; 2] {
+        [self.way, self.load]
     }
 
     /// The stiffness that a row sees, as if `K` were diagonal.
@@ -52,26 +64,58 @@ impl<'a> Structure<'a> {
         if compliance > 0.0 { 1.0 / compliance } else { 0.0 }
     }
 
-    /// `f + C^T t - K u`, the largest entry relative to the loads.
-    pub(super) fn unbalance(&self, state: &ContactState) -> f64 {
-        let mut rest = self.problem.loads().to_vec();
+    /// `K u`: what the blocks take.
+    pub(super) fn block_forces(&self, u: &[f64]) -> Vec<f64> {
+        let mut forces = vec![0.0; u.len()];
         for entry in self.problem.stiffness().triplet_iter() {
-            rest[entry.row] -= entry.val * state.u[entry.col];
+            forces[entry.row] += entry.val * u[entry.col];
         }
+        forces
+    }
+
+    /// `f + C^T t - K u`, the largest entry relative to the loads.
+    pub(super) fn unbalance(&self, state: &ContactState, block_forces: &[f64]) -> f64 {
+        let loads = self.problem.loads().iter();
+        let mut rest: Vec<f64> = loads.zip(block_forces).map(|(f, taken)| f - taken).collect();
         for (i, (t_n, t_t)) in state.t_n.iter().zip(&state.t_t).enumerate() {
             self.normal[i].iter().for_each(|&(j, v)| rest[j] += v * t_n);
             self.tangent[i].iter().for_each(|&(j, v)| rest[j] += v * t_t);
         }
-        let largest = rest.iter().fold(0.0_f64, |max, v| max.max(v.abs()));
-        let forces = state.t_n.iter().fold(0.0_f64, |max, t| max.max(*t));
-        let unit = if self.load > 0.0 { self.load } else { forces };
         if rest.iter().any(|v| !v.is_finite()) {
-            f64::INFINITY
-        } else if unit > 0.0 {
-            largest / unit
-        } else {
-            0.0
+            return f64::INFINITY;
         }
+        let forces = state.t_n.iter().fold(0.0_f64, |max, t| max.max(*t));
+        ratio(largest(&rest), if self.load > 0.0 { self.load } else { forces })
+    }
+
+    /// Largest of `min(force, gap or slip)` over the pairs of the contact law, with forces in units of the
+    /// largest one, and gaps and slips in units of what the bodies are deformed by, or would be by the loads: a body that slid
+    /// far makes all gaps small against its displacements, also those that should carry no force.
+    pub(super) fn slack(&self, state: &ContactState, block_forces: &[f64]) -> f64 {
+        let ContactState { u, t_n, t_t, gap, slip, .. } = state;
+        let deformed = block_forces.iter().zip(&self.diagonal).map(|(force, k)| force / k);
+        let length = deformed.fold(self.way, |max, d| max.max(d.abs()));
+        let force = largest(t_n);
+        // What rounding leaves of a gap between bodies that moved far is no gap.
+        let rounding = |row: &[(usize, f64)], first: f64| {
+            let terms = row.iter().map(|&(j, v)| (v * u[j]).abs());
+            ROUNDING * terms.fold(first.abs(), f64::max)
+        };
+        let mut worst = 0.0_f64;
+        for (i, mu) in self.problem.mu().iter().enumerate() {
+            let in_normal = rounding(&self.normal[i], self.problem.initial_gaps()[i]);
+            let in_tangent = rounding(&self.tangent[i], self.problem.initial_slips()[i]);
+            let bound = mu * t_n[i];
+            let pairs = [
+                (t_n[i], gap[i] - in_normal),
+                (bound + t_t[i], slip[i] - in_tangent),
+                (bound - t_t[i], -slip[i] - in_tangent),
+            ];
+            for (t, y) in pairs.into_iter().take(if *mu > 0.0 { 3 } else { 1 }) {
+                worst = worst.max(ratio(t.max(0.0), force).min(ratio(y.max(0.0), length)));
+            }
+        }
+        worst
     }
 }
 
@@ -179,6 +223,15 @@ fn assembled(
     }
     let n = diagonal.len();
     SparseColMat::try_new_from_triplets(n, n, &entries).map_err(failed)
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |max, v| max.max(v.abs()))
+}
+
+/// Nothing is a small part of anything, and everything a large part of nothing.
+fn ratio(value: f64, unit: f64) -> f64 {
+    if value <= 0.0 { 0.0 } else { value / unit }
 }
 
 fn failed(error: impl std::fmt::Debug) -> AlmError {
