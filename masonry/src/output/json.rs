@@ -6,6 +6,7 @@ use super::format::{InUnits, block_name};
 use super::summary::{extreme_film_stresses, extreme_stresses, largest_displacement, reason};
 use crate::outcome::{Outcome, Reaction, RouteEnd, SoftReport, SpringShares};
 use crate::plan::Plan;
+use crate::routes::alm::Iteration;
 use crate::scene::Route;
 
 /// The object of `result.json` and of `masonry solve --json`, pretty-printed.
@@ -41,6 +42,8 @@ struct Report<'a> {
     attempts: &'a [String],
     pivots: usize,
     iterations: usize,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    history: &'a [Iteration],
     factorisations: usize,
     memory_bytes: usize,
     residuals: Option<lcp::Residuals>,
@@ -172,6 +175,7 @@ impl<'a> Report<'a> {
             attempts: &solve.attempts,
             pivots: solve.pivots,
             iterations: solve.iterations,
+            history: &solve.history,
             factorisations: solve.factorisations,
             memory_bytes: outcome.plan.memory_bytes(),
             residuals: state.map(|_| solve.residuals),

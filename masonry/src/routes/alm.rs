@@ -20,12 +20,15 @@
 
 mod contraction;
 mod matrices;
+mod route;
 
 use std::ops::ControlFlow;
 
 use contraction::Contraction;
 use lcp::{Contact2d, ContactState, Residuals, Status};
 use matrices::{Contact, Matrices, Structure};
+pub use route::Multipliers;
+use serde::Serialize;
 
 /// Penalty of a contact, relative to the stiffness that it sees.
 const PENALTY: f64 = 0.3;
@@ -56,7 +59,7 @@ impl Default for Settings {
 }
 
 /// One iteration.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Iteration {
     /// The attempt, from 1.
@@ -227,10 +230,11 @@ impl Run<'_> {
             if measure < self.best.measure {
                 self.best = Best { state: at.clone(), measure };
             }
+            let is_cancelled = observer(&iteration).is_break();
             if measure <= self.settings.tolerance {
                 return Ok(Status::Solved);
             }
-            if observer(&iteration).is_break() {
+            if is_cancelled {
                 return Ok(Status::Cancelled);
             }
             since = if unbalance < 0.9 * least { 0 } else { since + 1 };
