@@ -7,7 +7,7 @@ use crate::{HorizontalLcp, Side};
 ///
 /// See [`HorizontalLcp::residuals`] for the definitions.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Residuals {
     /// Largest row-wise relative residual of `A t + B y = c`.
     pub equation: f64,

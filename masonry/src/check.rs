@@ -63,7 +63,7 @@ impl Checks {
         let both = model.contacts.iter().zip(&state.contacts);
         let depth = both.map(|(contact, s)| -gap(model, state, contact, s));
         let displacement = largest(state.displacements.iter().flatten().map(Vector2::norm))
-            .max(largest(model.contacts.iter().map(|contact| contact.gap)));
+            .max(largest(model.contacts.iter().map(|contact| contact.gap.abs())));
         let count = |status| state.contacts.iter().filter(|s| s.status == status).count();
         Self {
             force_balance: relative(largest(balances.iter().map(|b| b.force)), reference),

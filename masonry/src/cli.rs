@@ -11,12 +11,14 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 
+use crate::history::checkpoint::{Checkpoint, CheckpointError};
 use crate::model::Model;
+use crate::outcome::Outcome;
 use crate::output::svg::ReferenceLines;
 use crate::output::{self, Options, json, svg, table};
 use crate::plan::Plan;
 use crate::scene::{Route, Scene};
-use crate::solve::solve_observed;
+use crate::solve::Run;
 use progress::Progress;
 
 /// How a wall or an arch of blocks carries its load.
@@ -59,6 +61,9 @@ struct SolveArgs {
     /// The route to the solution, instead of that of the scene.
     #[arg(long)]
     route: Option<Route>,
+    /// Go on from `checkpoint.json` in that directory, which every step of a load history writes.
+    #[arg(long)]
+    resume: bool,
     /// Print one JSON object instead of the report.
     #[arg(long)]
     json: bool,
@@ -106,21 +111,56 @@ fn plan(args: &PlanArgs) -> Result<u8, Failure> {
 
 fn solve(args: &SolveArgs) -> Result<u8, Failure> {
     let scene = on_route(Scene::read(&args.scene)?, args.route);
-    let mut progress = Progress::new();
-    let outcome = solve_observed(&scene, &mut |event| progress.show(event))?;
-    progress.clear();
+    let (outcome, mut files, end) = run_steps(&scene, args)?;
     let options = Options { reference: ReferenceLines::of(&scene), ..Options::default() };
     let written = output::write_all(&outcome, &args.out, &options);
     // What was computed is printed even when a file could not be written.
-    let files = written.as_deref().unwrap_or_default();
+    files.extend_from_slice(written.as_deref().unwrap_or_default());
     if args.json {
-        print(&json::result(&outcome, &names(files))?)?;
+        print(&json::result(&outcome, &names(&files))?)?;
     } else {
-        print(&format!("{}\n{}", table::report(&outcome), listing(files)))?;
+        print(&format!("{}\n{}", table::report(&outcome), listing(&files)))?;
     }
     written?;
+    end?;
     let solved = outcome.solve.status == lcp::Status::Solved;
     Ok(if solved { SOLVED } else { NOT_SOLVED })
+}
+
+/// The outcome of all steps, the checkpoint if one was written, and what went wrong after a step that was
+/// solved.
+fn run_steps(
+    scene: &Scene,
+    args: &SolveArgs,
+) -> Result<(Outcome, Vec<PathBuf>, Result<(), Failure>), Failure> {
+    let path = args.out.join("checkpoint.json");
+    let mut progress = Progress::new();
+    let mut run = Run::new(scene, &mut |event| progress.show(event))?;
+    if args.resume {
+        run = run.resume(&Checkpoint::read(&path)?)?;
+    }
+    let (mut files, mut end) = (Vec::new(), Ok(()));
+    loop {
+        match run.advance(&mut |event| progress.show(event)) {
+            Ok(true) => {}
+            Ok(false) => break,
+            Err(error) if run.solved_steps() == 0 => return Err(error.into()),
+            Err(error) => {
+                end = Err(error.into());
+                break;
+            }
+        }
+        let Some(checkpoint) = run.checkpoint() else { continue };
+        let written = std::fs::create_dir_all(&args.out)
+            .map_err(|source| CheckpointError::Write { path: path.clone(), source })
+            .and_then(|()| checkpoint.write(&path));
+        match written {
+            Ok(()) => files = vec![path.clone()],
+            Err(error) => end = Err(error.into()),
+        }
+    }
+    progress.clear();
+    Ok((run.finish(), files, end))
 }
 
 /// The scene with another route, if one is asked for; whether its keys fit is checked with the scene.

@@ -343,6 +343,7 @@ impl Meeting {
             a: on_a(place.on_a),
             b: on_b(place.on_b),
             gap: gap_from + (gap_to - gap_from) * place.along,
+            slip: 0.0,
             mu,
             film,
         }

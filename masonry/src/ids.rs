@@ -35,6 +35,10 @@ id!(
     SupportId
 );
 id!(
+    /// A load of [`Scene::loads`](crate::scene::Scene::loads).
+    LoadId
+);
+id!(
     /// A joint of [`Model::joints`](crate::model::Model::joints).
     JointId
 );

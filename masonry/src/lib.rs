@@ -32,6 +32,7 @@
 //! | scene: what is there, in its own units | [`scene`], [`units`], [`bond`] | [`scene::Scene`] |
 //! | model: blocks, joints, contact points, in SI units | [`model`], [`geometry`], [`mesh`], [`contact`], [`ids`] | [`model::Model`] |
 //! | plan: what the scene calls for | [`plan`] | [`plan::Plan`] |
+//! | load history: what acts in every step | [`history`] | [`history::Step`] |
 //! | system: stiffness, loads, contact rows (3.2) | [`system`], [`element`], [`rigid`] | [`system::System`] |
 //! | mortar films as strips with nodes (3.28)-(3.53), beside the scene's own | [`film`] | [`film::pointwise::PointwiseFilm`] |
 //! | reduction to contact forces (3.18), (3.23) | [`reduction`] | [`reduction::Reduction`] |
@@ -53,6 +54,7 @@ pub mod element;
 pub mod film;
 pub mod forms;
 pub mod geometry;
+pub mod history;
 pub mod ids;
 pub mod mesh;
 pub mod model;

@@ -18,9 +18,9 @@ use nalgebra::{Point2, Vector2};
 
 use crate::element::constitutive;
 use crate::film::FilmMaterial;
-use crate::ids::{BlockId, FilmId, JointId, SupportId};
+use crate::ids::{BlockId, FilmId, JointId, LoadId, SupportId};
 use crate::mesh::BlockMesh;
-pub use crate::scene::Plane;
+pub use crate::scene::{Movement, Plane};
 use crate::units::Units;
 
 /// Name of the class of the joints between blocks whose normal is closer to the vertical.
@@ -88,9 +88,11 @@ pub struct EdgeLoad {
     pub to: f64,
     /// Traction on the block \[Pa\] in global axes.
     pub traction: Vector2<f64>,
+    /// The load of the scene that it is a part of.
+    pub load: LoadId,
 }
 
-/// A rigid, immovable straight support.
+/// A rigid straight support.
 #[derive(Debug, Clone)]
 pub struct Support {
     /// The name by which messages and reports refer to it.
@@ -99,6 +101,18 @@ pub struct Support {
     pub from: Point2<f64>,
     /// The other end \[m\].
     pub to: Point2<f64>,
+    /// How far it has moved from there, lengths in metres; gaps and slips of its contact points have
+    /// it in them.
+    pub movement: Movement,
+}
+
+impl Support {
+    /// The displacement \[m\] of the support at a place near it.
+    pub fn displacement_at(&self, place: Point2<f64>) -> Vector2<f64> {
+        let Movement { x, y, turn } = self.movement;
+        let arm = place - nalgebra::center(&self.from, &self.to);
+        Vector2::new(x - turn * arm.y, y + turn * arm.x)
+    }
 }
 
 /// What resists sliding in a class of joints.
@@ -212,6 +226,8 @@ pub struct ContactPoint {
     /// Initial gap `x_0` \[m\]; across a film, what the distance of the faces exceeds its thickness:
     /// zero for a film in contact.
     pub gap: f64,
+    /// Initial slip `s_0` \[m\]: what the slip of a step starts from, and the movement of a support.
+    pub slip: f64,
     /// Friction coefficient of its joint's class.
     pub mu: f64,
     /// What else a point of a film needs; `None` in a dry joint.

@@ -1,9 +1,10 @@
 //! What a solved scene consists of: displacements, contact forces, stresses, checks, times.
 
 use nalgebra::{Point2, Vector2};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::check::Checks;
+use crate::history::History;
 use crate::ids::{BlockId, ContactId, FilmId};
 use crate::model::Model;
 use crate::plan::Plan;
@@ -28,7 +29,7 @@ pub struct State {
 }
 
 /// What happens at one contact point.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ContactState {
     /// Normal contact force \[N\], compression positive.
     pub t_n: f64,
@@ -43,7 +44,7 @@ pub struct ContactState {
 }
 
 /// The three states of a frictional contact point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ContactStatus {
     /// The gap is positive: no force is carried.
@@ -95,7 +96,7 @@ pub struct Principal {
 }
 
 /// The resultant of the contact forces of one support on the structure, in SI units.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reaction {
     /// Name of the support.
     pub support: String,
@@ -220,7 +221,8 @@ pub struct PhaseTime {
 
 /// Everything known about a scene after an attempt to solve it.
 ///
-/// `state` and `checks` are `None` when no solution was found; all else is kept.
+/// `state` and `checks` are `None` when no solution was found; all else is kept. Where a step of the load
+/// history could not be solved, they are those of the step before, and `solve` tells how the step failed.
 #[derive(Debug, Clone)]
 pub struct Outcome {
     /// Title of the scene.
@@ -237,6 +239,8 @@ pub struct Outcome {
     pub checks: Option<Checks>,
     /// The reaction of every support, when solved.
     pub reactions: Vec<Reaction>,
+    /// The steps of the load history, where the answer depends on the way.
+    pub history: Option<History>,
     /// The mechanism, when there is no solution and the method found one, along a secondary ray, on soft
     /// springs or by a proof: displacement rates of the corners of every block, scaled to a largest component of one.
     pub mechanism: Option<Vec<[Vector2<f64>; 4]>>,

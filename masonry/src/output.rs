@@ -31,7 +31,7 @@ pub enum Format {
     Svg,
     /// `panel.vtu`.
     Vtu,
-    /// `contacts.csv`, when solved.
+    /// `contacts.csv`, when solved; `history.csv` where there is a load history.
     Csv,
     /// `report.txt`.
     Text,
@@ -150,13 +150,16 @@ fn contents(outcome: &Outcome, options: &Options) -> Vec<(&'static str, Vec<u8>)
     if let (true, Some(state)) = (options.formats.contains(&Format::Csv), state) {
         files.push(("contacts.csv", csv::contacts(model, state).into_bytes()));
     }
+    if let (true, Some(history)) = (options.formats.contains(&Format::Csv), &outcome.history) {
+        files.push(("history.csv", csv::history(model, history).into_bytes()));
+    }
     if options.formats.contains(&Format::Text) {
         files.push(("report.txt", table::report(outcome).into_bytes()));
     }
     files
 }
 
-fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
+pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut temporary = OsString::from(path);
     temporary.push(format!(".{}.tmp", std::process::id()));
     let result = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));

@@ -1,6 +1,7 @@
 //! The plan: which effects a scene calls for, why, and what they cost.
 
 mod effects;
+mod history;
 mod routes;
 
 use serde::Serialize;
@@ -52,6 +53,8 @@ pub struct Plan {
     pub largest_order: usize,
     /// Displacement unknowns of the block with the finest mesh.
     pub largest_block: usize,
+    /// Steps of the load history that are solved: one where the answer does not depend on the way.
+    pub steps: usize,
     /// The solver that will be used.
     pub solver: String,
     /// Why this solver.
@@ -68,7 +71,10 @@ impl Plan {
         let Choice { route, order, largest_order, .. } = routes[0];
         let (solver, because) = solver(route, scene.solver.form, sizes.frictional);
         Self {
-            effects: effects::of(scene, model, route),
+            effects: effects::of(scene, model, route)
+                .into_iter()
+                .chain(history::effects(scene, model))
+                .collect(),
             blocks: model.blocks.len(),
             nodes: nodes(model),
             joints: model.joints.len(),
@@ -78,6 +84,7 @@ impl Plan {
             order,
             largest_order,
             largest_block: sizes.largest_block,
+            steps: history::steps(scene, model),
             solver: solver.to_owned(),
             because: because.to_owned(),
             routes,

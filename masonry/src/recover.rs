@@ -172,7 +172,8 @@ fn contact_states(
         .map(|(k, contact)| {
             // Overwritten below where there is a tangential row.
             let tangent = model.joints[contact.joint.index()].tangent();
-            let y_t = relative_displacement(model, displacements, contact).dot(&tangent);
+            let y_t =
+                relative_displacement(model, displacements, contact).dot(&tangent) + contact.slip;
             let (t_n, y_n) = (rows.t[k], rows.y[k]);
             ContactState { t_n, t_t: 0.0, y_n, y_t, status: ContactStatus::Open }
         })

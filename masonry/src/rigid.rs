@@ -1,7 +1,7 @@
 //! Rigid motions of the blocks, and the choice of rows that hold the blocks statically determinate.
 
 use faer::Mat;
-use nalgebra::{Point2, Vector2};
+use nalgebra::{Matrix3, Point2, Vector2, Vector3};
 
 use crate::geometry::{self, Quad};
 
@@ -38,6 +38,20 @@ impl Modes {
     /// The displacement of the material at `place` for three amplitudes \[m\].
     pub fn displacement(&self, place: Point2<f64>, amplitudes: &[f64]) -> Vector2<f64> {
         self.at(place).iter().zip(amplitudes).map(|(mode, amplitude)| mode * *amplitude).sum()
+    }
+
+    /// The amplitudes \[m\] of the rigid motion nearest to displacements \[m\] of places, by least squares.
+    ///
+    /// # Panics
+    /// If all places lie on one line.
+    pub fn amplitudes(&self, places: &[Point2<f64>], moved: &[Vector2<f64>]) -> [f64; 3] {
+        let (mut matrix, mut rhs) = (Matrix3::zeros(), Vector3::zeros());
+        for (place, u) in places.iter().zip(moved) {
+            let modes = self.at(*place);
+            matrix += Matrix3::from_fn(|i, j| modes[i].dot(&modes[j]));
+            rhs += Vector3::from_fn(|i, _| modes[i].dot(u));
+        }
+        matrix.cholesky().expect("places that do not lie on one line").solve(&rhs).into()
     }
 
     /// The work of a force \[N\] at `place` in the three motions: its two components, and its moment

@@ -27,6 +27,7 @@ mod error;
 mod key_path;
 mod solver;
 mod source;
+mod stages;
 mod strict;
 
 use std::collections::BTreeMap;
@@ -39,6 +40,7 @@ pub use self::error::{SceneError, SceneErrorKind};
 pub use self::key_path::KeyPath;
 pub use self::solver::{Form, Route, Solver};
 use self::source::Source;
+pub use self::stages::{Movement, Stage};
 use crate::units::Units;
 
 /// A scene as its author describes it, in the scene's own units.
@@ -93,6 +95,9 @@ pub struct Scene {
     /// Loads on edges.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub loads: Vec<Load>,
+    /// The load history; without stages all loads act at once.
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
+    pub stages: Vec<Stage>,
     /// How contact is looked for and enforced.
     #[serde(default, deserialize_with = "strict::table")]
     pub contact: Contact,
@@ -229,7 +234,7 @@ pub struct Block {
     pub mesh: Option<[u32; 2]>,
 }
 
-/// A rigid, immovable straight support. It has no inner side: blocks may lie on either.
+/// A rigid straight support, which moves only where a [`Stage`] moves it. It has no inner side: blocks may lie on either.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Support {

@@ -1,22 +1,23 @@
 //! From a scene to an outcome: every stage in order, each timed.
 //!
-//! scene -> model -> plan -> system -> reduction or sparse form -> route -> recovery -> checks.
+//! scene -> model -> plan -> system -> reduction or sparse form -> route -> recovery -> checks; from the
+//! reduction on, once for every step of the load history.
 
 mod chain;
+mod run;
 
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use chain::Chain;
+pub use run::Run;
 
+use crate::history::checkpoint::CheckpointError;
 use crate::model::Model;
 use crate::outcome::{Outcome, PhaseTime};
 use crate::plan::Plan;
-use crate::recover;
 use crate::rigid::{FreeMotion, RigidError};
-use crate::routes::Request;
-use crate::scene::{Scene, SceneError, Solver};
-use crate::system::{System, SystemError};
+use crate::scene::{Scene, SceneError};
+use crate::system::SystemError;
 
 /// Why a scene could not be brought to a solver.
 #[derive(Debug, thiserror::Error)]
@@ -56,11 +57,21 @@ pub enum SolveError {
     /// The solver refused its settings or the data.
     #[error("the complementarity problem was refused: {0}")]
     Solver(#[from] lcp::Error),
+    /// A checkpoint does not fit.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
 }
 
 /// How far a solve has come.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
+    /// A step of the load history begins.
+    Step {
+        /// The step, from 1.
+        number: usize,
+        /// The steps of the scene.
+        of: usize,
+    },
     /// A phase begins.
     Phase(&'static str),
     /// The solver pivots.
@@ -108,31 +119,9 @@ pub fn solve_observed(
     scene: &Scene,
     observer: &mut dyn FnMut(Event) -> ControlFlow<()>,
 ) -> Result<Outcome, SolveError> {
-    let mut clock = Clock::default();
-    let model = clock.time("model", observer, || Model::from_scene(scene))?;
-    let plan = Plan::of(scene, &model);
-    check_size(&plan)?;
-    let build = if plan.dense_numbers() > 0 { System::new } else { System::without_factors };
-    let system = clock.time("system", observer, || build(&model))?;
-    let Solver { tolerance, form, max_pivots, soft, .. } = scene.solver;
-    let max_pivots = max_pivots.map(|limit| limit as usize);
-    let request = Request { tolerance, form, max_pivots, soft };
-    let wanted = (request, scene.output.stresses);
-    let found = Chain::new((&model, &system), wanted, &mut clock, observer).run(&plan.routes)?;
-
-    let contacts = found.state.as_ref().map(|state| &state.contacts);
-    let reactions = contacts.map_or_else(Vec::new, |contacts| recover::reactions(&model, contacts));
-    Ok(Outcome {
-        title: scene.title.clone(),
-        model,
-        plan,
-        solve: found.info,
-        state: found.state,
-        checks: found.checks,
-        reactions,
-        mechanism: found.mechanism,
-        times: clock.times,
-    })
+    let mut run = Run::new(scene, observer)?;
+    while run.advance(observer)? {}
+    Ok(run.finish())
 }
 
 /// Memory \[10^9 bytes\] above which nothing is assembled.
@@ -151,7 +140,7 @@ fn named(error: RigidError, model: &Model) -> SolveError {
     SolveError::Free { block: model.blocks[block].name.clone(), motion, free }
 }
 
-#[derive(Default)]
+#[derive(Debug, Default)]
 struct Clock {
     times: Vec<PhaseTime>,
 }

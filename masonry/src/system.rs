@@ -155,7 +155,7 @@ impl System {
         let tangents = friction.iter().map(|(contact, _)| Row {
             contact: *contact,
             direction: Direction::Tangent,
-            offset: 0.0,
+            offset: model.contacts[contact.index()].slip,
             compliance: model.contacts[contact.index()].film.map_or(0.0, |film| film.compliance[1]),
         });
         let rows: Vec<Row> = normals.chain(tangents).collect();
@@ -179,6 +179,24 @@ impl System {
             add_row(model, &mut bodies, k, row);
         }
         Ok(Self { rows, friction, bodies, stiffnesses: shared.into_list() })
+    }
+
+    /// Takes loads, gaps and slips from another state of the same model ([`Model::under`]); stiffness and
+    /// contact rows stay.
+    pub fn reload(&mut self, model: &Model) {
+        for (body, block) in self.bodies.iter_mut().zip(&model.blocks) {
+            if let (Some(_), Some(mesh)) = (body.stiffness, &block.mesh) {
+                body.load = nodal_loads(model, block, mesh);
+            }
+            body.resultant = resultant(model, block);
+        }
+        for row in &mut self.rows {
+            let contact = &model.contacts[row.contact.index()];
+            row.offset = match row.direction {
+                Direction::Normal => contact.gap,
+                Direction::Tangent => contact.slip,
+            };
+        }
     }
 
     /// Number of contact points, and of normal rows.

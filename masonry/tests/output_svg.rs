@@ -6,7 +6,8 @@ mod synthetic;
 use std::fs;
 use std::path::PathBuf;
 
-use masonry::model::{Block, EdgeLoad, Model, Support};
+use masonry::ids::LoadId;
+use masonry::model::{Block, EdgeLoad, Model, Movement, Support};
 use masonry::outcome::{ContactStatus, Outcome};
 use masonry::output::svg::{self, ReferenceLines};
 use masonry::units::{ForceUnit, LengthUnit, Units};
@@ -298,7 +299,13 @@ fn arch() -> Model {
         .collect();
     let mut load = |block: usize, edge: usize, x: f64, y: f64| {
         let traction = Vector2::new(x, y);
-        model.blocks[block].edge_loads.push(EdgeLoad { edge, from: 0.1, to: 0.9, traction });
+        model.blocks[block].edge_loads.push(EdgeLoad {
+            edge,
+            from: 0.1,
+            to: 0.9,
+            traction,
+            load: LoadId(0),
+        });
     };
     load(4, 1, 0.0, -12e3);
     load(0, 1, 5e3, 0.0);
@@ -310,6 +317,7 @@ fn arch() -> Model {
             name: name.to_owned(),
             from: Point2::new(from, 0.0),
             to: Point2::new(to, 0.0),
+            movement: Movement::default(),
         })
         .to_vec();
     model.joints.clear();

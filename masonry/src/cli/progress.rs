@@ -20,6 +20,7 @@ impl Progress {
 
     pub(super) fn show(&mut self, event: Event) -> ControlFlow<()> {
         self.0.set_message(match event {
+            Event::Step { number, of } => format!("step {number} of {of}"),
             Event::Phase(phase) => phase.to_owned(),
             Event::Pivots(at) => {
                 format!("solve: order {}, attempt {}, pivot {}", at.order, at.attempt, at.pivots)

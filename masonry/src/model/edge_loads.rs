@@ -4,6 +4,7 @@ use nalgebra::{Point2, Vector2};
 
 use super::{Block, ContactPoint, EdgeLoad, Joint};
 use crate::geometry;
+use crate::ids::LoadId;
 use crate::scene::{Fault, KeyPath, Load, Scene, SceneErrorKind};
 use crate::units::Units;
 
@@ -31,7 +32,8 @@ pub(super) fn place(
                 let Some(covered) = covered_part(&block.corners, edge, from, to) else { continue };
                 let traction = traction(load, &block.corners, edge, scene.units);
                 for [from, to] in free_parts(covered, joined) {
-                    block.edge_loads.push(EdgeLoad { edge, from, to, traction });
+                    let load = LoadId::new(k);
+                    block.edge_loads.push(EdgeLoad { edge, from, to, traction, load });
                     acts = true;
                 }
             }

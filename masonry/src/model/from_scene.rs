@@ -3,8 +3,8 @@
 use nalgebra::{Point2, Vector2};
 
 use super::{
-    BED, Block, Body, ContactPoint, Elasticity, HEAD, Joint, JointClass, Model, Mortar, Plane,
-    Support, edge_loads, placement,
+    BED, Block, Body, ContactPoint, Elasticity, HEAD, Joint, JointClass, Model, Mortar, Movement,
+    Plane, Support, edge_loads, placement,
 };
 use crate::bond::{self, JointThickness};
 use crate::contact::{self, ContactError, JointKind, Options};
@@ -121,6 +121,7 @@ fn support(support: &scene::Support, units: Units) -> Support {
         name: support.name.clone(),
         from: point(support.from, units),
         to: point(support.to, units),
+        movement: Movement::default(),
     }
 }
 

@@ -1,7 +1,10 @@
-//! Contact points as a table of comma-separated values.
+//! Contact points, and the load history, as tables of comma-separated values.
+
+mod history;
 
 use std::borrow::Cow;
 
+pub use self::history::history;
 use super::format::{InUnits, block_name, body_name, shortest};
 use crate::model::{Body, Model};
 use crate::outcome::{ContactStatus, State};

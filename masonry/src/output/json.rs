@@ -1,5 +1,7 @@
 //! The result of a scene as one JSON object.
 
+mod history;
+
 use serde::{Serialize, Serializer};
 
 use super::format::{InUnits, block_name};
@@ -15,7 +17,8 @@ use crate::scene::Route;
 /// solution `residuals`, `balance`, `reactions`, `contacts`, `strain_energy`, `max_displacement` and the stresses
 /// are null, and `reason` says why; `mechanism` gives displacement rates of the corners of every
 /// block, the largest component one, where one is known. `films`, the extremes of the stresses in
-/// mortar films, is there with films only. `springs`, `proved` and `soft` are those of
+/// mortar films, is there with films only, and `history`, one record a step, with a load history only: where a step failed, all
+/// else is the state after the step before. `springs`, `proved` and `soft` are those of
 /// [`SolveInfo`](crate::outcome::SolveInfo). Numbers that are not finite become null.
 ///
 /// # Errors
@@ -60,6 +63,8 @@ struct Report<'a> {
     springs: Option<&'a SpringShares>,
     proved: bool,
     soft: Option<SoftReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    history: Option<history::Report<'a>>,
     mechanism: Option<ByName<'a, [[f64; 2]; 4]>>,
     time_s: ByName<'a, f64>,
     files: &'a [String],
@@ -213,6 +218,10 @@ impl<'a> Report<'a> {
             springs: solve.springs.as_ref(),
             proved: solve.proved,
             soft: solve.soft,
+            history: outcome
+                .history
+                .as_ref()
+                .map(|history| history::Report::of(history, &model.supports, units)),
             mechanism: outcome.mechanism.as_ref().map(|rates| {
                 let names = model.blocks.iter().map(|block| block.name.as_str());
                 ByName(names.zip(rates.iter().map(|corners| corners.map(Into::into))).collect())

@@ -3,6 +3,7 @@
 use nalgebra::{Point2, Vector2};
 
 use crate::geometry;
+use crate::history::Step;
 use crate::ids::BlockId;
 use crate::model::{Block, EdgeLoad, Model};
 use crate::outcome::{FilmStress, Outcome, State};
@@ -144,11 +145,24 @@ pub fn loaded_part(block: &Block, load: &EdgeLoad) -> (Point2<f64>, Point2<f64>)
     (place(load.from), place(load.to))
 }
 
-/// Why there is no state, in a sentence or two; `None` when there is one.
+/// Why the scene is not solved, in a sentence or two; `None` when it is.
 pub fn reason(outcome: &Outcome) -> Option<String> {
+    let why = why(outcome)?;
+    let history = outcome.history.as_ref().filter(|history| !history.records.is_empty());
+    Some(match history.and_then(|history| history.failed.as_ref()) {
+        Some(Step { stage, number, of, .. }) => format!(
+            "Step {number} of {of} of stage \"{stage}\" could not be solved. {why} All else in this report is \
+             of the step before, which was solved."
+        ),
+        None => why.to_owned(),
+    })
+}
+
+fn why(outcome: &Outcome) -> Option<&'static str> {
+    let has_history = outcome.history.as_ref().is_some_and(|history| !history.records.is_empty());
     let what = match outcome.solve.status {
         lcp::Status::Solved => return None,
-        lcp::Status::AlmostSolved if outcome.state.is_some() => {
+        lcp::Status::AlmostSolved if outcome.state.is_some() && !has_history => {
             "The complementarity problem was solved, but the balance of the blocks, recomputed from \
              forces and loads, does not hold. What was computed is kept for inspection only."
         }
@@ -198,5 +212,5 @@ pub fn reason(outcome: &Outcome) -> Option<String> {
         lcp::Status::Cancelled => "The solve was cancelled before it came to an end.",
         _ => "The solver returned no equilibrium.",
     };
-    Some(what.to_owned())
+    Some(what)
 }

@@ -1,5 +1,7 @@
 //! The report as text, at most 100 columns wide.
 
+mod history;
+
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle, presets};
 
 use super::format::{InUnits, aligned, block_name, significant};
@@ -25,6 +27,10 @@ pub fn report(outcome: &Outcome) -> String {
     }
     text += &section("Solution");
     text += &pairs(&solution(outcome));
+    if let Some(history) = &outcome.history {
+        text += &section("Load history");
+        text += &history::history(history, InUnits(outcome.model.units));
+    }
     if let Some(state) = &outcome.state {
         text += &section("Reactions on the structure");
         text += &reactions(outcome);

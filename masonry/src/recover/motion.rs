@@ -1,6 +1,6 @@
 //! Motions that nothing stops, from what the routes say about scenes without equilibrium.
 
-use nalgebra::{Matrix3, Vector2, Vector3};
+use nalgebra::Vector2;
 
 use crate::forms::Sparse;
 use crate::ids::BlockId;
@@ -78,22 +78,13 @@ fn rigid_part(model: &Model, system: &System, sparse: &Sparse, u: &[f64]) -> (Ve
             continue;
         }
         let places = displaced_nodes(model, BlockId::new(b));
-        let moved =
-            || places.iter().zip(u.chunks_exact(2)).map(|(p, u)| (p, Vector2::new(u[0], u[1])));
-        let (mut matrix, mut rhs) = (Matrix3::zeros(), Vector3::zeros());
-        for (place, u) in moved() {
-            let modes = body.modes.at(*place);
-            matrix += Matrix3::from_fn(|i, j| modes[i].dot(&modes[j]));
-            rhs += Vector3::from_fn(|i, _| modes[i].dot(&u));
+        let moved: Vec<Vector2<f64>> =
+            u.chunks_exact(2).map(|u| Vector2::new(u[0], u[1])).collect();
+        let alpha = body.modes.amplitudes(places, &moved);
+        for (place, u) in places.iter().zip(moved) {
+            rest = rest.max((u - body.modes.displacement(*place, &alpha)).norm());
         }
-        let Some(alpha) = matrix.cholesky().map(|factor| factor.solve(&rhs)) else {
-            return (vec![0.0; 3 * model.blocks.len()], f64::INFINITY);
-        };
-        for (place, u) in moved() {
-            let rigid = body.modes.displacement(*place, alpha.as_slice());
-            rest = rest.max((u - rigid).norm());
-        }
-        amplitudes.extend(alpha.as_slice());
+        amplitudes.extend(alpha);
     }
     (amplitudes, rest)
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::source::Source;
 use super::{
     Block, Brick, Contact, Courses, Form, Joint, Load, Material, Output, Plane, PointRule, Route,
-    Scene, Solver, Support, Wall,
+    Scene, Solver, Stage, Support, Wall,
 };
 use crate::units::Units;
 
@@ -24,6 +24,7 @@ impl Scene {
             blocks: Vec::new(),
             supports: Vec::new(),
             loads: Vec::new(),
+            stages: Vec::new(),
             contact: Contact::default(),
             solver: Solver::default(),
             output: Output::default(),
@@ -91,6 +92,13 @@ impl Scene {
     #[must_use]
     pub fn load(mut self, load: Load) -> Self {
         self.loads.push(load);
+        self
+    }
+
+    /// Adds a stage to the load history.
+    #[must_use]
+    pub fn stage(mut self, stage: Stage) -> Self {
+        self.stages.push(stage);
         self
     }
 

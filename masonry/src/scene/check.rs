@@ -13,6 +13,7 @@ use crate::bond::JointThickness;
 use crate::geometry::{self, QuadError};
 
 mod mortar;
+mod stages;
 
 /// Bricks and blocks of one scene, at most.
 const MOST_BLOCKS: u32 = 1_000_000;
@@ -64,6 +65,7 @@ impl Scene {
         for (k, load) in self.loads.iter().enumerate() {
             check_load(&KeyPath::of("loads").item(k), load)?;
         }
+        self.check_stages()?;
         self.check_options()
     }
 

@@ -193,7 +193,7 @@ pub enum SceneErrorKind {
     /// A name occurs twice.
     #[error("the {what} name \"{name}\" is taken by {first}: choose another")]
     Duplicate {
-        /// `wall`, `block`, `support` or `load`.
+        /// `wall`, `block`, `support`, `load` or `stage`.
         what: &'static str,
         /// The name.
         name: String,
@@ -213,6 +213,16 @@ pub enum SceneErrorKind {
         known: Known,
         /// The table in which such things are defined.
         table: &'static str,
+    },
+    /// A stage refers to a load or a support that is not there.
+    #[error("there is no {what} \"{name}\" in the scene; {known}: correct the name")]
+    NotThere {
+        /// `load` or `support`.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// The names that there are.
+        known: Known,
     },
     /// Nothing to analyse.
     #[error("the scene has no blocks: add [[walls]] or [[blocks]]")]

@@ -7,8 +7,9 @@ pub mod enumerate;
 pub mod reference;
 
 use masonry::contact::{self, JointKind, Options};
+use masonry::ids::LoadId;
 use masonry::mesh::BlockMesh;
-use masonry::model::{Block, EdgeLoad, Elasticity, JointClass, Model, Plane, Support};
+use masonry::model::{Block, EdgeLoad, Elasticity, JointClass, Model, Movement, Plane, Support};
 use masonry::units::Units;
 use nalgebra::{Point2, Vector2};
 
@@ -40,12 +41,12 @@ pub fn block(name: &str, corners: [Point2<f64>; 4], mesh: Option<[usize; 2]>) ->
 
 /// A uniform traction on a whole edge.
 pub fn traction(edge: usize, x: f64, y: f64) -> EdgeLoad {
-    EdgeLoad { edge, from: 0.0, to: 1.0, traction: Vector2::new(x, y) }
+    EdgeLoad { edge, from: 0.0, to: 1.0, traction: Vector2::new(x, y), load: LoadId(0) }
 }
 
 /// A straight support.
 pub fn support(name: &str, from: [f64; 2], to: [f64; 2]) -> Support {
-    Support { name: name.into(), from: from.into(), to: to.into() }
+    Support { name: name.into(), from: from.into(), to: to.into(), movement: Movement::default() }
 }
 
 /// A model with one friction coefficient for beds, heads and supports.

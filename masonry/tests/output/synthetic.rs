@@ -1,11 +1,11 @@
 //! A running-bond wall with an invented state: reports are tested without solving anything.
 
 use masonry::check::Checks;
-use masonry::ids::{BlockId, JointId, SupportId};
+use masonry::ids::{BlockId, JointId, LoadId, SupportId};
 use masonry::mesh::BlockMesh;
 use masonry::model::{
-    Anchor, Block, Body, ContactPoint, EdgeLoad, Elasticity, Joint, JointClass, Model, Plane,
-    Support,
+    Anchor, Block, Body, ContactPoint, EdgeLoad, Elasticity, Joint, JointClass, Model, Movement,
+    Plane, Support,
 };
 use masonry::outcome::{
     ContactState, ContactStatus, ElementStress, Outcome, PhaseTime, Principal, Reaction, RouteEnd,
@@ -91,6 +91,7 @@ pub(crate) fn solved(wall: Wall) -> Outcome {
         state: Some(state),
         checks: Some(checks),
         reactions,
+        history: None,
         mechanism: None,
         times: [("model", 0.0012), ("assembly", 0.031), ("reduction", 0.22), ("solve", 1.75)]
             .map(|(phase, seconds)| PhaseTime { phase: phase.to_owned(), seconds })
@@ -126,7 +127,13 @@ pub(crate) fn model(wall: Wall) -> Model {
             block.name = format!("{}.{}", course + 1, index + 1);
             if course + 1 == wall.courses {
                 let traction = Vector2::new(0.0, -10e3);
-                block.edge_loads.push(EdgeLoad { edge: 2, from: 0.0, to: 1.0, traction });
+                block.edge_loads.push(EdgeLoad {
+                    edge: 2,
+                    from: 0.0,
+                    to: 1.0,
+                    traction,
+                    load: LoadId(0),
+                });
             }
             blocks.push(block);
         }
@@ -135,6 +142,7 @@ pub(crate) fn model(wall: Wall) -> Model {
         name: name.to_owned(),
         from: from.into(),
         to: to.into(),
+        movement: Movement::default(),
     };
     let supports = vec![
         support("floor, left", [0.0, 0.0], [l, 0.0]),
@@ -247,6 +255,7 @@ fn add_joint(model: &mut Model, (a, b, class): (Body, BlockId, usize), ends: [[f
             a: if let Body::Block(block) = a { Some(anchor(block)) } else { None },
             b: anchor(b),
             gap: 0.0,
+            slip: 0.0,
             mu: model.joint_classes[class].mu,
             film: None,
         });
@@ -359,6 +368,7 @@ fn plan(model: &Model) -> Plan {
         order: 3 * m,
         largest_order: 3 * m,
         largest_block: 18,
+        steps: 1,
         solver: "lemke".to_owned(),
         because: "friction makes the matrix nonsymmetric, and the order is below 3000".to_owned(),
         routes: vec![Choice {

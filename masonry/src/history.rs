@@ -1,0 +1,222 @@
+//! The load history: the steps of a scene, what acts in each, and the energy that it takes.
+//!
+//! With friction the answer depends on the way to it. A step is the law with the slip of the step before
+//! subtracted,
+//!
+//! ```text
+//! 0 <= p+ _|_ y+ >= 0,   0 <= p- _|_ y- >= 0,   y+ - y- = y_t^k - y_t^(k-1)
+//! ```
+//!
+//! and everything else as in one step: the slip that was reached enters `s_0`, the movement of a
+//! support `x_0` and `s_0` of its joints. So every step is a [`Model`] of its own, the scene's
+//! [under](Model::under) the actions of the step.
+//!
+//! | module | content |
+//! |---|---|
+//! | [`energy`] | work of loads and supports, dissipation |
+//! | [`checkpoint`] | everything that the next step needs, as a file |
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::model::{Body, Model};
+use crate::outcome::Reaction;
+use crate::scene::{Movement, Route, Scene, Stage};
+
+pub mod checkpoint;
+pub mod energy;
+
+/// What acts on a model.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Actions {
+    /// Factor of gravity \[-\].
+    pub gravity: f64,
+    /// Factors of the loads \[-\], in the order of the scene.
+    pub loads: Vec<f64>,
+    /// Where the supports are, in the order of the scene; lengths in metres.
+    pub movements: Vec<Movement>,
+}
+
+impl Actions {
+    /// All loads of a scene in full, all supports in their places.
+    pub fn full(scene: &Scene) -> Self {
+        Self {
+            gravity: 1.0,
+            loads: vec![1.0; scene.loads.len()],
+            movements: vec![Movement::default(); scene.supports.len()],
+        }
+    }
+
+    /// What acts before the first stage: all that no stage names.
+    fn before(scene: &Scene) -> Self {
+        let mut actions = Self::full(scene);
+        let named = |is_named: &dyn Fn(&Stage) -> bool| scene.stages.iter().any(is_named);
+        if named(&|stage| stage.gravity.is_some()) {
+            actions.gravity = 0.0;
+        }
+        for (load, factor) in scene.loads.iter().zip(&mut actions.loads) {
+            if named(&|stage| stage.loads.contains_key(&load.name)) {
+                *factor = 0.0;
+            }
+        }
+        actions
+    }
+
+    /// What acts at the end of a stage that begins with these actions.
+    fn after(&self, stage: &Stage, scene: &Scene) -> Self {
+        let mut actions = self.clone();
+        actions.gravity = stage.gravity.unwrap_or(self.gravity);
+        for (load, factor) in scene.loads.iter().zip(&mut actions.loads) {
+            *factor = stage.loads.get(&load.name).copied().unwrap_or(*factor);
+        }
+        for (support, place) in scene.supports.iter().zip(&mut actions.movements) {
+            let end = stage.moves.get(&support.name);
+            *place = end.map_or(*place, |end| end.in_lengths(scene.units.length_to_si()));
+        }
+        actions
+    }
+
+    fn towards(&self, end: &Self, fraction: f64) -> Self {
+        let between = |(from, to): (&f64, &f64)| from * (1.0 - fraction) + to * fraction;
+        let moves = self.movements.iter().zip(&end.movements);
+        Self {
+            gravity: between((&self.gravity, &end.gravity)),
+            loads: self.loads.iter().zip(&end.loads).map(between).collect(),
+            movements: moves.map(|(from, to)| from.towards(*to, fraction)).collect(),
+        }
+    }
+}
+
+/// One step of the load history.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Step {
+    /// Name of the stage; empty for a scene without stages.
+    pub stage: String,
+    /// The step within its stage, from 1.
+    pub number: usize,
+    /// The steps of the stage.
+    pub of: usize,
+    /// What acts at the end of the step.
+    pub actions: Actions,
+}
+
+/// The steps of all stages; one with everything in full for a scene without stages.
+///
+/// ```
+/// use masonry::history;
+/// use masonry::scene::{Load, Scene, Stage};
+/// use masonry::units::Units;
+/// let scene = Scene::new("A push after the weight", Units::SI)
+///     .load(Load::traction("push", [0.0, 0.0], [0.0, 1.0], [1e3, 0.0]))
+///     .stage(Stage::new("weight"))
+///     .stage(Stage::new("push").steps(2).load("push", 1.0));
+/// let factors: Vec<f64> = history::steps(&scene).iter().map(|step| step.actions.loads[0]).collect();
+/// assert_eq!(factors, [0.0, 0.5, 1.0]);
+/// ```
+pub fn steps(scene: &Scene) -> Vec<Step> {
+    let mut steps = Vec::new();
+    let mut actions = Actions::before(scene);
+    for stage in &scene.stages {
+        let end = actions.after(stage, scene);
+        let of = stage.steps as usize;
+        steps.extend((1..=of).map(|number| {
+            let actions = actions.towards(&end, number as f64 / of as f64);
+            Step { stage: stage.name.clone(), number, of, actions }
+        }));
+        actions = end;
+    }
+    if steps.is_empty() {
+        steps.push(Step { stage: String::new(), number: 1, of: 1, actions });
+    }
+    steps
+}
+
+impl Model {
+    /// This model with the actions of a step, after slips \[m\] at its contact points, one for each.
+    ///
+    /// Gravity and tractions are multiplied by their factors. A support's movement `u_s` takes
+    /// `u_s.n` from the gaps and `u_s.t` from the slips of its joints; slips reached before are
+    /// taken away at points with friction.
+    pub fn under(&self, actions: &Actions, slips: &[f64]) -> Self {
+        let mut model = self.clone();
+        model.gravity *= actions.gravity;
+        for load in model.blocks.iter_mut().flat_map(|block| &mut block.edge_loads) {
+            load.traction *= actions.loads[load.load.index()];
+        }
+        for (support, movement) in model.supports.iter_mut().zip(&actions.movements) {
+            support.movement = *movement;
+        }
+        for (contact, slip) in model.contacts.iter_mut().zip(slips) {
+            let joint = &self.joints[contact.joint.index()];
+            if contact.mu > 0.0 {
+                contact.slip -= slip;
+            }
+            let Body::Support(support) = joint.a else { continue };
+            let moved = model.supports[support.index()].displacement_at(contact.position);
+            contact.gap -= moved.dot(&joint.normal);
+            contact.slip -= moved.dot(&joint.tangent());
+        }
+        model
+    }
+}
+
+/// What a step came to, in SI units.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StepRecord {
+    /// The step.
+    pub step: Step,
+    /// The route that solved it.
+    pub route: Route,
+    /// Its residuals.
+    pub residuals: lcp::Residuals,
+    /// Work of loads and of moving supports in this step \[J\], by the trapezoidal rule.
+    pub work: f64,
+    /// Energy that sliding dissipated in this step \[J\], `-t_t . (increment of y_t)`, never negative.
+    pub dissipation: f64,
+    /// Strain energy of blocks and films after the step \[J\].
+    pub strain_energy: f64,
+    /// The largest displacement after the step \[m\].
+    pub largest_displacement: f64,
+    /// Contact points that are open, stick and slip in this step.
+    pub contacts: [usize; 3],
+    /// The reactions of all supports.
+    pub reactions: Vec<Reaction>,
+}
+
+/// The steps of a scene whose answer depends on the way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct History {
+    /// The steps that were solved.
+    pub records: Vec<StepRecord>,
+    /// The step that could not be solved, if there is one: the state is that of the step before.
+    pub failed: Option<Step>,
+    /// How many steps the scene has.
+    pub steps: usize,
+    /// Names of the loads, in the order of the factors.
+    pub loads: Vec<String>,
+}
+
+impl History {
+    /// Work of loads and supports in all steps \[J\].
+    pub fn work(&self) -> f64 {
+        self.records.iter().map(|record| record.work).sum()
+    }
+
+    /// Energy dissipated in all steps \[J\].
+    pub fn dissipation(&self) -> f64 {
+        self.records.iter().map(|record| record.dissipation).sum()
+    }
+}
+
+/// What moves in a scene at all: the names of supports that some stage moves.
+pub(crate) fn moving_supports(scene: &Scene) -> Vec<&str> {
+    let moved: BTreeMap<&str, ()> = scene
+        .stages
+        .iter()
+        .flat_map(|stage| &stage.moves)
+        .filter(|(_, to)| **to != Movement::default())
+        .map(|(name, _)| (name.as_str(), ()))
+        .collect();
+    moved.into_keys().collect()
+}

@@ -1,0 +1,95 @@
+//! Work and dissipation between two states.
+//!
+//! The blocks store strain energy `U`, sliding dissipates `D`, and both come from the work `W` of loads and of
+//! supports that move. `D` is a sum over contact points of `-t_t` at the end of the step times the slip in it; no
+//! single term is negative, for friction opposes slip. `W` is a trapezoidal sum, exact where forces
+//! change linearly with displacements. So `W - U - D` tends to zero as steps become shorter,
+//! and is zero where no point slides with a force that changes.
+
+use nalgebra::Vector2;
+
+use crate::ids::BlockId;
+use crate::model::{Body, Model};
+use crate::outcome::{ContactState, State};
+use crate::recover;
+use crate::system::{System, displaced_nodes};
+
+/// What loads and supports need to have their work told.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot {
+    /// Loads \[N\] in the order of all displacements.
+    loads: Vec<f64>,
+    /// Nodal displacements, or amplitudes of rigid blocks \[m\].
+    displacements: Vec<f64>,
+    /// Force \[N\] of a support on the structure at each contact point, zero between blocks.
+    pushes: Vec<Vector2<f64>>,
+    /// Movement \[m\] of the support there.
+    movements: Vec<Vector2<f64>>,
+}
+
+impl Snapshot {
+    /// The state of a model, with the system that has its loads.
+    pub fn of(model: &Model, system: &System, state: &State) -> Self {
+        let (mut loads, mut displacements) = (Vec::new(), Vec::new());
+        for (b, (body, moved)) in system.bodies.iter().zip(&state.displacements).enumerate() {
+            if body.stiffness.is_some() {
+                loads.extend(&body.load);
+                displacements.extend(moved.iter().flat_map(|u| [u.x, u.y]));
+            } else {
+                loads.extend(body.resultant);
+                let places = displaced_nodes(model, BlockId::new(b));
+                displacements.extend(body.modes.amplitudes(places, moved));
+            }
+        }
+        let (mut pushes, mut movements) = (Vec::new(), Vec::new());
+        for (contact, force) in model.contacts.iter().zip(&state.contacts) {
+            let (push, movement) = match model.joints[contact.joint.index()].a {
+                Body::Support(support) => (
+                    recover::contact_force(model, contact, force),
+                    model.supports[support.index()].displacement_at(contact.position),
+                ),
+                Body::Block(_) => (Vector2::zeros(), Vector2::zeros()),
+            };
+            pushes.push(push);
+            movements.push(movement);
+        }
+        Self { loads, displacements, pushes, movements }
+    }
+
+    /// The same structure without loads, at rest.
+    #[must_use]
+    pub fn at_rest(&self) -> Self {
+        Self {
+            loads: vec![0.0; self.loads.len()],
+            displacements: vec![0.0; self.displacements.len()],
+            pushes: vec![Vector2::zeros(); self.pushes.len()],
+            movements: vec![Vector2::zeros(); self.movements.len()],
+        }
+    }
+
+    /// Work \[J\] of loads and supports on the way from this state to the next, by the trapezoidal rule.
+    ///
+    /// # Panics
+    /// If the states are not of one structure.
+    pub fn work_to(&self, next: &Self) -> f64 {
+        assert_eq!(self.loads.len(), next.loads.len(), "states of one structure");
+        let of_loads: f64 = (0..self.loads.len())
+            .map(|i| {
+                let moved = next.displacements[i] - self.displacements[i];
+                0.5 * (self.loads[i] + next.loads[i]) * moved
+            })
+            .sum();
+        let of_supports: f64 = (0..self.pushes.len())
+            .map(|i| {
+                let moved = next.movements[i] - self.movements[i];
+                0.5 * (self.pushes[i] + next.pushes[i]).dot(&moved)
+            })
+            .sum();
+        of_loads + of_supports
+    }
+}
+
+/// Energy \[J\] that sliding dissipates in a step, where `y_t` of the contacts is their slip in the step.
+pub fn dissipation(contacts: &[ContactState]) -> f64 {
+    contacts.iter().map(|contact| -contact.t_t * contact.y_t).sum()
+}

@@ -1,0 +1,69 @@
+//! The load history as a table.
+
+use super::{pairs, table};
+use crate::history::{History, Step, StepRecord};
+use crate::output::format::{InUnits, aligned};
+
+/// Longer histories are told by the ends of their stages.
+const MOST_ROWS: usize = 24;
+
+/// One row for every step that was solved, or for every stage of a long history.
+pub(super) fn history(history: &History, units: InUnits) -> String {
+    let records = &history.records;
+    let shown: Vec<&StepRecord> = if records.len() > MOST_ROWS {
+        let ends = records.iter().enumerate();
+        let is_end = |(k, record): &(usize, &StepRecord)| {
+            record.step.number == record.step.of || *k + 1 == records.len()
+        };
+        ends.filter(is_end).map(|(_, record)| record).collect()
+    } else {
+        records.iter().collect()
+    };
+    let (energy, length) = (units.0.energy_name(), units.0.length_name());
+    let heads = [
+        "stage",
+        "step",
+        &format!("work [{energy}]"),
+        &format!("dissipated [{energy}]"),
+        &format!("strain energy [{energy}]"),
+        &format!("displacement [{length}]"),
+        "open",
+        "stick",
+        "slip",
+    ];
+    let mut table = table(&heads, &[2, 3, 4, 5, 6, 7, 8]);
+    let total = |of: fn(&StepRecord) -> f64| {
+        shown.iter().map(move |last| {
+            let until = records.iter().take_while(|record| record.step != last.step);
+            units.energy(until.map(of).sum::<f64>() + of(last))
+        })
+    };
+    let work: Vec<f64> = total(|record| record.work).collect();
+    let dissipated: Vec<f64> = total(|record| record.dissipation).collect();
+    let stored = shown.iter().map(|record| units.energy(record.strain_energy));
+    let energies: Vec<f64> = work.into_iter().chain(dissipated).chain(stored).collect();
+    let energies = aligned(&energies, 5);
+    let moved: Vec<f64> =
+        shown.iter().map(|record| units.length(record.largest_displacement)).collect();
+    let moved = aligned(&moved, 5);
+    for (k, record) in shown.iter().enumerate() {
+        let [work, dissipated, stored] =
+            [0, 1, 2].map(|column| &energies[column * shown.len() + k]);
+        let counts = record.contacts.map(|count| count.to_string());
+        let [open, stick, slip] = &counts;
+        let step = place(&record.step);
+        let stage = &record.step.stage;
+        table.add_row(vec![stage, &step, work, dissipated, stored, &moved[k], open, stick, slip]);
+    }
+    let mut text =
+        table.trim_fmt() + "\n Work and dissipated energy are sums from the beginning.\n";
+    if let Some(failed) = &history.failed {
+        let step = format!("{} of stage \"{}\"", place(failed), failed.stage);
+        text += &pairs(&[("not solved", step)]);
+    }
+    text
+}
+
+fn place(step: &Step) -> String {
+    format!("{}/{}", step.number, step.of)
+}

@@ -1,0 +1,61 @@
+//! Checks of the load history.
+
+use super::{Check, finite, too_many, unique, unwanted, value};
+use crate::scene::error::Known;
+use crate::scene::{Fault, KeyPath, Scene, SceneErrorKind, Stage};
+
+/// Steps of one stage, at most.
+const MOST_STEPS: u32 = 100_000;
+
+impl Scene {
+    /// Stages: names of their own, loads and supports that exist, numbers in their range.
+    pub(super) fn check_stages(&self) -> Check {
+        unique("stage", "stages", self.stages.iter().map(|stage| &stage.name))?;
+        for (k, stage) in self.stages.iter().enumerate() {
+            self.check_stage(&KeyPath::of("stages").item(k), stage)?;
+        }
+        Ok(())
+    }
+
+    fn check_stage(&self, at: &KeyPath, stage: &Stage) -> Check {
+        let (key, steps) = (at.key("steps"), stage.steps);
+        value(key.clone(), f64::from(steps), steps > 0, "a stage has at least one step")?;
+        if steps > MOST_STEPS {
+            return Err(too_many(key, "steps of one stage", f64::from(steps), MOST_STEPS));
+        }
+        if let Some(factor) = stage.gravity {
+            if self.gravity.is_none() {
+                let because = "is a factor of the gravity of the scene, which has none";
+                return Err(unwanted(at, "gravity", because, ", or add `gravity` to the scene"));
+            }
+            finite(at.key("gravity"), factor)?;
+        }
+        for (name, factor) in &stage.loads {
+            let at = at.key("loads").key(name);
+            there_is("load", name, self.loads.iter().map(|load| &load.name), &at)?;
+            finite(at, *factor)?;
+        }
+        for (name, to) in &stage.moves {
+            let at = at.key("moves").key(name);
+            there_is("support", name, self.supports.iter().map(|it| &it.name), &at)?;
+            finite(at.key("x"), to.x)?;
+            finite(at.key("y"), to.y)?;
+            finite(at.key("turn"), to.turn)?;
+        }
+        Ok(())
+    }
+}
+
+fn there_is<'a>(
+    what: &'static str,
+    name: &str,
+    names: impl Iterator<Item = &'a String>,
+    at: &KeyPath,
+) -> Check {
+    let known: Vec<String> = names.cloned().collect();
+    if known.iter().any(|known| known == name) {
+        return Ok(());
+    }
+    let kind = SceneErrorKind::NotThere { what, name: name.to_owned(), known: Known(known) };
+    Err(Fault::new(at.clone(), kind))
+}

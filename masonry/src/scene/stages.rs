@@ -1,0 +1,132 @@
+//! The load history of a scene: ordered stages.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::strict;
+
+/// A stage of the load history. Stages follow one another; in each, loads and supports go in equal
+/// steps from where they are to where the stage takes them.
+///
+/// Loads are factors of what the scene gives. What no stage names acts in full from the first stage on;
+/// what some stage names is zero before its first stage, and stays where a stage has taken it.
+/// With friction, the slip of every step is where the next one starts.
+///
+/// ```
+/// use masonry::scene::{Movement, Stage};
+/// let settlement = Stage::new("settlement").steps(10).moves("floor", Movement::by(0.0, -0.01));
+/// assert_eq!(settlement.moves["floor"].y, -0.01);
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stage {
+    /// Name of the stage, in reports.
+    pub name: String,
+    /// The steps in which it is done; one where the key is missing.
+    #[serde(default = "one_step", skip_serializing_if = "is_one_step")]
+    pub steps: u32,
+    /// Factor of gravity at the end of the stage \[-\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gravity: Option<f64>,
+    /// Factors of loads at the end of the stage \[-\], by the name of the load.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub loads: BTreeMap<String, f64>,
+    /// Where supports are at the end of the stage, by the name of the support.
+    #[serde(
+        default,
+        skip_serializing_if = "BTreeMap::is_empty",
+        deserialize_with = "strict::named_tables"
+    )]
+    pub moves: BTreeMap<String, Movement>,
+}
+
+/// How far a support has moved from where the scene puts it. Displacements are small: the direction of its
+/// joints stays.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Movement {
+    /// Displacement of its middle along x \[length\].
+    #[serde(default)]
+    pub x: f64,
+    /// Displacement of its middle along y \[length\].
+    #[serde(default)]
+    pub y: f64,
+    /// Rotation about its middle \[rad\], counter-clockwise.
+    #[serde(default)]
+    pub turn: f64,
+}
+
+impl Stage {
+    /// A stage of one step in which nothing changes.
+    pub fn new(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            steps: 1,
+            gravity: None,
+            loads: BTreeMap::new(),
+            moves: BTreeMap::new(),
+        }
+    }
+
+    /// Sets the number of steps.
+    #[must_use]
+    pub fn steps(mut self, steps: u32) -> Self {
+        self.steps = steps;
+        self
+    }
+
+    /// Takes gravity to a factor of that of the scene \[-\].
+    #[must_use]
+    pub fn gravity(mut self, factor: f64) -> Self {
+        self.gravity = Some(factor);
+        self
+    }
+
+    /// Takes a load to a factor of what the scene gives \[-\].
+    #[must_use]
+    pub fn load(mut self, name: &str, factor: f64) -> Self {
+        self.loads.insert(name.to_owned(), factor);
+        self
+    }
+
+    /// Takes a support to another place.
+    #[must_use]
+    pub fn moves(mut self, support: &str, movement: Movement) -> Self {
+        self.moves.insert(support.to_owned(), movement);
+        self
+    }
+}
+
+impl Movement {
+    /// A displacement \[length\] without rotation.
+    pub fn by(x: f64, y: f64) -> Self {
+        Self { x, y, turn: 0.0 }
+    }
+
+    /// The same with lengths in a unit that is `1 / factor` times as long.
+    #[must_use]
+    pub fn in_lengths(self, factor: f64) -> Self {
+        Self { x: self.x * factor, y: self.y * factor, turn: self.turn }
+    }
+
+    /// The movement `fraction` of the way from this one to another.
+    #[must_use]
+    pub fn towards(self, end: Self, fraction: f64) -> Self {
+        let between = |from: f64, to: f64| from * (1.0 - fraction) + to * fraction;
+        Self {
+            x: between(self.x, end.x),
+            y: between(self.y, end.y),
+            turn: between(self.turn, end.turn),
+        }
+    }
+}
+
+fn one_step() -> u32 {
+    1
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
+fn is_one_step(steps: &u32) -> bool {
+    *steps == 1
+}

@@ -1,0 +1,292 @@
+//! A scene on its way through the steps of its load history, of which there is often only one.
+
+use std::ops::ControlFlow;
+
+use lcp::Status;
+use nalgebra::Vector2;
+
+use super::chain::{Attempt, Chain};
+use super::{Clock, Event, SolveError, check_size};
+use crate::check::Checks;
+use crate::history::checkpoint::{Checkpoint, CheckpointError};
+use crate::history::energy::{self, Snapshot};
+use crate::history::{self, History, Step, StepRecord};
+use crate::model::Model;
+use crate::outcome::{Outcome, SolveInfo, State};
+use crate::plan::Plan;
+use crate::recover;
+use crate::routes::Request;
+use crate::scene::{Scene, Solver};
+use crate::system::System;
+
+/// A scene that is solved step by step.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use masonry::scene::{Block, Joint, Load, Material, Movement, Scene, Stage, Support};
+/// use masonry::solve::Run;
+/// use masonry::units::Units;
+///
+/// // A block on a floor that is drawn away below it.
+/// let scene = Scene::new("Floor drawn away", Units::SI)
+///     .thickness(1.0)
+///     .gravity([0.0, -10.0])
+///     .material("stone", Material::rigid().density(1000.0))
+///     .joint("floor", Joint::mu(0.5))
+///     .joint("stop", Joint::mu(0.0))
+///     .block(Block::new("block", "stone", [[0.0, 0.0], [1.0, 0.0], [1.0, 0.2], [0.0, 0.2]]))
+///     .support(Support::new("ground", [-1.0, 0.0], [2.0, 0.0], "floor"))
+///     .support(Support::new("stop", [1.0, 0.0], [1.0, 0.2], "stop"))
+///     .stage(Stage::new("weight"))
+///     .stage(Stage::new("draw").steps(2).moves("ground", Movement::by(0.1, 0.0)));
+/// let mut run = Run::new(&scene, &mut |_| ControlFlow::Continue(()))?;
+/// while run.advance(&mut |_| ControlFlow::Continue(()))? {}
+/// let history = run.finish().history.unwrap();
+/// // The friction of half the weight, 1 kN, over 0.1 m.
+/// assert!((history.dissipation() - 100.0).abs() < 1e-6);
+/// # Ok::<(), masonry::solve::SolveError>(())
+/// ```
+#[derive(Debug)]
+pub struct Run {
+    title: String,
+    /// The model with all loads in full and all supports in their places.
+    model: Model,
+    plan: Plan,
+    system: System,
+    steps: Vec<Step>,
+    loads: Vec<String>,
+    /// What a checkpoint must have been made of.
+    origin: String,
+    request: Request,
+    with_stresses: bool,
+    records: Vec<StepRecord>,
+    reached: Option<Reached>,
+    last: Option<Last>,
+    clock: Clock,
+}
+
+/// Residuals of what was never tried.
+const UNKNOWN: lcp::Residuals = lcp::Residuals {
+    equation: f64::INFINITY,
+    feasibility: f64::INFINITY,
+    complementarity: f64::INFINITY,
+    natural: f64::INFINITY,
+};
+
+/// What the last step that was solved has come to.
+#[derive(Debug)]
+struct Reached {
+    model: Model,
+    state: State,
+    checks: Option<Checks>,
+    snapshot: Snapshot,
+}
+
+/// How the last step that was tried ended.
+#[derive(Debug)]
+struct Last {
+    info: SolveInfo,
+    mechanism: Option<Vec<[Vector2<f64>; 4]>>,
+}
+
+impl Run {
+    /// Builds what all steps have in common.
+    ///
+    /// # Errors
+    /// [`SolveError`] when the scene is wrong or too large.
+    pub fn new(
+        scene: &Scene,
+        observer: &mut dyn FnMut(Event) -> ControlFlow<()>,
+    ) -> Result<Self, SolveError> {
+        let mut clock = Clock::default();
+        let model = clock.time("model", observer, || Model::from_scene(scene))?;
+        let plan = Plan::of(scene, &model);
+        check_size(&plan)?;
+        let mut steps = history::steps(scene);
+        steps.drain(..steps.len() - plan.steps);
+        let build = if plan.dense_numbers() > 0 { System::new } else { System::without_factors };
+        let system = clock.time("system", observer, || build(&model))?;
+        let Solver { tolerance, form, max_pivots, soft, .. } = scene.solver;
+        let max_pivots = max_pivots.map(|limit| limit as usize);
+        Ok(Self {
+            title: scene.title.clone(),
+            model,
+            plan,
+            system,
+            steps,
+            loads: scene.loads.iter().map(|load| load.name.clone()).collect(),
+            origin: Checkpoint::origin_of(scene)?,
+            request: Request { tolerance, form, max_pivots, soft },
+            with_stresses: scene.output.stresses,
+            records: Vec::new(),
+            reached: None,
+            last: None,
+            clock,
+        })
+    }
+
+    /// Goes on from the last step of a checkpoint.
+    ///
+    /// Route, tolerance, output, and stages that are still to come may differ from those of the run that
+    /// wrote it.
+    ///
+    /// # Errors
+    /// [`CheckpointError`] when it belongs to another scene, or to steps that are not those of this one.
+    pub fn resume(mut self, checkpoint: &Checkpoint) -> Result<Self, SolveError> {
+        let Checkpoint { origin, records, .. } = checkpoint;
+        if *origin != self.origin {
+            return Err(CheckpointError::OtherScene.into());
+        }
+        let planned = self.steps.iter().map(Some).chain(std::iter::repeat(None));
+        if let Some(position) =
+            records.iter().zip(planned).position(|(record, step)| Some(&record.step) != step)
+        {
+            let StepRecord { step: Step { stage, number, .. }, .. } = &records[position];
+            return Err(CheckpointError::OtherSteps { stage: stage.clone(), step: *number }.into());
+        }
+        let Some(record) = records.last() else { return Ok(self) };
+        let slips = vec![0.0; self.model.contacts.len()];
+        let model = self.model.under(&record.step.actions, &slips);
+        let state = checkpoint.state(&model, self.with_stresses)?;
+        self.system.reload(&model);
+        let snapshot = Snapshot::of(&model, &self.system, &state);
+        let info = SolveInfo {
+            route: record.route,
+            because: "of the run that wrote the checkpoint".to_owned(),
+            ..SolveInfo::new(Status::Solved, record.residuals)
+        };
+        let checks = Some(Checks::of(&model, &state));
+        self.reached = Some(Reached { model, state, checks, snapshot });
+        self.last = Some(Last { info, mechanism: None });
+        self.records.clone_from(records);
+        Ok(self)
+    }
+
+    /// Solves the next step; false when there is none, or the last one failed.
+    ///
+    /// # Errors
+    /// As [`solve`](super::solve). Steps that were solved before are kept.
+    pub fn advance(
+        &mut self,
+        observer: &mut dyn FnMut(Event) -> ControlFlow<()>,
+    ) -> Result<bool, SolveError> {
+        let is_over = self.last.as_ref().is_some_and(|last| last.info.status != Status::Solved);
+        let Some(step) = self.steps.get(self.records.len()).filter(|_| !is_over).cloned() else {
+            return Ok(false);
+        };
+        if self.steps.len() > 1 {
+            let (number, of) = (self.records.len() + 1, self.steps.len());
+            let _ = observer(Event::Step { number, of });
+        }
+        let slips = self.slips();
+        let model = self.model.under(&step.actions, &slips);
+        self.system.reload(&model);
+        let wanted = (self.request, self.with_stresses);
+        let found = Chain::new((&model, &self.system), wanted, &mut self.clock, observer)
+            .run(&self.plan.routes)?;
+        self.take(step, model, &slips, found);
+        Ok(true)
+    }
+
+    /// The slip of every contact point after the last step.
+    fn slips(&self) -> Vec<f64> {
+        match &self.reached {
+            Some(reached) => reached.state.contacts.iter().map(|contact| contact.y_t).collect(),
+            None => vec![0.0; self.model.contacts.len()],
+        }
+    }
+
+    /// Keeps a step that was solved; of one that was not, its state only where there is none before.
+    fn take(&mut self, step: Step, model: Model, slips: &[f64], found: Attempt) {
+        let Attempt { mut info, state, checks, mechanism } = found;
+        if let Some(mut state) = state {
+            let dissipation = energy::dissipation(&state.contacts);
+            if !opposes(dissipation, &state, self.request.tolerance) {
+                info.status = Status::AlmostSolved;
+            }
+            let steps = model.contacts.iter().zip(&mut state.contacts).zip(slips);
+            let frictional = steps.filter(|((contact, _), _)| contact.mu > 0.0);
+            frictional.for_each(|((_, contact), slip)| contact.y_t += slip);
+            let snapshot = Snapshot::of(&model, &self.system, &state);
+            if info.status == Status::Solved {
+                let before = self.reached.as_ref().map(|reached| &reached.snapshot);
+                let work = match before {
+                    Some(before) => before.work_to(&snapshot),
+                    None => snapshot.at_rest().work_to(&snapshot),
+                };
+                let largest = state.displacements.iter().flatten().map(Vector2::norm);
+                self.records.push(StepRecord {
+                    step,
+                    route: info.route,
+                    residuals: info.residuals,
+                    work,
+                    dissipation: dissipation.max(0.0),
+                    strain_energy: state.strain_energy,
+                    largest_displacement: largest.fold(0.0, f64::max),
+                    contacts: checks.as_ref().map_or([0; 3], |it| [it.open, it.stick, it.slip]),
+                    reactions: recover::reactions(&model, &state.contacts),
+                });
+            }
+            if info.status == Status::Solved || self.reached.is_none() {
+                self.reached = Some(Reached { model, state, checks, snapshot });
+            }
+        }
+        self.last = Some(Last { info, mechanism });
+    }
+
+    /// How many steps were solved.
+    pub fn solved_steps(&self) -> usize {
+        self.records.len()
+    }
+
+    /// Everything that the next step needs; `None` before the first, and for a scene of one step.
+    pub fn checkpoint(&self) -> Option<Checkpoint> {
+        let reached = self.reached.as_ref().filter(|_| self.steps.len() > 1)?;
+        (!self.records.is_empty())
+            .then(|| Checkpoint::new(self.origin.clone(), self.records.clone(), &reached.state))
+    }
+
+    /// The outcome: the state after the last step that was solved.
+    pub fn finish(self) -> Outcome {
+        let has_history = self.steps.len() > 1;
+        let failed = self.steps.get(self.records.len()).cloned();
+        let Last { info, mechanism } = self.last.unwrap_or_else(|| {
+            let info = SolveInfo::new(Status::Cancelled, UNKNOWN);
+            Last { info, mechanism: None }
+        });
+        let history = has_history.then(|| History {
+            records: self.records,
+            failed,
+            steps: self.steps.len(),
+            loads: self.loads,
+        });
+        let (model, state, checks) = match self.reached {
+            Some(Reached { model, state, checks, .. }) => (model, Some(state), checks),
+            None => (self.model, None, None),
+        };
+        let contacts = state.as_ref().map(|state| &state.contacts);
+        let reactions =
+            contacts.map_or_else(Vec::new, |contacts| recover::reactions(&model, contacts));
+        Outcome {
+            title: self.title,
+            model,
+            plan: self.plan,
+            solve: info,
+            state,
+            checks,
+            reactions,
+            history,
+            mechanism,
+            times: self.clock.times,
+        }
+    }
+}
+
+/// Whether friction dissipates energy, up to rounding: relative to the largest product of a force and a
+/// displacement.
+fn opposes(dissipation: f64, state: &State, tolerance: f64) -> bool {
+    let force = state.contacts.iter().map(|contact| contact.t_t.abs()).fold(0.0, f64::max);
+    let slip = state.contacts.iter().map(|contact| contact.y_t.abs()).fold(0.0, f64::max);
+    let moved = state.displacements.iter().flatten().map(Vector2::norm).fold(slip, f64::max);
+    dissipation >= -tolerance * force * moved
+}
