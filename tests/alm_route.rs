@@ -62,14 +62,14 @@ fn panels_as_by_interior_points() {
         assert_close(found, expected, 10.0 * TOLERANCE);
 
         let info = &outcome.solve;
-        assert_eq!((info.route, info.history.len()), (Route::Alm, info.iterations));
+        assert_eq!((info.route, info.convergence.len()), (Route::Alm, info.iterations));
         assert_eq!(info.order, outcome.plan.order);
-        assert!(info.order < reference.solve.order && reference.solve.history.is_empty());
+        assert!(info.order < reference.solve.order && reference.solve.convergence.is_empty());
         assert!(info.factorisations < info.iterations);
-        let last = info.history.last().unwrap();
+        let last = info.convergence.last().unwrap();
         assert!(last.unbalance.max(last.distance) <= TOLERANCE);
         // The unbalanced force was that small before, and forces were not near.
-        assert!(info.history.iter().any(|it| it.unbalance <= TOLERANCE && it.distance > TOLERANCE));
+        assert!(info.convergence.iter().any(|it| it.unbalance <= TOLERANCE && it.distance > TOLERANCE));
     }
 }
 
@@ -99,7 +99,7 @@ fn the_report_has_every_iteration() {
     assert_eq!(outcome.solve.status, Status::Solved);
     let text = json::result(&outcome, &[]).unwrap();
     let report: Value = serde_json::from_str(&text).unwrap();
-    let history = report["history"].as_array().unwrap();
+    let history = report["convergence"].as_array().unwrap();
     assert_eq!(history.len(), outcome.solve.iterations);
     for ((number, residual), line) in seen.iter().zip(history) {
         assert_eq!(line["unbalance"].as_f64(), Some(*residual), "{number}");
@@ -120,7 +120,7 @@ fn the_report_has_every_iteration() {
 fn a_block_that_slides_is_not_solved() {
     let outcome = solve(&block(Material::elastic(1e6, 0.2), 0.7).route(Route::Alm)).unwrap();
     assert!(matches!(outcome.solve.status, Status::Stalled | Status::IterationLimit));
-    assert!(outcome.state.is_none() && !outcome.solve.history.is_empty());
+    assert!(outcome.state.is_none() && !outcome.solve.convergence.is_empty());
 }
 
 #[test]

@@ -133,7 +133,7 @@ pub struct SolveInfo {
     pub iterations: usize,
     /// Every iteration of the augmented Lagrangian method; empty on the other routes.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub history: Vec<alm::Iteration>,
+    pub convergence: Vec<alm::Iteration>,
     /// Matrices factorised.
     pub factorisations: usize,
     /// The evidence, where springs say that there is no equilibrium.
@@ -161,7 +161,7 @@ impl SolveInfo {
             attempts: Vec::new(),
             pivots: 0,
             iterations: 0,
-            history: Vec::new(),
+            convergence: Vec::new(),
             factorisations: 0,
             springs: None,
             proved: false,

@@ -46,7 +46,7 @@ struct Report<'a> {
     pivots: usize,
     iterations: usize,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    history: &'a [Iteration],
+    convergence: &'a [Iteration],
     factorisations: usize,
     memory_bytes: usize,
     residuals: Option<lcp::Residuals>,
@@ -180,7 +180,7 @@ impl<'a> Report<'a> {
             attempts: &solve.attempts,
             pivots: solve.pivots,
             iterations: solve.iterations,
-            history: &solve.history,
+            convergence: &solve.convergence,
             factorisations: solve.factorisations,
             memory_bytes: outcome.plan.memory_bytes(),
             residuals: state.map(|_| solve.residuals),

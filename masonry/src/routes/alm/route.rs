@@ -35,7 +35,7 @@ impl Method for Multipliers<'_> {
         };
         let mut report = sparse::answer(Route::Alm, self.sparse, found, None);
         report.info.order = problem.displacements();
-        report.info.history = answer.history;
+        report.info.convergence = answer.history;
         Ok(report)
     }
 }
