@@ -69,7 +69,9 @@ fn panels_as_by_interior_points() {
         let last = info.convergence.last().unwrap();
         assert!(last.unbalance.max(last.distance) <= TOLERANCE);
         // The unbalanced force was that small before, and forces were not near.
-        assert!(info.convergence.iter().any(|it| it.unbalance <= TOLERANCE && it.distance > TOLERANCE));
+        assert!(
+            info.convergence.iter().any(|it| it.unbalance <= TOLERANCE && it.distance > TOLERANCE)
+        );
     }
 }
 

@@ -19,28 +19,21 @@
 //! and forces are near.
 
 mod contraction;
+mod films;
 mod matrices;
+mod mortared;
 mod route;
+mod run;
+mod structure;
 
 use std::ops::ControlFlow;
 
-use contraction::Contraction;
+pub use films::{AttachError, Segment};
 use lcp::{Contact2d, ContactState, Residuals, Status};
-use matrices::{Contact, Matrices, Structure};
+pub use mortared::{MortaredError, MortaredState, MortaredWall};
 pub use route::Multipliers;
 use serde::Serialize;
-
-/// Penalty of a contact, relative to the stiffness that it sees.
-const PENALTY: f64 = 0.3;
-/// The proximal term, relative to the stiffness.
-const PROXIMAL: f64 = 1e-2;
-/// Where the unbalanced force grows by this factor over the smallest, the iteration diverges.
-const DIVERGED: f64 = 1e3;
-/// So many iterations without a reduction of it by a tenth are no progress.
-const PATIENCE: usize = 300;
-/// After that penalty and proximal term change by this factor, so many times.
-const SOFTER: f64 = 3.0;
-const ATTEMPTS: usize = 4;
+use structure::Structure;
 
 /// What the route is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -137,112 +130,5 @@ pub fn solve(
     settings: &Settings,
     observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
 ) -> Result<Answer, AlmError> {
-    let tolerance = settings.tolerance;
-    if !(tolerance > 0.0 && tolerance < 1.0) {
-        return Err(AlmError::Tolerance { tolerance });
-    }
-    let structure = Structure::new(problem)?;
-    let mut run = Run {
-        structure: &structure,
-        settings,
-        history: Vec::new(),
-        factorisations: 0,
-        best: Best::rest(problem),
-    };
-    let mut status = Status::Stalled;
-    for attempt in 1..=ATTEMPTS {
-        let softer = SOFTER.powi(i32::try_from(attempt).unwrap_or(i32::MAX) - 1);
-        let matrices = Matrices::new(&structure, PENALTY / softer, PROXIMAL * softer)?;
-        status = run.attempt(attempt, &matrices, observer)?;
-        if status != Status::Stalled {
-            break;
-        }
-    }
-    let Run { history, factorisations, best, .. } = run;
-    let residuals = problem.residuals(&best.state);
-    Ok(Answer { status, state: best.state, residuals, history, factorisations })
-}
-
-/// The iteration with the smallest measure.
-struct Best {
-    state: ContactState,
-    measure: f64,
-}
-
-impl Best {
-    fn rest(problem: &Contact2d) -> Self {
-        let (n, m) = (problem.displacements(), problem.points());
-        let state = problem.state(vec![0.0; n], vec![0.0; m], vec![0.0; m]);
-        Self { state, measure: f64::INFINITY }
-    }
-}
-
-/// A solve in progress.
-struct Run<'a> {
-    structure: &'a Structure<'a>,
-    settings: &'a Settings,
-    history: Vec<Iteration>,
-    factorisations: usize,
-    best: Best,
-}
-
-impl Run<'_> {
-    /// Iterates from all contacts closed.
-    fn attempt(
-        &mut self,
-        attempt: usize,
-        matrices: &Matrices<'_>,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-    ) -> Result<Status, AlmError> {
-        let problem = self.structure.problem;
-        let mut at = Best::rest(problem).state;
-        let mut contacts = vec![Contact::Stick; problem.points()];
-        let mut factors = None;
-        let (mut least, mut since) = (f64::INFINITY, 0);
-        let [mut motion, mut pull] = self.structure.units().map(Contraction::new);
-        let mut forces = vec![0.0; problem.displacements()];
-        while self.history.len() < self.settings.max_iterations {
-            let present = if let Some(present) = factors.take() {
-                present
-            } else {
-                self.factorisations += 1;
-                matrices.factorised(&contacts)?
-            };
-            let u = matrices.displacements(&present, &contacts, &at);
-            let trial = problem.state(u, at.t_n, at.t_t);
-            let (t_n, t_t, next) = matrices.projected(&trial);
-            let changes = contacts.iter().zip(&next).filter(|(a, b)| a != b).count();
-            if changes == 0 {
-                factors = Some(present);
-            }
-            contacts = next;
-            motion.record(&at.u, &trial.u);
-            at = problem.state(trial.u, t_n, t_t);
-            let pulled = self.structure.block_forces(&at.u);
-            pull.record(&forces, &pulled);
-            forces = pulled;
-            let unbalance = self.structure.unbalance(&at, &forces);
-            let distance = motion.remaining().max(pull.remaining());
-            let iteration = Iteration { attempt, unbalance, distance, changes };
-            self.history.push(iteration);
-            let residual = problem.residuals(&at).worst().max(self.structure.slack(&at, &forces));
-            let measure = unbalance.max(residual).max(distance);
-            if measure < self.best.measure {
-                self.best = Best { state: at.clone(), measure };
-            }
-            let is_cancelled = observer(&iteration).is_break();
-            if measure <= self.settings.tolerance {
-                return Ok(Status::Solved);
-            }
-            if is_cancelled {
-                return Ok(Status::Cancelled);
-            }
-            since = if unbalance < 0.9 * least { 0 } else { since + 1 };
-            least = if since == 0 { unbalance } else { least };
-            if unbalance > DIVERGED * least || !unbalance.is_finite() || since > PATIENCE {
-                return Ok(Status::Stalled);
-            }
-        }
-        Ok(Status::IterationLimit)
-    }
+    run::solve(&Structure::new(problem, &[])?, settings, observer)
 }
