@@ -371,7 +371,7 @@ fn any_route_can_be_cancelled() {
         let seen = Cell::new(0);
         let outcome = solve_observed(&scene.clone().route(route), &mut |event| {
             let steps = match event {
-                Event::Phase(_) => return ControlFlow::Continue(()),
+                Event::Phase(_) | Event::Step { .. } => return ControlFlow::Continue(()),
                 Event::Pivots(_) => route == Route::Lemke,
                 Event::Iteration { residual, .. } => route != Route::Lemke && residual >= 0.0,
             };

@@ -111,7 +111,7 @@ fn plan(args: &PlanArgs) -> Result<u8, Failure> {
 
 fn solve(args: &SolveArgs) -> Result<u8, Failure> {
     let scene = on_route(Scene::read(&args.scene)?, args.route);
-    let (outcome, mut files, end) = run_steps(&scene, args)?;
+    let Ran { outcome, mut files, end } = run_steps(&scene, args)?;
     let options = Options { reference: ReferenceLines::of(&scene), ..Options::default() };
     let written = output::write_all(&outcome, &args.out, &options);
     // What was computed is printed even when a file could not be written.
@@ -127,12 +127,16 @@ fn solve(args: &SolveArgs) -> Result<u8, Failure> {
     Ok(if solved { SOLVED } else { NOT_SOLVED })
 }
 
-/// The outcome of all steps, the checkpoint if one was written, and what went wrong after a step that was
-/// solved.
-fn run_steps(
-    scene: &Scene,
-    args: &SolveArgs,
-) -> Result<(Outcome, Vec<PathBuf>, Result<(), Failure>), Failure> {
+/// What became of all steps.
+struct Ran {
+    outcome: Outcome,
+    /// The checkpoint, if one was written.
+    files: Vec<PathBuf>,
+    /// What went wrong after a step that was solved.
+    end: Result<(), Failure>,
+}
+
+fn run_steps(scene: &Scene, args: &SolveArgs) -> Result<Ran, Failure> {
     let path = args.out.join("checkpoint.json");
     let mut progress = Progress::new();
     let mut run = Run::new(scene, &mut |event| progress.show(event))?;
@@ -160,7 +164,7 @@ fn run_steps(
         }
     }
     progress.clear();
-    Ok((run.finish(), files, end))
+    Ok(Ran { outcome: run.finish(), files, end })
 }
 
 /// The scene with another route, if one is asked for; whether its keys fit is checked with the scene.

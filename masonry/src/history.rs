@@ -16,7 +16,7 @@
 //! | [`energy`] | work of loads and supports, dissipation |
 //! | [`checkpoint`] | everything that the next step needs, as a file |
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
@@ -78,7 +78,7 @@ impl Actions {
     }
 
     fn towards(&self, end: &Self, fraction: f64) -> Self {
-        let between = |(from, to): (&f64, &f64)| from * (1.0 - fraction) + to * fraction;
+        let between = |(from, to): (&f64, &f64)| from + (to - from) * fraction;
         let moves = self.movements.iter().zip(&end.movements);
         Self {
             gravity: between((&self.gravity, &end.gravity)),
@@ -121,7 +121,10 @@ pub fn steps(scene: &Scene) -> Vec<Step> {
         let end = actions.after(stage, scene);
         let of = stage.steps as usize;
         steps.extend((1..=of).map(|number| {
-            let actions = actions.towards(&end, number as f64 / of as f64);
+            // The end of a stage is exactly what the scene says.
+            let fraction = number as f64 / of as f64;
+            let within = || actions.towards(&end, fraction);
+            let actions = if number == of { end.clone() } else { within() };
             Step { stage: stage.name.clone(), number, of, actions }
         }));
         actions = end;
@@ -138,6 +141,7 @@ impl Model {
     /// Gravity and tractions are multiplied by their factors. A support's movement `u_s` takes
     /// `u_s.n` from the gaps and `u_s.t` from the slips of its joints; slips reached before are
     /// taken away at points with friction.
+    #[must_use]
     pub fn under(&self, actions: &Actions, slips: &[f64]) -> Self {
         let mut model = self.clone();
         model.gravity *= actions.gravity;
@@ -211,12 +215,12 @@ impl History {
 
 /// What moves in a scene at all: the names of supports that some stage moves.
 pub(crate) fn moving_supports(scene: &Scene) -> Vec<&str> {
-    let moved: BTreeMap<&str, ()> = scene
+    let moved: BTreeSet<&str> = scene
         .stages
         .iter()
         .flat_map(|stage| &stage.moves)
         .filter(|(_, to)| **to != Movement::default())
-        .map(|(name, _)| (name.as_str(), ()))
+        .map(|(name, _)| name.as_str())
         .collect();
-    moved.into_keys().collect()
+    moved.into_iter().collect()
 }

@@ -12,7 +12,7 @@ use crate::outcome::{
 use crate::reduction::Reduction;
 use crate::system::{BodySystem, System, displaced_nodes};
 
-/// Gaps and slips below this fraction of the largest displacement count as zero when points are called
+/// Gaps and slips below this fraction of the largest displacement or film compression count as zero when points are called
 /// open, sticking or sliding.
 const STATUS_TOLERANCE: f64 = 1e-8;
 
@@ -184,7 +184,9 @@ fn contact_states(
     }
     let relative = states.iter().map(|s| s.y_n.abs().max(s.y_t.abs())).fold(0.0, f64::max);
     let absolute = displacements.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max);
-    let zero = STATUS_TOLERANCE * relative.max(absolute);
+    // Where no block moves and none is deformed, films may be.
+    let films = system.rows.iter().zip(&rows.t).map(|(row, t)| row.compliance * t.abs());
+    let zero = STATUS_TOLERANCE * films.fold(relative.max(absolute), f64::max);
     for state in &mut states {
         state.status = status(state, zero);
     }

@@ -328,3 +328,51 @@ fn draw_makes_a_picture() {
         assert_eq!(svg.root_element().tag_name().name(), "svg");
     }
 }
+
+/// The stages of a block that is pushed step by step until it tips at a factor of 1.
+fn pushed(steps: u32, factor: f64) -> String {
+    let push = "[[loads]]\nname = \"push\"\nfrom = [0.0, 0.0]\nto = [0.0, 1.0]\npressure = 0.8\n";
+    let stages = "[[stages]]\nname = \"weight\"\n[[stages]]\nname = \"push\"\n";
+    format!("{}{push}{stages}steps = {steps}\nloads = {{ push = {factor} }}\n", block(0.0))
+}
+
+#[test]
+fn a_load_history_can_be_taken_up_where_it_stopped() {
+    let directory = directory("history");
+    let out = directory.join("out");
+    let out_argument = out.to_str().unwrap();
+    let solve = |scene: &str, more: &[&str]| {
+        let scene = written(&directory, scene);
+        let arguments = ["solve", &scene, "--out", out_argument, "--json"];
+        masonry(&[&arguments, more].concat())
+    };
+    let output = solve(&pushed(4, 1.2), &[]);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    let result = object(&output);
+    assert_files(&result, &out);
+    let history = &result["history"];
+    assert_eq!((&history["steps"], &history["solved"]), (&5.into(), &4.into()));
+    assert_eq!(history["failed"], serde_json::json!({ "stage": "push", "step": 4, "of": 4 }));
+    assert!(result["reason"].as_str().unwrap().contains("Step 4 of 4 of stage \"push\""));
+    let number = |value: &Value| value.as_f64().unwrap();
+    assert!((number(&history["records"][3]["loads"]["push"]) - 0.9).abs() < 1e-12);
+    let reaction = &history["records"][3]["reactions"]["floor"];
+    assert!((number(&reaction["fx"]) + 0.72).abs() < 1e-9);
+    let table = fs::read_to_string(out.join("history.csv")).unwrap();
+    assert_eq!(table.lines().count(), 5);
+
+    // Three of four steps to 1.2 are done: a stage of other steps does not fit, one that comes after does.
+    let output = solve(&pushed(5, 1.2), &["--resume"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("another step 1 of stage \"push\""), "{}", stderr(&output));
+    let output = solve(&pushed(4, 1.2), &["--resume"]);
+    assert_eq!(object(&output)["history"]["records"], history["records"]);
+    fs::write(out.join("checkpoint.json"), "{}").unwrap();
+    let output = solve(&pushed(4, 1.2), &["--resume"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("line 1, column 2: this is no checkpoint"),
+        "{}",
+        stderr(&output)
+    );
+}

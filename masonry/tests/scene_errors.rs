@@ -1,6 +1,8 @@
 //! Mistakes in scenes: each is found, shown at its line and column, and told how to mend.
 #[path = "scene_errors/mortar.rs"]
 mod mortar;
+#[path = "scene_errors/stages.rs"]
+mod stages;
 
 use masonry::model::Model;
 use masonry::scene::{

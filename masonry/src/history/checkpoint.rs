@@ -155,7 +155,7 @@ impl Checkpoint {
         model: &Model,
         with_stresses: bool,
     ) -> Result<State, CheckpointError> {
-        let wanted: usize = model.blocks.iter().map(|block| nodes(block)).sum();
+        let wanted: usize = model.blocks.iter().map(nodes).sum();
         let found: usize = self.displacements.iter().map(Vec::len).sum();
         same("displacements", found, wanted)?;
         same("blocks", self.displacements.len(), model.blocks.len())?;

@@ -113,7 +113,7 @@ impl Movement {
     /// The movement `fraction` of the way from this one to another.
     #[must_use]
     pub fn towards(self, end: Self, fraction: f64) -> Self {
-        let between = |from: f64, to: f64| from * (1.0 - fraction) + to * fraction;
+        let between = |from: f64, to: f64| from + (to - from) * fraction;
         Self {
             x: between(self.x, end.x),
             y: between(self.y, end.y),

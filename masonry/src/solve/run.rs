@@ -248,18 +248,13 @@ impl Run {
 
     /// The outcome: the state after the last step that was solved.
     pub fn finish(self) -> Outcome {
-        let has_history = self.steps.len() > 1;
         let failed = self.steps.get(self.records.len()).cloned();
         let Last { info, mechanism } = self.last.unwrap_or_else(|| {
             let info = SolveInfo::new(Status::Cancelled, UNKNOWN);
             Last { info, mechanism: None }
         });
-        let history = has_history.then(|| History {
-            records: self.records,
-            failed,
-            steps: self.steps.len(),
-            loads: self.loads,
-        });
+        let steps = self.steps.len();
+        let history = History { records: self.records, failed, steps, loads: self.loads };
         let (model, state, checks) = match self.reached {
             Some(Reached { model, state, checks, .. }) => (model, Some(state), checks),
             None => (self.model, None, None),
@@ -275,7 +270,7 @@ impl Run {
             state,
             checks,
             reactions,
-            history,
+            history: (steps > 1).then_some(history),
             mechanism,
             times: self.clock.times,
         }
@@ -283,10 +278,10 @@ impl Run {
 }
 
 /// Whether friction dissipates energy, up to rounding: relative to the largest product of a force and a
-/// displacement.
+/// displacement, and to the energy that is stored.
 fn opposes(dissipation: f64, state: &State, tolerance: f64) -> bool {
     let force = state.contacts.iter().map(|contact| contact.t_t.abs()).fold(0.0, f64::max);
     let slip = state.contacts.iter().map(|contact| contact.y_t.abs()).fold(0.0, f64::max);
     let moved = state.displacements.iter().flatten().map(Vector2::norm).fold(slip, f64::max);
-    dissipation >= -tolerance * force * moved
+    dissipation >= -tolerance * (force * moved).max(state.strain_energy)
 }
