@@ -89,6 +89,7 @@ fn describe(route: Route, found: &Found) -> String {
     let counted = match route {
         Route::Qp => "programs",
         Route::Pgs => "rounds",
+        Route::Alm => "iterations",
         _ => "steps",
     };
     format!(

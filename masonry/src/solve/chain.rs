@@ -14,6 +14,7 @@ use crate::outcome::{RouteEnd, SolveInfo, State};
 use crate::plan::Choice;
 use crate::recover;
 use crate::reduction::Reduction;
+use crate::routes::alm::Multipliers;
 use crate::routes::interior::Interior;
 use crate::routes::lemke::Pivots;
 use crate::routes::pgs::Sweeps;
@@ -171,6 +172,7 @@ impl<'a> Chain<'a> {
         let answer = match route {
             Route::Qp => self.timed(&Programs { sparse: &sparse }),
             Route::Pgs => self.timed(&Sweeps { sparse: &sparse }),
+            Route::Alm => self.timed(&Multipliers { sparse: &sparse }),
             _ => self.timed(&Interior { sparse: &sparse }),
         };
         let answer = answer?;
