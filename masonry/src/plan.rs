@@ -9,7 +9,7 @@ use serde::Serialize;
 pub use routes::Choice;
 use routes::Sizes;
 
-use crate::model::Model;
+use crate::model::{Anchor, Model};
 use crate::scene::{Form, Route, Scene};
 
 /// One physical effect, on or off, and the reason.
@@ -116,6 +116,14 @@ fn film_compliances(model: &Model) -> usize {
     points.map(|point| 1 + usize::from(point.mu > 0.0)).sum()
 }
 
+/// Points of strips at elastic blocks, which couple the displacements of their two sides.
+fn stretching_points(model: &Model) -> usize {
+    let is_elastic = |face: &[Anchor; 2]| model.blocks[face[0].block.index()].elasticity.is_some();
+    let strips =
+        model.contacts.iter().filter_map(|point| point.film.filter(|it| it.stretch.is_some()));
+    strips.filter(|film| film.faces().iter().flatten().any(is_elastic)).count()
+}
+
 fn nodes(model: &Model) -> usize {
     model.blocks.iter().filter_map(|block| block.mesh.as_ref()).map(|mesh| mesh.nodes.len()).sum()
 }
@@ -135,6 +143,10 @@ fn solver(route: Route, form: Form, frictional_points: usize) -> (&'static str, 
         (Route::Pgs, _) => (
             "projected Gauss-Seidel sweeps",
             "springs make the stiffness definite, and are centred until they carry nothing",
+        ),
+        (Route::Alm, _) => (
+            "augmented Lagrangian method",
+            "every iteration solves for the displacements and projects the forces on the friction cones",
         ),
         (_, Form::Auto) if !has_friction => {
             ("lemke", "no joint has friction: the normal contacts alone make a symmetric problem")

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{film_compliances, unknowns_per_friction};
+use super::{film_compliances, stretching_points, unknowns_per_friction};
 use crate::model::Model;
 use crate::routes::pgs;
 use crate::scene::{Form, Route, Scene};
@@ -18,7 +18,8 @@ pub struct Choice {
     pub route: Route,
     /// Why it has this place.
     pub because: String,
-    /// Order of the complementarity problem that it begins with.
+    /// Order of the complementarity problem that it begins with; of the augmented Lagrangian method, of its
+    /// linear systems.
     pub order: usize,
     /// Order of the largest problem that it may turn to.
     pub largest_order: usize,
@@ -62,7 +63,9 @@ pub(super) fn of(scene: &Scene, sizes: &Sizes) -> Vec<Choice> {
             ),
             (Route::Qp, "where the interior points come to no end".to_owned()),
         ],
-        route @ (Route::Lemke | Route::Interior | Route::Qp) => vec![(route, given(route))],
+        route @ (Route::Lemke | Route::Interior | Route::Qp | Route::Alm) => {
+            vec![(route, given(route))]
+        }
         Route::Pgs if scene.solver.soft.is_some() => vec![(Route::Pgs, given(Route::Pgs))],
         Route::Pgs => vec![(
             Route::Pgs,
@@ -85,6 +88,8 @@ pub(super) struct Sizes {
     pub(super) rigid_modes: usize,
     pub(super) displacements: usize,
     pub(super) largest_block: usize,
+    /// Whether strips of mortar couple the blocks.
+    coupled: bool,
 }
 
 impl Sizes {
@@ -100,6 +105,7 @@ impl Sizes {
             displacements: blocks.clone().map(|block| unknowns(block).unwrap_or(3)).sum::<usize>()
                 + film_compliances(model),
             largest_block: blocks.filter_map(unknowns).max().unwrap_or(0),
+            coupled: stretching_points(model) > 0,
         }
     }
 
@@ -115,6 +121,10 @@ impl Sizes {
         match route {
             Route::Auto | Route::Lemke => self.lemke(form),
             Route::Interior => sparse,
+            // Contact forces are no unknowns of its linear systems.
+            Route::Alm => {
+                Choice { order: self.displacements, largest_order: self.displacements, ..sparse }
+            }
             // The matrix of a program, and that of a proof, have the rows of the contacts too.
             Route::Qp => Choice { memory_bytes: sparse.memory_bytes.saturating_mul(6), ..sparse },
             Route::Pgs => Choice {
@@ -156,10 +166,11 @@ impl Sizes {
         factors.saturating_add(self.points.saturating_mul(PER_POINT))
     }
 
-    /// What the sweeps keep: the displacements of two blocks for every force.
+    /// What the sweeps keep: the displacements of two blocks for every force, of all where blocks are coupled.
     fn columns(&self) -> usize {
         const PER_NUMBER: usize = 12;
         let forces = self.points + self.frictional;
-        forces.saturating_mul(2 * self.largest_block.max(3)).saturating_mul(PER_NUMBER)
+        let moved = if self.coupled { self.displacements } else { 2 * self.largest_block.max(3) };
+        forces.saturating_mul(moved).saturating_mul(PER_NUMBER)
     }
 }

@@ -28,6 +28,7 @@ pub fn deformed(title: &str, model: &Model, state: &State) -> String {
         .zip(&state.displacements)
         .map(|(block, moves)| moved_nodes(block, moves, factor))
         .collect();
+    let model = &with_moved_supports(model, factor);
     let still = marks::bounds(model);
     let bounds = Bounds::of(moved.iter().flatten().copied().chain([still.low, still.high]));
 
@@ -54,6 +55,17 @@ pub(super) fn magnification(bounds: &Bounds, largest: f64) -> f64 {
     let slender = if side > 0.0 { SHOWN.1 * side } else { f64::INFINITY };
     let wanted = slender.min(SHOWN.0 * bounds.diagonal()) / largest;
     if wanted.is_finite() && wanted > 0.0 { round_down(wanted) } else { 1.0 }
+}
+
+/// The model with its supports where they have moved to, magnified like the blocks.
+fn with_moved_supports(model: &Model, factor: f64) -> Model {
+    let mut model = model.clone();
+    for support in &mut model.supports {
+        let [from, to] = [support.from, support.to].map(|end| support.displacement_at(end));
+        support.from += from * factor;
+        support.to += to * factor;
+    }
+    model
 }
 
 fn moved_nodes(block: &Block, moves: &[Vector2<f64>], factor: f64) -> Vec<Point2<f64>> {
