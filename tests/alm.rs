@@ -66,7 +66,10 @@ fn panels_as_by_interior_points() {
             assert_eq!(answer.status, Status::Solved, "{name}");
             assert!(answer.residuals.worst() <= tolerance, "{:?}", answer.residuals);
             let last = answer.history.last().unwrap();
-            assert!(last.unbalance <= tolerance && last.attempt == 1, "{last:?}");
+            assert!(
+                last.unbalance.max(last.distance) <= tolerance && last.attempt == 1,
+                "{last:?}"
+            );
             let (mut error, mut size) = (0.0_f64, 0.0_f64);
             let mut difference = vec![0.0; problem.displacements()];
             let mut forces = difference.clone();
@@ -79,13 +82,38 @@ fn panels_as_by_interior_points() {
                 error = error.max(difference.abs());
                 size = size.max(force.abs());
             }
-            assert!(error < 20.0 * tolerance * size, "{name}: {error} of {size}");
+            assert!(error < 3.0 * tolerance * size, "{name}: {error} of {size}");
             iterations.push(answer.history.len());
             // Far fewer factorisations than iterations: most states are found early.
             assert!(answer.factorisations < answer.history.len());
         }
         // Linear convergence: twice the digits cost less than four times the iterations.
         assert!(iterations[1] < 4 * iterations[0], "{name}: {iterations:?}");
+    }
+}
+
+/// A bar that floats slides against a stop, by hundred times what it is compressed by then; beside it a body
+/// rests on a plane. Gaps and slips are as accurate as deformations, not as the way of the bar.
+#[test]
+fn a_body_that_slides_far_hides_nothing() {
+    let (far, tolerance) = (100.0, 1e-8);
+    let k = mat![
+        [1.0, -1.0, 0.0, 0.0],
+        [-1.0, 1.0, 0.0, 0.0],
+        [0.0, 0.0, 4.0, 0.0],
+        [0.0, 0.0, 0.0, 4.0]
+    ];
+    let normal = mat![[0.0, -1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+    let tangent = mat![[0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+    let loads = vec![1.0, 0.0, 1.4, -2.0];
+    let (x_0, s_0, mu) = (vec![far, 0.0], vec![0.0; 2], vec![0.0, 0.5]);
+    let problem = Contact2d::new(k, loads, normal, tangent, x_0, s_0, mu).unwrap();
+    let Answer { status, state, .. } = solve(&problem, tolerance);
+    assert_eq!(status, Status::Solved);
+    let found =
+        [state.t_n[0], state.t_n[1], state.t_t[1], state.gap[0], state.gap[1], state.slip[1]];
+    for (found, expected) in found.iter().zip([1.0, 2.0, -1.0, 0.0, 0.0, 0.1]) {
+        assert!((found - expected).abs() < 3.0 * tolerance, "{found} instead of {expected}");
     }
 }
 

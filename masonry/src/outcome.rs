@@ -8,6 +8,7 @@ use crate::history::History;
 use crate::ids::{BlockId, ContactId, FilmId};
 use crate::model::Model;
 use crate::plan::Plan;
+use crate::routes::alm;
 use crate::scene::Route;
 
 /// The mechanical state of a model under its loads, in SI units.
@@ -123,14 +124,18 @@ pub struct SolveInfo {
     /// The form that was solved: `coulomb`, `stewart-trinkle` or `mixed`
     /// ([`FormKind`](crate::forms::FormKind)) of the pivoting route, `contact` of the others.
     pub form: String,
-    /// Order of the complementarity problem.
+    /// Order of the complementarity problem; of the augmented Lagrangian method, of its linear systems.
     pub order: usize,
     /// One line for each attempt of any route: form, covering vector, start basis, outcome.
     pub attempts: Vec<String>,
     /// Pivots over all attempts.
     pub pivots: usize,
-    /// Steps of the interior-point method, programs, or times that springs were centred.
+    /// Steps of the interior-point method, programs, times that springs were centred, or iterations of
+    /// the augmented Lagrangian method.
     pub iterations: usize,
+    /// Every iteration of the augmented Lagrangian method; empty on the other routes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub convergence: Vec<alm::Iteration>,
     /// Matrices factorised.
     pub factorisations: usize,
     /// The evidence, where springs say that there is no equilibrium.
@@ -158,6 +163,7 @@ impl SolveInfo {
             attempts: Vec::new(),
             pivots: 0,
             iterations: 0,
+            convergence: Vec::new(),
             factorisations: 0,
             springs: None,
             proved: false,

@@ -144,6 +144,10 @@ fn solver(route: Route, form: Form, frictional_points: usize) -> (&'static str, 
             "projected Gauss-Seidel sweeps",
             "springs make the stiffness definite, and are centred until they carry nothing",
         ),
+        (Route::Alm, _) => (
+            "augmented Lagrangian method",
+            "every iteration solves for the displacements and projects the forces on the friction cones",
+        ),
         (_, Form::Auto) if !has_friction => {
             ("lemke", "no joint has friction: the normal contacts alone make a symmetric problem")
         }

@@ -6,14 +6,14 @@
 //! | [`interior`] | [`Sparse`](crate::forms::Sparse) | interior points, with evidence where nothing stands |
 //! | [`qp`] | [`Sparse`](crate::forms::Sparse) | convex quadratic programs, with proofs where nothing stands |
 //! | [`pgs`] | [`Sparse`](crate::forms::Sparse) | sweeps over the contacts of blocks on springs |
+//! | [`alm`] | [`Sparse`](crate::forms::Sparse) | the augmented Lagrangian method of the paper |
 //!
-//! All of these give an [`Answer`] to a [`Request`]; [`alm`], the augmented Lagrangian method of the paper,
-//! stands by itself. Which ones a scene is given is in its
+//! All of them give an [`Answer`] to a [`Request`]. Which ones a scene is given is in its
 //! [`Plan`](crate::plan::Plan).
 
 use std::ops::ControlFlow;
 
-use crate::forms::RowState;
+use crate::forms::{RowState, Start};
 use crate::outcome::SolveInfo;
 use crate::scene::Form;
 
@@ -54,6 +54,8 @@ pub struct Answer {
     pub rows: Option<RowState>,
     /// The displacements of the sparse problem, of the routes that have them, when solved.
     pub displacements: Option<Vec<f64>>,
+    /// The basis of the pivoting route, when solved: a start for the next step of a load history.
+    pub basis: Option<Start>,
     /// A motion that nothing seems to stop, when not solved.
     pub motion: Option<Motion>,
 }
@@ -74,7 +76,7 @@ pub enum Step {
     Pivots(lcp::Progress),
     /// It iterates.
     Iteration {
-        /// Steps, programs, or times that springs were centred, done so far.
+        /// Steps, iterations, programs, or times that springs were centred, done so far.
         number: usize,
         /// The residual by which the route stops.
         residual: f64,

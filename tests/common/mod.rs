@@ -5,6 +5,7 @@
 
 pub mod films;
 pub mod panels;
+pub mod routes;
 
 use lcp::Status;
 use masonry::ids::BlockId;

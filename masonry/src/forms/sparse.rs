@@ -104,6 +104,11 @@ impl Sparse {
         RowState { t: rows(&state.t_n, &state.t_t), y: rows(&state.gap, &state.slip) }
     }
 
+    /// The first displacement of every block, and one past the last.
+    pub(crate) fn starts(&self) -> &[usize] {
+        &self.starts
+    }
+
     /// The displacements of one block: of its nodes, or the amplitudes of its rigid motions.
     ///
     /// # Panics

@@ -8,6 +8,7 @@ use super::format::{InUnits, block_name};
 use super::summary::{extreme_film_stresses, extreme_stresses, largest_displacement, reason};
 use crate::outcome::{Outcome, Reaction, RouteEnd, SoftReport, SpringShares};
 use crate::plan::Plan;
+use crate::routes::alm::Iteration;
 use crate::scene::Route;
 
 /// The object of `result.json` and of `masonry solve --json`, pretty-printed.
@@ -44,6 +45,8 @@ struct Report<'a> {
     attempts: &'a [String],
     pivots: usize,
     iterations: usize,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    convergence: &'a [Iteration],
     factorisations: usize,
     memory_bytes: usize,
     residuals: Option<lcp::Residuals>,
@@ -180,6 +183,7 @@ impl<'a> Report<'a> {
             attempts: &solve.attempts,
             pivots: solve.pivots,
             iterations: solve.iterations,
+            convergence: &solve.convergence,
             factorisations: solve.factorisations,
             memory_bytes: outcome.plan.memory_bytes(),
             residuals: state.map(|_| solve.residuals),

@@ -18,7 +18,8 @@ pub struct Choice {
     pub route: Route,
     /// Why it has this place.
     pub because: String,
-    /// Order of the complementarity problem that it begins with.
+    /// Order of the complementarity problem that it begins with; of the augmented Lagrangian method, of its
+    /// linear systems.
     pub order: usize,
     /// Order of the largest problem that it may turn to.
     pub largest_order: usize,
@@ -62,7 +63,9 @@ pub(super) fn of(scene: &Scene, sizes: &Sizes) -> Vec<Choice> {
             ),
             (Route::Qp, "where the interior points come to no end".to_owned()),
         ],
-        route @ (Route::Lemke | Route::Interior | Route::Qp) => vec![(route, given(route))],
+        route @ (Route::Lemke | Route::Interior | Route::Qp | Route::Alm) => {
+            vec![(route, given(route))]
+        }
         Route::Pgs if scene.solver.soft.is_some() => vec![(Route::Pgs, given(Route::Pgs))],
         Route::Pgs => vec![(
             Route::Pgs,
@@ -118,6 +121,10 @@ impl Sizes {
         match route {
             Route::Auto | Route::Lemke => self.lemke(form),
             Route::Interior => sparse,
+            // Contact forces are no unknowns of its linear systems.
+            Route::Alm => {
+                Choice { order: self.displacements, largest_order: self.displacements, ..sparse }
+            }
             // The matrix of a program, and that of a proof, have the rows of the contacts too.
             Route::Qp => Choice { memory_bytes: sparse.memory_bytes.saturating_mul(6), ..sparse },
             Route::Pgs => Choice {

@@ -13,30 +13,33 @@
 //! closed contact are held by the proximal term `delta`, without which they would fly off and come back
 //! with huge forces; it vanishes with the steps. The penalties `rho` follow from the stiffness that the contact sees,
 //! and are made smaller where the iteration diverges or comes to rest.
+//!
+//! The unbalanced force is what the last step left over, and convergence is linear: the solution may be many such
+//! steps away. So an answer is called solved when, besides, the rate at which the steps shrink says that displacements
+//! and forces are near.
 
+mod contraction;
+mod films;
 mod matrices;
+mod mortared;
+mod route;
+mod run;
+mod structure;
 
 use std::ops::ControlFlow;
 
+pub use films::{AttachError, Segment};
 use lcp::{Contact2d, ContactState, Residuals, Status};
-use matrices::{Contact, Matrices, Structure};
-
-/// Penalty of a contact, relative to the stiffness that it sees.
-const PENALTY: f64 = 0.3;
-/// The proximal term, relative to the stiffness.
-const PROXIMAL: f64 = 1e-2;
-/// Where the unbalanced force grows by this factor over the smallest, the iteration diverges.
-const DIVERGED: f64 = 1e3;
-/// So many iterations without a reduction of it by a tenth are no progress.
-const PATIENCE: usize = 300;
-/// After that penalty and proximal term change by this factor, so many times.
-const SOFTER: f64 = 3.0;
-const ATTEMPTS: usize = 4;
+pub use mortared::{MortaredError, MortaredState, MortaredWall};
+pub use route::Multipliers;
+use serde::Serialize;
+use structure::Structure;
 
 /// What the route is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Largest unbalanced force, relative to the loads, and largest residual of an answer called solved \[-\].
+    /// Largest unbalanced force, relative to the loads, largest residual, and largest estimated error of
+    /// displacements and forces, relative to the largest of them, of an answer called solved \[-\].
     pub tolerance: f64,
     /// Iterations of all attempts.
     pub max_iterations: usize,
@@ -49,13 +52,16 @@ impl Default for Settings {
 }
 
 /// One iteration.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Iteration {
     /// The attempt, from 1.
     pub attempt: usize,
     /// Largest unbalanced force after the projection, relative to the largest load \[-\].
     pub unbalance: f64,
+    /// Estimate of the distance from the solution, of displacements and of the forces in the blocks, relative
+    /// to the largest of them or what the loads alone would make \[-\]; infinite until the iteration contracts.
+    pub distance: f64,
     /// Contacts that changed their state.
     pub changes: usize,
 }
@@ -124,103 +130,5 @@ pub fn solve(
     settings: &Settings,
     observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
 ) -> Result<Answer, AlmError> {
-    let tolerance = settings.tolerance;
-    if !(tolerance > 0.0 && tolerance < 1.0) {
-        return Err(AlmError::Tolerance { tolerance });
-    }
-    let structure = Structure::new(problem)?;
-    let mut run = Run {
-        structure: &structure,
-        settings,
-        history: Vec::new(),
-        factorisations: 0,
-        best: Best::rest(problem),
-    };
-    let mut status = Status::Stalled;
-    for attempt in 1..=ATTEMPTS {
-        let softer = SOFTER.powi(i32::try_from(attempt).unwrap_or(i32::MAX) - 1);
-        let matrices = Matrices::new(&structure, PENALTY / softer, PROXIMAL * softer)?;
-        status = run.attempt(attempt, &matrices, observer)?;
-        if status != Status::Stalled {
-            break;
-        }
-    }
-    let Run { history, factorisations, best, .. } = run;
-    let residuals = problem.residuals(&best.state);
-    Ok(Answer { status, state: best.state, residuals, history, factorisations })
-}
-
-/// The iteration with the smallest measure.
-struct Best {
-    state: ContactState,
-    measure: f64,
-}
-
-impl Best {
-    fn rest(problem: &Contact2d) -> Self {
-        let (n, m) = (problem.displacements(), problem.points());
-        let state = problem.state(vec![0.0; n], vec![0.0; m], vec![0.0; m]);
-        Self { state, measure: f64::INFINITY }
-    }
-}
-
-/// A solve in progress.
-struct Run<'a> {
-    structure: &'a Structure<'a>,
-    settings: &'a Settings,
-    history: Vec<Iteration>,
-    factorisations: usize,
-    best: Best,
-}
-
-impl Run<'_> {
-    /// Iterates from all contacts closed.
-    fn attempt(
-        &mut self,
-        attempt: usize,
-        matrices: &Matrices<'_>,
-        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
-    ) -> Result<Status, AlmError> {
-        let problem = self.structure.problem;
-        let mut at = Best::rest(problem).state;
-        let mut contacts = vec![Contact::Stick; problem.points()];
-        let mut factors = None;
-        let (mut least, mut since) = (f64::INFINITY, 0);
-        while self.history.len() < self.settings.max_iterations {
-            let present = if let Some(present) = factors.take() {
-                present
-            } else {
-                self.factorisations += 1;
-                matrices.factorised(&contacts)?
-            };
-            let u = matrices.displacements(&present, &contacts, &at);
-            let trial = problem.state(u, at.t_n, at.t_t);
-            let (t_n, t_t, next) = matrices.projected(&trial);
-            let changes = contacts.iter().zip(&next).filter(|(a, b)| a != b).count();
-            if changes == 0 {
-                factors = Some(present);
-            }
-            contacts = next;
-            at = problem.state(trial.u, t_n, t_t);
-            let unbalance = self.structure.unbalance(&at);
-            let iteration = Iteration { attempt, unbalance, changes };
-            self.history.push(iteration);
-            let measure = unbalance.max(problem.residuals(&at).worst());
-            if measure < self.best.measure {
-                self.best = Best { state: at.clone(), measure };
-            }
-            if measure <= self.settings.tolerance {
-                return Ok(Status::Solved);
-            }
-            if observer(&iteration).is_break() {
-                return Ok(Status::Cancelled);
-            }
-            since = if unbalance < 0.9 * least { 0 } else { since + 1 };
-            least = if since == 0 { unbalance } else { least };
-            if unbalance > DIVERGED * least || !unbalance.is_finite() || since > PATIENCE {
-                return Ok(Status::Stalled);
-            }
-        }
-        Ok(Status::IterationLimit)
-    }
+    run::solve(&Structure::new(problem, &[])?, settings, observer)
 }

@@ -75,6 +75,7 @@ pub(super) fn answer(
         rows: state.as_ref().map(|state| sparse.rows(state)),
         displacements: state.map(|state| state.u),
         motion: motion.map(Motion::Displacements),
+        basis: None,
     }
 }
 
@@ -88,6 +89,7 @@ fn describe(route: Route, found: &Found) -> String {
     let counted = match route {
         Route::Qp => "programs",
         Route::Pgs => "rounds",
+        Route::Alm => "iterations",
         _ => "steps",
     };
     format!(

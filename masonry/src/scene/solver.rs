@@ -54,6 +54,9 @@ pub enum Route {
     /// Projected Gauss-Seidel sweeps on the sparse problem, with blocks held by springs that
     /// are centred anew until they carry nothing.
     Pgs,
+    /// The augmented Lagrangian method on the sparse problem: contact forces as multipliers. For
+    /// elastic blocks only.
+    Alm,
 }
 
 impl Route {
@@ -65,6 +68,7 @@ impl Route {
             Self::Interior => "interior",
             Self::Qp => "qp",
             Self::Pgs => "pgs",
+            Self::Alm => "alm",
         }
     }
 }

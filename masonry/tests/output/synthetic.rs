@@ -75,6 +75,7 @@ pub(crate) fn solved(wall: Wall) -> Outcome {
             attempts: vec!["coulomb, covering vector e, empty basis: solved".to_owned()],
             pivots: 412,
             iterations: 0,
+            convergence: Vec::new(),
             factorisations: 3,
             springs: None,
             proved: false,

@@ -4,9 +4,11 @@ use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, Side};
-use lcp::{Contact2d, ContactState};
+use lcp::ContactState;
 
 use super::AlmError;
+use super::structure::Structure;
+use crate::film::pointwise::FilmResponse;
 
 /// The state of a contact, which decides what of it stands in the matrix.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,65 +16,6 @@ pub(super) enum Contact {
     Open,
     Stick,
     Slip,
-}
-
-/// Rows of the contact points beside the problem.
-pub(super) struct Structure<'a> {
-    pub(super) problem: &'a Contact2d,
-    diagonal: Vec<f64>,
-    normal: Vec<Vec<(usize, f64)>>,
-    tangent: Vec<Vec<(usize, f64)>>,
-    /// The largest load.
-    load: f64,
-}
-
-impl<'a> Structure<'a> {
-    pub(super) fn new(problem: &'a Contact2d) -> Result<Self, AlmError> {
-        let k = problem.stiffness();
-        let diagonal: Vec<f64> =
-            (0..problem.displacements()).map(|j| k.get(j, j).copied().unwrap_or(0.0)).collect();
-        if let Some(displacement) = diagonal.iter().position(|k| *k <= 0.0) {
-            return Err(AlmError::NoStiffness { displacement });
-        }
-        let rows = |matrix: &SparseColMat<usize, f64>| {
-            let mut rows = vec![Vec::new(); problem.points()];
-            matrix.triplet_iter().for_each(|entry| rows[entry.row].push((entry.col, *entry.val)));
-            rows
-        };
-        let mut tangent = rows(problem.tangent());
-        let without = problem.mu().iter().enumerate().filter(|(_, mu)| **mu == 0.0);
-        without.for_each(|(i, _)| tangent[i].clear());
-        let load = problem.loads().iter().fold(0.0_f64, |max, f| max.max(f.abs()));
-        Ok(Self { problem, diagonal, normal: rows(problem.normal()), tangent, load })
-    }
-
-    /// The stiffness that a row sees, as if `K` were diagonal.
-    fn seen(&self, row: &[(usize, f64)]) -> f64 {
-        let compliance: f64 = row.iter().map(|&(j, v)| v * v / self.diagonal[j]).sum();
-        if compliance > 0.0 { 1.0 / compliance } else { 0.0 }
-    }
-
-    /// `f + C^T t - K u`, the largest entry relative to the loads.
-    pub(super) fn unbalance(&self, state: &ContactState) -> f64 {
-        let mut rest = self.problem.loads().to_vec();
-        for entry in self.problem.stiffness().triplet_iter() {
-            rest[entry.row] -= entry.val * state.u[entry.col];
-        }
-        for (i, (t_n, t_t)) in state.t_n.iter().zip(&state.t_t).enumerate() {
-            self.normal[i].iter().for_each(|&(j, v)| rest[j] += v * t_n);
-            self.tangent[i].iter().for_each(|&(j, v)| rest[j] += v * t_t);
-        }
-        let largest = rest.iter().fold(0.0_f64, |max, v| max.max(v.abs()));
-        let forces = state.t_n.iter().fold(0.0_f64, |max, t| max.max(*t));
-        let unit = if self.load > 0.0 { self.load } else { forces };
-        if rest.iter().any(|v| !v.is_finite()) {
-            f64::INFINITY
-        } else if unit > 0.0 {
-            largest / unit
-        } else {
-            0.0
-        }
-    }
 }
 
 /// The matrices for all states of the contacts, on one pattern.
@@ -95,14 +38,19 @@ impl<'a> Matrices<'a> {
         };
         let (rho_n, rho_t) = (rho(&structure.normal), rho(&structure.tangent));
         let all = vec![Contact::Stick; rho_n.len()];
-        let matrix = assembled(structure, &all, (&rho_n, &rho_t), proximal)?;
+        let rest = structure.taken(&vec![0.0; structure.diagonal.len()]);
+        let matrix = assembled(structure, (&all, &rest.films), (&rho_n, &rho_t), proximal)?;
         let symbolic = SymbolicLlt::try_new(matrix.symbolic(), Side::Lower).map_err(failed)?;
         Ok(Self { structure, rho_n, rho_t, proximal, symbolic })
     }
 
-    pub(super) fn factorised(&self, contacts: &[Contact]) -> Result<Llt<usize, f64>, AlmError> {
+    /// Of states of the contacts and of the films.
+    pub(super) fn factorised(
+        &self,
+        states: (&[Contact], &[FilmResponse]),
+    ) -> Result<Llt<usize, f64>, AlmError> {
         let rho = (&self.rho_n[..], &self.rho_t[..]);
-        let matrix = assembled(self.structure, contacts, rho, self.proximal)?;
+        let matrix = assembled(self.structure, states, rho, self.proximal)?;
         Llt::try_new_with_symbolic(self.symbolic.clone(), matrix.as_ref(), Side::Lower)
             .map_err(failed)
     }
@@ -111,7 +59,7 @@ impl<'a> Matrices<'a> {
     pub(super) fn displacements(
         &self,
         factors: &Llt<usize, f64>,
-        contacts: &[Contact],
+        (contacts, films): (&[Contact], &[FilmResponse]),
         at: &ContactState,
     ) -> Vec<f64> {
         let Structure { problem, diagonal, normal, tangent, .. } = self.structure;
@@ -128,8 +76,30 @@ impl<'a> Matrices<'a> {
             let t_t = at.t_t[i] - held * problem.initial_slips()[i];
             tangent[i].iter().for_each(|&(j, v)| u[(j, 0)] += v * t_t);
         }
+        // What the films take beyond their matrix, as friction that is held.
+        let mut held = vec![0.0; n];
+        for (film, response) in self.structure.films.iter().zip(films) {
+            let by_matrix = film.matrix(response) * film.displacements(&at.u);
+            film.add_force(&(by_matrix - response.force), &mut held);
+        }
+        held.iter().enumerate().for_each(|(j, force)| u[(j, 0)] += force);
         factors.solve_in_place(&mut u);
         u.col_as_slice(0).to_vec()
+    }
+
+    /// How far displacements are from what this iteration is after: the forces that its contacts, projected,
+    /// and its films leave over, in a norm in which they can be added.
+    pub(super) fn lack(&self, at: &ContactState, u: &[f64]) -> f64 {
+        let Structure { problem, diagonal, .. } = self.structure;
+        let trial = problem.state(u.to_vec(), at.t_n.clone(), at.t_t.clone());
+        let (t_n, t_t, _) = self.projected(&trial);
+        let rest = self.structure.rest(&t_n, &t_t, &self.structure.taken(u));
+        let squares = rest.iter().zip(diagonal).zip(u.iter().zip(&at.u));
+        let squares = squares.map(|((rest, k), (u, old))| {
+            let rest = rest - self.proximal * k * (u - old);
+            rest * rest / k
+        });
+        squares.sum::<f64>().sqrt()
     }
 
     /// The projection of the forces on the friction cones, and the states that belong to it.
@@ -158,7 +128,7 @@ impl<'a> Matrices<'a> {
 
 fn assembled(
     structure: &Structure<'_>,
-    contacts: &[Contact],
+    (contacts, films): (&[Contact], &[FilmResponse]),
     (rho_n, rho_t): (&[f64], &[f64]),
     proximal: f64,
 ) -> Result<SparseColMat<usize, f64>, AlmError> {
@@ -176,6 +146,10 @@ fn assembled(
                 entries.extend(row.iter().map(|&(i, w)| Triplet::new(i, j, rho * v * w)));
             }
         }
+    }
+    for (film, response) in structure.films.iter().zip(films) {
+        let all = film.entries(&film.matrix(response));
+        entries.extend(all.map(|(i, j, value)| Triplet::new(i, j, value)));
     }
     let n = diagonal.len();
     SparseColMat::try_new_from_triplets(n, n, &entries).map_err(failed)

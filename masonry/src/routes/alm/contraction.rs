@@ -1,0 +1,46 @@
+//! How far a sequence that converges linearly is from its limit.
+
+/// Steps of which the largest is compared with the largest of as many before: a step that happens to be
+/// small is no sign of convergence.
+const HALF: usize = 8;
+
+/// Steps below this part of the vector are rounding errors.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// The last steps of a sequence of vectors.
+#[derive(Debug, Clone)]
+pub(super) struct Contraction {
+    /// What vectors are measured by that are smaller still.
+    unit: f64,
+    /// The sizes of the steps, relative to the vectors, the last one first.
+    steps: Vec<f64>,
+}
+
+impl Contraction {
+    pub(super) fn new(unit: f64) -> Self {
+        Self { unit, steps: Vec::new() }
+    }
+
+    /// The sequence moves from one vector to the next.
+    pub(super) fn record(&mut self, from: &[f64], to: &[f64]) {
+        let moved = from.iter().zip(to).fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()));
+        let size = to.iter().fold(self.unit, |max, v| max.max(v.abs()));
+        self.steps.truncate(2 * HALF - 1);
+        // Rounding errors go to and fro and do not shrink.
+        self.steps.insert(0, if moved > ROUNDING * size { moved / size } else { 0.0 });
+    }
+
+    /// The distance from the limit, relative to its size: `s (q + q^2 + ...)` for steps `s` that shrink by `q`
+    /// each; infinite as long as they do not, or are too few.
+    pub(super) fn remaining(&self) -> f64 {
+        let largest = |steps: &[f64]| steps.iter().fold(0.0_f64, |max, s| max.max(*s));
+        let (late, early) = self.steps.split_at(HALF.min(self.steps.len()));
+        let (late, early) = (largest(late), largest(early));
+        if self.steps.len() < 2 * HALF || late >= early {
+            return if late > 0.0 || self.steps.len() < 2 { f64::INFINITY } else { 0.0 };
+        }
+        let rate = (late / early).powf(1.0 / HALF as f64);
+        // The last step is the largest of the late ones, shrunk as often as the early to the late.
+        late * (late / early) / (1.0 - rate)
+    }
+}

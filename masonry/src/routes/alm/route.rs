@@ -1,0 +1,52 @@
+//! The augmented Lagrangian method as a route of scenes.
+
+use lcp::Error;
+
+use super::{AlmError, Settings, solve};
+use crate::forms::Sparse;
+use crate::routes::sparse::{self, Found};
+use crate::routes::{Answer, Method, Observer, Request, Step};
+use crate::scene::Route;
+
+/// The route on a sparse problem.
+#[derive(Debug, Clone, Copy)]
+pub struct Multipliers<'a> {
+    /// The problem.
+    pub sparse: &'a Sparse,
+}
+
+impl Method for Multipliers<'_> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, Error> {
+        let problem = &self.sparse.problem;
+        let settings = Settings { tolerance: request.tolerance, ..Settings::default() };
+        let mut number = 0;
+        let answer = solve(problem, &settings, &mut |at| {
+            number += 1;
+            observer(Step::Iteration { number, residual: at.unbalance })
+        })?;
+        let found = Found {
+            status: answer.status,
+            state: answer.state,
+            residuals: answer.residuals,
+            iterations: answer.history.len(),
+            factorisations: answer.factorisations,
+            springs: None,
+            proof: None,
+        };
+        let mut report = sparse::answer(Route::Alm, self.sparse, found, None);
+        report.info.order = problem.displacements();
+        report.info.convergence = answer.history;
+        Ok(report)
+    }
+}
+
+impl From<AlmError> for Error {
+    fn from(error: AlmError) -> Self {
+        match error {
+            AlmError::Tolerance { tolerance } => {
+                Self::Setting { name: "tolerance", value: tolerance, range: "in (0, 1)" }
+            }
+            other => Self::NotTreated { solver: Route::Alm.name(), reason: other.to_string() },
+        }
+    }
+}

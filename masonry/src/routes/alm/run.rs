@@ -1,0 +1,178 @@
+//! The iterations, and what ends them.
+
+use std::ops::ControlFlow;
+
+use lcp::{Contact2d, ContactState, Status};
+
+use super::contraction::Contraction;
+use super::matrices::{Contact, Matrices};
+use super::structure::{Structure, Taken};
+use super::{AlmError, Answer, Iteration, Settings};
+use crate::film::law::PointContact;
+
+/// Penalty of a contact, relative to the stiffness that it sees.
+const PENALTY: f64 = 0.3;
+/// The proximal term, relative to the stiffness.
+const PROXIMAL: f64 = 1e-2;
+/// Where the unbalanced force grows by this factor over the smallest, the iteration diverges.
+const DIVERGED: f64 = 1e3;
+/// So many iterations without a reduction of it by a tenth are no progress.
+const PATIENCE: usize = 300;
+/// After that penalty and proximal term change by this factor, so many times.
+const SOFTER: f64 = 3.0;
+const ATTEMPTS: usize = 4;
+/// Steps that leave more unbalanced are halved so often at most.
+const HALVINGS: usize = 8;
+
+/// Iterates until the answer is near enough, or to the last attempt.
+pub(super) fn solve(
+    structure: &Structure<'_>,
+    settings: &Settings,
+    observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+) -> Result<Answer, AlmError> {
+    let tolerance = settings.tolerance;
+    if !(tolerance > 0.0 && tolerance < 1.0) {
+        return Err(AlmError::Tolerance { tolerance });
+    }
+    let mut run = Run {
+        structure,
+        settings,
+        history: Vec::new(),
+        factorisations: 0,
+        best: Best::rest(structure.problem),
+    };
+    let mut status = Status::Stalled;
+    for attempt in 1..=ATTEMPTS {
+        let softer = SOFTER.powi(i32::try_from(attempt).unwrap_or(i32::MAX) - 1);
+        let matrices = Matrices::new(structure, PENALTY / softer, PROXIMAL * softer)?;
+        status = run.attempt(attempt, &matrices, observer)?;
+        if status != Status::Stalled {
+            break;
+        }
+    }
+    let Run { history, factorisations, best: Best { state, .. }, .. } = run;
+    let unbalance = structure.unbalance(&state, &structure.taken(&state.u));
+    let residuals = structure.residuals(&state, unbalance);
+    Ok(Answer { status, state, residuals, history, factorisations })
+}
+
+/// The iteration with the smallest measure.
+struct Best {
+    state: ContactState,
+    measure: f64,
+}
+
+impl Best {
+    fn rest(problem: &Contact2d) -> Self {
+        let (n, m) = (problem.displacements(), problem.points());
+        let state = problem.state(vec![0.0; n], vec![0.0; m], vec![0.0; m]);
+        Self { state, measure: f64::INFINITY }
+    }
+}
+
+/// A solve in progress.
+struct Run<'a> {
+    structure: &'a Structure<'a>,
+    settings: &'a Settings,
+    history: Vec<Iteration>,
+    factorisations: usize,
+    best: Best,
+}
+
+impl Run<'_> {
+    /// Iterates from all contacts closed.
+    fn attempt(
+        &mut self,
+        attempt: usize,
+        matrices: &Matrices<'_>,
+        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Status, AlmError> {
+        let Self { structure, settings, .. } = *self;
+        let problem = structure.problem;
+        let mut at = Best::rest(problem).state;
+        let mut taken = structure.taken(&at.u);
+        let mut contacts = vec![Contact::Stick; problem.points()];
+        let mut factors = None;
+        let (mut least, mut since) = (f64::INFINITY, 0);
+        let [mut motion, mut pull] = structure.units().map(Contraction::new);
+        while self.history.len() < settings.max_iterations {
+            let states = (&contacts[..], &taken.films[..]);
+            let present = if let Some(present) = factors.take() {
+                present
+            } else {
+                self.factorisations += 1;
+                matrices.factorised(states)?
+            };
+            let u = matrices.displacements(&present, states, &at);
+            let u = self.shortened(matrices, &at, u);
+            let trial = problem.state(u, at.t_n, at.t_t);
+            let (t_n, t_t, next) = matrices.projected(&trial);
+            let moved = structure.taken(&trial.u);
+            let changes = contacts.iter().zip(&next).filter(|(a, b)| a != b).count()
+                + changed_points(&taken, &moved);
+            if changes == 0 {
+                factors = Some(present);
+            }
+            motion.record(&at.u, &trial.u);
+            pull.record(&taken.blocks, &moved.blocks);
+            (contacts, taken) = (next, moved);
+            at = problem.state(trial.u, t_n, t_t);
+
+            let unbalance = structure.unbalance(&at, &taken);
+            let distance = motion.remaining().max(pull.remaining());
+            let iteration = Iteration { attempt, unbalance, distance, changes };
+            self.history.push(iteration);
+            let residuals = structure.residuals(&at, unbalance);
+            let residual = residuals.worst().max(structure.slack(&at, &taken));
+            let measure = unbalance.max(residual);
+            let is_solved = measure.max(distance) <= settings.tolerance;
+            if is_solved || measure < self.best.measure {
+                self.best = Best { state: at.clone(), measure };
+            }
+            let is_cancelled = observer(&iteration).is_break();
+            if is_solved {
+                return Ok(Status::Solved);
+            }
+            if is_cancelled {
+                return Ok(Status::Cancelled);
+            }
+            since = if unbalance < 0.9 * least { 0 } else { since + 1 };
+            least = if since == 0 { unbalance } else { least };
+            if unbalance > DIVERGED * least || !unbalance.is_finite() || since > PATIENCE {
+                return Ok(Status::Stalled);
+            }
+        }
+        Ok(Status::IterationLimit)
+    }
+
+    /// The step to `u`, or a part of it: with films full steps go to and fro between the states of their points.
+    fn shortened(&self, matrices: &Matrices<'_>, at: &ContactState, u: Vec<f64>) -> Vec<f64> {
+        if self.structure.films.is_empty() {
+            return u;
+        }
+        let before = matrices.lack(at, &at.u);
+        let (mut least, mut best) = (matrices.lack(at, &u), u.clone());
+        let mut share = 1.0;
+        for _ in 0..HALVINGS {
+            if least < before {
+                break;
+            }
+            share *= 0.5;
+            let way = at.u.iter().zip(&u);
+            let part: Vec<f64> = way.map(|(from, to)| from + share * (to - from)).collect();
+            let lack = matrices.lack(at, &part);
+            if lack < least {
+                (least, best) = (lack, part);
+            }
+        }
+        best
+    }
+}
+
+/// Points of films that are in other states.
+fn changed_points(one: &Taken, other: &Taken) -> usize {
+    let states = |taken: &Taken| -> Vec<PointContact> {
+        taken.films.iter().flat_map(|film| &film.points).map(|point| point.contact).collect()
+    };
+    states(one).iter().zip(states(other)).filter(|(a, b)| **a != *b).count()
+}
