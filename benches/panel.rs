@@ -30,7 +30,7 @@ fn panel(c: &mut Criterion) {
     let reduction = Reduction::new(&system, None).expect("no block is free");
     let request = Request { form: scene::Form::Mixed, ..Request::new(1e-10) };
     let solve = || {
-        let pivots = Pivots { system: &system, reduction: &reduction };
+        let pivots = Pivots { system: &system, reduction: &reduction, start: None };
         pivots.solve(&request, &mut |_| ControlFlow::Continue(())).expect("the problem is finite")
     };
     let rows = solve().rows.expect("the panel stands");

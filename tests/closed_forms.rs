@@ -4,6 +4,7 @@
 
 mod common;
 
+use common::routes::{ROUTES, solved_by, solved_unless_sweeps_stall, stands_by};
 use common::{
     GRAVITY, M_KN, assert_admissible, assert_close, critical, joint_resultant, rectangle, solved,
     stands,
@@ -142,76 +143,111 @@ fn a_stack_slides_or_tips() {
     }
 }
 
-/// A keystone between smooth faces inclined by 20 degrees, the top 1 wide, 1 high, of unit weight:
-/// each face carries `W / (2 sin 20)`.
+/// A keystone between smooth faces inclined by an angle, the top 1 wide, 1 high, of unit weight.
+fn keystone(degrees: f64, material: Material) -> Scene {
+    let foot = degrees.to_radians().tan();
+    let (left, right) = ([foot, 0.0], [1.0 - foot, 0.0]);
+    scene("Keystone", material.density(1000.0))
+        .gravity([0.0, -1.0])
+        .joint("smooth", Joint::mu(0.0))
+        .block(Block::new("key", "stone", [left, right, [1.0, 1.0], [0.0, 1.0]]).mesh([2, 3]))
+        .support(Support::new("left", left, [0.0, 1.0], "smooth"))
+        .support(Support::new("right", right, [1.0, 1.0], "smooth"))
+}
+
+/// Each face carries `W / (2 sin)` of its angle: at 20 degrees 0.92981.
 #[test]
 fn a_smooth_wedge() {
-    let (sin, cos) = 20_f64.to_radians().sin_cos();
-    let foot = sin / cos;
-    for material in [Material::rigid(), Material::elastic(1e5, 0.3)] {
-        let (left, right) = ([foot, 0.0], [1.0 - foot, 0.0]);
-        let scene = scene("Keystone", material.density(1000.0))
-            .gravity([0.0, -1.0])
-            .joint("smooth", Joint::mu(0.0))
-            .block(Block::new("key", "stone", [left, right, [1.0, 1.0], [0.0, 1.0]]).mesh([2, 3]))
-            .support(Support::new("left", left, [0.0, 1.0], "smooth"))
-            .support(Support::new("right", right, [1.0, 1.0], "smooth"));
-        let outcome = solved(&scene);
-
-        assert_eq!(outcome.plan.frictional_points, 0);
-        assert_eq!(outcome.plan.order, outcome.model.contacts.len());
-        assert_eq!(outcome.solve.order, outcome.model.contacts.len());
-        for (face, inwards) in [(0, Vector2::new(cos, sin)), (1, Vector2::new(-cos, sin))] {
-            let force = joint_resultant(&outcome, Body::Support(SupportId(face)), BlockId(0));
-            assert_close(force.norm(), 1e3 * 0.92981, 1e-5);
-            assert!((force - inwards * (1e3 * (1.0 - foot) / (2.0 * sin))).norm() < 1e-7);
+    for degrees in [5.0, 20.0, 26.0] {
+        let (sin, cos) = f64::to_radians(degrees).sin_cos();
+        for material in [Material::rigid(), Material::elastic(1e5, 0.3)] {
+            for route in ROUTES {
+                let outcome = solved_by(&keystone(degrees, material), route);
+                assert_eq!(outcome.plan.frictional_points, 0);
+                for (face, inwards) in [(0, Vector2::new(cos, sin)), (1, Vector2::new(-cos, sin))] {
+                    let force =
+                        joint_resultant(&outcome, Body::Support(SupportId(face)), BlockId(0));
+                    let expected = inwards * (1e3 * (1.0 - sin / cos) / (2.0 * sin));
+                    assert!((force - expected).norm() < 1e-9 * expected.norm(), "{route:?}");
+                    if (degrees - 20.0).abs() < 1e-9 {
+                        assert_close(force.norm(), 1e3 * 0.92981, 1e-5);
+                    }
+                }
+            }
         }
     }
 }
 
-/// A block on a floor, clamped by `N` from above, is pushed out sideways by `mu (N + N + W)`.
+/// Without friction pivots see the contact points and nothing else.
+#[test]
+fn a_smooth_wedge_has_one_unknown_for_each_point() {
+    let outcome = solved(&keystone(20.0, Material::rigid()));
+    assert_eq!(outcome.plan.order, outcome.model.contacts.len());
+    assert_eq!(outcome.solve.order, outcome.model.contacts.len());
+}
+
+/// A block on a floor, clamped by `N` from above and pushed to the side.
+fn clamped(material: Material, mu: f64, clamp: f64, force: f64) -> Scene {
+    scene("Clamped block", material)
+        .gravity([0.0, -GRAVITY])
+        .material("platen", Material::rigid())
+        .joint("bed", Joint::mu(mu))
+        .joint("guide", Joint::mu(0.0))
+        .block(block("block", [0.0, 1.0], [0.0, 1.0]))
+        .block(rectangle("platen", "platen", [0.0, 1.0], [1.0, 1.2]))
+        .support(Support::new("floor", [-1.0, 0.0], [2.0, 0.0], "bed"))
+        .support(Support::new("left guide", [0.0, 1.0], [0.0, 1.2], "guide"))
+        .support(Support::new("right guide", [1.0, 1.0], [1.0, 1.2], "guide"))
+        .load(Load::pressure("clamp", [0.0, 1.2], [1.0, 1.2], clamp))
+        .load(Load::pressure("push", [0.0, 0.0], [0.0, 1.0], force))
+}
+
+/// It is pushed out by `mu (N + N + W)`.
 #[test]
 fn a_block_clamped_between_platens() {
     let (mu, clamp) = (0.4, 30.0);
+    let capacity = mu * (2.0 * clamp + WEIGHT);
     for material in materials() {
-        let pushed = |force| {
-            scene("Clamped block", material)
-                .gravity([0.0, -GRAVITY])
-                .material("platen", Material::rigid())
-                .joint("bed", Joint::mu(mu))
-                .joint("guide", Joint::mu(0.0))
-                .block(block("block", [0.0, 1.0], [0.0, 1.0]))
-                .block(rectangle("platen", "platen", [0.0, 1.0], [1.0, 1.2]))
-                .support(Support::new("floor", [-1.0, 0.0], [2.0, 0.0], "bed"))
-                .support(Support::new("left guide", [0.0, 1.0], [0.0, 1.2], "guide"))
-                .support(Support::new("right guide", [1.0, 1.0], [1.0, 1.2], "guide"))
-                .load(Load::pressure("clamp", [0.0, 1.2], [1.0, 1.2], clamp))
-                .load(Load::pressure("push", [0.0, 0.0], [0.0, 1.0], force))
-        };
+        let pushed = |force| clamped(material, mu, clamp, force);
         let found = critical([0.0, 100.0], |force| stands(&pushed(force)));
-        assert_close(found, mu * (2.0 * clamp + WEIGHT), 1e-6);
+        assert_close(found, capacity, 1e-6);
+        assert_limit_of_all_routes(capacity, pushed);
     }
 }
 
-/// A block held between two walls by a thrust `H` carries `2 mu H`.
+/// A block held between two walls by a thrust `H` and loaded on top.
+fn held(material: Material, mu: f64, thrust: f64, force: f64) -> Scene {
+    scene("Held block", material)
+        .material("platen", Material::rigid())
+        .joint("head", Joint::mu(mu))
+        .joint("guide", Joint::mu(0.0))
+        .block(block("block", [0.0, 1.0], [0.0, 1.0]))
+        .block(rectangle("platen", "platen", [1.0, 1.2], [0.0, 1.0]))
+        .support(Support::new("wall", [0.0, 0.0], [0.0, 1.0], "head"))
+        .support(Support::new("lower guide", [1.0, 0.0], [1.2, 0.0], "guide"))
+        .support(Support::new("upper guide", [1.0, 1.0], [1.2, 1.0], "guide"))
+        .load(Load::pressure("thrust", [1.2, 0.0], [1.2, 1.0], thrust))
+        .load(Load::pressure("top", [0.0, 1.0], [1.0, 1.0], force))
+}
+
+/// It carries `2 mu H`.
 #[test]
 fn a_block_held_by_thrust() {
     let (mu, thrust) = (0.3, 25.0);
+    let capacity = 2.0 * mu * thrust;
     for material in materials() {
-        let loaded = |force| {
-            scene("Held block", material)
-                .material("platen", Material::rigid())
-                .joint("head", Joint::mu(mu))
-                .joint("guide", Joint::mu(0.0))
-                .block(block("block", [0.0, 1.0], [0.0, 1.0]))
-                .block(rectangle("platen", "platen", [1.0, 1.2], [0.0, 1.0]))
-                .support(Support::new("wall", [0.0, 0.0], [0.0, 1.0], "head"))
-                .support(Support::new("lower guide", [1.0, 0.0], [1.2, 0.0], "guide"))
-                .support(Support::new("upper guide", [1.0, 1.0], [1.2, 1.0], "guide"))
-                .load(Load::pressure("thrust", [1.2, 0.0], [1.2, 1.0], thrust))
-                .load(Load::pressure("top", [0.0, 1.0], [1.0, 1.0], force))
-        };
+        let loaded = |force| held(material, mu, thrust, force);
         let found = critical([0.0, 100.0], |force| stands(&loaded(force)));
-        assert_close(found, 2.0 * mu * thrust, 1e-6);
+        assert_close(found, capacity, 1e-6);
+        assert_limit_of_all_routes(capacity, loaded);
+    }
+}
+
+/// Every route finds an equilibrium just below a limit, and none just above it.
+#[track_caller]
+fn assert_limit_of_all_routes(limit: f64, loaded: impl Fn(f64) -> Scene) {
+    for route in ROUTES {
+        solved_unless_sweeps_stall(&loaded(0.999 * limit), route);
+        assert!(!stands_by(&loaded(1.001 * limit), route), "{route:?} above {limit}");
     }
 }

@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
+#[path = "lcp_cli/methods.rs"]
+mod methods;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -166,148 +168,6 @@ fn the_trace_has_a_record_for_every_pivot() {
     let answer = Run::of(&["solve", &file, "--json", "--trace", &trace]).json();
     let trace: Value = serde_json::from_str(&std::fs::read_to_string(trace).unwrap()).unwrap();
     assert_eq!(trace.as_array().unwrap().len() as u64, answer["pivots"].as_u64().unwrap());
-}
-
-/// The names for programs and for people.
-const METHODS: [(&str, &str); 5] = [
-    ("lemke", "Lemke's method"),
-    ("pgs", "projected Gauss-Seidel"),
-    ("qp", "quadratic programming"),
-    ("newton", "semismooth Newton"),
-    ("interior", "the interior-point method"),
-];
-
-/// A tridiagonal matrix with 4 on and -1 off the diagonal, of which `z = (1, 2, 1)` is a solution.
-const TRIDIAGONAL: &str = "3  4 -1 0  -1 4 -1  0 -1 4  -2 -6 -2";
-
-#[test]
-fn every_method_solves_what_is_for_all_of_them() {
-    let folder = Folder::new("methods");
-    let file = folder.file("problem.txt", TRIDIAGONAL);
-    for (option, full_name) in METHODS {
-        let run = Run::of(&["solve", &file, "--json", "--solver", option, "--tol", "1e-12"]);
-        assert_eq!(run.code, 0, "{option}");
-        let answer = run.json();
-        assert_eq!(answer["solver"], option);
-        assert_near(&answer["z"], &[1.0, 2.0, 1.0]);
-        assert_eq!(answer["pivots"].is_u64(), option == "lemke");
-        assert_eq!(answer["iterations"].is_u64(), option != "lemke");
-        assert_eq!(answer["factorisations"].is_u64(), option != "lemke");
-        assert!(answer.get("routes").is_none());
-        let report = Run::of(&["solve", &file, "--solver", option]).out;
-        let unit = if option == "lemke" { "pivot" } else { "iteration" };
-        let line = report.lines().nth(1).unwrap();
-        assert!(
-            line.starts_with(&format!("Solved: {full_name}, ")) && line.contains(unit),
-            "{line}"
-        );
-        assert!(!report.contains("auto"), "{report}");
-    }
-}
-
-#[test]
-fn every_kind_comes_back_right_from_the_methods_that_treat_it() {
-    let folder = Folder::new("kinds_and_methods");
-    let mixed =
-        r#"{"kind": "mixed", "m": [[2, -1], [1, 1]], "q": [-2, -1], "free": [true, false]}"#;
-    let mixed = folder.file("mixed.json", mixed);
-    for option in ["auto", "lemke", "qp", "interior"] {
-        let answer = Run::of(&["solve", &mixed, "--json", "--solver", option]).json();
-        assert_near(&answer["z"], &[1.0, 0.0]);
-        assert_near(&answer["w"], &[0.0, 0.0]);
-    }
-    let boxed = r#"{"kind": "boxed", "m": [[2, 1], [1, 2]], "q": [-9, 2], "lower": [-1, -1],
-        "upper": [3, null]}"#;
-    let boxed = folder.file("boxed.json", boxed);
-    for option in ["auto", "lemke", "pgs"] {
-        let answer = Run::of(&["solve", &boxed, "--json", "--solver", option]).json();
-        assert_near(&answer["z"], &[3.0, -1.0]);
-        assert_near(&answer["w"], &[-4.0, 3.0]);
-    }
-    let horizontal = r#"{"kind": "horizontal", "a": [[2]], "b": [[-1]], "c": [1]}"#;
-    let horizontal = folder.file("horizontal.json", horizontal);
-    for option in ["auto", "lemke", "pgs", "qp", "newton", "interior"] {
-        let answer = Run::of(&["solve", &horizontal, "--json", "--solver", option]).json();
-        assert_near(&answer["z"], &[0.5]);
-    }
-    let contact = folder.file("contact.dat", "2 1 0 2 2 2 2  2 0 0 1  -2 -0.25  0.5");
-    for option in ["auto", "lemke", "pgs", "interior"] {
-        let answer = Run::of(&["solve", &contact, "--json", "--solver", option]).json();
-        assert_near(&answer["contacts"]["normal"], &[1.0]);
-        assert_near(&answer["contacts"]["tangential"], &[0.25]);
-    }
-}
-
-#[test]
-fn a_method_says_what_it_does_not_treat() {
-    let folder = Folder::new("not_treated");
-    let mixed = r#"{"kind": "mixed", "m": [[0, 1], [-1, 1]], "q": [-1, 1], "free": [true, false]}"#;
-    let games = r#"{"kind": "lcp", "m": [[0, 2], [1, 0]], "q": [-1, -1]}"#;
-    let (mixed, games) = (folder.file("mixed.json", mixed), folder.file("games.json", games));
-    for (file, option, words) in [
-        (&mixed, "newton", "semismooth Newton cannot treat this problem: it is not a standard"),
-        (&mixed, "pgs", "projected Gauss-Seidel cannot treat this problem"),
-        (&games, "newton", "M[0, 0] is 0, but every diagonal entry must be positive: take Lemke"),
-        (&games, "pgs", "row 0 has the diagonal entry 0"),
-        (&games, "qp", "M is not symmetric: M[1, 0] is 1 and M[0, 1] is 2"),
-    ] {
-        let run = Run::of(&["solve", file, "--json", "--solver", option]);
-        assert_eq!((run.code, run.out.as_str()), (2, ""), "{option}");
-        assert!(run.err.starts_with("error: ") && run.err.contains(words), "{}", run.err);
-    }
-}
-
-#[test]
-fn auto_says_what_it_chose_and_why() {
-    let folder = Folder::new("auto");
-    let file = folder.file("problem.txt", TRIDIAGONAL);
-    let answer = Run::of(&["solve", &file, "--json"]).json();
-    let routes = answer["routes"].as_array().unwrap();
-    assert_eq!((&answer["solver"], routes.len()), (&"newton".into(), 1));
-    assert_eq!(routes[0]["end"]["ended"]["status"], "Solved");
-    let report = Run::of(&["solve", &file]).out;
-    assert!(report.contains("auto chose semismooth Newton: order 3, dense, symmetric"), "{report}");
-    // No solution: one method stalls, the next one has the proof.
-    let file = folder.file("none.txt", "2  1 -1 -1 1  -1 -1");
-    let run = Run::of(&["solve", &file, "--json"]);
-    let answer = run.json();
-    let solvers: Vec<&Value> =
-        answer["routes"].as_array().unwrap().iter().map(|route| &route["solver"]).collect();
-    assert_eq!((run.code, solvers), (1, vec![&"newton".into(), &"lemke".into()]));
-    assert_eq!(answer["certificate"]["kind"], "farkas");
-    let report = Run::of(&["solve", &file]).out;
-    for words in [
-        "Infeasible: Lemke's method",
-        "auto chose semismooth Newton",
-        "Stalled",
-        "then Lemke's method",
-    ] {
-        assert!(report.contains(words), "{words} in\n{report}");
-    }
-}
-
-#[test]
-fn options_of_one_method_are_not_for_another() {
-    let folder = Folder::new("options");
-    let (file, trace) = (folder.file("problem.txt", TEXT), folder.path("trace.json"));
-    for option in ["pgs", "qp", "newton", "interior"] {
-        for (name, value) in [("--max-pivots", "5"), ("--trace", trace.as_str())] {
-            let run = Run::of(&["solve", &file, "--solver", option, name, value]);
-            assert_eq!((run.code, run.out.as_str()), (2, ""), "{option} {name}");
-            assert!(run.err.contains(name) && run.err.contains("--solver lemke"), "{}", run.err);
-        }
-    }
-    for option in ["auto", "lemke"] {
-        let run = Run::of(&["solve", &file, "--solver", option, "--max-iterations", "5"]);
-        assert_eq!((run.code, run.out.as_str()), (2, ""), "{option}");
-        assert!(run.err.contains("--solver pgs, qp, newton or interior"), "{}", run.err);
-    }
-    let args = ["solve", &file, "--solver", "pgs", "--max-iterations", "2", "--json"];
-    let run = Run::of(&args);
-    assert_eq!((run.code, &run.json()["status"]), (1, &"IterationLimit".into()));
-    assert_eq!(run.json()["iterations"], 2);
-    let report = Run::of(&args[..6]).out;
-    assert!(report.contains("--max-iterations allows more"), "{report}");
 }
 
 #[test]

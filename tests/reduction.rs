@@ -133,7 +133,7 @@ fn random_weights(count: usize, seed: u64) -> Vec<f64> {
 fn with_weights(model: &Model, weights: Option<&[f64]>) -> (State, Vec<usize>) {
     let system = System::new(model).unwrap();
     let reduction = Reduction::new(&system, weights).unwrap();
-    let pivots = Pivots { system: &system, reduction: &reduction };
+    let pivots = Pivots { system: &system, reduction: &reduction, start: None };
     let request = Request::new(1e-10);
     let answer = pivots.solve(&request, &mut |_| ControlFlow::Continue(())).unwrap();
     assert_eq!(answer.info.status, Status::Solved, "{:#?}", answer.info.attempts);

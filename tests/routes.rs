@@ -7,20 +7,22 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 mod common;
+#[path = "routes/plan.rs"]
+mod plan;
 
 use std::cell::Cell;
 use std::ops::ControlFlow;
 
+use common::routes::{ROUTES, solved_by};
 use common::{
     GRAVITY, M_KN, all_displacements, all_reactions, all_stresses, applied_load, assert_close,
-    assert_sound, difference, joint_resultant, panels, rectangle, state,
+    difference, joint_resultant, panels, rectangle, state,
 };
 use lcp::Status;
 use masonry::ids::{BlockId, SupportId};
-use masonry::model::{Body, Model, Plane};
+use masonry::model::{Body, Plane};
 use masonry::outcome::Outcome;
 use masonry::output::{json, summary, table};
-use masonry::plan::Plan;
 use masonry::scene::{
     Block, Brick, Form, Joint, Load, Material, Route, Scene, SceneErrorKind, Support, Wall,
 };
@@ -28,15 +30,12 @@ use masonry::solve::{Event, SolveError, solve, solve_observed};
 use nalgebra::Vector2;
 use serde_json::Value;
 
-const ROUTES: [Route; 4] = [Route::Lemke, Route::Interior, Route::Qp, Route::Pgs];
 const TOLERANCE: f64 = 1e-10;
 
 /// The outcome by a route that must find one, with what all routes report.
 fn solved(scene: &Scene, route: Route) -> Outcome {
-    let outcome = solve(&scene.clone().route(route)).unwrap();
+    let outcome = solved_by(scene, route);
     let info = &outcome.solve;
-    assert_eq!(info.status, Status::Solved, "{route:?}: {:#?}", info.attempts);
-    assert_sound(&outcome, 1e-9);
     assert!(info.residuals.worst() <= TOLERANCE, "{route:?}: {:?}", info.residuals);
     assert_eq!((info.route, info.routes.len()), (route, 1));
     assert!([outcome.plan.order, outcome.plan.largest_order].contains(&info.order));
@@ -284,83 +283,6 @@ fn a_panel_without_a_floor() {
     for route in [Route::Interior, Route::Qp] {
         assert_agree(route, &solved(&hanging(2.5, elastic), route), &reference);
     }
-}
-
-/// Small scenes go to the pivots, large ones to the interior points, and the plan says why. Sparse routes
-/// have no dense matrices, and so need little memory.
-#[test]
-fn the_plan_has_no_dense_matrices_for_sparse_routes() {
-    let plan = |scene: &Scene| Plan::of(scene, &Model::from_scene(scene).unwrap());
-    let small = plan(&wall(3, materials()[1]));
-    let routes = |plan: &Plan| -> Vec<Route> { plan.routes.iter().map(|it| it.route).collect() };
-    assert_eq!(routes(&small), [Route::Lemke, Route::Interior, Route::Qp]);
-    assert!(small.dense_numbers() > 9 * small.largest_order * small.largest_order);
-    assert!(small.routes[0].because.contains(&small.largest_order.to_string()));
-
-    let large = wall(200, materials()[1]);
-    let chosen = plan(&large);
-    assert_eq!(routes(&chosen), [Route::Interior, Route::Qp]);
-    assert!(chosen.routes[0].because.contains("above 4000"), "{:?}", chosen.routes);
-    let pivots = plan(&large.clone().route(Route::Lemke));
-    assert_eq!(routes(&pivots), [Route::Lemke]);
-    for route in [Route::Interior, Route::Qp, Route::Pgs] {
-        let plan = plan(&large.clone().route(route));
-        assert_eq!((routes(&plan), plan.dense_numbers()), (vec![route], 0));
-        assert_eq!(plan.order, 2 * plan.nodes + 3 * plan.contact_points);
-        assert!(plan.memory_bytes() < pivots.memory_bytes() / 100);
-        let friction = plan.effects.iter().find(|effect| effect.name == "friction").unwrap();
-        assert_eq!(friction.unknowns, 2 * plan.contact_points);
-    }
-    // What belongs to the pivots alone chooses them.
-    for scene in [large.clone().form(Form::Mixed), large.max_pivots(10)] {
-        assert_eq!(routes(&plan(&scene)), [Route::Lemke]);
-    }
-}
-
-/// A large wall is solved without asking for it, and nothing is reduced.
-#[test]
-fn a_large_wall_goes_to_the_interior_points() {
-    let outcome = solve(&wall(200, materials()[0])).unwrap();
-    assert_eq!((outcome.solve.status, outcome.solve.route), (Status::Solved, Route::Interior));
-    assert_sound(&outcome, 1e-9);
-    assert_close(outcome.reactions[0].fy, -applied_load(&outcome.model).y, 1e-9);
-    let phases: Vec<&str> = outcome.times.iter().map(|time| time.phase.as_str()).collect();
-    assert_eq!(phases, ["model", "system", "sparse form", "solve", "recovery"]);
-}
-
-/// The mesh of one block is too fine for dense matrices, and nothing to the sparse routes.
-#[test]
-fn memory_is_that_of_the_route() {
-    let fine = scene(materials()[1])
-        .block(rectangle("block", "stone", [0.0, 1.0], [0.0, 1.0]).mesh([160, 160]))
-        .support(Support::new("floor", [0.0, 0.0], [1.0, 0.0], "bed"));
-    let error = solve(&fine.clone().route(Route::Lemke)).unwrap_err();
-    assert!(matches!(error, SolveError::TooLarge { .. }), "{error}");
-    let outcome = solve(&fine.route(Route::Interior)).unwrap();
-    assert_eq!(outcome.solve.status, Status::Solved);
-    assert_close(outcome.reactions[0].fy, 2000.0 * GRAVITY, 1e-9);
-}
-
-/// Where pivots end without an answer the next routes are asked, and all are reported.
-#[test]
-fn the_next_route_follows_where_one_fails() {
-    let scene = stack(2, 0.3, materials()[1]);
-    let outcome = solve(&scene.clone().max_pivots(1)).unwrap();
-    assert_eq!(outcome.solve.status, Status::PivotLimit, "a limit is meant for the pivots");
-    assert_eq!(outcome.solve.routes.len(), 1);
-
-    // Without friction a proof follows what springs show.
-    let pull = Load::traction("pull", [0.0, 1.0], [1.0, 1.0], [0.0, 20.0]);
-    let lifted = scene
-        .joint("bed", Joint::mu(0.0))
-        .block(rectangle("fine", "stone", [1.2, 1.9], [0.0, 0.5]).mesh([60, 40]))
-        .load(pull);
-    let outcome = solve(&lifted.gravity([0.0, -GRAVITY])).unwrap();
-    assert_eq!(outcome.solve.status, Status::Infeasible, "{:?}", outcome.solve.attempts);
-    let tried: Vec<(Route, &str)> =
-        outcome.solve.routes.iter().map(|it| (it.route, it.end.as_str())).collect();
-    assert_eq!(tried, [(Route::Interior, "NoEquilibrium"), (Route::Qp, "Infeasible")]);
-    assert_eq!(outcome.solve.attempts.len(), 2);
 }
 
 /// Every route can be watched and stopped.

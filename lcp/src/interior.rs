@@ -6,6 +6,7 @@ mod crossover;
 mod iterate;
 mod original;
 mod path;
+mod problems;
 mod scaled;
 mod settings;
 mod turn;
@@ -21,10 +22,7 @@ use path::{PROXIMAL, WIDTHS, advance, start};
 use scaled::Scaled;
 
 use crate::solve::Monitor;
-use crate::{
-    Contact2d, Error, Friction2d, HorizontalLcp, Lcp, MixedLcp, Observer, Solution, Solver, Status,
-    WarmStart,
-};
+use crate::{Error, Observer, Solution, Status, WarmStart};
 
 /// An interior-point method for the complementarity problem itself, for large sparse problems: contact
 /// with Coulomb's friction ([`Contact2d`]), and mixed and standard problems.
@@ -315,91 +313,5 @@ fn keep_better(
     });
     if is_better {
         *best = Some((judged, vertex.cloned()));
-    }
-}
-
-impl Solver<Contact2d> for InteriorPoint {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn solve_observed(
-        &self,
-        problem: &Contact2d,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
-        self.run(problem, observer)
-    }
-}
-
-/// The solution is that of [`MixedLcp::to_general`].
-impl Solver<MixedLcp> for InteriorPoint {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn solve_observed(
-        &self,
-        problem: &MixedLcp,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
-        self.run(problem, observer)
-    }
-}
-
-impl Solver<Lcp> for InteriorPoint {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn solve_observed(
-        &self,
-        problem: &Lcp,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
-        let free = vec![false; problem.order()];
-        let mixed = MixedLcp::new(problem.m().clone(), problem.q().to_vec(), free)?;
-        self.run(&mixed, observer)
-    }
-}
-
-impl Solver<Friction2d> for InteriorPoint {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn solve_observed(
-        &self,
-        problem: &Friction2d,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
-        self.solve_observed(problem.standard(), observer)
-    }
-}
-
-/// Problems that are standard ones in disguise ([`HorizontalLcp::to_standard`]).
-impl Solver<HorizontalLcp> for InteriorPoint {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn solve_observed(
-        &self,
-        problem: &HorizontalLcp,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
-        let standard = problem.to_standard().ok_or_else(|| Error::NotTreated {
-            solver: Self::NAME,
-            reason:
-                "it is not a standard one in disguise: Lemke's method treats it, or give the mixed \
-                     or the contact problem that it comes from"
-                    .to_owned(),
-        })?;
-        let mut settings = self.settings.clone();
-        settings.validate(problem.order())?;
-        settings.start = standard.start(&settings.start);
-        let mut solution = Self::new(settings).solve_observed(standard.lcp(), observer)?;
-        standard.restore(&mut solution, problem, self.settings.tolerance);
-        Ok(solution)
     }
 }

@@ -4,16 +4,16 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use crate::{
-    Basis, Contact2d, Covering, Error, Friction2d, HorizontalLcp, Lcp, Lemke, LemkeSettings,
-    Progress, Side, Solution, Status, WarmStart,
+    Basis, BoxedLcp, Contact2d, Covering, Error, Friction2d, HorizontalLcp, Lcp, Lemke,
+    LemkeSettings, MixedLcp, Progress, Side, Solution, Status, WarmStart,
 };
 
 /// A method that treats problems of type `P`.
 ///
 /// The solution carries a point of the general form of the problem: `(z, w)` as `(t, y)` for [`Lcp`]
 /// and, of the standard problem, for [`Friction2d`]; and the pairs of `to_general` for
-/// [`Contact2d`](Contact2d::to_general), [`MixedLcp`](crate::MixedLcp::to_general) and
-/// [`BoxedLcp`](crate::BoxedLcp::to_general), whose `recover` leads back.
+/// [`Contact2d`](Contact2d::to_general), [`MixedLcp`](MixedLcp::to_general) and
+/// [`BoxedLcp`](BoxedLcp::to_general), whose `recover` leads back.
 ///
 /// ```
 /// use faer::mat;
@@ -102,6 +102,36 @@ impl Solver<Friction2d> for Lemke {
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         self.solve_iterating(&problem.standard().clone().into(), observer)
+    }
+}
+
+/// On the problem of [`MixedLcp::to_general`].
+impl Solver<MixedLcp> for Lemke {
+    fn name(&self) -> &'static str {
+        Self::NAME
+    }
+
+    fn solve_observed(
+        &self,
+        problem: &MixedLcp,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
+        self.solve_iterating(&problem.to_general(), observer)
+    }
+}
+
+/// On the problem of [`BoxedLcp::to_general`].
+impl Solver<BoxedLcp> for Lemke {
+    fn name(&self) -> &'static str {
+        Self::NAME
+    }
+
+    fn solve_observed(
+        &self,
+        problem: &BoxedLcp,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
+        self.solve_iterating(&problem.to_general(), observer)
     }
 }
 

@@ -10,7 +10,7 @@ use faer::{Mat, mat};
 use lcp::families::{self, Ground, Instance, Known, Obstacle};
 use lcp::{
     Auto, AutoSettings, BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Lemke, Matrix,
-    MixedLcp, RouteEnd, Solution, Solver, Status, WarmStart,
+    RouteEnd, Solution, Solver, Status, WarmStart,
 };
 use proptest::prelude::*;
 
@@ -38,6 +38,10 @@ macro_rules! plan {
         plan.iter().map(|choice| choice.solver).collect::<Vec<_>>()
     }};
 }
+
+// Below the macro, which it needs.
+#[path = "auto/plans.rs"]
+mod plans;
 
 /// That the routes are those of the plan, as far as they go, and say what the solution says.
 fn assert_routes(solution: &Solution, plan: &[&str]) {
@@ -68,70 +72,6 @@ fn sparse(n: usize, entry: impl Fn(usize, usize) -> f64, offsets: &[usize]) -> M
 
 fn alternating(n: usize) -> Vec<f64> {
     (0..n).map(|i| if i % 3 == 0 { -2.0 } else { 1.0 }).collect()
-}
-
-#[test]
-fn signs_and_symmetry_and_size_decide_about_standard_problems() {
-    // Pivots first where they are cheap.
-    let dense = families::positive_definite(30, 1).problem;
-    assert_eq!(plan!(&dense), [LEMKE, INTERIOR, SWEEPS]);
-    let symmetric = families::fathi(10).problem;
-    assert_eq!(plan!(&symmetric), [LEMKE, INTERIOR, PROGRAM, SWEEPS]);
-    let games = families::bimatrix(4, 5, 1).problem;
-    assert_eq!(plan!(&games), [LEMKE, INTERIOR]);
-    // M-matrices of any size, also such as are not dominant.
-    for side in [3, 40] {
-        let plan = auto().plan(&families::obstacle(side).problem);
-        assert_eq!(plan[0].solver, NEWTON);
-        assert!(plan[0].reason.contains("M-matrix"), "{}", plan[0].reason);
-    }
-    let z = Lcp::new(mat![[1.0, -3.0], [-2.0, 1.0]], vec![-1.0, 2.0]).unwrap();
-    assert_eq!(plan!(&z)[0], NEWTON);
-    // Large sparse ones.
-    let entry = |i: usize, j: usize| if i == j { 3.0 } else { 1.0 };
-    let problem = Lcp::new(sparse(600, entry, &[1]), alternating(600)).unwrap();
-    assert_eq!(plan!(&problem), [NEWTON, INTERIOR, PROGRAM, SWEEPS, LEMKE]);
-    let entry = |i: usize, j: usize| if i == j { 3.0 } else { i as f64 - j as f64 };
-    let problem = Lcp::new(sparse(600, entry, &[1]), alternating(600)).unwrap();
-    assert_eq!(plan!(&problem), [INTERIOR, NEWTON, SWEEPS, LEMKE]);
-    let entry = |i: usize, j: usize| i as f64 - j as f64;
-    let problem = Lcp::new(sparse(600, entry, &[1]), alternating(600)).unwrap();
-    assert_eq!(plan!(&problem), [INTERIOR, LEMKE]);
-}
-
-#[test]
-fn other_forms_have_their_plans() {
-    let obstacle = families::obstacle(5).problem;
-    let expected = plan!(&obstacle);
-    assert_eq!(plan!(&HorizontalLcp::from(obstacle)), expected);
-    assert_eq!(plan!(&families::horizontal_monotone(9, 1).problem), [LEMKE]);
-    assert_eq!(plan!(&families::mixed_monotone(9, 1).problem), [LEMKE, INTERIOR, PROGRAM]);
-    assert_eq!(plan!(&families::mixed_singular(8, 1).problem), [LEMKE, INTERIOR]);
-    let entry = |i: usize, j: usize| if i == j { 3.0 } else { 1.0 };
-    let m = sparse(900, entry, &[1]);
-    let free = (0..900).map(|i| i % 3 == 0).collect();
-    let mixed = MixedLcp::new(m.clone(), alternating(900), free).unwrap();
-    assert_eq!(plan!(&mixed), [INTERIOR, LEMKE]);
-    let bounded =
-        |upper| BoxedLcp::new(m.clone(), alternating(900), vec![0.0; 900], upper).unwrap();
-    assert_eq!(plan!(&bounded(vec![0.5; 900])), [INTERIOR, SWEEPS, LEMKE]);
-    let free = BoxedLcp::new(
-        mat![[2.0, 1.0], [1.0, 2.0]],
-        vec![1.0; 2],
-        vec![f64::NEG_INFINITY, 0.0],
-        vec![f64::INFINITY, 1.0],
-    );
-    assert_eq!(plan!(&free.unwrap()), [LEMKE, SWEEPS]);
-    let friction = Friction2d::new(mat![[2.0, 0.0], [0.0, 1.0]], vec![-2.0, -0.25], vec![0.5]);
-    assert_eq!(plan!(&friction.unwrap()), [LEMKE, INTERIOR, SWEEPS]);
-}
-
-#[test]
-fn points_and_friction_decide_about_contact() {
-    assert_eq!(plan!(&masses(1, 0.5, 1.0)), [LEMKE, INTERIOR, PROGRAM, SWEEPS]);
-    assert_eq!(plan!(&masses(60, 0.5, 1.0)), [INTERIOR, PROGRAM, LEMKE, SWEEPS]);
-    assert_eq!(plan!(&masses(60, 0.0, 1.0)), [INTERIOR, PROGRAM, LEMKE, SWEEPS]);
-    assert_eq!(plan!(&masses(600, 0.5, 1.0)), [INTERIOR, PROGRAM, SWEEPS, LEMKE]);
 }
 
 /// Masses on a plane, one beside the other, pushed to the side, every second by more than friction holds.
@@ -407,49 +347,8 @@ fn it_is_a_solver_among_others() {
     assert_eq!(answers[0].1.t, answers[1].1.t);
 }
 
-fn power_of_ten(exponent: i32) -> f64 {
-    10.0_f64.powi(exponent)
-}
-
 proptest! {
     #![proptest_config(common::cases(48))]
-
-    /// Units of the pairs whose product is work: rows and columns alike.
-    #[test]
-    fn units_do_not_matter_for_the_plan(
-        kind in 0..4_usize,
-        exponents in proptest::collection::vec(-6..=6_i32, 36),
-    ) {
-        let problem = match kind {
-            0 => families::obstacle(6).problem,
-            1 => families::fathi(12).problem,
-            2 => families::positive_definite(12, 5).problem,
-            _ => Lcp::new(
-                sparse(600, |i, j| if i == j { 3.0 } else { 1.0 }, &[1]),
-                alternating(600),
-            ).unwrap(),
-        };
-        let n = problem.order();
-        let unit = |i: usize| power_of_ten(exponents[i % 36]);
-        let scaled = |rows: &dyn Fn(usize) -> f64| {
-            let dense = problem.m().to_dense();
-            let m = Mat::from_fn(n, n, |i, j| rows(i) * dense[(i, j)] * unit(j));
-            let m = if problem.m().is_sparse() {
-                sparse(n, |i, j| m[(i, j)], &(1..7).collect::<Vec<_>>())
-            } else {
-                m.into()
-            };
-            let q = problem.q().iter().enumerate().map(|(i, q)| rows(i) * q).collect();
-            Lcp::new(m, q).unwrap()
-        };
-        let names = |problem: &Lcp| plan!(problem);
-        prop_assert_eq!(names(&scaled(&unit)), names(&problem));
-        // Of any units signs are left, and symmetry is not.
-        let other = scaled(&|i| power_of_ten(exponents[(i + 7) % 36]));
-        if kind != 3 {
-            prop_assert_eq!(names(&other)[0], names(&problem)[0]);
-        }
-    }
 
     /// No answer is called solved without the residuals of the data, whatever the matrix.
     #[test]

@@ -3,19 +3,18 @@
 #![allow(clippy::unwrap_used)] // a test may panic
 
 mod common;
+#[path = "interior/properties.rs"]
+mod properties;
 
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use faer::sparse::SparseColMat;
 use faer::{Mat, mat};
 use lcp::families::{self, Ground, Known, Obstacle};
 use lcp::{
     Auto, AutoSettings, Contact2d, ContactState, Error, HorizontalLcp, InteriorPoint,
     InteriorPointSettings, Lcp, Lemke, MixedLcp, Solution, Solver, Status, WarmStart,
 };
-use proptest::collection::vec;
-use proptest::prelude::*;
 
 fn default() -> InteriorPointSettings {
     InteriorPointSettings::default()
@@ -324,106 +323,6 @@ fn settings_out_of_range_are_errors() {
     let settings = InteriorPointSettings { start, ..default() };
     let error = InteriorPoint::new(settings).solve(&block).unwrap_err();
     assert!(matches!(error, Error::Length { name: "start.t", len: 3, expected: 5 }), "{error}");
-}
-
-/// Rows of blocks on each other, each of which may slide and lift; small integers.
-fn problems() -> impl Strategy<Value = Contact2d> {
-    let entries = |n: usize, most: i8| vec((-most..=most).prop_map(f64::from), n);
-    (1..=6usize, 1..=5usize).prop_flat_map(move |(n, m)| {
-        let matrices = (entries(n * n, 2), entries(m * n, 2), entries(m * n, 2));
-        let mu = vec(prop::sample::select(std::vec![0.0, 0.125, 0.25, 0.5]), m);
-        let gaps = vec((0..=2i8).prop_map(f64::from), m);
-        (matrices, entries(n, 6), gaps, mu).prop_map(move |((r, c_n, c_t), f, x_0, mu)| {
-            let r = Mat::from_fn(n, n, |i, j| r[i * n + j]);
-            let k = &r * r.transpose() + Mat::<f64>::identity(n, n);
-            let c_n = Mat::from_fn(m, n, |i, j| c_n[i * n + j]);
-            let c_t = Mat::from_fn(m, n, |i, j| c_t[i * n + j]);
-            Contact2d::new(k, f, c_n, c_t, x_0, vec![0.0; m], mu).unwrap()
-        })
-    })
-}
-
-/// The same with these units of force and length and of every displacement.
-fn in_units(problem: &Contact2d, force: f64, length: f64, unit: &[f64]) -> Contact2d {
-    let (n, m) = (problem.displacements(), problem.points());
-    let [k, c_n, c_t] =
-        [problem.stiffness(), problem.normal(), problem.tangent()].map(SparseColMat::to_dense);
-    let scaled = |v: &[f64], by: f64| -> Vec<f64> { v.iter().map(|v| v * by).collect() };
-    Contact2d::new(
-        Mat::from_fn(n, n, |i, j| force / length * k[(i, j)] * unit[i] * unit[j]),
-        problem.loads().iter().zip(unit).map(|(f, unit)| force * f * unit).collect(),
-        Mat::from_fn(m, n, |i, j| c_n[(i, j)] * unit[j]),
-        Mat::from_fn(m, n, |i, j| c_t[(i, j)] * unit[j]),
-        scaled(problem.initial_gaps(), length),
-        scaled(problem.initial_slips(), length),
-        problem.mu().to_vec(),
-    )
-    .unwrap()
-}
-
-proptest! {
-    #![proptest_config(common::cases(256))]
-
-    /// Gaps that are not negative and a regular stiffness: there is a solution. Its energy is that of
-    /// Lemke's where there is no friction, and with it both are solutions, of which there may be several.
-    #[test]
-    fn elastic_bodies_are_solved(problem in problems()) {
-        let solution = solve(&problem);
-        prop_assert!(solution.is_solved(), "{:?}", solution.status);
-        let found = problem.recover(&solution.t, &solution.y);
-        prop_assert!(problem.residuals(&found).worst() <= 1e-10);
-        if problem.frictional().is_empty() {
-            let lemke = Solver::<Contact2d>::solve(&Lemke::default(), &problem).unwrap();
-            prop_assert!(lemke.is_solved());
-            assert_close(&found.u, &problem.recover(&lemke.t, &lemke.y).u);
-        }
-    }
-
-    #[test]
-    fn units_do_not_matter(
-        problem in problems(),
-        (force, length) in (-30..30i32, -30..30i32),
-        units in vec(-10..10i32, 6),
-    ) {
-        let (force, length) = (f64::from(force).exp2(), f64::from(length).exp2());
-        let unit: Vec<f64> = units[..problem.displacements()].iter().map(|u| f64::from(*u).exp2()).collect();
-        let other = in_units(&problem, force, length, &unit);
-        let (first, second) = (solve(&problem), solve(&other));
-        prop_assert!(first.is_solved() && second.is_solved(), "{:?}", second.status);
-        if problem.frictional().is_empty() {
-            let (u, other) = (
-                problem.recover(&first.t, &first.y).u,
-                other.recover(&second.t, &second.y).u,
-            );
-            let back: Vec<f64> = other.iter().zip(&unit).map(|(u, unit)| u * unit / length).collect();
-            assert_close(&back, &u);
-        }
-    }
-
-    /// A point near a solution has its states.
-    #[test]
-    fn a_point_is_a_start(problem in problems()) {
-        let solution = solve(&problem);
-        prop_assert!(solution.is_solved());
-        let start = WarmStart::Point { t: solution.t.clone(), y: solution.y.clone() };
-        let again = InteriorPoint::new(InteriorPointSettings { start, ..default() });
-        let again = again.solve(&problem).unwrap();
-        prop_assert!(again.is_solved());
-        prop_assert!(again.info.factorisations <= solution.info.factorisations);
-    }
-
-    /// Without crossover the answer is a point inside, as good as was asked for. Where no body is near any
-    /// contact, its forces have nothing by which they could be measured.
-    #[test]
-    fn points_inside_are_as_good_as_asked_for(problem in problems(), digits in 2..8i32) {
-        prop_assume!(problem.normal().val().iter().any(|v| *v != 0.0));
-        let tolerance = 10.0_f64.powi(-digits);
-        let settings = InteriorPointSettings { tolerance, crossover: false, ..default() };
-        let solution = InteriorPoint::new(settings).solve(&problem).unwrap();
-        prop_assert!(solution.is_solved(), "{:?}", solution.status);
-        let state = problem.recover(&solution.t, &solution.y);
-        prop_assert!(solution.basis.is_none() && problem.residuals(&state).worst() <= tolerance);
-    }
 }
 
 /// A standard problem as small as it can be, and one without pairs.

@@ -19,7 +19,7 @@ use crate::ids::{BlockId, FilmId, JointId, SupportId};
 use crate::model::{
     Anchor, Block, Body, ContactPoint, Film, FilmPoint, Joint, JointClass, Mortar, Support,
 };
-pub use crate::scene::PointRule;
+pub use crate::scene::{Films, PointRule};
 
 mod points;
 mod search;
@@ -44,11 +44,18 @@ pub struct Options {
     pub gap_limit: f64,
     /// Distances below this fraction of the size of the smaller block count as zero.
     pub tolerance: f64,
+    /// Which terms of mortar films are kept; strips ask for [`PointRule::Gauss`].
+    pub films: Films,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { points: PointRule::Vertices, gap_limit: 0.0, tolerance: 1e-9 }
+        Self {
+            points: PointRule::Vertices,
+            gap_limit: 0.0,
+            tolerance: 1e-9,
+            films: Films::Compliance,
+        }
     }
 }
 
@@ -145,8 +152,9 @@ pub fn find(
         let film = mortar.map(|mortar| Film { id: FilmId::new(films), mortar });
         films += usize::from(film.is_some());
         let mu = classes[class].mu;
+        let filling = mortar.map(|mortar| (mortar, options.films));
         contacts.extend(
-            points.iter().map(|p| meeting.contact(blocks, p, (joint, mortar), mu, thickness)),
+            points.iter().map(|p| meeting.contact(blocks, p, (joint, filling), mu, thickness)),
         );
         joints.push(meeting.joint(blocks, class, film));
         Ok(())
@@ -317,7 +325,7 @@ impl Meeting {
         &self,
         blocks: &[Block],
         place: &points::Place,
-        (joint, mortar): (JointId, Option<Mortar>),
+        (joint, filling): (JointId, Option<(Mortar, Films)>),
         mu: f64,
         thickness: f64,
     ) -> ContactPoint {
@@ -328,12 +336,13 @@ impl Meeting {
         let on_b = |at| Anchor { block: self.b, edge: self.b_edge, at };
         let [gap_to, gap_from] = self.overlap.gap;
         let weight = place.weight * thickness;
-        let film = mortar.map(|mortar| FilmPoint {
+        let film = filling.map(|(mortar, films)| FilmPoint {
             half: 0.5 * mortar.thickness,
             length: place.weight,
             a: on_a(place.span_on_a[0]).zip(on_a(place.span_on_a[1])).map(<[Anchor; 2]>::from),
             b: place.span_on_b.map(on_b),
             compliance: mortar.compliance(weight),
+            stretch: (films == Films::Strips).then(|| mortar.stretch(place.weight, thickness)),
         });
         let half = self.overlap.normal * film.map_or(0.0, |film| film.half);
         ContactPoint {

@@ -142,6 +142,32 @@ impl Mortar {
         let matrix = constitutive(self.material.elasticity, self.material.plane);
         [1, 2].map(|k| self.thickness / (matrix[(k, k)] * area))
     }
+
+    /// What strain along the joint does to a part of a strip of a length, in a wall of a thickness \[m\].
+    pub fn stretch(&self, length: f64, wall: f64) -> Stretch {
+        let matrix = constitutive(self.material.elasticity, self.material.plane);
+        let coupling = matrix[(0, 1)] / matrix[(1, 1)];
+        let modulus = matrix[(0, 0)] - coupling * matrix[(1, 0)];
+        Stretch { stiffness: modulus * self.thickness * wall / length, coupling }
+    }
+}
+
+/// The terms of a strip of mortar (3.28)-(3.39) that need the strain `eps_x` along the joint.
+///
+/// With `eps_x` the energy of a strip is that of a bar, whether its faces press or not, and that of the
+/// compliances:
+///
+/// ```text
+///  w = 1/2 [ (C_11 - C_12^2 / C_22) eps_x^2 + sigma_y^2 / C_22 + tau^2 / G ],
+///  sigma_x = (C_11 - C_12^2 / C_22) eps_x + (C_12 / C_22) sigma_y
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stretch {
+    /// Force of the bar for a unit of elongation, `(C_11 - C_12^2 / C_22) t_y t_z / length` \[N/m\].
+    pub stiffness: f64,
+    /// `C_12 / C_22` \[-\]: a film that keeps its thickness while it is stretched opens by
+    /// `t_y (C_12 / C_22) eps_x`, or is pulled.
+    pub coupling: f64,
 }
 
 /// The mortar of one joint.
@@ -247,4 +273,19 @@ pub struct FilmPoint {
     pub b: [Anchor; 2],
     /// Compression and shear of this part of the film under a unit of force \[m/N\].
     pub compliance: [f64; 2],
+    /// What it does along the joint; `None` where films act across their joints only.
+    pub stretch: Option<Stretch>,
+}
+
+impl FilmPoint {
+    /// Start and end of its length on side `a` and on side `b`; `None` on a support.
+    pub fn faces(&self) -> [Option<[Anchor; 2]>; 2] {
+        [self.a, Some(self.b)]
+    }
+
+    /// The gap that a unit of elongation makes, `t_y (C_12 / C_22) / length` \[-\]; zero without
+    /// [`stretch`](Self::stretch).
+    pub fn gap_per_elongation(&self) -> f64 {
+        self.stretch.map_or(0.0, |stretch| 2.0 * self.half * stretch.coupling / self.length)
+    }
 }

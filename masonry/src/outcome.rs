@@ -63,6 +63,8 @@ pub struct FilmStress {
     pub film: FilmId,
     /// The contact point.
     pub contact: ContactId,
+    /// Stress along the joint \[Pa\], tension positive; `None` where films act across their joints only.
+    pub sigma_x: Option<f64>,
     /// Stress across the joint \[Pa\], tension positive: never above zero.
     pub sigma_y: f64,
     /// Shear stress \[Pa\].

@@ -9,7 +9,7 @@ use serde::Serialize;
 pub use routes::Choice;
 use routes::Sizes;
 
-use crate::model::Model;
+use crate::model::{Anchor, Model};
 use crate::scene::{Form, Route, Scene};
 
 /// One physical effect, on or off, and the reason.
@@ -114,6 +114,14 @@ fn unknowns_per_friction(form: Form) -> usize {
 fn film_compliances(model: &Model) -> usize {
     let points = model.contacts.iter().filter(|point| point.film.is_some());
     points.map(|point| 1 + usize::from(point.mu > 0.0)).sum()
+}
+
+/// Points of strips at elastic blocks, which couple the displacements of their two sides.
+fn stretching_points(model: &Model) -> usize {
+    let is_elastic = |face: &[Anchor; 2]| model.blocks[face[0].block.index()].elasticity.is_some();
+    let strips =
+        model.contacts.iter().filter_map(|point| point.film.filter(|it| it.stretch.is_some()));
+    strips.filter(|film| film.faces().iter().flatten().any(is_elastic)).count()
 }
 
 fn nodes(model: &Model) -> usize {

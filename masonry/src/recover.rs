@@ -24,7 +24,7 @@ mod motion;
 pub use motion::mechanism;
 
 /// The state that belongs to the contact forces and relative displacements `rows`: rigid amplitudes
-/// from the isostatic rows, then `u = K^+ (f + C^T t) + N alpha` block by block.
+/// from the isostatic rows, then `u = K^+ (f + C^T t + L^T q) + N alpha` block by block.
 ///
 /// Stresses are recovered only `with_stresses`.
 pub fn recover(
@@ -35,10 +35,11 @@ pub fn recover(
     with_stresses: bool,
 ) -> State {
     let amplitudes = reduction.amplitudes(system, &rows.t, &rows.y);
+    let stretch_forces = reduction.stretch_forces(&rows.t);
     let mut strain_energy = 0.0;
     let mut displacements = Vec::with_capacity(model.blocks.len());
     for (b, (body, alpha)) in system.bodies.iter().zip(amplitudes.chunks(3)).enumerate() {
-        let elastic = system.elastic_displacements(body, &rows.t);
+        let elastic = system.elastic_displacements(body, &rows.t, &stretch_forces);
         strain_energy += energy(system, body, &elastic);
         let nodes = displaced_nodes(model, BlockId::new(b)).iter().enumerate();
         let moved = nodes.map(|(n, place)| {
@@ -48,8 +49,8 @@ pub fn recover(
         displacements.push(moved.collect());
     }
     let contacts = contact_states(model, system, rows, &displacements);
-    strain_energy += films_energy(system, rows);
-    let films = film_stresses(model, &contacts);
+    strain_energy += films_energy(model, system, rows, &displacements);
+    let films = film_stresses(model, &displacements, &contacts);
     let stresses = if with_stresses { stresses(model, &displacements) } else { Vec::new() };
     State { displacements, contacts, films, stresses, strain_energy }
 }
@@ -98,8 +99,8 @@ fn of_blocks(
         });
     }
     let contacts = contact_states(model, system, rows, &displacements);
-    strain_energy += films_energy(system, rows);
-    let films = film_stresses(model, &contacts);
+    strain_energy += films_energy(model, system, rows, &displacements);
+    let films = film_stresses(model, &displacements, &contacts);
     let stresses = if with_stresses { stresses(model, &displacements) } else { Vec::new() };
     State { displacements, contacts, films, stresses, strain_energy }
 }
@@ -109,19 +110,39 @@ fn energy(system: &System, body: &BodySystem, u: &[f64]) -> f64 {
     body.stiffness.map_or(0.0, |k| system.stiffnesses[k].energy(u))
 }
 
-/// The energy of all films \[J\].
-fn films_energy(system: &System, rows: &RowState) -> f64 {
-    system.rows.iter().zip(&rows.t).map(|(row, t)| 0.5 * row.compliance * t * t).sum()
+/// The energy of all films \[J\]: of their compression and shear, and of the elongation of strips.
+fn films_energy(
+    model: &Model,
+    system: &System,
+    rows: &RowState,
+    displacements: &[Vec<Vector2<f64>>],
+) -> f64 {
+    let across = system.rows.iter().zip(&rows.t).map(|(row, t)| 0.5 * row.compliance * t * t);
+    let along = system.stretches.iter().map(|stretch| {
+        let contact = &model.contacts[stretch.contact.index()];
+        let elongation = film_elongation(model, displacements, contact);
+        0.5 * stretch.stiffness * elongation * elongation
+    });
+    across.sum::<f64>() + along.sum::<f64>()
 }
 
 /// Stresses at the points of all films, in the order of the points.
-pub fn film_stresses(model: &Model, contacts: &[ContactState]) -> Vec<FilmStress> {
+pub fn film_stresses(
+    model: &Model,
+    displacements: &[Vec<Vector2<f64>>],
+    contacts: &[ContactState],
+) -> Vec<FilmStress> {
     let points = model.contacts.iter().zip(contacts).enumerate();
     let of_point = |(k, (point, state)): (usize, (&ContactPoint, &ContactState))| {
-        let film = model.joints[point.joint.index()].film.filter(|_| point.film.is_some())?;
+        let film = model.joints[point.joint.index()].film?;
+        let part = point.film?;
         // Adding zero turns a stress of -0.0 into 0.0.
         let [sigma_y, tau] = [state.t_n, state.t_t].map(|force| 0.0 - force / point.weight);
-        Some(FilmStress { film: film.id, contact: ContactId::new(k), sigma_y, tau })
+        let sigma_x = part.stretch.map(|stretch| {
+            let bar = stretch.stiffness * film_elongation(model, displacements, point);
+            bar / (2.0 * part.half * model.thickness) + stretch.coupling * sigma_y
+        });
+        Some(FilmStress { film: film.id, contact: ContactId::new(k), sigma_x, sigma_y, tau })
     };
     points.filter_map(of_point).collect()
 }
@@ -143,7 +164,7 @@ pub fn displacement_at(
 }
 
 /// `u_b - u_a` \[m\] at a contact point: across a film, of its two faces as they and their mean
-/// rotations carry the middle between them.
+/// rotations carry the middle between them, and with the gap that the elongation of a strip makes.
 pub fn relative_displacement(
     model: &Model,
     displacements: &[Vec<Vector2<f64>>],
@@ -155,7 +176,25 @@ pub fn relative_displacement(
     let joint = &model.joints[contact.joint.index()];
     let turned = |[start, end]: [Anchor; 2]| (side(end) - side(start)).dot(&joint.normal);
     let turned = turned(film.b) + film.a.map_or(0.0, turned);
-    apart + joint.tangent() * (turned * film.half / film.length)
+    let opened = film.gap_per_elongation() * film_elongation(model, displacements, contact);
+    apart + joint.tangent() * (turned * film.half / film.length) + joint.normal * opened
+}
+
+/// How much the part of a film that a contact point stands for becomes longer \[m\]: the mean of its two
+/// faces, of which those on supports and rigid blocks do not stretch. Zero in a dry joint.
+pub fn film_elongation(
+    model: &Model,
+    displacements: &[Vec<Vector2<f64>>],
+    contact: &ContactPoint,
+) -> f64 {
+    let Some(film) = &contact.film else { return 0.0 };
+    let tangent = model.joints[contact.joint.index()].tangent();
+    let is_elastic = |face: &[Anchor; 2]| model.blocks[face[0].block.index()].elasticity.is_some();
+    let of_face = |[start, end]: [Anchor; 2]| {
+        let [start, end] = [start, end].map(|end| displacement_at(model, displacements, end));
+        0.5 * (end - start).dot(&tangent)
+    };
+    film.faces().into_iter().flatten().filter(is_elastic).map(of_face).sum()
 }
 
 fn contact_states(

@@ -4,13 +4,17 @@
 //! `t_I = R t_E + t_0` (3.18), and the relative displacements follow from
 //! `y_E = A t_E - R^T y_I + c` (3.23), where `A = W^T F W`, `W` is the identity on `E` and `R` on `I`,
 //! and `F = C K^+ C^T`, with the compliance of mortar films on the diagonal. Any generalised inverse `K^+` gives the same `A` and `c`, because the
-//! columns of `W` and the loads with `t_0` balance on every block.
+//! columns of `W` and the loads with `t_0` balance on every block. Strips of mortar couple blocks; what that changes
+//! is in `stretching`.
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef};
 
 use crate::rigid::{self, Modes, RigidError, select_rows};
 use crate::system::System;
+use stretching::Stretching;
+
+mod stretching;
 
 /// The reduced problem: equilibrium and compatibility in the contact forces.
 #[derive(Debug, Clone)]
@@ -31,6 +35,8 @@ pub struct Reduction {
     pub compliances: Vec<Compliance>,
     /// `G_I`, rows `I` by three columns per block.
     g_isostatic: Mat<f64>,
+    /// What the strips of mortar change; `None` without them.
+    stretching: Option<Stretching>,
 }
 
 /// The compliance that one block gives to its contact rows.
@@ -70,21 +76,30 @@ impl Reduction {
 
         let compliances = compliances(system);
         let flexibility = Flexibility::assemble(system, &compliances, &isostatic, &others);
-        let a = flexibility.reduce(r.as_ref());
+        let mut a = flexibility.reduce(r.as_ref());
+        let stretching = Stretching::of(system);
+        if let Some(stretching) = &stretching {
+            stretching.stiffen(&mut a, &stretching.on_others(&isostatic, &others, r.as_ref()));
+        }
 
         let mut t = vec![0.0; system.rows.len()];
         isostatic.iter().zip(&t0).for_each(|(row, force)| t[*row] = *force);
-        let y = relative_displacements(system, &compliances, &t);
+        let y = relative_displacements(system, (&compliances, stretching.as_ref()), &t);
         let y_isostatic = Mat::from_fn(isostatic.len(), 1, |i, _| y[isostatic[i]]);
         let carried = r.transpose() * y_isostatic;
         let c = others.iter().enumerate().map(|(k, row)| y[*row] + carried[(k, 0)]).collect();
-        Ok(Self { isostatic, others, r, t0, a, c, compliances, g_isostatic })
+        Ok(Self { isostatic, others, r, t0, a, c, compliances, g_isostatic, stretching })
     }
 
     /// Relative displacements `F t + C K^+ f + x` \[m\] of all rows for forces `t` \[N\], without the
     /// rigid motions.
     pub fn elastic_gaps(&self, system: &System, t: &[f64]) -> Vec<f64> {
-        relative_displacements(system, &self.compliances, t)
+        relative_displacements(system, (&self.compliances, self.stretching.as_ref()), t)
+    }
+
+    /// The forces `q` \[N\] of the stretches of strips on their blocks for forces `t` \[N\] of all rows.
+    pub fn stretch_forces(&self, t: &[f64]) -> Vec<f64> {
+        self.stretching.as_ref().map_or_else(Vec::new, |stretching| stretching.forces(t))
     }
 
     /// The rigid amplitudes \[m\], three per block, for the forces `t` \[N\] and the relative
@@ -107,6 +122,9 @@ impl Reduction {
         system.rows.iter().enumerate().for_each(|(k, row)| f[(k, k)] = row.compliance);
         for block in &self.compliances {
             scatter(&mut f, block, Some, Some);
+        }
+        if let Some(stretching) = &self.stretching {
+            stretching.stiffen(&mut f, stretching.on_rows());
         }
         f
     }
@@ -137,7 +155,11 @@ fn compliances(system: &System) -> Vec<Compliance> {
     system.bodies.iter().map(of_body).collect()
 }
 
-fn relative_displacements(system: &System, blocks: &[Compliance], t: &[f64]) -> Vec<f64> {
+fn relative_displacements(
+    system: &System,
+    (blocks, stretching): (&[Compliance], Option<&Stretching>),
+    t: &[f64],
+) -> Vec<f64> {
     let own = system.rows.iter().zip(t).map(|(row, t)| row.offset + row.compliance * t);
     let mut y: Vec<f64> = own.collect();
     for block in blocks {
@@ -146,6 +168,9 @@ fn relative_displacements(system: &System, blocks: &[Compliance], t: &[f64]) -> 
                 block.rows.iter().enumerate().map(|(j, r)| block.f[(i, j)] * t[*r]).sum();
             y[*row] += f_t + v;
         }
+    }
+    if let Some(stretching) = stretching {
+        y.iter_mut().zip(stretching.displacements(t)).for_each(|(y, more)| *y += more);
     }
     y
 }

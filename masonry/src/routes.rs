@@ -13,7 +13,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::forms::RowState;
+use crate::forms::{RowState, Start};
 use crate::outcome::SolveInfo;
 use crate::scene::Form;
 
@@ -54,6 +54,8 @@ pub struct Answer {
     pub rows: Option<RowState>,
     /// The displacements of the sparse problem, of the routes that have them, when solved.
     pub displacements: Option<Vec<f64>>,
+    /// The basis of the pivoting route, when solved: a start for the next step of a load history.
+    pub basis: Option<Start>,
     /// A motion that nothing seems to stop, when not solved.
     pub motion: Option<Motion>,
 }

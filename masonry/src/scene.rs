@@ -285,6 +285,9 @@ pub struct Contact {
     /// Bodies closer than this may meet \[length\]; zero: only bodies that touch.
     #[serde(default)]
     pub gap_limit: f64,
+    /// Which terms of mortar films are kept.
+    #[serde(default)]
+    pub films: Films,
 }
 
 /// Where on a joint the contact law is enforced.
@@ -300,6 +303,19 @@ pub enum PointRule {
     NodalPairs,
     /// At two Gauss points in every part on which the shape functions of both sides are linear.
     Gauss,
+}
+
+/// Which terms of mortar films are kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Films {
+    /// What acts across the joint: a compliance in series with each contact point, without strain
+    /// along the joint.
+    #[default]
+    Compliance,
+    /// The whole strip (3.28)-(3.39), also with the stress along the joint and the strain that it
+    /// shares with the blocks. It is integrated at its Gauss points: `points` must be `gauss`.
+    Strips,
 }
 
 /// What is written.

@@ -7,8 +7,10 @@
 //! A film of mortar is a spring in series with the contact: `y = C u + x + c t`, with the compliance `c`
 //! of the film in the row of the point ([`Row::compliance`]). Its shear is that of the strip (3.38),
 //! `(u_b - u_a).t` and half the thickness times the rotation of both faces, so that no rigid motion
-//! shears it; both faces feel its force in the middle between them. What a strip has beyond that,
-//! the strain along the joint, is left out.
+//! shears it; both faces feel its force in the middle between them. Whole strips of mortar have two terms
+//! more where they touch elastic blocks, by the elongation `e = L u` of the film: a gap of
+//! `t_y (C_12 / C_22) eps_x` in the normal row, and the force of a bar, [`StretchRow`],
+//! `K u + L^T D L u = f + C^T t`. Rigid motions have no part in either.
 
 use faer::Mat;
 use nalgebra::{Point2, Vector2};
@@ -16,15 +18,17 @@ use nalgebra::{Point2, Vector2};
 use crate::geometry;
 use crate::ids::{BlockId, ContactId};
 use crate::mesh::BlockMesh;
-use crate::model::{Anchor, Block, Elasticity, Model};
+use crate::model::{Anchor, Block, Elasticity, FilmPoint, Joint, Model};
 use crate::rigid::Modes;
 
 mod loads;
 mod stiffness;
+mod stretch;
 
 pub use loads::{nodal_loads, resultant};
 use stiffness::Parts;
 pub use stiffness::Stiffness;
+pub use stretch::{BodyStretch, StretchRow};
 
 /// Why the stiffness of a block could not be built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -105,6 +109,8 @@ pub struct BodySystem {
     pub resultant: [f64; 3],
     /// Its contact rows, increasing.
     pub rows: Vec<BodyRow>,
+    /// The strips that stretch with it; none for a rigid block.
+    pub stretches: Vec<BodyStretch>,
 }
 
 /// Stiffness, loads and contact rows of a whole model.
@@ -116,6 +122,8 @@ pub struct System {
     pub friction: Vec<(ContactId, f64)>,
     /// The blocks, in the order of the model.
     pub bodies: Vec<BodySystem>,
+    /// The elongations of strips that act on elastic blocks; none where films are compliances.
+    pub stretches: Vec<StretchRow>,
     /// Stiffnesses; equal blocks share one.
     pub stiffnesses: Vec<Stiffness>,
 }
@@ -173,12 +181,14 @@ impl System {
                 load,
                 resultant: resultant(model, block),
                 rows: Vec::new(),
+                stretches: Vec::new(),
             });
         }
         for (k, row) in rows.iter().enumerate() {
             add_row(model, &mut bodies, k, row);
         }
-        Ok(Self { rows, friction, bodies, stiffnesses: shared.into_list() })
+        let stretches = stretch::add_rows(model, &mut bodies);
+        Ok(Self { rows, friction, bodies, stretches, stiffnesses: shared.into_list() })
     }
 
     /// Takes loads, gaps and slips from another state of the same model ([`Model::under`]); stiffness and
@@ -234,18 +244,22 @@ impl System {
         self.bodies.iter().flat_map(|body| body.resultant).collect()
     }
 
-    /// `K^+ (f + C^T t)` of one block \[m\], for forces `t` \[N\] of all rows: its displacements up to
-    /// a rigid motion, provided that loads and contact forces balance. Empty for a rigid block.
+    /// `K^+ (f + C^T t + L^T q)` of one block \[m\], for forces `t` \[N\] of all rows and `q` \[N\] of all
+    /// stretches: its displacements up to a rigid motion, provided that loads and contact forces balance. Empty
+    /// for a rigid block.
     ///
     /// # Panics
-    /// If `t` is shorter than the number of rows, or the system was built without factors.
-    pub fn elastic_displacements(&self, body: &BodySystem, t: &[f64]) -> Vec<f64> {
+    /// If `t` or `q` is shorter than the number of rows, or the system was built without factors.
+    pub fn elastic_displacements(&self, body: &BodySystem, t: &[f64], q: &[f64]) -> Vec<f64> {
         let Some(stiffness) = body.stiffness.map(|k| &self.stiffnesses[k]) else {
             return Vec::new();
         };
         let mut load = body.load.clone();
         for row in &body.rows {
             row.entries.iter().for_each(|(dof, c)| load[*dof] += c * t[row.row]);
+        }
+        for stretch in &body.stretches {
+            stretch.entries.iter().for_each(|(dof, c)| load[*dof] += c * q[stretch.row]);
         }
         let rhs = Mat::from_fn(load.len(), 1, |i, _| load[i]);
         stiffness.solve(&rhs).col_as_slice(0).to_vec()
@@ -284,19 +298,25 @@ fn add_row(model: &Model, bodies: &mut [BodySystem], k: usize, row: &Row) {
         let entries = match (&block.mesh, body.stiffness) {
             (Some(mesh), Some(_)) => {
                 let mut entries = entries(mesh, anchor, direction);
-                if let (Some(film), Some([start, end]), Direction::Tangent) =
-                    (film, span, row.direction)
-                {
-                    // The mean rotation of the face over the length that the point stands for.
-                    let turned = joint.normal * (film.half / film.length);
-                    entries.extend(self::entries(mesh, end, turned));
-                    entries.extend(self::entries(mesh, start, -turned));
+                if let Some((film, [start, end])) = film.zip(span) {
+                    let apart = along_film(film, joint, row.direction);
+                    entries.extend(self::entries(mesh, end, apart));
+                    entries.extend(self::entries(mesh, start, -apart));
                 }
                 entries
             }
             _ => Vec::new(),
         };
         body.rows.push(BodyRow { row: k, entries, modes });
+    }
+}
+
+/// How much each face of a film adds to a row by the relative displacement of the ends of the
+/// length that the point stands for: by the mean rotation to the shear, by the elongation to the gap.
+fn along_film(film: &FilmPoint, joint: &Joint, direction: Direction) -> Vector2<f64> {
+    match direction {
+        Direction::Normal => joint.tangent() * (0.5 * film.gap_per_elongation()),
+        Direction::Tangent => joint.normal * (film.half / film.length),
     }
 }
 

@@ -1,6 +1,8 @@
 //! Mistakes in scenes: each is found, shown at its line and column, and told how to mend.
 #[path = "scene_errors/mortar.rs"]
 mod mortar;
+#[path = "scene_errors/places.rs"]
+mod places;
 #[path = "scene_errors/stages.rs"]
 mod stages;
 
@@ -317,94 +319,6 @@ fn keys_missing_at_the_top() {
         let message = error_of(piece, "").to_string();
         assert!(message.contains(words), "{message}");
     }
-}
-
-#[test]
-fn blocks_of_a_wrong_shape() {
-    let clockwise = "[[0.0, 0.3], [0.0, 0.5], [1.0, 0.5], [1.0, 0.3]]";
-    assert_error(
-        CORNERS,
-        clockwise,
-        "[[",
-        "blocks[0].corners",
-        &["block \"lintel\" run clockwise (area -0.2 m2)", "list them counter-clockwise"],
-    );
-    let dented = "[[0.0, 0.3], [1.0, 0.3], [0.1, 0.35], [0.0, 0.5]]";
-    assert_error(
-        CORNERS,
-        dented,
-        "[0.1",
-        "blocks[0].corners[2]",
-        &["not strictly convex at corner 3"],
-    );
-}
-
-#[test]
-fn blocks_in_a_wrong_place() {
-    assert_error(
-        "[[0.0, 0.3], [1.0, 0.3]",
-        "[[0.0, 0.29], [1.0, 0.3]",
-        "[[0.0",
-        "blocks[0].corners",
-        &["blocks \"wall/3/1\" and \"lintel\" overlap by an area of 0.0018", "m2"],
-    );
-    let far = "[[0.0, 10.3], [1.0, 10.3], [1.0, 10.5], [0.0, 10.5]]";
-    assert_error(
-        CORNERS,
-        far,
-        "[[0.0",
-        "blocks[0].corners",
-        &["\"lintel\" touches no other block and no support", "move in every direction"],
-    );
-}
-
-#[test]
-fn supports_and_loads_in_a_wrong_place() {
-    let idle = "[[loads]]\nname = \"idle\"\nfrom = [5, 0]\nto = [6, 0]\npressure = 1\n[[loads]]";
-    let error = error_of("[[loads]]", idle);
-    let line = GOOD.lines().position(|line| line == "[[loads]]").unwrap() + 1;
-    assert_eq!((error.line(), error.key()), (Some(line), "loads[0]".to_owned()), "{error}");
-    assert!(error.to_string().contains("load \"idle\" acts on nothing"), "{error}");
-
-    let within = idle.replace("[5, 0]", "[0, 0.1]").replace("[6, 0]", "[1, 0.1]");
-    assert!(matches!(error_of("[[loads]]", &within).kind(), SceneErrorKind::IdleLoad { .. }));
-
-    let hook =
-        "[[supports]]\nname = \"hook\"\nfrom = [7, 1]\nto = [8, 1]\njoint = \"bed\"\n[[supports]]";
-    let error = error_of("[[supports]]", hook);
-    assert!(error.to_string().contains("no block touches support \"hook\""), "{error}");
-    assert_eq!(error.key(), "supports[0]");
-
-    let through = hook.replace("[7, 1]", "[0.5, 0.4]").replace("[8, 1]", "[8, 0.4]");
-    let error = error_of("[[supports]]", &through);
-    let words = "runs through the inside of block \"lintel\" for a length of 0.5";
-    assert!(error.to_string().contains(words), "{error}");
-
-    assert_error(
-        "to = [3.0, 0.0]",
-        "to = [-1.0, 0.0]",
-        "[-1.0",
-        "supports[0].to",
-        &["no length", "[-1, 0]"],
-    );
-    // Too short for its direction to be computed.
-    let error = error_of("to = [3.0, 0.0]", "to = [-1.0, 1e-300]");
-    assert!(matches!(error.kind(), SceneErrorKind::NoLength { .. }), "{error}");
-}
-
-#[test]
-fn a_joint_class_that_blocks_need() {
-    let error = error_of("[joints.head]\nphi_deg = 30.0", "");
-    assert!(error.to_string().contains("add [joints.head]"), "{error}");
-    assert!(error.to_string().contains("\"wall/1/1\" and \"wall/1/2\""), "{error}");
-}
-
-#[test]
-fn contact_points_at_nodes_that_do_not_match() {
-    let error = error_of("gap_limit = 0.0", "points = \"nodal_pairs\"");
-    assert!(matches!(error.kind(), SceneErrorKind::Contact(_)), "{error}");
-    assert_eq!(error.key(), "contact.points");
-    assert!(error.line().is_some());
 }
 
 #[test]

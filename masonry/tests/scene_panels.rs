@@ -44,7 +44,7 @@ fn every_scene_reads_and_survives_a_round_trip() {
         assert_eq!(again.to_toml().unwrap(), text);
         count += 1;
     }
-    assert!(count >= 9);
+    assert!(count >= 11);
 }
 
 #[test]

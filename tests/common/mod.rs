@@ -3,7 +3,9 @@
 #![allow(dead_code, reason = "every test binary uses its own part of this module")]
 #![allow(unreachable_pub, reason = "a module of helpers, compiled into each test binary")]
 
+pub mod films;
 pub mod panels;
+pub mod routes;
 
 use lcp::Status;
 use masonry::ids::BlockId;

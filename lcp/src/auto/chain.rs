@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::method::{Effort, Planned};
+use super::method::{Effort, Planned, attempt};
 use super::{Auto, AutoSettings};
 use crate::error::full_name;
 use crate::{Error, Observer, Route, RouteEnd, Solution, Status, WarmStart};
@@ -48,7 +48,7 @@ pub(super) fn run<P: Planned>(
         let start = near.as_ref().unwrap_or(&settings.start);
         let effort = Effort { tolerance: settings.tolerance, time_limit, start };
         let route_began = Instant::now();
-        let (end, solution) = match problem.attempt(step.method, &effort, observer) {
+        let (end, solution) = match attempt(problem, step.method, &effort, observer) {
             Ok(solution) => {
                 let residual = solution.residuals.worst();
                 (RouteEnd::Ended { status: solution.status, residual }, Some(solution))
@@ -137,38 +137,52 @@ mod tests {
     use crate::auto::method::{Method, Step};
     use crate::{Iteration, Lcp, Solver};
 
-    /// `w = 2 z - 1` for methods that refuse, or are too slow.
-    struct Refusing;
+    /// A problem for methods that refuse.
+    struct Refused;
 
-    impl Planned for Refusing {
+    impl Planned for Refused {
         fn pairs(&self) -> usize {
             1
         }
 
-        fn steps(&self) -> Vec<Step> {
-            [Method::Lemke, Method::ProjectedGaussSeidel].map(|it| Step::new(it, "a test")).into()
+        fn is_sparse(&self) -> bool {
+            true
         }
 
-        fn attempt(
-            &self,
-            method: Method,
-            _: &Effort<'_>,
-            _: &mut Observer<'_>,
-        ) -> Result<Solution, Error> {
-            let reason = format!("{} is not at home", method.name());
-            Err(Error::NotTreated { solver: method.name(), reason })
+        fn steps(&self) -> Vec<Step> {
+            [Method::Lemke, Method::ProjectedGaussSeidel, Method::SemismoothNewton]
+                .map(|it| Step::new(it, "a test"))
+                .into()
+        }
+
+        fn solver(&self, method: Method, _: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
+            (method != Method::SemismoothNewton).then(|| Box::new(Refusing(method)) as _)
+        }
+    }
+
+    struct Refusing(Method);
+
+    impl Solver<Refused> for Refusing {
+        fn name(&self) -> &'static str {
+            self.0.name()
+        }
+
+        fn solve_observed(&self, _: &Refused, _: &mut Observer<'_>) -> Result<Solution, Error> {
+            let reason = format!("{} is not at home", self.name());
+            Err(Error::NotTreated { solver: self.name(), reason })
         }
     }
 
     #[test]
     fn where_all_refuse_all_reasons_are_given() {
         let ignore = &mut |_: &Iteration| ControlFlow::Continue(());
-        let error = run(&Refusing, &AutoSettings::default(), ignore).map(|it| it.status);
+        let error = run(&Refused, &AutoSettings::default(), ignore).map(|it| it.status);
         let Err(Error::NotTreated { solver: "auto", reason }) = error else {
             panic!("{error:?}");
         };
         assert!(reason.contains("Lemke's method: lemke is not at home"), "{reason}");
         assert!(reason.contains("projected Gauss-Seidel: pgs is not at home"), "{reason}");
+        assert!(reason.contains("semismooth Newton: it is not in the chain"), "{reason}");
     }
 
     #[test]

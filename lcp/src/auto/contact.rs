@@ -1,10 +1,9 @@
 //! The chains of contact with friction.
 
 use super::facts::Facts;
-use super::memory;
-use super::method::{Effort, Method, Planned, Step, not_in_chain};
+use super::method::{Effort, Method, Planned, Step};
 use super::standard::{common_steps, program_step};
-use crate::{Contact2d, Error, Friction2d, Observer, Solution, Solver};
+use crate::{Contact2d, Friction2d, Solver};
 
 /// Up to so many contact points pivots take no time.
 const VERY_FEW: usize = 40;
@@ -14,6 +13,10 @@ const FEW: usize = 500;
 impl Planned for Friction2d {
     fn pairs(&self) -> usize {
         self.order()
+    }
+
+    fn is_sparse(&self) -> bool {
+        self.standard().m().is_sparse()
     }
 
     fn steps(&self) -> Vec<Step> {
@@ -26,22 +29,12 @@ impl Planned for Friction2d {
         steps
     }
 
-    fn attempt(
-        &self,
-        method: Method,
-        effort: &Effort<'_>,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
+    fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
-            Method::Lemke => {
-                memory::check(self.standard().m().is_sparse(), self.order())?;
-                Solver::<Self>::solve_observed(&effort.lemke(), self, observer)
-            }
-            Method::InteriorPoint => effort.interior_point().solve_observed(self, observer),
-            Method::ProjectedGaussSeidel => effort.sweeps().solve_observed(self, observer),
-            Method::SemismoothNewton => Err(not_in_chain(method)),
-            #[cfg(feature = "clarabel")]
-            Method::QuadraticProgram => Err(not_in_chain(method)),
+            Method::Lemke => Some(Box::new(effort.lemke())),
+            Method::InteriorPoint => Some(Box::new(effort.interior_point())),
+            Method::ProjectedGaussSeidel => Some(Box::new(effort.sweeps())),
+            _ => None,
         }
     }
 }
@@ -49,6 +42,10 @@ impl Planned for Friction2d {
 impl Planned for Contact2d {
     fn pairs(&self) -> usize {
         self.order()
+    }
+
+    fn is_sparse(&self) -> bool {
+        true
     }
 
     fn steps(&self) -> Vec<Step> {
@@ -92,19 +89,14 @@ impl Planned for Contact2d {
         }
     }
 
-    fn attempt(
-        &self,
-        method: Method,
-        effort: &Effort<'_>,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
+    fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
-            Method::Lemke => Solver::<Self>::solve_observed(&effort.lemke(), self, observer),
-            Method::InteriorPoint => effort.interior_point().solve_observed(self, observer),
+            Method::Lemke => Some(Box::new(effort.lemke())),
+            Method::InteriorPoint => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
-            Method::QuadraticProgram => effort.quadratic_program().solve_observed(self, observer),
-            Method::ProjectedGaussSeidel => effort.sweeps().solve_observed(self, observer),
-            Method::SemismoothNewton => Err(not_in_chain(method)),
+            Method::QuadraticProgram => Some(Box::new(effort.quadratic_program())),
+            Method::ProjectedGaussSeidel => Some(Box::new(effort.sweeps())),
+            _ => None,
         }
     }
 

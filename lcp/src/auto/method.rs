@@ -2,10 +2,11 @@
 
 use std::time::Duration;
 
+use super::memory;
 use crate::{
     Error, InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings, Observer,
     ProjectedGaussSeidel, ProjectedGaussSeidelSettings, SemismoothNewton, SemismoothNewtonSettings,
-    Solution, WarmStart,
+    Solution, Solver, WarmStart,
 };
 #[cfg(feature = "clarabel")]
 use crate::{QuadraticProgram, QuadraticProgramSettings};
@@ -48,29 +49,44 @@ impl Step {
 }
 
 /// A problem with a chain of methods. Only the problems of the library are.
-pub trait Planned {
+pub trait Planned: Sized {
     /// Pairs of a start.
     fn pairs(&self) -> usize;
+
+    /// Whether pivots on the problem are on sparse matrices.
+    fn is_sparse(&self) -> bool;
 
     /// The chain.
     fn steps(&self) -> Vec<Step>;
 
-    /// Solves the problem by a method of the chain.
-    ///
-    /// # Errors
-    /// Those of the method.
-    fn attempt(
-        &self,
-        method: Method,
-        effort: &Effort<'_>,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error>;
+    /// A method of the chain with its settings; `None` for all others.
+    fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>>;
 
     /// Whether a method is worth its time where there is evidence, and no proof yet, that there is no
     /// solution.
     fn is_worth_a_proof(&self, _: Method) -> bool {
         true
     }
+}
+
+/// Solves a problem by a method of its chain.
+///
+/// # Errors
+/// Those of the method, and [`Error::NotTreated`] where the memory does not suffice for dense pivots.
+pub(super) fn attempt<P: Planned>(
+    problem: &P,
+    method: Method,
+    effort: &Effort<'_>,
+    observer: &mut Observer<'_>,
+) -> Result<Solution, Error> {
+    if method == Method::Lemke {
+        memory::check(problem.is_sparse(), problem.pairs())?;
+    }
+    let solver = problem.solver(method, effort).ok_or_else(|| Error::NotTreated {
+        solver: method.name(),
+        reason: "it is not in the chain of this problem".to_owned(),
+    })?;
+    solver.solve_observed(problem, observer)
 }
 
 /// What a method gets.
@@ -134,12 +150,5 @@ impl Effort<'_> {
             start,
             ..Default::default()
         })
-    }
-}
-
-pub(super) fn not_in_chain(method: Method) -> Error {
-    Error::NotTreated {
-        solver: method.name(),
-        reason: "it is not in the chain of this problem".to_owned(),
     }
 }

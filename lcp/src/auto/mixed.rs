@@ -1,14 +1,17 @@
 //! The chains of problems with free and with bounded variables.
 
 use super::facts::Facts;
-use super::memory;
-use super::method::{Effort, Method, Planned, Step, not_in_chain};
+use super::method::{Effort, Method, Planned, Step};
 use super::standard::common_steps;
-use crate::{BoxedLcp, Error, HorizontalLcp, MixedLcp, Observer, Solution, Solver};
+use crate::{BoxedLcp, MixedLcp, Solver};
 
 impl Planned for MixedLcp {
     fn pairs(&self) -> usize {
         self.order()
+    }
+
+    fn is_sparse(&self) -> bool {
+        self.m().is_sparse()
     }
 
     fn steps(&self) -> Vec<Step> {
@@ -28,22 +31,13 @@ impl Planned for MixedLcp {
         steps
     }
 
-    fn attempt(
-        &self,
-        method: Method,
-        effort: &Effort<'_>,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
+    fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
-            Method::Lemke => {
-                memory::check(self.m().is_sparse(), self.order())?;
-                let general = self.to_general();
-                Solver::<HorizontalLcp>::solve_observed(&effort.lemke(), &general, observer)
-            }
-            Method::InteriorPoint => effort.interior_point().solve_observed(self, observer),
+            Method::Lemke => Some(Box::new(effort.lemke())),
+            Method::InteriorPoint => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
-            Method::QuadraticProgram => effort.quadratic_program().solve_observed(self, observer),
-            other => Err(not_in_chain(other)),
+            Method::QuadraticProgram => Some(Box::new(effort.quadratic_program())),
+            _ => None,
         }
     }
 }
@@ -69,6 +63,10 @@ impl Planned for BoxedLcp {
         self.order() + bounds.filter(|(l, u)| is_between(**l, **u)).count()
     }
 
+    fn is_sparse(&self) -> bool {
+        self.m().is_sparse()
+    }
+
     fn steps(&self) -> Vec<Step> {
         let facts = Facts::of(self.m());
         let general = self.to_general();
@@ -83,25 +81,12 @@ impl Planned for BoxedLcp {
         steps
     }
 
-    fn attempt(
-        &self,
-        method: Method,
-        effort: &Effort<'_>,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
+    fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
-            Method::Lemke => {
-                memory::check(self.m().is_sparse(), self.pairs())?;
-                let general = self.to_general();
-                Solver::<HorizontalLcp>::solve_observed(&effort.lemke(), &general, observer)
-            }
-            Method::InteriorPoint => {
-                effort.interior_point().solve_observed(&self.to_general(), observer)
-            }
-            Method::ProjectedGaussSeidel => effort.sweeps().solve_observed(self, observer),
-            Method::SemismoothNewton => Err(not_in_chain(method)),
-            #[cfg(feature = "clarabel")]
-            Method::QuadraticProgram => Err(not_in_chain(method)),
+            Method::Lemke => Some(Box::new(effort.lemke())),
+            Method::InteriorPoint => Some(Box::new(effort.interior_point())),
+            Method::ProjectedGaussSeidel => Some(Box::new(effort.sweeps())),
+            _ => None,
         }
     }
 }

@@ -1,9 +1,8 @@
 //! The chain of standard problems, and of general ones that are standard in disguise.
 
 use super::facts::{Facts, Symmetry, is_z_matrix};
-use super::memory;
 use super::method::{Effort, Method, Planned, Step};
-use crate::{Error, HorizontalLcp, Lcp, Observer, Solution, Solver};
+use crate::{HorizontalLcp, Lcp, Solver};
 
 /// Up to this order pivots on a sparse matrix are as fast as factorisations, and say more.
 const FEW: usize = 500;
@@ -85,28 +84,22 @@ impl Planned for Lcp {
         self.order()
     }
 
+    fn is_sparse(&self) -> bool {
+        self.m().is_sparse()
+    }
+
     fn steps(&self) -> Vec<Step> {
         standard_steps(&Facts::of(self.m()))
     }
 
-    fn attempt(
-        &self,
-        method: Method,
-        effort: &Effort<'_>,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
+    fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
-            Method::Lemke => {
-                memory::check(self.m().is_sparse(), self.order())?;
-                Solver::<Self>::solve_observed(&effort.lemke(), self, observer)
-            }
-            Method::SemismoothNewton => {
-                effort.newton(is_z_matrix(self.m())).solve_observed(self, observer)
-            }
-            Method::InteriorPoint => effort.interior_point().solve_observed(self, observer),
+            Method::Lemke => Some(Box::new(effort.lemke())),
+            Method::SemismoothNewton => Some(Box::new(effort.newton(is_z_matrix(self.m())))),
+            Method::InteriorPoint => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
-            Method::QuadraticProgram => effort.quadratic_program().solve_observed(self, observer),
-            Method::ProjectedGaussSeidel => effort.sweeps().solve_observed(self, observer),
+            Method::QuadraticProgram => Some(Box::new(effort.quadratic_program())),
+            Method::ProjectedGaussSeidel => Some(Box::new(effort.sweeps())),
         }
     }
 }
@@ -114,6 +107,10 @@ impl Planned for Lcp {
 impl Planned for HorizontalLcp {
     fn pairs(&self) -> usize {
         self.order()
+    }
+
+    fn is_sparse(&self) -> bool {
+        self.is_sparse()
     }
 
     fn steps(&self) -> Vec<Step> {
@@ -132,25 +129,17 @@ impl Planned for HorizontalLcp {
         vec![Step::new(Method::Lemke, reason)]
     }
 
-    fn attempt(
-        &self,
-        method: Method,
-        effort: &Effort<'_>,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
+    fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
-            Method::Lemke => {
-                memory::check(self.is_sparse(), self.order())?;
-                Solver::<Self>::solve_observed(&effort.lemke(), self, observer)
-            }
+            Method::Lemke => Some(Box::new(effort.lemke())),
             Method::SemismoothNewton => {
                 let is_sure = self.to_standard().is_some_and(|it| is_z_matrix(it.lcp().m()));
-                effort.newton(is_sure).solve_observed(self, observer)
+                Some(Box::new(effort.newton(is_sure)))
             }
-            Method::InteriorPoint => effort.interior_point().solve_observed(self, observer),
+            Method::InteriorPoint => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
-            Method::QuadraticProgram => effort.quadratic_program().solve_observed(self, observer),
-            Method::ProjectedGaussSeidel => effort.sweeps().solve_observed(self, observer),
+            Method::QuadraticProgram => Some(Box::new(effort.quadratic_program())),
+            Method::ProjectedGaussSeidel => Some(Box::new(effort.sweeps())),
         }
     }
 }

@@ -12,7 +12,8 @@ pub struct Sparse {
     /// `K u = f + C^T t` (3.2) with the contact law. The displacements are those of the nodes, block by
     /// block; of a rigid block the amplitudes of its three motions. Then, row by row, how far each
     /// film gives way at its points: displacements of its free face against the block, held by the
-    /// film's own stiffness `1 / c`, which see the contact force alone, `u = c t`.
+    /// film's own stiffness `1 / c`, which see the contact force alone, `u = c t`. Strips of mortar
+    /// couple their blocks by `L^T D L` in `K`.
     pub problem: Contact2d,
     /// The first displacement of every block, and one past the last.
     starts: Vec<usize>,
@@ -38,6 +39,7 @@ impl Sparse {
         };
         let (mut k, mut f) = (Vec::new(), Vec::with_capacity(n));
         let (mut c_n, mut c_t) = (Vec::new(), Vec::new());
+        let mut stretches = vec![Vec::new(); system.stretches.len()];
         for (body, &start) in system.bodies.iter().zip(&starts) {
             if let Some(stiffness) = body.stiffness.map(|k| &system.stiffnesses[k].matrix) {
                 let place = |i: usize| start + i;
@@ -51,6 +53,9 @@ impl Sparse {
             } else {
                 f.extend(body.resultant);
             }
+            for stretch in &body.stretches {
+                stretches[stretch.row].extend(stretch.entries.iter().map(|&(j, v)| (start + j, v)));
+            }
             for row in &body.rows {
                 let rows = if row.row < m { &mut c_n } else { &mut c_t };
                 let point = point_of(row.row);
@@ -62,6 +67,11 @@ impl Sparse {
                     let modes = row.modes.iter().enumerate();
                     rows.extend(modes.map(|(j, &v)| Triplet::new(point, start + j, v)));
                 }
+            }
+        }
+        for (row, entries) in system.stretches.iter().zip(&stretches) {
+            for &(i, v) in entries {
+                k.extend(entries.iter().map(|&(j, w)| Triplet::new(i, j, row.stiffness * (v * w))));
             }
         }
         for (position, row) in films.into_iter().enumerate() {

@@ -166,7 +166,7 @@ impl Checkpoint {
             .map(|moved| moved.iter().map(|u| Vector2::from(*u)).collect())
             .collect();
         let contacts = self.contacts.clone();
-        let films = recover::film_stresses(model, &contacts);
+        let films = recover::film_stresses(model, &displacements, &contacts);
         let stresses =
             if with_stresses { recover::stresses(model, &displacements) } else { Vec::new() };
         Ok(State { displacements, contacts, films, stresses, strain_energy: self.strain_energy })

@@ -162,6 +162,7 @@ fn find_joints(
     let options = Options {
         points: scene.contact.points,
         gap_limit: scene.contact.gap_limit * scene.units.length_to_si(),
+        films: scene.contact.films,
         ..Options::default()
     };
     let (joints, contacts) = contact::find(

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 pub use self::history::history;
 use super::format::{InUnits, block_name, body_name, shortest};
 use crate::model::{Body, Model};
-use crate::outcome::{ContactStatus, State};
+use crate::outcome::{ContactStatus, FilmStress, State};
 
 /// The text of `contacts.csv`: one row per contact point, in the order of the model.
 ///
@@ -15,12 +15,13 @@ use crate::outcome::{ContactStatus, State};
 /// the sides `a` and `b`, position `x_m`, `y_m`, `area_m2`, forces `t_n_kN` (compression positive)
 /// and `t_t_kN`, tractions `traction_n_kN/m2` and `traction_t_kN/m2` (force over area), `gap_m`,
 /// `slip_m`, `mu`, and `status` (`open`, `stick`, `slip`). Where there are mortar films, also
-/// `film_sigma_y_kN/m2` (tension positive) and `film_tau_kN/m2`, empty for points of dry joints. Numbers read back exactly; fields are
+/// `film_sigma_y_kN/m2` (tension positive) and `film_tau_kN/m2`, empty for points of dry joints, and before them
+/// `film_sigma_x_kN/m2` where films are whole strips. Numbers read back exactly; fields are
 /// quoted where RFC 4180 asks for it, and lines end with CR LF.
 pub fn contacts(model: &Model, state: &State) -> String {
     let units = InUnits(model.units);
-    let filled = !state.films.is_empty();
-    let mut text = header(units, filled);
+    let columns = film_columns(state);
+    let mut text = header(units, columns);
     let mut films = state.films.iter().peekable();
     for (index, (contact, force)) in model.contacts.iter().zip(&state.contacts).enumerate() {
         let joint = &model.joints[contact.joint.index()];
@@ -48,23 +49,40 @@ pub fn contacts(model: &Model, state: &State) -> String {
             shortest(contact.mu).into(),
             Cow::Borrowed(status_name(force.status)),
         ];
-        if filled {
-            let film = films.next_if(|film| film.contact.index() == index);
-            fields.extend(film.map_or([Cow::Borrowed(""), Cow::Borrowed("")], |film| {
-                [film.sigma_y, film.tau].map(|stress| shortest(units.stress(stress)).into())
-            }));
-        }
+        let film = films.next_if(|film| film.contact.index() == index);
+        fields.extend(columns.iter().map(|(_, stress)| {
+            let stress = film.and_then(*stress);
+            stress.map_or(Cow::Borrowed(""), |stress| shortest(units.stress(stress)).into())
+        }));
         text += &fields.join(",");
         text += "\r\n";
     }
     text
 }
 
-fn header(units: InUnits, films: bool) -> String {
+/// The name of a column and the stress in it.
+type FilmColumn = (&'static str, fn(&FilmStress) -> Option<f64>);
+
+const FILM_COLUMNS: [FilmColumn; 3] = [
+    ("film_sigma_x", |film| film.sigma_x),
+    ("film_sigma_y", |film| Some(film.sigma_y)),
+    ("film_tau", |film| Some(film.tau)),
+];
+
+/// The columns for which there are values.
+fn film_columns(state: &State) -> &'static [FilmColumn] {
+    match state.films.first() {
+        None => &[],
+        Some(film) if film.sigma_x.is_none() => &FILM_COLUMNS[1..],
+        Some(_) => &FILM_COLUMNS,
+    }
+}
+
+fn header(units: InUnits, films: &[FilmColumn]) -> String {
     let (length, force) = (units.0.length_name(), units.0.force_name());
     let stress = units.0.stress_name();
-    let films =
-        if films { format!(",film_sigma_y_{stress},film_tau_{stress}") } else { String::new() };
+    let films: Vec<String> = films.iter().map(|(name, _)| format!(",{name}_{stress}")).collect();
+    let films = films.concat();
     format!(
         "index,joint,class,a,b,x_{length},y_{length},area_{length}2,t_n_{force},t_t_{force},\
          traction_n_{stress},traction_t_{stress},gap_{length},slip_{length},mu,status{films}\r\n"

@@ -125,6 +125,9 @@ struct Contacts {
 struct Films {
     sigma_y_min: f64,
     tau_max: f64,
+    /// The largest in size, with its sign.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sigma_x: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -214,6 +217,7 @@ impl<'a> Report<'a> {
             films: state.and_then(extreme_film_stresses).map(|films| Films {
                 sigma_y_min: units.stress(films.compression.sigma_y),
                 tau_max: units.stress(films.shear.tau.abs()),
+                sigma_x: films.along.sigma_x.map(|stress| units.stress(stress)),
             }),
             springs: solve.springs.as_ref(),
             proved: solve.proved,

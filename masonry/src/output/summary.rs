@@ -94,18 +94,24 @@ pub struct FilmExtremes {
     pub compression: FilmStress,
     /// Where the film is sheared most, in either direction.
     pub shear: FilmStress,
+    /// Where the stress along the film is largest, pressure or tension; it has none where films act
+    /// across their joints only.
+    pub along: FilmStress,
 }
 
-/// The largest compression and shear in the mortar films; `None` without films.
+/// The largest stresses in the mortar films; `None` without films.
 pub fn extreme_film_stresses(state: &State) -> Option<FilmExtremes> {
     let first = *state.films.first()?;
-    let start = FilmExtremes { compression: first, shear: first };
+    let start = FilmExtremes { compression: first, shear: first, along: first };
     Some(state.films.iter().fold(start, |mut found, film| {
         if film.sigma_y < found.compression.sigma_y {
             found.compression = *film;
         }
         if film.tau.abs() > found.shear.tau.abs() {
             found.shear = *film;
+        }
+        if film.sigma_x.map(f64::abs) > found.along.sigma_x.map(f64::abs) {
+            found.along = *film;
         }
         found
     }))

@@ -223,6 +223,10 @@ fn state_figures(outcome: &Outcome, state: &State) -> Vec<(&'static str, String)
         let compression = text(films.compression, 0.0 - films.compression.sigma_y);
         rows.push(("film compression", compression));
         rows.push(("film shear", text(films.shear, films.shear.tau.abs())));
+        if let Some(sigma_x) = films.along.sigma_x {
+            let name = if sigma_x > 0.0 { "tension along films" } else { "pressure along films" };
+            rows.push((name, text(films.along, sigma_x.abs())));
+        }
     }
     rows
 }

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::{Effect, film_compliances, nodes, unknowns_per_friction};
+use super::{Effect, film_compliances, nodes, stretching_points, unknowns_per_friction};
 use crate::model::{Block, Model};
-use crate::scene::{Form, Route, Scene};
+use crate::scene::{Films, Form, Route, Scene};
 
 /// All effects that a scene can call for.
 pub(super) fn of(scene: &Scene, model: &Model, route: Route) -> Vec<Effect> {
@@ -12,6 +12,7 @@ pub(super) fn of(scene: &Scene, model: &Model, route: Route) -> Vec<Effect> {
         contact(scene, model),
         friction(scene, model, route),
         mortar_films(scene, model, route),
+        longitudinal_terms(scene, model),
         deformation(scene, model),
         self_weight(scene, model),
         edge_loads(scene, model),
@@ -72,6 +73,23 @@ fn mortar_films(scene: &Scene, model: &Model, route: Route) -> Effect {
         "no joint class has a thickness: all joints are dry".to_owned()
     };
     Effect { name: "mortar films", on: films > 0, because, unknowns }
+}
+
+/// Each point of a strip at an elastic block has the stiffness of a bar along the joint, and its gap a term
+/// by the strain there. Neither is an unknown.
+fn longitudinal_terms(scene: &Scene, model: &Model) -> Effect {
+    let points = stretching_points(model);
+    let has_films = model.joints.iter().any(|joint| joint.film.is_some());
+    let because = if points > 0 {
+        format!("contact.films = \"strips\": {} along the joints", count(points, "bar"))
+    } else if !has_films {
+        "there are no mortar films".to_owned()
+    } else if scene.contact.films == Films::Compliance {
+        "contact.films = \"compliance\": films act across their joints only".to_owned()
+    } else {
+        "rigid blocks stretch no film".to_owned()
+    };
+    Effect { name: "longitudinal film terms", on: points > 0, because, unknowns: 0 }
 }
 
 fn deformation(scene: &Scene, model: &Model) -> Effect {

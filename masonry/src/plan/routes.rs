@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{film_compliances, unknowns_per_friction};
+use super::{film_compliances, stretching_points, unknowns_per_friction};
 use crate::model::Model;
 use crate::routes::pgs;
 use crate::scene::{Form, Route, Scene};
@@ -88,6 +88,8 @@ pub(super) struct Sizes {
     pub(super) rigid_modes: usize,
     pub(super) displacements: usize,
     pub(super) largest_block: usize,
+    /// Whether strips of mortar couple the blocks.
+    coupled: bool,
 }
 
 impl Sizes {
@@ -103,6 +105,7 @@ impl Sizes {
             displacements: blocks.clone().map(|block| unknowns(block).unwrap_or(3)).sum::<usize>()
                 + film_compliances(model),
             largest_block: blocks.filter_map(unknowns).max().unwrap_or(0),
+            coupled: stretching_points(model) > 0,
         }
     }
 
@@ -163,10 +166,11 @@ impl Sizes {
         factors.saturating_add(self.points.saturating_mul(PER_POINT))
     }
 
-    /// What the sweeps keep: the displacements of two blocks for every force.
+    /// What the sweeps keep: the displacements of two blocks for every force, of all where blocks are coupled.
     fn columns(&self) -> usize {
         const PER_NUMBER: usize = 12;
         let forces = self.points + self.frictional;
-        forces.saturating_mul(2 * self.largest_block.max(3)).saturating_mul(PER_NUMBER)
+        let moved = if self.coupled { self.displacements } else { 2 * self.largest_block.max(3) };
+        forces.saturating_mul(moved).saturating_mul(PER_NUMBER)
     }
 }

@@ -28,6 +28,9 @@ const MIXED_ATTEMPTS: usize = 3;
 /// How far the covering vector opens the friction cone, in units of force.
 const COHESION: f64 = 100.0;
 
+/// The name of a start from the last basis of a similar problem.
+const LAST: &str = "last basis";
+
 /// Displacements below this, in the dimensionless units of a form, are rounding errors.
 const ROUNDING: f64 = 1e-14;
 
@@ -38,19 +41,27 @@ pub struct Pivots<'a> {
     pub system: &'a System,
     /// Its reduction.
     pub reduction: &'a Reduction,
+    /// The last basis of a similar problem in the paper's form, which is tried first.
+    pub start: Option<&'a Start>,
 }
 
 impl Method for Pivots<'_> {
     fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, lcp::Error> {
-        let Self { system, reduction } = *self;
+        let Self { system, reduction, start } = *self;
         let kinds: &[FormKind] = match request.form {
             scene::Form::Auto => &[FormKind::Coulomb, FormKind::Mixed],
             scene::Form::Coulomb => &[FormKind::Coulomb],
             scene::Form::StewartTrinkle => &[FormKind::StewartTrinkle],
             scene::Form::Mixed => &[FormKind::Mixed],
         };
-        let mut search =
-            Search { request, attempts: Vec::new(), pivots: 0, factorisations: 0, coulomb: None };
+        let mut search = Search {
+            request,
+            start,
+            attempts: Vec::new(),
+            pivots: 0,
+            factorisations: 0,
+            coulomb: None,
+        };
         let mut answer = None;
         for &kind in kinds {
             let form = Form::new(kind, system, reduction)?;
@@ -68,6 +79,7 @@ impl Method for Pivots<'_> {
 /// What the forms tried so far have left.
 struct Search<'a> {
     request: &'a Request,
+    start: Option<&'a Start>,
     attempts: Vec<String>,
     pivots: usize,
     factorisations: usize,
@@ -86,7 +98,8 @@ impl Search<'_> {
             let attempts = solution.info.attempts.iter();
             self.attempts.extend(attempts.map(|it| describe(form.kind, start, it)));
             // A singular start was replaced by one that the solver found; so would the next be.
-            let replaced = start.is_some() && !solution.info.attempts.iter().any(is_given);
+            let replaced = start.is_some_and(|name| name != LAST)
+                && !solution.info.attempts.iter().any(is_given);
             let stop = replaced || matches!(solution.status, Status::Solved | Status::Cancelled);
             last = Some(solution);
             if stop {
@@ -107,10 +120,16 @@ impl Search<'_> {
         };
         let ray = solution.ray.filter(|_| form.kind == FormKind::Mixed);
         let ray = ray.and_then(|ray| form.amplitudes(&ray.dt));
+        let kind = form.kind;
         if form.kind == FormKind::Coulomb {
             self.coulomb = Some(form);
         }
-        Ok(Answer { info, rows, displacements: None, motion: ray.map(Motion::Rigid) })
+        let basis = solution.basis.filter(|_| rows.is_some() && kind == FormKind::Coulomb);
+        let basis = basis.map(|basis| Start {
+            name: LAST,
+            t_basic: basis.sides().iter().map(|side| *side == Side::T).collect(),
+        });
+        Ok(Answer { info, rows, displacements: None, motion: ray.map(Motion::Rigid), basis })
     }
 
     /// Settings of every run on a form, and the name of the start basis that they give.
@@ -134,7 +153,8 @@ impl Search<'_> {
             };
             (settings, Some(start.name))
         };
-        form.starts.iter().take(STARTS).map(from_start).collect()
+        let last = self.start.filter(|_| form.kind == FormKind::Coulomb);
+        last.into_iter().chain(form.starts.iter().take(STARTS)).map(from_start).collect()
     }
 
     fn against_coulomb(&self, form: &Form, rows: &RowState) -> Option<Residuals> {

@@ -75,6 +75,7 @@ pub(super) fn answer(
         rows: state.as_ref().map(|state| sparse.rows(state)),
         displacements: state.map(|state| state.u),
         motion: motion.map(Motion::Displacements),
+        basis: None,
     }
 }
 

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::source::Source;
 use super::{
-    Block, Brick, Contact, Courses, Form, Joint, Load, Material, Output, Plane, PointRule, Route,
-    Scene, Solver, Stage, Support, Wall,
+    Block, Brick, Contact, Courses, Films, Form, Joint, Load, Material, Output, Plane, PointRule,
+    Route, Scene, Solver, Stage, Support, Wall,
 };
 use crate::units::Units;
 
@@ -106,6 +106,13 @@ impl Scene {
     #[must_use]
     pub fn contact_points(mut self, points: PointRule) -> Self {
         self.contact.points = points;
+        self
+    }
+
+    /// Sets which terms of mortar films are kept.
+    #[must_use]
+    pub fn films(mut self, films: Films) -> Self {
+        self.contact.films = films;
         self
     }
 

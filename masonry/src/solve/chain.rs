@@ -8,7 +8,7 @@ use nalgebra::Vector2;
 
 use super::{Clock, Event, SolveError, named};
 use crate::check::Checks;
-use crate::forms::Sparse;
+use crate::forms::{Sparse, Start};
 use crate::model::Model;
 use crate::outcome::{RouteEnd, SolveInfo, State};
 use crate::plan::Choice;
@@ -29,6 +29,7 @@ pub(super) struct Attempt {
     pub(super) state: Option<State>,
     pub(super) checks: Option<Checks>,
     pub(super) mechanism: Option<Vec<[Vector2<f64>; 4]>>,
+    pub(super) basis: Option<Start>,
 }
 
 /// How much an attempt says; what comes first says more.
@@ -74,6 +75,8 @@ pub(super) struct Chain<'a> {
     pub(super) with_stresses: bool,
     pub(super) clock: &'a mut Clock,
     pub(super) observer: &'a mut dyn FnMut(Event) -> ControlFlow<()>,
+    /// The basis of the step before.
+    start: Option<Start>,
     sparse: Option<Sparse>,
 }
 
@@ -81,10 +84,11 @@ impl<'a> Chain<'a> {
     pub(super) fn new(
         (model, system): (&'a Model, &'a System),
         (request, with_stresses): (Request, bool),
+        start: Option<Start>,
         clock: &'a mut Clock,
         observer: &'a mut dyn FnMut(Event) -> ControlFlow<()>,
     ) -> Self {
-        Self { model, system, request, with_stresses, clock, observer, sparse: None }
+        Self { model, system, request, with_stresses, clock, observer, start, sparse: None }
     }
 
     /// The attempt that says most; with all lines of all of them.
@@ -147,7 +151,9 @@ impl<'a> Chain<'a> {
             .clock
             .time("reduction", self.observer, || Reduction::new(system, None))
             .map_err(|error| named(error, model))?;
-        let answer = self.timed(&Pivots { system, reduction: &reduction })?;
+        let start = self.start.take();
+        let pivots = Pivots { system, reduction: &reduction, start: start.as_ref() };
+        let answer = self.timed(&pivots)?;
         let with_stresses = self.with_stresses;
         let state = answer.rows.as_ref().map(|rows| {
             self.clock.time("recovery", self.observer, || {
@@ -212,6 +218,6 @@ impl<'a> Chain<'a> {
         let mechanism = motion.and_then(|motion| {
             recover::mechanism(self.model, self.system, self.sparse.as_ref(), motion)
         });
-        Attempt { info, state, checks, mechanism }
+        Attempt { info, state, checks, mechanism, basis: answer.basis }
     }
 }

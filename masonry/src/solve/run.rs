@@ -8,6 +8,7 @@ use nalgebra::Vector2;
 use super::chain::{Attempt, Chain};
 use super::{Clock, Event, SolveError, check_size};
 use crate::check::Checks;
+use crate::forms::Start;
 use crate::history::checkpoint::{Checkpoint, CheckpointError};
 use crate::history::energy::{self, Snapshot};
 use crate::history::{self, History, Step, StepRecord};
@@ -62,6 +63,8 @@ pub struct Run {
     records: Vec<StepRecord>,
     reached: Option<Reached>,
     last: Option<Last>,
+    /// Where the pivots of the next step start.
+    basis: Option<Start>,
     clock: Clock,
 }
 
@@ -121,6 +124,7 @@ impl Run {
             records: Vec::new(),
             reached: None,
             last: None,
+            basis: None,
             clock,
         })
     }
@@ -182,8 +186,10 @@ impl Run {
         let model = self.model.under(&step.actions, &slips);
         self.system.reload(&model);
         let wanted = (self.request, self.with_stresses);
-        let found = Chain::new((&model, &self.system), wanted, &mut self.clock, observer)
-            .run(&self.plan.routes)?;
+        let parts = (&model, &self.system);
+        let start = self.basis.take();
+        let found =
+            Chain::new(parts, wanted, start, &mut self.clock, observer).run(&self.plan.routes)?;
         self.take(step, model, &slips, found);
         Ok(true)
     }
@@ -198,7 +204,8 @@ impl Run {
 
     /// Keeps a step that was solved; of one that was not, its state only where there is none before.
     fn take(&mut self, step: Step, model: Model, slips: &[f64], found: Attempt) {
-        let Attempt { mut info, state, checks, mechanism } = found;
+        let Attempt { mut info, state, checks, mechanism, basis } = found;
+        self.basis = basis;
         if let Some(mut state) = state {
             let dissipation = energy::dissipation(&state.contacts);
             if !opposes(dissipation, &state, self.request.tolerance) {

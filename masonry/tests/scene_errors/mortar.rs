@@ -77,3 +77,21 @@ fn blocks_too_close_for_their_mortar() {
     let points: Vec<_> = model.contacts.iter().filter(|it| it.joint.index() == film).collect();
     assert!(points.iter().all(|point| (point.gap - 0.005).abs() < 1e-15));
 }
+
+#[test]
+fn strips_at_the_wrong_points_or_without_mortar() {
+    let key = "contact.films";
+    let elsewhere = ["Gauss points only", "or set points = \"gauss\""];
+    assert_error("gap_limit = 0.0", "films = \"strips\"", "\"strips\"", key, &elsewhere);
+    let dry = ["no joint class has a thickness", "`thickness` and `material`"];
+    let strips = "points = \"gauss\"\nfilms = \"strips\"";
+    assert_error("gap_limit = 0.0", strips, "\"strips\"", key, &dry);
+    let unknown = "films = \"springs\"";
+    let words = ["`compliance`", "`strips`"];
+    assert_error("gap_limit = 0.0", unknown, "\"springs\"", "", &words);
+    // A thickness of zero is a dry joint, and no mistake.
+    let text = GOOD
+        .replace("phi_deg = 30.0", "phi_deg = 30.0\nthickness = 0.0")
+        .replace("gap_limit = 0.0", strips);
+    Scene::from_toml(&text).unwrap();
+}

@@ -3,7 +3,7 @@
 use super::{Check, missing, not_negative, positive, unknown, unwanted, value};
 use crate::bond::{self, JointThickness};
 use crate::scene::error::Known;
-use crate::scene::{Courses, Joint, KeyPath, Scene, Wall};
+use crate::scene::{Courses, Films, Joint, KeyPath, PointRule, Scene, Wall};
 
 impl Scene {
     /// Thickness and material of the mortar: none, or both, the material elastic.
@@ -37,6 +37,23 @@ impl Scene {
         if thickness > 0.0 && material.young.is_none() {
             let because = "because the material is the mortar of a joint";
             return Err(missing(&KeyPath::of("materials").key(name), "E", because, "E = 1e6"));
+        }
+        Ok(())
+    }
+
+    /// Strips need Gauss points, and joints that may have mortar.
+    pub(super) fn check_films(&self, at: &KeyPath) -> Check {
+        if self.contact.films != Films::Strips {
+            return Ok(());
+        }
+        if self.contact.points != PointRule::Gauss {
+            let because = "asks for strips, which are integrated at Gauss points only";
+            return Err(unwanted(at, "films", because, ", or set points = \"gauss\""));
+        }
+        if self.joints.values().all(|joint| joint.thickness.is_none()) {
+            let because = "asks for strips of mortar, but no joint class has a thickness";
+            let otherwise = ", or give a joint class `thickness` and `material`";
+            return Err(unwanted(at, "films", because, otherwise));
         }
         Ok(())
     }

@@ -1,0 +1,150 @@
+//! A rigid block on an elastic bed without tension, loaded off its middle: `p = N / b (1 +- 6 e / b)` up to
+//! `e = b / 6`; beyond, a contact of the length `a = 3 (b / 2 - e)` with `p_max = 2 N / a` at its edge.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+
+mod common;
+
+use common::routes::{ROUTES, solved_by, solved_unless_sweeps_stall, stands_by};
+use common::{M_KN, displacements, rectangle, state};
+use masonry::contact::PointRule;
+use masonry::model::Plane;
+use masonry::outcome::Outcome;
+use masonry::scene::{Block, Joint, Load, Material, Route, Scene, Support};
+
+/// Width of the block \[m\].
+const B: f64 = 0.6;
+/// Thickness of the bed \[m\].
+const T: f64 = 0.02;
+/// Young's modulus of the bed \[kN/m2\].
+const MORTAR: f64 = 8e5;
+/// The load \[kN\].
+const N: f64 = 90.0;
+const FOOT: f64 = 0.1;
+
+/// The block on a bed that is cut into `count` equal parts, each with two points: below lie as many rigid
+/// stones. The load is spread over a third of the width and has the eccentricity `e`. The top of the block
+/// juts out to the right, so that the load can stand beyond its foot.
+fn on_bed(points: PointRule, count: u32, e: f64) -> Scene {
+    let (low, high) = (FOOT + T, FOOT + T + 0.5);
+    let centre = 0.5 * B + e;
+    let scene = Scene::new("Kern", M_KN)
+        .plane(Plane::Stress)
+        .thickness(1.0)
+        .material("stone", Material::rigid())
+        .material("mortar", Material::elastic(MORTAR, 0.0))
+        .joint("bed", Joint::mu(0.5).mortar(T, "mortar"))
+        .joint("head", Joint::mu(0.0))
+        .joint("floor", Joint::mu(0.5))
+        .block(Block::new("block", "stone", [[0.0, low], [B, low], [1.2 * B, high], [0.0, high]]))
+        .support(Support::new("floor", [0.0, 0.0], [B, 0.0], "floor"))
+        .load(Load::pressure(
+            "top",
+            [centre - B / 6.0, high],
+            [centre + B / 6.0, high],
+            3.0 * N / B,
+        ))
+        .contact_points(points);
+    (0..count).map(f64::from).fold(scene, |scene, k| {
+        let x = [k, k + 1.0].map(|k| B * k / f64::from(count));
+        scene.block(rectangle(&format!("stone {k}"), "stone", x, [0.0, FOOT]))
+    })
+}
+
+/// The pressures \[kN/m2\] at the lower corners of the block, by the compression of the bed; negative where
+/// it gapes.
+fn edges(outcome: &Outcome) -> [f64; 2] {
+    let moved = displacements(outcome, "block");
+    [0, 1].map(|corner: usize| -moved[corner].y * MORTAR / T)
+}
+
+/// Length of the contact and largest pressure, from the plane that the foot of the block stays.
+fn contact(outcome: &Outcome) -> [f64; 2] {
+    let [left, right] = edges(outcome);
+    assert!(left < 0.0 && right > 0.0, "{left} and {right} kN/m2");
+    [B * right / (right - left), right]
+}
+
+/// Errors, with parts of thirds of the size, fall as the square of it.
+fn assert_second_order(errors: &[f64]) {
+    for pair in errors.windows(2) {
+        let rate = (pair[0] / pair[1]).ln() / 3_f64.ln();
+        assert!((rate - 2.0).abs() < 0.1, "rate {rate} of {errors:?}");
+    }
+}
+
+fn error(found: f64, expected: f64) -> f64 {
+    (found / expected - 1.0).abs()
+}
+
+/// Two Gauss points integrate a pressure that falls in a line exactly, points at the ends with an error of
+/// second order.
+#[test]
+fn within_the_kern_all_of_the_bed_is_pressed() {
+    for e in [0.0, B / 12.0, -B / 8.0] {
+        let expected = [-1.0, 1.0].map(|side| N / B * (1.0 + side * 6.0 * e / B));
+        for route in ROUTES {
+            let gauss = on_bed(PointRule::Gauss, 3, e);
+            let Some(outcome) = solved_unless_sweeps_stall(&gauss, route) else { continue };
+            for (found, expected) in edges(&outcome).into_iter().zip(expected) {
+                assert!(error(found, expected) < 1e-9, "{route:?}: {found} of {expected}");
+            }
+        }
+    }
+    let e = B / 12.0;
+    let largest = |count| {
+        let outcome = solved_by(&on_bed(PointRule::Vertices, count, e), Route::Interior);
+        error(edges(&outcome)[1], N / B * 1.5)
+    };
+    assert_second_order(&[7, 21, 63].map(largest));
+}
+
+/// The contact ends in the middle of a part, where the points see no end: second order for both rules.
+#[test]
+fn beyond_the_kern_a_part_of_the_bed_is_pressed() {
+    let e = B / 3.0;
+    let (length, pressure) = (3.0 * (0.5 * B - e), 4.0 * N / B);
+    for points in [PointRule::Gauss, PointRule::Vertices] {
+        let errors = |count| {
+            let scene = on_bed(points, count, e);
+            let outcome = solved_by(&scene, Route::Interior);
+            let [found_length, found_pressure] = contact(&outcome);
+            [error(found_length, length), error(found_pressure, pressure)]
+        };
+        let errors = [7, 21, 63].map(errors);
+        assert!(errors[2].iter().all(|error| *error < 2e-3), "{points:?}: {errors:?}");
+        for k in [0, 1] {
+            assert_second_order(&errors.map(|errors| errors[k]));
+        }
+    }
+    // Other routes on the same parts have the same answer.
+    let scene = on_bed(PointRule::Gauss, 9, e);
+    let reference = contact(&solved_by(&scene, Route::Lemke));
+    for route in ROUTES {
+        let Some(outcome) = solved_unless_sweeps_stall(&scene, route) else { continue };
+        for (found, expected) in contact(&outcome).into_iter().zip(reference) {
+            assert!(error(found, expected) < 1e-8, "{route:?}: {found} of {expected}");
+        }
+        let bed = outcome.model.contacts.iter().zip(&state(&outcome).contacts);
+        for (point, it) in bed.filter(|(point, _)| point.film.is_some()) {
+            let is_beyond = point.position.x < B - length;
+            assert_eq!(it.t_n.abs() < 1e-9 * 1e3 * N, is_beyond, "{}", point.position.x);
+        }
+    }
+}
+
+/// The nearer the load comes to the edge, the shorter the contact; beyond the edge nothing holds it.
+#[test]
+fn at_the_edge_the_block_overturns() {
+    for route in ROUTES {
+        for share in [0.40, 0.45] {
+            let scene = on_bed(PointRule::Gauss, 45, share * B);
+            let Some(outcome) = solved_unless_sweeps_stall(&scene, route) else { continue };
+            let [length, pressure] = contact(&outcome);
+            let expected = 3.0 * (0.5 - share) * B;
+            assert!(error(length, expected) < 0.01, "{route:?}: {length} m of {expected} m");
+            assert!(error(pressure, 2.0 * N / expected) < 0.01, "{route:?}: {pressure} kN/m2");
+        }
+        assert!(!stands_by(&on_bed(PointRule::Gauss, 9, 0.505 * B), route), "{route:?}");
+    }
+}
