@@ -108,7 +108,7 @@ fn the_law_of_strips_holds_where_films_open_and_slide() {
 #[test]
 fn all_routes_agree() {
     let reference = solved(&pushed(0.02, Films::Strips).route(Route::Lemke).form(Form::Mixed));
-    let routes = [Route::Lemke, Route::Interior, Route::Qp, Route::Pgs];
+    let routes = [Route::Lemke, Route::Interior, Route::Qp, Route::Pgs, Route::Alm];
     for route in routes {
         let other = solved(&pushed(0.02, Films::Strips).route(route));
         for of in [all_displacements, all_stresses, all_reactions, film_stresses] {
