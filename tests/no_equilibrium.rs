@@ -114,7 +114,7 @@ fn a_ray_is_no_proof() {
     };
     for kind in [FormKind::Coulomb, FormKind::StewartTrinkle, FormKind::Mixed] {
         let form = Form::new(kind, &system, &reduction).unwrap();
-        let (t, y) = form.pairs(&jammed, &[0.0; 3]);
+        let (t, y) = form.pairs(&jammed, &[0.0; 3], &[]);
         let residuals = form.problem.residuals(&t, &y);
         assert!(residuals.worst() < 1e-14, "{kind:?}: {residuals:?}");
     }

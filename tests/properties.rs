@@ -130,7 +130,7 @@ fn violation(scene: &Scene, rows: &RowState) -> f64 {
     let system = System::new(&model).unwrap();
     let reduction = Reduction::new(&system, None).unwrap();
     let form = Form::new(FormKind::Coulomb, &system, &reduction).unwrap();
-    let (t, y) = form.pairs(rows, &[]);
+    let (t, y) = form.pairs(rows, &[], &[]);
     let (a, b, c) = (form.problem.a(), form.problem.b(), form.problem.c());
     let equation = |i: usize| -> f64 {
         let terms = (0..form.order()).map(|j| a[(i, j)] * t[j] + b[(i, j)] * y[j]);

@@ -108,9 +108,11 @@ fn the_law_of_strips_holds_where_films_open_and_slide() {
 #[test]
 fn all_routes_agree() {
     let reference = solved(&pushed(0.02, Films::Strips).route(Route::Lemke).form(Form::Mixed));
+    assert_eq!(reference.plan.order, reference.solve.order);
     let routes = [Route::Lemke, Route::Interior, Route::Qp, Route::Pgs, Route::Alm];
     for route in routes {
         let other = solved(&pushed(0.02, Films::Strips).route(route));
+        assert_eq!(other.plan.order, other.solve.order);
         for of in [all_displacements, all_stresses, all_reactions, film_stresses] {
             let apart = difference(&of(&reference), &of(&other));
             assert!(apart < 1e-7, "{route:?}: {apart:e}");
@@ -211,6 +213,8 @@ fn nothing_is_built_of_strips_unless_asked_for() {
     let on = effect(&plan);
     assert!(on.on && on.unknowns == 0);
     assert!(on.because.contains(&format!("{points} bars")), "{}", on.because);
+    let mixed = pushed(0.02, Films::Strips).route(Route::Lemke).form(Form::Mixed);
+    assert_eq!(effect(&plan_of(&mixed).0).unknowns, 2 * points);
 
     let (plan, model) = plan_of(&pushed(0.02, Films::Compliance));
     assert_eq!(parts(&model), (0, 0));

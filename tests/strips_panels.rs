@@ -87,11 +87,14 @@ fn assert_same(one: &Outcome, other: &Outcome) {
 }
 
 #[test]
-fn square_by_pivots() {
-    let pivots = by(SQUARE, Route::Lemke);
-    assert_same(&pivots, &SQUARE_BY_POINTS);
-    assert_energy(&pivots, 1e-9);
-    assert_films_balance(&pivots, 1e-8);
+fn panels_by_pivots() {
+    for (name, by_points) in [(SQUARE, &*SQUARE_BY_POINTS), (RECTANGULAR, &*RECTANGULAR_BY_POINTS)]
+    {
+        let pivots = by(name, Route::Lemke);
+        assert_same(&pivots, by_points);
+        assert_energy(&pivots, 1e-9);
+        assert_films_balance(&pivots, 1e-8);
+    }
 }
 
 #[test]

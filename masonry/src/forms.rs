@@ -35,7 +35,8 @@ pub enum FormKind {
     /// `w = mu t_n - b+ - b-` (a force, while `lambda` is a displacement).
     StewartTrinkle,
     /// The same with the rigid amplitudes `alpha = alpha+ - alpha-` as unknowns and equilibrium
-    /// as complementary rows, order `m + 3 m_f + 6 r` for `r` blocks: a standard problem, `B = 1`,
+    /// as complementary rows, and with the forces of the `s` bars of mortar strips, order
+    /// `m + 3 m_f + 6 r + 2 s` for `r` blocks: a standard problem, `B = 1`,
     /// with a copositive `-A`. A ray of it is a motion of the blocks that no contact stops and on
     /// which the loads do work.
     Mixed,
@@ -128,7 +129,8 @@ impl Form {
         if self.kind != FormKind::Mixed {
             return None;
         }
-        let alpha = &t[self.layout.points + 3 * self.layout.friction.len()..];
+        let end = t.len() - 2 * self.layout.bars;
+        let alpha = &t[self.layout.points + 3 * self.layout.friction.len()..end];
         let (plus, minus) = alpha.split_at(alpha.len() / 2);
         Some(
             plus.iter()
@@ -151,12 +153,13 @@ impl Form {
         }
     }
 
-    /// The dimensionless variables `(t, y)` of given forces and relative displacements of all rows,
-    /// and the rigid amplitudes \[m\] that go with them (only the mixed form looks at these).
+    /// The dimensionless variables `(t, y)` of given forces and relative displacements of all rows, and
+    /// the rigid amplitudes \[m\] and forces of bars \[N\] that go with them (only the mixed form looks at
+    /// these).
     ///
     /// # Panics
-    /// If there are fewer values than rows, or than rigid amplitudes.
-    pub fn pairs(&self, rows: &RowState, amplitudes: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    /// If there are fewer values than rows.
+    pub fn pairs(&self, rows: &RowState, amplitudes: &[f64], bars: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let Layout { points, friction, .. } = &self.layout;
         let (force, length) = (self.scale.force, self.scale.length);
         let t_n = rows.t[..*points].iter().map(|t| t / force);
@@ -183,9 +186,11 @@ impl Form {
             }
         }
         if self.kind == FormKind::Mixed {
-            for sign in [1.0, -1.0] {
-                t.extend(amplitudes.iter().map(|alpha| (sign * alpha / length).max(0.0)));
-                y.extend(amplitudes.iter().map(|_| 0.0));
+            for (free, unit) in [(amplitudes, length), (bars, force)] {
+                for sign in [1.0, -1.0] {
+                    t.extend(free.iter().map(|value| (sign * value / unit).max(0.0)));
+                    y.extend(free.iter().map(|_| 0.0));
+                }
             }
         }
         (t, y)
@@ -219,12 +224,14 @@ struct Layout {
     points: usize,
     /// Points with friction and their coefficients.
     friction: Vec<(usize, f64)>,
+    /// Number of bars of mortar strips, which are unknowns of the mixed form.
+    bars: usize,
 }
 
 impl Layout {
     fn of(system: &System) -> Self {
         let friction = system.friction.iter().map(|(id, mu)| (id.index(), *mu)).collect();
-        Self { points: system.points(), friction }
+        Self { points: system.points(), friction, bars: system.stretches.len() }
     }
 
     /// The pair of frictional point `k` in a group, counted from 1 after the normal pairs.

@@ -47,7 +47,7 @@ pub struct Plan {
     pub rigid_modes: usize,
     /// Order of the complementarity problem of the first route. By pivots: m, and two more per frictional
     /// point (3m); in the Stewart-Trinkle form three more (4m), in the mixed form also two per rigid
-    /// amplitude. On the sparse routes: m, two more per frictional point, and all displacements.
+    /// amplitude and per bar of mortar strips. On the sparse routes: m, two more per frictional point, and all displacements.
     pub order: usize,
     /// Order of the largest form that the first route may turn to.
     pub largest_order: usize,

@@ -35,11 +35,11 @@ pub fn recover(
     with_stresses: bool,
 ) -> State {
     let amplitudes = reduction.amplitudes(system, &rows.t, &rows.y);
-    let stretch_forces = reduction.stretch_forces(&rows.t);
+    let bar_forces = reduction.bar_forces(&rows.t);
     let mut strain_energy = 0.0;
     let mut displacements = Vec::with_capacity(model.blocks.len());
     for (b, (body, alpha)) in system.bodies.iter().zip(amplitudes.chunks(3)).enumerate() {
-        let elastic = system.elastic_displacements(body, &rows.t, &stretch_forces);
+        let elastic = system.elastic_displacements(body, &rows.t, &bar_forces);
         strain_energy += energy(system, body, &elastic);
         let nodes = displaced_nodes(model, BlockId::new(b)).iter().enumerate();
         let moved = nodes.map(|(n, place)| {

@@ -5,16 +5,17 @@
 //! `y_E = A t_E - R^T y_I + c` (3.23), where `A = W^T F W`, `W` is the identity on `E` and `R` on `I`,
 //! and `F = C K^+ C^T`, with the compliance of mortar films on the diagonal. Any generalised inverse `K^+` gives the same `A` and `c`, because the
 //! columns of `W` and the loads with `t_0` balance on every block. Strips of mortar couple blocks; what that changes
-//! is in `stretching`.
+//! is in [`Bars`].
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef};
 
 use crate::rigid::{self, Modes, RigidError, select_rows};
 use crate::system::System;
-use stretching::Stretching;
 
-mod stretching;
+mod bars;
+
+pub use bars::Bars;
 
 /// The reduced problem: equilibrium and compatibility in the contact forces.
 #[derive(Debug, Clone)]
@@ -33,10 +34,10 @@ pub struct Reduction {
     pub c: Vec<f64>,
     /// The compliance of every block, in the order of the model.
     pub compliances: Vec<Compliance>,
+    /// The bars of mortar strips; `None` where there are none.
+    pub bars: Option<Bars>,
     /// `G_I`, rows `I` by three columns per block.
     g_isostatic: Mat<f64>,
-    /// What the strips of mortar change; `None` without them.
-    stretching: Option<Stretching>,
 }
 
 /// The compliance that one block gives to its contact rows.
@@ -77,29 +78,35 @@ impl Reduction {
         let compliances = compliances(system);
         let flexibility = Flexibility::assemble(system, &compliances, &isostatic, &others);
         let mut a = flexibility.reduce(r.as_ref());
-        let stretching = Stretching::of(system);
-        if let Some(stretching) = &stretching {
-            stretching.stiffen(&mut a, &stretching.on_others(&isostatic, &others, r.as_ref()));
+        let bars = Bars::of(system);
+        if let Some(bars) = &bars {
+            bars.stiffen(&mut a, (&isostatic, &others), r.as_ref());
         }
 
         let mut t = vec![0.0; system.rows.len()];
         isostatic.iter().zip(&t0).for_each(|(row, force)| t[*row] = *force);
-        let y = relative_displacements(system, (&compliances, stretching.as_ref()), &t);
+        let y = relative_displacements(system, (&compliances, bars.as_ref()), &t);
         let y_isostatic = Mat::from_fn(isostatic.len(), 1, |i, _| y[isostatic[i]]);
         let carried = r.transpose() * y_isostatic;
         let c = others.iter().enumerate().map(|(k, row)| y[*row] + carried[(k, 0)]).collect();
-        Ok(Self { isostatic, others, r, t0, a, c, compliances, g_isostatic, stretching })
+        Ok(Self { isostatic, others, r, t0, a, c, compliances, bars, g_isostatic })
     }
 
     /// Relative displacements `F t + C K^+ f + x` \[m\] of all rows for forces `t` \[N\], without the
     /// rigid motions.
     pub fn elastic_gaps(&self, system: &System, t: &[f64]) -> Vec<f64> {
-        relative_displacements(system, (&self.compliances, self.stretching.as_ref()), t)
+        relative_displacements(system, (&self.compliances, self.bars.as_ref()), t)
     }
 
-    /// The forces `q` \[N\] of the stretches of strips on their blocks for forces `t` \[N\] of all rows.
-    pub fn stretch_forces(&self, t: &[f64]) -> Vec<f64> {
-        self.stretching.as_ref().map_or_else(Vec::new, |stretching| stretching.forces(t))
+    /// The same as if no strip of mortar had a bar: with the forces of the [`bars`](Self::bars) as
+    /// unknowns of their own, as the mixed form has them.
+    pub fn block_gaps(&self, system: &System, t: &[f64]) -> Vec<f64> {
+        relative_displacements(system, (&self.compliances, None), t)
+    }
+
+    /// The forces `q` \[N\] of the bars of strips on their blocks for forces `t` \[N\] of all rows.
+    pub fn bar_forces(&self, t: &[f64]) -> Vec<f64> {
+        self.bars.as_ref().map_or_else(Vec::new, |bars| bars.forces(t))
     }
 
     /// The rigid amplitudes \[m\], three per block, for the forces `t` \[N\] and the relative
@@ -116,15 +123,12 @@ impl Reduction {
         self.g_isostatic.partial_piv_lu().solve(rhs).col_as_slice(0).to_vec()
     }
 
-    /// `F = C K^+ C^T` \[m/N\] of all rows, with the compliance of films, dense.
+    /// `F = C K^+ C^T` \[m/N\] of all rows, with the compliance of films and without bars, dense.
     pub fn flexibility(&self, system: &System) -> Mat<f64> {
         let mut f = Mat::zeros(system.rows.len(), system.rows.len());
         system.rows.iter().enumerate().for_each(|(k, row)| f[(k, k)] = row.compliance);
         for block in &self.compliances {
             scatter(&mut f, block, Some, Some);
-        }
-        if let Some(stretching) = &self.stretching {
-            stretching.stiffen(&mut f, stretching.on_rows());
         }
         f
     }
@@ -157,7 +161,7 @@ fn compliances(system: &System) -> Vec<Compliance> {
 
 fn relative_displacements(
     system: &System,
-    (blocks, stretching): (&[Compliance], Option<&Stretching>),
+    (blocks, bars): (&[Compliance], Option<&Bars>),
     t: &[f64],
 ) -> Vec<f64> {
     let own = system.rows.iter().zip(t).map(|(row, t)| row.offset + row.compliance * t);
@@ -169,8 +173,8 @@ fn relative_displacements(
             y[*row] += f_t + v;
         }
     }
-    if let Some(stretching) = stretching {
-        y.iter_mut().zip(stretching.displacements(t)).for_each(|(y, more)| *y += more);
+    if let Some(bars) = bars {
+        y.iter_mut().zip(bars.displacements(t)).for_each(|(y, more)| *y += more);
     }
     y
 }

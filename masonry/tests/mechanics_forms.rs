@@ -86,7 +86,7 @@ fn solutions_of_one_form_solve_the_others() {
                 let alpha = case.reduction.amplitudes(&case.system, &rows.t, &rows.y);
                 for to in FORMS {
                     let other = case.form(to);
-                    let (t, y) = other.pairs(&rows, &alpha);
+                    let (t, y) = other.pairs(&rows, &alpha, &[]);
                     let error = violation(&other, &t, &y);
                     assert!(error < 1e-9, "{from:?} to {to:?}: {error:e}");
                     let back = other.rows(&t, &y);

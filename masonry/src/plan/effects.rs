@@ -13,7 +13,7 @@ pub(super) fn of(scene: &Scene, model: &Model, route: Route) -> Vec<Effect> {
         contact(scene, model),
         friction(scene, model, route),
         mortar_films(scene, model, route),
-        longitudinal_terms(scene, model),
+        longitudinal_terms(scene, model, route),
         deformation(scene, model),
         self_weight(scene, model),
         edge_loads(scene, model),
@@ -79,8 +79,8 @@ fn mortar_films(scene: &Scene, model: &Model, route: Route) -> Effect {
 }
 
 /// Each point of a strip at an elastic block has the stiffness of a bar along the joint, and its gap a term
-/// by the strain there. Neither is an unknown.
-fn longitudinal_terms(scene: &Scene, model: &Model) -> Effect {
+/// by the strain there. Neither is an unknown, but for the forces of the bars in the mixed form.
+fn longitudinal_terms(scene: &Scene, model: &Model, route: Route) -> Effect {
     let points = stretching_points(model);
     let has_films = model.joints.iter().any(|joint| joint.film.is_some());
     let because = if points > 0 {
@@ -92,7 +92,9 @@ fn longitudinal_terms(scene: &Scene, model: &Model) -> Effect {
     } else {
         "rigid blocks stretch no film".to_owned()
     };
-    Effect { name: "longitudinal film terms", on: points > 0, because, unknowns: 0 }
+    let mixed = route == Route::Lemke && scene.solver.form == Form::Mixed;
+    let unknowns = if mixed { 2 * points } else { 0 };
+    Effect { name: "longitudinal film terms", on: points > 0, because, unknowns }
 }
 
 fn deformation(scene: &Scene, model: &Model) -> Effect {

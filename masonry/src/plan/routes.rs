@@ -89,8 +89,8 @@ pub(super) struct Sizes {
     pub(super) rigid_modes: usize,
     pub(super) displacements: usize,
     pub(super) largest_block: usize,
-    /// Whether strips of mortar couple the blocks.
-    coupled: bool,
+    /// Bars of mortar strips, which couple the blocks.
+    bars: usize,
     /// Rows in which films give way.
     compliances: usize,
     /// Films are whole strips.
@@ -110,7 +110,7 @@ impl Sizes {
             displacements: blocks.clone().map(|block| unknowns(block).unwrap_or(3)).sum::<usize>()
                 + film_compliances(model),
             largest_block: blocks.filter_map(unknowns).max().unwrap_or(0),
-            coupled: stretching_points(model) > 0,
+            bars: stretching_points(model),
             compliances: film_compliances(model),
             strips: Strips::are_in(model),
         }
@@ -146,8 +146,8 @@ impl Sizes {
         let order_of = |form| {
             self.points
                 + unknowns_per_friction(form) * self.frictional
-                // Each free rigid amplitude is a difference of two nonnegative unknowns.
-                + if form == Form::Mixed { 2 * self.rigid_modes } else { 0 }
+                // Each free unknown, rigid amplitude or bar, is a difference of two nonnegative ones.
+                + if form == Form::Mixed { 2 * (self.rigid_modes + self.bars) } else { 0 }
         };
         let largest_order = order_of(if form == Form::Auto { Form::Mixed } else { form });
         // At the peak about nine matrices of the largest order (the problem, its equilibrated copy, the
@@ -178,7 +178,7 @@ impl Sizes {
     fn columns(&self) -> usize {
         const PER_NUMBER: usize = 12;
         let forces = self.points + self.frictional;
-        let moved = if self.coupled { self.displacements } else { 2 * self.largest_block.max(3) };
+        let moved = if self.bars > 0 { self.displacements } else { 2 * self.largest_block.max(3) };
         forces.saturating_mul(moved).saturating_mul(PER_NUMBER)
     }
 }

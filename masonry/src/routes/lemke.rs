@@ -159,7 +159,7 @@ impl Search<'_> {
 
     fn against_coulomb(&self, form: &Form, rows: &RowState) -> Option<Residuals> {
         let coulomb = self.coulomb.as_ref().filter(|_| form.kind != FormKind::Coulomb)?;
-        let (t, mut y) = coulomb.pairs(rows, &[]);
+        let (t, mut y) = coulomb.pairs(rows, &[], &[]);
         // Where nothing moves, rounding errors must not be measured against each other.
         y.iter_mut().filter(|y| y.abs() <= ROUNDING).for_each(|y| *y = 0.0);
         Some(coulomb.problem.residuals(&t, &y))
