@@ -7,16 +7,20 @@ mod common;
 
 use std::ops::ControlFlow;
 
+use common::films::film_stresses;
 use common::{
     M_KN, all_displacements, all_reactions, all_stresses, assert_close, difference, panels,
     rectangle, state,
 };
 use lcp::Status;
+use masonry::contact::PointRule;
 use masonry::model::Plane;
 use masonry::outcome::Outcome;
 use masonry::output::{json, table};
 use masonry::plan::Plan;
-use masonry::scene::{Joint, Load, Material, Route, Scene, Support};
+use masonry::scene::{
+    Brick, Films, Joint, Load, Material, Movement, Route, Scene, Stage, Support, Wall,
+};
 use masonry::solve::{Event, SolveError, solve, solve_observed};
 use serde_json::Value;
 
@@ -78,6 +82,48 @@ fn panels_as_by_interior_points() {
             info.convergence.iter().any(|it| it.unbalance <= TOLERANCE && it.distance > TOLERANCE)
         );
     }
+}
+
+/// A wall in strips of mortar, also between it and two floors.
+fn wall_on_floors() -> Scene {
+    let t = 0.02;
+    let (width, height) = (3.0 * (0.2 + t) - t, 3.0 * (0.1 + t));
+    let class = || Joint::mu(0.7).mortar(t, "mortar");
+    let brick = Brick { length: 0.2, height: 0.1 };
+    Scene::new("Wall on two floors", M_KN)
+        .plane(Plane::Stress)
+        .thickness(0.25)
+        .material("brick", Material::elastic(5e6, 0.15))
+        .material("mortar", Material::elastic(8e5, 0.2))
+        .joint("bed", class())
+        .joint("head", class())
+        .wall(Wall::running_bond("wall", "brick", brick, width, 3).mesh([2, 1]).origin([0.0, t]))
+        .support(Support::new("left", [-1.0, 0.0], [0.3, 0.0], "bed"))
+        .support(Support::new("right", [0.36, 0.0], [2.0, 0.0], "bed"))
+        .load(Load::pressure("top", [0.0, height], [width, height], 100.0))
+        .load(Load::traction("side", [0.0, t], [0.0, height], [20.0, 0.0]))
+        .contact_points(PointRule::Gauss)
+        .films(Films::Strips)
+}
+
+/// One floor sinks, turns and goes away, and what has slid stays slid: the strips start from gaps and slips as
+/// the contact points do.
+#[test]
+fn strips_on_floors_that_move() {
+    let stage = |name| Stage::new(name).load("top", 1.0);
+    let moved = Movement { turn: 2e-5, ..Movement::by(2e-5, -1e-5) };
+    let scene = wall_on_floors()
+        .stage(stage("push").load("side", 1.0))
+        .stage(stage("settle").load("side", 0.3).moves("right", moved));
+    let reference = by(&scene, Route::Interior, 1e-10);
+    let outcome = by(&scene, Route::Alm, TOLERANCE);
+    let first = by(&wall_on_floors().stage(stage("push").load("side", 1.0)), Route::Alm, TOLERANCE);
+    for of in [all_displacements, all_stresses, all_reactions, film_stresses] {
+        let error = difference(&of(&reference), &of(&outcome));
+        assert!(error <= 10.0 * TOLERANCE, "{error:e}");
+        assert!(difference(&of(&first), &of(&outcome)) > 0.01);
+    }
+    assert_eq!(outcome.solve.order, 2 * outcome.plan.nodes);
 }
 
 /// A block on a floor, pushed by a share of what presses it.

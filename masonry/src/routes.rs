@@ -6,7 +6,7 @@
 //! | [`interior`] | [`Sparse`](crate::forms::Sparse) | interior points, with evidence where nothing stands |
 //! | [`qp`] | [`Sparse`](crate::forms::Sparse) | convex quadratic programs, with proofs where nothing stands |
 //! | [`pgs`] | [`Sparse`](crate::forms::Sparse) | sweeps over the contacts of blocks on springs |
-//! | [`alm`] | [`Sparse`](crate::forms::Sparse) | the augmented Lagrangian method of the paper |
+//! | [`alm`] | [`Sparse`](crate::forms::Sparse), or whole films | the augmented Lagrangian method of the paper |
 //!
 //! All of them give an [`Answer`] to a [`Request`]. Which ones a scene is given is in its
 //! [`Plan`](crate::plan::Plan).

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::{Effect, film_compliances, nodes, stretching_points, unknowns_per_friction};
 use crate::model::{Block, Model};
+use crate::routes::alm::Strips;
 use crate::scene::{Films, Form, Route, Scene};
 
 /// All effects that a scene can call for.
@@ -52,11 +53,13 @@ fn friction(scene: &Scene, model: &Model, route: Route) -> Effect {
 }
 
 /// Each point of a film has a compliance across and, with friction, one along the joint. By pivots they
-/// are added to the diagonal of `A` without new unknowns; on the sparse routes each is a displacement.
+/// are added to the diagonal of `A` without new unknowns; on the sparse routes each is a displacement,
+/// but where the augmented Lagrangian method has whole strips.
 fn mortar_films(scene: &Scene, model: &Model, route: Route) -> Effect {
     let films = model.joints.iter().filter(|joint| joint.film.is_some()).count();
     let compliances = film_compliances(model);
-    let unknowns = if route == Route::Lemke { 0 } else { compliances };
+    let without = route == Route::Lemke || route == Route::Alm && Strips::are_in(model);
+    let unknowns = if without { 0 } else { compliances };
     let filled: BTreeSet<&str> = model
         .joints
         .iter()

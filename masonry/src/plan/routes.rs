@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::{film_compliances, stretching_points, unknowns_per_friction};
 use crate::model::Model;
+use crate::routes::alm::Strips;
 use crate::routes::pgs;
 use crate::scene::{Form, Route, Scene};
 
@@ -90,6 +91,10 @@ pub(super) struct Sizes {
     pub(super) largest_block: usize,
     /// Bars of mortar strips, which couple the blocks.
     bars: usize,
+    /// Rows in which films give way.
+    compliances: usize,
+    /// Films are whole strips.
+    strips: bool,
 }
 
 impl Sizes {
@@ -106,6 +111,8 @@ impl Sizes {
                 + film_compliances(model),
             largest_block: blocks.filter_map(unknowns).max().unwrap_or(0),
             bars: stretching_points(model),
+            compliances: film_compliances(model),
+            strips: Strips::are_in(model),
         }
     }
 
@@ -121,9 +128,10 @@ impl Sizes {
         match route {
             Route::Auto | Route::Lemke => self.lemke(form),
             Route::Interior => sparse,
-            // Contact forces are no unknowns of its linear systems.
+            // Contact forces are no unknowns of its linear systems, and neither is what strips do.
             Route::Alm => {
-                Choice { order: self.displacements, largest_order: self.displacements, ..sparse }
+                let order = self.displacements - if self.strips { self.compliances } else { 0 };
+                Choice { order, largest_order: order, ..sparse }
             }
             // The matrix of a program, and that of a proof, have the rows of the contacts too.
             Route::Qp => Choice { memory_bytes: sparse.memory_bytes.saturating_mul(6), ..sparse },

@@ -17,6 +17,9 @@
 //! The unbalanced force is what the last step left over, and convergence is linear: the solution may be many such
 //! steps away. So an answer is called solved when, besides, the rate at which the steps shrink says that displacements
 //! and forces are near.
+//!
+//! Whole films of mortar are no contact: see [`MortaredWall`], and, for films updated as the paper prints it,
+//! [`Updates`].
 
 mod contraction;
 mod films;
@@ -25,6 +28,7 @@ mod mortared;
 mod printed;
 mod route;
 mod run;
+mod strips;
 mod structure;
 
 use std::ops::ControlFlow;
@@ -35,6 +39,7 @@ pub use mortared::{MortaredError, MortaredState, MortaredWall};
 pub use printed::{Parts, Updated, Updates};
 pub use route::Multipliers;
 use serde::Serialize;
+pub use strips::Strips;
 use structure::Structure;
 
 /// What the route is asked for.

@@ -14,7 +14,7 @@ use crate::outcome::{RouteEnd, SolveInfo, State};
 use crate::plan::Choice;
 use crate::recover;
 use crate::reduction::Reduction;
-use crate::routes::alm::Multipliers;
+use crate::routes::alm::{Multipliers, Strips};
 use crate::routes::interior::Interior;
 use crate::routes::lemke::Pivots;
 use crate::routes::pgs::Sweeps;
@@ -172,6 +172,9 @@ impl<'a> Chain<'a> {
         let answer = match route {
             Route::Qp => self.timed(&Programs { sparse: &sparse }),
             Route::Pgs => self.timed(&Sweeps { sparse: &sparse }),
+            Route::Alm if Strips::are_in(model) => {
+                self.timed(&Strips { model, system, sparse: &sparse })
+            }
             Route::Alm => self.timed(&Multipliers { sparse: &sparse }),
             _ => self.timed(&Interior { sparse: &sparse }),
         };

@@ -9,7 +9,7 @@ use crate::film::law::{FilmState, PointContact};
 use crate::film::pointwise::{FilmResponse, PointwiseFilm};
 use crate::film::strip::{Strip, local_axes};
 use crate::film::{FilmError, Matrix8, Vector8};
-use crate::model::{Anchor, Joint, Model};
+use crate::model::{Anchor, ContactPoint, Joint, Model};
 
 /// Nodes closer to the end of a film than this part of its length do not divide it.
 const SAME_PLACE: f64 = 1e-9;
@@ -23,8 +23,10 @@ pub struct Segment {
     middle: f64,
     /// The strip with its law.
     pub film: PointwiseFilm,
-    /// States of the Gauss points before the step: nothing has slipped.
+    /// States of the Gauss points before the step.
     before: Vec<FilmState>,
+    /// What its ends are apart, in its own axes, before any block moves.
+    apart: Vector8,
     /// The displacements of its ends, in its own axes, from those of the nodes it is attached to.
     from_nodes: Matrix8,
     /// For `u` and `v` of every one of these nodes the unknown; none on a support.
@@ -63,7 +65,19 @@ pub(super) fn attached(model: &Model, start: &[usize]) -> Result<Vec<Segment>, A
             of_joint(model, (joint, it), [a, Some(b)], start, &mut segments)?;
         }
     }
+    start_from_points(model, &mut segments);
     Ok(segments)
+}
+
+/// Gaps and slips of a model with contact points at the Gauss points of all segments.
+fn start_from_points(model: &Model, segments: &mut [Segment]) {
+    let in_strips = |it: &&ContactPoint| it.film.is_some_and(|film| film.stretch.is_some());
+    let points: Vec<&ContactPoint> = model.contacts.iter().filter(in_strips).collect();
+    if points.len() == 2 * segments.len() {
+        for (segment, points) in segments.iter_mut().zip(points.chunks_exact(2)) {
+            segment.start_from(points[0], points[1]);
+        }
+    }
 }
 
 fn of_joint(
@@ -114,6 +128,7 @@ fn of_joint(
             joint: index,
             middle,
             before: film.initial(),
+            apart: Vector8::zeros(),
             film,
             from_nodes: both.transpose() * local_axes(tangent),
             unknowns,
@@ -151,8 +166,28 @@ fn edge_of(
 }
 
 impl Segment {
-    /// Displacements of the ends of the segment in its own axes.
+    /// Initial gaps and slips at its two Gauss points; gaps are linear between them.
+    fn start_from(&mut self, first: &ContactPoint, last: &ContactPoint) {
+        let strip = self.film.strip();
+        let places: Vec<f64> = self.film.places().collect();
+        let slope = (last.gap - first.gap) / (places[1] - places[0]);
+        for (node, end) in [2, 3].into_iter().zip(strip.ends()) {
+            self.apart[2 * node + 1] = first.gap + slope * (end - places[0]);
+        }
+        for ((state, place), point) in self.before.iter_mut().zip(places).zip([first, last]) {
+            // Faces that are apart at an angle are no shear of the mortar.
+            let turned = (strip.strain_matrix(place) * self.apart).z;
+            state.slip = strip.thickness() * turned - point.slip;
+        }
+    }
+
+    /// Displacements of the ends of the segment in its own axes, with what they are apart before.
     pub fn displacements(&self, u: &[f64]) -> Vector8 {
+        self.motion(u) + self.apart
+    }
+
+    /// What the displacements of the blocks make of them.
+    pub(super) fn motion(&self, u: &[f64]) -> Vector8 {
         let nodes = self.unknowns.map(|unknown| unknown.map_or(0.0, |j| u[j]));
         self.from_nodes * Vector8::from(nodes)
     }

@@ -79,7 +79,7 @@ impl<'a> Matrices<'a> {
         // What the films take beyond their matrix, as friction that is held.
         let mut held = vec![0.0; n];
         for (film, response) in self.structure.films.iter().zip(films) {
-            let by_matrix = film.matrix(response) * film.displacements(&at.u);
+            let by_matrix = film.matrix(response) * film.motion(&at.u);
             film.add_force(&(by_matrix - response.force), &mut held);
         }
         held.iter().enumerate().for_each(|(j, force)| u[(j, 0)] += force);

@@ -36,7 +36,8 @@ pub enum MortaredError {
 
 /// Blocks, the dry joints between them, and whole films in all other joints.
 ///
-/// Nothing has slipped before, and the answer is that of the static law: one step from rest.
+/// Where the model has contact points at the Gauss points of strips, films start from their gaps and slips;
+/// else nothing has slipped before, and the answer is that of the static law: one step from rest.
 ///
 /// ```
 /// use std::ops::ControlFlow;
