@@ -37,12 +37,17 @@ fn sides(outcome: &Outcome) -> Vec<f64> {
     [sum(["left foot", "left wall"]), sum(["right foot", "right wall"])].concat()
 }
 
-/// Bricks without load may be moved in the square panels; all others are where they are by interior points.
+/// Where they are by interior points, but for bricks without load, which most of the panels have.
 #[test]
 fn panels_as_by_interior_points() {
-    for name in
-        ["panel_square", "panel_rectangular", "panel_square_mortar", "panel_rectangular_mortar"]
-    {
+    for name in [
+        "panel_square",
+        "panel_rectangular",
+        "panel_square_mortar",
+        "panel_rectangular_mortar",
+        "panel_square_mortar_open",
+        "panel_rectangular_mortar_open",
+    ] {
         let scene = panels::scene(name);
         let reference = by(&scene, Route::Interior, 1e-10);
         let outcome = by(&scene, Route::Alm, TOLERANCE);
@@ -50,7 +55,7 @@ fn panels_as_by_interior_points() {
             ("sides", sides(&reference), sides(&outcome)),
             ("stresses", all_stresses(&reference), all_stresses(&outcome)),
         ];
-        if name.starts_with("panel_rectangular") {
+        if ["panel_rectangular", "panel_rectangular_mortar"].contains(&name) {
             let [expected, found] = [&reference, &outcome].map(all_displacements);
             pairs.push(("displacements", expected, found));
         }

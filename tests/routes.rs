@@ -13,7 +13,7 @@ mod plan;
 use std::cell::Cell;
 use std::ops::ControlFlow;
 
-use common::routes::{ROUTES, solved_by};
+use common::routes::{OF_RIGID_BLOCKS as ROUTES, solved_by};
 use common::{
     GRAVITY, M_KN, all_displacements, all_reactions, all_stresses, applied_load, assert_close,
     difference, joint_resultant, panels, rectangle, state,

@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::routes::{ROUTES, solved_unless_sweeps_stall};
+use common::routes::{ROUTES, answer_by, routes_for};
 use common::{GRAVITY, M_KN, state};
 use masonry::model::{Model, Plane};
 use masonry::plan::{Effect, Plan};
@@ -63,7 +63,9 @@ fn rigid_blocks_have_no_mesh_no_stiffness_and_no_stress() {
                 && body.rows.iter().all(|row| row.entries.is_empty())
         };
         assert!(system.bodies.iter().all(is_bare));
-        let Some(outcome) = solved_unless_sweeps_stall(&scene, route) else { continue };
+    }
+    for route in routes_for(&scene) {
+        let Some(outcome) = answer_by(&scene, route) else { continue };
         assert!(state(&outcome).stresses.is_empty());
     }
     let (plan, model, system) = built(&wall(elastic(), Joint::mu(0.6)), Route::Lemke);

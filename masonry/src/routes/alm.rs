@@ -22,6 +22,7 @@ mod contraction;
 mod films;
 mod matrices;
 mod mortared;
+mod printed;
 mod route;
 mod run;
 mod structure;
@@ -31,6 +32,7 @@ use std::ops::ControlFlow;
 pub use films::{AttachError, Segment};
 use lcp::{Contact2d, ContactState, Residuals, Status};
 pub use mortared::{MortaredError, MortaredState, MortaredWall};
+pub use printed::{Parts, Updated, Updates};
 pub use route::Multipliers;
 use serde::Serialize;
 use structure::Structure;
@@ -101,6 +103,15 @@ pub enum AlmError {
         /// The value.
         tolerance: f64,
     },
+    /// Parts of films move by a share of their way that is none.
+    #[error("relaxation is {relaxation}, but must be above 0 and at most 1")]
+    Relaxation {
+        /// The value.
+        relaxation: f64,
+    },
+    /// The data of a problem overflow.
+    #[error(transparent)]
+    Data(#[from] lcp::Error),
     /// The sparse factors do not fit into memory, or `K` has a negative mode.
     #[error("the stiffness cannot be factorised: {0}")]
     Factorisation(String),

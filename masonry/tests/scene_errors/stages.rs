@@ -2,10 +2,10 @@
 
 use super::*;
 
-/// The good scene with a stage at its end.
+/// The good scene with a stage, of which nothing that is marked stands before it.
 fn assert_stage_error(stage: &str, marked: &str, key: &str, words: &[&str]) {
     let solver = "[solver]\ntolerance = 1e-10\n";
-    let replacement = format!("{solver}\n[[stages]]\n{stage}\n");
+    let replacement = format!("[[stages]]\n{stage}\n\n{solver}");
     assert_error(solver, &replacement, marked, key, words);
 }
 
@@ -39,7 +39,7 @@ fn numbers_of_stages_out_of_range() {
 fn a_factor_of_gravity_without_gravity_and_names_that_are_taken() {
     let stage = "pressure = 10.0\n\n[[stages]]\nname = \"weight\"\ngravity = 1.0\n";
     let text = GOOD.replace("gravity = [0.0, -9.81]\n", "").replace("pressure = 10.0\n", stage);
-    let error = Scene::from_toml(&text).unwrap().check().unwrap_err();
+    let error = Scene::from_toml(&text).unwrap_err();
     assert_eq!(error.key(), "stages[0].gravity", "{error}");
     assert!(error.to_string().contains("add `gravity` to the scene"), "{error}");
     let twice = "name = \"push\"\n[[stages]]\nname = \"push\"";

@@ -46,6 +46,7 @@ impl From<AlmError> for Error {
             AlmError::Tolerance { tolerance } => {
                 Self::Setting { name: "tolerance", value: tolerance, range: "in (0, 1)" }
             }
+            AlmError::Data(error) => error,
             other => Self::NotTreated { solver: Route::Alm.name(), reason: other.to_string() },
         }
     }
