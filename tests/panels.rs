@@ -168,49 +168,6 @@ fn the_default_contact_points_are_the_nodal_pairs_here() {
     }
 }
 
-/// The bricks of the arch's edge lose their support in steps of half a brick for every course.
-#[test]
-fn the_staircase_of_open_joints() {
-    // Square bricks: every bed joint on the staircase is open from end to end.
-    for course in 1..=4_u8 {
-        let [from, to] = panels::stair(0.1, course);
-        let joint = panels::bed_joint(&OPEN, from, to, course);
-        let gaps: Vec<f64> = joint.iter().map(|s| s.y_n).collect();
-        assert!(gaps.iter().all(|&gap| gap > 0.0), "course {course}: {gaps:?}");
-    }
-    // Rectangular bricks: it carries next to nothing of what the joint before it carries, and its
-    // head joints gape.
-    for course in 1..=2_u8 {
-        let [from, to] = panels::stair(0.2, course);
-        let carried = |from: f64, to: f64| -> f64 {
-            panels::bed_joint(&RECTANGULAR, from, to, course).iter().map(|s| s.t_n).sum()
-        };
-        let (on, before) = (carried(from, to), carried(from - 0.1, from));
-        assert!(on < 0.12 * before, "course {course}: {on} N against {before} N");
-        let head = panels::head_joint(&RECTANGULAR, from, course);
-        let top = head.iter().filter(|(y, _)| *y > 0.1 * f64::from(course) - 0.06);
-        assert!(top.clone().count() >= 2);
-        assert!(top.clone().all(|(_, s)| s.y_n > 0.0), "head joint of course {course}");
-    }
-}
-
-/// The bricks on either side of the staircase: at every step the one before it carries more than
-/// three times the mean compression of the one behind, and the middle bricks of the lowest course
-/// are unloaded, which is to say that they carry less than a tenth of the pressure on top.
-#[test]
-fn bricks_behind_the_staircase_are_unloaded() {
-    for (outcome, length, courses) in [(&*OPEN, 0.1, 4), (&*RECTANGULAR, 0.2, 2)] {
-        for course in 1..=courses {
-            let [edge, _] = panels::stair(length, course);
-            let before = panels::mean_compression(outcome, [edge - length, edge], course);
-            let behind = panels::mean_compression(outcome, [edge, edge + length], course);
-            assert!(before > 3.0 * behind, "course {course}: {before} Pa and {behind} Pa");
-        }
-        let middle = panels::mean_compression(outcome, [0.4, 0.6], 1);
-        assert!(middle < 0.1 * 10e3, "{middle} Pa");
-    }
-}
-
 /// Without any floor the friction of the walls cannot carry the load at mu = 1.
 #[test]
 fn without_a_floor_there_is_no_equilibrium() {

@@ -25,7 +25,7 @@ use crate::solve::Monitor;
 use crate::{Error, Observer, Solution, Status, WarmStart};
 
 /// An interior-point method for the complementarity problem itself, for large sparse problems: contact
-/// with Coulomb's friction ([`Contact2d`]), and mixed and standard problems.
+/// with Coulomb's friction ([`Contact2d`](crate::Contact2d)), and mixed and standard problems.
 ///
 /// Newton's method on `K u = f + C^T t`, `y = C u + x`, `t_i y_i = tau`, with `tau` driven to zero by
 /// Mehrotra's predictor and corrector (1992) and Gondzio's correctors of centrality (1996). Everything but
