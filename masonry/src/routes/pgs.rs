@@ -33,6 +33,10 @@ const LEAST: f64 = 1e-6;
 /// How accurate the sweeps are at first, and at most, relative to the tolerance.
 const FIRST: f64 = 1e-3;
 const LAST: f64 = 0.01;
+/// Rounds converge by a factor, and what is left of the displacements may be several times the last residual: so
+/// they go on to this part of the tolerance, unless they have come to rest below it, for so many rounds.
+const NEARER: f64 = 0.1;
+const SETTLED: usize = 3;
 /// Rounds in which the residual must fall by a tenth.
 const PATIENCE: usize = 200;
 
@@ -123,7 +127,9 @@ impl<'a> Rounds<'a> {
 
     fn stop(&self, observer: &mut dyn FnMut(Step) -> ControlFlow<()>) -> Option<Status> {
         let is_cancelled = observer(self.step()).is_break();
-        if self.lack() <= self.tolerance {
+        let lack = self.lack();
+        let is_settled = self.idle >= SETTLED || self.done >= MAX_ROUNDS;
+        if lack <= NEARER * self.tolerance || (lack <= self.tolerance && is_settled) {
             Some(Status::Solved)
         } else if is_cancelled {
             Some(Status::Cancelled)
