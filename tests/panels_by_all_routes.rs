@@ -1,13 +1,14 @@
 //! The panels of the paper by every route, dry and in mortar: one answer.
 //!
 //! Of the square panels and those in mortar the displacements are not unique, for bricks that carry nothing
-//! may hang anywhere in their open joints: there stresses, forces and energy are compared. Quadratic programs
+//! may hang anywhere in their open joints: there stresses, forces and energy are compared; and `f.u = 2 U + D` holds. Quadratic programs
 //! solve the square panel in strips of mortar only in part: their fixed point does not contract, and they say so.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 mod common;
 
+use common::films::{assert_energy, film_stresses};
 use common::routes::ROUTES;
 use common::{
     all_displacements, all_stresses, assert_close, assert_sound, difference, panels, state,
@@ -34,8 +35,9 @@ fn assert_one_answer(name: &str, routes: &[Route], are_displacements_unique: boo
     for &route in routes {
         let outcome = by(&scene, route, TOLERANCE);
         let mut pairs = vec![
-            ("sides", panels::sides(&reference), panels::sides(&outcome)),
+            ("sides", panels::sides(&reference.reactions), panels::sides(&outcome.reactions)),
             ("stresses", all_stresses(&reference), all_stresses(&outcome)),
+            ("films", film_stresses(&reference), film_stresses(&outcome)),
         ];
         if are_displacements_unique {
             let [expected, found] = [&reference, &outcome].map(all_displacements);
@@ -47,6 +49,7 @@ fn assert_one_answer(name: &str, routes: &[Route], are_displacements_unique: boo
         }
         let [expected, found] = [&reference, &outcome].map(|it| state(it).strain_energy);
         assert_close(found, expected, 10.0 * TOLERANCE);
+        assert_energy(&outcome, 10.0 * TOLERANCE);
     }
 }
 
