@@ -74,14 +74,19 @@ fn dissipated_in(outcome: &Outcome, stages: &[&str]) -> f64 {
 fn hysteresis_of_a_block_on_springs() {
     let young = 1e6;
     let slips_at = LIMIT / stiffness(young);
-    for route in ROUTES {
+    for route in ROUTES.into_iter().chain([Route::Pgs]) {
+        let tolerance = if route == Route::Pgs { 1e-8 } else { 1e-10 };
         for (reach, steps) in [(5.0 * slips_at, 1), (5.0 * slips_at, 7), (1.5 * slips_at, 4)] {
-            let outcome = solve(&cycle(shaken_block(young).route(route), reach, steps)).unwrap();
+            let block = shaken_block(young).route(route).tolerance(tolerance);
+            let outcome = solve(&cycle(block, reach, steps)).unwrap();
             assert_eq!(outcome.solve.status, Status::Solved, "{route:?} {:?}", outcome.solve);
             let area = 4.0 * LIMIT * (reach - slips_at);
-            assert_close(dissipated_in(&outcome, &["back", "out again"]), area, 1e-8);
-            assert_close(dissipated_in(&outcome, &["out"]), LIMIT * (reach - slips_at), 1e-8);
-            assert!(dissipated_in(&outcome, &["clamp"]).abs() <= 1e-9 * area);
+            let close = |stages: &[&str], energy: f64| {
+                assert_close(dissipated_in(&outcome, stages), energy, 100.0 * tolerance);
+            };
+            close(&["back", "out again"], area);
+            close(&["out"], LIMIT * (reach - slips_at));
+            assert!(dissipated_in(&outcome, &["clamp"]).abs() <= 10.0 * tolerance * area);
         }
     }
 }
