@@ -79,7 +79,7 @@ fn compare(name: &str) -> Result<Vec<Iteration>, Box<dyn Error>> {
     let bonded = wall.with_parts(&wall.bonded())?;
     let n = bonded.displacements();
     for unbalance in [1e-4, TOLERANCE] {
-        let first = alm.history.iter().take_while(|it| it.unbalance > unbalance).count();
+        let first = alm.convergence.iter().take_while(|it| it.unbalance > unbalance).count();
         let method = format!("ALM to unbalance {unbalance:.0e}");
         line(&method, n, n * semi_bandwidth(&bonded), first + 1, seconds[first], String::new());
     }
@@ -110,5 +110,5 @@ fn compare(name: &str) -> Result<Vec<Iteration>, Box<dyn Error>> {
         };
         line(method, info.order, numbers, steps, time, ratio);
     }
-    Ok(alm.history)
+    Ok(alm.convergence)
 }

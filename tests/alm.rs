@@ -65,7 +65,7 @@ fn panels_as_by_interior_points() {
             let answer = solve(&problem, tolerance);
             assert_eq!(answer.status, Status::Solved, "{name}");
             assert!(answer.residuals.worst() <= tolerance, "{:?}", answer.residuals);
-            let last = answer.history.last().unwrap();
+            let last = answer.convergence.last().unwrap();
             assert!(
                 last.unbalance.max(last.distance) <= tolerance && last.attempt == 1,
                 "{last:?}"
@@ -83,9 +83,9 @@ fn panels_as_by_interior_points() {
                 size = size.max(force.abs());
             }
             assert!(error < 3.0 * tolerance * size, "{name}: {error} of {size}");
-            iterations.push(answer.history.len());
+            iterations.push(answer.convergence.len());
             // Far fewer factorisations than iterations: most states are found early.
-            assert!(answer.factorisations < answer.history.len());
+            assert!(answer.factorisations < answer.convergence.len());
         }
         // Linear convergence: twice the digits cost less than four times the iterations.
         assert!(iterations[1] < 4 * iterations[0], "{name}: {iterations:?}");
@@ -137,7 +137,7 @@ fn units_do_not_matter() {
         vec![0.5],
     );
     let (one, other) = (solve(&problem, 1e-8), solve(&scaled.unwrap(), 1e-8));
-    assert_eq!(one.history, other.history);
+    assert_eq!(one.convergence, other.convergence);
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn limits_and_misuse_are_said() {
         alm::solve(&problem, &settings, &mut |_| ControlFlow::Continue(())).unwrap()
     };
     let few = run(Settings { max_iterations: 2, ..Settings::default() });
-    assert_eq!((few.status, few.history.len()), (Status::IterationLimit, 2));
+    assert_eq!((few.status, few.convergence.len()), (Status::IterationLimit, 2));
     let cancelled = alm::solve(&problem, &Settings::default(), &mut |_| ControlFlow::Break(()));
     assert_eq!(cancelled.unwrap().status, Status::Cancelled);
     let none = Settings { tolerance: 0.0, ..Settings::default() };

@@ -37,7 +37,7 @@ fn panel(name: &str, mesh: [u32; 2]) -> Model {
 fn answer(wall: &MortaredWall, tolerance: f64) -> Answer {
     let settings = Settings { tolerance, ..Settings::default() };
     let answer = wall.solve(&settings, &mut |_| ControlFlow::Continue(())).unwrap();
-    assert_eq!(answer.status, Status::Solved, "{:?}", answer.history.last());
+    assert_eq!(answer.status, Status::Solved, "{:?}", answer.convergence.last());
     answer
 }
 
@@ -53,7 +53,7 @@ fn panels_with_one_element_per_brick() {
         let wall = MortaredWall::new(&model).unwrap();
         assert_eq!(wall.without_films().displacements(), 8 * bricks);
         let [rough, fine, finest] = [1e-4, 1e-8, 1e-10].map(|tolerance| answer(&wall, tolerance));
-        let last = fine.history.last().unwrap();
+        let last = fine.convergence.last().unwrap();
         assert!(last.unbalance <= 1e-8 && last.attempt == 1, "{last:?}");
         assert!(fine.residuals.worst() <= 1e-8, "{:?}", fine.residuals);
         // A few states of films are left to find when the force is balanced to 1e-4.

@@ -35,14 +35,7 @@ fn by(scene: &Scene, route: Route, tolerance: f64) -> Outcome {
 /// Where they are by interior points, but for bricks without load, which most of the panels have.
 #[test]
 fn panels_as_by_interior_points() {
-    for name in [
-        "panel_square",
-        "panel_rectangular",
-        "panel_square_mortar",
-        "panel_rectangular_mortar",
-        "panel_square_mortar_open",
-        "panel_rectangular_mortar_open",
-    ] {
+    for name in ["panel_square_mortar", "panel_rectangular_mortar"] {
         let scene = panels::scene(name);
         let reference = by(&scene, Route::Interior, 1e-10);
         let outcome = by(&scene, Route::Alm, TOLERANCE);
@@ -50,7 +43,7 @@ fn panels_as_by_interior_points() {
             ("sides", panels::sides(&reference.reactions), panels::sides(&outcome.reactions)),
             ("stresses", all_stresses(&reference), all_stresses(&outcome)),
         ];
-        if ["panel_rectangular", "panel_rectangular_mortar"].contains(&name) {
+        if name == "panel_rectangular_mortar" {
             let [expected, found] = [&reference, &outcome].map(all_displacements);
             pairs.push(("displacements", expected, found));
         }

@@ -144,21 +144,19 @@ fn energy_is_accounted_for() {
     }
 }
 
-/// What comes first matters with friction, and without it nothing but the end is computed.
+/// What comes first matters with friction.
 #[test]
 fn the_order_of_loads() {
     let other_way = wall()
         .stage(Stage::new("both").steps(2).load("top", 1.0).load("side", 1.0))
         .stage(Stage::new("release").steps(2).load("side", 0.0));
-    let displacement = |scene: &Scene| {
+    let left_in = |scene: &Scene| {
         let outcome = solve(scene).unwrap();
         assert_eq!(outcome.solve.status, Status::Solved);
-        outcome.history.unwrap().records.last().unwrap().largest_displacement
+        outcome.history.unwrap().dissipation()
     };
-    let [one, other] = [pushed(4), other_way].map(|scene| displacement(&scene));
-    assert!((one - other).abs() > 1e-6 * one, "{one} {other}");
-
-    assert_eq!(solve(&pushed(4)).unwrap().plan.steps, 12);
+    let [one, other] = [pushed(2), other_way].map(|scene| left_in(&scene));
+    assert!((one - other).abs() > 0.1 * one.max(other), "{one} {other}");
 }
 
 /// Without friction only the last state is computed: it does not depend on the way.
@@ -263,43 +261,93 @@ fn a_step_that_fails_keeps_the_one_before() {
     }
 }
 
+/// A run of a scene, four steps on.
+fn begun(scene: &Scene) -> Run {
+    let go = &mut |_| ControlFlow::Continue(());
+    let mut run = Run::new(scene, go).unwrap();
+    for _ in 0..4 {
+        assert!(run.advance(go).unwrap());
+    }
+    run
+}
+
+/// The checkpoint of a run as it comes back from a file.
+fn through_a_file(run: &Run, name: &str, change: impl Fn(String) -> String) -> Checkpoint {
+    let file = format!("masonry-{}-{name}.json", std::process::id());
+    let path = std::env::temp_dir().join(file);
+    run.checkpoint().unwrap().write(&path).unwrap();
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, change(text)).unwrap();
+    let checkpoint = Checkpoint::read(&path).unwrap();
+    std::fs::remove_file(&path).unwrap();
+    checkpoint
+}
+
+fn resumed(scene: &Scene, checkpoint: &Checkpoint) -> Result<Run, SolveError> {
+    Run::new(scene, &mut |_| ControlFlow::Continue(())).unwrap().resume(checkpoint)
+}
+
 /// A run that is broken off and taken up again ends with the same numbers to the last digit.
 #[test]
 fn checkpoints() {
-    let scene = pushed(3);
-    let go = &mut |_| ControlFlow::Continue(());
-    let whole = solve(&scene).unwrap();
-    let mut first = Run::new(&scene, go).unwrap();
-    for _ in 0..4 {
-        assert!(first.advance(go).unwrap());
+    for route in [Route::Lemke, Route::Interior, Route::Qp, Route::Alm] {
+        let scene = pushed(2).route(route).tolerance(1e-9);
+        let whole = solve(&scene).unwrap();
+        let first = begun(&scene);
+        let checkpoint = through_a_file(&first, route.name(), |text| text);
+        assert_eq!(Some(&checkpoint), first.checkpoint().as_ref());
+        let mut second = resumed(&scene, &checkpoint).unwrap();
+        while second.advance(&mut |_| ControlFlow::Continue(())).unwrap() {}
+        let [whole, resumed] =
+            [whole, second.finish()].map(|it| (it.state.unwrap(), it.history.unwrap()));
+        assert_eq!(resumed.1, whole.1, "{route:?}");
+        assert_eq!(resumed.0.contacts, whole.0.contacts);
+        assert_eq!(resumed.0.displacements, whole.0.displacements);
     }
-    let path = std::env::temp_dir().join(format!("masonry-{}-checkpoint.json", std::process::id()));
-    first.checkpoint().unwrap().write(&path).unwrap();
-    let checkpoint = Checkpoint::read(&path).unwrap();
-    std::fs::remove_file(&path).unwrap();
-    assert_eq!(Some(&checkpoint), first.checkpoint().as_ref());
+}
 
-    let resume = |scene: &Scene| {
-        Run::new(scene, &mut |_| ControlFlow::Continue(())).unwrap().resume(&checkpoint)
-    };
-    let mut second = resume(&scene).unwrap();
-    while second.advance(go).unwrap() {}
-    let resumed = second.finish();
-    let [whole, resumed] = [whole, resumed].map(|it| (it.state.unwrap(), it.history.unwrap()));
-    assert_eq!(resumed.1, whole.1);
-    assert_eq!(resumed.0.contacts, whole.0.contacts);
-    assert_eq!(resumed.0.displacements, whole.0.displacements);
-
-    // What is to come may change, what is done may not, and neither may the wall.
+/// What is to come may change, what is done may not, and neither may the wall.
+#[test]
+fn checkpoints_of_other_scenes() {
+    let scene = pushed(2);
+    let checkpoint = begun(&scene).checkpoint().unwrap();
     let mut longer = scene.clone();
     longer.stages[2].steps = 5;
-    assert_eq!(resume(&longer).unwrap().finish().history.unwrap().steps, 11);
+    assert_eq!(resumed(&longer, &checkpoint).unwrap().finish().history.unwrap().steps, 9);
+    let refused = |scene: &Scene| match resumed(scene, &checkpoint).unwrap_err() {
+        SolveError::Checkpoint(error) => error,
+        error => panic!("{error}"),
+    };
     let mut other = scene.clone();
-    other.stages[0].steps = 2;
-    let error = resume(&other).unwrap_err();
-    assert!(matches!(error, SolveError::Checkpoint(CheckpointError::OtherSteps { .. })), "{error}");
-    let error = resume(&scene.thickness(0.2)).unwrap_err();
-    assert!(matches!(error, SolveError::Checkpoint(CheckpointError::OtherScene)), "{error}");
+    other.stages[0].steps = 1;
+    assert!(matches!(refused(&other), CheckpointError::OtherSteps { .. }));
+    assert!(matches!(refused(&scene.thickness(0.2)), CheckpointError::OtherScene));
+    assert!(matches!(refused(&wall()), CheckpointError::OneStep));
+}
+
+/// Numbers that were changed are refused, or change nothing.
+#[test]
+fn checkpoints_that_were_tampered_with() {
+    let scene = pushed(2);
+    let run = begun(&scene);
+    let changed = |name: &str, from: &str, to: &str| {
+        let checkpoint = through_a_file(&run, name, |text| {
+            assert!(text.contains(from), "{from}");
+            text.replacen(from, to, 1)
+        });
+        resumed(&scene, &checkpoint)
+    };
+    let refused = |name: &str, from: &str, to: &str| {
+        changed(name, from, to).map(|_| ()).unwrap_err().to_string()
+    };
+    let force = refused("force", "\"contacts\":[{\"t_n\":", "\"contacts\":[{\"t_n\":9");
+    assert!(force.contains("no equilibrium"), "{force}");
+    let list = refused("list", "\"displacements\":[[[", "\"displacements\":[[[0.0,0.0],[");
+    assert!(list.contains("displacements of block \"wall/1/1\""), "{list}");
+    let energy = refused("energy", "],\"strain_energy\":", "],\"strain_energy\":-");
+    assert!(energy.contains("solve from the first step"), "{energy}");
+    let mut run = changed("basis", "\"basis\":\"", "\"basis\":\"t").unwrap();
+    assert!(run.advance(&mut |_| ControlFlow::Continue(())).unwrap());
 }
 
 /// A floor that sinks and turns takes a block along, and changes no force; gravity comes as the stage says.

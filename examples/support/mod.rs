@@ -4,6 +4,7 @@ use std::error::Error;
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use lcp::Status;
 use masonry::output::svg::ReferenceLines;
 use masonry::output::{self, Options, table};
 use masonry::scene::Scene;
@@ -31,5 +32,8 @@ pub(crate) fn run(name: &str) -> Result<(), Box<dyn Error>> {
     for file in files {
         println!("wrote {}", file.strip_prefix(root).unwrap_or(&file).display());
     }
-    Ok(())
+    match outcome.solve.status {
+        Status::Solved => Ok(()),
+        status => Err(format!("the scene is not solved: {status}").into()),
+    }
 }

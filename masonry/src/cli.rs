@@ -141,6 +141,9 @@ fn run_steps(scene: &Scene, args: &SolveArgs) -> Result<Ran, Failure> {
     let mut progress = Progress::new();
     let mut run = Run::new(scene, &mut |event| progress.show(event))?;
     if args.resume {
+        if !run.has_history() {
+            return Err(CheckpointError::OneStep.into());
+        }
         run = run.resume(&Checkpoint::read(&path)?)?;
     }
     let (mut files, mut end) = (Vec::new(), Ok(()));

@@ -13,7 +13,7 @@
 //!
 //! | module | content |
 //! |---|---|
-//! | [`energy`] | work of loads and supports, dissipation |
+//! | `energy` | work of loads and supports, dissipation |
 //! | [`checkpoint`] | everything that the next step needs, as a file |
 
 use std::collections::BTreeSet;
@@ -25,7 +25,7 @@ use crate::outcome::Reaction;
 use crate::scene::{Movement, Route, Scene, Stage};
 
 pub mod checkpoint;
-pub mod energy;
+pub(crate) mod energy;
 
 /// What acts on a model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -57,6 +57,17 @@ pub enum SolveError {
     /// The solver refused its settings or the data.
     #[error("the complementarity problem was refused: {0}")]
     Solver(#[from] lcp::Error),
+    /// A later step of the load history could not be brought to a solver; those before are kept.
+    #[error("step {step} of stage \"{stage}\": {error}")]
+    Step {
+        /// Name of the stage.
+        stage: String,
+        /// The step in it, from 1.
+        step: usize,
+        /// What went wrong.
+        #[source]
+        error: Box<SolveError>,
+    },
     /// A checkpoint does not fit.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),

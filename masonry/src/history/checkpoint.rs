@@ -73,11 +73,21 @@ pub enum CheckpointError {
         /// The step in it, from 1.
         step: usize,
     },
+    /// The scene has one step.
+    #[error(
+        "the scene has one step, after which there is nothing to go on with: solve it without a checkpoint"
+    )]
+    OneStep,
+    /// A number is not finite, or forces and displacements are not those of an equilibrium.
+    #[error(
+        "the state in the checkpoint is no equilibrium of the scene: solve from the first step"
+    )]
+    NoEquilibrium,
     /// Lists of wrong lengths.
     #[error("the checkpoint has {found} {what}, and the scene {wanted}: solve from the first step")]
     Size {
         /// What there is too much or too little of.
-        what: &'static str,
+        what: String,
         /// How many the checkpoint has.
         found: usize,
         /// How many the scene has.
@@ -99,6 +109,12 @@ pub struct Checkpoint {
     strain_energy: f64,
     /// The side of every pair that is basic, `t` or `y`, where pivots end: the next step starts there.
     basis: Option<String>,
+}
+
+/// The version alone.
+#[derive(Deserialize)]
+struct Version {
+    version: u32,
 }
 
 impl Checkpoint {
@@ -123,9 +139,10 @@ impl Checkpoint {
         }
     }
 
-    /// Where the pivots of the next step start.
-    pub(crate) fn basis(&self) -> Option<Start> {
-        self.basis.as_ref().map(|sides| Start::last(sides.chars().map(|it| it == 't').collect()))
+    /// Where the pivots of the next step start, if that is a basis of a problem of this order.
+    pub(crate) fn basis(&self, order: usize) -> Option<Start> {
+        let sides = self.basis.as_ref().filter(|sides| sides.len() == order)?;
+        Some(Start::last(sides.chars().map(|it| it == 't').collect()))
     }
 
     /// What of a scene must not change between a checkpoint and a run that goes on from it, as text.
@@ -145,11 +162,11 @@ impl Checkpoint {
         let path_buf = || path.to_owned();
         let text = fs::read_to_string(path)
             .map_err(|source| CheckpointError::Read { path: path_buf(), source })?;
-        let checkpoint: Self = serde_json::from_str(&text)
-            .map_err(|source| CheckpointError::Syntax { path: path_buf(), source })?;
-        match checkpoint.version {
-            VERSION => Ok(checkpoint),
-            found => Err(CheckpointError::Version { found }),
+        let syntax = |source| CheckpointError::Syntax { path: path_buf(), source };
+        // What else another version has in it is not known.
+        match serde_json::from_str(&text).map_err(syntax)? {
+            Version { version: VERSION } => serde_json::from_str(&text).map_err(syntax),
+            Version { version: found } => Err(CheckpointError::Version { found }),
         }
     }
 
@@ -169,11 +186,17 @@ impl Checkpoint {
         model: &Model,
         with_stresses: bool,
     ) -> Result<State, CheckpointError> {
-        let wanted: usize = model.blocks.iter().map(nodes).sum();
-        let found: usize = self.displacements.iter().map(Vec::len).sum();
-        same("displacements", found, wanted)?;
         same("blocks", self.displacements.len(), model.blocks.len())?;
+        for (block, moved) in model.blocks.iter().zip(&self.displacements) {
+            same(&format!("displacements of block \"{}\"", block.name), moved.len(), nodes(block))?;
+        }
         same("contact points", self.contacts.len(), model.contacts.len())?;
+        for record in &self.records {
+            same("reactions in a record", record.reactions.len(), model.supports.len())?;
+        }
+        if !(self.strain_energy >= 0.0 && self.strain_energy.is_finite()) {
+            return Err(CheckpointError::NoEquilibrium);
+        }
         let displacements: Vec<Vec<Vector2<f64>>> = self
             .displacements
             .iter()
@@ -191,6 +214,11 @@ fn nodes(block: &crate::model::Block) -> usize {
     block.mesh.as_ref().map_or(block.corners.len(), |mesh| mesh.nodes.len())
 }
 
-fn same(what: &'static str, found: usize, wanted: usize) -> Result<(), CheckpointError> {
-    if found == wanted { Ok(()) } else { Err(CheckpointError::Size { what, found, wanted }) }
+fn same(what: &str, found: usize, wanted: usize) -> Result<(), CheckpointError> {
+    let what = || what.to_owned();
+    if found == wanted {
+        Ok(())
+    } else {
+        Err(CheckpointError::Size { what: what(), found, wanted })
+    }
 }

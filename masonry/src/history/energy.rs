@@ -16,7 +16,7 @@ use crate::system::{System, displaced_nodes};
 
 /// What loads and supports need to have their work told.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Snapshot {
+pub(crate) struct Snapshot {
     /// Loads \[N\] in the order of all displacements.
     loads: Vec<f64>,
     /// Nodal displacements, or amplitudes of rigid blocks \[m\].
@@ -29,7 +29,7 @@ pub struct Snapshot {
 
 impl Snapshot {
     /// The state of a model, with the system that has its loads.
-    pub fn of(model: &Model, system: &System, state: &State) -> Self {
+    pub(crate) fn of(model: &Model, system: &System, state: &State) -> Self {
         let (mut loads, mut displacements) = (Vec::new(), Vec::new());
         for (b, (body, moved)) in system.bodies.iter().zip(&state.displacements).enumerate() {
             if body.stiffness.is_some() {
@@ -58,7 +58,7 @@ impl Snapshot {
 
     /// The same structure without loads, at rest.
     #[must_use]
-    pub fn at_rest(&self) -> Self {
+    pub(crate) fn at_rest(&self) -> Self {
         Self {
             loads: vec![0.0; self.loads.len()],
             displacements: vec![0.0; self.displacements.len()],
@@ -71,7 +71,7 @@ impl Snapshot {
     ///
     /// # Panics
     /// If the states are not of one structure.
-    pub fn work_to(&self, next: &Self) -> f64 {
+    pub(crate) fn work_to(&self, next: &Self) -> f64 {
         assert_eq!(self.loads.len(), next.loads.len(), "states of one structure");
         let of_loads: f64 = (0..self.loads.len())
             .map(|i| {
@@ -90,6 +90,6 @@ impl Snapshot {
 }
 
 /// Energy \[J\] that sliding dissipates in a step, where `y_t` of the contacts is their slip in the step.
-pub fn dissipation(contacts: &[ContactState]) -> f64 {
+pub(crate) fn dissipation(contacts: &[ContactState]) -> f64 {
     contacts.iter().map(|contact| -contact.t_t * contact.y_t).sum()
 }

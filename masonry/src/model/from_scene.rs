@@ -37,6 +37,7 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
     let supports: Vec<Support> = scene.supports.iter().map(|s| support(s, units)).collect();
     placement::check_overlaps(&blocks, &keys, units)?;
     placement::check_supports(&blocks, &supports, units)?;
+    placement::check_movements(scene, &blocks)?;
 
     let found = find_joints(scene, &blocks, &supports, thickness)?;
     placement::check_touching(&blocks, &keys, &supports, &found.joints)?;

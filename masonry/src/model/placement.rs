@@ -7,7 +7,7 @@ use nalgebra::Point2;
 use super::{Block, Body, Joint, Support};
 use crate::contact::{Options, near_pairs};
 use crate::geometry::{self, Quad};
-use crate::scene::{Fault, KeyPath, SceneErrorKind};
+use crate::scene::{Fault, KeyPath, Scene, SceneErrorKind};
 use crate::units::Units;
 
 /// Overlaps below this fraction of the smaller block are rounding errors.
@@ -44,6 +44,32 @@ pub(super) fn check_overlaps(
                 unit: units.length_name(),
             };
             return Err(Fault::new(keys[j.index()].clone(), kind));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses supports that move farther than the blocks reach: displacements are small, and farther away nothing of
+/// the deformation would be left of the digits.
+pub(super) fn check_movements(scene: &Scene, blocks: &[Block]) -> Result<(), Fault> {
+    let corners = || blocks.iter().flat_map(|block| block.corners);
+    let across = |along: fn(&Point2<f64>) -> f64| {
+        let [low, high] = corners().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
+            [low.min(along(&p)), high.max(along(&p))]
+        });
+        high - low
+    };
+    let extent = across(|p| p.x).max(across(|p| p.y)) / scene.units.length_to_si();
+    for (k, stage) in scene.stages.iter().enumerate() {
+        for (name, to) in &stage.moves {
+            for (key, value) in [("x", to.x), ("y", to.y)] {
+                if value.abs() > extent {
+                    let wanted = "displacements are small: a support moves by less than the structure is \
+                                  large";
+                    let at = KeyPath::of("stages").item(k).key("moves").key(name).key(key);
+                    return Err(Fault::new(at, SceneErrorKind::Value { value, wanted }));
+                }
+            }
         }
     }
     Ok(())

@@ -17,8 +17,8 @@ use crate::scene::Route;
 /// solution `residuals`, `balance`, `reactions`, `contacts`, `strain_energy`, `max_displacement` and the stresses
 /// are null, and `reason` says why; `mechanism` gives displacement rates of the corners of every
 /// block, the largest component one, where one is known. `films`, the extremes of the stresses in
-/// mortar films, is there with films only, and `history`, one record a step, with a load history only: where a step failed, all
-/// else is the state after the step before. `springs`, `proved` and `soft` are those of
+/// mortar films, is there with films only, and `history`, one record a step, with a load history only: where a step failed, the state
+/// is that after the step before. `springs`, `proved` and `soft` are those of
 /// [`SolveInfo`](crate::outcome::SolveInfo). Numbers that are not finite become null.
 ///
 /// # Errors

@@ -157,8 +157,8 @@ pub fn reason(outcome: &Outcome) -> Option<String> {
     let history = outcome.history.as_ref().filter(|history| !history.records.is_empty());
     Some(match history.and_then(|history| history.failed.as_ref()) {
         Some(Step { stage, number, of, .. }) => format!(
-            "Step {number} of {of} of stage \"{stage}\" could not be solved. {why} All else in this report is \
-             of the step before, which was solved."
+            "Step {number} of {of} of stage \"{stage}\" could not be solved. {why} Load history, reactions and \
+             state are those of the step before, which was solved."
         ),
         None => why.to_owned(),
     })

@@ -118,15 +118,6 @@ fn solution(outcome: &Outcome) -> Vec<(&'static str, String)> {
     if let Some(paper) = &solve.coulomb_residuals {
         rows.push(("(3.27)", format!("{}, of the same answer in this form", residuals(paper))));
     }
-    if let Some(checks) = &outcome.checks {
-        let checks = [
-            ("force", checks.force_balance),
-            ("moment", checks.moment_balance),
-            ("cone violation", checks.cone_violation),
-            ("penetration", checks.penetration),
-        ];
-        rows.push(("balance", listed(&checks)));
-    }
     rows
 }
 
@@ -189,6 +180,13 @@ fn state_figures(outcome: &Outcome, state: &State) -> Vec<(&'static str, String)
     };
     let mut rows = Vec::new();
     if let Some(checks) = &outcome.checks {
+        let errors = [
+            ("force", checks.force_balance),
+            ("moment", checks.moment_balance),
+            ("cone violation", checks.cone_violation),
+            ("penetration", checks.penetration),
+        ];
+        rows.push(("balance", listed(&errors)));
         let counts = [("open", checks.open), ("stick", checks.stick), ("slip", checks.slip)];
         let counts = counts.map(|(name, count)| format!("{count} {name}"));
         rows.push(("contact points", counts.join(", ")));

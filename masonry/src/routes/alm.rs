@@ -84,7 +84,7 @@ pub struct Answer {
     /// Its residuals, from the data.
     pub residuals: Residuals,
     /// Every iteration.
-    pub history: Vec<Iteration>,
+    pub convergence: Vec<Iteration>,
     /// Numeric factorisations; the symbolic one is done once.
     pub factorisations: usize,
 }

@@ -381,5 +381,9 @@ fn unknown(
     known: Known,
     table: &'static str,
 ) -> Fault {
-    Fault::new(at, SceneErrorKind::Unknown { what, name: name.to_owned(), known, table })
+    let missing = match what {
+        "load" | "support" => format!("it under [[{table}]]"),
+        _ => format!("[{table}.{name}]"),
+    };
+    Fault::new(at, SceneErrorKind::Unknown { what, name: name.to_owned(), known, missing })
 }

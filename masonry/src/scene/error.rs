@@ -202,27 +202,17 @@ pub enum SceneErrorKind {
     },
     /// A name refers to nothing.
     #[error(
-        "there is no {what} \"{name}\" in the scene; {known}: correct the name or add [{table}.{name}]"
+        "there is no {what} \"{name}\" in the scene; {known}: correct the name or add {missing}"
     )]
     Unknown {
-        /// `material` or `joint class`.
+        /// `material`, `joint class`, `load` or `support`.
         what: &'static str,
         /// The name.
         name: String,
         /// The names that there are.
         known: Known,
-        /// The table in which such things are defined.
-        table: &'static str,
-    },
-    /// A stage refers to a load or a support that is not there.
-    #[error("there is no {what} \"{name}\" in the scene; {known}: correct the name")]
-    NotThere {
-        /// `load` or `support`.
-        what: &'static str,
-        /// The name.
-        name: String,
-        /// The names that there are.
-        known: Known,
+        /// The table that would define it.
+        missing: String,
     },
     /// Nothing to analyse.
     #[error("the scene has no blocks: add [[walls]] or [[blocks]]")]

@@ -135,8 +135,12 @@ impl Run {
     /// wrote it.
     ///
     /// # Errors
-    /// [`CheckpointError`] when it belongs to another scene, or to steps that are not those of this one.
+    /// [`CheckpointError`] when it belongs to another scene, to steps that are not those of this one, when a state
+    /// in it does not hold, and for scenes of one step.
     pub fn resume(mut self, checkpoint: &Checkpoint) -> Result<Self, SolveError> {
+        if !self.has_history() {
+            return Err(CheckpointError::OneStep.into());
+        }
         let Checkpoint { origin, records, .. } = checkpoint;
         if *origin != self.origin {
             return Err(CheckpointError::OtherScene.into());
@@ -159,11 +163,14 @@ impl Run {
             because: "of the run that wrote the checkpoint".to_owned(),
             ..SolveInfo::new(Status::Solved, record.residuals)
         };
-        let checks = Some(Checks::of(&model, &state));
-        self.reached = Some(Reached { model, state, checks, snapshot });
+        let checks = Checks::of(&model, &state);
+        if !checks.hold(self.request.tolerance.max(record.residuals.worst())) {
+            return Err(CheckpointError::NoEquilibrium.into());
+        }
+        self.reached = Some(Reached { model, state, checks: Some(checks), snapshot });
         self.last = Some(Last { info, mechanism: None });
         self.records.clone_from(records);
-        self.basis = checkpoint.basis();
+        self.basis = checkpoint.basis(self.system.rows.len() + self.system.friction.len());
         Ok(self)
     }
 
@@ -179,7 +186,7 @@ impl Run {
         let Some(step) = self.steps.get(self.records.len()).filter(|_| !is_over).cloned() else {
             return Ok(false);
         };
-        if self.steps.len() > 1 {
+        if self.has_history() {
             let (number, of) = (self.records.len() + 1, self.steps.len());
             let _ = observer(Event::Step { number, of });
         }
@@ -189,9 +196,18 @@ impl Run {
         let wanted = (self.request, self.with_stresses);
         let parts = (&model, &self.system);
         let start = self.basis.take();
-        let found =
-            Chain::new(parts, wanted, start, &mut self.clock, observer).run(&self.plan.routes)?;
-        self.take(step, model, &slips, found);
+        let found = Chain::new(parts, wanted, start, &mut self.clock, observer);
+        match found.run(&self.plan.routes) {
+            Ok(found) => self.take(step, model, &slips, found),
+            Err(error) if self.records.is_empty() => return Err(error),
+            Err(error) => {
+                let info = SolveInfo::new(Status::NumericalTrouble, UNKNOWN);
+                self.last = Some(Last { info, mechanism: None });
+                let Step { stage, number, .. } = step;
+                let error = Box::new(error);
+                return Err(SolveError::Step { stage, step: number, error });
+            }
+        }
         Ok(true)
     }
 
@@ -222,7 +238,7 @@ impl Run {
                     Some(before) => before.work_to(&snapshot),
                     None => snapshot.at_rest().work_to(&snapshot),
                 };
-                let largest = state.displacements.iter().flatten().map(Vector2::norm);
+                let largest = state.displacements.iter().flatten().map(nalgebra::Matrix::amax);
                 self.records.push(StepRecord {
                     step,
                     route: info.route,
@@ -242,6 +258,11 @@ impl Run {
         self.last = Some(Last { info, mechanism });
     }
 
+    /// Whether there are several steps.
+    pub fn has_history(&self) -> bool {
+        self.steps.len() > 1
+    }
+
     /// How many steps were solved.
     pub fn solved_steps(&self) -> usize {
         self.records.len()
@@ -249,7 +270,7 @@ impl Run {
 
     /// Everything that the next step needs; `None` before the first, and for a scene of one step.
     pub fn checkpoint(&self) -> Option<Checkpoint> {
-        let reached = self.reached.as_ref().filter(|_| self.steps.len() > 1)?;
+        let reached = self.reached.as_ref().filter(|_| self.has_history())?;
         (!self.records.is_empty()).then(|| {
             let reached = (&reached.state, self.basis.as_ref());
             Checkpoint::new(self.origin.clone(), self.records.clone(), reached)

@@ -29,6 +29,11 @@ fn numbers_of_stages_out_of_range() {
     assert_stage_error(factor, "inf", "stages[0].loads.top", &["inf is not allowed"]);
     let turn = "name = \"turn\"\nmoves = { floor = { turn = nan } }";
     assert_stage_error(turn, "nan", "stages[0].moves.floor.turn", &["NaN is not allowed"]);
+    let far = "name = \"far\"\nmoves = { floor = { y = -20.0 } }";
+    let words = ["-20 is not allowed", "less than the structure is large"];
+    assert_stage_error(far, "-20", "stages[0].moves.floor.y", &words);
+    let turn = "name = \"turn\"\nmoves = { floor = { turn = 0.2 } }";
+    assert_stage_error(turn, "0.2", "stages[0].moves.floor.turn", &["at most 0.1 rad"]);
     let list = "name = \"turn\"\nmoves = { floor = [0.0, 1.0] }";
     assert_stage_error(list, "[0.0", "", &["expected a table"]);
     let unknown = "name = \"turn\"\nmoves = { floor = { z = 1.0 } }";

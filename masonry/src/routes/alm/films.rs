@@ -51,6 +51,17 @@ pub enum AttachError {
         /// Its name.
         block: String,
     },
+    /// Contact points and segments of films were divided in different ways.
+    #[error(
+        "the films have {points} contact points and {segments} segments, which should have two each: let nodes of \
+         both faces coincide, or lie farther apart"
+    )]
+    Points {
+        /// Contact points of strips.
+        points: usize,
+        /// Segments between nodes.
+        segments: usize,
+    },
 }
 
 /// The segments of all films of a model; `start` is the first unknown of every block.
@@ -65,19 +76,23 @@ pub(super) fn attached(model: &Model, start: &[usize]) -> Result<Vec<Segment>, A
             of_joint(model, (joint, it), [a, Some(b)], start, &mut segments)?;
         }
     }
-    start_from_points(model, &mut segments);
+    start_from_points(model, &mut segments)?;
     Ok(segments)
 }
 
-/// Gaps and slips of a model with contact points at the Gauss points of all segments.
-fn start_from_points(model: &Model, segments: &mut [Segment]) {
+/// Gaps and slips of a model with contact points at the Gauss points of all segments; without such points films
+/// start closed and from rest.
+fn start_from_points(model: &Model, segments: &mut [Segment]) -> Result<(), AttachError> {
     let in_strips = |it: &&ContactPoint| it.film.is_some_and(|film| film.stretch.is_some());
     let points: Vec<&ContactPoint> = model.contacts.iter().filter(in_strips).collect();
-    if points.len() == 2 * segments.len() {
-        for (segment, points) in segments.iter_mut().zip(points.chunks_exact(2)) {
-            segment.start_from(points[0], points[1]);
-        }
+    let (points_found, segments_found) = (points.len(), segments.len());
+    if points_found > 0 && points_found != 2 * segments_found {
+        return Err(AttachError::Points { points: points_found, segments: segments_found });
     }
+    for (segment, points) in segments.iter_mut().zip(points.chunks_exact(2)) {
+        segment.start_from(points[0], points[1]);
+    }
+    Ok(())
 }
 
 fn of_joint(

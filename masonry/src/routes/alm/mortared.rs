@@ -88,7 +88,8 @@ pub struct MortaredState {
     pub film_dissipation: f64,
     /// Energy dissipated by slip in dry joints \[J\].
     pub contact_dissipation: f64,
-    /// `f . u` \[J\]: of the static law, twice the strain energy and the dissipation.
+    /// `f . u` \[J\]: in one step from rest, without gaps and without supports that move, twice the strain energy
+    /// and the dissipation.
     pub work: f64,
     /// The reactions of all supports.
     pub reactions: Vec<Reaction>,

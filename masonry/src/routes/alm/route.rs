@@ -28,14 +28,14 @@ impl Method for Multipliers<'_> {
             status: answer.status,
             state: answer.state,
             residuals: answer.residuals,
-            iterations: answer.history.len(),
+            iterations: answer.convergence.len(),
             factorisations: answer.factorisations,
             springs: None,
             proof: None,
         };
         let mut report = sparse::answer(Route::Alm, self.sparse, found, None);
         report.info.order = problem.displacements();
-        report.info.convergence = answer.history;
+        report.info.convergence = answer.convergence;
         Ok(report)
     }
 }

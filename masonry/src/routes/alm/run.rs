@@ -39,7 +39,7 @@ pub(super) fn solve(
     let mut run = Run {
         structure,
         settings,
-        history: Vec::new(),
+        convergence: Vec::new(),
         factorisations: 0,
         best: Best::rest(structure.problem),
     };
@@ -52,10 +52,10 @@ pub(super) fn solve(
             break;
         }
     }
-    let Run { history, factorisations, best: Best { state, .. }, .. } = run;
+    let Run { convergence, factorisations, best: Best { state, .. }, .. } = run;
     let unbalance = structure.unbalance(&state, &structure.taken(&state.u));
     let residuals = structure.residuals(&state, unbalance);
-    Ok(Answer { status, state, residuals, history, factorisations })
+    Ok(Answer { status, state, residuals, convergence, factorisations })
 }
 
 /// The iteration with the smallest measure.
@@ -76,7 +76,7 @@ impl Best {
 struct Run<'a> {
     structure: &'a Structure<'a>,
     settings: &'a Settings,
-    history: Vec<Iteration>,
+    convergence: Vec<Iteration>,
     factorisations: usize,
     best: Best,
 }
@@ -97,7 +97,7 @@ impl Run<'_> {
         let mut factors = None;
         let (mut least, mut since) = (f64::INFINITY, 0);
         let [mut motion, mut pull] = structure.units().map(Contraction::new);
-        while self.history.len() < settings.max_iterations {
+        while self.convergence.len() < settings.max_iterations {
             let states = (&contacts[..], &taken.films[..]);
             let present = if let Some(present) = factors.take() {
                 present
@@ -123,7 +123,7 @@ impl Run<'_> {
             let unbalance = structure.unbalance(&at, &taken);
             let distance = motion.remaining().max(pull.remaining());
             let iteration = Iteration { attempt, unbalance, distance, changes };
-            self.history.push(iteration);
+            self.convergence.push(iteration);
             let residuals = structure.residuals(&at, unbalance);
             let residual = residuals.worst().max(structure.slack(&at, &taken));
             let measure = unbalance.max(residual);

@@ -74,14 +74,14 @@ impl Method for Strips<'_> {
             status,
             state,
             residuals,
-            iterations: answer.history.len(),
+            iterations: answer.convergence.len(),
             factorisations: answer.factorisations,
             springs: None,
             proof: None,
         };
         let mut report = sparse::answer(Route::Alm, self.sparse, found, None);
         report.info.order = wall.without_films().displacements();
-        report.info.convergence = answer.history;
+        report.info.convergence = answer.convergence;
         Ok(report)
     }
 }

@@ -1,9 +1,11 @@
 //! Checks of the load history.
 
-use super::{Check, finite, too_many, unique, unwanted, value};
+use super::{Check, finite, too_many, unique, unknown, unwanted, value};
 use crate::scene::error::Known;
-use crate::scene::{Fault, KeyPath, Scene, SceneErrorKind, Stage};
+use crate::scene::{KeyPath, Scene, Stage};
 
+/// Rotation of a support \[rad\] at which its joints' normals are off by a tenth.
+const LARGEST_TURN: f64 = 0.1;
 /// Steps of one stage, at most.
 const MOST_STEPS: u32 = 100_000;
 
@@ -32,22 +34,24 @@ impl Scene {
         }
         for (name, factor) in &stage.loads {
             let at = at.key("loads").key(name);
-            there_is("load", name, self.loads.iter().map(|load| &load.name), &at)?;
+            there_is(("load", "loads"), name, self.loads.iter().map(|load| &load.name), &at)?;
             finite(at, *factor)?;
         }
         for (name, to) in &stage.moves {
             let at = at.key("moves").key(name);
-            there_is("support", name, self.supports.iter().map(|it| &it.name), &at)?;
+            there_is(("support", "supports"), name, self.supports.iter().map(|it| &it.name), &at)?;
             finite(at.key("x"), to.x)?;
             finite(at.key("y"), to.y)?;
             finite(at.key("turn"), to.turn)?;
+            let wanted = "displacements are small: a support turns by at most 0.1 rad";
+            value(at.key("turn"), to.turn, to.turn.abs() <= LARGEST_TURN, wanted)?;
         }
         Ok(())
     }
 }
 
 fn there_is<'a>(
-    what: &'static str,
+    (what, table): (&'static str, &'static str),
     name: &str,
     names: impl Iterator<Item = &'a String>,
     at: &KeyPath,
@@ -56,6 +60,5 @@ fn there_is<'a>(
     if known.iter().any(|known| known == name) {
         return Ok(());
     }
-    let kind = SceneErrorKind::NotThere { what, name: name.to_owned(), known: Known(known) };
-    Err(Fault::new(at.clone(), kind))
+    Err(unknown(at.clone(), what, name, Known(known), table))
 }
