@@ -50,12 +50,25 @@ fn slender_beams_obey_beam_theory() {
     }
 }
 
-/// A second row of elements changes little, and pivots have the answer of the programs.
+/// A second row of elements changes little, and all routes have the same answer.
 #[test]
 fn rows_and_routes_do_not_matter() {
     let program = uplift(20, 4, 1, Route::Qp);
-    let pivots = uplift(20, 4, 1, Route::Lemke);
-    assert_close(program.lift, pivots.lift, 1e-9);
-    assert_close(program.length, pivots.length, 1e-9);
+    for route in [Route::Lemke, Route::Interior] {
+        let other = uplift(20, 4, 1, route);
+        assert_close(program.lift, other.lift, 1e-9);
+        assert_close(program.length, other.length, 1e-9);
+    }
     assert_close(uplift(20, 4, 2, Route::Qp).lift, program.lift, 1e-3);
+}
+
+/// The rise is thousands to millions of times what elements are deformed by.
+#[test]
+fn interior_points_find_how_far_a_beam_bends() {
+    for (slenderness, elements_per_height) in [(20, 1), (40, 1), (10, 8), (40, 8)] {
+        let [program, interior] = [Route::Qp, Route::Interior]
+            .map(|route| uplift(slenderness, elements_per_height, 1, route));
+        assert_close(interior.lift, program.lift, 1e-7);
+        assert_close(interior.length, program.length, 1e-9);
+    }
 }

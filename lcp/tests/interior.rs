@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used)] // a test may panic
 
+#[path = "interior/beams.rs"]
+mod beams;
 mod common;
 #[path = "interior/properties.rs"]
 mod properties;
