@@ -95,13 +95,6 @@ fn strips_as_by_complementarity() {
         let outcome = solved(&panels::scene(name).route(Route::Interior));
         let wall = MortaredWall::new(&outcome.model).unwrap();
         let whole = wall.state(&answer(&wall, 1e-9));
-        let sides = |reactions: &[Reaction]| -> Vec<f64> {
-            let of = |side| {
-                let of_side = reactions.iter().filter(move |it| it.support.starts_with(side));
-                of_side.fold([0.0; 3], |sum, it| [sum[0] + it.fx, sum[1] + it.fy, sum[2] + it.m])
-            };
-            [of("left"), of("right")].concat()
-        };
         let in_films: Vec<f64> = whole
             .films
             .iter()
@@ -111,7 +104,7 @@ fn strips_as_by_complementarity() {
         for (what, expected, found) in [
             ("stresses", all_stresses(&outcome), stresses(&whole)),
             ("films", film_stresses(&outcome), in_films),
-            ("sides", sides(&outcome.reactions), sides(&whole.reactions)),
+            ("sides", panels::sides(&outcome.reactions), panels::sides(&whole.reactions)),
         ] {
             let apart = difference(&expected, &found);
             assert!(apart < 1e-8, "{name}, {what}: {apart:e}");

@@ -32,15 +32,6 @@ fn by(scene: &Scene, route: Route, tolerance: f64) -> Outcome {
     outcome
 }
 
-/// What both supports of a side carry together: at a corner floor and wall share a node.
-fn sides(outcome: &Outcome) -> Vec<f64> {
-    let sum = |names: [&str; 2]| {
-        let of = outcome.reactions.iter().filter(|it| names.contains(&it.support.as_str()));
-        of.fold([0.0; 3], |[x, y, m], it| [x + it.fx, y + it.fy, m + it.m])
-    };
-    [sum(["left foot", "left wall"]), sum(["right foot", "right wall"])].concat()
-}
-
 /// Where they are by interior points, but for bricks without load, which most of the panels have.
 #[test]
 fn panels_as_by_interior_points() {
@@ -56,7 +47,7 @@ fn panels_as_by_interior_points() {
         let reference = by(&scene, Route::Interior, 1e-10);
         let outcome = by(&scene, Route::Alm, TOLERANCE);
         let mut pairs = vec![
-            ("sides", sides(&reference), sides(&outcome)),
+            ("sides", panels::sides(&reference.reactions), panels::sides(&outcome.reactions)),
             ("stresses", all_stresses(&reference), all_stresses(&outcome)),
         ];
         if ["panel_rectangular", "panel_rectangular_mortar"].contains(&name) {

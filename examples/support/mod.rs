@@ -13,9 +13,15 @@ use masonry::solve::{Event, solve_observed};
 pub(crate) fn run(name: &str) -> Result<(), Box<dyn Error>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let scene = Scene::read(&root.join("scenes").join(name).with_extension("toml"))?;
+    let mut in_steps = false;
     let outcome = solve_observed(&scene, &mut |event| {
-        if let Event::Phase(phase) = event {
-            eprintln!("{phase} ...");
+        match event {
+            Event::Step { number, of } => {
+                in_steps = true;
+                eprintln!("step {number} of {of} ...");
+            }
+            Event::Phase(phase) if !in_steps => eprintln!("{phase} ..."),
+            _ => {}
         }
         ControlFlow::Continue(())
     })?;

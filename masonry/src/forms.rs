@@ -60,6 +60,16 @@ pub struct Start {
     pub t_basic: Vec<bool>,
 }
 
+impl Start {
+    /// The name of the basis at which a similar problem ended.
+    pub const LAST: &'static str = "last basis";
+
+    /// The basis at which a similar problem ended.
+    pub fn last(t_basic: Vec<bool>) -> Self {
+        Self { name: Self::LAST, t_basic }
+    }
+}
+
 /// Forces and relative displacements of all rows of a [`System`], in SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RowState {

@@ -7,6 +7,7 @@ use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
 use super::StepRecord;
+use crate::forms::Start;
 use crate::model::Model;
 use crate::outcome::{ContactState, State};
 use crate::output::write_atomically;
@@ -96,10 +97,17 @@ pub struct Checkpoint {
     displacements: Vec<Vec<[f64; 2]>>,
     contacts: Vec<ContactState>,
     strain_energy: f64,
+    /// The side of every pair that is basic, `t` or `y`, where pivots end: the next step starts there.
+    basis: Option<String>,
 }
 
 impl Checkpoint {
-    pub(crate) fn new(origin: String, records: Vec<StepRecord>, state: &State) -> Self {
+    pub(crate) fn new(
+        origin: String,
+        records: Vec<StepRecord>,
+        (state, basis): (&State, Option<&Start>),
+    ) -> Self {
+        let side = |is_t: &bool| if *is_t { 't' } else { 'y' };
         Self {
             version: VERSION,
             origin,
@@ -111,7 +119,13 @@ impl Checkpoint {
                 .collect(),
             contacts: state.contacts.clone(),
             strain_energy: state.strain_energy,
+            basis: basis.map(|basis| basis.t_basic.iter().map(side).collect()),
         }
+    }
+
+    /// Where the pivots of the next step start.
+    pub(crate) fn basis(&self) -> Option<Start> {
+        self.basis.as_ref().map(|sides| Start::last(sides.chars().map(|it| it == 't').collect()))
     }
 
     /// What of a scene must not change between a checkpoint and a run that goes on from it, as text.

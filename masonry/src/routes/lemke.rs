@@ -28,9 +28,6 @@ const MIXED_ATTEMPTS: usize = 3;
 /// How far the covering vector opens the friction cone, in units of force.
 const COHESION: f64 = 100.0;
 
-/// The name of a start from the last basis of a similar problem.
-const LAST: &str = "last basis";
-
 /// Displacements below this, in the dimensionless units of a form, are rounding errors.
 const ROUNDING: f64 = 1e-14;
 
@@ -98,8 +95,8 @@ impl Search<'_> {
             let attempts = solution.info.attempts.iter();
             self.attempts.extend(attempts.map(|it| describe(form.kind, start, it)));
             // A singular start was replaced by one that the solver found; so would the next be.
-            let replaced = start.is_some_and(|name| name != LAST)
-                && !solution.info.attempts.iter().any(is_given);
+            let is_own = start.is_some_and(|name| name != Start::LAST);
+            let replaced = is_own && !solution.info.attempts.iter().any(is_given);
             let stop = replaced || matches!(solution.status, Status::Solved | Status::Cancelled);
             last = Some(solution);
             if stop {
@@ -125,10 +122,8 @@ impl Search<'_> {
             self.coulomb = Some(form);
         }
         let basis = solution.basis.filter(|_| rows.is_some() && kind == FormKind::Coulomb);
-        let basis = basis.map(|basis| Start {
-            name: LAST,
-            t_basic: basis.sides().iter().map(|side| *side == Side::T).collect(),
-        });
+        let is_t = |side: &Side| *side == Side::T;
+        let basis = basis.map(|it| Start::last(it.sides().iter().map(is_t).collect()));
         Ok(Answer { info, rows, displacements: None, motion: ray.map(Motion::Rigid), basis })
     }
 

@@ -30,9 +30,15 @@ const SWEEPS: usize = 2000;
 /// by this factor more, and never more than by the least.
 const BETTER: f64 = 0.1;
 const LEAST: f64 = 1e-6;
-/// How accurate the sweeps are at first, and at most, relative to the tolerance.
+/// How accurate the sweeps are at first, and at most: relative to the tolerance, since the springs' forces may be
+/// much larger than the loads, and as far as rounding allows.
 const FIRST: f64 = 1e-3;
-const LAST: f64 = 0.01;
+const LAST: f64 = 1e-4;
+const ROUNDING: f64 = 1e-14;
+/// Rounds converge by a factor, and what is left of the displacements may be several times the last residual: so
+/// they go on to this part of the tolerance, unless they have come to rest below it, for so many rounds.
+const NEARER: f64 = 0.1;
+const SETTLED: usize = 3;
 /// Rounds in which the residual must fall by a tenth.
 const PATIENCE: usize = 200;
 
@@ -123,7 +129,9 @@ impl<'a> Rounds<'a> {
 
     fn stop(&self, observer: &mut dyn FnMut(Step) -> ControlFlow<()>) -> Option<Status> {
         let is_cancelled = observer(self.step()).is_break();
-        if self.lack() <= self.tolerance {
+        let lack = self.lack();
+        let is_settled = self.idle >= SETTLED || self.done >= MAX_ROUNDS;
+        if lack <= NEARER * self.tolerance || (lack <= self.tolerance && is_settled) {
             Some(Status::Solved)
         } else if is_cancelled {
             Some(Status::Cancelled)
@@ -142,7 +150,8 @@ impl<'a> Rounds<'a> {
         let sprung = self.bedding.attached(self.problem, centre)?;
         let (t, y) = self.problem.to_pairs(&self.state);
         let settings = ProjectedGaussSeidelSettings {
-            tolerance: (self.better * self.lack()).clamp(LAST * self.tolerance, FIRST),
+            tolerance: (self.better * self.lack())
+                .clamp((LAST * self.tolerance).max(ROUNDING), FIRST),
             max_iterations: SWEEPS,
             start: WarmStart::Point { t, y },
             ..Default::default()

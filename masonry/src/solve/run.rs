@@ -163,6 +163,7 @@ impl Run {
         self.reached = Some(Reached { model, state, checks, snapshot });
         self.last = Some(Last { info, mechanism: None });
         self.records.clone_from(records);
+        self.basis = checkpoint.basis();
         Ok(self)
     }
 
@@ -249,8 +250,10 @@ impl Run {
     /// Everything that the next step needs; `None` before the first, and for a scene of one step.
     pub fn checkpoint(&self) -> Option<Checkpoint> {
         let reached = self.reached.as_ref().filter(|_| self.steps.len() > 1)?;
-        (!self.records.is_empty())
-            .then(|| Checkpoint::new(self.origin.clone(), self.records.clone(), &reached.state))
+        (!self.records.is_empty()).then(|| {
+            let reached = (&reached.state, self.basis.as_ref());
+            Checkpoint::new(self.origin.clone(), self.records.clone(), reached)
+        })
     }
 
     /// The outcome: the state after the last step that was solved.

@@ -14,13 +14,15 @@ use crate::film::law::PointContact;
 const PENALTY: f64 = 0.3;
 /// The proximal term, relative to the stiffness.
 const PROXIMAL: f64 = 1e-2;
-/// Where the unbalanced force grows by this factor over the smallest, the iteration diverges.
+/// Where unbalanced force or residual grow by this factor over their smallest, the iteration diverges.
 const DIVERGED: f64 = 1e3;
 /// So many iterations without a reduction of it by a tenth are no progress.
 const PATIENCE: usize = 300;
 /// After that penalty and proximal term change by this factor, so many times.
 const SOFTER: f64 = 3.0;
 const ATTEMPTS: usize = 4;
+/// Steps in which blocks are brought to where contacts begin, each by a hundredth of the rest.
+const BROUGHT: usize = 6;
 /// Steps that leave more unbalanced are halved so often at most.
 const HALVINGS: usize = 8;
 
@@ -89,7 +91,7 @@ impl Run<'_> {
     ) -> Result<Status, AlmError> {
         let Self { structure, settings, .. } = *self;
         let problem = structure.problem;
-        let mut at = Best::rest(problem).state;
+        let mut at = self.start(matrices)?;
         let mut taken = structure.taken(&at.u);
         let mut contacts = vec![Contact::Stick; problem.points()];
         let mut factors = None;
@@ -136,13 +138,33 @@ impl Run<'_> {
             if is_cancelled {
                 return Ok(Status::Cancelled);
             }
-            since = if unbalance < 0.9 * least { 0 } else { since + 1 };
-            least = if since == 0 { unbalance } else { least };
-            if unbalance > DIVERGED * least || !unbalance.is_finite() || since > PATIENCE {
+            since = if measure < 0.9 * least { 0 } else { since + 1 };
+            least = if since == 0 { measure } else { least };
+            if measure > DIVERGED * least || !measure.is_finite() || since > PATIENCE {
                 return Ok(Status::Stalled);
             }
         }
         Ok(Status::IterationLimit)
+    }
+
+    /// Rest; and where gaps or slips begin elsewhere, as after a support has moved, what the blocks come to when all
+    /// contacts hold them. From rest they would fall there in the small steps of the proximal term.
+    fn start(&mut self, matrices: &Matrices<'_>) -> Result<ContactState, AlmError> {
+        let problem = self.structure.problem;
+        let mut at = Best::rest(problem).state;
+        let mut offsets = problem.initial_gaps().iter().chain(problem.initial_slips());
+        if offsets.all(|offset| offset.abs() <= 0.0) {
+            return Ok(at);
+        }
+        let all = vec![Contact::Stick; problem.points()];
+        for _ in 0..BROUGHT {
+            let taken = self.structure.taken(&at.u);
+            let states = (&all[..], &taken.films[..]);
+            self.factorisations += 1;
+            let u = matrices.displacements(&matrices.factorised(states)?, states, &at);
+            at = problem.state(u, at.t_n, at.t_t);
+        }
+        Ok(at)
     }
 
     /// The step to `u`, or a part of it: with films full steps go to and fro between the states of their points.
