@@ -223,6 +223,24 @@ fn neutral_stages() {
     }
 }
 
+/// A wall of which a part of the foundation sinks: bricks slide and turn by thousands of times what they are
+/// deformed by, and answers are exact all the same.
+#[test]
+fn a_settlement_moves_bricks_far() {
+    let scene = Scene::from_toml(include_str!("../scenes/wall_settlement.toml")).unwrap();
+    let outcome = solve(&scene.route(Route::Interior)).unwrap();
+    assert_eq!(outcome.solve.status, Status::Solved, "{:?}", outcome.solve);
+    let history = outcome.history.as_ref().unwrap();
+    assert_eq!(history.records.len(), 11);
+    let carried = history.records.iter().map(|it| it.reactions.iter().map(|it| it.fy).sum::<f64>());
+    let carried: Vec<f64> = carried.collect();
+    for (record, carried_now) in history.records.iter().zip(&carried) {
+        assert!(record.residuals.worst() < 1e-12, "{:?}", record.step);
+        assert!(record.dissipation >= 0.0);
+        assert_close(*carried_now, carried[0], 1e-9);
+    }
+}
+
 /// A block between two frictional walls that are pressed together carries `2 mu H` and no more: the last
 /// step that holds is kept.
 #[test]

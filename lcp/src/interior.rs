@@ -9,6 +9,7 @@ mod path;
 mod problems;
 mod scaled;
 mod settings;
+mod start;
 mod turn;
 
 pub use settings::InteriorPointSettings;
@@ -18,8 +19,9 @@ use continuation::End;
 use crossover::{Contact, Effort, Vertex, contacts, cross_over};
 use iterate::{Defect, Iterate};
 use original::{Judged, Original};
-use path::{PROXIMAL, WIDTHS, advance, start};
+use path::{WIDTHS, advance};
 use scaled::Scaled;
+use start::{set_out, start_again};
 
 use crate::solve::Monitor;
 use crate::{Error, Observer, Solution, Status, WarmStart};
@@ -124,7 +126,7 @@ impl InteriorPoint {
             reason: format!("its sparse factors cannot be planned: {error}"),
         })?;
         let settings = &self.settings;
-        Ok(Run { settings, problem, scaled, condensed, monitor, best: None }.solve())
+        Ok(Run { settings, problem, scaled, condensed, monitor, best: None, reached: 0.0 }.solve())
     }
 }
 
@@ -137,15 +139,20 @@ struct Run<'a, 'b> {
     monitor: Monitor<'b>,
     /// The best point so far, with its states if it is exact.
     best: Option<(Judged, Option<Vertex>)>,
+    /// The largest gap or slip of the iterations so far.
+    reached: f64,
 }
+
+/// A step from a point, with the stiffness of the springs and the least product of a pair.
+type Step = fn(&Scaled, &mut Condensed, &Iterate, (f64, f64)) -> (Iterate, f64);
 
 impl Run<'_, '_> {
     fn solve(mut self) -> Solution {
         let (mut status, mut springs) = (self.try_start().or_else(|| self.try_rest()), None);
         let attempts = if status.is_none() { &WIDTHS[..] } else { &[] };
         for width in attempts {
-            let at = start(&self.scaled, &mut self.condensed, PROXIMAL);
-            status = Some(self.iterate(at, *width));
+            let at = start_again(&self.scaled, &mut self.condensed, self.reached);
+            status = Some(self.iterate(at, *width, set_out));
             if status != Some(Status::Stalled) {
                 break;
             }
@@ -159,7 +166,7 @@ impl Run<'_, '_> {
                 limit.is_none()
             });
             status = Some(match end {
-                End::Standing(at) => self.iterate(at, WIDTHS[0]),
+                End::Standing(at) => self.iterate(at, WIDTHS[0], advance),
                 End::Falling(path) if self.problem.has_bodies() => {
                     springs = Some(path);
                     Status::NoEquilibrium
@@ -205,8 +212,9 @@ impl Run<'_, '_> {
         Some(Status::Solved)
     }
 
-    /// The interior-point iteration from a point inside.
-    fn iterate(&mut self, mut at: Iterate, width: f64) -> Status {
+    /// The interior-point iteration from a point inside, with a first step of its own.
+    fn iterate(&mut self, mut at: Iterate, width: f64, first_step: Step) -> Status {
+        let mut step = first_step;
         let mut tried = NEAR / NEARER;
         let (_, first) = at.sizes();
         let (mut least, mut since) = (f64::INFINITY, 0);
@@ -233,7 +241,8 @@ impl Run<'_, '_> {
             if let Some(status) = self.monitor.stop(worst) {
                 return status;
             }
-            let (next, alpha) = advance(&self.scaled, &mut self.condensed, &at, (0.0, width));
+            let (next, alpha) = step(&self.scaled, &mut self.condensed, &at, (0.0, width));
+            step = advance;
             let lack = Defect::of(&self.scaled, &next, 0.0).size();
             let merit = next.gap(&self.scaled) + lack * lack;
             since = if merit < 0.9 * least { 0 } else { since + 1 };
@@ -246,6 +255,7 @@ impl Run<'_, '_> {
                 return if is_exact { Status::Solved } else { Status::Stalled };
             }
             at = next;
+            self.reached = self.reached.max(at.sizes().1);
         }
     }
 

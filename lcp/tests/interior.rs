@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used)] // a test may panic
 
+#[path = "interior/beams.rs"]
+mod beams;
 mod common;
 #[path = "interior/properties.rs"]
 mod properties;
@@ -12,8 +14,8 @@ use std::time::Duration;
 use faer::{Mat, mat};
 use lcp::families::{self, Ground, Known, Obstacle};
 use lcp::{
-    Auto, AutoSettings, Contact2d, ContactState, Error, HorizontalLcp, InteriorPoint,
-    InteriorPointSettings, Lcp, Lemke, MixedLcp, Solution, Solver, Status, WarmStart,
+    Auto, AutoSettings, Basis, Contact2d, ContactState, Error, HorizontalLcp, InteriorPoint,
+    InteriorPointSettings, Lcp, Lemke, MixedLcp, Side, Solution, Solver, Status, WarmStart,
 };
 
 fn default() -> InteriorPointSettings {
@@ -85,6 +87,28 @@ fn a_rigid_block_stands_up_to_the_friction_and_not_beyond() {
         assert!((last - share).abs() < 0.1 * share, "{last} instead of {share}");
         assert!(springs.motion[0] * push > 0.0 && springs.stiffness.len() == springs.shares.len());
     }
+}
+
+/// On two feet, of which the start says that the left one is in the air: as it closes it goes on sliding with
+/// the other one, and is not taken back to where it began.
+#[test]
+fn a_foot_that_closes_goes_on_sliding() {
+    let k = mat![[1e-4, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let c_n = mat![[0.0, 1.0, -1.0], [0.0, 1.0, 1.0]];
+    let c_t = mat![[1.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
+    let none = vec![0.0; 2];
+    let load = vec![7.0, -10.0, 0.0];
+    let problem = Contact2d::new(k, load, c_n, c_t, none.clone(), none, vec![0.5; 2]).unwrap();
+    // Pairs of displacements, gaps, slips forwards and backwards.
+    let (t, y) = (Side::T, Side::Y);
+    let start = WarmStart::Basis(Basis::new(vec![y, t, t, y, t, y, y, t, t]));
+    let settings = InteriorPointSettings { start, ..default() };
+    let solution = InteriorPoint::new(settings).solve(&problem).unwrap();
+    assert!(solution.is_solved() && solution.info.iterations == 0, "{:?}", solution.status);
+    assert_eq!(solution.info.factorisations, 2);
+    let ContactState { u, t_n, t_t, .. } = problem.recover(&solution.t, &solution.y);
+    assert_close(&u, &[2e4, 0.0, 0.0]);
+    assert_close(&[t_n[0], t_n[1], t_t[0], t_t[1]], &[5.0, 5.0, -2.5, -2.5]);
 }
 
 #[test]

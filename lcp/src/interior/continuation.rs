@@ -2,8 +2,9 @@
 
 use super::condensed::Condensed;
 use super::iterate::{Defect, Iterate};
-use super::path::{WIDTHS, advance, start};
+use super::path::{WIDTHS, advance};
 use super::scaled::Scaled;
+use super::start::start;
 use crate::problem::column_of;
 use crate::solution::SoftSprings;
 

@@ -14,6 +14,8 @@ const STIFF: f64 = 1e8;
 const REFINEMENTS: usize = 12;
 /// Contradictions smaller than this part of the largest are left to what its exchange makes of them.
 const LARGE: f64 = 0.01;
+/// A largest contradiction below this part of those before is progress, as a smaller number is.
+const SMALLER: f64 = 0.1;
 /// Contradictions up to this part of the largest force or displacement are rounding errors.
 const ROUNDING: f64 = 1e-13;
 
@@ -21,7 +23,7 @@ const ROUNDING: f64 = 1e-13;
 pub(super) struct Effort {
     /// Rounds of exchanges.
     rounds: usize,
-    /// Rounds without a decrease of the number of contradictions by a quarter.
+    /// Rounds without a decrease of the number of contradictions by a quarter, or of the largest by far.
     patience: usize,
     /// Points for one contradiction that is allowed, beyond a few.
     points: usize,
@@ -91,20 +93,22 @@ pub(super) fn cross_over(
     mut is_solution: impl FnMut(&Vertex) -> bool,
 ) -> bool {
     let mut vertex = Vertex { u: u.to_vec(), forces: forces.to_vec(), contacts };
-    let (mut fewest, mut since) = (effort.most(problem.points.len()), 0);
+    let (mut fewest, mut least, mut since) = (effort.most(problem.points.len()), f64::INFINITY, 0);
     let mut is_found = false;
     for _ in 0..effort.rounds {
         if vertex.solve(problem, condensed).is_none() {
             break;
         }
         is_found |= is_solution(&vertex);
-        let exchanged = vertex.exchange(problem);
-        since = if exchanged < fewest - fewest / 4 { 0 } else { since + 1 };
+        let (exchanged, largest) = vertex.exchange(problem);
+        let is_nearer = exchanged < fewest - fewest / 4 || largest < SMALLER * least;
+        since = if is_nearer { 0 } else { since + 1 };
         let is_hopeless = exchanged > fewest && (is_found || exchanged > 10 * fewest);
         if exchanged == 0 || since > effort.patience || is_hopeless {
             break;
         }
         fewest = fewest.min(exchanged);
+        least = least.min(largest);
     }
     is_found
 }
@@ -158,8 +162,9 @@ impl Vertex {
         Some(())
     }
 
-    /// Gives the contacts that contradict their states most other states; says how many contradict.
-    fn exchange(&mut self, problem: &Scaled) -> usize {
+    /// Gives the contacts that contradict their states most other states; says how many contradict, and the
+    /// most that one does.
+    fn exchange(&mut self, problem: &Scaled) -> (usize, f64) {
         let force =
             self.forces.iter().fold(max_abs(&problem.f), |max, (t_n, _)| max.max(t_n.abs()));
         let length = max_abs(&self.u);
@@ -170,7 +175,7 @@ impl Vertex {
             let bound = point.mu * t_n.max(0.0);
             let (gap, slip) = (point.gap(&self.u), point.slip(&self.u));
             let (size, next) = match self.contacts[i] {
-                Contact::Open => (relative(-gap, length), Contact::Stick),
+                Contact::Open => (relative(-gap, length), closed(point, gap, slip)),
                 _ if t_n < 0.0 => (relative(-t_n, force), Contact::Open),
                 Contact::Stick if point.mu == 0.0 => continue,
                 Contact::Stick if t_t > 0.0 => (relative(t_t - bound, force), Contact::SlipMinus),
@@ -188,7 +193,19 @@ impl Vertex {
                 self.contacts[*i] = *next;
             }
         }
-        contradictions.len()
+        (contradictions.len(), largest)
+    }
+}
+
+/// The state of a contact that closes. One that has slid by more than it overlaps goes on sliding: to stick it
+/// would have to be taken back all the way, against forces that are no guide to anything.
+fn closed(point: &Point, gap: f64, slip: f64) -> Contact {
+    if point.mu == 0.0 || slip.abs() <= -gap {
+        Contact::Stick
+    } else if slip > 0.0 {
+        Contact::SlipPlus
+    } else {
+        Contact::SlipMinus
     }
 }
 

@@ -254,18 +254,36 @@ impl Iterate {
         })
     }
 
+    pub(super) fn largest_gap(&self) -> f64 {
+        self.points.iter().fold(0.0, |max, pairs| max.max(pairs.gap.abs()))
+    }
+
+    pub(super) fn mean_gap(&self) -> f64 {
+        self.points.iter().map(|pairs| pairs.gap).sum::<f64>() / self.points.len().max(1) as f64
+    }
+
+    /// All gaps and slips further inside.
+    pub(super) fn opened(mut self, problem: &Scaled, by: f64) -> Self {
+        self.raise(problem, (0.0, by));
+        self
+    }
+
     /// All pairs further inside, by a part of the largest of their kind.
     pub(super) fn lifted(mut self, problem: &Scaled, part: f64) -> Self {
         let (force, length) = self.sizes();
+        self.raise(problem, (part * force, part * length));
+        self
+    }
+
+    fn raise(&mut self, problem: &Scaled, (force, length): (f64, f64)) {
         for (point, pairs) in problem.points.iter().zip(&mut self.points) {
-            pairs.t_n += part * force;
-            pairs.gap += part * length;
+            pairs.t_n += force;
+            pairs.gap += length;
             if point.mu > 0.0 {
-                pairs.slip_plus += part * length;
-                pairs.slip_minus += part * length;
+                pairs.slip_plus += length;
+                pairs.slip_minus += length;
             }
         }
-        self
     }
 
     /// The smallest product of a pair, relative to the mean.

@@ -1,7 +1,7 @@
 //! The interior-point iteration: predictor, correctors, and what to do when they get nowhere.
 
-use super::condensed::{Condensed, Springs};
-use super::iterate::{Defect, Iterate, Pairs, Tangent};
+use super::condensed::Condensed;
+use super::iterate::{Defect, Iterate, Tangent};
 use super::scaled::Scaled;
 use super::turn::turn;
 
@@ -35,40 +35,6 @@ const PROGRESS: f64 = 0.05;
 /// Products between these multiples of their mean make a point central.
 const IS_CENTRAL: (f64, f64) = (0.3, 3.0);
 
-/// A start from the forces that the contacts would carry if they were springs in both directions.
-pub(super) fn start(problem: &Scaled, condensed: &mut Condensed, spring: f64) -> Iterate {
-    let tangential = |mu: f64| if mu > 0.0 { 1.0 } else { 0.0 };
-    let springs: Vec<Springs> = problem
-        .points
-        .iter()
-        .map(|point| Springs { nn: 1.0, tn: 0.0, tt: tangential(point.mu) })
-        .collect();
-    condensed.factorise(problem, &springs, spring);
-    let mut u = problem.f.clone();
-    for point in &problem.points {
-        point.add_forces(-point.x_0, -tangential(point.mu) * point.s_0, &mut u);
-    }
-    condensed.solve(&mut u);
-    let gaps: Vec<f64> = problem.points.iter().map(|point| point.gap(&u)).collect();
-    let mean = gaps.iter().map(|g| g.abs()).sum::<f64>() / gaps.len().max(1) as f64;
-    let shift = if mean > 0.0 && mean.is_finite() { mean } else { 1.0 };
-    let points = problem.points.iter().zip(&gaps).map(|(point, gap)| {
-        let t_n = (-gap).max(0.0) + shift;
-        let pairs = Pairs { t_n, gap: gap.max(0.0) + shift, ..Pairs::default() };
-        if point.mu == 0.0 {
-            return pairs;
-        }
-        let (slip, bound) = (point.slip(&u), 0.5 * point.mu * t_n);
-        Pairs {
-            t_t: (-slip).clamp(-bound, bound),
-            slip_plus: slip.max(0.0) + shift,
-            slip_minus: (-slip).max(0.0) + shift,
-            ..pairs
-        }
-    });
-    Iterate { points: points.collect(), u }
-}
-
 /// One step of Mehrotra's method (1992) with Gondzio's correctors (1996), which costs one factorisation.
 /// The problem is not monotone with friction: where the step is short, the best mixture of predictor and
 /// centring takes its place, and where the path turns back, a step along it. No product of a pair
@@ -79,15 +45,40 @@ pub(super) fn advance(
     at: &Iterate,
     (spring, width): (f64, f64),
 ) -> (Iterate, f64) {
-    let tangent = Tangent::new(problem, condensed, at, spring.max(PROXIMAL));
-    let defect = Defect::of(problem, at, spring);
-    let predictor = tangent.step(&defect, &targets(problem, at, 0.0, None));
-    let (step, alpha) = if tangent.is_backwards() {
-        turn(problem, &tangent, at, &predictor)
-    } else {
-        forwards(problem, &tangent, at, &defect, &predictor)
-    };
-    within(problem, at, &step, (BACK * alpha).min(1.0), width)
+    Ahead::of(problem, condensed, at, spring).advance(problem, at, width)
+}
+
+/// What lies ahead of a point.
+pub(super) struct Ahead<'a> {
+    tangent: Tangent<'a>,
+    defect: Defect,
+    /// The step to products of zero.
+    pub(super) predictor: Iterate,
+}
+
+impl<'a> Ahead<'a> {
+    pub(super) fn of(
+        problem: &'a Scaled,
+        condensed: &'a mut Condensed,
+        at: &'a Iterate,
+        spring: f64,
+    ) -> Self {
+        let tangent = Tangent::new(problem, condensed, at, spring.max(PROXIMAL));
+        let defect = Defect::of(problem, at, spring);
+        let predictor = tangent.step(&defect, &targets(problem, at, 0.0, None));
+        Self { tangent, defect, predictor }
+    }
+
+    /// The step of [`advance`].
+    pub(super) fn advance(&self, problem: &Scaled, at: &Iterate, width: f64) -> (Iterate, f64) {
+        let Self { tangent, defect, predictor } = self;
+        let (step, alpha) = if tangent.is_backwards() {
+            turn(problem, tangent, at, predictor)
+        } else {
+            forwards(problem, tangent, at, defect, predictor)
+        };
+        within(problem, at, &step, (BACK * alpha).min(1.0), width)
+    }
 }
 
 /// A step that makes the products smaller.

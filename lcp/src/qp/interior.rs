@@ -6,7 +6,7 @@ use std::time::Duration;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::SupportedConeT::{NonnegativeConeT, ZeroConeT};
 use clarabel::solver::{
-    DefaultSettings, DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus,
+    DefaultInfo, DefaultSettings, DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus,
 };
 
 use super::form::{Bounds, Form, Point};
@@ -88,11 +88,13 @@ impl Interior {
     /// Takes over a scaled form. None where Clarabel refuses it.
     pub(super) fn new(form: &Form, effort: Effort) -> Option<Self> {
         let settings = settings(effort)?;
-        if form.unknowns() == 0 {
-            Self::of_multipliers(form, settings)
+        let mut interior = if form.unknowns() == 0 {
+            Self::of_multipliers(form, settings)?
         } else {
-            Self::of_unknowns(form, settings)
-        }
+            Self::of_unknowns(form, settings)?
+        };
+        interior.solver.set_termination_callback(is_past_best());
+        Some(interior)
     }
 
     fn of_multipliers(form: &Form, settings: DefaultSettings<f64>) -> Option<Self> {
@@ -247,6 +249,19 @@ fn least_limit(limits: &[f64]) -> f64 {
     const LEAST: f64 = 1e-9;
     let largest = max_abs(limits);
     if largest > 0.0 { LEAST * largest } else { LEAST }
+}
+
+/// Whether a run was near a solution once and is on its way away from it: where the tolerance is below what
+/// rounding errors allow, which depends on the program, the iteration goes on and ends anywhere.
+fn is_past_best() -> impl FnMut(&DefaultInfo<f64>) -> bool {
+    const NEAR: f64 = 1e-8;
+    const WORSE: f64 = 10.0;
+    let mut best = f64::INFINITY;
+    move |info| {
+        let error = info.gap_abs.min(info.gap_rel).max(info.res_primal).max(info.res_dual);
+        best = if info.iterations == 0 { error } else { best.min(error) };
+        best <= NEAR && error > WORSE * best
+    }
 }
 
 fn settings(effort: Effort) -> Option<DefaultSettings<f64>> {

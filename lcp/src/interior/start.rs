@@ -1,0 +1,87 @@
+//! Where the iteration starts, and how it finds out how far bodies move.
+
+use super::condensed::{Condensed, Springs};
+use super::iterate::{Iterate, Pairs};
+use super::path::{Ahead, PROXIMAL, advance};
+use super::scaled::Scaled;
+
+/// Largest change of a gap by the predictor, relative to the mean gap, that a start is wide enough for.
+const WIDE: f64 = 2.0;
+/// A start that is not is opened by this many times its mean gap, which must bring that change down by half.
+const OPENED: f64 = 100.0;
+const HALF: f64 = 0.5;
+/// No start is opened more often.
+const OPENINGS: usize = 8;
+/// An attempt whose gaps have grown by this factor began too near.
+const FAR: f64 = 10.0;
+
+/// A start from the forces that the contacts would carry if they were springs in both directions.
+pub(super) fn start(problem: &Scaled, condensed: &mut Condensed, spring: f64) -> Iterate {
+    let tangential = |mu: f64| if mu > 0.0 { 1.0 } else { 0.0 };
+    let springs: Vec<Springs> = problem
+        .points
+        .iter()
+        .map(|point| Springs { nn: 1.0, tn: 0.0, tt: tangential(point.mu) })
+        .collect();
+    condensed.factorise(problem, &springs, spring);
+    let mut u = problem.f.clone();
+    for point in &problem.points {
+        point.add_forces(-point.x_0, -tangential(point.mu) * point.s_0, &mut u);
+    }
+    condensed.solve(&mut u);
+    let gaps: Vec<f64> = problem.points.iter().map(|point| point.gap(&u)).collect();
+    let mean = gaps.iter().map(|g| g.abs()).sum::<f64>() / gaps.len().max(1) as f64;
+    let shift = if mean > 0.0 && mean.is_finite() { mean } else { 1.0 };
+    let points = problem.points.iter().zip(&gaps).map(|(point, gap)| {
+        let t_n = (-gap).max(0.0) + shift;
+        let pairs = Pairs { t_n, gap: gap.max(0.0) + shift, ..Pairs::default() };
+        if point.mu == 0.0 {
+            return pairs;
+        }
+        let (slip, bound) = (point.slip(&u), 0.5 * point.mu * t_n);
+        Pairs {
+            t_t: (-slip).clamp(-bound, bound),
+            slip_plus: slip.max(0.0) + shift,
+            slip_minus: (-slip).max(0.0) + shift,
+            ..pairs
+        }
+    });
+    Iterate { points: points.collect(), u }
+}
+
+/// A start for one more attempt, where those before went as far as `reached` in gaps and slips.
+pub(super) fn start_again(problem: &Scaled, condensed: &mut Condensed, reached: f64) -> Iterate {
+    let at = start(problem, condensed, PROXIMAL);
+    let (_, length) = at.sizes();
+    if reached > FAR * length { at.opened(problem, OPENED * reached) } else { at }
+}
+
+/// The first step, with the options of [`advance`], from a start that is opened first if need be.
+///
+/// A start knows how bodies are deformed, but not how far slender ones bend and loose ones turn, which may be
+/// further by many powers of ten. From gaps that are too small for the way the steps are short: some gaps
+/// have to grow a thousandfold, and others, on the same way, would close. Gaps that are too large cost a step
+/// or two. The predictor tells, with the forces of the start, that the gaps are too small: it changes
+/// them by more than they are. Where wider gaps do not help, forces or the problem are at fault.
+pub(super) fn set_out(
+    problem: &Scaled,
+    condensed: &mut Condensed,
+    at: &Iterate,
+    (spring, width): (f64, f64),
+) -> (Iterate, f64) {
+    let (mut from, mut before) = (at.clone(), (at.clone(), f64::INFINITY));
+    for _ in 0..OPENINGS {
+        let ahead = Ahead::of(problem, condensed, &from, spring);
+        let change = ahead.predictor.largest_gap() / from.mean_gap();
+        if change <= WIDE {
+            return ahead.advance(problem, &from, width);
+        }
+        if change.is_nan() || change > HALF * before.1 {
+            return advance(problem, condensed, &before.0, (spring, width));
+        }
+        let wider = from.clone().opened(problem, OPENED * from.mean_gap());
+        before = (from, change);
+        from = wider;
+    }
+    advance(problem, condensed, at, (spring, width))
+}
