@@ -4,6 +4,7 @@
 //! go to standard error. The exit code is 0 when solved, 1 when not solved, 2 for bad input.
 
 mod progress;
+mod study;
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -35,6 +36,8 @@ enum Command {
     Plan(PlanArgs),
     /// Solve a scene and write pictures, tables and a mesh.
     Solve(SolveArgs),
+    /// Say what accuracy costs: routes, tolerances and meshes against the most accurate answer.
+    Study(study::StudyArgs),
     /// Draw a scene: blocks, supports, loads and contact points.
     Draw(DrawArgs),
 }
@@ -89,6 +92,7 @@ pub fn run() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Plan(args) => plan(&args),
         Command::Solve(args) => solve(&args),
+        Command::Study(args) => study::run(&args),
         Command::Draw(args) => draw(&args),
     };
     ExitCode::from(result.unwrap_or_else(|failure| {

@@ -41,6 +41,7 @@
 //! | displacements, stresses, reactions | [`recover`] | [`outcome::State`] |
 //! | balances that use nothing of the method | [`check`] | [`check::Checks`] |
 //! | text, pictures, tables, meshes | [`output`] | files |
+//! | what accuracy costs: routes, tolerances, meshes compared | [`study`] | [`study::Study`] |
 //!
 //! Numbers in brackets are equations of N.M. Auciello and A. Ercolano, *Numerical simulation of
 //! masonry panels* (1997). Signs and directions are those of [`model`].
@@ -67,6 +68,7 @@ pub mod rigid;
 pub mod routes;
 pub mod scene;
 pub mod solve;
+pub mod study;
 pub mod system;
 pub mod units;
 

@@ -1,4 +1,4 @@
-//! The command-line program: `masonry plan`, `solve`, `draw`.
+//! The command-line program: `masonry plan`, `solve`, `study`, `draw`.
 
 use std::process::ExitCode;
 

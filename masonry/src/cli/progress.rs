@@ -33,6 +33,11 @@ impl Progress {
         ControlFlow::Continue(())
     }
 
+    pub(super) fn say(&self, text: String) {
+        self.0.set_message(text);
+        self.0.tick();
+    }
+
     pub(super) fn clear(&self) {
         self.0.finish_and_clear();
     }

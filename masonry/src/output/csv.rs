@@ -98,7 +98,7 @@ fn status_name(status: ContactStatus) -> &'static str {
 }
 
 /// A field as RFC 4180 wants it: in quotes when it contains a comma, a quote or a line break.
-fn quoted(field: &str) -> Cow<'_, str> {
+pub(super) fn quoted(field: &str) -> Cow<'_, str> {
     if field.contains([',', '"', '\r', '\n']) {
         Cow::Owned(format!("\"{}\"", field.replace('"', "\"\"")))
     } else {

@@ -245,12 +245,12 @@ fn listed(values: &[(&str, f64)]) -> String {
     texts.join(", ")
 }
 
-fn section(title: &str) -> String {
+pub(super) fn section(title: &str) -> String {
     let rule: String = title.chars().map(|_| '-').collect();
     format!("\n{title}\n{rule}\n")
 }
 
-fn paragraph(text: &str) -> String {
+pub(super) fn paragraph(text: &str) -> String {
     let mut table = Table::new();
     table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic);
     table.set_width(WIDTH).add_row(vec![text]);
@@ -268,7 +268,7 @@ fn pairs(rows: &[(&str, String)]) -> String {
     table.trim_fmt() + "\n"
 }
 
-fn table(heads: &[&str], right: &[usize]) -> Table {
+pub(super) fn table(heads: &[&str], right: &[usize]) -> Table {
     let mut table = Table::new();
     let rule = LineStyle::none().fill('-').junction('-');
     table.load_style(TableStyle::new().header_separator(rule));

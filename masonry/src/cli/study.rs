@@ -1,0 +1,77 @@
+//! `masonry study`.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::Args;
+
+use super::progress::Progress;
+use super::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
+use crate::output::study as output;
+use crate::scene::{Route, Scene};
+use crate::study::{Settings, study};
+
+#[derive(Debug, Args)]
+pub(super) struct StudyArgs {
+    /// The scene file (TOML).
+    scene: PathBuf,
+    /// The directory to write into; created when missing.
+    #[arg(long)]
+    out: PathBuf,
+    /// The routes, separated by commas.
+    #[arg(long, value_delimiter = ',')]
+    routes: Option<Vec<Route>>,
+    /// The tolerances, separated by commas.
+    #[arg(long, value_delimiter = ',')]
+    tolerances: Option<Vec<f64>>,
+    /// Factors of the numbers of elements per direction, separated by commas.
+    #[arg(long, value_delimiter = ',')]
+    meshes: Option<Vec<u32>>,
+    /// Stiffnesses of soft springs, separated by commas.
+    #[arg(long, value_delimiter = ',')]
+    springs: Option<Vec<f64>>,
+    /// Wall-clock time that one solve may take, in seconds.
+    #[arg(long, default_value_t = 20.0)]
+    time_limit: f64,
+    /// Print one JSON object instead of the report.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn run(args: &StudyArgs) -> Result<u8, Failure> {
+    let scene = Scene::read(&args.scene)?;
+    let settings = settings(args)?;
+    let progress = Progress::new();
+    let study = study(&scene, &settings, &mut |at| {
+        progress.say(format!("mesh {}, {} to {:e}", at.mesh, at.route.name(), at.tolerance));
+    });
+    progress.clear();
+    let study = study?;
+    let written = output::write(&study, &args.out);
+    // What was computed is printed even when a file could not be written.
+    let files = written.as_deref().unwrap_or_default();
+    if args.json {
+        let names = names(files);
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        print(&output::json(&study, &names)?)?;
+    } else {
+        print(&format!("{}\n{}", output::table(&study), listing(files)))?;
+    }
+    written?;
+    Ok(if study.is_solved() { SOLVED } else { NOT_SOLVED })
+}
+
+fn settings(args: &StudyArgs) -> Result<Settings, Failure> {
+    let default = Settings::default();
+    let seconds = args.time_limit;
+    let time_limit = Duration::try_from_secs_f64(seconds)
+        .map_err(|error| format!("--time-limit {seconds}: {error}; give seconds"))?;
+    Ok(Settings {
+        routes: args.routes.clone().unwrap_or(default.routes),
+        tolerances: args.tolerances.clone().unwrap_or(default.tolerances),
+        meshes: args.meshes.clone().unwrap_or(default.meshes),
+        springs: args.springs.clone().unwrap_or(default.springs),
+        time_limit,
+        repeats: default.repeats,
+    })
+}

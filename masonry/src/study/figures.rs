@@ -1,0 +1,119 @@
+//! What of an answer is unique and can be compared: forces at nodes, stresses, energy.
+
+use nalgebra::Vector2;
+use serde::Serialize;
+
+use crate::geometry;
+use crate::model::{Anchor, Block, Model};
+use crate::outcome::State;
+use crate::recover;
+
+/// Errors of an answer relative to a reference \[-\]; `None` where the reference has nothing but zeros.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Errors {
+    /// Largest error of a component of the contact forces, as the blocks feel them, relative to the
+    /// largest one: their sum at every node of an elastic block, their resultant on a rigid one. Forces
+    /// that circulate between blocks around one place are not unique and not in it.
+    pub force: Option<f64>,
+    /// Largest error of a component of stress in the centre of an element, relative to the largest one.
+    pub stress: Option<f64>,
+    /// Error of the strain energy.
+    pub energy: Option<f64>,
+}
+
+impl Errors {
+    /// The largest of the errors.
+    pub fn worst(&self) -> Option<f64> {
+        [self.force, self.stress, self.energy].into_iter().flatten().reduce(f64::max)
+    }
+}
+
+/// Numbers of an answer that are unique as far as displacements are.
+#[derive(Debug, Clone)]
+pub(super) struct Figures {
+    /// Contact forces \[N\] on every block: at the nodes of an elastic one, or force and moment over its
+    /// size on a rigid one.
+    forces: Vec<Vec<f64>>,
+    /// Components of stress \[Pa\] of all elements.
+    stresses: Vec<f64>,
+    /// Strain energy \[J\].
+    energy: f64,
+}
+
+/// Blocks on which no contact force is larger than this part of the largest one carry nothing.
+const IDLE: f64 = 1e-6;
+
+impl Figures {
+    pub(super) fn of(model: &Model, state: &State) -> Self {
+        Self {
+            forces: forces_on_blocks(model, state),
+            stresses: state.stresses.iter().flat_map(|stress| stress.sigma).collect(),
+            energy: state.strain_energy,
+        }
+    }
+
+    pub(super) fn errors(&self, reference: &Self) -> Errors {
+        let [forces, expected] = [self, reference].map(|it| it.forces.concat());
+        Errors {
+            force: relative(&forces, &expected),
+            stress: relative(&self.stresses, &reference.stresses),
+            energy: relative(&[self.energy], &[reference.energy]),
+        }
+    }
+
+    /// Which blocks carry anything; one that hangs in its gaps has no unique place.
+    pub(super) fn loaded_blocks(&self) -> Vec<bool> {
+        let most: Vec<f64> = self.forces.iter().map(|forces| largest(forces)).collect();
+        let all = largest(&most);
+        most.into_iter().map(|most| most > IDLE * all).collect()
+    }
+}
+
+/// `C^T t` for elastic blocks, and `N^T C^T t` for rigid ones.
+fn forces_on_blocks(model: &Model, state: &State) -> Vec<Vec<f64>> {
+    let numbers = |block: &Block| elastic_nodes(block).map_or(3, |nodes| 2 * nodes);
+    let mut forces: Vec<Vec<f64>> =
+        model.blocks.iter().map(|block| vec![0.0; numbers(block)]).collect();
+    for (contact, found) in model.contacts.iter().zip(&state.contacts) {
+        let on_b = recover::contact_force(model, contact, found);
+        for (anchor, force) in [(Some(contact.b), on_b), (contact.a, -on_b)] {
+            if let Some(anchor) = anchor {
+                let block = anchor.block.index();
+                add(&mut forces[block], &model.blocks[block], anchor, force);
+            }
+        }
+    }
+    forces
+}
+
+fn add(forces: &mut [f64], block: &Block, anchor: Anchor, force: Vector2<f64>) {
+    let Anchor { edge, at, .. } = anchor;
+    if let (Some(_), Some(mesh)) = (block.elasticity, &block.mesh) {
+        for (node, share) in mesh.interpolate(edge, at) {
+            forces[2 * node] += share * force.x;
+            forces[2 * node + 1] += share * force.y;
+        }
+    } else {
+        let arm = geometry::on_edge(&block.corners, edge, at) - geometry::centroid(&block.corners);
+        let size = (block.corners[2] - block.corners[0]).norm();
+        forces[0] += force.x;
+        forces[1] += force.y;
+        forces[2] += (arm.x * force.y - arm.y * force.x) / size;
+    }
+}
+
+fn elastic_nodes(block: &Block) -> Option<usize> {
+    block.mesh.as_ref().filter(|_| block.elasticity.is_some()).map(|mesh| mesh.nodes.len())
+}
+
+/// Largest difference, relative to the largest of the reference.
+pub(super) fn relative(values: &[f64], reference: &[f64]) -> Option<f64> {
+    let size = largest(reference);
+    let differences = values.iter().zip(reference).map(|(value, expected)| value - expected);
+    let error = differences.fold(0.0, |most: f64, it| most.max(it.abs())) / size;
+    (values.len() == reference.len() && error.is_finite()).then_some(error)
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, value| most.max(value.abs()))
+}

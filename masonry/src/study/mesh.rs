@@ -1,0 +1,178 @@
+//! Finer meshes of a scene, and what they change.
+
+use nalgebra::Vector2;
+use serde::Serialize;
+
+use super::figures::{Figures, relative};
+use super::reference::{self, Reference};
+use super::runs::Runner;
+use crate::model::{Block, Body, Model};
+use crate::outcome::{Outcome, State};
+use crate::recover;
+use crate::scene::Scene;
+
+/// A mesh and its reference.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Mesh {
+    /// The factor of the numbers of elements in the scene, per direction.
+    pub factor: u32,
+    /// Elements.
+    pub elements: usize,
+    /// Contact points.
+    pub contact_points: usize,
+    /// Why the mesh cannot be made: too many elements, for instance.
+    pub refusal: Option<String>,
+    /// The most accurate answer; `None` where no route gave one within the time.
+    pub reference: Option<Reference>,
+    /// What it says.
+    pub values: Option<Values>,
+    /// Errors of the mesh: of its values against those of the finest mesh with a reference, which itself
+    /// has none.
+    pub errors: Option<MeshErrors>,
+    /// Where the corners of blocks have gone, of those that carry load.
+    #[serde(skip)]
+    corners: Vec<Option<[Vector2<f64>; 4]>>,
+}
+
+/// Numbers of an answer that mean the same on every mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Values {
+    /// Strain energy \[J\].
+    pub strain_energy: f64,
+    /// Horizontal force \[N\] of all supports left of the middle on the structure.
+    pub thrust: f64,
+    /// Displacement \[m\] of that corner of a loaded block that moves most on the finest mesh.
+    pub displacement: f64,
+}
+
+/// Relative errors of a mesh \[-\]; `None` where there is nothing to compare with.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct MeshErrors {
+    /// Of the strain energy.
+    pub energy: Option<f64>,
+    /// Of the thrust.
+    pub thrust: Option<f64>,
+    /// Of the displacement, as a vector.
+    pub displacement: Option<f64>,
+}
+
+/// A thrust below this part of all forces of the supports is rounding.
+const NO_THRUST: f64 = 1e-9;
+
+/// The scene with so many times the elements in every direction.
+pub(super) fn refined(scene: &Scene, factor: u32) -> Scene {
+    let mut scene = scene.clone();
+    let meshes = scene.walls.iter_mut().map(|wall| &mut wall.mesh);
+    let meshes = meshes.chain(scene.blocks.iter_mut().map(|block| &mut block.mesh));
+    for mesh in meshes.flatten() {
+        *mesh = mesh.map(|elements| elements.saturating_mul(factor));
+    }
+    scene
+}
+
+/// A mesh with its reference, not yet compared with others.
+pub(super) fn studied(scene: &Scene, factor: u32, runner: &mut Runner) -> (Mesh, Option<Figures>) {
+    let mut mesh = Mesh {
+        factor,
+        elements: 0,
+        contact_points: 0,
+        refusal: None,
+        reference: None,
+        values: None,
+        errors: None,
+        corners: Vec::new(),
+    };
+    match Model::from_scene(scene) {
+        Ok(model) => {
+            let meshes = model.blocks.iter().filter_map(|block| block.mesh.as_ref());
+            mesh.elements = meshes.map(|mesh| mesh.elements.len()).sum();
+            mesh.contact_points = model.contacts.len();
+        }
+        Err(error) => {
+            mesh.refusal = Some(error.to_string());
+            return (mesh, None);
+        }
+    }
+    let Some((reference, outcome)) = reference::find(scene, factor, runner) else {
+        return (mesh, None);
+    };
+    let Outcome { model, state: Some(state), .. } = outcome else { return (mesh, None) };
+    let figures = Figures::of(&model, &state);
+    mesh.reference = Some(reference);
+    mesh.values = Some(Values {
+        strain_energy: state.strain_energy,
+        thrust: thrust(&model, &state),
+        displacement: 0.0,
+    });
+    mesh.corners = corners(&model, &state, &figures);
+    (mesh, Some(figures))
+}
+
+/// The meshes with their displacements and errors.
+pub(super) fn compared(mut meshes: Vec<Mesh>) -> Vec<Mesh> {
+    let with_values = meshes.iter().filter(|mesh| mesh.values.is_some());
+    let Some(finest) = with_values.max_by_key(|mesh| mesh.factor).cloned() else { return meshes };
+    let place = most_moved(&finest.corners);
+    let moved = |mesh: &Mesh| {
+        let (block, corner) = place?;
+        mesh.corners.get(block).copied().flatten().map(|corners| corners[corner])
+    };
+    let expected = moved(&finest);
+    for mesh in &mut meshes {
+        let displacement = moved(mesh);
+        let Some(values) = &mut mesh.values else { continue };
+        values.displacement = displacement.map_or(0.0, |moved| moved.norm());
+        let (values, Some(exact)) = (*values, finest.values) else { continue };
+        if mesh.factor == finest.factor {
+            continue;
+        }
+        mesh.errors = Some(MeshErrors {
+            energy: relative(&[values.strain_energy], &[exact.strain_energy]),
+            thrust: relative(&[values.thrust], &[exact.thrust]),
+            displacement: displacement
+                .zip(expected)
+                .map(|(found, it)| (found - it).norm() / it.norm())
+                .filter(|error| error.is_finite()),
+        });
+    }
+    meshes
+}
+
+/// The horizontal force of the supports left of the middle on the structure; zero where there are only
+/// rounding errors.
+fn thrust(model: &Model, state: &State) -> f64 {
+    let corners = || model.blocks.iter().flat_map(|block| block.corners.iter().map(|it| it.x));
+    let (low, high) = (corners().fold(f64::MAX, f64::min), corners().fold(f64::MIN, f64::max));
+    let middle = 0.5 * (low + high);
+    let (mut thrust, mut all) = (0.0, 0.0);
+    for (contact, found) in model.contacts.iter().zip(&state.contacts) {
+        if let Body::Support(_) = model.joints[contact.joint.index()].a {
+            let force = recover::contact_force(model, contact, found);
+            all += force.norm();
+            if contact.position.x < middle {
+                thrust += force.x;
+            }
+        }
+    }
+    if thrust.abs() > NO_THRUST * all { thrust } else { 0.0 }
+}
+
+fn corners(model: &Model, state: &State, figures: &Figures) -> Vec<Option<[Vector2<f64>; 4]>> {
+    let of_block = |(block, moves): (&Block, &Vec<Vector2<f64>>)| match &block.mesh {
+        Some(mesh) => [0, 1, 2, 3].map(|edge| moves[mesh.edge_nodes(edge)[0]]),
+        None => [0, 1, 2, 3].map(|corner| moves[corner]),
+    };
+    let corners = model.blocks.iter().zip(&state.displacements).map(of_block);
+    let loaded = figures.loaded_blocks();
+    corners.zip(loaded).map(|(corners, is_loaded)| is_loaded.then_some(corners)).collect()
+}
+
+/// Block and corner.
+fn most_moved(corners: &[Option<[Vector2<f64>; 4]>]) -> Option<(usize, usize)> {
+    let places =
+        corners.iter().enumerate().filter_map(|(block, corners)| Some((block, (*corners)?)));
+    let all = places.flat_map(|(block, corners)| {
+        (0..4).map(move |corner| ((block, corner), corners[corner].norm()))
+    });
+    all.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(place, _)| place)
+}

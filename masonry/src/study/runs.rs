@@ -1,0 +1,170 @@
+//! Solves of a scene within a limit of time, each measured.
+
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use lcp::Status;
+
+use super::{End, Figures, Progress, Record, Settings};
+use crate::model::Model;
+use crate::outcome::Outcome;
+use crate::plan::Plan;
+use crate::scene::{Form, Route, Scene};
+use crate::solve::solve_observed;
+
+/// Solves that take longer are not repeated.
+const SHORT: Duration = Duration::from_secs(1);
+
+/// Dense matrices of larger orders are not built: reduction and factors take minutes that no observer
+/// can cut short.
+const LARGEST_DENSE: usize = 4000;
+
+/// What one solve came to.
+pub(super) struct Ran {
+    pub(super) end: End,
+    pub(super) seconds: Option<f64>,
+    /// The outcome, unless it was refused or skipped.
+    pub(super) outcome: Option<Outcome>,
+}
+
+impl Ran {
+    pub(super) fn skipped(reason: String) -> Self {
+        Self { end: End::Skipped(reason), seconds: None, outcome: None }
+    }
+
+    pub(super) fn is_too_long(&self) -> bool {
+        self.end == End::Ended(Status::TimeLimit)
+    }
+
+    /// The outcome, when solved.
+    pub(super) fn solved(&self) -> Option<&Outcome> {
+        self.outcome.as_ref().filter(|_| self.end.is_solved())
+    }
+
+    /// The residual reached, if there is one.
+    pub(super) fn residual(&self) -> Option<f64> {
+        let residual = self.outcome.as_ref().map(|it| it.solve.residuals.worst());
+        residual.filter(|residual| residual.is_finite())
+    }
+
+    /// Forces, stresses and energy, when solved.
+    pub(super) fn figures(&self) -> Option<Figures> {
+        let outcome = self.solved()?;
+        outcome.state.as_ref().map(|state| Figures::of(&outcome.model, state))
+    }
+}
+
+/// Solves scenes, and remembers which took too long.
+pub(super) struct Runner<'a> {
+    limit: Duration,
+    repeats: usize,
+    observer: &'a mut dyn FnMut(Progress),
+    too_long: Vec<(u32, Route, f64)>,
+}
+
+impl<'a> Runner<'a> {
+    pub(super) fn new(settings: &Settings, observer: &'a mut dyn FnMut(Progress)) -> Self {
+        let Settings { time_limit: limit, repeats, .. } = *settings;
+        Self { limit, repeats, observer, too_long: Vec::new() }
+    }
+
+    /// One record.
+    pub(super) fn record(
+        &mut self,
+        scene: &Scene,
+        (mesh, route, tolerance): (u32, Route, f64),
+        reference: Option<&Figures>,
+    ) -> Record {
+        let ran = self.run(&on_route(scene, route, tolerance), mesh);
+        let count = |outcome: &Outcome| match route {
+            Route::Lemke => outcome.solve.pivots,
+            _ => outcome.solve.iterations,
+        };
+        let errors = ran.figures().zip(reference).map(|(found, it)| found.errors(it));
+        Record {
+            route,
+            tolerance,
+            mesh,
+            residual: ran.residual(),
+            seconds: ran.seconds,
+            iterations: ran.outcome.as_ref().map(count),
+            errors,
+            end: ran.end,
+        }
+    }
+
+    /// Solves a scene, several times if that is quick. Where the time ran out to a looser tolerance, or on
+    /// a coarser mesh, it is not tried.
+    pub(super) fn run(&mut self, scene: &Scene, mesh: u32) -> Ran {
+        let (route, tolerance) = (scene.solver.route, scene.solver.tolerance);
+        let mut too_long = self.too_long.iter();
+        let is_easier = |(other, by, looser): &&(u32, Route, f64)| {
+            *by == route && *other <= mesh && *looser >= tolerance
+        };
+        if let Some((mesh, _, tolerance)) = too_long.find(is_easier) {
+            return Ran::skipped(format!(
+                "the time ran out to {tolerance:e} on the mesh of factor {mesh}"
+            ));
+        }
+        (self.observer)(Progress { mesh, route, tolerance });
+        if let Some(order) = dense_order(scene).filter(|order| *order > LARGEST_DENSE) {
+            return Ran::skipped(format!(
+                "it may build dense matrices of order {order}, and those above {LARGEST_DENSE} take long"
+            ));
+        }
+        let mut ran = self.once(scene);
+        // With springs other rules hold.
+        if ran.is_too_long() && scene.solver.soft.is_none() {
+            self.too_long.push((mesh, route, tolerance));
+        }
+        let mut times: Vec<f64> = ran.seconds.into_iter().collect();
+        let is_short = times.iter().all(|time| *time < SHORT.as_secs_f64());
+        if is_short && ran.solved().is_some() {
+            times.extend((1..self.repeats).filter_map(|_| self.once(scene).seconds));
+        }
+        times.sort_by(f64::total_cmp);
+        ran.seconds = times.get(times.len() / 2).copied();
+        ran
+    }
+
+    fn once(&self, scene: &Scene) -> Ran {
+        let began = Instant::now();
+        let result = solve_observed(scene, &mut |_| {
+            if began.elapsed() < self.limit {
+                ControlFlow::Continue(())
+            } else {
+                ControlFlow::Break(())
+            }
+        });
+        let seconds = Some(began.elapsed().as_secs_f64());
+        match result {
+            Ok(outcome) => {
+                // Nobody but this observer cancels.
+                let status = match outcome.solve.status {
+                    Status::Cancelled => Status::TimeLimit,
+                    status => status,
+                };
+                Ran { end: End::Ended(status), seconds, outcome: Some(outcome) }
+            }
+            Err(error) => Ran { end: End::Refused(error.to_string()), seconds, outcome: None },
+        }
+    }
+}
+
+/// The scene by a route to a tolerance, with the stresses that are compared.
+pub(super) fn on_route(scene: &Scene, route: Route, tolerance: f64) -> Scene {
+    let mut scene = scene.clone().route(route).tolerance(tolerance).stresses(true);
+    scene.solver.soft = None;
+    if route != Route::Lemke {
+        scene.solver.form = Form::Auto;
+        scene.solver.max_pivots = None;
+    }
+    scene
+}
+
+/// The order of the largest matrix of the route by pivots.
+fn dense_order(scene: &Scene) -> Option<usize> {
+    let model = Model::from_scene(scene).ok().filter(|_| scene.solver.route == Route::Lemke)?;
+    let plan = Plan::of(scene, &model);
+    Some(plan.largest_order.max(plan.largest_block))
+}

@@ -1,0 +1,332 @@
+//! What accuracy costs: a record for every combination, errors against a reference, what fails included; and
+//! the program that writes it all.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::time::Duration;
+
+use lcp::Status;
+use masonry::model::Plane;
+use masonry::output::study as output;
+use masonry::scene::{Block, Brick, Joint, Load, Material, Route, Scene, Support, Wall};
+use masonry::study::{End, Record, Settings, Study, StudyError, study};
+use masonry::units::Units;
+use serde_json::Value;
+
+const ROUTES: [Route; 5] = [Route::Lemke, Route::Interior, Route::Qp, Route::Pgs, Route::Alm];
+
+/// Two courses of elastic bricks between a floor and a load that leans.
+fn wall() -> Scene {
+    let brick = Brick { length: 0.2, height: 0.1 };
+    Scene::new("Wall", Units::SI)
+        .plane(Plane::Stress)
+        .thickness(0.1)
+        .material("brick", Material::elastic(1e8, 0.15))
+        .joint("bed", Joint::mu(0.6))
+        .joint("head", Joint::mu(0.6))
+        .wall(Wall::running_bond("wall", "brick", brick, 0.4, 2).mesh([1, 1]))
+        .support(Support::new("floor", [0.0, 0.0], [0.4, 0.0], "bed"))
+        .load(Load::traction("top", [0.0, 0.2], [0.4, 0.2], [500.0, -1e4]))
+}
+
+/// A rigid block on a floor, leaning by `alpha`; it stands up to 0.2.
+fn block(alpha: f64) -> Scene {
+    Scene::new("Block", Units::SI)
+        .thickness(1.0)
+        .gravity([10.0 * alpha, -10.0])
+        .material("stone", Material::rigid().density(2000.0))
+        .joint("floor", Joint::mu(0.7))
+        .block(Block::new("block", "stone", [[0.0, 0.0], [0.2, 0.0], [0.2, 1.0], [0.0, 1.0]]))
+        .support(Support::new("floor", [-1.0, 0.0], [1.0, 0.0], "floor"))
+}
+
+fn settings() -> Settings {
+    Settings {
+        routes: ROUTES.to_vec(),
+        tolerances: vec![1e-3, 1e-6, 1e-12],
+        meshes: vec![1, 2, 4],
+        springs: vec![1e-2, 1e-4, 1e-6],
+        ..Settings::default()
+    }
+}
+
+fn studied(scene: &Scene, settings: &Settings) -> Study {
+    study(scene, settings, &mut |_| {}).unwrap()
+}
+
+fn by(study: &Study, route: Route, mesh: u32) -> Vec<&Record> {
+    study.records.iter().filter(|it| it.route == route && it.mesh == mesh).collect()
+}
+
+fn worst(record: &Record) -> f64 {
+    record.errors.unwrap().worst().unwrap()
+}
+
+#[test]
+fn every_combination_has_its_record_and_errors_fall_with_the_tolerance() {
+    let settings = settings();
+    let mut told = Vec::new();
+    let study = study(&wall(), &settings, &mut |at| told.push(at)).unwrap();
+
+    let combination = |it: &Record| (it.mesh, it.route.name(), it.tolerance.to_bits());
+    let combinations: BTreeSet<_> = study.records.iter().map(combination).collect();
+    assert_eq!(study.records.len(), 3 * 5 * 3);
+    assert_eq!(combinations.len(), study.records.len(), "each once");
+    assert!(told.len() >= study.records.len());
+    assert!(study.is_solved());
+    assert_eq!(study.routes(), ROUTES);
+
+    for mesh in [1, 2, 4] {
+        for route in ROUTES {
+            let records = by(&study, route, mesh);
+            for record in &records {
+                assert!(record.end.is_solved(), "{record:?}");
+                assert!(record.residual.unwrap() <= record.tolerance);
+                assert!(record.seconds.unwrap() > 0.0 && record.iterations.unwrap() > 0);
+                assert!(worst(record) <= 1e3 * record.tolerance, "{record:?}");
+            }
+            let errors: Vec<f64> = records.iter().map(|record| worst(record)).collect();
+            assert!(errors.is_sorted_by(|a, b| *b <= a.max(1e-12)), "{route:?}: {errors:?}");
+        }
+    }
+    // Methods that converge to their residual leave something undone.
+    for route in [Route::Pgs, Route::Alm] {
+        let records = by(&study, route, 1);
+        assert!(worst(records[0]) > 1e-8 && worst(records[2]) < 1e-9, "{records:?}");
+    }
+}
+
+#[test]
+fn the_reference_has_no_error_and_another_route_confirms_it() {
+    let study = studied(&wall(), &settings());
+    for mesh in &study.meshes {
+        let reference = mesh.reference.as_ref().unwrap();
+        assert!(reference.residual <= reference.tolerance && reference.tolerance <= 1e-12);
+        assert!(reference.balance <= 1e-10);
+        let other = reference.confirmed.as_ref().unwrap();
+        assert_ne!(other.route, reference.route);
+        assert!(other.errors.worst().unwrap() <= 1e-9);
+        // To its tightest tolerance the route of the reference finds the same, up to rounding.
+        let records = by(&study, reference.route, mesh.factor);
+        assert!(worst(records[2]) <= 1e-12, "{:?}", records[2]);
+    }
+}
+
+#[test]
+fn finer_meshes_come_nearer_to_the_finest() {
+    let study = studied(&wall(), &settings());
+    let [coarse, fine, finest] = &study.meshes[..] else { panic!("three meshes") };
+    assert_eq!([coarse.factor, fine.factor, finest.factor], [1, 2, 4]);
+    // Of half bricks, half a length of one element is still one.
+    assert!(coarse.elements < fine.elements && fine.elements < finest.elements);
+    assert_eq!(finest.errors, None, "nothing to compare with");
+    let [coarse, fine] = [coarse, fine].map(|mesh| mesh.errors.unwrap());
+    for (coarse, fine) in [(coarse.energy, fine.energy), (coarse.displacement, fine.displacement)] {
+        assert!(fine.unwrap() > 0.0 && fine < coarse, "{fine:?} {coarse:?}");
+    }
+}
+
+#[test]
+fn the_thrust_is_that_of_the_closed_form() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/wedge.toml");
+    let study = studied(&Scene::read(&path).unwrap(), &settings());
+    let angle = 20.0_f64.to_radians();
+    let (top, bottom) = (1.0, 1.0 - 2.0 * angle.tan());
+    let weight = 0.5 * (top + bottom) * 1000.0 * 9.81;
+    let values = study.meshes[0].values.unwrap();
+    let expected = weight / (2.0 * angle.tan());
+    assert!((values.thrust - expected).abs() <= 1e-10 * expected, "{values:?}, not {expected}");
+}
+
+#[test]
+fn the_bias_of_springs_grows_with_their_stiffness_and_goes() {
+    let study = studied(&wall(), &Settings { meshes: vec![1], ..settings() });
+    let stiffnesses: Vec<f64> = study.springs.iter().map(|it| it.stiffness).collect();
+    assert!(stiffnesses.is_sorted() && stiffnesses.len() == 3);
+    let bias: Vec<f64> = study.springs.iter().map(|it| it.bias.unwrap()).collect();
+    assert!(bias.is_sorted() && bias[0] > 0.0 && bias[2] > 100.0 * bias[0], "{bias:?}");
+    for springs in &study.springs {
+        assert!(springs.end.is_solved() && springs.rounds.unwrap() > 0);
+        let after = springs.errors.unwrap().worst().unwrap();
+        assert!(after <= 1e3 * springs.tolerance, "{springs:?}");
+    }
+}
+
+#[test]
+fn a_route_that_does_not_treat_the_scene_is_recorded() {
+    let study = studied(&block(0.1), &settings());
+    assert_eq!(study.meshes.len(), 1, "rigid blocks have no mesh to refine");
+    assert_eq!(study.records.len(), 5 * 3);
+    for record in by(&study, Route::Alm, 1) {
+        assert!(matches!(&record.end, End::Refused(why) if why.contains("rigid")), "{record:?}");
+        assert!(record.seconds.is_some() && record.errors.is_none() && record.residual.is_none());
+    }
+    for record in by(&study, Route::Lemke, 1) {
+        let errors = record.errors.unwrap();
+        assert!(record.end.is_solved() && errors.force.unwrap() <= 1e-12);
+        assert_eq!((errors.stress, errors.energy), (None, None), "nothing is elastic");
+    }
+    let sentences = output::summary(&study);
+    assert!(sentences.iter().any(|it| it.starts_with("alm refuses the scene")), "{sentences:?}");
+}
+
+#[test]
+fn a_mesh_that_cannot_be_made_is_recorded() {
+    let settings = Settings {
+        routes: vec![Route::Interior],
+        meshes: vec![1, 2000],
+        springs: Vec::new(),
+        ..settings()
+    };
+    let study = studied(&wall(), &settings);
+    let [mesh, impossible] = &study.meshes[..] else { panic!("two meshes") };
+    assert!(mesh.refusal.is_none() && mesh.reference.is_some() && mesh.errors.is_none());
+    assert!(impossible.refusal.as_ref().unwrap().contains("elements"));
+    assert!(impossible.reference.is_none() && impossible.values.is_none());
+    for record in by(&study, Route::Interior, 2000) {
+        assert!(matches!(&record.end, End::Refused(_)) && record.errors.is_none(), "{record:?}");
+    }
+    assert!(output::table(&study).contains("Mesh 2000: "));
+}
+
+#[test]
+fn without_time_there_is_no_answer_and_what_is_harder_is_not_tried() {
+    let settings = Settings { time_limit: Duration::ZERO, ..settings() };
+    let study = studied(&wall(), &settings);
+    assert!(!study.is_solved());
+    assert_eq!(study.records.len(), 3 * 5 * 3);
+    for record in &study.records {
+        let is_first = record.mesh == 1 && record.tolerance > 5e-4;
+        if is_first {
+            assert_eq!(record.end, End::Ended(Status::TimeLimit), "{record:?}");
+            assert!(record.seconds.is_some());
+        } else {
+            assert!(matches!(record.end, End::Skipped(_)) && record.seconds.is_none());
+        }
+        assert!(record.errors.is_none());
+    }
+    assert!(study.meshes.iter().all(|mesh| mesh.reference.is_none() && mesh.errors.is_none()));
+    let text = output::table(&study);
+    assert!(text.contains("There is no reference") && text.contains("TimeLimit"), "{text}");
+}
+
+#[test]
+fn settings_out_of_range_are_refused() {
+    let refused = |settings: Settings| study(&wall(), &settings, &mut |_| {}).unwrap_err();
+    let empty = refused(Settings { routes: Vec::new(), ..settings() });
+    assert!(matches!(empty, StudyError::Empty { what: "route" }));
+    for tolerances in [vec![1e-4, 0.0], vec![1.0], vec![f64::NAN]] {
+        let error = refused(Settings { tolerances, ..settings() });
+        assert!(matches!(error, StudyError::Range { what: "tolerance", .. }), "{error}");
+    }
+    let error = refused(Settings { springs: vec![-1.0], ..settings() });
+    assert!(matches!(error, StudyError::Range { what: "stiffness of springs", .. }));
+    assert!(matches!(
+        refused(Settings { meshes: vec![1, 0], ..settings() }),
+        StudyError::NoElements
+    ));
+    let error = study(&wall().thickness(-1.0), &settings(), &mut |_| {}).unwrap_err();
+    assert!(matches!(error, StudyError::Scene(_)));
+}
+
+/// An empty directory of this test alone, with the scene in it.
+fn with_scene(test: &str, scene: &Scene) -> (PathBuf, String) {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("study").join(test);
+    if path.exists() {
+        fs::remove_dir_all(&path).unwrap();
+    }
+    fs::create_dir_all(&path).unwrap();
+    let file = path.join("scene.toml");
+    fs::write(&file, scene.to_toml().unwrap()).unwrap();
+    let file = file.to_str().unwrap().to_owned();
+    (path, file)
+}
+
+fn masonry(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_masonry")).arg("study").args(arguments).output().unwrap()
+}
+
+const QUICK: [&str; 6] =
+    ["--tolerances", "1e-4,1e-8", "--meshes", "1,2,3", "--springs", "1e-6,1e-4"];
+
+#[test]
+fn the_program_writes_tables_and_pictures() {
+    let (directory, scene) = with_scene("solved", &wall());
+    let out = directory.join("out").join("deeper");
+    let mut arguments = vec![scene.as_str(), "--out", out.to_str().unwrap(), "--json"];
+    arguments.extend(QUICK);
+    let run = masonry(&arguments);
+    assert_eq!(run.status.code(), Some(0));
+    assert!(run.stderr.is_empty());
+    let object: Value = serde_json::from_slice(&run.stdout).unwrap();
+    assert_eq!(object["records"].as_array().unwrap().len(), 3 * 5 * 2);
+    assert_eq!(object["meshes"].as_array().unwrap().len(), 3);
+    assert_eq!(object["springs"].as_array().unwrap().len(), 2);
+    assert_eq!(object["units"]["thrust"], "N");
+    assert_eq!(object["records"][0]["end"]["ended"], "Solved");
+    let sentence = object["summary"][0].as_str().unwrap();
+    assert!(
+        sentence.starts_with("1e-8 costs ") && sentence.contains("x the time of 1e-4 by lemke")
+    );
+
+    let names: BTreeSet<&str> =
+        object["files"].as_array().unwrap().iter().map(|it| it.as_str().unwrap()).collect();
+    let all = ["accuracy.svg", "mesh.svg", "springs.svg", "study.csv", "study.json"];
+    assert_eq!(names, BTreeSet::from(all));
+    for picture in ["accuracy.svg", "mesh.svg", "springs.svg"] {
+        let text = fs::read_to_string(out.join(picture)).unwrap();
+        let document = roxmltree::Document::parse(&text).unwrap();
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{picture}");
+        let lines = document.descendants().filter(|it| it.has_tag_name("polyline"));
+        assert!(lines.count() >= 3, "{picture}");
+    }
+    let table = fs::read_to_string(out.join("study.csv")).unwrap();
+    let rows: Vec<&str> = table.lines().collect();
+    assert_eq!(rows.len(), 1 + 3 * 5 * 2);
+    let columns = rows[0].split(',').count();
+    assert!(rows.iter().all(|row| row.split(',').count() == columns));
+    let saved: Value =
+        serde_json::from_str(&fs::read_to_string(out.join("study.json")).unwrap()).unwrap();
+    assert_eq!(saved["records"], object["records"]);
+}
+
+#[test]
+fn what_does_not_stand_is_code_one_and_has_its_tables() {
+    let (directory, scene) = with_scene("falls", &block(0.3));
+    let out = directory.join("out");
+    let mut arguments = vec![scene.as_str(), "--out", out.to_str().unwrap()];
+    arguments.extend(QUICK);
+    let run = masonry(&arguments);
+    assert_eq!(run.status.code(), Some(1));
+    let text = String::from_utf8(run.stdout).unwrap();
+    assert!(text.starts_with("Block: what accuracy costs") && text.contains("does not reach"));
+    let files: BTreeSet<_> = fs::read_dir(&out)
+        .unwrap()
+        .map(|it| it.unwrap().file_name().into_string().unwrap())
+        .collect();
+    assert_eq!(files, BTreeSet::from(["study.csv".to_owned(), "study.json".to_owned()]));
+}
+
+#[test]
+fn bad_input_is_code_two() {
+    let (directory, scene) = with_scene("bad", &block(0.1));
+    let out = directory.join("out");
+    let out = out.to_str().unwrap();
+    for arguments in [
+        vec!["none.toml", "--out", out],
+        vec![&scene, "--out", out, "--tolerances", "2"],
+        vec![&scene, "--out", out, "--meshes", "0"],
+        vec![&scene, "--out", out, "--routes", "fast"],
+        vec![&scene, "--out", out, "--time-limit", "nan"],
+        vec![&scene],
+    ] {
+        let run = masonry(&arguments);
+        assert_eq!(run.status.code(), Some(2), "{arguments:?}");
+        assert!(run.stdout.is_empty() && !run.stderr.is_empty());
+    }
+    assert!(!Path::new(out).exists());
+}
