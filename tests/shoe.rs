@@ -8,9 +8,11 @@ mod common;
 
 use common::routes::{answer_by, rounding, routes_for, solved_by};
 use common::{assert_close, displacements, rectangle, state};
+use lcp::Status;
 use masonry::model::{Body, Plane};
 use masonry::outcome::{ContactState, ContactStatus, Outcome};
 use masonry::scene::{Joint, Load, Material, Route, Scene, Support};
+use masonry::solve::solve;
 use masonry::units::{ForceUnit, LengthUnit, Units};
 
 const MM_N: Units = Units { length: LengthUnit::Mm, force: ForceUnit::N };
@@ -118,6 +120,20 @@ fn a_stiff_shoe_slides_like_a_rigid_one() {
             assert!((rate - 1.0).abs() < 0.01, "{route:?}: {errors:?}");
         }
     }
+}
+
+/// The residual does not grow with the ratio of the stiffnesses, and a soft spring is not taken for none.
+#[test]
+fn a_shoe_far_stiffer_than_the_spring_is_held() {
+    for young in [1e6, 1e7, 2.5e7] {
+        let outcome = solved_by(&shoe(Material::elastic(young, 0.0), 181.8), Route::Interior);
+        assert!(outcome.solve.residuals.worst() < 1e-14, "{young}: {:?}", outcome.solve);
+        for it in on_plane(&outcome) {
+            assert_close(it.y_t.abs() * 1e3, 9.0, 0.01);
+        }
+    }
+    let scene = shoe(Material::elastic(1e9, 0.0), 181.8).route(Route::Interior);
+    assert_ne!(solve(&scene).unwrap().solve.status, Status::NoEquilibrium);
 }
 
 fn sums(points: &[ContactState]) -> [f64; 2] {

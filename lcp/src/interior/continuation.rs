@@ -26,6 +26,8 @@ const NOTHING: f64 = 1e-7;
 /// sequence, the share does not tend to zero.
 const CONSTANT: f64 = 0.8;
 const IN_SEQUENCE: usize = 4;
+/// Stiffer springs than this do not tell bodies that nothing holds from those that something soft does.
+const SOFT: f64 = 2e-6;
 /// Resistance of a motion, relative to the terms that it is the sum of, which is a rounding error.
 const ROUNDING: f64 = 1e-12;
 
@@ -65,7 +67,7 @@ pub(super) fn follow(
         path.stiffness.push(spring);
         path.shares.push(share);
         let step: Vec<f64> = at.u.iter().zip(&before).map(|(u, before)| u - before).collect();
-        if constant >= IN_SEQUENCE && is_free(problem, &step, spring) {
+        if constant >= IN_SEQUENCE && spring <= SOFT && is_free(problem, &step, spring) {
             path.motion = problem.displacements(&at.u);
             return End::Falling(path);
         }

@@ -185,6 +185,20 @@ impl Scaled {
         }
         rest
     }
+
+    /// Sums of the sizes of the terms of equilibrium.
+    pub(super) fn terms(&self, u: &[f64], forces: &[(f64, f64)]) -> Vec<f64> {
+        let mut terms: Vec<f64> = self.f.iter().map(|f| f.abs()).collect();
+        for (j, u) in u.iter().enumerate() {
+            column_of(&self.k, j).for_each(|(i, v)| terms[i] += (v * u).abs());
+        }
+        for (point, (t_n, t_t)) in self.points.iter().zip(forces) {
+            for ((&j, n), t) in point.columns.iter().zip(&point.normal).zip(&point.tangent) {
+                terms[j] += (n * t_n).abs() + (t * t_t).abs();
+            }
+        }
+        terms
+    }
 }
 
 /// Rounding errors of a sum, relative to its terms.
@@ -199,10 +213,7 @@ impl Scaled {
     /// point far out makes all terms large and the residuals small, also where there is no solution.
     pub(super) fn drift(&self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
         let rest = self.unbalanced(u, forces.iter().copied());
-        let mut terms: Vec<f64> = self.f.iter().map(|f| f.abs()).collect();
-        for (j, u) in u.iter().enumerate() {
-            column_of(&self.k, j).for_each(|(i, v)| terms[i] += (v * u).abs());
-        }
+        let terms = self.terms(u, forces);
         let beyond = |v: f64, terms: f64| {
             if f64::EPSILON * terms > LARGEST_ROUNDING {
                 // The loads are lost in the terms: these can be in balance by luck.
@@ -212,13 +223,9 @@ impl Scaled {
             }
         };
         let mut worst = 0.0_f64;
-        for (point, (t_n, t_t)) in self.points.iter().zip(forces) {
-            let mut gap = point.x_0.abs();
-            for ((&j, n), t) in point.columns.iter().zip(&point.normal).zip(&point.tangent) {
-                terms[j] += (n * t_n).abs() + (t * t_t).abs();
-                gap += (n * u[j]).abs();
-            }
-            worst = worst.max(beyond(-point.gap(u), gap));
+        for point in &self.points {
+            let gap = point.normal.iter().zip(&point.columns).map(|(n, &j)| (n * u[j]).abs());
+            worst = worst.max(beyond(-point.gap(u), point.x_0.abs() + gap.sum::<f64>()));
         }
         rest.iter().zip(&terms).fold(worst, |max, (v, terms)| max.max(beyond(v.abs(), *terms)))
     }
