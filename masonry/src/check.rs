@@ -11,11 +11,11 @@ use crate::recover;
 /// Balances and violations, dimensionless, recomputed from the contact forces and the loads.
 #[derive(Debug, Clone, Serialize)]
 pub struct Checks {
-    /// Largest unbalanced force of a block, relative to the largest of the total load and the
-    /// largest contact force.
+    /// Largest unbalanced force of a block, relative to ten times the sum of the forces on it. This counts as
+    /// at least a hundredth of the largest of the total load and the largest contact force, and at most as that.
     pub force_balance: f64,
-    /// Largest unbalanced moment of a block about its centroid, relative to the same force times
-    /// the block's size.
+    /// Largest unbalanced moment of a block about its centroid, relative to the same sum times the
+    /// block's size.
     pub moment_balance: f64,
     /// Largest violation of `|t_t| <= mu t_n`, `t_n >= 0`, relative to the largest contact force.
     pub cone_violation: f64,
@@ -31,6 +31,11 @@ pub struct Checks {
 
 /// Balances and violations up to this are rounding.
 const LARGEST_ERROR: f64 = 1e-9;
+/// Iterations converge to a part of the largest forces. So those on a single block count as so many times
+/// what they are,
+const SINGLE_BLOCK: f64 = 10.0;
+/// and as at least this part of the largest.
+const SMALLEST_PART: f64 = 0.01;
 
 impl Checks {
     /// Whether every block balances, no friction cone is left and nothing penetrates, to
@@ -52,10 +57,9 @@ impl Checks {
     /// }
     /// ```
     pub fn of(model: &Model, state: &State) -> Self {
-        let balances = unbalanced(model, state);
         let contact_force = |s: &ContactState| s.t_n.hypot(s.t_t);
         let largest_contact = largest(state.contacts.iter().map(contact_force));
-        let reference = largest_contact.max(total_load(model));
+        let balances = unbalanced(model, state, largest_contact.max(total_load(model)));
         let violation = |(contact, s): (&ContactPoint, &ContactState)| {
             (-s.t_n).max(s.t_t.abs() - contact.mu * s.t_n)
         };
@@ -66,8 +70,8 @@ impl Checks {
             .max(largest(model.contacts.iter().map(|contact| contact.gap.abs())));
         let count = |status| state.contacts.iter().filter(|s| s.status == status).count();
         Self {
-            force_balance: relative(largest(balances.iter().map(|b| b.force)), reference),
-            moment_balance: relative(largest(balances.iter().map(|b| b.moment)), reference),
+            force_balance: largest(balances.iter().map(|b| b.force)),
+            moment_balance: largest(balances.iter().map(|b| b.moment)),
             cone_violation: relative(largest(contacts.map(violation)), largest_contact),
             penetration: relative(largest(depth), displacement),
             open: count(ContactStatus::Open),
@@ -80,13 +84,14 @@ impl Checks {
 /// A force \[N\] and where it acts \[m\].
 type PlacedForce = (Point2<f64>, Vector2<f64>);
 
-/// What is left over on one block \[N\]; the moment is divided by the block's size.
+/// What is left over on one block, relative to the forces on it and, of the moment, to its size.
 struct Unbalanced {
     force: f64,
     moment: f64,
 }
 
-fn unbalanced(model: &Model, state: &State) -> Vec<Unbalanced> {
+/// Of every block, where `most` \[N\] is the largest force of all.
+fn unbalanced(model: &Model, state: &State, most: f64) -> Vec<Unbalanced> {
     let mut forces: Vec<Vec<PlacedForce>> =
         model.blocks.iter().map(|block| loads(model, block)).collect();
     for (contact, s) in model.contacts.iter().zip(&state.contacts) {
@@ -106,7 +111,14 @@ fn unbalanced(model: &Model, state: &State) -> Vec<Unbalanced> {
         let centroid = geometry::centroid(&block.corners);
         let force: Vector2<f64> = forces.iter().map(|(_, f)| f).sum();
         let moment: f64 = forces.iter().map(|(p, f)| geometry::cross(p - centroid, *f)).sum();
-        Unbalanced { force: force.norm(), moment: moment.abs() / geometry::size(&block.corners) }
+        let sum: f64 = forces.iter().map(|(_, f)| f.norm()).sum();
+        // A light block must not be excused by a heavy one elsewhere.
+        let reference = (SINGLE_BLOCK * sum).max(SMALLEST_PART * most).min(most);
+        let arm = geometry::size(&block.corners);
+        Unbalanced {
+            force: relative(force.norm(), reference),
+            moment: relative(moment.abs() / arm, reference),
+        }
     };
     model.blocks.iter().zip(&forces).map(resultant).collect()
 }

@@ -1,0 +1,142 @@
+//! Coefficients of friction of every size, wedges, bodies that jam, and several answers.
+
+use masonry::ids::SupportId;
+use masonry::model::Body;
+use masonry::scene::{Block, Joint, Load, Material, Scene, Support};
+use nalgebra::Vector2;
+
+use super::case::Case;
+use super::common::{GRAVITY, panels, rectangle};
+use super::scenes::{YOUNG, elastic, joint_off, reactions_off, rigid, scene, stack, wall};
+
+pub const TITLE: &str = "Friction";
+
+pub fn cases() -> Vec<Case> {
+    let mut list: Vec<Case> = [0.0, 1e-8, 1.0, 10.0, 1e6].into_iter().map(pushed).collect();
+    list.extend([0.0, 1.0, 1e6].map(rough_wall));
+    for (kind, material) in [("rigid", rigid()), ("elastic", elastic())] {
+        list.push(smooth_wedge(kind, material));
+        list.push(pulled_wedge(kind, material));
+        list.push(tight_box(kind, material));
+    }
+    list.push(panel());
+    list
+}
+
+/// A flat block, pushed by half of what slides or tips it.
+fn pushed(mu: f64) -> Case {
+    let lean = 0.5 * mu.min(4.0);
+    let mut scene = stack(1, [4.0, 1.0], lean, elastic()).joint("bed", Joint::mu(mu));
+    if mu <= 0.0 {
+        scene = between_walls(scene, 4.0, 1.0);
+    }
+    Case::new(
+        &format!("mu = {}, block", number(mu)),
+        "The two edges of the friction cone nearly coincide, or are nearly the whole plane.",
+        scene,
+    )
+    .parameters("4 x 1 m, pushed by min(mu, b / h) / 2 of its weight; without friction between smooth walls")
+    .known("weight and push come out at the floor, to digits of the weight", move |outcome| {
+        let weight = 8000.0 * GRAVITY;
+        let reaction = &outcome.reactions[0];
+        (reaction.fx / weight + lean).hypot(reaction.fy / weight - 1.0)
+    })
+}
+
+/// Without zeros that nobody counts.
+fn number(mu: f64) -> String {
+    if mu > 0.0 && !(1e-3..1e3).contains(&mu) { format!("{mu:e}") } else { mu.to_string() }
+}
+
+/// Without friction nothing else stops a motion to the side.
+fn between_walls(scene: Scene, width: f64, height: f64) -> Scene {
+    scene
+        .joint("smooth", Joint::mu(0.0))
+        .support(Support::new("left", [0.0, 0.0], [0.0, height], "smooth"))
+        .support(Support::new("right", [width, 0.0], [width, height], "smooth"))
+}
+
+fn rough_wall(mu: f64) -> Case {
+    let mut scene = wall(0.6, 3, mu, elastic());
+    if mu <= 0.0 {
+        scene = between_walls(scene.gravity([0.0, -GRAVITY]), 0.6, 0.3);
+    }
+    Case::new(
+        &format!("mu = {}, wall", number(mu)),
+        "The problem is not copositive for large friction; without friction nothing holds bricks sideways.",
+        scene,
+    )
+    .parameters("three courses of three bricks, weight that leans by 0.1, without friction upright between smooth walls")
+    .known("the sum of the reactions is the load", reactions_off)
+}
+
+/// A key between faces inclined by 20 degrees.
+fn wedge(mu: f64, material: Material) -> Scene {
+    let foot = 20_f64.to_radians().tan();
+    let (left, right) = ([foot, 0.0], [1.0 - foot, 0.0]);
+    scene("Wedge", mu)
+        .material("stone", material)
+        .block(Block::new("key", "stone", [left, right, [1.0, 1.0], [0.0, 1.0]]).mesh([2, 3]))
+        .support(Support::new("left", left, [0.0, 1.0], "head"))
+        .support(Support::new("right", right, [1.0, 1.0], "head"))
+}
+
+fn smooth_wedge(kind: &str, material: Material) -> Case {
+    Case::new(
+        &format!("smooth wedge, {kind}"),
+        "No normal is vertical: all of them push and carry.",
+        wedge(0.0, material),
+    )
+    .parameters("key 1 m high, faces inclined by 20 degrees from the vertical, mu = 0, own weight")
+    .known("each face carries W / (2 sin 20)", |outcome| {
+        let (sin, cos) = 20_f64.to_radians().sin_cos();
+        let force = 2000.0 * GRAVITY * (1.0 - sin / cos) / (2.0 * sin);
+        let off = |face, inwards: Vector2<f64>| {
+            joint_off(outcome, Body::Support(SupportId(face)), "key", inwards * force)
+        };
+        off(0, Vector2::new(cos, sin)).max(off(1, Vector2::new(-cos, sin)))
+    })
+}
+
+fn pulled_wedge(kind: &str, material: Material) -> Case {
+    let pull = [0.0, 30.0];
+    let scene = wedge(0.6, material).load(Load::traction("pull", [0.0, 1.0], [1.0, 1.0], pull));
+    Case::new(
+        &format!("wedge pulled out, {kind}"),
+        "Friction is steeper than the faces: what is jammed cannot be pulled out, and nothing says that it is jammed.",
+        scene,
+    )
+    .parameters("the same key, mu = 0.6 > tan 20, pulled up by 30 kN against a weight of 12.5 kN")
+    .open("a rigid key stands if it is jammed by any large enough force, an elastic one comes out")
+}
+
+fn tight_box(kind: &str, material: Material) -> Case {
+    let scene = scene("Tight box", 1.0)
+        .material("stone", material)
+        .block(rectangle("block", "stone", [0.0, 1.0], [0.0, 1.0]).mesh([2, 2]))
+        .support(Support::new("floor", [0.0, 0.0], [1.0, 0.0], "bed"))
+        .support(Support::new("left", [0.0, 0.0], [0.0, 1.0], "head"))
+        .support(Support::new("right", [1.0, 0.0], [1.0, 1.0], "head"));
+    Case::new(
+        &format!("block in a tight box, {kind}"),
+        "It may rest on the floor, hang between the walls, or both; the walls may press with any force.",
+        scene,
+    )
+    .parameters("1 x 1 m, mu = 1, own weight")
+    .known("the sum of the reactions is the weight", reactions_off)
+}
+
+fn panel() -> Case {
+    let mut scene = panels::scene("panel_rectangular").stresses(false);
+    scene.walls[0].mesh = Some([2, 1]);
+    Case::new(
+        "rectangular panel at mu = 1",
+        "Two exact solutions: bricks of the lowest course hang by friction, or drop.",
+        scene,
+    )
+    .parameters(&format!(
+        "`scenes/panel_rectangular.toml` with a mesh of 2 x 1: 55 bricks, E = {:e} kN/m2",
+        0.1 * YOUNG
+    ))
+    .known("reactions add up to the load, in either solution", reactions_off)
+}

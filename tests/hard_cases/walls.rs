@@ -1,0 +1,60 @@
+//! Walls of one pattern from 2 to 200 bricks, and one on a support that settles.
+
+use masonry::scene::{Brick, Joint, Movement, Route, Scene, Stage, Support, Wall};
+
+use super::case::Case;
+use super::common::GRAVITY;
+use super::scenes::{elastic, reactions_off, scene, wall};
+
+pub const TITLE: &str = "Growth";
+
+pub fn cases() -> Vec<Case> {
+    let mut list: Vec<Case> = SIZES.map(grown).into();
+    list.push(settled());
+    list
+}
+
+/// Bricks in a course, and courses.
+const SIZES: [[u32; 2]; 5] = [[2, 1], [4, 2], [8, 5], [12, 8], [16, 12]];
+
+fn grown([length, courses]: [u32; 2]) -> Case {
+    let width = 0.2 * f64::from(length);
+    let bricks = length * courses + courses / 2;
+    let slow: &[Route] = match bricks {
+        0..20 => &[],
+        20..120 => &[Route::Pgs],
+        _ => &[Route::Qp, Route::Pgs, Route::Alm],
+    };
+    Case::new(
+        &format!("wall of {bricks} bricks"),
+        "Forces can circulate around the end of every head joint, and rounding adds up course by course.",
+        wall(width, courses, 0.6, elastic()).stresses(false),
+    )
+    .slow_by(slow)
+    .parameters(&format!("courses x bricks: {courses} x {length}, mu = 0.6, weight that leans by 0.1"))
+    .known("the sum of the reactions is the load", reactions_off)
+}
+
+/// `scenes/wall_settlement.toml`, shortened.
+fn settled() -> Case {
+    let brick = Brick { length: 0.25, height: 0.125 };
+    let mut turned = Movement::by(0.0, -0.004);
+    turned.turn = -0.004;
+    let scene: Scene = scene("Settlement", 0.6)
+        .thickness(0.25)
+        .gravity([0.0, -GRAVITY])
+        .material("brick", elastic())
+        .joint("bed", Joint::mu(0.6))
+        .wall(Wall::running_bond("wall", "brick", brick, 1.5, 6).mesh([2, 1]))
+        .support(Support::new("left foundation", [0.0, 0.0], [0.75, 0.0], "bed"))
+        .support(Support::new("right foundation", [0.75, 0.0], [1.5, 0.0], "bed"))
+        .stage(Stage::new("weight"))
+        .stage(Stage::new("settlement").steps(2).moves("right foundation", turned));
+    Case::new(
+        "wall on a support that settles",
+        "Bricks that lose their support turn far more than any of them is deformed.",
+        scene,
+    )
+    .parameters("six courses of six bricks 0.25 x 0.125 m, the right half of the base sinks by 4 mm and turns by 0.004 in two steps")
+    .known("the sum of the reactions is the weight", reactions_off)
+}
