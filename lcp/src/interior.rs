@@ -14,13 +14,13 @@ mod turn;
 
 pub use settings::InteriorPointSettings;
 
-use condensed::Condensed;
+pub(crate) use condensed::{Condensed, Springs};
 use continuation::End;
 use crossover::{Contact, Effort, Vertex, contacts, cross_over};
 use iterate::{Defect, Iterate};
 use original::{Judged, Original};
 use path::{WIDTHS, advance};
-use scaled::Scaled;
+pub(crate) use scaled::{Point, Scaled};
 use start::{set_out, start_again};
 
 use crate::solve::Monitor;
