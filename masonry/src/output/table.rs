@@ -183,6 +183,7 @@ fn state_figures(outcome: &Outcome, state: &State) -> Vec<(&'static str, String)
         let errors = [
             ("force", checks.force_balance),
             ("moment", checks.moment_balance),
+            ("uncarried load", checks.uncarried),
             ("cone violation", checks.cone_violation),
             ("penetration", checks.penetration),
         ];

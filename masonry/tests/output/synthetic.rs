@@ -45,6 +45,7 @@ pub(crate) fn solved(wall: Wall) -> Outcome {
     let checks = Checks {
         force_balance: 3.1e-15,
         moment_balance: 8.0e-15,
+        uncarried: 0.0,
         cone_violation: 0.0,
         penetration: 2.2e-16,
         open: count(ContactStatus::Open),
