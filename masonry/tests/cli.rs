@@ -124,6 +124,11 @@ fn plan_says_what_will_be_built() {
     let effects = plan["effects"].as_array().unwrap();
     let is_on = |name: &str| effects.iter().find(|it| it["name"] == name).unwrap()["on"] == true;
     assert!(is_on("friction") && is_on("self weight") && !is_on("deformation"));
+    for effect in effects {
+        let [because, cost] = ["because", "cost"].map(|key| effect[key].as_str().unwrap());
+        assert!(!because.is_empty());
+        assert_eq!(cost == "none", effect["on"] == false, "{effect}");
+    }
 
     let text = masonry(&["plan", &scene]);
     assert_eq!(text.status.code(), Some(0));

@@ -347,6 +347,7 @@ fn plan(model: &Model) -> Plan {
         on,
         because: because.to_owned(),
         unknowns,
+        cost: if on { "some memory" } else { "none" }.to_owned(),
     };
     let m = model.contacts.len();
     Plan {
