@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 pub use csv::{csv, refinement_csv};
 pub use json::json;
-pub use summary::summary;
+pub use summary::{answer, summary};
 pub use table::table;
 
 use super::{OutputError, svg, write_atomically};

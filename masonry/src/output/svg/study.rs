@@ -126,7 +126,7 @@ pub fn springs(study: &Study) -> Option<String> {
 
 /// The time of a solve on the first mesh of every study against the number of blocks, for two tolerances: two
 /// lines for each route, the first broken. `None` where no time is known.
-pub fn sizes(studies: &[Study], [loose, tight]: [f64; 2]) -> Option<String> {
+pub fn sizes(title: &str, studies: &[Study], [loose, tight]: [f64; 2]) -> Option<String> {
     let mut routes: Vec<Route> = Vec::new();
     for route in studies.iter().flat_map(Study::routes) {
         if !routes.contains(&route) {
@@ -159,32 +159,6 @@ pub fn sizes(studies: &[Study], [loose, tight]: [f64; 2]) -> Option<String> {
     let machine = studies.first().and_then(|study| study.machine.clone());
     let notes: Vec<String> = [meaning, ends].into_iter().chain(machine).collect();
     diagram(&titles, &lines, &notes)
-}
-
-/// Time against size, of studies of one pattern: one line for each route, on the first mesh of every study, at the
-/// tolerance nearest to the one given. `None` where nothing was solved.
-pub fn sizes(title: &str, studies: &[Study], tolerance: f64) -> Option<String> {
-    let routes = studies.first()?.routes();
-    let line = |route: &Route| {
-        let time = |study: &Study| {
-            let points = study.meshes.first()?.contact_points;
-            let solved = |it: &&Record| it.route == *route && it.end.is_solved();
-            let distance = |it: &Record| (it.tolerance / tolerance).ln().abs();
-            let nearest = study
-                .on_first_mesh()
-                .filter(solved)
-                .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-            Some([points as f64, nearest.seconds?])
-        };
-        Line {
-            name: route.name().to_owned(),
-            style: style(*route),
-            points: studies.iter().filter_map(time).collect(),
-        }
-    };
-    let lines: Vec<Line> = routes.iter().map(line).collect();
-    let y = format!("time of one solve to {tolerance:e} [s]");
-    diagram(&Titles { title, x: "contact points", y: &y }, &lines, &[])
 }
 
 /// A note, where errors are below what is drawn.
