@@ -5,6 +5,8 @@
 //! checked answer, on one thread; of short ones the median of three.
 
 mod common;
+#[path = "common/machine.rs"]
+mod machine;
 #[path = "accuracy/page.rs"]
 mod page;
 #[path = "accuracy/tables.rs"]
@@ -77,7 +79,7 @@ fn wall(bricks: u32) -> Study {
 }
 
 fn told(scene: &Scene, settings: Settings) -> Study {
-    let machine = Some(common::machine_and_date());
+    let machine = Some(machine::machine_and_date());
     let settings = Settings { time_limit: LIMIT, machine, ..settings };
     let study = study(scene, &settings, &mut |at| {
         eprintln!("{}: mesh {}, {} to {:e}", scene.title, at.mesh, at.route.name(), at.tolerance);

@@ -152,8 +152,7 @@ pub fn sizes(title: &str, studies: &[Study], [loose, tight]: [f64; 2]) -> Option
         ]
     };
     let lines: Vec<Line> = routes.iter().flat_map(lines).collect();
-    let titles =
-        Titles { title: "Time and size", x: "number of bricks [-]", y: "time of one solve [s]" };
+    let titles = Titles { title, x: "number of bricks [-]", y: "time of one solve [s]" };
     let meaning = format!("Full lines: to {tight:e}; broken ones: to {loose:e}.");
     let ends = "A line ends where a size was not solved within the time, or not tried.".to_owned();
     let machine = studies.first().and_then(|study| study.machine.clone());
