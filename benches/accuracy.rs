@@ -23,7 +23,7 @@ use masonry::units::Units;
 /// Elements of a square in each direction; the first are those of the scenes.
 const MESHES: [u32; 4] = [2, 1, 4, 8];
 /// What one solve may take.
-const LIMIT: Duration = Duration::from_secs(6);
+const LIMIT: Duration = Duration::from_secs(8);
 /// Courses, and bricks in a course.
 const WALLS: [u32; 5] = [5, 10, 20, 40, 80];
 /// Of the walls.

@@ -162,7 +162,8 @@ impl Contact2d {
     }
 
     /// The answer that the given one is nearest to, as exact as it can be had: [`refine`](Self::refine) for
-    /// its [`statuses`](Self::statuses). Contacts whose inequalities are then violated by no more than a
+    /// its [`statuses`](Self::statuses). Bodies without loads that no contact presses float, with all their
+    /// contacts open: where they are nothing says, and they stay there. Contacts whose inequalities are then violated by no more than a
     /// rounding error of the answer take the status on the other side of it, so long as this makes the
     /// margin larger.
     ///
@@ -171,7 +172,8 @@ impl Contact2d {
     pub fn verify(&self, state: &ContactState) -> Result<Verified, Error> {
         self.check_state(state, &vec![ContactStatus::Open; self.points()])?;
         let scaled = Scaled::of_contact(self);
-        let mut statuses = At::from(&scaled, state).nearest(&scaled);
+        let at = At::from(&scaled, state);
+        let mut statuses = lack::without_idle(&scaled, &at.nearest(&scaled), &at);
         let mut best: Option<Verified> = None;
         for _ in 0..EXCHANGES {
             let (refined, slacks) = solved(&scaled, state, &statuses, Refinement::Extended)?;

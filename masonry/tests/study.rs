@@ -112,7 +112,8 @@ fn the_reference_has_no_error_and_another_route_confirms_it() {
         let other = reference.confirmed.as_ref().unwrap();
         assert_ne!(other.route, reference.route);
         assert!(other.errors.worst().unwrap() <= 1e-9);
-        assert!(other.refined.unwrap() <= 1e-13, "{other:?}");
+        let distance = other.refined.unwrap_or_else(|| panic!("{reference:?}"));
+        assert!(distance <= 1e-13, "{other:?}");
         // To its tightest tolerance the route of the reference finds the same, up to rounding.
         let records = by(&study, reference.route, mesh.factor);
         assert!(worst(records[2]) <= 1e-12, "{:?}", records[2]);
@@ -140,7 +141,7 @@ fn the_reference_is_refined_and_verified() {
 fn the_last_digits_come_with_refinement() {
     let study = studied(&wall(), &settings());
     for mesh in &study.meshes {
-        let [plain, single, extended] = &mesh.refinings[..] else { panic!("three ways") };
+        let [plain, single, extended] = &mesh.refinings[..] else { panic!("three ways: {mesh:?}") };
         let kinds = [plain, single, extended].map(|it| it.refinement);
         assert_eq!(kinds, [Refinement::Plain, Refinement::Single, Refinement::Extended]);
         assert_eq!([plain.passes, single.passes], [1, 2]);
@@ -173,11 +174,13 @@ fn pivots_are_counted_once_for_all_tolerances_that_they_reach() {
     let study = studied(&wall(), &settings());
     for mesh in [1, 2, 4] {
         let records = by(&study, Route::Lemke, mesh);
-        let first = records[0];
-        for record in &records {
-            assert!(record.residual.unwrap() <= record.tolerance);
-            assert_eq!((record.seconds, record.iterations), (first.seconds, first.iterations));
+        for (loose, tight) in records.iter().zip(&records[1..]) {
+            assert!(tight.residual.unwrap() <= tight.tolerance);
+            if loose.residual.unwrap() <= tight.tolerance {
+                assert_eq!((tight.seconds, tight.iterations), (loose.seconds, loose.iterations));
+            }
         }
+        assert_eq!(records[0].seconds, records[1].seconds, "the first two are one: {records:?}");
     }
 }
 

@@ -126,28 +126,46 @@ pub(super) fn on_bodies(scaled: &Scaled, forces: &[[Extended; 2]]) -> Vec<Extend
     sum
 }
 
+/// Displacements of bodies without loads that no closed contact touches: nothing says where they are.
+pub(super) fn floating(scaled: &Scaled, statuses: &[ContactStatus]) -> Vec<bool> {
+    let closed = |i: usize| statuses[i] != ContactStatus::Open;
+    unreached(scaled, closed)
+}
+
 /// Forces below this part of the largest are none to a body without loads.
 const IDLE: f64 = 1e-10;
 
-/// Displacements of bodies without loads that no contact presses: nothing says where they are.
-pub(super) fn floating(scaled: &Scaled, statuses: &[ContactStatus], at: &At) -> Vec<bool> {
+/// The states with contacts open that press, if at all, on bodies without loads that no contact presses.
+pub(super) fn without_idle(
+    scaled: &Scaled,
+    statuses: &[ContactStatus],
+    at: &At,
+) -> Vec<ContactStatus> {
     let none = Extended::from(IDLE * at.sizes(scaled).0);
-    let mut floats: Vec<bool> = scaled.f.iter().map(|f| *f == 0.0).collect();
-    for ((point, status), [t_n, t_t]) in scaled.points.iter().zip(statuses).zip(&at.forces) {
-        let is_pressed = t_n.abs() > none || t_t.abs() > none;
-        if *status != ContactStatus::Open && is_pressed {
-            touched(point).for_each(|j| floats[j] = false);
-        }
+    let is_pressed = |i: usize| at.forces[i].iter().any(|t| t.abs() > none);
+    let idle = unreached(scaled, |i| statuses[i] != ContactStatus::Open && is_pressed(i));
+    let points = scaled.points.iter().zip(statuses);
+    let of_point = |(point, status): (&Point, &ContactStatus)| {
+        if touched(point).any(|j| idle[j]) { ContactStatus::Open } else { *status }
+    };
+    points.map(of_point).collect()
+}
+
+/// Displacements of bodies without loads that these contacts do not touch.
+fn unreached(scaled: &Scaled, touches: impl Fn(usize) -> bool) -> Vec<bool> {
+    let mut left: Vec<bool> = scaled.f.iter().map(|f| *f == 0.0).collect();
+    for (_, point) in scaled.points.iter().enumerate().filter(|(i, _)| touches(*i)) {
+        touched(point).for_each(|j| left[j] = false);
     }
-    let mut reached: Vec<usize> = (0..floats.len()).filter(|&j| !floats[j]).collect();
+    let mut reached: Vec<usize> = (0..left.len()).filter(|&j| !left[j]).collect();
     while let Some(j) = reached.pop() {
         for (i, _) in column_of(&scaled.k, j) {
-            if std::mem::replace(&mut floats[i], false) {
+            if std::mem::replace(&mut left[i], false) {
                 reached.push(i);
             }
         }
     }
-    floats
+    left
 }
 
 /// The displacements that a point sees.

@@ -60,8 +60,7 @@ const CONTRADICTION: f64 = 1e-12;
 /// One solve.
 struct Solve<'a> {
     scaled: &'a Scaled,
-    /// Contacts of bodies that float are open.
-    statuses: Vec<ContactStatus>,
+    statuses: &'a [ContactStatus],
     springs: Vec<Springs>,
     condensed: Condensed,
     /// Displacements that stay where they are.
@@ -79,22 +78,14 @@ impl<'a> Solve<'a> {
     fn new(
         scaled: &'a Scaled,
         mut at: At,
-        statuses: &[ContactStatus],
+        statuses: &'a [ContactStatus],
         weights: Weights,
     ) -> Result<Self, Error> {
-        let floating = lack::floating(scaled, statuses, &at);
-        let points = scaled.points.iter().zip(statuses);
-        let statuses: Vec<ContactStatus> = points
-            .map(|(point, status)| {
-                let floats = lack::touched(point).any(|j| floating[j]);
-                if floats { ContactStatus::Open } else { *status }
-            })
-            .collect();
         let mut condensed = Condensed::new(scaled).map_err(|error| Error::NotTreated {
             solver: "refine",
             reason: format!("its sparse factors cannot be planned: {error}"),
         })?;
-        let all = scaled.points.iter().zip(&statuses);
+        let all = scaled.points.iter().zip(statuses);
         let springs: Vec<Springs> =
             all.clone().map(|(point, status)| status.springs(point.mu, weights.stiff)).collect();
         for ((point, status), forces) in all.zip(&mut at.forces) {
@@ -106,7 +97,7 @@ impl<'a> Solve<'a> {
             statuses,
             springs,
             condensed,
-            floating,
+            floating: lack::floating(scaled, statuses),
             shifts: Shifts::new(scaled),
             at,
             correction: 0.0,
@@ -126,7 +117,7 @@ impl<'a> Solve<'a> {
     /// Passes for residuals of the usual digits.
     fn repeat(&mut self, passes: usize) {
         for _ in 0..passes {
-            let lack = Lack::usual(self.scaled, &self.statuses, &self.at, &self.floating);
+            let lack = Lack::usual(self.scaled, self.statuses, &self.at, &self.floating);
             self.pass(&lack);
             self.at = self.at.without_rests();
         }
@@ -204,7 +195,7 @@ impl<'a> Solve<'a> {
         let Self { scaled, statuses, at, shifts, floating, passes, .. } = self;
         let floats = |i: usize| lack::touched(&scaled.points[i]).any(|j| floating[j]);
         let slacks: Vec<(f64, ContactStatus)> =
-            law::slacks(scaled, &statuses, &at)
+            law::slacks(scaled, statuses, &at)
                 .enumerate()
                 // A body that floats can be moved aside by a rounding error.
                 .map(|(i, (slack, next))| {

@@ -78,7 +78,8 @@ pub(super) fn find(scene: &Scene, mesh: u32, runner: &mut Runner) -> Option<Foun
         Some(Confirmation { route: other.reference.route, errors, refined })
     });
     let outcome = best.ran.outcome?;
-    Some(Found { reference: best.reference, outcome, figures, exact: best.exact })
+    let exact = best.exact.filter(|exact| exact.verified.is_better());
+    Some(Found { reference: best.reference, outcome, figures, exact })
 }
 
 struct Candidate {
@@ -90,11 +91,15 @@ struct Candidate {
 impl Candidate {
     /// Verified answers come first, then those of small residuals.
     fn rank(&self) -> (bool, f64) {
-        (self.exact.is_none(), self.reference.residual)
+        (self.better().is_none(), self.reference.residual)
+    }
+
+    fn better(&self) -> Option<&Exact> {
+        self.exact.as_ref().filter(|exact| exact.verified.is_better())
     }
 
     fn figures(&self) -> Option<Figures> {
-        match (&self.exact, self.ran.solved()) {
+        match (self.better(), self.ran.solved()) {
             (Some(exact), Some(outcome)) => Some(exact.figures(&outcome.model)),
             _ => self.ran.figures(),
         }
@@ -116,7 +121,6 @@ fn tightest(scene: &Scene, (mesh, route): (u32, Route), runner: &mut Runner) -> 
                 verified: exact.as_ref().map(|exact| exact.verified.clone()),
                 confirmed: None,
             };
-            let exact = exact.filter(|exact| exact.verified.is_better());
             return Some(Candidate { reference, ran, exact });
         }
         // A looser tolerance helps where the residual was too large, and nowhere else.
