@@ -17,7 +17,8 @@ use masonry::study::{End, Record, Settings, Study, StudyError, study};
 use masonry::units::Units;
 use serde_json::Value;
 
-const ROUTES: [Route; 5] = [Route::Lemke, Route::Interior, Route::Qp, Route::Pgs, Route::Alm];
+const ROUTES: [Route; 6] =
+    [Route::Lemke, Route::Interior, Route::Newton, Route::Qp, Route::Pgs, Route::Alm];
 
 /// Two courses of elastic bricks between a floor and a load that leans.
 fn wall() -> Scene {

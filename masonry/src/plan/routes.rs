@@ -64,7 +64,7 @@ pub(super) fn of(scene: &Scene, sizes: &Sizes) -> Vec<Choice> {
             ),
             (Route::Qp, "where the interior points come to no end".to_owned()),
         ],
-        route @ (Route::Lemke | Route::Interior | Route::Qp | Route::Alm) => {
+        route @ (Route::Lemke | Route::Interior | Route::Newton | Route::Qp | Route::Alm) => {
             vec![(route, given(route))]
         }
         Route::Pgs if scene.solver.soft.is_some() => vec![(Route::Pgs, given(Route::Pgs))],
@@ -127,7 +127,7 @@ impl Sizes {
         };
         match route {
             Route::Auto | Route::Lemke => self.lemke(form),
-            Route::Interior => sparse,
+            Route::Interior | Route::Newton => sparse,
             // Contact forces are no unknowns of its linear systems, and neither is what strips do.
             Route::Alm => {
                 let order = self.displacements - if self.strips { self.compliances } else { 0 };
