@@ -7,12 +7,12 @@ pub(crate) fn is_bench() -> bool {
     std::env::args().any(|argument| argument == "--bench")
 }
 
-/// With `-- --write`, puts the table between the marks of the bench in the README.
-pub(crate) fn write_if_asked(bench: &str, table: &str) {
+/// With `-- --write`, puts the table between the marks of the bench in a file of the repository.
+pub(crate) fn write_if_asked(file: &str, bench: &str, table: &str) {
     if !std::env::args().any(|argument| argument == "--write") {
         return;
     }
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
     let marks =
         [format!("<!-- begin: bench {bench} -->\n"), format!("<!-- end: bench {bench} -->")];
     let text = std::fs::read_to_string(&path).expect("the file is part of the repository");

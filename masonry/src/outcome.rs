@@ -20,7 +20,7 @@ pub struct State {
     /// Force, gap and slip at every contact point.
     pub contacts: Vec<ContactState>,
     /// Stresses at the contact points of the mortar films, in the order of the points; empty without
-    /// films.
+    /// films, and when no output shows stresses.
     pub films: Vec<FilmStress>,
     /// Stresses at the centre of every element; empty when no output shows them.
     pub stresses: Vec<ElementStress>,
