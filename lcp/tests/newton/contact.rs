@@ -142,8 +142,8 @@ fn limits_are_kept() {
 /// Rows and points in the opposite order.
 fn reversed(problem: &Contact2d) -> Contact2d {
     let (n, m) = (problem.displacements(), problem.points());
-    let [k, c_n, c_t] =
-        [problem.stiffness(), problem.normal(), problem.tangent()].map(|matrix| matrix.to_dense());
+    let [k, c_n, c_t] = [problem.stiffness(), problem.normal(), problem.tangent()]
+        .map(faer::sparse::SparseColMat::to_dense);
     let back = |v: &[f64]| v.iter().rev().copied().collect();
     Contact2d::new(
         Mat::from_fn(n, n, |i, j| k[(n - 1 - i, n - 1 - j)]),
