@@ -31,6 +31,10 @@ const INEXACT: f64 = 0.01;
 /// Rounds at most, and those that may fail one after the other.
 const ROUNDS: usize = 40;
 const FAILURES: usize = 10;
+/// A residual above this is more than rounding: states fit the tolerance and not each other. So many rounds more
+/// may lead to better ones.
+const EXACT: f64 = 1e-13;
+const MORE: usize = 3;
 /// Exchanges of states after a round: as long as there are fewer contradictions every time, or nearly.
 const EXCHANGES: Effort = Effort { rounds: 20, patience: 1, points: 50 };
 
@@ -71,7 +75,7 @@ impl Rounds<'_, '_> {
     fn run(&mut self) -> Status {
         let (mut u, mut forces) = self.glued();
         let (mut stiffness, mut spring) = (STIFFNESS, SPRING);
-        let mut failures = 0;
+        let (mut failures, mut answers) = (0, 0);
         for _ in 0..ROUNDS {
             let proximal = Proximal { centre: &u, forces: &forces, spring, stiffness };
             let round = match self.round(&proximal) {
@@ -79,7 +83,10 @@ impl Rounds<'_, '_> {
                 Err(status) => return status,
             };
             if round.is_solved && self.is_answer(&round.at) {
-                return Status::Solved;
+                answers += 1;
+                if self.search.residual() <= EXACT || answers > MORE {
+                    return Status::Solved;
+                }
             }
             if round.is_solved {
                 failures = 0;
