@@ -25,7 +25,7 @@ const MESHES: [u32; 4] = [2, 1, 4, 8];
 /// What one solve may take.
 const LIMIT: Duration = Duration::from_secs(6);
 /// Courses, and bricks in a course.
-const WALLS: [u32; 4] = [5, 10, 20, 40];
+const WALLS: [u32; 5] = [5, 10, 20, 40, 80];
 /// Of the walls.
 const TOLERANCES: [f64; 2] = [1e-4, 1e-8];
 
@@ -35,6 +35,9 @@ fn main() {
     }
     let panels = ["panel_rectangular", "panel_square"].map(|name| (name, panel(name)));
     let walls = WALLS.map(wall);
+    for study in panels.iter().map(|(_, study)| study).chain(&walls) {
+        println!("{}", output::study::table(study));
+    }
     if std::env::args().any(|argument| argument == "--write") {
         page::write(Path::new(env!("CARGO_MANIFEST_DIR")), &panels, &walls);
     }
@@ -76,12 +79,10 @@ fn wall(bricks: u32) -> Study {
 }
 
 fn told(scene: &Scene, settings: Settings) -> Study {
-    let machine = Some(machine::name_and_date());
+    let machine = Some(machine::machine_and_date());
     let settings = Settings { time_limit: LIMIT, machine, ..settings };
     let study = study(scene, &settings, &mut |at| {
         eprintln!("{}: mesh {}, {} to {:e}", scene.title, at.mesh, at.route.name(), at.tolerance);
     });
-    let study = study.expect("the scene is sound");
-    println!("{}", output::study::table(&study));
-    study
+    study.expect("the scene is sound")
 }

@@ -61,7 +61,7 @@ fn main() {
     if !common::is_bench() {
         return;
     }
-    let mut page = machine::measured();
+    let mut page = machine::machine();
     let mut routes = Vec::new();
     for (route, wall) in [(Route::Lemke, Wall::small()), (Route::Interior, Wall::large())] {
         let rows: Vec<Row> = pairs(route, wall).into_iter().map(row).collect();

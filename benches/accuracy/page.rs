@@ -26,13 +26,11 @@ All times are those of whole solves, from the scene to the checked answer. The s
 
 /// Writes all files.
 pub(crate) fn write(root: &Path, panels: &[(&str, Study)], walls: &[Study]) {
-    let machine = machine::measured();
+    let machine = machine::machine();
     let mut text = format!("{HEAD}\n{machine}\n## In short\n\n");
     for (_, panel) in panels {
         let _ = writeln!(text, "{}:\n", panel.title);
-        for sentence in study::answer(panel) {
-            let _ = writeln!(text, "* {sentence}");
-        }
+        text += &list(&study::answer(panel));
         text += "\n";
     }
     for (name, panel) in panels {
@@ -63,6 +61,10 @@ fn save(root: &Path, file: &str, text: &str) {
     std::fs::write(path, text).expect("a file can be written");
 }
 
+fn list(sentences: &[String]) -> String {
+    sentences.iter().fold(String::new(), |text, sentence| text + "* " + sentence + "\n")
+}
+
 /// A picture with what is to be seen on it.
 fn picture(file: &str, what: &str, machine: &str) -> String {
     format!("\n![{what}](pictures/{file})\n\n*{what}. {}*\n\n", machine.trim())
@@ -71,9 +73,7 @@ fn picture(file: &str, what: &str, machine: &str) -> String {
 fn of_panel(name: &str, panel: &Study, machine: &str) -> String {
     let first = panel.meshes.first().map_or(0, |mesh| mesh.factor);
     let mut text = format!("## {}\n\n", panel.title);
-    for sentence in study::summary(panel) {
-        let _ = writeln!(text, "* {sentence}");
-    }
+    text += &list(&study::summary(panel));
     text += &picture(
         &format!("accuracy_{name}_routes.svg"),
         &format!(
@@ -120,11 +120,9 @@ fn of_walls(walls: &[Study], machine: &str) -> String {
     let what = "Time against the number of bricks, one line for each route and tolerance";
     text += &picture("accuracy_sizes.svg", what, machine);
     let routes = walls.first().map(Study::routes).unwrap_or_default();
-    text += "| wall | contact points |";
-    for route in &routes {
-        let _ = write!(text, " {} |", route.name());
-    }
-    let _ = writeln!(text, "\n|---|--:|{}", "---|".repeat(routes.len()));
+    let names: Vec<&str> = routes.iter().map(|route| route.name()).collect();
+    let _ = writeln!(text, "| wall | contact points | {} |", names.join(" | "));
+    let _ = writeln!(text, "|---|--:|{}", "---|".repeat(routes.len()));
     for wall in walls {
         let points = wall.meshes.first().map_or(0, |mesh| mesh.contact_points);
         let _ = write!(text, "| {} | {points} |", wall.title);

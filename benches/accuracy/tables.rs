@@ -11,11 +11,9 @@ pub(crate) fn by_tolerance(panel: &Study, mesh: u32) -> String {
     let mut tolerances: Vec<f64> = on_mesh().map(|it| it.tolerance).collect();
     tolerances.sort_by(|a, b| b.total_cmp(a));
     tolerances.dedup_by(|a, b| a.total_cmp(b).is_eq());
-    let mut text = String::from("| route |");
-    for tolerance in &tolerances {
-        let _ = write!(text, " {tolerance:e} |");
-    }
-    let _ = writeln!(text, "\n|---|{}", "---|".repeat(tolerances.len()));
+    let heads: Vec<String> = tolerances.iter().map(|tolerance| format!("{tolerance:e}")).collect();
+    let mut text =
+        format!("| route | {} |\n|---|{}\n", heads.join(" | "), "---|".repeat(heads.len()));
     for route in panel.routes() {
         let cells: Vec<String> = on_mesh().filter(|it| it.route == route).map(cell).collect();
         let _ = writeln!(text, "| {} | {} |", route.name(), cells.join(" | "));

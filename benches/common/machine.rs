@@ -1,14 +1,14 @@
-//! On what a bench ran, and when.
+//! On what a bench was measured.
 
 use std::process::Command;
 
 /// On what it was measured, and when, as a sentence.
-pub(crate) fn measured() -> String {
-    format!("Measured on {}.\n", name_and_date())
+pub(crate) fn machine() -> String {
+    format!("Measured on {}.\n", machine_and_date())
 }
 
 /// Processor, cores, compiler and date.
-pub(crate) fn name_and_date() -> String {
+pub(crate) fn machine_and_date() -> String {
     let said = |program: &str, argument: &str| {
         let output = Command::new(program).arg(argument).output().ok()?;
         Some(String::from_utf8_lossy(&output.stdout).trim().to_owned())
