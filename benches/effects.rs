@@ -5,6 +5,8 @@
 //! is what was allocated at the peak of one more; the allocator counts in all of them, which costs next to nothing.
 
 mod common;
+#[path = "common/machine.rs"]
+mod machine;
 #[path = "effects/picture.rs"]
 mod picture;
 #[path = "effects/wall.rs"]
@@ -12,7 +14,6 @@ mod wall;
 
 use std::fmt::Write as _;
 use std::path::Path;
-use std::process::Command;
 use std::time::Instant;
 
 use allocation_counter::measure;
@@ -60,7 +61,7 @@ fn main() {
     if !common::is_bench() {
         return;
     }
-    let mut page = machine();
+    let mut page = machine::measured();
     let mut routes = Vec::new();
     for (route, wall) in [(Route::Lemke, Wall::small()), (Route::Interior, Wall::large())] {
         let rows: Vec<Row> = pairs(route, wall).into_iter().map(row).collect();
@@ -205,22 +206,4 @@ fn listed(unknowns: [usize; 3]) -> String {
 fn bar(row: &Row) -> picture::Bar {
     let [time, memory] = [row.ratio(|it| it.seconds), row.ratio(|it| it.bytes as f64)];
     picture::Bar { effect: row.effect, time, memory }
-}
-
-/// On what it was measured, and when.
-fn machine() -> String {
-    let said = |program: &str, argument: &str| {
-        let output = Command::new(program).arg(argument).output().ok()?;
-        Some(String::from_utf8_lossy(&output.stdout).trim().to_owned())
-    };
-    let unknown = || "unknown".to_owned();
-    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model = info.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
-    let cores = std::thread::available_parallelism().map_or_else(|_| unknown(), |n| n.to_string());
-    format!(
-        "Measured on {}, {cores} cores of which one is used, {}, {}.\n",
-        model.map_or_else(unknown, |(_, name)| name.to_owned()),
-        said("rustc", "--version").unwrap_or_else(unknown),
-        said("date", "+%Y-%m-%d").unwrap_or_else(unknown),
-    )
 }

@@ -66,7 +66,7 @@ fn legend(panel: &Panel) -> String {
         x += 34.0 + 8.0 * line.name.len() as f64;
     }
     let words = "full: called solved, at the worst of its checks; hollow: gave up, at the residual it reports; \
-                 dots: backward error; grey: what is promised of answers";
+                 dots: backward error; grey: promised, by alm a hundred times that";
     let _ = writeln!(svg, "<text x=\"{EDGE}\" y=\"76\">{words}</text>");
     svg
 }

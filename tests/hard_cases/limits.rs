@@ -52,7 +52,10 @@ pub fn sweeps() -> Vec<Sweep> {
     list
 }
 
-const KINDS: [(&str, fn() -> Material); 2] = [("rigid", rigid), ("elastic", elastic)];
+/// A kind of blocks, and their material.
+type Kind = (&'static str, fn() -> Material);
+
+const KINDS: [Kind; 2] = [("rigid", rigid), ("elastic", elastic)];
 
 /// A structure under a load that grows.
 struct Structure {

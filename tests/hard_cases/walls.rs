@@ -16,17 +16,15 @@ pub fn cases() -> Vec<Case> {
 }
 
 pub fn sweeps() -> Vec<Sweep> {
-    let sizes = [2, 4, 6, 8, 12, 16, 20, 28, 40, 52];
+    let lengths = [2_u32, 4, 6, 8, 12, 16, 20, 28, 40, 52];
     vec![
         Sweep::new(
             "wall that grows",
             "bricks in a course, on 3/4 as many courses",
-            sizes.map(f64::from),
-            |length| {
-                let [length, courses] = [length, (0.75 * length).floor()];
-                let [length, courses] =
-                    [length, courses].map(|it| (0_u32..).find(|k| f64::from(*k) >= it).unwrap());
-                grown([length, courses])
+            lengths.map(f64::from),
+            move |length| {
+                let length = lengths.into_iter().find(|it| f64::from(*it) >= length).unwrap();
+                grown([length, 3 * length / 4])
             },
         ),
         Sweep::new(
