@@ -10,8 +10,8 @@ pub use law::Margin;
 use at::At;
 use solve::solved;
 
+use crate::active::Scaled;
 use crate::extended::Extended;
-use crate::interior::Scaled;
 use crate::problem::{check_length, check_vector, column_of};
 use crate::{Contact2d, ContactState, Error};
 

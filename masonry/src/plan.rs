@@ -124,6 +124,10 @@ fn solver(route: Route, form: Form, frictional_points: usize) -> (&'static str, 
             "interior points",
             "every step factorises one sparse matrix of the order of the displacements",
         ),
+        (Route::Newton, _) => (
+            "Newton's method on the states of the contacts",
+            "every step factorises one sparse matrix of the order of the displacements",
+        ),
         (Route::Qp, _) if has_friction => (
             "quadratic programs",
             "with the friction forces held every program is convex; their fixed point is the answer",

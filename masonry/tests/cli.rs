@@ -211,6 +211,7 @@ fn a_route_can_be_chosen() {
         ("auto", "lemke"),
         ("lemke", "lemke"),
         ("interior", "interior"),
+        ("newton", "newton"),
         ("qp", "qp"),
         ("pgs", "pgs"),
     ] {

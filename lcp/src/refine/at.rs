@@ -2,8 +2,8 @@
 
 use super::ContactStatus;
 use crate::ContactState;
+use crate::active::{Point, Scaled};
 use crate::extended::Extended;
-use crate::interior::{Point, Scaled};
 use crate::problem::max_abs;
 
 /// Gaps and slips below this part of the largest are those of a closed contact, whatever its force.

@@ -2,8 +2,8 @@
 
 use super::ContactStatus;
 use super::at::At;
+use crate::active::{Point, Scaled};
 use crate::extended::Extended;
-use crate::interior::{Point, Scaled};
 use crate::problem::{column_of, max_abs};
 use crate::residual::ratio;
 

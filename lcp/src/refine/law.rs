@@ -2,8 +2,8 @@
 
 use super::ContactStatus;
 use super::at::At;
+use crate::active::{Scaled, Springs};
 use crate::extended::Extended;
-use crate::interior::{Scaled, Springs};
 
 /// How far the inequalities of the contact law are from being violated, at the contact that is nearest to it.
 #[derive(Debug, Clone, Copy, PartialEq)]

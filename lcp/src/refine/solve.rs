@@ -6,7 +6,7 @@ use super::at::At;
 use super::lack::{self, Lack, Shifts};
 use super::law::{self, Margin};
 use super::{ContactStatus, DOUBT, Refined, Refinement};
-use crate::interior::{Condensed, Scaled, Springs};
+use crate::active::{Condensed, Scaled, Springs};
 use crate::problem::max_abs;
 use crate::residual::ratio;
 use crate::{ContactState, Error};

@@ -62,7 +62,7 @@ pub(super) fn of(scene: &Scene, sizes: &Sizes) -> Vec<Choice> {
             ),
             (Route::Qp, "where the interior points come to no end".to_owned()),
         ],
-        route @ (Route::Lemke | Route::Interior | Route::Qp | Route::Alm) => {
+        route @ (Route::Lemke | Route::Interior | Route::Newton | Route::Qp | Route::Alm) => {
             vec![(route, given(route))]
         }
         Route::Pgs if scene.solver.soft.is_some() => vec![(Route::Pgs, given(Route::Pgs))],

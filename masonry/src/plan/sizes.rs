@@ -94,7 +94,7 @@ impl Sizes {
         };
         match route {
             Route::Auto | Route::Lemke => self.lemke(form),
-            Route::Interior => sparse,
+            Route::Interior | Route::Newton => sparse,
             // Contact forces are no unknowns of its linear systems, and neither is what strips do.
             Route::Alm => {
                 let order = displacements - if self.strips { self.compliances() } else { 0 };
