@@ -8,7 +8,7 @@ mod scaled;
 mod search;
 
 pub(crate) use condensed::{Condensed, Springs};
-pub(crate) use crossover::{Contact, Effort};
+pub(crate) use crossover::Effort;
 pub(crate) use original::Original;
 pub(crate) use scaled::{Point, Scaled};
 pub(crate) use search::Search;

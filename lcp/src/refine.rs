@@ -67,7 +67,8 @@ pub struct Refined {
     pub margin: Margin,
     /// Solves with the factors.
     pub passes: usize,
-    /// Displacements of bodies without loads that no contact presses: they stay where they were.
+    /// Displacements of bodies without loads that no contact presses: they stay where they were. Their gaps are
+    /// in the margin only where they are more negative than a rounding error makes them.
     pub floating: usize,
     /// Wall-clock time of analysis, factorisation and passes \[s\].
     pub seconds: f64,
@@ -126,8 +127,9 @@ impl Contact2d {
     /// is a solution of the problem, and its equations are known to hold to [`Refined::residual`].
     ///
     /// Redundant contacts leave a choice of forces: they stay as near to the given ones as the equations
-    /// allow. Where their gaps contradict each other in the last digits of the data, where bodies move
-    /// freely, or the states have no solution, the residual stops falling, and says where.
+    /// allow. Where their gaps contradict each other in the last digits of the data, or bodies move freely,
+    /// the data are changed by what is left ([`Refined::shift`]). Where the states have no solution the residual
+    /// stops falling, and tells.
     ///
     /// # Errors
     /// [`Error::Length`] when the lengths are not those of the problem, [`Error::NotFinite`] for a state with
@@ -140,7 +142,7 @@ impl Contact2d {
     /// ```
     /// use faer::mat;
     /// use lcp::{Contact2d, ContactStatus, Extended, Refinement};
-    /// // Three springs in a row against a wall: t = 1 - 1/3
+    /// // A spring of 3 that is pushed by 1 against a wall at 1/9: t = 1 - 3/9
     /// let contact = Contact2d::new(
     ///     mat![[3.0]], vec![1.0], mat![[-1.0]], mat![[0.0]], vec![1.0 / 9.0], vec![0.0], vec![0.0],
     /// )?;
@@ -163,9 +165,9 @@ impl Contact2d {
 
     /// The answer that the given one is nearest to, as exact as it can be had: [`refine`](Self::refine) for
     /// its [`statuses`](Self::statuses). Bodies without loads that no contact presses float, with all their
-    /// contacts open: where they are nothing says, and they stay there. Contacts whose inequalities are then violated by no more than a
-    /// rounding error of the answer take the status on the other side of it, so long as this makes the
-    /// margin larger.
+    /// contacts open: where they are nothing says, and they stay there. Contacts whose inequalities are then
+    /// violated by no more than a rounding error of the answer take the status on the other side of it, so
+    /// long as this makes the margin larger.
     ///
     /// # Errors
     /// As [`refine`](Self::refine).

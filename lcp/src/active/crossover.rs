@@ -4,6 +4,7 @@
 use super::PROXIMAL;
 use super::condensed::{Condensed, Springs};
 use super::scaled::{Point, Scaled};
+use crate::ContactStatus;
 use crate::problem::max_abs;
 use crate::residual::ratio;
 
@@ -43,37 +44,24 @@ impl Effort {
     }
 }
 
-/// The state of a contact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Contact {
-    /// No force.
-    Open,
-    /// No gap and, with friction, no slip.
-    Stick,
-    /// No gap, slip forwards against all friction.
-    SlipPlus,
-    /// The same backwards.
-    SlipMinus,
-}
-
 /// What belongs to the states of the contacts, by the equations.
 #[derive(Debug, Clone)]
 pub(crate) struct Vertex {
     pub(crate) u: Vec<f64>,
     pub(crate) forces: Vec<(f64, f64)>,
-    pub(crate) contacts: Vec<Contact>,
+    pub(crate) contacts: Vec<ContactStatus>,
 }
 
 /// The states that displacements and forces are nearest to, wherever they are.
-pub(crate) fn nearest(problem: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Vec<Contact> {
+pub(crate) fn nearest(problem: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Vec<ContactStatus> {
     let points = problem.points.iter().zip(forces).map(|(point, &forces)| {
         let slip = if point.mu > 0.0 { point.slip(u) } else { 0.0 };
-        Contact::nearest(point, forces, (point.gap(u), slip.max(0.0), (-slip).max(0.0)))
+        ContactStatus::nearest(point, forces, (point.gap(u), slip.max(0.0), (-slip).max(0.0)))
     });
     points.collect()
 }
 
-impl Contact {
+impl ContactStatus {
     /// The state that is nearest to normal and tangential force, gap, and slips forwards and backwards.
     pub(crate) fn nearest(
         point: &Point,
@@ -86,9 +74,9 @@ impl Contact {
         let bound = point.mu * t_n;
         let (plus, minus) = (slip_plus > bound + t_t, slip_minus > bound - t_t);
         match (point.mu > 0.0 && plus, point.mu > 0.0 && minus) {
-            (true, _) if slip_plus >= slip_minus => Self::SlipPlus,
-            (_, true) => Self::SlipMinus,
-            (true, false) => Self::SlipPlus,
+            (true, _) if slip_plus >= slip_minus => Self::Forwards,
+            (_, true) => Self::Backwards,
+            (true, false) => Self::Forwards,
             (false, false) => Self::Stick,
         }
     }
@@ -101,7 +89,7 @@ pub(crate) fn cross_over(
     problem: &Scaled,
     condensed: &mut Condensed,
     (u, forces): (&[f64], &[(f64, f64)]),
-    contacts: Vec<Contact>,
+    contacts: Vec<ContactStatus>,
     effort: &Effort,
     mut is_solution: impl FnMut(&Vertex) -> bool,
 ) -> bool {
@@ -210,13 +198,15 @@ impl Vertex {
             let bound = point.mu * t_n.max(0.0);
             let (gap, slip) = (point.gap(&self.u), point.slip(&self.u));
             let (size, next) = match self.contacts[i] {
-                Contact::Open => (relative(-gap, length), closed(point, gap, slip)),
-                _ if t_n < 0.0 => (relative(-t_n, force), Contact::Open),
-                Contact::Stick if point.mu == 0.0 => continue,
-                Contact::Stick if t_t > 0.0 => (relative(t_t - bound, force), Contact::SlipMinus),
-                Contact::Stick => (relative(-t_t - bound, force), Contact::SlipPlus),
-                Contact::SlipPlus => (relative(-slip, length), Contact::Stick),
-                Contact::SlipMinus => (relative(slip, length), Contact::Stick),
+                ContactStatus::Open => (relative(-gap, length), closed(point, gap, slip)),
+                _ if t_n < 0.0 => (relative(-t_n, force), ContactStatus::Open),
+                ContactStatus::Stick if point.mu == 0.0 => continue,
+                ContactStatus::Stick if t_t > 0.0 => {
+                    (relative(t_t - bound, force), ContactStatus::Backwards)
+                }
+                ContactStatus::Stick => (relative(-t_t - bound, force), ContactStatus::Forwards),
+                ContactStatus::Forwards => (relative(-slip, length), ContactStatus::Stick),
+                ContactStatus::Backwards => (relative(slip, length), ContactStatus::Stick),
             };
             if size > ROUNDING {
                 contradictions.push((size, i, next));
@@ -234,44 +224,44 @@ impl Vertex {
 
 /// The state of a contact that closes. One that has slid by more than it overlaps goes on sliding: to stick it
 /// would have to be taken back all the way, against forces that are no guide to anything.
-fn closed(point: &Point, gap: f64, slip: f64) -> Contact {
+fn closed(point: &Point, gap: f64, slip: f64) -> ContactStatus {
     if point.mu == 0.0 || slip.abs() <= -gap {
-        Contact::Stick
+        ContactStatus::Stick
     } else if slip > 0.0 {
-        Contact::SlipPlus
+        ContactStatus::Forwards
     } else {
-        Contact::SlipMinus
+        ContactStatus::Backwards
     }
 }
 
-impl Contact {
+impl ContactStatus {
     /// Springs of this stiffness against what the state does not allow.
     pub(crate) fn springs(self, point: &Point, stiffness: f64) -> Springs {
         let tangential = if point.mu > 0.0 { stiffness } else { 0.0 };
         match self {
             Self::Open => Springs::default(),
             Self::Stick => Springs { nn: stiffness, tn: 0.0, tt: tangential },
-            Self::SlipPlus => Springs { nn: stiffness, tn: -point.mu * stiffness, tt: 0.0 },
-            Self::SlipMinus => Springs { nn: stiffness, tn: point.mu * stiffness, tt: 0.0 },
+            Self::Forwards => Springs { nn: stiffness, tn: -point.mu * stiffness, tt: 0.0 },
+            Self::Backwards => Springs { nn: stiffness, tn: point.mu * stiffness, tt: 0.0 },
         }
     }
 }
 
 /// The forces that a state allows, from any.
-fn on_cone(point: &Point, contact: Contact, (t_n, t_t): (f64, f64)) -> (f64, f64) {
+fn on_cone(point: &Point, contact: ContactStatus, (t_n, t_t): (f64, f64)) -> (f64, f64) {
     match contact {
-        Contact::Open => (0.0, 0.0),
-        Contact::Stick => (t_n, t_t),
-        Contact::SlipPlus => (t_n, -point.mu * t_n),
-        Contact::SlipMinus => (t_n, point.mu * t_n),
+        ContactStatus::Open => (0.0, 0.0),
+        ContactStatus::Stick => (t_n, t_t),
+        ContactStatus::Forwards => (t_n, -point.mu * t_n),
+        ContactStatus::Backwards => (t_n, point.mu * t_n),
     }
 }
 
 /// Gap and slip where the state asks for none.
-fn open(point: &Point, contact: Contact, u: &[f64]) -> (f64, f64) {
+fn open(point: &Point, contact: ContactStatus, u: &[f64]) -> (f64, f64) {
     match contact {
-        Contact::Open => (0.0, 0.0),
-        Contact::Stick if point.mu > 0.0 => (point.gap(u), point.slip(u)),
+        ContactStatus::Open => (0.0, 0.0),
+        ContactStatus::Stick if point.mu > 0.0 => (point.gap(u), point.slip(u)),
         _ => (point.gap(u), 0.0),
     }
 }

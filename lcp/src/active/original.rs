@@ -1,8 +1,7 @@
 //! The problems that the method treats, as contact problems, and back.
 
-use super::crossover::Contact;
 use super::scaled::{Point, Scaled};
-use crate::{Basis, Contact2d, MixedLcp, Residuals, Side};
+use crate::{Basis, Contact2d, ContactStatus, MixedLcp, Residuals, Side};
 
 /// A point of the general form of a problem.
 #[derive(Debug, Clone)]
@@ -39,10 +38,10 @@ pub(crate) trait Original {
 
     /// The complementary basis of these states of the contacts; free variables are on the side of their
     /// sign.
-    fn basis(&self, contacts: &[Contact], judged: &Judged, slips: &[f64]) -> Basis;
+    fn basis(&self, contacts: &[ContactStatus], judged: &Judged, slips: &[f64]) -> Basis;
 
     /// The states of the contacts that belong to a basis.
-    fn contacts(&self, basis: &Basis) -> Vec<Contact>;
+    fn contacts(&self, basis: &Basis) -> Vec<ContactStatus>;
 }
 
 impl Original for Contact2d {
@@ -84,17 +83,19 @@ impl Original for Contact2d {
         (scaled.of_displacements(&state.u), forces.collect())
     }
 
-    fn basis(&self, contacts: &[Contact], judged: &Judged, slips: &[f64]) -> Basis {
+    fn basis(&self, contacts: &[ContactStatus], judged: &Judged, slips: &[f64]) -> Basis {
         let n = self.displacements();
         let mut sides: Vec<Side> =
             (0..n).map(|j| if judged.y[j] > 0.0 { Side::Y } else { Side::T }).collect();
-        sides.extend(contacts.iter().map(|c| if *c == Contact::Open { Side::Y } else { Side::T }));
+        sides.extend(
+            contacts.iter().map(|c| if *c == ContactStatus::Open { Side::Y } else { Side::T }),
+        );
         // An open contact slides to the side of its motion, without a force.
         let slides = |i: usize, forwards: bool| match contacts[i] {
-            Contact::Open => (slips[i] >= 0.0) == forwards,
-            Contact::Stick => false,
-            Contact::SlipPlus => forwards,
-            Contact::SlipMinus => !forwards,
+            ContactStatus::Open => (slips[i] >= 0.0) == forwards,
+            ContactStatus::Stick => false,
+            ContactStatus::Forwards => forwards,
+            ContactStatus::Backwards => !forwards,
         };
         for forwards in [true, false] {
             let side = |&i: &usize| if slides(i, forwards) { Side::Y } else { Side::T };
@@ -103,20 +104,20 @@ impl Original for Contact2d {
         Basis::new(sides)
     }
 
-    fn contacts(&self, basis: &Basis) -> Vec<Contact> {
+    fn contacts(&self, basis: &Basis) -> Vec<ContactStatus> {
         let (n, m) = (self.displacements(), self.points());
         let sides = basis.sides();
-        let mut contacts: Vec<Contact> = sides[n..n + m]
+        let mut contacts: Vec<ContactStatus> = sides[n..n + m]
             .iter()
-            .map(|side| if *side == Side::T { Contact::Stick } else { Contact::Open })
+            .map(|side| if *side == Side::T { ContactStatus::Stick } else { ContactStatus::Open })
             .collect();
         let count = self.frictional().len();
         for (k, &i) in self.frictional().iter().enumerate() {
-            if contacts[i] == Contact::Stick {
+            if contacts[i] == ContactStatus::Stick {
                 contacts[i] = match (sides[n + m + k], sides[n + m + count + k]) {
-                    (Side::Y, _) => Contact::SlipPlus,
-                    (Side::T, Side::Y) => Contact::SlipMinus,
-                    (Side::T, Side::T) => Contact::Stick,
+                    (Side::Y, _) => ContactStatus::Forwards,
+                    (Side::T, Side::Y) => ContactStatus::Backwards,
+                    (Side::T, Side::T) => ContactStatus::Stick,
                 };
             }
         }
@@ -163,22 +164,24 @@ impl Original for MixedLcp {
         (scaled.of_displacements(&z), scaled.points.iter().map(force).collect())
     }
 
-    fn basis(&self, contacts: &[Contact], judged: &Judged, _: &[f64]) -> Basis {
+    fn basis(&self, contacts: &[ContactStatus], judged: &Judged, _: &[f64]) -> Basis {
         let mut contacts = contacts.iter();
         let side = |(j, free): (usize, &bool)| {
             let is_y = if *free {
                 judged.y[j] > 0.0
             } else {
                 // A closed contact has a force, w, and no gap, z.
-                contacts.next().is_some_and(|contact| *contact != Contact::Open)
+                contacts.next().is_some_and(|contact| *contact != ContactStatus::Open)
             };
             if is_y { Side::Y } else { Side::T }
         };
         Basis::new(self.free().iter().enumerate().map(side).collect())
     }
 
-    fn contacts(&self, basis: &Basis) -> Vec<Contact> {
+    fn contacts(&self, basis: &Basis) -> Vec<ContactStatus> {
         let sides = basis.sides().iter().zip(self.free()).filter(|(_, free)| !**free);
-        sides.map(|(s, _)| if *s == Side::Y { Contact::Stick } else { Contact::Open }).collect()
+        sides
+            .map(|(s, _)| if *s == Side::Y { ContactStatus::Stick } else { ContactStatus::Open })
+            .collect()
     }
 }

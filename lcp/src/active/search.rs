@@ -1,11 +1,11 @@
 //! The points that a method comes to, of which the best one is kept.
 
 use super::condensed::Condensed;
-use super::crossover::{Contact, Effort, Vertex, cross_over, nearest};
+use super::crossover::{Effort, Vertex, cross_over, nearest};
 use super::original::{Judged, Original};
 use super::scaled::Scaled;
 use crate::solve::Monitor;
-use crate::{Error, Solution, Status, WarmStart};
+use crate::{ContactStatus, Error, Solution, Status, WarmStart};
 
 /// A problem with the best point so far.
 pub(crate) struct Search<'a> {
@@ -72,7 +72,7 @@ impl<'a> Search<'a> {
     pub(crate) fn cross_over(
         &mut self,
         at: (&[f64], &[(f64, f64)]),
-        contacts: Vec<Contact>,
+        contacts: Vec<ContactStatus>,
         effort: &Effort,
     ) -> bool {
         let Self { problem, tolerance, scaled, condensed, best, .. } = self;

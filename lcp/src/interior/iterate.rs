@@ -1,6 +1,7 @@
 //! Points inside the cone, and Newton's steps between them.
 
-use crate::active::{Condensed, Contact, Point, Scaled, Springs};
+use crate::ContactStatus;
+use crate::active::{Condensed, Point, Scaled, Springs};
 use crate::problem::max_abs;
 
 /// Compliance of a contact, relative to that of the bodies, below which a step does not go: forces are
@@ -201,10 +202,10 @@ impl Iterate {
     }
 
     /// The states that the contacts are nearest to.
-    pub(super) fn contacts(&self, problem: &Scaled) -> Vec<Contact> {
+    pub(super) fn contacts(&self, problem: &Scaled) -> Vec<ContactStatus> {
         let contact = |(point, at): (&Point, &Pairs)| {
             let Pairs { t_n, t_t, gap, slip_plus, slip_minus } = *at;
-            Contact::nearest(point, (t_n, t_t), (gap, slip_plus, slip_minus))
+            ContactStatus::nearest(point, (t_n, t_t), (gap, slip_plus, slip_minus))
         };
         problem.points.iter().zip(&self.points).map(contact).collect()
     }

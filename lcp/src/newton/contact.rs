@@ -2,9 +2,9 @@
 
 use super::SemismoothNewton;
 use super::proximal::{At, Proximal};
-use crate::active::{Contact, Effort, Search, Springs};
+use crate::active::{Effort, Search, Springs};
 use crate::solve::Monitor;
-use crate::{Contact2d, Error, Observer, Solution, Solver, Status};
+use crate::{Contact2d, ContactStatus, Error, Observer, Solution, Solver, Status};
 
 /// Stiffness of the contacts that are glued together at the start, and the springs that hold what they do not,
 /// relative to the stiffness of the bodies, as all that follow.
@@ -115,7 +115,7 @@ impl Rounds<'_, '_> {
         let (stiffness, spring) = GLUE;
         let points = || scaled.points.iter();
         let springs: Vec<Springs> =
-            points().map(|point| Contact::Stick.springs(point, stiffness)).collect();
+            points().map(|point| ContactStatus::Stick.springs(point, stiffness)).collect();
         condensed.factorise(scaled, &springs, spring);
         let pulls = points().zip(&springs).map(|(p, springs)| springs.forces(-p.x_0, -p.s_0));
         let rest = vec![0.0; scaled.order()];

@@ -1,6 +1,7 @@
 //! The contact problem with springs: on all displacements, and in the place of hard contacts.
 
-use crate::active::{Condensed, Contact, Point, Scaled, Springs};
+use crate::ContactStatus;
+use crate::active::{Condensed, Point, Scaled, Springs};
 use crate::problem::max_abs;
 
 /// The line search ends where the work of what is unbalanced is this part of that at its start.
@@ -29,7 +30,7 @@ pub(super) struct Proximal<'a> {
 /// What belongs to displacements.
 pub(super) struct At {
     pub(super) u: Vec<f64>,
-    pub(super) contacts: Vec<Contact>,
+    pub(super) contacts: Vec<ContactStatus>,
     pub(super) forces: Vec<(f64, f64)>,
     /// What equilibrium lacks.
     unbalanced: Vec<f64>,
@@ -109,21 +110,21 @@ fn project(
     (last_n, last_t): (f64, f64),
     stiffness: f64,
     u: &[f64],
-) -> (Contact, (f64, f64)) {
+) -> (ContactStatus, (f64, f64)) {
     let t_n = last_n - stiffness * point.gap(u);
     if t_n <= 0.0 {
-        return (Contact::Open, (0.0, 0.0));
+        return (ContactStatus::Open, (0.0, 0.0));
     }
     if point.mu == 0.0 {
-        return (Contact::Stick, (t_n, 0.0));
+        return (ContactStatus::Stick, (t_n, 0.0));
     }
     let (t_t, bound) = (last_t - stiffness * point.slip(u), point.mu * t_n);
     if t_t > bound {
-        (Contact::SlipMinus, (t_n, bound))
+        (ContactStatus::Backwards, (t_n, bound))
     } else if t_t < -bound {
-        (Contact::SlipPlus, (t_n, -bound))
+        (ContactStatus::Forwards, (t_n, -bound))
     } else {
-        (Contact::Stick, (t_n, t_t))
+        (ContactStatus::Stick, (t_n, t_t))
     }
 }
 

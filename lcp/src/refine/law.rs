@@ -2,7 +2,7 @@
 
 use super::ContactStatus;
 use super::at::At;
-use crate::active::{Scaled, Springs};
+use crate::active::Scaled;
 use crate::extended::Extended;
 
 /// How far the inequalities of the contact law are from being violated, at the contact that is nearest to it.
@@ -58,17 +58,6 @@ impl ContactStatus {
     /// Whether it allows no gap, and no slip.
     pub(super) fn is_closed(self, mu: f64) -> [bool; 2] {
         [self != Self::Open, self == Self::Stick && mu > 0.0]
-    }
-
-    /// Springs of a stiffness against what it does not allow.
-    pub(super) fn springs(self, mu: f64, stiff: f64) -> Springs {
-        let tt = if mu > 0.0 { stiff } else { 0.0 };
-        match self {
-            Self::Open => Springs::default(),
-            Self::Stick => Springs { nn: stiff, tn: 0.0, tt },
-            Self::Forwards => Springs { nn: stiff, tn: -mu * stiff, tt: 0.0 },
-            Self::Backwards => Springs { nn: stiff, tn: mu * stiff, tt: 0.0 },
-        }
     }
 
     /// The forces that it allows, from any.

@@ -87,7 +87,7 @@ impl<'a> Solve<'a> {
         })?;
         let all = scaled.points.iter().zip(statuses);
         let springs: Vec<Springs> =
-            all.clone().map(|(point, status)| status.springs(point.mu, weights.stiff)).collect();
+            all.clone().map(|(point, status)| status.springs(point, weights.stiff)).collect();
         for ((point, status), forces) in all.zip(&mut at.forces) {
             *forces = status.on_cone(point.mu, *forces);
         }

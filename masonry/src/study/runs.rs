@@ -40,6 +40,15 @@ impl Ran {
         self.end == End::Ended(Status::TimeLimit)
     }
 
+    /// Why it would end no better to a tighter tolerance.
+    fn is_beyond(&self) -> Option<Beyond> {
+        match self.end {
+            End::Ended(Status::TimeLimit) => Some(Beyond::Time),
+            End::Ended(Status::IterationLimit) => Some(Beyond::Iterations),
+            _ => None,
+        }
+    }
+
     /// The outcome, when solved.
     pub(super) fn solved(&self) -> Option<&Outcome> {
         self.outcome.as_ref().filter(|_| self.end.is_solved())
@@ -58,12 +67,20 @@ impl Ran {
     }
 }
 
-/// Solves scenes, and remembers which took too long.
+/// What was not enough.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Beyond {
+    /// Nor will it be on finer meshes.
+    Time,
+    Iterations,
+}
+
+/// Solves scenes, and remembers for which time or iterations were not enough.
 pub(super) struct Runner<'a> {
     limit: Duration,
     repeats: usize,
     observer: &'a mut dyn FnMut(Progress),
-    too_long: Vec<(u32, Route, f64)>,
+    beyond: Vec<(Beyond, u32, Route, f64)>,
     /// The last record by pivots, with its balances.
     pivots: Option<(Record, Checks)>,
 }
@@ -71,7 +88,7 @@ pub(super) struct Runner<'a> {
 impl<'a> Runner<'a> {
     pub(super) fn new(settings: &Settings, observer: &'a mut dyn FnMut(Progress)) -> Self {
         let Settings { time_limit: limit, repeats, .. } = *settings;
-        Self { limit, repeats, observer, too_long: Vec::new(), pivots: None }
+        Self { limit, repeats, observer, beyond: Vec::new(), pivots: None }
     }
 
     /// How often what is short is measured.
@@ -124,16 +141,20 @@ impl<'a> Runner<'a> {
     }
 
     /// Solves a scene, several times if that is quick. Where the time ran out to a looser tolerance, or on
-    /// a coarser mesh, it is not tried.
+    /// a coarser mesh, it is not tried; nor where iterations did to a looser tolerance.
     pub(super) fn run(&mut self, scene: &Scene, mesh: u32) -> Ran {
         let (route, tolerance) = (scene.solver.route, scene.solver.tolerance);
-        let mut too_long = self.too_long.iter();
-        let is_easier = |(other, by, looser): &&(u32, Route, f64)| {
-            *by == route && *other <= mesh && *looser >= tolerance
+        let is_easier = |(beyond, other, by, looser): &&(Beyond, u32, Route, f64)| {
+            let on_mesh = *other == mesh || *beyond == Beyond::Time && *other <= mesh;
+            *by == route && on_mesh && *looser >= tolerance
         };
-        if let Some((mesh, _, tolerance)) = too_long.find(is_easier) {
+        if let Some((beyond, mesh, _, tolerance)) = self.beyond.iter().find(is_easier) {
+            let what = match beyond {
+                Beyond::Time => "the time",
+                Beyond::Iterations => "the number of iterations",
+            };
             return Ran::skipped(format!(
-                "the time ran out to {tolerance:e} on the mesh of factor {mesh}"
+                "{what} ran out to {tolerance:e} on the mesh of factor {mesh}"
             ));
         }
         (self.observer)(Progress { mesh, route, tolerance });
@@ -144,8 +165,8 @@ impl<'a> Runner<'a> {
         }
         let mut ran = self.once(scene);
         // With springs other rules hold.
-        if ran.is_too_long() && scene.solver.soft.is_none() {
-            self.too_long.push((mesh, route, tolerance));
+        if let Some(beyond) = ran.is_beyond().filter(|_| scene.solver.soft.is_none()) {
+            self.beyond.push((beyond, mesh, route, tolerance));
         }
         let mut times: Vec<f64> = ran.seconds.into_iter().collect();
         let is_short = times.iter().all(|time| *time < SHORT.as_secs_f64());

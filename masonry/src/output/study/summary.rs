@@ -115,8 +115,8 @@ fn elsewhere(study: &Study) -> Vec<String> {
 fn reference(study: &Study) -> Option<String> {
     let Some(reference) = study.meshes.first()?.reference.as_ref() else {
         return Some(
-            "There is no reference, since none of interior, lemke, alm and qp has an answer: no errors \
-             are known."
+            "There is no reference, since none of interior, lemke, newton, alm and qp has an answer: no \
+             errors are known."
                 .to_owned(),
         );
     };
