@@ -1,5 +1,6 @@
 //! Interior-point method for contact with friction and for mixed problems.
 
+mod balance;
 mod condensed;
 mod continuation;
 mod crossover;
@@ -11,9 +12,13 @@ mod scaled;
 mod settings;
 mod start;
 mod turn;
+mod units;
+
+use std::ops::ControlFlow;
 
 pub use settings::InteriorPointSettings;
 
+use balance::{Balance, balance};
 use condensed::Condensed;
 use continuation::End;
 use crossover::{Contact, Effort, Vertex, contacts, cross_over};
@@ -24,7 +29,7 @@ use scaled::Scaled;
 use start::{set_out, start_again};
 
 use crate::solve::Monitor;
-use crate::{Error, Observer, Solution, Status, WarmStart};
+use crate::{Error, Iteration, Observer, Solution, Status, WarmStart};
 
 /// An interior-point method for the complementarity problem itself, for large sparse problems: contact
 /// with Coulomb's friction ([`Contact2d`](crate::Contact2d)), and mixed and standard problems.
@@ -46,8 +51,9 @@ use crate::{Error, Observer, Solution, Status, WarmStart};
 ///
 /// Where the iteration jams, soft springs on all displacements are reduced step by step. The share of
 /// the load that they carry tends to zero with their stiffness where there is a solution, and to a
-/// constant where there is none: then the status is [`Status::NoEquilibrium`] and
-/// [`Solution::springs`] has the evidence.
+/// constant where there is none. Then it is asked whether any forces inside the friction cones balance the
+/// loads. If a checked motion proves that none do, the status is [`Status::NoEquilibrium`], and
+/// [`Solution::springs`] has the evidence; if some do, they are tried.
 ///
 /// # Guarantee
 /// None is proved. For monotone problems (no friction, positive semidefinite `M`) with a strictly feasible
@@ -55,8 +61,9 @@ use crate::{Error, Observer, Solution, Status, WarmStart};
 /// nowhere; walls of 6e4 contact points took 30 to 70 steps for `mu` from 1/2 to 1.
 ///
 /// # Failure
-/// [`Status::Stalled`] where neither the iteration nor the springs come to an end. [`Status::NoEquilibrium`]
-/// is evidence and no proof: with friction, or an `M` that is not monotone, there may be a solution
+/// [`Status::Stalled`] where neither the iteration nor the springs come to an end, and where rigid bodies fall
+/// although some forces could hold them. [`Status::NoEquilibrium`] of bodies that all have a stiffness, with
+/// friction, is evidence and no proof where no motion proves it: there may be a solution
 /// nevertheless. It has no Farkas vector.
 ///
 /// # Cost
@@ -168,8 +175,9 @@ impl Run<'_, '_> {
             status = Some(match end {
                 End::Standing(at) => self.iterate(at, WIDTHS[0], advance),
                 End::Falling(path) if self.problem.has_bodies() => {
-                    springs = Some(path);
-                    Status::NoEquilibrium
+                    let status = self.fallen();
+                    springs = (status == Status::NoEquilibrium).then_some(path);
+                    status
                 }
                 End::Falling(_) | End::Open => limit.unwrap_or(Status::Stalled),
             });
@@ -179,6 +187,39 @@ impl Run<'_, '_> {
             solution.springs = springs;
         }
         solution
+    }
+
+    /// What follows from bodies that fall from spring to spring.
+    ///
+    /// With friction they may come to rest elsewhere: that they cannot is proved, or else the forces that
+    /// might hold them are tried. Where these do not hold them, bodies that all have a stiffness are taken
+    /// to fall, because it says how their contacts are strained; of rigid ones nothing is known.
+    fn fallen(&mut self) -> Status {
+        let left = self.settings.max_iterations.saturating_sub(self.monitor.iterations());
+        let Self { scaled, monitor, .. } = self;
+        let last = monitor.history.last().copied().unwrap_or(f64::INFINITY);
+        let mut limit = None;
+        let observer = &mut |_: &Iteration| {
+            limit = monitor.stop(last);
+            if limit.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let found = balance(scaled, left, observer);
+        match (found, limit) {
+            (Balance::Impossible, _) => Status::NoEquilibrium,
+            (_, Some(status @ (Status::Cancelled | Status::TimeLimit))) => status,
+            (Balance::Possible(forces), _) if self.try_forces(&forces) => Status::Solved,
+            _ if self.scaled.is_elastic() => Status::NoEquilibrium,
+            _ => Status::Stalled,
+        }
+    }
+
+    /// Whether bodies that have not moved, or what their contacts lead to, are a solution with these forces.
+    fn try_forces(&mut self, forces: &[(f64, f64)]) -> bool {
+        let u = vec![0.0; self.scaled.order()];
+        let is_solved = self.judge(&u, forces) <= self.settings.tolerance;
+        let contacts = contacts(&self.scaled, &Iterate::outside(&self.scaled, &u, forces));
+        self.settings.crossover && self.cross_over((&u, forces), contacts, &Effort::THOROUGH)
+            || is_solved
     }
 
     /// The states of the contacts of the given start, if there is one; a status where they are the answer.
@@ -292,7 +333,7 @@ impl Run<'_, '_> {
             let slips: Vec<f64> = points.map(|point| point.slip(&vertex.u)).collect();
             self.problem.basis(&vertex.contacts, &judged, &slips)
         });
-        let Judged { t, y, residuals, worst } = judged;
+        let Judged { t, y, contact, residuals, worst } = judged;
         let tolerance = self.settings.tolerance;
         // Steps may end with a point that is solved and another that the iteration gave up.
         let otherwise = if otherwise == Status::Solved { Status::Stalled } else { otherwise };
@@ -300,6 +341,7 @@ impl Run<'_, '_> {
         if worst > tolerance {
             solution.status = otherwise;
         }
+        solution.contact = contact;
         solution.basis = basis;
         solution.info.solver = InteriorPoint::NAME;
         solution.info.iterations = self.monitor.iterations();

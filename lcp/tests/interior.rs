@@ -5,6 +5,8 @@
 #[path = "interior/beams.rs"]
 mod beams;
 mod common;
+#[path = "interior/falls.rs"]
+mod falls;
 #[path = "interior/properties.rs"]
 mod properties;
 
