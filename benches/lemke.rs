@@ -38,7 +38,7 @@ fn main() {
         println!("{line}");
         let _ = writeln!(table, "{line}");
     }
-    common::write_if_asked("lemke", &table);
+    common::write_if_asked("README.md", "lemke", &table);
 }
 
 fn line(name: &str, problem: &HorizontalLcp) -> String {

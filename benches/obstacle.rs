@@ -34,7 +34,7 @@ fn main() {
             let _ = writeln!(table, "{line}");
         }
     }
-    common::write_if_asked("obstacle", &table);
+    common::write_if_asked("README.md", "obstacle", &table);
 }
 
 fn line(name: &str, ground: Ground, side: usize) -> String {

@@ -44,7 +44,7 @@ fn main() {
             let _ = writeln!(table, "{line}");
         }
     }
-    common::write_if_asked("wall", &table);
+    common::write_if_asked("README.md", "wall", &table);
 }
 
 fn line(width: f64, courses: u32, mu: f64) -> String {

@@ -4,6 +4,7 @@
 //! `docs/hard_problems.md`, which are written by `HARD_CASES=write cargo test --test hard_cases`.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+#![allow(dead_code, reason = "the bench of stability uses all of it")]
 #![allow(unreachable_pub, reason = "its modules are compiled into this test only")]
 
 #[path = "hard_cases/case.rs"]
@@ -27,6 +28,8 @@ mod problems;
 mod scenes;
 #[path = "hard_cases/stiffness.rs"]
 mod stiffness;
+#[path = "hard_cases/sweep.rs"]
+mod sweep;
 #[path = "hard_cases/walls.rs"]
 mod walls;
 
@@ -54,7 +57,11 @@ fn tried(title: &'static str, cases: Vec<Case>) -> Theme {
 /// Nothing that is called solved is wrong.
 #[track_caller]
 fn assert_honest(theme: &Theme) {
-    let wrong: Vec<String> = theme.cases.iter().flat_map(case::Tried::wrong).collect();
+    let wrong: Vec<String> =
+        theme.cases.iter().flat_map(|tried| tried.wrong(case::strict)).collect();
+    for tried in &theme.cases {
+        assert!(!tried.is_unsolved(), "{}: solved by no route", tried.case.name);
+    }
     assert!(wrong.is_empty(), "{}:\n{}", theme.title, wrong.join("\n"));
 }
 
@@ -81,6 +88,34 @@ fn around_limits() {
 #[test]
 fn growing_walls() {
     assert_honest(&WALLS);
+}
+
+/// From harmless to hopeless: nowhere on its way an answer is worse than promised.
+#[track_caller]
+fn assert_no_jump(sweeps: &[sweep::Sweep]) {
+    let points = sweeps.iter().flat_map(|it| it.coarse().into_iter().map(|value| it.at(value)));
+    let wrong: Vec<String> = points.flat_map(|point| point.wrong).collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn sweeps_of_contacts_and_shapes() {
+    assert_no_jump(&geometry::sweeps());
+}
+
+#[test]
+fn sweeps_of_stiffness_and_weight() {
+    assert_no_jump(&stiffness::sweeps());
+}
+
+#[test]
+fn sweeps_of_friction() {
+    assert_no_jump(&friction::sweeps());
+}
+
+#[test]
+fn sweeps_around_limits() {
+    assert_no_jump(&limits::sweeps());
 }
 
 /// A millionth more or less of any number of an answer is seen.

@@ -109,7 +109,7 @@ fn the_law_of_strips_holds_where_films_open_and_slide() {
 fn all_routes_agree() {
     let reference = solved(&pushed(0.02, Films::Strips).route(Route::Lemke).form(Form::Mixed));
     assert_eq!(reference.plan.order, reference.solve.order);
-    let routes = [Route::Lemke, Route::Interior, Route::Qp, Route::Pgs, Route::Alm];
+    let routes = common::routes::ROUTES;
     for route in routes {
         let other = solved(&pushed(0.02, Films::Strips).route(route));
         assert_eq!(other.plan.order, other.solve.order);

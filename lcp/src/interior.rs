@@ -1,35 +1,27 @@
 //! Interior-point method for contact with friction and for mixed problems.
 
 mod balance;
-mod condensed;
 mod continuation;
-mod crossover;
 mod iterate;
-mod original;
 mod path;
 mod problems;
-mod scaled;
 mod settings;
 mod start;
 mod turn;
-mod units;
 
 use std::ops::ControlFlow;
 
 pub use settings::InteriorPointSettings;
 
 use balance::{Balance, balance};
-use condensed::Condensed;
 use continuation::End;
-use crossover::{Contact, Effort, Vertex, contacts, cross_over};
 use iterate::{Defect, Iterate};
-use original::{Judged, Original};
 use path::{WIDTHS, advance};
-use scaled::Scaled;
 use start::{set_out, start_again};
 
+use crate::active::{Condensed, Effort, Original, Scaled, Search};
 use crate::solve::Monitor;
-use crate::{Error, Iteration, Observer, Solution, Status, WarmStart};
+use crate::{Error, Iteration, Observer, Solution, Status};
 
 /// An interior-point method for the complementarity problem itself, for large sparse problems: contact
 /// with Coulomb's friction ([`Contact2d`](crate::Contact2d)), and mixed and standard problems.
@@ -127,13 +119,8 @@ impl InteriorPoint {
         self.settings.validate(problem.order())?;
         let monitor =
             Monitor::new(self.settings.max_iterations, self.settings.time_limit, observer);
-        let scaled = problem.scaled();
-        let condensed = Condensed::new(&scaled).map_err(|error| Error::NotTreated {
-            solver: Self::NAME,
-            reason: format!("its sparse factors cannot be planned: {error}"),
-        })?;
-        let settings = &self.settings;
-        Ok(Run { settings, problem, scaled, condensed, monitor, best: None, reached: 0.0 }.solve())
+        let search = Search::new(Self::NAME, problem, self.settings.tolerance)?;
+        Ok(Run { settings: &self.settings, problem, search, monitor, reached: 0.0 }.solve())
     }
 }
 
@@ -141,11 +128,8 @@ impl InteriorPoint {
 struct Run<'a, 'b> {
     settings: &'a InteriorPointSettings,
     problem: &'a dyn Original,
-    scaled: Scaled,
-    condensed: Condensed,
+    search: Search<'a>,
     monitor: Monitor<'b>,
-    /// The best point so far, with its states if it is exact.
-    best: Option<(Judged, Option<Vertex>)>,
     /// The largest gap or slip of the iterations so far.
     reached: f64,
 }
@@ -155,17 +139,20 @@ type Step = fn(&Scaled, &mut Condensed, &Iterate, (f64, f64)) -> (Iterate, f64);
 
 impl Run<'_, '_> {
     fn solve(mut self) -> Solution {
-        let (mut status, mut springs) = (self.try_start().or_else(|| self.try_rest()), None);
+        let is_tried = self.search.try_start(&self.settings.start)
+            || self.search.try_rest(self.settings.crossover);
+        let (mut status, mut springs) = (is_tried.then_some(Status::Solved), None);
         let attempts = if status.is_none() { &WIDTHS[..] } else { &[] };
         for width in attempts {
-            let at = start_again(&self.scaled, &mut self.condensed, self.reached);
+            let Search { scaled, condensed, .. } = &mut self.search;
+            let at = start_again(scaled, condensed, self.reached);
             status = Some(self.iterate(at, *width, set_out));
             if status != Some(Status::Stalled) {
                 break;
             }
         }
         if status == Some(Status::Stalled) && self.settings.continuation {
-            let Self { scaled, condensed, monitor, .. } = &mut self;
+            let Self { search: Search { scaled, condensed, .. }, monitor, .. } = &mut self;
             let mut limit = None;
             let end = continuation::follow(scaled, condensed, || {
                 let last = monitor.history.last().copied().unwrap_or(f64::INFINITY);
@@ -182,7 +169,7 @@ impl Run<'_, '_> {
                 End::Falling(_) | End::Open => limit.unwrap_or(Status::Stalled),
             });
         }
-        let mut solution = self.finish(status.unwrap_or(Status::Stalled));
+        let mut solution = self.search.finish(status.unwrap_or(Status::Stalled), self.monitor);
         if !solution.is_solved() {
             solution.springs = springs;
         }
@@ -196,7 +183,7 @@ impl Run<'_, '_> {
     /// to fall, because it says how their contacts are strained; of rigid ones nothing is known.
     fn fallen(&mut self) -> Status {
         let left = self.settings.max_iterations.saturating_sub(self.monitor.iterations());
-        let Self { scaled, monitor, .. } = self;
+        let Self { search: Search { scaled, .. }, monitor, .. } = self;
         let last = monitor.history.last().copied().unwrap_or(f64::INFINITY);
         let mut limit = None;
         let observer = &mut |_: &Iteration| {
@@ -207,50 +194,14 @@ impl Run<'_, '_> {
         match (found, limit) {
             (Balance::Impossible, _) => Status::NoEquilibrium,
             (_, Some(status @ (Status::Cancelled | Status::TimeLimit))) => status,
-            (Balance::Possible(forces), _) if self.try_forces(&forces) => Status::Solved,
-            _ if self.scaled.is_elastic() => Status::NoEquilibrium,
+            (Balance::Possible(forces), _)
+                if self.search.try_forces(&forces, self.settings.crossover) =>
+            {
+                Status::Solved
+            }
+            _ if self.search.scaled.is_elastic() => Status::NoEquilibrium,
             _ => Status::Stalled,
         }
-    }
-
-    /// Whether bodies that have not moved, or what their contacts lead to, are a solution with these forces.
-    fn try_forces(&mut self, forces: &[(f64, f64)]) -> bool {
-        let u = vec![0.0; self.scaled.order()];
-        let is_solved = self.judge(&u, forces) <= self.settings.tolerance;
-        let contacts = contacts(&self.scaled, &Iterate::outside(&self.scaled, &u, forces));
-        self.settings.crossover && self.cross_over((&u, forces), contacts, &Effort::THOROUGH)
-            || is_solved
-    }
-
-    /// The states of the contacts of the given start, if there is one; a status where they are the answer.
-    fn try_start(&mut self) -> Option<Status> {
-        let (n, m) = (self.scaled.order(), self.scaled.points.len());
-        let (u, forces, contacts) = match &self.settings.start {
-            WarmStart::None => return None,
-            WarmStart::Basis(basis) => {
-                (vec![0.0; n], vec![(0.0, 0.0); m], self.problem.contacts(basis))
-            }
-            WarmStart::Point { t, y } => {
-                let (u, forces) = self.problem.point(&self.scaled, t, y);
-                let contacts = contacts(&self.scaled, &Iterate::outside(&self.scaled, &u, &forces));
-                (u, forces, contacts)
-            }
-        };
-        self.cross_over((&u, &forces), contacts, &Effort::THOROUGH).then_some(Status::Solved)
-    }
-
-    /// Whether nothing moves and no force acts, a point that iterations only come nearer to without end.
-    fn try_rest(&mut self) -> Option<Status> {
-        let (u, forces) =
-            (vec![0.0; self.scaled.order()], vec![(0.0, 0.0); self.scaled.points.len()]);
-        if self.judge(&u, &forces) > self.settings.tolerance {
-            return None;
-        }
-        let contacts = contacts(&self.scaled, &Iterate::outside(&self.scaled, &u, &forces));
-        if self.settings.crossover {
-            self.cross_over((&u, &forces), contacts, &Effort::THOROUGH);
-        }
-        Some(Status::Solved)
     }
 
     /// The interior-point iteration from a point inside, with a first step of its own.
@@ -260,19 +211,19 @@ impl Run<'_, '_> {
         let (_, first) = at.sizes();
         let (mut least, mut since) = (f64::INFINITY, 0);
         loop {
-            let forces: Vec<(f64, f64)> = at.points.iter().map(|p| (p.t_n, p.t_t)).collect();
-            let worst = self.judge(&at.u, &forces);
+            let forces = at.forces();
+            let worst = self.search.judge(&at.u, &forces);
             let is_solved = worst <= self.settings.tolerance;
             // Where nothing moves the residuals measure gaps by noise.
             let (force, length) = at.sizes();
             let units = (force.max(1.0), length.max(first));
-            let defect = Defect::of(&self.scaled, &at, 0.0).relative(units);
-            let near = at.natural(&self.scaled, units).max(defect).min(worst);
+            let defect = Defect::of(&self.search.scaled, &at, 0.0).relative(units);
+            let near = at.natural(&self.search.scaled, units).max(defect).min(worst);
             if self.settings.crossover && (is_solved || near <= NEARER * tried) {
                 tried = near;
-                let contacts = contacts(&self.scaled, &at);
+                let contacts = at.contacts(&self.search.scaled);
                 let effort = if is_solved { Effort::THOROUGH } else { Effort::QUICK };
-                if self.cross_over((&at.u, &forces), contacts, &effort) {
+                if self.search.cross_over((&at.u, &forces), contacts, &effort) {
                     return Status::Solved;
                 }
             }
@@ -282,88 +233,22 @@ impl Run<'_, '_> {
             if let Some(status) = self.monitor.stop(worst) {
                 return status;
             }
-            let (next, alpha) = step(&self.scaled, &mut self.condensed, &at, (0.0, width));
+            let Search { scaled, condensed, .. } = &mut self.search;
+            let (next, alpha) = step(scaled, condensed, &at, (0.0, width));
             step = advance;
-            let lack = Defect::of(&self.scaled, &next, 0.0).size();
-            let merit = next.gap(&self.scaled) + lack * lack;
+            let lack = Defect::of(scaled, &next, 0.0).size();
+            let merit = next.gap(scaled) + lack * lack;
             since = if merit < 0.9 * least { 0 } else { since + 1 };
             least = least.min(merit);
             if !next.is_finite() || alpha < NO_STEP || since > PATIENCE {
                 // The residual is no guide where all of one side vanishes, which it is measured by.
-                let contacts = contacts(&self.scaled, &at);
+                let contacts = at.contacts(&self.search.scaled);
                 let is_exact = self.settings.crossover
-                    && self.cross_over((&at.u, &forces), contacts, &Effort::THOROUGH);
+                    && self.search.cross_over((&at.u, &forces), contacts, &Effort::THOROUGH);
                 return if is_exact { Status::Solved } else { Status::Stalled };
             }
             at = next;
             self.reached = self.reached.max(at.sizes().1);
         }
-    }
-
-    /// Whether the states of the contacts, or those that they lead to, are those of a solution.
-    fn cross_over(
-        &mut self,
-        at: (&[f64], &[(f64, f64)]),
-        contacts: Vec<Contact>,
-        effort: &Effort,
-    ) -> bool {
-        let Self { settings, problem, scaled, condensed, best, .. } = self;
-        cross_over(scaled, condensed, at, contacts, effort, |vertex| {
-            let judged = problem.judge(scaled, &vertex.u, &vertex.forces);
-            let is_solution = judged.worst <= settings.tolerance;
-            keep_better(best, judged, is_solution.then_some(vertex));
-            is_solution
-        })
-    }
-
-    /// The worst residual of a point, which is kept if none was better.
-    fn judge(&mut self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
-        let judged = self.problem.judge(&self.scaled, u, forces);
-        let worst = judged.worst;
-        keep_better(&mut self.best, judged, None);
-        worst
-    }
-
-    fn finish(self, otherwise: Status) -> Solution {
-        let Some((judged, vertex)) = self.best else {
-            unreachable!("every solve judges a point");
-        };
-        let basis = vertex.map(|vertex| {
-            let points = self.scaled.points.iter();
-            let slips: Vec<f64> = points.map(|point| point.slip(&vertex.u)).collect();
-            self.problem.basis(&vertex.contacts, &judged, &slips)
-        });
-        let Judged { t, y, contact, residuals, worst } = judged;
-        let tolerance = self.settings.tolerance;
-        // Steps may end with a point that is solved and another that the iteration gave up.
-        let otherwise = if otherwise == Status::Solved { Status::Stalled } else { otherwise };
-        let mut solution = Solution::judged((t, y), residuals, tolerance, otherwise);
-        if worst > tolerance {
-            solution.status = otherwise;
-        }
-        solution.contact = contact;
-        solution.basis = basis;
-        solution.info.solver = InteriorPoint::NAME;
-        solution.info.iterations = self.monitor.iterations();
-        solution.info.factorisations = self.condensed.factorisations;
-        solution.info.seconds = self.monitor.seconds();
-        solution.info.history = self.monitor.history;
-        solution
-    }
-}
-
-/// An exact solution is better than a point inside, whose residuals may be smaller.
-fn keep_better(
-    best: &mut Option<(Judged, Option<Vertex>)>,
-    judged: Judged,
-    vertex: Option<&Vertex>,
-) {
-    let is_better = best.as_ref().is_none_or(|(other, exact)| match (vertex, exact) {
-        (Some(_), None) => true,
-        (None, Some(_)) => false,
-        _ => judged.worst < other.worst,
-    });
-    if is_better {
-        *best = Some((judged, vertex.cloned()));
     }
 }

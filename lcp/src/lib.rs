@@ -18,7 +18,7 @@
 //!
 //! * [`Auto`] chooses one by class and size, says why, and goes on with another where that fails.
 //! * [`Lemke`]: complementary pivoting. Treats everything, proves infeasibility; the one to start with.
-//! * [`SemismoothNewton`]: active sets, for obstacle problems, M- and P-matrices.
+//! * [`SemismoothNewton`]: active sets, for obstacle problems, M- and P-matrices, and for contact.
 //! * `QuadraticProgram` (feature `clarabel`, on by default): symmetric positive semidefinite problems and contact, with friction
 //!   as a sequence of programs; soft constraints.
 //! * [`InteriorPoint`]: large sparse contact problems with friction, and mixed problems.
@@ -56,6 +56,7 @@
 //! given, and all tolerances are relative to that data: units do not matter. The library does not
 //! print.
 
+mod active;
 mod auto;
 mod basis;
 #[cfg(feature = "cli")]

@@ -1,10 +1,12 @@
 //! A primal-dual active set method, which is a semismooth Newton method, with a safeguard.
 
 mod cholesky;
+mod contact;
 mod dense;
 mod exchange;
 mod forest;
 mod lu;
+mod proximal;
 mod system;
 
 use std::time::Duration;
@@ -37,7 +39,8 @@ pub struct SemismoothNewtonSettings {
     /// Wall-clock time, looked at before every step; `None` is no limit.
     pub time_limit: Option<Duration>,
     /// Which `z` are free at the start: those that are basic. Where the matrix of the free ones is
-    /// singular the method starts from its own.
+    /// singular the method starts from its own. Of contact with friction, states that are tried before the
+    /// first step.
     pub start: WarmStart,
 }
 
@@ -85,12 +88,26 @@ impl SemismoothNewtonSettings {
 /// * A diagonal entry that is not positive, and a general problem that is not a standard one in disguise
 ///   ([`HorizontalLcp::to_standard`]): refused.
 ///
+/// # Contact with friction
+/// A [`Contact2d`](crate::Contact2d) is solved by its own active sets: which contacts are open, stick and
+/// slide (Alart and Curnier 1991; Hüeber, Stadler and Wohlmuth 2008). Bodies that float and redundant
+/// contacts are held by springs and by a compliance of the contacts, which are centred anew at the last
+/// point, round after round, and so change nothing where that ends; steps are shortened to where the unbalanced
+/// forces do no work on them. Every round is followed by exchanges of states without springs, until the
+/// answer is a complementary basis. Without friction every round ends; with it nothing is proved, and the
+/// status may be [`Stalled`](Status::Stalled), as it is where there is no equilibrium. A step costs what one of
+/// [`InteriorPoint`](crate::InteriorPoint) costs, and where few contacts open or slide there are fewer.
+///
+/// # Cost
 /// A step costs a factorisation of `M_FF`. Without a start the first free set has all pairs where `M`
 /// has no positive entry off its diagonal, else those with `q < 0`.
 ///
 /// References: Hintermüller, Ito, Kunisch, SIAM J. Optim. 13 (2003), doi:10.1137/S1052623401383558;
 /// Júdice, Pires, Computers & Operations Research 21 (1994);
-/// Murty, Linear Algebra and its Applications 9 (1974); Chandrasekaran, Opsearch 7 (1970).
+/// Murty, Linear Algebra and its Applications 9 (1974); Chandrasekaran, Opsearch 7 (1970);
+/// Alart, Curnier, Computer Methods in Applied Mechanics and Engineering 92 (1991),
+/// doi:10.1016/0045-7825(91)90022-X; Hüeber, Stadler, Wohlmuth, SIAM J. Sci. Comput. 30 (2008),
+/// doi:10.1137/060671061.
 ///
 /// ```
 /// use faer::mat;

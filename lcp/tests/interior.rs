@@ -4,6 +4,8 @@
 
 #[path = "interior/beams.rs"]
 mod beams;
+#[path = "common/bodies.rs"]
+mod bodies;
 mod common;
 #[path = "interior/falls.rs"]
 mod falls;

@@ -17,6 +17,10 @@ pub struct Checks {
     /// Largest unbalanced moment of a block about its centroid, relative to the same sum times the
     /// block's size.
     pub moment_balance: f64,
+    /// Largest part of a load that nothing carries: the unbalanced force of a block relative to the loads on
+    /// that block, unless it is below 1e-9 of all forces on it; and relative to all loads. It tells a light block
+    /// that hovers beside heavy ones, and forces so large that the loads are lost among their digits.
+    pub uncarried: f64,
     /// Largest violation of `|t_t| <= mu t_n`, `t_n >= 0`, relative to the largest contact force.
     pub cone_violation: f64,
     /// Deepest interpenetration, relative to the largest displacement or initial gap.
@@ -31,6 +35,8 @@ pub struct Checks {
 
 /// Balances and violations up to this are rounding.
 const LARGEST_ERROR: f64 = 1e-9;
+/// Loads that nothing carries are parts of this size, and more.
+const LARGEST_UNCARRIED: f64 = 1e-3;
 /// Iterations converge to a part of the largest forces. So those on a single block count as so many times
 /// what they are,
 const SINGLE_BLOCK: f64 = 10.0;
@@ -39,11 +45,13 @@ const SMALLEST_PART: f64 = 0.01;
 
 impl Checks {
     /// Whether every block balances, no friction cone is left and nothing penetrates, to
-    /// 1e-9 or to the tolerance that was asked for, whichever is larger.
+    /// 1e-9 or to the tolerance that was asked for, whichever is larger; and all loads are carried, to a
+    /// thousandth or that tolerance.
     pub fn hold(&self, tolerance: f64) -> bool {
         let errors =
             [self.force_balance, self.moment_balance, self.cone_violation, self.penetration];
         errors.iter().all(|&error| error <= tolerance.max(LARGEST_ERROR))
+            && self.uncarried <= tolerance.max(LARGEST_UNCARRIED)
     }
 
     /// Recomputes everything from the contact forces, the displacements and the loads of the model:
@@ -59,7 +67,8 @@ impl Checks {
     pub fn of(model: &Model, state: &State) -> Self {
         let contact_force = |s: &ContactState| s.t_n.hypot(s.t_t);
         let largest_contact = largest(state.contacts.iter().map(contact_force));
-        let balances = unbalanced(model, state, largest_contact.max(total_load(model)));
+        let total = total_load(model);
+        let balances = unbalanced(model, state, [largest_contact, total]);
         let violation = |(contact, s): (&ContactPoint, &ContactState)| {
             (-s.t_n).max(s.t_t.abs() - contact.mu * s.t_n)
         };
@@ -72,6 +81,7 @@ impl Checks {
         Self {
             force_balance: largest(balances.iter().map(|b| b.force)),
             moment_balance: largest(balances.iter().map(|b| b.moment)),
+            uncarried: largest(balances.iter().map(|b| b.uncarried)),
             cone_violation: relative(largest(contacts.map(violation)), largest_contact),
             penetration: relative(largest(depth), displacement),
             open: count(ContactStatus::Open),
@@ -88,12 +98,16 @@ type PlacedForce = (Point2<f64>, Vector2<f64>);
 struct Unbalanced {
     force: f64,
     moment: f64,
+    uncarried: f64,
 }
 
-/// Of every block, where `most` \[N\] is the largest force of all.
-fn unbalanced(model: &Model, state: &State, most: f64) -> Vec<Unbalanced> {
+/// Of every block, where the largest contact force and all loads are `[contact, total]` \[N\].
+fn unbalanced(model: &Model, state: &State, [contact, total]: [f64; 2]) -> Vec<Unbalanced> {
+    let most = contact.max(total);
+    let magnitude = |forces: &[PlacedForce]| forces.iter().map(|(_, f)| f.norm()).sum::<f64>();
     let mut forces: Vec<Vec<PlacedForce>> =
         model.blocks.iter().map(|block| loads(model, block)).collect();
+    let loads: Vec<f64> = forces.iter().map(|forces| magnitude(forces)).collect();
     for (contact, s) in model.contacts.iter().zip(&state.contacts) {
         let normal = model.joints[contact.joint.index()].normal;
         let on_b = normal * s.t_n + Vector2::new(normal.y, -normal.x) * s.t_t;
@@ -107,20 +121,23 @@ fn unbalanced(model: &Model, state: &State, most: f64) -> Vec<Unbalanced> {
             forces[block.index()].push((place, force));
         }
     }
-    let resultant = |(block, forces): (&Block, &Vec<PlacedForce>)| {
+    let resultant = |((block, forces), load): ((&Block, &Vec<PlacedForce>), &f64)| {
         let centroid = geometry::centroid(&block.corners);
         let force: Vector2<f64> = forces.iter().map(|(_, f)| f).sum();
         let moment: f64 = forces.iter().map(|(p, f)| geometry::cross(p - centroid, *f)).sum();
-        let sum: f64 = forces.iter().map(|(_, f)| f.norm()).sum();
+        let sum = magnitude(forces);
         // A light block must not be excused by a heavy one elsewhere.
         let reference = (SINGLE_BLOCK * sum).max(SMALLEST_PART * most).min(most);
         let arm = geometry::size(&block.corners);
+        let left = force.norm();
+        let of_its_own = if left > LARGEST_ERROR * sum { relative(left, *load) } else { 0.0 };
         Unbalanced {
-            force: relative(force.norm(), reference),
+            force: relative(left, reference),
             moment: relative(moment.abs() / arm, reference),
+            uncarried: of_its_own.max(relative(left, total)),
         }
     };
-    model.blocks.iter().zip(&forces).map(resultant).collect()
+    model.blocks.iter().zip(&forces).zip(&loads).map(resultant).collect()
 }
 
 /// Self weight and edge loads of a block as forces \[N\] at places.

@@ -144,24 +144,31 @@ impl Model {
     #[must_use]
     pub fn under(&self, actions: &Actions, slips: &[f64]) -> Self {
         let mut model = self.clone();
-        model.gravity *= actions.gravity;
-        for load in model.blocks.iter_mut().flat_map(|block| &mut block.edge_loads) {
-            load.traction *= actions.loads[load.load.index()];
-        }
-        for (support, movement) in model.supports.iter_mut().zip(&actions.movements) {
-            support.movement = *movement;
-        }
         for (contact, slip) in model.contacts.iter_mut().zip(slips) {
-            let joint = &self.joints[contact.joint.index()];
             if contact.mu > 0.0 {
                 contact.slip -= slip;
             }
+        }
+        model.act(actions);
+        model
+    }
+
+    /// Puts the actions of the only step on a model that has none yet.
+    pub(crate) fn act(&mut self, actions: &Actions) {
+        self.gravity *= actions.gravity;
+        for load in self.blocks.iter_mut().flat_map(|block| &mut block.edge_loads) {
+            load.traction *= actions.loads[load.load.index()];
+        }
+        for (support, movement) in self.supports.iter_mut().zip(&actions.movements) {
+            support.movement = *movement;
+        }
+        for contact in &mut self.contacts {
+            let joint = &self.joints[contact.joint.index()];
             let Body::Support(support) = joint.a else { continue };
-            let moved = model.supports[support.index()].displacement_at(contact.position);
+            let moved = self.supports[support.index()].displacement_at(contact.position);
             contact.gap -= moved.dot(&joint.normal);
             contact.slip -= moved.dot(&joint.tangent());
         }
-        model
     }
 }
 

@@ -20,7 +20,7 @@ pub struct State {
     /// Force, gap and slip at every contact point.
     pub contacts: Vec<ContactState>,
     /// Stresses at the contact points of the mortar films, in the order of the points; empty without
-    /// films.
+    /// films, and when no output shows stresses.
     pub films: Vec<FilmStress>,
     /// Stresses at the centre of every element; empty when no output shows them.
     pub stresses: Vec<ElementStress>,
@@ -130,7 +130,7 @@ pub struct SolveInfo {
     pub attempts: Vec<String>,
     /// Pivots over all attempts.
     pub pivots: usize,
-    /// Steps of the interior-point method, programs, times that springs were centred, or iterations of
+    /// Steps of the interior-point or Newton's method, programs, times that springs were centred, or iterations of
     /// the augmented Lagrangian method.
     pub iterations: usize,
     /// Every iteration of the augmented Lagrangian method; empty on the other routes.

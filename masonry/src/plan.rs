@@ -3,13 +3,14 @@
 mod effects;
 mod history;
 mod routes;
+mod sizes;
 
 use serde::Serialize;
 
 pub use routes::Choice;
-use routes::Sizes;
+use sizes::Sizes;
 
-use crate::model::{Anchor, Model};
+use crate::model::Model;
 use crate::scene::{Form, Route, Scene};
 
 /// One physical effect, on or off, and the reason.
@@ -21,8 +22,22 @@ pub struct Effect {
     pub on: bool,
     /// What in the scene calls for it, or what is missing.
     pub because: String,
-    /// Unknowns that it adds.
+    /// By how much the [`order`](Plan::order) of the plan is larger than without it, contact points being
+    /// the same: on the pivoting route displacements are eliminated, and add nothing.
     pub unknowns: usize,
+    /// What it is expected to cost on the first route, in words: `none` where it is off.
+    pub cost: String,
+}
+
+impl Effect {
+    fn off(name: &'static str, because: String) -> Self {
+        Self { name, on: false, because, unknowns: 0, cost: "none".to_owned() }
+    }
+
+    /// An effect that adds no unknowns.
+    fn on(name: &'static str, because: String, cost: String) -> Self {
+        Self { name, on: true, because, unknowns: 0, cost }
+    }
 }
 
 /// What will be built for a scene, known before anything is assembled.
@@ -71,16 +86,16 @@ impl Plan {
         let Choice { route, order, largest_order, .. } = routes[0];
         let (solver, because) = solver(route, scene.solver.form, sizes.frictional);
         Self {
-            effects: effects::of(scene, model, route)
+            effects: effects::of(scene, model, &sizes, &routes[0])
                 .into_iter()
                 .chain(history::effects(scene, model))
                 .collect(),
             blocks: model.blocks.len(),
-            nodes: nodes(model),
+            nodes: sizes.nodal / 2,
             joints: model.joints.len(),
             contact_points: sizes.points,
             frictional_points: sizes.frictional,
-            rigid_modes: sizes.rigid_modes,
+            rigid_modes: sizes.rigid_modes(),
             order,
             largest_order,
             largest_block: sizes.largest_block,
@@ -102,37 +117,15 @@ impl Plan {
     }
 }
 
-/// Unknowns that a frictional point has besides its normal force.
-fn unknowns_per_friction(form: Form) -> usize {
-    match form {
-        Form::Auto | Form::Coulomb => 2,
-        Form::StewartTrinkle | Form::Mixed => 3,
-    }
-}
-
-/// Rows of the system in which a film gives way: on the sparse routes, displacements.
-fn film_compliances(model: &Model) -> usize {
-    let points = model.contacts.iter().filter(|point| point.film.is_some());
-    points.map(|point| 1 + usize::from(point.mu > 0.0)).sum()
-}
-
-/// Points of strips at elastic blocks, which couple the displacements of their two sides.
-fn stretching_points(model: &Model) -> usize {
-    let is_elastic = |face: &[Anchor; 2]| model.blocks[face[0].block.index()].elasticity.is_some();
-    let strips =
-        model.contacts.iter().filter_map(|point| point.film.filter(|it| it.stretch.is_some()));
-    strips.filter(|film| film.faces().iter().flatten().any(is_elastic)).count()
-}
-
-fn nodes(model: &Model) -> usize {
-    model.blocks.iter().filter_map(|block| block.mesh.as_ref()).map(|mesh| mesh.nodes.len()).sum()
-}
-
 fn solver(route: Route, form: Form, frictional_points: usize) -> (&'static str, &'static str) {
     let has_friction = frictional_points > 0;
     match (route, form) {
         (Route::Interior, _) => (
             "interior points",
+            "every step factorises one sparse matrix of the order of the displacements",
+        ),
+        (Route::Newton, _) => (
+            "Newton's method on the states of the contacts",
             "every step factorises one sparse matrix of the order of the displacements",
         ),
         (Route::Qp, _) if has_friction => (

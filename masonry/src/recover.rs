@@ -50,9 +50,22 @@ pub fn recover(
     }
     let contacts = contact_states(model, system, rows, &displacements);
     strain_energy += films_energy(model, system, rows, &displacements);
-    let films = film_stresses(model, &displacements, &contacts);
-    let stresses = if with_stresses { stresses(model, &displacements) } else { Vec::new() };
+    let (stresses, films) = wanted_stresses(model, &displacements, &contacts, with_stresses);
     State { displacements, contacts, films, stresses, strain_energy }
+}
+
+/// Stresses of blocks and films, where they are wanted.
+pub(crate) fn wanted_stresses(
+    model: &Model,
+    displacements: &[Vec<Vector2<f64>>],
+    contacts: &[ContactState],
+    wanted: bool,
+) -> (Vec<ElementStress>, Vec<FilmStress>) {
+    if wanted {
+        (stresses(model, displacements), film_stresses(model, displacements, contacts))
+    } else {
+        (Vec::new(), Vec::new())
+    }
 }
 
 /// The state that belongs to forces and displacements of the sparse problem, solved to `tolerance`.
@@ -100,8 +113,7 @@ fn of_blocks(
     }
     let contacts = contact_states(model, system, rows, &displacements);
     strain_energy += films_energy(model, system, rows, &displacements);
-    let films = film_stresses(model, &displacements, &contacts);
-    let stresses = if with_stresses { stresses(model, &displacements) } else { Vec::new() };
+    let (stresses, films) = wanted_stresses(model, &displacements, &contacts, with_stresses);
     State { displacements, contacts, films, stresses, strain_energy }
 }
 

@@ -28,7 +28,8 @@ pub struct Reduction {
     pub r: Mat<f64>,
     /// `t_0` of (3.18): forces of the isostatic rows that balance the loads \[N\].
     pub t0: Vec<f64>,
-    /// `A = W^T F W` \[m/N\], symmetric and positive semidefinite.
+    /// `A = W^T F W` \[m/N\], symmetric and positive semidefinite; empty where nothing gives way: rigid
+    /// blocks in dry joints have `R` alone.
     pub a: Mat<f64>,
     /// `c` of (3.23) \[m\].
     pub c: Vec<f64>,
@@ -76,8 +77,11 @@ impl Reduction {
         let t0 = t0.col_as_slice(0).to_vec();
 
         let compliances = compliances(system);
-        let flexibility = Flexibility::assemble(system, &compliances, &isostatic, &others);
-        let mut a = flexibility.reduce(r.as_ref());
+        let mut a = if system.gives_way() {
+            Flexibility::assemble(system, &compliances, &isostatic, &others).reduce(r.as_ref())
+        } else {
+            Mat::new()
+        };
         let bars = Bars::of(system);
         if let Some(bars) = &bars {
             bars.stiffen(&mut a, (&isostatic, &others), r.as_ref());
@@ -123,8 +127,12 @@ impl Reduction {
         self.g_isostatic.partial_piv_lu().solve(rhs).col_as_slice(0).to_vec()
     }
 
-    /// `F = C K^+ C^T` \[m/N\] of all rows, with the compliance of films and without bars, dense.
+    /// `F = C K^+ C^T` \[m/N\] of all rows, with the compliance of films and without bars, dense; empty
+    /// where nothing gives way.
     pub fn flexibility(&self, system: &System) -> Mat<f64> {
+        if !system.gives_way() {
+            return Mat::new();
+        }
         let mut f = Mat::zeros(system.rows.len(), system.rows.len());
         system.rows.iter().enumerate().for_each(|(k, row)| f[(k, k)] = row.compliance);
         for block in &self.compliances {

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | [`lemke`] | [`Reduction`](crate::reduction::Reduction), dense | complementary pivoting |
 //! | [`interior`] | [`Sparse`](crate::forms::Sparse) | interior points, with evidence where nothing stands |
+//! | [`newton`] | [`Sparse`](crate::forms::Sparse) | active sets: the states of the contacts, exchanged until none contradicts |
 //! | [`qp`] | [`Sparse`](crate::forms::Sparse) | convex quadratic programs, with proofs where nothing stands |
 //! | [`pgs`] | [`Sparse`](crate::forms::Sparse) | sweeps over the contacts of blocks on springs |
 //! | [`alm`] | [`Sparse`](crate::forms::Sparse), or whole films | the augmented Lagrangian method of the paper |
@@ -20,6 +21,7 @@ use crate::scene::Form;
 pub mod alm;
 pub mod interior;
 pub mod lemke;
+pub mod newton;
 pub mod pgs;
 pub mod qp;
 mod sparse;

@@ -214,6 +214,12 @@ impl System {
         self.rows.len() - self.friction.len()
     }
 
+    /// Whether contact forces move anything but rigid blocks: there is an elastic block or a film of mortar.
+    pub fn gives_way(&self) -> bool {
+        let is_elastic = |body: &BodySystem| body.stiffness.is_some();
+        self.bodies.iter().any(is_elastic) || self.rows.iter().any(|row| row.compliance > 0.0)
+    }
+
     /// `G = C N`: the relative displacements of the rigid motions, rows by three columns per block.
     pub fn rigid_rows(&self) -> Mat<f64> {
         let mut g = Mat::zeros(self.rows.len(), 3 * self.bodies.len());

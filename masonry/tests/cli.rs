@@ -124,6 +124,11 @@ fn plan_says_what_will_be_built() {
     let effects = plan["effects"].as_array().unwrap();
     let is_on = |name: &str| effects.iter().find(|it| it["name"] == name).unwrap()["on"] == true;
     assert!(is_on("friction") && is_on("self weight") && !is_on("deformation"));
+    for effect in effects {
+        let [because, cost] = ["because", "cost"].map(|key| effect[key].as_str().unwrap());
+        assert!(!because.is_empty());
+        assert_eq!(cost == "none", effect["on"] == false, "{effect}");
+    }
 
     let text = masonry(&["plan", &scene]);
     assert_eq!(text.status.code(), Some(0));
@@ -147,7 +152,7 @@ fn a_solved_scene_is_one_object_and_code_zero() {
     for key in ["equation", "feasibility", "complementarity"] {
         assert!(result["residuals"][key].as_f64().unwrap() <= 1e-10, "{key}");
     }
-    for key in ["force", "moment", "cone_violation", "penetration"] {
+    for key in ["force", "moment", "uncarried_load", "cone_violation", "penetration"] {
         assert!(result["balance"][key].as_f64().unwrap() <= 1e-9, "{key}");
     }
     // 0.2 m2 of 2000 kg/m3 in a field of 10 m/s2, centred at (0.1, 0.5).
@@ -206,6 +211,7 @@ fn a_route_can_be_chosen() {
         ("auto", "lemke"),
         ("lemke", "lemke"),
         ("interior", "interior"),
+        ("newton", "newton"),
         ("qp", "qp"),
         ("pgs", "pgs"),
     ] {

@@ -17,7 +17,8 @@ use masonry::study::{End, Record, Settings, Study, StudyError, study};
 use masonry::units::Units;
 use serde_json::Value;
 
-const ROUTES: [Route; 5] = [Route::Lemke, Route::Interior, Route::Qp, Route::Pgs, Route::Alm];
+const ROUTES: [Route; 6] =
+    [Route::Lemke, Route::Interior, Route::Newton, Route::Qp, Route::Pgs, Route::Alm];
 
 /// Two courses of elastic bricks between a floor and a load that leans.
 fn wall() -> Scene {
@@ -74,7 +75,7 @@ fn every_combination_has_its_record_and_errors_fall_with_the_tolerance() {
 
     let combination = |it: &Record| (it.mesh, it.route.name(), it.tolerance.to_bits());
     let combinations: BTreeSet<_> = study.records.iter().map(combination).collect();
-    assert_eq!(study.records.len(), 3 * 5 * 3);
+    assert_eq!(study.records.len(), 3 * ROUTES.len() * 3);
     assert_eq!(combinations.len(), study.records.len(), "each once");
     assert!(told.len() >= study.records.len());
     assert!(study.is_solved());
@@ -160,7 +161,7 @@ fn the_bias_of_springs_grows_with_their_stiffness_and_goes() {
 fn a_route_that_does_not_treat_the_scene_is_recorded() {
     let study = studied(&block(0.1), &settings());
     assert_eq!(study.meshes.len(), 1, "rigid blocks have no mesh to refine");
-    assert_eq!(study.records.len(), 5 * 3);
+    assert_eq!(study.records.len(), ROUTES.len() * 3);
     for record in by(&study, Route::Alm, 1) {
         assert!(matches!(&record.end, End::Refused(why) if why.contains("rigid")), "{record:?}");
         assert!(record.seconds.is_some() && record.errors.is_none() && record.residual.is_none());
@@ -198,7 +199,7 @@ fn without_time_there_is_no_answer_and_what_is_harder_is_not_tried() {
     let settings = Settings { time_limit: Duration::ZERO, ..settings() };
     let study = studied(&wall(), &settings);
     assert!(!study.is_solved());
-    assert_eq!(study.records.len(), 3 * 5 * 3);
+    assert_eq!(study.records.len(), 3 * ROUTES.len() * 3);
     for record in &study.records {
         let is_first = record.mesh == 1 && record.tolerance > 5e-4;
         if is_first {
@@ -263,7 +264,7 @@ fn the_program_writes_tables_and_pictures() {
     assert_eq!(run.status.code(), Some(0));
     assert!(run.stderr.is_empty());
     let object: Value = serde_json::from_slice(&run.stdout).unwrap();
-    assert_eq!(object["records"].as_array().unwrap().len(), 3 * 5 * 2);
+    assert_eq!(object["records"].as_array().unwrap().len(), 3 * ROUTES.len() * 2);
     assert_eq!(object["meshes"].as_array().unwrap().len(), 3);
     assert_eq!(object["springs"].as_array().unwrap().len(), 2);
     assert_eq!(object["units"]["thrust"], "N");
@@ -286,7 +287,7 @@ fn the_program_writes_tables_and_pictures() {
     }
     let table = fs::read_to_string(out.join("study.csv")).unwrap();
     let rows: Vec<&str> = table.lines().collect();
-    assert_eq!(rows.len(), 1 + 3 * 5 * 2);
+    assert_eq!(rows.len(), 1 + 3 * ROUTES.len() * 2);
     let columns = rows[0].split(',').count();
     assert!(rows.iter().all(|row| row.split(',').count() == columns));
     let saved: Value =

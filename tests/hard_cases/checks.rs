@@ -30,12 +30,22 @@ pub struct Errors {
     pub nodes: f64,
     /// `f.u = 2 U + D + t.x`, and friction that does work, relative to all terms.
     pub energy: f64,
+    /// The smallest change of loads, stiffness and contact forces, relative to them, with which the forces at
+    /// all nodes are in equilibrium; of rigid blocks that of loads and contact forces. No error by itself.
+    pub backward: f64,
+    /// Forces on the block with the largest ones relative to those on the one with the smallest.
+    pub spread: f64,
 }
 
 impl Errors {
     /// The largest.
     pub fn worst(&self) -> f64 {
-        [self.balance, self.cone, self.gaps, self.nodes, self.energy].into_iter().fold(0.0, larger)
+        larger(self.of_equations(), self.energy)
+    }
+
+    /// The largest but for the energy, which also has the errors of the displacements.
+    pub fn of_equations(&self) -> f64 {
+        [self.balance, self.cone, self.gaps, self.nodes].into_iter().fold(0.0, larger)
     }
 
     /// Of the last state of a solved scene.
@@ -48,12 +58,15 @@ impl Errors {
         let moved = state.displacements.iter().flatten().map(Vector2::norm);
         let gaps = model.contacts.iter().map(|contact| contact.gap.abs());
         let size = moved.chain(gaps).fold(0.0, larger);
+        let nodes = at_nodes(model, state, &bodies.sizes);
         Self {
             balance: bodies.balance,
             cone: pairs.iter().map(Pair::outside_cone).fold(0.0, larger),
             gaps: pairs.iter().map(|pair| pair.against_law(size)).fold(0.0, larger),
-            nodes: at_nodes(model, state),
+            nodes: nodes[0],
             energy: energy(model, state, &pairs),
+            backward: larger(bodies.balance, nodes[1]),
+            spread: bodies.spread(),
         }
     }
 }
@@ -103,6 +116,12 @@ impl Bodies {
             share(larger(x.hypot(y), moment), *size)
         });
         Self { balance: left.fold(0.0, larger), sizes }
+    }
+
+    fn spread(&self) -> f64 {
+        let least = self.sizes.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = self.sizes.iter().copied().fold(0.0, larger);
+        if least > 0.0 { most / least } else { 1.0 }
     }
 }
 
@@ -182,8 +201,37 @@ fn terms(model: &Model, contact: &ContactPoint) -> Vec<Term> {
             list.push(Term { anchor: end, normal: none, tangent: turn });
             list.push(Term { anchor: start, normal: none, tangent: -turn });
         }
+        let opened = film.gap_per_elongation();
+        list.extend(stretched(model, contact).into_iter().map(|(anchor, along)| Term {
+            anchor,
+            normal: along * opened,
+            tangent: Vector2::zeros(),
+        }));
     }
     list
+}
+
+/// How displacements of the ends of a part of a film enter its elongation, the mean of both faces.
+fn stretched(model: &Model, contact: &ContactPoint) -> Vec<(Anchor, Vector2<f64>)> {
+    let Some(film) = contact.film.filter(|film| film.stretch.is_some()) else { return Vec::new() };
+    let half = model.joints[contact.joint.index()].tangent() * 0.5;
+    let is_elastic = |face: &[Anchor; 2]| model.blocks[face[0].block.index()].elasticity.is_some();
+    let faces = film.faces().into_iter().flatten().filter(is_elastic);
+    faces.flat_map(|[start, end]| [(start, -half), (end, half)]).collect()
+}
+
+/// Elongation of a part of a film and the stiffness of its bar, which always acts.
+fn bar(model: &Model, state: &State, contact: &ContactPoint) -> [f64; 2] {
+    let Some(stretch) = contact.film.and_then(|film| film.stretch) else { return [0.0; 2] };
+    let moved =
+        |(anchor, along): (Anchor, Vector2<f64>)| displaced(model, state, anchor).dot(&along);
+    [stretched(model, contact).into_iter().map(moved).sum(), stretch.stiffness]
+}
+
+fn displaced(model: &Model, state: &State, anchor: Anchor) -> Vector2<f64> {
+    let block = anchor.block.index();
+    let shares = shares(&model.blocks[block], (anchor.edge, anchor.at));
+    shares.iter().map(|(node, part)| state.displacements[block][*node] * *part).sum()
 }
 
 /// The displacement of a place on an edge as a sum over nodes.
@@ -217,11 +265,7 @@ impl Pair {
         let mut gap = contact.gap + c_n * it.t_n;
         let mut slip = contact.slip + c_t * it.t_t;
         for term in terms(model, contact) {
-            let block = term.anchor.block.index();
-            let u: Vector2<f64> = shares(&model.blocks[block], (term.anchor.edge, term.anchor.at))
-                .iter()
-                .map(|(node, part)| state.displacements[block][*node] * *part)
-                .sum();
+            let u = displaced(model, state, term.anchor);
             gap += u.dot(&term.normal);
             slip += u.dot(&term.tangent);
         }
@@ -261,8 +305,9 @@ impl Pair {
     }
 }
 
-/// The largest nodal force left over in an elastic block, relative to those that act on it from outside.
-fn at_nodes(model: &Model, state: &State) -> f64 {
+/// The largest nodal force left over in an elastic block, relative to those that act on it from outside, and
+/// to all of which it is the sum.
+fn at_nodes(model: &Model, state: &State, sizes: &[f64]) -> [f64; 2] {
     let loads = |block: &Block| -> Vec<Nodal> {
         let mesh = block.mesh.as_ref();
         let loads = mesh.map_or_else(Vec::new, |mesh| nodal_loads(model, block, mesh));
@@ -278,9 +323,18 @@ fn at_nodes(model: &Model, state: &State) -> f64 {
                 }
             }
         }
+        let [elongation, stiffness] = bar(model, state, contact);
+        for (anchor, along) in stretched(model, contact) {
+            let block = anchor.block.index();
+            for (node, part) in shares(&model.blocks[block], (anchor.edge, anchor.at)) {
+                outside[block][node].add(along * (-stiffness * elongation * part));
+            }
+        }
     }
-    let blocks = model.blocks.iter().zip(&state.displacements).zip(&outside);
-    blocks.map(|((block, u), outside)| of_elements(model, block, u, outside)).fold(0.0, larger)
+    let blocks = model.blocks.iter().zip(&state.displacements).zip(&outside).zip(sizes);
+    let left = blocks
+        .map(|(((block, u), outside), size)| of_elements((model, block), u, (outside, *size)));
+    left.fold([0.0; 2], |[a, b], [c, d]| [larger(a, c), larger(b, d)])
 }
 
 /// The force at a node, and the sum of the magnitudes of its parts, which may circulate \[N\].
@@ -301,8 +355,12 @@ impl Nodal {
 }
 
 /// What the elements of a block lack of the forces from outside.
-fn of_elements(model: &Model, block: &Block, u: &[Vector2<f64>], outside: &[Nodal]) -> f64 {
-    let (Some(mesh), Some(elasticity)) = (&block.mesh, block.elasticity) else { return 0.0 };
+fn of_elements(
+    (model, block): (&Model, &Block),
+    u: &[Vector2<f64>],
+    (outside, size): (&[Nodal], f64),
+) -> [f64; 2] {
+    let (Some(mesh), Some(elasticity)) = (&block.mesh, block.elasticity) else { return [0.0; 2] };
     let d = constitutive(elasticity, model.plane);
     let mut inside: Vec<Nodal> = u.iter().map(|_| Nodal::of(Vector2::zeros())).collect();
     for element in &mesh.elements {
@@ -316,10 +374,14 @@ fn of_elements(model: &Model, block: &Block, u: &[Vector2<f64>], outside: &[Noda
         }
     }
     let rest = inside.iter().zip(outside).map(|(a, b)| (a.force - b.force).norm());
+    let rest = rest.fold(0.0, larger);
     let [inside_size, outside_size] =
         [&inside[..], outside].map(|list| list.iter().map(|it| it.size).fold(0.0, larger));
     // Bricks that move far as rigid bodies have rounding errors of the terms that cancel.
-    share(rest.fold(0.0, larger), outside_size.max(LIGHTEST * inside_size))
+    // The forces on the block, which may be those of a heavy neighbour, spread over its nodes.
+    let least = size / inside.len() as f64;
+    let sizes = [LIGHTEST * inside_size, inside_size].map(|it| outside_size.max(least).max(it));
+    sizes.map(|size| share(rest, size))
 }
 
 fn energy(model: &Model, state: &State, pairs: &[Pair]) -> f64 {
@@ -338,6 +400,12 @@ fn energy(model: &Model, state: &State, pairs: &[Pair]) -> f64 {
                 add(force, shares(block, place).iter().map(|(k, part)| u[*k] * *part).sum());
             }
         }
+    }
+    // The work of contact forces on both bodies cancels, but not its rounding errors.
+    for (contact, it) in model.contacts.iter().zip(&state.contacts) {
+        let anchors = [Some(contact.b), contact.a].into_iter().flatten();
+        let moved = anchors.map(|anchor| displaced(model, state, anchor).norm());
+        size += it.t_n.hypot(it.t_t) * moved.sum::<f64>();
     }
     let dissipated: f64 = pairs.iter().map(|pair| -pair.t_t * pair.slip).sum();
     let of_gaps: f64 = pairs.iter().map(|pair| pair.other_work[0]).sum();

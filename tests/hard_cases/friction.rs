@@ -2,12 +2,13 @@
 
 use masonry::ids::SupportId;
 use masonry::model::Body;
-use masonry::scene::{Block, Joint, Load, Material, Scene, Support};
+use masonry::scene::{Block, Joint, Load, Material, Route, Scene, Support};
 use nalgebra::Vector2;
 
 use super::case::Case;
 use super::common::{GRAVITY, panels, rectangle};
 use super::scenes::{YOUNG, elastic, joint_off, reactions_off, rigid, scene, stack, wall};
+use super::sweep::{Sweep, decades};
 
 pub const TITLE: &str = "Friction";
 
@@ -15,11 +16,41 @@ pub fn cases() -> Vec<Case> {
     let mut list: Vec<Case> = [0.0, 1e-8, 1.0, 10.0, 1e6].into_iter().map(pushed).collect();
     list.extend([0.0, 1.0, 1e6].map(rough_wall));
     for (kind, material) in [("rigid", rigid()), ("elastic", elastic())] {
-        list.push(smooth_wedge(kind, material));
-        list.push(pulled_wedge(kind, material));
+        list.push(smooth_wedge(kind, material, 20.0));
+        list.push(pulled_wedge(kind, material, 0.6));
         list.push(tight_box(kind, material));
     }
-    list.push(panel());
+    list.push(panel(1.0));
+    list
+}
+
+pub fn sweeps() -> Vec<Sweep> {
+    let friction = "mu [-]";
+    let mut list = vec![
+        Sweep::new("pushed block", friction, decades(-12, 12, 1), pushed),
+        Sweep::new("leaning wall", friction, decades(0, 12, 1).map(|it| 0.2 * it), rough_wall),
+        Sweep::new(
+            "panel between walls",
+            friction,
+            [0.1, 0.2, 0.5, 0.7, 1.0, 1.5, 2.0, 5.0, 10.0, 100.0],
+            panel,
+        ),
+    ];
+    for (kind, material) in [("rigid", rigid()), ("elastic", elastic())] {
+        let angles = [1e-6, 1e-4, 1e-2, 0.1, 1.0, 5.0, 10.0, 20.0, 26.0];
+        list.push(Sweep::new(
+            &format!("smooth wedge, {kind}"),
+            "angle of the faces from the vertical [degrees]",
+            angles,
+            move |angle| smooth_wedge(kind, material, angle),
+        ));
+        list.push(Sweep::new(
+            &format!("wedge pulled out, {kind}"),
+            friction,
+            [0.1, 0.2, 0.3, 0.35, 0.363, 0.364, 0.37, 0.4, 0.6, 1.0, 3.0, 10.0, 100.0],
+            move |mu| pulled_wedge(kind, material, mu),
+        ));
+    }
     list
 }
 
@@ -70,9 +101,9 @@ fn rough_wall(mu: f64) -> Case {
     .known("the sum of the reactions is the load", reactions_off)
 }
 
-/// A key between faces inclined by 20 degrees.
-fn wedge(mu: f64, material: Material) -> Scene {
-    let foot = 20_f64.to_radians().tan();
+/// A key between faces inclined by an angle in degrees.
+fn wedge(angle: f64, mu: f64, material: Material) -> Scene {
+    let foot = angle.to_radians().tan();
     let (left, right) = ([foot, 0.0], [1.0 - foot, 0.0]);
     scene("Wedge", mu)
         .material("stone", material)
@@ -81,15 +112,17 @@ fn wedge(mu: f64, material: Material) -> Scene {
         .support(Support::new("right", right, [1.0, 1.0], "head"))
 }
 
-fn smooth_wedge(kind: &str, material: Material) -> Case {
+fn smooth_wedge(kind: &str, material: Material, angle: f64) -> Case {
     Case::new(
         &format!("smooth wedge, {kind}"),
         "No normal is vertical: all of them push and carry.",
-        wedge(0.0, material),
+        wedge(angle, 0.0, material),
     )
     .parameters("key 1 m high, faces inclined by 20 degrees from the vertical, mu = 0, own weight")
-    .known("each face carries W / (2 sin 20)", |outcome| {
-        let (sin, cos) = 20_f64.to_radians().sin_cos();
+    // The forces are as much larger than the weight, and residuals are relative to them.
+    .amplified(1.0 / angle.to_radians().sin())
+    .known("each face carries W / (2 sin 20)", move |outcome| {
+        let (sin, cos) = angle.to_radians().sin_cos();
         let force = 2000.0 * GRAVITY * (1.0 - sin / cos) / (2.0 * sin);
         let off = |face, inwards: Vector2<f64>| {
             joint_off(outcome, Body::Support(SupportId(face)), "key", inwards * force)
@@ -98,9 +131,10 @@ fn smooth_wedge(kind: &str, material: Material) -> Case {
     })
 }
 
-fn pulled_wedge(kind: &str, material: Material) -> Case {
+fn pulled_wedge(kind: &str, material: Material, mu: f64) -> Case {
     let pull = [0.0, 30.0];
-    let scene = wedge(0.6, material).load(Load::traction("pull", [0.0, 1.0], [1.0, 1.0], pull));
+    let scene =
+        wedge(20.0, mu, material).load(Load::traction("pull", [0.0, 1.0], [1.0, 1.0], pull));
     Case::new(
         &format!("wedge pulled out, {kind}"),
         "Friction is steeper than the faces: what is jammed cannot be pulled out, and nothing says that it is jammed.",
@@ -126,14 +160,18 @@ fn tight_box(kind: &str, material: Material) -> Case {
     .known("the sum of the reactions is the weight", reactions_off)
 }
 
-fn panel() -> Case {
+fn panel(mu: f64) -> Case {
     let mut scene = panels::scene("panel_rectangular").stresses(false);
     scene.walls[0].mesh = Some([2, 1]);
+    for joint in scene.joints.values_mut() {
+        joint.mu = Some(mu);
+    }
     Case::new(
         "rectangular panel at mu = 1",
         "Two exact solutions: bricks of the lowest course hang by friction, or drop.",
         scene,
     )
+    .slow_by(if mu > 1.5 { &[Route::Pgs] } else { &[] })
     .parameters(&format!(
         "`scenes/panel_rectangular.toml` with a mesh of 2 x 1: 55 bricks, E = {:e} kN/m2",
         0.1 * YOUNG

@@ -1,43 +1,79 @@
 //! Many points, thin bricks, thin films, tiny gaps.
 
-use masonry::scene::{Joint, Load, Material, Scene, Support};
+use masonry::contact::PointRule;
+use masonry::scene::{Films, Joint, Load, Material, Scene, Support};
 
 use super::case::Case;
 use super::common::{GRAVITY, rectangle, state};
 use super::scenes::{YOUNG, elastic, pressed, reactions_off, rigid, scene, sinking_off};
+use super::sweep::{Sweep, decades};
 
 pub const TITLE: &str = "Contacts and shapes";
 
 pub fn cases() -> Vec<Case> {
     vec![
-        many_supports(),
-        column(
-            "bricks a thousand times as long as high",
-            "Q4 elements of this shape have stiffnesses that differ by the square of the ratio.",
-            [1.0, 1e-3],
-            [4, 1],
-        ),
-        column(
-            "bricks a thousand times as high as long",
-            "The same, and the base is a thousandth of the height.",
-            [1e-3, 1.0],
-            [1, 4],
-        ),
-        thin_film(),
-        uneven_supports("rigid", rigid()),
-        uneven_supports("elastic", elastic()),
-        small_gap(),
+        many_supports(50.0),
+        flat(1e3),
+        slender(1e3),
+        thin_film(1e-6),
+        beside_nodes(1e-6, Films::Compliance),
+        beside_nodes(1e-6, Films::Strips),
+        uneven_supports("rigid", rigid(), 1e-12),
+        uneven_supports("elastic", elastic(), 1e-12),
+        small_gap(1e-8),
     ]
 }
 
-fn many_supports() -> Case {
+pub fn sweeps() -> Vec<Sweep> {
+    let uneven = |kind: &'static str, material: Material| {
+        Sweep::new(
+            &format!("uneven supports, {kind} block"),
+            "depth of the supports / length of the block [-]",
+            decades(-4, -16, 1),
+            move |depth| uneven_supports(kind, material, depth),
+        )
+    };
+    let beside = |kind: &str, films| {
+        Sweep::new(
+            &format!("film that ends beside a node, films as {kind}"),
+            "distance from the node / length of the brick [-]",
+            decades(-1, -14, 1),
+            move |distance| beside_nodes(distance, films),
+        )
+    };
+    vec![
+        Sweep::new(
+            "supports under one rigid block",
+            "number of supports",
+            [1, 2, 5, 10, 20, 50, 100, 200].map(f64::from),
+            many_supports,
+        ),
+        Sweep::new("flat bricks", "length / height [-]", decades(0, 6, 1), flat),
+        Sweep::new("slender bricks", "height / length [-]", decades(0, 6, 1), slender),
+        Sweep::new(
+            "thin film between bricks",
+            "thickness of the film / height of the brick [-]",
+            decades(-1, -13, 1),
+            thin_film,
+        ),
+        beside("compliances", Films::Compliance),
+        beside("strips", Films::Strips),
+        uneven("rigid", rigid()),
+        uneven("elastic", elastic()),
+        Sweep::new("gap of a pier", "gap / height of the pier [-]", decades(-5, -15, 1), small_gap),
+    ]
+}
+
+fn many_supports(count: f64) -> Case {
     let base = scene("Many supports", 0.6).gravity([0.3 * GRAVITY, -GRAVITY]);
     let block = rectangle("block", "stone", [0.0, 1.0], [0.0, 0.5]);
-    let supported =
-        (0..50).map(f64::from).fold(base.material("stone", rigid()).block(block), |scene, k| {
-            let [from, to] = [[k / 50.0, 0.0], [(k + 1.0) / 50.0, 0.0]];
+    let supported = (0..1000).map(f64::from).take_while(|k| *k < count).fold(
+        base.material("stone", rigid()).block(block),
+        |scene, k| {
+            let [from, to] = [[k / count, 0.0], [(k + 1.0) / count, 0.0]];
             scene.support(Support::new(&format!("{k}"), from, to, "bed"))
-        });
+        },
+    );
     Case::new(
         "one rigid block on a hundred points",
         "Three equations of equilibrium for 200 contact forces: 197 of these are free.",
@@ -45,6 +81,27 @@ fn many_supports() -> Case {
     )
     .parameters("1 x 0.5 m, 50 supports side by side, mu = 0.6, pushed by 0.3 of its weight")
     .known("the sum of the reactions is the load", reactions_off)
+}
+
+fn flat(ratio: f64) -> Case {
+    column(
+        "bricks a thousand times as long as high",
+        "Q4 elements of this shape have stiffnesses that differ by the square of the ratio.",
+        [1.0, 1.0 / ratio],
+        [4, 1],
+    )
+}
+
+fn slender(ratio: f64) -> Case {
+    column(
+        "bricks a thousand times as high as long",
+        "The same, and the base is a thousandth of the height.",
+        [1.0 / ratio, 1.0],
+        [1, 4],
+    )
+    // Rounding errors of the contact forces bend and turn it by the square of the ratio more than the load
+    // compresses it.
+    .amplified(1e-8 * ratio * ratio)
 }
 
 /// Three bricks on top of each other without weight and Poisson's ratio, pressed by a thousandth of their
@@ -62,8 +119,9 @@ fn column(name: &str, why: &'static str, [width, height]: [f64; 2], mesh: [u32; 
         .known("the top sinks by 3 h p / E", move |outcome| sinking_off(outcome, "2", sinks))
 }
 
-fn thin_film() -> Case {
-    let thin = 1e-7;
+/// Of a thickness relative to the height of the brick.
+fn thin_film(ratio: f64) -> Case {
+    let thin = 0.1 * ratio;
     let pressure = 1e-3 * YOUNG;
     let bricks = scene("Thin film", 0.5)
         .material("brick", Material::elastic(YOUNG, 0.0))
@@ -89,11 +147,44 @@ fn thin_film() -> Case {
     )
 }
 
-/// Supports that are lower than the block by up to 1e-12 of it.
-fn uneven_supports(kind: &str, material: Material) -> Case {
-    let base = scene("Uneven supports", 0.6).material("stone", material);
+/// Bricks in mortar whose meshes match but for an offset, relative to the length of the brick: parts of the
+/// film as long as that are between a node of one brick and one of the other.
+fn beside_nodes(offset: f64, films: Films) -> Case {
+    let film = 0.01;
+    let aside = 0.2 * offset;
+    let kind = match films {
+        Films::Compliance => "compliances",
+        Films::Strips => "strips",
+    };
+    let bricks = scene("Nodes beside nodes", 0.5)
+        .material("brick", Material::elastic(YOUNG, 0.15))
+        .material("mortar", Material::elastic(0.1 * YOUNG, 0.2))
+        .joint("bed", Joint::mu(0.5).mortar(film, "mortar"))
+        .joint("floor", Joint::mu(0.5))
+        .contact_points(PointRule::Gauss)
+        .films(films)
+        .block(rectangle("lower", "brick", [0.0, 0.2], [0.0, 0.1]).mesh([4, 2]))
+        .block(
+            rectangle("upper", "brick", [aside, 0.2 + aside], [0.1 + film, 0.2 + film])
+                .mesh([4, 2]),
+        )
+        .support(Support::new("floor", [0.0, 0.0], [0.2, 0.0], "floor"));
+    let top = 0.2 + film;
+    let load = Load::traction("top", [aside, top], [0.2 + aside, top], [10.0, -100.0]);
+    Case::new(
+        &format!("a film that ends 1e-6 beside a node, {kind}"),
+        "Parts of the film between a node of one brick and the next one of the other are as short as the offset.",
+        bricks.load(load),
+    )
+    .parameters("two bricks 0.2 x 0.1 m, the upper one 2e-7 m to the right, film of 0.01 m, E_m = E / 10, mu = 0.5, 100 kN/m2 that lean by 0.1")
+    .known("the sum of the reactions is the load", reactions_off)
+}
+
+/// Supports that are lower than the block by up to three times this depth.
+fn uneven_supports(kind: &str, material: Material, depth: f64) -> Case {
+    let base = scene("Uneven supports", 0.6).gap_limit(1e-3).material("stone", material);
     let block = rectangle("block", "stone", [0.0, 1.0], [0.0, 0.5]).mesh([10, 2]);
-    let depths = [0.0, 2e-12, 1e-12, 0.0, 3e-12, 1e-12, 0.0, 1e-12, 2e-12, 0.0];
+    let depths = [0, 2, 1, 0, 3, 1, 0, 1, 2, 0].map(|times| f64::from(times) * depth);
     let uneven = depths.iter().zip(0_u32..).fold(base.block(block), |scene, (depth, k)| {
         let x = f64::from(k) / 10.0;
         scene.support(Support::new(&format!("{k}"), [x, -depth], [x + 0.1, -depth], "bed"))
@@ -109,11 +200,11 @@ fn uneven_supports(kind: &str, material: Material) -> Case {
 }
 
 /// Three piers under a rigid beam, the one in the middle shorter.
-fn small_gap() -> Case {
-    let (gap, load) = (1e-8, 30.0);
+fn small_gap(gap: f64) -> Case {
+    let load = 30.0;
     let piers = [("left", 0.0, 1.0), ("middle", 0.4, 1.0 - gap), ("right", 0.8, 1.0)];
     let base = scene("Piers", 0.5)
-        .gap_limit(1e-6)
+        .gap_limit(1e-4)
         .material("pier", Material::elastic(YOUNG, 0.0))
         .material("beam", Material::rigid())
         .support(Support::new("floor", [0.0, 0.0], [1.0, 0.0], "bed"))

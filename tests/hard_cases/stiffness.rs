@@ -12,6 +12,7 @@ use super::common::{GRAVITY, M_KN, block_named, rectangle};
 use super::scenes::{
     YOUNG, elastic, joint_off, pressed, reactions_off, scene, sinking_off, stack, wall,
 };
+use super::sweep::{Sweep, decades};
 
 pub const TITLE: &str = "Stiffness, weight and units";
 
@@ -21,12 +22,29 @@ pub fn cases() -> Vec<Case> {
         list.push(mortared_column(ratio, words));
         list.push(mortared_wall(ratio, words));
     }
-    list.push(heavy("a brick on one that is 1e6 times heavier", &[1e6, 1.0]));
-    list.push(heavy("a brick under one that is 1e6 times heavier", &[1.0, 1e6]));
-    list.push(heavy("a brick that is 1e9 times heavier between two", &[1.0, 1e9, 1.0]));
-    list.push(side_by_side());
+    list.push(heavy("a brick on one that is 1e6 times heavier", vec![1e6, 1.0]));
+    list.push(heavy("a brick under one that is 1e6 times heavier", vec![1.0, 1e6]));
+    list.push(heavy("a brick that is 1e9 times heavier between two", vec![1.0, 1e9, 1.0]));
+    list.push(side_by_side(1e6));
     list.extend(UNITS.map(in_units));
     list
+}
+
+pub fn sweeps() -> Vec<Sweep> {
+    let ratio = "E of the mortar / E of the bricks [-]";
+    let heavier = "weight of the heavy block / weight of the light one [-]";
+    let heavy = |title: &str, times: fn(f64) -> Vec<f64>| {
+        Sweep::new(title, heavier, decades(0, 14, 1), move |by| heavy("heavy", times(by)))
+    };
+    vec![
+        Sweep::new("mortar in a column", ratio, decades(-9, 9, 1), |by| mortared_column(by, "")),
+        Sweep::new("mortar in a wall", ratio, decades(-9, 9, 1), |by| mortared_wall(by, "")),
+        heavy("light block on a heavy one", |by| vec![by, 1.0]),
+        heavy("light block under a heavy one", |by| vec![1.0, by]),
+        heavy("heavy block between light ones", |by| vec![1.0, by, 1.0]),
+        Sweep::new("light block beside a heavy one", heavier, decades(0, 14, 1), side_by_side),
+        Sweep::new("size of a wall", "length of a brick [m]", decades(-12, 12, 2), sized),
+    ]
 }
 
 const RATIO: &str =
@@ -79,11 +97,11 @@ const WEIGHT: &str =
 const LIGHT: f64 = 2000.0 * GRAVITY;
 
 /// Blocks on a floor, from below, so many times as heavy as stone.
-fn heavy(name: &str, times: &'static [f64]) -> Case {
+fn heavy(name: &str, times: Vec<f64>) -> Case {
     let lean = 0.2;
     let blocks = u32::try_from(times.len()).unwrap();
     let mut scene = stack(blocks, [1.0, 1.0], lean, elastic());
-    for (block, times) in scene.blocks.iter_mut().zip(times) {
+    for (block, times) in scene.blocks.iter_mut().zip(&times) {
         block.material = format!("{times}");
     }
     let scene = times.iter().fold(scene, |scene: Scene, times| {
@@ -109,10 +127,10 @@ fn heavy(name: &str, times: &'static [f64]) -> Case {
         )
 }
 
-fn side_by_side() -> Case {
+fn side_by_side(times: f64) -> Case {
     let scene = scene("Neighbours", 0.0)
         .material("light", Material::elastic(YOUNG, 0.0).density(2000.0))
-        .material("heavy", Material::elastic(YOUNG, 0.0).density(2000.0 * 1e6))
+        .material("heavy", Material::elastic(YOUNG, 0.0).density(2000.0 * times))
         .block(rectangle("light", "light", [0.0, 1.0], [0.0, 1.0]).mesh([2, 2]))
         .block(rectangle("heavy", "heavy", [1.0, 2.0], [0.0, 1.0]).mesh([2, 2]))
         .support(Support::new("floor", [0.0, 0.0], [2.0, 0.0], "bed"))
@@ -120,12 +138,13 @@ fn side_by_side() -> Case {
         .support(Support::new("right", [2.0, 0.0], [2.0, 1.0], "head"));
     Case::new("a brick beside one that is 1e6 times heavier", WEIGHT, scene)
         .parameters("two blocks 1 x 1 m without friction between two walls, nu = 0")
-        .known("the floor carries each", |outcome| {
+        .known("the floor carries each", move |outcome| {
             let floor = Body::Support(SupportId(0));
-            let off = |name: &str, weight: f64| {
-                joint_off(outcome, floor, name, Vector2::new(0.0, weight))
+            let off = |name: &str, carried: f64| {
+                let off = joint_off(outcome, floor, name, Vector2::new(0.0, carried * LIGHT));
+                off * carried / carried.max(LIGHTEST * times)
             };
-            off("light", LIGHT).max(off("heavy", 1e6 * LIGHT))
+            off("light", 1.0).max(off("heavy", times))
         })
 }
 
@@ -150,10 +169,28 @@ fn in_units(units: Units) -> Case {
     .known("the sum of the reactions is the load; one answer in all units", reactions_off)
 }
 
+/// The wall with bricks of a length \[m\], as heavy in all as it is.
+fn sized(length: f64) -> Case {
+    let scale = length / 0.2;
+    let mut scene = scaled(pressed(wall(0.6, 3, 0.6, elastic()), 0.6, 0.3, 10.0), scale, 1.0);
+    for material in scene.materials.values_mut() {
+        material.density = material.density.map(|it| it / scale);
+    }
+    Case::new("wall of any size", "Nothing but the unit of length changes.", scene)
+        .known("the sum of the reactions is the load", reactions_off)
+}
+
 /// A scene of blocks, walls and pressures in other units.
-fn converted(mut scene: Scene, units: Units) -> Scene {
+fn converted(scene: Scene, units: Units) -> Scene {
     let length = scene.units.length_to_si() / units.length_to_si();
     let stress = scene.units.stress_to_si() / units.stress_to_si();
+    let mut scene = scaled(scene, length, stress);
+    scene.units = units;
+    scene
+}
+
+/// Lengths and stresses times these.
+fn scaled(mut scene: Scene, length: f64, stress: f64) -> Scene {
     let moved = |point: [f64; 2]| point.map(|x| x * length);
     scene.thickness = scene.thickness.map(|it| it * length);
     for material in scene.materials.values_mut() {
@@ -172,6 +209,5 @@ fn converted(mut scene: Scene, units: Units) -> Scene {
         [*from, *to] = [*from, *to].map(moved);
         *pressure = pressure.map(|it| it * stress);
     }
-    scene.units = units;
     scene
 }

@@ -5,13 +5,35 @@ use masonry::scene::{Brick, Joint, Movement, Route, Scene, Stage, Support, Wall}
 use super::case::Case;
 use super::common::GRAVITY;
 use super::scenes::{elastic, reactions_off, scene, wall};
+use super::sweep::{Sweep, decades};
 
 pub const TITLE: &str = "Growth";
 
 pub fn cases() -> Vec<Case> {
     let mut list: Vec<Case> = SIZES.map(grown).into();
-    list.push(settled());
+    list.push(settled(0.004));
     list
+}
+
+pub fn sweeps() -> Vec<Sweep> {
+    let lengths = [2_u32, 4, 6, 8, 12, 16, 20, 28, 40, 52];
+    vec![
+        Sweep::new(
+            "wall that grows",
+            "bricks in a course, on 3/4 as many courses",
+            lengths.map(f64::from),
+            move |length| {
+                let length = lengths.into_iter().find(|it| f64::from(*it) >= length).unwrap();
+                grown([length, 3 * length / 4])
+            },
+        ),
+        Sweep::new(
+            "wall on a support that settles",
+            "settlement / length of the wall [-]",
+            decades(-12, -2, 1),
+            |share| settled(1.5 * share),
+        ),
+    ]
 }
 
 /// Bricks in a course, and courses.
@@ -23,7 +45,8 @@ fn grown([length, courses]: [u32; 2]) -> Case {
     let slow: &[Route] = match bricks {
         0..20 => &[],
         20..120 => &[Route::Pgs],
-        _ => &[Route::Qp, Route::Pgs, Route::Alm],
+        120..300 => &[Route::Qp, Route::Pgs, Route::Alm],
+        _ => &[Route::Lemke, Route::Qp, Route::Pgs, Route::Alm],
     };
     Case::new(
         &format!("wall of {bricks} bricks"),
@@ -36,10 +59,11 @@ fn grown([length, courses]: [u32; 2]) -> Case {
 }
 
 /// `scenes/wall_settlement.toml`, shortened.
-fn settled() -> Case {
+/// The right half of the base sinks by so much \[m\], and turns by as much.
+fn settled(sinks: f64) -> Case {
     let brick = Brick { length: 0.25, height: 0.125 };
-    let mut turned = Movement::by(0.0, -0.004);
-    turned.turn = -0.004;
+    let mut turned = Movement::by(0.0, -sinks);
+    turned.turn = -sinks;
     let scene: Scene = scene("Settlement", 0.6)
         .thickness(0.25)
         .gravity([0.0, -GRAVITY])

@@ -1,8 +1,8 @@
 //! Whether any contact forces balance the loads, wherever the bodies are.
 
 use super::InteriorPoint;
-use super::scaled::{Point, Scaled};
 use super::settings::InteriorPointSettings;
+use crate::active::{Point, Scaled};
 use crate::problem::{column_of, max_abs};
 use crate::{Matrix, MixedLcp, Observer, Solver};
 

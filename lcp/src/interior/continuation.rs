@@ -1,10 +1,9 @@
 //! Where there may be no equilibrium: soft springs that are reduced step by step.
 
-use super::condensed::Condensed;
 use super::iterate::{Defect, Iterate};
 use super::path::{WIDTHS, advance};
-use super::scaled::Scaled;
 use super::start::start;
+use crate::active::{Condensed, Scaled};
 use crate::problem::column_of;
 use crate::solution::SoftSprings;
 

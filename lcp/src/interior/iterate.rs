@@ -1,7 +1,6 @@
 //! Points inside the cone, and Newton's steps between them.
 
-use super::condensed::{Condensed, Springs};
-use super::scaled::{Point, Scaled};
+use crate::active::{Condensed, Contact, Point, Scaled, Springs};
 use crate::problem::max_abs;
 
 /// Compliance of a contact, relative to that of the bodies, below which a step does not go: forces are
@@ -196,14 +195,18 @@ impl Pairs {
 }
 
 impl Iterate {
-    /// The point of displacements and forces, with the gaps and slips that belong to them, wherever it is.
-    pub(super) fn outside(problem: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Self {
-        let points = problem.points.iter().zip(forces).map(|(point, &(t_n, t_t))| {
-            let slip = if point.mu > 0.0 { point.slip(u) } else { 0.0 };
-            let (slip_plus, slip_minus) = (slip.max(0.0), (-slip).max(0.0));
-            Pairs { t_n, t_t, gap: point.gap(u), slip_plus, slip_minus }
-        });
-        Self { u: u.to_vec(), points: points.collect() }
+    /// Normal and tangential forces.
+    pub(super) fn forces(&self) -> Vec<(f64, f64)> {
+        self.points.iter().map(|pairs| (pairs.t_n, pairs.t_t)).collect()
+    }
+
+    /// The states that the contacts are nearest to.
+    pub(super) fn contacts(&self, problem: &Scaled) -> Vec<Contact> {
+        let contact = |(point, at): (&Point, &Pairs)| {
+            let Pairs { t_n, t_t, gap, slip_plus, slip_minus } = *at;
+            Contact::nearest(point, (t_n, t_t), (gap, slip_plus, slip_minus))
+        };
+        problem.points.iter().zip(&self.points).map(contact).collect()
     }
 
     /// The mean of the products of the pairs.

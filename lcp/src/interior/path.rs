@@ -1,13 +1,9 @@
 //! The interior-point iteration: predictor, correctors, and what to do when they get nowhere.
 
-use super::condensed::Condensed;
 use super::iterate::{Defect, Iterate, Tangent};
-use super::scaled::Scaled;
 use super::turn::turn;
+use crate::active::{Condensed, PROXIMAL, Scaled};
 
-/// Springs on every displacement that keep bodies without contact in place during a step, relative to the
-/// stiffness.
-pub(super) const PROXIMAL: f64 = 1e-12;
 /// Least products of a pair, relative to the mean, one after the other: where the path turns often, it has to
 /// be followed closely, but how closely cannot be foreseen.
 pub(super) const WIDTHS: [f64; 3] = [0.1, 0.01, 0.3];

@@ -1,9 +1,8 @@
 //! Where the iteration starts, and how it finds out how far bodies move.
 
-use super::condensed::{Condensed, Springs};
 use super::iterate::{Iterate, Pairs};
-use super::path::{Ahead, PROXIMAL, advance};
-use super::scaled::Scaled;
+use super::path::{Ahead, advance};
+use crate::active::{Condensed, PROXIMAL, Scaled, Springs};
 
 /// Largest change of a gap by the predictor, relative to the mean gap, that a start is wide enough for.
 const WIDE: f64 = 2.0;

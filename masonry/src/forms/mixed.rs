@@ -38,7 +38,7 @@ pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp:
     for (i, place) in places.iter().enumerate() {
         for &(p, sign) in place {
             q[p] = sign * free[i] / scale.length;
-            for (j, other) in places.iter().enumerate() {
+            for (j, other) in places.iter().enumerate().take(f.ncols()) {
                 for &(s, other_sign) in other {
                     m[(p, s)] = sign * other_sign * stiff * f[(i, j)];
                 }

@@ -35,7 +35,7 @@ pub(super) fn build(
 
     let stiff = scale.force / scale.length;
     for (j, row) in others.iter().enumerate() {
-        for (k, terms) in t_e.iter().enumerate() {
+        for (k, terms) in t_e.iter().enumerate().take(reduction.a.ncols()) {
             add(&mut a, *row, terms, stiff * reduction.a[(j, k)]);
         }
         for (k, terms) in y_i.iter().enumerate() {

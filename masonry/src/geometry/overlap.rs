@@ -4,6 +4,9 @@ use nalgebra::{Point2, Vector2};
 
 use super::{Quad, cross, turn_right};
 
+/// Rounding error of a distance, relative to the coordinates of its ends.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
 /// Area of the intersection of two convex, counter-clockwise quadrilaterals \[m^2\].
 ///
 /// The first is clipped by the four half planes of the second (Sutherland and Hodgman).
@@ -64,7 +67,8 @@ pub fn facing_normal(first: [Point2<f64>; 2], second: [Point2<f64>; 2]) -> Optio
 /// right-hand side of the first: two edges of counter-clockwise blocks, say.
 ///
 /// `slack` \[m\] is the distance that counts as touching and `limit` \[m\] the largest gap that
-/// still counts as facing. `None` when the segments are not antiparallel, lie apart, penetrate by
+/// still counts as facing. With a limit gaps below the slack are kept, too, and only those are zero that are as
+/// small as the rounding errors of the coordinates. `None` when the segments are not antiparallel, lie apart, penetrate by
 /// more than `slack`, or share no more than `slack` of length.
 pub fn facing_overlap(
     first: [Point2<f64>; 2],
@@ -98,6 +102,10 @@ pub fn facing_overlap(
     if gap.iter().any(|g| *g < -slack || *g > slack + limit) {
         return None;
     }
-    let gap = gap.map(|g| if g.abs() <= slack { 0.0 } else { g });
+    // Where gaps are asked for they are kept, down to what rounding makes of the coordinates.
+    let ends = first.iter().chain(&second).flat_map(|p| [p.x, p.y]);
+    let rounding = ROUNDING * ends.fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let touching = if limit > 0.0 { rounding.min(slack) } else { slack };
+    let gap = gap.map(|g| if g <= touching { 0.0 } else { g });
     Some(SegmentOverlap { on_first, on_second, normal, gap })
 }

@@ -203,9 +203,8 @@ impl Checkpoint {
             .map(|moved| moved.iter().map(|u| Vector2::from(*u)).collect())
             .collect();
         let contacts = self.contacts.clone();
-        let films = recover::film_stresses(model, &displacements, &contacts);
-        let stresses =
-            if with_stresses { recover::stresses(model, &displacements) } else { Vec::new() };
+        let (stresses, films) =
+            recover::wanted_stresses(model, &displacements, &contacts, with_stresses);
         Ok(State { displacements, contacts, films, stresses, strain_energy: self.strain_energy })
     }
 }

@@ -102,6 +102,7 @@ struct ForceUnits {
 struct Balance {
     force: f64,
     moment: f64,
+    uncarried_load: f64,
     cone_violation: f64,
     penetration: f64,
 }
@@ -191,6 +192,7 @@ impl<'a> Report<'a> {
             balance: checks.map(|checks| Balance {
                 force: checks.force_balance,
                 moment: checks.moment_balance,
+                uncarried_load: checks.uncarried,
                 cone_violation: checks.cone_violation,
                 penetration: checks.penetration,
             }),

@@ -44,13 +44,14 @@ pub fn report(outcome: &Outcome) -> String {
 
 /// The plan: effects with their reasons, sizes, and the solver.
 pub fn plan(plan: &Plan) -> String {
-    let mut table = table(&["effect", "", "unknowns", "because"], &[2]);
+    let mut table = table(&["effect", "", "unknowns", "because", "expected cost"], &[2]);
     for effect in &plan.effects {
         table.add_row(vec![
             effect.name.to_owned(),
             if effect.on { "on" } else { "off" }.to_owned(),
             effect.unknowns.to_string(),
             effect.because.clone(),
+            effect.cost.clone(),
         ]);
     }
     let sizes = format!(
@@ -183,6 +184,7 @@ fn state_figures(outcome: &Outcome, state: &State) -> Vec<(&'static str, String)
         let errors = [
             ("force", checks.force_balance),
             ("moment", checks.moment_balance),
+            ("uncarried load", checks.uncarried),
             ("cone violation", checks.cone_violation),
             ("penetration", checks.penetration),
         ];

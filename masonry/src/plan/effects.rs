@@ -1,40 +1,83 @@
-//! What calls for each effect.
+//! What calls for each effect, and what it costs.
 
 use std::collections::BTreeSet;
 
-use super::{Effect, film_compliances, nodes, stretching_points, unknowns_per_friction};
+use super::sizes::Sizes;
+use super::{Choice, Effect};
 use crate::model::{Block, Model};
-use crate::routes::alm::Strips;
 use crate::scene::{Films, Form, Route, Scene};
 
-/// All effects that a scene can call for.
-pub(super) fn of(scene: &Scene, model: &Model, route: Route) -> Vec<Effect> {
+/// All effects that a scene can call for in a single step, for the route that is tried first.
+pub(super) fn of(scene: &Scene, model: &Model, sizes: &Sizes, first: &Choice) -> Vec<Effect> {
+    let route = FirstRoute { with: first, form: scene.solver.form };
     vec![
-        contact(scene, model),
-        friction(scene, model, route),
-        mortar_films(scene, model, route),
-        longitudinal_terms(scene, model, route),
-        deformation(scene, model),
+        contact(scene, model, sizes, &route),
+        friction(model, sizes, &route),
+        mortar_films(scene, model, sizes, &route),
+        longitudinal_terms(scene, model, sizes, &route),
+        deformation(scene, sizes, &route),
         self_weight(scene, model),
         edge_loads(scene, model),
         stresses(scene, model),
+        dense_matrices(&route),
     ]
 }
 
-fn contact(scene: &Scene, model: &Model) -> Effect {
+/// The right-hand side of the equations is there anyway.
+pub(super) const RIGHT_HAND_SIDE: &str = "numbers on the right-hand side only";
+
+/// The route that is tried first.
+struct FirstRoute<'a> {
+    with: &'a Choice,
+    form: Form,
+}
+
+impl FirstRoute<'_> {
+    fn pivots(&self) -> bool {
+        matches!(self.with.route, Route::Auto | Route::Lemke)
+    }
+
+    /// An effect without which the sizes would be these.
+    fn on(&self, name: &'static str, because: String, without: &Sizes) -> Effect {
+        let without = without.choice(self.with.route, self.form);
+        let unknowns = self.with.order.saturating_sub(without.order);
+        Effect { unknowns, ..Effect::on(name, because, self.growth(&without)) }
+    }
+
+    /// Numbers in dense matrices grow with the square of the order and the work of pivots with its cube; both
+    /// of sparse factorisations like the memory.
+    fn growth(&self, without: &Choice) -> String {
+        let (order, before) = (self.with.order, without.order);
+        let ratio = |a: usize, b: usize| a as f64 / b.max(1) as f64;
+        let times = |ratio: f64| format!("{} times", rounded(ratio));
+        if order <= before {
+            "no unknowns of the linear systems".to_owned()
+        } else if self.pivots() {
+            let ratio = ratio(order, before);
+            let (numbers, work) = (times(ratio.powi(2)), times(ratio.powi(3)));
+            format!(
+                "order {order} instead of {before}: {numbers} the numbers, {work} the work of pivots"
+            )
+        } else {
+            let memory = times(ratio(self.with.memory_bytes, without.memory_bytes));
+            format!("order {order} instead of {before}: {memory} the memory")
+        }
+    }
+}
+
+fn contact(scene: &Scene, model: &Model, sizes: &Sizes, route: &FirstRoute) -> Effect {
     let limit = scene.contact.gap_limit;
     let near = if limit > 0.0 {
         format!("come within {limit} {}", scene.units.length_name())
     } else {
         "touch".to_owned()
     };
-    let unknowns = model.contacts.len();
     let because = format!("{} of bodies that {near}", count(model.joints.len(), "joint"));
-    Effect { name: "contact", on: unknowns > 0, because, unknowns }
+    let effect = route.on("contact", because, &sizes.without_contact());
+    Effect { cost: "a row for each point".to_owned(), ..effect }
 }
 
-fn friction(scene: &Scene, model: &Model, route: Route) -> Effect {
-    let points = model.contacts.iter().filter(|point| point.mu > 0.0).count();
+fn friction(model: &Model, sizes: &Sizes, route: &FirstRoute) -> Effect {
     let used: BTreeSet<&str> = model
         .joints
         .iter()
@@ -42,24 +85,19 @@ fn friction(scene: &Scene, model: &Model, route: Route) -> Effect {
         .filter(|class| class.mu > 0.0)
         .map(|class| class.name.as_str())
         .collect();
-    let because = if points > 0 {
-        format!("mu > 0 in {}", names(used.into_iter()))
-    } else {
-        "mu = 0 in all joints".to_owned()
-    };
-    let form = if route == Route::Lemke { scene.solver.form } else { Form::Coulomb };
-    let unknowns = unknowns_per_friction(form) * points;
-    Effect { name: "friction", on: points > 0, because, unknowns }
+    if sizes.frictional == 0 {
+        return Effect::off("friction", "mu = 0 in all joints".to_owned());
+    }
+    let because = format!("mu > 0 in {}", names(used.into_iter()));
+    route.on("friction", because, &sizes.without_friction())
 }
 
 /// Each point of a film has a compliance across and, with friction, one along the joint. By pivots they
 /// are added to the diagonal of `A` without new unknowns; on the sparse routes each is a displacement,
 /// but where the augmented Lagrangian method has whole strips.
-fn mortar_films(scene: &Scene, model: &Model, route: Route) -> Effect {
+fn mortar_films(scene: &Scene, model: &Model, sizes: &Sizes, route: &FirstRoute) -> Effect {
+    let name = "mortar films";
     let films = model.joints.iter().filter(|joint| joint.film.is_some()).count();
-    let compliances = film_compliances(model);
-    let without = route == Route::Lemke || route == Route::Alm && Strips::are_in(model);
-    let unknowns = if without { 0 } else { compliances };
     let filled: BTreeSet<&str> = model
         .joints
         .iter()
@@ -67,88 +105,129 @@ fn mortar_films(scene: &Scene, model: &Model, route: Route) -> Effect {
         .map(|joint| model.joint_classes[joint.class].name.as_str())
         .collect();
     let given = scene.joints.values().any(|joint| joint.mortar_thickness() > 0.0);
-    let because = if films > 0 {
-        let (films, entries) = (count(films, "film"), count(compliances, "compliance"));
-        format!("thickness given for {}: {films}, {entries}", names(filled.into_iter()))
-    } else if given {
-        "no joint belongs to a class with a thickness".to_owned()
-    } else {
-        "no joint class has a thickness: all joints are dry".to_owned()
-    };
-    Effect { name: "mortar films", on: films > 0, because, unknowns }
+    if films == 0 {
+        let because = if given {
+            "no joint belongs to a class with a thickness"
+        } else {
+            "no joint class has a thickness: all joints are dry"
+        };
+        return Effect::off(name, because.to_owned());
+    }
+    let compliances = count(sizes.compliances(), "compliance");
+    let films = count(films, "film");
+    let because =
+        format!("thickness given for {}: {films}, {compliances}", names(filled.into_iter()));
+    let effect = route.on(name, because, &sizes.without_films());
+    if route.pivots() {
+        let cost = format!("{compliances} on the diagonal of A");
+        return Effect { cost, ..effect };
+    }
+    effect
 }
 
 /// Each point of a strip at an elastic block has the stiffness of a bar along the joint, and its gap a term
 /// by the strain there. Neither is an unknown, but for the forces of the bars in the mixed form.
-fn longitudinal_terms(scene: &Scene, model: &Model, route: Route) -> Effect {
-    let points = stretching_points(model);
+fn longitudinal_terms(scene: &Scene, model: &Model, sizes: &Sizes, route: &FirstRoute) -> Effect {
+    let name = "longitudinal film terms";
     let has_films = model.joints.iter().any(|joint| joint.film.is_some());
-    let because = if points > 0 {
-        format!("contact.films = \"strips\": {} along the joints", count(points, "bar"))
-    } else if !has_films {
-        "there are no mortar films".to_owned()
-    } else if scene.contact.films == Films::Compliance {
-        "contact.films = \"compliance\": films act across their joints only".to_owned()
+    if sizes.bars == 0 {
+        let because = if !has_films {
+            "there are no mortar films"
+        } else if scene.contact.films == Films::Compliance {
+            "contact.films = \"compliance\": films act across their joints only"
+        } else {
+            "rigid blocks stretch no film"
+        };
+        return Effect::off(name, because.to_owned());
+    }
+    let bars = count(sizes.bars, "bar");
+    let because = format!("contact.films = \"strips\": {bars} along the joints");
+    let effect = route.on(name, because, &sizes.without_bars());
+    let cost = if route.pivots() {
+        format!("a dense matrix of {bars}, which couples all blocks in A")
     } else {
-        "rigid blocks stretch no film".to_owned()
+        "entries of K between the blocks on both sides".to_owned()
     };
-    let mixed = route == Route::Lemke && scene.solver.form == Form::Mixed;
-    let unknowns = if mixed { 2 * points } else { 0 };
-    Effect { name: "longitudinal film terms", on: points > 0, because, unknowns }
+    Effect { cost, ..effect }
 }
 
-fn deformation(scene: &Scene, model: &Model) -> Effect {
-    let elastic = model.blocks.iter().filter(|block| block.elasticity.is_some()).count();
-    let because = if elastic > 0 {
-        let of_walls = scene.walls.iter().map(|wall| wall.material.as_str());
-        let used: BTreeSet<&str> =
-            of_walls.chain(scene.blocks.iter().map(|block| block.material.as_str())).collect();
-        let elastic = |name: &&str| scene.materials.get(*name).is_some_and(|m| m.young.is_some());
-        format!("E given for {}", names(used.into_iter().filter(elastic)))
-    } else {
-        "no material has E: all blocks are rigid".to_owned()
-    };
-    Effect { name: "deformation", on: elastic > 0, because, unknowns: 2 * nodes(model) }
+fn deformation(scene: &Scene, sizes: &Sizes, route: &FirstRoute) -> Effect {
+    if sizes.nodal == 0 {
+        let because = "no material of a block has E: all blocks are rigid";
+        return Effect::off("deformation", because.to_owned());
+    }
+    let of_walls = scene.walls.iter().map(|wall| wall.material.as_str());
+    let used: BTreeSet<&str> =
+        of_walls.chain(scene.blocks.iter().map(|block| block.material.as_str())).collect();
+    let elastic = |name: &&str| scene.materials.get(*name).is_some_and(|m| m.young.is_some());
+    let because = format!("E given for {}", names(used.into_iter().filter(elastic)));
+    let effect = route.on("deformation", because, &sizes.without_deformation());
+    if route.pivots() {
+        let displacements = count(sizes.nodal, "displacement");
+        let cost = format!("{displacements}, eliminated block by block; a dense A");
+        return Effect { cost, ..effect };
+    }
+    effect
 }
 
 fn self_weight(scene: &Scene, model: &Model) -> Effect {
+    let name = "self weight";
     let pulls = model.gravity.norm() > 0.0;
     let heavy = model.blocks.iter().any(|block| block.density.is_some());
-    let because = match (pulls, heavy) {
+    let missing = match (pulls, heavy) {
         (true, true) => {
             let given = scene.materials.iter().filter(|(_, material)| material.density.is_some());
-            format!(
-                "gravity, and density given for {}",
-                names(given.map(|(name, _)| name.as_str()))
-            )
+            let given = names(given.map(|(name, _)| name.as_str()));
+            let because = format!("gravity, and density given for {given}");
+            return Effect::on(name, because, RIGHT_HAND_SIDE.to_owned());
         }
-        (true, false) => "no material of a block has a density".to_owned(),
-        (false, true) => "the scene gives no gravity".to_owned(),
-        (false, false) => "the scene gives neither gravity nor density".to_owned(),
+        (true, false) => "no material of a block has a density",
+        (false, true) => "the scene gives no gravity",
+        (false, false) => "the scene gives neither gravity nor density",
     };
-    Effect { name: "self weight", on: pulls && heavy, because, unknowns: 0 }
+    Effect::off(name, missing.to_owned())
 }
 
 fn edge_loads(scene: &Scene, model: &Model) -> Effect {
     let edges: usize = model.blocks.iter().map(|block| block.edge_loads.len()).sum();
-    let because = if edges > 0 {
-        let loads = names(scene.loads.iter().map(|load| load.name.as_str()));
-        format!("{loads} on {}", count(edges, "edge"))
-    } else {
-        "the scene gives no loads".to_owned()
-    };
-    Effect { name: "edge loads", on: edges > 0, because, unknowns: 0 }
+    if edges == 0 {
+        return Effect::off("edge loads", "the scene gives no loads".to_owned());
+    }
+    let loads = names(scene.loads.iter().map(|load| load.name.as_str()));
+    let because = format!("{loads} on {}", count(edges, "edge"));
+    Effect::on("edge loads", because, RIGHT_HAND_SIDE.to_owned())
 }
 
 fn stresses(scene: &Scene, model: &Model) -> Effect {
-    let wanted = scene.output.stresses;
+    let name = "stresses";
     let elements: usize = model.blocks.iter().map(elements).sum();
-    let because = match (wanted, elements) {
-        (false, _) => "output.stresses = false".to_owned(),
-        (true, 0) => "rigid blocks have none".to_owned(),
-        (true, elements) => format!("output shows them in {}", count(elements, "element")),
-    };
-    Effect { name: "stresses", on: wanted && elements > 0, because, unknowns: 0 }
+    let films = model.joints.iter().filter(|joint| joint.film.is_some()).count();
+    let places: Vec<String> = [(elements, "element"), (films, "film")]
+        .into_iter()
+        .filter(|(number, _)| *number > 0)
+        .map(|(number, what)| count(number, what))
+        .collect();
+    if !scene.output.stresses {
+        return Effect::off(name, "output.stresses = false".to_owned());
+    }
+    if places.is_empty() {
+        return Effect::off(name, "rigid blocks have none".to_owned());
+    }
+    let because = format!("output shows them in {}", places.join(" and "));
+    Effect::on(name, because, "once, after the solve".to_owned())
+}
+
+fn dense_matrices(route: &FirstRoute) -> Effect {
+    let name = "dense matrices";
+    let numbers = route.with.dense_numbers;
+    let route_name = route.with.route.name();
+    if numbers == 0 {
+        let because = format!("the route {route_name} works on sparse matrices");
+        return Effect::off(name, because);
+    }
+    let because = format!("the route {route_name} works on the problem reduced to contact forces");
+    let cost = format!("{:.0e} numbers at the peak", numbers as f64);
+    Effect::on(name, because, cost)
 }
 
 fn elements(block: &Block) -> usize {
@@ -161,4 +240,8 @@ fn count(number: usize, what: &str) -> String {
 
 fn names<'a>(names: impl Iterator<Item = &'a str>) -> String {
     names.collect::<Vec<_>>().join(", ")
+}
+
+fn rounded(ratio: f64) -> String {
+    if ratio < 10.0 { format!("{ratio:.1}") } else { format!("{ratio:.0}") }
 }

@@ -1,6 +1,7 @@
 //! Whether the way to the last state matters, and so whether there is a load history.
 
 use super::Effect;
+use super::effects::RIGHT_HAND_SIDE;
 use crate::history::moving_supports;
 use crate::model::Model;
 use crate::scene::Scene;
@@ -13,33 +14,36 @@ pub(super) fn steps(scene: &Scene, model: &Model) -> usize {
 /// The effects that only a load history calls for.
 pub(super) fn effects(scene: &Scene, model: &Model) -> [Effect; 3] {
     let (stages, asked, steps) = (scene.stages.len(), asked(scene), steps(scene, model));
-    let because = match (stages, asked) {
-        (0, _) => "the scene has no stages: all loads act at once".to_owned(),
-        (_, 1) => "one stage of one step: the law of one step".to_owned(),
+    let off = |name, because: &str| Effect::off(name, because.to_owned());
+    let on = |name, because: String, cost: &str| Effect::on(name, because, cost.to_owned());
+
+    let history = match (stages, asked) {
+        (0, _) => off("load history", "the scene has no stages: all loads act at once"),
+        (_, 1) => off("load history", "one stage of one step: the law of one step"),
         _ if steps == 1 => {
-            "mu = 0 in all joints: the last state does not depend on the way".to_owned()
+            off("load history", "mu = 0 in all joints: the last state does not depend on the way")
         }
-        _ => format!(
-            "{stages} stage{} of {asked} steps in all, and friction: slip is carried over",
-            if stages == 1 { "" } else { "s" }
-        ),
+        _ => {
+            let stages = format!("{stages} stage{}", if stages == 1 { "" } else { "s" });
+            let because =
+                format!("{stages} of {asked} steps in all, and friction: slip is carried over");
+            on("load history", because, &format!("{steps} solves instead of one"))
+        }
     };
-    let off = |name, because: String| Effect { name, on: false, because, unknowns: 0 };
-    let history = Effect { on: steps > 1, ..off("load history", because) };
 
     let moving = moving_supports(scene);
     let movements = if moving.is_empty() {
-        off("support movements", "no stage moves a support".to_owned())
+        off("support movements", "no stage moves a support")
     } else {
         let because = format!("stages move {}: gaps and slips are shifted", moving.join(", "));
-        Effect { on: true, ..off("support movements", because) }
+        on("support movements", because, RIGHT_HAND_SIDE)
     };
 
     let dissipation = if history.on {
         let because = "friction and a load history".to_owned();
-        Effect { on: true, ..off("dissipation", because) }
+        on("dissipation", because, "a sum over contact points in every step")
     } else {
-        off("dissipation", "there is no load history".to_owned())
+        off("dissipation", "there is no load history")
     };
     [history, movements, dissipation]
 }

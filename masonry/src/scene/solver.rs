@@ -49,6 +49,8 @@ pub enum Route {
     Lemke,
     /// The interior-point method on the sparse problem with all displacements.
     Interior,
+    /// Newton's method on the states of the contacts, on the sparse problem.
+    Newton,
     /// Convex quadratic programs on the sparse problem, a sequence of them for friction.
     Qp,
     /// Projected Gauss-Seidel sweeps on the sparse problem, with blocks held by springs that
@@ -66,6 +68,7 @@ impl Route {
             Self::Auto => "auto",
             Self::Lemke => "lemke",
             Self::Interior => "interior",
+            Self::Newton => "newton",
             Self::Qp => "qp",
             Self::Pgs => "pgs",
             Self::Alm => "alm",

@@ -17,6 +17,7 @@ use crate::reduction::Reduction;
 use crate::routes::alm::{Multipliers, Strips};
 use crate::routes::interior::Interior;
 use crate::routes::lemke::Pivots;
+use crate::routes::newton::Newton;
 use crate::routes::pgs::Sweeps;
 use crate::routes::qp::Programs;
 use crate::routes::{Answer, Method, Request, Step};
@@ -170,6 +171,7 @@ impl<'a> Chain<'a> {
             None => self.clock.time("sparse form", self.observer, || Sparse::new(system))?,
         };
         let answer = match route {
+            Route::Newton => self.timed(&Newton { sparse: &sparse }),
             Route::Qp => self.timed(&Programs { sparse: &sparse }),
             Route::Pgs => self.timed(&Sweeps { sparse: &sparse }),
             Route::Alm if Strips::are_in(model) => {

@@ -50,16 +50,20 @@ use crate::system::System;
 #[derive(Debug)]
 pub struct Run {
     title: String,
-    /// The model with all loads in full and all supports in their places.
+    /// The model under the only step; where there are several, with all loads in full and all supports in
+    /// their places.
     model: Model,
     plan: Plan,
     system: System,
     steps: Vec<Step>,
     loads: Vec<String>,
-    /// What a checkpoint must have been made of.
+    /// What a checkpoint must have been made of; empty for one step, which has none.
     origin: String,
     request: Request,
     with_stresses: bool,
+    /// How many steps were solved.
+    solved: usize,
+    /// What they came to; empty for one step.
     records: Vec<StepRecord>,
     reached: Option<Reached>,
     last: Option<Last>,
@@ -79,9 +83,16 @@ const UNKNOWN: lcp::Residuals = lcp::Residuals {
 /// What the last step that was solved has come to.
 #[derive(Debug)]
 struct Reached {
-    model: Model,
     state: State,
     checks: Option<Checks>,
+    /// The step as the next one needs it; `None` where there is only one.
+    in_history: Option<InHistory>,
+}
+
+/// The model of a step, and what tells the work to the next one.
+#[derive(Debug)]
+struct InHistory {
+    model: Model,
     snapshot: Snapshot,
 }
 
@@ -102,11 +113,17 @@ impl Run {
         observer: &mut dyn FnMut(Event) -> ControlFlow<()>,
     ) -> Result<Self, SolveError> {
         let mut clock = Clock::default();
-        let model = clock.time("model", observer, || Model::from_scene(scene))?;
+        let mut model = clock.time("model", observer, || Model::from_scene(scene))?;
         let plan = Plan::of(scene, &model);
         check_size(&plan)?;
         let mut steps = history::steps(scene);
         steps.drain(..steps.len() - plan.steps);
+        let origin = if let [only] = steps.as_slice() {
+            model.act(&only.actions);
+            String::new()
+        } else {
+            Checkpoint::origin_of(scene)?
+        };
         let build = if plan.dense_numbers() > 0 { System::new } else { System::without_factors };
         let system = clock.time("system", observer, || build(&model))?;
         let Solver { tolerance, form, max_pivots, soft, .. } = scene.solver;
@@ -118,9 +135,10 @@ impl Run {
             system,
             steps,
             loads: scene.loads.iter().map(|load| load.name.clone()).collect(),
-            origin: Checkpoint::origin_of(scene)?,
+            origin,
             request: Request { tolerance, form, max_pivots, soft },
             with_stresses: scene.output.stresses,
+            solved: 0,
             records: Vec::new(),
             reached: None,
             last: None,
@@ -167,8 +185,10 @@ impl Run {
         if !checks.hold(self.request.tolerance.max(record.residuals.worst())) {
             return Err(CheckpointError::NoEquilibrium.into());
         }
-        self.reached = Some(Reached { model, state, checks: Some(checks), snapshot });
+        let in_history = Some(InHistory { model, snapshot });
+        self.reached = Some(Reached { state, checks: Some(checks), in_history });
         self.last = Some(Last { info, mechanism: None });
+        self.solved = records.len();
         self.records.clone_from(records);
         self.basis = checkpoint.basis(self.system.rows.len() + self.system.friction.len());
         Ok(self)
@@ -183,23 +203,26 @@ impl Run {
         observer: &mut dyn FnMut(Event) -> ControlFlow<()>,
     ) -> Result<bool, SolveError> {
         let is_over = self.last.as_ref().is_some_and(|last| last.info.status != Status::Solved);
-        let Some(step) = self.steps.get(self.records.len()).filter(|_| !is_over).cloned() else {
+        let Some(step) = self.steps.get(self.solved).filter(|_| !is_over).cloned() else {
             return Ok(false);
         };
-        if self.has_history() {
-            let (number, of) = (self.records.len() + 1, self.steps.len());
+        let stepped = self.has_history().then(|| {
+            let slips = self.slips();
+            (self.model.under(&step.actions, &slips), slips)
+        });
+        if let Some((model, _)) = &stepped {
+            let (number, of) = (self.solved + 1, self.steps.len());
             let _ = observer(Event::Step { number, of });
+            self.system.reload(model);
         }
-        let slips = self.slips();
-        let model = self.model.under(&step.actions, &slips);
-        self.system.reload(&model);
+        let model = stepped.as_ref().map_or(&self.model, |(model, _)| model);
         let wanted = (self.request, self.with_stresses);
-        let parts = (&model, &self.system);
+        let parts = (model, &self.system);
         let start = self.basis.take();
         let found = Chain::new(parts, wanted, start, &mut self.clock, observer);
         match found.run(&self.plan.routes) {
-            Ok(found) => self.take(step, model, &slips, found),
-            Err(error) if self.records.is_empty() => return Err(error),
+            Ok(found) => self.take(step, stepped, found),
+            Err(error) if self.solved == 0 => return Err(error),
             Err(error) => {
                 let info = SolveInfo::new(Status::NumericalTrouble, UNKNOWN);
                 self.last = Some(Last { info, mechanism: None });
@@ -220,7 +243,8 @@ impl Run {
     }
 
     /// Keeps a step that was solved; of one that was not, its state only where there is none before.
-    fn take(&mut self, step: Step, model: Model, slips: &[f64], found: Attempt) {
+    /// Of the only step there is nothing to remember but its state.
+    fn take(&mut self, step: Step, stepped: Option<(Model, Vec<f64>)>, found: Attempt) {
         let Attempt { mut info, state, checks, mechanism, basis } = found;
         self.basis = basis;
         if let Some(mut state) = state {
@@ -228,34 +252,53 @@ impl Run {
             if !opposes(dissipation, &state, self.request.tolerance) {
                 info.status = Status::AlmostSolved;
             }
-            let steps = model.contacts.iter().zip(&mut state.contacts).zip(slips);
-            let frictional = steps.filter(|((contact, _), _)| contact.mu > 0.0);
-            frictional.for_each(|((_, contact), slip)| contact.y_t += slip);
-            let snapshot = Snapshot::of(&model, &self.system, &state);
-            if info.status == Status::Solved {
-                let before = self.reached.as_ref().map(|reached| &reached.snapshot);
-                let work = match before {
-                    Some(before) => before.work_to(&snapshot),
-                    None => snapshot.at_rest().work_to(&snapshot),
-                };
-                let largest = state.displacements.iter().flatten().map(nalgebra::Matrix::amax);
-                self.records.push(StepRecord {
-                    step,
-                    route: info.route,
-                    residuals: info.residuals,
-                    work,
-                    dissipation: dissipation.max(0.0),
-                    strain_energy: state.strain_energy,
-                    largest_displacement: largest.fold(0.0, f64::max),
-                    contacts: checks.as_ref().map_or([0; 3], |it| [it.open, it.stick, it.slip]),
-                    reactions: recover::reactions(&model, &state.contacts),
-                });
-            }
-            if info.status == Status::Solved || self.reached.is_none() {
-                self.reached = Some(Reached { model, state, checks, snapshot });
+            let in_history = stepped.map(|(model, slips)| {
+                let steps = model.contacts.iter().zip(&mut state.contacts).zip(slips);
+                let frictional = steps.filter(|((contact, _), _)| contact.mu > 0.0);
+                frictional.for_each(|((_, contact), slip)| contact.y_t += slip);
+                let snapshot = Snapshot::of(&model, &self.system, &state);
+                InHistory { model, snapshot }
+            });
+            let is_solved = info.status == Status::Solved;
+            if is_solved || self.reached.is_none() {
+                let reached = Reached { state, checks, in_history };
+                if is_solved {
+                    self.solved += 1;
+                    self.records.extend(self.record(step, &info, dissipation, &reached));
+                }
+                self.reached = Some(reached);
             }
         }
         self.last = Some(Last { info, mechanism });
+    }
+
+    /// The record of a step that follows the last one reached; `None` where there is no history.
+    fn record(
+        &self,
+        step: Step,
+        info: &SolveInfo,
+        dissipation: f64,
+        reached: &Reached,
+    ) -> Option<StepRecord> {
+        let Reached { state, checks, in_history } = reached;
+        let InHistory { model, snapshot } = in_history.as_ref()?;
+        let before = self.reached.as_ref().and_then(|it| it.in_history.as_ref());
+        let work = match before {
+            Some(before) => before.snapshot.work_to(snapshot),
+            None => snapshot.at_rest().work_to(snapshot),
+        };
+        let largest = state.displacements.iter().flatten().map(nalgebra::Matrix::amax);
+        Some(StepRecord {
+            step,
+            route: info.route,
+            residuals: info.residuals,
+            work,
+            dissipation: dissipation.max(0.0),
+            strain_energy: state.strain_energy,
+            largest_displacement: largest.fold(0.0, f64::max),
+            contacts: checks.as_ref().map_or([0; 3], |it| [it.open, it.stick, it.slip]),
+            reactions: recover::reactions(model, &state.contacts),
+        })
     }
 
     /// Whether there are several steps.
@@ -265,12 +308,12 @@ impl Run {
 
     /// How many steps were solved.
     pub fn solved_steps(&self) -> usize {
-        self.records.len()
+        self.solved
     }
 
     /// Everything that the next step needs; `None` before the first, and for a scene of one step.
     pub fn checkpoint(&self) -> Option<Checkpoint> {
-        let reached = self.reached.as_ref().filter(|_| self.has_history())?;
+        let reached = self.reached.as_ref()?;
         (!self.records.is_empty()).then(|| {
             let reached = (&reached.state, self.basis.as_ref());
             Checkpoint::new(self.origin.clone(), self.records.clone(), reached)
@@ -279,7 +322,7 @@ impl Run {
 
     /// The outcome: the state after the last step that was solved.
     pub fn finish(self) -> Outcome {
-        let failed = self.steps.get(self.records.len()).cloned();
+        let failed = self.steps.get(self.solved).cloned();
         let Last { info, mechanism } = self.last.unwrap_or_else(|| {
             let info = SolveInfo::new(Status::Cancelled, UNKNOWN);
             Last { info, mechanism: None }
@@ -287,7 +330,9 @@ impl Run {
         let steps = self.steps.len();
         let history = History { records: self.records, failed, steps, loads: self.loads };
         let (model, state, checks) = match self.reached {
-            Some(Reached { model, state, checks, .. }) => (model, Some(state), checks),
+            Some(Reached { state, checks, in_history }) => {
+                (in_history.map_or(self.model, |it| it.model), Some(state), checks)
+            }
             None => (self.model, None, None),
         };
         let contacts = state.as_ref().map(|state| &state.contacts);

@@ -11,7 +11,9 @@ use crate::rigid::Modes;
 /// Consistent nodal loads \[N\] of self weight and edge loads, two per node.
 pub fn nodal_loads(model: &Model, block: &Block, mesh: &BlockMesh) -> Vec<f64> {
     let mut load = vec![0.0; 2 * mesh.nodes.len()];
-    if let Some(density) = block.density {
+    if let Some(density) = block.density
+        && model.gravity.norm() > 0.0
+    {
         for element in &mesh.elements {
             let nodes = element.map(|n| mesh.nodes[n]);
             let local = quad4::body_load(&nodes, model.gravity * density, model.thickness);

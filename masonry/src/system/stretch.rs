@@ -45,9 +45,17 @@ pub(super) fn add_rows(model: &Model, bodies: &mut [BodySystem]) -> Vec<StretchR
             let Some(mesh) = &model.blocks[id].mesh else { continue };
             let mut entries = entries(mesh, end, tangent * 0.5);
             entries.extend(self::entries(mesh, start, tangent * -0.5));
-            bodies[id].stretches.push(BodyStretch { row: rows.len(), entries });
+            bodies[id].stretches.push(BodyStretch { row: rows.len(), entries: summed(entries) });
         }
         rows.push(StretchRow { contact: ContactId::new(k), stiffness: stretch.stiffness });
     }
     rows
+}
+
+/// One entry for every degree of freedom. Both ends of a short part hang on the same nodes, and what remains of their
+/// entries is small: left apart, the stiff bar would lose it among products that cancel.
+fn summed(mut entries: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
+    entries.sort_by_key(|(dof, _)| *dof);
+    let same = entries.chunk_by(|(a, _), (b, _)| a == b);
+    same.map(|list| (list[0].0, list.iter().map(|(_, v)| v).sum())).collect()
 }

@@ -45,6 +45,7 @@ pub(crate) fn solved(wall: Wall) -> Outcome {
     let checks = Checks {
         force_balance: 3.1e-15,
         moment_balance: 8.0e-15,
+        uncarried: 0.0,
         cone_violation: 0.0,
         penetration: 2.2e-16,
         open: count(ContactStatus::Open),
@@ -346,6 +347,7 @@ fn plan(model: &Model) -> Plan {
         on,
         because: because.to_owned(),
         unknowns,
+        cost: if on { "some memory" } else { "none" }.to_owned(),
     };
     let m = model.contacts.len();
     Plan {

@@ -23,7 +23,7 @@ const FEW_DECADES: i32 = 3;
 const MARKER: f64 = 4.5;
 
 /// Colours that differ also for those who see few of them (Okabe and Ito), each with its own marker.
-const COLOURS: [&str; 5] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b"];
+const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#4d4d4d"];
 
 /// A line through points, in their order.
 #[derive(Debug, Clone)]

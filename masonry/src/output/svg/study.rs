@@ -120,6 +120,32 @@ pub fn springs(study: &Study) -> Option<String> {
     diagram(&titles, &lines, &notes)
 }
 
+/// Time against size, of studies of one pattern: one line for each route, on the first mesh of every study, at the
+/// tolerance nearest to the one given. `None` where nothing was solved.
+pub fn sizes(title: &str, studies: &[Study], tolerance: f64) -> Option<String> {
+    let routes = studies.first()?.routes();
+    let line = |route: &Route| {
+        let time = |study: &Study| {
+            let points = study.meshes.first()?.contact_points;
+            let solved = |it: &&Record| it.route == *route && it.end.is_solved();
+            let distance = |it: &Record| (it.tolerance / tolerance).ln().abs();
+            let nearest = study
+                .on_first_mesh()
+                .filter(solved)
+                .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+            Some([points as f64, nearest.seconds?])
+        };
+        Line {
+            name: route.name().to_owned(),
+            style: style(*route),
+            points: studies.iter().filter_map(time).collect(),
+        }
+    };
+    let lines: Vec<Line> = routes.iter().map(line).collect();
+    let y = format!("time of one solve to {tolerance:e} [s]");
+    diagram(&Titles { title, x: "contact points", y: &y }, &lines, &[])
+}
+
 /// A note, where errors are below what is drawn.
 fn rounded(lines: &[Line]) -> Option<String> {
     let errors = lines.iter().flat_map(|line| line.points.iter().map(|[_, error]| *error));
@@ -135,5 +161,6 @@ fn style(route: Route) -> usize {
         Route::Qp => 2,
         Route::Pgs => 3,
         Route::Alm => 4,
+        Route::Newton => 5,
     }
 }

@@ -8,11 +8,11 @@ use crate::{Contact2d, MixedLcp};
 
 /// A contact problem whose stiffness, forces and gaps are of order one whatever the units: with the
 /// displacements `u = length * column * u'`, forces `t = force * t'`, gaps and slips `y = length * y'`.
-pub(super) struct Scaled {
+pub(crate) struct Scaled {
     /// Stiffness, columns of `(row, value)` one after the other.
-    pub(super) k: SparseColMat<usize, f64>,
-    pub(super) f: Vec<f64>,
-    pub(super) points: Vec<Point>,
+    pub(crate) k: SparseColMat<usize, f64>,
+    pub(crate) f: Vec<f64>,
+    pub(crate) points: Vec<Point>,
     column: Vec<f64>,
     force: f64,
     length: f64,
@@ -20,31 +20,31 @@ pub(super) struct Scaled {
 }
 
 /// A contact point: the displacements that it depends on, with their coefficients in gap and slip.
-pub(super) struct Point {
-    pub(super) columns: Vec<usize>,
-    pub(super) normal: Vec<f64>,
-    pub(super) tangent: Vec<f64>,
-    pub(super) x_0: f64,
-    pub(super) s_0: f64,
-    pub(super) mu: f64,
+pub(crate) struct Point {
+    pub(crate) columns: Vec<usize>,
+    pub(crate) normal: Vec<f64>,
+    pub(crate) tangent: Vec<f64>,
+    pub(crate) x_0: f64,
+    pub(crate) s_0: f64,
+    pub(crate) mu: f64,
 }
 
 impl Point {
-    pub(super) fn gap(&self, u: &[f64]) -> f64 {
+    pub(crate) fn gap(&self, u: &[f64]) -> f64 {
         self.x_0 + dot(&self.normal, &self.columns, u)
     }
 
-    pub(super) fn slip(&self, u: &[f64]) -> f64 {
+    pub(crate) fn slip(&self, u: &[f64]) -> f64 {
         self.s_0 + dot(&self.tangent, &self.columns, u)
     }
 
     /// The changes of gap and slip by a step of the displacements, which may be far smaller than both.
-    pub(super) fn moved(&self, u: &[f64]) -> (f64, f64) {
+    pub(crate) fn moved(&self, u: &[f64]) -> (f64, f64) {
         (dot(&self.normal, &self.columns, u), dot(&self.tangent, &self.columns, u))
     }
 
     /// Adds the forces of the point to those on the displacements.
-    pub(super) fn add_forces(&self, t_n: f64, t_t: f64, out: &mut [f64]) {
+    pub(crate) fn add_forces(&self, t_n: f64, t_t: f64, out: &mut [f64]) {
         for ((&j, n), t) in self.columns.iter().zip(&self.normal).zip(&self.tangent) {
             out[j] += n * t_n + t * t_t;
         }
@@ -56,7 +56,7 @@ fn dot(row: &[f64], columns: &[usize], u: &[f64]) -> f64 {
 }
 
 impl Scaled {
-    pub(super) fn of_contact(problem: &Contact2d) -> Self {
+    pub(crate) fn of_contact(problem: &Contact2d) -> Self {
         let n = problem.displacements();
         let column = columns(problem);
         let diagonal = diagonal(problem.stiffness());
@@ -108,7 +108,7 @@ impl Scaled {
 
     /// A mixed problem as one of contact without friction: stiffness `M`, loads `-q`, and a contact for
     /// every variable that is not free, whose gap it is.
-    pub(super) fn of_mixed(problem: &MixedLcp) -> Self {
+    pub(crate) fn of_mixed(problem: &MixedLcp) -> Self {
         let m = problem.m().clone().into_sparse();
         let n = problem.order();
         let mut largest = vec![0.0_f64; n];
@@ -149,43 +149,43 @@ impl Scaled {
     }
 
     /// Of a mixed problem, where the units of its variables or rows are far apart.
-    pub(super) fn own_units(&self) -> Option<&OwnUnits> {
+    pub(crate) fn own_units(&self) -> Option<&OwnUnits> {
         self.own_units.as_ref()
     }
 
     /// The unit of contact forces.
-    pub(super) fn force(&self) -> f64 {
+    pub(crate) fn force(&self) -> f64 {
         self.force
     }
 
     /// The unit of the force on a displacement.
-    pub(super) fn force_of(&self, j: usize) -> f64 {
+    pub(crate) fn force_of(&self, j: usize) -> f64 {
         self.force / self.column[j]
     }
 
     /// Displacements in the units of the original problem.
-    pub(super) fn displacements(&self, u: &[f64]) -> Vec<f64> {
+    pub(crate) fn displacements(&self, u: &[f64]) -> Vec<f64> {
         u.iter().zip(&self.column).map(|(u, d)| u * d * self.length).collect()
     }
 
     /// Displacements in the units of this problem.
-    pub(super) fn of_displacements(&self, u: &[f64]) -> Vec<f64> {
+    pub(crate) fn of_displacements(&self, u: &[f64]) -> Vec<f64> {
         u.iter().zip(&self.column).map(|(u, d)| u / d / self.length).collect()
     }
 
     /// Whether every displacement has a stiffness, and there is friction.
-    pub(super) fn is_elastic(&self) -> bool {
+    pub(crate) fn is_elastic(&self) -> bool {
         let has_friction = self.points.iter().any(|point| point.mu > 0.0);
         has_friction && diagonal(&self.k).iter().all(|k| *k > 0.0)
     }
 
     /// Number of displacements.
-    pub(super) fn order(&self) -> usize {
+    pub(crate) fn order(&self) -> usize {
         self.f.len()
     }
 
     /// What equilibrium lacks: `f + C^T t - K u`.
-    pub(super) fn unbalanced(
+    pub(crate) fn unbalanced(
         &self,
         u: &[f64],
         forces: impl Iterator<Item = (f64, f64)>,
@@ -201,7 +201,7 @@ impl Scaled {
     }
 
     /// Sums of the sizes of the terms of equilibrium.
-    pub(super) fn terms(&self, u: &[f64], forces: &[(f64, f64)]) -> Vec<f64> {
+    pub(crate) fn terms(&self, u: &[f64], forces: &[(f64, f64)]) -> Vec<f64> {
         let mut terms: Vec<f64> = self.f.iter().map(|f| f.abs()).collect();
         for (j, u) in u.iter().enumerate() {
             column_of(&self.k, j).for_each(|(i, v)| terms[i] += (v * u).abs());
@@ -225,7 +225,7 @@ impl Scaled {
     /// What equations and gaps lack in units of the loads, apart from rounding errors. Residuals are relative
     /// to the terms of their row: where bodies can move without forces, or forces grow without effect, a
     /// point far out makes all terms large and the residuals small, also where there is no solution.
-    pub(super) fn drift(&self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
+    pub(crate) fn drift(&self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
         let rest = self.unbalanced(u, forces.iter().copied());
         let terms = self.terms(u, forces);
         let beyond = |v: f64, terms: f64| {
@@ -247,7 +247,7 @@ impl Scaled {
     /// Largest `min(t, y)` over the pairs, with gaps and slips in units of what the bodies are deformed by:
     /// where one slides far, all gaps are small against that, also those that should carry no force.
     /// Bodies without stiffness have no such unit.
-    pub(super) fn slack(&self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
+    pub(crate) fn slack(&self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
         let mut pulled = vec![0.0; self.order()];
         let mut diagonal = vec![0.0_f64; self.order()];
         for (j, u) in u.iter().enumerate() {

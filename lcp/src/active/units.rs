@@ -14,7 +14,7 @@ const SPREAD: f64 = 1e4;
 /// Residuals measure all variables by the largest one, and rows by the largest term that they could have.
 /// Where units are far apart, the largest variable may be so large that no other counts, and a point with
 /// small residuals is no solution.
-pub(super) struct OwnUnits {
+pub(crate) struct OwnUnits {
     problem: MixedLcp,
     rows: Vec<f64>,
     columns: Vec<f64>,
@@ -22,7 +22,7 @@ pub(super) struct OwnUnits {
 
 impl OwnUnits {
     /// `None` where the problem has no need of them.
-    pub(super) fn of(problem: &MixedLcp) -> Option<Self> {
+    pub(crate) fn of(problem: &MixedLcp) -> Option<Self> {
         let n = problem.order();
         let mut m = problem.m().clone();
         let (mut rows, mut columns) = (vec![1.0; n], vec![1.0; n]);
@@ -46,7 +46,7 @@ impl OwnUnits {
     }
 
     /// The worst residual of a point of the problem as it was given.
-    pub(super) fn residual(&self, z: &[f64], w: &[f64]) -> f64 {
+    pub(crate) fn residual(&self, z: &[f64], w: &[f64]) -> f64 {
         let z: Vec<f64> = z.iter().zip(&self.columns).map(|(z, column)| z / column).collect();
         let w: Vec<f64> = w.iter().zip(&self.rows).map(|(w, row)| w * row).collect();
         self.problem.residuals(&z, &w).worst()

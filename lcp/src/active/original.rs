@@ -6,14 +6,14 @@ use crate::{Basis, Contact2d, ContactState, MixedLcp, Residuals, Side};
 
 /// A point of the general form of a problem.
 #[derive(Debug, Clone)]
-pub(super) struct Judged {
-    pub(super) t: Vec<f64>,
-    pub(super) y: Vec<f64>,
+pub(crate) struct Judged {
+    pub(crate) t: Vec<f64>,
+    pub(crate) y: Vec<f64>,
     /// The state that it is, of a contact problem.
-    pub(super) contact: Option<ContactState>,
-    pub(super) residuals: Residuals,
+    pub(crate) contact: Option<ContactState>,
+    pub(crate) residuals: Residuals,
     /// The largest of the residuals, and of what the equations lack in units of the loads.
-    pub(super) worst: f64,
+    pub(crate) worst: f64,
 }
 
 impl Judged {
@@ -23,7 +23,7 @@ impl Judged {
 }
 
 /// A problem as it was given.
-pub(super) trait Original {
+pub(crate) trait Original {
     /// Whether soft springs that keep their share of the load are evidence against a solution. They are none
     /// where the stiffness may be that of no body.
     fn has_bodies(&self) -> bool;

@@ -1,9 +1,8 @@
 //! From a point inside to the exact one on the boundary: the state of every contact is guessed, the
 //! equations of these states are solved, and the few contacts that contradict change their state.
 
+use super::PROXIMAL;
 use super::condensed::{Condensed, Springs};
-use super::iterate::{Iterate, Pairs};
-use super::path::PROXIMAL;
 use super::scaled::{Point, Scaled};
 use crate::problem::max_abs;
 use crate::residual::ratio;
@@ -23,20 +22,20 @@ const SMALLER: f64 = 0.1;
 const ROUNDING: f64 = 1e-13;
 
 /// How much is spent on exchanges. Every round costs a factorisation, as a step of the iteration does.
-pub(super) struct Effort {
+pub(crate) struct Effort {
     /// Rounds of exchanges.
-    rounds: usize,
+    pub(crate) rounds: usize,
     /// Rounds without a decrease of the number of contradictions by a quarter, or of the largest by far.
-    patience: usize,
+    pub(crate) patience: usize,
     /// Points for one contradiction that is allowed, beyond a few.
-    points: usize,
+    pub(crate) points: usize,
 }
 
 impl Effort {
     /// While the iteration comes nearer, when few contacts are left to exchange.
-    pub(super) const QUICK: Self = Self { rounds: 8, patience: 2, points: 400 };
+    pub(crate) const QUICK: Self = Self { rounds: 8, patience: 2, points: 400 };
     /// Where it does not come any nearer.
-    pub(super) const THOROUGH: Self = Self { rounds: 60, patience: 10, points: 20 };
+    pub(crate) const THOROUGH: Self = Self { rounds: 60, patience: 10, points: 20 };
 
     /// Contradictions with which it makes sense to begin.
     fn most(&self, points: usize) -> usize {
@@ -46,7 +45,7 @@ impl Effort {
 
 /// The state of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Contact {
+pub(crate) enum Contact {
     /// No force.
     Open,
     /// No gap and, with friction, no slip.
@@ -59,35 +58,46 @@ pub(super) enum Contact {
 
 /// What belongs to the states of the contacts, by the equations.
 #[derive(Debug, Clone)]
-pub(super) struct Vertex {
-    pub(super) u: Vec<f64>,
-    pub(super) forces: Vec<(f64, f64)>,
-    pub(super) contacts: Vec<Contact>,
+pub(crate) struct Vertex {
+    pub(crate) u: Vec<f64>,
+    pub(crate) forces: Vec<(f64, f64)>,
+    pub(crate) contacts: Vec<Contact>,
 }
 
-/// The states that a point inside is nearest to.
-pub(super) fn contacts(problem: &Scaled, at: &Iterate) -> Vec<Contact> {
-    problem.points.iter().zip(&at.points).map(|(point, pairs)| nearest(point, pairs)).collect()
+/// The states that displacements and forces are nearest to, wherever they are.
+pub(crate) fn nearest(problem: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Vec<Contact> {
+    let points = problem.points.iter().zip(forces).map(|(point, &forces)| {
+        let slip = if point.mu > 0.0 { point.slip(u) } else { 0.0 };
+        Contact::nearest(point, forces, (point.gap(u), slip.max(0.0), (-slip).max(0.0)))
+    });
+    points.collect()
 }
 
-fn nearest(point: &Point, at: &Pairs) -> Contact {
-    let mut pairs = at.pairs(point.mu);
-    let larger = |pair: Option<(f64, f64)>| pair.is_some_and(|(t, y)| y > t);
-    if larger(pairs.next()) {
-        return Contact::Open;
-    }
-    match (larger(pairs.next()), larger(pairs.next())) {
-        (true, _) if at.slip_plus >= at.slip_minus => Contact::SlipPlus,
-        (_, true) => Contact::SlipMinus,
-        (true, false) => Contact::SlipPlus,
-        (false, false) => Contact::Stick,
+impl Contact {
+    /// The state that is nearest to normal and tangential force, gap, and slips forwards and backwards.
+    pub(crate) fn nearest(
+        point: &Point,
+        (t_n, t_t): (f64, f64),
+        (gap, slip_plus, slip_minus): (f64, f64, f64),
+    ) -> Self {
+        if gap > t_n {
+            return Self::Open;
+        }
+        let bound = point.mu * t_n;
+        let (plus, minus) = (slip_plus > bound + t_t, slip_minus > bound - t_t);
+        match (point.mu > 0.0 && plus, point.mu > 0.0 && minus) {
+            (true, _) if slip_plus >= slip_minus => Self::SlipPlus,
+            (_, true) => Self::SlipMinus,
+            (true, false) => Self::SlipPlus,
+            (false, false) => Self::Stick,
+        }
     }
 }
 
 /// Solves for given states and exchanges those that contradict, as long as these become fewer. The forces
 /// are those nearest to the given ones where redundant contacts leave a choice. Says whether one of the
 /// points is a solution; exchanges go on from there to one whose states contradict nowhere.
-pub(super) fn cross_over(
+pub(crate) fn cross_over(
     problem: &Scaled,
     condensed: &mut Condensed,
     (u, forces): (&[f64], &[(f64, f64)]),
@@ -120,7 +130,7 @@ impl Vertex {
     /// Solves the equations of the states; `None` where they have no solution.
     fn solve(&mut self, problem: &Scaled, condensed: &mut Condensed) -> Option<()> {
         let springs: Vec<Springs> =
-            problem.points.iter().zip(&self.contacts).map(|(p, c)| springs(p, *c)).collect();
+            problem.points.iter().zip(&self.contacts).map(|(p, c)| c.springs(p, STIFF)).collect();
         condensed.factorise(problem, &springs, PROXIMAL);
         for ((point, contact), (t_n, t_t)) in
             problem.points.iter().zip(&self.contacts).zip(&mut self.forces)
@@ -234,13 +244,16 @@ fn closed(point: &Point, gap: f64, slip: f64) -> Contact {
     }
 }
 
-fn springs(point: &Point, contact: Contact) -> Springs {
-    let tangential = if point.mu > 0.0 { STIFF } else { 0.0 };
-    match contact {
-        Contact::Open => Springs::default(),
-        Contact::Stick => Springs { nn: STIFF, tn: 0.0, tt: tangential },
-        Contact::SlipPlus => Springs { nn: STIFF, tn: -point.mu * STIFF, tt: 0.0 },
-        Contact::SlipMinus => Springs { nn: STIFF, tn: point.mu * STIFF, tt: 0.0 },
+impl Contact {
+    /// Springs of this stiffness against what the state does not allow.
+    pub(crate) fn springs(self, point: &Point, stiffness: f64) -> Springs {
+        let tangential = if point.mu > 0.0 { stiffness } else { 0.0 };
+        match self {
+            Self::Open => Springs::default(),
+            Self::Stick => Springs { nn: stiffness, tn: 0.0, tt: tangential },
+            Self::SlipPlus => Springs { nn: stiffness, tn: -point.mu * stiffness, tt: 0.0 },
+            Self::SlipMinus => Springs { nn: stiffness, tn: point.mu * stiffness, tt: 0.0 },
+        }
     }
 }
 

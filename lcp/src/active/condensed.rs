@@ -9,21 +9,21 @@ use crate::sparse::Multifrontal;
 /// The stiffness `s` with which a contact point answers to changes of its gap and slip:
 /// `dt_n = -nn dg`, `dt_t = -tn dg - tt ds`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Springs {
-    pub(super) nn: f64,
-    pub(super) tn: f64,
-    pub(super) tt: f64,
+pub(crate) struct Springs {
+    pub(crate) nn: f64,
+    pub(crate) tn: f64,
+    pub(crate) tt: f64,
 }
 
 impl Springs {
     /// `(nn gap, tn gap + tt slip)`.
-    pub(super) fn forces(&self, gap: f64, slip: f64) -> (f64, f64) {
+    pub(crate) fn forces(&self, gap: f64, slip: f64) -> (f64, f64) {
         (self.nn * gap, self.tn * gap + self.tt * slip)
     }
 }
 
 /// `K + delta 1 + C^T S C` for any springs `S`: its pattern, where its terms go, and its factors.
-pub(super) struct Condensed {
+pub(crate) struct Condensed {
     starts: Vec<usize>,
     rows: Vec<usize>,
     values: Vec<f64>,
@@ -33,7 +33,7 @@ pub(super) struct Condensed {
     /// Places of the terms of every point, columns one after the other.
     of_points: Vec<Vec<u32>>,
     factors: Multifrontal,
-    pub(super) factorisations: usize,
+    pub(crate) factorisations: usize,
 }
 
 /// Steps of iterative refinement, and the residual, relative to the right-hand side, that needs none.
@@ -41,7 +41,7 @@ const REFINEMENTS: usize = 2;
 const ENOUGH: f64 = 1e-11;
 
 impl Condensed {
-    pub(super) fn new(problem: &Scaled) -> Result<Self, FaerError> {
+    pub(crate) fn new(problem: &Scaled) -> Result<Self, FaerError> {
         let n = problem.order();
         let mut pairs: Vec<Pair<usize, usize>> = (0..n).map(|j| Pair::new(j, j)).collect();
         let k = problem.k.as_ref();
@@ -96,7 +96,7 @@ impl Condensed {
     }
 
     /// Factorises for these springs of the points, and a spring `delta` on every displacement.
-    pub(super) fn factorise(&mut self, problem: &Scaled, springs: &[Springs], delta: f64) {
+    pub(crate) fn factorise(&mut self, problem: &Scaled, springs: &[Springs], delta: f64) {
         self.values.fill(0.0);
         self.of_stiffness.iter().zip(problem.k.val()).for_each(|(&e, v)| self.values[e] += v);
         self.of_diagonal.iter().for_each(|&e| self.values[e] += delta);
@@ -116,12 +116,12 @@ impl Condensed {
 
     /// Whether the determinant of the last matrix is negative, and with it that of Newton's equations: what
     /// was eliminated is positive.
-    pub(super) fn is_negative(&self) -> bool {
+    pub(crate) fn is_negative(&self) -> bool {
         self.factors.is_negative()
     }
 
     /// Overwrites a right-hand side with the solution.
-    pub(super) fn solve(&self, x: &mut [f64]) {
+    pub(crate) fn solve(&self, x: &mut [f64]) {
         let right = x.to_vec();
         let largest = max_abs(&right);
         self.factors.solve(x);

@@ -1,0 +1,83 @@
+//! What accuracy costs: the panels by all routes to many tolerances on many meshes, and walls of many sizes.
+//!
+//! `cargo bench --bench accuracy` prints the tables; with `-- --write` it also writes `docs/accuracy.md`, its
+//! pictures, the same numbers as CSV, and the section of the README. Every solve is a whole one, from the scene to the
+//! checked answer, on one thread; of short ones the median of three.
+
+mod common;
+#[path = "accuracy/page.rs"]
+mod page;
+
+use std::path::Path;
+use std::time::Duration;
+
+use masonry::output;
+use masonry::scene::{Brick, Joint, Load, Material, Plane, Scene, Support, Wall};
+use masonry::study::{Settings, Study, study};
+use masonry::units::Units;
+
+/// Elements of a brick in each direction.
+const MESHES: [u32; 4] = [1, 2, 4, 8];
+/// Courses, and bricks in a course.
+const WALLS: [u32; 4] = [5, 10, 20, 40];
+/// Of the walls.
+const TOLERANCES: [f64; 2] = [1e-4, 1e-8];
+
+fn main() {
+    if !common::is_bench() {
+        return;
+    }
+    let panels = ["panel_rectangular", "panel_square"].map(|name| (name, panel(name)));
+    let walls = WALLS.map(wall);
+    if std::env::args().any(|argument| argument == "--write") {
+        page::write(Path::new(env!("CARGO_MANIFEST_DIR")), &panels, &walls);
+    }
+}
+
+/// A panel of the paper, from one element a brick on.
+fn panel(name: &str) -> Study {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{name}.toml"));
+    let mut scene = Scene::read(&path).expect("the scene is part of the repository");
+    for wall in &mut scene.walls {
+        wall.mesh = Some([1, 1]);
+    }
+    let settings = Settings {
+        meshes: MESHES.into(),
+        time_limit: Duration::from_secs(8),
+        ..Settings::default()
+    };
+    told(&scene, &settings)
+}
+
+/// A square wall of elastic bricks with friction on a full floor, under its weight and a load that leans.
+fn wall(bricks: u32) -> Study {
+    let [width, height] = [0.2, 0.1].map(|size| size * f64::from(bricks));
+    let brick = Brick { length: 0.2, height: 0.1 };
+    let scene = Scene::new(&format!("{bricks} courses of {bricks} bricks"), Units::SI)
+        .plane(Plane::Stress)
+        .thickness(0.1)
+        .gravity([0.0, -9.81])
+        .material("brick", Material::elastic(1e9, 0.15).density(2000.0))
+        .joint("bed", Joint::mu(0.6))
+        .joint("head", Joint::mu(0.6))
+        .wall(Wall::running_bond("wall", "brick", brick, width, bricks).mesh([1, 1]))
+        .support(Support::new("floor", [0.0, 0.0], [width, 0.0], "bed"))
+        .load(Load::traction("top", [0.0, height], [width, height], [1000.0, -10_000.0]));
+    let settings = Settings {
+        tolerances: TOLERANCES.into(),
+        meshes: vec![1],
+        springs: Vec::new(),
+        time_limit: Duration::from_secs(8),
+        ..Settings::default()
+    };
+    told(&scene, &settings)
+}
+
+fn told(scene: &Scene, settings: &Settings) -> Study {
+    let study = study(scene, settings, &mut |at| {
+        eprintln!("{}: mesh {}, {} to {:e}", scene.title, at.mesh, at.route.name(), at.tolerance);
+    });
+    let study = study.expect("the scene is sound");
+    println!("{}", output::study::table(&study));
+    study
+}

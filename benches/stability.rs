@@ -1,0 +1,99 @@
+//! How far every route can be trusted: the hard cases with their parameters varied.
+//!
+//! `cargo bench --bench stability` prints for every value what each route gives: the worst of the checks of
+//! what it calls solved, held against balance, friction cone, gaps, nodal forces and energy, and the backward
+//! error; or how it gave up. It fails where an answer is worse than what is promised. With `-- --write` it also
+//! writes `docs/stability.md` and its pictures; with a word after `--` it takes only the sweeps that have it in their titles.
+
+#![allow(clippy::unwrap_used, reason = "a bench that cannot go on should stop")]
+#![allow(dead_code, unreachable_pub, reason = "its modules are those of a test")]
+
+#[path = "../tests/hard_cases/case.rs"]
+mod case;
+#[path = "../tests/hard_cases/checks.rs"]
+mod checks;
+#[path = "../tests/common/mod.rs"]
+mod common;
+#[path = "../tests/hard_cases/double.rs"]
+mod double;
+#[path = "../tests/hard_cases/friction.rs"]
+mod friction;
+#[path = "../tests/hard_cases/geometry.rs"]
+mod geometry;
+#[path = "../tests/hard_cases/limits.rs"]
+mod limits;
+#[path = "stability/page.rs"]
+mod page;
+#[path = "stability/picture.rs"]
+mod picture;
+#[path = "../tests/hard_cases/scenes.rs"]
+mod scenes;
+#[path = "../tests/hard_cases/stiffness.rs"]
+mod stiffness;
+#[path = "../tests/hard_cases/sweep.rs"]
+mod sweep;
+#[path = "../tests/hard_cases/walls.rs"]
+mod walls;
+
+use std::path::Path;
+
+use common::routes::ROUTES;
+use page::Theme;
+use sweep::{Point, Reached, Sweep};
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    // `cargo test --benches` runs the same program without the flag.
+    if !arguments.iter().any(|it| it == "--bench") {
+        return;
+    }
+    let wanted = arguments.iter().find(|it| !it.starts_with("--"));
+    let themes = [
+        ("contacts", geometry::TITLE, geometry::sweeps()),
+        ("stiffness", stiffness::TITLE, stiffness::sweeps()),
+        ("friction", friction::TITLE, friction::sweeps()),
+        ("limits", limits::TITLE, limits::sweeps()),
+        ("growth", walls::TITLE, walls::sweeps()),
+    ];
+    let mut swept = Vec::new();
+    let mut wrong = Vec::new();
+    for (file, title, sweeps) in themes {
+        let is_wanted = |sweep: &Sweep| wanted.is_none_or(|word| sweep.title.contains(word));
+        let sweeps = sweeps.into_iter().filter(is_wanted);
+        let sweeps: Vec<(Sweep, Vec<Point>)> = sweeps.map(tried).collect();
+        let lines = sweeps.iter().flat_map(|(_, points)| points).flat_map(|it| it.wrong.clone());
+        wrong.extend(lines);
+        swept.push(Theme { file, title, sweeps });
+    }
+    wrong.iter().for_each(|line| println!("WRONG: {line}"));
+    assert!(wrong.is_empty(), "{} answers are worse than what is promised", wrong.len());
+    if arguments.iter().any(|it| it == "--write") && wanted.is_none() {
+        page::write(&Path::new(env!("CARGO_MANIFEST_DIR")).join("docs"), &swept);
+    }
+}
+
+/// Every route at every value, printed as it comes.
+fn tried(sweep: Sweep) -> (Sweep, Vec<Point>) {
+    println!(
+        "\n{}\n{:>9}{}",
+        sweep.title,
+        sweep.parameter,
+        ROUTES.map(|it| format!("{:>26}", it.name())).concat()
+    );
+    let at = |value: &f64| {
+        let point = sweep.at(*value);
+        let cells = point.ends.iter().map(|end| format!("{:>26}", cell(end)));
+        println!("{value:9.1e}{}", cells.collect::<String>());
+        point
+    };
+    let points = sweep.values.iter().map(at).collect();
+    (sweep, points)
+}
+
+fn cell(end: &Reached) -> String {
+    match end {
+        Reached::Solved { error, backward } => format!("{error:.0e} ({backward:.0e})"),
+        Reached::GaveUp { status, residual } => format!("{status} {residual:.0e}"),
+        Reached::Nothing => "-".to_owned(),
+    }
+}

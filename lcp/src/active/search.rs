@@ -1,0 +1,150 @@
+//! The points that a method comes to, of which the best one is kept.
+
+use super::condensed::Condensed;
+use super::crossover::{Contact, Effort, Vertex, cross_over, nearest};
+use super::original::{Judged, Original};
+use super::scaled::Scaled;
+use crate::solve::Monitor;
+use crate::{Error, Solution, Status, WarmStart};
+
+/// A problem with the best point so far.
+pub(crate) struct Search<'a> {
+    solver: &'static str,
+    problem: &'a dyn Original,
+    tolerance: f64,
+    pub(crate) scaled: Scaled,
+    pub(crate) condensed: Condensed,
+    /// With its states if it is exact.
+    best: Option<(Judged, Option<Vertex>)>,
+}
+
+impl<'a> Search<'a> {
+    /// For a method of this name, with the largest residual of a solution.
+    pub(crate) fn new(
+        solver: &'static str,
+        problem: &'a dyn Original,
+        tolerance: f64,
+    ) -> Result<Self, Error> {
+        let scaled = problem.scaled();
+        let condensed = Condensed::new(&scaled).map_err(|error| Error::NotTreated {
+            solver,
+            reason: format!("its sparse factors cannot be planned: {error}"),
+        })?;
+        Ok(Self { solver, problem, tolerance, scaled, condensed, best: None })
+    }
+
+    /// Whether the states of the contacts of a given start, if there is one, are the answer.
+    pub(crate) fn try_start(&mut self, start: &WarmStart) -> bool {
+        let (u, forces, contacts) = match start {
+            WarmStart::None => return false,
+            WarmStart::Basis(basis) => {
+                let (u, forces) = self.rest();
+                (u, forces, self.problem.contacts(basis))
+            }
+            WarmStart::Point { t, y } => {
+                let (u, forces) = self.problem.point(&self.scaled, t, y);
+                let contacts = nearest(&self.scaled, &u, &forces);
+                (u, forces, contacts)
+            }
+        };
+        self.cross_over((&u, &forces), contacts, &Effort::THOROUGH)
+    }
+
+    /// Whether nothing moves and no force acts, a point that iterations only come nearer to without end.
+    /// Its states are asked for too, or not.
+    pub(crate) fn try_rest(&mut self, crossover: bool) -> bool {
+        let (u, forces) = self.rest();
+        if self.judge(&u, &forces) > self.tolerance {
+            return false;
+        }
+        if crossover {
+            let contacts = nearest(&self.scaled, &u, &forces);
+            self.cross_over((&u, &forces), contacts, &Effort::THOROUGH);
+        }
+        true
+    }
+
+    /// Whether bodies that have not moved, or what their contacts lead to, are a solution with these forces.
+    pub(crate) fn try_forces(&mut self, forces: &[(f64, f64)], crossover: bool) -> bool {
+        let u = vec![0.0; self.scaled.order()];
+        let is_solved = self.judge(&u, forces) <= self.tolerance;
+        let contacts = nearest(&self.scaled, &u, forces);
+        crossover && self.cross_over((&u, forces), contacts, &Effort::THOROUGH) || is_solved
+    }
+
+    fn rest(&self) -> (Vec<f64>, Vec<(f64, f64)>) {
+        (vec![0.0; self.scaled.order()], vec![(0.0, 0.0); self.scaled.points.len()])
+    }
+
+    /// Whether the states of the contacts, or those that they lead to, are those of a solution.
+    pub(crate) fn cross_over(
+        &mut self,
+        at: (&[f64], &[(f64, f64)]),
+        contacts: Vec<Contact>,
+        effort: &Effort,
+    ) -> bool {
+        let Self { problem, tolerance, scaled, condensed, best, .. } = self;
+        cross_over(scaled, condensed, at, contacts, effort, |vertex| {
+            let judged = problem.judge(scaled, &vertex.u, &vertex.forces);
+            let is_solution = judged.worst <= *tolerance;
+            keep_better(best, judged, is_solution.then_some(vertex));
+            is_solution
+        })
+    }
+
+    /// The worst residual of a point, which is kept if none was better.
+    pub(crate) fn judge(&mut self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
+        let judged = self.problem.judge(&self.scaled, u, forces);
+        let worst = judged.worst;
+        keep_better(&mut self.best, judged, None);
+        worst
+    }
+
+    /// The worst residual of the best point.
+    pub(crate) fn residual(&self) -> f64 {
+        self.best.as_ref().map_or(f64::INFINITY, |(judged, _)| judged.worst)
+    }
+
+    /// The best point, with this status unless it is a solution.
+    pub(crate) fn finish(self, otherwise: Status, monitor: Monitor<'_>) -> Solution {
+        let Some((judged, vertex)) = self.best else {
+            unreachable!("every solve judges a point");
+        };
+        let basis = vertex.map(|vertex| {
+            let points = self.scaled.points.iter();
+            let slips: Vec<f64> = points.map(|point| point.slip(&vertex.u)).collect();
+            self.problem.basis(&vertex.contacts, &judged, &slips)
+        });
+        let Judged { t, y, contact, residuals, worst } = judged;
+        // Steps may end with a point that is solved and another that the iteration gave up.
+        let otherwise = if otherwise == Status::Solved { Status::Stalled } else { otherwise };
+        let mut solution = Solution::judged((t, y), residuals, self.tolerance, otherwise);
+        if worst > self.tolerance {
+            solution.status = otherwise;
+        }
+        solution.contact = contact;
+        solution.basis = basis;
+        solution.info.solver = self.solver;
+        solution.info.iterations = monitor.iterations();
+        solution.info.factorisations = self.condensed.factorisations;
+        solution.info.seconds = monitor.seconds();
+        solution.info.history = monitor.history;
+        solution
+    }
+}
+
+/// An exact solution is better than a point inside, whose residuals may be smaller.
+fn keep_better(
+    best: &mut Option<(Judged, Option<Vertex>)>,
+    judged: Judged,
+    vertex: Option<&Vertex>,
+) {
+    let is_better = best.as_ref().is_none_or(|(other, exact)| match (vertex, exact) {
+        (Some(_), None) => true,
+        (None, Some(_)) => false,
+        _ => judged.worst < other.worst,
+    });
+    if is_better {
+        *best = Some((judged, vertex.cloned()));
+    }
+}

@@ -1,0 +1,173 @@
+//! How large the problem of a model is on each route, and what it would be without an effect.
+
+use super::Choice;
+use crate::model::{Anchor, Block, Model};
+use crate::routes::alm::Strips;
+use crate::scene::{Form, Route};
+
+/// Numbers of a model that decide what routes take.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sizes {
+    pub(super) blocks: usize,
+    pub(super) rigid_blocks: usize,
+    /// Displacements of the nodes of all elastic blocks.
+    pub(super) nodal: usize,
+    /// Displacements of the elastic block with the finest mesh.
+    pub(super) largest_block: usize,
+    pub(super) points: usize,
+    pub(super) frictional: usize,
+    /// Points of mortar films; each gives way across its joint.
+    film_points: usize,
+    /// Those with friction, which give way along it too.
+    sheared_films: usize,
+    /// Bars of mortar strips, which couple the blocks.
+    pub(super) bars: usize,
+    /// Films are whole strips.
+    strips: bool,
+}
+
+impl Sizes {
+    pub(super) fn of(model: &Model) -> Self {
+        let nodal = |block: &Block| {
+            let mesh = block.mesh.as_ref().filter(|_| block.elasticity.is_some())?;
+            Some(2 * mesh.nodes.len())
+        };
+        let of_blocks: Vec<Option<usize>> = model.blocks.iter().map(nodal).collect();
+        let elastic = of_blocks.iter().flatten();
+        let points = model.contacts.iter();
+        let frictional = points.clone().filter(|point| point.mu > 0.0);
+        Self {
+            blocks: of_blocks.len(),
+            rigid_blocks: of_blocks.len() - elastic.clone().count(),
+            nodal: elastic.clone().sum(),
+            largest_block: elastic.copied().max().unwrap_or(0),
+            points: points.len(),
+            frictional: frictional.clone().count(),
+            film_points: points.filter(|point| point.film.is_some()).count(),
+            sheared_films: frictional.filter(|point| point.film.is_some()).count(),
+            bars: stretching_points(model),
+            strips: Strips::are_in(model),
+        }
+    }
+
+    pub(super) fn rigid_modes(&self) -> usize {
+        3 * self.blocks
+    }
+
+    /// Rows of the system in which a film gives way: on the sparse routes, displacements.
+    pub(super) fn compliances(&self) -> usize {
+        self.film_points + self.sheared_films
+    }
+
+    /// Without the normal forces: what friction and films add to each point is theirs.
+    pub(super) fn without_contact(self) -> Self {
+        Self { points: 0, ..self }
+    }
+
+    pub(super) fn without_friction(self) -> Self {
+        Self { frictional: 0, sheared_films: 0, ..self }
+    }
+
+    pub(super) fn without_films(self) -> Self {
+        Self { film_points: 0, sheared_films: 0, ..self.without_bars() }
+    }
+
+    pub(super) fn without_bars(self) -> Self {
+        Self { bars: 0, strips: false, ..self }
+    }
+
+    /// With the same points, although a mesh may have brought some of them.
+    pub(super) fn without_deformation(self) -> Self {
+        Self { rigid_blocks: self.blocks, nodal: 0, largest_block: 0, bars: 0, ..self }
+    }
+
+    pub(super) fn choice(&self, route: Route, form: Form) -> Choice {
+        let displacements = self.displacements();
+        let order = displacements + self.points + 2 * self.frictional;
+        let sparse = Choice {
+            route,
+            because: String::new(),
+            order,
+            largest_order: order,
+            dense_numbers: 0,
+            memory_bytes: self.sparse_bytes(),
+        };
+        match route {
+            Route::Auto | Route::Lemke => self.lemke(form),
+            Route::Interior | Route::Newton => sparse,
+            // Contact forces are no unknowns of its linear systems, and neither is what strips do.
+            Route::Alm => {
+                let order = displacements - if self.strips { self.compliances() } else { 0 };
+                Choice { order, largest_order: order, ..sparse }
+            }
+            // The matrix of a program, and that of a proof, have the rows of the contacts too.
+            Route::Qp => Choice { memory_bytes: sparse.memory_bytes.saturating_mul(6), ..sparse },
+            Route::Pgs => Choice {
+                memory_bytes: sparse.memory_bytes.saturating_add(self.columns()),
+                ..sparse
+            },
+        }
+    }
+
+    fn displacements(&self) -> usize {
+        self.nodal + 3 * self.rigid_blocks + self.compliances()
+    }
+
+    fn lemke(&self, form: Form) -> Choice {
+        let order_of = |form| {
+            self.points
+                + unknowns_per_friction(form) * self.frictional
+                // Each free unknown, rigid amplitude or bar, is a difference of two nonnegative ones.
+                + if form == Form::Mixed { 2 * (self.rigid_modes() + self.bars) } else { 0 }
+        };
+        let largest_order = order_of(if form == Form::Auto { Form::Mixed } else { form });
+        // At the peak about nine matrices of the largest order (the problem, its equilibrated copy, the
+        // tableau at the start and now, factors), and stiffness and factor of the largest block.
+        let square = |n: usize| n.saturating_mul(n);
+        let matrices = square(largest_order).saturating_mul(9);
+        let dense_numbers = matrices.saturating_add(square(self.largest_block).saturating_mul(3));
+        Choice {
+            route: Route::Lemke,
+            because: String::new(),
+            order: order_of(form),
+            largest_order,
+            dense_numbers,
+            memory_bytes: dense_numbers.saturating_mul(size_of::<f64>()),
+        }
+    }
+
+    /// Factors of a matrix of the pattern of `K + C^T C` grow like `n log n`, points linearly.
+    fn sparse_bytes(&self) -> usize {
+        const PER_DISPLACEMENT: usize = 150;
+        const PER_POINT: usize = 3000;
+        let displacements = self.displacements();
+        let logarithm = displacements.max(2).ilog2() as usize;
+        let factors = displacements.saturating_mul(logarithm * PER_DISPLACEMENT);
+        factors.saturating_add(self.points.saturating_mul(PER_POINT))
+    }
+
+    /// What the sweeps keep: the displacements of two blocks for every force, of all where blocks are coupled.
+    fn columns(&self) -> usize {
+        const PER_NUMBER: usize = 12;
+        let forces = self.points + self.frictional;
+        let moved =
+            if self.bars > 0 { self.displacements() } else { 2 * self.largest_block.max(3) };
+        forces.saturating_mul(moved).saturating_mul(PER_NUMBER)
+    }
+}
+
+/// Unknowns that a frictional point has besides its normal force.
+fn unknowns_per_friction(form: Form) -> usize {
+    match form {
+        Form::Auto | Form::Coulomb => 2,
+        Form::StewartTrinkle | Form::Mixed => 3,
+    }
+}
+
+/// Points of strips at elastic blocks, which couple the displacements of their two sides.
+fn stretching_points(model: &Model) -> usize {
+    let is_elastic = |face: &[Anchor; 2]| model.blocks[face[0].block.index()].elasticity.is_some();
+    let strips =
+        model.contacts.iter().filter_map(|point| point.film.filter(|it| it.stretch.is_some()));
+    strips.filter(|film| film.faces().iter().flatten().any(is_elastic)).count()
+}
