@@ -5,8 +5,12 @@
 //! checked answer, on one thread; of short ones the median of three.
 
 mod common;
+#[path = "common/machine.rs"]
+mod machine;
 #[path = "accuracy/page.rs"]
 mod page;
+#[path = "accuracy/tables.rs"]
+mod tables;
 
 use std::path::Path;
 use std::time::Duration;
@@ -16,10 +20,12 @@ use masonry::scene::{Brick, Joint, Load, Material, Plane, Scene, Support, Wall};
 use masonry::study::{Settings, Study, study};
 use masonry::units::Units;
 
-/// Elements of a brick in each direction.
-const MESHES: [u32; 4] = [1, 2, 4, 8];
+/// Elements of a square in each direction; the first are those of the scenes.
+const MESHES: [u32; 4] = [2, 1, 4, 8];
+/// What one solve may take.
+const LIMIT: Duration = Duration::from_secs(6);
 /// Courses, and bricks in a course.
-const WALLS: [u32; 4] = [5, 10, 20, 40];
+const WALLS: [u32; 5] = [5, 10, 20, 40, 80];
 /// Of the walls.
 const TOLERANCES: [f64; 2] = [1e-4, 1e-8];
 
@@ -29,24 +35,24 @@ fn main() {
     }
     let panels = ["panel_rectangular", "panel_square"].map(|name| (name, panel(name)));
     let walls = WALLS.map(wall);
+    for study in panels.iter().map(|(_, study)| study).chain(&walls) {
+        println!("{}", output::study::table(study));
+    }
     if std::env::args().any(|argument| argument == "--write") {
         page::write(Path::new(env!("CARGO_MANIFEST_DIR")), &panels, &walls);
     }
 }
 
-/// A panel of the paper, from one element a brick on.
+/// A panel of the paper, from one element a square on.
 fn panel(name: &str) -> Study {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{name}.toml"));
     let mut scene = Scene::read(&path).expect("the scene is part of the repository");
     for wall in &mut scene.walls {
-        wall.mesh = Some([1, 1]);
+        // Rectangular bricks are two squares long.
+        let squares = if wall.brick.length > 1.5 * wall.brick.height { 2 } else { 1 };
+        wall.mesh = Some([squares, 1]);
     }
-    let settings = Settings {
-        meshes: MESHES.into(),
-        time_limit: Duration::from_secs(8),
-        ..Settings::default()
-    };
-    told(&scene, &settings)
+    told(&scene, Settings { meshes: MESHES.into(), ..Settings::default() })
 }
 
 /// A square wall of elastic bricks with friction on a full floor, under its weight and a load that leans.
@@ -67,17 +73,16 @@ fn wall(bricks: u32) -> Study {
         tolerances: TOLERANCES.into(),
         meshes: vec![1],
         springs: Vec::new(),
-        time_limit: Duration::from_secs(8),
         ..Settings::default()
     };
-    told(&scene, &settings)
+    told(&scene, settings)
 }
 
-fn told(scene: &Scene, settings: &Settings) -> Study {
-    let study = study(scene, settings, &mut |at| {
+fn told(scene: &Scene, settings: Settings) -> Study {
+    let machine = Some(machine::machine_and_date());
+    let settings = Settings { time_limit: LIMIT, machine, ..settings };
+    let study = study(scene, &settings, &mut |at| {
         eprintln!("{}: mesh {}, {} to {:e}", scene.title, at.mesh, at.route.name(), at.tolerance);
     });
-    let study = study.expect("the scene is sound");
-    println!("{}", output::study::table(&study));
-    study
+    study.expect("the scene is sound")
 }

@@ -5,6 +5,8 @@
 //! is what was allocated at the peak of one more; the allocator counts in all of them, which costs next to nothing.
 
 mod common;
+#[path = "common/machine.rs"]
+mod machine;
 #[path = "effects/picture.rs"]
 mod picture;
 #[path = "effects/wall.rs"]
@@ -59,7 +61,7 @@ fn main() {
     if !common::is_bench() {
         return;
     }
-    let mut page = common::machine();
+    let mut page = machine::machine();
     let mut routes = Vec::new();
     for (route, wall) in [(Route::Lemke, Wall::small()), (Route::Interior, Wall::large())] {
         let rows: Vec<Row> = pairs(route, wall).into_iter().map(row).collect();

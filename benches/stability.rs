@@ -65,7 +65,9 @@ fn main() {
         wrong.extend(lines);
         swept.push(Theme { file, title, sweeps });
     }
-    wrong.iter().for_each(|line| println!("WRONG: {line}"));
+    for line in &wrong {
+        println!("WRONG: {line}");
+    }
     assert!(wrong.is_empty(), "{} answers are worse than what is promised", wrong.len());
     if arguments.iter().any(|it| it == "--write") && wanted.is_none() {
         page::write(&Path::new(env!("CARGO_MANIFEST_DIR")).join("docs"), &swept);

@@ -258,7 +258,8 @@ fn a_panel_without_a_floor() {
 /// Every route can be watched and stopped.
 #[test]
 fn any_route_can_be_cancelled() {
-    let scene = wall(3, materials()[1]);
+    // None of them has an answer after a step, which would be more than a cancelled solve.
+    let scene = hanging(2.5, Material::elastic(1e5, 0.15));
     for route in ROUTES {
         let seen = Cell::new(0);
         let outcome = solve_observed(&scene.clone().route(route), &mut |event| {

@@ -64,6 +64,7 @@ pub mod cli;
 mod error;
 #[cfg(feature = "exact")]
 pub mod exact;
+mod extended;
 pub mod families;
 mod interior;
 #[cfg(feature = "io")]
@@ -77,6 +78,7 @@ mod problem;
 #[cfg(feature = "clarabel")]
 mod qp;
 mod random;
+mod refine;
 mod residual;
 mod scaling;
 mod settings;
@@ -89,6 +91,7 @@ pub use faer;
 pub use auto::{Auto, AutoSettings, Choice};
 pub use basis::{Basis, Side};
 pub use error::Error;
+pub use extended::Extended;
 pub use interior::{InteriorPoint, InteriorPointSettings};
 pub use lemke::{
     Breakpoint, Lemke, Parametric, ParametricEnd, ParametricPath, ParametricRay,
@@ -108,6 +111,7 @@ pub use problem::{
 pub use qp::{
     ContactForm, QuadraticProgram, QuadraticProgramSettings, SoftConstraints, SoftSolution,
 };
+pub use refine::{ContactStatus, Margin, Refined, Refinement, Verified};
 pub use residual::Residuals;
 pub use settings::{Covering, LemkeSettings, WarmStart};
 pub use solution::{

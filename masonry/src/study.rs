@@ -39,10 +39,13 @@
 //! ```
 
 mod figures;
+mod machine;
 mod mesh;
 mod reference;
+mod refining;
 mod runs;
 mod springs;
+mod verified;
 
 use std::time::Duration;
 
@@ -50,9 +53,12 @@ use lcp::Status;
 use serde::Serialize;
 
 pub use figures::Errors;
+pub use machine::machine;
 pub use mesh::{Mesh, MeshErrors, Values};
 pub use reference::{Confirmation, Reference};
+pub use refining::Refining;
 pub use springs::Springs;
+pub use verified::Verified;
 
 use crate::model::Model;
 use crate::scene::{Route, Scene, SceneError};
@@ -73,10 +79,12 @@ pub struct Settings {
     /// Stiffnesses of springs on all displacements, relative to that of the blocks \[-\].
     pub springs: Vec<f64>,
     /// Wall-clock time that one solve may take. It is looked at by the observer, so that one
-    /// factorisation or program is never interrupted.
+    /// factorisation or program is never interrupted: [`Record::overrun`] tells where one took longer.
     pub time_limit: Duration,
     /// How often a solve of less than a second is run; its time is the median.
     pub repeats: usize,
+    /// Where, and perhaps when, times are measured, for reports: [`machine`], for instance.
+    pub machine: Option<String>,
 }
 
 impl Default for Settings {
@@ -95,6 +103,7 @@ impl Default for Settings {
             springs: vec![1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2],
             time_limit: Duration::from_secs(20),
             repeats: 3,
+            machine: None,
         }
     }
 }
@@ -197,6 +206,8 @@ pub struct Record {
     pub residual: Option<f64>,
     /// Wall-clock time from the scene to the checked answer, or to giving up \[s\].
     pub seconds: Option<f64>,
+    /// Whether that is more than the limit: one factorisation, reduction or program was not interrupted.
+    pub overrun: bool,
     /// Pivots by [`Route::Lemke`], iterations by the others; of the last step of a load history.
     pub iterations: Option<usize>,
     /// Algebraic errors: against the reference of the same mesh.
@@ -212,6 +223,8 @@ pub struct Study {
     pub units: Units,
     /// Wall-clock time that one solve was given.
     pub time_limit: Duration,
+    /// Where times were measured, if that was told.
+    pub machine: Option<String>,
     /// By mesh, route and tolerance, in the order of the settings.
     pub records: Vec<Record>,
     /// The meshes, in the order of the settings.
@@ -297,6 +310,7 @@ pub fn study(
         title: scene.title.clone(),
         units: scene.units,
         time_limit: settings.time_limit,
+        machine: settings.machine.clone(),
         records,
         meshes: mesh::compared(meshes),
         springs,

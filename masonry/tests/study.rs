@@ -9,10 +9,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::time::Duration;
 
-use lcp::Status;
+use lcp::{Refinement, Status};
 use masonry::model::Plane;
 use masonry::output::study as output;
-use masonry::scene::{Block, Brick, Joint, Load, Material, Route, Scene, Support, Wall};
+use masonry::scene::{
+    Block, Brick, Joint, Load, Material, Movement, Route, Scene, Stage, Support, Wall,
+};
 use masonry::study::{End, Record, Settings, Study, StudyError, study};
 use masonry::units::Units;
 use serde_json::Value;
@@ -111,9 +113,101 @@ fn the_reference_has_no_error_and_another_route_confirms_it() {
         let other = reference.confirmed.as_ref().unwrap();
         assert_ne!(other.route, reference.route);
         assert!(other.errors.worst().unwrap() <= 1e-9);
+        assert!(other.refined.unwrap() <= 1e-13, "{other:?}");
         // To its tightest tolerance the route of the reference finds the same, up to rounding.
         let records = by(&study, reference.route, mesh.factor);
         assert!(worst(records[2]) <= 1e-12, "{:?}", records[2]);
+    }
+}
+
+#[test]
+fn the_reference_is_refined_and_verified() {
+    let study = studied(&wall(), &settings());
+    for mesh in &study.meshes {
+        let reference = mesh.reference.as_ref().unwrap();
+        let verified = reference.verified.as_ref().unwrap();
+        assert!(verified.holds && verified.is_better(), "{verified:?}");
+        assert!(verified.residual < 1e-24 && verified.residual < reference.residual);
+        assert!(verified.margin.unwrap() > -1e-15 && verified.digits >= 14.0);
+        assert!(verified.shift <= 1e-12 && verified.passes > 0);
+        let distance = verified.distance.unwrap();
+        assert!(distance > 0.0 && distance <= 1e-10, "the route ends at rounding: {verified:?}");
+        // Against it even the route's own answer has an error.
+        assert!(by(&study, reference.route, mesh.factor).iter().all(|it| worst(it) < 1e-10));
+    }
+}
+
+#[test]
+fn the_last_digits_come_with_refinement() {
+    let study = studied(&wall(), &settings());
+    for mesh in &study.meshes {
+        let [plain, single, extended] = &mesh.refinings[..] else { panic!("three ways") };
+        let kinds = [plain, single, extended].map(|it| it.refinement);
+        assert_eq!(kinds, [Refinement::Plain, Refinement::Single, Refinement::Extended]);
+        assert_eq!([plain.passes, single.passes], [1, 2]);
+        assert!(extended.passes > 2);
+        let [plain, single, extended] = [plain, single, extended].map(|it| it.error.unwrap());
+        assert!(
+            plain < 1e-3 && single < 1e-3 * plain && extended <= single,
+            "{:?}",
+            mesh.refinings
+        );
+        assert!(extended < 1e-14);
+    }
+    let sentences = output::summary(&study);
+    assert!(sentences.iter().any(|it| it.contains("compensated refinement")), "{sentences:?}");
+}
+
+/// Of rigid blocks everything is known in fractions of the weight.
+#[test]
+fn the_refined_reference_of_a_closed_form_is_exact() {
+    let study = studied(&block(0.1), &settings());
+    let reference = study.meshes[0].reference.as_ref().unwrap();
+    let verified = reference.verified.as_ref().unwrap();
+    assert!(verified.is_better() && verified.digits >= 28.0, "{verified:?}");
+    assert!(verified.residual < 1e-29 && verified.shift.abs() <= 0.0);
+    assert!(reference.confirmed.as_ref().unwrap().refined.unwrap() < 1e-28);
+}
+
+#[test]
+fn pivots_are_counted_once_for_all_tolerances_that_they_reach() {
+    let study = studied(&wall(), &settings());
+    for mesh in [1, 2, 4] {
+        let records = by(&study, Route::Lemke, mesh);
+        let first = records[0];
+        for record in &records {
+            assert!(record.residual.unwrap() <= record.tolerance);
+            assert_eq!((record.seconds, record.iterations), (first.seconds, first.iterations));
+        }
+    }
+}
+
+#[test]
+fn a_load_history_is_studied_at_its_end() {
+    let moved = Movement { x: 0.0, y: -1e-4, turn: 0.0 };
+    let brick = Brick { length: 0.2, height: 0.1 };
+    let scene = Scene::new("Settling", Units::SI)
+        .plane(Plane::Stress)
+        .thickness(0.1)
+        .gravity([0.0, -9.81])
+        .material("brick", Material::elastic(1e8, 0.15).density(2000.0))
+        .joint("bed", Joint::mu(0.6))
+        .joint("head", Joint::mu(0.6))
+        .wall(Wall::running_bond("wall", "brick", brick, 0.4, 2).mesh([1, 1]))
+        .support(Support::new("left", [0.0, 0.0], [0.2, 0.0], "bed"))
+        .support(Support::new("right", [0.2, 0.0], [0.4, 0.0], "bed"))
+        .stage(Stage::new("weight"))
+        .stage(Stage::new("settlement").steps(2).moves("right", moved));
+    let study = studied(&scene, &Settings { springs: Vec::new(), ..settings() });
+    for mesh in &study.meshes {
+        let reference = mesh.reference.as_ref().unwrap();
+        assert!(reference.verified.as_ref().unwrap().is_better(), "{reference:?}");
+        assert!(mesh.values.unwrap().displacement > 5e-5);
+    }
+    for route in [Route::Lemke, Route::Interior] {
+        for record in by(&study, route, 1) {
+            assert!(record.end.is_solved() && worst(record) < 1e-8, "{record:?}");
+        }
     }
 }
 
@@ -254,6 +348,10 @@ fn masonry(arguments: &[&str]) -> Output {
 const QUICK: [&str; 6] =
     ["--tolerances", "1e-4,1e-8", "--meshes", "1,2,3", "--springs", "1e-6,1e-4"];
 
+fn saved_machine(object: &Value) -> &str {
+    object["machine"].as_str().unwrap()
+}
+
 #[test]
 fn the_program_writes_tables_and_pictures() {
     let (directory, scene) = with_scene("solved", &wall());
@@ -276,7 +374,8 @@ fn the_program_writes_tables_and_pictures() {
 
     let names: BTreeSet<&str> =
         object["files"].as_array().unwrap().iter().map(|it| it.as_str().unwrap()).collect();
-    let all = ["accuracy.svg", "mesh.svg", "springs.svg", "study.csv", "study.json"];
+    let all =
+        ["accuracy.svg", "mesh.svg", "refinement.csv", "springs.svg", "study.csv", "study.json"];
     assert_eq!(names, BTreeSet::from(all));
     for picture in ["accuracy.svg", "mesh.svg", "springs.svg"] {
         let text = fs::read_to_string(out.join(picture)).unwrap();
@@ -290,6 +389,10 @@ fn the_program_writes_tables_and_pictures() {
     assert_eq!(rows.len(), 1 + 3 * ROUTES.len() * 2);
     let columns = rows[0].split(',').count();
     assert!(rows.iter().all(|row| row.split(',').count() == columns));
+    let last = fs::read_to_string(out.join("refinement.csv")).unwrap();
+    assert_eq!(last.lines().count(), 1 + 3 * 3, "{last}");
+    assert!(last.lines().all(|row| row.split(',').count() == 6));
+    assert!(saved_machine(&object).contains("thread"));
     let saved: Value =
         serde_json::from_str(&fs::read_to_string(out.join("study.json")).unwrap()).unwrap();
     assert_eq!(saved["records"], object["records"]);

@@ -9,7 +9,7 @@ use super::progress::Progress;
 use super::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
 use crate::output::study as output;
 use crate::scene::{Route, Scene};
-use crate::study::{Settings, study};
+use crate::study::{Settings, machine, study};
 
 #[derive(Debug, Args)]
 pub(super) struct StudyArgs {
@@ -73,5 +73,6 @@ fn settings(args: &StudyArgs) -> Result<Settings, Failure> {
         springs: args.springs.clone().unwrap_or(default.springs),
         time_limit,
         repeats: default.repeats,
+        machine: Some(machine()),
     })
 }

@@ -4,7 +4,10 @@ use faer::sparse::{SparseColMat, Triplet};
 use lcp::{Contact2d, ContactState};
 
 use super::RowState;
-use crate::system::{BodySystem, System};
+use crate::ids::BlockId;
+use crate::model::Model;
+use crate::outcome::State;
+use crate::system::{BodySystem, System, displaced_nodes};
 
 /// A [`System`] as a sparse contact problem in SI units, and back.
 #[derive(Debug, Clone)]
@@ -102,6 +105,29 @@ impl Sparse {
             normal.iter().copied().chain(friction.iter().map(|&i| tangential[i])).collect()
         };
         RowState { t: rows(&state.t_n, &state.t_t), y: rows(&state.gap, &state.slip) }
+    }
+
+    /// Displacements and forces of the problem from those of the structure, the way back of
+    /// [`recover::from_displacements`](crate::recover::from_displacements).
+    ///
+    /// # Panics
+    /// If the state is that of another model.
+    pub fn state(&self, (model, system): (&Model, &System), state: &State) -> ContactState {
+        let mut u = Vec::with_capacity(self.problem.displacements());
+        for (b, (body, moved)) in system.bodies.iter().zip(&state.displacements).enumerate() {
+            if body.stiffness.is_some() {
+                u.extend(moved.iter().flat_map(|u| [u.x, u.y]));
+            } else {
+                u.extend(body.modes.amplitudes(displaced_nodes(model, BlockId::new(b)), moved));
+            }
+        }
+        let t_n: Vec<f64> = state.contacts.iter().map(|contact| contact.t_n).collect();
+        let t_t: Vec<f64> = state.contacts.iter().map(|contact| contact.t_t).collect();
+        let tangential = system.friction.iter().map(|(id, _)| t_t[id.index()]);
+        let forces = t_n.iter().copied().chain(tangential);
+        let films = system.rows.iter().zip(forces).filter(|(row, _)| row.compliance > 0.0);
+        u.extend(films.map(|(row, t)| row.compliance * t));
+        self.problem.state(u, t_n, t_t)
     }
 
     /// The first displacement of every block, and one past the last.

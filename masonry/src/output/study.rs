@@ -9,15 +9,15 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-pub use csv::csv;
+pub use csv::{csv, refinement_csv};
 pub use json::json;
-pub use summary::summary;
+pub use summary::{answer, summary};
 pub use table::table;
 
 use super::{OutputError, svg, write_atomically};
 use crate::study::Study;
 
-/// Writes `study.csv`, the pictures `accuracy.svg`, `mesh.svg` and `springs.svg` as far as there is
+/// Writes `study.csv`, `refinement.csv`, the pictures `accuracy.svg`, `mesh.svg` and `springs.svg` as far as there is
 /// something in them, and `study.json`, which lists them all, into `dir`, which is created.
 ///
 /// # Errors
@@ -26,6 +26,7 @@ pub fn write(study: &Study, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
     fs::create_dir_all(dir)
         .map_err(|source| OutputError::Directory { path: dir.to_owned(), source })?;
     let mut files = vec![("study.csv", Ok(csv(study)))];
+    files.extend(refinement_csv(study).map(|text| ("refinement.csv", Ok(text))));
     let pictures = [
         ("accuracy.svg", svg::accuracy(study)),
         ("mesh.svg", svg::mesh(study)),

@@ -4,10 +4,12 @@ use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::figures::{Figures, relative};
-use super::reference::{self, Reference};
+use super::reference::{self, Found, Reference};
+use super::refining::{self, Refining};
 use super::runs::Runner;
+use super::verified::Exact;
 use crate::model::{Block, Body, Model};
-use crate::outcome::{Outcome, State};
+use crate::outcome::State;
 use crate::recover;
 use crate::scene::Scene;
 
@@ -16,6 +18,8 @@ use crate::scene::Scene;
 pub struct Mesh {
     /// The factor of the numbers of elements in the scene, per direction.
     pub factor: u32,
+    /// Blocks.
+    pub blocks: usize,
     /// Elements.
     pub elements: usize,
     /// Contact points.
@@ -24,6 +28,8 @@ pub struct Mesh {
     pub refusal: Option<String>,
     /// The most accurate answer; `None` where no route gave one within the time.
     pub reference: Option<Reference>,
+    /// What the last digits of it cost; empty where it is not verified.
+    pub refinings: Vec<Refining>,
     /// What it says.
     pub values: Option<Values>,
     /// Errors of the mesh: of its values against those of the finest mesh with a reference, which itself
@@ -74,16 +80,19 @@ pub(super) fn refined(scene: &Scene, factor: u32) -> Scene {
 pub(super) fn studied(scene: &Scene, factor: u32, runner: &mut Runner) -> (Mesh, Option<Figures>) {
     let mut mesh = Mesh {
         factor,
+        blocks: 0,
         elements: 0,
         contact_points: 0,
         refusal: None,
         reference: None,
+        refinings: Vec::new(),
         values: None,
         errors: None,
         corners: Vec::new(),
     };
     match Model::from_scene(scene) {
         Ok(model) => {
+            mesh.blocks = model.blocks.len();
             let meshes = model.blocks.iter().filter_map(|block| block.mesh.as_ref());
             mesh.elements = meshes.map(|mesh| mesh.elements.len()).sum();
             mesh.contact_points = model.contacts.len();
@@ -93,18 +102,21 @@ pub(super) fn studied(scene: &Scene, factor: u32, runner: &mut Runner) -> (Mesh,
             return (mesh, None);
         }
     }
-    let Some((reference, outcome)) = reference::find(scene, factor, runner) else {
+    let Some(Found { reference, outcome, figures, exact }) = reference::find(scene, factor, runner)
+    else {
         return (mesh, None);
     };
-    let Outcome { model, state: Some(state), .. } = outcome else { return (mesh, None) };
-    let figures = Figures::of(&model, &state);
+    let state = exact.as_ref().map(Exact::state).or(outcome.state.as_ref());
+    let Some(state) = state else { return (mesh, None) };
     mesh.reference = Some(reference);
     mesh.values = Some(Values {
         strain_energy: state.strain_energy,
-        thrust: thrust(&model, &state),
+        thrust: thrust(&outcome.model, state),
         displacement: 0.0,
     });
-    mesh.corners = corners(&model, &state, &figures);
+    mesh.corners = corners(&outcome.model, state, &figures);
+    mesh.refinings =
+        exact.map_or_else(Vec::new, |exact| refining::measured(&exact, runner.repeats()));
     (mesh, Some(figures))
 }
 

@@ -4,17 +4,21 @@ use lcp::Status;
 use serde::Serialize;
 
 use super::runs::{Ran, Runner, on_route};
-use super::{End, Errors};
+use super::verified::{Exact, Verified};
+use super::{End, Errors, Figures};
 use crate::check::Checks;
 use crate::outcome::Outcome;
 use crate::scene::{Route, Scene};
 
-/// Routes that end on a basis, and so at rounding; the first two that have an answer are compared.
-const ROUTES: [Route; 3] = [Route::Interior, Route::Lemke, Route::Qp];
+/// Routes that end on a basis, and so at rounding; and one that does not, for what is too large for the
+/// others. The first two that have an answer are compared.
+const ROUTES: [Route; 4] = [Route::Interior, Route::Lemke, Route::Alm, Route::Qp];
 /// Tolerances of a reference: the first that is reached.
 const TOLERANCES: [f64; 4] = [1e-13, 1e-12, 1e-11, 1e-10];
+/// That of a route that converges to a residual: enough to tell the states of the contacts.
+const CONVERGED: [f64; 1] = [1e-10];
 
-/// An answer by a route that ends exactly on a basis, as accurate as it can be had.
+/// The most accurate answer that can be had.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Reference {
     /// The route.
@@ -28,6 +32,9 @@ pub struct Reference {
     pub balance: f64,
     /// Wall-clock time \[s\].
     pub seconds: f64,
+    /// What numbers of twice the digits say of it. Errors are measured against the answer so refined where
+    /// that [is better](Verified::is_better).
+    pub verified: Option<Verified>,
     /// Another route that went another way; `None` where no other has an answer.
     pub confirmed: Option<Confirmation>,
 }
@@ -39,45 +46,78 @@ pub struct Confirmation {
     pub route: Route,
     /// Its distance from the reference. With friction there may be several equilibria, and then it may be large.
     pub errors: Errors,
+    /// The distance of both, each refined from the states of its own contacts, in the forces on the nodes \[-\].
+    pub refined: Option<f64>,
 }
 
-/// The reference of a scene and its outcome.
-pub(super) fn find(scene: &Scene, mesh: u32, runner: &mut Runner) -> Option<(Reference, Outcome)> {
+/// A reference with what is compared with it.
+pub(super) struct Found {
+    pub(super) reference: Reference,
+    pub(super) outcome: Outcome,
+    pub(super) figures: Figures,
+    /// The refined answer, where it is better.
+    pub(super) exact: Option<Exact>,
+}
+
+/// The reference of a scene.
+pub(super) fn find(scene: &Scene, mesh: u32, runner: &mut Runner) -> Option<Found> {
     let mut found: Vec<Candidate> = Vec::new();
     for route in ROUTES {
         if found.len() < 2 {
             found.extend(tightest(scene, (mesh, route), runner));
         }
     }
-    found.sort_by(|a, b| a.reference.residual.total_cmp(&b.reference.residual));
+    found.sort_by(|a, b| a.rank().0.cmp(&b.rank().0).then(a.rank().1.total_cmp(&b.rank().1)));
     let mut found = found.into_iter();
-    let best = found.next()?;
-    let figures = best.ran.figures()?;
-    let confirmed = found.next().and_then(|other| {
+    let mut best = found.next()?;
+    let figures = best.figures()?;
+    best.reference.confirmed = found.next().and_then(|other| {
         let errors = other.ran.figures()?.errors(&figures);
-        Some(Confirmation { route: other.reference.route, errors })
+        let refined = best.exact.as_ref().zip(other.exact.as_ref());
+        let refined = refined.and_then(|(exact, other)| exact.distance(other));
+        Some(Confirmation { route: other.reference.route, errors, refined })
     });
-    Some((Reference { confirmed, ..best.reference }, best.ran.outcome?))
+    let outcome = best.ran.outcome?;
+    Some(Found { reference: best.reference, outcome, figures, exact: best.exact })
 }
 
 struct Candidate {
     reference: Reference,
     ran: Ran,
+    exact: Option<Exact>,
+}
+
+impl Candidate {
+    /// Verified answers come first, then those of small residuals.
+    fn rank(&self) -> (bool, f64) {
+        (self.exact.is_none(), self.reference.residual)
+    }
+
+    fn figures(&self) -> Option<Figures> {
+        match (&self.exact, self.ran.solved()) {
+            (Some(exact), Some(outcome)) => Some(exact.figures(&outcome.model)),
+            _ => self.ran.figures(),
+        }
+    }
 }
 
 fn tightest(scene: &Scene, (mesh, route): (u32, Route), runner: &mut Runner) -> Option<Candidate> {
-    for tolerance in TOLERANCES {
+    let tolerances = if route == Route::Alm { &CONVERGED[..] } else { &TOLERANCES[..] };
+    for &tolerance in tolerances {
         let ran = runner.run(&on_route(scene, route, tolerance), mesh);
         if let (Some(outcome), Some(seconds)) = (ran.solved(), ran.seconds) {
+            let exact = Exact::of(outcome);
             let reference = Reference {
                 route,
                 tolerance,
                 residual: outcome.solve.residuals.worst(),
                 balance: outcome.checks.as_ref().map_or(0.0, worst),
                 seconds,
+                verified: exact.as_ref().map(|exact| exact.verified.clone()),
                 confirmed: None,
             };
-            return Some(Candidate { reference, ran });
+            let exact = exact.filter(|exact| exact.verified.is_better());
+            return Some(Candidate { reference, ran, exact });
         }
         // A looser tolerance helps where the residual was too large, and nowhere else.
         if !matches!(ran.end, End::Ended(Status::AlmostSolved | Status::Stalled)) {

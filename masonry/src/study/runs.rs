@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use lcp::Status;
 
 use super::{End, Figures, Progress, Record, Settings};
+use crate::check::Checks;
 use crate::model::Model;
 use crate::outcome::Outcome;
 use crate::plan::Plan;
@@ -14,6 +15,9 @@ use crate::solve::solve_observed;
 
 /// Solves that take longer are not repeated.
 const SHORT: Duration = Duration::from_secs(1);
+
+/// A limit counts as kept up to this factor.
+const OVERRUN: f64 = 1.1;
 
 /// Dense matrices of larger orders are not built: reduction and factors take minutes that no observer
 /// can cut short.
@@ -60,12 +64,19 @@ pub(super) struct Runner<'a> {
     repeats: usize,
     observer: &'a mut dyn FnMut(Progress),
     too_long: Vec<(u32, Route, f64)>,
+    /// The last record by pivots, with its balances.
+    pivots: Option<(Record, Checks)>,
 }
 
 impl<'a> Runner<'a> {
     pub(super) fn new(settings: &Settings, observer: &'a mut dyn FnMut(Progress)) -> Self {
         let Settings { time_limit: limit, repeats, .. } = *settings;
-        Self { limit, repeats, observer, too_long: Vec::new() }
+        Self { limit, repeats, observer, too_long: Vec::new(), pivots: None }
+    }
+
+    /// How often what is short is measured.
+    pub(super) fn repeats(&self) -> usize {
+        self.repeats
     }
 
     /// One record.
@@ -75,22 +86,41 @@ impl<'a> Runner<'a> {
         (mesh, route, tolerance): (u32, Route, f64),
         reference: Option<&Figures>,
     ) -> Record {
+        if let Some(same) = self.same_pivots((mesh, route, tolerance)) {
+            return same;
+        }
         let ran = self.run(&on_route(scene, route, tolerance), mesh);
         let count = |outcome: &Outcome| match route {
             Route::Lemke => outcome.solve.pivots,
             _ => outcome.solve.iterations,
         };
         let errors = ran.figures().zip(reference).map(|(found, it)| found.errors(it));
-        Record {
+        let checks = ran.solved().and_then(|outcome| outcome.checks.clone());
+        let record = Record {
             route,
             tolerance,
             mesh,
             residual: ran.residual(),
             seconds: ran.seconds,
+            overrun: ran.seconds.is_some_and(|it| it > OVERRUN * self.limit.as_secs_f64()),
             iterations: ran.outcome.as_ref().map(count),
             errors,
             end: ran.end,
+        };
+        if route == Route::Lemke {
+            self.pivots = checks.map(|checks| (record.clone(), checks));
         }
+        record
+    }
+
+    /// Pivots are the same to every tolerance that their residual is below: only what is called solved
+    /// depends on it.
+    fn same_pivots(&self, (mesh, route, tolerance): (u32, Route, f64)) -> Option<Record> {
+        let (last, checks) = self.pivots.as_ref()?;
+        let is_same = route == Route::Lemke && last.mesh == mesh && tolerance <= last.tolerance;
+        let is_reached = last.residual.is_some_and(|residual| residual <= tolerance);
+        (is_same && is_reached && checks.hold(tolerance))
+            .then(|| Record { tolerance, ..last.clone() })
     }
 
     /// Solves a scene, several times if that is quick. Where the time ran out to a looser tolerance, or on

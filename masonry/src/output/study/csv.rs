@@ -1,27 +1,31 @@
-//! The records of a study as comma-separated values.
+//! The records of a study, and what the last digits cost, as comma-separated values.
+
+use lcp::Refinement;
 
 use crate::output::csv::quoted;
 use crate::output::format::shortest;
-use crate::study::{Record, Study};
+use crate::study::{Record, Refining, Study};
+
+const END: &str = "\r\n";
 
 /// The text of `study.csv`: one row for each mesh, route and tolerance.
 ///
 /// Columns: `mesh` (factor), `route`, `tolerance`, `status` (a status, `Refused` or `Skipped`), `residual`,
-/// `time_s`, `iterations` (pivots by `lemke`), relative errors `error_force`, `error_stress`, `error_energy`,
+/// `time_s`, `overrun` (whether that is more than the limit), `iterations` (pivots by `lemke`), relative errors `error_force`, `error_stress`, `error_energy`,
 /// and the `reason` why it was refused or skipped. What is not known is empty. Numbers read back exactly,
 /// and lines end with CR LF.
 pub fn csv(study: &Study) -> String {
-    let mut text = "mesh,route,tolerance,status,residual,time_s,iterations,error_force,\
+    let mut text = "mesh,route,tolerance,status,residual,time_s,overrun,iterations,error_force,\
                     error_stress,error_energy,reason\r\n"
         .to_owned();
     for record in &study.records {
         text += &row(record).join(",");
-        text += "\r\n";
+        text += END;
     }
     text
 }
 
-fn row(record: &Record) -> [String; 11] {
+fn row(record: &Record) -> [String; 12] {
     let number = |value: Option<f64>| value.map_or_else(String::new, shortest);
     let errors = record.errors;
     [
@@ -31,10 +35,33 @@ fn row(record: &Record) -> [String; 11] {
         record.end.name(),
         number(record.residual),
         number(record.seconds),
+        record.overrun.to_string(),
         record.iterations.map_or_else(String::new, |count| count.to_string()),
         number(errors.and_then(|it| it.force)),
         number(errors.and_then(|it| it.stress)),
         number(errors.and_then(|it| it.energy)),
         record.end.reason().map_or_else(String::new, |it| quoted(it).into_owned()),
     ]
+}
+
+/// The text of `refinement.csv`: one row for each mesh with a verified reference and each way to solve the
+/// equations of its states; `None` where there is none.
+///
+/// Columns: `mesh` (factor), `refinement` (`plain`, `single`, `extended`), `solves`, `time_s`, `residual`,
+/// `error`. Numbers read back exactly, and lines end with CR LF.
+pub fn refinement_csv(study: &Study) -> Option<String> {
+    let row = |factor: u32, it: &Refining| {
+        let name = match it.refinement {
+            Refinement::Plain => "plain",
+            Refinement::Single => "single",
+            Refinement::Extended => "extended",
+        };
+        let numbers = [Some(it.seconds), Some(it.residual), it.error];
+        let [seconds, residual, error] = numbers.map(|it| it.map_or_else(String::new, shortest));
+        format!("{factor},{name},{},{seconds},{residual},{error}{END}", it.passes)
+    };
+    let meshes = study.meshes.iter();
+    let rows: String =
+        meshes.flat_map(|mesh| mesh.refinings.iter().map(|it| row(mesh.factor, it))).collect();
+    (!rows.is_empty()).then(|| format!("mesh,refinement,solves,time_s,residual,error{END}{rows}"))
 }

@@ -7,7 +7,7 @@ use crate::output::format::InUnits;
 use crate::study::{Mesh, Record, Springs, Study, Values};
 
 /// The object of `study.json` and of `masonry study --json`, pretty-printed: `title`, `units`,
-/// `time_limit_s`, `records`, `meshes`, `springs`, `summary`, `files`. Times are in seconds, errors,
+/// `time_limit_s`, `machine`, `records`, `meshes`, `springs`, `summary`, `files`. Times are in seconds, errors,
 /// residuals and stiffnesses without dimension, and the values of meshes in the units of the scene, which
 /// `units` names.
 ///
@@ -24,6 +24,7 @@ pub fn json(study: &Study, files: &[&str]) -> Result<String, serde_json::Error> 
             seconds: "s",
         },
         time_limit_s: study.time_limit.as_secs_f64(),
+        machine: study.machine.as_deref(),
         records: &study.records,
         meshes: study.meshes.iter().map(|mesh| in_units(mesh, units)).collect(),
         springs: &study.springs,
@@ -38,6 +39,7 @@ struct Report<'a> {
     title: &'a str,
     units: Names,
     time_limit_s: f64,
+    machine: Option<&'a str>,
     records: &'a [Record],
     meshes: Vec<Mesh>,
     springs: &'a [Springs],

@@ -1,11 +1,12 @@
 //! A study as text.
 
 use comfy_table::{ContentArrangement, Table};
+use lcp::Refinement;
 
 use super::summary;
 use crate::output::format::{InUnits, significant};
 use crate::output::table::{paragraph, section, table as columns};
-use crate::study::{Mesh, Study, Values};
+use crate::study::{End, Mesh, Study, Values};
 
 /// The whole report: what it comes to, the records, the meshes, the springs.
 pub fn table(study: &Study) -> String {
@@ -19,8 +20,26 @@ pub fn table(study: &Study) -> String {
         text += &section(&format!("Routes and tolerances, mesh of factor {}", mesh.factor));
         text += &records(study, mesh);
     }
+    if let Some(machine) = &study.machine {
+        text += &paragraph(&format!("Times are those of {machine}."));
+    }
     text += "\n Steps are pivots by lemke and iterations by the others; errors are relative to the reference of\n \
              the same mesh.\n";
+    if study.records.iter().any(|record| record.overrun) {
+        text += &paragraph(&format!(
+            "! took more than the limit of {} s: one factorisation, reduction or program was not interrupted.",
+            significant(study.time_limit.as_secs_f64(), 3)
+        ));
+    }
+    for (names, reason) in not_tried(study) {
+        text += &paragraph(&format!("Not tried: {names}, since {reason}."));
+    }
+    text += &section("References");
+    text += &references(study);
+    if study.meshes.iter().any(|mesh| !mesh.refinings.is_empty()) {
+        text += &section("The last digits");
+        text += &refinings(study);
+    }
     text += &section("Meshes");
     text += &meshes(study);
     if !study.springs.is_empty() {
@@ -50,7 +69,7 @@ fn records(study: &Study, mesh: &Mesh) -> String {
             format!("{:e}", record.tolerance),
             record.end.name(),
             power(record.residual),
-            number(record.seconds, 3),
+            number(record.seconds, 3) + if record.overrun { " !" } else { "" },
             record.iterations.map_or_else(dash, |count| count.to_string()),
             power(errors.and_then(|it| it.force)),
             power(errors.and_then(|it| it.stress)),
@@ -58,6 +77,73 @@ fn records(study: &Study, mesh: &Mesh) -> String {
         ]);
     }
     table.trim_fmt() + "\n"
+}
+
+/// What was skipped, by route and mesh, each with the reason.
+fn not_tried(study: &Study) -> Vec<(String, String)> {
+    let mut all: Vec<(String, String)> = Vec::new();
+    for record in &study.records {
+        let End::Skipped(reason) = &record.end else { continue };
+        let name = format!("{} on the mesh of factor {}", record.route.name(), record.mesh);
+        if all.last().is_some_and(|last| last.0 == name) {
+            continue;
+        }
+        all.push((name, reason.clone()));
+    }
+    all
+}
+
+fn references(study: &Study) -> String {
+    let heads = [
+        "mesh", "route", "residual", "refined", "margin", "digits", "distance", "other", "distance",
+    ];
+    let mut table = wide(&heads, &[0, 2, 3, 4, 5, 6, 8]);
+    for mesh in &study.meshes {
+        let Some(it) = &mesh.reference else { continue };
+        let (verified, other) = (it.verified.as_ref(), it.confirmed.as_ref());
+        let holds = verified.is_none_or(|it| it.holds);
+        table.add_row(vec![
+            mesh.factor.to_string(),
+            it.route.name().to_owned(),
+            power(Some(it.residual)),
+            power(verified.map(|it| it.residual)),
+            power(verified.and_then(|it| it.margin)) + if holds { "" } else { " violated" },
+            verified.map_or_else(dash, |it| format!("{:.0}", it.digits)),
+            power(verified.and_then(|it| it.distance)),
+            other.map_or_else(dash, |it| it.route.name().to_owned()),
+            power(other.and_then(|it| it.refined.or(it.errors.worst()))),
+        ]);
+    }
+    table.trim_fmt()
+        + "\n Refined is the residual after refinement with numbers of twice the digits; margin, what the\n \
+           inequalities of the contact law leave then; digits, those of its forces that are certain. The\n \
+           first distance is that of the route's answer from it, the second that of another route's, refined\n \
+           as well.\n"
+}
+
+fn refinings(study: &Study) -> String {
+    let heads =
+        ["mesh", "states known, one factorisation", "solves", "time [s]", "residual", "error"];
+    let mut table = wide(&heads, &[0, 2, 3, 4, 5]);
+    for mesh in &study.meshes {
+        for it in &mesh.refinings {
+            let what = match it.refinement {
+                Refinement::Plain => "one solve",
+                Refinement::Single => "and one refinement",
+                Refinement::Extended => "and compensated refinement",
+            };
+            table.add_row(vec![
+                mesh.factor.to_string(),
+                what.to_owned(),
+                it.passes.to_string(),
+                number(Some(it.seconds), 3),
+                power(Some(it.residual)),
+                power(it.error),
+            ]);
+        }
+    }
+    table.trim_fmt()
+        + "\n Errors are those of the forces on the nodes, against the refined reference.\n"
 }
 
 fn meshes(study: &Study) -> String {

@@ -23,15 +23,17 @@ const FEW_DECADES: i32 = 3;
 const MARKER: f64 = 4.5;
 
 /// Colours that differ also for those who see few of them (Okabe and Ito), each with its own marker.
-const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#4d4d4d"];
+const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56b4e9"];
 
 /// A line through points, in their order.
 #[derive(Debug, Clone)]
 pub(super) struct Line {
-    /// In the legend.
+    /// In the legend, unless it is empty.
     pub(super) name: String,
     /// Which colour and marker it has.
     pub(super) style: usize,
+    /// Whether it is broken.
+    pub(super) dashed: bool,
     /// Positive coordinates; others are left out.
     pub(super) points: Vec<[f64; 2]>,
 }
@@ -175,7 +177,8 @@ impl Plot {
         let colour = COLOURS[line.style % COLOURS.len()];
         let points: Vec<Pixel> =
             line.points.iter().map(|[x, y]| Pixel::new(self.x.at(*x), self.y.at(*y))).collect();
-        let style = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.8\"");
+        let dashes = if line.dashed { " stroke-dasharray=\"6 4\"" } else { "" };
+        let style = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.8\"{dashes}");
         canvas.group(&style, |canvas| canvas.polyline(&points));
         for point in points {
             marker(canvas, point, line.style);
@@ -203,8 +206,13 @@ fn marker(canvas: &mut Canvas, at: Pixel, style: usize) {
                 [shifted(0.0, -1.4), shifted(1.4, 0.0), shifted(0.0, 1.4), shifted(-1.4, 0.0)];
             canvas.polygon(&corners, &attributes);
         }
-        _ => {
+        4 => {
             let corners = [shifted(0.0, 1.3), shifted(1.2, -0.9), shifted(-1.2, -0.9)];
+            canvas.polygon(&corners, &attributes);
+        }
+        _ => {
+            let corners =
+                [shifted(-1.5, -0.5), shifted(1.5, -0.5), shifted(1.5, 0.5), shifted(-1.5, 0.5)];
             canvas.polygon(&corners, &attributes);
         }
     }
@@ -213,7 +221,7 @@ fn marker(canvas: &mut Canvas, at: Pixel, style: usize) {
 /// Draws names and notes; gives where they end.
 fn legend(canvas: &mut Canvas, lines: &[Line], notes: &[String], at: Pixel) -> f64 {
     let mut y = at.y;
-    for line in lines {
+    for line in lines.iter().filter(|line| !line.name.is_empty()) {
         let colour = COLOURS[line.style % COLOURS.len()];
         if !line.points.is_empty() {
             let stroke = format!("stroke=\"{colour}\" stroke-width=\"1.8\"");

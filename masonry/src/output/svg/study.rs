@@ -1,4 +1,5 @@
-//! Diagrams of a study: error against time, mesh against time, bias of springs.
+//! Diagrams of a study: error against time, mesh against time, bias of springs; and of several: time against
+//! size.
 
 use super::diagram::{Line, Titles, diagram};
 use crate::scene::Route;
@@ -20,8 +21,8 @@ pub fn accuracy(study: &Study) -> Option<String> {
         y: "error of forces, stresses, energy, relative [-]",
     };
     let tolerances = "Every line goes through the tolerances of the study, each solve to its own.";
-    let notes: Vec<String> =
-        std::iter::once(tolerances.to_owned()).chain(rounded(&lines)).collect();
+    let notes = std::iter::once(tolerances.to_owned()).chain(rounded(&lines));
+    let notes: Vec<String> = notes.chain(study.machine.clone()).collect();
     diagram(&titles, &lines, &notes)
 }
 
@@ -37,7 +38,8 @@ fn accuracy_line(study: &Study, route: Route) -> Line {
         _ => name.to_owned(),
     };
     let point = |it: &&&Record| Some([it.seconds?, it.errors?.worst()?.max(ROUNDING)]);
-    Line { name, style: style(route), points: solved.filter_map(|it| point(&it)).collect() }
+    let points = solved.filter_map(|it| point(&it)).collect();
+    Line { name, style: style(route), dashed: false, points }
 }
 
 /// The error of every mesh in the strain energy against the time of a solve on it, one line for each
@@ -64,6 +66,7 @@ pub fn mesh(study: &Study) -> Option<String> {
             finest.factor
         ),
     ];
+    let notes: Vec<String> = notes.into_iter().chain(study.machine.clone()).collect();
     diagram(&titles, &lines, &notes)
 }
 
@@ -85,7 +88,7 @@ fn mesh_line(study: &Study, route: Route, tolerance: f64) -> Line {
         Some(record) => format!("{}: {} on {}", route.name(), record.end.name(), record.mesh),
         None => route.name().to_owned(),
     };
-    Line { name, style: style(route), points: points.collect() }
+    Line { name, style: style(route), dashed: false, points: points.collect() }
 }
 
 fn factors(study: &Study) -> String {
@@ -99,6 +102,7 @@ pub fn springs(study: &Study) -> Option<String> {
     let line = |name: &str, style, of: fn(&crate::study::Springs) -> Option<f64>| Line {
         name: name.to_owned(),
         style,
+        dashed: false,
         points: study
             .springs
             .iter()
@@ -116,34 +120,44 @@ pub fn springs(study: &Study) -> Option<String> {
         x: "stiffness of the springs, relative to that of the blocks [-]",
         y: "relative [-]",
     };
-    let notes: Vec<String> = rounded(&lines).into_iter().collect();
+    let notes: Vec<String> = rounded(&lines).into_iter().chain(study.machine.clone()).collect();
     diagram(&titles, &lines, &notes)
 }
 
-/// Time against size, of studies of one pattern: one line for each route, on the first mesh of every study, at the
-/// tolerance nearest to the one given. `None` where nothing was solved.
-pub fn sizes(title: &str, studies: &[Study], tolerance: f64) -> Option<String> {
-    let routes = studies.first()?.routes();
-    let line = |route: &Route| {
-        let time = |study: &Study| {
-            let points = study.meshes.first()?.contact_points;
-            let solved = |it: &&Record| it.route == *route && it.end.is_solved();
-            let distance = |it: &Record| (it.tolerance / tolerance).ln().abs();
-            let nearest = study
-                .on_first_mesh()
-                .filter(solved)
-                .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-            Some([points as f64, nearest.seconds?])
-        };
-        Line {
-            name: route.name().to_owned(),
-            style: style(*route),
-            points: studies.iter().filter_map(time).collect(),
+/// The time of a solve on the first mesh of every study against the number of blocks, for two tolerances: two
+/// lines for each route, the first broken. `None` where no time is known.
+pub fn sizes(title: &str, studies: &[Study], [loose, tight]: [f64; 2]) -> Option<String> {
+    let mut routes: Vec<Route> = Vec::new();
+    for route in studies.iter().flat_map(Study::routes) {
+        if !routes.contains(&route) {
+            routes.push(route);
         }
+    }
+    let line = |route: Route, tolerance: f64| {
+        let point = |study: &Study| {
+            let blocks = study.meshes.first()?.blocks as f64;
+            let mut records = study.on_first_mesh().filter(|it| it.end.is_solved());
+            let record = records
+                .find(|it| it.route == route && it.tolerance.total_cmp(&tolerance).is_eq())?;
+            Some([blocks, record.seconds?])
+        };
+        studies.iter().filter_map(point).collect()
     };
-    let lines: Vec<Line> = routes.iter().map(line).collect();
-    let y = format!("time of one solve to {tolerance:e} [s]");
-    diagram(&Titles { title, x: "contact points", y: &y }, &lines, &[])
+    let lines = |route: &Route| {
+        let (style, name) = (style(*route), route.name().to_owned());
+        let points = line(*route, loose);
+        [
+            Line { name: String::new(), style, dashed: true, points },
+            Line { name, style, dashed: false, points: line(*route, tight) },
+        ]
+    };
+    let lines: Vec<Line> = routes.iter().flat_map(lines).collect();
+    let titles = Titles { title, x: "number of bricks [-]", y: "time of one solve [s]" };
+    let meaning = format!("Full lines: to {tight:e}; broken ones: to {loose:e}.");
+    let ends = "A line ends where a size was not solved within the time, or not tried.".to_owned();
+    let machine = studies.first().and_then(|study| study.machine.clone());
+    let notes: Vec<String> = [meaning, ends].into_iter().chain(machine).collect();
+    diagram(&titles, &lines, &notes)
 }
 
 /// A note, where errors are below what is drawn.

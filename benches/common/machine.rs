@@ -1,0 +1,26 @@
+//! On what a bench was measured.
+
+use std::process::Command;
+
+/// On what it was measured, and when, as a sentence.
+pub(crate) fn machine() -> String {
+    format!("Measured on {}.\n", machine_and_date())
+}
+
+/// Processor, cores, compiler and date.
+pub(crate) fn machine_and_date() -> String {
+    let said = |program: &str, argument: &str| {
+        let output = Command::new(program).arg(argument).output().ok()?;
+        Some(String::from_utf8_lossy(&output.stdout).trim().to_owned())
+    };
+    let unknown = || "unknown".to_owned();
+    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = info.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
+    let cores = std::thread::available_parallelism().map_or_else(|_| unknown(), |n| n.to_string());
+    format!(
+        "{}, {cores} cores of which one is used, {}, {}",
+        model.map_or_else(unknown, |(_, name)| name.to_owned()),
+        said("rustc", "--version").unwrap_or_else(unknown),
+        said("date", "+%Y-%m-%d").unwrap_or_else(unknown),
+    )
+}

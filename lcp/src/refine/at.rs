@@ -1,0 +1,82 @@
+//! Displacements and forces while they are refined.
+
+use super::ContactStatus;
+use crate::ContactState;
+use crate::active::{Point, Scaled};
+use crate::extended::Extended;
+use crate::problem::max_abs;
+
+/// Gaps and slips below this part of the largest are those of a closed contact, whatever its force.
+const CLOSED: f64 = 1e-13;
+
+/// Displacements and forces in the units of the scaled problem.
+#[derive(Debug, Clone)]
+pub(super) struct At {
+    pub(super) u: Vec<Extended>,
+    pub(super) forces: Vec<[Extended; 2]>,
+}
+
+impl At {
+    pub(super) fn from(scaled: &Scaled, state: &ContactState) -> Self {
+        let force = scaled.force();
+        let forces = state.t_n.iter().zip(&state.t_t).zip(&scaled.points).map(|((n, t), point)| {
+            let t = if point.mu > 0.0 { *t } else { 0.0 };
+            [n / force, t / force].map(Extended::from)
+        });
+        let u = scaled.of_displacements(&state.u).into_iter().map(Extended::from);
+        Self { u: u.collect(), forces: forces.collect() }
+    }
+
+    /// Displacements, and pairs of forces, to the usual digits.
+    pub(super) fn rounded(&self) -> (Vec<f64>, Vec<(f64, f64)>) {
+        let forces = self.forces.iter().map(|[n, t]| (n.rounded(), t.rounded()));
+        (self.u.iter().map(|u| u.rounded()).collect(), forces.collect())
+    }
+
+    pub(super) fn without_rests(&self) -> Self {
+        let rounded = |it: &Extended| Extended::from(it.rounded());
+        let forces = self.forces.iter().map(|[n, t]| [rounded(n), rounded(t)]);
+        Self { u: self.u.iter().map(rounded).collect(), forces: forces.collect() }
+    }
+
+    /// The displacements in the units of the original problem, by factors that are powers of two.
+    pub(super) fn displacements(&self, scaled: &Scaled) -> Vec<Extended> {
+        let [high, low] = [Extended::rounded, Extended::rest]
+            .map(|part| scaled.displacements(&self.u.iter().map(|u| part(*u)).collect::<Vec<_>>()));
+        high.into_iter().zip(low).map(|(high, low)| Extended::from(high) + low.into()).collect()
+    }
+
+    /// Gap or slip of a point.
+    pub(super) fn row(&self, point: &Point, first: f64, coefficients: &[f64]) -> Extended {
+        let terms = point.columns.iter().zip(coefficients).map(|(&j, &v)| self.u[j] * v);
+        terms.fold(Extended::from(first), |sum, term| sum + term)
+    }
+
+    /// The largest force, of contacts or loads, and the largest displacement or gap.
+    pub(super) fn sizes(&self, scaled: &Scaled) -> (f64, f64) {
+        let (u, forces) = self.rounded();
+        let force =
+            forces.iter().fold(max_abs(&scaled.f), |max, (n, t)| max.max(n.abs().max(t.abs())));
+        let gaps = scaled.points.iter().map(|point| point.x_0.abs().max(point.s_0.abs()));
+        // The unit of stiffness is one.
+        (force, gaps.fold(max_abs(&u).max(force), f64::max))
+    }
+
+    pub(super) fn nearest(&self, scaled: &Scaled) -> Vec<ContactStatus> {
+        let (u, forces) = self.rounded();
+        let (force, length) = self.sizes(scaled);
+        let part = |v: f64, unit: f64| if unit > 0.0 { v / unit } else { 0.0 };
+        let of_point = |(point, (t_n, t_t)): (&Point, (f64, f64))| {
+            let (gap, slip) = (part(point.gap(&u), length), part(point.slip(&u), length));
+            let lacks = part(point.mu * t_n - t_t.abs(), force);
+            if gap > part(t_n, force).max(CLOSED) {
+                ContactStatus::Open
+            } else if point.mu > 0.0 && slip.abs() > lacks.max(CLOSED) {
+                if slip > 0.0 { ContactStatus::Forwards } else { ContactStatus::Backwards }
+            } else {
+                ContactStatus::Stick
+            }
+        };
+        scaled.points.iter().zip(forces).map(of_point).collect()
+    }
+}

@@ -1,0 +1,158 @@
+//! What the equations lack.
+
+use super::ContactStatus;
+use super::at::At;
+use crate::active::{Point, Scaled};
+use crate::extended::Extended;
+use crate::problem::{column_of, max_abs};
+use crate::residual::ratio;
+
+/// Rows of smaller terms than this part of the largest force or displacement are measured by that: of a body at
+/// rest between others all terms are rounding errors.
+const FLOOR: f64 = 1.0 / (1 << 10) as f64;
+
+/// What the equations of the states lack.
+pub(super) struct Lack {
+    /// `f + C^T t - K u`.
+    pub(super) unbalanced: Vec<Extended>,
+    /// Gap and slip where the states allow none.
+    pub(super) opened: Vec<[Extended; 2]>,
+    /// The largest, relative to the terms of its row.
+    pub(super) residual: f64,
+}
+
+/// What is added to loads, and to gaps and slips of closed contacts.
+#[derive(Debug, Clone)]
+pub(super) struct Shifts {
+    loads: Vec<Extended>,
+    gaps: Vec<[Extended; 2]>,
+    /// The largest, relative to the terms of its row.
+    pub(super) largest: f64,
+}
+
+impl Shifts {
+    /// None.
+    pub(super) fn new(scaled: &Scaled) -> Self {
+        let gaps = vec![[Extended::ZERO; 2]; scaled.points.len()];
+        Self { loads: vec![Extended::ZERO; scaled.order()], gaps, largest: 0.0 }
+    }
+
+    /// Takes away what is lacking.
+    pub(super) fn absorb(&mut self, lack: &Lack) {
+        self.largest = self.largest.max(lack.residual);
+        self.loads.iter_mut().zip(&lack.unbalanced).for_each(|(load, rest)| *load += -*rest);
+        for (gaps, opened) in self.gaps.iter_mut().zip(&lack.opened) {
+            *gaps = [gaps[0] - opened[0], gaps[1] - opened[1]];
+        }
+    }
+}
+
+impl Lack {
+    /// Computed to twice the usual digits.
+    pub(super) fn extended(
+        scaled: &Scaled,
+        statuses: &[ContactStatus],
+        at: &At,
+        shifts: &Shifts,
+        floating: &[bool],
+    ) -> Self {
+        let (u, forces) = at.rounded();
+        let (force, length) = at.sizes(scaled);
+        let mut residual = 0.0_f64;
+        let mut unbalanced = on_bodies(scaled, &at.forces);
+        for ((rest, f), shift) in unbalanced.iter_mut().zip(&scaled.f).zip(&shifts.loads) {
+            *rest += *shift + (*f).into();
+        }
+        for (j, u) in at.u.iter().enumerate() {
+            column_of(&scaled.k, j).for_each(|(i, v)| unbalanced[i] += -(*u * v));
+        }
+        let terms = scaled.terms(&u, &forces);
+        for ((rest, terms), floats) in unbalanced.iter_mut().zip(&terms).zip(floating) {
+            if *floats {
+                *rest = Extended::ZERO;
+            }
+            residual = residual.max(ratio(rest.rounded(), terms.max(FLOOR * force)));
+        }
+        let mut opened = Vec::with_capacity(statuses.len());
+        for ((point, status), shifts) in scaled.points.iter().zip(statuses).zip(&shifts.gaps) {
+            let mut row = |shift: Extended, first: f64, coefficients: &[f64]| {
+                let sum = shift + at.row(point, first, coefficients);
+                let terms = point.columns.iter().zip(coefficients).map(|(&j, v)| (u[j] * v).abs());
+                let terms = terms.fold(first.abs(), |sum, term| sum + term);
+                residual = residual.max(ratio(sum.rounded(), terms.max(FLOOR * length)));
+                sum
+            };
+            let [gap, slip] = status.is_closed(point.mu);
+            let gap = if gap { row(shifts[0], point.x_0, &point.normal) } else { Extended::ZERO };
+            let slip =
+                if slip { row(shifts[1], point.s_0, &point.tangent) } else { Extended::ZERO };
+            opened.push([gap, slip]);
+        }
+        Self { unbalanced, opened, residual }
+    }
+
+    /// Computed to the usual digits; the residual is not compared with terms.
+    pub(super) fn usual(
+        scaled: &Scaled,
+        statuses: &[ContactStatus],
+        at: &At,
+        floating: &[bool],
+    ) -> Self {
+        let (u, forces) = at.rounded();
+        let mut unbalanced = scaled.unbalanced(&u, forces.into_iter());
+        unbalanced.iter_mut().zip(floating).filter(|(_, is)| **is).for_each(|(v, _)| *v = 0.0);
+        let closed = scaled.points.iter().zip(statuses).map(|(point, status)| {
+            let [gap, slip] = status.is_closed(point.mu);
+            let gap = if gap { point.gap(&u) } else { 0.0 };
+            let slip = if slip { point.slip(&u) } else { 0.0 };
+            [gap, slip].map(Extended::from)
+        });
+        let opened: Vec<[Extended; 2]> = closed.collect();
+        let closed = opened.iter().flatten().map(|it| it.rounded().abs());
+        let residual = closed.fold(max_abs(&unbalanced), f64::max);
+        let unbalanced = unbalanced.into_iter().map(Extended::from).collect();
+        Self { unbalanced, opened, residual }
+    }
+}
+
+/// The forces of all contacts on the displacements.
+pub(super) fn on_bodies(scaled: &Scaled, forces: &[[Extended; 2]]) -> Vec<Extended> {
+    let mut sum = vec![Extended::ZERO; scaled.order()];
+    for (point, [t_n, t_t]) in scaled.points.iter().zip(forces) {
+        for ((&j, &n), &t) in point.columns.iter().zip(&point.normal).zip(&point.tangent) {
+            sum[j] += *t_n * n + *t_t * t;
+        }
+    }
+    sum
+}
+
+/// Forces below this part of the largest are none to a body without loads.
+const IDLE: f64 = 1e-10;
+
+/// Displacements of bodies without loads that no contact presses: nothing says where they are.
+pub(super) fn floating(scaled: &Scaled, statuses: &[ContactStatus], at: &At) -> Vec<bool> {
+    let none = Extended::from(IDLE * at.sizes(scaled).0);
+    let mut floats: Vec<bool> = scaled.f.iter().map(|f| *f == 0.0).collect();
+    for ((point, status), [t_n, t_t]) in scaled.points.iter().zip(statuses).zip(&at.forces) {
+        let is_pressed = t_n.abs() > none || t_t.abs() > none;
+        if *status != ContactStatus::Open && is_pressed {
+            touched(point).for_each(|j| floats[j] = false);
+        }
+    }
+    let mut reached: Vec<usize> = (0..floats.len()).filter(|&j| !floats[j]).collect();
+    while let Some(j) = reached.pop() {
+        for (i, _) in column_of(&scaled.k, j) {
+            if std::mem::replace(&mut floats[i], false) {
+                reached.push(i);
+            }
+        }
+    }
+    floats
+}
+
+/// The displacements that a point sees.
+pub(super) fn touched(point: &Point) -> impl Iterator<Item = usize> + '_ {
+    let rows = point.columns.iter().zip(point.normal.iter().zip(&point.tangent));
+    let seen = rows.filter(|(_, (n, t))| **n != 0.0 || point.mu > 0.0 && **t != 0.0);
+    seen.map(|(&j, _)| j)
+}

@@ -1,0 +1,83 @@
+//! The contact law: what a state demands, and how far its inequalities are from being violated.
+
+use super::ContactStatus;
+use super::at::At;
+use crate::active::{Scaled, Springs};
+use crate::extended::Extended;
+
+/// How far the inequalities of the contact law are from being violated, at the contact that is nearest to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Margin {
+    /// The least of all: of gaps of open contacts and slips of sliding ones, in units of the largest
+    /// displacement; of normal forces of closed contacts and what friction lacks to its bound at sticking
+    /// ones, in units of the largest force. Negative where one is violated; infinite without contacts.
+    pub least: f64,
+    /// The contact; `None` without contacts.
+    pub contact: Option<usize>,
+}
+
+impl Margin {
+    pub(super) fn of(slacks: impl Iterator<Item = (f64, ContactStatus)>) -> Self {
+        let none = Self { least: f64::INFINITY, contact: None };
+        slacks.enumerate().fold(none, |margin, (i, (least, _))| {
+            if least < margin.least { Self { least, contact: Some(i) } } else { margin }
+        })
+    }
+}
+
+/// For every contact what its inequalities leave, and the status that takes its place where that is negative.
+pub(super) fn slacks(
+    scaled: &Scaled,
+    statuses: &[ContactStatus],
+    at: &At,
+) -> impl Iterator<Item = (f64, ContactStatus)> {
+    use ContactStatus::{Backwards, Forwards, Open, Stick};
+    let (force, length) = at.sizes(scaled);
+    let part = |v: Extended, unit: f64| if unit > 0.0 { v.rounded() / unit } else { 0.0 };
+    let points = scaled.points.iter().zip(statuses).zip(&at.forces);
+    points.map(move |((point, status), [t_n, t_t])| {
+        let pressed = (part(*t_n, force), Open);
+        let slip = || part(at.row(point, point.s_0, &point.tangent), length);
+        let other = match status {
+            Open => return (part(at.row(point, point.x_0, &point.normal), length), Stick),
+            _ if point.mu == 0.0 => return pressed,
+            Stick => {
+                let next = if *t_t < Extended::ZERO { Forwards } else { Backwards };
+                (part(*t_n * point.mu - t_t.abs(), force), next)
+            }
+            Forwards => (slip(), Stick),
+            Backwards => (-slip(), Stick),
+        };
+        // A force that pulls says more than what friction makes of it.
+        if pressed.0 < 0.0 || pressed.0 < other.0 { pressed } else { other }
+    })
+}
+
+impl ContactStatus {
+    /// Whether it allows no gap, and no slip.
+    pub(super) fn is_closed(self, mu: f64) -> [bool; 2] {
+        [self != Self::Open, self == Self::Stick && mu > 0.0]
+    }
+
+    /// Springs of a stiffness against what it does not allow.
+    pub(super) fn springs(self, mu: f64, stiff: f64) -> Springs {
+        let tt = if mu > 0.0 { stiff } else { 0.0 };
+        match self {
+            Self::Open => Springs::default(),
+            Self::Stick => Springs { nn: stiff, tn: 0.0, tt },
+            Self::Forwards => Springs { nn: stiff, tn: -mu * stiff, tt: 0.0 },
+            Self::Backwards => Springs { nn: stiff, tn: mu * stiff, tt: 0.0 },
+        }
+    }
+
+    /// The forces that it allows, from any.
+    pub(super) fn on_cone(self, mu: f64, [t_n, t_t]: [Extended; 2]) -> [Extended; 2] {
+        match self {
+            Self::Open => [Extended::ZERO; 2],
+            Self::Stick => [t_n, t_t],
+            Self::Forwards => [t_n, -(t_n * mu)],
+            Self::Backwards => [t_n, t_n * mu],
+        }
+    }
+}

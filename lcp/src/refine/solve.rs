@@ -1,0 +1,233 @@
+//! Passes with one factorisation, and when they end.
+
+use std::time::Instant;
+
+use super::at::At;
+use super::lack::{self, Lack, Shifts};
+use super::law::{self, Margin};
+use super::{ContactStatus, DOUBT, Refined, Refinement};
+use crate::active::{Condensed, Scaled, Springs};
+use crate::problem::max_abs;
+use crate::residual::ratio;
+use crate::{ContactState, Error};
+
+/// The answer, and what the inequalities of every contact leave.
+pub(super) fn solved(
+    scaled: &Scaled,
+    state: &ContactState,
+    statuses: &[ContactStatus],
+    refinement: Refinement,
+) -> Result<(Refined, Vec<(f64, ContactStatus)>), Error> {
+    let began = Instant::now();
+    let mut solve = Solve::new(scaled, At::from(scaled, state), statuses, WEIGHTS[0])?;
+    solve.run(refinement);
+    if refinement == Refinement::Extended && solve.residual() > FALLEN {
+        let mut other = Solve::new(scaled, At::from(scaled, state), statuses, WEIGHTS[1])?;
+        other.run(refinement);
+        other.passes += solve.passes;
+        if other.residual() < solve.residual() {
+            solve = other;
+        }
+    }
+    Ok(solve.finish(began.elapsed().as_secs_f64()))
+}
+
+/// How much passes hold on to what they start from.
+#[derive(Debug, Clone, Copy)]
+struct Weights {
+    /// Stiffness of a closed contact, relative to the bodies: a proximal step for forces, which redundant
+    /// contacts need. What it leaves open the next pass closes.
+    stiff: f64,
+    /// Springs on all displacements, relative to the stiffness: a proximal step for bodies that nothing holds.
+    proximal: f64,
+}
+
+/// The first converge faster. Where bodies move freely, rounding errors move them far against the first, and
+/// stiff contacts make forces of the rounding errors of that.
+const WEIGHTS: [Weights; 2] =
+    [Weights { stiff: 1e8, proximal: 1e-10 }, Weights { stiff: 1e6, proximal: 1e-7 }];
+/// Residuals above this are tried again with other weights.
+const FALLEN: f64 = 1e-24;
+/// Passes at most.
+const PASSES: usize = 60;
+/// Passes without a residual that falls, after which what is left is taken for an error of the data.
+const PATIENCE: usize = 2;
+/// Residuals that are rounding errors of [`Extended`].
+const ENOUGH: f64 = f64::EPSILON * f64::EPSILON;
+/// The most, relative to the terms of a row, that may be a rounding error of the data.
+const CONTRADICTION: f64 = 1e-12;
+
+/// One solve.
+struct Solve<'a> {
+    scaled: &'a Scaled,
+    /// Contacts of bodies that float are open.
+    statuses: Vec<ContactStatus>,
+    springs: Vec<Springs>,
+    condensed: Condensed,
+    /// Displacements that stay where they are.
+    floating: Vec<bool>,
+    shifts: Shifts,
+    at: At,
+    /// Of `C^T t` by the last pass, relative to the largest.
+    correction: f64,
+    /// The largest of these before a shift.
+    shifted: f64,
+    passes: usize,
+}
+
+impl<'a> Solve<'a> {
+    fn new(
+        scaled: &'a Scaled,
+        mut at: At,
+        statuses: &[ContactStatus],
+        weights: Weights,
+    ) -> Result<Self, Error> {
+        let floating = lack::floating(scaled, statuses, &at);
+        let points = scaled.points.iter().zip(statuses);
+        let statuses: Vec<ContactStatus> = points
+            .map(|(point, status)| {
+                let floats = lack::touched(point).any(|j| floating[j]);
+                if floats { ContactStatus::Open } else { *status }
+            })
+            .collect();
+        let mut condensed = Condensed::new(scaled).map_err(|error| Error::NotTreated {
+            solver: "refine",
+            reason: format!("its sparse factors cannot be planned: {error}"),
+        })?;
+        let all = scaled.points.iter().zip(&statuses);
+        let springs: Vec<Springs> =
+            all.clone().map(|(point, status)| status.springs(point.mu, weights.stiff)).collect();
+        for ((point, status), forces) in all.zip(&mut at.forces) {
+            *forces = status.on_cone(point.mu, *forces);
+        }
+        condensed.factorise(scaled, &springs, weights.proximal);
+        Ok(Self {
+            scaled,
+            statuses,
+            springs,
+            condensed,
+            floating,
+            shifts: Shifts::new(scaled),
+            at,
+            correction: 0.0,
+            shifted: 0.0,
+            passes: 0,
+        })
+    }
+
+    fn run(&mut self, refinement: Refinement) {
+        match refinement {
+            Refinement::Plain => self.repeat(1),
+            Refinement::Single => self.repeat(2),
+            Refinement::Extended => self.refine(),
+        }
+    }
+
+    /// Passes for residuals of the usual digits.
+    fn repeat(&mut self, passes: usize) {
+        for _ in 0..passes {
+            let lack = Lack::usual(self.scaled, &self.statuses, &self.at, &self.floating);
+            self.pass(&lack);
+            self.at = self.at.without_rests();
+        }
+    }
+
+    fn refine(&mut self) {
+        let given = self.at.clone();
+        let (mut lack, mut since) = (self.lack(), 0);
+        while self.passes < PASSES && lack.residual.is_finite() && lack.residual > ENOUGH {
+            let residual = lack.residual;
+            let before = (self.at.clone(), self.correction);
+            self.pass(&lack);
+            lack = self.lack();
+            since = if lack.residual <= 0.5 * residual { 0 } else { since + 1 };
+            if since < PATIENCE {
+                continue;
+            }
+            if lack.residual > CONTRADICTION {
+                if lack.residual > residual {
+                    (self.at, self.correction) = before;
+                }
+                break;
+            }
+            // What is left no displacements and forces can mend, and they only grow against it.
+            self.shifts.absorb(&lack);
+            self.shifted = self.shifted.max(self.correction);
+            self.at = given.clone();
+            (lack, since) = (self.lack(), 0);
+        }
+    }
+
+    fn lack(&self) -> Lack {
+        let Self { scaled, statuses, shifts, at, floating, .. } = self;
+        Lack::extended(scaled, statuses, at, shifts, floating)
+    }
+
+    fn residual(&self) -> f64 {
+        self.lack().residual
+    }
+
+    /// Solves for what is lacking.
+    fn pass(&mut self, lack: &Lack) {
+        let mut step: Vec<f64> = lack.unbalanced.iter().map(|v| v.rounded()).collect();
+        let mut fixed = Vec::with_capacity(self.springs.len());
+        for ((point, springs), [gap, slip]) in
+            self.scaled.points.iter().zip(&self.springs).zip(&lack.opened)
+        {
+            let forces = springs.forces(-gap.rounded(), -slip.rounded());
+            point.add_forces(forces.0, forces.1, &mut step);
+            fixed.push(forces);
+        }
+        self.condensed.solve(&mut step);
+        let (mut changes, mut size) = (vec![0.0; step.len()], vec![0.0; step.len()]);
+        for (i, point) in self.scaled.points.iter().enumerate() {
+            let moved = point.moved(&step);
+            let (t_n, t_t) = self.springs[i].forces(moved.0, moved.1);
+            let change = (fixed[i].0 - t_n, fixed[i].1 - t_t);
+            point.add_forces(change.0, change.1, &mut changes);
+            let forces = &mut self.at.forces[i];
+            forces[0] += change.0.into();
+            forces[1] += change.1.into();
+            // On the edge of the cone to the last digit.
+            *forces = self.statuses[i].on_cone(point.mu, *forces);
+            point.add_forces(forces[0].rounded(), forces[1].rounded(), &mut size);
+        }
+        for (u, du) in self.at.u.iter_mut().zip(&step) {
+            *u += (*du).into();
+        }
+        self.correction = ratio(max_abs(&changes), max_abs(&size));
+        self.passes += 1;
+    }
+
+    fn finish(self, seconds: f64) -> (Refined, Vec<(f64, ContactStatus)>) {
+        let (residual, correction) = (self.residual(), self.correction.max(self.shifted));
+        let Self { scaled, statuses, at, shifts, floating, passes, .. } = self;
+        let floats = |i: usize| lack::touched(&scaled.points[i]).any(|j| floating[j]);
+        let slacks: Vec<(f64, ContactStatus)> =
+            law::slacks(scaled, &statuses, &at)
+                .enumerate()
+                // A body that floats can be moved aside by a rounding error.
+                .map(|(i, (slack, next))| {
+                    if slack > -DOUBT && floats(i) { (f64::INFINITY, next) } else { (slack, next) }
+                })
+                .collect();
+        let force = scaled.force();
+        let forces = |k: usize| at.forces.iter().map(|it| it[k].scaled(force)).collect();
+        let on_bodies = lack::on_bodies(scaled, &at.forces);
+        let on_bodies = on_bodies.iter().enumerate().map(|(j, f)| f.scaled(scaled.force_of(j)));
+        let refined = Refined {
+            u: at.displacements(scaled),
+            t_n: forces(0),
+            t_t: forces(1),
+            on_bodies: on_bodies.collect(),
+            residual,
+            shift: shifts.largest,
+            correction,
+            margin: Margin::of(slacks.iter().copied()),
+            passes,
+            floating: floating.iter().filter(|it| **it).count(),
+            seconds,
+        };
+        (refined, slacks)
+    }
+}
