@@ -18,7 +18,7 @@ pub(crate) fn machine_and_date() -> String {
     let model = info.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
     let cores = std::thread::available_parallelism().map_or_else(|_| unknown(), |n| n.to_string());
     format!(
-        "{}, {cores} cores of which one is used, {}, {}",
+        "{}, one of {cores} cores, {}, {}",
         model.map_or_else(unknown, |(_, name)| name.to_owned()),
         said("rustc", "--version").unwrap_or_else(unknown),
         said("date", "+%Y-%m-%d").unwrap_or_else(unknown),

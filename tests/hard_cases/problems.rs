@@ -41,7 +41,8 @@ use lcp::{BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, MixedLcp, 
 use measure::{largest, of_general};
 pub use page::page;
 use problem::Method;
-use sweeps::sweeps;
+#[allow(unused_imports, reason = "the bench of stability draws them")]
+pub use sweeps::{Found, Sweep, sweeps};
 
 /// All themes, solved once for all tests.
 pub static THEMES: LazyLock<Vec<Theme>> = LazyLock::new(|| {

@@ -124,7 +124,8 @@ fn tightest(scene: &Scene, (mesh, route): (u32, Route), runner: &mut Runner) -> 
             return Some(Candidate { reference, ran, exact });
         }
         // A looser tolerance helps where the residual was too large, and nowhere else.
-        if !matches!(ran.end, End::Ended(Status::AlmostSolved | Status::Stalled)) {
+        let End::Ended(status) = ran.end else { return None };
+        if !matches!(status, Status::AlmostSolved | Status::Stalled | Status::IterationLimit) {
             return None;
         }
     }

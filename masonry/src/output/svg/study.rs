@@ -3,7 +3,7 @@
 
 use super::diagram::{Line, Titles, diagram};
 use crate::scene::Route;
-use crate::study::{Record, Study};
+use crate::study::{Mesh, Record, Study};
 
 /// Errors below this are drawn at it: they are rounding, or those of the reference itself.
 const ROUNDING: f64 = 1e-16;
@@ -71,7 +71,9 @@ pub fn mesh(study: &Study) -> Option<String> {
 }
 
 fn mesh_line(study: &Study, route: Route, tolerance: f64) -> Line {
-    let points = study.meshes.iter().filter_map(|mesh| {
+    let mut meshes: Vec<&Mesh> = study.meshes.iter().collect();
+    meshes.sort_by_key(|mesh| mesh.factor);
+    let points = meshes.into_iter().filter_map(|mesh| {
         let error = mesh.errors?.energy?;
         let is_same = |it: &&Record| {
             it.route == route
@@ -92,8 +94,10 @@ fn mesh_line(study: &Study, route: Route, tolerance: f64) -> Line {
 }
 
 fn factors(study: &Study) -> String {
-    let factors = study.meshes.iter().filter(|mesh| mesh.errors.is_some());
-    factors.map(|mesh| mesh.factor.to_string()).collect::<Vec<_>>().join(", ")
+    let compared = study.meshes.iter().filter(|mesh| mesh.errors.is_some());
+    let mut factors: Vec<u32> = compared.map(|mesh| mesh.factor).collect();
+    factors.sort_unstable();
+    factors.iter().map(u32::to_string).collect::<Vec<_>>().join(", ")
 }
 
 /// What soft springs change before they are centred anew, against their stiffness. `None` where no
