@@ -24,8 +24,6 @@ use masonry::units::Units;
 const MESHES: [u32; 4] = [2, 1, 4, 8];
 /// What one solve may take.
 const LIMIT: Duration = Duration::from_secs(3);
-/// The panel that soft springs are tried on.
-const SPRUNG: &str = "panel_rectangular";
 /// Courses, and bricks in a course.
 const WALLS: [u32; 4] = [5, 10, 20, 40];
 /// Of the walls.
@@ -51,9 +49,7 @@ fn panel(name: &str) -> Study {
         let squares = if wall.brick.length > 1.5 * wall.brick.height { 2 } else { 1 };
         wall.mesh = Some([squares, 1]);
     }
-    // Soft springs change much the same on both panels.
-    let springs = if name == SPRUNG { Settings::default().springs } else { Vec::new() };
-    told(&scene, Settings { meshes: MESHES.into(), springs, ..Settings::default() })
+    told(&scene, Settings { meshes: MESHES.into(), ..Settings::default() })
 }
 
 /// A square wall of elastic bricks with friction on a full floor, under its weight and a load that leans.

@@ -22,10 +22,15 @@ mod friction;
 mod geometry;
 #[path = "../tests/hard_cases/limits.rs"]
 mod limits;
-#[path = "stability/page.rs"]
+#[path = "../tests/hard_cases/page.rs"]
 mod page;
 #[path = "stability/picture.rs"]
 mod picture;
+#[allow(unused_imports, reason = "its tests are not here")]
+#[path = "../tests/hard_cases/problems.rs"]
+mod problems;
+#[path = "stability/report.rs"]
+mod report;
 #[path = "../tests/hard_cases/scenes.rs"]
 mod scenes;
 #[path = "../tests/hard_cases/stiffness.rs"]
@@ -38,7 +43,7 @@ mod walls;
 use std::path::Path;
 
 use common::routes::ROUTES;
-use page::Theme;
+use report::Theme;
 use sweep::{Point, Reached, Sweep};
 
 fn main() {
@@ -65,12 +70,16 @@ fn main() {
         wrong.extend(lines);
         swept.push(Theme { file, title, sweeps });
     }
+    let of_problems = if wanted.is_none() { problems::sweeps() } else { Vec::new() };
+    of_problems.iter().for_each(print);
+    wrong.extend(of_problems.iter().flat_map(|sweep| sweep.wrong.clone()));
     for line in &wrong {
         println!("WRONG: {line}");
     }
     assert!(wrong.is_empty(), "{} answers are worse than what is promised", wrong.len());
     if arguments.iter().any(|it| it == "--write") && wanted.is_none() {
-        page::write(&Path::new(env!("CARGO_MANIFEST_DIR")).join("docs"), &swept);
+        let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+        report::write(&docs, &swept, &of_problems);
     }
 }
 
@@ -90,6 +99,18 @@ fn tried(sweep: Sweep) -> (Sweep, Vec<Point>) {
     };
     let points = sweep.values.iter().map(at).collect();
     (sweep, points)
+}
+
+/// The methods of `lcp` on a family of problems.
+fn print(sweep: &problems::Sweep) {
+    println!("\n{}: {}", sweep.name, sweep.parameter);
+    for (k, value) in sweep.values.iter().enumerate() {
+        let cells = sweep.methods.iter().map(|(method, found)| match found[k] {
+            Some(it) => format!("{:>14} {:>14} {:.0e}", method.name(), it.status, it.residual),
+            None => format!("{:>14} {:>14}", method.name(), "-"),
+        });
+        println!("{value:9.1e}{}", cells.collect::<String>());
+    }
 }
 
 fn cell(end: &Reached) -> String {

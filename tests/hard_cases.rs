@@ -1,7 +1,7 @@
 //! Hard cases: by every route, either an answer that is right, or the word that there is none.
 //!
-//! The cases are also a page, `docs/hard_cases.md`, which is written by
-//! `HARD_CASES=write cargo test --test hard_cases`.
+//! Scenes, and problems of `lcp` itself. The cases are also pages, `docs/hard_cases.md` and
+//! `docs/hard_problems.md`, which are written by `HARD_CASES=write cargo test --test hard_cases`.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 #![allow(dead_code, reason = "the bench of stability uses all of it")]
@@ -22,6 +22,8 @@ mod geometry;
 mod limits;
 #[path = "hard_cases/page.rs"]
 mod page;
+#[path = "hard_cases/problems.rs"]
+mod problems;
 #[path = "hard_cases/scenes.rs"]
 mod scenes;
 #[path = "hard_cases/stiffness.rs"]
@@ -169,13 +171,24 @@ fn units_make_no_difference() {
 
 #[test]
 fn page_of_the_catalogue() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/hard_cases.md");
     let page = page::page(&[&GEOMETRY, &STIFFNESS, &FRICTION, &LIMITS, &WALLS]);
+    assert_written("docs/hard_cases.md", &page);
+}
+
+#[test]
+fn page_of_the_problems() {
+    assert_written("docs/hard_problems.md", &problems::page(&problems::THEMES));
+}
+
+/// That a page says what was found; or it is written.
+#[track_caller]
+fn assert_written(name: &str, page: &str) {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
     if std::env::var_os("HARD_CASES").is_some_and(|it| it == "write") {
-        std::fs::write(&file, &page).unwrap();
+        std::fs::write(&file, page).unwrap();
     }
     let written = std::fs::read_to_string(&file).unwrap();
-    if let Some(line) = page::difference(&written, &page) {
+    if let Some(line) = page::difference(&written, page) {
         panic!("{line}; write it anew: HARD_CASES=write cargo test --test hard_cases");
     }
 }

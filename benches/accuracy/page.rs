@@ -3,9 +3,10 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use lcp::Status;
 use masonry::output::{study, svg};
 use masonry::scene::Route;
-use masonry::study::{Record, Study};
+use masonry::study::{End, Record, Study};
 
 use super::tables::{self, seconds};
 use super::{TOLERANCES, common, machine};
@@ -175,6 +176,18 @@ fn at(study: &Study, route: Route, tolerance: f64) -> String {
             Some(error) => format!("{} ({error:.0e})", seconds(time)),
             None => seconds(time),
         },
-        None => record.end.name(),
+        None => without_answer(study, record),
+    }
+}
+
+/// What stands in the place of a time. Of what was skipped on the first mesh either the order is too large, or the time
+/// was too short for a looser tolerance.
+fn without_answer(study: &Study, record: &Record) -> String {
+    let too_long = format!("> {}", seconds(study.time_limit.as_secs_f64()));
+    match &record.end {
+        End::Ended(Status::TimeLimit) => too_long,
+        End::Skipped(reason) if reason.contains("the time ran out") => too_long,
+        End::Skipped(reason) if reason.contains("dense matrices") => "too large".to_owned(),
+        _ => "not reached".to_owned(),
     }
 }

@@ -16,9 +16,10 @@ pub(crate) fn machine_and_date() -> String {
     let unknown = || "unknown".to_owned();
     let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let model = info.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
-    let cores = std::thread::available_parallelism().map_or_else(|_| unknown(), |n| n.to_string());
+    // A bench bound to one core still names all of the machine.
+    let cores = info.lines().filter(|line| line.starts_with("processor")).count();
     format!(
-        "{}, one of {cores} cores, {}, {}",
+        "{}, one thread on {cores} cores, {}, {}",
         model.map_or_else(unknown, |(_, name)| name.to_owned()),
         said("rustc", "--version").unwrap_or_else(unknown),
         said("date", "+%Y-%m-%d").unwrap_or_else(unknown),

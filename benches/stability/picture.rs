@@ -11,11 +11,14 @@ const COLUMNS: usize = 2;
 /// Decades of the vertical axis: rounding and less at the bottom.
 const ERRORS: [f64; 2] = [1e-17, 1.0];
 /// Colours that differ also for those who see few of them (Okabe and Ito).
-const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56b4e9"];
+const COLOURS: [&str; 7] =
+    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56b4e9", "#4d4d4d"];
 
 /// One route in one diagram: at every value the error, the backward error, and whether it is an answer.
 pub(crate) struct Line {
     pub(crate) name: String,
+    /// Which colour and marker it has.
+    pub(crate) style: usize,
     pub(crate) points: Vec<Mark>,
 }
 
@@ -60,8 +63,8 @@ pub(crate) fn picture(title: &str, panels: &[Panel]) -> String {
 fn legend(panel: &Panel) -> String {
     let mut svg = String::new();
     let mut x = EDGE + 8.0;
-    for (k, line) in panel.lines.iter().enumerate() {
-        svg += &marker([x, 50.0], k, true);
+    for line in &panel.lines {
+        svg += &marker([x, 50.0], line.style, true);
         let _ = writeln!(svg, "<text x=\"{}\" y=\"54\">{}</text>", x + 10.0, line.name);
         x += 34.0 + 8.0 * line.name.len() as f64;
     }
@@ -101,14 +104,11 @@ impl Panel {
                 y + 4.0
             );
         }
-        for decade in decades([least, most], (span / 7.0).ceil()) {
-            let x = across(10_f64.powf(decade));
+        for value in ticks([least, most]) {
+            let x = across(value);
             svg += &grid([[x, y_0], [x, y_1]]);
-            let label = if decade.abs() < 4.0 {
-                format!("{}", 10_f64.powf(decade))
-            } else {
-                format!("1e{decade}")
-            };
+            let is_short = (1e-3..1e4).contains(&value);
+            let label = if is_short { value.to_string() } else { format!("{value:.0e}") };
             let _ = writeln!(
                 svg,
                 "<text x=\"{x}\" y=\"{}\" text-anchor=\"middle\">{label}</text>",
@@ -127,13 +127,13 @@ impl Panel {
             y_0 + 34.0,
             self.x
         );
-        for (k, line) in self.lines.iter().enumerate() {
+        for line in &self.lines {
             let path: Vec<String> = line
                 .points
                 .iter()
                 .map(|mark| format!("{:.1},{:.1}", across(mark.x()), up(mark.error())))
                 .collect();
-            let colour = COLOURS[k % COLOURS.len()];
+            let colour = COLOURS[line.style % COLOURS.len()];
             let _ = writeln!(
                 svg,
                 "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.2\" stroke-opacity=\"0.6\"/>",
@@ -141,7 +141,7 @@ impl Panel {
             );
             for mark in &line.points {
                 let x = across(mark.x());
-                svg += &marker([x, up(mark.error())], k, mark.backward().is_some());
+                svg += &marker([x, up(mark.error())], line.style, mark.backward().is_some());
                 if let Some(backward) = mark.backward() {
                     let _ = writeln!(
                         svg,
@@ -177,6 +177,17 @@ impl Mark {
     }
 }
 
+/// Values of the lines of a grid: decades, and where these are few their second and fifth multiples, too.
+fn ticks([low, high]: [f64; 2]) -> Vec<f64> {
+    let span = high - low;
+    let multiples: &[f64] = if span < 3.0 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+    let around = [low.floor(), high];
+    let all = decades(around, (span / 7.0).ceil())
+        .flat_map(|decade| multiples.iter().map(move |times| times * 10_f64.powf(decade)));
+    let inside = [low - 1e-9, high + 1e-9].map(|it| 10_f64.powf(it));
+    all.filter(|it| (inside[0]..=inside[1]).contains(it)).collect()
+}
+
 /// Whole decades between two ends, every `step`.
 fn decades([low, high]: [f64; 2], step: f64) -> impl Iterator<Item = f64> {
     let step = step.max(1.0);
@@ -206,6 +217,7 @@ fn marker([x, y]: [f64; 2], line: usize, is_full: bool) -> String {
         2 => polygon(&[[0.0, -4.6], [4.4, 3.4], [-4.4, 3.4]]),
         3 => polygon(&[[0.0, -5.0], [5.0, 0.0], [0.0, 5.0], [-5.0, 0.0]]),
         4 => polygon(&[[0.0, 4.6], [4.4, -3.4], [-4.4, -3.4]]),
-        _ => polygon(&[[-4.6, 0.0], [0.0, -2.4], [4.6, 0.0], [0.0, 2.4]]),
+        5 => polygon(&[[-4.6, 0.0], [0.0, -2.4], [4.6, 0.0], [0.0, 2.4]]),
+        _ => polygon(&[[-2.4, 0.0], [0.0, -4.6], [2.4, 0.0], [0.0, 4.6]]),
     }
 }

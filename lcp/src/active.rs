@@ -6,6 +6,7 @@ mod crossover;
 mod original;
 mod scaled;
 mod search;
+mod units;
 
 pub(crate) use condensed::{Condensed, Springs};
 pub(crate) use crossover::Effort;

@@ -1,5 +1,6 @@
 //! Interior-point method for contact with friction and for mixed problems.
 
+mod balance;
 mod continuation;
 mod iterate;
 mod path;
@@ -8,8 +9,11 @@ mod settings;
 mod start;
 mod turn;
 
+use std::ops::ControlFlow;
+
 pub use settings::InteriorPointSettings;
 
+use balance::{Balance, balance};
 use continuation::End;
 use iterate::{Defect, Iterate};
 use path::{WIDTHS, advance};
@@ -17,7 +21,7 @@ use start::{set_out, start_again};
 
 use crate::active::{Condensed, Effort, Original, Scaled, Search};
 use crate::solve::Monitor;
-use crate::{Error, Observer, Solution, Status};
+use crate::{Error, Iteration, Observer, Solution, Status};
 
 /// An interior-point method for the complementarity problem itself, for large sparse problems: contact
 /// with Coulomb's friction ([`Contact2d`](crate::Contact2d)), and mixed and standard problems.
@@ -39,8 +43,9 @@ use crate::{Error, Observer, Solution, Status};
 ///
 /// Where the iteration jams, soft springs on all displacements are reduced step by step. The share of
 /// the load that they carry tends to zero with their stiffness where there is a solution, and to a
-/// constant where there is none: then the status is [`Status::NoEquilibrium`] and
-/// [`Solution::springs`] has the evidence.
+/// constant where there is none. Then it is asked whether any forces inside the friction cones balance the
+/// loads. If a checked motion proves that none do, the status is [`Status::NoEquilibrium`], and
+/// [`Solution::springs`] has the evidence; if some do, they are tried.
 ///
 /// # Guarantee
 /// None is proved. For monotone problems (no friction, positive semidefinite `M`) with a strictly feasible
@@ -48,8 +53,9 @@ use crate::{Error, Observer, Solution, Status};
 /// nowhere; walls of 6e4 contact points took 30 to 70 steps for `mu` from 1/2 to 1.
 ///
 /// # Failure
-/// [`Status::Stalled`] where neither the iteration nor the springs come to an end. [`Status::NoEquilibrium`]
-/// is evidence and no proof: with friction, or an `M` that is not monotone, there may be a solution
+/// [`Status::Stalled`] where neither the iteration nor the springs come to an end, and where rigid bodies fall
+/// although some forces could hold them. [`Status::NoEquilibrium`] of bodies that all have a stiffness, with
+/// friction, is evidence and no proof where no motion proves it: there may be a solution
 /// nevertheless. It has no Farkas vector.
 ///
 /// # Cost
@@ -156,8 +162,9 @@ impl Run<'_, '_> {
             status = Some(match end {
                 End::Standing(at) => self.iterate(at, WIDTHS[0], advance),
                 End::Falling(path) if self.problem.has_bodies() => {
-                    springs = Some(path);
-                    Status::NoEquilibrium
+                    let status = self.fallen();
+                    springs = (status == Status::NoEquilibrium).then_some(path);
+                    status
                 }
                 End::Falling(_) | End::Open => limit.unwrap_or(Status::Stalled),
             });
@@ -167,6 +174,34 @@ impl Run<'_, '_> {
             solution.springs = springs;
         }
         solution
+    }
+
+    /// What follows from bodies that fall from spring to spring.
+    ///
+    /// With friction they may come to rest elsewhere: that they cannot is proved, or else the forces that
+    /// might hold them are tried. Where these do not hold them, bodies that all have a stiffness are taken
+    /// to fall, because it says how their contacts are strained; of rigid ones nothing is known.
+    fn fallen(&mut self) -> Status {
+        let left = self.settings.max_iterations.saturating_sub(self.monitor.iterations());
+        let Self { search: Search { scaled, .. }, monitor, .. } = self;
+        let last = monitor.history.last().copied().unwrap_or(f64::INFINITY);
+        let mut limit = None;
+        let observer = &mut |_: &Iteration| {
+            limit = monitor.stop(last);
+            if limit.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let found = balance(scaled, left, observer);
+        match (found, limit) {
+            (Balance::Impossible, _) => Status::NoEquilibrium,
+            (_, Some(status @ (Status::Cancelled | Status::TimeLimit))) => status,
+            (Balance::Possible(forces), _)
+                if self.search.try_forces(&forces, self.settings.crossover) =>
+            {
+                Status::Solved
+            }
+            _ if self.search.scaled.is_elastic() => Status::NoEquilibrium,
+            _ => Status::Stalled,
+        }
     }
 
     /// The interior-point iteration from a point inside, with a first step of its own.

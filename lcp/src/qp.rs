@@ -53,13 +53,19 @@ use crate::{Contact2d, Error, HorizontalLcp, Lcp, MixedLcp, Observer, Solution, 
 /// bodies that float or contacts that share a load: proximal steps solve it. For friction it is the system of
 /// the states open, stick and slip, so that the fixed point need only come near.
 ///
-/// **Guarantee**: a program without friction that has a solution is solved, and one that has none is
-/// [`Infeasible`](Status::Infeasible) with a proof, which is itself found as the solution of a convex
-/// program. For friction the fixed point contracts where `mu` or the ratio of tangential to normal
-/// stiffness is small; where it does not, the status is [`Stalled`](Status::Stalled).
+/// **Guarantee**: in exact arithmetic a program without friction that has a solution is solved, and one that
+/// has none is [`Infeasible`](Status::Infeasible) with a proof, which is itself found as the solution of a
+/// convex program. In floating-point numbers that holds as long as the stiffnesses of one problem differ by
+/// less than about 1e6; at and beyond that many problems end without an answer and without a proof: see below.
+/// For friction the fixed point contracts where `mu` or the ratio of tangential to normal stiffness is small;
+/// where it does not, the status is [`Stalled`](Status::Stalled). In every case
+/// [`Solved`](Status::Solved) and `Infeasible` are said only after a check in the data as given.
 ///
 /// **Failure**: `Stalled` and [`NumericalTrouble`](Status::NumericalTrouble) for data so badly
-/// conditioned that neither point nor proof comes out.
+/// conditioned that neither point nor proof comes out. Of random contact problems without friction and with
+/// stiffnesses that differ by 1e6 between 58 and 92 of 100 were solved: the interior point is too far off to
+/// tell which contacts are closed. Then [`Lemke`](crate::Lemke) and
+/// [`InteriorPoint`](crate::InteriorPoint) are the methods to take, as [`Auto`](crate::Auto) does.
 ///
 /// **Cost**: 10 to 20 factorisations of the sparse matrix `[K, C^T; C, -D]` for every program, and one for
 /// every round of the polish. [`Info::iterations`](crate::Info::iterations) counts programs, and not the
@@ -206,6 +212,7 @@ impl QuadraticProgram {
         let mut solution = Solution::judged(point, candidate.residuals, tolerance, otherwise);
         // Residuals may be small for a point that is far away.
         solution.status = otherwise;
+        solution.contact = candidate.contact;
         solution.farkas = farkas;
         solution.info.solver = Self::NAME;
         solution.info.iterations = monitor.iterations();

@@ -1,6 +1,6 @@
 //! What a solver returns.
 
-use crate::{Basis, Residuals};
+use crate::{Basis, ContactState, Residuals};
 
 /// Outcome of a solve. Decided by the mathematics and the limits, never by misuse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -18,7 +18,9 @@ pub enum Status {
     /// [`Solution::farkas`] proves.
     Infeasible,
     /// There is no equilibrium, by the evidence of [`Solution::springs`]: soft springs on all
-    /// displacements keep their share of the load, however soft they are. That is no proof.
+    /// displacements keep their share of the load, however soft they are. Where a body is rigid, or without
+    /// friction, it was also checked that no forces balance the loads. Of elastic bodies with friction it
+    /// is no proof.
     NoEquilibrium,
     /// No attempt found a solution, and at least one ended on a secondary ray. This does not prove
     /// that there is none.
@@ -336,6 +338,11 @@ pub struct Solution {
     pub t: Vec<f64>,
     /// The second variable of every pair.
     pub y: Vec<f64>,
+    /// The point of a [`Contact2d`](crate::Contact2d) by its displacements and forces, with all their digits: the
+    /// residuals are those of this state. The pairs, with `mu t_n + t_t` and `mu t_n - t_t`, lose some where
+    /// `mu` is large.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub contact: Option<ContactState>,
     /// The complementary basis of the point, of methods that end on one: of pivots, of active sets, and of
     /// interior points after a crossover.
     pub basis: Option<Basis>,
@@ -376,6 +383,7 @@ impl Solution {
             basis: None,
             residuals,
             ray: None,
+            contact: None,
             farkas: None,
             springs: None,
             condition: None,

@@ -163,6 +163,7 @@ impl Solver<Contact2d> for Lemke {
         let state = problem.from_mixed(&z);
         solution.residuals = problem.residuals(&state);
         (solution.t, solution.y) = problem.to_pairs(&state);
+        solution.contact = Some(state);
         let is_exact = solution.residuals.worst() <= self.settings().tolerance;
         if solution.is_solved() && !is_exact {
             solution.status = Status::AlmostSolved;

@@ -7,6 +7,8 @@ mod beams;
 #[path = "common/bodies.rs"]
 mod bodies;
 mod common;
+#[path = "interior/falls.rs"]
+mod falls;
 #[path = "interior/properties.rs"]
 mod properties;
 

@@ -24,6 +24,15 @@ impl Double {
     }
 }
 
+/// `value 2^exponent`, without a rounding error unless it leaves the range of numbers.
+pub fn shifted(value: f64, exponent: i32) -> f64 {
+    // One factor of this kind may itself be outside of the range.
+    let part = exponent / 3;
+    [part, part, exponent - 2 * part]
+        .into_iter()
+        .fold(value, |value, part| value * 2_f64.powi(part))
+}
+
 impl From<f64> for Double {
     fn from(high: f64) -> Self {
         Self { high, low: 0.0 }
@@ -75,4 +84,15 @@ fn digits_are_kept() {
     let near = Double::from(1.0 + 2_f64.powi(-40));
     let square = near * near - one - Double::from(2_f64.powi(-39));
     assert_eq!(square.rounded().to_bits(), 2_f64.powi(-80).to_bits());
+}
+
+/// Powers of two are exact beyond what one factor could be.
+#[test]
+fn shifts_are_exact() {
+    let least = f64::from_bits(1);
+    assert_eq!(shifted(least, 2000).to_bits(), 2_f64.powi(926).to_bits());
+    assert_eq!(
+        shifted(3.0 * 2_f64.powi(1000), -2000).to_bits(),
+        (3.0 * 2_f64.powi(-1000)).to_bits()
+    );
 }

@@ -1,13 +1,15 @@
 //! The problems that the method treats, as contact problems, and back.
 
 use super::scaled::{Point, Scaled};
-use crate::{Basis, Contact2d, ContactStatus, MixedLcp, Residuals, Side};
+use crate::{Basis, Contact2d, ContactState, ContactStatus, MixedLcp, Residuals, Side};
 
 /// A point of the general form of a problem.
 #[derive(Debug, Clone)]
 pub(crate) struct Judged {
     pub(crate) t: Vec<f64>,
     pub(crate) y: Vec<f64>,
+    /// The state that it is, of a contact problem.
+    pub(crate) contact: Option<ContactState>,
     pub(crate) residuals: Residuals,
     /// The largest of the residuals, and of what the equations lack in units of the loads.
     pub(crate) worst: f64,
@@ -15,7 +17,7 @@ pub(crate) struct Judged {
 
 impl Judged {
     fn new((t, y): (Vec<f64>, Vec<f64>), residuals: Residuals, drift: f64) -> Self {
-        Self { t, y, worst: residuals.worst().max(drift), residuals }
+        Self { t, y, contact: None, worst: residuals.worst().max(drift), residuals }
     }
 }
 
@@ -68,8 +70,8 @@ impl Original for Contact2d {
         let [normal, tangential] = [|it: &(f64, f64)| it.0, |it: &(f64, f64)| it.1]
             .map(|part| forces.iter().map(|it| part(it) * scaled.force()).collect());
         let state = self.state(u, normal, tangential);
-        let residuals = self.residuals(&state);
-        Judged::new(self.to_pairs(&state), residuals, drift)
+        let (pairs, residuals) = (self.to_pairs(&state), self.residuals(&state));
+        Judged { contact: Some(state), ..Judged::new(pairs, residuals, drift) }
     }
 
     fn order(&self) -> usize {
@@ -148,7 +150,9 @@ impl Original for MixedLcp {
         }
         let z = scaled.displacements(&u);
         let residuals = self.residuals(&z, &w);
-        Judged::new(self.to_pairs(&z, &w), residuals, scaled.drift(&u, &forces))
+        let own = scaled.own_units().map_or(0.0, |own| own.residual(&z, &w));
+        let drift = scaled.drift(&u, &forces).max(own);
+        Judged::new(self.to_pairs(&z, &w), residuals, drift)
     }
 
     fn order(&self) -> usize {

@@ -2,6 +2,7 @@
 
 use faer::sparse::SparseColMat;
 
+use super::units::OwnUnits;
 use crate::problem::{column_of, max_abs};
 use crate::{Contact2d, MixedLcp};
 
@@ -15,6 +16,7 @@ pub(crate) struct Scaled {
     column: Vec<f64>,
     force: f64,
     length: f64,
+    own_units: Option<OwnUnits>,
 }
 
 /// A contact point: the displacements that it depends on, with their coefficients in gap and slip.
@@ -101,7 +103,7 @@ impl Scaled {
                 }
             }
         }
-        Self { k, f, points, column, force, length }
+        Self { k, f, points, column, force, length, own_units: None }
     }
 
     /// A mixed problem as one of contact without friction: stiffness `M`, loads `-q`, and a contact for
@@ -142,7 +144,13 @@ impl Scaled {
             s_0: 0.0,
             mu: 0.0,
         });
-        Self { k, f, points: points.collect(), column, force, length: force }
+        let own_units = OwnUnits::of(problem);
+        Self { k, f, points: points.collect(), column, force, length: force, own_units }
+    }
+
+    /// Of a mixed problem, where the units of its variables or rows are far apart.
+    pub(crate) fn own_units(&self) -> Option<&OwnUnits> {
+        self.own_units.as_ref()
     }
 
     /// The unit of contact forces.
@@ -163,6 +171,12 @@ impl Scaled {
     /// Displacements in the units of this problem.
     pub(crate) fn of_displacements(&self, u: &[f64]) -> Vec<f64> {
         u.iter().zip(&self.column).map(|(u, d)| u / d / self.length).collect()
+    }
+
+    /// Whether every displacement has a stiffness, and there is friction.
+    pub(crate) fn is_elastic(&self) -> bool {
+        let has_friction = self.points.iter().any(|point| point.mu > 0.0);
+        has_friction && diagonal(&self.k).iter().all(|k| *k > 0.0)
     }
 
     /// Number of displacements.

@@ -64,6 +64,14 @@ impl<'a> Search<'a> {
         true
     }
 
+    /// Whether bodies that have not moved, or what their contacts lead to, are a solution with these forces.
+    pub(crate) fn try_forces(&mut self, forces: &[(f64, f64)], crossover: bool) -> bool {
+        let u = vec![0.0; self.scaled.order()];
+        let is_solved = self.judge(&u, forces) <= self.tolerance;
+        let contacts = nearest(&self.scaled, &u, forces);
+        crossover && self.cross_over((&u, forces), contacts, &Effort::THOROUGH) || is_solved
+    }
+
     fn rest(&self) -> (Vec<f64>, Vec<(f64, f64)>) {
         (vec![0.0; self.scaled.order()], vec![(0.0, 0.0); self.scaled.points.len()])
     }
@@ -107,13 +115,14 @@ impl<'a> Search<'a> {
             let slips: Vec<f64> = points.map(|point| point.slip(&vertex.u)).collect();
             self.problem.basis(&vertex.contacts, &judged, &slips)
         });
-        let Judged { t, y, residuals, worst } = judged;
+        let Judged { t, y, contact, residuals, worst } = judged;
         // Steps may end with a point that is solved and another that the iteration gave up.
         let otherwise = if otherwise == Status::Solved { Status::Stalled } else { otherwise };
         let mut solution = Solution::judged((t, y), residuals, self.tolerance, otherwise);
         if worst > self.tolerance {
             solution.status = otherwise;
         }
+        solution.contact = contact;
         solution.basis = basis;
         solution.info.solver = self.solver;
         solution.info.iterations = monitor.iterations();

@@ -27,8 +27,11 @@ const CONSTANT: f64 = 0.8;
 const IN_SEQUENCE: usize = 4;
 /// Stiffer springs than this do not tell bodies that nothing holds from those that something soft does.
 const SOFT: f64 = 2e-6;
-/// Resistance of a motion, relative to the terms that it is the sum of, which is a rounding error.
-const ROUNDING: f64 = 1e-12;
+/// Resistance of a motion, relative to that of springs of the square, which is an error of the solution: its
+/// accuracy enters by the square as well.
+const RESISTANCE: f64 = 1e-6;
+/// Resistance of a body, relative to the terms that it is the sum of, which is a rounding error.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// How the continuation ended.
 pub(super) enum End {
@@ -80,18 +83,41 @@ pub(super) fn follow(
 /// the springs leave them their share of the load too, as long as they are.
 ///
 /// Of bodies that are at rest the motion has a part of the order of the spring, and their resistance is that
-/// of its square.
+/// of its square, far below that of the springs. Every body is looked at by itself: what a soft one resists
+/// would be lost in the rounding errors of a stiff one.
 fn is_free(problem: &Scaled, motion: &[f64], spring: f64) -> bool {
-    let (mut resistance, mut terms) = (0.0_f64, 0.0);
+    let body = bodies(problem);
+    let mut resistance = vec![(0.0_f64, 0.0); motion.len()];
     for (j, v) in motion.iter().enumerate() {
         for (i, k) in column_of(&problem.k, j) {
             let term = k * v * motion[i];
-            resistance += term;
-            terms += term.abs();
+            resistance[body[j]].0 += term;
+            resistance[body[j]].1 += term.abs();
         }
     }
     let size: f64 = motion.iter().map(|v| v * v).sum();
-    resistance <= (spring * spring * size).max(ROUNDING * terms)
+    let least = RESISTANCE * spring * spring * size;
+    resistance.iter().all(|(resistance, terms)| *resistance <= least.max(ROUNDING * terms))
+}
+
+/// For every displacement the first of those that it is coupled to by stiffness.
+fn bodies(problem: &Scaled) -> Vec<usize> {
+    let mut first: Vec<usize> = (0..problem.order()).collect();
+    let root = |first: &[usize], mut j: usize| {
+        while first[j] != j {
+            j = first[j];
+        }
+        j
+    };
+    for j in 0..problem.order() {
+        for (i, _) in column_of(&problem.k, j).filter(|(_, k)| *k != 0.0) {
+            let (a, b) = (root(&first, i), root(&first, j));
+            first[a.max(b)] = a.min(b);
+            // Paths stay short.
+            (first[i], first[j]) = (a.min(b), a.min(b));
+        }
+    }
+    (0..problem.order()).map(|j| root(&first, j)).collect()
 }
 
 fn solve(

@@ -31,8 +31,10 @@ impl Sweepable for Contact2d {
         let sweeps = Sweeps::new(&solver.settings, &mut rows, &q, &constraints, start)?;
         let (best, status) =
             sweeps.run(&mut monitor, &mut |point: &Point<'_>| self.residuals(&state(point.z)));
-        let pairs = self.to_pairs(&state(&best.z));
+        let state = state(&best.z);
+        let pairs = self.to_pairs(&state);
         let mut solution = solver.solution(pairs, best.residuals, status, monitor);
+        solution.contact = Some(state);
         solution.info.factorisations = compliance.factorisations();
         Ok(solution)
     }

@@ -196,6 +196,9 @@ impl Contact2d {
 
     /// Displacements and forces from a point of the general problem.
     ///
+    /// Of `mu t_n + t_t` and `mu t_n - t_t` the tangential force keeps no digit below `eps mu t_n`: where `mu` is
+    /// 1e6 or more, take [`Solution::contact`](crate::Solution::contact) of an answer instead.
+    ///
     /// # Panics
     /// If `t` or `y` does not have one entry for every pair.
     pub fn recover(&self, t: &[f64], y: &[f64]) -> ContactState {

@@ -53,7 +53,7 @@ pub(super) fn standard_candidate(
     let (z, w) = standard_point(form, point, places);
     let (t, y) = to_pairs(z, w);
     let residuals = general.residuals(&t, &y);
-    Candidate { t, y, residuals }
+    Candidate { t, y, contact: None, residuals }
 }
 
 /// A mixed problem `[P, -G^T; G, S]` as a form, with the variables that are its `x` and its rows.
@@ -105,7 +105,7 @@ impl MixedForm {
             (z[i], w[i]) = (lambda[k], slacks[k]);
         }
         let (t, y) = mixed.to_pairs(&z, &w);
-        Candidate { t, y, residuals: mixed.residuals(&z, &w) }
+        Candidate { t, y, contact: None, residuals: mixed.residuals(&z, &w) }
     }
 }
 

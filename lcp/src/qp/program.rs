@@ -15,6 +15,8 @@ use crate::{Contact2d, ContactState, Residuals};
 pub(super) struct Candidate {
     pub(super) t: Vec<f64>,
     pub(super) y: Vec<f64>,
+    /// The state that it is, of a contact problem.
+    pub(super) contact: Option<ContactState>,
     pub(super) residuals: Residuals,
 }
 
@@ -22,7 +24,7 @@ impl Candidate {
     /// The point that a state of a contact problem is.
     pub(super) fn of(contact: &Contact2d, state: &ContactState) -> Self {
         let (t, y) = contact.to_pairs(state);
-        Self { t, y, residuals: contact.residuals(state) }
+        Self { t, y, contact: Some(state.clone()), residuals: contact.residuals(state) }
     }
 }
 

@@ -163,7 +163,8 @@ impl<'a> Rounds<'a> {
         if solution.status == Status::Cancelled {
             return Ok(ControlFlow::Break(()));
         }
-        let state = self.problem.recover(&solution.t, &solution.y);
+        let recovered = || self.problem.recover(&solution.t, &solution.y);
+        let state = solution.contact.unwrap_or_else(recovered);
         let forces = self.bedding.forces(&state.u, centre);
         self.share = self.bedding.share(self.problem, &forces);
         self.first.get_or_insert_with(|| (state.u.clone(), self.share));

@@ -26,7 +26,9 @@ impl Found {
     pub(super) fn of(sparse: &Sparse, solution: Solution) -> Self {
         Self {
             status: solution.status,
-            state: sparse.problem.recover(&solution.t, &solution.y),
+            state: solution
+                .contact
+                .unwrap_or_else(|| sparse.problem.recover(&solution.t, &solution.y)),
             residuals: solution.residuals,
             iterations: solution.info.iterations,
             factorisations: solution.info.factorisations,

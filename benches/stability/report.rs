@@ -3,8 +3,12 @@
 use std::fmt::{self, Write};
 use std::path::Path;
 
+use lcp::Status;
+use masonry::scene::Route;
+
 use super::common::routes::ROUTES;
 use super::picture::{Line, Mark, Panel, picture};
+use super::problems;
 use super::sweep::{Point, Reached, Sweep};
 
 /// Sweeps that are drawn in one picture.
@@ -33,8 +37,17 @@ Written by `cargo bench --bench stability -- --write`, which fails if an answer 
 solved that cannot stand. A few values of every sweep are tested by `cargo test --test hard_cases`.
 ";
 
+const OF_PROBLEMS: &str = "
+## Problems of `lcp`
+
+The [hard problems](hard_problems.md) that have a parameter, by every method of `lcp`, asked for 1e-10. The error is the residual, recomputed from the data in numbers of
+twice the digits; the backward error is relative to all terms of the equations, row by row.
+
+![Problems of lcp: residuals over parameters](pictures/stability_problems.svg)
+";
+
 /// Writes the page and the pictures into the folder of the documents.
-pub(crate) fn write(docs: &Path, themes: &[Theme]) {
+pub(crate) fn write(docs: &Path, themes: &[Theme], problems: &[problems::Sweep]) {
     let mut text = HEAD.to_owned();
     write_counts(&mut text, themes).unwrap();
     for theme in themes {
@@ -42,6 +55,10 @@ pub(crate) fn write(docs: &Path, themes: &[Theme]) {
         let drawn = picture(theme.title, &theme.sweeps.iter().map(panel).collect::<Vec<_>>());
         std::fs::write(docs.join(format!("pictures/stability_{}.svg", theme.file)), drawn).unwrap();
     }
+    text += OF_PROBLEMS;
+    let panels: Vec<Panel> = problems.iter().map(problem_panel).collect();
+    let drawn = picture("Problems of lcp", &panels);
+    std::fs::write(docs.join("pictures/stability_problems.svg"), drawn).unwrap();
     std::fs::write(docs.join("stability.md"), text).unwrap();
 }
 
@@ -123,7 +140,35 @@ fn panel((sweep, points): &(Sweep, Vec<Point>)) -> Panel {
             Reached::GaveUp { residual, .. } => Some(Mark::GaveUp { x: point.value, residual }),
             Reached::Nothing => None,
         };
-        Line { name: route.name().to_owned(), points: points.iter().filter_map(mark).collect() }
+        let points = points.iter().filter_map(mark).collect();
+        Line { name: route.name().to_owned(), style: style(*route), points }
     });
     Panel { title: sweep.title.clone(), x: sweep.parameter.to_owned(), lines: lines.collect() }
+}
+
+fn problem_panel(sweep: &problems::Sweep) -> Panel {
+    let lines = sweep.methods.iter().enumerate().map(|(style, (method, found))| {
+        let at = sweep.values.iter().zip(found).filter(|(value, _)| **value > 0.0);
+        let mark = |(&x, found): (&f64, &Option<problems::Found>)| {
+            let problems::Found { status, residual, backward } = (*found)?;
+            let is_answer = status == Status::Solved;
+            Some(if is_answer {
+                Mark::Answer { x, error: residual, backward }
+            } else {
+                Mark::GaveUp { x, residual }
+            })
+        };
+        Line { name: method.name().to_owned(), style, points: at.filter_map(mark).collect() }
+    });
+    Panel {
+        title: sweep.name.to_owned(),
+        x: format!("{} [-]", sweep.parameter),
+        lines: lines.collect(),
+    }
+}
+
+/// The colours of the pictures of studies.
+fn style(route: Route) -> usize {
+    let order = [Route::Lemke, Route::Interior, Route::Qp, Route::Pgs, Route::Alm, Route::Newton];
+    order.iter().position(|it| *it == route).unwrap_or(order.len())
 }

@@ -1,0 +1,107 @@
+//! What the methods give along a parameter, from easy to hopeless.
+
+use lcp::Status;
+
+use super::case::{Case, End, Tried};
+use super::data::{
+    degenerate, dominant, exponents, gram, hilbert, ill_conditioned, rescaled, strict,
+    with_solution,
+};
+use super::problem::Method;
+
+/// A family along its parameter.
+pub struct Sweep {
+    pub name: &'static str,
+    pub parameter: &'static str,
+    pub values: Vec<f64>,
+    /// What every method gave at every value; nothing from methods that do not treat the problem.
+    pub methods: Vec<(Method, Vec<Option<Found>>)>,
+    /// What is wrong with it.
+    pub wrong: Vec<String>,
+}
+
+/// What a method gave.
+#[derive(Debug, Clone, Copy)]
+pub struct Found {
+    pub status: Status,
+    /// Recomputed in numbers of twice the digits, as is the next.
+    pub residual: f64,
+    pub backward: f64,
+}
+
+/// All sweeps, on coarse grids.
+pub fn sweeps() -> Vec<Sweep> {
+    let powers: Vec<f64> = (0..=48_u8).step_by(6).map(|bits| f64::from(bits).exp2()).collect();
+    let shares: Vec<f64> = (0..=10_u8).step_by(2).map(|tenths| f64::from(tenths) / 10.0).collect();
+    let spreads: Vec<f64> = (0..=100_u8).step_by(20).map(|bits| f64::from(bits).exp2()).collect();
+    let orders: Vec<f64> = (2..=14_u8).step_by(3).map(f64::from).collect();
+    vec![
+        sweep(("L D L^T, n = 8", "condition number of D"), powers, conditioned),
+        sweep(("positive definite, n = 20", "share of pairs that vanish"), shares, vanishing),
+        sweep(("P-matrix, n = 10", "spread of the units"), spreads, spread),
+        sweep(("Hilbert matrices", "order"), orders, hilbert_of),
+    ]
+}
+
+fn sweep(
+    (name, parameter): (&'static str, &'static str),
+    values: Vec<f64>,
+    case: impl Fn(f64) -> Case,
+) -> Sweep {
+    let tried: Vec<Tried> = values.iter().map(|value| case(*value).tried()).collect();
+    let found = |end: &End| match end {
+        End::Refused => None,
+        End::Ended { solution, measure } => Some(Found {
+            status: solution.status,
+            residual: measure.residual,
+            backward: measure.backward,
+        }),
+    };
+    let of_method = |k: usize| tried.iter().map(|it| found(&it.ends[k])).collect();
+    let methods = Method::ALL.into_iter().enumerate().map(|(k, it)| (it, of_method(k))).collect();
+    let wrong = tried.iter().flat_map(Tried::wrong).collect();
+    Sweep { name, parameter, values, methods, wrong }
+}
+
+fn conditioned(condition: f64) -> Case {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 48")]
+    let bits = condition.log2().round() as u32;
+    // Zero and one: with larger numbers `q` would be rounded.
+    let at = |even: f64| (0..8).map(|i| if i % 2 == 0 { even } else { 1.0 - even }).collect();
+    let point = (at(1.0), at(0.0));
+    Case::new(
+        &format!("condition {condition:e}"),
+        "",
+        with_solution(ill_conditioned(8, bits), &point),
+    )
+    .unique(point, 1e2 * condition)
+}
+
+fn vanishing(share: f64) -> Case {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most ten")]
+    let point = degenerate(20, (10.0 * share).round() as usize);
+    let problem = with_solution(gram(20), &point);
+    Case::new(&format!("share {share}"), "", problem).unique(point, 1e4)
+}
+
+fn spread(spread: f64) -> Case {
+    let n = 10;
+    let rows = exponents(n, 0.5 * spread.log2());
+    let columns: Vec<f64> = rows.iter().rev().copied().collect();
+    let (problem, point) = rescaled(&dominant(n), &strict(n), (&rows, &columns));
+    let units =
+        |exponents: &[f64], sign: f64| exponents.iter().map(|e| (sign * e).exp2()).collect();
+    Case::new(&format!("spread {spread:e}"), "", problem).unique_in(
+        point,
+        1e3,
+        (units(&columns, -1.0), units(&rows, 1.0)),
+    )
+}
+
+fn hilbert_of(order: f64) -> Case {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small order")]
+    let n = order as usize;
+    let point = strict(n);
+    Case::new(&format!("order {n}"), "", with_solution(hilbert(n), &point))
+        .unique(point, (3.5 * order).exp())
+}

@@ -1,0 +1,76 @@
+//! Problems without a solution, and those that are nearly so.
+
+use lcp::faer::{Mat, mat};
+use lcp::{Lcp, families};
+
+use super::case::Case;
+use super::data::{block, body, standard};
+use super::problem::Problem;
+
+pub const TITLE: &str = "No solution";
+
+pub fn cases() -> Vec<Case> {
+    let proved = "There is no solution, and that has to be proved.";
+    let near = "A hair apart, one has a solution and the other has none.";
+    let open =
+        "The linear conditions can be met, but not with complementarity: no vector proves it.";
+    let hair = 2_f64.powi(-18);
+    let two = |excess: f64| standard(mat![[1.0, -1.0], [-1.0, 1.0]], vec![-1.0, 1.0 + excess]);
+    let push = |force: f64| body([0.0, 0.0], [force, -8.0], &[[0.0, 1.0]], 0.5);
+    let words = "rigid, weight 8, mu = 0.5, pushed by";
+    vec![
+        Case::of("Kostreva without a solution", proved, families::kostreva_2(), STANDARD)
+            .parameters("`w_3 = -z_1 - 2 z_2 - 1`, n = 3")
+            .enumerated(),
+        Case::of(
+            "semidefinite without a solution",
+            proved,
+            families::infeasible_semidefinite(20, 1),
+            STANDARD,
+        )
+        .parameters("`families::infeasible_semidefinite(20, 1)`"),
+        Case::of(
+            "horizontal without a solution",
+            proved,
+            families::infeasible(20, 1),
+            (Problem::General, 1.0),
+        )
+        .parameters("`families::infeasible(20, 1)`"),
+        Case::new("rigid block that nothing holds", proved, lifted())
+            .parameters("on two supports, pulled up by 1, mu = 0.5")
+            .enumerated(),
+        Case::new("feasible by 4e-6", near, two(hair))
+            .parameters("`M = [1 -1; -1 1]`, `q = (-1, 1 + 2^-18)`")
+            .enumerated(),
+        Case::new("infeasible by 4e-6", near, two(-hair))
+            .parameters("the same, `q = (-1, 1 - 2^-18)`")
+            .enumerated(),
+        Case::new("rigid block at the limit of friction", near, push(4.0))
+            .parameters(&format!("{words} 4"))
+            .enumerated(),
+        Case::new("rigid block below it", near, push(4.0 - hair))
+            .parameters(&format!("{words} 4 - 2^-18"))
+            .enumerated(),
+        Case::new("rigid block above it", near, push(4.0 + hair))
+            .parameters(&format!("{words} 4 + 2^-18"))
+            .enumerated(),
+        Case::new("not Q0", open, standard(mat![[-1.0, 0.5], [0.0, 1.0]], vec![-1.0, -1.0]))
+            .parameters("`M = [-1 1/2; 0 1]`, `q = -1`")
+            .enumerated(),
+        Case::new("not Q0, of order 6", open, blocks())
+            .parameters("three such blocks")
+            .enumerated(),
+    ]
+}
+
+const STANDARD: (fn(Lcp) -> Problem, f64) = (Problem::Standard, 1.0);
+
+fn lifted() -> Problem {
+    Problem::Contact(block(&[-1.0, 1.0], [0.0, 1.0, 0.0], 0.5))
+}
+
+fn blocks() -> Problem {
+    let block = [[-1.0, 0.5], [0.0, 1.0]];
+    let m = Mat::from_fn(6, 6, |i, j| if i / 2 == j / 2 { block[i % 2][j % 2] } else { 0.0 });
+    standard(m, vec![-1.0; 6])
+}
