@@ -310,6 +310,7 @@ fn without_time_there_is_no_answer_and_what_is_harder_is_not_tried() {
     assert!(study.meshes.iter().all(|mesh| mesh.reference.is_none() && mesh.errors.is_none()));
     let text = output::table(&study);
     assert!(text.contains("There is no reference") && text.contains("TimeLimit"), "{text}");
+    assert!(text.contains("Not tried: alm on mesh 1, 2, 4, since the time ran out"), "{text}");
 }
 
 #[test]

@@ -31,8 +31,8 @@ pub fn table(study: &Study) -> String {
             significant(study.time_limit.as_secs_f64(), 3)
         ));
     }
-    for (names, reason) in not_tried(study) {
-        text += &paragraph(&format!("Not tried: {names}, since {reason}."));
+    for line in not_tried(study) {
+        text += &paragraph(&line);
     }
     text += &section("References");
     text += &references(study);
@@ -79,18 +79,23 @@ fn records(study: &Study, mesh: &Mesh) -> String {
     table.trim_fmt() + "\n"
 }
 
-/// What was skipped, by route and mesh, each with the reason.
-fn not_tried(study: &Study) -> Vec<(String, String)> {
-    let mut all: Vec<(String, String)> = Vec::new();
+/// What was skipped: for each route and reason the meshes.
+fn not_tried(study: &Study) -> Vec<String> {
+    let mut all: Vec<(&str, &str, Vec<u32>)> = Vec::new();
     for record in &study.records {
         let End::Skipped(reason) = &record.end else { continue };
-        let name = format!("{} on the mesh of factor {}", record.route.name(), record.mesh);
-        if all.last().is_some_and(|last| last.0 == name) {
-            continue;
+        let route = record.route.name();
+        match all.iter_mut().find(|it| it.0 == route && it.1 == reason) {
+            Some((.., meshes)) if meshes.contains(&record.mesh) => {}
+            Some((.., meshes)) => meshes.push(record.mesh),
+            None => all.push((route, reason, vec![record.mesh])),
         }
-        all.push((name, reason.clone()));
     }
-    all
+    let line = |(route, reason, meshes): (&str, &str, Vec<u32>)| {
+        let meshes: Vec<String> = meshes.iter().map(u32::to_string).collect();
+        format!("Not tried: {route} on mesh {}, since {reason}.", meshes.join(", "))
+    };
+    all.into_iter().map(line).collect()
 }
 
 fn references(study: &Study) -> String {
