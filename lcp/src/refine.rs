@@ -3,9 +3,11 @@
 mod at;
 mod lack;
 mod law;
+mod loads;
 mod solve;
 
 pub use law::Margin;
+pub(crate) use loads::lack_of_loads;
 
 use at::At;
 use solve::solved;

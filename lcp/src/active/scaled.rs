@@ -244,6 +244,11 @@ impl Scaled {
         rest.iter().zip(&terms).fold(worst, |max, (v, terms)| max.max(beyond(v.abs(), *terms)))
     }
 
+    /// The largest initial gap or slip, at least the unit of lengths.
+    pub(crate) fn gap_size(&self) -> f64 {
+        self.points.iter().fold(1.0, |max, point| max.max(point.x_0.abs()).max(point.s_0.abs()))
+    }
+
     /// Largest `min(t, y)` over the pairs, with gaps and slips in units of what the bodies are deformed by:
     /// where one slides far, all gaps are small against that, also those that should carry no force.
     /// Bodies without stiffness have no such unit.

@@ -4,6 +4,7 @@ use super::condensed::Condensed;
 use super::crossover::{Effort, Vertex, cross_over, nearest};
 use super::original::{Judged, Original};
 use super::scaled::Scaled;
+use crate::refine::lack_of_loads;
 use crate::solve::Monitor;
 use crate::{ContactStatus, Error, Solution, Status, WarmStart};
 
@@ -86,6 +87,10 @@ impl<'a> Search<'a> {
         let Self { problem, tolerance, scaled, condensed, best, .. } = self;
         cross_over(scaled, condensed, at, contacts, effort, |vertex| {
             let judged = problem.judge(scaled, &vertex.u, &vertex.forces);
+            let judged = confirmed(judged, *tolerance, || {
+                let point = (&vertex.u[..], &vertex.forces[..]);
+                lack_of_loads(scaled, point, &vertex.contacts, *tolerance)
+            });
             let is_solution = judged.worst <= *tolerance;
             keep_better(best, judged, is_solution.then_some(vertex));
             is_solution
@@ -95,6 +100,10 @@ impl<'a> Search<'a> {
     /// The worst residual of a point, which is kept if none was better.
     pub(crate) fn judge(&mut self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
         let judged = self.problem.judge(&self.scaled, u, forces);
+        let judged = confirmed(judged, self.tolerance, || {
+            let statuses = nearest(&self.scaled, u, forces);
+            lack_of_loads(&self.scaled, (u, forces), &statuses, self.tolerance)
+        });
         let worst = judged.worst;
         keep_better(&mut self.best, judged, None);
         worst
@@ -131,6 +140,19 @@ impl<'a> Search<'a> {
         solution.info.history = monitor.history;
         solution
     }
+}
+
+/// A point whose residuals are small is no solution unless its equations hold in units of the loads, too, or
+/// those of its states have a solution for which they do: far out the terms can be large enough to hide what
+/// no motion and no force can mend.
+fn confirmed(mut judged: Judged, tolerance: f64, lack: impl FnOnce() -> f64) -> Judged {
+    if judged.worst <= tolerance {
+        let lack = lack();
+        if lack > tolerance {
+            judged.worst = lack;
+        }
+    }
+    judged
 }
 
 /// An exact solution is better than a point inside, whose residuals may be smaller.

@@ -27,6 +27,11 @@ impl At {
         Self { u: u.collect(), forces: forces.collect() }
     }
 
+    pub(super) fn of(u: &[f64], forces: &[(f64, f64)]) -> Self {
+        let forces = forces.iter().map(|(n, t)| [*n, *t].map(Extended::from));
+        Self { u: u.iter().copied().map(Extended::from).collect(), forces: forces.collect() }
+    }
+
     /// Displacements, and pairs of forces, to the usual digits.
     pub(super) fn rounded(&self) -> (Vec<f64>, Vec<(f64, f64)>) {
         let forces = self.forces.iter().map(|[n, t]| (n.rounded(), t.rounded()));

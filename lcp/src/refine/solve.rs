@@ -32,6 +32,20 @@ pub(super) fn solved(
     Ok(solve.finish(began.elapsed().as_secs_f64()))
 }
 
+/// Where the equations of the states lead to, without rounding errors, as far as one does.
+pub(super) fn refined<'a>(
+    scaled: &'a Scaled,
+    at: &'a At,
+    statuses: &'a [ContactStatus],
+) -> impl Iterator<Item = At> + 'a {
+    let refined = move |weights| {
+        let mut solve = Solve::new(scaled, at.clone(), statuses, weights).ok()?;
+        solve.refine();
+        Some(solve.at)
+    };
+    WEIGHTS.into_iter().filter_map(refined)
+}
+
 /// How much passes hold on to what they start from.
 #[derive(Debug, Clone, Copy)]
 struct Weights {

@@ -14,7 +14,7 @@ pub fn cases() -> Vec<Case> {
     let near = "A hair apart, one has a solution and the other has none.";
     let open =
         "The linear conditions can be met, but not with complementarity: no vector proves it.";
-    let hair = 2_f64.powi(-18);
+    let [hair, fine, finer] = [-18, -28, -30].map(|power| 2_f64.powi(power));
     let two = |excess: f64| standard(mat![[1.0, -1.0], [-1.0, 1.0]], vec![-1.0, 1.0 + excess]);
     let push = |force: f64| body([0.0, 0.0], [force, -8.0], &[[0.0, 1.0]], 0.5);
     let words = "rigid, weight 8, mu = 0.5, pushed by";
@@ -45,6 +45,12 @@ pub fn cases() -> Vec<Case> {
         Case::new("infeasible by 4e-6", near, two(-hair))
             .parameters("the same, `q = (-1, 1 - 2^-18)`")
             .enumerated(),
+        Case::new("feasible by 9e-10", near, two(finer))
+            .parameters("the same, `q = (-1, 1 + 2^-30)`")
+            .enumerated(),
+        Case::new("infeasible by 9e-10", near, two(-finer))
+            .parameters("the same, `q = (-1, 1 - 2^-30)`")
+            .enumerated(),
         Case::new("rigid block at the limit of friction", near, push(4.0))
             .parameters(&format!("{words} 4"))
             .enumerated(),
@@ -53,6 +59,12 @@ pub fn cases() -> Vec<Case> {
             .enumerated(),
         Case::new("rigid block above it", near, push(4.0 + hair))
             .parameters(&format!("{words} 4 + 2^-18"))
+            .enumerated(),
+        Case::new("rigid block barely below it", near, push(4.0 - fine))
+            .parameters(&format!("{words} 4 - 2^-28"))
+            .enumerated(),
+        Case::new("rigid block barely above it", near, push(4.0 + fine))
+            .parameters(&format!("{words} 4 + 2^-28"))
             .enumerated(),
         Case::new("not Q0", open, standard(mat![[-1.0, 0.5], [0.0, 1.0]], vec![-1.0, -1.0]))
             .parameters("`M = [-1 1/2; 0 1]`, `q = -1`")
