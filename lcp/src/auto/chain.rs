@@ -44,7 +44,7 @@ pub(super) fn run<P: Planned>(
         if is_falling && !problem.is_worth_a_proof(step.method) {
             continue;
         }
-        let near = best.as_ref().and_then(near_point);
+        let near = best.as_ref().and_then(|best| near_point(best, settings.tolerance));
         let start = near.as_ref().unwrap_or(&settings.start);
         let effort = Effort { tolerance: settings.tolerance, time_limit, start };
         let route_began = Instant::now();
@@ -89,11 +89,13 @@ fn is_final(solution: &Solution) -> bool {
     }
 }
 
-/// Where an unsolved answer is near a solution, the next method may start from it.
-fn near_point(solution: &Solution) -> Option<WarmStart> {
+/// Where an unsolved answer is near a solution, the next method may start from it; not from one that its method
+/// refused though the residuals are small, of which another might see no more than these.
+fn near_point(solution: &Solution, tolerance: f64) -> Option<WarmStart> {
     let Solution { t, y, .. } = solution;
-    let is_near = solution.residuals.worst() <= NEAR;
-    is_near.then(|| WarmStart::Point { t: t.clone(), y: y.clone() })
+    let residual = solution.residuals.worst();
+    (tolerance < residual && residual <= NEAR)
+        .then(|| WarmStart::Point { t: t.clone(), y: y.clone() })
 }
 
 /// The one that says more; the earlier one where both say the same.
