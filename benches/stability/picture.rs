@@ -35,6 +35,8 @@ pub(crate) enum Mark {
 pub(crate) struct Panel {
     pub(crate) title: String,
     pub(crate) x: String,
+    /// The largest error of what may be called solved.
+    pub(crate) promised: f64,
     pub(crate) lines: Vec<Line>,
 }
 
@@ -68,8 +70,15 @@ fn legend(panel: &Panel) -> String {
         let _ = writeln!(svg, "<text x=\"{}\" y=\"54\">{}</text>", x + 10.0, line.name);
         x += 34.0 + 8.0 * line.name.len() as f64;
     }
-    let words = "full: called solved, at the worst of its checks; hollow: gave up, at the residual it reports; \
-                 dots: backward error; grey: promised, by alm a hundred times that";
+    let alm = if panel.lines.iter().any(|line| line.name == "alm") {
+        ", by alm a hundred times that"
+    } else {
+        ""
+    };
+    let words = format!(
+        "full: called solved, at the worst of its checks; hollow: gave up, at the residual it reports; \
+         dots: backward error; grey: promised{alm}"
+    );
     let _ = writeln!(svg, "<text x=\"{EDGE}\" y=\"76\">{words}</text>");
     svg
 }
@@ -115,7 +124,7 @@ impl Panel {
                 y_0 + 16.0
             );
         }
-        let bound = up(1e-8);
+        let bound = up(self.promised);
         let _ = writeln!(
             svg,
             "<line x1=\"{x_0}\" y1=\"{bound}\" x2=\"{x_1}\" y2=\"{bound}\" stroke=\"#999999\" stroke-width=\"2\"/>\n\

@@ -143,7 +143,12 @@ fn panel((sweep, points): &(Sweep, Vec<Point>)) -> Panel {
         let points = points.iter().filter_map(mark).collect();
         Line { name: route.name().to_owned(), style: style(*route), points }
     });
-    Panel { title: sweep.title.clone(), x: sweep.parameter.to_owned(), lines: lines.collect() }
+    Panel {
+        title: sweep.title.clone(),
+        x: sweep.parameter.to_owned(),
+        promised: 1e-8,
+        lines: lines.collect(),
+    }
 }
 
 fn problem_panel(sweep: &problems::Sweep) -> Panel {
@@ -163,6 +168,7 @@ fn problem_panel(sweep: &problems::Sweep) -> Panel {
     Panel {
         title: sweep.name.to_owned(),
         x: format!("{} [-]", sweep.parameter),
+        promised: 1e-10,
         lines: lines.collect(),
     }
 }

@@ -216,7 +216,7 @@ impl Tried {
 }
 
 impl Case {
-    fn is_solvable(&self) -> bool {
+    pub fn is_solvable(&self) -> bool {
         match &self.truth {
             Truth::All(all) => all.is_solvable(),
             Truth::None => false,

@@ -16,18 +16,21 @@ const FLOOR: f64 = 1.0 / 1024.0;
 pub struct Measure {
     /// The measure of the library: equations row by row, signs and products of the pairs.
     pub residual: f64,
-    /// The largest lack of an equation relative to the largest terms of any, and the pairs likewise.
+    /// The largest lack of an equation relative to the largest terms of any, and the pairs likewise; of contact
+    /// problems the pairs are measured as in the residual.
     pub backward: f64,
 }
 
 impl Measure {
     pub fn of(problem: &Problem, solution: &Solution) -> Self {
-        let general = of_general(&problem.general(), (&solution.t, &solution.y));
+        let general = problem.general();
+        let point = (&solution.t[..], &solution.y[..]);
         match problem {
             Problem::Contact(contact) => {
-                Self { residual: of_contact(contact, solution), ..general }
+                let residual = of_contact(contact, solution);
+                Self { residual, backward: of_equations(&general, point) }
             }
-            _ => general,
+            _ => of_general(&general, point),
         }
     }
 }
@@ -59,14 +62,24 @@ pub fn of_general(problem: &HorizontalLcp, (t, y): (&[f64], &[f64])) -> Measure 
     }
     let rows = rows(problem, (t, y));
     let equation = rows.iter().map(Row::relative).fold(0.0, larger);
+    let (t_max, y_max) = (largest(t), largest(y));
+    let pairs = t.iter().zip(y).map(|(t, y)| relative(*t, t_max).min(relative(*y, y_max)).abs());
+    let natural = pairs.fold(0.0, larger);
+    Measure { residual: equation.max(natural), backward: backward(&rows).max(natural) }
+}
+
+/// The largest lack of an equation relative to the largest terms of any.
+fn of_equations(problem: &HorizontalLcp, point: (&[f64], &[f64])) -> f64 {
+    let is_finite = point.0.iter().chain(point.1).all(|v| v.is_finite());
+    if is_finite { backward(&rows(problem, point)) } else { f64::INFINITY }
+}
+
+fn backward(rows: &[Row]) -> f64 {
     let common = rows.iter().filter_map(|row| row.exponent).max().unwrap_or(0);
     let in_common = |v: f64, row: &Row| shifted(v, row.exponent.map_or(0, |it| it - common));
     let lack = rows.iter().map(|row| in_common(row.sum.rounded().abs(), row)).fold(0.0, larger);
     let terms = rows.iter().map(|row| in_common(row.size, row)).fold(0.0, larger);
-    let (t_max, y_max) = (largest(t), largest(y));
-    let pairs = t.iter().zip(y).map(|(t, y)| relative(*t, t_max).min(relative(*y, y_max)).abs());
-    let natural = pairs.fold(0.0, larger);
-    Measure { residual: equation.max(natural), backward: share(lack, terms).max(natural) }
+    share(lack, terms)
 }
 
 /// Of every row what it lacks and its terms, without overflow whatever the units.

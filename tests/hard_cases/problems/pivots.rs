@@ -24,7 +24,7 @@ pub fn cases() -> Vec<Case> {
     list
 }
 
-fn family(name: &str, why: &'static str, instance: Instance<Lcp>) -> Case {
+pub(super) fn family(name: &str, why: &'static str, instance: Instance<Lcp>) -> Case {
     Case::of(name, why, instance, (Problem::Standard, 1e6))
 }
 

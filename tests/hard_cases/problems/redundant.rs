@@ -13,8 +13,7 @@ pub fn cases() -> Vec<Case> {
     let hyperstatic =
         "Rigid bodies have no stiffness, and equilibrium leaves most forces open: `A` is singular.";
     let singular = "Columns of `A` and of `B` depend on one another.";
-    let places: Vec<f64> = (0_u8..12).map(|i| f64::from(i) - 5.5).collect();
-    let on_twelve = block(&places, [3.0, -20.0, 10.0], 0.5);
+    let on_twelve = on_supports(12);
     let general = on_twelve.to_general();
     let dense =
         HorizontalLcp::new(general.a().to_dense(), general.b().to_dense(), general.c().to_vec());
@@ -68,6 +67,13 @@ pub fn cases() -> Vec<Case> {
         )
         .parameters("`families::mixed_monotone(30, 1)`, rank 10"),
     ]
+}
+
+/// At distances of 1.
+pub(super) fn on_supports(number: u8) -> Contact2d {
+    let places: Vec<f64> =
+        (0..number).map(|i| f64::from(i) - f64::from(number - 1) / 2.0).collect();
+    block(&places, [3.0, -20.0, 10.0], 0.5)
 }
 
 fn two() -> Contact2d {

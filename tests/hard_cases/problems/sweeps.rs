@@ -1,19 +1,22 @@
 //! What the methods give along a parameter, from easy to hopeless.
 
-use lcp::Status;
+use lcp::{Status, families};
 
 use super::case::{Case, End, Tried};
 use super::data::{
     degenerate, dominant, exponents, gram, hilbert, ill_conditioned, rescaled, strict,
     with_solution,
 };
-use super::problem::Method;
+use super::problem::{Method, Problem};
+use super::{friction, pivots, redundant, unsolvable};
 
 /// A family along its parameter.
 pub struct Sweep {
     pub name: &'static str,
     pub parameter: &'static str,
     pub values: Vec<f64>,
+    /// Whether there are solutions, at all values.
+    pub is_solvable: bool,
     /// What every method gave at every value; nothing from methods that do not treat the problem.
     pub methods: Vec<(Method, Vec<Option<Found>>)>,
     /// What is wrong with it.
@@ -35,11 +38,22 @@ pub fn sweeps() -> Vec<Sweep> {
     let shares: Vec<f64> = (0..=10_u8).step_by(2).map(|tenths| f64::from(tenths) / 10.0).collect();
     let spreads: Vec<f64> = (0..=100_u8).step_by(20).map(|bits| f64::from(bits).exp2()).collect();
     let orders: Vec<f64> = (2..=14_u8).step_by(3).map(f64::from).collect();
+    let lacks: Vec<f64> = (2..=30_i32).step_by(4).map(|bits| 2_f64.powi(-bits)).collect();
+    let frictions: Vec<f64> = (-12..=12_i32).step_by(4).map(|tens| 10_f64.powi(tens)).collect();
+    let stiffnesses: Vec<f64> =
+        (0..=50_u8).step_by(10).map(|bits| f64::from(bits).exp2()).collect();
+    let supports: Vec<f64> = [2_u8, 5, 12, 30, 80].map(f64::from).into();
+    let lengths: Vec<f64> = [2_u8, 8, 14, 20, 26].map(f64::from).into();
     vec![
         sweep(("L D L^T, n = 8", "condition number of D"), powers, conditioned),
         sweep(("positive definite, n = 20", "share of pairs that vanish"), shares, vanishing),
         sweep(("P-matrix, n = 10", "spread of the units"), spreads, spread),
         sweep(("Hilbert matrices", "order"), orders, hilbert_of),
+        sweep(("two rows that contradict each other", "by what part"), lacks, contradicting),
+        sweep(("rigid body on a floor and a slope", "mu"), frictions, friction::leaning),
+        sweep(("bodies between springs", "ratio of their stiffnesses"), stiffnesses, springs),
+        sweep(("rigid block on supports", "number of supports"), supports, supported),
+        sweep(("Murty", "order"), lengths, murty),
     ]
 }
 
@@ -59,27 +73,26 @@ fn sweep(
     };
     let of_method = |k: usize| tried.iter().map(|it| found(&it.ends[k])).collect();
     let methods = Method::ALL.into_iter().enumerate().map(|(k, it)| (it, of_method(k))).collect();
+    let is_solvable = tried.iter().all(|it| it.case.is_solvable());
     let wrong = tried.iter().flat_map(Tried::wrong).collect();
-    Sweep { name, parameter, values, methods, wrong }
+    Sweep { name, parameter, values, is_solvable, methods, wrong }
 }
 
 fn conditioned(condition: f64) -> Case {
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 48")]
-    let bits = condition.log2().round() as u32;
+    let bits = whole(condition.log2());
     // Zero and one: with larger numbers `q` would be rounded.
     let at = |even: f64| (0..8).map(|i| if i % 2 == 0 { even } else { 1.0 - even }).collect();
     let point = (at(1.0), at(0.0));
     Case::new(
         &format!("condition {condition:e}"),
         "",
-        with_solution(ill_conditioned(8, bits), &point),
+        with_solution(ill_conditioned(8, bits.into()), &point),
     )
     .unique(point, 1e2 * condition)
 }
 
 fn vanishing(share: f64) -> Case {
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most ten")]
-    let point = degenerate(20, (10.0 * share).round() as usize);
+    let point = degenerate(20, whole(10.0 * share).into());
     let problem = with_solution(gram(20), &point);
     Case::new(&format!("share {share}"), "", problem).unique(point, 1e4)
 }
@@ -99,9 +112,33 @@ fn spread(spread: f64) -> Case {
 }
 
 fn hilbert_of(order: f64) -> Case {
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small order")]
-    let n = order as usize;
+    let n = whole(order).into();
     let point = strict(n);
     Case::new(&format!("order {n}"), "", with_solution(hilbert(n), &point))
         .unique(point, (3.5 * order).exp())
+}
+
+/// Shared by both rows, what is lacking is half of it, and the residual of a point near the origin half of that.
+fn contradicting(lack: f64) -> Case {
+    Case::new(&format!("without a solution by {lack:e}"), "", unsolvable::two(-lack)).enumerated()
+}
+
+fn springs(ratio: f64) -> Case {
+    friction::chain(whole(ratio.log2()).into())
+}
+
+fn supported(number: f64) -> Case {
+    let block = redundant::on_supports(whole(number));
+    Case::new(&format!("{number} supports"), "", Problem::Contact(block)).solvable("")
+}
+
+fn murty(order: f64) -> Case {
+    let instance = families::murty(whole(order).into());
+    pivots::family(&format!("order {order}"), "", instance)
+}
+
+/// A small number that is whole.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most a hundred")]
+fn whole(number: f64) -> u8 {
+    number.round() as u8
 }

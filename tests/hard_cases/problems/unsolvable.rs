@@ -15,7 +15,6 @@ pub fn cases() -> Vec<Case> {
     let open =
         "The linear conditions can be met, but not with complementarity: no vector proves it.";
     let [hair, fine, finer] = [-18, -28, -30].map(|power| 2_f64.powi(power));
-    let two = |excess: f64| standard(mat![[1.0, -1.0], [-1.0, 1.0]], vec![-1.0, 1.0 + excess]);
     let push = |force: f64| body([0.0, 0.0], [force, -8.0], &[[0.0, 1.0]], 0.5);
     let words = "rigid, weight 8, mu = 0.5, pushed by";
     vec![
@@ -73,6 +72,11 @@ pub fn cases() -> Vec<Case> {
             .parameters("three such blocks")
             .enumerated(),
     ]
+}
+
+/// The two rows ask for opposite things, and leave room for the excess.
+pub(super) fn two(excess: f64) -> Problem {
+    standard(mat![[1.0, -1.0], [-1.0, 1.0]], vec![-1.0, 1.0 + excess])
 }
 
 const STANDARD: (fn(Lcp) -> Problem, f64) = (Problem::Standard, 1.0);
