@@ -101,9 +101,11 @@ fn of_panel(name: &str, panel: &Study, machine: &str) -> String {
         machine,
     );
     text += &tables::meshes(panel);
-    text += "\nThe references, refined with numbers of twice the digits, and how far that of another route is from it, refined as well:\n\n";
+    text += "\nThe references, refined with numbers of twice the digits, and how far that of another route is from it, refined as well. \
+             Certain are the digits that rounding errors of redundant contacts, whose gaps contradict each other in the last digits of the data, leave:\n\n";
     text += &tables::references(panel);
-    text += "\nWhat the last digits cost once the states of all contacts are known: one factorisation, and solves with it.\n\n";
+    text += "\nWhat the last digits cost once the states of all contacts are known: one factorisation, and solves with it. \
+             Errors are distances from the reference; those beyond its certain digits are not known any better than these.\n\n";
     text += &tables::refinings(panel);
     text += &if panel.springs.is_empty() {
         "\n".to_owned()
