@@ -25,12 +25,13 @@ use farkas::farkas_vector;
 use form::{Form, Point};
 use interior::{Effort, End};
 use monotone::{MixedForm, standard_candidate, standard_form};
-use program::{Assemble, Best, Proof, solve_convex};
+use program::{Assemble, Best, Candidate, Proof, solve_convex};
 use scale::Scaled;
 pub use settings::{ContactForm, QuadraticProgramSettings, SoftConstraints};
 pub use soft::SoftSolution;
 use start::Rows;
 
+use crate::active::lack;
 use crate::solve::Monitor;
 use crate::{Contact2d, Error, HorizontalLcp, Lcp, MixedLcp, Observer, Solution, Solver, Status};
 
@@ -150,13 +151,14 @@ impl QuadraticProgram {
         } else {
             Ok(End::Failed)
         };
-        Ok(self.concluded(best, end, &monitor, proof))
+        let lack = |it: &Candidate| lack(contact, (&it.t, &it.y), settings.tolerance);
+        Ok(self.concluded(best, end, &monitor, (proof, &lack)))
     }
 
     fn solve_form(
         &self,
         form: &Form,
-        general: &HorizontalLcp,
+        (general, lack): (&HorizontalLcp, &Lack<'_>),
         (rows, assemble): (&Rows, &Assemble<'_>),
         observer: &mut Observer<'_>,
     ) -> Solution {
@@ -179,7 +181,7 @@ impl QuadraticProgram {
             }
         };
         let search = || farkas_vector(general, self.effort(began));
-        self.concluded(best, end, &monitor, Proof::new(&search))
+        self.concluded(best, end, &monitor, (Proof::new(&search), lack))
     }
 
     /// The solution that the best point is, or the proof that there is none.
@@ -188,12 +190,14 @@ impl QuadraticProgram {
         best: Best,
         end: Result<End, Status>,
         monitor: &Monitor<'_>,
-        proof: Proof<'_>,
+        (proof, lack): (Proof<'_>, &Lack<'_>),
     ) -> Solution {
         let tolerance = self.settings.tolerance;
         let mut farkas = None;
+        // Residuals may be small for a point that is far away.
+        let is_solved = best.residual <= tolerance && lack(&best.candidate) <= tolerance;
         let otherwise = match end {
-            _ if best.residual <= tolerance => Status::Solved,
+            _ if is_solved => Status::Solved,
             Err(status @ (Status::Cancelled | Status::TimeLimit)) => status,
             Ok(End::TimeLimit) => Status::TimeLimit,
             Ok(End::IterationLimit) => Status::IterationLimit,
@@ -210,7 +214,6 @@ impl QuadraticProgram {
         let Best { candidate, factorisations, .. } = best;
         let point = (candidate.t, candidate.y);
         let mut solution = Solution::judged(point, candidate.residuals, tolerance, otherwise);
-        // Residuals may be small for a point that is far away.
         solution.status = otherwise;
         solution.contact = candidate.contact;
         solution.farkas = farkas;
@@ -220,6 +223,12 @@ impl QuadraticProgram {
         solution.info.history.clone_from(&monitor.history);
         solution.info.seconds = monitor.seconds();
         solution
+    }
+
+    fn lack_of_standard(&self, problem: &Lcp, z: &[f64], w: &[f64]) -> f64 {
+        let (m, q) = (problem.m().clone(), problem.q().to_vec());
+        let mixed = MixedLcp::new(m, q, vec![false; problem.order()]);
+        mixed.map_or(f64::INFINITY, |mixed| lack(&mixed, (z, w), self.settings.tolerance))
     }
 
     /// How exact the interior points have to be: the polish needs to tell apart what vanishes and what
@@ -233,6 +242,9 @@ impl QuadraticProgram {
         }
     }
 }
+
+/// What a candidate lacks in units of the loads.
+type Lack<'a> = dyn Fn(&Candidate) -> f64 + 'a;
 
 fn refused(reason: &str) -> Error {
     Error::NotTreated {
@@ -257,8 +269,9 @@ impl Solver<Lcp> for QuadraticProgram {
         let assemble = |point: &Point, places: Option<&[_]>| {
             standard_candidate(&form, &general, &|z, w| (z, w), (point, places))
         };
+        let lack = |it: &Candidate| self.lack_of_standard(problem, &it.t, &it.y);
         let rows = Rows::of_pairs(0..problem.order());
-        Ok(self.solve_form(&form, &general, (&rows, &assemble), observer))
+        Ok(self.solve_form(&form, (&general, &lack), (&rows, &assemble), observer))
     }
 }
 
@@ -285,8 +298,12 @@ impl Solver<HorizontalLcp> for QuadraticProgram {
         let assemble = |point: &Point, places: Option<&[_]>| {
             standard_candidate(&form, problem, &to_pairs, (point, places))
         };
+        let lack = |it: &Candidate| {
+            let (z, w) = standard.from_pairs(&it.t, &it.y);
+            self.lack_of_standard(standard.lcp(), &z, &w)
+        };
         let rows = Rows::of_standard(&standard);
-        Ok(self.solve_form(&form, problem, (&rows, &assemble), observer))
+        Ok(self.solve_form(&form, (problem, &lack), (&rows, &assemble), observer))
     }
 }
 
@@ -306,8 +323,9 @@ impl Solver<MixedLcp> for QuadraticProgram {
         let assemble =
             |point: &Point, places: Option<&[_]>| mixed.candidate(problem, point, places);
         let rows = Rows::of_pairs((0..problem.order()).filter(|&i| !problem.free()[i]));
+        let lack = |it: &Candidate| lack(problem, (&it.t, &it.y), self.settings.tolerance);
         let general = problem.to_general();
-        Ok(self.solve_form(&mixed.form, &general, (&rows, &assemble), observer))
+        Ok(self.solve_form(&mixed.form, (&general, &lack), (&rows, &assemble), observer))
     }
 }
 

@@ -1,6 +1,8 @@
 //! The problems that the method treats, as contact problems, and back.
 
+use super::crossover::nearest;
 use super::scaled::{Point, Scaled};
+use crate::refine::lack_of_loads;
 use crate::{Basis, Contact2d, ContactState, ContactStatus, MixedLcp, Residuals, Side};
 
 /// A point of the general form of a problem.
@@ -19,6 +21,14 @@ impl Judged {
     fn new((t, y): (Vec<f64>, Vec<f64>), residuals: Residuals, drift: f64) -> Self {
         Self { t, y, contact: None, worst: residuals.worst().max(drift), residuals }
     }
+}
+
+/// What a point of the general form lacks in units of the loads; or, where that is more than the tolerance, what the
+/// equations of its states then lack.
+pub(crate) fn lack(problem: &dyn Original, (t, y): (&[f64], &[f64]), tolerance: f64) -> f64 {
+    let scaled = problem.scaled();
+    let (u, forces) = problem.point(&scaled, t, y);
+    lack_of_loads(&scaled, (&u, &forces), &nearest(&scaled, &u, &forces), tolerance)
 }
 
 /// A problem as it was given.

@@ -13,6 +13,7 @@ use super::reduced::Place;
 use super::scale::Scaled;
 use super::settings::SoftConstraints;
 use super::{QuadraticProgram, QuadraticProgramSettings, refused};
+use crate::active::lack;
 use crate::solve::Monitor;
 use crate::{
     Bedding, Contact2d, ContactState, Error, Iteration, Observer, Residuals, Solution, Status,
@@ -132,7 +133,8 @@ impl QuadraticProgram {
             centre = state.u;
         };
         let search = || farkas_vector(&contact.to_general(), self.effort(began));
-        Ok(self.concluded(best, end, &monitor, Proof::new(&search)))
+        let lack = |it: &Candidate| lack(contact, (&it.t, &it.y), settings.tolerance);
+        Ok(self.concluded(best, end, &monitor, (Proof::new(&search), &lack)))
     }
 
     /// The same solver for a problem that has its springs.
