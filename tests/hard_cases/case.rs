@@ -49,7 +49,7 @@ pub enum End {
     /// What it calls solved.
     Solved { outcome: Box<Outcome>, errors: Errors },
     /// It says that it found nothing.
-    GaveUp { status: Status, residual: f64 },
+    GaveUp { outcome: Box<Outcome> },
     /// It does not treat such scenes.
     Refused,
     /// It would take minutes.
@@ -120,10 +120,7 @@ impl Case {
             Ok(outcome) if outcome.solve.status == Status::Solved => {
                 End::Solved { errors: Errors::of(&outcome), outcome: Box::new(outcome) }
             }
-            Ok(outcome) => End::GaveUp {
-                status: outcome.solve.status,
-                residual: outcome.solve.residuals.worst(),
-            },
+            Ok(outcome) => End::GaveUp { outcome: Box::new(outcome) },
             Err(SolveError::Solver(lcp::Error::NotTreated { .. })) => End::Refused,
             Err(error) => panic!("{} by {route:?}: {error}", self.name),
         }

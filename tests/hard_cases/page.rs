@@ -2,6 +2,8 @@
 
 use std::fmt::{self, Write};
 
+use masonry::outcome::Outcome;
+
 use super::case::{End, Theme, Tried};
 use super::common::routes::ROUTES;
 
@@ -23,8 +25,9 @@ so that a light one is not excused by a heavy neighbour. Asked for are residuals
 
 In the tables a power of ten alone is the worst of these checks, rounded up, of an answer that is called solved. Otherwise
 the route says that it has no answer, by its status and the residual at which it ended (which may be small far out, where
-displacements are huge: then other checks refused it); a dash is a scene that it does not treat. The test lets powers of
-answers differ, and does not compare how a route gives up: both may hang on the last digits.
+displacements are huge: then other checks refused it); a dash is a scene that it does not treat. In brackets are pivots, of all
+attempts, or sweeps, steps, programs or iterations. The test lets powers of answers and costs differ, and does not compare how a
+route gives up: all may hang on the last digits.
 After every case come its parameters and what is known about the answer.
 ";
 
@@ -61,9 +64,15 @@ fn write_theme(text: &mut String, theme: &Theme) -> fmt::Result {
 }
 
 fn cell(end: &End) -> String {
+    let cost = |outcome: &Outcome| outcome.solve.pivots + outcome.solve.iterations;
     match end {
-        End::Solved { errors, .. } => power(errors.worst()),
-        End::GaveUp { status, residual } => format!("{status} {}", power(*residual)),
+        End::Solved { errors, outcome } => {
+            format!("{} ({})", power(errors.worst()), cost(outcome))
+        }
+        End::GaveUp { outcome } => {
+            let info = &outcome.solve;
+            format!("{} {} ({})", info.status, power(info.residuals.worst()), cost(outcome))
+        }
         End::Refused => "-".to_owned(),
         End::Slow => "not tried".to_owned(),
     }

@@ -63,8 +63,9 @@ impl Sweep {
             End::Solved { errors, .. } => {
                 Reached::Solved { error: errors.worst(), backward: errors.backward }
             }
-            End::GaveUp { status, residual } => {
-                Reached::GaveUp { status: *status, residual: *residual }
+            End::GaveUp { outcome } => {
+                let info = &outcome.solve;
+                Reached::GaveUp { status: info.status, residual: info.residuals.worst() }
             }
             End::Refused | End::Slow => Reached::Nothing,
         };
