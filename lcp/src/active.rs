@@ -10,7 +10,7 @@ mod units;
 
 pub(crate) use condensed::{Condensed, Springs};
 pub(crate) use crossover::Effort;
-pub(crate) use original::{Original, lack};
+pub(crate) use original::{Original, lack_of_pairs, lack_of_state};
 pub(crate) use scaled::{Point, Scaled};
 pub(crate) use search::Search;
 

@@ -31,7 +31,7 @@ pub use settings::{ContactForm, QuadraticProgramSettings, SoftConstraints};
 pub use soft::SoftSolution;
 use start::Rows;
 
-use crate::active::lack;
+use crate::active::{lack_of_pairs, lack_of_state};
 use crate::solve::Monitor;
 use crate::{Contact2d, Error, HorizontalLcp, Lcp, MixedLcp, Observer, Solution, Solver, Status};
 
@@ -151,7 +151,7 @@ impl QuadraticProgram {
         } else {
             Ok(End::Failed)
         };
-        let lack = |it: &Candidate| lack(contact, (&it.t, &it.y), settings.tolerance);
+        let lack = |it: &Candidate| lack_of(contact, it, settings.tolerance);
         Ok(self.concluded(best, end, &monitor, (proof, &lack)))
     }
 
@@ -228,7 +228,7 @@ impl QuadraticProgram {
     fn lack_of_standard(&self, problem: &Lcp, z: &[f64], w: &[f64]) -> f64 {
         let (m, q) = (problem.m().clone(), problem.q().to_vec());
         let mixed = MixedLcp::new(m, q, vec![false; problem.order()]);
-        mixed.map_or(f64::INFINITY, |mixed| lack(&mixed, (z, w), self.settings.tolerance))
+        mixed.map_or(f64::INFINITY, |mixed| lack_of_pairs(&mixed, (z, w), self.settings.tolerance))
     }
 
     /// How exact the interior points have to be: the polish needs to tell apart what vanishes and what
@@ -245,6 +245,12 @@ impl QuadraticProgram {
 
 /// What a candidate lacks in units of the loads.
 type Lack<'a> = dyn Fn(&Candidate) -> f64 + 'a;
+
+/// Of a contact problem.
+fn lack_of(contact: &Contact2d, candidate: &Candidate, tolerance: f64) -> f64 {
+    let state = candidate.contact.as_ref();
+    state.map_or(f64::INFINITY, |state| lack_of_state(contact, state, tolerance))
+}
 
 fn refused(reason: &str) -> Error {
     Error::NotTreated {
@@ -323,7 +329,7 @@ impl Solver<MixedLcp> for QuadraticProgram {
         let assemble =
             |point: &Point, places: Option<&[_]>| mixed.candidate(problem, point, places);
         let rows = Rows::of_pairs((0..problem.order()).filter(|&i| !problem.free()[i]));
-        let lack = |it: &Candidate| lack(problem, (&it.t, &it.y), self.settings.tolerance);
+        let lack = |it: &Candidate| lack_of_pairs(problem, (&it.t, &it.y), self.settings.tolerance);
         let general = problem.to_general();
         Ok(self.solve_form(&mixed.form, (&general, &lack), (&rows, &assemble), observer))
     }

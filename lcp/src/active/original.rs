@@ -23,12 +23,22 @@ impl Judged {
     }
 }
 
-/// What a point of the general form lacks in units of the loads; or, where that is more than the tolerance, what the
-/// equations of its states then lack.
-pub(crate) fn lack(problem: &dyn Original, (t, y): (&[f64], &[f64]), tolerance: f64) -> f64 {
+/// What a point lacks in units of the loads; or, where that is more than the tolerance, what the equations of its
+/// states then lack.
+pub(crate) fn lack_of_pairs(problem: &MixedLcp, (t, y): (&[f64], &[f64]), tolerance: f64) -> f64 {
     let scaled = problem.scaled();
     let (u, forces) = problem.point(&scaled, t, y);
-    lack_of_loads(&scaled, (&u, &forces), &nearest(&scaled, &u, &forces), tolerance)
+    lack(&scaled, (u, forces), tolerance)
+}
+
+/// The same of a contact problem, of which pairs may have fewer digits than states.
+pub(crate) fn lack_of_state(problem: &Contact2d, state: &ContactState, tolerance: f64) -> f64 {
+    let scaled = problem.scaled();
+    lack(&scaled, scaled.of_state(state), tolerance)
+}
+
+fn lack(scaled: &Scaled, (u, forces): (Vec<f64>, Vec<(f64, f64)>), tolerance: f64) -> f64 {
+    lack_of_loads(scaled, (&u, &forces), &nearest(scaled, &u, &forces), tolerance)
 }
 
 /// A problem as it was given.
@@ -89,10 +99,7 @@ impl Original for Contact2d {
     }
 
     fn point(&self, scaled: &Scaled, t: &[f64], y: &[f64]) -> (Vec<f64>, Vec<(f64, f64)>) {
-        let state = self.recover(t, y);
-        let force = scaled.force();
-        let forces = state.t_n.iter().zip(&state.t_t).map(|(n, t)| (n / force, t / force));
-        (scaled.of_displacements(&state.u), forces.collect())
+        scaled.of_state(&self.recover(t, y))
     }
 
     fn basis(&self, contacts: &[ContactStatus], judged: &Judged, slips: &[f64]) -> Basis {

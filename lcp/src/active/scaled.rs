@@ -4,7 +4,7 @@ use faer::sparse::SparseColMat;
 
 use super::units::OwnUnits;
 use crate::problem::{column_of, max_abs};
-use crate::{Contact2d, MixedLcp};
+use crate::{Contact2d, ContactState, MixedLcp};
 
 /// A contact problem whose stiffness, forces and gaps are of order one whatever the units: with the
 /// displacements `u = length * column * u'`, forces `t = force * t'`, gaps and slips `y = length * y'`.
@@ -171,6 +171,13 @@ impl Scaled {
     /// Displacements in the units of this problem.
     pub(crate) fn of_displacements(&self, u: &[f64]) -> Vec<f64> {
         u.iter().zip(&self.column).map(|(u, d)| u / d / self.length).collect()
+    }
+
+    /// Displacements and forces in the units of this problem.
+    pub(crate) fn of_state(&self, state: &ContactState) -> (Vec<f64>, Vec<(f64, f64)>) {
+        let forces =
+            state.t_n.iter().zip(&state.t_t).map(|(n, t)| (n / self.force, t / self.force));
+        (self.of_displacements(&state.u), forces.collect())
     }
 
     /// Whether every displacement has a stiffness, and there is friction.
