@@ -49,7 +49,12 @@ fn panel(name: &str) -> Study {
         let squares = if wall.brick.length > 1.5 * wall.brick.height { 2 } else { 1 };
         wall.mesh = Some([squares, 1]);
     }
-    told(&scene, Settings { meshes: MESHES.into(), ..Settings::default() })
+    let mesh_names = MESHES.iter().enumerate().map(|(position, factor)| {
+        let elements = format!("{factor} x {factor} elements a square");
+        if position == 0 { format!("the mesh of the scene ({elements})") } else { elements }
+    });
+    let mesh_names = mesh_names.collect();
+    told(&scene, Settings { meshes: MESHES.into(), mesh_names, ..Settings::default() })
 }
 
 /// A square wall of elastic bricks with friction on a full floor, under its weight and a load that leans.
@@ -69,6 +74,7 @@ fn wall(bricks: u32) -> Study {
     let settings = Settings {
         tolerances: TOLERANCES.into(),
         meshes: vec![1],
+        mesh_names: vec!["this mesh".to_owned()],
         springs: Vec::new(),
         ..Settings::default()
     };

@@ -19,10 +19,41 @@ Every route to the solution takes one number, the largest residual of an answer 
 * The **algebraic error** is what a solver leaves undone: the distance of its contact forces, stresses and strain energy from the reference on the
   same mesh, the largest of the three, each relative to the largest one. The reference is refined with numbers of twice the digits, and its
   inequalities are checked in them.
-* The **error of the mesh** is what no solver can mend: the distance of the reference from that on the finest mesh.
+* The **error of the mesh** is what no solver can mend: the distance of the reference from that on the finest mesh. The finest has an error too, so that
+  the true error is larger: for one that falls with the order `p` in the size of the elements, `1 / (1 - 2^-p)` times what is given of a mesh half as fine, and
+  `1 / (1 - 4^-p)` times of one a quarter as fine: 2 and 1.3 times for `p = 1`, 3.4 and 2 times for `p = 1/2`. What is extrapolated takes that into account.
 
 All times are those of whole solves, from the scene to the checked answer. The same for any scene: `masonry study SCENE --out DIR`. This page is written by
 `cargo bench --bench accuracy -- --write`.
+";
+
+const ON_MESHES: &str = "
+Errors are relative to the finest mesh; those extrapolated, to what the three finest converge to by Richardson's rule, `v_8 + (v_8 - v_4)^2 / ((v_4 - v_2) - (v_8 - v_4))`. \
+Their cells are empty where differences do not fall, or not at a rate between the orders 0.5 and 2.5: there nothing but finer meshes tells. \
+A single value may come near that of the finest mesh by accident, as an energy that is first too large and then too small; the picture has the worst of the three.
+";
+
+const REFERENCES: &str = "
+The references, refined with numbers of twice the digits. The margin is what the inequalities of the contact law leave at the contact nearest to another state, \
+relative to the largest force or displacement: but for rounding, a solution has none below zero, and a small one tells how near another state of the contacts is. \
+Certain are the digits that rounding errors of the data leave: redundant contacts, whose gaps contradict each other in the last digits, take some. \
+The distances, in the forces on the nodes, are those of the route's answer in `f64` from its refinement, and of another route's answer, refined as well, from that.
+
+";
+
+const DIGITS: &str = "
+What the last digits cost: a route in `f64`, which has to find the states of all contacts and refines by itself; and then, with these states and nothing else, \
+one factorisation and solves with it. One solve errs by so much because its factors have springs in the place of hard contacts, 1e8 times as stiff as the bodies, without which \
+redundant contacts would make them singular: what the springs leave open the next solve closes, in `f64` down to its rounding errors, and compensated, with residuals of twice the digits, \
+beyond. Redundant contacts take more solves: where their gaps contradict each other in the last digits of the data the residual stops falling, what is left is taken \
+for an error of the data, and the solves begin anew, at last with softer springs. Errors are distances in the forces on the nodes from the reference; those beyond its \
+certain digits are not known any better than these.
+
+";
+
+const NO_BIAS: &str = "
+There is no picture of these: where there is an answer, no bias is known. It is measured by solves more, about the place of rest, for which no time was left, or which had no answer.
+
 ";
 
 /// Writes all files.
@@ -30,15 +61,16 @@ pub(crate) fn write(root: &Path, panels: &[(&str, Study)], walls: &[Study]) {
     let machine = machine::machine();
     let mut text = format!("{HEAD}\n{machine}\n## In short\n\n");
     for (_, panel) in panels {
-        let _ = writeln!(text, "{}:\n", panel.title);
-        text += &list(&study::answer(panel));
-        text += "\n";
+        let short = study::in_short(panel).unwrap_or_else(|| "No route has an answer.".to_owned());
+        let _ = writeln!(text, "* **{}.** {short}", panel.title);
     }
+    text += "\n";
     for (name, panel) in panels {
         text += &of_panel(name, panel, &machine);
         let pictures = [
             ("routes", svg::accuracy(panel)),
             ("mesh", svg::mesh(panel)),
+            ("digits", svg::digits(panel)),
             ("springs", svg::springs(panel)),
         ];
         for (what, picture) in pictures {
@@ -47,7 +79,9 @@ pub(crate) fn write(root: &Path, panels: &[(&str, Study)], walls: &[Study]) {
                 save(root, &file, &picture);
             }
         }
-        save(root, &format!("docs/data/accuracy_{name}.csv"), &study::csv(panel));
+        for (file, table) in data(name, panel) {
+            save(root, &format!("docs/data/{file}"), &table);
+        }
     }
     text += &of_walls(walls, &machine);
     let title = "Square walls, one element a brick: time and size";
@@ -55,6 +89,19 @@ pub(crate) fn write(root: &Path, panels: &[(&str, Study)], walls: &[Study]) {
     save(root, "docs/pictures/accuracy_sizes.svg", &sizes);
     save(root, "docs/accuracy.md", &text);
     common::write_if_asked("README.md", "accuracy", &short(&panels[0].1, walls, &machine));
+}
+
+/// Files of comma-separated values.
+fn data(name: &str, panel: &Study) -> Vec<(String, String)> {
+    let mut files = vec![(format!("accuracy_{name}.csv"), study::csv(panel))];
+    let others =
+        [("refinement", study::refinement_csv(panel)), ("springs", study::springs_csv(panel))];
+    files.extend(
+        others
+            .into_iter()
+            .filter_map(|(what, table)| Some((format!("accuracy_{name}_{what}.csv"), table?))),
+    );
+    files
 }
 
 fn save(root: &Path, file: &str, text: &str) {
@@ -74,13 +121,13 @@ fn picture(file: &str, what: &str, machine: &str) -> String {
 }
 
 fn of_panel(name: &str, panel: &Study, machine: &str) -> String {
-    let first = panel.meshes.first().map_or(0, |mesh| mesh.factor);
+    let first = panel.meshes.first().map_or("", |mesh| &mesh.name);
     let mut text = format!("## {}\n\n", panel.title);
     text += &list(&study::summary(panel));
     text += &picture(
         &format!("accuracy_{name}_routes.svg"),
         &format!(
-            "Algebraic error against time on {first} x {first} elements a square, one line for each route"
+            "Algebraic error against time on {first}, one line for each route and one marker for each tolerance"
         ),
         machine,
     );
@@ -97,23 +144,44 @@ fn of_panel(name: &str, panel: &Study, machine: &str) -> String {
     text += &tables::not_tried(panel);
     text += &picture(
         &format!("accuracy_{name}_mesh.svg"),
-        "Error of the mesh in the strain energy against time, from coarse to fine",
+        "Error of the mesh, the worst of energy, thrust and displacement, against time, from coarse to fine",
         machine,
     );
     text += &tables::meshes(panel);
-    text += "\nThe references, refined with numbers of twice the digits, and how far that of another route is from it, refined as well. \
-             Certain are the digits that rounding errors of redundant contacts, whose gaps contradict each other in the last digits of the data, leave:\n\n";
+    text += ON_MESHES;
+    text += REFERENCES;
     text += &tables::references(panel);
-    text += "\nWhat the last digits cost once the states of all contacts are known: one factorisation, and solves with it. \
-             Errors are distances from the reference; those beyond its certain digits are not known any better than these.\n\n";
+    text += DIGITS;
     text += &tables::refinings(panel);
-    text += &if panel.springs.is_empty() {
-        "\n".to_owned()
-    } else {
-        let what = "What soft springs change before they are centred anew, against their stiffness";
-        picture(&format!("accuracy_{name}_springs.svg"), what, machine)
+    text += &picture(
+        &format!("accuracy_{name}_digits.svg"),
+        "Error of the forces on the nodes against time: with the states of all contacts known, by one solve, one refinement and compensated refinement; \
+         and by whole solves in `f64`",
+        machine,
+    );
+    text += &of_springs(name, panel, machine);
+    let files = data(name, panel);
+    let files: Vec<String> =
+        files.iter().map(|(file, _)| format!("[{file}](data/{file})")).collect();
+    let _ = writeln!(text, "All numbers: {}.\n", files.join(", "));
+    text
+}
+
+fn of_springs(name: &str, panel: &Study, machine: &str) -> String {
+    let Some(first) = panel.springs.first() else { return String::new() };
+    let mut text = format!(
+        "Soft springs on all displacements, which quadratic programs may be given, change the answer until they are centred anew. Asked for is a residual of {:e}. \
+         Share and bias are those before: of the load that springs carry, and of the displacements that they change.\n\n",
+        first.tolerance
+    );
+    text += &tables::springs(panel);
+    text += &match svg::springs(panel) {
+        Some(_) => {
+            let what = "What soft springs change before they are centred anew, against their stiffness; stiffnesses that are not drawn have no answer";
+            picture(&format!("accuracy_{name}_springs.svg"), what, machine)
+        }
+        None => NO_BIAS.to_owned(),
     };
-    let _ = writeln!(text, "All records: [accuracy_{name}.csv](data/accuracy_{name}.csv).\n");
     text
 }
 
@@ -127,11 +195,11 @@ fn of_walls(walls: &[Study], machine: &str) -> String {
     text += &picture("accuracy_sizes.svg", what, machine);
     let routes = walls.first().map(Study::routes).unwrap_or_default();
     let names: Vec<&str> = routes.iter().map(|route| route.name()).collect();
-    let _ = writeln!(text, "| wall | contact points | {} |", names.join(" | "));
-    let _ = writeln!(text, "|---|--:|{}", "---|".repeat(routes.len()));
+    let _ = writeln!(text, "| wall | bricks | contact points | {} |", names.join(" | "));
+    let _ = writeln!(text, "|---|--:|--:|{}", "---|".repeat(routes.len()));
     for wall in walls {
         let points = wall.meshes.first().map_or(0, |mesh| mesh.contact_points);
-        let _ = write!(text, "| {} | {points} |", wall.title);
+        let _ = write!(text, "| {} | {} | {points} |", wall.title, bricks(wall));
         for route in &routes {
             let records = wall.on_first_mesh().filter(|it| it.route == *route);
             let cells: Vec<String> = records.map(tables::cell).collect();
@@ -151,7 +219,6 @@ fn of_walls(walls: &[Study], machine: &str) -> String {
 
 /// The table of the README: one line a route.
 fn short(panel: &Study, walls: &[Study], machine: &str) -> String {
-    let bricks = |wall: &Study| wall.meshes.first().map_or(0, |mesh| mesh.blocks);
     let shown: Vec<&Study> = walls.iter().skip(1).step_by(2).collect();
     let mut text = format!(
         "| route | rectangular panel, {} bricks, to 1e-4 | to 1e-8 | to 1e-12 |",
@@ -167,7 +234,17 @@ fn short(panel: &Study, walls: &[Study], machine: &str) -> String {
         let cells: Vec<String> = of_panel.into_iter().chain(of_walls).collect();
         let _ = writeln!(text, "| `{}` | {} |", route.name(), cells.join(" | "));
     }
-    text + "\n" + machine
+    let meaning = format!(
+        "> {}: stopped by the limit of the bench; too large: it would build dense matrices of too large an order, and was not tried; not reached: it ended without an answer.",
+        seconds(panel.time_limit.as_secs_f64())
+    );
+    // An escaped mark is no quotation.
+    text + "\n\\" + &meaning + "\n" + machine
+}
+
+/// Every second course has one more, of which two are halves.
+fn bricks(wall: &Study) -> usize {
+    wall.meshes.first().map_or(0, |mesh| mesh.blocks)
 }
 
 fn at(study: &Study, route: Route, tolerance: f64) -> String {

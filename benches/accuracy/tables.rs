@@ -77,19 +77,46 @@ pub(crate) fn not_tried(study: &Study) -> String {
 /// Errors of the meshes.
 pub(crate) fn meshes(panel: &Study) -> String {
     let mut text = String::from(
-        "| elements a square | elements | contact points | error of the energy | of the thrust | of the displacement |\n|--:|--:|--:|--:|--:|--:|\n",
+        "| elements a square | elements | contact points | error of the energy | extrapolated | of the thrust | extrapolated | of the displacement | extrapolated |\n\
+         |--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
     );
+    let all: [fn(&MeshErrors) -> Option<f64>; 3] =
+        [|it| it.energy, |it| it.thrust, |it| it.displacement];
     for mesh in by_factor(panel) {
-        let error = |of: fn(&MeshErrors) -> Option<f64>| power(mesh.errors.as_ref().and_then(of));
+        let cells = all.map(|of| {
+            let [error, limit] =
+                [&mesh.errors, &mesh.extrapolated].map(|it| it.as_ref().and_then(of));
+            format!("{} | {}", power(error), limit.map_or_else(String::new, |it| power(Some(it))))
+        });
         let _ = writeln!(
             text,
-            "| {0} x {0} | {1} | {2} | {3} | {4} | {5} |",
+            "| {0} x {0} | {1} | {2} | {3} |",
             mesh.factor,
             mesh.elements,
             mesh.contact_points,
-            error(|it| it.energy),
-            error(|it| it.thrust),
-            error(|it| it.displacement),
+            cells.join(" | "),
+        );
+    }
+    text
+}
+
+/// Soft springs.
+pub(crate) fn springs(panel: &Study) -> String {
+    let mut text = String::from(
+        "| stiffness | ended | rounds | share of the load | bias | error after | time |\n|--:|---|--:|--:|--:|--:|--:|\n",
+    );
+    let dash = || "-".to_owned();
+    for it in &panel.springs {
+        let _ = writeln!(
+            text,
+            "| {:e} | {} | {} | {} | {} | {} | {} |",
+            it.stiffness,
+            it.end.name(),
+            it.rounds.map_or_else(dash, |rounds| rounds.to_string()),
+            power(it.share),
+            power(it.bias),
+            power(it.errors.and_then(|errors| errors.worst())),
+            it.seconds.map_or_else(dash, seconds),
         );
     }
     text
@@ -124,10 +151,21 @@ pub(crate) fn references(panel: &Study) -> String {
 /// What the last digits cost.
 pub(crate) fn refinings(panel: &Study) -> String {
     let mut text = String::from(
-        "| elements a square | one solve | error | and one refinement | error | and compensated refinement | error |\n|--:|--:|--:|--:|--:|--:|--:|\n",
+        "| elements a square | route, all of a solve in `f64` | error | states known: one solve | error | and one refinement | error | and compensated refinement | error |\n\
+         |--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
     );
     for mesh in by_factor(panel).into_iter().filter(|mesh| !mesh.refinings.is_empty()) {
         let _ = write!(text, "| {0} x {0} |", mesh.factor);
+        if let Some(it) = &mesh.reference {
+            let distance = it.verified.as_ref().and_then(|it| it.distance);
+            let _ = write!(
+                text,
+                " {}, {} | {} |",
+                it.route.name(),
+                seconds(it.seconds),
+                power(distance)
+            );
+        }
         for it in &mesh.refinings {
             let solves = match it.refinement {
                 Refinement::Extended => format!(" ({} solves)", it.passes),

@@ -76,6 +76,8 @@ pub struct Settings {
     /// Factors by which the numbers of elements of all walls and blocks are multiplied, per direction. A
     /// scene of rigid blocks has no elements, and then is studied as it is.
     pub meshes: Vec<u32>,
+    /// What reports call the meshes, in their order; those that are missing are called after their factors.
+    pub mesh_names: Vec<String>,
     /// Stiffnesses of springs on all displacements, relative to that of the blocks \[-\].
     pub springs: Vec<f64>,
     /// Wall-clock time that one solve may take. It is looked at by the observer, so that one
@@ -100,6 +102,7 @@ impl Default for Settings {
             ],
             tolerances: vec![1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12],
             meshes: vec![1, 2, 4],
+            mesh_names: Vec::new(),
             springs: vec![1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2],
             time_limit: Duration::from_secs(20),
             repeats: 3,
@@ -126,6 +129,16 @@ impl Settings {
             }
         }
         if self.meshes.contains(&0) { Err(StudyError::NoElements) } else { Ok(()) }
+    }
+
+    /// "mesh 4 (4 times as fine)", unless it has another name.
+    fn mesh_name(&self, factor: u32) -> String {
+        let position = self.meshes.iter().position(|it| *it == factor);
+        match position.and_then(|position| self.mesh_names.get(position)) {
+            Some(name) => name.clone(),
+            None if factor == 1 => "mesh 1 (that of the scene)".to_owned(),
+            None => format!("mesh {factor} ({factor} times as fine)"),
+        }
     }
 }
 

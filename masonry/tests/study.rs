@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use lcp::{Refinement, Status};
 use masonry::model::Plane;
-use masonry::output::study as output;
+use masonry::output::{study as output, svg};
 use masonry::scene::{
     Block, Brick, Joint, Load, Material, Movement, Route, Scene, Stage, Support, Wall,
 };
@@ -226,6 +226,90 @@ fn finer_meshes_come_nearer_to_the_finest() {
     for (coarse, fine) in [(coarse.energy, fine.energy), (coarse.displacement, fine.displacement)] {
         assert!(fine.unwrap() > 0.0 && fine < coarse, "{fine:?} {coarse:?}");
     }
+    assert!(fine.worst() < coarse.worst());
+    // Extrapolated errors are larger, and the finest mesh has one too.
+    let limits = study.meshes.iter().map(|mesh| mesh.extrapolated.unwrap().energy.unwrap());
+    let limits: Vec<f64> = limits.collect();
+    assert!(limits.is_sorted_by(|coarse, fine| coarse > fine), "{limits:?}");
+    assert!(limits[1] > fine.energy.unwrap() && limits[2] > 0.0, "{limits:?}, {fine:?}");
+}
+
+#[test]
+fn meshes_have_names() {
+    let names = vec!["one element a brick".to_owned()];
+    let named = Settings { mesh_names: names, meshes: vec![1, 2, 4], ..settings() };
+    let named = Settings { time_limit: Duration::ZERO, ..named };
+    let study = studied(&wall(), &named);
+    let names: Vec<&str> = study.meshes.iter().map(|mesh| mesh.name.as_str()).collect();
+    assert_eq!(
+        names,
+        ["one element a brick", "mesh 2 (2 times as fine)", "mesh 4 (4 times as fine)"]
+    );
+    let text = output::table(&study);
+    assert!(text.contains("ran out to 1e-3 on one element a brick"), "{text}");
+    let study = studied(&block(0.1), &settings());
+    assert_eq!(study.meshes[0].name, "mesh 1 (that of the scene)");
+}
+
+/// Pictures and sentences tell who has no answer, and where.
+#[test]
+fn routes_without_an_answer_are_named() {
+    let mut study = studied(&wall(), &settings());
+    let failed = |it: &Record| it.route == Route::Pgs && (it.mesh != 2 || it.tolerance < 1e-7);
+    for record in study.records.iter_mut().filter(|it| failed(it)) {
+        record.end = End::Ended(Status::Stalled);
+    }
+    let tightest = svg::mesh(&study).unwrap();
+    assert!(tightest.contains("pgs, no answer on 1, 4<"), "{tightest}");
+    let routes = svg::accuracy(&study).unwrap();
+    assert!(
+        routes.contains("pgs: Stalled") && routes.contains("1e-3 (first) to 1e-12"),
+        "{routes}"
+    );
+    let cost = &output::summary(&study)[0];
+    assert!(cost.ends_with("; pgs (Stalled) does not reach it."), "{cost}");
+    let short = output::in_short(&study).unwrap();
+    assert!(short.starts_with("On mesh 1 (that of the scene), "), "{short}");
+    assert!(short.contains("below 1e-6") && short.contains("the mesh errs by"), "{short}");
+}
+
+#[test]
+fn the_picture_of_springs_says_what_failed_and_needs_a_bias() {
+    let mut study = studied(&wall(), &Settings { meshes: vec![1], ..settings() });
+    study.springs[2].end = End::Ended(Status::Stalled);
+    let picture = svg::springs(&study).unwrap();
+    assert!(picture.contains("(Stalled).") && picture.contains("a residual of 1e-6"), "{picture}");
+    for springs in &mut study.springs {
+        springs.share = None;
+    }
+    let legend = |text: &str| text.contains("share of the load");
+    assert!(legend(&picture) && !legend(&svg::springs(&study).unwrap()), "no line without points");
+    for springs in &mut study.springs {
+        springs.bias = None;
+    }
+    assert_eq!(svg::springs(&study), None);
+    let rows = output::springs_csv(&study).unwrap();
+    assert_eq!(rows.lines().count(), 1 + 3);
+    assert!(rows.lines().nth(3).unwrap().contains(",Stalled,"), "{rows}");
+}
+
+/// The picture of the last digits has what the table has.
+#[test]
+fn the_last_digits_are_drawn_beside_the_route() {
+    let mut study = studied(&wall(), &settings());
+    let text = svg::digits(&study).unwrap();
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let lines: Vec<_> = document.descendants().filter_map(|it| it.attribute("points")).collect();
+    let points = |count: usize| lines.iter().filter(|it| it.split(' ').count() == count).count();
+    assert!(points(3) >= 4, "three meshes, and the routes on all: {lines:?}");
+    let route = study.meshes[0].reference.as_ref().unwrap().route.name();
+    assert!(text.contains("whole solves in") && text.contains(route));
+    let table = output::table(&study);
+    assert!(table.contains(&format!("all, by {route}")), "{table}");
+    for mesh in &mut study.meshes {
+        mesh.refinings.clear();
+    }
+    assert_eq!(svg::digits(&study), None);
 }
 
 #[test]
@@ -372,16 +456,22 @@ fn the_program_writes_tables_and_pictures() {
     assert_eq!(object["units"]["thrust"], "N");
     assert_eq!(object["records"][0]["end"]["ended"], "Solved");
     let sentence = object["summary"][0].as_str().unwrap();
-    assert!(
-        sentence.starts_with("1e-8 costs ") && sentence.contains("x the time of 1e-4 by lemke")
-    );
+    assert!(sentence.starts_with("Beside 1e-4, 1e-8 costs ") && sentence.contains("lemke"));
 
     let names: BTreeSet<&str> =
         object["files"].as_array().unwrap().iter().map(|it| it.as_str().unwrap()).collect();
-    let all =
-        ["accuracy.svg", "mesh.svg", "refinement.csv", "springs.svg", "study.csv", "study.json"];
+    let all = [
+        "accuracy.svg",
+        "digits.svg",
+        "mesh.svg",
+        "refinement.csv",
+        "springs.csv",
+        "springs.svg",
+        "study.csv",
+        "study.json",
+    ];
     assert_eq!(names, BTreeSet::from(all));
-    for picture in ["accuracy.svg", "mesh.svg", "springs.svg"] {
+    for picture in ["accuracy.svg", "digits.svg", "mesh.svg", "springs.svg"] {
         let text = fs::read_to_string(out.join(picture)).unwrap();
         let document = roxmltree::Document::parse(&text).unwrap();
         assert!(!text.contains("NaN") && !text.contains("inf"), "{picture}");
@@ -396,6 +486,9 @@ fn the_program_writes_tables_and_pictures() {
     let last = fs::read_to_string(out.join("refinement.csv")).unwrap();
     assert_eq!(last.lines().count(), 1 + 3 * 3, "{last}");
     assert!(last.lines().all(|row| row.split(',').count() == 6));
+    let springs = fs::read_to_string(out.join("springs.csv")).unwrap();
+    assert_eq!(springs.lines().count(), 1 + 2, "{springs}");
+    assert!(springs.lines().all(|row| row.split(',').count() == 11));
     assert!(saved_machine(&object).contains("thread"));
     let saved: Value =
         serde_json::from_str(&fs::read_to_string(out.join("study.json")).unwrap()).unwrap();
@@ -416,7 +509,8 @@ fn what_does_not_stand_is_code_one_and_has_its_tables() {
         .unwrap()
         .map(|it| it.unwrap().file_name().into_string().unwrap())
         .collect();
-    assert_eq!(files, BTreeSet::from(["study.csv".to_owned(), "study.json".to_owned()]));
+    let expected = ["springs.csv", "study.csv", "study.json"].map(str::to_owned);
+    assert_eq!(files, BTreeSet::from(expected), "nothing to draw");
 }
 
 #[test]

@@ -70,6 +70,7 @@ fn settings(args: &StudyArgs) -> Result<Settings, Failure> {
         routes: args.routes.clone().unwrap_or(default.routes),
         tolerances: args.tolerances.clone().unwrap_or(default.tolerances),
         meshes: args.meshes.clone().unwrap_or(default.meshes),
+        mesh_names: default.mesh_names,
         springs: args.springs.clone().unwrap_or(default.springs),
         time_limit,
         repeats: default.repeats,

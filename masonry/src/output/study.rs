@@ -9,16 +9,16 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-pub use csv::{csv, refinement_csv};
+pub use csv::{csv, refinement_csv, springs_csv};
 pub use json::json;
-pub use summary::{answer, summary};
+pub use summary::{in_short, summary};
 pub use table::table;
 
 use super::{OutputError, svg, write_atomically};
 use crate::study::Study;
 
-/// Writes `study.csv`, `refinement.csv`, the pictures `accuracy.svg`, `mesh.svg` and `springs.svg` as far as there is
-/// something in them, and `study.json`, which lists them all, into `dir`, which is created.
+/// Writes `study.csv`, `refinement.csv`, `springs.csv`, the pictures `accuracy.svg`, `mesh.svg`, `digits.svg` and
+/// `springs.svg` as far as there is something in them, and `study.json`, which lists them all, into `dir`, which is created.
 ///
 /// # Errors
 /// [`OutputError`] for a directory that cannot be made, and for files that cannot be written.
@@ -27,9 +27,11 @@ pub fn write(study: &Study, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
         .map_err(|source| OutputError::Directory { path: dir.to_owned(), source })?;
     let mut files = vec![("study.csv", Ok(csv(study)))];
     files.extend(refinement_csv(study).map(|text| ("refinement.csv", Ok(text))));
+    files.extend(springs_csv(study).map(|text| ("springs.csv", Ok(text))));
     let pictures = [
         ("accuracy.svg", svg::accuracy(study)),
         ("mesh.svg", svg::mesh(study)),
+        ("digits.svg", svg::digits(study)),
         ("springs.svg", svg::springs(study)),
     ];
     files.extend(pictures.into_iter().filter_map(|(name, text)| Some((name, Ok(text?)))));

@@ -19,4 +19,4 @@ pub use deformed::deformed;
 pub use mechanism::mechanism;
 pub use scene::scene;
 pub use stresses::{ReferenceLines, principal_stresses};
-pub use study::{accuracy, mesh, sizes, springs};
+pub use study::{accuracy, digits, mesh, sizes, springs};

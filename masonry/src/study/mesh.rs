@@ -1,5 +1,7 @@
 //! Finer meshes of a scene, and what they change.
 
+mod extrapolated;
+
 use nalgebra::Vector2;
 use serde::Serialize;
 
@@ -18,6 +20,8 @@ use crate::scene::Scene;
 pub struct Mesh {
     /// The factor of the numbers of elements in the scene, per direction.
     pub factor: u32,
+    /// What reports call it.
+    pub name: String,
     /// Blocks.
     pub blocks: usize,
     /// Elements.
@@ -35,6 +39,9 @@ pub struct Mesh {
     /// Errors of the mesh: of its values against those of the finest mesh with a reference, which itself
     /// has none.
     pub errors: Option<MeshErrors>,
+    /// Its errors against what the three finest meshes converge to, as far as that can be extrapolated: larger than
+    /// those against the finest mesh, which has an error too.
+    pub extrapolated: Option<MeshErrors>,
     /// Where the corners of blocks have gone, of those that carry load.
     #[serde(skip)]
     corners: Vec<Option<[Vector2<f64>; 4]>>,
@@ -58,8 +65,15 @@ pub struct MeshErrors {
     pub energy: Option<f64>,
     /// Of the thrust.
     pub thrust: Option<f64>,
-    /// Of the displacement, as a vector.
+    /// Of the displacement: as a vector against the finest mesh, of its length where extrapolated.
     pub displacement: Option<f64>,
+}
+
+impl MeshErrors {
+    /// The largest of the errors. A single value may come near that of a finer mesh by accident.
+    pub fn worst(&self) -> Option<f64> {
+        [self.energy, self.thrust, self.displacement].into_iter().flatten().reduce(f64::max)
+    }
 }
 
 /// A thrust below this part of all forces of the supports is rounding.
@@ -80,6 +94,7 @@ pub(super) fn refined(scene: &Scene, factor: u32) -> Scene {
 pub(super) fn studied(scene: &Scene, factor: u32, runner: &mut Runner) -> (Mesh, Option<Figures>) {
     let mut mesh = Mesh {
         factor,
+        name: runner.mesh_name(factor),
         blocks: 0,
         elements: 0,
         contact_points: 0,
@@ -88,6 +103,7 @@ pub(super) fn studied(scene: &Scene, factor: u32, runner: &mut Runner) -> (Mesh,
         refinings: Vec::new(),
         values: None,
         errors: None,
+        extrapolated: None,
         corners: Vec::new(),
     };
     match Model::from_scene(scene) {
@@ -147,6 +163,7 @@ pub(super) fn compared(mut meshes: Vec<Mesh>) -> Vec<Mesh> {
                 .filter(|error| error.is_finite()),
         });
     }
+    extrapolated::add(&mut meshes);
     meshes
 }
 

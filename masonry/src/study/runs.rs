@@ -77,8 +77,7 @@ enum Beyond {
 
 /// Solves scenes, and remembers for which time or iterations were not enough.
 pub(super) struct Runner<'a> {
-    limit: Duration,
-    repeats: usize,
+    settings: &'a Settings,
     observer: &'a mut dyn FnMut(Progress),
     beyond: Vec<(Beyond, u32, Route, f64)>,
     /// The last record by pivots, with its balances.
@@ -86,14 +85,18 @@ pub(super) struct Runner<'a> {
 }
 
 impl<'a> Runner<'a> {
-    pub(super) fn new(settings: &Settings, observer: &'a mut dyn FnMut(Progress)) -> Self {
-        let Settings { time_limit: limit, repeats, .. } = *settings;
-        Self { limit, repeats, observer, beyond: Vec::new(), pivots: None }
+    pub(super) fn new(settings: &'a Settings, observer: &'a mut dyn FnMut(Progress)) -> Self {
+        Self { settings, observer, beyond: Vec::new(), pivots: None }
+    }
+
+    /// What reports call a mesh.
+    pub(super) fn mesh_name(&self, factor: u32) -> String {
+        self.settings.mesh_name(factor)
     }
 
     /// How often what is short is measured.
     pub(super) fn repeats(&self) -> usize {
-        self.repeats
+        self.settings.repeats
     }
 
     /// One record.
@@ -119,7 +122,9 @@ impl<'a> Runner<'a> {
             mesh,
             residual: ran.residual(),
             seconds: ran.seconds,
-            overrun: ran.seconds.is_some_and(|it| it > OVERRUN * self.limit.as_secs_f64()),
+            overrun: ran
+                .seconds
+                .is_some_and(|it| it > OVERRUN * self.settings.time_limit.as_secs_f64()),
             iterations: ran.outcome.as_ref().map(count),
             errors,
             end: ran.end,
@@ -153,9 +158,8 @@ impl<'a> Runner<'a> {
                 Beyond::Time => "the time",
                 Beyond::Iterations => "the number of iterations",
             };
-            return Ran::skipped(format!(
-                "{what} ran out to {tolerance:e} on the mesh of factor {mesh}"
-            ));
+            let mesh = self.settings.mesh_name(*mesh);
+            return Ran::skipped(format!("{what} ran out to {tolerance:e} on {mesh}"));
         }
         (self.observer)(Progress { mesh, route, tolerance });
         if let Some(order) = dense_order(scene).filter(|order| *order > LARGEST_DENSE) {
@@ -171,7 +175,7 @@ impl<'a> Runner<'a> {
         let mut times: Vec<f64> = ran.seconds.into_iter().collect();
         let is_short = times.iter().all(|time| *time < SHORT.as_secs_f64());
         if is_short && ran.solved().is_some() {
-            times.extend((1..self.repeats).filter_map(|_| self.once(scene).seconds));
+            times.extend((1..self.settings.repeats).filter_map(|_| self.once(scene).seconds));
         }
         times.sort_by(f64::total_cmp);
         ran.seconds = times.get(times.len() / 2).copied();
@@ -181,7 +185,7 @@ impl<'a> Runner<'a> {
     fn once(&self, scene: &Scene) -> Ran {
         let began = Instant::now();
         let result = solve_observed(scene, &mut |_| {
-            if began.elapsed() < self.limit {
+            if began.elapsed() < self.settings.time_limit {
                 ControlFlow::Continue(())
             } else {
                 ControlFlow::Break(())

@@ -1,10 +1,10 @@
-//! The records of a study, and what the last digits cost, as comma-separated values.
+//! The records of a study, what the last digits cost, and soft springs, as comma-separated values.
 
 use lcp::Refinement;
 
 use crate::output::csv::quoted;
 use crate::output::format::shortest;
-use crate::study::{Record, Refining, Study};
+use crate::study::{End, Record, Refining, Springs, Study};
 
 const END: &str = "\r\n";
 
@@ -26,7 +26,6 @@ pub fn csv(study: &Study) -> String {
 }
 
 fn row(record: &Record) -> [String; 12] {
-    let number = |value: Option<f64>| value.map_or_else(String::new, shortest);
     let errors = record.errors;
     [
         record.mesh.to_string(),
@@ -40,8 +39,12 @@ fn row(record: &Record) -> [String; 12] {
         number(errors.and_then(|it| it.force)),
         number(errors.and_then(|it| it.stress)),
         number(errors.and_then(|it| it.energy)),
-        record.end.reason().map_or_else(String::new, |it| quoted(it).into_owned()),
+        reason(&record.end),
     ]
+}
+
+fn reason(end: &End) -> String {
+    end.reason().map_or_else(String::new, |it| quoted(it).into_owned())
 }
 
 /// The text of `refinement.csv`: one row for each mesh with a verified reference and each way to solve the
@@ -57,11 +60,45 @@ pub fn refinement_csv(study: &Study) -> Option<String> {
             Refinement::Extended => "extended",
         };
         let numbers = [Some(it.seconds), Some(it.residual), it.error];
-        let [seconds, residual, error] = numbers.map(|it| it.map_or_else(String::new, shortest));
+        let [seconds, residual, error] = numbers.map(number);
         format!("{factor},{name},{},{seconds},{residual},{error}{END}", it.passes)
     };
     let meshes = study.meshes.iter();
     let rows: String =
         meshes.flat_map(|mesh| mesh.refinings.iter().map(|it| row(mesh.factor, it))).collect();
     (!rows.is_empty()).then(|| format!("mesh,refinement,solves,time_s,residual,error{END}{rows}"))
+}
+
+/// The text of `springs.csv`: one row for each stiffness; `None` where there is none.
+///
+/// Columns: `stiffness`, `tolerance` (of the answer), `status`, `time_s`, `rounds`, `share`, `bias`, the relative errors of the answer
+/// `error_force`, `error_stress`, `error_energy`, and the `reason` why it was refused or skipped. What is not known is
+/// empty. Numbers read back exactly, and lines end with CR LF.
+pub fn springs_csv(study: &Study) -> Option<String> {
+    let row = |it: &Springs| {
+        let fields = [
+            shortest(it.stiffness),
+            shortest(it.tolerance),
+            it.end.name(),
+            number(it.seconds),
+            it.rounds.map_or_else(String::new, |rounds| rounds.to_string()),
+            number(it.share),
+            number(it.bias),
+            number(it.errors.and_then(|it| it.force)),
+            number(it.errors.and_then(|it| it.stress)),
+            number(it.errors.and_then(|it| it.energy)),
+            reason(&it.end),
+        ];
+        fields.join(",") + END
+    };
+    let rows: String = study.springs.iter().map(row).collect();
+    (!rows.is_empty()).then(|| {
+        format!(
+            "stiffness,tolerance,status,time_s,rounds,share,bias,error_force,error_stress,error_energy,reason{END}{rows}"
+        )
+    })
+}
+
+fn number(value: Option<f64>) -> String {
+    value.map_or_else(String::new, shortest)
 }

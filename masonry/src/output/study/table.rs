@@ -17,7 +17,7 @@ pub fn table(study: &Study) -> String {
         text += &paragraph(&sentence);
     }
     for mesh in &study.meshes {
-        text += &section(&format!("Routes and tolerances, mesh of factor {}", mesh.factor));
+        text += &section(&format!("Routes and tolerances, {}", mesh.name));
         text += &records(study, mesh);
     }
     if let Some(machine) = &study.machine {
@@ -120,20 +120,31 @@ fn references(study: &Study) -> String {
         ]);
     }
     table.trim_fmt()
-        + "\n Refined is the residual after refinement with numbers of twice the digits; margin, what the\n \
-           inequalities of the contact law leave then; digits, those of its forces that are certain. The\n \
-           first distance is that of the route's answer from it, the second that of another route's, refined\n \
-           as well.\n"
+        + "\n Refined is the residual after refinement with numbers of twice the digits. Margin is what the\n \
+           inequalities of the contact law leave then at the contact that is nearest to another state,\n \
+           relative to the largest force or displacement: but for rounding, a solution has none below zero.\n \
+           Digits are those of its forces that are certain; where redundant contacts contradict each other, rounding errors\n \
+           of the data take the rest. The first distance is that of the route's answer from it, the second\n \
+           that of another route's, refined as well.\n"
 }
 
 fn refinings(study: &Study) -> String {
-    let heads =
-        ["mesh", "states known, one factorisation", "solves", "time [s]", "residual", "error"];
+    let heads = ["mesh", "what is solved", "solves", "time [s]", "residual", "error"];
     let mut table = wide(&heads, &[0, 2, 3, 4, 5]);
-    for mesh in &study.meshes {
+    for mesh in study.meshes.iter().filter(|mesh| !mesh.refinings.is_empty()) {
+        if let Some(route) = &mesh.reference {
+            table.add_row(vec![
+                mesh.factor.to_string(),
+                format!("all, by {}", route.route.name()),
+                dash(),
+                number(Some(route.seconds), 3),
+                power(Some(route.residual)),
+                power(route.verified.as_ref().and_then(|it| it.distance)),
+            ]);
+        }
         for it in &mesh.refinings {
             let what = match it.refinement {
-                Refinement::Plain => "one solve",
+                Refinement::Plain => "states known: one solve",
                 Refinement::Single => "and one refinement",
                 Refinement::Extended => "and compensated refinement",
             };
@@ -148,7 +159,11 @@ fn refinings(study: &Study) -> String {
         }
     }
     table.trim_fmt()
-        + "\n Errors are those of the forces on the nodes, against the refined reference.\n"
+        + "\n Errors are those of the forces on the nodes, against the refined reference. With the states of all\n \
+           contacts known there is one factorisation, with springs in the place of hard contacts: what they\n \
+           leave open after one solve, the next ones close. A route refines by itself, and has to find the\n \
+           states first. Where redundant contacts contradict each other, the residual stops falling, and\n \
+           solves begin anew without what is left, or with softer springs: that takes many.\n"
 }
 
 fn meshes(study: &Study) -> String {
@@ -160,14 +175,17 @@ fn meshes(study: &Study) -> String {
         "reference",
         &format!("energy [{energy}]"),
         "error",
+        "extrap.",
         &format!("thrust [{force}]"),
         "error",
+        "extrap.",
         &format!("moved [{}]", study.units.length_name()),
         "error",
+        "extrap.",
     ];
-    let mut table = wide(&heads, &[0, 1, 3, 4, 5, 6, 7, 8]);
+    let mut table = wide(&heads, &[0, 1, 3, 4, 5, 6, 7, 8, 9, 10, 11]);
     for mesh in &study.meshes {
-        let (values, errors) = (mesh.values, mesh.errors);
+        let (values, errors, limit) = (mesh.values, mesh.errors, mesh.extrapolated);
         let value = |of: fn(InUnits, Values) -> f64| number(values.map(|it| of(units, it)), 5);
         table.add_row(vec![
             mesh.factor.to_string(),
@@ -175,10 +193,13 @@ fn meshes(study: &Study) -> String {
             mesh.reference.as_ref().map_or_else(dash, |it| it.route.name().to_owned()),
             value(|units, it| units.energy(it.strain_energy)),
             power(errors.and_then(|it| it.energy)),
+            power(limit.and_then(|it| it.energy)),
             value(|units, it| units.force(it.thrust)),
             power(errors.and_then(|it| it.thrust)),
+            power(limit.and_then(|it| it.thrust)),
             value(|units, it| units.length(it.displacement)),
             power(errors.and_then(|it| it.displacement)),
+            power(limit.and_then(|it| it.displacement)),
         ]);
     }
     let refused =
@@ -186,8 +207,10 @@ fn meshes(study: &Study) -> String {
     let refused: String =
         refused.map(|(factor, why)| paragraph(&format!("Mesh {factor}: {why}"))).collect();
     table.trim_fmt()
-        + "\n Errors are relative to the finest mesh that has a reference. Thrust is that of the supports left\n \
-           of the middle; moved, a corner of a loaded block that moves most.\n"
+        + "\n Errors are relative to the finest mesh that has a reference, which has an error too. Those\n \
+           extrapolated are relative to what the three finest converge to, where differences fall at a rate\n \
+           of some order (0.5 to 2.5). Thrust is that of the supports left of the middle; moved, a corner of\n \
+           a loaded block that moves most.\n"
         + &refused
 }
 
@@ -205,7 +228,18 @@ fn springs(study: &Study) -> String {
             power(it.errors.and_then(|errors| errors.worst())),
         ]);
     }
-    table.trim_fmt() + "\n"
+    let reasons = study.springs.iter().filter_map(|it| Some((it.stiffness, it.end.reason()?)));
+    let reasons: String = reasons
+        .map(|(stiffness, why)| paragraph(&format!("Springs of {stiffness:e}: {why}.")))
+        .collect();
+    let asked = study.springs.first().map_or(String::new(), |it| {
+        paragraph(&format!(
+            "Asked for a residual of {:e}. Share and bias are those before springs are centred anew: of the load that \
+             they carry, and of the displacements that they change. They take solves more, for which time may be short.",
+            it.tolerance
+        ))
+    });
+    table.trim_fmt() + "\n" + &asked + &reasons
 }
 
 /// A table whose lines are never broken.

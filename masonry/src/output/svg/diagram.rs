@@ -1,7 +1,6 @@
 //! Diagrams with two logarithmic axes: lines with markers, and a legend beside them.
 
 use super::canvas::{Anchor, Canvas, Pixel, escape, fixed, text_width, wrapped};
-use crate::output::format::significant;
 
 const WIDTH: f64 = 900.0;
 const HEIGHT: f64 = 520.0;
@@ -20,6 +19,8 @@ const DARK: &str = "#222222";
 const MOST_LABELS: i32 = 10;
 /// Axes of so few decades have lines at 2 and 5 too.
 const FEW_DECADES: i32 = 3;
+/// Axes within so many decades of one have no exponents.
+const PLAIN_DECADES: i32 = 4;
 const MARKER: f64 = 4.5;
 
 /// Colours that differ also for those who see few of them (Okabe and Ito), each with its own marker.
@@ -71,7 +72,7 @@ pub(super) fn diagram(titles: &Titles, lines: &[Line], notes: &[String]) -> Opti
         canvas.text(at, Anchor::Start, TITLE_SIZE, line);
     }
     plot.draw_grid(&mut canvas, titles);
-    for line in &lines {
+    for line in lines.iter().filter(|line| !line.points.is_empty()) {
         plot.draw_line(&mut canvas, line);
     }
     let bottom = legend(&mut canvas, &lines, notes, Pixel::new(right + 22.0, top + 8.0));
@@ -136,9 +137,14 @@ impl Axis {
         ticks
     }
 
+    /// All labels of an axis are alike: with exponents, or none with.
     fn label(&self, value: f64, decade: i32) -> String {
-        let is_short = self.span() <= FEW_DECADES && (-4..=4).contains(&decade);
-        if is_short || decade == 0 { significant(value, 1) } else { format!("{value:.0e}") }
+        let [low, high] = self.decades;
+        if low < -PLAIN_DECADES || high > PLAIN_DECADES {
+            return format!("{value:.0e}");
+        }
+        let decimals = usize::try_from(-decade).unwrap_or(0);
+        format!("{value:.decimals$}")
     }
 }
 
@@ -177,7 +183,7 @@ impl Plot {
         let colour = COLOURS[line.style % COLOURS.len()];
         let points: Vec<Pixel> =
             line.points.iter().map(|[x, y]| Pixel::new(self.x.at(*x), self.y.at(*y))).collect();
-        let dashes = if line.dashed { " stroke-dasharray=\"6 4\"" } else { "" };
+        let dashes = dashes(line);
         let style = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.8\"{dashes}");
         canvas.group(&style, |canvas| canvas.polyline(&points));
         for point in points {
@@ -188,6 +194,10 @@ impl Plot {
 
 fn grid(is_labelled: bool) -> String {
     format!("stroke=\"{}\" stroke-width=\"1\"", if is_labelled { GRID } else { FAINT })
+}
+
+fn dashes(line: &Line) -> &'static str {
+    if line.dashed { " stroke-dasharray=\"6 4\"" } else { "" }
 }
 
 fn marker(canvas: &mut Canvas, at: Pixel, style: usize) {
@@ -212,7 +222,7 @@ fn marker(canvas: &mut Canvas, at: Pixel, style: usize) {
         }
         _ => {
             let corners =
-                [shifted(-1.5, -0.5), shifted(1.5, -0.5), shifted(1.5, 0.5), shifted(-1.5, 0.5)];
+                [shifted(0.0, -1.7), shifted(0.7, 0.0), shifted(0.0, 1.7), shifted(-0.7, 0.0)];
             canvas.polygon(&corners, &attributes);
         }
     }
@@ -224,7 +234,7 @@ fn legend(canvas: &mut Canvas, lines: &[Line], notes: &[String], at: Pixel) -> f
     for line in lines.iter().filter(|line| !line.name.is_empty()) {
         let colour = COLOURS[line.style % COLOURS.len()];
         if !line.points.is_empty() {
-            let stroke = format!("stroke=\"{colour}\" stroke-width=\"1.8\"");
+            let stroke = format!("stroke=\"{colour}\" stroke-width=\"1.8\"{}", dashes(line));
             canvas.line(Pixel::new(at.x, y), Pixel::new(at.x + 28.0, y), &stroke);
         }
         marker(canvas, Pixel::new(at.x + 14.0, y), line.style);

@@ -1,12 +1,14 @@
-//! Diagrams of a study: error against time, mesh against time, bias of springs; and of several: time against
+//! Diagrams of a study: error against time, mesh against time, what the last digits cost, bias of springs; and of several: time against
 //! size.
 
 use super::diagram::{Line, Titles, diagram};
 use crate::scene::Route;
-use crate::study::{Mesh, Record, Study};
+use crate::study::{Mesh, Record, Springs, Study};
 
 /// Errors below this are drawn at it: they are rounding, or those of the reference itself.
 const ROUNDING: f64 = 1e-16;
+/// The same of twice the digits.
+const EXACT: f64 = 1e-32;
 /// The tolerance of the answers whose time the picture of meshes shows: the nearest one of the study.
 const USUAL: f64 = 1e-8;
 
@@ -16,14 +18,21 @@ pub fn accuracy(study: &Study) -> Option<String> {
     let routes = study.routes();
     let lines: Vec<Line> = routes.iter().map(|route| accuracy_line(study, *route)).collect();
     let titles = Titles {
-        title: &format!("{}: algebraic error and time", study.title),
+        title: &format!("{}, {}: algebraic error and time", study.title, first_name(study)),
         x: "time of one solve [s]",
         y: "error of forces, stresses, energy, relative [-]",
     };
-    let tolerances = "Every line goes through the tolerances of the study, each solve to its own.";
-    let notes = std::iter::once(tolerances.to_owned()).chain(rounded(&lines));
+    let asked = || study.on_first_mesh().map(|it| it.tolerance);
+    let (loosest, tightest) = (asked().reduce(f64::max)?, asked().reduce(f64::min)?);
+    let solves =
+        format!("One marker a solve, asked for {loosest:e} (first) to {tightest:e} (last).");
+    let notes = std::iter::once(solves).chain(rounded(&lines, ROUNDING));
     let notes: Vec<String> = notes.chain(study.machine.clone()).collect();
     diagram(&titles, &lines, &notes)
+}
+
+fn first_name(study: &Study) -> &str {
+    study.meshes.first().map_or("", |mesh| &mesh.name)
 }
 
 fn accuracy_line(study: &Study, route: Route) -> Line {
@@ -42,8 +51,8 @@ fn accuracy_line(study: &Study, route: Route) -> Line {
     Line { name, style: style(route), dashed: false, points }
 }
 
-/// The error of every mesh in the strain energy against the time of a solve on it, one line for each
-/// route. `None` where only one mesh has a reference, or nothing is elastic.
+/// The worst error of every mesh against the time of a solve on it, one line for each route. `None` where only one
+/// mesh has a reference, or nothing is elastic.
 pub fn mesh(study: &Study) -> Option<String> {
     let tolerances = study.records.iter().map(|record| record.tolerance);
     let distance = |tolerance: &f64| (tolerance / USUAL).ln().abs();
@@ -54,77 +63,127 @@ pub fn mesh(study: &Study) -> Option<String> {
     let titles = Titles {
         title: &format!("{}: error of the mesh and time", study.title),
         x: &format!("time of one solve to {usual:e} [s]"),
-        y: "error of the strain energy, relative [-]",
+        y: "worst error of energy, thrust, displacement [-]",
     };
+    let compared = by_factor(study).into_iter().filter(|mesh| mesh.errors.is_some());
+    let compared: Vec<&str> = compared.map(|mesh| mesh.name.as_str()).collect();
     let notes = [
-        format!(
-            "Every line goes from coarse to fine; numbers of elements times {}.",
-            factors(study)
-        ),
-        format!(
-            "Errors are against the mesh of factor {}, the finest with a reference.",
-            finest.factor
-        ),
+        format!("Every line goes from coarse to fine: {}.", compared.join(", ")),
+        format!("Errors are against {}, the finest with a reference.", finest.name),
     ];
     let notes: Vec<String> = notes.into_iter().chain(study.machine.clone()).collect();
     diagram(&titles, &lines, &notes)
 }
 
 fn mesh_line(study: &Study, route: Route, tolerance: f64) -> Line {
-    let mut meshes: Vec<&Mesh> = study.meshes.iter().collect();
-    meshes.sort_by_key(|mesh| mesh.factor);
-    let points = meshes.into_iter().filter_map(|mesh| {
-        let error = mesh.errors?.energy?;
-        let is_same = |it: &&Record| {
+    let record = |mesh: &Mesh| {
+        study.records.iter().find(|it| {
             it.route == route
                 && it.mesh == mesh.factor
                 && it.tolerance.total_cmp(&tolerance).is_eq()
-                && it.end.is_solved()
-        };
-        Some([study.records.iter().find(is_same)?.seconds?, error.max(ROUNDING)])
+        })
+    };
+    let points = by_factor(study).into_iter().filter_map(|mesh| {
+        let error = mesh.errors?.worst()?;
+        Some([record(mesh).filter(|it| it.end.is_solved())?.seconds?, error.max(ROUNDING)])
     });
-    let failed = study.records.iter().find(|it| {
-        it.route == route && it.tolerance.total_cmp(&tolerance).is_eq() && !it.end.is_solved()
-    });
-    let name = match failed {
-        Some(record) => format!("{}: {} on {}", route.name(), record.end.name(), record.mesh),
-        None => route.name().to_owned(),
+    let failed = by_factor(study)
+        .into_iter()
+        .filter(|mesh| record(mesh).is_none_or(|it| !it.end.is_solved()))
+        .map(|mesh| mesh.factor.to_string());
+    let failed: Vec<String> = failed.collect();
+    let name = match &failed[..] {
+        [] => route.name().to_owned(),
+        _ => format!("{}, no answer on {}", route.name(), failed.join(", ")),
     };
     Line { name, style: style(route), dashed: false, points: points.collect() }
 }
 
-fn factors(study: &Study) -> String {
-    let compared = study.meshes.iter().filter(|mesh| mesh.errors.is_some());
-    let mut factors: Vec<u32> = compared.map(|mesh| mesh.factor).collect();
-    factors.sort_unstable();
-    factors.iter().map(u32::to_string).collect::<Vec<_>>().join(", ")
+/// From coarse to fine.
+fn by_factor(study: &Study) -> Vec<&Mesh> {
+    let mut meshes: Vec<&Mesh> = study.meshes.iter().collect();
+    meshes.sort_by_key(|mesh| mesh.factor);
+    meshes
 }
 
-/// What soft springs change before they are centred anew, against their stiffness. `None` where no
-/// springs were tried, or there is no answer with them.
+/// What the last digits cost: the error of the forces against the time of one solve with the states of all contacts
+/// known, and one refinement, and compensated refinement, one line for each mesh; and, for comparison, the routes that
+/// found these states. `None` where no reference is verified.
+pub fn digits(study: &Study) -> Option<String> {
+    let point = |seconds: f64, error: f64| [seconds, error.max(EXACT)];
+    let meshes: Vec<&Mesh> =
+        by_factor(study).into_iter().filter(|mesh| !mesh.refinings.is_empty()).collect();
+    let of_mesh = |(style, mesh): (usize, &&Mesh)| Line {
+        name: mesh.name.clone(),
+        style,
+        dashed: false,
+        points: mesh.refinings.iter().filter_map(|it| Some(point(it.seconds, it.error?))).collect(),
+    };
+    let whole = |mesh: &&Mesh| {
+        let reference = mesh.reference.as_ref()?;
+        Some(point(reference.seconds, reference.verified.as_ref()?.distance?))
+    };
+    let mut lines: Vec<Line> = meshes.iter().enumerate().map(of_mesh).collect();
+    let mut routes: Vec<&str> = meshes
+        .iter()
+        .filter_map(|mesh| mesh.reference.as_ref().map(|it| it.route.name()))
+        .collect();
+    routes.dedup();
+    lines.push(Line {
+        name: format!("whole solves in f64, by {}, on the same meshes", routes.join(", ")),
+        style: lines.len(),
+        dashed: true,
+        points: meshes.iter().filter_map(whole).collect(),
+    });
+    lines.retain(|line| !line.points.is_empty());
+    let titles = Titles {
+        title: &format!("{}: what the last digits cost", study.title),
+        x: "time [s]",
+        y: "error of the forces on the nodes, relative [-]",
+    };
+    let ways = "Three markers a mesh, with the states of all contacts known: one solve; and one refinement in f64; and \
+                compensated refinement, with residuals of twice the digits.";
+    let notes = std::iter::once(ways.to_owned()).chain(rounded(&lines, EXACT));
+    let notes: Vec<String> = notes.chain(study.machine.clone()).collect();
+    diagram(&titles, &lines, &notes)
+}
+
+/// What soft springs change before they are centred anew, against their stiffness. `None` where no bias is known:
+/// no springs were tried, or the problems that they belong to have no answer.
 pub fn springs(study: &Study) -> Option<String> {
-    let line = |name: &str, style, of: fn(&crate::study::Springs) -> Option<f64>| Line {
+    let solved = || study.springs.iter().filter(|it| it.end.is_solved());
+    solved().find(|it| it.bias.is_some())?;
+    let line = |name: &str, style, of: fn(&Springs) -> Option<f64>| Line {
         name: name.to_owned(),
         style,
         dashed: false,
-        points: study
-            .springs
-            .iter()
-            .filter(|it| it.end.is_solved())
-            .filter_map(|it| Some([it.stiffness, of(it)?.max(ROUNDING)]))
-            .collect(),
+        points: solved().filter_map(|it| Some([it.stiffness, of(it)?.max(ROUNDING)])).collect(),
     };
-    let lines = [
+    let mut lines = vec![
         line("bias: change of the displacements", 0, |it| it.bias),
         line("share of the load that the springs carry", 1, |it| it.share),
         line("error of the answer, after they were centred anew", 2, |it| it.errors?.worst()),
     ];
+    lines.retain(|line| !line.points.is_empty());
     let titles = Titles {
-        title: &format!("{}: soft springs, by quadratic programs", study.title),
+        title: &format!(
+            "{}, {}: soft springs, by quadratic programs",
+            study.title,
+            first_name(study)
+        ),
         x: "stiffness of the springs, relative to that of the blocks [-]",
         y: "relative [-]",
     };
-    let notes: Vec<String> = rounded(&lines).into_iter().chain(study.machine.clone()).collect();
+    let asked = study
+        .springs
+        .first()
+        .map(|it| format!("One marker a solve, asked for a residual of {:e}.", it.tolerance));
+    let failed = study.springs.iter().filter(|it| !it.end.is_solved());
+    let failed: Vec<String> =
+        failed.map(|it| format!("{:e} ({})", it.stiffness, it.end.name())).collect();
+    let failed = (!failed.is_empty()).then(|| format!("No answer with {}.", failed.join(", ")));
+    let notes = asked.into_iter().chain(failed).chain(rounded(&lines, ROUNDING));
+    let notes: Vec<String> = notes.chain(study.machine.clone()).collect();
     diagram(&titles, &lines, &notes)
 }
 
@@ -165,10 +224,10 @@ pub fn sizes(title: &str, studies: &[Study], [loose, tight]: [f64; 2]) -> Option
 }
 
 /// A note, where errors are below what is drawn.
-fn rounded(lines: &[Line]) -> Option<String> {
+fn rounded(lines: &[Line], rounding: f64) -> Option<String> {
     let errors = lines.iter().flat_map(|line| line.points.iter().map(|[_, error]| *error));
-    let is_rounded = errors.reduce(f64::min).is_some_and(|least| least <= ROUNDING);
-    is_rounded.then(|| format!("Errors below {ROUNDING:e} are drawn there."))
+    let is_rounded = errors.reduce(f64::min).is_some_and(|least| least <= rounding);
+    is_rounded.then(|| format!("Errors below {rounding:e} are drawn there."))
 }
 
 /// A route has the same colour in every picture.
