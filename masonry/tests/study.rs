@@ -15,7 +15,7 @@ use masonry::output::{study as output, svg};
 use masonry::scene::{
     Block, Brick, Joint, Load, Material, Movement, Route, Scene, Stage, Support, Wall,
 };
-use masonry::study::{End, Record, Settings, Study, StudyError, study};
+use masonry::study::{End, MeshErrors, Record, Settings, Study, StudyError, study};
 use masonry::units::Units;
 use serde_json::Value;
 
@@ -228,10 +228,12 @@ fn finer_meshes_come_nearer_to_the_finest() {
     }
     assert!(fine.worst() < coarse.worst());
     // Extrapolated errors are larger, and the finest mesh has one too.
-    let limits = study.meshes.iter().map(|mesh| mesh.extrapolated.unwrap().energy.unwrap());
-    let limits: Vec<f64> = limits.collect();
-    assert!(limits.is_sorted_by(|coarse, fine| coarse > fine), "{limits:?}");
-    assert!(limits[1] > fine.energy.unwrap() && limits[2] > 0.0, "{limits:?}, {fine:?}");
+    let limits: Vec<_> = study.meshes.iter().map(|mesh| mesh.extrapolated.unwrap()).collect();
+    for of in [|it: &MeshErrors| it.energy.unwrap(), |it: &MeshErrors| it.displacement.unwrap()] {
+        let [first, second, last] = [&limits[0], &limits[1], &limits[2]].map(of);
+        assert!(first > second && second > last && last > 0.0, "{limits:?}");
+        assert!(second > of(&fine), "{limits:?}, {fine:?}");
+    }
 }
 
 #[test]

@@ -65,7 +65,7 @@ pub struct MeshErrors {
     pub energy: Option<f64>,
     /// Of the thrust.
     pub thrust: Option<f64>,
-    /// Of the displacement: as a vector against the finest mesh, of its length where extrapolated.
+    /// Of the displacement, as a vector.
     pub displacement: Option<f64>,
 }
 
@@ -163,7 +163,8 @@ pub(super) fn compared(mut meshes: Vec<Mesh>) -> Vec<Mesh> {
                 .filter(|error| error.is_finite()),
         });
     }
-    extrapolated::add(&mut meshes);
+    let moved: Vec<_> = meshes.iter().map(moved).collect();
+    extrapolated::add(&mut meshes, &moved);
     meshes
 }
 
