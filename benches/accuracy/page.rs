@@ -27,34 +27,28 @@ All times are those of whole solves, from the scene to the checked answer. The s
 `cargo bench --bench accuracy -- --write`.
 ";
 
-const ON_MESHES: &str = "
-Errors are relative to the finest mesh; those extrapolated, to what the three finest converge to by Richardson's rule, `v_8 + (v_8 - v_4)^2 / ((v_4 - v_2) - (v_8 - v_4))`. \
-Their cells are empty where differences do not fall, or not at a rate between the orders 0.5 and 2.5: there nothing but finer meshes tells. \
-A single value may come near that of the finest mesh by accident, as an energy that is first too large and then too small; the picture has the worst of the three.
-";
+const HOW_TO_READ: &str = "
+## How to read the tables
 
-const REFERENCES: &str = "
-The references, refined with numbers of twice the digits. The margin is what the inequalities of the contact law leave at the contact nearest to another state, \
-relative to the largest force or displacement: but for rounding, a solution has none below zero, and a small one tells how near another state of the contacts is. \
+* **Meshes.** Errors are relative to the finest mesh; those extrapolated, to what the three finest converge to by Richardson's rule, `v_3 + (v_3 - v_2)^2 / ((v_2 - v_1) - (v_3 - v_2))`. \
+Their cells are empty where differences do not fall, or not at a rate between the orders 0.5 and 2.5: there nothing but finer meshes tells. \
+A single value may come near that of the finest mesh by accident: pictures and sentences have the worst of the three.
+* **References.** The margin is what the inequalities of the contact law leave at the contact nearest to another state, relative to the largest force or displacement: but for rounding, \
+a solution has none below zero, and a small one tells how near another state of the contacts is. \
 Certain are the digits that rounding errors of the data leave: redundant contacts, whose gaps contradict each other in the last digits, take some. \
 The distances, in the forces on the nodes, are those of the route's answer in `f64` from its refinement, and of another route's answer, refined as well, from that.
+* **The last digits.** A route in `f64` has to find the states of all contacts, and refines by itself. With these states and nothing else, there is one factorisation, and solves with it. \
+One solve errs by so much because its factors have springs in the place of hard contacts, 1e8 times as stiff as the bodies, without which redundant contacts would make them singular: \
+what the springs leave open the next solve closes, in `f64` down to its rounding errors, and compensated, with residuals of twice the digits, beyond. \
+Redundant contacts take more solves: where their gaps contradict each other in the last digits of the data the residual stops falling, what is left is taken for an error of the data, \
+and the solves begin anew, at last with softer springs. Errors are distances in the forces on the nodes from the reference; those beyond its certain digits are not known any better than these.
+* **Soft springs** on all displacements, which quadratic programs may be given, change the answer until they are centred anew. Share and bias are those before: of the load that they carry, \
+and of the displacements that they change. Both are measured by solves more, about the place of rest; where no time is left for these, or they have no answer, neither is known.
 
 ";
 
-const DIGITS: &str = "
-What the last digits cost: a route in `f64`, which has to find the states of all contacts and refines by itself; and then, with these states and nothing else, \
-one factorisation and solves with it. One solve errs by so much because its factors have springs in the place of hard contacts, 1e8 times as stiff as the bodies, without which \
-redundant contacts would make them singular: what the springs leave open the next solve closes, in `f64` down to its rounding errors, and compensated, with residuals of twice the digits, \
-beyond. Redundant contacts take more solves: where their gaps contradict each other in the last digits of the data the residual stops falling, what is left is taken \
-for an error of the data, and the solves begin anew, at last with softer springs. Errors are distances in the forces on the nodes from the reference; those beyond its \
-certain digits are not known any better than these.
-
-";
-
-const NO_BIAS: &str = "
-There is no picture of these: where there is an answer, no bias is known. It is measured by solves more, about the place of rest, for which no time was left, or which had no answer.
-
-";
+const NO_BIAS: &str =
+    "There is no picture of these: where there is an answer, no bias is known.\n\n";
 
 /// Writes all files.
 pub(crate) fn write(root: &Path, panels: &[(&str, Study)], walls: &[Study]) {
@@ -64,7 +58,7 @@ pub(crate) fn write(root: &Path, panels: &[(&str, Study)], walls: &[Study]) {
         let short = study::in_short(panel).unwrap_or_else(|| "No route has an answer.".to_owned());
         let _ = writeln!(text, "* **{}.** {short}", panel.title);
     }
-    text += "\n";
+    text += HOW_TO_READ;
     for (name, panel) in panels {
         text += &of_panel(name, panel, &machine);
         let pictures = [
@@ -148,10 +142,10 @@ fn of_panel(name: &str, panel: &Study, machine: &str) -> String {
         machine,
     );
     text += &tables::meshes(panel);
-    text += ON_MESHES;
-    text += REFERENCES;
+    text += &tables::accident(panel);
+    text += "\nThe references, refined with numbers of twice the digits:\n\n";
     text += &tables::references(panel);
-    text += DIGITS;
+    text += "\nWhat the last digits cost, beside all of a solve in `f64`:\n\n";
     text += &tables::refinings(panel);
     text += &picture(
         &format!("accuracy_{name}_digits.svg"),
@@ -169,11 +163,7 @@ fn of_panel(name: &str, panel: &Study, machine: &str) -> String {
 
 fn of_springs(name: &str, panel: &Study, machine: &str) -> String {
     let Some(first) = panel.springs.first() else { return String::new() };
-    let mut text = format!(
-        "Soft springs on all displacements, which quadratic programs may be given, change the answer until they are centred anew. Asked for is a residual of {:e}. \
-         Share and bias are those before: of the load that springs carry, and of the displacements that they change.\n\n",
-        first.tolerance
-    );
+    let mut text = format!("Soft springs, asked for a residual of {:e}:\n\n", first.tolerance);
     text += &tables::springs(panel);
     text += &match svg::springs(panel) {
         Some(_) => {

@@ -100,6 +100,26 @@ pub(crate) fn meshes(panel: &Study) -> String {
     text
 }
 
+/// Which energies are near that of the finest mesh by accident: nearer than those of a finer mesh, whose worst error
+/// is smaller.
+pub(crate) fn accident(panel: &Study) -> String {
+    let meshes = by_factor(panel);
+    let errors: Vec<(u32, MeshErrors)> =
+        meshes.iter().filter_map(|mesh| Some((mesh.factor, mesh.errors?))).collect();
+    let near = errors.windows(2).filter(|pair| {
+        let [coarse, fine] = [pair[0].1, pair[1].1];
+        coarse.energy < fine.energy && coarse.worst() > fine.worst()
+    });
+    let near: Vec<String> = near.map(|pair| format!("{0} x {0}", pair[0].0)).collect();
+    if near.is_empty() {
+        return String::new();
+    }
+    format!(
+        "\nThe energy on {} is near that of the finest mesh by accident: thrust and displacement are not.\n",
+        near.join(", ")
+    )
+}
+
 /// Soft springs.
 pub(crate) fn springs(panel: &Study) -> String {
     let mut text = String::from(
@@ -118,6 +138,12 @@ pub(crate) fn springs(panel: &Study) -> String {
             power(it.errors.and_then(|errors| errors.worst())),
             it.seconds.map_or_else(dash, seconds),
         );
+    }
+    text += "\n";
+    let mut reasons: Vec<&str> = panel.springs.iter().filter_map(|it| it.end.reason()).collect();
+    reasons.dedup();
+    for reason in reasons {
+        let _ = writeln!(text, "Skipped: {reason}.\n");
     }
     text
 }

@@ -12,7 +12,7 @@ const ACCURATE: f64 = 1e-6;
 const ELSEWHERE: f64 = 1e-3;
 /// Algebraic errors below this part of that of the mesh do not matter.
 const NEGLIGIBLE: f64 = 0.1;
-/// Times that differ by less are the same, as far as can be measured.
+/// Times that grow by less are the same, as far as can be measured; so are those that fall.
 const NOISE: f64 = 1.2;
 
 /// What a study comes to, in sentences: what a tight tolerance costs, which route gets there first, and whether the
@@ -45,7 +45,7 @@ pub fn in_short(study: &Study) -> Option<String> {
     ))
 }
 
-/// "1e-8 costs no more than 1e-4 by lemke, 9 x its time by pgs; alm does not reach it (Stalled)."
+/// "Beside 1e-4, 1e-8 costs no more (within 20 %) by lemke, 9 x the time by pgs; alm (Stalled) does not reach it."
 fn cost(study: &Study) -> Option<String> {
     let nearest = |wanted: f64| {
         let tolerances = study.on_first_mesh().map(|record| record.tolerance);
@@ -71,7 +71,7 @@ fn cost(study: &Study) -> Option<String> {
         let its = if position == 0 { " the time" } else { "" };
         format!("{} x{its} by {}", significant(*ratio, 2), route.name())
     });
-    let costs = (!same.is_empty()).then(|| format!("no more by {}", same.join(", ")));
+    let costs = (!same.is_empty()).then(|| format!("no more (within 20 %) by {}", same.join(", ")));
     let costs: Vec<String> = costs.into_iter().chain(more).collect();
     Some(format!(
         "Beside {loose:e}, {tight:e} costs {}{}.",
