@@ -69,8 +69,10 @@ pub(crate) fn write(root: &Path, panels: &[(&str, Study)], walls: &[Study]) {
         ];
         for (what, picture) in pictures {
             let file = format!("docs/pictures/accuracy_{name}_{what}.svg");
-            if let Some(picture) = picture {
-                save(root, &file, &picture);
+            match picture {
+                Some(picture) => save(root, &file, &picture),
+                // That of an earlier run, if there is one, is no longer true.
+                None => drop(std::fs::remove_file(root.join(file))),
             }
         }
         for (file, table) in data(name, panel) {
