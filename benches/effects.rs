@@ -68,11 +68,13 @@ fn main() {
         let table = table(&rows);
         println!("{}\n{table}", wall.title(route));
         let _ = write!(page, "\n**{}**\n\n{table}", wall.title(route));
-        routes.push((route, rows));
+        routes.push((wall.title(route), rows));
     }
     common::write_if_asked("docs/effects.md", "effects", &page);
-    let ratios: Vec<(&str, Vec<picture::Bar>)> =
-        routes.iter().map(|(route, rows)| (route.name(), rows.iter().map(bar).collect())).collect();
+    let of_route = |(title, rows): &(String, Vec<Row>)| {
+        (title.replace('`', ""), rows.iter().map(bar).collect())
+    };
+    let ratios: Vec<(String, Vec<picture::Bar>)> = routes.iter().map(of_route).collect();
     if std::env::args().any(|argument| argument == "--write") {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures/effects.svg");
         std::fs::write(path, picture::bars(&ratios)).expect("the file can be written");

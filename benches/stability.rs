@@ -53,11 +53,14 @@ fn main() {
         return;
     }
     let wanted = arguments.iter().find(|it| !it.starts_with("--"));
+    let (rigid, elastic): (Vec<Sweep>, Vec<Sweep>) =
+        limits::sweeps().into_iter().partition(|sweep| sweep.title.contains("rigid"));
     let themes = [
         ("contacts", geometry::TITLE, geometry::sweeps()),
         ("stiffness", stiffness::TITLE, stiffness::sweeps()),
         ("friction", friction::TITLE, friction::sweeps()),
-        ("limits", limits::TITLE, limits::sweeps()),
+        ("limits_rigid", "Limits of rigid blocks", rigid),
+        ("limits_elastic", "Limits of elastic blocks", elastic),
         ("growth", walls::TITLE, walls::sweeps()),
     ];
     let mut swept = Vec::new();

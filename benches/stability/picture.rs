@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 const PANEL: [f64; 2] = [560.0, 330.0];
 /// Room of a panel left, right, above and below its frame.
-const ROOM: [f64; 4] = [64.0, 16.0, 34.0, 46.0];
+const ROOM: [f64; 4] = [76.0, 16.0, 34.0, 46.0];
 const HEAD: f64 = 92.0;
 const EDGE: f64 = 16.0;
 const COLUMNS: usize = 2;
@@ -35,8 +35,8 @@ pub(crate) enum Mark {
 pub(crate) struct Panel {
     pub(crate) title: String,
     pub(crate) x: String,
-    /// The largest error of what may be called solved.
-    pub(crate) promised: f64,
+    /// The largest errors of what may be called solved, each with its value.
+    pub(crate) promised: Vec<[f64; 2]>,
     pub(crate) lines: Vec<Line>,
 }
 
@@ -77,7 +77,7 @@ fn legend(panel: &Panel) -> String {
     };
     let words = format!(
         "full: called solved, at the worst of its checks; hollow: gave up, at the residual it reports; \
-         dots: backward error; grey: promised{alm}"
+         dots: backward error; grey: promised{alm}; drawn at 1e-17: all below"
     );
     let _ = writeln!(svg, "<text x=\"{EDGE}\" y=\"76\">{words}</text>");
     svg
@@ -124,12 +124,16 @@ impl Panel {
                 y_0 + 16.0
             );
         }
-        let bound = up(self.promised);
+        let bound: Vec<[f64; 2]> =
+            self.promised.iter().map(|[x, error]| [across(*x), up(*error)]).collect();
+        svg += &polyline(&bound, "stroke=\"#999999\" stroke-width=\"2\"");
+        let middle = 0.5 * (y_0 + y_1);
         let _ = writeln!(
             svg,
-            "<line x1=\"{x_0}\" y1=\"{bound}\" x2=\"{x_1}\" y2=\"{bound}\" stroke=\"#999999\" stroke-width=\"2\"/>\n\
-             <rect x=\"{x_0}\" y=\"{y_1}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#222222\"/>\n\
-             <text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
+            "<text x=\"{0}\" y=\"{middle}\" text-anchor=\"middle\" transform=\"rotate(-90 {0} {middle})\">error [-]</text>\n\
+             <rect x=\"{x_0}\" y=\"{y_1}\" width=\"{1}\" height=\"{2}\" fill=\"none\" stroke=\"#222222\"/>\n\
+             <text x=\"{3}\" y=\"{4}\" text-anchor=\"middle\">{5}</text>",
+            left + 14.0,
             x_1 - x_0,
             y_0 - y_1,
             0.5 * (x_0 + x_1),
@@ -137,24 +141,23 @@ impl Panel {
             self.x
         );
         for line in &self.lines {
-            let path: Vec<String> = line
-                .points
-                .iter()
-                .map(|mark| format!("{:.1},{:.1}", across(mark.x()), up(mark.error())))
-                .collect();
             let colour = COLOURS[line.style % COLOURS.len()];
-            let _ = writeln!(
-                svg,
-                "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.2\" stroke-opacity=\"0.6\"/>",
-                path.join(" ")
-            );
+            // Errors of answers and residuals of none are different numbers.
+            let is_same = |a: &Mark, b: &Mark| a.backward().is_some() == b.backward().is_some();
+            for run in line.points.chunk_by(is_same) {
+                let path: Vec<[f64; 2]> =
+                    run.iter().map(|mark| [across(mark.x()), up(mark.error())]).collect();
+                let style =
+                    format!("stroke=\"{colour}\" stroke-width=\"1.2\" stroke-opacity=\"0.6\"");
+                svg += &polyline(&path, &style);
+            }
             for mark in &line.points {
                 let x = across(mark.x());
                 svg += &marker([x, up(mark.error())], line.style, mark.backward().is_some());
                 if let Some(backward) = mark.backward() {
                     let _ = writeln!(
                         svg,
-                        "<circle cx=\"{x:.1}\" cy=\"{:.1}\" r=\"1.6\" fill=\"{colour}\"/>",
+                        "<circle cx=\"{x:.1}\" cy=\"{:.1}\" r=\"2.2\" fill=\"{colour}\"/>",
                         up(backward)
                     );
                 }
@@ -208,6 +211,11 @@ fn grid([[x_1, y_1], [x_2, y_2]]: [[f64; 2]; 2]) -> String {
     format!(
         "<line x1=\"{x_1:.1}\" y1=\"{y_1:.1}\" x2=\"{x_2:.1}\" y2=\"{y_2:.1}\" stroke=\"#e4e4e4\"/>\n"
     )
+}
+
+fn polyline(path: &[[f64; 2]], style: &str) -> String {
+    let places: Vec<String> = path.iter().map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
+    format!("<polyline points=\"{}\" fill=\"none\" {style}/>\n", places.join(" "))
 }
 
 /// The marker of a line: full, or hollow.

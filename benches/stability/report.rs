@@ -8,8 +8,8 @@ use masonry::scene::Route;
 
 use super::common::routes::ROUTES;
 use super::picture::{Line, Mark, Panel, picture};
-use super::problems;
-use super::sweep::{Point, Reached, Sweep};
+use super::problems::{self, Method};
+use super::sweep::{Expected, Point, Reached, Sweep};
 
 /// Sweeps that are drawn in one picture.
 pub(crate) struct Theme {
@@ -28,22 +28,29 @@ nothing of the methods; asked for were residuals of 1e-10, of `alm` 1e-8.
 
 * **Error**: the worst of balance, friction cone, gaps, sliding, nodal forces and energy. Forces are compared with those on the
   same block, but with a millionth of the largest ones at least.
-* **Backward error**: the smallest relative change of loads, stiffness and contact forces with which the answer would be exact.
-  Where it is near rounding and the error is not, the scene itself is sensitive: no method in these numbers has more digits.
-* **Promised** is that residuals are below what was asked for relative to the largest forces and displacements, thus up to a
-  hundred times that on single blocks, and more only where forces on blocks differ by more; and that a block carries its own loads to a thousandth.
+* **Backward error**: by how much loads, stiffness and contact forces would have to change, relative to them, for equilibrium alone;
+  gaps and friction are not in it. Where it is near rounding and all routes have the same larger error, the scene itself is sensitive.
+* **Promised** is that residuals are below what was asked for relative to the largest forces and displacements. On single blocks errors may be a
+  hundred times that, and more where forces on blocks differ by more than ten, in proportion, but at most 1e-3: a block carries
+  its own loads to a thousandth. Where displacements are as much less certain as a scene says (slender bricks: by 1e-8 of the square of the ratio; wedges: by one over the sine
+  of the angle) the same holds of energy and known displacements. The grey lines have all of that.
+* **Expected** is what is known: an answer, none (a load above its limit), or neither (open). Nearer to its limit than what is
+  asked for, a scene above it is one below it to these numbers, and may be called solved.
 
 Written by `cargo bench --bench stability -- --write`, which fails if an answer is worse than what is promised, or if something is called
-solved that cannot stand. A few values of every sweep are tested by `cargo test --test hard_cases`.
+solved that cannot stand. A few values of sweeps are tested by `cargo test --test hard_cases`.
 ";
 
 const OF_PROBLEMS: &str = "
 ## Problems of `lcp`
 
-The [hard problems](hard_problems.md) that have a parameter, by every method of `lcp`, asked for 1e-10. The error is the residual, recomputed from the data in numbers of
-twice the digits; the backward error is relative to all terms of the equations, row by row.
+Families of [hard problems](hard_problems.md), by every method of `lcp`, asked for 1e-10. The error is the residual, recomputed from the data in numbers of
+twice the digits; the backward error is relative to the largest terms of all equations.
 
 ![Problems of lcp: residuals over parameters](pictures/stability_problems.svg)
+
+How many values were solved, and the largest residual of these:
+
 ";
 
 /// Writes the page and the pictures into the folder of the documents.
@@ -56,6 +63,7 @@ pub(crate) fn write(docs: &Path, themes: &[Theme], problems: &[problems::Sweep])
         std::fs::write(docs.join(format!("pictures/stability_{}.svg", theme.file)), drawn).unwrap();
     }
     text += OF_PROBLEMS;
+    write_problems(&mut text, problems).unwrap();
     let panels: Vec<Panel> = problems.iter().map(problem_panel).collect();
     let drawn = picture("Problems of lcp", &panels);
     std::fs::write(docs.join("pictures/stability_problems.svg"), drawn).unwrap();
@@ -65,20 +73,31 @@ pub(crate) fn write(docs: &Path, themes: &[Theme], problems: &[problems::Sweep])
 fn write_counts(text: &mut String, themes: &[Theme]) -> fmt::Result {
     let of = |k: usize| {
         let points = themes.iter().flat_map(|theme| &theme.sweeps).flat_map(|(_, points)| points);
-        points.map(move |point| point.ends[k])
+        points.map(move |point| (point.expected, point.ends[k]))
     };
-    let row = |text: &mut String, name: &str, count: &dyn Fn(Reached) -> bool| {
-        let counts = (0..ROUTES.len()).map(|k| of(k).filter(|end| count(*end)).count());
+    let row = |text: &mut String, name: &str, count: &dyn Fn(Expected, Reached) -> bool| {
+        let counted = |k: usize| of(k).filter(|(expected, end)| count(*expected, *end)).count();
+        let counts = (0..ROUTES.len()).map(counted);
         let cells: Vec<String> = counts.map(|it| it.to_string()).collect();
         writeln!(text, "| {name} | {} |", cells.join(" | "))
     };
-    writeln!(text, "\n| scenes | {} |", ROUTES.map(|it| it.name().to_owned()).join(" | "))?;
+    writeln!(
+        text,
+        "\n| values of all sweeps | {} |",
+        ROUTES.map(|it| it.name().to_owned()).join(" | ")
+    )?;
     writeln!(text, "|---|{}", "--:|".repeat(ROUTES.len()))?;
-    row(text, "solved", &|end| matches!(end, Reached::Solved { .. }))?;
-    row(text, "gave up, and said so", &|end| matches!(end, Reached::GaveUp { .. }))?;
-    row(text, "not treated, or too large to try", &|end| matches!(end, Reached::Nothing))?;
+    row(text, "solved", &|_, end| matches!(end, Reached::Solved { .. }))?;
+    for (words, expected) in [
+        ("no answer, where there is one", Expected::Answer),
+        ("no answer, where it is not known whether there is one", Expected::Open),
+        ("no answer, where there is none", Expected::None),
+    ] {
+        row(text, words, &|it, end| it == expected && matches!(end, Reached::GaveUp { .. }))?;
+    }
+    row(text, "not treated, or too large to try", &|_, end| matches!(end, Reached::Nothing))?;
     // The bench has failed otherwise.
-    row(text, "called solved, and worse than promised", &|_| false)
+    row(text, "called solved, and worse than promised", &|_, _| false)
 }
 
 fn write_theme(text: &mut String, theme: &Theme) -> fmt::Result {
@@ -91,19 +110,20 @@ fn write_theme(text: &mut String, theme: &Theme) -> fmt::Result {
     writeln!(text, "How many values were solved, and the worst error of these:\n")?;
     writeln!(
         text,
-        "| sweep | parameter | values | {} |",
+        "| sweep | parameter | expected | values | {} |",
         ROUTES.map(|it| it.name().to_owned()).join(" | ")
     )?;
-    writeln!(text, "|---|---|--:|{}", "---|".repeat(ROUTES.len()))?;
+    writeln!(text, "|---|---|---|--:|{}", "---|".repeat(ROUTES.len()))?;
     for (sweep, points) in &theme.sweeps {
         let [first, last] = [sweep.values[0], sweep.values[sweep.values.len() - 1]];
         write!(
             text,
-            "| {} | {}, {} to {} | {} |",
+            "| {} | {}, {} to {} | {} | {} |",
             sweep.title,
             sweep.parameter,
             number(first),
             number(last),
+            expected(points),
             points.len()
         )?;
         for k in 0..ROUTES.len() {
@@ -112,6 +132,51 @@ fn write_theme(text: &mut String, theme: &Theme) -> fmt::Result {
         writeln!(text)?;
     }
     Ok(())
+}
+
+fn write_problems(text: &mut String, sweeps: &[problems::Sweep]) -> fmt::Result {
+    let Some(first) = sweeps.first() else { return Ok(()) };
+    let names: Vec<&str> = first.methods.iter().map(|(method, _)| method.name()).collect();
+    writeln!(text, "| sweep | parameter | expected | values | {} |", names.join(" | "))?;
+    writeln!(text, "|---|---|---|--:|{}", "---|".repeat(names.len()))?;
+    for sweep in sweeps {
+        let [first, last] = [sweep.values[0], sweep.values[sweep.values.len() - 1]];
+        write!(
+            text,
+            "| {} | {}, {} to {} | {} | {} |",
+            sweep.name,
+            sweep.parameter,
+            number(first),
+            number(last),
+            if sweep.is_solvable { "an answer" } else { "none" },
+            sweep.values.len()
+        )?;
+        for (_, found) in &sweep.methods {
+            let reached = |found: &Option<problems::Found>| match *found {
+                None => Reached::Nothing,
+                Some(it) if it.status == Status::Solved => {
+                    Reached::Solved { error: it.residual, backward: it.backward }
+                }
+                Some(it) => Reached::GaveUp { status: it.status, residual: it.residual },
+            };
+            write!(text, " {} |", cell(found.iter().map(reached)))?;
+        }
+        writeln!(text)?;
+    }
+    Ok(())
+}
+
+fn expected(points: &[Point]) -> &'static str {
+    let of = |expected: Expected| points.iter().all(|point| point.expected == expected);
+    if of(Expected::Answer) {
+        "an answer"
+    } else if of(Expected::None) {
+        "none"
+    } else if of(Expected::Open) {
+        "open"
+    } else {
+        "differs"
+    }
 }
 
 fn cell(ends: impl Iterator<Item = Reached> + Clone) -> String {
@@ -146,13 +211,14 @@ fn panel((sweep, points): &(Sweep, Vec<Point>)) -> Panel {
     Panel {
         title: sweep.title.clone(),
         x: sweep.parameter.to_owned(),
-        promised: 1e-8,
+        promised: points.iter().map(|it| [it.value, it.promised.max(1e-8)]).collect(),
         lines: lines.collect(),
     }
 }
 
 fn problem_panel(sweep: &problems::Sweep) -> Panel {
-    let lines = sweep.methods.iter().enumerate().map(|(style, (method, found))| {
+    let lines = sweep.methods.iter().map(|(method, found)| {
+        let style = style_of_method(*method);
         let at = sweep.values.iter().zip(found).filter(|(value, _)| **value > 0.0);
         let mark = |(&x, found): (&f64, &Option<problems::Found>)| {
             let problems::Found { status, residual, backward } = (*found)?;
@@ -168,8 +234,21 @@ fn problem_panel(sweep: &problems::Sweep) -> Panel {
     Panel {
         title: sweep.name.to_owned(),
         x: format!("{} [-]", sweep.parameter),
-        promised: 1e-10,
+        promised: sweep.values.iter().filter(|it| **it > 0.0).map(|it| [*it, 1e-10]).collect(),
         lines: lines.collect(),
+    }
+}
+
+/// The colours of the routes that run the same method; the others have those that are left.
+fn style_of_method(method: Method) -> usize {
+    match method {
+        Method::LemkeDense => style(Route::Lemke),
+        Method::Interior => style(Route::Interior),
+        Method::Quadratic => style(Route::Qp),
+        Method::Sweeps => style(Route::Pgs),
+        Method::Newton => style(Route::Newton),
+        Method::LemkeSparse => style(Route::Alm),
+        Method::Auto => 6,
     }
 }
 

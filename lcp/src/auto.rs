@@ -63,7 +63,8 @@ pub struct Choice {
 /// Without such an end it gives, in this order: a point with residuals below the root of the tolerance;
 /// the evidence of [`NoEquilibrium`](crate::Status::NoEquilibrium); a ray
 /// ([`RayTermination`](crate::Status::RayTermination)); the point with the smallest residual. Where an answer
-/// comes near a solution and is none, the next method starts from it.
+/// comes near a solution and is none, the next method starts from it, unless its residuals are small and it was
+/// refused for being far out.
 ///
 /// # Observer
 /// It goes to the methods in turn, each of which counts its iterations from 0. `Break` ends the chain like the

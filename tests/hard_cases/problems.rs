@@ -40,7 +40,8 @@ use lcp::faer::{Mat, mat};
 use lcp::{BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, MixedLcp, Status};
 use measure::{largest, of_general};
 pub use page::page;
-use problem::Method;
+#[allow(unused_imports, reason = "the bench of stability draws them")]
+pub use problem::Method;
 #[allow(unused_imports, reason = "the bench of stability draws them")]
 pub use sweeps::{Found, Sweep, sweeps};
 

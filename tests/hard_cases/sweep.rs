@@ -2,7 +2,9 @@
 
 use lcp::Status;
 
-use super::case::{Case, End, promised};
+use masonry::scene::Route;
+
+use super::case::{Case, End, Tried, Truth, promised};
 use super::common::routes::ROUTES;
 
 /// Scenes that differ in one number.
@@ -16,9 +18,20 @@ pub struct Sweep {
     case: Box<dyn Fn(f64) -> Case + Send + Sync>,
 }
 
+/// What is known of a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Expected {
+    Answer,
+    None,
+    Open,
+}
+
 /// What every route gave at one value.
 pub struct Point {
     pub value: f64,
+    pub expected: Expected,
+    /// The largest error that any answer may have, but those to a looser tolerance.
+    pub promised: f64,
     pub ends: Vec<Reached>,
     /// What is wrong with what is called solved.
     pub wrong: Vec<String>,
@@ -70,8 +83,31 @@ impl Sweep {
             End::Refused | End::Slow => Reached::Nothing,
         };
         assert_eq!(tried.ends.len(), ROUTES.len());
-        Point { value, wrong: wrong.collect(), ends: tried.ends.iter().map(reached).collect() }
+        Point {
+            value,
+            expected: expected(&tried.case.truth),
+            promised: largest_promise(&tried),
+            wrong: wrong.collect(),
+            ends: tried.ends.iter().map(reached).collect(),
+        }
     }
+}
+
+fn expected(truth: &Truth) -> Expected {
+    match truth {
+        Truth::Known(_) => Expected::Answer,
+        Truth::Falls(_) => Expected::None,
+        Truth::Open => Expected::Open,
+    }
+}
+
+fn largest_promise(tried: &Tried) -> f64 {
+    let of_end = |(route, end): (Route, &End)| match end {
+        End::Solved { errors, .. } if route != Route::Alm => promised(route, errors),
+        _ => 0.0,
+    };
+    let largest = ROUTES.into_iter().zip(&tried.ends).map(of_end).fold(0.0, f64::max);
+    largest * tried.case.amplified
 }
 
 /// `10^first, ..., 10^last`, every `step` decades.

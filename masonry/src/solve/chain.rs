@@ -161,7 +161,49 @@ impl<'a> Chain<'a> {
                 recover::recover(model, system, &reduction, rows, with_stresses)
             })
         });
-        Ok(self.concluded(answer, state))
+        let attempt = self.concluded(answer, state);
+        if attempt.info.status == Status::AlmostSolved {
+            self.refined(attempt)
+        } else {
+            Ok(attempt)
+        }
+    }
+
+    /// The answer on the states of its contacts, solved anew with all displacements as unknowns: the reduced
+    /// forms lose digits of flat bricks, and of huge friction. As it was, where that is no better.
+    fn refined(&mut self, mut attempt: Attempt) -> Result<Attempt, SolveError> {
+        let Self { model, system, .. } = *self;
+        let Some(state) = &attempt.state else { return Ok(attempt) };
+        let sparse = match self.sparse.take() {
+            Some(sparse) => sparse,
+            None => Sparse::new(system)?,
+        };
+        let problem = &sparse.problem;
+        let given = sparse.state((model, system), state);
+        let tolerance = self.request.tolerance;
+        // States that overflow are not refined.
+        let refined = problem.verify(&given).ok().map(|it| it.refined.rounded(problem));
+        let judged = refined.map(|state| (problem.residuals(&state), state));
+        if let Some((residuals, refined)) = judged.filter(|(it, _)| it.worst() <= tolerance) {
+            let state = recover::from_displacements(
+                (model, system, &sparse),
+                (&sparse.rows(&refined), &refined.u),
+                tolerance,
+                self.with_stresses,
+            );
+            let checks = Checks::of(model, &state);
+            if checks.hold(tolerance) {
+                attempt.info.status = Status::Solved;
+                attempt.info.residuals = residuals;
+                attempt.info.attempts.push(format!(
+                    "refined on all displacements, residual {:.1e}",
+                    residuals.worst()
+                ));
+                (attempt.state, attempt.checks) = (Some(state), Some(checks));
+            }
+        }
+        self.sparse = Some(sparse);
+        Ok(attempt)
     }
 
     fn on_sparse(&mut self, route: Route) -> Result<Attempt, SolveError> {
