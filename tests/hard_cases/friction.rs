@@ -14,7 +14,7 @@ pub const TITLE: &str = "Friction";
 
 pub fn cases() -> Vec<Case> {
     let mut list: Vec<Case> = [0.0, 1e-8, 1.0, 10.0, 1e6].into_iter().map(pushed).collect();
-    list.extend([0.0, 1.0, 1e6].map(rough_wall));
+    list.extend([0.0, 1e-8, 1.0, 10.0, 1e6].map(rough_wall));
     for (kind, material) in [("rigid", rigid()), ("elastic", elastic())] {
         list.push(smooth_wedge(kind, material, 20.0));
         list.push(pulled_wedge(kind, material, 0.6));
@@ -66,7 +66,9 @@ fn pushed(mu: f64) -> Case {
         "The two edges of the friction cone nearly coincide, or are nearly the whole plane.",
         scene,
     )
-    .parameters("4 x 1 m, pushed by min(mu, b / h) / 2 of its weight; without friction between smooth walls")
+    .parameters(
+        "4 x 1 m on a floor, pushed by min(mu, b / h) / 2 of its weight; for mu = 0 between smooth walls",
+    )
     .known("weight and push come out at the floor, to digits of the weight", move |outcome| {
         let weight = 8000.0 * GRAVITY;
         let reaction = &outcome.reactions[0];
@@ -89,15 +91,15 @@ fn between_walls(scene: Scene, width: f64, height: f64) -> Scene {
 
 fn rough_wall(mu: f64) -> Case {
     let mut scene = wall(0.6, 3, mu, elastic());
-    if mu <= 0.0 {
+    if mu < 0.1 {
         scene = between_walls(scene.gravity([0.0, -GRAVITY]), 0.6, 0.3);
     }
     Case::new(
         &format!("mu = {}, wall", number(mu)),
-        "The problem is not copositive for large friction; without friction nothing holds bricks sideways.",
+        "The problem is not copositive for large friction; without friction, or nearly so, nothing holds bricks sideways.",
         scene,
     )
-    .parameters("three courses of three bricks, weight that leans by 0.1, without friction upright between smooth walls")
+    .parameters("three courses of three bricks, weight that leans by 0.1; for mu < 0.1 upright, between smooth walls")
     .known("the sum of the reactions is the load", reactions_off)
 }
 
@@ -118,7 +120,7 @@ fn smooth_wedge(kind: &str, material: Material, angle: f64) -> Case {
         "No normal is vertical: all of them push and carry.",
         wedge(angle, 0.0, material),
     )
-    .parameters("key 1 m high, faces inclined by 20 degrees from the vertical, mu = 0, own weight")
+    .parameters("key 1 m high, 1 m wide on top and 0.27 m at the foot, faces inclined by 20 degrees from the vertical, in 2 x 3 elements if elastic, mu = 0, own weight")
     // The forces are as much larger than the weight, and residuals are relative to them.
     .amplified(1.0 / angle.to_radians().sin())
     .known("each face carries W / (2 sin 20)", move |outcome| {

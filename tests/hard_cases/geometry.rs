@@ -115,7 +115,7 @@ fn column(name: &str, why: &'static str, [width, height]: [f64; 2], mesh: [u32; 
     });
     let sinks = 3.0 * height * 1e-3;
     Case::new(name, why, pressed(bricks, width, 3.0 * height, 1e-3 * YOUNG))
-        .parameters(&format!("three bricks {width} x {height} m, pressure E/1000, nu = 0"))
+        .parameters(&format!("three bricks {width} x {height} m, {} x {} elements each, pressure E/1000, no weight, nu = 0, mu = 0.5", mesh[0], mesh[1]))
         .known("the top sinks by 3 h p / E", move |outcome| sinking_off(outcome, "2", sinks))
 }
 
@@ -136,7 +136,7 @@ fn thin_film(ratio: f64) -> Case {
         "The film is a million times as stiff as the bricks that it joins.",
         pressed(bricks, 0.2, 0.2 + thin, pressure),
     )
-    .parameters("two bricks 0.2 x 0.1 m, meshes that do not match, t_y = 1e-7 m, E equal, nu = 0")
+    .parameters("two bricks 0.2 x 0.1 m, the lower in 2 x 1 and the upper in 3 x 1 elements, film of t_y = 1e-7 m, E equal, nu = 0, mu = 0.5, pressure E/1000, no weight")
     .known(
         "the top sinks by (2 h + t_y) p / E, and sigma_y = -p in the film",
         move |outcome| {
@@ -176,7 +176,7 @@ fn beside_nodes(offset: f64, films: Films) -> Case {
         "Parts of the film between a node of one brick and the next one of the other are as short as the offset.",
         bricks.load(load),
     )
-    .parameters("two bricks 0.2 x 0.1 m, the upper one 2e-7 m to the right, film of 0.01 m, E_m = E / 10, mu = 0.5, 100 kN/m2 that lean by 0.1")
+    .parameters("two bricks 0.2 x 0.1 m in 4 x 2 elements, the upper one 2e-7 m to the right, film of 0.01 m, E_m = E / 10, nu_m = 0.2, contact points of Gauss, mu = 0.5, no weight, 100 kN/m2 that lean by 0.1")
     .known("the sum of the reactions is the load", reactions_off)
 }
 
@@ -195,7 +195,7 @@ fn uneven_supports(kind: &str, material: Material, depth: f64) -> Case {
          own.",
         uneven,
     )
-    .parameters("1 x 0.5 m, ten supports 0 to 3e-12 m below it, own weight")
+    .parameters("1 x 0.5 m, in 10 x 2 elements if elastic, ten supports 0 to 3e-12 m below it, mu = 0.6, own weight")
     .known("the sum of the reactions is the weight", reactions_off)
 }
 
@@ -214,7 +214,7 @@ fn small_gap(gap: f64) -> Case {
         scene.block(rectangle(name, "pier", [*x, x + 0.2], [0.0, *top]).mesh([2, 2]))
     });
     Case::new("a gap of 1e-8 of a pier", "The gap closes at a thousandth of the load.", on_piers)
-        .parameters("three piers 0.2 x 1 m, the middle one 1e-8 m shorter, rigid beam, 30 kN, E = 1e6 kN/m2, mu = 0.5")
+        .parameters("three piers 0.2 x 1 m, the middle one 1e-8 m shorter, rigid beam 1 x 0.2 m, 30 kN, nu = 0, mu = 0.5, no weight")
         .known("piers carry k (delta - gap) with 3 k delta = P + k gap", move |outcome| {
             let stiffness = 0.2 * YOUNG / (1.0 - gap);
             let outer = 0.2 * YOUNG;

@@ -1,5 +1,6 @@
-//! Just below and just above the load at which a structure falls, and without any equilibrium.
+//! Just below, at and just above the load at which a structure falls, and without any equilibrium.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use masonry::model::Plane;
@@ -7,6 +8,7 @@ use masonry::scene::{Brick, Joint, Load, Material, Scene, Support, Wall};
 
 use super::case::Case;
 use super::common::{GRAVITY, M_KN, rectangle};
+use super::page::ON_EDGE;
 use super::scenes::{elastic, reactions_off, rigid, scene, stack};
 use super::sweep::{Sweep, decades};
 
@@ -20,11 +22,13 @@ pub fn cases() -> Vec<Case> {
     for (kind, material) in KINDS {
         for structure in structures(kind, material()) {
             list.push(structure.below(NEAR));
+            list.push(structure.at());
             list.push(structure.above(NEAR));
         }
         list.push(lifted(kind, material(), 20.0));
     }
     list.push(hanging(1.0));
+    list.push(arch(1.2));
     list
 }
 
@@ -76,32 +80,33 @@ fn structures(kind: &str, material: Material) -> [Structure; 4] {
     [
         structure(
             "sliding block",
-            "2 x 1 m, limit mu = 0.5 of the weight",
+            "2 x 1 m on a floor, limit mu = 0.5 of the weight",
             0.5,
             Box::new(move |lean| stack(1, [2.0, 1.0], lean, material)),
         ),
         structure(
             "tipping block",
-            "0.2 x 1 m, limit b / h = 0.2 of the weight",
+            "0.2 x 1 m on a floor, mu = 0.5, limit b / h = 0.2 of the weight",
             0.2,
             Box::new(move |lean| stack(1, [0.2, 1.0], lean, material)),
         ),
         structure(
             "tipping stack",
-            "five blocks 1 x 0.5 m, mu = 0.5, limit b / (n h) = 0.4 of the weight",
+            "five blocks 1 x 0.5 m on a floor, mu = 0.5, limit b / (n h) = 0.4 of the weight",
             0.4,
             Box::new(move |lean| stack(5, [1.0, 0.5], lean, material)),
         ),
         structure(
             "block held by thrust",
-            "1 x 1 m, H = 25 kN, mu = 0.3, limit 2 mu H = 15 kN",
+            "1 x 1 m, no weight, pressed against a wall by H = 25 kN on a platen 0.2 x 1 m in smooth guides, mu = 0.3, limit of the load on top 2 mu H = 15 kN",
             15.0,
             Box::new(move |force| held(force, material)),
         ),
     ]
 }
 
-const WHY: &str = "What carries is used up but for a millionth, or is too little by a millionth.";
+const WHY: &str =
+    "What carries is used up but for a millionth, wholly, or is too little by a millionth.";
 
 impl Structure {
     /// At a load that is so much below the limit.
@@ -113,6 +118,13 @@ impl Structure {
         )
         .parameters(&format!("{}, less 1e-6 of it", self.parameters))
         .known("the sum of the reactions is the load", reactions_off)
+    }
+
+    /// At the limit itself, rounded.
+    fn at(&self) -> Case {
+        Case::new(&format!("{}{ON_EDGE}", self.name), WHY, (self.loaded)(self.limit))
+            .parameters(&format!("{}, all of it", self.parameters))
+            .open("stands, on the edge; rounding decides, and either answer is right")
     }
 
     /// At a load that is so much above it.
@@ -149,30 +161,60 @@ fn lifted(kind: &str, material: Material, pull: f64) -> Case {
         "Nothing carries the load, whatever friction is.",
         stack(1, [1.0, 1.0], 0.0, material).load(load),
     )
-    .parameters("1 x 1 m, 19.62 kN heavy, pulled by 20 kN")
+    .parameters("1 x 1 m on a floor, mu = 0.5, 19.62 kN heavy, pulled up by 20 kN")
     .falls_by(pull / weight - 1.0, "nothing stands")
 }
 
-/// Only friction could carry it, and the walls are pressed too little.
-fn hanging(mu: f64) -> Case {
+/// Number of courses of the panel without a floor, three bricks of 0.1 x 0.1 m in each.
+const COURSES: u32 = 3;
+
+/// Only friction could carry it.
+///
+/// With `mu` from 1.2 on [its topmost course](arch) carries all, and the bricks below, which weigh nothing, hang
+/// anywhere under it.
+pub fn hanging(mu: f64) -> Case {
+    let case = Case::new(
+        "panel without a floor",
+        "Only friction carries, and no condition that is linear says whether it can: it spreads under the load and \
+         presses the walls apart, by little. The topmost course alone is an arch; under it the bricks of the others, \
+         which weigh nothing, may be anywhere.",
+        between_two_walls(mu, 0..COURSES),
+    )
+    .parameters(
+        "three courses of three bricks 0.1 x 0.1 m in 2 x 2 elements each between two walls, mu = 1, E = 1e5 kN/m2, \
+         no weight, 10 kN/m2 on top",
+    );
+    if mu < 1.2 {
+        case.open("no equilibrium is known; from mu = 1.2 on there are several")
+    } else {
+        case.known("the sum of the reactions is the load, in any of several answers", reactions_off)
+    }
+}
+
+/// The topmost course of that panel.
+pub fn arch(mu: f64) -> Case {
+    Case::new(
+        "topmost course of that panel",
+        "Friction of 1.199 is used, at one point of either wall.",
+        between_two_walls(mu, COURSES - 1..COURSES),
+    )
+    .parameters("the same without the courses below, mu = 1.2")
+    .known("an arch of three bricks: the sum of the reactions is the load", reactions_off)
+}
+
+/// Some courses of a panel between walls, and a load on the uppermost.
+fn between_two_walls(mu: f64, courses: Range<u32>) -> Scene {
     let brick = Brick { length: 0.1, height: 0.1 };
-    let panel = Scene::new("Panel without a floor", M_KN)
+    let [bottom, top] = [courses.start, courses.end].map(|it| 0.1 * f64::from(it));
+    let wall = Wall::running_bond("panel", "brick", brick, 0.3, courses.end - courses.start);
+    Scene::new("Panel without a floor", M_KN)
         .plane(Plane::Stress)
         .thickness(1.0)
         .material("brick", Material::elastic(1e5, 0.15))
         .joint("bed", Joint::mu(mu))
         .joint("head", Joint::mu(mu))
-        .wall(Wall::running_bond("panel", "brick", brick, 0.3, 3).mesh([2, 2]))
-        .support(Support::new("left wall", [0.0, 0.0], [0.0, 0.3], "head"))
-        .support(Support::new("right wall", [0.3, 0.0], [0.3, 0.3], "head"))
-        .load(Load::pressure("top", [0.0, 0.3], [0.3, 0.3], 10.0));
-    let case = Case::new(
-        "panel without a floor",
-        "It spreads under the load and presses the walls apart, but by too little to hang there; no condition \
-         that is linear shows it.",
-        panel,
-    )
-    .parameters("three courses of three bricks 0.1 x 0.1 m between two walls, mu = 1, E = 1e5 kN/m2, 10 kN/m2 on top");
-    let expected = "nothing stands: it would take mu of 1.6 or less";
-    if mu <= 1.0 { case.falls_by(1.0, expected) } else { case.open(expected) }
+        .wall(wall.origin([0.0, bottom]).mesh([2, 2]))
+        .support(Support::new("left wall", [0.0, bottom], [0.0, top], "head"))
+        .support(Support::new("right wall", [0.3, bottom], [0.3, top], "head"))
+        .load(Load::pressure("top", [0.0, top], [0.3, top], 10.0))
 }

@@ -68,7 +68,7 @@ fn mortared_column(ratio: f64, words: &str) -> Case {
         RATIO,
         pressed(bricks, 0.2, 0.4 + 3.0 * film, 1e-6 * YOUNG),
     )
-    .parameters("four bricks 0.2 x 0.1 m, three films of 0.01 m, pressure E/1e6, nu = 0")
+    .parameters("four bricks 0.2 x 0.1 m in 2 x 1 elements, three films of 0.01 m, pressure E/1e6, no weight, nu = 0, mu = 0.5")
     .known("the top sinks by p (4 h / E + 3 t_y / E_m)", move |outcome| {
         sinking_off(outcome, "3", sinks)
     })
@@ -108,7 +108,7 @@ fn heavy(name: &str, times: Vec<f64>) -> Case {
         scene.material(&format!("{times}"), elastic().density(2000.0 * times))
     });
     Case::new(name, WEIGHT, scene)
-        .parameters("blocks 1 x 1 m on top of each other, mu = 0.5, pushed by 0.2 of their weight")
+        .parameters("blocks 1 x 1 m on top of each other on a floor, mu = 0.5, pushed by 0.2 of their weight")
         .known(
             "every joint carries what is above it, to digits of that or of a millionth of all",
             move |outcome| {
@@ -137,7 +137,7 @@ fn side_by_side(times: f64) -> Case {
         .support(Support::new("left", [0.0, 0.0], [0.0, 1.0], "head"))
         .support(Support::new("right", [2.0, 0.0], [2.0, 1.0], "head"));
     Case::new("a brick beside one that is 1e6 times heavier", WEIGHT, scene)
-        .parameters("two blocks 1 x 1 m without friction between two walls, nu = 0")
+        .parameters("two blocks 1 x 1 m between two walls, mu = 0, nu = 0")
         .known("the floor carries each", move |outcome| {
             let floor = Body::Support(SupportId(0));
             let off = |name: &str, carried: f64| {

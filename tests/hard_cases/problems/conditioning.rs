@@ -3,7 +3,7 @@
 use lcp::faer::Mat;
 
 use super::case::Case;
-use super::data::{hilbert, ill_conditioned, strict, with_solution};
+use super::data::{Point, hilbert, ill_conditioned, strict, with_solution};
 
 pub const TITLE: &str = "Condition";
 
@@ -23,16 +23,16 @@ pub fn cases() -> Vec<Case> {
     let point = strict(12);
     list.push(
         Case::new("condition 1e12", why, with_solution(ill_conditioned(12, 40), &point))
-            .parameters("`L D L^T`, n = 12, integers in `L`, powers of two from 1 to 2^-40 in `D`")
+            .parameters("`L D L^T`, n = 12: `L` has ones on the diagonal and in its first column, and `s_ij` elsewhere below; `d_k = 2^-r`, `r` the integer next to `40 k / 11`")
             .unique(point, 1e14),
     );
     let why = "A P-matrix, but some principal minors are hardly positive.";
     for (bits, minor, condition) in [(20, "1e-6", 1e14), (43, "1e-13", 1e20)] {
-        let point = (vec![1.0, 2.0, 0.0, 3.0, 2.0, 1.0], vec![0.0, 0.0, 2.0, 0.0, 0.0, 0.0]);
+        let point = of_minors();
         list.push(
             Case::new(&format!("minors of {minor}"), why, with_solution(minors(bits), &point))
                 .parameters(&format!(
-                    "three blocks `[1 a; 1/a 1 + 2^-{bits}]`, `a` = 1, 2, -1, coupled above, n = 6"
+                    "blocks `[1 a; 1/a 1 + 2^-{bits}]` with `a` = 1, 2, -1 on the diagonal, `s_ij` above them, n = 6; `z = (1, 2, 0, 3, 2, 1)` and `w_2 = 2` are planted"
                 ))
                 .unique(point, condition),
         );
@@ -40,8 +40,13 @@ pub fn cases() -> Vec<Case> {
     list
 }
 
+/// An answer to the problem with small minors.
+pub(super) fn of_minors() -> Point {
+    (vec![1.0, 2.0, 0.0, 3.0, 2.0, 1.0], vec![0.0, 0.0, 2.0, 0.0, 0.0, 0.0])
+}
+
 /// Block triangular, so that principal minors are products of those of the blocks.
-fn minors(bits: i32) -> Mat<f64> {
+pub(super) fn minors(bits: i32) -> Mat<f64> {
     let a = [1.0, 2.0, -1.0];
     Mat::from_fn(6, 6, |i, j| match (i / 2, j / 2) {
         (block, other) if block > other => 0.0,

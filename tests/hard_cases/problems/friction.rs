@@ -83,7 +83,7 @@ pub(super) fn chain(bits: i32) -> Case {
     let why = "Displacements hang on differences of large forces, and contact forces are no larger than what is allowed to lack of these: another answer may have no larger residuals.";
     Case::new(&format!("springs that differ by 2^{bits}"), why, Problem::Contact(problem))
         .parameters(
-            "eight bodies in a row between springs of stiffness 1 and that, without friction",
+            "eight bodies in a row, each over a floor, between springs of stiffness 1 and that by turns, without friction; displacements (1, 1, 0, 0, 2, 2, 3, 0) are planted",
         )
         .unique((t, y), f64::from(bits).exp2() * 10.0)
 }

@@ -22,13 +22,18 @@ Small problems are enumerated in rational arithmetic. Asked for are residuals of
 residual of what is called solved in numbers of twice the digits, holds answers against those that are known, checks every proof
 that there is none, and refuses a proof, or evidence, against a problem that has one.
 
-In the tables a power of ten alone is that residual, rounded up, of an answer that is called solved. Otherwise the method says that it has no
+In the tables a power of ten without a status is that residual, rounded up, of an answer that is called solved. Otherwise the method says that it has no
 answer, by its status and the residual at which it ended; a dash is a problem that it does not treat. In brackets are
 pivots, or sweeps, steps or programs. Lemke's method runs on full matrices and on sparse ones, contact problems always on sparse ones.
 The test lets powers of answers and costs differ, and does not compare how a method gives up.
 
-`Stalled`, `RayTermination` and `IterationLimit` prove nothing: the problem may have an answer, which the next method finds. What is solved is
+Only `Infeasible` is a proof that there is no solution. `NoEquilibrium` is [evidence](methods.md#soft-springs-is-there-an-equilibrium-at-all), with
+friction no proof. All other [statuses](lcp.md#solving-and-reading-a-solution), such as `AlmostSolved`, `Stalled`, `RayTermination`, `IterationLimit` and `NumericalTrouble`, prove nothing: the problem may have an answer, which the next method finds. What is solved is
 solved to the residual: with a condition number of 1e18 (Hilbert, order 14) no digit of `z` has to be right.
+
+After every case come its parameters: the data, or the function of `lcp` that makes them (its last argument is a seed). Standard problems are `w = M z + q`, `z, w >= 0`, `z.w = 0`.
+Counted from zero, `s_ij` is the entry `(i^2 + 3 i j + 5 j) mod 7` of (0, 1, -1, 1, 0, -1, -1): signs without a pattern. A *planted answer* is, unless
+said otherwise, `z_i = 1 + i mod 3` at even `i`, `w_i = 1 + i mod 3` at odd ones, and zero elsewhere; then `q = w - M z`.
 ";
 
 /// The page.

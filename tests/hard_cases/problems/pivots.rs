@@ -17,8 +17,12 @@ pub fn cases() -> Vec<Case> {
     let exponential = "Lemke's method takes `2^n` pivots from all `w` with a covering vector of ones (it may choose others).";
     let mut list = Vec::new();
     for n in [10, 16, 20] {
-        list.push(family(&format!("Murty, order {n}"), exponential, families::murty(n)));
-        list.push(family(&format!("Fathi, order {n}"), exponential, families::fathi(n)));
+        let murty = family(&format!("Murty, order {n}"), exponential, families::murty(n));
+        list.push(
+            murty.parameters(&format!("`families::murty({n})`, the first unit vector is planted")),
+        );
+        let fathi = family(&format!("Fathi, order {n}"), exponential, families::fathi(n));
+        list.push(fathi.parameters(&format!("`families::fathi({n})`, the same")));
     }
     list.push(long());
     list
@@ -44,7 +48,7 @@ fn long() -> Case {
         ..LemkeSettings::default()
     };
     Case::new(LONG, why, standard(m, q))
-        .parameters("`d_i m_ij d_j` with `d_i = 1 + i / 7`, order 16, all `w` as the start, `d` as the covering vector")
+        .parameters("`d_i m_ij d_j` with `m_ij` of Murty, `d_i = 1 + i / 7`, order 16, all `w` as the start, `d` as the covering vector")
         .solvable("one solution, near the first unit vector")
         .lemke(settings)
 }

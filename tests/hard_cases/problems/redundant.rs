@@ -17,10 +17,11 @@ pub fn cases() -> Vec<Case> {
     let general = on_twelve.to_general();
     let dense =
         HorizontalLcp::new(general.a().to_dense(), general.b().to_dense(), general.c().to_vec());
-    let on_twelve_words = "forces 3 and -20, moment 10, 12 supports at distances of 1, mu = 0.5";
+    let on_twelve_words =
+        "forces 3 to the right and 20 down, moment 10, 12 supports at distances of 1, mu = 0.5";
     vec![
         Case::new("rigid block on two supports", hyperstatic, Problem::Contact(two()))
-            .parameters("forces 1 and -8, supports at -1 and 1, mu = 0.5")
+            .parameters("forces 1 to the right and 8 down, supports at -1 and 1, mu = 0.5")
             .enumerated(),
         Case::new("rigid block on twelve supports", hyperstatic, Problem::Contact(on_twelve))
             .parameters(on_twelve_words)
@@ -33,10 +34,10 @@ pub fn cases() -> Vec<Case> {
         .parameters("`Contact2d::to_general`, n = 39, dense")
         .solvable("solvable; a continuum of forces"),
         Case::new("every contact five times", hyperstatic, Problem::Contact(repeated()))
-            .parameters("a body on two springs, the same three planes five times each, mu = 0.5")
+            .parameters("a body held by springs of stiffness 2 along both axes, loads 1 to the right and 5 down, planes with the normals (0, 1), (3, 4), (-3, 4) five times each, mu = 0.5")
             .solvable("solvable; displacements are unique, forces are not"),
         Case::new("rigid block jammed in a box", hyperstatic, Problem::Contact(boxed()))
-            .parameters("walls on both sides, two points each, and a floor, mu = 1, force -1 down")
+            .parameters("2 x 2, two points each on a floor and on walls on both sides, mu = 1, force 1 down")
             .solvable("solvable; walls may press with any force"),
         Case::of(
             "monotone, both matrices singular",

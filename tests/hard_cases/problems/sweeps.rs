@@ -3,6 +3,7 @@
 use lcp::{Status, families};
 
 use super::case::{Case, End, Tried};
+use super::conditioning::{minors, of_minors};
 use super::data::{
     degenerate, dominant, exponents, gram, hilbert, ill_conditioned, rescaled, strict,
     with_solution,
@@ -44,16 +45,51 @@ pub fn sweeps() -> Vec<Sweep> {
         (0..=50_u8).step_by(10).map(|bits| f64::from(bits).exp2()).collect();
     let supports: Vec<f64> = [2_u8, 5, 12, 30, 80].map(f64::from).into();
     let lengths: Vec<f64> = [2_u8, 8, 14, 20, 26].map(f64::from).into();
+    let small: Vec<f64> = (4..=44_u8).step_by(8).map(|bits| (-f64::from(bits)).exp2()).collect();
+    let sizes: Vec<f64> = (-10..=10_i32).step_by(5).map(|k| 2_f64.powi(100 * k)).collect();
+    let choices: Vec<f64> = [2_u8, 5, 10, 20].map(f64::from).into();
     vec![
-        sweep(("L D L^T, n = 8", "condition number of D"), powers, conditioned),
-        sweep(("positive definite, n = 20", "share of pairs that vanish"), shares, vanishing),
-        sweep(("P-matrix, n = 10", "spread of the units"), spreads, spread),
+        sweep(("ill-conditioned L D L^T, n = 8", "condition number of D"), powers, conditioned),
+        sweep(
+            (
+                "pairs that vanish, C C^T + 1, n = 20",
+                "part of the pairs of which both variables are 0",
+            ),
+            shares,
+            vanishing,
+        ),
+        sweep(
+            ("P-matrix in many units, n = 10", "largest factor of rows and of columns / smallest"),
+            spreads,
+            spread,
+        ),
+        sweep(("P-matrix of any size, n = 10", "factor of M and q"), sizes, resized),
         sweep(("Hilbert matrices", "order"), orders, hilbert_of),
-        sweep(("two rows that contradict each other", "by what part"), lacks, contradicting),
-        sweep(("rigid body on a floor and a slope", "mu"), frictions, friction::leaning),
-        sweep(("bodies between springs", "ratio of their stiffnesses"), stiffnesses, springs),
+        sweep(
+            ("P-matrix with small minors, n = 6", "smallest minor of a diagonal block"),
+            small,
+            with_minors,
+        ),
+        sweep(
+            ("two rows that contradict each other", "part by which the rows contradict each other"),
+            lacks,
+            contradicting,
+        ),
+        sweep(
+            ("rigid body on a floor and a slope", "coefficient of friction"),
+            frictions,
+            friction::leaning,
+        ),
+        sweep(
+            ("eight bodies between springs", "stiffness of the stiff springs / of the soft ones"),
+            stiffnesses,
+            springs,
+        ),
         sweep(("rigid block on supports", "number of supports"), supports, supported),
-        sweep(("Murty", "order"), lengths, murty),
+        sweep(("groups of ones (families::ties)", "order"), [3.0, 10.0, 30.0, 90.0].into(), tied),
+        sweep(("long paths (families::murty)", "order"), lengths.clone(), murty),
+        sweep(("long paths (families::fathi)", "order"), lengths, fathi),
+        sweep(("games (families::bimatrix)", "choices of either player"), choices, game),
     ]
 }
 
@@ -130,6 +166,38 @@ fn springs(ratio: f64) -> Case {
 fn supported(number: f64) -> Case {
     let block = redundant::on_supports(whole(number));
     Case::new(&format!("{number} supports"), "", Problem::Contact(block)).solvable("")
+}
+
+fn with_minors(minor: f64) -> Case {
+    let bits = whole(-minor.log2());
+    let point = of_minors();
+    let problem = with_solution(minors(bits.into()), &point);
+    // Blocks near singular ones, by turns above one another: the condition number is that of their product.
+    Case::new(&format!("minors of {minor:e}"), "", problem).unique(point, 1e8 / minor)
+}
+
+fn resized(factor: f64) -> Case {
+    let n = 10;
+    let (rows, columns) = (vec![factor.log2(); n], vec![0.0; n]);
+    let (problem, point) = rescaled(&dominant(n), &strict(n), (&rows, &columns));
+    let units = (vec![1.0; n], vec![factor; n]);
+    Case::new(&format!("factor {factor:e}"), "", problem).unique_in(point, 1e3, units)
+}
+
+fn tied(order: f64) -> Case {
+    let instance = families::ties(whole(order).into(), 1);
+    Case::of(&format!("order {order}"), "", instance, (Problem::Standard, 1.0))
+}
+
+fn game(choices: f64) -> Case {
+    let choices = whole(choices).into();
+    let instance = families::bimatrix(choices, choices, 1);
+    Case::of(&format!("{choices} choices"), "", instance, (Problem::Standard, 1.0))
+}
+
+fn fathi(order: f64) -> Case {
+    let instance = families::fathi(whole(order).into());
+    pivots::family(&format!("order {order}"), "", instance)
 }
 
 fn murty(order: f64) -> Case {

@@ -16,12 +16,12 @@ pub fn cases() -> Vec<Case> {
         "Both variables of many pairs vanish: no gap and no force, and rounding decides the sign.";
     vec![
         Case::of("Kostreva", ties, families::kostreva_1(), (Problem::Standard, 10.0))
-            .parameters("P-matrix, n = 3, `q = -1`: cycles under the plain ratio test")
+            .parameters("`families::kostreva_1()`: P-matrix, n = 3, `q = -1`, cycles under the plain ratio test")
             .enumerated(),
         program("Beale", ties, &BEALE).parameters(
-            "linear program of 4 variables and 3 conditions on which the simplex method cycles, n = 7",
+            "linear program of 4 variables and 3 conditions on which the simplex method cycles (Beale 1955), n = 7",
         ),
-        program("Chvatal", ties, &CHVATAL).parameters("another one of 4 variables and 3 conditions, n = 7"),
+        program("Chvatal", ties, &CHVATAL).parameters("another one of 4 variables and 3 conditions (Chvatal 1983, chapter 3), n = 7"),
         assignment(ties),
         Case::of("groups of ones", ties, families::ties(30, 1), (Problem::Standard, 1.0))
             .parameters("`families::ties(30, 1)`: `m_ij = 1` within ten groups"),
@@ -93,7 +93,9 @@ fn assignment(why: &'static str) -> Case {
 
 fn planted(name: &str, why: &'static str, n: usize, tenths: usize) -> Case {
     let point = degenerate(n, tenths);
-    let parameters = format!("positive definite, `C C^T + 1` with signs in `C`, n = {n}");
+    let parameters = format!(
+        "positive definite, `M = C C^T + 1` with `c_ij = s_ij`, n = {n}; of the planted pairs those with `3 i mod 10 < {tenths}` vanish"
+    );
     Case::new(name, why, with_solution(gram(n), &point)).parameters(&parameters).unique(point, 1e4)
 }
 
@@ -106,6 +108,6 @@ fn touching(why: &'static str) -> Case {
         (0..t.len()).map(|i| -m.column(i).map(|(j, v)| v * t[j]).sum::<f64>()).collect();
     let y = vec![0.0; t.len()];
     Case::new("membrane that touches", why, Problem::Standard(Lcp::new(m, q).unwrap()))
-        .parameters("12 x 12 points, gap of a paraboloid over a disc, and no pressure anywhere")
+        .parameters("the matrix of `families::obstacle(12)` and its gap, a paraboloid over a disc, but no pressure anywhere")
         .unique((t, y), 1e3)
 }

@@ -16,10 +16,10 @@ pub fn cases() -> Vec<Case> {
         "The linear conditions can be met, but not with complementarity: no vector proves it.";
     let [hair, fine, finer] = [-18, -28, -30].map(|power| 2_f64.powi(power));
     let push = |force: f64| body([0.0, 0.0], [force, -8.0], &[[0.0, 1.0]], 0.5);
-    let words = "rigid, weight 8, mu = 0.5, pushed by";
+    let words = "rigid, on one plane, weight 8, mu = 0.5, pushed by";
     vec![
         Case::of("Kostreva without a solution", proved, families::kostreva_2(), STANDARD)
-            .parameters("`w_3 = -z_1 - 2 z_2 - 1`, n = 3")
+            .parameters("`families::kostreva_2()`: `w_3 = -z_1 - 2 z_2 - 1`, n = 3")
             .enumerated(),
         Case::of(
             "semidefinite without a solution",
@@ -36,7 +36,7 @@ pub fn cases() -> Vec<Case> {
         )
         .parameters("`families::infeasible(20, 1)`"),
         Case::new("rigid block that nothing holds", proved, lifted())
-            .parameters("on two supports, pulled up by 1, mu = 0.5")
+            .parameters("on supports at -1 and 1, pulled up by 1, mu = 0.5")
             .enumerated(),
         Case::new("feasible by 4e-6", near, two(hair))
             .parameters("`M = [1 -1; -1 1]`, `q = (-1, 1 + 2^-18)`")
@@ -69,7 +69,7 @@ pub fn cases() -> Vec<Case> {
             .parameters("`M = [-1 1/2; 0 1]`, `q = -1`")
             .enumerated(),
         Case::new("not Q0, of order 6", open, blocks())
-            .parameters("three such blocks")
+            .parameters("three blocks `[-1 1/2; 0 1]` on the diagonal of `M`, `q = -1`")
             .enumerated(),
     ]
 }
