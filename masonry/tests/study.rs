@@ -3,21 +3,23 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
+#[path = "study/program.rs"]
+mod program;
+#[path = "study/words.rs"]
+mod words;
+
 use std::collections::BTreeSet;
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
 use std::time::Duration;
 
 use lcp::{Refinement, Status};
 use masonry::model::Plane;
-use masonry::output::{study as output, svg};
+use masonry::output::study as output;
 use masonry::scene::{
     Block, Brick, Joint, Load, Material, Movement, Route, Scene, Stage, Support, Wall,
 };
 use masonry::study::{End, MeshErrors, Record, Settings, Study, StudyError, study};
 use masonry::units::Units;
-use serde_json::Value;
 
 const ROUTES: [Route; 6] =
     [Route::Lemke, Route::Interior, Route::Newton, Route::Qp, Route::Pgs, Route::Alm];
@@ -237,84 +239,6 @@ fn finer_meshes_come_nearer_to_the_finest() {
 }
 
 #[test]
-fn meshes_have_names() {
-    let names = vec!["one element a brick".to_owned()];
-    let named = Settings { mesh_names: names, meshes: vec![1, 2, 4], ..settings() };
-    let named = Settings { time_limit: Duration::ZERO, ..named };
-    let study = studied(&wall(), &named);
-    let names: Vec<&str> = study.meshes.iter().map(|mesh| mesh.name.as_str()).collect();
-    assert_eq!(
-        names,
-        ["one element a brick", "mesh 2 (2 times as fine)", "mesh 4 (4 times as fine)"]
-    );
-    let text = output::table(&study);
-    assert!(text.contains("ran out to 1e-3 on one element a brick"), "{text}");
-    let study = studied(&block(0.1), &settings());
-    assert_eq!(study.meshes[0].name, "mesh 1 (that of the scene)");
-}
-
-/// Pictures and sentences tell who has no answer, and where.
-#[test]
-fn routes_without_an_answer_are_named() {
-    let mut study = studied(&wall(), &settings());
-    let failed = |it: &Record| it.route == Route::Pgs && (it.mesh != 2 || it.tolerance < 1e-7);
-    for record in study.records.iter_mut().filter(|it| failed(it)) {
-        record.end = End::Ended(Status::Stalled);
-    }
-    let tightest = svg::mesh(&study).unwrap();
-    assert!(tightest.contains("pgs, no answer on 1, 4<"), "{tightest}");
-    let routes = svg::accuracy(&study).unwrap();
-    assert!(
-        routes.contains("pgs: Stalled") && routes.contains("1e-3 (first) to 1e-12"),
-        "{routes}"
-    );
-    let cost = &output::summary(&study)[0];
-    assert!(cost.ends_with("; pgs (Stalled) does not reach it."), "{cost}");
-    let short = output::in_short(&study).unwrap();
-    assert!(short.starts_with("On mesh 1 (that of the scene), "), "{short}");
-    assert!(short.contains("below 1e-6") && short.contains("the mesh errs by"), "{short}");
-}
-
-#[test]
-fn the_picture_of_springs_says_what_failed_and_needs_a_bias() {
-    let mut study = studied(&wall(), &Settings { meshes: vec![1], ..settings() });
-    study.springs[2].end = End::Ended(Status::Stalled);
-    let picture = svg::springs(&study).unwrap();
-    assert!(picture.contains("(Stalled).") && picture.contains("a residual of 1e-6"), "{picture}");
-    for springs in &mut study.springs {
-        springs.share = None;
-    }
-    let legend = |text: &str| text.contains("share of the load");
-    assert!(legend(&picture) && !legend(&svg::springs(&study).unwrap()), "no line without points");
-    for springs in &mut study.springs {
-        springs.bias = None;
-    }
-    assert_eq!(svg::springs(&study), None);
-    let rows = output::springs_csv(&study).unwrap();
-    assert_eq!(rows.lines().count(), 1 + 3);
-    assert!(rows.lines().nth(3).unwrap().contains(",Stalled,"), "{rows}");
-}
-
-/// The picture of the last digits has what the table has.
-#[test]
-fn the_last_digits_are_drawn_beside_the_route() {
-    let mut study = studied(&wall(), &settings());
-    let text = svg::digits(&study).unwrap();
-    let document = roxmltree::Document::parse(&text).unwrap();
-    let lines: Vec<_> = document.descendants().filter_map(|it| it.attribute("points")).collect();
-    let points = |count: usize| lines.iter().filter(|it| it.split(' ').count() == count).count();
-    assert!(points(3) >= 4, "three meshes, and the routes on all: {lines:?}");
-    let route = study.meshes[0].reference.as_ref().unwrap().route.name();
-    assert!(text.contains("whole solves in") && text.contains(route));
-    let table = output::table(&study);
-    assert!(table.contains(&format!("all, by {route}")), "{table}");
-    for mesh in &mut study.meshes {
-        mesh.refinings.clear();
-    }
-    assert_eq!(svg::digits(&study), None);
-}
-
-#[test]
 fn the_thrust_is_that_of_the_closed_form() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/wedge.toml");
     let study = studied(&Scene::read(&path).unwrap(), &settings());
@@ -416,121 +340,4 @@ fn settings_out_of_range_are_refused() {
     ));
     let error = study(&wall().thickness(-1.0), &settings(), &mut |_| {}).unwrap_err();
     assert!(matches!(error, StudyError::Scene(_)));
-}
-
-/// An empty directory of this test alone, with the scene in it.
-fn with_scene(test: &str, scene: &Scene) -> (PathBuf, String) {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("study").join(test);
-    if path.exists() {
-        fs::remove_dir_all(&path).unwrap();
-    }
-    fs::create_dir_all(&path).unwrap();
-    let file = path.join("scene.toml");
-    fs::write(&file, scene.to_toml().unwrap()).unwrap();
-    let file = file.to_str().unwrap().to_owned();
-    (path, file)
-}
-
-fn masonry(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_masonry")).arg("study").args(arguments).output().unwrap()
-}
-
-const QUICK: [&str; 6] =
-    ["--tolerances", "1e-4,1e-8", "--meshes", "1,2,3", "--springs", "1e-6,1e-4"];
-
-fn saved_machine(object: &Value) -> &str {
-    object["machine"].as_str().unwrap()
-}
-
-#[test]
-fn the_program_writes_tables_and_pictures() {
-    let (directory, scene) = with_scene("solved", &wall());
-    let out = directory.join("out").join("deeper");
-    let mut arguments = vec![scene.as_str(), "--out", out.to_str().unwrap(), "--json"];
-    arguments.extend(QUICK);
-    let run = masonry(&arguments);
-    assert_eq!(run.status.code(), Some(0));
-    assert!(run.stderr.is_empty());
-    let object: Value = serde_json::from_slice(&run.stdout).unwrap();
-    assert_eq!(object["records"].as_array().unwrap().len(), 3 * ROUTES.len() * 2);
-    assert_eq!(object["meshes"].as_array().unwrap().len(), 3);
-    assert_eq!(object["springs"].as_array().unwrap().len(), 2);
-    assert_eq!(object["units"]["thrust"], "N");
-    assert_eq!(object["records"][0]["end"]["ended"], "Solved");
-    let sentence = object["summary"][0].as_str().unwrap();
-    assert!(sentence.starts_with("Beside 1e-4, 1e-8 costs ") && sentence.contains("lemke"));
-
-    let names: BTreeSet<&str> =
-        object["files"].as_array().unwrap().iter().map(|it| it.as_str().unwrap()).collect();
-    let all = [
-        "accuracy.svg",
-        "digits.svg",
-        "mesh.svg",
-        "refinement.csv",
-        "springs.csv",
-        "springs.svg",
-        "study.csv",
-        "study.json",
-    ];
-    assert_eq!(names, BTreeSet::from(all));
-    for picture in ["accuracy.svg", "digits.svg", "mesh.svg", "springs.svg"] {
-        let text = fs::read_to_string(out.join(picture)).unwrap();
-        let document = roxmltree::Document::parse(&text).unwrap();
-        assert!(!text.contains("NaN") && !text.contains("inf"), "{picture}");
-        let lines = document.descendants().filter(|it| it.has_tag_name("polyline"));
-        assert!(lines.count() >= 3, "{picture}");
-    }
-    let table = fs::read_to_string(out.join("study.csv")).unwrap();
-    let rows: Vec<&str> = table.lines().collect();
-    assert_eq!(rows.len(), 1 + 3 * ROUTES.len() * 2);
-    let columns = rows[0].split(',').count();
-    assert!(rows.iter().all(|row| row.split(',').count() == columns));
-    let last = fs::read_to_string(out.join("refinement.csv")).unwrap();
-    assert_eq!(last.lines().count(), 1 + 3 * 3, "{last}");
-    assert!(last.lines().all(|row| row.split(',').count() == 6));
-    let springs = fs::read_to_string(out.join("springs.csv")).unwrap();
-    assert_eq!(springs.lines().count(), 1 + 2, "{springs}");
-    assert!(springs.lines().all(|row| row.split(',').count() == 11));
-    assert!(saved_machine(&object).contains("thread"));
-    let saved: Value =
-        serde_json::from_str(&fs::read_to_string(out.join("study.json")).unwrap()).unwrap();
-    assert_eq!(saved["records"], object["records"]);
-}
-
-#[test]
-fn what_does_not_stand_is_code_one_and_has_its_tables() {
-    let (directory, scene) = with_scene("falls", &block(0.3));
-    let out = directory.join("out");
-    let mut arguments = vec![scene.as_str(), "--out", out.to_str().unwrap()];
-    arguments.extend(QUICK);
-    let run = masonry(&arguments);
-    assert_eq!(run.status.code(), Some(1));
-    let text = String::from_utf8(run.stdout).unwrap();
-    assert!(text.starts_with("Block: what accuracy costs") && text.contains("does not reach"));
-    let files: BTreeSet<_> = fs::read_dir(&out)
-        .unwrap()
-        .map(|it| it.unwrap().file_name().into_string().unwrap())
-        .collect();
-    let expected = ["springs.csv", "study.csv", "study.json"].map(str::to_owned);
-    assert_eq!(files, BTreeSet::from(expected), "nothing to draw");
-}
-
-#[test]
-fn bad_input_is_code_two() {
-    let (directory, scene) = with_scene("bad", &block(0.1));
-    let out = directory.join("out");
-    let out = out.to_str().unwrap();
-    for arguments in [
-        vec!["none.toml", "--out", out],
-        vec![&scene, "--out", out, "--tolerances", "2"],
-        vec![&scene, "--out", out, "--meshes", "0"],
-        vec![&scene, "--out", out, "--routes", "fast"],
-        vec![&scene, "--out", out, "--time-limit", "nan"],
-        vec![&scene],
-    ] {
-        let run = masonry(&arguments);
-        assert_eq!(run.status.code(), Some(2), "{arguments:?}");
-        assert!(run.stdout.is_empty() && !run.stderr.is_empty());
-    }
-    assert!(!Path::new(out).exists());
 }

@@ -1,0 +1,128 @@
+//! The program that writes the tables and pictures of a study.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use masonry::scene::Scene;
+use serde_json::Value;
+
+use super::{ROUTES, block, wall};
+
+/// An empty directory of this test alone, with the scene in it.
+fn with_scene(test: &str, scene: &Scene) -> (PathBuf, String) {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("study").join(test);
+    if path.exists() {
+        fs::remove_dir_all(&path).unwrap();
+    }
+    fs::create_dir_all(&path).unwrap();
+    let file = path.join("scene.toml");
+    fs::write(&file, scene.to_toml().unwrap()).unwrap();
+    let file = file.to_str().unwrap().to_owned();
+    (path, file)
+}
+
+fn masonry(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_masonry")).arg("study").args(arguments).output().unwrap()
+}
+
+const QUICK: [&str; 6] =
+    ["--tolerances", "1e-4,1e-8", "--meshes", "1,2,3", "--springs", "1e-6,1e-4"];
+
+fn saved_machine(object: &Value) -> &str {
+    object["machine"].as_str().unwrap()
+}
+
+#[test]
+fn the_program_writes_tables_and_pictures() {
+    let (directory, scene) = with_scene("solved", &wall());
+    let out = directory.join("out").join("deeper");
+    let mut arguments = vec![scene.as_str(), "--out", out.to_str().unwrap(), "--json"];
+    arguments.extend(QUICK);
+    let run = masonry(&arguments);
+    assert_eq!(run.status.code(), Some(0));
+    assert!(run.stderr.is_empty());
+    let object: Value = serde_json::from_slice(&run.stdout).unwrap();
+    assert_eq!(object["records"].as_array().unwrap().len(), 3 * ROUTES.len() * 2);
+    assert_eq!(object["meshes"].as_array().unwrap().len(), 3);
+    assert_eq!(object["springs"].as_array().unwrap().len(), 2);
+    assert_eq!(object["units"]["thrust"], "N");
+    assert_eq!(object["records"][0]["end"]["ended"], "Solved");
+    let sentence = object["summary"][0].as_str().unwrap();
+    assert!(sentence.starts_with("Beside 1e-4, 1e-8 costs ") && sentence.contains("lemke"));
+
+    let names: BTreeSet<&str> =
+        object["files"].as_array().unwrap().iter().map(|it| it.as_str().unwrap()).collect();
+    let all = [
+        "accuracy.svg",
+        "digits.svg",
+        "mesh.svg",
+        "refinement.csv",
+        "springs.csv",
+        "springs.svg",
+        "study.csv",
+        "study.json",
+    ];
+    assert_eq!(names, BTreeSet::from(all));
+    for picture in ["accuracy.svg", "digits.svg", "mesh.svg", "springs.svg"] {
+        let text = fs::read_to_string(out.join(picture)).unwrap();
+        let document = roxmltree::Document::parse(&text).unwrap();
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{picture}");
+        let lines = document.descendants().filter(|it| it.has_tag_name("polyline"));
+        assert!(lines.count() >= 3, "{picture}");
+    }
+    let table = fs::read_to_string(out.join("study.csv")).unwrap();
+    let rows: Vec<&str> = table.lines().collect();
+    assert_eq!(rows.len(), 1 + 3 * ROUTES.len() * 2);
+    let columns = rows[0].split(',').count();
+    assert!(rows.iter().all(|row| row.split(',').count() == columns));
+    let last = fs::read_to_string(out.join("refinement.csv")).unwrap();
+    assert_eq!(last.lines().count(), 1 + 3 * 3, "{last}");
+    assert!(last.lines().all(|row| row.split(',').count() == 6));
+    let springs = fs::read_to_string(out.join("springs.csv")).unwrap();
+    assert_eq!(springs.lines().count(), 1 + 2, "{springs}");
+    assert!(springs.lines().all(|row| row.split(',').count() == 11));
+    assert!(saved_machine(&object).contains("thread"));
+    let saved: Value =
+        serde_json::from_str(&fs::read_to_string(out.join("study.json")).unwrap()).unwrap();
+    assert_eq!(saved["records"], object["records"]);
+}
+
+#[test]
+fn what_does_not_stand_is_code_one_and_has_its_tables() {
+    let (directory, scene) = with_scene("falls", &block(0.3));
+    let out = directory.join("out");
+    let mut arguments = vec![scene.as_str(), "--out", out.to_str().unwrap()];
+    arguments.extend(QUICK);
+    let run = masonry(&arguments);
+    assert_eq!(run.status.code(), Some(1));
+    let text = String::from_utf8(run.stdout).unwrap();
+    assert!(text.starts_with("Block: what accuracy costs") && text.contains("does not reach"));
+    let files: BTreeSet<_> = fs::read_dir(&out)
+        .unwrap()
+        .map(|it| it.unwrap().file_name().into_string().unwrap())
+        .collect();
+    let expected = ["springs.csv", "study.csv", "study.json"].map(str::to_owned);
+    assert_eq!(files, BTreeSet::from(expected), "nothing to draw");
+}
+
+#[test]
+fn bad_input_is_code_two() {
+    let (directory, scene) = with_scene("bad", &block(0.1));
+    let out = directory.join("out");
+    let out = out.to_str().unwrap();
+    for arguments in [
+        vec!["none.toml", "--out", out],
+        vec![&scene, "--out", out, "--tolerances", "2"],
+        vec![&scene, "--out", out, "--meshes", "0"],
+        vec![&scene, "--out", out, "--routes", "fast"],
+        vec![&scene, "--out", out, "--time-limit", "nan"],
+        vec![&scene],
+    ] {
+        let run = masonry(&arguments);
+        assert_eq!(run.status.code(), Some(2), "{arguments:?}");
+        assert!(run.stdout.is_empty() && !run.stderr.is_empty());
+    }
+    assert!(!Path::new(out).exists());
+}
