@@ -35,7 +35,8 @@ nothing of the methods; asked for were residuals of 1e-10, of `alm` 1e-8.
   its own loads to a thousandth. Where displacements are as much less certain as a scene says (slender bricks: by 1e-8 of the square of the ratio; wedges: by one over the sine
   of the angle) the same holds of energy and known displacements. The grey lines have all of that.
 * **Expected** is what is known: an answer, none (a load above its limit), or neither (open). Nearer to its limit than what is
-  asked for, a scene above it is one below it to these numbers, and may be called solved.
+  asked for, a scene above it is one below it to these numbers, and may be called solved: up to twenty times that, since the load is
+  not all that the equations have.
 
 Written by `cargo bench --bench stability -- --write`, which fails if an answer is worse than what is promised, or if something is called
 solved that cannot stand. A few values of sweeps are tested by `cargo test --test hard_cases`.
@@ -96,8 +97,13 @@ fn write_counts(text: &mut String, themes: &[Theme]) -> fmt::Result {
         row(text, words, &|it, end| it == expected && matches!(end, Reached::GaveUp { .. }))?;
     }
     row(text, "not treated, or too large to try", &|_, end| matches!(end, Reached::Nothing))?;
-    // The bench has failed otherwise.
-    row(text, "called solved, and worse than promised", &|_, _| false)
+    let points = || themes.iter().flat_map(|theme| &theme.sweeps).flat_map(|(_, points)| points);
+    let worse = ROUTES.map(|route| {
+        let words = format!(" by {route:?}: ");
+        points().flat_map(|it| &it.wrong).filter(|line| line.contains(&words)).count()
+    });
+    let cells = worse.map(|it| it.to_string());
+    writeln!(text, "| called solved, and worse than promised | {} |", cells.join(" | "))
 }
 
 fn write_theme(text: &mut String, theme: &Theme) -> fmt::Result {

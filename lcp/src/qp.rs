@@ -63,9 +63,8 @@ use crate::{Contact2d, Error, HorizontalLcp, Lcp, MixedLcp, Observer, Solution, 
 /// [`Solved`](Status::Solved) and `Infeasible` are said only after a check in the data as given.
 ///
 /// **Failure**: `Stalled` and [`NumericalTrouble`](Status::NumericalTrouble) for data so badly
-/// conditioned that neither point nor proof comes out. Of random contact problems without friction and with
-/// stiffnesses that differ by 1e6 between 58 and 92 of 100 were solved: the interior point is too far off to
-/// tell which contacts are closed. Then [`Lemke`](crate::Lemke) and
+/// conditioned that neither point nor proof comes out: where stiffnesses differ by 1e6 the interior point may be
+/// too far off to tell which contacts are closed. Then [`Lemke`](crate::Lemke) and
 /// [`InteriorPoint`](crate::InteriorPoint) are the methods to take, as [`Auto`](crate::Auto) does.
 ///
 /// **Cost**: 10 to 20 factorisations of the sparse matrix `[K, C^T; C, -D]` for every program, and one for

@@ -21,7 +21,7 @@ pub(crate) fn lack_of_loads(
 ) -> f64 {
     let at = At::of(u, forces);
     let floating = lack::floating(scaled, statuses);
-    let lack_at = |at: &At| lack(scaled, at, statuses, &floating);
+    let lack_at = |at: &At| largest(scaled, at, statuses, &floating);
     let given = lack_at(&at);
     if given <= tolerance {
         return given;
@@ -29,7 +29,7 @@ pub(crate) fn lack_of_loads(
     refined(scaled, &at, statuses).map(|at| lack_at(&at)).fold(given, f64::min)
 }
 
-fn lack(scaled: &Scaled, at: &At, statuses: &[ContactStatus], floating: &[bool]) -> f64 {
+fn largest(scaled: &Scaled, at: &At, statuses: &[ContactStatus], floating: &[bool]) -> f64 {
     let gap_size = scaled.gap_size();
     let lack = Lack::extended(scaled, statuses, at, &Shifts::new(scaled), floating);
     let unbalanced = lack.unbalanced.iter().map(|v| v.rounded().abs());

@@ -174,15 +174,13 @@ impl<'a> Chain<'a> {
     fn refined(&mut self, mut attempt: Attempt) -> Result<Attempt, SolveError> {
         let Self { model, system, .. } = *self;
         let Some(state) = &attempt.state else { return Ok(attempt) };
-        let sparse = match self.sparse.take() {
-            Some(sparse) => sparse,
-            None => Sparse::new(system)?,
-        };
+        let sparse = self.sparse()?;
         let problem = &sparse.problem;
         let given = sparse.state((model, system), state);
         let tolerance = self.request.tolerance;
+        let verified = self.clock.time("refinement", self.observer, || problem.verify(&given));
         // States that overflow are not refined.
-        let refined = problem.verify(&given).ok().map(|it| it.refined.rounded(problem));
+        let refined = verified.ok().map(|it| it.refined.rounded(problem));
         let judged = refined.map(|state| (problem.residuals(&state), state));
         if let Some((residuals, refined)) = judged.filter(|(it, _)| it.worst() <= tolerance) {
             let state = recover::from_displacements(
@@ -208,10 +206,7 @@ impl<'a> Chain<'a> {
 
     fn on_sparse(&mut self, route: Route) -> Result<Attempt, SolveError> {
         let Self { model, system, .. } = *self;
-        let sparse = match self.sparse.take() {
-            Some(sparse) => sparse,
-            None => self.clock.time("sparse form", self.observer, || Sparse::new(system))?,
-        };
+        let sparse = self.sparse()?;
         let answer = match route {
             Route::Newton => self.timed(&Newton { sparse: &sparse }),
             Route::Qp => self.timed(&Programs { sparse: &sparse }),
@@ -237,6 +232,15 @@ impl<'a> Chain<'a> {
         });
         self.sparse = Some(sparse);
         Ok(self.concluded(answer, state))
+    }
+
+    /// The sparse problem, built once; who takes it gives it back.
+    fn sparse(&mut self) -> Result<Sparse, lcp::Error> {
+        let system = self.system;
+        match self.sparse.take() {
+            Some(sparse) => Ok(sparse),
+            None => self.clock.time("sparse form", self.observer, || Sparse::new(system)),
+        }
     }
 
     fn timed(&mut self, method: &dyn Method) -> Result<Answer, SolveError> {
