@@ -18,13 +18,10 @@ pub(super) struct At {
 
 impl At {
     pub(super) fn from(scaled: &Scaled, state: &ContactState) -> Self {
-        let force = scaled.force();
-        let forces = state.t_n.iter().zip(&state.t_t).zip(&scaled.points).map(|((n, t), point)| {
-            let t = if point.mu > 0.0 { *t } else { 0.0 };
-            [n / force, t / force].map(Extended::from)
-        });
-        let u = scaled.of_displacements(&state.u).into_iter().map(Extended::from);
-        Self { u: u.collect(), forces: forces.collect() }
+        let (u, mut forces) = scaled.of_state(state);
+        let smooth = forces.iter_mut().zip(&scaled.points).filter(|(_, point)| point.mu <= 0.0);
+        smooth.for_each(|((_, t_t), _)| *t_t = 0.0);
+        Self::of(&u, &forces)
     }
 
     pub(super) fn of(u: &[f64], forces: &[(f64, f64)]) -> Self {

@@ -15,9 +15,9 @@ use crate::study::{Settings, machine, study};
 pub(super) struct StudyArgs {
     /// The scene file (TOML).
     scene: PathBuf,
-    /// The directory to write into; created when missing.
+    /// The directory to write tables and pictures into, if any; created when missing.
     #[arg(long)]
-    out: PathBuf,
+    out: Option<PathBuf>,
     /// The routes, separated by commas.
     #[arg(long, value_delimiter = ',')]
     routes: Option<Vec<Route>>,
@@ -47,7 +47,10 @@ pub(super) fn run(args: &StudyArgs) -> Result<u8, Failure> {
     });
     progress.clear();
     let study = study?;
-    let written = output::write(&study, &args.out);
+    let written = match &args.out {
+        Some(out) => output::write(&study, out),
+        None => Ok(Vec::new()),
+    };
     // What was computed is printed even when a file could not be written.
     let files = written.as_deref().unwrap_or_default();
     if args.json {

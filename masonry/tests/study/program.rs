@@ -108,6 +108,16 @@ fn what_does_not_stand_is_code_one_and_has_its_tables() {
 }
 
 #[test]
+fn without_a_directory_there_is_the_report_alone() {
+    let (folder, scene) = with_scene("report_alone", &block(0.1));
+    let output = masonry(&[&[scene.as_str()], &QUICK[..]].concat());
+    assert_eq!(output.status.code(), Some(0));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("what accuracy costs") && !text.contains("wrote"), "{text}");
+    assert_eq!(fs::read_dir(folder).unwrap().count(), 1);
+}
+
+#[test]
 fn bad_input_is_code_two() {
     let (directory, scene) = with_scene("bad", &block(0.1));
     let out = directory.join("out");
@@ -118,7 +128,7 @@ fn bad_input_is_code_two() {
         vec![&scene, "--out", out, "--meshes", "0"],
         vec![&scene, "--out", out, "--routes", "fast"],
         vec![&scene, "--out", out, "--time-limit", "nan"],
-        vec![&scene],
+        vec!["--out", out],
     ] {
         let run = masonry(&arguments);
         assert_eq!(run.status.code(), Some(2), "{arguments:?}");
