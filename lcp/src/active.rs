@@ -6,11 +6,10 @@ mod crossover;
 mod original;
 mod scaled;
 mod search;
-mod units;
 
 pub(crate) use condensed::{Condensed, Springs};
 pub(crate) use crossover::Effort;
-pub(crate) use original::{Original, lack_of_pairs, lack_of_state};
+pub(crate) use original::{Original, confirmed_pairs, confirmed_state};
 pub(crate) use scaled::{Point, Scaled};
 pub(crate) use search::Search;
 

@@ -168,12 +168,13 @@ fn in_file(path: &Path, error: &dyn std::fmt::Display) -> Failure {
 }
 
 fn residual_lines(residuals: &Residuals) -> String {
-    let Residuals { equation, feasibility, complementarity, natural } = residuals;
+    let Residuals { equation, feasibility, complementarity, natural, loads } = residuals;
     let named = [
         ("equation", equation),
         ("feasibility", feasibility),
         ("complementarity", complementarity),
         ("natural", natural),
+        ("loads", loads),
     ];
     named.iter().fold("residuals, relative to the data\n".to_owned(), |mut lines, (name, value)| {
         let _ = writeln!(lines, "  {name:<16} {value:.1e}");

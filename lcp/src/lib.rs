@@ -59,6 +59,7 @@
 mod active;
 mod auto;
 mod basis;
+mod certify;
 #[cfg(feature = "cli")]
 pub mod cli;
 mod error;
@@ -71,6 +72,7 @@ mod interior;
 pub mod io;
 mod lemke;
 mod linear;
+mod lower;
 mod matrix;
 mod newton;
 mod pgs;
@@ -79,7 +81,6 @@ mod problem;
 mod qp;
 mod random;
 mod refine;
-mod residual;
 mod scaling;
 mod settings;
 mod solution;
@@ -90,6 +91,7 @@ pub use faer;
 
 pub use auto::{Auto, AutoSettings, Choice};
 pub use basis::{Basis, Side};
+pub use certify::Residuals;
 pub use error::Error;
 pub use extended::Extended;
 pub use interior::{InteriorPoint, InteriorPointSettings};
@@ -112,7 +114,6 @@ pub use qp::{
     ContactForm, QuadraticProgram, QuadraticProgramSettings, SoftConstraints, SoftSolution,
 };
 pub use refine::{ContactStatus, Margin, Refined, Refinement, Verified};
-pub use residual::Residuals;
 pub use settings::{Covering, LemkeSettings, WarmStart};
 pub use solution::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Info, Perturbation, PivotRecord, Ray,

@@ -292,8 +292,7 @@ impl Solver<Lcp> for SemismoothNewton {
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         self.solve_judged(problem, observer, |z, w| {
-            let general: HorizontalLcp = problem.clone().into();
-            ((z.to_vec(), w.to_vec()), general.residuals(z, w))
+            ((z.to_vec(), w.to_vec()), problem.residuals(z, w))
         })
     }
 }

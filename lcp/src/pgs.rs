@@ -229,5 +229,5 @@ fn residuals_of_rows(point: &Point<'_>) -> Residuals {
         if error > 0.0 { error / size } else { 0.0 }
     });
     let equation = relative.fold(0.0, f64::max);
-    Residuals { equation, feasibility: 0.0, complementarity: 0.0, natural: 0.0 }
+    Residuals { equation, ..Residuals::default() }
 }

@@ -12,7 +12,9 @@ mod standard;
 pub use bound::{ErrorBound, Monotonicity};
 pub use boxed::BoxedLcp;
 pub use contact::{Bedding, Contact2d, ContactState};
-pub(crate) use contact::{check_epsilon, column_of};
+pub(crate) use contact::{
+    check_epsilon, column_factors, column_of, diagonal, median, power_of_two,
+};
 pub use disguised::StandardForm;
 pub use friction::{ContactForces, Friction2d};
 pub use horizontal::HorizontalLcp;

@@ -4,7 +4,6 @@ mod anderson;
 mod contact;
 mod coulomb;
 mod definite;
-mod drift;
 mod farkas;
 mod form;
 mod interior;
@@ -31,9 +30,11 @@ pub use settings::{ContactForm, QuadraticProgramSettings, SoftConstraints};
 pub use soft::SoftSolution;
 use start::Rows;
 
-use crate::active::{lack_of_pairs, lack_of_state};
+use crate::active::{confirmed_pairs, confirmed_state};
 use crate::solve::Monitor;
-use crate::{Contact2d, Error, HorizontalLcp, Lcp, MixedLcp, Observer, Solution, Solver, Status};
+use crate::{
+    Contact2d, Error, HorizontalLcp, Lcp, MixedLcp, Observer, Residuals, Solution, Solver, Status,
+};
 
 /// Complementarity problems that are the conditions of a convex quadratic program.
 ///
@@ -150,14 +151,14 @@ impl QuadraticProgram {
         } else {
             Ok(End::Failed)
         };
-        let lack = |it: &Candidate| lack_of(contact, it, settings.tolerance);
-        Ok(self.concluded(best, end, &monitor, (proof, &lack)))
+        let confirm = |it: &Candidate| confirmed(contact, it, settings.tolerance);
+        Ok(self.concluded(best, end, &monitor, (proof, &confirm)))
     }
 
     fn solve_form(
         &self,
         form: &Form,
-        (general, lack): (&HorizontalLcp, &Lack<'_>),
+        (general, confirm): (&HorizontalLcp, &Confirm<'_>),
         (rows, assemble): (&Rows, &Assemble<'_>),
         observer: &mut Observer<'_>,
     ) -> Solution {
@@ -180,7 +181,7 @@ impl QuadraticProgram {
             }
         };
         let search = || farkas_vector(general, self.effort(began));
-        self.concluded(best, end, &monitor, (Proof::new(&search), lack))
+        self.concluded(best, end, &monitor, (Proof::new(&search), confirm))
     }
 
     /// The solution that the best point is, or the proof that there is none.
@@ -189,12 +190,12 @@ impl QuadraticProgram {
         best: Best,
         end: Result<End, Status>,
         monitor: &Monitor<'_>,
-        (proof, lack): (Proof<'_>, &Lack<'_>),
+        (proof, confirm): (Proof<'_>, &Confirm<'_>),
     ) -> Solution {
         let tolerance = self.settings.tolerance;
         let mut farkas = None;
-        // Residuals may be small for a point that is far away.
-        let is_solved = best.residual <= tolerance && lack(&best.candidate) <= tolerance;
+        let confirmed = (best.residual <= tolerance).then(|| confirm(&best.candidate));
+        let is_solved = confirmed.is_some_and(|residuals| residuals.worst() <= tolerance);
         let otherwise = match end {
             _ if is_solved => Status::Solved,
             Err(status @ (Status::Cancelled | Status::TimeLimit)) => status,
@@ -212,8 +213,9 @@ impl QuadraticProgram {
         };
         let Best { candidate, factorisations, .. } = best;
         let point = (candidate.t, candidate.y);
-        let mut solution = Solution::judged(point, candidate.residuals, tolerance, otherwise);
-        solution.status = otherwise;
+        let residuals = confirmed.unwrap_or(candidate.residuals);
+        let otherwise = if is_solved { Status::Stalled } else { otherwise };
+        let mut solution = Solution::judged(point, residuals, tolerance, otherwise);
         solution.contact = candidate.contact;
         solution.farkas = farkas;
         solution.info.solver = Self::NAME;
@@ -224,10 +226,11 @@ impl QuadraticProgram {
         solution
     }
 
-    fn lack_of_standard(&self, problem: &Lcp, z: &[f64], w: &[f64]) -> f64 {
+    fn confirmed_standard(&self, problem: &Lcp, z: &[f64], w: &[f64]) -> Residuals {
         let (m, q) = (problem.m().clone(), problem.q().to_vec());
         let mixed = MixedLcp::new(m, q, vec![false; problem.order()]);
-        mixed.map_or(f64::INFINITY, |mixed| lack_of_pairs(&mixed, (z, w), self.settings.tolerance))
+        let tolerance = self.settings.tolerance;
+        mixed.map_or(Residuals::infinite(), |mixed| confirmed_pairs(&mixed, (z, w), tolerance))
     }
 
     /// How exact the interior points have to be: the polish needs to tell apart what vanishes and what
@@ -242,13 +245,13 @@ impl QuadraticProgram {
     }
 }
 
-/// What a candidate lacks in units of the loads.
-type Lack<'a> = dyn Fn(&Candidate) -> f64 + 'a;
+/// The residuals of a candidate that is about to be called solved.
+type Confirm<'a> = dyn Fn(&Candidate) -> Residuals + 'a;
 
 /// Of a contact problem.
-fn lack_of(contact: &Contact2d, candidate: &Candidate, tolerance: f64) -> f64 {
+fn confirmed(contact: &Contact2d, candidate: &Candidate, tolerance: f64) -> Residuals {
     let state = candidate.contact.as_ref();
-    state.map_or(f64::INFINITY, |state| lack_of_state(contact, state, tolerance))
+    state.map_or(Residuals::infinite(), |state| confirmed_state(contact, state, tolerance))
 }
 
 fn refused(reason: &str) -> Error {
@@ -274,9 +277,9 @@ impl Solver<Lcp> for QuadraticProgram {
         let assemble = |point: &Point, places: Option<&[_]>| {
             standard_candidate(&form, &general, &|z, w| (z, w), (point, places))
         };
-        let lack = |it: &Candidate| self.lack_of_standard(problem, &it.t, &it.y);
+        let confirm = |it: &Candidate| self.confirmed_standard(problem, &it.t, &it.y);
         let rows = Rows::of_pairs(0..problem.order());
-        Ok(self.solve_form(&form, (&general, &lack), (&rows, &assemble), observer))
+        Ok(self.solve_form(&form, (&general, &confirm), (&rows, &assemble), observer))
     }
 }
 
@@ -303,12 +306,12 @@ impl Solver<HorizontalLcp> for QuadraticProgram {
         let assemble = |point: &Point, places: Option<&[_]>| {
             standard_candidate(&form, problem, &to_pairs, (point, places))
         };
-        let lack = |it: &Candidate| {
+        let confirm = |it: &Candidate| {
             let (z, w) = standard.from_pairs(&it.t, &it.y);
-            self.lack_of_standard(standard.lcp(), &z, &w)
+            self.confirmed_standard(standard.lcp(), &z, &w)
         };
         let rows = Rows::of_standard(&standard);
-        Ok(self.solve_form(&form, (problem, &lack), (&rows, &assemble), observer))
+        Ok(self.solve_form(&form, (problem, &confirm), (&rows, &assemble), observer))
     }
 }
 
@@ -328,9 +331,10 @@ impl Solver<MixedLcp> for QuadraticProgram {
         let assemble =
             |point: &Point, places: Option<&[_]>| mixed.candidate(problem, point, places);
         let rows = Rows::of_pairs((0..problem.order()).filter(|&i| !problem.free()[i]));
-        let lack = |it: &Candidate| lack_of_pairs(problem, (&it.t, &it.y), self.settings.tolerance);
+        let confirm =
+            |it: &Candidate| confirmed_pairs(problem, (&it.t, &it.y), self.settings.tolerance);
         let general = problem.to_general();
-        Ok(self.solve_form(&mixed.form, (&general, &lack), (&rows, &assemble), observer))
+        Ok(self.solve_form(&mixed.form, (&general, &confirm), (&rows, &assemble), observer))
     }
 }
 

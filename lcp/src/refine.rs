@@ -3,11 +3,10 @@
 mod at;
 mod lack;
 mod law;
-mod loads;
 mod solve;
 
 pub use law::Margin;
-pub(crate) use loads::lack_of_loads;
+pub(crate) use solve::{Exact, refined_states};
 
 use at::At;
 use solve::solved;

@@ -375,9 +375,8 @@ impl Solution {
         tolerance: f64,
         otherwise: Status,
     ) -> Self {
-        let is_solved = residuals.worst() <= tolerance;
         Self {
-            status: if is_solved { Status::Solved } else { otherwise },
+            status: residuals.verdict(tolerance, otherwise),
             t,
             y,
             basis: None,

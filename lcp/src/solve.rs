@@ -3,9 +3,10 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+use crate::lower::{Lowered, judged_by};
 use crate::{
-    Basis, BoxedLcp, Contact2d, Covering, Error, Friction2d, HorizontalLcp, Lcp, Lemke,
-    LemkeSettings, MixedLcp, Progress, Side, Solution, Status, WarmStart,
+    Basis, Contact2d, Covering, Error, HorizontalLcp, Lemke, LemkeSettings, Progress, Side,
+    Solution, Status, WarmStart,
 };
 
 /// A method that treats problems of type `P`.
@@ -63,75 +64,15 @@ impl Lemke {
     }
 }
 
-impl Solver<HorizontalLcp> for Lemke {
+/// On the general form of the problem, and judged by the problem itself.
+impl<P: Lowered> Solver<P> for Lemke {
     fn name(&self) -> &'static str {
         Self::NAME
     }
 
-    fn solve_observed(
-        &self,
-        problem: &HorizontalLcp,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
-        self.solve_iterating(problem, observer)
-    }
-}
-
-impl Solver<Lcp> for Lemke {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn solve_observed(
-        &self,
-        problem: &Lcp,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
-        self.solve_iterating(&problem.clone().into(), observer)
-    }
-}
-
-impl Solver<Friction2d> for Lemke {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn solve_observed(
-        &self,
-        problem: &Friction2d,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
-        self.solve_iterating(&problem.standard().clone().into(), observer)
-    }
-}
-
-/// On the problem of [`MixedLcp::to_general`].
-impl Solver<MixedLcp> for Lemke {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn solve_observed(
-        &self,
-        problem: &MixedLcp,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
-        self.solve_iterating(&problem.to_general(), observer)
-    }
-}
-
-/// On the problem of [`BoxedLcp::to_general`].
-impl Solver<BoxedLcp> for Lemke {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn solve_observed(
-        &self,
-        problem: &BoxedLcp,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
-        self.solve_iterating(&problem.to_general(), observer)
+    fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
+        let solution = self.solve_iterating(&problem.general(), observer)?;
+        Ok(judged_by(problem, solution, self.settings().tolerance))
     }
 }
 
@@ -161,13 +102,15 @@ impl Solver<Contact2d> for Lemke {
         let mut solution = Self::new(settings).solve_iterating(&mixed.to_general(), observer)?;
         let (z, _) = mixed.recover(&solution.t, &solution.y);
         let state = problem.from_mixed(&z);
+        let loads = solution.residuals.loads;
         solution.residuals = problem.residuals(&state);
+        if matches!(solution.status, Status::Solved | Status::AlmostSolved) {
+            solution.residuals.loads = solution.residuals.loads.min(loads);
+            solution.status =
+                solution.residuals.verdict(self.settings().tolerance, Status::AlmostSolved);
+        }
         (solution.t, solution.y) = problem.to_pairs(&state);
         solution.contact = Some(state);
-        let is_exact = solution.residuals.worst() <= self.settings().tolerance;
-        if solution.is_solved() && !is_exact {
-            solution.status = Status::AlmostSolved;
-        }
         // These belong to the pairs of the mixed problem.
         (solution.basis, solution.ray) = (None, None);
         solution.farkas = solution.farkas.map(|pi| problem.farkas_of_mixed(&pi));

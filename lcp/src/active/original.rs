@@ -2,7 +2,9 @@
 
 use super::crossover::nearest;
 use super::scaled::{Point, Scaled};
-use crate::refine::lack_of_loads;
+use crate::certify::{BoxedJudge, ContactJudge, Precision, StateOf};
+use crate::extended::Extended;
+use crate::refine::{Exact, refined_states};
 use crate::{Basis, Contact2d, ContactState, ContactStatus, MixedLcp, Residuals, Side};
 
 /// A point of the general form of a problem.
@@ -13,32 +15,83 @@ pub(crate) struct Judged {
     /// The state that it is, of a contact problem.
     pub(crate) contact: Option<ContactState>,
     pub(crate) residuals: Residuals,
-    /// The largest of the residuals, and of what the equations lack in units of the loads.
-    pub(crate) worst: f64,
 }
 
 impl Judged {
-    fn new((t, y): (Vec<f64>, Vec<f64>), residuals: Residuals, drift: f64) -> Self {
-        Self { t, y, contact: None, worst: residuals.worst().max(drift), residuals }
+    pub(crate) fn worst(&self) -> f64 {
+        self.residuals.worst()
     }
 }
 
-/// What a point lacks in units of the loads; or, where that is more than the tolerance, what the equations of its
-/// states then lack.
-pub(crate) fn lack_of_pairs(problem: &MixedLcp, (t, y): (&[f64], &[f64]), tolerance: f64) -> f64 {
+/// Displacements and forces of a contact problem in its own units.
+pub(crate) type At<'a> = (&'a [f64], &'a [(f64, f64)]);
+
+/// The judge of points of a scaled problem, in the data as given.
+pub(crate) trait Judge {
+    fn judged(&self, scaled: &Scaled, at: At<'_>, precision: Precision) -> Judged;
+
+    /// Residuals of displacements in units of the data and scaled forces, of twice the digits.
+    fn residuals_of(&self, scaled: &Scaled, at: &Exact) -> Residuals;
+}
+
+/// The verdict on a point about to be called solved: with all digits, and, where large terms hide what is left of the
+/// loads, on the points that the equations of the states lead to without rounding errors.
+///
+/// From rest these lead to the nearest point, which may not be far out; that is taken in place of the given one if
+/// it is a solution. From the given point they lead to one whose rounding this is, if the problem is sound: then the
+/// loads are measured there. Of a problem without a solution no refinement brings them down.
+pub(crate) fn confirmed(
+    judge: &dyn Judge,
+    scaled: &Scaled,
+    at: At<'_>,
+    contacts: &[ContactStatus],
+    tolerance: f64,
+) -> Judged {
+    let mut judged = judge.judged(scaled, at, Precision::Exact);
+    let Residuals { equation, natural, .. } = judged.residuals;
+    if judged.worst() <= tolerance || equation.max(natural) > tolerance {
+        return judged;
+    }
+    let rest = (vec![0.0; at.0.len()], vec![(0.0, 0.0); at.1.len()]);
+    for (u, forces) in refined_states(scaled, (&rest.0, &rest.1), contacts) {
+        let u: Vec<f64> = u.iter().map(|u| u.rounded()).collect();
+        let forces: Vec<_> = forces.iter().map(|[n, t]| (n.rounded(), t.rounded())).collect();
+        let near = judge.judged(scaled, (&scaled.of_displacements(&u), &forces), Precision::Exact);
+        if near.worst() <= tolerance {
+            return near;
+        }
+    }
+    let refined = refined_states(scaled, at, contacts);
+    let loads = refined.map(|at| judge.residuals_of(scaled, &at).worst());
+    judged.residuals.loads = loads.fold(judged.residuals.loads, f64::min);
+    judged
+}
+
+/// The residuals of a point of a mixed problem after [confirmation](confirmed).
+pub(crate) fn confirmed_pairs(
+    problem: &MixedLcp,
+    (t, y): (&[f64], &[f64]),
+    tolerance: f64,
+) -> Residuals {
     let scaled = problem.scaled();
     let (u, forces) = problem.point(&scaled, t, y);
-    lack(&scaled, (u, forces), tolerance)
+    confirmed_at(problem, &scaled, (&u, &forces), tolerance)
 }
 
 /// The same of a contact problem, of which pairs may have fewer digits than states.
-pub(crate) fn lack_of_state(problem: &Contact2d, state: &ContactState, tolerance: f64) -> f64 {
+pub(crate) fn confirmed_state(
+    problem: &Contact2d,
+    state: &ContactState,
+    tolerance: f64,
+) -> Residuals {
     let scaled = problem.scaled();
-    lack(&scaled, scaled.of_state(state), tolerance)
+    let (u, forces) = scaled.of_state(state);
+    confirmed_at(problem, &scaled, (&u, &forces), tolerance)
 }
 
-fn lack(scaled: &Scaled, (u, forces): (Vec<f64>, Vec<(f64, f64)>), tolerance: f64) -> f64 {
-    lack_of_loads(scaled, (&u, &forces), &nearest(scaled, &u, &forces), tolerance)
+fn confirmed_at(problem: &dyn Original, scaled: &Scaled, at: At<'_>, tolerance: f64) -> Residuals {
+    let contacts = nearest(scaled, at.0, at.1);
+    confirmed(problem.judge().as_ref(), scaled, at, &contacts, tolerance).residuals
 }
 
 /// A problem as it was given.
@@ -49,8 +102,7 @@ pub(crate) trait Original {
 
     fn scaled(&self) -> Scaled;
 
-    /// The point that belongs to displacements and forces of the scaled problem.
-    fn judge(&self, scaled: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Judged;
+    fn judge(&self) -> Box<dyn Judge + '_>;
 
     /// Number of pairs of the general form.
     fn order(&self) -> usize;
@@ -66,6 +118,58 @@ pub(crate) trait Original {
     fn contacts(&self, basis: &Basis) -> Vec<ContactStatus>;
 }
 
+impl Judge for (&Contact2d, ContactJudge<'_>) {
+    fn judged(&self, scaled: &Scaled, (u, forces): At<'_>, precision: Precision) -> Judged {
+        let (problem, judge) = self;
+        // What is given back are forces inside their cones: where these are large, what was cut off may be
+        // more than the loads.
+        let inside = forces.iter().zip(problem.mu()).map(|((t_n, t_t), mu)| {
+            let t_n = t_n.max(0.0);
+            // Forces may have overflowed.
+            let bound = if *mu > 0.0 { mu * t_n } else { 0.0 };
+            (t_n, t_t.clamp(-bound, bound))
+        });
+        let (normal, tangential) =
+            inside.map(|(t_n, t_t)| (t_n * scaled.force(), t_t * scaled.force())).unzip();
+        let state = problem.state(scaled.displacements(u), normal, tangential);
+        let (t, y) = problem.to_pairs(&state);
+        let residuals = judge.residuals(&state, precision);
+        Judged { t, y, contact: Some(state), residuals }
+    }
+
+    fn residuals_of(&self, scaled: &Scaled, (u, forces): &Exact) -> Residuals {
+        let part = |k: usize| forces.iter().map(move |it| it[k].scaled(scaled.force()));
+        let [t_n, t_t] = [0, 1].map(|k| part(k).collect::<Vec<_>>());
+        self.1.residuals_of(StateOf { u, t_n: &t_n, t_t: &t_t, openings: None })
+    }
+}
+
+impl Judge for (&MixedLcp, BoxedJudge<'_>) {
+    fn judged(&self, scaled: &Scaled, (u, forces): At<'_>, precision: Precision) -> Judged {
+        let (problem, judge) = self;
+        // As for contact, what is judged is what is given back.
+        let (mut u, mut w) = (u.to_vec(), vec![0.0; u.len()]);
+        for (point, (t_n, _)) in scaled.points.iter().zip(forces) {
+            let j = point.columns[0];
+            u[j] = u[j].max(0.0);
+            w[j] = t_n.max(0.0) * scaled.force_of(j);
+        }
+        let z = scaled.displacements(&u);
+        let residuals = judge.residuals(&z, &w, precision);
+        let (t, y) = problem.to_pairs(&z, &w);
+        Judged { t, y, contact: None, residuals }
+    }
+
+    fn residuals_of(&self, scaled: &Scaled, (u, forces): &Exact) -> Residuals {
+        let mut w = vec![Extended::ZERO; u.len()];
+        for (point, [force, _]) in scaled.points.iter().zip(forces) {
+            let j = point.columns[0];
+            w[j] = force.scaled(scaled.force_of(j));
+        }
+        self.1.residuals_of(u, &w)
+    }
+}
+
 impl Original for Contact2d {
     fn has_bodies(&self) -> bool {
         true
@@ -75,23 +179,8 @@ impl Original for Contact2d {
         Scaled::of_contact(self)
     }
 
-    fn judge(&self, scaled: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Judged {
-        // What is given back are forces inside their cones: where these are large, what was cut off may be
-        // more than the loads.
-        let inside = forces.iter().zip(self.mu()).map(|((t_n, t_t), mu)| {
-            let t_n = t_n.max(0.0);
-            // Forces may have overflowed.
-            let bound = if *mu > 0.0 { mu * t_n } else { 0.0 };
-            (t_n, t_t.clamp(-bound, bound))
-        });
-        let forces: Vec<(f64, f64)> = inside.collect();
-        let drift = scaled.drift(u, &forces).max(scaled.slack(u, &forces));
-        let u = scaled.displacements(u);
-        let [normal, tangential] = [|it: &(f64, f64)| it.0, |it: &(f64, f64)| it.1]
-            .map(|part| forces.iter().map(|it| part(it) * scaled.force()).collect());
-        let state = self.state(u, normal, tangential);
-        let (pairs, residuals) = (self.to_pairs(&state), self.residuals(&state));
-        Judged { contact: Some(state), ..Judged::new(pairs, residuals, drift) }
+    fn judge(&self) -> Box<dyn Judge + '_> {
+        Box::new((self, ContactJudge::new(self)))
     }
 
     fn order(&self) -> usize {
@@ -155,21 +244,8 @@ impl Original for MixedLcp {
         Scaled::of_mixed(self)
     }
 
-    fn judge(&self, scaled: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Judged {
-        // As for contact, what is judged is what is given back.
-        let (mut u, mut forces) = (u.to_vec(), forces.to_vec());
-        let mut w = vec![0.0; u.len()];
-        for (point, (t_n, _)) in scaled.points.iter().zip(&mut forces) {
-            let j = point.columns[0];
-            u[j] = u[j].max(0.0);
-            *t_n = t_n.max(0.0);
-            w[j] = *t_n * scaled.force_of(j);
-        }
-        let z = scaled.displacements(&u);
-        let residuals = self.residuals(&z, &w);
-        let own = scaled.own_units().map_or(0.0, |own| own.residual(&z, &w));
-        let drift = scaled.drift(&u, &forces).max(own);
-        Judged::new(self.to_pairs(&z, &w), residuals, drift)
+    fn judge(&self) -> Box<dyn Judge + '_> {
+        Box::new((self, BoxedJudge::of_boxed(self.boxed())))
     }
 
     fn order(&self) -> usize {

@@ -2,8 +2,7 @@
 
 use faer::sparse::SparseColMat;
 
-use super::units::OwnUnits;
-use crate::problem::{column_of, max_abs};
+use crate::problem::{column_factors, column_of, diagonal, max_abs, median, power_of_two};
 use crate::{Contact2d, ContactState, MixedLcp};
 
 /// A contact problem whose stiffness, forces and gaps are of order one whatever the units: with the
@@ -16,7 +15,6 @@ pub(crate) struct Scaled {
     column: Vec<f64>,
     force: f64,
     length: f64,
-    own_units: Option<OwnUnits>,
 }
 
 /// A contact point: the displacements that it depends on, with their coefficients in gap and slip.
@@ -58,7 +56,7 @@ fn dot(row: &[f64], columns: &[usize], u: &[f64]) -> f64 {
 impl Scaled {
     pub(crate) fn of_contact(problem: &Contact2d) -> Self {
         let n = problem.displacements();
-        let column = columns(problem);
+        let column = column_factors(problem);
         let diagonal = diagonal(problem.stiffness());
         let mut stiff: Vec<f64> =
             (0..n).map(|j| diagonal[j] * column[j] * column[j]).filter(|k| *k > 0.0).collect();
@@ -103,7 +101,7 @@ impl Scaled {
                 }
             }
         }
-        Self { k, f, points, column, force, length, own_units: None }
+        Self { k, f, points, column, force, length }
     }
 
     /// A mixed problem as one of contact without friction: stiffness `M`, loads `-q`, and a contact for
@@ -144,13 +142,7 @@ impl Scaled {
             s_0: 0.0,
             mu: 0.0,
         });
-        let own_units = OwnUnits::of(problem);
-        Self { k, f, points: points.collect(), column, force, length: force, own_units }
-    }
-
-    /// Of a mixed problem, where the units of its variables or rows are far apart.
-    pub(crate) fn own_units(&self) -> Option<&OwnUnits> {
-        self.own_units.as_ref()
+        Self { k, f, points: points.collect(), column, force, length: force }
     }
 
     /// The unit of contact forces.
@@ -222,103 +214,6 @@ impl Scaled {
     }
 }
 
-/// Rounding errors of a sum, relative to its terms.
-const ROUNDING: f64 = 32.0 * f64::EPSILON;
-/// More than this of the loads is not a rounding error, however large the terms are, and terms that are
-/// rounded by more than this say nothing.
-const LARGEST_ROUNDING: f64 = 1e-6;
-
-impl Scaled {
-    /// What equations and gaps lack in units of the loads, apart from rounding errors. Residuals are relative
-    /// to the terms of their row: where bodies can move without forces, or forces grow without effect, a
-    /// point far out makes all terms large and the residuals small, also where there is no solution.
-    pub(crate) fn drift(&self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
-        let rest = self.unbalanced(u, forces.iter().copied());
-        let terms = self.terms(u, forces);
-        let beyond = |v: f64, terms: f64| {
-            if f64::EPSILON * terms > LARGEST_ROUNDING {
-                // The loads are lost in the terms: these can be in balance by luck.
-                f64::INFINITY
-            } else {
-                v - (ROUNDING * terms).min(LARGEST_ROUNDING)
-            }
-        };
-        let mut worst = 0.0_f64;
-        for point in &self.points {
-            let gap = point.normal.iter().zip(&point.columns).map(|(n, &j)| (n * u[j]).abs());
-            worst = worst.max(beyond(-point.gap(u), point.x_0.abs() + gap.sum::<f64>()));
-        }
-        rest.iter().zip(&terms).fold(worst, |max, (v, terms)| max.max(beyond(v.abs(), *terms)))
-    }
-
-    /// The largest initial gap or slip, at least the unit of lengths.
-    pub(crate) fn gap_size(&self) -> f64 {
-        self.points.iter().fold(1.0, |max, point| max.max(point.x_0.abs()).max(point.s_0.abs()))
-    }
-
-    /// Largest `min(t, y)` over the pairs, with gaps and slips in units of what the bodies are deformed by:
-    /// where one slides far, all gaps are small against that, also those that should carry no force.
-    /// Bodies without stiffness have no such unit.
-    pub(crate) fn slack(&self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
-        let mut pulled = vec![0.0; self.order()];
-        let mut diagonal = vec![0.0_f64; self.order()];
-        for (j, u) in u.iter().enumerate() {
-            for (i, v) in column_of(&self.k, j) {
-                pulled[i] += v * u;
-                diagonal[i] = if i == j { v } else { diagonal[i] };
-            }
-        }
-        let deformed = pulled.iter().zip(&diagonal).filter(|(_, k)| **k > 0.0);
-        let deformation = deformed.fold(0.0_f64, |max, (force, k)| max.max((force / k).abs()));
-        if deformation <= 0.0 {
-            return 0.0;
-        }
-        let force = forces.iter().fold(1.0_f64, |max, (t_n, _)| max.max(*t_n));
-        let length = deformation.max(1.0);
-        let pairs = self.points.iter().zip(forces).flat_map(|(point, &(t_n, t_t))| {
-            let terms = |row: &[f64], first: f64| {
-                let all = row.iter().zip(&point.columns).map(|(v, &j)| (v * u[j]).abs());
-                ROUNDING * all.fold(first.abs(), f64::max)
-            };
-            let gap = point.gap(u) - terms(&point.normal, point.x_0);
-            let (slip, rounding) = (point.slip(u), terms(&point.tangent, point.s_0));
-            let bound = point.mu * t_n;
-            let pairs =
-                [(t_n, gap), (bound + t_t, slip - rounding), (bound - t_t, -slip - rounding)];
-            pairs.into_iter().take(if point.mu > 0.0 { 3 } else { 1 })
-        });
-        pairs.fold(0.0, |max, (t, y)| max.max((t / force).min(y / length)))
-    }
-}
-
-/// Factors that bring the largest coefficient of every displacement in a gap or a slip near one; those of
-/// displacements that no contact sees bring their stiffness to that of the others.
-fn columns(problem: &Contact2d) -> Vec<f64> {
-    let n = problem.displacements();
-    let diagonal = diagonal(problem.stiffness());
-    let mut largest = vec![0.0_f64; n];
-    for (j, largest) in largest.iter_mut().enumerate() {
-        column_of(problem.normal(), j).for_each(|(_, v)| *largest = largest.max(v.abs()));
-        let tangent = column_of(problem.tangent(), j).filter(|(i, _)| problem.mu()[*i] > 0.0);
-        tangent.for_each(|(_, v)| *largest = largest.max(v.abs()));
-    }
-    let seen = (0..n).filter(|&j| largest[j] > 0.0 && diagonal[j] > 0.0);
-    let stiffness =
-        median(&mut seen.map(|j| diagonal[j] / (largest[j] * largest[j])).collect::<Vec<_>>());
-    let stiffness = stiffness
-        .or_else(|| median(&mut diagonal.iter().copied().filter(|k| *k > 0.0).collect::<Vec<_>>()));
-    let factor = |(largest, diagonal): (&f64, &f64)| {
-        if *largest > 0.0 {
-            power_of_two(1.0 / largest)
-        } else if let Some(stiffness) = stiffness.filter(|_| *diagonal > 0.0) {
-            power_of_two((stiffness / diagonal).sqrt())
-        } else {
-            1.0
-        }
-    };
-    largest.iter().zip(&diagonal).map(factor).collect()
-}
-
 /// `factor D K D`.
 fn congruent(
     mut k: SparseColMat<usize, f64>,
@@ -333,18 +228,4 @@ fn congruent(
         }
     }
     k
-}
-
-fn diagonal(k: &SparseColMat<usize, f64>) -> Vec<f64> {
-    (0..k.ncols()).map(|j| k.get(j, j).copied().unwrap_or(0.0)).collect()
-}
-
-fn median(values: &mut [f64]) -> Option<f64> {
-    let middle = values.len() / 2;
-    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
-}
-
-/// Factors that are powers of two cost no accuracy.
-fn power_of_two(x: f64) -> f64 {
-    x.log2().round().clamp(-1000.0, 1000.0).exp2()
 }

@@ -2,9 +2,9 @@
 
 use super::condensed::Condensed;
 use super::crossover::{Effort, Vertex, cross_over, nearest};
-use super::original::{Judged, Original};
+use super::original::{At, Judge, Judged, Original, confirmed};
 use super::scaled::Scaled;
-use crate::refine::lack_of_loads;
+use crate::certify::Precision;
 use crate::solve::Monitor;
 use crate::{ContactStatus, Error, Solution, Status, WarmStart};
 
@@ -12,6 +12,7 @@ use crate::{ContactStatus, Error, Solution, Status, WarmStart};
 pub(crate) struct Search<'a> {
     solver: &'static str,
     problem: &'a dyn Original,
+    judge: Box<dyn Judge + 'a>,
     tolerance: f64,
     pub(crate) scaled: Scaled,
     pub(crate) condensed: Condensed,
@@ -31,7 +32,8 @@ impl<'a> Search<'a> {
             solver,
             reason: format!("its sparse factors cannot be planned: {error}"),
         })?;
-        Ok(Self { solver, problem, tolerance, scaled, condensed, best: None })
+        let judge = problem.judge();
+        Ok(Self { solver, problem, judge, tolerance, scaled, condensed, best: None })
     }
 
     /// Whether the states of the contacts of a given start, if there is one, are the answer.
@@ -84,14 +86,12 @@ impl<'a> Search<'a> {
         contacts: Vec<ContactStatus>,
         effort: &Effort,
     ) -> bool {
-        let Self { problem, tolerance, scaled, condensed, best, .. } = self;
+        let Self { judge, tolerance, scaled, condensed, best, .. } = self;
         cross_over(scaled, condensed, at, contacts, effort, |vertex| {
-            let judged = problem.judge(scaled, &vertex.u, &vertex.forces);
-            let judged = confirmed(judged, *tolerance, || {
-                let point = (&vertex.u[..], &vertex.forces[..]);
-                lack_of_loads(scaled, point, &vertex.contacts, *tolerance)
-            });
-            let is_solution = judged.worst <= *tolerance;
+            let point = (&vertex.u[..], &vertex.forces[..]);
+            let judged =
+                judged(judge.as_ref(), scaled, point, *tolerance, || vertex.contacts.clone());
+            let is_solution = judged.worst() <= *tolerance;
             keep_better(best, judged, is_solution.then_some(vertex));
             is_solution
         })
@@ -99,19 +99,17 @@ impl<'a> Search<'a> {
 
     /// The worst residual of a point, which is kept if none was better.
     pub(crate) fn judge(&mut self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
-        let judged = self.problem.judge(&self.scaled, u, forces);
-        let judged = confirmed(judged, self.tolerance, || {
-            let statuses = nearest(&self.scaled, u, forces);
-            lack_of_loads(&self.scaled, (u, forces), &statuses, self.tolerance)
-        });
-        let worst = judged.worst;
-        keep_better(&mut self.best, judged, None);
+        let Self { judge, tolerance, scaled, best, .. } = self;
+        let contacts = || nearest(scaled, u, forces);
+        let judged = judged(judge.as_ref(), scaled, (u, forces), *tolerance, contacts);
+        let worst = judged.worst();
+        keep_better(best, judged, None);
         worst
     }
 
     /// The worst residual of the best point.
     pub(crate) fn residual(&self) -> f64 {
-        self.best.as_ref().map_or(f64::INFINITY, |(judged, _)| judged.worst)
+        self.best.as_ref().map_or(f64::INFINITY, |(judged, _)| judged.worst())
     }
 
     /// The best point, with this status unless it is a solution.
@@ -124,13 +122,10 @@ impl<'a> Search<'a> {
             let slips: Vec<f64> = points.map(|point| point.slip(&vertex.u)).collect();
             self.problem.basis(&vertex.contacts, &judged, &slips)
         });
-        let Judged { t, y, contact, residuals, worst } = judged;
+        let Judged { t, y, contact, residuals } = judged;
         // Steps may end with a point that is solved and another that the iteration gave up.
         let otherwise = if otherwise == Status::Solved { Status::Stalled } else { otherwise };
         let mut solution = Solution::judged((t, y), residuals, self.tolerance, otherwise);
-        if worst > self.tolerance {
-            solution.status = otherwise;
-        }
         solution.contact = contact;
         solution.basis = basis;
         solution.info.solver = self.solver;
@@ -142,17 +137,19 @@ impl<'a> Search<'a> {
     }
 }
 
-/// A point whose residuals are small is no solution unless its equations hold in units of the loads, too, or
-/// those of its states have a solution for which they do: far out the terms can be large enough to hide what
-/// no motion and no force can mend.
-fn confirmed(mut judged: Judged, tolerance: f64, lack: impl FnOnce() -> f64) -> Judged {
-    if judged.worst <= tolerance {
-        let lack = lack();
-        if lack > tolerance {
-            judged.worst = lack;
-        }
+/// Quickly, and with all digits where the point may be a solution.
+fn judged(
+    judge: &dyn Judge,
+    scaled: &Scaled,
+    at: At<'_>,
+    tolerance: f64,
+    contacts: impl FnOnce() -> Vec<ContactStatus>,
+) -> Judged {
+    let quick = judge.judged(scaled, at, Precision::Quick);
+    if quick.worst() > tolerance {
+        return quick;
     }
-    judged
+    confirmed(judge, scaled, at, &contacts(), tolerance)
 }
 
 /// An exact solution is better than a point inside, whose residuals may be smaller.
@@ -164,7 +161,7 @@ fn keep_better(
     let is_better = best.as_ref().is_none_or(|(other, exact)| match (vertex, exact) {
         (Some(_), None) => true,
         (None, Some(_)) => false,
-        _ => judged.worst < other.worst,
+        _ => judged.worst() < other.worst(),
     });
     if is_better {
         *best = Some((judged, vertex.cloned()));

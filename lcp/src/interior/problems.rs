@@ -1,6 +1,7 @@
 //! The interior-point method on every kind of problem.
 
 use super::InteriorPoint;
+use crate::lower::judged_by;
 use crate::{
     BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, MixedLcp, Observer, Solution,
     Solver,
@@ -61,7 +62,8 @@ impl Solver<Friction2d> for InteriorPoint {
         problem: &Friction2d,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        self.solve_observed(problem.standard(), observer)
+        let solution = self.solve_observed(problem.standard(), observer)?;
+        Ok(judged_by(problem, solution, self.settings.tolerance))
     }
 }
 
@@ -87,8 +89,8 @@ impl Solver<HorizontalLcp> for InteriorPoint {
         settings.validate(problem.order())?;
         settings.start = standard.start(&settings.start);
         let mut solution = Self::new(settings).solve_observed(standard.lcp(), observer)?;
-        standard.restore(&mut solution, problem, self.settings.tolerance);
-        Ok(solution)
+        standard.restore(&mut solution);
+        Ok(judged_by(problem, solution, self.settings.tolerance))
     }
 }
 
@@ -103,6 +105,7 @@ impl Solver<BoxedLcp> for InteriorPoint {
         problem: &BoxedLcp,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        self.solve_observed(&problem.to_general(), observer)
+        let solution = self.solve_observed(&problem.to_general(), observer)?;
+        Ok(judged_by(problem, solution, self.settings.tolerance))
     }
 }

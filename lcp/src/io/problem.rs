@@ -105,7 +105,8 @@ impl Problem {
             Self::Horizontal(problem) => problem.residuals(z, w),
             Self::Mixed(problem) => problem.residuals(z, w),
             Self::Boxed(problem) => problem.residuals(z, w),
-            Self::Lcp(_) | Self::Friction(_) => self.to_general().residuals(z, w),
+            Self::Lcp(problem) => problem.residuals(z, w),
+            Self::Friction(problem) => problem.residuals(&problem.forces(z)),
         }
     }
 

@@ -5,9 +5,10 @@
 //! basis. A solution in which all artificial variables are zero solves the problem as given, which
 //! the residuals of the original data decide.
 
-use super::feasibility::{in_problem_rows, is_proof};
+use super::feasibility::in_problem_rows;
 use super::finish::Point;
 use super::start::Equilibrated;
+use crate::certify::is_proof;
 use crate::problem::max_abs;
 use crate::{Basis, HorizontalLcp, Matrix, Side, Solution};
 
@@ -82,7 +83,7 @@ pub(super) fn part_outside(problem: &Equilibrated<'_>, complement: &Matrix) -> O
     let least = NOISE * max_abs(&outside);
     outside.iter_mut().filter(|part| part.abs() < least).for_each(|part| *part = 0.0);
     let pi = in_problem_rows(problem, &outside);
-    is_proof(problem, &pi).then_some(pi)
+    is_proof(problem.problem, &pi).then_some(pi)
 }
 
 fn missing(chosen: &[Option<Side>]) -> impl Iterator<Item = usize> + '_ {

@@ -11,15 +11,11 @@ use super::path::Path;
 use super::ratio::leaving_row;
 use super::start::{Equilibrated, Start};
 use crate::Side;
+use crate::certify::is_proof;
 use crate::problem::max_abs;
 
 /// Reduced costs below this multiple of the largest entry of their row are taken for zero.
 const COST_TOLERANCE: f64 = 1e-9;
-/// Rounding of a component of `A^T pi`, relative to `|A|^T |pi|`.
-const ROUNDING: f64 = 1e-12;
-/// Least value of `c.pi` of a proof, relative to `|c|.|pi|`.
-const LEAST_GAP: f64 = 1e-9;
-
 /// A checked Farkas vector, if one is found along a path that has not begun. `is_over` is asked before
 /// every pivot.
 pub(super) fn farkas_vector<K: Kernel>(
@@ -39,7 +35,7 @@ pub(super) fn farkas_vector<K: Kernel>(
         let Some(entering) = descending_variable(&path, row, n) else {
             let basis: Vec<_> = path.basic().map(|var| side_of(start, var, n)).collect();
             let pi = multipliers(problem, &basis, row)?;
-            return is_proof(problem, &pi).then_some(pi);
+            return is_proof(problem.problem, &pi).then_some(pi);
         };
         path.kernel.column(entering, &mut column);
         let leaving = leaving_row(&path, &column)?;
@@ -89,22 +85,4 @@ pub(super) fn in_problem_rows(problem: &Equilibrated<'_>, pi: &[f64]) -> Vec<f64
     let pi: Vec<f64> = pi.iter().zip(&problem.row).map(|(pi, row)| pi * row).collect();
     let largest = max_abs(&pi);
     pi.into_iter().map(|pi| pi / largest).collect()
-}
-
-pub(super) fn is_proof(problem: &Equilibrated<'_>, pi: &[f64]) -> bool {
-    let columns = [Side::T, Side::Y]
-        .into_iter()
-        .flat_map(|side| (0..pi.len()).map(move |pair| problem.problem.column(pair, side)));
-    let mut holds = pi.iter().all(|pi| pi.is_finite());
-    for column in columns {
-        let (mut sum, mut size) = (0.0, 0.0);
-        column.for_each(|i, v| {
-            sum += v * pi[i];
-            size += (v * pi[i]).abs();
-        });
-        holds &= sum <= ROUNDING * size;
-    }
-    let terms = problem.problem.c().iter().zip(pi).map(|(c, pi)| c * pi);
-    let (gap, size) = terms.fold((0.0, 0.0), |(gap, size), v: f64| (gap + v, size + v.abs()));
-    holds && gap > LEAST_GAP * size
 }

@@ -2,6 +2,8 @@
 
 use super::basis_matrix::BasisMatrix;
 use super::start::Equilibrated;
+use crate::certify::Precision;
+use crate::extended::Extended;
 use crate::problem::max_abs;
 use crate::{Basis, Residuals, Side};
 
@@ -9,6 +11,8 @@ use crate::{Basis, Residuals, Side};
 const REFINEMENTS: usize = 3;
 /// With a condition number above this, residuals are computed with twice the working precision.
 const ILL_CONDITIONED: f64 = 1e6;
+/// Residuals that are rounding errors; loads above are measured with all digits.
+const HIDDEN: f64 = 1e-12;
 
 /// A point and what the original data says of it.
 #[derive(Debug, Clone)]
@@ -20,37 +24,30 @@ pub(super) struct Point {
     pub(super) condition: f64,
 }
 
-impl Point {
-    /// Whether the equation holds to this part of the right-hand side itself, in equilibrated rows. Far
-    /// enough out nearly everything holds compared with the terms.
-    pub(super) fn is_near(&self, problem: &Equilibrated<'_>, part: f64) -> bool {
-        let mut rest = problem.problem.c().to_vec();
-        for (side, x) in [(Side::T, &self.t), (Side::Y, &self.y)] {
-            for (pair, &x) in x.iter().enumerate().filter(|(_, x)| **x > 0.0) {
-                problem.problem.column(pair, side).add_to(-x, &mut rest);
-            }
-        }
-        let rest: Vec<f64> = rest.iter().zip(&problem.row).map(|(rest, row)| rest * row).collect();
-        max_abs(&rest) <= part * max_abs(&problem.right_hand_side())
-    }
-}
-
 /// Solves for the basic variables with the original columns, refines, and sets negative values to
-/// zero. How far that is more than rounding goes into the feasibility residual.
+/// zero, which the residuals see where it is more than rounding.
+///
+/// Where the terms of the equations hide what is left of the right-hand side, that is measured on the values of
+/// the basis with twice the digits: these leave nothing if the basis is regular, and its point is the solution
+/// however large it is.
 pub(super) fn solve_basis(problem: &Equilibrated<'_>, basis: &Basis) -> Option<Point> {
     let matrix = BasisMatrix::new(problem, basis)?;
     let right = problem.right_hand_side();
     let condition = matrix.condition();
-    let x = refined(&matrix, &right, condition > ILL_CONDITIONED);
+    let is_accurate = condition > ILL_CONDITIONED;
+    let (x, low) = refined(&matrix, &right, is_accurate);
     if !condition.is_finite() || x.iter().any(|x| !x.is_finite()) {
         return None;
     }
     let judged = |x: &[f64]| {
-        let infeasibility = infeasibility(problem, &matrix, &right, x);
-        let mut point = point(problem, basis, x, condition);
-        point.residuals.feasibility = point.residuals.feasibility.max(infeasibility);
-        point.residuals.natural = point.residuals.natural.max(infeasibility);
-        point
+        let values = Values::new(problem, basis, x);
+        let mut residuals = problem.judge.residuals(&values.t, &values.y, Precision::Exact);
+        if residuals.loads > HIDDEN && residuals.equation.max(residuals.natural) <= HIDDEN {
+            let low = if is_accurate { low.clone() } else { rest_of(&matrix, &right, x) };
+            residuals.loads = residuals.loads.min(values.exact_loads(problem, basis, &low));
+        }
+        let Values { t, y, sides } = values;
+        Point { t, y, basis: Basis::new(sides), residuals, condition }
     };
     let mut cleared = x.clone();
     let is_changed = drop_rounding(&matrix, &right, &mut cleared);
@@ -80,7 +77,8 @@ fn drop_rounding(matrix: &BasisMatrix, right: &[f64], x: &mut [f64]) -> bool {
     is_changed
 }
 
-fn refined(matrix: &BasisMatrix, right: &[f64], accurate: bool) -> Vec<f64> {
+/// The solution, and what its rounding to `f64` leaves out where residuals are accurate.
+fn refined(matrix: &BasisMatrix, right: &[f64], accurate: bool) -> (Vec<f64>, Vec<f64>) {
     let mut x = right.to_vec();
     matrix.solve(&mut x);
     let mut low = vec![0.0; x.len()];
@@ -101,51 +99,67 @@ fn refined(matrix: &BasisMatrix, right: &[f64], accurate: bool) -> Vec<f64> {
             *x = sum;
         }
     }
-    x
+    (x, low)
 }
 
-/// Negative values up to this multiple of the largest value, in equilibrated units, are rounding
-/// errors, of the data if not of the solution.
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
-
-/// The largest negative value beyond rounding, each relative to the size that its variable could have
-/// by the data: row `j` of `|M^-1| (|M||x| + |c|)`. So a negative value is not forgiven because others
-/// are large.
-fn infeasibility(
-    problem: &Equilibrated<'_>,
-    matrix: &BasisMatrix,
-    right: &[f64],
-    x: &[f64],
-) -> f64 {
-    let rounding = ROUNDING * max_abs(x);
-    let negative = (0..x.len()).filter(|&j| x[j] < -rounding && problem.opposite(j).is_none());
-    let size = matrix.sizes(right, x);
-    let relative = negative.map(|j| {
-        let mut row = vec![0.0; x.len()];
-        row[j] = 1.0;
-        matrix.solve_transpose(&mut row);
-        let bound: f64 = row.iter().zip(&size).map(|(v, size)| v.abs() * size).sum();
-        if bound > 0.0 { -x[j] / bound } else { f64::INFINITY }
-    });
-    relative.fold(0.0, f64::max)
-}
-
-/// The pairs; a negative free variable is a positive one on the other side.
-fn point(problem: &Equilibrated<'_>, basis: &Basis, x: &[f64], condition: f64) -> Point {
-    let n = problem.order();
-    let (mut t, mut y) = (vec![0.0; n], vec![0.0; n]);
-    let mut sides = basis.sides().to_vec();
-    for (j, (side, &x)) in sides.iter_mut().zip(x).enumerate() {
-        let mut value = x * problem.factor(j, *side);
-        if let Some(ratio) = problem.opposite(j).filter(|_| value < 0.0) {
-            value = if *side == Side::T { -value / ratio } else { -value * ratio };
-            *side = side.complement();
-        }
-        match side {
-            Side::T => t[j] = value.max(0.0),
-            Side::Y => y[j] = value.max(0.0),
-        }
+/// What rounding leaves out of a solution that was refined in `f64`.
+fn rest_of(matrix: &BasisMatrix, right: &[f64], x: &[f64]) -> Vec<f64> {
+    let mut low = vec![0.0; x.len()];
+    for _ in 0..REFINEMENTS {
+        let mut step = matrix.accurate_residual(right, x, &low);
+        matrix.solve(&mut step);
+        low.iter_mut().zip(&step).for_each(|(low, step)| *low += step);
     }
-    let residuals = problem.problem.residuals(&t, &y);
-    Point { t, y, basis: Basis::new(sides), residuals, condition }
+    low
+}
+
+/// The pairs of a basis, in units of the problem.
+struct Values {
+    t: Vec<f64>,
+    y: Vec<f64>,
+    sides: Vec<Side>,
+}
+
+impl Values {
+    /// From the basic variables in equilibrated units. A negative free variable is a positive one on the other
+    /// side; what else is negative is set to zero.
+    fn new(problem: &Equilibrated<'_>, basis: &Basis, x: &[f64]) -> Self {
+        let n = problem.order();
+        let (mut t, mut y) = (vec![0.0; n], vec![0.0; n]);
+        let mut sides = basis.sides().to_vec();
+        for (j, (side, &x)) in sides.iter_mut().zip(x).enumerate() {
+            let mut value = x * problem.factor(j, *side);
+            if let Some(ratio) = problem.opposite(j).filter(|_| value < 0.0) {
+                value = if *side == Side::T { -value / ratio } else { -value * ratio };
+                *side = side.complement();
+            }
+            match side {
+                Side::T => t[j] = value.max(0.0),
+                Side::Y => y[j] = value.max(0.0),
+            }
+        }
+        Self { t, y, sides }
+    }
+
+    /// What is left of the loads with the digits of the basic variables that rounding left out.
+    fn exact_loads(&self, problem: &Equilibrated<'_>, basis: &Basis, low: &[f64]) -> f64 {
+        let [mut t, mut y] =
+            [&self.t, &self.y].map(|v| v.iter().copied().map(Extended::from).collect::<Vec<_>>());
+        for (j, (side, &low)) in self.sides.iter().zip(low).enumerate() {
+            // One that was set to zero stays there.
+            let value = match side {
+                Side::T => &mut t[j],
+                Side::Y => &mut y[j],
+            };
+            let is_turned = *side != basis.sides()[j];
+            if value.rounded() > 0.0 && !is_turned {
+                *value += Extended::from(low * problem.factor(j, *side));
+            } else if let Some(ratio) = problem.opposite(j).filter(|_| is_turned) {
+                let low = -low * problem.factor(j, side.complement());
+                let low = if *side == Side::Y { low / ratio } else { low * ratio };
+                *value += Extended::from(low);
+            }
+        }
+        problem.judge.residuals_of(&t, &y).loads
+    }
 }

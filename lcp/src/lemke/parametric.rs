@@ -16,6 +16,7 @@ use super::kernel::{Kernel, Var};
 use super::path::Path;
 use super::ratio::leaving_row;
 use super::start::{Equilibrated, Start};
+use crate::certify::{GeneralJudge, Precision};
 use crate::problem::{check_length, check_vector, max_abs};
 use crate::{Basis, Error, HorizontalLcp, Lemke, LemkeSettings, Status};
 
@@ -274,7 +275,8 @@ impl Tracer<'_> {
         });
         let terms = self.problem.c().iter().zip(self.c1).map(|(c0, c1)| (c0, lambda * c1));
         let c: Vec<_> = terms.map(|(a, b)| (a + b, a.abs() + b.abs())).collect();
-        let residual = self.problem.residuals_with(&c, &t, &y).worst();
+        let judge = GeneralJudge::with_right_hand_side(self.problem, c);
+        let residual = judge.residuals(&t, &y, Precision::Exact).worst();
         if residual > self.settings.lemke.tolerance {
             return Some(ParametricEnd::NumericalTrouble);
         }

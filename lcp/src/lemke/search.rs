@@ -13,6 +13,7 @@ use super::path::Path;
 use super::start::{Equilibrated, Start};
 use super::translate::{basis_of, in_problem_units, kind_of, record};
 use super::trial::Trial;
+use crate::certify::Precision;
 use crate::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Basis, Covering, HorizontalLcp, Info,
     LemkeSettings, Matrix, Perturbation, PivotRecord, Ray, Side, Solution, Status, WarmStart,
@@ -358,7 +359,6 @@ impl<'a> Search<'a> {
         let nearly = self.settings.tolerance.sqrt();
         if let Some(point) = self.almost.take()
             && point.residuals.worst() <= nearly
-            && point.is_near(&self.problem, nearly)
         {
             return self.answer(Status::AlmostSolved, point);
         }
@@ -395,7 +395,7 @@ impl<'a> Search<'a> {
     /// Without a point there is still an answer: zero, with its residuals.
     fn give_up(self, status: Status) -> Solution {
         let zero = vec![0.0; self.problem.order()];
-        let residuals = self.problem.problem.residuals(&zero, &zero);
+        let residuals = self.problem.judge.residuals(&zero, &zero, Precision::Exact);
         let says_ray = matches!(status, Status::RayTermination | Status::Infeasible);
         Solution {
             status,

@@ -4,6 +4,7 @@ mod sparse;
 
 use faer::Mat;
 
+use crate::certify::{GeneralJudge, right_hand_side};
 use crate::linear::{Lu, all_finite};
 use crate::matrix::Column;
 use crate::problem::max_abs;
@@ -28,6 +29,7 @@ pub(super) struct Equilibrated<'a> {
     y_factor: Vec<f64>,
     /// For a free pair the positive `r` with `B_j = -r A_j`.
     opposite: Vec<Option<f64>>,
+    pub(super) judge: GeneralJudge<'a>,
 }
 
 impl<'a> Equilibrated<'a> {
@@ -40,7 +42,9 @@ impl<'a> Equilibrated<'a> {
         let (row, factors) = equilibrate(n, &columns, GIVEN);
         let (t_factor, y_factor) = (factors[..n].to_vec(), factors[n..].to_vec());
         let opposite = |j| opposite(problem.column(j, Side::T), problem.column(j, Side::Y));
-        Self { problem, row, t_factor, y_factor, opposite: (0..n).map(opposite).collect() }
+        let opposite = (0..n).map(opposite).collect();
+        let judge = GeneralJudge::with_factors(problem, right_hand_side(problem), (&row, &factors));
+        Self { problem, row, t_factor, y_factor, opposite, judge }
     }
 
     pub(super) fn order(&self) -> usize {

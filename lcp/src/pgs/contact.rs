@@ -2,6 +2,7 @@
 
 use super::delassus::{Compliance, Delassus};
 use super::{Constraint, Point, ProjectedGaussSeidel, Sweepable, Sweeps};
+use crate::certify::{ContactJudge, Precision};
 use crate::problem::column_of;
 use crate::sparse::Columns;
 use crate::{Contact2d, ContactState, Error, Observer, Solution};
@@ -29,8 +30,10 @@ impl Sweepable for Contact2d {
         let constraints: Vec<Constraint> = self.mu().iter().map(constraint).collect();
         let mut rows = Delassus::new(&compliance);
         let sweeps = Sweeps::new(&solver.settings, &mut rows, &q, &constraints, start)?;
-        let (best, status) =
-            sweeps.run(&mut monitor, &mut |point: &Point<'_>| self.residuals(&state(point.z)));
+        let judge = ContactJudge::new(self);
+        let (best, status) = sweeps.run(&mut monitor, &mut |point: &Point<'_>| {
+            judge.residuals(&state(point.z), Precision::Exact)
+        });
         let state = state(&best.z);
         let pairs = self.to_pairs(&state);
         let mut solution = solver.solution(pairs, best.residuals, status, monitor);

@@ -1,15 +1,22 @@
 //! Problems with a matrix.
 
 use super::{Constraint, MatrixRows, Point, ProjectedGaussSeidel, Sweepable, Sweeps};
-use crate::{BoxedLcp, Error, Friction2d, HorizontalLcp, Lcp, Matrix, Observer, Solution};
+use crate::certify::{BoxedJudge, GeneralJudge, Precision};
+use crate::{
+    BoxedLcp, ContactForces, Error, Friction2d, HorizontalLcp, Lcp, Matrix, Observer, Residuals,
+    Solution,
+};
 
 type Pairs = (Vec<f64>, Vec<f64>);
 type Start<'a> = dyn Fn(&[f64], &[f64]) -> Vec<f64> + 'a;
 type PairsOf<'a> = dyn Fn(&[f64], &[f64]) -> Pairs + 'a;
 
-/// A matrix problem, and the general one by whose residuals it is judged.
+/// A matrix problem, and how its points are judged.
 struct Task<'a> {
-    general: &'a HorizontalLcp,
+    /// Pairs of the general form.
+    order: usize,
+    /// Of `z` and the part of `w` that the constraints allow.
+    residuals: &'a dyn Fn(&[f64], &[f64]) -> Residuals,
     matrix: &'a Matrix,
     q: &'a [f64],
     constraints: &'a [Constraint],
@@ -25,8 +32,10 @@ impl Sweepable for Lcp {
         solver: &ProjectedGaussSeidel,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
+        let judge = BoxedJudge::of_standard(self);
         let task = Task {
-            general: &self.clone().into(),
+            order: self.order(),
+            residuals: &|z, w| judge.residuals(z, w, Precision::Exact),
             matrix: self.m(),
             q: self.q(),
             constraints: &vec![Constraint::NONNEGATIVE; self.order()],
@@ -50,8 +59,14 @@ impl Sweepable for HorizontalLcp {
                  another row: take Lemke's method",
             )
         })?;
+        let judge = GeneralJudge::new(self);
+        let residuals = |z: &[f64], w: &[f64]| {
+            let (t, y) = standard.to_pairs(z, w);
+            judge.residuals(&t, &y, Precision::Exact)
+        };
         let task = Task {
-            general: self,
+            order: self.order(),
+            residuals: &residuals,
             matrix: standard.lcp().m(),
             q: standard.lcp().q(),
             constraints: &vec![Constraint::NONNEGATIVE; self.order()],
@@ -72,8 +87,10 @@ impl Sweepable for BoxedLcp {
         let bounds = self.lower().iter().zip(self.upper());
         let constraints: Vec<Constraint> =
             bounds.map(|(&lower, &upper)| Constraint::Bounds { lower, upper }).collect();
+        let judge = BoxedJudge::of_boxed(self);
         let task = Task {
-            general: &self.to_general(),
+            order: self.to_general().order(),
+            residuals: &|z, w| judge.residuals(z, w, Precision::Exact),
             matrix: self.m(),
             q: self.q(),
             constraints: &constraints,
@@ -93,8 +110,14 @@ impl Sweepable for Friction2d {
     ) -> Result<Solution, Error> {
         let constraints: Vec<Constraint> =
             self.mu().iter().map(|&mu| Constraint::Friction { mu }).collect();
+        let residuals = |r: &[f64], _: &[f64]| {
+            let [normal, tangential] =
+                [0, 1].map(|k| r.iter().skip(k).step_by(2).copied().collect::<Vec<f64>>());
+            self.residuals(&ContactForces { normal, tangential })
+        };
         let task = Task {
-            general: &self.standard().clone().into(),
+            order: self.order(),
+            residuals: &residuals,
             matrix: self.w(),
             q: self.q(),
             constraints: &constraints,
@@ -127,15 +150,13 @@ impl ProjectedGaussSeidel {
         task: &Task<'_>,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        self.settings.validate(task.general.order())?;
+        self.settings.validate(task.order)?;
         let mut monitor = self.monitor(observer);
         let start = self.start(task.start)?;
         let mut rows = MatrixRows::new(task.matrix);
         let sweeps = Sweeps::new(&self.settings, &mut rows, task.q, task.constraints, start)?;
-        let (best, status) = sweeps.run(&mut monitor, &mut |point: &Point<'_>| {
-            let (t, y) = (task.pairs)(point.z, point.allowed);
-            task.general.residuals(&t, &y)
-        });
+        let (best, status) = sweeps
+            .run(&mut monitor, &mut |point: &Point<'_>| (task.residuals)(point.z, point.allowed));
         let pairs = (task.pairs)(&best.z, &best.allowed);
         Ok(self.solution(pairs, best.residuals, status, monitor))
     }

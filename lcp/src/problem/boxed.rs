@@ -2,7 +2,7 @@
 
 use super::{HorizontalLcp, check_length, check_vector};
 use crate::matrix::Column;
-use crate::{Error, Matrix, Residuals};
+use crate::{Error, Matrix};
 
 /// The problem `w = M z + q`, `lower <= z <= upper` of order `n`, where `w_i >= 0` if `z_i` is at
 /// its lower bound, `w_i <= 0` if it is at its upper one, and `w_i = 0` in between.
@@ -191,27 +191,6 @@ impl BoxedLcp {
             }
         }
         (t, y)
-    }
-
-    /// Residuals of `(z, w)`, those of its pairs in the general problem; the `w` of a free variable,
-    /// which should be zero, counts in its row of the equation.
-    ///
-    /// # Panics
-    /// If `z` or `w` does not have `n` entries.
-    pub fn residuals(&self, z: &[f64], w: &[f64]) -> Residuals {
-        let (t, y) = self.to_pairs(z, w);
-        let mut residuals = self.to_general().residuals(&t, &y);
-        let mut sizes: Vec<f64> = self.q.iter().map(|q| q.abs()).collect();
-        for (j, z) in z.iter().enumerate() {
-            self.m.slice(j).for_each(|i, v| sizes[i] += (v * z).abs());
-        }
-        for (i, kind) in self.kinds().into_iter().enumerate() {
-            if kind == Kind::Free && w[i] != 0.0 {
-                let relative = w[i].abs() / (sizes[i] + w[i].abs());
-                residuals.equation = residuals.equation.max(relative);
-            }
-        }
-        residuals
     }
 
     fn kinds(&self) -> Vec<Kind> {

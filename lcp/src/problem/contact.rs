@@ -2,10 +2,11 @@
 
 mod bedding;
 mod mixed;
-mod residual;
+mod units;
 
 pub use bedding::Bedding;
 pub(crate) use bedding::check_epsilon;
+pub(crate) use units::{column_factors, diagonal, median, power_of_two};
 
 use faer::sparse::SparseColMat;
 

@@ -3,7 +3,7 @@
 use faer::Mat;
 
 use super::{HorizontalLcp, Lcp};
-use crate::{Basis, Matrix, Side, Solution, Status, WarmStart};
+use crate::{Basis, Matrix, Side, Solution, WarmStart};
 
 /// A general problem written in the standard form. See [`HorizontalLcp::to_standard`].
 #[derive(Debug, Clone)]
@@ -119,14 +119,10 @@ impl StandardForm {
         }
     }
 
-    /// Makes a solution of the standard problem one of the general problem, judged by that.
-    pub(crate) fn restore(&self, solution: &mut Solution, problem: &HorizontalLcp, tolerance: f64) {
+    /// Brings a solution of the standard problem back to the pairs of the general one.
+    pub(crate) fn restore(&self, solution: &mut Solution) {
         (solution.t, solution.y) = self.to_pairs(&solution.t, &solution.y);
         solution.basis = solution.basis.as_ref().map(|basis| self.basis(basis));
-        solution.residuals = problem.residuals(&solution.t, &solution.y);
-        if solution.is_solved() && solution.residuals.worst() > tolerance {
-            solution.status = Status::AlmostSolved;
-        }
     }
 
     /// A basis of the one problem as one of the other.

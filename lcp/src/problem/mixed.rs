@@ -1,7 +1,7 @@
 //! Complementary pairs together with free variables.
 
 use super::{BoxedLcp, HorizontalLcp, check_length};
-use crate::{Error, Matrix, Residuals};
+use crate::{Error, Matrix};
 
 /// The mixed problem `w = M z + q` of order `n`, where every `z_i` is either free, with `w_i = 0`,
 /// or complementary: `z_i >= 0`, `w_i >= 0`, `z_i w_i = 0`.
@@ -81,11 +81,8 @@ impl MixedLcp {
         self.boxed.to_pairs(z, w)
     }
 
-    /// Residuals of `(z, w)`, those of its pairs in the general problem.
-    ///
-    /// # Panics
-    /// If `z` or `w` does not have `n` entries.
-    pub fn residuals(&self, z: &[f64], w: &[f64]) -> Residuals {
-        self.boxed.residuals(z, w)
+    /// The same problem by bounds.
+    pub(crate) fn boxed(&self) -> &BoxedLcp {
+        &self.boxed
     }
 }

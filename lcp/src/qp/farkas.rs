@@ -10,14 +10,10 @@ use super::interior::{Effort, End, Interior};
 use super::polish::{places_of, polish};
 use super::reduced::Law;
 use super::scale::Scaled;
+use crate::certify::is_proof;
 use crate::problem::max_abs;
 use crate::scaling::{GIVEN, equilibrate};
 use crate::{HorizontalLcp, Matrix, Side};
-
-/// Rounding of a component of `A^T pi`, relative to `|A|^T |pi|`.
-const ROUNDING: f64 = 1e-12;
-/// Least value of `c.pi` of a proof, relative to `|c|.|pi|`.
-const LEAST_GAP: f64 = 1e-9;
 
 /// A checked Farkas vector with a largest entry of one, if one is found.
 pub(super) fn farkas_vector(problem: &HorizontalLcp, effort: Effort) -> Option<Vec<f64>> {
@@ -103,22 +99,4 @@ fn cleaned(problem: &HorizontalLcp, (pi, rows): (&[f64], &[f64])) -> Option<Vec<
         pi.iter().map(|pi| pi / largest).collect::<Vec<_>>()
     });
     candidates.into_iter().find(|pi| is_proof(problem, pi))
-}
-
-fn is_proof(problem: &HorizontalLcp, pi: &[f64]) -> bool {
-    let columns = [Side::T, Side::Y]
-        .into_iter()
-        .flat_map(|side| (0..pi.len()).map(move |pair| problem.column(pair, side)));
-    let mut holds = pi.iter().all(|pi| pi.is_finite());
-    for column in columns {
-        let (mut sum, mut size) = (0.0, 0.0);
-        column.for_each(|i, v| {
-            sum += v * pi[i];
-            size += (v * pi[i]).abs();
-        });
-        holds &= sum <= ROUNDING * size;
-    }
-    let terms = problem.c().iter().zip(pi).map(|(c, pi)| c * pi);
-    let (gap, size) = terms.fold((0.0, 0.0), |(gap, size), v: f64| (gap + v, size + v.abs()));
-    holds && gap > LEAST_GAP * size
 }

@@ -2,7 +2,6 @@
 
 use std::cell::OnceCell;
 
-use super::drift::load_residual;
 use super::form::{Form, Point};
 use super::interior::{Effort, End, Interior};
 use super::polish::{places_of, polish};
@@ -65,7 +64,7 @@ impl Best {
     pub(super) fn new(scaled: &Scaled, assemble: &Assemble<'_>) -> Self {
         let zero = Point::zero(&scaled.form);
         let candidate = assemble(&zero, None);
-        let residual = judged(scaled, &zero, None, &candidate);
+        let residual = candidate.residuals.worst();
         Self { candidate, residual, factorisations: 0 }
     }
 
@@ -77,7 +76,7 @@ impl Best {
         assemble: &Assemble<'_>,
     ) -> f64 {
         let candidate = assemble(&scaled.unscaled(point), places);
-        let residual = judged(scaled, point, places, &candidate);
+        let residual = candidate.residuals.worst();
         if residual < self.residual {
             (self.candidate, self.residual) = (candidate, residual);
         }
@@ -116,10 +115,6 @@ impl Best {
         });
         self.factorisations += systems;
     }
-}
-
-fn judged(scaled: &Scaled, point: &Point, places: Option<&[Place]>, candidate: &Candidate) -> f64 {
-    candidate.residuals.worst().max(load_residual(&scaled.form, point, places))
 }
 
 /// Residuals at which there is nothing left to gain.

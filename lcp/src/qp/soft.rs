@@ -12,7 +12,7 @@ use super::program::{Best, Candidate, Proof};
 use super::reduced::Place;
 use super::scale::Scaled;
 use super::settings::SoftConstraints;
-use super::{QuadraticProgram, QuadraticProgramSettings, lack_of, refused};
+use super::{QuadraticProgram, QuadraticProgramSettings, confirmed, refused};
 use crate::solve::Monitor;
 use crate::{
     Bedding, Contact2d, ContactState, Error, Iteration, Observer, Residuals, Solution, Status,
@@ -132,8 +132,8 @@ impl QuadraticProgram {
             centre = state.u;
         };
         let search = || farkas_vector(&contact.to_general(), self.effort(began));
-        let lack = |it: &Candidate| lack_of(contact, it, settings.tolerance);
-        Ok(self.concluded(best, end, &monitor, (Proof::new(&search), &lack)))
+        let confirm = |it: &Candidate| confirmed(contact, it, settings.tolerance);
+        Ok(self.concluded(best, end, &monitor, (Proof::new(&search), &confirm)))
     }
 
     /// The same solver for a problem that has its springs.

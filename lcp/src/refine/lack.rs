@@ -3,9 +3,9 @@
 use super::ContactStatus;
 use super::at::At;
 use crate::active::{Point, Scaled};
+use crate::certify::ratio;
 use crate::extended::Extended;
 use crate::problem::{column_of, max_abs};
-use crate::residual::ratio;
 
 /// Rows of smaller terms than this part of the largest force or displacement are measured by that: of a body at
 /// rest between others all terms are rounding errors.

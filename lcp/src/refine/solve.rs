@@ -7,8 +7,9 @@ use super::lack::{self, Lack, Shifts};
 use super::law::{self, Margin};
 use super::{ContactStatus, DOUBT, Refined, Refinement};
 use crate::active::{Condensed, Scaled, Springs};
+use crate::certify::ratio;
+use crate::extended::Extended;
 use crate::problem::max_abs;
-use crate::residual::ratio;
 use crate::{ContactState, Error};
 
 /// The answer, and what the inequalities of every contact leave.
@@ -32,16 +33,20 @@ pub(super) fn solved(
     Ok(solve.finish(began.elapsed().as_secs_f64()))
 }
 
-/// Where the equations of the states lead to, without rounding errors, as far as one does.
-pub(super) fn refined<'a>(
-    scaled: &'a Scaled,
-    at: &'a At,
-    statuses: &'a [ContactStatus],
-) -> impl Iterator<Item = At> + 'a {
+/// Displacements in units of the data, and forces in those of the scaled problem.
+pub(crate) type Exact = (Vec<Extended>, Vec<[Extended; 2]>);
+
+/// Where the equations of the states lead to from a scaled point, without rounding errors, as far as one does.
+pub(crate) fn refined_states(
+    scaled: &Scaled,
+    (u, forces): (&[f64], &[(f64, f64)]),
+    statuses: &[ContactStatus],
+) -> impl Iterator<Item = Exact> {
+    let at = At::of(u, forces);
     let refined = move |weights| {
         let mut solve = Solve::new(scaled, at.clone(), statuses, weights).ok()?;
         solve.refine();
-        Some(solve.at)
+        Some((solve.at.displacements(scaled), solve.at.forces))
     };
     WEIGHTS.into_iter().filter_map(refined)
 }

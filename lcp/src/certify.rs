@@ -1,0 +1,83 @@
+//! The judge: the only place that says how good a point is, and whether a proof is one.
+//!
+//! A point is measured by the rows of the problem as it was given, each against its own terms, so that no
+//! scaling of rows or variables changes the verdict, and no large entry excuses a small one elsewhere:
+//!
+//! * **equation**: `|r_i| / terms_i`, where `r_i` is what is left of row `i` and `terms_i` the sum of the sizes
+//!   of its terms. It is the smallest relative change of the data of the row that makes it hold (Oettli and
+//!   Prager 1964).
+//! * **feasibility**: a component that violates its sign is taken to be set to zero, which changes row `i` by
+//!   `a_ij x_j`. It counts by the largest `|a_ij x_j| / terms_i`.
+//! * **complementarity**: of a pair whose variables are both positive the one that counts less is taken to be
+//!   set to zero, and counts likewise.
+//! * **loads**: what is left of a row, with what the two changes above add to it, against the largest right-hand
+//!   side of its connected part, in equilibrated units. Far out, where the terms are large, a row may hold
+//!   to a small part of its terms and not at all compared with the loads: such a point may be near no solution.
+//!
+//! Rows and pairs are those that the problem is stated in: `(z, w)` of standard, mixed and boxed problems, forces,
+//! gaps and slips of contact. A conversion never decides.
+//!
+//! Residuals are computed in `f64`, and with twice the digits where rounding errors of the terms are not small
+//! against the loads.
+
+mod boxed;
+mod contact;
+mod farkas;
+mod friction;
+mod general;
+mod ledger;
+mod parts;
+mod weights;
+
+pub(crate) use boxed::BoxedJudge;
+pub(crate) use contact::{ContactJudge, StateOf};
+pub(crate) use farkas::is_proof;
+pub(crate) use general::{GeneralJudge, right_hand_side};
+pub(crate) use ledger::{Precision, ratio};
+
+use crate::Status;
+
+/// How far a point is from a solution: dimensionless, from the data as given, whatever their units. See
+/// [`HorizontalLcp::residuals`](crate::HorizontalLcp::residuals).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Residuals {
+    /// Largest `|r_i| / terms_i` of what is left of a row and the sum of the sizes of its terms.
+    pub equation: f64,
+    /// The largest effect of a component that violates its sign or its bound: the largest
+    /// `|a_ij x_j| / terms_i` of the change that takes the violation away.
+    pub feasibility: f64,
+    /// The largest effect of the smaller one of a pair whose variables are both positive.
+    pub complementarity: f64,
+    /// Feasibility and complementarity in one number.
+    pub natural: f64,
+    /// What is left of a row, and of the changes that feasibility and complementarity ask for, against the
+    /// largest right-hand side of its connected part in equilibrated units.
+    pub loads: f64,
+}
+
+impl Residuals {
+    /// The largest of the residuals: the number that decides.
+    pub fn worst(&self) -> f64 {
+        self.equation.max(self.natural).max(self.loads)
+    }
+
+    /// What a method may say of a point with these residuals: solved, or what it says of other points; of one
+    /// that is not even almost solved it cannot say that.
+    pub(crate) fn verdict(&self, tolerance: f64, otherwise: Status) -> Status {
+        let worst = self.worst();
+        if worst <= tolerance {
+            Status::Solved
+        } else if otherwise == Status::AlmostSolved && worst > tolerance.sqrt() {
+            Status::NumericalTrouble
+        } else {
+            otherwise
+        }
+    }
+
+    /// Of a point that is not a number.
+    pub(crate) fn infinite() -> Self {
+        let inf = f64::INFINITY;
+        Self { equation: inf, feasibility: inf, complementarity: inf, natural: inf, loads: inf }
+    }
+}

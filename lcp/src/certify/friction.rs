@@ -1,0 +1,72 @@
+//! Forces of a contact problem that is reduced to the contacts.
+
+use super::ledger::{Entry, Ledger, Precision, Rows};
+use super::{Residuals, weights};
+use crate::extended::Extended;
+use crate::matrix::Column;
+use crate::{ContactForces, Friction2d};
+
+impl Friction2d {
+    /// Residuals of forces, dimensionless, from the data as given. The velocities `v = W r + q` follow from the
+    /// forces, so that no equation is left; pairs are the normal force with the normal velocity, and the two
+    /// distances `mu r_N + r_T` and `mu r_N - r_T` to the borders of the friction cone with the sliding
+    /// forwards and backwards. See [`HorizontalLcp::residuals`](crate::HorizontalLcp::residuals).
+    ///
+    /// ```
+    /// use faer::mat;
+    /// use lcp::{Friction2d, Lemke, Solver};
+    /// let friction = Friction2d::new(mat![[1.0, 0.0], [0.0, 1.0]], vec![-2.0, -3.0], vec![0.5])?;
+    /// let solution = Solver::<Friction2d>::solve(&Lemke::default(), &friction)?;
+    /// let mut forces = friction.forces(&solution.t);
+    /// assert_eq!(friction.residuals(&forces).worst(), 0.0);
+    /// forces.tangential[0] = 1.1;
+    /// assert!(friction.residuals(&forces).worst() > 0.01);
+    /// # Ok::<(), lcp::Error>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If there is not one normal and one tangential force for every contact.
+    pub fn residuals(&self, forces: &ContactForces) -> Residuals {
+        let ContactForces { normal, tangential } = forces;
+        let contacts = self.contacts();
+        assert!(normal.len() == contacts && tangential.len() == contacts, "two forces a contact");
+        let columns: Vec<Column<'_>> = (0..2 * contacts).map(|j| self.w().slice(j)).collect();
+        let loads: Vec<f64> = self.q().iter().map(|q| q.abs()).collect();
+        let weights = weights::weights(&columns, &loads);
+        let forces: Vec<f64> = normal.iter().zip(tangential).flat_map(|(n, t)| [*n, *t]).collect();
+        if forces.iter().any(|v| !v.is_finite()) {
+            return Residuals::infinite();
+        }
+        let mut rows = Rows::<Extended>::new(self.q().iter().map(|q| (*q, q.abs())));
+        for (column, &force) in columns.iter().zip(&forces) {
+            column.for_each(|i, v| rows.add(i, v, force.into()));
+        }
+        let velocities: Vec<f64> = rows.rest.iter().map(|v| v.rounded()).collect();
+        // The velocities are defined by the rows, which hold.
+        rows.rest.fill(Extended::ZERO);
+        let mut ledger = Ledger::new(rows, &weights);
+        for (i, mu) in self.mu().iter().enumerate() {
+            let [of_n, of_t] = [0, 1].map(|k| {
+                let columns = &columns;
+                move |visit: &mut dyn FnMut(usize, f64)| columns[2 * i + k].for_each(visit)
+            });
+            let [of_normal, of_slip] =
+                [0, 1].map(|k| move |visit: &mut dyn FnMut(usize, f64)| visit(2 * i + k, 1.0));
+            let (v_n, v_t) = (velocities[2 * i], velocities[2 * i + 1]);
+            let (normal, tangential) = (forces[2 * i], forces[2 * i + 1]);
+            ledger.pair(
+                &Entry { value: normal, column: &of_n },
+                &Entry { value: v_n, column: &of_normal },
+            );
+            let bound = mu * normal.max(0.0);
+            for (force, slip) in [(bound + tangential, v_t), (bound - tangential, -v_t)] {
+                ledger.pair(
+                    &Entry { value: force, column: &of_t },
+                    &Entry { value: slip.max(0.0), column: &of_slip },
+                );
+            }
+        }
+        let length = 2.0 * contacts as f64 + 1.0;
+        ledger.finish(length, Precision::Exact)
+    }
+}

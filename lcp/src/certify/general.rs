@@ -1,0 +1,125 @@
+//! Points of the general form.
+
+use super::ledger::{Digits, Entry, Ledger, Precision, Rows};
+use super::{Residuals, weights};
+use crate::extended::Extended;
+use crate::matrix::Column;
+use crate::scaling::{GIVEN, equilibrate};
+use crate::{HorizontalLcp, Side};
+
+impl HorizontalLcp {
+    /// Residuals of a point, dimensionless, from the data as given; [`Residuals::worst`] decides.
+    ///
+    /// What is left of row `i`, `r_i = (A t + B y - c)_i`, is measured by the terms of that row,
+    /// `(|A||t| + |B||y| + |c|)_i`, and so is what a component changes in its rows that violates its sign, or is the
+    /// smaller one of a pair whose variables are both positive. No unit matters, neither of a row nor of a
+    /// variable. In addition `loads` compares what is left with the largest right-hand side of the connected
+    /// part of the row.
+    ///
+    /// A NaN in the point makes the residuals infinite, and so do terms that overflow.
+    ///
+    /// ```
+    /// use faer::mat;
+    /// use lcp::{HorizontalLcp, Lcp};
+    /// // w = z - 2 in the first row, in units that make it 1e14 times as stiff as the second
+    /// let lcp = Lcp::new(mat![[1e14, 0.0], [0.0, 1.0]], vec![-2.0, -1.0])?;
+    /// let problem = HorizontalLcp::from(lcp);
+    /// assert_eq!(problem.residuals(&[2e-14, 1.0], &[0.0, 0.0]).worst(), 0.0);
+    /// assert_eq!(problem.residuals(&[0.0, 1.0], &[0.0, 0.0]).worst(), 1.0);
+    /// # Ok::<(), lcp::Error>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If `t` or `y` does not have one entry for every pair.
+    pub fn residuals(&self, t: &[f64], y: &[f64]) -> Residuals {
+        GeneralJudge::new(self).residuals(t, y, Precision::Exact)
+    }
+}
+
+/// A general problem with the weights of its rows.
+pub(crate) struct GeneralJudge<'a> {
+    problem: &'a HorizontalLcp,
+    /// The right-hand side, every entry with the size of its terms.
+    c: Vec<(f64, f64)>,
+    weights: Vec<f64>,
+    /// Terms of a row at most.
+    length: f64,
+}
+
+impl<'a> GeneralJudge<'a> {
+    pub(crate) fn new(problem: &'a HorizontalLcp) -> Self {
+        Self::with_right_hand_side(problem, right_hand_side(problem))
+    }
+
+    /// For another right-hand side, of which every entry comes with the size of its terms.
+    pub(crate) fn with_right_hand_side(problem: &'a HorizontalLcp, c: Vec<(f64, f64)>) -> Self {
+        let (row, col) = equilibrate(problem.order(), &columns(problem), GIVEN);
+        Self::with_factors(problem, c, (&row, &col))
+    }
+
+    /// With the factors that equilibrate the rows and all columns, of `A` and then of `B`.
+    pub(crate) fn with_factors(
+        problem: &'a HorizontalLcp,
+        c: Vec<(f64, f64)>,
+        (row, col): (&[f64], &[f64]),
+    ) -> Self {
+        let columns = columns(problem);
+        let loads: Vec<f64> = c.iter().map(|(_, size)| *size).collect();
+        let weights = weights::weights_of(&columns, &loads, (row, col));
+        let length = 2.0 * problem.order() as f64 + 1.0;
+        Self { problem, c, weights, length }
+    }
+
+    /// # Panics
+    /// If `t` or `y` does not have one entry for every pair.
+    pub(crate) fn residuals(&self, t: &[f64], y: &[f64], precision: Precision) -> Residuals {
+        let n = self.problem.order();
+        assert!(t.len() == n && y.len() == n, "a point has one entry for every pair");
+        if t.iter().chain(y).any(|v| !v.is_finite()) {
+            return Residuals::infinite();
+        }
+        let ledger = self.ledger(t, y);
+        if precision == Precision::Exact && ledger.is_hidden(self.length) {
+            let extended = |v: &[f64]| v.iter().copied().map(Extended::from).collect::<Vec<_>>();
+            return self.residuals_of(&extended(t), &extended(y));
+        }
+        ledger.finish(self.length, precision)
+    }
+
+    /// The same of a point of twice the digits.
+    pub(crate) fn residuals_of(&self, t: &[Extended], y: &[Extended]) -> Residuals {
+        self.ledger(t, y).finish(self.length, Precision::Exact)
+    }
+
+    fn ledger<X: Digits>(&self, t: &[X], y: &[X]) -> Ledger<'_> {
+        let problem = self.problem;
+        let mut rows = Rows::<X>::new(self.c.iter().map(|(c, size)| (-c, *size)));
+        for (side, x) in [(Side::T, t), (Side::Y, y)] {
+            for (pair, &x) in x.iter().enumerate().filter(|(_, x)| x.rounded() != 0.0) {
+                problem.column(pair, side).for_each(|i, v| rows.add(i, v, x));
+            }
+        }
+        let mut ledger = Ledger::new(rows, &self.weights);
+        for (pair, (t, y)) in t.iter().zip(y).enumerate() {
+            let [of_t, of_y] = [Side::T, Side::Y].map(|side| {
+                move |visit: &mut dyn FnMut(usize, f64)| problem.column(pair, side).for_each(visit)
+            });
+            ledger.pair(
+                &Entry { value: t.rounded(), column: &of_t },
+                &Entry { value: y.rounded(), column: &of_y },
+            );
+        }
+        ledger
+    }
+}
+
+/// All columns, of `A` and then of `B`.
+fn columns(problem: &HorizontalLcp) -> Vec<Column<'_>> {
+    let of_side = |side| (0..problem.order()).map(move |pair| problem.column(pair, side));
+    [Side::T, Side::Y].into_iter().flat_map(of_side).collect()
+}
+
+/// Every entry with its size.
+pub(crate) fn right_hand_side(problem: &HorizontalLcp) -> Vec<(f64, f64)> {
+    problem.c().iter().map(|c| (*c, c.abs())).collect()
+}

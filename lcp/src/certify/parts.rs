@@ -1,0 +1,47 @@
+//! Connected parts.
+
+/// Sets that grow together (Tarjan 1975).
+pub(crate) struct Parts {
+    parent: Vec<usize>,
+    count: usize,
+}
+
+impl Parts {
+    /// Every element by itself.
+    pub(crate) fn new(count: usize) -> Self {
+        Self { parent: (0..count).collect(), count }
+    }
+
+    /// Whether all elements are in one part.
+    pub(crate) fn is_one(&self) -> bool {
+        self.count <= 1
+    }
+
+    /// The element that stands for the part of another.
+    pub(crate) fn of(&mut self, mut i: usize) -> usize {
+        while self.parent[i] != i {
+            self.parent[i] = self.parent[self.parent[i]];
+            i = self.parent[i];
+        }
+        i
+    }
+
+    /// Makes one part of those of two elements; the one with the lower number stands for it.
+    pub(crate) fn join(&mut self, i: usize, j: usize) {
+        let (i, j) = (self.of(i), self.of(j));
+        if i != j {
+            self.parent[i.max(j)] = i.min(j);
+            self.count -= 1;
+        }
+    }
+
+    /// Joins all elements of an iterator.
+    pub(crate) fn join_all(&mut self, mut elements: impl Iterator<Item = usize>) {
+        if self.is_one() {
+            return;
+        }
+        if let Some(first) = elements.next() {
+            elements.for_each(|i| self.join(first, i));
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! What a row counts in units of the loads.
+
+use super::parts::Parts;
+use crate::matrix::Column;
+use crate::scaling::{GIVEN, equilibrate};
+
+/// Entries below this, once rows and columns are equilibrated, couple two rows only weakly.
+const STRONG: f64 = 1.0 / (1 << 10) as f64;
+/// Rounds in which loads are passed on through weak couplings.
+const ROUNDS: usize = 4;
+
+/// For every row one over the loads that it feels, in units of the row: the largest right-hand side of its
+/// connected part, and of others by how weakly they are coupled to it. `loads` are the sizes of the right-hand
+/// sides. Zero where there are none, and only the terms measure.
+pub(super) fn weights(columns: &[Column<'_>], loads: &[f64]) -> Vec<f64> {
+    let rows = loads.len();
+    let (row, col) = equilibrate(rows, columns, GIVEN);
+    weights_of(columns, loads, (&row, &col))
+}
+
+/// The same with the factors of rows and columns that bring the entries near one.
+pub(super) fn weights_of(
+    columns: &[Column<'_>],
+    loads: &[f64],
+    (row, col): (&[f64], &[f64]),
+) -> Vec<f64> {
+    let rows = loads.len();
+    let mut parts = Parts::new(rows);
+    let mut weakly = false;
+    for (column, col) in columns.iter().zip(col) {
+        if parts.is_one() {
+            break;
+        }
+        let mut first = None;
+        column.for_each(|i, v| {
+            let coupling = row[i] * v.abs() * col;
+            if coupling >= STRONG {
+                parts.join(*first.get_or_insert(i), i);
+            }
+            weakly |= coupling > 0.0 && coupling < STRONG;
+        });
+    }
+    let part: Vec<usize> = (0..rows).map(|i| parts.of(i)).collect();
+    let mut felt = vec![0.0_f64; rows];
+    for i in 0..rows {
+        felt[part[i]] = felt[part[i]].max(loads[i] * row[i]);
+    }
+    for _ in 0..if weakly && !parts.is_one() { ROUNDS } else { 0 } {
+        for (column, col) in columns.iter().zip(col) {
+            let coupling = |i: usize, v: f64| (row[i] * v.abs() * col).min(1.0);
+            let mut passed = 0.0_f64;
+            column.for_each(|i, v| passed = passed.max(felt[part[i]] * coupling(i, v)));
+            column.for_each(|i, v| {
+                felt[part[i]] = felt[part[i]].max(passed * coupling(i, v));
+            });
+        }
+    }
+    (0..rows).map(|i| row[i] * reciprocal(felt[part[i]])).collect()
+}
+
+/// Zero of zero.
+pub(super) fn reciprocal(v: f64) -> f64 {
+    if v > 0.0 { 1.0 / v } else { 0.0 }
+}

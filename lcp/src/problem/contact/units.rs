@@ -1,0 +1,49 @@
+//! Units of the displacements of a contact problem.
+
+use faer::sparse::SparseColMat;
+
+use super::{Contact2d, column_of};
+
+/// Factors that bring the largest coefficient of every displacement in a gap or a slip near one; those of
+/// displacements that no contact sees bring their stiffness to that of the others.
+pub(crate) fn column_factors(problem: &Contact2d) -> Vec<f64> {
+    let n = problem.displacements();
+    let diagonal = diagonal(problem.stiffness());
+    let mut largest = vec![0.0_f64; n];
+    for (j, largest) in largest.iter_mut().enumerate() {
+        column_of(problem.normal(), j).for_each(|(_, v)| *largest = largest.max(v.abs()));
+        let tangent = column_of(problem.tangent(), j).filter(|(i, _)| problem.mu()[*i] > 0.0);
+        tangent.for_each(|(_, v)| *largest = largest.max(v.abs()));
+    }
+    let seen = (0..n).filter(|&j| largest[j] > 0.0 && diagonal[j] > 0.0);
+    let stiffness =
+        median(&mut seen.map(|j| diagonal[j] / (largest[j] * largest[j])).collect::<Vec<_>>());
+    let stiffness = stiffness
+        .or_else(|| median(&mut diagonal.iter().copied().filter(|k| *k > 0.0).collect::<Vec<_>>()));
+    let factor = |(largest, diagonal): (&f64, &f64)| {
+        if *largest > 0.0 {
+            power_of_two(1.0 / largest)
+        } else if let Some(stiffness) = stiffness.filter(|_| *diagonal > 0.0) {
+            power_of_two((stiffness / diagonal).sqrt())
+        } else {
+            1.0
+        }
+    };
+    largest.iter().zip(&diagonal).map(factor).collect()
+}
+
+/// The diagonal entries.
+pub(crate) fn diagonal(k: &SparseColMat<usize, f64>) -> Vec<f64> {
+    (0..k.ncols()).map(|j| k.get(j, j).copied().unwrap_or(0.0)).collect()
+}
+
+/// The middle one by size, if there is any.
+pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
+    let middle = values.len() / 2;
+    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
+}
+
+/// Factors that are powers of two cost no accuracy.
+pub(crate) fn power_of_two(x: f64) -> f64 {
+    x.log2().round().clamp(-1000.0, 1000.0).exp2()
+}
