@@ -4,8 +4,8 @@
 use super::PROXIMAL;
 use super::condensed::{Condensed, Springs};
 use super::scaled::{Point, Scaled};
-use crate::ContactStatus;
 use crate::problem::max_abs;
+use crate::refine::ContactStatus;
 use crate::residual::ratio;
 
 /// What a row lacks, relative to its terms, that is nothing but rounding.

@@ -2,8 +2,9 @@
 
 use super::crossover::nearest;
 use super::scaled::{Point, Scaled};
+use crate::refine::ContactStatus;
 use crate::refine::lack_of_loads;
-use crate::{Basis, Contact2d, ContactState, ContactStatus, MixedLcp, Residuals, Side};
+use crate::{Basis, Contact2d, ContactState, MixedLcp, Residuals, Side};
 
 /// A point of the general form of a problem.
 #[derive(Debug, Clone)]
