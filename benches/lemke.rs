@@ -13,7 +13,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use faer::Mat;
-use lcp::{HorizontalLcp, Lcp, Lemke, Solution};
+use lcp::{HorizontalLcp, Lcp, Lemke, Solution, Solver};
 use masonry::forms::{Form, FormKind};
 use masonry::model::Model;
 use masonry::reduction::Reduction;

@@ -178,7 +178,7 @@ impl Step {
         let problem = velocity_problem(discs, &contacts)?;
         let solution = solver.solve(&problem)?;
         if !solution.is_solved() {
-            return Err(format!("{}: {}", solver.name(), solution.status).into());
+            return Err(format!("{}: {}", solver.method(), solution.status).into());
         }
         let state = problem.recover(&solution.t, &solution.y);
         Ok(Self { contacts, solution, state })
@@ -218,7 +218,7 @@ impl Step {
         let slipping = forces.iter().filter(|force| force.is_slipping).count();
         let (open, sticking) = (self.contacts.len() - forces.len(), forces.len() - slipping);
         let energy: f64 = discs.iter().map(Disc::kinetic_energy).sum();
-        let (worst, solver) = (self.solution.residuals.worst(), self.solution.info.solver);
+        let (worst, solver) = (self.solution.residuals.worst(), self.solution.info.method);
         print!("{time:6.2} {open:15} {sticking:5} {slipping:4}");
         println!(" {worst:9.1e} {energy:10.2e}   {solver}");
     }

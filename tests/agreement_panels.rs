@@ -18,8 +18,8 @@ use common::{difference, panels};
 use faer::sparse::{SparseColMat, Triplet};
 use lcp::{
     Contact2d, ContactState, Error, InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings,
-    ProjectedGaussSeidel, ProjectedGaussSeidelSettings, QuadraticProgram, QuadraticProgramSettings,
-    SemismoothNewton, SemismoothNewtonSettings, Solver, Status,
+    Method, ProjectedGaussSeidel, ProjectedGaussSeidelSettings, QuadraticProgram,
+    QuadraticProgramSettings, SemismoothNewton, SemismoothNewtonSettings, Solver, Status,
 };
 use masonry::forms::Sparse;
 use masonry::model::{Body, Model};
@@ -120,7 +120,7 @@ impl Case {
     /// The answer of a method that must find one, with its residual and its balances checked.
     fn solved(&self, route: &dyn Solver<Contact2d>, tolerance: f64) -> Answer {
         let solution = route.solve(&self.problem).unwrap();
-        let name = route.name();
+        let name = route.method();
         assert_eq!(
             solution.status,
             Status::Solved,
@@ -253,7 +253,7 @@ fn assert_one_state(
         for route in routes(tolerance) {
             let found = case.solved(&*route, tolerance);
             let bound = 1e2 * tolerance;
-            let what = |what: &str| format!("{what}, {}, {tolerance:e}", route.name());
+            let what = |what: &str| format!("{what}, {}, {tolerance:e}", route.method());
             let (a, b) = (&found.state, &reference.state);
             assert_agree(&what("elastic forces"), (&found.elastic, &reference.elastic), bound);
             if is_held {
@@ -306,7 +306,8 @@ fn panels_without_friction() {
             for route in routes(tolerance) {
                 let found = case.solved(&*route, tolerance);
                 let bound = 1e2 * tolerance;
-                let what = |what: &str| format!("{name}: {what}, {}, {tolerance:e}", route.name());
+                let what =
+                    |what: &str| format!("{name}: {what}, {}, {tolerance:e}", route.method());
                 assert_agree(&what("elastic"), (&found.elastic, &reference.elastic), bound);
                 assert_agree(&what("stresses"), (&found.stresses, &reference.stresses), bound);
                 assert_agree(&what("work"), (&[found.work], &[reference.work]), bound);
@@ -320,7 +321,7 @@ fn panels_without_friction() {
 fn sweeps_refuse_bricks_that_float() {
     for name in ["block_on_floor", "stack", "wedge", "panel_square", "panel_rectangular"] {
         match sweeps(1e-8).solve(&Case::new(name).problem) {
-            Err(Error::NotTreated { solver: "pgs", reason }) => {
+            Err(Error::NotTreated { method: Method::GaussSeidel, reason }) => {
                 assert!(reason.contains("definite"));
             }
             other => panic!("{name}: {other:?}"),
@@ -349,7 +350,7 @@ fn rigid_blocks() {
         for tolerance in TOLERANCES {
             for route in routes(tolerance) {
                 let found = case.solved(&*route, tolerance);
-                assert!(largest(&found.state.u) <= 1e2 * tolerance, "{name}, {}", route.name());
+                assert!(largest(&found.state.u) <= 1e2 * tolerance, "{name}, {}", route.method());
             }
         }
     }

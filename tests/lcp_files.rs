@@ -10,9 +10,9 @@ mod transform;
 
 use std::path::PathBuf;
 
-use lcp::Lemke;
 use lcp::faer::Mat;
 use lcp::io::{Problem, read_file};
+use lcp::{Lemke, Solver};
 use transform::{Equivalent, extended, permuted, premultiplied, scaled, swapped};
 
 /// What is known of the solutions `(z, w)`.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use lcp::Refinement;
+use lcp::refine::Refinement;
 use masonry::study::{End, Mesh, MeshErrors, Record, Study};
 
 /// Time and algebraic error: a line for each route, a column for each tolerance.

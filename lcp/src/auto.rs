@@ -13,15 +13,16 @@ pub use settings::AutoSettings;
 
 use method::Planned;
 
-use crate::{Error, Observer, Solution, Solver};
+use crate::{Error, Method, Observer, Solution, Solver};
 
 /// A method of a plan, and why it stands there.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Choice {
-    /// The short name of the method.
-    pub solver: &'static str,
+    /// The method.
+    #[cfg_attr(feature = "serde", serde(rename = "solver"))]
+    pub method: Method,
     /// What speaks for it at this place, with the numbers that it was told from.
     pub reason: String,
 }
@@ -76,15 +77,15 @@ pub struct Choice {
 /// [`AutoSettings::time_limit`] where that matters.
 ///
 /// ```
-/// use lcp::{Auto, Solver, families};
+/// use lcp::{Auto, Method, Solver, families};
 /// let problem = families::obstacle(40).problem;
 /// let auto = Auto::default();
 /// let first = &auto.plan(&problem)[0];
-/// assert_eq!(first.solver, "newton");
+/// assert_eq!(first.method, Method::Newton);
 /// assert!(first.reason.starts_with("order 1600, sparse with 7840 nonzeros, symmetric"));
 /// let solution = auto.solve(&problem)?;
 /// assert!(solution.is_solved());
-/// assert_eq!(solution.info.solver, "newton");
+/// assert_eq!(solution.info.method, Method::Newton);
 /// assert_eq!(solution.info.routes.len(), 1);
 /// # Ok::<(), lcp::Error>(())
 /// ```
@@ -94,9 +95,6 @@ pub struct Auto {
 }
 
 impl Auto {
-    /// The short name of the choice, as [`Solver::name`] has it.
-    pub const NAME: &'static str = "auto";
-
     /// A solver with these settings.
     pub fn new(settings: AutoSettings) -> Self {
         Self { settings }
@@ -110,14 +108,14 @@ impl Auto {
     /// The methods for a problem in the order in which they would be asked.
     pub fn plan<P: Planned>(&self, problem: &P) -> Vec<Choice> {
         let steps = problem.steps().into_iter();
-        steps.map(|step| Choice { solver: step.method.name(), reason: step.reason }).collect()
+        steps.map(|step| Choice { method: step.method, reason: step.reason }).collect()
     }
 }
 
 /// Of the problems in the table of [`Auto`].
 impl<P: Planned> Solver<P> for Auto {
-    fn name(&self) -> &'static str {
-        Self::NAME
+    fn method(&self) -> Method {
+        Method::Auto
     }
 
     fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {

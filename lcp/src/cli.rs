@@ -15,10 +15,10 @@ use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 
 use crate::io::{Format, ProblemFile, ReadError, read_file};
-use crate::{LemkeSettings, Residuals};
+use crate::{LemkeSettings, Method, Residuals};
 
 /// Solves linear complementarity problems: w = M z + q, z >= 0, w >= 0, z.w = 0, and their relatives
 /// with free and bounded variables, in general form, and for contact with friction.
@@ -44,8 +44,8 @@ struct SolveArgs {
     #[command(flatten)]
     input: InputArgs,
     /// The method.
-    #[arg(long, value_enum, default_value_t = Solver::Auto)]
-    solver: Solver,
+    #[arg(long, value_enum, default_value_t)]
+    solver: Method,
     /// Largest residual, relative to the data, of an answer called solved; 1e-10, for pgs 1e-8.
     #[arg(long, value_name = "T")]
     tol: Option<f64>,
@@ -90,29 +90,6 @@ struct InputArgs {
     /// Print one JSON object instead of the report.
     #[arg(long)]
     json: bool,
-}
-
-/// A method.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Solver {
-    /// The method that suits the problem best, and the next one where it fails.
-    #[value(name = crate::Auto::NAME)]
-    Auto,
-    /// Lemke's method: any problem.
-    #[value(name = crate::Lemke::NAME)]
-    Lemke,
-    /// Projected Gauss-Seidel: positive diagonals; bounds, friction.
-    #[value(name = crate::ProjectedGaussSeidel::NAME)]
-    Pgs,
-    /// Convex quadratic program: symmetric positive semidefinite matrices.
-    #[value(name = crate::QuadraticProgram::NAME)]
-    Qp,
-    /// Semismooth Newton, the active set method: positive diagonals, above all M-matrices.
-    #[value(name = crate::SemismoothNewton::NAME)]
-    Newton,
-    /// Interior-point method: large sparse problems.
-    #[value(name = crate::InteriorPoint::NAME)]
-    Interior,
 }
 
 type Failure = Box<dyn std::error::Error>;

@@ -1,9 +1,7 @@
 //! Misuse: errors name the place and the remedy. What the mathematics decides is a
 //! [`Status`](crate::Status), not an error.
 
-#[cfg(feature = "clarabel")]
-use crate::QuadraticProgram;
-use crate::{Auto, InteriorPoint, Lemke, ProjectedGaussSeidel, SemismoothNewton};
+use crate::Method;
 
 /// Why a problem or a setting was refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -99,25 +97,25 @@ pub enum Error {
         limit: usize,
     },
     /// A method that cannot treat a problem of this kind.
-    #[error("{} cannot treat this problem: {reason}", full_name(.solver))]
+    #[error("{} cannot treat this problem: {reason}", .method.full_name())]
     NotTreated {
-        /// The short name of the method, as [`Solver::name`](crate::Solver::name) has it.
-        solver: &'static str,
+        /// The method.
+        method: Method,
         /// What is in the way, and which method to take instead.
         reason: String,
     },
-}
-
-/// The name of a method in text for people, from its short one.
-pub(crate) fn full_name(solver: &str) -> &str {
-    match solver {
-        Auto::NAME => "the automatic choice",
-        Lemke::NAME => "Lemke's method",
-        SemismoothNewton::NAME => "semismooth Newton",
-        #[cfg(feature = "clarabel")]
-        QuadraticProgram::NAME => "quadratic programming",
-        InteriorPoint::NAME => "the interior-point method",
-        ProjectedGaussSeidel::NAME => "projected Gauss-Seidel",
-        other => other,
-    }
+    /// A name that no method has.
+    #[error("there is no method `{name}`: take one of {}", Method::ALL.map(Method::name).join(", "))]
+    UnknownMethod {
+        /// The name.
+        name: String,
+    },
+    /// Sparse factors that cannot be planned.
+    #[error("the sparse factors of {what} cannot be planned: {reason}")]
+    Factors {
+        /// Of which matrix.
+        what: &'static str,
+        /// What is in the way.
+        reason: String,
+    },
 }

@@ -10,7 +10,7 @@ use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 /// summed.
 ///
 /// ```
-/// use lcp::Extended;
+/// use lcp::refine::Extended;
 /// let third = Extended::from(1.0) / Extended::from(3.0);
 /// let one = third * Extended::from(3.0);
 /// assert!((one - Extended::from(1.0)).rounded().abs() < 1e-31);

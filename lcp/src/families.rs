@@ -16,11 +16,11 @@
 //! | [`horizontal_singular`], [`mixed_singular`] | none | may end on a ray |
 //!
 //! ```
-//! use lcp::{Lemke, families};
+//! use lcp::{Lemke, Solver, families};
 //! use lcp::families::Known;
 //!
 //! let instance = families::positive_definite(10, 1);
-//! let solution = Lemke::default().solve(&instance.problem.into())?;
+//! let solution = Lemke::default().solve(&instance.problem)?;
 //! let Known::Unique { t, .. } = instance.known else { panic!("positive definite") };
 //! assert!(t.iter().zip(&solution.t).all(|(z, found)| (z - found).abs() < 1e-12));
 //! # Ok::<(), lcp::Error>(())

@@ -21,7 +21,7 @@ use start::{set_out, start_again};
 
 use crate::active::{Condensed, Effort, Original, Scaled, Search};
 use crate::solve::Monitor;
-use crate::{Error, Iteration, Observer, Solution, Status};
+use crate::{Error, Iteration, Method, Observer, Solution, Status};
 
 /// An interior-point method for the complementarity problem itself, for large sparse problems: contact
 /// with Coulomb's friction ([`Contact2d`](crate::Contact2d)), and mixed and standard problems.
@@ -102,9 +102,6 @@ const PATIENCE: usize = 30;
 const NO_STEP: f64 = 1e-7;
 
 impl InteriorPoint {
-    /// The short name of the method.
-    pub const NAME: &'static str = "interior";
-
     /// A solver with these settings.
     pub fn new(settings: InteriorPointSettings) -> Self {
         Self { settings }
@@ -119,7 +116,7 @@ impl InteriorPoint {
         self.settings.validate(problem.order())?;
         let monitor =
             Monitor::new(self.settings.max_iterations, self.settings.time_limit, observer);
-        let search = Search::new(Self::NAME, problem, self.settings.tolerance)?;
+        let search = Search::new(Method::Interior, problem, self.settings.tolerance)?;
         Ok(Run { settings: &self.settings, problem, search, monitor, reached: 0.0 }.solve())
     }
 }

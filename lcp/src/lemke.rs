@@ -1,4 +1,4 @@
-//! Lemke's method on the general form.
+//! Lemke's method on the general form: what its pivots tell, and solutions along a line of right-hand sides.
 
 mod any_kernel;
 mod artificial;
@@ -10,6 +10,7 @@ mod finish;
 mod kernel;
 mod parametric;
 mod path;
+mod problems;
 mod ratio;
 mod search;
 mod sparse;
@@ -22,12 +23,16 @@ pub use parametric::{
     Breakpoint, Parametric, ParametricEnd, ParametricPath, ParametricRay, ParametricSettings,
 };
 
+pub use crate::pivoting::{
+    Attempt, AttemptCovering, AttemptEnd, AttemptStart, Perturbation, PivotRecord, Variable,
+};
+
 use std::ops::ControlFlow;
 use std::time::Instant;
 
 use search::Search;
 
-use crate::{Error, HorizontalLcp, LemkeSettings, Solution};
+use crate::{Error, HorizontalLcp, LemkeSettings, Method, Solution};
 
 /// How far a solve of [`Lemke`] has come, for an observer.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,9 +85,6 @@ pub struct Lemke {
 }
 
 impl Lemke {
-    /// The short name of the method.
-    pub const NAME: &'static str = "lemke";
-
     /// A solver with these settings.
     pub fn new(settings: LemkeSettings) -> Self {
         Self { settings }
@@ -93,20 +95,12 @@ impl Lemke {
         &self.settings
     }
 
-    /// Solves a problem.
+    /// Solves a problem like [`Solver::solve_observed`](crate::Solver::solve_observed), for an observer that
+    /// wants to know the attempt and the order too.
     ///
     /// # Errors
     /// For settings out of range. What the mathematics decides is in [`Solution::status`].
-    pub fn solve(&self, problem: &HorizontalLcp) -> Result<Solution, Error> {
-        self.solve_observed(problem, &mut |_| ControlFlow::Continue(()))
-    }
-
-    /// Solves a problem, calling the observer before every pivot; `Break` stops with
-    /// [`Status::Cancelled`](crate::Status::Cancelled).
-    ///
-    /// # Errors
-    /// For settings out of range. What the mathematics decides is in [`Solution::status`].
-    pub fn solve_observed(
+    pub fn solve_with_progress(
         &self,
         problem: &HorizontalLcp,
         observer: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
@@ -115,7 +109,7 @@ impl Lemke {
         let began = Instant::now();
         let deadline = self.settings.time_limit.and_then(|limit| began.checked_add(limit));
         let mut solution = Search::new(&self.settings, problem, deadline).run(observer);
-        solution.info.solver = Self::NAME;
+        solution.info.method = Method::Lemke;
         solution.info.seconds = began.elapsed().as_secs_f64();
         Ok(solution)
     }

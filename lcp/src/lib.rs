@@ -35,10 +35,10 @@
 //!
 //! ```
 //! use faer::mat;
-//! use lcp::{Lcp, Lemke, Status};
+//! use lcp::{Lcp, Lemke, Solver, Status};
 //!
 //! let lcp = Lcp::new(mat![[2.0, 1.0], [1.0, 2.0]], vec![-5.0, -6.0])?;
-//! let solution = Lemke::default().solve(&lcp.into())?;
+//! let solution = Lemke::default().solve(&lcp)?;
 //! assert_eq!(solution.status, Status::Solved);
 //! assert!(solution.residuals.worst() < 1e-14);
 //! # Ok::<(), lcp::Error>(())
@@ -70,17 +70,19 @@ pub mod families;
 mod interior;
 #[cfg(feature = "io")]
 pub mod io;
-mod lemke;
+pub mod lemke;
 mod linear;
 mod lower;
 mod matrix;
+mod method;
 mod newton;
-mod pgs;
+pub mod pgs;
+mod pivoting;
 mod problem;
 #[cfg(feature = "clarabel")]
-mod qp;
+pub mod qp;
 mod random;
-mod refine;
+pub mod refine;
 mod scaling;
 mod settings;
 mod solution;
@@ -93,32 +95,23 @@ pub use auto::{Auto, AutoSettings, Choice};
 pub use basis::{Basis, Side};
 pub use certify::Residuals;
 pub use error::Error;
-pub use extended::Extended;
 pub use interior::{InteriorPoint, InteriorPointSettings};
-pub use lemke::{
-    Breakpoint, Lemke, Parametric, ParametricEnd, ParametricPath, ParametricRay,
-    ParametricSettings, Progress,
-};
+#[doc(inline)]
+pub use lemke::Lemke;
 pub use matrix::Matrix;
+pub use method::Method;
 pub use newton::{SemismoothNewton, SemismoothNewtonSettings};
-pub use pgs::{
-    Constraint, MatrixRows, ProjectedGaussSeidel, ProjectedGaussSeidelSettings, Rows, RowsSolution,
-    SweepOrder, Sweepable,
-};
+#[doc(inline)]
+pub use pgs::{ProjectedGaussSeidel, ProjectedGaussSeidelSettings};
 pub use problem::{
     Bedding, BoxedLcp, Contact2d, ContactForces, ContactState, ErrorBound, Friction2d,
     HorizontalLcp, Lcp, MixedLcp, Monotonicity, StandardForm,
 };
 #[cfg(feature = "clarabel")]
-pub use qp::{
-    ContactForm, QuadraticProgram, QuadraticProgramSettings, SoftConstraints, SoftSolution,
-};
-pub use refine::{ContactStatus, Margin, Refined, Refinement, Verified};
+#[doc(inline)]
+pub use qp::{QuadraticProgram, QuadraticProgramSettings};
 pub use settings::{Covering, LemkeSettings, WarmStart};
-pub use solution::{
-    Attempt, AttemptCovering, AttemptEnd, AttemptStart, Info, Perturbation, PivotRecord, Ray,
-    Route, RouteEnd, SoftSprings, Solution, Status, Variable,
-};
+pub use solution::{Info, Ray, Route, RouteEnd, SoftSprings, Solution, Status};
 pub use solve::{Iteration, Observer, Solver};
 
 /// The programs of the README are compiled and run with the tests.

@@ -5,8 +5,8 @@ use std::borrow::Cow;
 use crate::certify::Residuals;
 use crate::{BoxedLcp, Friction2d, HorizontalLcp, Lcp, MixedLcp, Solution, Status};
 
-/// A problem with a general form.
-pub(crate) trait Lowered {
+/// A problem with a general form. Only the problems of the library are.
+pub trait Lowered {
     /// The general form, whose pairs a [`Solution`] of the problem has.
     fn general(&self) -> Cow<'_, HorizontalLcp>;
 

@@ -15,7 +15,7 @@ use crate::problem::max_abs;
 use crate::settings::check_tolerance;
 use crate::solve::Monitor;
 use crate::{
-    Basis, Error, HorizontalLcp, Lcp, Observer, Residuals, Side, Solution, Solver, Status,
+    Basis, Error, HorizontalLcp, Lcp, Method, Observer, Residuals, Side, Solution, Solver, Status,
     WarmStart,
 };
 use exchange::{Exchanges, Next};
@@ -124,9 +124,6 @@ pub struct SemismoothNewton {
 }
 
 impl SemismoothNewton {
-    /// The short name of the method.
-    pub const NAME: &'static str = "newton";
-
     /// A solver with these settings.
     pub fn new(settings: SemismoothNewtonSettings) -> Self {
         Self { settings }
@@ -167,7 +164,7 @@ impl SemismoothNewton {
         }
         let mut solution = Solution::judged(point, residuals, settings.tolerance, status);
         solution.basis = Some(basis_of(is_free));
-        solution.info.solver = Self::NAME;
+        solution.info.method = Method::Newton;
         solution.info.iterations = monitor.iterations();
         solution.info.factorisations = system.factorisations();
         solution.info.seconds = monitor.seconds();
@@ -272,7 +269,7 @@ fn check_diagonal(lcp: &Lcp) -> Result<(), Error> {
     match (0..lcp.order()).find(not_positive) {
         None => Ok(()),
         Some(i) => Err(Error::NotTreated {
-            solver: SemismoothNewton::NAME,
+            method: Method::Newton,
             reason: format!(
                 "M[{i}, {i}] is {}, but every diagonal entry must be positive: take Lemke",
                 lcp.m()[(i, i)]
@@ -282,8 +279,8 @@ fn check_diagonal(lcp: &Lcp) -> Result<(), Error> {
 }
 
 impl Solver<Lcp> for SemismoothNewton {
-    fn name(&self) -> &'static str {
-        Self::NAME
+    fn method(&self) -> Method {
+        Method::Newton
     }
 
     fn solve_observed(
@@ -299,8 +296,8 @@ impl Solver<Lcp> for SemismoothNewton {
 
 /// Problems that are standard ones in disguise ([`HorizontalLcp::to_standard`]).
 impl Solver<HorizontalLcp> for SemismoothNewton {
-    fn name(&self) -> &'static str {
-        Self::NAME
+    fn method(&self) -> Method {
+        Method::Newton
     }
 
     fn solve_observed(
@@ -311,7 +308,7 @@ impl Solver<HorizontalLcp> for SemismoothNewton {
         let settings = &self.settings;
         settings.validate(problem.order())?;
         let standard = problem.to_standard().ok_or_else(|| Error::NotTreated {
-            solver: Self::NAME,
+            method: Method::Newton,
             reason:
                 "it is not a standard problem in disguise, with a column of one entry in every \
                      pair, all in different rows: take Lemke"

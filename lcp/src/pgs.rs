@@ -21,7 +21,7 @@ use std::ops::ControlFlow;
 use sweep::{Best, Point, Sweeps};
 
 use crate::solve::Monitor;
-use crate::{Error, Info, Observer, Residuals, Solution, Solver, Status, WarmStart};
+use crate::{Error, Info, Method, Observer, Residuals, Solution, Solver, Status, WarmStart};
 
 /// Projected Gauss-Seidel, with over-relaxation: for `w = M z + q` with bounds on `z`, and for contact
 /// with friction.
@@ -120,9 +120,6 @@ pub struct RowsSolution {
 }
 
 impl ProjectedGaussSeidel {
-    /// The short name of the method.
-    pub const NAME: &'static str = "pgs";
-
     /// A solver with these settings.
     pub fn new(settings: ProjectedGaussSeidelSettings) -> Self {
         Self { settings }
@@ -184,7 +181,7 @@ impl ProjectedGaussSeidel {
     }
 
     fn not_treated(reason: impl Into<String>) -> Error {
-        Error::NotTreated { solver: Self::NAME, reason: reason.into() }
+        Error::NotTreated { method: Method::GaussSeidel, reason: reason.into() }
     }
 
     /// The solution with the pairs of the best point.
@@ -202,8 +199,8 @@ impl ProjectedGaussSeidel {
 }
 
 impl<P: Sweepable> Solver<P> for ProjectedGaussSeidel {
-    fn name(&self) -> &'static str {
-        Self::NAME
+    fn method(&self) -> Method {
+        Method::GaussSeidel
     }
 
     fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
@@ -213,7 +210,7 @@ impl<P: Sweepable> Solver<P> for ProjectedGaussSeidel {
 
 fn info(monitor: Monitor<'_>) -> Info {
     Info {
-        solver: ProjectedGaussSeidel::NAME,
+        method: Method::GaussSeidel,
         iterations: monitor.iterations(),
         seconds: monitor.seconds(),
         history: monitor.history,

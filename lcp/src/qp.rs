@@ -33,7 +33,8 @@ use start::Rows;
 use crate::active::{confirmed_pairs, confirmed_state};
 use crate::solve::Monitor;
 use crate::{
-    Contact2d, Error, HorizontalLcp, Lcp, MixedLcp, Observer, Residuals, Solution, Solver, Status,
+    Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Observer, Residuals, Solution, Solver,
+    Status,
 };
 
 /// Complementarity problems that are the conditions of a convex quadratic program.
@@ -99,9 +100,6 @@ pub struct QuadraticProgram {
 }
 
 impl QuadraticProgram {
-    /// The short name of the method.
-    pub const NAME: &'static str = "qp";
-
     /// A solver with these settings.
     pub fn new(settings: QuadraticProgramSettings) -> Self {
         Self { settings }
@@ -127,7 +125,7 @@ impl QuadraticProgram {
             |point: &Point, places: Option<&[_]>| contact::assemble(contact, point, places);
         if settings.form == ContactForm::Dual && !definite::is_definite(&form.p) {
             return Err(Error::NotTreated {
-                solver: Self::NAME,
+                method: Method::QuadraticProgram,
                 reason:
                     "the dual form needs a positive definite K, and this one is singular, as of \
                          bodies that float: take the primal form"
@@ -218,7 +216,7 @@ impl QuadraticProgram {
         let mut solution = Solution::judged(point, residuals, tolerance, otherwise);
         solution.contact = candidate.contact;
         solution.farkas = farkas;
-        solution.info.solver = Self::NAME;
+        solution.info.method = Method::QuadraticProgram;
         solution.info.iterations = monitor.iterations();
         solution.info.factorisations = factorisations;
         solution.info.history.clone_from(&monitor.history);
@@ -256,14 +254,14 @@ fn confirmed(contact: &Contact2d, candidate: &Candidate, tolerance: f64) -> Resi
 
 fn refused(reason: &str) -> Error {
     Error::NotTreated {
-        solver: QuadraticProgram::NAME,
+        method: Method::QuadraticProgram,
         reason: format!("{reason}; take Lemke's method, which needs no quadratic program"),
     }
 }
 
 impl Solver<Lcp> for QuadraticProgram {
-    fn name(&self) -> &'static str {
-        Self::NAME
+    fn method(&self) -> Method {
+        Method::QuadraticProgram
     }
 
     fn solve_observed(
@@ -285,8 +283,8 @@ impl Solver<Lcp> for QuadraticProgram {
 
 /// Of problems that are standard ones in disguise.
 impl Solver<HorizontalLcp> for QuadraticProgram {
-    fn name(&self) -> &'static str {
-        Self::NAME
+    fn method(&self) -> Method {
+        Method::QuadraticProgram
     }
 
     fn solve_observed(
@@ -317,8 +315,8 @@ impl Solver<HorizontalLcp> for QuadraticProgram {
 
 /// On the pairs of [`MixedLcp::to_general`].
 impl Solver<MixedLcp> for QuadraticProgram {
-    fn name(&self) -> &'static str {
-        Self::NAME
+    fn method(&self) -> Method {
+        Method::QuadraticProgram
     }
 
     fn solve_observed(
@@ -339,8 +337,8 @@ impl Solver<MixedLcp> for QuadraticProgram {
 }
 
 impl Solver<Contact2d> for QuadraticProgram {
-    fn name(&self) -> &'static str {
-        Self::NAME
+    fn method(&self) -> Method {
+        Method::QuadraticProgram
     }
 
     fn solve_observed(

@@ -6,13 +6,14 @@ mod law;
 mod solve;
 
 pub use law::Margin;
+
+pub use crate::extended::Extended;
 pub(crate) use solve::{Exact, refined_states};
 
 use at::At;
 use solve::solved;
 
 use crate::active::Scaled;
-use crate::extended::Extended;
 use crate::problem::{check_length, check_vector, column_of};
 use crate::{Contact2d, ContactState, Error};
 
@@ -142,7 +143,8 @@ impl Contact2d {
     ///
     /// ```
     /// use faer::mat;
-    /// use lcp::{Contact2d, ContactStatus, Extended, Refinement};
+    /// use lcp::refine::{ContactStatus, Extended, Refinement};
+    /// use lcp::Contact2d;
     /// // A spring of 3 that is pushed by 1 against a wall at 1/9: t = 1 - 3/9
     /// let contact = Contact2d::new(
     ///     mat![[3.0]], vec![1.0], mat![[-1.0]], mat![[0.0]], vec![1.0 / 9.0], vec![0.0], vec![0.0],

@@ -3,18 +3,14 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use crate::lower::{Lowered, judged_by};
-use crate::{
-    Basis, Contact2d, Covering, Error, HorizontalLcp, Lemke, LemkeSettings, Progress, Side,
-    Solution, Status, WarmStart,
-};
+use crate::{Error, Method, Solution, Status};
 
 /// A method that treats problems of type `P`.
 ///
-/// The solution carries a point of the general form of the problem: `(z, w)` as `(t, y)` for [`Lcp`]
-/// and, of the standard problem, for [`Friction2d`]; and the pairs of `to_general` for
-/// [`Contact2d`](Contact2d::to_general), [`MixedLcp`](MixedLcp::to_general) and
-/// [`BoxedLcp`](BoxedLcp::to_general), whose `recover` leads back.
+/// The solution carries a point of the general form of the problem: `(z, w)` as `(t, y)` for [`Lcp`](crate::Lcp)
+/// and, of the standard problem, for [`Friction2d`](crate::Friction2d); and the pairs of `to_general` for
+/// [`Contact2d`](crate::Contact2d::to_general), [`MixedLcp`](crate::MixedLcp::to_general) and
+/// [`BoxedLcp`](crate::BoxedLcp::to_general), whose `recover` leads back.
 ///
 /// ```
 /// use faer::mat;
@@ -26,13 +22,13 @@ use crate::{
 /// ];
 /// let lcp = Lcp::new(mat![[2.0, 1.0], [1.0, 2.0]], vec![-5.0, -6.0])?;
 /// for method in methods {
-///     assert!(method.solve(&lcp)?.is_solved(), "{}", method.name());
+///     assert!(method.solve(&lcp)?.is_solved(), "{}", method.method());
 /// }
 /// # Ok::<(), lcp::Error>(())
 /// ```
 pub trait Solver<P> {
-    /// The short name of the method, as [`Info::solver`](crate::Info::solver) has it.
-    fn name(&self) -> &'static str;
+    /// The method.
+    fn method(&self) -> Method;
 
     /// Solves a problem, calling the observer before every sweep, step, program or pivot; `Break` stops with
     /// [`Status::Cancelled`], unless the point at hand is a solution.
@@ -51,82 +47,15 @@ pub trait Solver<P> {
     }
 }
 
-impl Lemke {
-    /// With an observer of any method: see [`Iteration`].
-    fn solve_iterating(
-        &self,
-        problem: &HorizontalLcp,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
-        self.solve_observed(problem, &mut |at: &Progress| {
-            observer(&Iteration { iteration: at.pivots, residual: at.artificial })
-        })
-    }
-}
-
-/// On the general form of the problem, and judged by the problem itself.
-impl<P: Lowered> Solver<P> for Lemke {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
-        let solution = self.solve_iterating(&problem.general(), observer)?;
-        Ok(judged_by(problem, solution, self.settings().tolerance))
-    }
-}
-
-/// On the mixed problem of [`Contact2d::to_mixed`], to which a given covering vector belongs. Without a start
-/// the path begins from open contacts, with the displacements that they leave free. The answer has neither a
-/// basis nor a ray, which would belong to the mixed problem.
-impl Solver<Contact2d> for Lemke {
-    fn name(&self) -> &'static str {
-        Self::NAME
-    }
-
-    fn solve_observed(
-        &self,
-        problem: &Contact2d,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
-        let mixed = problem.to_mixed();
-        let mut settings = LemkeSettings { covering: Covering::Ones, ..self.settings().clone() };
-        settings.validate(problem.order())?;
-        settings.covering = self.settings().covering.clone();
-        settings.start = problem.mixed_start(&mixed, &settings.start);
-        if settings.start == WarmStart::None {
-            // From there the problem is copositive, if `K` is regular; from a basis with contact forces
-            // it is not, and a path may end on a ray.
-            settings.start = WarmStart::Basis(Basis::all(Side::Y, mixed.order()));
-        }
-        let mut solution = Self::new(settings).solve_iterating(&mixed.to_general(), observer)?;
-        let (z, _) = mixed.recover(&solution.t, &solution.y);
-        let state = problem.from_mixed(&z);
-        let loads = solution.residuals.loads;
-        solution.residuals = problem.residuals(&state);
-        if matches!(solution.status, Status::Solved | Status::AlmostSolved) {
-            solution.residuals.loads = solution.residuals.loads.min(loads);
-            solution.status =
-                solution.residuals.verdict(self.settings().tolerance, Status::AlmostSolved);
-        }
-        (solution.t, solution.y) = problem.to_pairs(&state);
-        solution.contact = Some(state);
-        // These belong to the pairs of the mixed problem.
-        (solution.basis, solution.ray) = (None, None);
-        solution.farkas = solution.farkas.map(|pi| problem.farkas_of_mixed(&pi));
-        Ok(solution)
-    }
-}
-
 /// How far a method has come, for an observer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Iteration {
-    /// Sweeps, steps or programs done; of [`Lemke`] the pivots of the attempt, each of which begins at 0.
+    /// Sweeps, steps or programs done; of [`Lemke`](crate::Lemke) the pivots of the attempt, each of which begins at 0.
     /// With [`Auto`](crate::Auto) every method begins at 0.
     pub iteration: usize,
-    /// The residual by which the method stops. [`Lemke`] has none on its path: in its place is the artificial
-    /// variable relative to its first value, which a solution makes zero ([`Progress::artificial`]).
+    /// The residual by which the method stops. [`Lemke`](crate::Lemke) has none on its path: in its place is the artificial
+    /// variable relative to its first value, which a solution makes zero ([`Progress::artificial`](crate::lemke::Progress::artificial)).
     pub residual: f64,
 }
 

@@ -10,15 +10,15 @@ use faer::{Mat, mat};
 use lcp::families::{self, Ground, Instance, Known, Obstacle};
 use lcp::{
     Auto, AutoSettings, BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Lemke, Matrix,
-    RouteEnd, Solution, Solver, Status, WarmStart,
+    Method, RouteEnd, Solution, Solver, Status, WarmStart,
 };
 use proptest::prelude::*;
 
-const LEMKE: &str = "lemke";
-const NEWTON: &str = "newton";
-const INTERIOR: &str = "interior";
-const PROGRAM: &str = "qp";
-const SWEEPS: &str = "pgs";
+const LEMKE: Method = Method::Lemke;
+const NEWTON: Method = Method::Newton;
+const INTERIOR: Method = Method::Interior;
+const PROGRAM: Method = Method::QuadraticProgram;
+const SWEEPS: Method = Method::GaussSeidel;
 
 fn auto() -> Auto {
     Auto::default()
@@ -35,7 +35,7 @@ macro_rules! plan {
         for choice in &plan {
             assert!(choice.reason.chars().any(|c| c.is_ascii_digit()), "{}", choice.reason);
         }
-        plan.iter().map(|choice| choice.solver).collect::<Vec<_>>()
+        plan.iter().map(|choice| choice.method).collect::<Vec<_>>()
     }};
 }
 
@@ -44,16 +44,16 @@ macro_rules! plan {
 mod plans;
 
 /// That the routes are those of the plan, as far as they go, and say what the solution says.
-fn assert_routes(solution: &Solution, plan: &[&str]) {
+fn assert_routes(solution: &Solution, plan: &[Method]) {
     let routes = &solution.info.routes;
-    let names: Vec<_> = routes.iter().map(|route| route.solver).collect();
+    let names: Vec<_> = routes.iter().map(|route| route.method).collect();
     assert_eq!(names, plan[..names.len()]);
     assert!(routes.iter().map(|route| route.seconds).sum::<f64>() <= solution.info.seconds);
     let is_from = |end: &RouteEnd| {
         matches!(end, RouteEnd::Ended { status, residual } if *status == solution.status
             && residual.total_cmp(&solution.residuals.worst()).is_eq())
     };
-    let source = routes.iter().find(|route| route.solver == solution.info.solver).unwrap();
+    let source = routes.iter().find(|route| route.method == solution.info.method).unwrap();
     assert!(is_from(&source.end), "{source:?} but {}", solution.status);
 }
 
@@ -167,7 +167,7 @@ fn large_sparse_problems_have_their_closed_forms() {
     let expected = |i: usize| [1.5, 0.0, 1.0, 3.0][i % 4];
     let problem = Lcp::new(sparse(n, entry, &[1]), q.clone()).unwrap();
     let solution = auto().solve(&problem).unwrap();
-    assert_eq!((solution.status, solution.info.solver), (Status::Solved, INTERIOR));
+    assert_eq!((solution.status, solution.info.method), (Status::Solved, INTERIOR));
     assert!((0..n).all(|i| (solution.t[i] - expected(i)).abs() < 1e-9));
     // The same with bounds, of which the first is in the way: z1 <= 1, so w1 < 0.
     let upper = (0..n).map(|i| if i % 4 == 0 { 1.0 } else { 8.0 }).collect();
@@ -181,7 +181,7 @@ fn large_sparse_problems_have_their_closed_forms() {
     // A membrane, against its known gap.
     let membrane = Obstacle::new(30, 30, Ground::Disc { radius: 0.5 });
     let solution = auto().solve(&membrane.problem()).unwrap();
-    assert!(solution.is_solved() && solution.info.solver == NEWTON);
+    assert!(solution.is_solved() && solution.info.method == NEWTON);
     assert!(solution.info.pivots == 0 && solution.info.factorisations > 0);
 }
 
@@ -192,7 +192,7 @@ fn contact_is_solved_at_every_size() {
     {
         let problem = masses(count, mu, 4.0);
         let solution = auto().solve(&problem).unwrap();
-        assert_eq!((solution.status, solution.info.solver), (Status::Solved, solver));
+        assert_eq!((solution.status, solution.info.method), (Status::Solved, solver));
         assert_routes(&solution, &plan!(&problem));
         let state = problem.recover(&solution.t, &solution.y);
         for (i, slip) in state.slip.iter().enumerate() {
@@ -217,9 +217,9 @@ fn an_infeasible_problem_falls_through_to_a_proof() {
     let m = mat![[1.0, -1.0], [-1.0, 1.0]];
     let problem = Lcp::new(m, vec![-1.0, -1.0]).unwrap();
     let solution = auto().solve(&problem).unwrap();
-    let names: Vec<_> = solution.info.routes.iter().map(|route| route.solver).collect();
+    let names: Vec<_> = solution.info.routes.iter().map(|route| route.method).collect();
     assert_eq!(names, [NEWTON, LEMKE]);
-    assert_eq!((solution.status, solution.info.solver), (Status::Infeasible, LEMKE));
+    assert_eq!((solution.status, solution.info.method), (Status::Infeasible, LEMKE));
     let RouteEnd::Ended { status, .. } = solution.info.routes[0].end else { panic!("refused") };
     assert!(!matches!(status, Status::Solved | Status::Infeasible), "{status}");
     let pi = solution.farkas.unwrap();
@@ -263,7 +263,7 @@ fn without_equilibrium_the_chain_looks_for_a_proof() {
         let general = problem.to_general();
         let gain: f64 = general.c().iter().zip(pi).map(|(c, pi)| c * pi).sum();
         assert!(gain > 0.0);
-        assert!(count <= 500 || routes.iter().all(|route| route.solver != LEMKE));
+        assert!(count <= 500 || routes.iter().all(|route| route.method != LEMKE));
     }
 }
 
@@ -280,7 +280,7 @@ fn a_method_that_refuses_is_passed_over() {
     let q = (0..600).map(|i| block.q()[i % 30]).collect();
     let problem = Lcp::new(sparse(600, entry, &offsets), q).unwrap();
     let solution = auto().solve(&problem).unwrap();
-    assert_eq!((solution.status, solution.info.solver), (Status::Solved, SWEEPS));
+    assert_eq!((solution.status, solution.info.method), (Status::Solved, SWEEPS));
     assert_routes(&solution, &[NEWTON, INTERIOR, PROGRAM, SWEEPS]);
     let routes = &solution.info.routes;
     let failed =
@@ -342,8 +342,8 @@ fn settings_are_checked_and_reach_the_methods() {
 fn it_is_a_solver_among_others() {
     let solvers: [Box<dyn Solver<Lcp>>; 2] = [Box::new(auto()), Box::new(Lemke::default())];
     let problem = families::positive_definite(10, 1).problem;
-    let answers = solvers.map(|solver| (solver.name(), solver.solve(&problem).unwrap()));
-    assert_eq!((answers[0].0, answers[1].0), ("auto", LEMKE));
+    let answers = solvers.map(|solver| (solver.method(), solver.solve(&problem).unwrap()));
+    assert_eq!((answers[0].0, answers[1].0), (Method::Auto, LEMKE));
     assert_eq!(answers[0].1.t, answers[1].1.t);
 }
 

@@ -8,7 +8,7 @@ use common::cases;
 use faer::Mat;
 use lcp::exact::{Enumeration, EnumerationSettings, ExactVerdict, enumerate, verify_basis};
 use lcp::families::{self, Instance, Known};
-use lcp::{HorizontalLcp, Lcp, Lemke, LemkeSettings, Solution, Status};
+use lcp::{HorizontalLcp, Lcp, Lemke, LemkeSettings, Solution, Solver, Status};
 use proptest::collection::vec;
 use proptest::prelude::*;
 

@@ -19,7 +19,7 @@ use faer::{Mat, mat};
 use lcp::families::{self, Ground, Known, Obstacle};
 use lcp::{
     Auto, AutoSettings, Basis, Contact2d, ContactState, Error, HorizontalLcp, InteriorPoint,
-    InteriorPointSettings, Lcp, Lemke, MixedLcp, Side, Solution, Solver, Status, WarmStart,
+    InteriorPointSettings, Lcp, Lemke, Method, MixedLcp, Side, Solution, Solver, Status, WarmStart,
 };
 
 fn default() -> InteriorPointSettings {
@@ -293,7 +293,7 @@ fn what_is_no_standard_problem_is_refused_with_a_remedy() {
     let a = mat![[1.0, 2.0], [2.0, 1.0]];
     let problem = HorizontalLcp::new(a.clone(), a, vec![1.0, 1.0]).unwrap();
     let error = InteriorPoint::default().solve(&problem).unwrap_err();
-    assert!(matches!(error, Error::NotTreated { solver: "interior", .. }));
+    assert!(matches!(error, Error::NotTreated { method: Method::Interior, .. }));
     assert!(error.to_string().contains("Lemke's method treats it"), "{error}");
 }
 

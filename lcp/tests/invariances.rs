@@ -10,7 +10,7 @@ mod common;
 use common::cases;
 use faer::Mat;
 use lcp::families::{self, Instance, Known};
-use lcp::{HorizontalLcp, Lemke, LemkeSettings, Solution, Status};
+use lcp::{HorizontalLcp, Lemke, LemkeSettings, Solution, Solver, Status};
 use proptest::collection::vec;
 use proptest::prelude::*;
 

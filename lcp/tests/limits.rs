@@ -6,10 +6,8 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use lcp::{
-    AttemptStart, HorizontalLcp, Lemke, LemkeSettings, Parametric, Progress, Solution, Status,
-    Variable, WarmStart, families,
-};
+use lcp::lemke::{AttemptStart, Parametric, Progress, Variable};
+use lcp::{HorizontalLcp, Lemke, LemkeSettings, Solution, Solver, Status, WarmStart, families};
 
 fn problem(n: usize, seed: u64) -> HorizontalLcp {
     families::positive_definite(n, seed).problem.into()
@@ -60,7 +58,7 @@ fn an_observer_stops_at_any_pivot() {
             ControlFlow::Continue(())
         }
     };
-    let solution = Lemke::default().solve_observed(&problem, &mut observer).unwrap();
+    let solution = Lemke::default().solve_with_progress(&problem, &mut observer).unwrap();
     assert_eq!((solution.status, solution.info.pivots), (Status::Cancelled, 5));
     assert_eq!(seen, (0..=5).map(|pivots| (1, pivots, 40)).collect::<Vec<_>>());
 }
@@ -73,7 +71,7 @@ fn an_observer_stops_a_proof() {
     let mut calls = 0;
     let mut on_path = 0;
     let solution = Lemke::new(settings.clone())
-        .solve_observed(&problem, &mut |_| {
+        .solve_with_progress(&problem, &mut |_| {
             calls += 1;
             ControlFlow::Continue(())
         })
@@ -84,7 +82,7 @@ fn an_observer_stops_a_proof() {
         on_path += 1;
         if on_path == calls { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
-    let stopped = Lemke::new(settings).solve_observed(&problem, &mut observer).unwrap();
+    let stopped = Lemke::new(settings).solve_with_progress(&problem, &mut observer).unwrap();
     assert_eq!(stopped.status, Status::Cancelled);
 }
 

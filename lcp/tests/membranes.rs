@@ -108,7 +108,7 @@ fn lemke_agrees() {
     for ground in GROUNDS {
         let problem = Obstacle::new(14, 11, ground).problem();
         let solution = solve(&problem, WarmStart::None);
-        let by_lemke = Lemke::default().solve(&problem.into()).unwrap();
+        let by_lemke = Lemke::default().solve(&problem).unwrap();
         assert!(by_lemke.is_solved());
         assert!(difference(&solution.t, &by_lemke.t) < 1e-12);
     }

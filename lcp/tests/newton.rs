@@ -15,7 +15,7 @@ use common::cases;
 use faer::{Mat, mat};
 use lcp::families::{self, Instance, Known};
 use lcp::{
-    Basis, Error, HorizontalLcp, Lcp, Lemke, LemkeSettings, Matrix, SemismoothNewton,
+    Basis, Error, HorizontalLcp, Lcp, Lemke, LemkeSettings, Matrix, Method, SemismoothNewton,
     SemismoothNewtonSettings, Side, Solution, Solver, Status, WarmStart,
 };
 use proptest::collection::vec;
@@ -65,7 +65,7 @@ fn unique() -> impl Strategy<Value = (Lcp, Vec<f64>)> {
         };
         let t = match known {
             Known::Unique { t, .. } => t,
-            _ => Lemke::default().solve(&problem.clone().into()).unwrap().t,
+            _ => Lemke::default().solve(&problem).unwrap().t,
         };
         (problem, t)
     })
@@ -103,7 +103,7 @@ proptest! {
                 ];
                 let [found, by_lemke] = routes.map(|route| {
                     let solution = route.solve(&lcp).unwrap();
-                    assert_eq!(solution.status, Status::Solved, "{}", route.name());
+                    assert_eq!(solution.status, Status::Solved, "{}", route.method());
                     solution
                 });
                 assert_honest(&lcp, &found, tolerance);
@@ -195,8 +195,8 @@ proptest! {
                 prop_assert!(kind != 3 || !solution.is_solved());
                 prop_assert!(kind != 5);
             }
-            Err(Error::NotTreated { solver, reason }) => {
-                prop_assert_eq!(solver, SemismoothNewton::NAME);
+            Err(Error::NotTreated { method, reason }) => {
+                prop_assert_eq!(method, Method::Newton);
                 prop_assert!(reason.contains("positive") && reason.contains("Lemke"));
                 prop_assert!((0..lcp.order()).any(|i| lcp.m()[(i, i)] <= 0.0));
             }
@@ -254,7 +254,7 @@ proptest! {
         let lcp = Lcp::new(m, q).unwrap();
         for lcp in [sparse(&lcp), lcp] {
             let found = solve(&lcp);
-            let by_lemke = Lemke::default().solve(&lcp.clone().into()).unwrap();
+            let by_lemke = Lemke::default().solve(&lcp).unwrap();
             prop_assert_eq!(found.status, by_lemke.status);
             assert_honest(&lcp, &found, 1e-10);
         }

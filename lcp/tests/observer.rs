@@ -5,12 +5,13 @@
 use std::ops::ControlFlow;
 
 use faer::mat;
+#[cfg(feature = "clarabel")]
+use lcp::qp::SoftConstraints;
 use lcp::{
     Auto, BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, InteriorPoint, Iteration, Lcp,
-    Lemke, MixedLcp, ProjectedGaussSeidel, SemismoothNewton, Solver, Status, families,
+    Lemke, Method, MixedLcp, ProjectedGaussSeidel, SemismoothNewton, Solver, Status, families,
 };
-#[cfg(feature = "clarabel")]
-use lcp::{QuadraticProgram, QuadraticProgramSettings, SoftConstraints};
+use lcp::{QuadraticProgram, QuadraticProgramSettings};
 
 /// Symmetric positive definite, so that all methods treat it, and none of them needs no iteration.
 fn standard() -> Lcp {
@@ -47,7 +48,7 @@ fn friction() -> Friction2d {
 
 /// The observer sees the iterations one by one, changes nothing, and may end the solve at the first.
 fn check<P>(solver: &dyn Solver<P>, problem: &P) {
-    let name = solver.name();
+    let name = solver.method();
     let plain = solver.solve(problem).unwrap();
     let mut seen: Vec<Iteration> = Vec::new();
     let observed = solver.solve_observed(problem, &mut |at| {
@@ -70,8 +71,8 @@ fn check<P>(solver: &dyn Solver<P>, problem: &P) {
     });
     let stopped = stopped.unwrap();
     assert_eq!((stopped.status, calls), (Status::Cancelled, 1), "{name}");
-    let source = observed.info.routes.last().map_or(name, |route| route.solver);
-    assert_eq!(observed.info.solver, source);
+    let source = observed.info.routes.last().map_or(name, |route| route.method);
+    assert_eq!(observed.info.method, source);
 }
 
 fn check_all<P>(solvers: &[&dyn Solver<P>], problem: &P) {
@@ -151,20 +152,20 @@ fn auto_hands_the_observer_from_method_to_method() {
 
 #[test]
 fn names_are_short_and_read_well_in_messages() {
-    let message = |solver| Error::NotTreated { solver, reason: "why".to_owned() }.to_string();
+    let message = |method| Error::NotTreated { method, reason: "why".to_owned() }.to_string();
     let expected = [
-        (Auto::NAME, "auto", "the automatic choice"),
-        (Lemke::NAME, "lemke", "Lemke's method"),
-        (ProjectedGaussSeidel::NAME, "pgs", "projected Gauss-Seidel"),
-        (SemismoothNewton::NAME, "newton", "semismooth Newton"),
-        (InteriorPoint::NAME, "interior", "the interior-point method"),
-        #[cfg(feature = "clarabel")]
-        (QuadraticProgram::NAME, "qp", "quadratic programming"),
+        (Method::Auto, "auto", "the automatic choice"),
+        (Method::Lemke, "lemke", "Lemke's method"),
+        (Method::Newton, "newton", "semismooth Newton"),
+        (Method::Interior, "interior", "the interior-point method"),
+        (Method::QuadraticProgram, "qp", "quadratic programming"),
+        (Method::GaussSeidel, "pgs", "projected Gauss-Seidel"),
     ];
-    for (name, short, full) in expected {
-        assert_eq!(name, short);
-        assert_eq!(message(name), format!("{full} cannot treat this problem: why"));
+    for (method, short, full) in expected {
+        assert_eq!((method.to_string().as_str(), short.parse()), (short, Ok(method)));
+        assert_eq!(message(method), format!("{full} cannot treat this problem: why"));
     }
+    assert_eq!(expected.map(|(method, ..)| method), Method::ALL);
 }
 
 #[test]

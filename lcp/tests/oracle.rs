@@ -7,7 +7,7 @@ mod common;
 use common::cases;
 use faer::Mat;
 use lcp::exact::{Enumeration, EnumerationSettings, ExactVerdict, enumerate, verify_basis};
-use lcp::{HorizontalLcp, Lemke, Status};
+use lcp::{HorizontalLcp, Lemke, Solver, Status};
 use proptest::collection::vec;
 use proptest::prelude::*;
 

@@ -4,10 +4,8 @@
 #![allow(clippy::unwrap_used)] // a test may panic
 
 use faer::{Mat, mat};
-use lcp::{
-    HorizontalLcp, Lcp, Lemke, Parametric, ParametricEnd, ParametricPath, ParametricSettings,
-    Status,
-};
+use lcp::lemke::{Parametric, ParametricEnd, ParametricPath, ParametricSettings};
+use lcp::{HorizontalLcp, Lcp, Lemke, Solver, Status};
 use proptest::collection::vec;
 use proptest::prelude::*;
 

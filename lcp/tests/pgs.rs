@@ -17,10 +17,10 @@ use std::time::Duration;
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, mat};
 use lcp::families::{self, Known};
+use lcp::pgs::SweepOrder;
 use lcp::{
-    Basis, BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Lemke, Matrix,
-    ProjectedGaussSeidel, ProjectedGaussSeidelSettings, Side, Solution, Solver, Status, SweepOrder,
-    WarmStart,
+    Basis, BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Lemke, Matrix, Method,
+    ProjectedGaussSeidel, ProjectedGaussSeidelSettings, Side, Solution, Solver, Status, WarmStart,
 };
 
 const INF: f64 = f64::INFINITY;
@@ -222,7 +222,7 @@ fn growth_ends_in_numbers() {
 #[test]
 fn rows_that_cannot_be_relaxed_are_named() {
     let reason = |result: Result<Solution, Error>| match result {
-        Err(Error::NotTreated { solver: "pgs", reason }) => reason,
+        Err(Error::NotTreated { method: Method::GaussSeidel, reason }) => reason,
         other => panic!("{other:?}"),
     };
     let zero = Lcp::new(mat![[1.0, 1.0], [-1.0, 0.0]], vec![-1.0, 1.0]).unwrap();
@@ -295,5 +295,8 @@ fn it_is_a_solver_of_everything() {
     let _: [Box<dyn Solver<BoxedLcp>>; 1] = [Box::new(to(1e-9))];
     let _: [Box<dyn Solver<Friction2d>>; 1] = [Box::new(to(1e-9))];
     let _: [Box<dyn Solver<Contact2d>>; 1] = [Box::new(to(1e-9))];
-    assert_eq!((pgs.info.solver, Solver::<Lcp>::name(&to(1e-9))), ("pgs", "pgs"));
+    assert_eq!(
+        (pgs.info.method, Solver::<Lcp>::method(&to(1e-9))),
+        (Method::GaussSeidel, Method::GaussSeidel)
+    );
 }

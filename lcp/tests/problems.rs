@@ -4,7 +4,7 @@
 
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, mat};
-use lcp::{BoxedLcp, Error, Lcp, Lemke, Matrix, MixedLcp, Monotonicity, Status};
+use lcp::{BoxedLcp, Error, Lcp, Lemke, Matrix, MixedLcp, Monotonicity, Solver, Status};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -137,7 +137,7 @@ proptest! {
         let lcp = Lcp::new(monotone(n, &c), q.clone()).unwrap();
         let is_strong = matches!(lcp.monotonicity(), Monotonicity::Strong { modulus } if modulus > 0.9);
         prop_assert!(is_strong);
-        let solution = Lemke::default().solve(&lcp.clone().into()).unwrap().t;
+        let solution = Lemke::default().solve(&lcp).unwrap().t;
         let size = 1.0 + solution.iter().fold(0.0_f64, |max, z| max.max(z.abs()));
         prop_assert!(lcp.error_bound(&solution).unwrap().distance.unwrap() <= 1e-11 * size);
         let step = 10.0_f64.powi(-exponent);

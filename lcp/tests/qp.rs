@@ -11,9 +11,10 @@ mod quadratic;
 use common::cases;
 use faer::{Mat, mat};
 use lcp::families::{self, Known};
+use lcp::qp::SoftConstraints;
 use lcp::{
-    Basis, Contact2d, Error, HorizontalLcp, Lcp, Lemke, MixedLcp, QuadraticProgram,
-    QuadraticProgramSettings, Side, SoftConstraints, Solution, Solver, Status, WarmStart,
+    Basis, Contact2d, Error, HorizontalLcp, Lcp, Lemke, Method, MixedLcp, QuadraticProgram,
+    QuadraticProgramSettings, Side, Solution, Solver, Status, WarmStart,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -180,8 +181,8 @@ where
     QuadraticProgram: Solver<P>,
 {
     match QuadraticProgram::default().solve(problem) {
-        Err(Error::NotTreated { solver, reason }) => {
-            assert_eq!(solver, QuadraticProgram::NAME);
+        Err(Error::NotTreated { method, reason }) => {
+            assert_eq!(method, Method::QuadraticProgram);
             reason
         }
         other => panic!("{other:?}"),

@@ -13,9 +13,10 @@ use std::time::Duration;
 
 use common::cases;
 use faer::{Mat, mat};
+use lcp::qp::{ContactForm, SoftConstraints};
 use lcp::{
-    Contact2d, ContactForm, ContactState, Error, Lemke, QuadraticProgram, QuadraticProgramSettings,
-    SoftConstraints, Solution, Solver, Status, families,
+    Contact2d, ContactState, Error, Lemke, QuadraticProgram, QuadraticProgramSettings, Solution,
+    Solver, Status, families,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;

@@ -3,10 +3,8 @@
 
 use faer::{Mat, mat};
 use lcp::exact::{ExactVerdict, verify_basis};
-use lcp::{
-    Contact2d, ContactState, ContactStatus, Error, Extended, InteriorPoint, Refined, Refinement,
-    Solver,
-};
+use lcp::refine::{ContactStatus, Extended, Refined, Refinement};
+use lcp::{Contact2d, ContactState, Error, InteriorPoint, Solver};
 use proptest::prelude::*;
 
 use ContactStatus::{Backwards, Forwards, Open, Stick};

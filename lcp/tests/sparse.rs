@@ -4,7 +4,7 @@
 
 use faer::Mat;
 use faer::sparse::{SparseColMat, Triplet};
-use lcp::{HorizontalLcp, Lemke, LemkeSettings, MixedLcp, Status};
+use lcp::{HorizontalLcp, Lemke, LemkeSettings, MixedLcp, Solver, Status};
 use proptest::collection::vec;
 use proptest::prelude::*;
 

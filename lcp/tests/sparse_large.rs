@@ -4,7 +4,8 @@
 
 use faer::sparse::{SparseColMat, Triplet};
 use lcp::{
-    Covering, HorizontalLcp, Lcp, Lemke, LemkeSettings, MixedLcp, Solution, Status, WarmStart,
+    Covering, HorizontalLcp, Lcp, Lemke, LemkeSettings, MixedLcp, Solution, Solver, Status,
+    WarmStart,
 };
 
 type Sparse = SparseColMat<usize, f64>;
@@ -111,8 +112,8 @@ fn a_membrane_is_the_same_dense_and_sparse() {
         if x * x + 2.0 * y * y < 0.04 { -1.0 - x } else { 0.3 + y }
     };
     let q: Vec<f64> = (0..m * m).map(load).collect();
-    let dense = Lcp::new(matrix.to_dense(), q.clone()).unwrap().into();
-    let sparse = Lcp::new(matrix, q).unwrap().into();
+    let dense = Lcp::new(matrix.to_dense(), q.clone()).unwrap();
+    let sparse = Lcp::new(matrix, q).unwrap();
     let [dense, sparse] = [dense, sparse].map(|it| first_attempt().solve(&it).unwrap());
     assert_eq!((sparse.status, dense.status), (Status::Solved, Status::Solved));
     assert!(sparse.info.pivots > 500);
@@ -126,7 +127,7 @@ fn a_membrane_is_the_same_dense_and_sparse() {
 fn ties_of_all_rows_are_resolved() {
     let m = 24;
     for load in [-1.0, -1e-9] {
-        let problem = Lcp::new(membrane(m), vec![load; m * m]).unwrap().into();
+        let problem = Lcp::new(membrane(m), vec![load; m * m]).unwrap();
         let solution = first_attempt().solve(&problem).unwrap();
         assert_eq!(solution.status, Status::Solved);
         assert!(solution.t.iter().all(|&z| z > 0.0));
@@ -143,7 +144,7 @@ fn infeasible_problems_are_proved_so() {
     let entries: Vec<_> = entries.chain([Triplet::new(n - 1, n - 1, -1.0)]).collect();
     let m = Sparse::try_new_from_triplets(n, n, &entries).unwrap();
     let q: Vec<f64> = (0..n).map(|i| if i < n - 20 { 1.0 } else { -1.0 }).collect();
-    let solution = Lemke::default().solve(&Lcp::new(m, q).unwrap().into()).unwrap();
+    let solution = Lemke::default().solve(&Lcp::new(m, q).unwrap()).unwrap();
     assert_eq!(solution.status, Status::Infeasible);
     let pi = solution.farkas.unwrap();
     assert!(pi[n - 1].abs() > 0.0);

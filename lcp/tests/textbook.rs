@@ -4,8 +4,9 @@
 
 use faer::{Mat, mat};
 use lcp::families;
+use lcp::lemke::AttemptEnd;
 use lcp::{
-    AttemptEnd, Basis, Contact2d, Covering, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side, Status,
+    Basis, Contact2d, Covering, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side, Solver, Status,
     WarmStart,
 };
 
@@ -53,7 +54,7 @@ fn kostreva_does_not_cycle() {
 /// Its third row alone, `w3 = -z1 - 2 z2 - 1`, has no solution.
 #[test]
 fn kostreva_without_a_solution_is_proved_infeasible() {
-    let problem = families::kostreva_2().problem.into();
+    let problem = families::kostreva_2().problem;
     let solution = Lemke::default().solve(&problem).unwrap();
     assert_eq!(solution.status, Status::Infeasible);
     assert_eq!(solution.farkas, Some(vec![0.0, 0.0, -1.0]));
@@ -131,7 +132,7 @@ fn exponential_families_take_their_pivots_or_stop_at_the_limit() {
         let mut first = vec![0.0; n];
         first[0] = 1.0;
         for (instance, order) in [(families::murty(n), n - 1), (families::fathi(n), n)] {
-            let problem = instance.problem.into();
+            let problem = instance.problem;
             let solution = Lemke::new(ones.clone()).solve(&problem).unwrap();
             assert_eq!(solution.status, Status::Solved);
             assert_close(&solution.t, &first);

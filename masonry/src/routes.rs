@@ -17,6 +17,7 @@ use std::ops::ControlFlow;
 use crate::forms::{RowState, Start};
 use crate::outcome::SolveInfo;
 use crate::scene::Form;
+use crate::solve::SolveError;
 
 pub mod alm;
 pub mod interior;
@@ -75,7 +76,7 @@ pub enum Motion {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Step {
     /// It pivots.
-    Pivots(lcp::Progress),
+    Pivots(lcp::lemke::Progress),
     /// It iterates.
     Iteration {
         /// Steps, iterations, programs, or times that springs were centred, done so far.
@@ -99,7 +100,7 @@ pub trait Method {
     /// Looks for a solution.
     ///
     /// # Errors
-    /// [`lcp::Error`] for a tolerance out of range, for data that are not finite, and for a problem that
+    /// [`SolveError`] for a tolerance out of range, for data that are not finite, and for a problem that
     /// the method does not treat.
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, lcp::Error>;
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, SolveError>;
 }

@@ -16,7 +16,7 @@ use crate::model::Model;
 use crate::outcome::{Outcome, PhaseTime};
 use crate::plan::Plan;
 use crate::rigid::{FreeMotion, RigidError};
-use crate::scene::{Scene, SceneError};
+use crate::scene::{Route, Scene, SceneError};
 use crate::system::SystemError;
 
 /// Why a scene could not be brought to a solver.
@@ -57,6 +57,14 @@ pub enum SolveError {
     /// The solver refused its settings or the data.
     #[error("the complementarity problem was refused: {0}")]
     Solver(#[from] lcp::Error),
+    /// A route that cannot treat the structure.
+    #[error("{} cannot treat this problem: {reason}", .route.name())]
+    NotTreated {
+        /// The route.
+        route: Route,
+        /// What is in the way, and what to take instead.
+        reason: String,
+    },
     /// A later step of the load history could not be brought to a solver; those before are kept.
     #[error("step {step} of stage \"{stage}\": {error}")]
     Step {
@@ -73,6 +81,13 @@ pub enum SolveError {
     Checkpoint(#[from] CheckpointError),
 }
 
+impl SolveError {
+    /// Whether a route does not treat the problem, so that another one may.
+    pub fn is_refusal(&self) -> bool {
+        matches!(self, Self::NotTreated { .. } | Self::Solver(lcp::Error::NotTreated { .. }))
+    }
+}
+
 /// How far a solve has come.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
@@ -86,7 +101,7 @@ pub enum Event {
     /// A phase begins.
     Phase(&'static str),
     /// The solver pivots.
-    Pivots(lcp::Progress),
+    Pivots(lcp::lemke::Progress),
     /// The solver iterates.
     Iteration {
         /// Steps, programs, or times that springs were centred, done so far.

@@ -12,7 +12,8 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::time::Duration;
 
-use lcp::{Refinement, Status};
+use lcp::Status;
+use lcp::refine::Refinement;
 use masonry::model::Plane;
 use masonry::output::study as output;
 use masonry::scene::{

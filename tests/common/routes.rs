@@ -3,7 +3,7 @@
 use lcp::Status;
 use masonry::outcome::Outcome;
 use masonry::scene::{Route, Scene};
-use masonry::solve::{SolveError, solve};
+use masonry::solve::solve;
 
 use super::assert_sound;
 
@@ -27,7 +27,7 @@ pub fn routes_for(scene: &Scene) -> Vec<Route> {
     }
     for route in ROUTES.into_iter().filter(|route| !OF_RIGID_BLOCKS.contains(route)) {
         let error = solve(&scene.clone().route(route)).unwrap_err();
-        let is_refused = matches!(&error, SolveError::Solver(lcp::Error::NotTreated { .. }));
+        let is_refused = error.is_refusal();
         assert!(is_refused && error.to_string().contains("rigid"), "{route:?}: {error}");
     }
     OF_RIGID_BLOCKS.to_vec()

@@ -3,7 +3,7 @@
 use lcp::Status;
 use masonry::outcome::Outcome;
 use masonry::scene::{Route, Scene};
-use masonry::solve::{SolveError, solve};
+use masonry::solve::solve;
 
 use super::checks::Errors;
 use super::common::routes::ROUTES;
@@ -121,7 +121,7 @@ impl Case {
                 End::Solved { errors: Errors::of(&outcome), outcome: Box::new(outcome) }
             }
             Ok(outcome) => End::GaveUp { outcome: Box::new(outcome) },
-            Err(SolveError::Solver(lcp::Error::NotTreated { .. })) => End::Refused,
+            Err(error) if error.is_refusal() => End::Refused,
             Err(error) => panic!("{} by {route:?}: {error}", self.name),
         }
     }

@@ -4,9 +4,9 @@
 use super::PROXIMAL;
 use super::condensed::{Condensed, Springs};
 use super::scaled::{Point, Scaled};
-use crate::ContactStatus;
 use crate::certify::ratio;
 use crate::problem::max_abs;
+use crate::refine::ContactStatus;
 
 /// What a row lacks, relative to its terms, that is nothing but rounding.
 const NOISE: f64 = 4.0 * f64::EPSILON;

@@ -4,8 +4,8 @@ use super::crossover::nearest;
 use super::scaled::{Point, Scaled};
 use crate::certify::{BoxedJudge, ContactJudge, Precision, StateOf};
 use crate::extended::Extended;
-use crate::refine::{Exact, refined_states};
-use crate::{Basis, Contact2d, ContactState, ContactStatus, MixedLcp, Residuals, Side};
+use crate::refine::{ContactStatus, Exact, refined_states};
+use crate::{Basis, Contact2d, ContactState, MixedLcp, Residuals, Side};
 
 /// A point of the general form of a problem.
 #[derive(Debug, Clone)]

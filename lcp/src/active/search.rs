@@ -5,12 +5,13 @@ use super::crossover::{Effort, Vertex, cross_over, nearest};
 use super::original::{At, Judge, Judged, Original, confirmed};
 use super::scaled::Scaled;
 use crate::certify::Precision;
+use crate::refine::ContactStatus;
 use crate::solve::Monitor;
-use crate::{ContactStatus, Error, Solution, Status, WarmStart};
+use crate::{Error, Method, Solution, Status, WarmStart};
 
 /// A problem with the best point so far.
 pub(crate) struct Search<'a> {
-    solver: &'static str,
+    method: Method,
     problem: &'a dyn Original,
     judge: Box<dyn Judge + 'a>,
     tolerance: f64,
@@ -21,19 +22,19 @@ pub(crate) struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// For a method of this name, with the largest residual of a solution.
+    /// For a method, with the largest residual of a solution.
     pub(crate) fn new(
-        solver: &'static str,
+        method: Method,
         problem: &'a dyn Original,
         tolerance: f64,
     ) -> Result<Self, Error> {
         let scaled = problem.scaled();
         let condensed = Condensed::new(&scaled).map_err(|error| Error::NotTreated {
-            solver,
+            method,
             reason: format!("its sparse factors cannot be planned: {error}"),
         })?;
         let judge = problem.judge();
-        Ok(Self { solver, problem, judge, tolerance, scaled, condensed, best: None })
+        Ok(Self { method, problem, judge, tolerance, scaled, condensed, best: None })
     }
 
     /// Whether the states of the contacts of a given start, if there is one, are the answer.
@@ -128,7 +129,7 @@ impl<'a> Search<'a> {
         let mut solution = Solution::judged((t, y), residuals, self.tolerance, otherwise);
         solution.contact = contact;
         solution.basis = basis;
-        solution.info.solver = self.solver;
+        solution.info.method = self.method;
         solution.info.iterations = monitor.iterations();
         solution.info.factorisations = self.condensed.factorisations;
         solution.info.seconds = monitor.seconds();

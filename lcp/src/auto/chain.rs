@@ -2,10 +2,9 @@
 
 use std::time::{Duration, Instant};
 
+use super::AutoSettings;
 use super::method::{Effort, Planned, attempt};
-use super::{Auto, AutoSettings};
-use crate::error::full_name;
-use crate::{Error, Observer, Route, RouteEnd, Solution, Status, WarmStart};
+use crate::{Error, Method, Observer, Route, RouteEnd, Solution, Status, WarmStart};
 
 /// A point with larger residuals is no better start than the one that was given.
 const NEAR: f64 = 1e-4;
@@ -57,7 +56,7 @@ pub(super) fn run<P: Planned>(
             Err(error) => return Err(error),
         };
         let seconds = route_began.elapsed().as_secs_f64();
-        routes.push(Route { solver: step.method.name(), reason: step.reason, end, seconds });
+        routes.push(Route { method: step.method, reason: step.reason, end, seconds });
         let Some(solution) = solution else { continue };
         let (is_last, status) = (is_final(&solution), solution.status);
         best = Some(better(best, solution, settings.tolerance));
@@ -121,12 +120,12 @@ fn rank(solution: &Solution, tolerance: f64) -> (Rank, f64) {
 
 fn all_refused(routes: &[Route]) -> Error {
     let reasons = routes.iter().filter_map(|route| match &route.end {
-        RouteEnd::Refused { reason } => Some(format!("{}: {reason}", full_name(route.solver))),
+        RouteEnd::Refused { reason } => Some(format!("{}: {reason}", route.method.full_name())),
         RouteEnd::Ended { .. } => None,
     });
     let reasons: Vec<String> = reasons.collect();
     let reason = format!("no method of its chain does. {}", reasons.join("; "));
-    Error::NotTreated { solver: Auto::NAME, reason }
+    Error::NotTreated { method: Method::Auto, reason }
 }
 
 #[cfg(test)]
@@ -136,8 +135,8 @@ mod tests {
     use faer::mat;
 
     use super::*;
-    use crate::auto::method::{Method, Step};
-    use crate::{Iteration, Lcp, Solver};
+    use crate::auto::method::Step;
+    use crate::{Auto, Iteration, Lcp, Solver};
 
     /// A problem for methods that refuse.
     struct Refused;
@@ -152,26 +151,26 @@ mod tests {
         }
 
         fn steps(&self) -> Vec<Step> {
-            [Method::Lemke, Method::ProjectedGaussSeidel, Method::SemismoothNewton]
+            [Method::Lemke, Method::GaussSeidel, Method::Newton]
                 .map(|it| Step::new(it, "a test"))
                 .into()
         }
 
         fn solver(&self, method: Method, _: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
-            (method != Method::SemismoothNewton).then(|| Box::new(Refusing(method)) as _)
+            (method != Method::Newton).then(|| Box::new(Refusing(method)) as _)
         }
     }
 
     struct Refusing(Method);
 
     impl Solver<Refused> for Refusing {
-        fn name(&self) -> &'static str {
-            self.0.name()
+        fn method(&self) -> Method {
+            self.0
         }
 
         fn solve_observed(&self, _: &Refused, _: &mut Observer<'_>) -> Result<Solution, Error> {
-            let reason = format!("{} is not at home", self.name());
-            Err(Error::NotTreated { solver: self.name(), reason })
+            let reason = format!("{} is not at home", self.method());
+            Err(Error::NotTreated { method: self.method(), reason })
         }
     }
 
@@ -179,7 +178,7 @@ mod tests {
     fn where_all_refuse_all_reasons_are_given() {
         let ignore = &mut |_: &Iteration| ControlFlow::Continue(());
         let error = run(&Refused, &AutoSettings::default(), ignore).map(|it| it.status);
-        let Err(Error::NotTreated { solver: "auto", reason }) = error else {
+        let Err(Error::NotTreated { method: Method::Auto, reason }) = error else {
             panic!("{error:?}");
         };
         assert!(reason.contains("Lemke's method: lemke is not at home"), "{reason}");

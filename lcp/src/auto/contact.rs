@@ -1,9 +1,9 @@
 //! The chains of contact with friction.
 
 use super::facts::Facts;
-use super::method::{Effort, Method, Planned, Step};
+use super::method::{Effort, Planned, Step};
 use super::standard::{common_steps, program_step};
-use crate::{Contact2d, Friction2d, Solver};
+use crate::{Contact2d, Friction2d, Method, Solver};
 
 /// Up to so many contact points pivots take no time.
 const VERY_FEW: usize = 40;
@@ -32,8 +32,8 @@ impl Planned for Friction2d {
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
             Method::Lemke => Some(Box::new(effort.lemke())),
-            Method::InteriorPoint => Some(Box::new(effort.interior_point())),
-            Method::ProjectedGaussSeidel => Some(Box::new(effort.sweeps())),
+            Method::Interior => Some(Box::new(effort.interior_point())),
+            Method::GaussSeidel => Some(Box::new(effort.sweeps())),
             _ => None,
         }
     }
@@ -56,7 +56,7 @@ impl Planned for Contact2d {
         );
         let step = |method, words: &str| Step::new(method, format!("{text}: {words}"));
         let inside = step(
-            Method::InteriorPoint,
+            Method::Interior,
             "the interior-point method for contact takes tens of sparse factorisations",
         );
         let program = if friction == 0 {
@@ -65,7 +65,7 @@ impl Planned for Contact2d {
             format!("{text}: a sequence of quadratic programs with the friction forces held")
         };
         let sweeps = step(
-            Method::ProjectedGaussSeidel,
+            Method::GaussSeidel,
             "sweeps over the contacts, if K is positive definite, promise little",
         );
         let program = program_step(Some(program));
@@ -92,16 +92,16 @@ impl Planned for Contact2d {
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
             Method::Lemke => Some(Box::new(effort.lemke())),
-            Method::InteriorPoint => Some(Box::new(effort.interior_point())),
+            Method::Interior => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
             Method::QuadraticProgram => Some(Box::new(effort.quadratic_program())),
-            Method::ProjectedGaussSeidel => Some(Box::new(effort.sweeps())),
+            Method::GaussSeidel => Some(Box::new(effort.sweeps())),
             _ => None,
         }
     }
 
     fn is_worth_a_proof(&self, method: Method) -> bool {
-        let is_cheap = !matches!(method, Method::Lemke | Method::ProjectedGaussSeidel);
+        let is_cheap = !matches!(method, Method::Lemke | Method::GaussSeidel);
         self.points() <= FEW || is_cheap
     }
 }

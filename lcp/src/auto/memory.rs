@@ -1,8 +1,8 @@
 //! Whether the memory suffices for pivots on dense matrices.
 
-use crate::{Error, Lemke};
+use crate::{Error, Method};
 
-/// Refuses orders of dense problems for which the system has not the memory that [`Lemke`] takes, before
+/// Refuses orders of dense problems for which the system has not the memory that Lemke's method takes, before
 /// it takes it.
 pub(crate) fn check(is_sparse: bool, order: usize) -> Result<(), Error> {
     const MATRICES: usize = 5;
@@ -14,7 +14,7 @@ pub(crate) fn check(is_sparse: bool, order: usize) -> Result<(), Error> {
     match trial.try_reserve_exact(std::hint::black_box(entries.unwrap_or(usize::MAX))) {
         Ok(()) => Ok(()),
         Err(_) => Err(Error::NotTreated {
-            solver: Lemke::NAME,
+            method: Method::Lemke,
             reason: format!(
                 "order {order} takes about {:.0} GB, which the system does not have: the method works \
                  with {MATRICES} dense matrices of this order",

@@ -4,36 +4,12 @@ use std::time::Duration;
 
 use super::memory;
 use crate::{
-    Error, InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings, Observer,
+    Error, InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings, Method, Observer,
     ProjectedGaussSeidel, ProjectedGaussSeidelSettings, SemismoothNewton, SemismoothNewtonSettings,
     Solution, Solver, WarmStart,
 };
 #[cfg(feature = "clarabel")]
 use crate::{QuadraticProgram, QuadraticProgramSettings};
-
-/// A method of the library.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Method {
-    Lemke,
-    SemismoothNewton,
-    InteriorPoint,
-    #[cfg(feature = "clarabel")]
-    QuadraticProgram,
-    ProjectedGaussSeidel,
-}
-
-impl Method {
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Lemke => Lemke::NAME,
-            Self::SemismoothNewton => SemismoothNewton::NAME,
-            Self::InteriorPoint => InteriorPoint::NAME,
-            #[cfg(feature = "clarabel")]
-            Self::QuadraticProgram => QuadraticProgram::NAME,
-            Self::ProjectedGaussSeidel => ProjectedGaussSeidel::NAME,
-        }
-    }
-}
 
 /// A method of a plan, and why it stands there.
 #[derive(Debug, Clone)]
@@ -83,7 +59,7 @@ pub(super) fn attempt<P: Planned>(
         memory::check(problem.is_sparse(), problem.pairs())?;
     }
     let solver = problem.solver(method, effort).ok_or_else(|| Error::NotTreated {
-        solver: method.name(),
+        method,
         reason: "it is not in the chain of this problem".to_owned(),
     })?;
     solver.solve_observed(problem, observer)

@@ -1,9 +1,9 @@
 //! The chains of problems with free and with bounded variables.
 
 use super::facts::Facts;
-use super::method::{Effort, Method, Planned, Step};
+use super::method::{Effort, Planned, Step};
 use super::standard::common_steps;
-use crate::{BoxedLcp, MixedLcp, Solver};
+use crate::{BoxedLcp, Method, MixedLcp, Solver};
 
 impl Planned for MixedLcp {
     fn pairs(&self) -> usize {
@@ -34,7 +34,7 @@ impl Planned for MixedLcp {
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
             Method::Lemke => Some(Box::new(effort.lemke())),
-            Method::InteriorPoint => Some(Box::new(effort.interior_point())),
+            Method::Interior => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
             Method::QuadraticProgram => Some(Box::new(effort.quadratic_program())),
             _ => None,
@@ -73,7 +73,7 @@ impl Planned for BoxedLcp {
         let mut steps = common_steps(&facts, None, facts.has_positive_diagonal);
         // Where a variable is free the general problem is no standard one.
         let is_standard = general.to_standard().is_some();
-        steps.retain(|step| is_standard || step.method != Method::InteriorPoint);
+        steps.retain(|step| is_standard || step.method != Method::Interior);
         for step in &mut steps {
             step.reason =
                 format!("{} pairs with those of the bounds, {}", general.order(), step.reason);
@@ -84,8 +84,8 @@ impl Planned for BoxedLcp {
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
             Method::Lemke => Some(Box::new(effort.lemke())),
-            Method::InteriorPoint => Some(Box::new(effort.interior_point())),
-            Method::ProjectedGaussSeidel => Some(Box::new(effort.sweeps())),
+            Method::Interior => Some(Box::new(effort.interior_point())),
+            Method::GaussSeidel => Some(Box::new(effort.sweeps())),
             _ => None,
         }
     }

@@ -1,8 +1,8 @@
 //! The chain of standard problems, and of general ones that are standard in disguise.
 
 use super::facts::{Facts, Symmetry, is_z_matrix};
-use super::method::{Effort, Method, Planned, Step};
-use crate::{HorizontalLcp, Lcp, Solver};
+use super::method::{Effort, Planned, Step};
+use crate::{HorizontalLcp, Lcp, Method, Solver};
 
 /// Up to this order pivots on a sparse matrix are as fast as factorisations, and say more.
 const FEW: usize = 500;
@@ -10,7 +10,7 @@ const FEW: usize = 500;
 /// The class of the matrix decides whether the active set method is the first.
 pub(super) fn standard_steps(facts: &Facts) -> Vec<Step> {
     let text = facts.describe();
-    let newton = |words| Step::new(Method::SemismoothNewton, format!("{text}, {words}"));
+    let newton = |words| Step::new(Method::Newton, format!("{text}, {words}"));
     let is_symmetric = facts.symmetry != Symmetry::None;
     let is_large = facts.is_sparse && facts.order > FEW;
     let program = is_symmetric.then(|| {
@@ -57,10 +57,10 @@ pub(super) fn common_steps(
         (None, Some(step(Method::Lemke, words)))
     };
     let inside = step(
-        Method::InteriorPoint,
+        Method::Interior,
         "the interior-point method takes tens of factorisations at any order",
     );
-    let sweeps = step(Method::ProjectedGaussSeidel, "sweeps are cheap, and promise little");
+    let sweeps = step(Method::GaussSeidel, "sweeps are cheap, and promise little");
     let mut steps: Vec<Step> = first.into_iter().chain([inside]).collect();
     steps.extend(program_step(program));
     steps.extend(can_be_swept.then_some(sweeps));
@@ -95,11 +95,12 @@ impl Planned for Lcp {
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
             Method::Lemke => Some(Box::new(effort.lemke())),
-            Method::SemismoothNewton => Some(Box::new(effort.newton(is_z_matrix(self.m())))),
-            Method::InteriorPoint => Some(Box::new(effort.interior_point())),
+            Method::Newton => Some(Box::new(effort.newton(is_z_matrix(self.m())))),
+            Method::Interior => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
             Method::QuadraticProgram => Some(Box::new(effort.quadratic_program())),
-            Method::ProjectedGaussSeidel => Some(Box::new(effort.sweeps())),
+            Method::GaussSeidel => Some(Box::new(effort.sweeps())),
+            _ => None,
         }
     }
 }
@@ -132,14 +133,15 @@ impl Planned for HorizontalLcp {
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
             Method::Lemke => Some(Box::new(effort.lemke())),
-            Method::SemismoothNewton => {
+            Method::Newton => {
                 let is_sure = self.to_standard().is_some_and(|it| is_z_matrix(it.lcp().m()));
                 Some(Box::new(effort.newton(is_sure)))
             }
-            Method::InteriorPoint => Some(Box::new(effort.interior_point())),
+            Method::Interior => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
             Method::QuadraticProgram => Some(Box::new(effort.quadratic_program())),
-            Method::ProjectedGaussSeidel => Some(Box::new(effort.sweeps())),
+            Method::GaussSeidel => Some(Box::new(effort.sweeps())),
+            _ => None,
         }
     }
 }

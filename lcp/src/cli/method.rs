@@ -2,14 +2,16 @@
 
 use std::time::Duration;
 
-use super::{Failure, SolveArgs, Solver};
+use clap::ValueEnum;
+use clap::builder::PossibleValue;
+
+use super::{Failure, SolveArgs};
 use crate::auto::memory;
-use crate::error::full_name;
 use crate::io::Problem;
 use crate::{
     Auto, AutoSettings, Error, HorizontalLcp, InteriorPoint, InteriorPointSettings, Lemke,
-    LemkeSettings, ProjectedGaussSeidel, ProjectedGaussSeidelSettings, QuadraticProgram,
-    QuadraticProgramSettings, SemismoothNewton, SemismoothNewtonSettings, Solution,
+    LemkeSettings, Method, ProjectedGaussSeidel, ProjectedGaussSeidelSettings, QuadraticProgram,
+    QuadraticProgramSettings, SemismoothNewton, SemismoothNewtonSettings, Solution, Solver,
 };
 
 /// Every method gets the problem in its own form where it treats that, else in the general form, whose
@@ -17,12 +19,12 @@ use crate::{
 pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Failure> {
     let time_limit = time_limit(args)?;
     let solution = match method(args)? {
-        Solver::Auto => {
+        Method::Auto => {
             let defaults = AutoSettings::default();
             let tolerance = args.tol.unwrap_or(defaults.tolerance);
             auto(&Auto::new(AutoSettings { tolerance, time_limit, ..defaults }), problem)
         }
-        Solver::Lemke => {
+        Method::Lemke => {
             let defaults = LemkeSettings::default();
             let settings = LemkeSettings {
                 tolerance: args.tol.unwrap_or(defaults.tolerance),
@@ -33,7 +35,7 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
             };
             lemke(&Lemke::new(settings), &problem.to_general())
         }
-        Solver::Pgs => {
+        Method::GaussSeidel => {
             let defaults = ProjectedGaussSeidelSettings::default();
             let settings = ProjectedGaussSeidelSettings {
                 tolerance: args.tol.unwrap_or(defaults.tolerance),
@@ -43,7 +45,7 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
             };
             sweep(&ProjectedGaussSeidel::new(settings), problem)
         }
-        Solver::Qp => {
+        Method::QuadraticProgram => {
             let defaults = QuadraticProgramSettings::default();
             let settings = QuadraticProgramSettings {
                 tolerance: args.tol.unwrap_or(defaults.tolerance),
@@ -53,7 +55,7 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
             };
             program(&QuadraticProgram::new(settings), problem)
         }
-        Solver::Newton => {
+        Method::Newton => {
             let defaults = SemismoothNewtonSettings::default();
             let settings = SemismoothNewtonSettings {
                 tolerance: args.tol.unwrap_or(defaults.tolerance),
@@ -63,7 +65,7 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
             };
             newton(&SemismoothNewton::new(settings), problem)
         }
-        Solver::Interior => {
+        Method::Interior => {
             let defaults = InteriorPointSettings::default();
             let settings = InteriorPointSettings {
                 tolerance: args.tol.unwrap_or(defaults.tolerance),
@@ -78,21 +80,21 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
 }
 
 /// The method, after a look at the options that only some of them have.
-fn method(args: &SolveArgs) -> Result<Solver, Failure> {
+fn method(args: &SolveArgs) -> Result<Method, Failure> {
     let pivots = [("--max-pivots", args.max_pivots.is_some()), ("--trace", args.trace.is_some())];
     let asked = pivots.iter().find_map(|&(option, is_given)| is_given.then_some(option));
     match (args.solver, asked) {
-        (Solver::Auto | Solver::Lemke, _) if args.max_iterations.is_some() => Err(
+        (Method::Auto | Method::Lemke, _) if args.max_iterations.is_some() => Err(
             "--max-iterations is for one of the iterative methods: choose it by --solver pgs, qp, newton \
              or interior, or leave the option out; pivots of lemke have --max-pivots"
                 .into(),
         ),
-        (Solver::Auto, Some(_)) => Ok(Solver::Lemke),
-        (solver, None) | (solver @ Solver::Lemke, _) => Ok(solver),
-        (solver, Some(option)) => Err(format!(
+        (Method::Auto, Some(_)) => Ok(Method::Lemke),
+        (method, None) | (method @ Method::Lemke, _) => Ok(method),
+        (method, Some(option)) => Err(format!(
             "{option} is about the pivots of Lemke's method, and {} has none: leave it out, or take \
              --solver lemke",
-            full_name(&solver.name())
+            method.full_name()
         )
         .into()),
     }
@@ -107,7 +109,6 @@ fn time_limit(args: &SolveArgs) -> Result<Option<Duration>, Failure> {
 }
 
 fn auto(solver: &Auto, problem: &Problem) -> Result<Solution, Error> {
-    use crate::Solver;
     match problem {
         Problem::Lcp(problem) => solver.solve(problem),
         Problem::Horizontal(problem) => solver.solve(problem),
@@ -123,7 +124,6 @@ fn lemke(solver: &Lemke, problem: &HorizontalLcp) -> Result<Solution, Error> {
 }
 
 fn sweep(solver: &ProjectedGaussSeidel, problem: &Problem) -> Result<Solution, Error> {
-    use crate::Solver;
     match problem {
         Problem::Lcp(problem) => solver.solve(problem),
         Problem::Horizontal(problem) => solver.solve(problem),
@@ -134,7 +134,6 @@ fn sweep(solver: &ProjectedGaussSeidel, problem: &Problem) -> Result<Solution, E
 }
 
 fn program(solver: &QuadraticProgram, problem: &Problem) -> Result<Solution, Error> {
-    use crate::Solver;
     match problem {
         Problem::Lcp(problem) => solver.solve(problem),
         Problem::Mixed(problem) => solver.solve(problem),
@@ -144,7 +143,6 @@ fn program(solver: &QuadraticProgram, problem: &Problem) -> Result<Solution, Err
 }
 
 fn newton(solver: &SemismoothNewton, problem: &Problem) -> Result<Solution, Error> {
-    use crate::Solver;
     match problem {
         Problem::Lcp(problem) => solver.solve(problem),
         Problem::Friction(problem) => solver.solve(problem.standard()),
@@ -155,7 +153,6 @@ fn newton(solver: &SemismoothNewton, problem: &Problem) -> Result<Solution, Erro
 }
 
 fn interior(solver: &InteriorPoint, problem: &Problem) -> Result<Solution, Error> {
-    use crate::Solver;
     match problem {
         Problem::Lcp(problem) => solver.solve(problem),
         Problem::Mixed(problem) => solver.solve(problem),
@@ -164,9 +161,23 @@ fn interior(solver: &InteriorPoint, problem: &Problem) -> Result<Solution, Error
     }
 }
 
-impl Solver {
-    fn name(self) -> String {
-        clap::ValueEnum::to_possible_value(&self)
-            .map_or_else(String::new, |it| it.get_name().into())
+impl ValueEnum for Method {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.name()).help(match self {
+            Self::Auto => "The method that suits the problem best, and the next one where it fails",
+            Self::Lemke => "Lemke's method: any problem",
+            Self::Newton => {
+                "Semismooth Newton, the active set method: positive diagonals, above all M-matrices"
+            }
+            Self::Interior => "Interior-point method: large sparse problems",
+            Self::QuadraticProgram => {
+                "Convex quadratic program: symmetric positive semidefinite matrices"
+            }
+            Self::GaussSeidel => "Projected Gauss-Seidel: positive diagonals; bounds, friction",
+        }))
     }
 }

@@ -4,14 +4,14 @@ use std::fmt::Write as _;
 
 use super::residual_lines;
 use super::solve::{Answer, Work};
-use crate::error::full_name;
+use crate::Status;
 use crate::io::ProblemFile;
-use crate::{Attempt, Perturbation, Status};
+use crate::pivoting::{Attempt, Perturbation};
 
 pub(super) fn text(file: &ProblemFile, answer: &Answer<'_>) -> String {
     let Answer { status, solver, n, work, time_s, .. } = answer;
     let mut text = format!("{} of order {n}, read as {}\n", answer.kind, file.format);
-    let _ = writeln!(text, "{status}: {}, {work}, {time_s:.3} s", full_name(solver));
+    let _ = writeln!(text, "{status}: {}, {work}, {time_s:.3} s", solver.full_name());
     if let Some(meaning) = meaning(answer) {
         let _ = writeln!(text, "{meaning}");
     }
@@ -89,7 +89,7 @@ fn route_lines(answer: &Answer<'_>) -> String {
     match answer.routes {
         [] => {}
         [only] => {
-            let _ = writeln!(lines, "auto chose {}: {}", full_name(only.solver), only.reason);
+            let _ = writeln!(lines, "auto chose {}: {}", only.method.full_name(), only.reason);
         }
         routes => {
             for (number, route) in routes.iter().enumerate() {
@@ -97,7 +97,7 @@ fn route_lines(answer: &Answer<'_>) -> String {
                 let _ = writeln!(
                     lines,
                     "{verb} {}: {}\n  {}, {:.3} s",
-                    full_name(route.solver),
+                    route.method.full_name(),
                     route.reason,
                     route.end,
                     route.seconds

@@ -6,16 +6,15 @@ use serde::Serialize;
 
 use super::{Failure, NOT_SOLVED, SOLVED, SolveArgs, in_file, method, print, print_json, report};
 use crate::io::Problem;
-use crate::{
-    Attempt, ContactForces, Info, Lemke, Ray, Residuals, Route, SoftSprings, Solution, Status,
-};
+use crate::pivoting::Attempt;
+use crate::{ContactForces, Info, Method, Ray, Residuals, Route, SoftSprings, Solution, Status};
 
 /// What `--json` prints.
 #[derive(Debug, Serialize)]
 pub(super) struct Answer<'a> {
     pub(super) status: Status,
     pub(super) kind: &'static str,
-    pub(super) solver: &'static str,
+    pub(super) solver: Method,
     pub(super) n: usize,
     pub(super) time_s: f64,
     #[serde(flatten)]
@@ -77,7 +76,7 @@ fn answer<'a>(problem: &Problem, solution: &'a Solution) -> Answer<'a> {
     Answer {
         status: solution.status,
         kind: problem.kind(),
-        solver: info.solver,
+        solver: info.method,
         n: problem.order(),
         time_s: info.seconds,
         work: Work::of(info),
@@ -94,7 +93,7 @@ fn answer<'a>(problem: &Problem, solution: &'a Solution) -> Answer<'a> {
 impl Work {
     fn of(info: &Info) -> Self {
         let Info { pivots, iterations, factorisations, .. } = *info;
-        if info.solver == Lemke::NAME {
+        if info.method == Method::Lemke {
             Self::Pivots { pivots }
         } else {
             Self::Iterations { iterations, factorisations }

@@ -3,13 +3,13 @@
 use super::InteriorPoint;
 use crate::lower::judged_by;
 use crate::{
-    BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, MixedLcp, Observer, Solution,
-    Solver,
+    BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Method, MixedLcp, Observer,
+    Solution, Solver,
 };
 
 impl Solver<Contact2d> for InteriorPoint {
-    fn name(&self) -> &'static str {
-        Self::NAME
+    fn method(&self) -> Method {
+        Method::Interior
     }
 
     fn solve_observed(
@@ -23,8 +23,8 @@ impl Solver<Contact2d> for InteriorPoint {
 
 /// The solution is that of [`MixedLcp::to_general`].
 impl Solver<MixedLcp> for InteriorPoint {
-    fn name(&self) -> &'static str {
-        Self::NAME
+    fn method(&self) -> Method {
+        Method::Interior
     }
 
     fn solve_observed(
@@ -37,8 +37,8 @@ impl Solver<MixedLcp> for InteriorPoint {
 }
 
 impl Solver<Lcp> for InteriorPoint {
-    fn name(&self) -> &'static str {
-        Self::NAME
+    fn method(&self) -> Method {
+        Method::Interior
     }
 
     fn solve_observed(
@@ -53,8 +53,8 @@ impl Solver<Lcp> for InteriorPoint {
 }
 
 impl Solver<Friction2d> for InteriorPoint {
-    fn name(&self) -> &'static str {
-        Self::NAME
+    fn method(&self) -> Method {
+        Method::Interior
     }
 
     fn solve_observed(
@@ -69,8 +69,8 @@ impl Solver<Friction2d> for InteriorPoint {
 
 /// Problems that are standard ones in disguise ([`HorizontalLcp::to_standard`]).
 impl Solver<HorizontalLcp> for InteriorPoint {
-    fn name(&self) -> &'static str {
-        Self::NAME
+    fn method(&self) -> Method {
+        Method::Interior
     }
 
     fn solve_observed(
@@ -79,7 +79,7 @@ impl Solver<HorizontalLcp> for InteriorPoint {
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         let standard = problem.to_standard().ok_or_else(|| Error::NotTreated {
-            solver: Self::NAME,
+            method: Method::Interior,
             reason:
                 "it is not a standard one in disguise: Lemke's method treats it, or give the mixed \
                      or the contact problem that it comes from"
@@ -96,8 +96,8 @@ impl Solver<HorizontalLcp> for InteriorPoint {
 
 /// Problems without free variables, by [`BoxedLcp::to_general`].
 impl Solver<BoxedLcp> for InteriorPoint {
-    fn name(&self) -> &'static str {
-        Self::NAME
+    fn method(&self) -> Method {
+        Method::Interior
     }
 
     fn solve_observed(

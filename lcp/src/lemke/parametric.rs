@@ -18,7 +18,7 @@ use super::ratio::leaving_row;
 use super::start::{Equilibrated, Start};
 use crate::certify::{GeneralJudge, Precision};
 use crate::problem::{check_length, check_vector, max_abs};
-use crate::{Basis, Error, HorizontalLcp, Lemke, LemkeSettings, Status};
+use crate::{Basis, Error, HorizontalLcp, Lemke, LemkeSettings, Solver, Status};
 
 /// Values, and rates of the parameter, below this are rounding errors, relative to their terms.
 const ROUNDING: f64 = 1e-14;
@@ -39,7 +39,8 @@ pub struct ParametricSettings {
 ///
 /// ```
 /// use faer::mat;
-/// use lcp::{Lcp, Parametric, ParametricEnd};
+/// use lcp::lemke::{Parametric, ParametricEnd};
+/// use lcp::Lcp;
 /// // A spring between walls: w = z + 1 - lambda, so that z grows from lambda = 1 on.
 /// let problem = Lcp::new(mat![[1.0]], vec![1.0])?.into();
 /// let path = Parametric::default().trace(&problem, &[-1.0], 0.0, 3.0)?;

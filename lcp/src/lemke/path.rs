@@ -10,7 +10,7 @@ use std::collections::HashSet;
 use super::kernel::{Kernel, Var};
 use super::ratio::leaving_row;
 use super::start::Start;
-use crate::AttemptEnd;
+use crate::pivoting::AttemptEnd;
 use crate::problem::max_abs;
 use crate::random::SplitMix;
 

@@ -14,9 +14,12 @@ use super::start::{Equilibrated, Start};
 use super::translate::{basis_of, in_problem_units, kind_of, record};
 use super::trial::Trial;
 use crate::certify::Precision;
+use crate::pivoting::{
+    Attempt, AttemptCovering, AttemptEnd, AttemptStart, Perturbation, PivotRecord,
+};
 use crate::{
-    Attempt, AttemptCovering, AttemptEnd, AttemptStart, Basis, Covering, HorizontalLcp, Info,
-    LemkeSettings, Matrix, Perturbation, PivotRecord, Ray, Side, Solution, Status, WarmStart,
+    Basis, Covering, HorizontalLcp, Info, LemkeSettings, Matrix, Ray, Side, Solution, Status,
+    WarmStart,
 };
 
 pub(super) type Observer<'a> = &'a mut dyn FnMut(&Progress) -> ControlFlow<()>;

@@ -3,8 +3,9 @@
 use super::kernel::{Kernel, Var};
 use super::path::{Exchange, Path};
 use super::start::{Equilibrated, Start};
+use crate::pivoting::{AttemptStart, PivotRecord, Variable};
 use crate::problem::max_abs;
-use crate::{AttemptStart, Basis, PivotRecord, Ray, Side, Variable};
+use crate::{Basis, Ray, Side};
 
 /// Of every pair the variable that is larger, in units of the largest of its vector.
 pub(super) fn basis_of(t: &[f64], y: &[f64]) -> Basis {

@@ -1,8 +1,8 @@
 //! What the attempts vary, and in which order.
 
 use super::start::Start;
+use crate::pivoting::{AttemptCovering, AttemptEnd, AttemptStart, Perturbation};
 use crate::random::SplitMix;
-use crate::{AttemptCovering, AttemptEnd, AttemptStart, Perturbation};
 
 /// Size of the perturbation that parts ties, relative to the largest entry of `q`.
 const TIES: f64 = 1e-8;

@@ -3,8 +3,9 @@
 use super::SemismoothNewton;
 use super::proximal::{At, Proximal};
 use crate::active::{Effort, Search, Springs};
+use crate::refine::ContactStatus;
 use crate::solve::Monitor;
-use crate::{Contact2d, ContactStatus, Error, Observer, Solution, Solver, Status};
+use crate::{Contact2d, Error, Method, Observer, Solution, Solver, Status};
 
 /// Stiffness of the contacts that are glued together at the start, and the springs that hold what they do not,
 /// relative to the stiffness of the bodies, as all that follow.
@@ -39,8 +40,8 @@ const MORE: usize = 3;
 const EXCHANGES: Effort = Effort { rounds: 20, patience: 1, points: 50 };
 
 impl Solver<Contact2d> for SemismoothNewton {
-    fn name(&self) -> &'static str {
-        Self::NAME
+    fn method(&self) -> Method {
+        Method::Newton
     }
 
     fn solve_observed(
@@ -51,7 +52,7 @@ impl Solver<Contact2d> for SemismoothNewton {
         let settings = self.settings();
         settings.validate(problem.order())?;
         let monitor = Monitor::new(settings.max_iterations, settings.time_limit, observer);
-        let mut search = Search::new(Self::NAME, problem, settings.tolerance)?;
+        let mut search = Search::new(Method::Newton, problem, settings.tolerance)?;
         let is_tried = search.try_start(&settings.start) || search.try_rest(true);
         let mut rounds = Rounds { tolerance: settings.tolerance, search, monitor };
         let status = if is_tried { Status::Solved } else { rounds.run() };

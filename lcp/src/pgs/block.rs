@@ -2,8 +2,8 @@
 
 use super::coulomb::Coulomb;
 use super::{Constraint, Rows};
-use crate::Error;
 use crate::problem::check_length;
+use crate::{Error, Method};
 
 /// A constraint with its first row and what its relaxation needs of the matrix.
 #[derive(Debug, Clone, Copy)]
@@ -18,12 +18,12 @@ impl Block {
     pub(super) fn all<R: Rows + ?Sized>(
         rows: &mut R,
         constraints: &[Constraint],
-        solver: &'static str,
+        method: Method,
     ) -> Result<Vec<Self>, Error> {
         let taken = constraints.iter().map(|constraint| constraint.rows()).sum();
         check_length("rows of the constraints", taken, rows.order())?;
         rows.clear();
-        let mut entries = Entries { unit: vec![0.0; rows.order()], rows, solver };
+        let mut entries = Entries { unit: vec![0.0; rows.order()], rows, method };
         let mut row = 0;
         let mut block = |(index, &constraint): (usize, &Constraint)| {
             let first = row;
@@ -145,7 +145,7 @@ struct Entries<'a, R: ?Sized> {
     rows: &'a mut R,
     /// Zero between the calls, as is the state of the rows.
     unit: Vec<f64>,
-    solver: &'static str,
+    method: Method,
 }
 
 impl<R: Rows + ?Sized> Entries<'_, R> {
@@ -167,6 +167,6 @@ impl<R: Rows + ?Sized> Entries<'_, R> {
             "row {i} has the diagonal entry {diagonal}, and only rows with a positive one can be \
              relaxed: take Lemke's method"
         );
-        Err(Error::NotTreated { solver: self.solver, reason })
+        Err(Error::NotTreated { method: self.method, reason })
     }
 }

@@ -10,7 +10,7 @@ use crate::sparse::Columns;
 ///
 /// ```
 /// use faer::mat;
-/// use lcp::{MatrixRows, Rows};
+/// use lcp::pgs::{MatrixRows, Rows};
 /// let rows = MatrixRows::new(&mat![[2.0, -1.0], [1.0, 3.0]].into());
 /// assert_eq!(rows.product(0, &[1.0, 4.0]), -2.0);
 /// assert_eq!(rows.size(0, &[1.0, 4.0]), 6.0);

@@ -50,14 +50,14 @@ fn colours<R: Rows + ?Sized>(rows: &R, blocks: &[Block]) -> Option<Vec<usize>> {
 mod tests {
     use super::*;
     use crate::families::obstacle;
-    use crate::{Constraint, MatrixRows};
+    use crate::pgs::{Constraint, MatrixRows};
 
     #[test]
     fn the_five_point_laplacian_is_red_and_black() {
         let (side, problem) = (5, obstacle(5).problem);
         let mut rows = MatrixRows::new(problem.m());
         let constraints = vec![Constraint::NONNEGATIVE; side * side];
-        let blocks = Block::all(&mut rows, &constraints, "test").unwrap();
+        let blocks = Block::all(&mut rows, &constraints, crate::Method::GaussSeidel).unwrap();
         let colours = colours(&rows, &blocks).unwrap();
         let expected: Vec<usize> = (0..side * side).map(|i| (i / side + i % side) % 2).collect();
         assert_eq!(colours, expected);

@@ -9,7 +9,8 @@
 /// times these velocities; the matrix `J M_b^-1 J^T` is never formed:
 ///
 /// ```
-/// use lcp::{Constraint, ProjectedGaussSeidel, Rows, Status};
+/// use lcp::pgs::{Constraint, Rows};
+/// use lcp::{ProjectedGaussSeidel, Status};
 ///
 /// struct Impulses {
 ///     j: Vec<Vec<(usize, f64)>>, // rows of J: (component of the velocity, entry)

@@ -16,7 +16,7 @@ pub enum SweepOrder {
     /// By colours, so that no two rows of one colour are coupled: red-black for the five-point Laplacian.
     /// Colours are given greedily, in the order of the rows. A dense matrix has as many colours as rows,
     /// which is [`Forward`](Self::Forward), and so is a matrix whose
-    /// [`neighbours`](crate::Rows::neighbours) are not known. The rows of a colour could be
+    /// [`neighbours`](crate::pgs::Rows::neighbours) are not known. The rows of a colour could be
     /// relaxed at the same time; they are relaxed on one thread.
     Coloured,
 }
@@ -24,7 +24,8 @@ pub enum SweepOrder {
 /// Settings of [`ProjectedGaussSeidel`](crate::ProjectedGaussSeidel).
 ///
 /// ```
-/// use lcp::{ProjectedGaussSeidel, ProjectedGaussSeidelSettings, SweepOrder};
+/// use lcp::pgs::SweepOrder;
+/// use lcp::{ProjectedGaussSeidel, ProjectedGaussSeidelSettings};
 /// let settings = ProjectedGaussSeidelSettings {
 ///     relaxation: 1.5,
 ///     order: SweepOrder::Coloured,

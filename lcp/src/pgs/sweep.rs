@@ -2,10 +2,10 @@
 
 use super::block::Block;
 use super::order::order;
-use super::{Constraint, ProjectedGaussSeidel, ProjectedGaussSeidelSettings, Rows, SweepOrder};
+use super::{Constraint, ProjectedGaussSeidelSettings, Rows, SweepOrder};
 use crate::problem::{check_length, check_vector, max_abs};
 use crate::solve::Monitor;
-use crate::{Error, Residuals, Status};
+use crate::{Error, Method, Residuals, Status};
 
 /// A row whose terms are all at the rounding level of the point is measured by this part of the
 /// largest term that it could have, as in [`HorizontalLcp::residuals`](crate::HorizontalLcp::residuals).
@@ -56,7 +56,7 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
         let n = rows.order();
         check_length("q", q.len(), n)?;
         check_vector("q", q)?;
-        let blocks = Block::all(rows, constraints, ProjectedGaussSeidel::NAME)?;
+        let blocks = Block::all(rows, constraints, Method::GaussSeidel)?;
         let order = order(rows, &blocks, settings.order);
         let diagonals = blocks.iter().flat_map(Block::diagonals).collect();
         let mut z = start.unwrap_or_else(|| vec![0.0; n]);

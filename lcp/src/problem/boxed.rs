@@ -12,7 +12,7 @@ use crate::{Error, Matrix};
 ///
 /// ```
 /// use faer::mat;
-/// use lcp::{BoxedLcp, Lemke};
+/// use lcp::{BoxedLcp, Lemke, Solver};
 /// let m = mat![[2.0, 1.0], [1.0, 2.0]];
 /// let boxed = BoxedLcp::new(m, vec![-9.0, 2.0], vec![-1.0, -1.0], vec![3.0, f64::INFINITY])?;
 /// let solution = Lemke::default().solve(&boxed.to_general())?;

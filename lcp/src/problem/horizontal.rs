@@ -12,7 +12,7 @@ use crate::{Error, Matrix, Side};
 ///
 /// ```
 /// use faer::mat;
-/// use lcp::{HorizontalLcp, Lemke};
+/// use lcp::{HorizontalLcp, Lemke, Solver};
 ///
 /// // 2 t + t' - y = 1,  t + 2 t' - y' = 1
 /// let a = mat![[2.0, 1.0], [1.0, 2.0]];

@@ -10,7 +10,7 @@ use crate::{Error, Matrix};
 ///
 /// ```
 /// use faer::mat;
-/// use lcp::{Lemke, MixedLcp};
+/// use lcp::{Lemke, Solver, MixedLcp};
 /// // u free and v >= 0:  v - 1 = 0,  w = -u + v + 1: the block of u is zero
 /// let mixed = MixedLcp::new(mat![[0.0, 1.0], [-1.0, 1.0]], vec![-1.0, 1.0], vec![true, false])?;
 /// let general = mixed.to_general();

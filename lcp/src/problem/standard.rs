@@ -9,9 +9,9 @@ use crate::{Error, Matrix};
 ///
 /// ```
 /// use faer::mat;
-/// use lcp::{Lcp, Lemke};
+/// use lcp::{Lcp, Lemke, Solver};
 /// let lcp = Lcp::new(mat![[2.0, 1.0], [1.0, 2.0]], vec![-5.0, -6.0])?;
-/// let solution = Lemke::default().solve(&lcp.into())?;
+/// let solution = Lemke::default().solve(&lcp)?;
 /// assert!((solution.t[0] - 4.0 / 3.0).abs() < 1e-15);
 /// assert!((solution.t[1] - 7.0 / 3.0).abs() < 1e-15);
 /// # Ok::<(), lcp::Error>(())

@@ -100,10 +100,8 @@ impl<'a> Solve<'a> {
         statuses: &'a [ContactStatus],
         weights: Weights,
     ) -> Result<Self, Error> {
-        let mut condensed = Condensed::new(scaled).map_err(|error| Error::NotTreated {
-            solver: "refine",
-            reason: format!("its sparse factors cannot be planned: {error}"),
-        })?;
+        let mut condensed = Condensed::new(scaled)
+            .map_err(|error| Error::Factors { what: "K", reason: error.to_string() })?;
         let all = scaled.points.iter().zip(statuses);
         let springs: Vec<Springs> =
             all.clone().map(|(point, status)| status.springs(point, weights.stiff)).collect();

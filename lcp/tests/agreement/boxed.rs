@@ -61,7 +61,7 @@ proptest! {
                 sweeps(tolerance).solve(&boxed).unwrap(),
             ];
             for solution in answers {
-                let solver = solution.info.solver;
+                let solver = solution.info.method;
                 prop_assert!(solution.is_solved(), "{solver}: {:?} {:?}", solution.status, solution.residuals);
                 let worst = worst_of_general(&general, &solution.t, &solution.y);
                 prop_assert!(worst <= ROUNDING * tolerance, "{solver}: {worst:e}");

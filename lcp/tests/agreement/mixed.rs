@@ -82,7 +82,7 @@ proptest! {
                 found.extend(solved(route, &mixed, if is_refused { Refusal } else { Solves }));
             }
             for solution in found {
-                let solver = solution.info.solver;
+                let solver = solution.info.method;
                 let worst = worst_of_general(&general, &solution.t, &solution.y);
                 prop_assert!(worst <= ROUNDING * tolerance, "{solver}: {worst:e}");
                 let (z, _) = mixed.recover(&solution.t, &solution.y);

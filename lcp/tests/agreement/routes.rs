@@ -108,7 +108,7 @@ pub(crate) fn solved<P>(
         (other, _) => panic!("{route:?} owes {owes:?}, but: {other:?}"),
     };
     assert!(solution.t.iter().chain(&solution.y).all(|v| v.is_finite()), "{route:?}");
-    assert_eq!(solution.info.solver, solver.name(), "{route:?}");
+    assert_eq!(solution.info.method, solver.method(), "{route:?}");
     if solution.is_solved() {
         return Some(solution);
     }

@@ -19,7 +19,7 @@ fn signs_and_symmetry_and_size_decide_about_standard_problems() {
     // M-matrices of any size, also such as are not dominant.
     for side in [3, 40] {
         let plan = auto().plan(&families::obstacle(side).problem);
-        assert_eq!(plan[0].solver, NEWTON);
+        assert_eq!(plan[0].method, NEWTON);
         assert!(plan[0].reason.contains("M-matrix"), "{}", plan[0].reason);
     }
     let z = Lcp::new(mat![[1.0, -3.0], [-2.0, 1.0]], vec![-1.0, 2.0]).unwrap();

@@ -1,9 +1,10 @@
 //! Agreement with Lemke's method, in any units and any order.
 
 use faer::Mat;
+use lcp::pgs::SweepOrder;
 use lcp::{
     BoxedLcp, HorizontalLcp, Lcp, Lemke, ProjectedGaussSeidel, ProjectedGaussSeidelSettings,
-    Solution, Solver, Status, SweepOrder, WarmStart,
+    Solution, Solver, Status, WarmStart,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -57,7 +58,7 @@ proptest! {
     #[test]
     fn agreement_with_lemke(lcp in easy(), order in 0..3_usize, relaxation in 0.7..=1.0_f64) {
         let order = [SweepOrder::Forward, SweepOrder::Symmetric, SweepOrder::Coloured][order];
-        let expected = Lemke::default().solve(&lcp.clone().into()).unwrap();
+        let expected = Lemke::default().solve(&lcp).unwrap();
         prop_assert!(expected.is_solved());
         for tolerance in [1e-4, 1e-8, 1e-12] {
             let settings = ProjectedGaussSeidelSettings { order, relaxation, tolerance, ..settings() };

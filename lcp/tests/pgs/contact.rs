@@ -2,7 +2,7 @@
 
 use faer::{Mat, mat};
 use lcp::{
-    Contact2d, Error, Friction2d, HorizontalLcp, Lemke, ProjectedGaussSeidel,
+    Contact2d, Error, Friction2d, HorizontalLcp, Lemke, Method, ProjectedGaussSeidel,
     ProjectedGaussSeidelSettings, Solver, Status, WarmStart,
 };
 use proptest::collection::vec;
@@ -198,7 +198,7 @@ fn floating_bodies_are_not_treated() {
         Contact2d::new(k, vec![0.0; 2], c_n, c_t, vec![0.0], vec![0.0], vec![0.5]).unwrap()
     };
     let reason = |contact: Contact2d| match to(1e-8).solve(&contact) {
-        Err(Error::NotTreated { solver: "pgs", reason }) => reason,
+        Err(Error::NotTreated { method: Method::GaussSeidel, reason }) => reason,
         other => panic!("{other:?}"),
     };
     let (zero, unit) = (mat![[1.0, 0.0], [0.0, 0.0]], Mat::<f64>::identity(2, 2));

@@ -1,10 +1,8 @@
 //! Problems known by the products of their rows.
 
 use faer::Mat;
-use lcp::{
-    Constraint, Error, Friction2d, MatrixRows, ProjectedGaussSeidel, ProjectedGaussSeidelSettings,
-    Rows, Solver, Status, SweepOrder,
-};
+use lcp::pgs::{Constraint, MatrixRows, Rows, SweepOrder};
+use lcp::{Error, Friction2d, ProjectedGaussSeidel, ProjectedGaussSeidelSettings, Solver, Status};
 
 use super::{by, distance, settings, to};
 

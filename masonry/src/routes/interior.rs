@@ -10,6 +10,7 @@ use super::sparse::Found;
 use super::{Answer, Method, Observer, Request, sparse};
 use crate::forms::Sparse;
 use crate::scene::Route;
+use crate::solve::SolveError;
 
 /// The route on a sparse problem.
 #[derive(Debug, Clone, Copy)]
@@ -19,7 +20,7 @@ pub struct Interior<'a> {
 }
 
 impl Method for Interior<'_> {
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, lcp::Error> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, SolveError> {
         let settings = InteriorPointSettings { tolerance: request.tolerance, ..Default::default() };
         let solution = InteriorPoint::new(settings)
             .solve_observed(&self.sparse.problem, &mut |at| observer(at.into()))?;

@@ -7,16 +7,15 @@
 //! fits between two walls may fall, and may be jammed. The answer of the mixed form is measured
 //! against the paper's form too.
 
-use lcp::{
-    Attempt, AttemptCovering, AttemptEnd, AttemptStart, Basis, Covering, Lemke, LemkeSettings,
-    Perturbation, Residuals, Side, Status, WarmStart,
-};
+use lcp::lemke::{Attempt, AttemptCovering, AttemptEnd, AttemptStart, Perturbation};
+use lcp::{Basis, Covering, Lemke, LemkeSettings, Residuals, Side, Status, WarmStart};
 
 use super::{Answer, Method, Motion, Observer, Request, Step};
 use crate::forms::{Form, FormKind, RowState, Start};
 use crate::outcome::SolveInfo;
 use crate::reduction::Reduction;
 use crate::scene;
+use crate::solve::SolveError;
 use crate::system::System;
 
 /// Start bases of a reduced form that are tried.
@@ -43,7 +42,7 @@ pub struct Pivots<'a> {
 }
 
 impl Method for Pivots<'_> {
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, lcp::Error> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, SolveError> {
         let Self { system, reduction, start } = *self;
         let kinds: &[FormKind] = match request.form {
             scene::Form::Auto => &[FormKind::Coulomb, FormKind::Mixed],
@@ -85,11 +84,11 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn run(&mut self, form: Form, observer: Observer<'_>) -> Result<Answer, lcp::Error> {
+    fn run(&mut self, form: Form, observer: Observer<'_>) -> Result<Answer, SolveError> {
         let mut last = None;
         for (settings, start) in self.settings(&form) {
             let solution = Lemke::new(settings)
-                .solve_observed(&form.problem, &mut |at| observer(Step::Pivots(*at)))?;
+                .solve_with_progress(&form.problem, &mut |at| observer(Step::Pivots(*at)))?;
             self.pivots += solution.info.pivots;
             self.factorisations += solution.info.factorisations;
             let attempts = solution.info.attempts.iter();

@@ -6,6 +6,7 @@ use super::sparse::Found;
 use super::{Answer, Method, Observer, Request, sparse};
 use crate::forms::Sparse;
 use crate::scene::Route;
+use crate::solve::SolveError;
 
 /// The route on a sparse problem.
 #[derive(Debug, Clone, Copy)]
@@ -15,7 +16,7 @@ pub struct Newton<'a> {
 }
 
 impl Method for Newton<'_> {
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, lcp::Error> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, SolveError> {
         let settings =
             SemismoothNewtonSettings { tolerance: request.tolerance, ..Default::default() };
         let solution = SemismoothNewton::new(settings)

@@ -6,13 +6,15 @@
 
 use std::ops::ControlFlow;
 
-use lcp::{QuadraticProgram, QuadraticProgramSettings, SoftConstraints, Solver, Status};
+use lcp::qp::SoftConstraints;
+use lcp::{QuadraticProgram, QuadraticProgramSettings, Solver, Status};
 
 use super::sparse::Found;
 use super::{Answer, Method, Observer, Request, sparse};
 use crate::forms::Sparse;
 use crate::outcome::SoftReport;
 use crate::scene::Route;
+use crate::solve::SolveError;
 
 /// The route on a sparse problem.
 #[derive(Debug, Clone, Copy)]
@@ -22,7 +24,7 @@ pub struct Programs<'a> {
 }
 
 impl Method for Programs<'_> {
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, lcp::Error> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, SolveError> {
         let problem = &self.sparse.problem;
         let soft = request.soft.map(|epsilon| SoftConstraints { epsilon, ..Default::default() });
         let settings =

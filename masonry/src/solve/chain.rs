@@ -120,8 +120,11 @@ impl<'a> Chain<'a> {
                         break;
                     }
                 }
-                Err(SolveError::Solver(error @ lcp::Error::NotTreated { .. })) => {
-                    end(format!("refused: {error}"));
+                Err(error) if error.is_refusal() => {
+                    end(match &error {
+                        SolveError::Solver(error) => format!("refused: {error}"),
+                        other => format!("refused: {other}"),
+                    });
                     refusal = Some(error);
                 }
                 Err(error) => return Err(error),
@@ -129,7 +132,7 @@ impl<'a> Chain<'a> {
         }
         let mut best = match (best, refusal) {
             (Some(best), _) => best,
-            (None, Some(refusal)) => return Err(refusal.into()),
+            (None, Some(refusal)) => return Err(refusal),
             (None, None) => unreachable!("every plan has a route"),
         };
         best.info.routes = ends;
@@ -254,7 +257,7 @@ impl<'a> Chain<'a> {
             })
         });
         self.clock.add("solve", began);
-        Ok(answer?)
+        answer
     }
 
     fn concluded(&self, answer: Answer, state: Option<State>) -> Attempt {

@@ -1,6 +1,6 @@
 //! What the last digits cost: one factorisation, and solves with it.
 
-use lcp::Refinement;
+use lcp::refine::Refinement;
 use serde::Serialize;
 
 use super::verified::Exact;

@@ -1,6 +1,7 @@
 //! The reference to twice the usual digits: the equations of its contacts' states, solved anew.
 
-use lcp::{ContactState, ContactStatus, Extended, Refined, Refinement};
+use lcp::ContactState;
+use lcp::refine::{ContactStatus, Extended, Refined, Refinement};
 use serde::Serialize;
 
 use super::Figures;
@@ -63,7 +64,7 @@ impl Exact {
         let system = System::new(model).ok()?;
         let sparse = Sparse::new(&system).ok()?;
         let given = sparse.state((model, &system), state);
-        let lcp::Verified { statuses, refined } = sparse.problem.verify(&given).ok()?;
+        let lcp::refine::Verified { statuses, refined } = sparse.problem.verify(&given).ok()?;
         let plain = refined.rounded(&sparse.problem);
         let verified = judged(&sparse, &given, &refined);
         let state = exact_state((model, &system, &sparse), &plain);

@@ -1,6 +1,6 @@
 //! The records of a study, what the last digits cost, and soft springs, as comma-separated values.
 
-use lcp::Refinement;
+use lcp::refine::Refinement;
 
 use crate::output::csv::quoted;
 use crate::output::format::shortest;

@@ -1,7 +1,7 @@
 //! A study as text.
 
 use comfy_table::{ContentArrangement, Table};
-use lcp::Refinement;
+use lcp::refine::Refinement;
 
 use super::summary;
 use crate::output::format::{InUnits, significant};

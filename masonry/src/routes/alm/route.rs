@@ -7,6 +7,7 @@ use crate::forms::Sparse;
 use crate::routes::sparse::{self, Found};
 use crate::routes::{Answer, Method, Observer, Request, Step};
 use crate::scene::Route;
+use crate::solve::SolveError;
 
 /// The route on a sparse problem.
 #[derive(Debug, Clone, Copy)]
@@ -16,7 +17,7 @@ pub struct Multipliers<'a> {
 }
 
 impl Method for Multipliers<'_> {
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, Error> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, SolveError> {
         let problem = &self.sparse.problem;
         let settings = Settings { tolerance: request.tolerance, ..Settings::default() };
         let mut number = 0;
@@ -40,14 +41,14 @@ impl Method for Multipliers<'_> {
     }
 }
 
-impl From<AlmError> for Error {
+impl From<AlmError> for SolveError {
     fn from(error: AlmError) -> Self {
         match error {
             AlmError::Tolerance { tolerance } => {
-                Self::Setting { name: "tolerance", value: tolerance, range: "in (0, 1)" }
+                Error::Setting { name: "tolerance", value: tolerance, range: "in (0, 1)" }.into()
             }
-            AlmError::Data(error) => error,
-            other => Self::NotTreated { solver: Route::Alm.name(), reason: other.to_string() },
+            AlmError::Data(error) => error.into(),
+            other => Self::NotTreated { route: Route::Alm, reason: other.to_string() },
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Scenes whose films are whole strips: the contact points in films take no part in the iterations, and have the
 //! answers of the films afterwards.
 
-use lcp::{Contact2d, ContactState, Error, Status};
+use lcp::{Contact2d, ContactState, Status};
 
 use super::{MortaredError, MortaredWall, Settings};
 use crate::forms::Sparse;
@@ -9,6 +9,7 @@ use crate::model::Model;
 use crate::routes::sparse::{self, Found};
 use crate::routes::{Answer, Method, Observer, Request, Step};
 use crate::scene::Route;
+use crate::solve::SolveError;
 use crate::system::System;
 
 /// The iteration goes on until it is better than the tolerance by this factor, because residuals of the problem
@@ -56,7 +57,7 @@ impl Strips<'_> {
 }
 
 impl Method for Strips<'_> {
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, Error> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, SolveError> {
         let wall = MortaredWall::new(self.model)?;
         let settings = Settings { tolerance: BETTER * request.tolerance, ..Settings::default() };
         let mut number = 0;
@@ -86,12 +87,12 @@ impl Method for Strips<'_> {
     }
 }
 
-impl From<MortaredError> for Error {
+impl From<MortaredError> for SolveError {
     fn from(error: MortaredError) -> Self {
         match error {
-            MortaredError::Data(error) => error,
+            MortaredError::Data(error) => error.into(),
             other => Self::NotTreated {
-                solver: Route::Alm.name(),
+                route: Route::Alm,
                 reason: format!("{other}, or take another route"),
             },
         }

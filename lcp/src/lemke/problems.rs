@@ -1,0 +1,75 @@
+//! Lemke's method on every kind of problem.
+
+use super::{Lemke, Progress};
+use crate::lower::{Lowered, judged_by};
+use crate::{
+    Basis, Contact2d, Covering, Error, HorizontalLcp, Iteration, LemkeSettings, Method, Observer,
+    Side, Solution, Solver, Status, WarmStart,
+};
+
+impl Lemke {
+    /// With an observer of any method: see [`Iteration`].
+    fn solve_iterating(
+        &self,
+        problem: &HorizontalLcp,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
+        self.solve_with_progress(problem, &mut |at: &Progress| {
+            observer(&Iteration { iteration: at.pivots, residual: at.artificial })
+        })
+    }
+}
+
+/// On the general form of the problem, and judged by the problem itself.
+impl<P: Lowered> Solver<P> for Lemke {
+    fn method(&self) -> Method {
+        Method::Lemke
+    }
+
+    fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
+        let solution = self.solve_iterating(&problem.general(), observer)?;
+        Ok(judged_by(problem, solution, self.settings().tolerance))
+    }
+}
+
+/// On the mixed problem of [`Contact2d::to_mixed`], to which a given covering vector belongs. Without a start
+/// the path begins from open contacts, with the displacements that they leave free. The answer has neither a
+/// basis nor a ray, which would belong to the mixed problem.
+impl Solver<Contact2d> for Lemke {
+    fn method(&self) -> Method {
+        Method::Lemke
+    }
+
+    fn solve_observed(
+        &self,
+        problem: &Contact2d,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
+        let mixed = problem.to_mixed();
+        let mut settings = LemkeSettings { covering: Covering::Ones, ..self.settings().clone() };
+        settings.validate(problem.order())?;
+        settings.covering = self.settings().covering.clone();
+        settings.start = problem.mixed_start(&mixed, &settings.start);
+        if settings.start == WarmStart::None {
+            // From there the problem is copositive, if `K` is regular; from a basis with contact forces
+            // it is not, and a path may end on a ray.
+            settings.start = WarmStart::Basis(Basis::all(Side::Y, mixed.order()));
+        }
+        let mut solution = Self::new(settings).solve_iterating(&mixed.to_general(), observer)?;
+        let (z, _) = mixed.recover(&solution.t, &solution.y);
+        let state = problem.from_mixed(&z);
+        let loads = solution.residuals.loads;
+        solution.residuals = problem.residuals(&state);
+        if matches!(solution.status, Status::Solved | Status::AlmostSolved) {
+            solution.residuals.loads = solution.residuals.loads.min(loads);
+            solution.status =
+                solution.residuals.verdict(self.settings().tolerance, Status::AlmostSolved);
+        }
+        (solution.t, solution.y) = problem.to_pairs(&state);
+        solution.contact = Some(state);
+        // These belong to the pairs of the mixed problem.
+        (solution.basis, solution.ray) = (None, None);
+        solution.farkas = solution.farkas.map(|pi| problem.farkas_of_mixed(&pi));
+        Ok(solution)
+    }
+}

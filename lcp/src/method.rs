@@ -1,0 +1,93 @@
+//! The methods by name.
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::Error;
+
+/// A method of the library. In text and in files it goes by its short name.
+///
+/// ```
+/// use lcp::Method;
+/// assert_eq!(Method::GaussSeidel.to_string(), "pgs");
+/// assert_eq!("newton".parse(), Ok(Method::Newton));
+/// let error = "simplex".parse::<Method>().unwrap_err();
+/// assert!(error.to_string().starts_with("there is no method `simplex`: take one of auto, lemke,"));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum Method {
+    /// [`Auto`](crate::Auto): the method that suits the problem, and the next one where it fails.
+    #[default]
+    #[cfg_attr(feature = "serde", serde(rename = "auto"))]
+    Auto,
+    /// [`Lemke`](crate::Lemke).
+    #[cfg_attr(feature = "serde", serde(rename = "lemke"))]
+    Lemke,
+    /// [`SemismoothNewton`](crate::SemismoothNewton).
+    #[cfg_attr(feature = "serde", serde(rename = "newton"))]
+    Newton,
+    /// [`InteriorPoint`](crate::InteriorPoint).
+    #[cfg_attr(feature = "serde", serde(rename = "interior"))]
+    Interior,
+    /// `QuadraticProgram`, with the feature `clarabel`.
+    #[cfg_attr(feature = "serde", serde(rename = "qp"))]
+    QuadraticProgram,
+    /// [`ProjectedGaussSeidel`](crate::ProjectedGaussSeidel).
+    #[cfg_attr(feature = "serde", serde(rename = "pgs"))]
+    GaussSeidel,
+}
+
+impl Method {
+    /// All of them.
+    pub const ALL: [Self; 6] = [
+        Self::Auto,
+        Self::Lemke,
+        Self::Newton,
+        Self::Interior,
+        Self::QuadraticProgram,
+        Self::GaussSeidel,
+    ];
+
+    /// The short name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Lemke => "lemke",
+            Self::Newton => "newton",
+            Self::Interior => "interior",
+            Self::QuadraticProgram => "qp",
+            Self::GaussSeidel => "pgs",
+        }
+    }
+
+    /// The name in a sentence.
+    pub fn full_name(self) -> &'static str {
+        match self {
+            Self::Auto => "the automatic choice",
+            Self::Lemke => "Lemke's method",
+            Self::Newton => "semismooth Newton",
+            Self::Interior => "the interior-point method",
+            Self::QuadraticProgram => "quadratic programming",
+            Self::GaussSeidel => "projected Gauss-Seidel",
+        }
+    }
+}
+
+/// The short name.
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// From the short name.
+impl FromStr for Method {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Self, Error> {
+        let found = Self::ALL.into_iter().find(|method| method.name() == name);
+        found.ok_or_else(|| Error::UnknownMethod { name: name.to_owned() })
+    }
+}

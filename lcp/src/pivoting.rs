@@ -1,0 +1,169 @@
+//! What a pivoting method tells of its work.
+
+/// How one attempt of a pivoting method ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub enum AttemptEnd {
+    /// The artificial variable left the basis.
+    Complementary,
+    /// No basic variable blocks the entering one.
+    Ray,
+    /// The limit on pivots was reached.
+    PivotLimit,
+    /// A basis came back.
+    Cycle,
+    /// The basis became singular to working precision.
+    Singular,
+    /// The observer asked to stop.
+    Cancelled,
+    /// The limit on wall-clock time was reached.
+    TimeLimit,
+}
+
+/// The start basis of an attempt.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub enum AttemptStart {
+    /// The basis of the settings, or that of the point of the settings.
+    Given,
+    /// All `y`.
+    AllY,
+    /// All `t`.
+    AllT,
+    /// One that the solver found.
+    Found,
+    /// The basis on which the last attempt ended.
+    LastBasis,
+    /// The first one after exchanges of pairs drawn at random.
+    Flipped {
+        /// Seed of the generator.
+        seed: u64,
+    },
+}
+
+impl std::fmt::Display for AttemptStart {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Given => f.write_str("given"),
+            Self::AllY => f.write_str("all y"),
+            Self::AllT => f.write_str("all t"),
+            Self::Found => f.write_str("found"),
+            Self::LastBasis => f.write_str("last basis"),
+            Self::Flipped { seed } => write!(f, "flipped, seed {seed}"),
+        }
+    }
+}
+
+/// The covering vector of an attempt.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub enum AttemptCovering {
+    /// All ones after equilibration.
+    Ones,
+    /// Pseudo-random.
+    Random {
+        /// Seed of the generator.
+        seed: u64,
+    },
+    /// The one of the settings.
+    Given,
+    /// The column of the nonbasic variable of a pair, which takes the place of the artificial one
+    /// (Lemke and Howson 1964).
+    Column {
+        /// The pair, from 0.
+        pair: usize,
+    },
+}
+
+impl std::fmt::Display for AttemptCovering {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Ones => f.write_str("ones"),
+            Self::Random { seed } => write!(f, "random, seed {seed}"),
+            Self::Given => f.write_str("given"),
+            Self::Column { pair } => write!(f, "column of pair {pair}"),
+        }
+    }
+}
+
+/// What an attempt changed in the data of its path. The basis on which it ends is always judged by
+/// the data as given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub enum Perturbation {
+    /// Nothing.
+    None,
+    /// A small random increase of every entry of the right-hand side, to part ties.
+    RightHandSide {
+        /// Seed of the generator.
+        seed: u64,
+    },
+    /// The proximal problem `w = M z + q + weight (z - center)` instead of `w = M z + q`, where the
+    /// center is zero or the point on which the proximal attempt before ended.
+    Proximal {
+        /// The weight, in equilibrated units.
+        weight: f64,
+    },
+}
+
+impl std::fmt::Display for Perturbation {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::None => f.write_str("none"),
+            Self::RightHandSide { .. } => f.write_str("perturbed"),
+            Self::Proximal { weight } => write!(f, "proximal, weight {weight:.0e}"),
+        }
+    }
+}
+
+/// One attempt: where it started, with which covering vector, and how it ended.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct Attempt {
+    /// The start basis.
+    pub start: AttemptStart,
+    /// The covering vector.
+    pub covering: AttemptCovering,
+    /// What was changed in the data of the path.
+    pub perturbation: Perturbation,
+    /// How the attempt ended.
+    pub end: AttemptEnd,
+    /// Pivots that it took.
+    pub pivots: usize,
+    /// The worst residual of its complementary basis, where it ended on one that could be solved.
+    pub residual: Option<f64>,
+}
+
+/// A variable of the pivoting method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum Variable {
+    /// The first variable of a pair.
+    T(usize),
+    /// The second variable of a pair.
+    Y(usize),
+    /// The artificial variable.
+    Artificial,
+}
+
+/// One pivot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct PivotRecord {
+    /// The attempt, from 1.
+    pub attempt: usize,
+    /// The variable that became basic.
+    pub entering: Variable,
+    /// The variable that left the basis.
+    pub leaving: Variable,
+    /// Value of the entering variable after the pivot, in equilibrated units.
+    pub step: f64,
+    /// Value of the artificial variable after the pivot, relative to its first one.
+    pub artificial: f64,
+}
