@@ -61,11 +61,14 @@ mod auto;
 mod basis;
 #[cfg(feature = "cli")]
 pub mod cli;
+#[allow(dead_code)] // until the chain of methods ends with it
+mod enumerate;
 mod error;
 #[cfg(feature = "exact")]
 pub mod exact;
 mod extended;
 pub mod families;
+mod farkas;
 mod interior;
 #[cfg(feature = "io")]
 pub mod io;
@@ -73,6 +76,7 @@ mod lemke;
 mod linear;
 mod matrix;
 mod newton;
+mod nonnegative;
 mod pgs;
 mod problem;
 #[cfg(feature = "clarabel")]
