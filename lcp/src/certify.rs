@@ -31,7 +31,7 @@ mod weights;
 
 pub(crate) use boxed::BoxedJudge;
 pub(crate) use contact::{ContactJudge, StateOf};
-pub(crate) use farkas::is_proof;
+pub(crate) use farkas::{is_proof, is_proof_of};
 pub(crate) use general::{GeneralJudge, right_hand_side};
 pub(crate) use ledger::{Precision, ratio};
 

@@ -62,6 +62,8 @@ mod basis;
 mod certify;
 #[cfg(feature = "cli")]
 pub mod cli;
+#[allow(dead_code)] // until the chain of methods ends with it
+mod enumerate;
 mod error;
 #[cfg(feature = "exact")]
 pub mod exact;
@@ -76,6 +78,7 @@ mod lower;
 mod matrix;
 mod method;
 mod newton;
+mod nonnegative;
 pub mod pgs;
 mod pivoting;
 mod problem;

@@ -3,41 +3,84 @@
 //! By Farkas' lemma `A t + B y = c` has no solution with `t >= 0` and `y >= 0` exactly if some `pi` has
 //! `A^T pi <= 0`, `B^T pi <= 0` and `c.pi > 0`.
 
+use crate::extended::Extended;
 use crate::matrix::Column;
 use crate::{HorizontalLcp, Side};
 
-/// Rounding of a component of `A^T pi`, relative to `|A|^T |pi|`.
-const ROUNDING: f64 = 1e-12;
-/// Least value of `c.pi` of a proof, relative to `|c|.|pi|`.
-const LEAST_GAP: f64 = 1e-9;
+/// Rounding of a sum, for each of its terms, relative to their sizes.
+const ROUNDING: f64 = 2.0 * f64::EPSILON;
+/// How many times its rounding the value that must be positive has to be.
+const CLEAR: f64 = 1024.0;
 
-/// Whether a vector proves that the linear conditions have no solution.
+/// Whether a vector proves that the linear conditions of a problem have no solution.
 pub(crate) fn is_proof(problem: &HorizontalLcp, pi: &[f64]) -> bool {
-    let pairs = 0..problem.order();
-    let columns = [Side::T, Side::Y]
-        .into_iter()
-        .flat_map(|side| pairs.clone().map(move |pair| problem.column(pair, side)));
-    is_proof_of(columns, problem.c(), pi)
+    let of_side = |side| (0..problem.order()).map(move |pair| problem.column(pair, side));
+    is_proof_of([Side::T, Side::Y].into_iter().flat_map(of_side), problem.c(), pi)
 }
 
-/// Whether a vector proves that no nonnegative combination of these columns is `c`.
+/// Whether `pi . a <= 0` for all columns and `pi . c > 0`, so that no nonnegative combination of the
+/// columns gives `c` (Farkas 1902).
+///
+/// The products are summed in twice the digits. Those with the columns may be positive by the rounding
+/// of `pi`, relative to their terms, and `pi . c` has to be far above that.
 pub(crate) fn is_proof_of<'a>(
     columns: impl IntoIterator<Item = Column<'a>>,
     c: &[f64],
     pi: &[f64],
 ) -> bool {
-    let sums = |column: Column<'_>| {
-        let (mut sum, mut size) = (0.0, 0.0);
-        column.for_each(|i, v| {
-            sum += v * pi[i];
-            size += (v * pi[i]).abs();
-        });
-        (sum, size)
-    };
     if pi.len() != c.len() || pi.iter().any(|pi| !pi.is_finite()) {
         return false;
     }
-    let holds = columns.into_iter().map(sums).all(|(sum, size)| sum <= ROUNDING * size);
-    let (gap, size) = sums(Column::Dense(c));
-    holds && gap > LEAST_GAP * size
+    let (gap, size, terms) = product(Column::Dense(c), pi);
+    let is_clear = size.is_finite() && gap > CLEAR * ROUNDING * terms * size;
+    let is_separated = |column: Column<'_>| {
+        let (sum, size, terms) = product(column, pi);
+        size.is_finite() && sum <= ROUNDING * terms * size
+    };
+    is_clear && columns.into_iter().all(is_separated)
+}
+
+/// The product with a column, the sum of the sizes of its terms, and their number.
+fn product(column: Column<'_>, pi: &[f64]) -> (f64, f64, f64) {
+    let (mut sum, mut size, mut terms) = (Extended::ZERO, 0.0, 0.0);
+    column.for_each(|i, v| {
+        if v != 0.0 && pi[i] != 0.0 {
+            sum += Extended::product(v, pi[i]);
+            size += (v * pi[i]).abs();
+            terms += 1.0;
+        }
+    });
+    (sum.rounded(), size, terms)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn says(columns: &[[f64; 2]], c: [f64; 2], pi: [f64; 2]) -> bool {
+        is_proof_of(columns.iter().map(|column| Column::Dense(column)), &c, &pi)
+    }
+
+    #[test]
+    fn a_proof_separates_the_columns_from_the_right_hand_side() {
+        let columns = [[1.0, -1.0], [-1.0, 0.0]];
+        assert!(says(&columns, [1.0, 1.0], [1.0, 1.0]));
+        assert!(!says(&columns, [-1.0, 1.0], [1.0, 1.0]));
+        assert!(!says(&columns, [1.0, 1.0], [1.0, 0.0]));
+        assert!(!says(&columns, [1.0, 1.0], [0.0, 0.0]));
+        assert!(!says(&columns, [1.0, 1.0], [f64::NAN, 1.0]));
+    }
+
+    /// A gap of 1e-9 is a proof where the products with the columns vanish, and none where they do not.
+    #[test]
+    fn a_small_gap_asks_for_exact_products() {
+        let c = [-1.0, 1.0 + 1e-9];
+        assert!(says(&[[1.0, -1.0], [-1.0, 1.0]], c, [1.0, 1.0]));
+        assert!(!says(&[[1.0, -1.0 + 1e-12], [-1.0, 1.0]], c, [1.0, 1.0]));
+    }
+
+    #[test]
+    fn overflow_proves_nothing() {
+        assert!(!says(&[[-1e200, 0.0]], [1e200, 1.0], [1e200, 1.0]));
+    }
 }

@@ -3,14 +3,18 @@
 mod matching;
 mod sparse;
 
+use std::time::Instant;
+
 use faer::{Mat, MatRef};
 
+use matching::matched_sides;
 use sparse::find_sparse;
 
 use super::start::Equilibrated;
 use super::tableau::Tableau;
 use crate::linear::Lu;
 use crate::problem::max_abs;
+use crate::sparse::Columns;
 use crate::{Basis, Matrix, Side};
 
 /// Columns whose part outside the span of those chosen before is below this multiple of the
@@ -28,12 +32,18 @@ pub(super) enum Crash {
     /// Pairs without a column, as many as there are columns that complete the chosen ones: an
     /// orthonormal basis of what these leave out, or unit columns.
     Partial { chosen: Vec<Option<Side>>, complement: Matrix },
+    /// The time was over first.
+    Late,
 }
 
 /// A nonsingular complementary basis: the preferred sides or all `y` or all `t` where these are
-/// diagonal, or one grown from independent columns of the preferred sides, of the others, and
-/// exchanges.
-pub(super) fn find_basis(problem: &Equilibrated<'_>, preferred: Option<&Basis>) -> Crash {
+/// diagonal, one of columns with a single entry, or one grown from independent columns of the preferred
+/// sides, of the others, and exchanges.
+pub(super) fn find_basis(
+    problem: &Equilibrated<'_>,
+    preferred: Option<&Basis>,
+    deadline: Option<Instant>,
+) -> Crash {
     let n = problem.order();
     let (all_y, all_t) = (Basis::all(Side::Y, n), Basis::all(Side::T, n));
     for basis in preferred.into_iter().chain([&all_y, &all_t]) {
@@ -42,31 +52,62 @@ pub(super) fn find_basis(problem: &Equilibrated<'_>, preferred: Option<&Basis>) 
             return Crash::Complete(basis.clone());
         }
     }
+    let preferred = preferred.unwrap_or(&all_y);
+    if let Some(basis) = single_entries(problem, preferred) {
+        return Crash::Complete(basis);
+    }
     if problem.problem.is_sparse() {
-        match find_sparse(problem, preferred.unwrap_or(&all_y)) {
+        match find_sparse(problem, preferred, deadline) {
             Crash::Partial { .. } if n <= DENSE_SEARCH => {}
             found => return found,
         }
     }
-    let search = Search { problem, preferred: preferred.unwrap_or(&all_y).sides() };
+    if is_over(deadline) {
+        return Crash::Late;
+    }
+    let search = Search { problem, preferred: preferred.sides(), deadline };
     let (mut chosen, mut complement) = search.independent_columns();
     while complement.ncols() > 0 {
         let tolerances = [1e-5, 1e-8, 4.0 * n as f64 * f64::EPSILON];
         match tolerances.iter().find_map(|&it| search.exchange(&chosen, &complement, it)) {
             Some(next) => chosen = next,
+            None if is_over(deadline) => return Crash::Late,
             None => return Crash::Partial { chosen, complement: complement.into() },
+        }
+        if is_over(deadline) {
+            return Crash::Late;
         }
         complement = orthogonal_complement(search.partial(&chosen).as_ref());
     }
     match chosen.iter().copied().collect::<Option<Vec<Side>>>() {
-        Some(sides) => Crash::Complete(enlarged(problem, Basis::new(sides))),
+        Some(sides) => Crash::Complete(enlarged(problem, Basis::new(sides), deadline)),
         None => Crash::Partial { chosen, complement: complement.into() },
     }
 }
 
+fn is_over(deadline: Option<Instant>) -> bool {
+    deadline.is_some_and(|deadline| Instant::now() >= deadline)
+}
+
+/// The basis that the structure of the problem offers, as slack variables do: of every pair a column with
+/// a single entry, all in different rows.
+fn single_entries(problem: &Equilibrated<'_>, preferred: &Basis) -> Option<Basis> {
+    let mut singles = Columns::default();
+    let own = preferred.sides().iter().copied().enumerate();
+    let others = own.clone().map(|(pair, side)| (pair, side.complement()));
+    for (pair, side) in own.chain(others) {
+        if let Some((row, v)) = problem.problem.column(pair, side).single() {
+            singles.push(row, v);
+        }
+        singles.close();
+    }
+    let sides = matched_sides(&singles, preferred.sides());
+    sides.into_iter().collect::<Option<Vec<Side>>>().map(Basis::new)
+}
+
 /// A basis whose determinant no exchange of a single pair makes larger: those found by independence
 /// alone may be so poor that every path from them ends on a ray.
-fn enlarged(problem: &Equilibrated<'_>, basis: Basis) -> Basis {
+fn enlarged(problem: &Equilibrated<'_>, basis: Basis, deadline: Option<Instant>) -> Basis {
     const GAIN: f64 = 1.0 + 1e-6;
     const SWEEPS: usize = 8;
     let n = problem.order();
@@ -90,7 +131,7 @@ fn enlarged(problem: &Equilibrated<'_>, basis: Basis) -> Basis {
                 is_settled = false;
             }
         }
-        if is_settled {
+        if is_settled || is_over(deadline) {
             break;
         }
     }
@@ -100,6 +141,7 @@ fn enlarged(problem: &Equilibrated<'_>, basis: Basis) -> Basis {
 struct Search<'a> {
     problem: &'a Equilibrated<'a>,
     preferred: &'a [Side],
+    deadline: Option<Instant>,
 }
 
 impl Search<'_> {
@@ -137,7 +179,8 @@ impl Search<'_> {
     /// Raises the number of pairs with a chosen column by one, through the shortest chain of
     /// exchanges: a column of a free pair takes the place of one chosen before, whose complement
     /// takes the next place, until one of them reaches outside the present span (an augmenting
-    /// path of the matroid intersection of independence and pairs; Edmonds 1970).
+    /// path of the matroid intersection of independence and pairs; Edmonds 1970). None too where the time is
+    /// over.
     fn exchange(
         &self,
         chosen: &[Option<Side>],
@@ -164,7 +207,7 @@ impl Search<'_> {
         }
         let mut seen = vec![false; n];
         let mut head = 0;
-        while head < queue.len() {
+        while head < queue.len() && !is_over(self.deadline) {
             let (pair, side, _) = queue[head];
             let x = coordinates(pair, side);
             let tolerance = tolerance * max_abs(&x);

@@ -103,13 +103,18 @@ impl Parametric {
         }
         path.breakpoints.push(Breakpoint { lambda: from, t: solution.t, y: solution.y });
         let equilibrated = Equilibrated::new(&at_start);
-        let basis = solution.basis.or_else(|| match find_basis(&equilibrated, None) {
-            Crash::Complete(basis) => Some(basis),
-            Crash::Partial { .. } => None,
-        });
-        let Some(basis) = basis else {
-            path.end = ParametricEnd::NoStart(Status::NoComplementaryBasis);
-            return Ok(path);
+        let found = solution.basis.map(Crash::Complete);
+        let found = found.unwrap_or_else(|| find_basis(&equilibrated, None, deadline));
+        let basis = match found {
+            Crash::Complete(basis) => basis,
+            Crash::Partial { .. } => {
+                path.end = ParametricEnd::NoStart(Status::NoComplementaryBasis);
+                return Ok(path);
+            }
+            Crash::Late => {
+                path.end = ParametricEnd::NoStart(Status::TimeLimit);
+                return Ok(path);
+            }
         };
         let Some(start) = equilibrated.start(&basis).map(Start::bounded) else {
             path.end = ParametricEnd::NumericalTrouble;

@@ -13,7 +13,8 @@ use super::path::Path;
 use super::start::{Equilibrated, Start};
 use super::translate::{basis_of, in_problem_units, kind_of, record};
 use super::trial::Trial;
-use crate::certify::Precision;
+use crate::certify::{Precision, is_proof};
+use crate::enumerate;
 use crate::pivoting::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Perturbation, PivotRecord,
 };
@@ -21,6 +22,10 @@ use crate::{
     Basis, Covering, HorizontalLcp, Info, LemkeSettings, Matrix, Ray, Side, Solution, Status,
     WarmStart,
 };
+
+/// Up to this order a proof is also searched by least squares in twice the digits, which singular bases
+/// and ties do not disturb.
+const SMALL: usize = 40;
 
 pub(super) type Observer<'a> = &'a mut dyn FnMut(&Progress) -> ControlFlow<()>;
 
@@ -56,6 +61,8 @@ enum First {
         chosen: Vec<Option<Side>>,
         complement: Matrix,
     },
+    /// The time was over before one was found.
+    Late,
 }
 
 impl<'a> Search<'a> {
@@ -84,7 +91,8 @@ impl<'a> Search<'a> {
         }
         let (first_start, kind) = match self.first_start() {
             First::Found(start, kind) => (start, kind),
-            First::Singular => return self.give_up(Status::NumericalTrouble),
+            First::Singular => return self.prove_or(Status::NumericalTrouble),
+            First::Late => return self.give_up(Status::TimeLimit),
             First::Incomplete { .. } if self.is_completed => {
                 return self.give_up(Status::NoComplementaryBasis);
             }
@@ -171,8 +179,13 @@ impl<'a> Search<'a> {
                 }
                 _ => {}
             }
+            let proves = |pi: &Vec<f64>| is_proof(self.problem.problem, pi);
+            self.farkas = solution.farkas.filter(proves);
+            if self.farkas.is_some() {
+                return self.give_up(Status::Infeasible);
+            }
         }
-        self.give_up(Status::NoComplementaryBasis)
+        self.prove_or(Status::NoComplementaryBasis)
     }
 
     fn first_start(&self) -> First {
@@ -186,12 +199,13 @@ impl<'a> Search<'a> {
         {
             return First::Found(start, AttemptStart::Given);
         }
-        match find_basis(&self.problem, preferred.as_ref()) {
+        match find_basis(&self.problem, preferred.as_ref(), self.deadline) {
             Crash::Complete(basis) => match self.problem.start(&basis) {
                 Some(start) => First::Found(start, kind_of(&basis)),
                 None => First::Singular,
             },
             Crash::Partial { chosen, complement } => First::Incomplete { chosen, complement },
+            Crash::Late => First::Late,
         }
     }
 
@@ -329,7 +343,14 @@ impl<'a> Search<'a> {
             }
             stop.is_some() || pivots > 20 * order + 100
         });
-        stop.map_or(Ok(found), Err)
+        stop.map_or_else(|| Ok(found.or_else(|| self.small_proof())), Err)
+    }
+
+    /// A proof by least squares, of a small problem.
+    fn small_proof(&self) -> Option<Vec<f64>> {
+        let is_small = self.problem.order() <= SMALL && !self.is_completed;
+        let is_wanted = is_small && self.settings.prove_infeasible;
+        is_wanted.then(|| enumerate::farkas_vector(self.problem.problem)).flatten()
     }
 
     /// What the original data says of the last attempt's basis.
@@ -357,8 +378,23 @@ impl<'a> Search<'a> {
         self.info.attempts.iter().any(|attempt| attempt.end == end)
     }
 
-    /// No attempt reached the tolerance: the best point if it is near, else what the attempts say.
+    /// Infeasible where that can be proved, else this status.
+    fn prove_or(mut self, status: Status) -> Solution {
+        self.farkas = self.small_proof();
+        let status = if self.farkas.is_some() { Status::Infeasible } else { status };
+        self.give_up(status)
+    }
+
+    /// No attempt reached the tolerance: a proof that none can, the best point if it is near, else what
+    /// the attempts say.
     fn conclude(mut self) -> Solution {
+        // After a ray it was searched already.
+        if self.ray_count() == 0 {
+            self.farkas = self.small_proof();
+            if self.farkas.is_some() {
+                return self.give_up(Status::Infeasible);
+            }
+        }
         let nearly = self.settings.tolerance.sqrt();
         if let Some(point) = self.almost.take()
             && point.residuals.worst() <= nearly

@@ -41,8 +41,7 @@ impl<'a> Equilibrated<'a> {
             .collect();
         let (row, factors) = equilibrate(n, &columns, GIVEN);
         let (t_factor, y_factor) = (factors[..n].to_vec(), factors[n..].to_vec());
-        let opposite = |j| opposite(problem.column(j, Side::T), problem.column(j, Side::Y));
-        let opposite = (0..n).map(opposite).collect();
+        let opposite = (0..n).map(|pair| problem.opposite(pair)).collect();
         let judge = GeneralJudge::with_factors(problem, right_hand_side(problem), (&row, &factors));
         Self { problem, row, t_factor, y_factor, opposite, judge }
     }
@@ -191,37 +190,6 @@ impl<'a> Equilibrated<'a> {
     fn free(&self) -> Vec<bool> {
         self.opposite.iter().map(Option::is_some).collect()
     }
-}
-
-/// The positive `r` with `b = -r a`, entry by entry up to rounding.
-fn opposite(a: Column<'_>, b: Column<'_>) -> Option<f64> {
-    const ROUNDING: f64 = 4.0 * f64::EPSILON;
-    let nonzero = |column: Column<'_>| {
-        let mut entries = Vec::new();
-        column.for_each(|i, v| {
-            if v != 0.0 {
-                entries.push((i, v));
-            }
-        });
-        entries
-    };
-    // Most pairs are told apart by their first entries, without a pass over the others.
-    let first = |column: Column<'_>| match column {
-        Column::Dense(values) => values.iter().copied().enumerate().find(|(_, v)| *v != 0.0),
-        Column::Sparse { rows, values } => {
-            rows.iter().copied().zip(values.iter().copied()).find(|(_, v)| *v != 0.0)
-        }
-    };
-    let ((i, a_first), (j, b_first)) = (first(a)?, first(b)?);
-    let ratio = -b_first / a_first;
-    if i != j || ratio <= 0.0 {
-        return None;
-    }
-    let (a, b) = (nonzero(a), nonzero(b));
-    let is_opposite = |((i, a), (j, b)): (&(usize, f64), &(usize, f64))| {
-        i == j && (b + ratio * a).abs() <= ROUNDING * b.abs()
-    };
-    (a.len() == b.len() && a.iter().zip(&b).all(is_opposite)).then_some(ratio)
 }
 
 /// Sets to zero what the solution of an equilibrated system leaves in place of zeros: a row of

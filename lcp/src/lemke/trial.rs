@@ -17,9 +17,10 @@ pub(super) struct Trial {
 
 impl Trial {
     /// The attempt of this number, from 2, after one that ended so. After a cycle the same once more
-    /// without ties. After a basis that is not quite right from there on. After a ray first another
-    /// covering vector, another start basis, a pair in place of the artificial variable, then proximal problems of falling weight, each
-    /// centered where the last one ended, then more start bases.
+    /// without ties. After a basis that is not quite right in turn from there on and with random covering
+    /// vectors from the first start, since paths from there may come back to it. After a ray first another
+    /// covering vector, another start basis, a pair in place of the artificial variable, then proximal
+    /// problems of falling weight, each centered where the last one ended, then more start bases.
     pub(super) fn after(last: &Self, end: AttemptEnd, number: usize, first: &Self) -> Self {
         let seed = number as u64;
         let parted = Perturbation::RightHandSide { seed };
@@ -27,6 +28,10 @@ impl Trial {
         match end {
             AttemptEnd::Cycle if last.perturbation == Perturbation::None => {
                 return Self { perturbation: parted, ..*last };
+            }
+            AttemptEnd::Complementary if last.start == AttemptStart::LastBasis => {
+                let covering = AttemptCovering::Random { seed };
+                return Self { covering, perturbation: Perturbation::None, ..*first };
             }
             AttemptEnd::Complementary if !is_proximal => {
                 let covering = other(last.covering, seed);

@@ -5,8 +5,10 @@
 //! without a column the sides of a structural matching are tried in the same way, and at last
 //! exchanges.
 
+use std::time::Instant;
+
 use super::matching::matched_sides;
-use super::{Crash, RANK_TOLERANCE};
+use super::{Crash, RANK_TOLERANCE, is_over};
 use crate::lemke::kernel::{Kernel, Var};
 use crate::lemke::start::Equilibrated;
 use crate::problem::max_abs;
@@ -21,12 +23,19 @@ const ENLARGED: usize = 1000;
 const TOLERANCE: f64 = 1e-8;
 
 /// A complementary basis, or as many columns as were found, completed by unit columns.
-pub(super) fn find_sparse(problem: &Equilibrated<'_>, preferred: &Basis) -> Crash {
+pub(super) fn find_sparse(
+    problem: &Equilibrated<'_>,
+    preferred: &Basis,
+    deadline: Option<Instant>,
+) -> Crash {
     let n = problem.order();
     let all_t = Basis::all(Side::T, n);
     let mut best: Option<Chosen> = None;
     for sides in [Some(preferred.sides()), Some(all_t.sides()), None] {
-        let search = Search::new(problem, sides.unwrap_or(preferred.sides()));
+        if is_over(deadline) {
+            return Crash::Late;
+        }
+        let search = Search::new(problem, sides.unwrap_or(preferred.sides()), deadline);
         let first = if sides.is_none() {
             matched_sides(&search.columns, search.preferred)
         } else {
@@ -41,7 +50,7 @@ pub(super) fn find_sparse(problem: &Equilibrated<'_>, preferred: &Basis) -> Cras
             best = Some(found);
         }
     }
-    let search = Search::new(problem, preferred.sides());
+    let search = Search::new(problem, preferred.sides(), deadline);
     let mut chosen = best.unwrap_or_else(|| search.independent(&vec![None; n]));
     let mut solves = 0;
     while !chosen.missing.is_empty() {
@@ -57,13 +66,16 @@ pub(super) fn find_sparse(problem: &Equilibrated<'_>, preferred: &Basis) -> Cras
         }
     }
     match chosen.into_crash(n) {
-        Crash::Complete(basis) if n <= ENLARGED => Crash::Complete(enlarged(problem, basis)),
+        Crash::Complete(basis) if n <= ENLARGED => {
+            Crash::Complete(enlarged(problem, basis, deadline))
+        }
+        Crash::Partial { .. } if is_over(deadline) => Crash::Late,
         found => found,
     }
 }
 
 /// A basis whose determinant no exchange of a single pair makes larger, as for dense problems.
-fn enlarged(problem: &Equilibrated<'_>, basis: Basis) -> Basis {
+fn enlarged(problem: &Equilibrated<'_>, basis: Basis, deadline: Option<Instant>) -> Basis {
     const GAIN: f64 = 1.0 + 1e-6;
     let n = basis.len();
     let Some(start) = problem.start(&basis) else { return basis };
@@ -73,7 +85,7 @@ fn enlarged(problem: &Equilibrated<'_>, basis: Basis) -> Basis {
     let mut basic: Vec<Var> = (0..n).collect();
     let mut settled = 0;
     for k in (0..n).cycle().take(SOLVES) {
-        if settled == n || !kernel.tidy(&basic, &mut values) {
+        if settled == n || is_over(deadline) || !kernel.tidy(&basic, &mut values) {
             break;
         }
         settled += 1;
@@ -111,13 +123,14 @@ struct Search<'a> {
     preferred: &'a [Side],
     /// The columns of the preferred sides, then the others.
     columns: Columns,
+    deadline: Option<Instant>,
 }
 
 impl<'a> Search<'a> {
-    fn new(problem: &Equilibrated<'_>, preferred: &'a [Side]) -> Self {
+    fn new(problem: &Equilibrated<'_>, preferred: &'a [Side], deadline: Option<Instant>) -> Self {
         let own = preferred.iter().copied().enumerate();
         let others = own.clone().map(|(pair, side)| (pair, side.complement()));
-        Self { preferred, columns: problem.sparse_columns(own.chain(others)) }
+        Self { preferred, columns: problem.sparse_columns(own.chain(others)), deadline }
     }
 
     fn order(&self) -> usize {
@@ -170,7 +183,7 @@ impl<'a> Search<'a> {
         let mut seen = vec![false; n];
         let mut work = Vec::new();
         let mut head = 0;
-        while head < queue.len() && *solves < SOLVES {
+        while head < queue.len() && *solves < SOLVES && !is_over(self.deadline) {
             let (pair, side, _) = queue[head];
             let mut x = vec![0.0; n];
             self.columns.add_to(self.position(pair, side), 1.0, &mut x);
