@@ -28,8 +28,9 @@ mod truth;
 
 use faer::Mat;
 use lcp::{HorizontalLcp, Lcp};
-use problems::{Case, Problem};
+use problems::{Case, Kind, Problem};
 use tally::Tally;
+use truth::truth;
 
 /// No verdict of any method is wrong, and `Auto` leaves nothing open.
 fn assert_decided(tally: &Tally) {
@@ -53,6 +54,22 @@ fn digits(n: u32, values: &[i8]) -> impl Iterator<Item = Vec<f64>> + '_ {
         let digit = |k: u32| f64::from(values[number / base.pow(k) % base]);
         (0..n).map(digit).collect()
     })
+}
+
+/// The solutions themselves, rounded to the nearest numbers, pass the judge, whatever the units: it is not so strict
+/// that answers would have to be better than that.
+#[test]
+fn rounded_solutions_are_solutions() {
+    for kind in Kind::ALL {
+        for seed in 0..300 {
+            let case = Case::draw(kind, seed);
+            let vertices = truth(&case.general).faces.into_iter().flat_map(|face| face.vertices);
+            for (t, y) in vertices.map(|vertex| vertex.rounded()) {
+                let worst = case.problem.residual(&t, &y);
+                assert!(worst <= 1e-13, "{worst:e} of t = {t:?}, y = {y:?}: {}", case.text());
+            }
+        }
+    }
 }
 
 #[test]

@@ -6,15 +6,12 @@ use lcp::{
     Solution, Solver,
 };
 
-use super::problems::Problem;
+use super::problems::{Problem, TOLERANCE};
 
 pub(crate) const AUTO: &str = "auto";
 
 type Named<P> = (&'static str, Box<dyn Solver<P>>);
 type Answers = Vec<(&'static str, Result<Solution, Error>)>;
-
-/// Asked of every method, so that the answers can be judged alike.
-const TOLERANCE: f64 = 1e-10;
 
 /// The answers of `Auto`, and with `all` those of the other methods too.
 pub(crate) fn answers(problem: &Problem, all: bool) -> Answers {
@@ -24,8 +21,8 @@ pub(crate) fn answers(problem: &Problem, all: bool) -> Answers {
             asked(it, all, [lemke(), newton(), interior(), sweeps()], program())
         }
         Problem::Mixed(it) => asked(it, all, [lemke(), interior()], program()),
-        Problem::Boxed(it) => asked(it, all, [lemke(), interior(), sweeps()], None),
-        Problem::Friction(it) => asked(it, all, [lemke(), interior(), sweeps()], None),
+        Problem::Boxed(it) => asked(it, all, [lemke(), interior(), sweeps()], Vec::new()),
+        Problem::Friction(it) => asked(it, all, [lemke(), interior(), sweeps()], Vec::new()),
         Problem::Contact(it) => {
             asked(it, all, [lemke(), newton(), interior(), sweeps()], program())
         }
@@ -36,7 +33,7 @@ fn asked<P>(
     problem: &P,
     all: bool,
     others: impl IntoIterator<Item = Named<P>>,
-    program: Option<Named<P>>,
+    program: Vec<Named<P>>,
 ) -> Answers
 where
     Auto: Solver<P>,
@@ -81,15 +78,15 @@ where
 }
 
 #[cfg(feature = "clarabel")]
-fn program<P>() -> Option<Named<P>>
+fn program<P>() -> Vec<Named<P>>
 where
     lcp::QuadraticProgram: Solver<P>,
 {
     let settings = lcp::QuadraticProgramSettings { tolerance: TOLERANCE, ..Default::default() };
-    Some(("qp", Box::new(lcp::QuadraticProgram::new(settings))))
+    vec![("qp", Box::new(lcp::QuadraticProgram::new(settings)))]
 }
 
 #[cfg(not(feature = "clarabel"))]
-fn program<P>() -> Option<Named<P>> {
-    None
+fn program<P>() -> Vec<Named<P>> {
+    Vec::new()
 }

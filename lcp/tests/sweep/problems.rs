@@ -1,12 +1,15 @@
 //! Problems of small integers with ties, zeros, dependent rows and columns.
 
 use faer::Mat;
-use lcp::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, MixedLcp};
+use lcp::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, MixedLcp, Solution};
 
 use super::draw::Draw;
 
 /// The largest number of pairs of the general form.
 pub(crate) const MOST_PAIRS: usize = 6;
+
+/// Asked of every method, so that the answers can be judged alike.
+pub(crate) const TOLERANCE: f64 = 1e-10;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
@@ -41,6 +44,35 @@ pub(crate) enum Problem {
     Contact(Contact2d),
 }
 
+impl Problem {
+    /// What the judge of the library says of an answer, in the variables of the problem.
+    pub(crate) fn residual_of(&self, solution: &Solution) -> f64 {
+        match (self, &solution.contact) {
+            (Self::Contact(problem), Some(state)) => problem.residuals(state).worst(),
+            _ => self.residual(&solution.t, &solution.y),
+        }
+    }
+
+    /// The same of a point of the general form.
+    pub(crate) fn residual(&self, t: &[f64], y: &[f64]) -> f64 {
+        let residuals = match self {
+            Self::General(problem) => problem.residuals(t, y),
+            Self::Standard(problem) => problem.residuals(t, y),
+            Self::Mixed(problem) => {
+                let (z, w) = problem.recover(t, y);
+                problem.residuals(&z, &w)
+            }
+            Self::Boxed(problem) => {
+                let (z, w) = problem.recover(t, y);
+                problem.residuals(&z, &w)
+            }
+            Self::Friction(problem) => problem.residuals(&problem.forces(t)),
+            Self::Contact(problem) => problem.residuals(&problem.recover(t, y)),
+        };
+        residuals.worst()
+    }
+}
+
 /// A problem, and the same in integers.
 pub(crate) struct Case {
     pub(crate) problem: Problem,
@@ -48,6 +80,8 @@ pub(crate) struct Case {
     pub(crate) general: HorizontalLcp,
     /// The same before a change of units.
     pub(crate) integers: HorizontalLcp,
+    /// The largest entry of the right-hand side, in integers.
+    pub(crate) largest: f64,
     /// What `t` and `y` are multiplied by to be those of the integers.
     pub(crate) units: (Vec<f64>, Vec<f64>),
 }
@@ -64,7 +98,10 @@ impl Case {
         };
         let ones = vec![1.0; general.order()];
         let integers = general.clone();
-        Self { problem, general, integers, units: (ones.clone(), ones) }
+        // The bounds of a boxed problem may cancel what it has.
+        let vector = if let Problem::Boxed(boxed) = &problem { boxed.q() } else { general.c() };
+        let largest = general.c().iter().chain(vector).fold(0.0, |max: f64, c| max.max(c.abs()));
+        Self { problem, general, integers, largest, units: (ones.clone(), ones) }
     }
 
     /// The case of a kind that belongs to a seed.
@@ -94,7 +131,9 @@ impl Case {
         let b = Mat::from_fn(n, n, |i, j| row[i] * integers.b()[(i, j)] * y[j]);
         let c = integers.c().iter().zip(&row).map(|(c, row)| c * row).collect();
         let general = HorizontalLcp::new(a, b, c).unwrap();
-        Self { problem: Problem::General(general.clone()), general, integers, units: (t, y) }
+        let largest = integers.c().iter().fold(0.0, |max: f64, c| max.max(c.abs()));
+        let problem = Problem::General(general.clone());
+        Self { problem, general, integers, largest, units: (t, y) }
     }
 }
 

@@ -3,11 +3,13 @@
 use lcp::exact::{Enumeration, EnumerationSettings, Face, RBig, enumerate};
 use lcp::{HorizontalLcp, Solution, Status};
 
-use super::problems::Case;
+use super::problems::{Case, TOLERANCE};
 
 /// What a point may miss: of a row, in units of its terms or of the largest entry of the right-hand
 /// side. The problems are small integers, so that answers have all but the last digits.
 const ROUNDING: f64 = 1e-9;
+/// The same of a point far out, where terms are large compared with the right-hand side.
+const FAR: f64 = 1e-6;
 /// Above this part of a row a variable is not zero.
 const POSITIVE: f64 = 1e-7;
 /// Of the products of a proof, relative to their terms.
@@ -41,7 +43,11 @@ pub(crate) fn worth(case: &Case, truth: &Enumeration, solution: &Solution) -> Wo
                 v.iter().zip(units).map(|(v, unit)| v * unit).collect()
             };
             let (t, y) = (scaled(&solution.t, &case.units.0), scaled(&solution.y, &case.units.1));
-            defect(&case.integers, truth, &t, &y).map_or(Worth::Right, Worth::Wrong)
+            let judged = case.problem.residual_of(solution);
+            if judged > TOLERANCE {
+                return Worth::Wrong(format!("solved, but the judge says {judged:e}: {t:?} {y:?}"));
+            }
+            defect(case, truth, &t, &y).map_or(Worth::Right, Worth::Wrong)
         }
         Status::Infeasible if truth.is_feasible() => {
             Worth::Wrong(format!("infeasible, but feasible: {:?}", solution.farkas))
@@ -73,7 +79,8 @@ fn rounded(value: &RBig) -> f64 {
 
 /// What is wrong with a point. The rows are summed up without rounding, and there must be exact
 /// solutions in which the same variables are positive.
-fn defect(problem: &HorizontalLcp, truth: &Enumeration, t: &[f64], y: &[f64]) -> Option<String> {
+fn defect(case: &Case, truth: &Enumeration, t: &[f64], y: &[f64]) -> Option<String> {
+    let (problem, largest) = (&case.integers, case.largest);
     if t.iter().chain(y).any(|v| !v.is_finite()) {
         return Some(format!("not a number: {t:?} {y:?}"));
     }
@@ -83,7 +90,14 @@ fn defect(problem: &HorizontalLcp, truth: &Enumeration, t: &[f64], y: &[f64]) ->
         let a = (0..n).map(|j| (problem.a(), j, t[j]));
         a.chain((0..n).map(|j| (problem.b(), j, y[j])))
     };
-    let largest = problem.c().iter().fold(0.0_f64, |max, c| max.max(c.abs()));
+    // A row is met to a part of a variable that is in no other row: that variable is what the row makes it.
+    let mut slack = vec![0.0_f64; n];
+    for (matrix, j, x) in columns() {
+        let mut entries = matrix.column(j).filter(|(_, v)| *v != 0.0);
+        if let (Some((i, v)), None) = (entries.next(), entries.next()) {
+            slack[i] = slack[i].max((v * x).abs());
+        }
+    }
     let mut sizes = vec![0.0; n];
     for i in 0..n {
         let c = problem.c()[i];
@@ -95,7 +109,8 @@ fn defect(problem: &HorizontalLcp, truth: &Enumeration, t: &[f64], y: &[f64]) ->
         }
         sizes[i] = size.max(largest);
         let missed = rounded(&sum).abs();
-        if missed > ROUNDING * sizes[i] || (largest > 0.0 && missed > 1e-6 * largest) {
+        let is_far = largest > 0.0 && missed > (FAR * largest).max(ROUNDING * slack[i]);
+        if missed > ROUNDING * sizes[i] || is_far {
             return Some(format!("row {i} misses by {missed:e}: {}", point()));
         }
     }
