@@ -15,7 +15,7 @@
 
 #[path = "common/draw.rs"]
 mod draw;
-#[path = "sweep/methods.rs"]
+#[path = "common/methods.rs"]
 mod methods;
 #[path = "sweep/problems.rs"]
 mod problems;
@@ -44,7 +44,7 @@ fn assert_decided(tally: &Tally) {
 #[test]
 fn random_problems() {
     let count = std::env::var("LCP_SWEEP").map_or(100, |count| count.parse().unwrap());
-    assert_decided(&Tally::sweep(count, 1));
+    assert_decided(&Tally::sweep(count));
 }
 
 /// All numbers of `n` digits with these values.
@@ -78,7 +78,7 @@ fn all_standard_problems_of_order_two_with_entries_of_one() {
     for d in digits(6, &[0, 1, -1]) {
         let m = Mat::from_fn(2, 2, |i, j| d[2 * i + j]);
         let lcp = Lcp::new(m, d[4..].to_vec()).unwrap();
-        tally.add("standard", &Case::new(Problem::Standard(lcp)), true);
+        tally.add("standard", &Case::new(Problem::Standard(lcp)));
     }
     assert_decided(&tally);
 }
@@ -89,7 +89,7 @@ fn all_general_problems_of_order_one() {
     for d in digits(3, &[0, 1, -1, 2, -2]) {
         let entry = |k: usize| Mat::from_fn(1, 1, |_, _| d[k]);
         let problem = HorizontalLcp::new(entry(0), entry(1), vec![d[2]]).unwrap();
-        tally.add("general", &Case::new(Problem::General(problem)), true);
+        tally.add("general", &Case::new(Problem::General(problem)));
     }
     assert_decided(&tally);
 }

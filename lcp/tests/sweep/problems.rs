@@ -1,15 +1,13 @@
 //! Problems of small integers with ties, zeros, dependent rows and columns.
 
 use faer::Mat;
-use lcp::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, MixedLcp, Solution};
+use lcp::{BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, MixedLcp, Solution};
 
 use super::draw::Draw;
+use super::methods::Treated;
 
 /// The largest number of pairs of the general form.
 pub(crate) const MOST_PAIRS: usize = 6;
-
-/// Asked of every method, so that the answers can be judged alike.
-pub(crate) const TOLERANCE: f64 = 1e-10;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
@@ -45,6 +43,18 @@ pub(crate) enum Problem {
 }
 
 impl Problem {
+    /// The answers of all methods.
+    pub(crate) fn answers(&self) -> Vec<(&'static str, Result<Solution, Error>)> {
+        match self {
+            Self::General(problem) => problem.answers(),
+            Self::Standard(problem) => problem.answers(),
+            Self::Mixed(problem) => problem.answers(),
+            Self::Boxed(problem) => problem.answers(),
+            Self::Friction(problem) => problem.answers(),
+            Self::Contact(problem) => problem.answers(),
+        }
+    }
+
     /// What the judge of the library says of an answer, in the variables of the problem.
     pub(crate) fn residual_of(&self, solution: &Solution) -> f64 {
         match (self, &solution.contact) {

@@ -5,7 +5,7 @@ use std::fmt;
 
 use lcp::Error;
 
-use super::methods::{AUTO, answers};
+use super::methods::AUTO;
 use super::problems::{Case, Kind};
 use super::truth::{Worth, truth, worth};
 
@@ -44,23 +44,23 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    /// So many problems of every kind; every `share`-th by all methods, the others by `Auto` alone.
-    pub(crate) fn sweep(count: u64, share: u64) -> Self {
+    /// So many problems of every kind.
+    pub(crate) fn sweep(count: u64) -> Self {
         let mut tally = Self::default();
         for kind in Kind::ALL {
             for seed in 0..count {
-                let name = format!("{kind:?}");
-                tally.add(&name, &Case::draw(kind, seed), seed.is_multiple_of(share));
+                tally.add(&format!("{kind:?}"), &Case::draw(kind, seed));
             }
         }
         tally
     }
 
-    pub(crate) fn add(&mut self, kind: &str, case: &Case, all: bool) {
+    /// Asks all methods that treat a problem.
+    pub(crate) fn add(&mut self, kind: &str, case: &Case) {
         let truth = truth(&case.integers);
         let place = if truth.is_solvable() { 0 } else { 2 - usize::from(truth.is_feasible()) };
         self.truths.entry(kind.to_owned()).or_default()[place] += 1;
-        for (method, answer) in answers(&case.problem, all) {
+        for (method, answer) in case.problem.answers() {
             let row = self.rows.entry((kind.to_owned(), method)).or_default();
             row.asked += 1;
             let (what, detail) = match answer {

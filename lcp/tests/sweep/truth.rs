@@ -3,7 +3,8 @@
 use lcp::exact::{Enumeration, EnumerationSettings, Face, RBig, enumerate};
 use lcp::{HorizontalLcp, Solution, Status};
 
-use super::problems::{Case, TOLERANCE};
+use super::methods::TOLERANCE;
+use super::problems::Case;
 
 /// What a point may miss: of a row, in units of its terms or of the largest entry of the right-hand
 /// side. The problems are small integers, so that answers have all but the last digits.
