@@ -388,7 +388,7 @@ fn without_a_floor_springs_carry_the_load() {
                 "{mu}, {tolerance:e}: {:?}",
                 solution.residuals
             );
-            let shares = solution.springs.unwrap().shares;
+            let shares = solution.springs().unwrap().shares.clone();
             let last = shares[shares.len() - 1];
             assert!(shares.iter().all(|share| *share > 0.5 * last), "{shares:?}");
         }

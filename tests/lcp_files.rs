@@ -12,8 +12,8 @@ use std::path::PathBuf;
 
 use lcp::faer::Mat;
 use lcp::io::{Problem, read_file};
-use lcp::{Lemke, Solver};
-use transform::{Equivalent, extended, permuted, premultiplied, scaled, swapped};
+use lcp::{Auto, Lemke, Solver, Status};
+use transform::{Equivalent, extended, permuted, premultiplied, rescaled, scaled, swapped};
 
 /// What is known of the solutions `(z, w)`.
 enum Answer {
@@ -128,35 +128,51 @@ fn agrees(answer: &Answer, z: &[f64]) -> Result<(), String> {
     }
 }
 
-/// Solves an equivalent problem and judges its solution as one of the original problem.
-fn verdict(original: &Problem, equivalent: &Equivalent, answer: &Answer) -> Result<(), String> {
-    let solution = Lemke::default().solve(&equivalent.problem).unwrap();
-    if !solution.is_solved() {
-        let attempts = solution.info.attempts.iter();
-        let ends: Vec<_> = attempts.map(|attempt| (attempt.end, attempt.pivots)).collect();
-        return Err(format!("{} after {ends:?}", solution.status));
+/// How a form of a problem ended.
+enum End {
+    Right,
+    Open(String),
+    Wrong(String),
+}
+
+/// Solves an equivalent problem and judges its solution as one of the original problem. Every one has a solution.
+fn end(original: &Problem, equivalent: &Equivalent, answer: &Answer) -> End {
+    let solution = Auto::default().solve(&equivalent.problem).unwrap();
+    match solution.status {
+        Status::Solved => {}
+        Status::Infeasible => return End::Wrong("called infeasible".to_owned()),
+        status => return End::Open(status.to_string()),
     }
     let (t, y) = (equivalent.back)(&(solution.t, solution.y));
     let residuals = original.to_general().residuals(&t, &y);
     if residuals.worst() > PRECISION {
-        return Err(format!("a wrong answer: {residuals:?}"));
+        return End::Wrong(format!("{residuals:?}"));
     }
     let (z, _) = original.recover(&t, &y);
-    agrees(answer, &z).map_err(|difference| format!("a wrong answer: {difference}"))
+    agrees(answer, &z).map_or_else(End::Wrong, |()| End::Right)
 }
 
-/// Every published problem in every form that `forms` makes of it.
+/// Every published problem in every form that `forms` makes of it: no answer is wrong, and one of fifty forms may be left
+/// open.
 fn solve_all(forms: impl Fn(&mut Random, Equivalent) -> Vec<Equivalent>) {
-    let mut failures = Vec::new();
+    let (mut count, mut wrong, mut open) = (0, Vec::new(), Vec::new());
     for (number, (name, problem, answer)) in problems().into_iter().enumerate() {
         let mut random = Random::new(number as u64);
         for form in forms(&mut random, Equivalent::original(problem.to_general())) {
-            if let Err(failure) = verdict(&problem, &form, &answer) {
-                failures.push(format!("{name}, {}: {failure}", form.name));
+            count += 1;
+            match end(&problem, &form, &answer) {
+                End::Right => {}
+                End::Open(status) => open.push(format!("{name}, {}: {status}", form.name)),
+                End::Wrong(why) => wrong.push(format!("{name}, {}: {why}", form.name)),
             }
         }
     }
-    assert!(failures.is_empty(), "{} failures\n{}", failures.len(), failures.join("\n"));
+    let list = open.join("\n");
+    if !open.is_empty() {
+        eprintln!("left open: {} of {count}\n{list}", open.len());
+    }
+    assert!(wrong.is_empty(), "{} of {count} wrong\n{}", wrong.len(), wrong.join("\n"));
+    assert!(50 * open.len() <= count, "{} of {count} left open\n{list}", open.len());
 }
 
 #[test]
@@ -179,10 +195,22 @@ fn with_a_tiny_and_with_a_huge_vector() {
 }
 
 #[test]
+fn with_rows_and_variables_in_units_of_their_own() {
+    solve_all(|random, original| {
+        let n = original.problem.order();
+        let form = |random: &mut Random| {
+            let [rows, t, y] = [0; 3].map(|_| random.factors(n));
+            rescaled(&original.problem, &rows, t, y)
+        };
+        (0..10).map(|_| form(random)).collect()
+    });
+}
+
+#[test]
 fn in_another_order() {
     solve_all(|random, original| {
         let n = original.problem.order();
-        (0..8).map(|_| permuted(&original.problem, random.order(n))).collect()
+        (0..10).map(|_| permuted(&original.problem, random.order(n))).collect()
     });
 }
 
@@ -190,7 +218,7 @@ fn in_another_order() {
 fn with_pairs_swapped() {
     solve_all(|random, original| {
         let n = original.problem.order();
-        (0..8).map(|_| swapped(&original.problem, random.choices(n))).collect()
+        (0..10).map(|_| swapped(&original.problem, random.choices(n))).collect()
     });
 }
 
@@ -198,7 +226,7 @@ fn with_pairs_swapped() {
 fn with_rows_premultiplied() {
     solve_all(|random, original| {
         let n = original.problem.order();
-        (0..8).map(|_| premultiplied(&original.problem, &random.orthogonal(n))).collect()
+        (0..10).map(|_| premultiplied(&original.problem, &random.orthogonal(n))).collect()
     });
 }
 
@@ -225,9 +253,13 @@ fn in_compositions_of_these() {
                 .then(|problem| scaled(problem, s, r))
                 .then(|problem| permuted(problem, random.order(n)))
                 .then(|problem| swapped(problem, random.choices(n)))
+                .then(|problem| {
+                    let [rows, t, y] = [0; 3].map(|_| random.factors(n));
+                    rescaled(problem, &rows, t, y)
+                })
                 .then(|problem| premultiplied(problem, &random.orthogonal(n)))
         };
-        (0..8).map(|_| form(random)).collect()
+        (0..10).map(|_| form(random)).collect()
     });
 }
 
@@ -260,6 +292,10 @@ impl Random {
     /// Between 1e-6 and 1e6, by its logarithm.
     fn factor(&mut self) -> f64 {
         10_f64.powf(12.0 * self.next() - 6.0)
+    }
+
+    fn factors(&mut self, n: usize) -> Vec<f64> {
+        (0..n).map(|_| self.factor()).collect()
     }
 
     /// A product of two reflections.

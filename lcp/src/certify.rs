@@ -14,6 +14,8 @@
 //!   side of its connected part, in equilibrated units. Far out, where the terms are large, a row may hold
 //!   to a small part of its terms and not at all compared with the loads: such a point may be near no solution.
 //!
+//! A row that matters to none of the rows that carry loads does not count, see [`significance`].
+//!
 //! Rows and pairs are those that the problem is stated in: `(z, w)` of standard, mixed and boxed problems, forces,
 //! gaps and slips of contact. A conversion never decides.
 //!
@@ -21,13 +23,17 @@
 //! against the loads.
 
 mod boxed;
+mod certificate;
 mod contact;
 mod farkas;
 mod friction;
 mod general;
 mod ledger;
 mod parts;
+mod significance;
 mod weights;
+
+pub use certificate::{Certificate, Leaf};
 
 pub(crate) use boxed::BoxedJudge;
 pub(crate) use contact::{ContactJudge, StateOf};

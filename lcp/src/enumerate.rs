@@ -11,7 +11,7 @@
 
 use std::time::Instant;
 
-use crate::certify::is_proof_of;
+use crate::certify::{Leaf, is_proof_of};
 use crate::extended::Extended;
 use crate::matrix::Column;
 use crate::nonnegative::{LeastSquares, Minimum};
@@ -44,15 +44,6 @@ pub(crate) enum Enumerated {
     NoSolution(Vec<Leaf>),
     /// A limit was reached, or rounding leaves it undecided.
     Open,
-}
-
-/// Choices of sides for which the linear conditions cannot be met.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Leaf {
-    /// The side of every pair that may be positive; both where none is chosen.
-    pub(crate) sides: Vec<Option<Side>>,
-    /// A Farkas vector for the columns of these sides.
-    pub(crate) pi: Vec<f64>,
 }
 
 /// A solution, or a proof that there is none.

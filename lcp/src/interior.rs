@@ -21,7 +21,7 @@ use start::{set_out, start_again};
 
 use crate::active::{Condensed, Effort, Original, Scaled, Search};
 use crate::solve::Monitor;
-use crate::{Error, Iteration, Method, Observer, Solution, Status};
+use crate::{Certificate, Error, Iteration, Method, Observer, Solution, Status};
 
 /// An interior-point method for the complementarity problem itself, for large sparse problems: contact
 /// with Coulomb's friction ([`Contact2d`](crate::Contact2d)), and mixed and standard problems.
@@ -45,7 +45,7 @@ use crate::{Error, Iteration, Method, Observer, Solution, Status};
 /// the load that they carry tends to zero with their stiffness where there is a solution, and to a
 /// constant where there is none. Then it is asked whether any forces inside the friction cones balance the
 /// loads. If a checked motion proves that none do, the status is [`Status::NoEquilibrium`], and
-/// [`Solution::springs`] has the evidence; if some do, they are tried.
+/// [`Solution::certificate`] has the evidence; if some do, they are tried.
 ///
 /// # Guarantee
 /// None is proved. For monotone problems (no friction, positive semidefinite `M`) with a strictly feasible
@@ -168,7 +168,7 @@ impl Run<'_, '_> {
         }
         let mut solution = self.search.finish(status.unwrap_or(Status::Stalled), self.monitor);
         if !solution.is_solved() {
-            solution.springs = springs;
+            solution.certificate = springs.map(Certificate::Springs);
         }
         solution
     }

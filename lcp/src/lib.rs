@@ -96,7 +96,7 @@ pub use faer;
 
 pub use auto::{Auto, AutoSettings, Choice};
 pub use basis::{Basis, Side};
-pub use certify::Residuals;
+pub use certify::{Certificate, Leaf, Residuals};
 pub use error::Error;
 pub use interior::{InteriorPoint, InteriorPointSettings};
 #[doc(inline)]

@@ -33,8 +33,8 @@ use start::Rows;
 use crate::active::{confirmed_pairs, confirmed_state};
 use crate::solve::Monitor;
 use crate::{
-    Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Observer, Residuals, Solution, Solver,
-    Status,
+    Certificate, Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Observer, Residuals,
+    Solution, Solver, Status,
 };
 
 /// Complementarity problems that are the conditions of a convex quadratic program.
@@ -215,7 +215,7 @@ impl QuadraticProgram {
         let otherwise = if is_solved { Status::Stalled } else { otherwise };
         let mut solution = Solution::judged(point, residuals, tolerance, otherwise);
         solution.contact = candidate.contact;
-        solution.farkas = farkas;
+        solution.certificate = farkas.map(|pi| Certificate::Farkas { pi });
         solution.info.method = Method::QuadraticProgram;
         solution.info.iterations = monitor.iterations();
         solution.info.factorisations = factorisations;

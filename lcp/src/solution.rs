@@ -1,7 +1,7 @@
 //! What a solver returns.
 
 use crate::pivoting::{Attempt, PivotRecord};
-use crate::{Basis, ContactState, Method, Residuals};
+use crate::{Basis, Certificate, ContactState, Method, Residuals};
 
 /// Outcome of a solve. Decided by the mathematics and the limits, never by misuse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -16,9 +16,12 @@ pub enum Status {
     /// there, but the residuals in the form given are above the tolerance.
     AlmostSolved,
     /// There is no solution: `A t + B y = c` has none with `t >= 0` and `y >= 0`, which
-    /// [`Solution::farkas`] proves.
+    /// [`Solution::certificate`] proves.
     Infeasible,
-    /// There is no equilibrium, by the evidence of [`Solution::springs`]: soft springs on all
+    /// There is no solution: the linear conditions can be met, but not with one variable of every pair zero.
+    /// [`Solution::certificate`] proves it choice by choice.
+    NoSolution,
+    /// There is no equilibrium, by the evidence of [`Solution::certificate`]: soft springs on all
     /// displacements keep their share of the load, however soft they are. Where a body is rigid, or without
     /// friction, it was also checked that no forces balance the loads. Of elastic bodies with friction it
     /// is no proof.
@@ -61,7 +64,7 @@ impl std::fmt::Display for Status {
 /// point of the attempt plus `s (dt, dy, dz0)` satisfies `A t + B y = c + covering z0`, so that along
 /// the ray the artificial variable `z0` does not decrease.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Ray {
     /// Direction in `t`.
@@ -76,7 +79,7 @@ pub struct Ray {
 
 /// What soft springs on all displacements of a contact problem carry when they are made softer and softer.
 #[derive(Debug, Clone, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct SoftSprings {
     /// The stiffnesses, relative to that of the bodies.
@@ -183,16 +186,12 @@ pub struct Solution {
     pub basis: Option<Basis>,
     /// Residuals of `(t, y)`, from the original data.
     pub residuals: Residuals,
-    /// The ray on which the first of the attempts with an artificial variable, proximal ones aside, that
-    /// met one ended, when the status is [`RayTermination`](Status::RayTermination) or
-    /// [`Infeasible`](Status::Infeasible).
-    pub ray: Option<Ray>,
-    /// With the status [`Infeasible`](Status::Infeasible) the proof: a vector `pi` of the rows with
-    /// `A^T pi <= 0`, `B^T pi <= 0` and `c.pi > 0` (Farkas). It was checked against the original data:
-    /// no component of the products exceeds the rounding error of its computation.
-    pub farkas: Option<Vec<f64>>,
-    /// With the status [`NoEquilibrium`](Status::NoEquilibrium) the evidence.
-    pub springs: Option<SoftSprings>,
+    /// With the statuses [`Infeasible`](Status::Infeasible) and [`NoSolution`](Status::NoSolution) the proof, checked
+    /// against the data as given; with [`NoEquilibrium`](Status::NoEquilibrium) the evidence of soft springs; with
+    /// [`RayTermination`](Status::RayTermination) the ray on which the first of the attempts with an artificial
+    /// variable, proximal ones aside, that met one ended. It refers to the general form of the problem, whose
+    /// rows and pairs it has.
+    pub certificate: Option<Certificate>,
     /// Estimate of the condition number, in the 1-norm, of the equilibrated matrix of the basis.
     pub condition: Option<f64>,
     /// Every pivot, if the settings asked for it.
@@ -216,13 +215,35 @@ impl Solution {
             y,
             basis: None,
             residuals,
-            ray: None,
             contact: None,
-            farkas: None,
-            springs: None,
+            certificate: None,
             condition: None,
             trace: Vec::new(),
             info: Info::default(),
+        }
+    }
+
+    /// The Farkas vector of the certificate, if it is one.
+    pub fn farkas(&self) -> Option<&[f64]> {
+        match &self.certificate {
+            Some(Certificate::Farkas { pi }) => Some(pi),
+            _ => None,
+        }
+    }
+
+    /// The secondary ray of the certificate, if it is one.
+    pub fn ray(&self) -> Option<&Ray> {
+        match &self.certificate {
+            Some(Certificate::Ray(ray)) => Some(ray),
+            _ => None,
+        }
+    }
+
+    /// The soft springs of the certificate, if it is these.
+    pub fn springs(&self) -> Option<&SoftSprings> {
+        match &self.certificate {
+            Some(Certificate::Springs(springs)) => Some(springs),
+            _ => None,
         }
     }
 

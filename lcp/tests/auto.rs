@@ -96,7 +96,7 @@ fn assert_known(instance: &Known, solution: &Solution) {
         }
         Known::Infeasible { .. } => {
             assert_eq!(solution.status, Status::Infeasible);
-            assert!(solution.farkas.is_some());
+            assert!(solution.farkas().is_some());
         }
         _ => {}
     }
@@ -222,7 +222,7 @@ fn an_infeasible_problem_falls_through_to_a_proof() {
     assert_eq!((solution.status, solution.info.method), (Status::Infeasible, LEMKE));
     let RouteEnd::Ended { status, .. } = solution.info.routes[0].end else { panic!("refused") };
     assert!(!matches!(status, Status::Solved | Status::Infeasible), "{status}");
-    let pi = solution.farkas.unwrap();
+    let pi = solution.farkas().unwrap();
     assert!(pi[0] < 0.0 && (pi[0] - pi[1]).abs() < 1e-12 * -pi[0]);
 }
 
@@ -259,7 +259,7 @@ fn without_equilibrium_the_chain_looks_for_a_proof() {
         let solution = auto().solve(&problem).unwrap();
         let routes = &solution.info.routes;
         assert_eq!(solution.status, Status::Infeasible, "{count}: {routes:?}");
-        let pi = solution.farkas.as_ref().unwrap();
+        let pi = solution.farkas().unwrap();
         let general = problem.to_general();
         let gain: f64 = general.c().iter().zip(pi).map(|(c, pi)| c * pi).sum();
         assert!(gain > 0.0);
@@ -362,7 +362,7 @@ proptest! {
         let worst = HorizontalLcp::from(problem.clone()).residuals(&solution.t, &solution.y).worst();
         prop_assert_eq!(worst.to_bits(), solution.residuals.worst().to_bits());
         prop_assert_eq!(solution.is_solved(), worst <= 1e-10 && solution.status == Status::Solved);
-        prop_assert_eq!(solution.status == Status::Infeasible, solution.farkas.is_some());
+        prop_assert_eq!(solution.status == Status::Infeasible, solution.farkas().is_some());
         let pivots = Solver::<Lcp>::solve(&Lemke::default(), &problem).unwrap();
         prop_assert!(solution.is_solved() || !pivots.is_solved());
         if !solution.is_solved() && solution.status != Status::Infeasible {

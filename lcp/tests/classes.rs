@@ -64,7 +64,7 @@ fn assert_proved_infeasible(problem: &HorizontalLcp) {
 }
 
 fn assert_proof(problem: &HorizontalLcp, solution: &Solution) {
-    let farkas = solution.farkas.as_ref().unwrap();
+    let farkas = solution.farkas().unwrap();
     // Sum and sum of the magnitudes.
     let product = |entry: &dyn Fn(usize) -> f64| {
         let terms = farkas.iter().enumerate().map(|(i, f)| entry(i) * f);

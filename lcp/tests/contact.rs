@@ -160,7 +160,7 @@ fn what_cannot_be_is_proved() {
     for problem in [squeezed.unwrap(), lifted.unwrap()] {
         let solution = Solver::<Contact2d>::solve(&Lemke::default(), &problem).unwrap();
         assert_eq!(solution.status, Status::Infeasible);
-        let pi = solution.farkas.expect("the proof");
+        let pi = solution.farkas().expect("the proof");
         let general = problem.to_general();
         for matrix in [general.a(), general.b()] {
             for j in 0..general.order() {

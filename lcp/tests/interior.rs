@@ -84,7 +84,7 @@ fn a_rigid_block_stands_up_to_the_friction_and_not_beyond() {
     for push in [5.0 * (1.0 + 1e-2), 6.0, -50.0] {
         let solution = solve(&rigid(push));
         assert_eq!(solution.status, Status::NoEquilibrium);
-        let springs = solution.springs.expect("the evidence");
+        let springs = solution.springs().expect("the evidence");
         // What friction leaves over, of the whole load.
         let share = (push.abs() - 5.0) / (push.abs() + 10.0);
         let last = *springs.shares.last().unwrap();
@@ -119,12 +119,12 @@ fn a_foot_that_closes_goes_on_sliding() {
 fn a_body_that_nothing_holds_falls() {
     let solution = solve(&body([0.0, 0.0], [0.0, 3.0], &[[0.0, 1.0]], 0.5));
     assert_eq!(solution.status, Status::NoEquilibrium);
-    assert!(solution.springs.is_some_and(|springs| springs.motion[1] > 0.0));
+    assert!(solution.springs().is_some_and(|springs| springs.motion[1] > 0.0));
     let without = InteriorPointSettings { continuation: false, ..default() };
     let falling = body([0.0, 0.0], [6.0, -10.0], &[[0.0, 1.0]], 0.5);
     let solution = InteriorPoint::new(without).solve(&falling).unwrap();
     assert_eq!(solution.status, Status::Stalled);
-    assert!(solution.springs.is_none());
+    assert!(solution.certificate.is_none());
 }
 
 #[test]

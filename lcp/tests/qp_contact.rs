@@ -332,7 +332,7 @@ fn a_fixed_point_that_is_none_is_reported() {
     assert_eq!(solution.status, Status::Stalled, "{solution:?}");
     let history = &solution.info.history;
     assert!(history.len() > 10 && history.iter().all(|r| *r > 1e-2), "{history:?}");
-    assert!(solution.farkas.is_none());
+    assert!(solution.certificate.is_none());
     assert!(solution.t.iter().chain(&solution.y).all(|v| v.is_finite()));
 
     let few = QuadraticProgramSettings { max_outer: 3, ..settings() };

@@ -146,7 +146,7 @@ fn infeasible_problems_are_proved_so() {
     let q: Vec<f64> = (0..n).map(|i| if i < n - 20 { 1.0 } else { -1.0 }).collect();
     let solution = Lemke::default().solve(&Lcp::new(m, q).unwrap()).unwrap();
     assert_eq!(solution.status, Status::Infeasible);
-    let pi = solution.farkas.unwrap();
+    let pi = solution.farkas().unwrap();
     assert!(pi[n - 1].abs() > 0.0);
 }
 

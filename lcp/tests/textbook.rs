@@ -57,7 +57,7 @@ fn kostreva_without_a_solution_is_proved_infeasible() {
     let problem = families::kostreva_2().problem;
     let solution = Lemke::default().solve(&problem).unwrap();
     assert_eq!(solution.status, Status::Infeasible);
-    assert_eq!(solution.farkas, Some(vec![0.0, 0.0, -1.0]));
+    assert_eq!(solution.farkas(), Some(&[0.0, 0.0, -1.0][..]));
 }
 
 /// `w1 = -z1 + z2 / 2 - 1`, `w2 = z2 - 1`: feasible, but without a complementary solution.
@@ -66,9 +66,9 @@ fn rays_where_there_is_no_proof() {
     let problem = lcp(mat![[-1.0, 0.5], [0.0, 1.0]], &[-1.0; 2]);
     let solution = Lemke::default().solve(&problem).unwrap();
     assert_eq!(solution.status, Status::RayTermination);
-    assert_eq!(solution.farkas, None);
+    assert_eq!(solution.farkas(), None);
     assert!(solution.info.attempts.iter().any(|attempt| attempt.end == AttemptEnd::Ray));
-    let ray = solution.ray.unwrap();
+    let ray = solution.ray().unwrap();
     assert!(ray.dt.iter().chain(&ray.dy).all(|&v| v >= 0.0));
     assert!(ray.dt.iter().zip(&ray.dy).all(|(t, y)| t * y == 0.0));
 }
@@ -79,7 +79,7 @@ fn the_ray_is_a_direction_of_the_augmented_problem() {
     let problem = lcp(m, &[-1.0, -1.0]);
     let covering = Covering::Given(vec![1.0, 3.0]);
     let settings = LemkeSettings { max_attempts: 1, covering, ..LemkeSettings::default() };
-    let ray = Lemke::new(settings).solve(&problem).unwrap().ray.unwrap();
+    let ray = Lemke::new(settings).solve(&problem).unwrap().ray().unwrap().clone();
     assert_eq!(ray.covering, [1.0, 3.0]);
     for i in 0..2 {
         let image: f64 =
@@ -237,7 +237,7 @@ fn artificial_columns_complete_a_basis() {
     let outside = HorizontalLcp::new(ones.clone(), ones.clone(), vec![1.0, 2.0]).unwrap();
     let solution = Lemke::default().solve(&outside).unwrap();
     assert_eq!(solution.status, Status::Infeasible);
-    let pi = solution.farkas.unwrap();
+    let pi = solution.farkas().unwrap();
     assert_close(&[pi[0] + pi[1]], &[0.0]);
     assert!(pi[0] + 2.0 * pi[1] > 0.0);
 

@@ -55,6 +55,28 @@ pub fn scaled(problem: &HorizontalLcp, s: f64, r: f64) -> Equivalent {
     }
 }
 
+/// Every row and every variable in units of its own; the columns of a free variable, which are opposite, in the same.
+pub fn rescaled(problem: &HorizontalLcp, rows: &[f64], t: Vec<f64>, mut y: Vec<f64>) -> Equivalent {
+    let n = problem.order();
+    let (a, b) = (problem.a().to_dense(), problem.b().to_dense());
+    for j in 0..n {
+        if (0..n).all(|i| b[(i, j)] + a[(i, j)] == 0.0) {
+            y[j] = t[j];
+        }
+    }
+    let rescaled = HorizontalLcp::new(
+        Mat::from_fn(n, n, |i, j| rows[i] * a[(i, j)] * t[j]),
+        Mat::from_fn(n, n, |i, j| rows[i] * b[(i, j)] * y[j]),
+        problem.c().iter().zip(rows).map(|(c, row)| row * c).collect(),
+    );
+    let times = |v: &[f64], units: &[f64]| v.iter().zip(units).map(|(v, unit)| v * unit).collect();
+    Equivalent {
+        name: "rows and variables in units of their own".to_owned(),
+        problem: rescaled.unwrap(),
+        back: Box::new(move |point| (times(&point.0, &t), times(&point.1, &y))),
+    }
+}
+
 /// Rows and pairs in another order: the new pair `k` is the old pair `order[k]`.
 pub fn permuted(problem: &HorizontalLcp, order: Vec<usize>) -> Equivalent {
     let n = problem.order();

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use super::AutoSettings;
 use super::method::{Effort, Planned, attempt};
-use crate::{Error, Method, Observer, Route, RouteEnd, Solution, Status, WarmStart};
+use crate::{Certificate, Error, Method, Observer, Route, RouteEnd, Solution, Status, WarmStart};
 
 /// A point with larger residuals is no better start than the one that was given.
 const NEAR: f64 = 1e-4;
@@ -83,7 +83,9 @@ pub(super) fn run<P: Planned>(
 fn is_final(solution: &Solution) -> bool {
     match solution.status {
         Status::Solved | Status::Cancelled | Status::TimeLimit => true,
-        Status::Infeasible => solution.farkas.is_some(),
+        Status::Infeasible | Status::NoSolution => {
+            solution.certificate.as_ref().is_some_and(Certificate::is_proof)
+        }
         _ => false,
     }
 }
@@ -108,11 +110,11 @@ fn better(best: Option<Solution>, other: Solution, tolerance: f64) -> Solution {
 fn rank(solution: &Solution, tolerance: f64) -> (Rank, f64) {
     let residual = solution.residuals.worst();
     let rank = match solution.status {
-        Status::Solved | Status::Infeasible => Rank::Decided,
+        Status::Solved | Status::Infeasible | Status::NoSolution => Rank::Decided,
         Status::AlmostSolved => Rank::Near,
         _ if residual <= tolerance.sqrt() => Rank::Near,
-        Status::NoEquilibrium if solution.springs.is_some() => Rank::Evidence,
-        Status::RayTermination if solution.ray.is_some() => Rank::Ray,
+        Status::NoEquilibrium if solution.springs().is_some() => Rank::Evidence,
+        Status::RayTermination if solution.ray().is_some() => Rank::Ray,
         _ => Rank::Open,
     };
     (rank, residual)
@@ -196,7 +198,7 @@ mod tests {
             solution
         };
         let mut falling = with(Status::NoEquilibrium, 0.5);
-        falling.springs = Some(crate::SoftSprings::default());
+        falling.certificate = Some(Certificate::Springs(crate::SoftSprings::default()));
         let stalled = with(Status::Stalled, 0.1);
         let near = with(Status::Stalled, 1e-9);
         let status = |best: &Solution, other: &Solution| {

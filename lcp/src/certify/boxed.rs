@@ -1,6 +1,7 @@
 //! Points `(z, w)` of standard, mixed and boxed problems.
 
-use super::ledger::{Digits, Entry, Ledger, Precision, Rows};
+use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
+use super::significance::Term;
 use super::{Residuals, weights};
 use crate::extended::Extended;
 use crate::matrix::Column;
@@ -46,6 +47,8 @@ pub(crate) struct BoxedJudge<'a> {
     q: &'a [f64],
     /// Lower and upper bounds; none are `0` and `inf`.
     bounds: Option<(&'a [f64], &'a [f64])>,
+    /// The sizes of the right-hand sides, with those of the bounds.
+    loads: Vec<f64>,
     weights: Vec<f64>,
     /// Terms of a row at most.
     length: f64,
@@ -74,7 +77,7 @@ impl<'a> BoxedJudge<'a> {
         }
         let columns: Vec<Column<'_>> = (0..n).map(|j| m.slice(j)).collect();
         let weights = weights::weights(&columns, &loads);
-        Self { m, q, bounds, weights, length: n as f64 + 2.0 }
+        Self { m, q, bounds, loads, weights, length: n as f64 + 2.0 }
     }
 
     /// # Panics
@@ -85,33 +88,23 @@ impl<'a> BoxedJudge<'a> {
         if z.iter().chain(w).any(|v| !v.is_finite()) {
             return Residuals::infinite();
         }
-        let ledger = self.ledger(z, w);
-        if precision == Precision::Exact && ledger.is_hidden(self.length) {
+        if precision == Precision::Exact && self.at(z, w).is_hidden() {
             let extended = |v: &[f64]| v.iter().copied().map(Extended::from).collect::<Vec<_>>();
             return self.residuals_of(&extended(z), &extended(w));
         }
-        ledger.finish(self.length, precision)
+        ledger::residuals(&self.at(z, w), &self.weights, self.length, precision)
     }
 
     /// The same of a point of twice the digits.
     pub(crate) fn residuals_of(&self, z: &[Extended], w: &[Extended]) -> Residuals {
-        self.ledger(z, w).finish(self.length, Precision::Exact)
+        ledger::residuals(&self.at(z, w), &self.weights, self.length, Precision::Exact)
     }
 
-    fn ledger<X: Digits>(&self, z: &[X], w: &[X]) -> Ledger<'_> {
-        let mut rows = Rows::<X>::new(self.q.iter().map(|q| (-q, q.abs())));
-        for (j, &z) in z.iter().enumerate().filter(|(_, z)| z.rounded() != 0.0) {
-            self.m.slice(j).for_each(|i, v| rows.add(i, -v, z));
-        }
-        w.iter().enumerate().for_each(|(i, w)| rows.add(i, 1.0, *w));
-        let mut ledger = Ledger::new(rows, &self.weights);
-        for (j, (z, w)) in z.iter().zip(w).enumerate() {
-            self.conditions(j, (z.rounded(), w.rounded()), &mut ledger);
-        }
-        ledger
+    fn at<'b, X: Digits>(&'b self, z: &'b [X], w: &'b [X]) -> At<'b, X> {
+        At { judge: self, z, w }
     }
 
-    fn conditions(&self, j: usize, (z, w): (f64, f64), ledger: &mut Ledger<'_>) {
+    fn conditions_of(&self, j: usize, (z, w): (f64, f64), ledger: &mut Ledger<'_>) {
         let of_z = |visit: &mut dyn FnMut(usize, f64)| self.m.slice(j).for_each(visit);
         let of_w = |visit: &mut dyn FnMut(usize, f64)| visit(j, 1.0);
         let (lower, upper) =
@@ -123,6 +116,55 @@ impl<'a> BoxedJudge<'a> {
             } else {
                 ledger.zero(&w);
             }
+        }
+    }
+}
+
+/// A point.
+struct At<'a, X> {
+    judge: &'a BoxedJudge<'a>,
+    z: &'a [X],
+    w: &'a [X],
+}
+
+impl<X: Digits> At<'_, X> {
+    fn is_hidden(&self) -> bool {
+        ledger::is_hidden(&self.rows().1, &self.judge.weights, self.judge.length)
+    }
+}
+
+impl<X: Digits> Point for At<'_, X> {
+    fn rows(&self) -> (Vec<f64>, Vec<f64>) {
+        let mut rows = Rows::<X>::new(self.judge.q.iter().map(|q| (-q, q.abs())));
+        for (j, &z) in self.z.iter().enumerate().filter(|(_, z)| z.rounded() != 0.0) {
+            self.judge.m.slice(j).for_each(|i, v| rows.add(i, -v, z));
+        }
+        self.w.iter().enumerate().for_each(|(i, w)| rows.add(i, 1.0, *w));
+        rows.rounded()
+    }
+
+    fn loads(&self) -> Vec<f64> {
+        self.judge.loads.clone()
+    }
+
+    fn terms(&self) -> Vec<Term> {
+        let n = self.z.len();
+        let of_w = self.w.iter().enumerate().filter(|(_, w)| w.rounded() != 0.0);
+        let of_w = of_w.map(|(i, w)| Term { row: i, variable: n + i, value: w.rounded() });
+        let mut terms: Vec<Term> = of_w.collect();
+        for (variable, z) in self.z.iter().enumerate().filter(|(_, z)| z.rounded() != 0.0) {
+            self.judge.m.slice(variable).for_each(|row, v| {
+                if v != 0.0 {
+                    terms.push(Term { row, variable, value: v * z.rounded() });
+                }
+            });
+        }
+        terms
+    }
+
+    fn conditions(&self, ledger: &mut Ledger<'_>) {
+        for (j, (z, w)) in self.z.iter().zip(self.w).enumerate() {
+            self.judge.conditions_of(j, (z.rounded(), w.rounded()), ledger);
         }
     }
 }

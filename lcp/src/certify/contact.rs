@@ -1,8 +1,9 @@
 //! Displacements, forces, gaps and slips of contact.
 
 use super::Residuals;
-use super::ledger::{Digits, Entry, Ledger, Precision, Rows};
+use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
 use super::parts::Parts;
+use super::significance::Term;
 use super::weights::reciprocal;
 use crate::extended::Extended;
 use crate::problem::{column_factors, column_of, diagonal, median};
@@ -69,22 +70,22 @@ impl<'a> ContactJudge<'a> {
         if all.iter().any(|v| v.iter().any(|v| !v.is_finite())) {
             return Residuals::infinite();
         }
-        let ledger = self.ledger(StateOf { u, t_n, t_t, openings: Some((gap, slip)) });
-        if precision == Precision::Exact && ledger.is_hidden(self.length) {
+        let at = self.at(StateOf { u, t_n, t_t, openings: Some((gap, slip)) });
+        if precision == Precision::Exact && at.is_hidden() {
             let [u, t_n, t_t, gap, slip] =
                 all.map(|v| v.iter().copied().map(Extended::from).collect::<Vec<_>>());
             let openings = Some((&gap[..], &slip[..]));
             return self.residuals_of(StateOf { u: &u, t_n: &t_n, t_t: &t_t, openings });
         }
-        ledger.finish(self.length, precision)
+        ledger::residuals(&at, &self.weights, self.length, precision)
     }
 
     /// The same of a state of twice the digits.
     pub(crate) fn residuals_of(&self, state: StateOf<'_, Extended>) -> Residuals {
-        self.ledger(state).finish(self.length, Precision::Exact)
+        ledger::residuals(&self.at(state), &self.weights, self.length, Precision::Exact)
     }
 
-    fn ledger<X: Digits>(&self, state: StateOf<'_, X>) -> Ledger<'_> {
+    fn at<'b, X: Digits>(&'b self, state: StateOf<'b, X>) -> At<'b, X> {
         let problem = self.problem;
         let (n, m) = (problem.displacements(), problem.points());
         let StateOf { u, t_n, t_t, openings } = state;
@@ -96,23 +97,12 @@ impl<'a> ContactJudge<'a> {
         let first = first.chain(problem.initial_gaps().iter().map(|x| (*x, x.abs())));
         let first = first.chain(problem.initial_slips().iter().map(|s| (*s, s.abs())));
         let mut rows = Rows::<X>::new(first);
-        for (j, &u) in u.iter().enumerate() {
-            column_of(problem.stiffness(), j).for_each(|(i, v)| rows.add(i, v, u));
-            for (i, v) in column_of(problem.normal(), j) {
-                rows.add(n + i, v, u);
-                rows.add(j, -v, t_n[i]);
-            }
-            for (i, v) in column_of(problem.tangent(), j) {
-                rows.add(n + m + i, v, u);
-                rows.add(j, -v, t_t[i]);
-            }
-        }
+        terms_of(problem, state, &mut |i, v, x| rows.add(i, v, x));
         let openings = match openings {
             Some((gap, slip)) => {
                 assert!(gap.len() == m && slip.len() == m, "a state has the problem's lengths");
-                let given: Vec<f64> = gap.iter().chain(slip).map(|v| v.rounded()).collect();
                 gap.iter().chain(slip).enumerate().for_each(|(i, v)| rows.add(n + i, -1.0, *v));
-                given
+                gap.iter().chain(slip).map(|v| v.rounded()).collect()
             }
             None => {
                 let found = rows.rest[n..].iter().map(|v| v.rounded()).collect();
@@ -120,15 +110,10 @@ impl<'a> ContactJudge<'a> {
                 found
             }
         };
-        let mut ledger = Ledger::new(rows, &self.weights);
-        for i in 0..m {
-            let forces = (t_n[i].rounded(), t_t[i].rounded());
-            self.conditions(i, forces, (openings[i], openings[m + i]), &mut ledger);
-        }
-        ledger
+        At { judge: self, state, openings, rows: rows.rounded() }
     }
 
-    fn conditions(
+    fn conditions_of(
         &self,
         i: usize,
         (t_n, t_t): (f64, f64),
@@ -155,6 +140,89 @@ impl<'a> ContactJudge<'a> {
                 &Entry { value: force, column: &of_t },
                 &Entry { value: slip.max(0.0), column: &of_slip },
             );
+        }
+    }
+}
+
+/// A state with the sums of its rows.
+struct At<'a, X> {
+    judge: &'a ContactJudge<'a>,
+    state: StateOf<'a, X>,
+    /// Gaps, then slips.
+    openings: Vec<f64>,
+    rows: (Vec<f64>, Vec<f64>),
+}
+
+impl<X: Digits> At<'_, X> {
+    fn is_hidden(&self) -> bool {
+        ledger::is_hidden(&self.rows.1, &self.judge.weights, self.judge.length)
+    }
+}
+
+/// The terms of all rows with displacements and forces: row, coefficient and variable, with its number.
+fn terms_of<X: Digits>(
+    problem: &Contact2d,
+    StateOf { u, t_n, t_t, .. }: StateOf<'_, X>,
+    visit: &mut impl FnMut(usize, f64, X),
+) {
+    let (n, m) = (problem.displacements(), problem.points());
+    for (j, &u) in u.iter().enumerate() {
+        column_of(problem.stiffness(), j).for_each(|(i, v)| visit(i, v, u));
+        for (i, v) in column_of(problem.normal(), j) {
+            visit(n + i, v, u);
+            visit(j, -v, t_n[i]);
+        }
+        for (i, v) in column_of(problem.tangent(), j) {
+            visit(n + m + i, v, u);
+            visit(j, -v, t_t[i]);
+        }
+    }
+}
+
+impl<X: Digits> Point for At<'_, X> {
+    fn rows(&self) -> (Vec<f64>, Vec<f64>) {
+        self.rows.clone()
+    }
+
+    fn loads(&self) -> Vec<f64> {
+        let problem = self.judge.problem;
+        let all = [problem.loads(), problem.initial_gaps(), problem.initial_slips()];
+        all.concat().into_iter().map(f64::abs).collect()
+    }
+
+    fn terms(&self) -> Vec<Term> {
+        let problem = self.judge.problem;
+        let (n, m) = (problem.displacements(), problem.points());
+        let mut terms = Vec::new();
+        let mut add = |row: usize, variable: usize, value: f64| {
+            if value != 0.0 {
+                terms.push(Term { row, variable, value });
+            }
+        };
+        let StateOf { u, t_n, t_t, .. } = self.state;
+        for (j, u) in u.iter().enumerate() {
+            column_of(problem.stiffness(), j).for_each(|(i, v)| add(i, j, v * u.rounded()));
+            for (i, v) in column_of(problem.normal(), j) {
+                add(n + i, j, v * u.rounded());
+                add(j, n + i, v * t_n[i].rounded());
+            }
+            for (i, v) in column_of(problem.tangent(), j) {
+                add(n + m + i, j, v * u.rounded());
+                add(j, n + m + i, v * t_t[i].rounded());
+            }
+        }
+        let openings = self.openings.iter().enumerate();
+        openings.for_each(|(i, v)| add(n + i, n + 2 * m + i, *v));
+        terms
+    }
+
+    fn conditions(&self, ledger: &mut Ledger<'_>) {
+        let StateOf { t_n, t_t, .. } = self.state;
+        let m = t_n.len();
+        for i in 0..m {
+            let forces = (t_n[i].rounded(), t_t[i].rounded());
+            let openings = (self.openings[i], self.openings[m + i]);
+            self.judge.conditions_of(i, forces, openings, ledger);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Forces of a contact problem that is reduced to the contacts.
 
-use super::ledger::{Entry, Ledger, Precision, Rows};
+use super::ledger::{self, Entry, Ledger, Point, Precision, Rows};
+use super::significance::Term;
 use super::{Residuals, weights};
 use crate::extended::Extended;
 use crate::matrix::Column;
@@ -41,19 +42,56 @@ impl Friction2d {
         for (column, &force) in columns.iter().zip(&forces) {
             column.for_each(|i, v| rows.add(i, v, force.into()));
         }
-        let velocities: Vec<f64> = rows.rest.iter().map(|v| v.rounded()).collect();
-        // The velocities are defined by the rows, which hold.
-        rows.rest.fill(Extended::ZERO);
-        let mut ledger = Ledger::new(rows, &weights);
-        for (i, mu) in self.mu().iter().enumerate() {
+        let (velocities, terms) = rows.rounded();
+        let at = At { problem: self, columns, forces, velocities, terms };
+        ledger::residuals(&at, &weights, 2.0 * contacts as f64 + 1.0, Precision::Exact)
+    }
+}
+
+/// Forces with the velocities that follow from them.
+struct At<'a> {
+    problem: &'a Friction2d,
+    columns: Vec<Column<'a>>,
+    forces: Vec<f64>,
+    velocities: Vec<f64>,
+    terms: Vec<f64>,
+}
+
+impl Point for At<'_> {
+    /// The velocities are defined by the rows, which hold.
+    fn rows(&self) -> (Vec<f64>, Vec<f64>) {
+        (vec![0.0; self.terms.len()], self.terms.clone())
+    }
+
+    fn loads(&self) -> Vec<f64> {
+        self.problem.q().iter().map(|q| q.abs()).collect()
+    }
+
+    fn terms(&self) -> Vec<Term> {
+        let rows = self.terms.len();
+        let nonzero = self.velocities.iter().enumerate().filter(|(_, v)| **v != 0.0);
+        let own = nonzero.map(|(row, v)| Term { row, variable: rows + row, value: *v });
+        let mut terms: Vec<Term> = own.collect();
+        for (variable, (column, force)) in self.columns.iter().zip(&self.forces).enumerate() {
+            column.for_each(|row, v| {
+                if v * force != 0.0 {
+                    terms.push(Term { row, variable, value: v * force });
+                }
+            });
+        }
+        terms
+    }
+
+    fn conditions(&self, ledger: &mut Ledger<'_>) {
+        for (i, mu) in self.problem.mu().iter().enumerate() {
             let [of_n, of_t] = [0, 1].map(|k| {
-                let columns = &columns;
-                move |visit: &mut dyn FnMut(usize, f64)| columns[2 * i + k].for_each(visit)
+                let column = self.columns[2 * i + k];
+                move |visit: &mut dyn FnMut(usize, f64)| column.for_each(visit)
             });
             let [of_normal, of_slip] =
                 [0, 1].map(|k| move |visit: &mut dyn FnMut(usize, f64)| visit(2 * i + k, 1.0));
-            let (v_n, v_t) = (velocities[2 * i], velocities[2 * i + 1]);
-            let (normal, tangential) = (forces[2 * i], forces[2 * i + 1]);
+            let (v_n, v_t) = (self.velocities[2 * i], self.velocities[2 * i + 1]);
+            let (normal, tangential) = (self.forces[2 * i], self.forces[2 * i + 1]);
             ledger.pair(
                 &Entry { value: normal, column: &of_n },
                 &Entry { value: v_n, column: &of_normal },
@@ -66,7 +104,5 @@ impl Friction2d {
                 );
             }
         }
-        let length = 2.0 * contacts as f64 + 1.0;
-        ledger.finish(length, Precision::Exact)
     }
 }

@@ -1,6 +1,7 @@
 //! Points of the general form.
 
-use super::ledger::{Digits, Entry, Ledger, Precision, Rows};
+use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
+use super::significance::Term;
 use super::{Residuals, weights};
 use crate::extended::Extended;
 use crate::matrix::Column;
@@ -78,29 +79,73 @@ impl<'a> GeneralJudge<'a> {
         if t.iter().chain(y).any(|v| !v.is_finite()) {
             return Residuals::infinite();
         }
-        let ledger = self.ledger(t, y);
-        if precision == Precision::Exact && ledger.is_hidden(self.length) {
+        if precision == Precision::Exact && self.at(t, y).is_hidden() {
             let extended = |v: &[f64]| v.iter().copied().map(Extended::from).collect::<Vec<_>>();
             return self.residuals_of(&extended(t), &extended(y));
         }
-        ledger.finish(self.length, precision)
+        ledger::residuals(&self.at(t, y), &self.weights, self.length, precision)
     }
 
     /// The same of a point of twice the digits.
     pub(crate) fn residuals_of(&self, t: &[Extended], y: &[Extended]) -> Residuals {
-        self.ledger(t, y).finish(self.length, Precision::Exact)
+        ledger::residuals(&self.at(t, y), &self.weights, self.length, Precision::Exact)
     }
 
-    fn ledger<X: Digits>(&self, t: &[X], y: &[X]) -> Ledger<'_> {
-        let problem = self.problem;
-        let mut rows = Rows::<X>::new(self.c.iter().map(|(c, size)| (-c, *size)));
-        for (side, x) in [(Side::T, t), (Side::Y, y)] {
-            for (pair, &x) in x.iter().enumerate().filter(|(_, x)| x.rounded() != 0.0) {
-                problem.column(pair, side).for_each(|i, v| rows.add(i, v, x));
-            }
+    fn at<'b, X: Digits>(&'b self, t: &'b [X], y: &'b [X]) -> At<'b, X> {
+        At { judge: self, t, y }
+    }
+}
+
+/// A point.
+struct At<'a, X> {
+    judge: &'a GeneralJudge<'a>,
+    t: &'a [X],
+    y: &'a [X],
+}
+
+impl<X: Digits> At<'_, X> {
+    fn is_hidden(&self) -> bool {
+        ledger::is_hidden(&self.rows().1, &self.judge.weights, self.judge.length)
+    }
+
+    /// Every variable that is not zero, with its number and its column.
+    fn variables(&self) -> impl Iterator<Item = (usize, X, Column<'_>)> {
+        let sides = [(Side::T, self.t), (Side::Y, self.y)];
+        sides.into_iter().flat_map(move |(side, x)| {
+            let n = x.len();
+            let first = if side == Side::T { 0 } else { n };
+            let nonzero = x.iter().enumerate().filter(|(_, x)| x.rounded() != 0.0);
+            nonzero.map(move |(k, x)| (first + k, *x, self.judge.problem.column(k, side)))
+        })
+    }
+}
+
+impl<X: Digits> Point for At<'_, X> {
+    fn rows(&self) -> (Vec<f64>, Vec<f64>) {
+        let mut rows = Rows::<X>::new(self.judge.c.iter().map(|(c, size)| (-c, *size)));
+        self.variables().for_each(|(_, x, column)| column.for_each(|i, v| rows.add(i, v, x)));
+        rows.rounded()
+    }
+
+    fn loads(&self) -> Vec<f64> {
+        self.judge.c.iter().map(|(c, _)| c.abs()).collect()
+    }
+
+    fn terms(&self) -> Vec<Term> {
+        let mut terms = Vec::new();
+        for (variable, x, column) in self.variables() {
+            column.for_each(|row, v| {
+                if v != 0.0 {
+                    terms.push(Term { row, variable, value: v * x.rounded() });
+                }
+            });
         }
-        let mut ledger = Ledger::new(rows, &self.weights);
-        for (pair, (t, y)) in t.iter().zip(y).enumerate() {
+        terms
+    }
+
+    fn conditions(&self, ledger: &mut Ledger<'_>) {
+        let problem = self.judge.problem;
+        for (pair, (t, y)) in self.t.iter().zip(self.y).enumerate() {
             let [of_t, of_y] = [Side::T, Side::Y].map(|side| {
                 move |visit: &mut dyn FnMut(usize, f64)| problem.column(pair, side).for_each(visit)
             });
@@ -109,7 +154,6 @@ impl<'a> GeneralJudge<'a> {
                 &Entry { value: y.rounded(), column: &of_y },
             );
         }
-        ledger
     }
 }
 

@@ -1,6 +1,7 @@
 //! Rows at a point: what is left of each, the sizes of its terms, and what violated conditions add.
 
 use super::Residuals;
+use super::significance::{Term, significance};
 use crate::extended::Extended;
 
 /// Numbers in which rows are summed.
@@ -65,26 +66,74 @@ impl<X: Digits> Rows<X> {
         Self { rest, terms }
     }
 
+    /// What is left, rounded, and the terms.
+    pub(super) fn rounded(self) -> (Vec<f64>, Vec<f64>) {
+        (self.rest.into_iter().map(Digits::rounded).collect(), self.terms)
+    }
+
     pub(super) fn add(&mut self, row: usize, v: f64, x: X) {
         X::add_product(&mut self.rest[row], v, x);
         self.terms[row] += (v * x.rounded()).abs();
     }
 }
 
-/// Terms smaller than this part of the loads are measured by that: in a row that vanishes at the solution all terms are
-/// errors of an iteration, or of rounding.
-const FLOOR: f64 = 1.0 / (1 << 10) as f64;
-
 /// The residuals of a point while its conditions are gone through.
 pub(super) struct Ledger<'a> {
     /// What is left of every row.
     rest: Vec<f64>,
     terms: Vec<f64>,
-    /// One over the loads.
+    /// One over the loads that every row feels.
     weights: &'a [f64],
+    /// What every row counts; all of them one where it is empty.
+    significance: Vec<f64>,
     /// What the changes that make the point feasible and complementary add to it; empty where there are none.
     changes: Vec<f64>,
     residuals: Residuals,
+}
+
+/// A point whose rows and conditions can be gone through.
+pub(super) trait Point {
+    /// What is left of the rows, and their terms.
+    fn rows(&self) -> (Vec<f64>, Vec<f64>);
+
+    /// The right-hand sides.
+    fn loads(&self) -> Vec<f64>;
+
+    /// All terms with a variable that is not zero.
+    fn terms(&self) -> Vec<Term>;
+
+    /// Goes through the conditions on the variables.
+    fn conditions(&self, ledger: &mut Ledger<'_>);
+}
+
+/// Residuals above this may be due to rows that do not matter.
+const SMALL: f64 = 1e-13;
+/// What is left of the loads below this part of the other residuals says that these do not matter.
+const MINOR: f64 = 1e-2;
+
+/// The residuals of a point with one over the loads of its rows. Rows that do not matter to the loads are told only
+/// where something in them seems to be wrong.
+pub(super) fn residuals(
+    point: &impl Point,
+    weights: &[f64],
+    length: f64,
+    precision: Precision,
+) -> Residuals {
+    let (rest, terms) = point.rows();
+    let mut ledger = Ledger::new(rest, terms, weights);
+    point.conditions(&mut ledger);
+    let strict = ledger.finished(length, precision);
+    let Residuals { equation, natural, loads, .. } = strict;
+    let apparent = equation.max(natural);
+    if apparent <= SMALL || loads > MINOR * apparent {
+        return strict;
+    }
+    let significance = significance(&ledger.terms, &point.loads(), weights, &point.terms());
+    let Ledger { rest, terms, .. } = ledger;
+    let mut ledger = Ledger { significance, ..Ledger::new(rest, terms, weights) };
+    ledger.count_rows();
+    point.conditions(&mut ledger);
+    ledger.finished(length, precision)
 }
 
 /// A variable of a pair: its value, and the coefficients that it has in the rows.
@@ -94,21 +143,23 @@ pub(super) struct Entry<'a> {
 }
 
 impl<'a> Ledger<'a> {
-    /// `weights` are one over the loads.
-    pub(super) fn new<X: Digits>(rows: Rows<X>, weights: &'a [f64]) -> Self {
-        let Rows { rest, terms } = rows;
-        let rest = rest.into_iter().map(Digits::rounded).collect();
-        let mut ledger =
-            Self { rest, terms, weights, changes: Vec::new(), residuals: Residuals::default() };
-        ledger.residuals.equation = (0..ledger.rest.len())
-            .fold(0.0, |worst: f64, i| worst.max(ratio(ledger.rest[i], ledger.size(i))));
+    fn new(rest: Vec<f64>, terms: Vec<f64>, weights: &'a [f64]) -> Self {
+        let (significance, changes) = (Vec::new(), Vec::new());
+        let residuals = Residuals::default();
+        let mut ledger = Self { rest, terms, weights, significance, changes, residuals };
+        ledger.count_rows();
         ledger
     }
 
-    /// What a row is measured by.
-    fn size(&self, i: usize) -> f64 {
-        let floor = if self.weights[i] > 0.0 { FLOOR / self.weights[i] } else { 0.0 };
-        self.terms[i].max(floor)
+    fn count_rows(&mut self) {
+        let rows = 0..self.rest.len();
+        self.residuals.equation =
+            rows.fold(0.0, |worst: f64, i| worst.max(self.share(i, self.rest[i])));
+    }
+
+    /// What a change of a row counts.
+    fn share(&self, i: usize, v: f64) -> f64 {
+        self.significance.get(i).unwrap_or(&1.0) * ratio(v, self.terms[i])
     }
 
     /// `t >= 0`, `y >= 0`, one of them zero.
@@ -142,7 +193,7 @@ impl<'a> Ledger<'a> {
         let mut effect: Option<f64> = None;
         (entry.column)(&mut |i, v| {
             if v != 0.0 {
-                let part = ratio(v * entry.value, self.size(i));
+                let part = self.share(i, v * entry.value);
                 effect = Some(effect.map_or(part, |effect| effect.max(part)));
             }
         });
@@ -156,22 +207,15 @@ impl<'a> Ledger<'a> {
         (entry.column)(&mut |i, v| self.changes[i] += (v * entry.value).abs());
     }
 
-    /// Whether rounding errors of the terms are not small against the loads.
-    pub(super) fn is_hidden(&self, length: f64) -> bool {
-        const SMALL: f64 = 1e-13;
-        let mut rows = self.terms.iter().zip(self.weights);
-        rows.any(|(terms, weight)| length * f64::EPSILON * terms * weight > SMALL)
-    }
-
-    /// The residuals. In rows of up to so many terms that were
-    /// summed in `f64` rounding errors are left out.
-    pub(super) fn finish(self, length: f64, precision: Precision) -> Residuals {
-        let Self { rest, terms, weights, changes, mut residuals } = self;
+    /// The residuals. In rows of up to so many terms that were summed in `f64` rounding errors are left out.
+    fn finished(&self, length: f64, precision: Precision) -> Residuals {
+        let Self { rest, terms, weights, changes, .. } = self;
+        let mut residuals = self.residuals;
         let noise = match precision {
             Precision::Quick => length * f64::EPSILON,
             Precision::Exact => 0.0,
         };
-        for (i, (rest, weight)) in rest.iter().zip(weights).enumerate() {
+        for (i, (rest, weight)) in rest.iter().zip(*weights).enumerate() {
             let left = (rest.abs() - noise * terms[i]).max(0.0);
             let left = (left + changes.get(i).unwrap_or(&0.0)) * weight;
             // A NaN is no small residual.
@@ -180,6 +224,12 @@ impl<'a> Ledger<'a> {
         residuals.natural = residuals.feasibility.max(residuals.complementarity);
         residuals
     }
+}
+
+/// Whether rounding errors of the terms are not small against the loads.
+pub(super) fn is_hidden(terms: &[f64], weights: &[f64], length: f64) -> bool {
+    let mut rows = terms.iter().zip(weights);
+    rows.any(|(terms, weight)| length * f64::EPSILON * terms * weight > SMALL)
 }
 
 /// A part of the terms of a row. Terms beyond the range of numbers say nothing, which is no small part.

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::{Failure, NOT_SOLVED, SOLVED, SolveArgs, in_file, method, print, print_json, report};
 use crate::io::Problem;
 use crate::pivoting::Attempt;
-use crate::{ContactForces, Info, Method, Ray, Residuals, Route, SoftSprings, Solution, Status};
+use crate::{Certificate, ContactForces, Info, Method, Residuals, Route, Solution, Status};
 
 /// What `--json` prints.
 #[derive(Debug, Serialize)]
@@ -24,7 +24,7 @@ pub(super) struct Answer<'a> {
     pub(super) w: Vec<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) contacts: Option<ContactForces>,
-    certificate: Option<Certificate<'a>>,
+    certificate: Option<&'a Certificate>,
     pub(super) attempts: &'a [Attempt],
     #[serde(skip_serializing_if = "<[Route]>::is_empty")]
     pub(super) routes: &'a [Route],
@@ -36,15 +36,6 @@ pub(super) struct Answer<'a> {
 pub(super) enum Work {
     Pivots { pivots: usize },
     Iterations { iterations: usize, factorisations: usize },
-}
-
-/// Why there is no solution, or none was found, in the general form.
-#[derive(Debug, Serialize)]
-#[serde(tag = "kind", rename_all = "lowercase")]
-enum Certificate<'a> {
-    Ray(&'a Ray),
-    Farkas { pi: &'a [f64] },
-    Springs(&'a SoftSprings),
 }
 
 pub(super) fn run(args: &SolveArgs, out: &mut dyn Write) -> Result<u8, Failure> {
@@ -69,9 +60,6 @@ fn answer<'a>(problem: &Problem, solution: &'a Solution) -> Answer<'a> {
         Problem::Friction(problem) => Some(problem.forces(&z)),
         _ => None,
     };
-    let farkas = solution.farkas.as_deref().map(|pi| Certificate::Farkas { pi });
-    let springs = solution.springs.as_ref().map(Certificate::Springs);
-    let ray = solution.ray.as_ref().map(Certificate::Ray);
     let info = &solution.info;
     Answer {
         status: solution.status,
@@ -84,7 +72,7 @@ fn answer<'a>(problem: &Problem, solution: &'a Solution) -> Answer<'a> {
         z,
         w,
         contacts,
-        certificate: farkas.or(springs).or(ray),
+        certificate: solution.certificate.as_ref(),
         attempts: &info.attempts,
         routes: &info.routes,
     }

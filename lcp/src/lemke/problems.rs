@@ -3,8 +3,8 @@
 use super::{Lemke, Progress};
 use crate::lower::{Lowered, judged_by};
 use crate::{
-    Basis, Contact2d, Covering, Error, HorizontalLcp, Iteration, LemkeSettings, Method, Observer,
-    Side, Solution, Solver, Status, WarmStart,
+    Basis, Certificate, Contact2d, Covering, Error, HorizontalLcp, Iteration, LemkeSettings,
+    Method, Observer, Side, Solution, Solver, Status, WarmStart,
 };
 
 impl Lemke {
@@ -68,8 +68,9 @@ impl Solver<Contact2d> for Lemke {
         (solution.t, solution.y) = problem.to_pairs(&state);
         solution.contact = Some(state);
         // These belong to the pairs of the mixed problem.
-        (solution.basis, solution.ray) = (None, None);
-        solution.farkas = solution.farkas.map(|pi| problem.farkas_of_mixed(&pi));
+        solution.basis = None;
+        solution.certificate =
+            solution.farkas().map(|pi| Certificate::Farkas { pi: problem.farkas_of_mixed(pi) });
         Ok(solution)
     }
 }

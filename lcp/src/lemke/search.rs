@@ -19,8 +19,8 @@ use crate::pivoting::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Perturbation, PivotRecord,
 };
 use crate::{
-    Basis, Covering, HorizontalLcp, Info, LemkeSettings, Matrix, Ray, Side, Solution, Status,
-    WarmStart,
+    Basis, Certificate, Covering, HorizontalLcp, Info, LemkeSettings, Matrix, Ray, Side, Solution,
+    Status, WarmStart,
 };
 
 /// Up to this order a proof is also searched by least squares in twice the digits, which singular bases
@@ -167,11 +167,12 @@ impl<'a> Search<'a> {
             let search = Search::new(&settings, &completed, self.deadline);
             let solution = Search { is_completed: true, ..search }.run(observer);
             let point = without_artificial(self.problem.problem, chosen, side, &solution);
+            let proves = |pi: &&[f64]| is_proof(self.problem.problem, pi);
+            let proof = solution.farkas().filter(proves).map(<[f64]>::to_vec);
             self.info.pivots += solution.info.pivots;
             self.info.factorisations += solution.info.factorisations;
             self.info.pivot_seconds += solution.info.pivot_seconds;
             self.info.attempts.extend(solution.info.attempts);
-            self.trace.extend(solution.trace);
             match (solution.status, point) {
                 (Status::Cancelled | Status::TimeLimit, _) => return self.give_up(solution.status),
                 (_, Some(point)) if point.residuals.worst() <= self.settings.tolerance => {
@@ -179,8 +180,8 @@ impl<'a> Search<'a> {
                 }
                 _ => {}
             }
-            let proves = |pi: &Vec<f64>| is_proof(self.problem.problem, pi);
-            self.farkas = solution.farkas.filter(proves);
+            self.trace.extend(solution.trace);
+            self.farkas = proof;
             if self.farkas.is_some() {
                 return self.give_up(Status::Infeasible);
             }
@@ -422,9 +423,7 @@ impl<'a> Search<'a> {
             contact: None,
             basis: Some(basis),
             residuals,
-            ray: None,
-            farkas: None,
-            springs: None,
+            certificate: None,
             condition: Some(condition),
             trace: self.trace,
             info: self.info,
@@ -435,7 +434,8 @@ impl<'a> Search<'a> {
     fn give_up(self, status: Status) -> Solution {
         let zero = vec![0.0; self.problem.order()];
         let residuals = self.problem.judge.residuals(&zero, &zero, Precision::Exact);
-        let says_ray = matches!(status, Status::RayTermination | Status::Infeasible);
+        let proof = self.farkas.map(|pi| Certificate::Farkas { pi });
+        let ray = self.ray.filter(|_| status == Status::RayTermination).map(Certificate::Ray);
         Solution {
             status,
             t: zero.clone(),
@@ -443,9 +443,7 @@ impl<'a> Search<'a> {
             contact: None,
             basis: None,
             residuals,
-            ray: self.ray.filter(|_| says_ray),
-            farkas: self.farkas,
-            springs: None,
+            certificate: proof.or(ray),
             condition: None,
             trace: self.trace,
             info: self.info,

@@ -20,7 +20,7 @@ pub(crate) fn gram(entries: &[f64], n: usize, rank: usize) -> Mat<f64> {
 }
 
 pub(crate) fn assert_proof(problem: &HorizontalLcp, solution: &Solution) {
-    let pi = solution.farkas.as_ref().unwrap();
+    let pi = solution.farkas().unwrap();
     for matrix in [problem.a(), problem.b()] {
         for j in 0..problem.order() {
             let terms = matrix.column(j).map(|(i, v)| v * pi[i]);

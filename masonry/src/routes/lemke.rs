@@ -114,7 +114,7 @@ impl Search<'_> {
             coulomb_residuals: rows.as_ref().and_then(|rows| self.against_coulomb(&form, rows)),
             ..SolveInfo::new(solution.status, solution.residuals)
         };
-        let ray = solution.ray.filter(|_| form.kind == FormKind::Mixed);
+        let ray = solution.ray().filter(|_| form.kind == FormKind::Mixed).cloned();
         let ray = ray.and_then(|ray| form.amplitudes(&ray.dt));
         let kind = form.kind;
         if form.kind == FormKind::Coulomb {

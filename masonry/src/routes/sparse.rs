@@ -1,6 +1,6 @@
 //! What the routes on the sparse problem have in common: answers in the shape of all routes.
 
-use lcp::{ContactState, Residuals, SoftSprings, Solution, Status};
+use lcp::{Certificate, ContactState, Residuals, SoftSprings, Solution, Status};
 
 use super::{Answer, Motion};
 use crate::forms::Sparse;
@@ -24,7 +24,14 @@ pub(super) struct Found {
 
 impl Found {
     pub(super) fn of(sparse: &Sparse, solution: Solution) -> Self {
+        let (springs, proof) = match solution.certificate {
+            Some(Certificate::Springs(springs)) => (Some(springs), None),
+            Some(Certificate::Farkas { pi }) => (None, Some(pi)),
+            _ => (None, None),
+        };
         Self {
+            springs,
+            proof,
             status: solution.status,
             state: solution
                 .contact
@@ -32,8 +39,6 @@ impl Found {
             residuals: solution.residuals,
             iterations: solution.info.iterations,
             factorisations: solution.info.factorisations,
-            springs: solution.springs,
-            proof: solution.farkas,
         }
     }
 }

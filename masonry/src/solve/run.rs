@@ -78,6 +78,7 @@ const UNKNOWN: lcp::Residuals = lcp::Residuals {
     feasibility: f64::INFINITY,
     complementarity: f64::INFINITY,
     natural: f64::INFINITY,
+    loads: f64::INFINITY,
 };
 
 /// What the last step that was solved has come to.

@@ -86,6 +86,7 @@ pub(crate) fn solved(wall: Wall) -> Outcome {
                 feasibility: 0.0,
                 complementarity: 0.0,
                 natural: 2.3e-15,
+                loads: 2.3e-15,
             },
             coulomb_residuals: None,
         },

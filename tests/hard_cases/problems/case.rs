@@ -285,7 +285,7 @@ impl Case {
         if self.is_solvable() {
             return Some("there is a solution".to_owned());
         }
-        let is_proved = solution.farkas.as_ref().is_some_and(|pi| is_proof(general, pi));
+        let is_proved = solution.farkas().is_some_and(|pi| is_proof(general, pi));
         if !is_proved {
             return Some("the proof is none".to_owned());
         }

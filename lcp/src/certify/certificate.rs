@@ -1,0 +1,137 @@
+//! What shows that a problem has no solution.
+
+use super::farkas::{is_proof, is_proof_of};
+use super::ledger::ratio;
+use crate::matrix::Column;
+use crate::solution::{Ray, SoftSprings};
+use crate::{HorizontalLcp, Side};
+
+/// What shows that there is no solution, or what was met in place of one. See
+/// [`Solution::certificate`](crate::Solution::certificate).
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum Certificate {
+    /// A proof that the linear conditions have no solution: a vector `pi` of the rows with `A^T pi <= 0`,
+    /// `B^T pi <= 0` and `c.pi > 0` (Farkas 1902). Its largest entry is one.
+    Farkas {
+        /// The vector.
+        pi: Vec<f64>,
+    },
+    /// A proof that the linear conditions have no complementary solution: for every choice of the variables that
+    /// may be positive, one of a pair, a Farkas vector.
+    Choices(Vec<Leaf>),
+    /// A secondary ray on which pivots ended. It proves nothing.
+    Ray(Ray),
+    /// Soft springs that keep their share of the load, however soft they are. Of elastic bodies with friction this
+    /// is evidence and no proof.
+    Springs(SoftSprings),
+}
+
+/// Choices of sides for which the linear conditions have no solution.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Leaf {
+    /// The side of every pair that may be positive; `None` where both may.
+    pub sides: Vec<Option<Side>>,
+    /// A Farkas vector for the columns of these sides.
+    pub pi: Vec<f64>,
+}
+
+impl Certificate {
+    /// Whether it proves that there is no solution, if it [holds](Self::holds).
+    pub fn is_proof(&self) -> bool {
+        matches!(self, Self::Farkas { .. } | Self::Choices(_))
+    }
+
+    /// Checks what the certificate says against the data of the general form of the problem: products with the
+    /// columns are summed with twice the digits, and may be wrong by what the rounding of the vector makes
+    /// them.
+    ///
+    /// ```
+    /// use faer::mat;
+    /// use lcp::{Certificate, HorizontalLcp, Lcp, Lemke, Solver, Status};
+    /// // w = -1 whatever z
+    /// let problem = HorizontalLcp::from(Lcp::new(mat![[0.0]], vec![-1.0])?);
+    /// let solution = Lemke::default().solve(&problem)?;
+    /// assert_eq!(solution.status, Status::Infeasible);
+    /// assert!(solution.certificate.is_some_and(|it| it.is_proof() && it.holds(&problem)));
+    /// assert!(!Certificate::Farkas { pi: vec![1.0] }.holds(&problem));
+    /// # Ok::<(), lcp::Error>(())
+    /// ```
+    pub fn holds(&self, problem: &HorizontalLcp) -> bool {
+        match self {
+            Self::Farkas { pi } => is_proof(problem, pi),
+            Self::Choices(leaves) => {
+                covers_all(leaves, problem.order())
+                    && leaves.iter().all(|leaf| leaf.is_proof(problem))
+            }
+            Self::Ray(ray) => is_ray(problem, ray),
+            Self::Springs(springs) => keep_their_share(springs),
+        }
+    }
+}
+
+impl Leaf {
+    fn is_proof(&self, problem: &HorizontalLcp) -> bool {
+        let columns = self.sides.iter().enumerate().flat_map(|(pair, chosen)| {
+            [Side::T, Side::Y]
+                .into_iter()
+                .filter(move |side| chosen.is_none_or(|chosen| chosen == *side))
+                .map(move |side| problem.column(pair, side))
+        });
+        is_proof_of(columns, problem.c(), &self.pi)
+    }
+}
+
+/// Whether every choice of one side of every pair belongs to exactly one leaf: no two of them have one in common,
+/// and their shares of all choices add up to one.
+fn covers_all(leaves: &[Leaf], n: usize) -> bool {
+    let are_apart = |a: &Leaf, b: &Leaf| {
+        let mut pairs = a.sides.iter().zip(&b.sides);
+        pairs.any(|(a, b)| matches!((a, b), (Some(a), Some(b)) if a != b))
+    };
+    let share = |leaf: &Leaf| {
+        let fixed = leaf.sides.iter().filter(|side| side.is_some()).count();
+        i32::try_from(fixed).map_or(0.0, |fixed| 2_f64.powi(-fixed))
+    };
+    leaves.iter().all(|leaf| leaf.sides.len() == n)
+        && leaves.iter().enumerate().all(|(k, a)| leaves[..k].iter().all(|b| are_apart(a, b)))
+        && (leaves.iter().map(share).sum::<f64>() - 1.0).abs() < f64::EPSILON
+}
+
+/// `A dt + B dy = covering dz0`, nothing negative, and `dt.dy = 0`, to rounding errors.
+fn is_ray(problem: &HorizontalLcp, ray: &Ray) -> bool {
+    const ROUNDING: f64 = 1e-8;
+    let n = problem.order();
+    let Ray { dt, dy, dz0, covering } = ray;
+    if [dt, dy, covering].iter().any(|v| v.len() != n) {
+        return false;
+    }
+    let mut rest: Vec<f64> = covering.iter().map(|d| -d * dz0).collect();
+    let mut terms: Vec<f64> = rest.iter().map(|v| v.abs()).collect();
+    for (side, x) in [(Side::T, dt), (Side::Y, dy)] {
+        for (pair, x) in x.iter().enumerate().filter(|(_, x)| **x != 0.0) {
+            let column: Column<'_> = problem.column(pair, side);
+            column.for_each(|i, v| {
+                rest[i] += v * x;
+                terms[i] += (v * x).abs();
+            });
+        }
+    }
+    let holds = rest.iter().zip(&terms).all(|(rest, terms)| ratio(*rest, *terms) <= ROUNDING);
+    let is_free = |pair: usize| problem.opposite(pair).is_some();
+    let fits = |pair: usize| {
+        dt[pair] >= 0.0 && dy[pair] >= 0.0 && (is_free(pair) || dt[pair].min(dy[pair]) == 0.0)
+    };
+    holds && *dz0 >= 0.0 && (0..n).all(fits)
+}
+
+/// Whether the softest springs carry no less than half of what the stiffest carry.
+fn keep_their_share(springs: &SoftSprings) -> bool {
+    match (springs.shares.first(), springs.shares.last()) {
+        (Some(first), Some(last)) => *last >= 0.5 * first && *last > 0.0,
+        _ => false,
+    }
+}

@@ -1,0 +1,78 @@
+//! The judge of points can say no: problems of all classes that are made for a point, in all units, with blocks a
+//! trillion times larger than others, and what must be seen when a little of that is changed.
+
+#![allow(clippy::unwrap_used)] // a test may panic
+#![allow(clippy::float_cmp)] // zeros of small integers
+
+mod common;
+
+#[path = "judge/bounded.rs"]
+mod bounded;
+#[path = "judge/contact.rs"]
+mod contact;
+#[path = "common/draw.rs"]
+mod draw;
+#[path = "judge/friction.rs"]
+mod friction;
+#[path = "judge/general.rs"]
+mod general;
+#[path = "judge/planted.rs"]
+mod planted;
+
+use bounded::{Boxed, Mixed, Standard};
+use common::cases;
+use contact::{Contact, Rough, Smooth};
+use friction::Reduced;
+use general::General;
+use planted::{
+    Planted, assert_components_are_seen, assert_conditions_are_seen, assert_rows_are_seen,
+    assert_solved, planted,
+};
+use proptest::prelude::*;
+
+fn assert_judged<P: Planted>(seed: u64) {
+    let planted: P = planted(seed);
+    assert_solved(&planted);
+    assert_components_are_seen(&planted);
+    assert_rows_are_seen(&planted);
+    assert_conditions_are_seen(&planted);
+}
+
+proptest! {
+    #![proptest_config(cases(1024))]
+
+    #[test]
+    fn general_problems(seed in any::<u64>()) {
+        assert_judged::<General>(seed);
+    }
+
+    #[test]
+    fn standard_problems(seed in any::<u64>()) {
+        assert_judged::<Standard>(seed);
+    }
+
+    #[test]
+    fn mixed_problems(seed in any::<u64>()) {
+        assert_judged::<Mixed>(seed);
+    }
+
+    #[test]
+    fn boxed_problems(seed in any::<u64>()) {
+        assert_judged::<Boxed>(seed);
+    }
+
+    #[test]
+    fn contact_with_friction(seed in any::<u64>()) {
+        assert_judged::<Contact<Rough>>(seed);
+    }
+
+    #[test]
+    fn contact_without_friction(seed in any::<u64>()) {
+        assert_judged::<Contact<Smooth>>(seed);
+    }
+
+    #[test]
+    fn contact_that_is_reduced_to_the_contacts(seed in any::<u64>()) {
+        assert_judged::<Reduced>(seed);
+    }
+}
