@@ -87,6 +87,7 @@ mod settings;
 mod solution;
 mod solve;
 mod sparse;
+mod variables;
 
 pub use faer;
 
@@ -102,8 +103,8 @@ pub use newton::{SemismoothNewton, SemismoothNewtonSettings};
 #[doc(inline)]
 pub use pgs::{ProjectedGaussSeidel, ProjectedGaussSeidelSettings};
 pub use problem::{
-    Bedding, BoxedLcp, Contact2d, ContactForces, ContactState, ErrorBound, Friction2d,
-    HorizontalLcp, Lcp, MixedLcp, Monotonicity, StandardForm,
+    Bedding, BoxedLcp, Contact2d, Contact2dBuilder, ContactForces, ContactPoint, ContactState,
+    ErrorBound, Friction2d, HorizontalLcp, Lcp, MixedLcp, Monotonicity, StandardForm,
 };
 #[cfg(feature = "clarabel")]
 #[doc(inline)]

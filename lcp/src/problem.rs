@@ -11,7 +11,7 @@ mod standard;
 
 pub use bound::{ErrorBound, Monotonicity};
 pub use boxed::BoxedLcp;
-pub use contact::{Bedding, Contact2d, ContactState};
+pub use contact::{Bedding, Contact2d, Contact2dBuilder, ContactPoint, ContactState};
 pub(crate) use contact::{check_epsilon, column_of};
 pub use disguised::StandardForm;
 pub use friction::{ContactForces, Friction2d};

@@ -5,13 +5,13 @@ use std::fmt::Write as _;
 use super::residual_lines;
 use super::solve::{Answer, Work};
 use crate::Status;
-use crate::io::ProblemFile;
 use crate::pivoting::{Attempt, Perturbation};
 
-pub(super) fn text(file: &ProblemFile, answer: &Answer<'_>) -> String {
-    let Answer { status, solver, n, work, time_s, .. } = answer;
-    let mut text = format!("{} of order {n}, read as {}\n", answer.kind, file.format);
-    let _ = writeln!(text, "{status}: {}, {work}, {time_s:.3} s", solver.full_name());
+pub(super) fn text(format: &str, answer: &Answer<'_>) -> String {
+    let Answer { status, solver, n, work, time_s, cpu_s, .. } = answer;
+    let cpu = cpu_s.map_or_else(String::new, |cpu| format!(", {cpu:.3} s of processor time"));
+    let mut text = format!("{} of order {n}, read as {format}\n", answer.kind);
+    let _ = writeln!(text, "{status}: {}, {work}, {time_s:.3} s{cpu}", solver.full_name());
     if let Some(meaning) = meaning(answer) {
         let _ = writeln!(text, "{meaning}");
     }
