@@ -28,7 +28,7 @@
 //! The `.dat` files of that library for linear complementarity problems, mixed ones, and contact
 //! with friction in the plane, reduced to the contacts (`FrictionContactProblem`) or with the velocities of the
 //! bodies (`GlobalFrictionContactProblem`, `M v = q + H r`, `u = H^T v + b`: the problem is a [`Contact2d`] of
-//! velocities and impulses); dense, in sparse blocks, or sparse. Words may follow the last number.
+//! velocities and impulses); dense, in sparse blocks, or sparse. Words for people may follow the last number, except of contact problems.
 //!
 //! # Matrix Market
 //! [`market`] reads the matrices and vectors of a problem one by one.

@@ -10,12 +10,16 @@ use crate::{HorizontalLcp, Side};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Residuals {
     /// Largest row-wise relative residual of `A t + B y = c`.
+    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub equation: f64,
     /// Most negative component of `t` and of `y`, each relative to the largest of its vector.
+    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub feasibility: f64,
     /// Largest `min(t_i / max t, y_i / max y)` over the pairs.
+    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub complementarity: f64,
     /// Largest `|min(t_i / max t, y_i / max y)|`: feasibility and complementarity in one number.
+    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub natural: f64,
 }
 

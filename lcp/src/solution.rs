@@ -5,7 +5,7 @@ use crate::{Basis, ContactState, Method, Residuals};
 
 /// Outcome of a solve. Decided by the mathematics and the limits, never by misuse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Status {
     /// The residuals, recomputed from the original data, are below the tolerance.
@@ -61,7 +61,7 @@ impl std::fmt::Display for Status {
 /// point of the attempt plus `s (dt, dy, dz0)` satisfies `A t + B y = c + covering z0`, so that along
 /// the ray the artificial variable `z0` does not decrease.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Ray {
     /// Direction in `t`.
@@ -76,7 +76,7 @@ pub struct Ray {
 
 /// What soft springs on all displacements of a contact problem carry when they are made softer and softer.
 #[derive(Debug, Clone, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct SoftSprings {
     /// The stiffnesses, relative to that of the bodies.
@@ -90,7 +90,11 @@ pub struct SoftSprings {
 
 /// How a method that [`Auto`](crate::Auto) asked ended.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "lowercase"))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "lowercase")
+)]
 #[non_exhaustive]
 pub enum RouteEnd {
     /// With an answer.
@@ -98,6 +102,7 @@ pub enum RouteEnd {
         /// Its status.
         status: Status,
         /// The worst of its residuals.
+        #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
         residual: f64,
     },
     /// It does not treat the problem.
@@ -118,7 +123,7 @@ impl std::fmt::Display for RouteEnd {
 
 /// A method that [`Auto`](crate::Auto) asked.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Route {
     /// The method.
@@ -134,7 +139,7 @@ pub struct Route {
 
 /// What it cost.
 #[derive(Debug, Clone, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Info {
     /// The method that the point comes from.
@@ -151,6 +156,7 @@ pub struct Info {
     /// Every attempt of a pivoting method, in order.
     pub attempts: Vec<Attempt>,
     /// The residual by which an iterative method stops, at its start and after every iteration.
+    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinities"))]
     pub history: Vec<f64>,
     /// The methods that [`Auto`](crate::Auto) asked, in order; the point comes from one of them, and so do
     /// the other numbers here but for the time.
@@ -164,7 +170,7 @@ pub struct Info {
 
 /// The answer of a solver: always with the residuals of the point that it carries.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Solution {
     /// What the solver found.
@@ -176,7 +182,7 @@ pub struct Solution {
     /// The point of a [`Contact2d`](crate::Contact2d) by its displacements and forces, with all their digits: the
     /// residuals are those of this state. The pairs, with `mu t_n + t_t` and `mu t_n - t_t`, lose some where
     /// `mu` is large.
-    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub contact: Option<ContactState>,
     /// The complementary basis of the point, of methods that end on one: of pivots, of active sets, and of
     /// interior points after a crossover.

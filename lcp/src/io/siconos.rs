@@ -1,7 +1,7 @@
 //! The `.dat` files of Siconos: linear complementarity problems, mixed ones, and contact with
 //! friction in the plane.
 //!
-//! White space separates the words. After the last number words for people may follow.
+//! White space separates the words. Words for people may follow the last number, except of contact problems.
 
 mod global;
 mod matrix;
@@ -35,7 +35,8 @@ pub(super) fn read_friction(text: &str) -> Result<Problem, ReadError> {
     let w = matrix::read(&mut tokens, 2 * contacts, 2 * contacts)?;
     let q = tokens.numbers(2 * contacts, "q")?;
     let mu = frictions(&mut tokens, contacts)?;
-    tokens.end_of_numbers(1)?;
+    tokens.flag();
+    tokens.end("correct the sizes, or take it out")?;
     Problem::friction(w, q, mu, at)
 }
 

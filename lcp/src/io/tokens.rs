@@ -162,6 +162,14 @@ impl<'a> Tokens<'a> {
         }
     }
 
+    /// Passes over 0 or 1, if that comes next.
+    pub(super) fn flag(&mut self) {
+        let mut ahead = self.clone();
+        if ahead.next().is_some_and(|token| matches!(token.text, "0" | "1")) {
+            *self = ahead;
+        }
+    }
+
     /// Refuses whatever is left.
     pub(super) fn end(&mut self, remedy: &'static str) -> Result<(), ReadError> {
         match self.next() {

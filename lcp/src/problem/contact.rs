@@ -45,7 +45,7 @@ pub struct Contact2d {
 
 /// Displacements and contact forces with the gaps and slips that belong to them.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ContactState {
     /// The displacements.

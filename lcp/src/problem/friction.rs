@@ -40,7 +40,7 @@ pub struct Friction2d {
 
 /// The forces at the contacts.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ContactForces {
     /// The normal force at every contact.

@@ -6,6 +6,7 @@ use crate::Matrix;
 use crate::io::ReadError;
 use crate::io::tokens::{Token, Tokens};
 
+const SIZE: &str = "the size, as 3-by-3";
 const SIZES: &str = "sizes must agree with each other";
 
 pub(super) const STORAGE: &str = "the storage type: 0 (dense), 1 (blocks) or 2 (sparse)";
@@ -151,14 +152,15 @@ fn read_sparse(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matr
 
 /// The word with the size, and whether triplets follow.
 fn skip_banner<'a>(tokens: &mut Tokens<'a>) -> Result<(Token<'a>, bool), ReadError> {
-    let mut is_triplets = false;
-    loop {
-        let token = tokens.expect(|| "the size, as 3-by-3".to_owned())?;
-        if token.text.contains("-by-") {
-            return Ok((token, is_triplets));
-        }
+    let first = tokens.expect(|| SIZE.to_owned())?;
+    let (mut token, mut is_triplets) = (first, false);
+    while !token.text.contains("-by-") {
         is_triplets = token.text == "triplet:";
+        // Without a size the file went wrong where the banner should begin, and not at its end.
+        let missing = || first.unexpected(SIZE.to_owned(), "it follows a line about the library");
+        token = tokens.next().ok_or_else(missing)?;
     }
+    Ok((token, is_triplets))
 }
 
 type Triplets = Vec<(usize, usize, f64)>;
