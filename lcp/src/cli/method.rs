@@ -70,7 +70,6 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
                 max_iterations: args.max_iterations.unwrap_or(defaults.max_iterations),
                 time_limit,
                 start,
-                ..defaults
             };
             newton(&SemismoothNewton::new(settings), problem)
         }

@@ -5,7 +5,7 @@ use std::io::{Read, Write};
 use cpu_time::ProcessTime;
 use serde::Serialize;
 
-use super::{Failure, NOT_SOLVED, SOLVED, SolveArgs, in_file, method, print, print_json, report};
+use super::{Failure, NOT_SOLVED, SOLVED, SolveArgs, in_file, method, print, print_json};
 use crate::io::Problem;
 use crate::pivoting::Attempt;
 use crate::{
@@ -72,7 +72,7 @@ pub(super) fn run(
     if args.input.json {
         print_json(out, &answer)?;
     } else {
-        print(out, &report::text(input.format, &answer))?;
+        print(out, &answer.report(input.format))?;
     }
     Ok(if solution.is_solved() { SOLVED } else { NOT_SOLVED })
 }

@@ -26,6 +26,8 @@ pub(super) const BANNER: &str = "%%MatrixMarket";
 
 const LINE: &str =
     "the first line is, for instance, `%%MatrixMarket matrix coordinate real general`";
+/// A vector with zeros may be longer than its file by this factor; beyond it is a mistake.
+const ZEROS: usize = 1000;
 const SIZES: &str = "the matrix must fit the other parts of the problem";
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,10 +77,8 @@ pub fn read_vector(content: &[u8]) -> Result<Vec<f64>, ReadError> {
     Header::of(&text)?;
     let mut tokens = Tokens::with_comments(&text, '%');
     let rows = tokens.count("the number of rows")?;
-    // A vector of zeros may be far longer than its file; this one would be a mistake.
-    const LONGEST: usize = 1000;
     let words = text.split_whitespace().count();
-    if rows / LONGEST > words {
+    if rows / ZEROS > words {
         return Err(ReadError::TooShort {
             at: tokens.position(),
             what: "the vector",
@@ -160,7 +160,7 @@ fn array(
     let all = rows.checked_mul(cols);
     let needed = match symmetry {
         Symmetry::General => all,
-        Symmetry::Symmetric => all.map(|all| (all + rows) / 2),
+        Symmetry::Symmetric => all.map(|all| all.midpoint(rows)),
         Symmetry::Skew => all.map(|all| (all - rows) / 2),
     };
     tokens.room_for(needed, "the matrix")?;

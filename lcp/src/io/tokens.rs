@@ -66,7 +66,7 @@ impl<'a> Tokens<'a> {
                     self.next = Position { line: self.next.line + 1, column: 1 };
                 }
                 c if c == self.comment => {
-                    self.skip(self.rest.find('\n').unwrap_or(self.rest.len()))
+                    self.skip(self.rest.find('\n').unwrap_or(self.rest.len()));
                 }
                 _ => {
                     let ends = |c: char| c == self.comment || c.is_whitespace();
