@@ -180,7 +180,7 @@ impl Step {
         if !solution.is_solved() {
             return Err(format!("{}: {}", solver.method(), solution.status).into());
         }
-        let state = problem.recover(&solution.t, &solution.y);
+        let state = problem.variables(&solution);
         Ok(Self { contacts, solution, state })
     }
 

@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
+#[path = "lcp_cli/input.rs"]
+mod input;
 #[path = "lcp_cli/methods.rs"]
 mod methods;
 use std::ffi::OsString;
@@ -18,9 +20,13 @@ struct Run {
 
 impl Run {
     fn of(args: &[&str]) -> Self {
+        Self::with_input("", args)
+    }
+
+    fn with_input(input: &str, args: &[&str]) -> Self {
         let (mut out, mut err) = (Vec::new(), Vec::new());
         let args = std::iter::once("lcp").chain(args.iter().copied()).map(OsString::from);
-        let code = lcp::cli::run(args, &mut out, &mut err);
+        let code = lcp::cli::run(args, &mut input.as_bytes(), &mut out, &mut err);
         let text = |bytes| String::from_utf8(bytes).unwrap();
         Self { code, out: text(out), err: text(err) }
     }
@@ -78,7 +84,7 @@ fn a_solved_problem_is_one_object() {
     assert_eq!((&answer["n"], &answer["certificate"]), (&2.into(), &Value::Null));
     assert_near(&answer["z"], &[4.0 / 3.0, 7.0 / 3.0]);
     assert_near(&answer["w"], &[0.0, 0.0]);
-    assert!(answer["time_s"].as_f64().unwrap() >= 0.0);
+    assert!(answer["time_s"].as_f64().unwrap() >= 0.0 && answer["cpu_s"].as_f64().unwrap() >= 0.0);
     assert!(answer["pivots"].as_u64().unwrap() >= 1);
     for name in ["equation", "feasibility", "complementarity", "natural"] {
         assert!(answer["residuals"][name].as_f64().unwrap() <= 1e-12, "{name}");
@@ -302,6 +308,6 @@ fn a_closed_pipe_is_not_a_failure() {
     let file = folder.file("problem.txt", TEXT);
     let args = ["lcp", "solve", &file, "--json"].map(OsString::from);
     let mut err = Vec::new();
-    assert_eq!(lcp::cli::run(args, &mut Closed, &mut err), 0);
+    assert_eq!(lcp::cli::run(args, &mut std::io::empty(), &mut Closed, &mut err), 0);
     assert!(err.is_empty() && Path::new(&file).exists());
 }

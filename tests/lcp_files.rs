@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 use lcp::faer::Mat;
 use lcp::io::{Problem, read_file};
-use lcp::{Auto, Lemke, Solver, Status};
+use lcp::{Auto, Solver, Status};
 use transform::{Equivalent, extended, permuted, premultiplied, rescaled, scaled, swapped};
 
 /// What is known of the solutions `(z, w)`.

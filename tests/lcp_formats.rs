@@ -2,8 +2,12 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
+#[path = "lcp_formats/contact.rs"]
+mod contact;
 #[path = "lcp_formats/damage.rs"]
 mod damage;
+#[path = "lcp_formats/market.rs"]
+mod market;
 use lcp::Matrix;
 use lcp::io::{Format, Position, Problem, ReadError, read, to_json};
 
@@ -201,11 +205,11 @@ fn friction_becomes_a_standard_problem() {
     assert_eq!(negative.position(), Some(at(1, 31)), "{negative}");
 }
 
-/// Blocks that are all zero, with four numbers of `q` and five more: as plain text all of them are
-/// the 21 numbers of a problem of order 4.
+/// Blocks that are all zero, and four numbers of `q`: as plain text all of them are the 21 numbers of a problem
+/// of order 4.
 #[test]
 fn a_file_that_fits_two_formats_is_refused() {
-    let text = "4  1 4 4  0 1 1  4 4  1 0  0  -1 -2 -3 -4  0 0 0 0 0";
+    let text = "4  1 4 4  0 3 3  1 2 4  1 2 4  2 0  0 0  -1 -2 -3 -4";
     let expected = ReadError::Ambiguous { formats: vec![Format::Text, Format::SiconosLcp] };
     assert_eq!(error(text), expected);
     assert!(expected.to_string().contains("as text or as siconos-lcp"));
@@ -219,6 +223,42 @@ fn a_file_that_is_nearly_complete_is_of_its_format() {
     let error = read(b"2\n1 0\n0 1\n-1\n", None).unwrap_err();
     assert!(matches!(&error, ReadError::Unrecognised { format: Format::Text, .. }), "{error}");
     assert!(error.to_string().contains("M and q needs 6 more numbers, but at most 5"), "{error}");
+}
+
+/// In no format is anything left over: numbers that no size announces are a mistake, and not for people.
+#[test]
+fn more_numbers_than_announced_are_refused() {
+    for (format, text, place) in [
+        (Format::Text, "1 2 -3 4", at(1, 8)),
+        (Format::SiconosLcp, "1 0 1 1 1 1 2 -3 4 words", at(1, 18)),
+        (Format::SiconosFriction, "2 1 0 2 2 2 2  2 1 1 3  -1 4  0.5  1 2", at(1, 38)),
+        // A known answer has n + 2 m numbers at most: here three.
+        (Format::SiconosMlcp, "0 1 1 1 2 6 3 5 4 7  1 2 3 4", at(1, 28)),
+        (Format::Json, r#"{"kind": "lcp", "m": [[1]], "q": [1]} 2"#, at(1, 39)),
+    ] {
+        let error = error_as(format, text);
+        assert_eq!(error.position(), Some(place), "{text}: {error}");
+    }
+    for text in [
+        "1 0 1 1 1 1 2 -3 words 4",
+        "0 1 1 1 2 6 3 5 4 7  1 2 3",
+        "0 1 1 1 2 6 3 5 4 7  1 2 3 words",
+    ] {
+        assert!(read(text.as_bytes(), None).is_ok(), "{text}");
+    }
+}
+
+#[test]
+fn unknown_formats_name_the_known_ones() {
+    let names = "json, text, siconos-lcp, siconos-mlcp, siconos-friction, siconos-global-friction";
+    let message = "xml".parse::<Format>().unwrap_err().to_string();
+    assert_eq!(message, format!("there is no format `xml`: take one of {names}"));
+    let message = error("<lcp>").to_string();
+    assert!(
+        message.starts_with("line 1, column 1: expected") && message.contains(names),
+        "{message}"
+    );
+    assert_eq!(Format::ALL.map(|format| format.name().parse()), Format::ALL.map(Ok));
 }
 
 #[test]

@@ -17,7 +17,7 @@ use crate::{Error, Method, Observer, Solution, Solver};
 
 /// A method of a plan, and why it stands there.
 #[derive(Debug, Clone, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Choice {
     /// The method.

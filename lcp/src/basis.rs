@@ -29,7 +29,7 @@ impl Side {
 /// assert_eq!(basis.sides().len(), 3);
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Basis(Vec<Side>);
 
 impl Basis {

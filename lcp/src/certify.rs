@@ -49,16 +49,21 @@ use crate::Status;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Residuals {
     /// Largest `|r_i| / terms_i` of what is left of a row and the sum of the sizes of its terms.
+    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub equation: f64,
     /// The largest effect of a component that violates its sign or its bound: the largest
     /// `|a_ij x_j| / terms_i` of the change that takes the violation away.
+    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub feasibility: f64,
     /// The largest effect of the smaller one of a pair whose variables are both positive.
+    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub complementarity: f64,
     /// Feasibility and complementarity in one number.
+    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub natural: f64,
     /// What is left of a row, and of the changes that feasibility and complementarity ask for, against the
     /// largest right-hand side of its connected part in equilibrated units.
+    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub loads: f64,
 }
 

@@ -5,20 +5,21 @@
 
 mod check;
 mod info;
+mod input;
 mod method;
 mod report;
 mod solve;
 
 use std::ffi::OsString;
 use std::fmt::Write as _;
-use std::io::{ErrorKind, Write};
+use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
-use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 
-use crate::io::{Format, ProblemFile, ReadError, read_file};
-use crate::{LemkeSettings, Method, Residuals};
+use input::InputArgs;
+
+use crate::{Covering, LemkeSettings, Method, Residuals};
 
 /// Solves linear complementarity problems: w = M z + q, z >= 0, w >= 0, z.w = 0, and their relatives
 /// with free and bounded variables, in general form, and for contact with friction.
@@ -52,6 +53,15 @@ struct SolveArgs {
     /// Pivots of one attempt of lemke; auto then takes that.
     #[arg(long, value_name = "N")]
     max_pivots: Option<usize>,
+    /// Attempts of lemke, each from another start or with another covering vector; auto then takes that.
+    #[arg(long, value_name = "N")]
+    attempts: Option<usize>,
+    /// Covering vector of the first attempt of lemke, `ones` or `random:SEED`; auto then takes that.
+    #[arg(long, value_name = "D", value_parser = method::covering)]
+    covering: Option<Covering>,
+    /// Where the method starts: `all-y`, `all-t`, or a file with a point, as `lcp solve --json` writes it.
+    #[arg(long, value_name = "START")]
+    start: Option<PathBuf>,
     /// Iterations of pgs, newton or interior; of qp those within one program.
     #[arg(long, value_name = "N")]
     max_iterations: Option<usize>,
@@ -64,10 +74,13 @@ struct SolveArgs {
 }
 
 #[derive(Debug, Args)]
+#[command(allow_missing_positional = true)]
 struct CheckArgs {
     #[command(flatten)]
     input: InputArgs,
-    /// The point: a JSON object with `z`, and `w` unless it is M z + q; other fields do not matter.
+    /// The point: a JSON object with `z`, and `w` unless it is M z + q; of contact problems `contact` with `u`,
+    /// `t_n` and `t_t` instead. Other fields do not matter.
+    #[arg(required = true)]
     solution: PathBuf,
     /// Largest residual of a point that counts as a solution.
     #[arg(long, value_name = "T", default_value_t = LemkeSettings::default().tolerance)]
@@ -80,18 +93,6 @@ struct InfoArgs {
     input: InputArgs,
 }
 
-#[derive(Debug, Args)]
-struct InputArgs {
-    /// The file with the problem.
-    file: PathBuf,
-    /// The format of the file; by default what its content fits.
-    #[arg(long, value_name = "F", value_parser = PossibleValuesParser::new(Format::ALL.map(Format::name)))]
-    format: Option<String>,
-    /// Print one JSON object instead of the report.
-    #[arg(long)]
-    json: bool,
-}
-
 type Failure = Box<dyn std::error::Error>;
 
 const SOLVED: u8 = 0;
@@ -101,11 +102,12 @@ const BAD_INPUT: u8 = 2;
 /// Runs the program on its arguments, the first of which is its name, and gives the exit code.
 pub fn run(
     args: impl IntoIterator<Item = OsString>,
+    input: &mut dyn Read,
     out: &mut dyn Write,
     err: &mut dyn Write,
 ) -> u8 {
     let (code, message) = match Cli::try_parse_from(args) {
-        Ok(cli) => match execute(&cli.command, out) {
+        Ok(cli) => match execute(&cli.command, input, out) {
             Ok(code) => return code,
             Err(failure) => (BAD_INPUT, format!("error: {failure}\n")),
         },
@@ -121,21 +123,11 @@ pub fn run(
     code
 }
 
-fn execute(command: &Command, out: &mut dyn Write) -> Result<u8, Failure> {
+fn execute(command: &Command, input: &mut dyn Read, out: &mut dyn Write) -> Result<u8, Failure> {
     match command {
-        Command::Solve(args) => solve::run(args, out),
-        Command::Check(args) => check::run(args, out),
-        Command::Info(args) => info::run(args, out),
-    }
-}
-
-impl InputArgs {
-    fn read(&self) -> Result<ProblemFile, Failure> {
-        let format = self.format.as_deref().and_then(Format::from_name);
-        read_file(&self.file, format).map_err(|error| match error {
-            ReadError::File { .. } => error.into(),
-            _ => in_file(&self.file, &error),
-        })
+        Command::Solve(args) => solve::run(args, input, out),
+        Command::Check(args) => check::run(args, input, out),
+        Command::Info(args) => info::run(args, input, out),
     }
 }
 

@@ -33,6 +33,57 @@ pub enum Error {
         /// The entry.
         value: f64,
     },
+    /// An entry outside a matrix.
+    #[error("entry ({row}, {col}) lies outside a matrix of {rows} x {cols}: indices begin at 0")]
+    Outside {
+        /// Row of the entry, from 0.
+        row: usize,
+        /// Column of the entry, from 0.
+        col: usize,
+        /// Rows of the matrix.
+        rows: usize,
+        /// Columns of the matrix.
+        cols: usize,
+    },
+    /// Rows of different lengths.
+    #[error("row {row} has {len} entries, but row 0 has {expected}: all rows must be equally long")]
+    RowLength {
+        /// The row, from 0.
+        row: usize,
+        /// Entries that it has.
+        len: usize,
+        /// Entries of the first row.
+        expected: usize,
+    },
+    /// An entry of a row of a contact point.
+    #[error(
+        "contact point {point} has the entry ({index}, {value}) in its {row} row: the index must be below \
+         {displacements}, the number of displacements, and the value finite"
+    )]
+    PointEntry {
+        /// The point, from 0.
+        point: usize,
+        /// Which row.
+        row: &'static str,
+        /// The displacement that the entry names, from 0.
+        index: usize,
+        /// The entry.
+        value: f64,
+        /// Number of displacements.
+        displacements: usize,
+    },
+    /// A number of a contact point.
+    #[error("contact point {point} has the {name} {value}, but it must be {range}")]
+    PointValue {
+        /// The point, from 0.
+        point: usize,
+        /// Which number.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What is allowed.
+        range: &'static str,
+    },
     /// A matrix that must be symmetric and is not.
     #[error(
         "{what} must be symmetric, but {what}[{row}, {col}] is {value} and {what}[{col}, {row}] is {mirrored}"

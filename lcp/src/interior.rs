@@ -82,7 +82,7 @@ use crate::{Certificate, Error, Iteration, Method, Observer, Solution, Status};
 /// )?;
 /// let solution = InteriorPoint::default().solve(&contact)?;
 /// assert!(solution.is_solved());
-/// let state = contact.recover(&solution.t, &solution.y);
+/// let state = contact.variables(&solution);
 /// assert!((state.slip[0] - 0.1).abs() < 1e-14 && (state.t_t[0] + 1.0).abs() < 1e-14);
 /// # Ok::<(), lcp::Error>(())
 /// ```

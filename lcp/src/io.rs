@@ -1,8 +1,8 @@
 //! Problems in files.
 //!
 //! [`read_file`] and [`read`] give the problem and the format in which they found it. The format is
-//! known by the content, or named by the caller; a file that fits two formats is refused rather
-//! than guessed at.
+//! known by the content, or named by the caller; a file that fits two formats, or none, is refused rather
+//! than guessed at. So is a file with more in it than its problem.
 //!
 //! # JSON
 //! One object with a `kind` and the fields of that kind, all of them and no others:
@@ -14,6 +14,7 @@
 //! | `"mixed"` | `m`, `q`, `free` (booleans) | [`MixedLcp`] |
 //! | `"boxed"` | `m`, `q`, `lower`, `upper` (`null`: no bound) | [`BoxedLcp`] |
 //! | `"friction"` | `w`, `q`, `mu` | [`Friction2d`] |
+//! | `"contact"` | `k`, `f`, `c_n`, `c_t`, `x_0`, `s_0`, `mu` | [`Contact2d`] |
 //!
 //! A matrix is an array of its rows, or `{"rows": 2, "cols": 2, "triplets": [[0, 1, 2.5]]}` with
 //! indices from 0 and values that add up where they coincide. [`to_json`] writes this form, with
@@ -25,10 +26,16 @@
 //!
 //! # Siconos
 //! The `.dat` files of that library for linear complementarity problems, mixed ones, and contact
-//! with friction in the plane; dense, in sparse blocks, or sparse.
+//! with friction in the plane, reduced to the contacts (`FrictionContactProblem`) or with the velocities of the
+//! bodies (`GlobalFrictionContactProblem`, `M v = q + H r`, `u = H^T v + b`: the problem is a [`Contact2d`] of
+//! velocities and impulses); dense, in sparse blocks, or sparse. Words for people may follow the last number, except of contact problems.
+//!
+//! # Matrix Market
+//! [`market`] reads the matrices and vectors of a problem one by one.
 
 mod error;
 mod json;
+pub mod market;
 mod problem;
 mod siconos;
 mod text;
@@ -37,7 +44,7 @@ mod tokens;
 use std::path::Path;
 
 #[cfg(doc)]
-use crate::{BoxedLcp, Friction2d, HorizontalLcp, Lcp, MixedLcp};
+use crate::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, MixedLcp};
 
 pub use error::{Position, ReadError};
 pub use json::to_json;
@@ -55,14 +62,22 @@ pub enum Format {
     SiconosLcp,
     /// A mixed linear complementarity problem of Siconos.
     SiconosMlcp,
-    /// A contact problem of Siconos with friction in the plane.
+    /// A contact problem of Siconos with friction in the plane, reduced to the contacts.
     SiconosFriction,
+    /// A contact problem of Siconos with friction in the plane, with the velocities of the bodies.
+    SiconosGlobalFriction,
 }
 
 impl Format {
     /// All formats.
-    pub const ALL: [Self; 5] =
-        [Self::Json, Self::Text, Self::SiconosLcp, Self::SiconosMlcp, Self::SiconosFriction];
+    pub const ALL: [Self; 6] = [
+        Self::Json,
+        Self::Text,
+        Self::SiconosLcp,
+        Self::SiconosMlcp,
+        Self::SiconosFriction,
+        Self::SiconosGlobalFriction,
+    ];
 
     /// The name, as it is typed.
     pub fn name(self) -> &'static str {
@@ -72,12 +87,8 @@ impl Format {
             Self::SiconosLcp => "siconos-lcp",
             Self::SiconosMlcp => "siconos-mlcp",
             Self::SiconosFriction => "siconos-friction",
+            Self::SiconosGlobalFriction => "siconos-global-friction",
         }
-    }
-
-    /// The format of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|format| format.name() == name)
     }
 
     fn parse(self, text: &str) -> Result<Problem, ReadError> {
@@ -87,6 +98,7 @@ impl Format {
             Self::SiconosLcp => siconos::read_lcp(text),
             Self::SiconosMlcp => siconos::read_mlcp(text),
             Self::SiconosFriction => siconos::read_friction(text),
+            Self::SiconosGlobalFriction => siconos::read_global(text),
         }
     }
 }
@@ -94,6 +106,16 @@ impl Format {
 impl std::fmt::Display for Format {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.name())
+    }
+}
+
+/// From its name.
+impl std::str::FromStr for Format {
+    type Err = ReadError;
+
+    fn from_str(name: &str) -> Result<Self, ReadError> {
+        let found = Self::ALL.into_iter().find(|format| format.name() == name);
+        found.ok_or_else(|| ReadError::UnknownFormat { name: name.to_owned() })
     }
 }
 
@@ -135,6 +157,9 @@ pub fn read_file(path: &Path, format: Option<Format>) -> Result<ProblemFile, Rea
 pub fn read(content: &[u8], format: Option<Format>) -> Result<ProblemFile, ReadError> {
     let text = String::from_utf8_lossy(content);
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+    if format.is_none() && text.starts_with(market::BANNER) {
+        return Err(ReadError::OneMatrix);
+    }
     let is_json = text.trim_start().starts_with('{');
     match format.or(is_json.then_some(Format::Json)) {
         Some(format) => Ok(ProblemFile { format, problem: format.parse(text)? }),

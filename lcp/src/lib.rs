@@ -1,60 +1,124 @@
-//! Linear complementarity problems in the general (horizontal) form
+//! Linear complementarity problems: contact with friction, obstacles, games, quadratic programs.
 //!
-//! ```text
-//! A t + B y = c,   t >= 0,   y >= 0,   t . y = 0.
-//! ```
+//! # A contact problem
 //!
-//! Frictional contact, games, obstacle problems and quadratic programs lead here. Both matrices
-//! may be singular; the standard form `w = M z + q` is the special case `A = -M`, `B = 1`.
-//!
-//! Problems:
-//!
-//! * [`HorizontalLcp`] is the general form; [`Lcp`], [`MixedLcp`] (with free variables) and [`BoxedLcp`]
-//!   (with bounds) convert into it and back. Matrices are dense or sparse ([`Matrix`]).
-//! * [`Contact2d`] is contact with friction in the plane with sparse matrices and the displacements as
-//!   unknowns, [`Friction2d`] the same reduced to the contacts.
-//!
-//! Methods, each with settings of its own. [`Solver`] is implemented for the problems that a method treats:
-//!
-//! * [`Auto`] chooses one by class and size, says why, and goes on with another where that fails.
-//! * [`Lemke`]: complementary pivoting. Treats everything, proves infeasibility; the one to start with.
-//! * [`SemismoothNewton`]: active sets, for obstacle problems, M- and P-matrices, and for contact.
-//! * `QuadraticProgram` (feature `clarabel`, on by default): symmetric positive semidefinite problems and contact, with friction
-//!   as a sequence of programs; soft constraints.
-//! * [`InteriorPoint`]: large sparse contact problems with friction, and mixed problems.
-//! * [`ProjectedGaussSeidel`]: sweeps, also over rows without a matrix ([`Rows`]).
-//! * [`Parametric`]: the solutions along a line of right-hand sides.
-//!
-//! Answers:
-//!
-//! * [`Solution`] carries the point, its [`Status`], its complementary [`Basis`] where the method has one,
-//!   its [`Residuals`] from the original data, and what it cost ([`Info`]); where there is no solution,
-//!   the proof, or the evidence ([`SoftSprings`]). Any point or basis is a [`WarmStart`] for any method
-//!   that can use it.
-//! * [`Lcp::error_bound`] says how far a point of a monotone problem is from the solution.
+//! A body of weight 2 stands on a plane (`mu = 0.5`), is pushed along it by 1.4, and has a spring of stiffness 3
+//! behind it. Friction holds 1 of the push, and the spring the rest:
 //!
 //! ```
-//! use faer::mat;
-//! use lcp::{Lcp, Lemke, Solver, Status};
+//! use lcp::{Auto, Contact2d, ContactPoint, Solver};
 //!
-//! let lcp = Lcp::new(mat![[2.0, 1.0], [1.0, 2.0]], vec![-5.0, -6.0])?;
-//! let solution = Lemke::default().solve(&lcp)?;
-//! assert_eq!(solution.status, Status::Solved);
-//! assert!(solution.residuals.worst() < 1e-14);
+//! let (x, y) = (0, 1); // the displacements: along the plane, away from it
+//! let mut builder = Contact2d::builder([[3.0, 0.0], [0.0, 0.0]], vec![1.4, -2.0]);
+//! let foot = builder.add_point(ContactPoint {
+//!     normal: &[(y, 1.0)],
+//!     tangent: &[(x, 1.0)],
+//!     gap: 0.0,
+//!     slip: 0.0,
+//!     mu: 0.5,
+//! });
+//! let contact = builder.build()?;
+//! let solution = Auto::default().solve(&contact)?;
+//! assert!(solution.is_solved());
+//! let state = contact.variables(&solution);
+//! assert!((state.t_n[foot] - 2.0).abs() < 1e-12 && (state.t_t[foot] + 1.0).abs() < 1e-12);
+//! assert!((3.0 * state.u[x] - 0.4).abs() < 1e-12);
 //! # Ok::<(), lcp::Error>(())
 //! ```
 //!
-//! The guides `docs/lcp.md` and `docs/methods.md` of the repository say which method to take when, and how
-//! each works.
+//! # A time step
 //!
-//! With the feature `io` problems are read from files, and with `cli` there is the program `lcp`.
-//! With `exact` all solutions of a small problem are found in rational arithmetic. The module
-//! [`families`] makes problems whose answers are known.
+//! With the mass matrix in place of the stiffness the unknowns are velocities and the forces are impulses: within a
+//! step `h` a point may close its gap and no more, `gap / h + v_n >= 0`. A block falls on the floor and slides until
+//! it rests:
+//!
+//! ```
+//! use lcp::{Auto, Contact2d, ContactPoint, Solver};
+//!
+//! let (mass, gravity, mu, h) = (2.0, 9.81, 0.3, 0.01);
+//! let (mut position, mut velocity) = ([0.0, 0.05], [1.0, 0.0]);
+//! for _ in 0..100 {
+//!     // M v_new = M v_old + h f + impulses
+//!     let momentum = vec![mass * velocity[0], mass * (velocity[1] - h * gravity)];
+//!     let mut builder = Contact2d::builder([[mass, 0.0], [0.0, mass]], momentum);
+//!     builder.add_point(ContactPoint {
+//!         normal: &[(1, 1.0)],
+//!         tangent: &[(0, 1.0)],
+//!         gap: position[1] / h,
+//!         slip: 0.0,
+//!         mu,
+//!     });
+//!     let step = builder.build()?;
+//!     let state = step.variables(&Auto::default().solve(&step)?);
+//!     for i in 0..2 {
+//!         velocity[i] = state.u[i];
+//!         position[i] += h * velocity[i];
+//!     }
+//! }
+//! assert!(velocity.iter().all(|v| v.abs() < 1e-9) && position[1].abs() < 1e-9);
+//! # Ok::<(), lcp::Error>(())
+//! ```
+//!
+//! # Problems
+//!
+//! All of them become the general (horizontal) form, in which both matrices may be singular:
+//!
+//! ```text
+//! A t + B y = c,   t >= 0,   y >= 0,   t . y = 0
+//! ```
+//!
+//! | type | problem | `problem.variables(&solution)` |
+//! |---|---|---|
+//! | [`Contact2d`] | contact with friction in the plane, sparse, with all displacements or velocities | [`ContactState`]: displacements, forces, gaps, slips |
+//! | [`Friction2d`] | the same reduced to the contacts | [`ContactForces`] |
+//! | [`Lcp`] | `w = M z + q`, `z >= 0`, `w >= 0`, `z . w = 0` | `(z, w)` |
+//! | [`MixedLcp`] | the same with free variables | `(z, w)` |
+//! | [`BoxedLcp`] | the same with bounds, `lower <= z <= upper` | `(z, w)` |
+//! | [`HorizontalLcp`] | the general form | `t` and `y` of the solution |
+//!
+//! Matrices are arrays, rows, triplets, those of `faer` and, with the feature `nalgebra`, of `nalgebra`: see
+//! [`Matrix`].
+//!
+//! # Methods
+//!
+//! Each has settings of its own; [`Solver`] is implemented for the problems that a method treats.
+//!
+//! | type | method | for |
+//! |---|---|---|
+//! | [`Auto`] | chooses one by class and size, says why, goes on with another where that fails | all |
+//! | [`Lemke`] | complementary pivoting | all; proves infeasibility |
+//! | [`SemismoothNewton`] | active sets | obstacle problems, M- and P-matrices, contact |
+//! | `QuadraticProgram` | convex programs, with friction a sequence of them (feature `clarabel`, on by default) | symmetric positive semidefinite matrices, contact, soft constraints |
+//! | [`InteriorPoint`] | interior points on the sparse form | large contact problems, mixed problems |
+//! | [`ProjectedGaussSeidel`] | sweeps, also over rows without a matrix ([`pgs::Rows`]) | large easy problems, rough answers |
+//! | [`lemke::Parametric`] | the solutions along a line of right-hand sides | all |
+//!
+//! # Answers
+//!
+//! A [`Solution`] carries the point, its [`Status`], its [`Residuals`] from the original data, its complementary
+//! [`Basis`] where the method has one, and what it cost ([`Info`]); where there is no solution, the proof, or the
+//! evidence ([`SoftSprings`]). Any point or basis is a [`WarmStart`] for any method that can use it.
+//! [`Lcp::error_bound`] says how far a point of a monotone problem is from the solution, and [`refine`] gives states
+//! of contacts twice the digits.
 //!
 //! A status says what the mathematics decided; an [`Error`] says that the input was unusable. A
 //! solver says [`Status::Solved`] only after the residuals were computed from the data that it was
 //! given, and all tolerances are relative to that data: units do not matter. The library does not
 //! print.
+//!
+//! # Features
+//!
+//! | feature | gives |
+//! |---|---|
+//! | `clarabel` (default) | `QuadraticProgram` |
+//! | `nalgebra` | problems from matrices of `nalgebra` |
+//! | `serde` | results that can be written and read back |
+//! | `io` | problems in files: the module `io` |
+//! | `cli` | the command `lcp`: the module `cli` |
+//! | `exact` | all solutions of a small problem in rational arithmetic: the module `exact` |
+//!
+//! The module [`families`] makes problems whose answers are known. The guides `docs/lcp.md` and `docs/methods.md` of
+//! the repository say which method to take when, and how each works.
 
 mod active;
 mod auto;
@@ -91,6 +155,9 @@ mod settings;
 mod solution;
 mod solve;
 mod sparse;
+mod variables;
+#[cfg(feature = "serde")]
+mod wire;
 
 pub use faer;
 
@@ -107,8 +174,8 @@ pub use newton::{SemismoothNewton, SemismoothNewtonSettings};
 #[doc(inline)]
 pub use pgs::{ProjectedGaussSeidel, ProjectedGaussSeidelSettings};
 pub use problem::{
-    Bedding, BoxedLcp, Contact2d, ContactForces, ContactState, ErrorBound, Friction2d,
-    HorizontalLcp, Lcp, MixedLcp, Monotonicity, StandardForm,
+    Bedding, BoxedLcp, Contact2d, Contact2dBuilder, ContactForces, ContactPoint, ContactState,
+    ErrorBound, Friction2d, HorizontalLcp, Lcp, MixedLcp, Monotonicity, StandardForm,
 };
 #[cfg(feature = "clarabel")]
 #[doc(inline)]

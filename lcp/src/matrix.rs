@@ -9,13 +9,25 @@ use crate::Error;
 
 /// A matrix of a problem, dense or sparse.
 ///
+/// Problems take whatever converts into one: an array of rows, a `Mat` or a `SparseColMat` of `faer`, and, with
+/// the feature `nalgebra`, a `DMatrix`. Lists that may be wrong have constructors that say so:
+/// [`from_triplets`](Self::from_triplets) and [`from_rows`](Self::from_rows).
+///
 /// ```
 /// use faer::mat;
-/// use lcp::Matrix;
-/// let m = Matrix::from(mat![[2.0, 0.0], [1.0, 3.0]]);
+/// use lcp::{Lcp, Matrix};
+/// let m = Matrix::from([[2.0, 0.0], [1.0, 3.0]]);
 /// assert_eq!(m[(1, 0)], 1.0);
 /// assert_eq!(m.column(1).collect::<Vec<_>>(), [(0, 0.0), (1, 3.0)]);
-/// assert_eq!(Matrix::identity(2).column(1).collect::<Vec<_>>(), [(1, 1.0)]);
+/// let sparse = Matrix::from_triplets(2, 2, &[(0, 0, 2.0), (1, 0, 1.0), (1, 1, 3.0)])?;
+/// assert_eq!(sparse.column(1).collect::<Vec<_>>(), [(1, 3.0)]);
+/// // The same problem four times
+/// let q = || vec![-1.0, -1.0];
+/// Lcp::new([[2.0, 0.0], [1.0, 3.0]], q())?;
+/// Lcp::new(mat![[2.0, 0.0], [1.0, 3.0]], q())?;
+/// Lcp::new(Matrix::from_rows(&[vec![2.0, 0.0], vec![1.0, 3.0]])?, q())?;
+/// Lcp::new(sparse, q())?;
+/// # Ok::<(), lcp::Error>(())
 /// ```
 #[derive(Debug, Clone)]
 pub enum Matrix {
@@ -29,6 +41,54 @@ impl Matrix {
     /// The identity of order `n`, sparse.
     pub fn identity(n: usize) -> Self {
         Self::diagonal(n, 1.0)
+    }
+
+    /// A sparse matrix from triplets `(row, column, value)`, with indices from 0. Values add up where their
+    /// places coincide.
+    ///
+    /// ```
+    /// use lcp::{Error, Matrix};
+    /// let m = Matrix::from_triplets(2, 2, &[(0, 1, 1.0), (0, 1, 2.0)])?;
+    /// assert_eq!((m[(0, 1)], m.stored()), (3.0, 1));
+    /// let error = Matrix::from_triplets(2, 2, &[(0, 2, 1.0)]).unwrap_err();
+    /// assert_eq!(error, Error::Outside { row: 0, col: 2, rows: 2, cols: 2 });
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Outside`] for an index beyond the sizes.
+    pub fn from_triplets(
+        rows: usize,
+        cols: usize,
+        triplets: &[(usize, usize, f64)],
+    ) -> Result<Self, Error> {
+        match triplets.iter().find(|(row, col, _)| *row >= rows || *col >= cols) {
+            Some(&(row, col, _)) => Err(Error::Outside { row, col, rows, cols }),
+            None => Ok(Self::from_entries(rows, cols, triplets.iter().copied())),
+        }
+    }
+
+    /// A dense matrix from its rows: slices, vectors or arrays.
+    ///
+    /// ```
+    /// use lcp::Matrix;
+    /// let m = Matrix::from_rows(&[vec![1.0, 2.0], vec![3.0, 4.0]])?;
+    /// assert_eq!(m[(1, 0)], 3.0);
+    /// assert!(Matrix::from_rows(&[&[1.0, 2.0][..], &[3.0]]).is_err());
+    /// # Ok::<(), lcp::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::RowLength`] for rows of different lengths.
+    pub fn from_rows(rows: &[impl AsRef<[f64]>]) -> Result<Self, Error> {
+        let expected = rows.first().map_or(0, |row| row.as_ref().len());
+        let lengths = rows.iter().map(|row| row.as_ref().len()).enumerate();
+        for (row, len) in lengths {
+            if len != expected {
+                return Err(Error::RowLength { row, len, expected });
+            }
+        }
+        Ok(Self::Dense(Mat::from_fn(rows.len(), expected, |i, j| rows[i].as_ref()[j])))
     }
 
     /// `value` times the identity of order `n`, sparse.
@@ -197,6 +257,32 @@ impl From<Mat<f64>> for Matrix {
 impl From<SparseColMat<usize, f64>> for Matrix {
     fn from(m: SparseColMat<usize, f64>) -> Self {
         Self::Sparse(m)
+    }
+}
+
+impl<const ROWS: usize, const COLS: usize> From<[[f64; COLS]; ROWS]> for Matrix {
+    fn from(rows: [[f64; COLS]; ROWS]) -> Self {
+        Self::from(&rows)
+    }
+}
+
+impl<const ROWS: usize, const COLS: usize> From<&[[f64; COLS]; ROWS]> for Matrix {
+    fn from(rows: &[[f64; COLS]; ROWS]) -> Self {
+        Self::Dense(Mat::from_fn(ROWS, COLS, |i, j| rows[i][j]))
+    }
+}
+
+#[cfg(feature = "nalgebra")]
+impl From<nalgebra::DMatrix<f64>> for Matrix {
+    fn from(m: nalgebra::DMatrix<f64>) -> Self {
+        Self::from(&m)
+    }
+}
+
+#[cfg(feature = "nalgebra")]
+impl From<&nalgebra::DMatrix<f64>> for Matrix {
+    fn from(m: &nalgebra::DMatrix<f64>) -> Self {
+        Self::Dense(Mat::from_fn(m.nrows(), m.ncols(), |i, j| m[(i, j)]))
     }
 }
 

@@ -103,7 +103,7 @@ pub trait Sweepable {
 
 /// The answer to a problem that is known by its [`Rows`].
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct RowsSolution {
     /// What the sweeps came to.
@@ -114,6 +114,7 @@ pub struct RowsSolution {
     pub w: Vec<f64>,
     /// The largest part of a `w_i` that the constraints do not allow at `z`, relative to the larger of
     /// `|q_i| + sum_j |M_ij z_j|` ([`Rows::size`]) and 2^-10 of `M_ii max|z|`.
+    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub residual: f64,
     /// What it cost.
     pub info: Info,

@@ -2,7 +2,7 @@
 
 /// How one attempt of a pivoting method ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum AttemptEnd {
     /// The artificial variable left the basis.
@@ -23,7 +23,7 @@ pub enum AttemptEnd {
 
 /// The start basis of an attempt.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum AttemptStart {
     /// The basis of the settings, or that of the point of the settings.
@@ -58,7 +58,7 @@ impl std::fmt::Display for AttemptStart {
 
 /// The covering vector of an attempt.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum AttemptCovering {
     /// All ones after equilibration.
@@ -92,7 +92,7 @@ impl std::fmt::Display for AttemptCovering {
 /// What an attempt changed in the data of its path. The basis on which it ends is always judged by
 /// the data as given.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Perturbation {
     /// Nothing.
@@ -122,7 +122,7 @@ impl std::fmt::Display for Perturbation {
 
 /// One attempt: where it started, with which covering vector, and how it ended.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Attempt {
     /// The start basis.
@@ -141,7 +141,7 @@ pub struct Attempt {
 
 /// A variable of the pivoting method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Variable {
     /// The first variable of a pair.
     T(usize),
@@ -153,7 +153,7 @@ pub enum Variable {
 
 /// One pivot.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct PivotRecord {
     /// The attempt, from 1.

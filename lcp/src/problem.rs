@@ -11,7 +11,7 @@ mod standard;
 
 pub use bound::{ErrorBound, Monotonicity};
 pub use boxed::BoxedLcp;
-pub use contact::{Bedding, Contact2d, ContactState};
+pub use contact::{Bedding, Contact2d, Contact2dBuilder, ContactPoint, ContactState};
 pub(crate) use contact::{
     check_epsilon, column_factors, column_of, diagonal, median, power_of_two,
 };

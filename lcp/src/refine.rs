@@ -19,7 +19,7 @@ use crate::{Contact2d, ContactState, Error};
 
 /// What a contact of an answer does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ContactStatus {
     /// No force.
     Open,
@@ -33,7 +33,11 @@ pub enum ContactStatus {
 
 /// How far [`Contact2d::refine`] goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "lowercase"))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "lowercase")
+)]
 pub enum Refinement {
     /// One solve with the factors.
     Plain,

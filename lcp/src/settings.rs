@@ -8,7 +8,7 @@ use crate::{Basis, Error};
 /// The covering vector `d > 0` of the artificial variable, in the rows of the start basis. In rows
 /// of free variables, which may be negative, it is zero.
 #[derive(Debug, Clone, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Covering {
     /// All ones after equilibration, so that units do not matter.
     #[default]
@@ -27,7 +27,7 @@ pub enum Covering {
 /// any may be the start of another method. What is said here of a basis is what [`Lemke`](crate::Lemke) does;
 /// the settings of the other methods say what they make of a start.
 #[derive(Debug, Clone, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum WarmStart {
     /// The method finds its own.
     #[default]

@@ -5,7 +5,7 @@ use crate::{Basis, Certificate, ContactState, Method, Residuals};
 
 /// Outcome of a solve. Decided by the mathematics and the limits, never by misuse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Status {
     /// The residuals, recomputed from the original data, are below the tolerance.
@@ -93,7 +93,11 @@ pub struct SoftSprings {
 
 /// How a method that [`Auto`](crate::Auto) asked ended.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "lowercase"))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "lowercase")
+)]
 #[non_exhaustive]
 pub enum RouteEnd {
     /// With an answer.
@@ -101,6 +105,7 @@ pub enum RouteEnd {
         /// Its status.
         status: Status,
         /// The worst of its residuals.
+        #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
         residual: f64,
     },
     /// It does not treat the problem.
@@ -121,7 +126,7 @@ impl std::fmt::Display for RouteEnd {
 
 /// A method that [`Auto`](crate::Auto) asked.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Route {
     /// The method.
@@ -137,7 +142,7 @@ pub struct Route {
 
 /// What it cost.
 #[derive(Debug, Clone, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Info {
     /// The method that the point comes from.
@@ -154,6 +159,7 @@ pub struct Info {
     /// Every attempt of a pivoting method, in order.
     pub attempts: Vec<Attempt>,
     /// The residual by which an iterative method stops, at its start and after every iteration.
+    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinities"))]
     pub history: Vec<f64>,
     /// The methods that [`Auto`](crate::Auto) asked, in order; the point comes from one of them, and so do
     /// the other numbers here but for the time.
@@ -167,7 +173,7 @@ pub struct Info {
 
 /// The answer of a solver: always with the residuals of the point that it carries.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Solution {
     /// What the solver found.
@@ -179,7 +185,7 @@ pub struct Solution {
     /// The point of a [`Contact2d`](crate::Contact2d) by its displacements and forces, with all their digits: the
     /// residuals are those of this state. The pairs, with `mu t_n + t_t` and `mu t_n - t_t`, lose some where
     /// `mu` is large.
-    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub contact: Option<ContactState>,
     /// The complementary basis of the point, of methods that end on one: of pivots, of active sets, and of
     /// interior points after a crossover.

@@ -168,7 +168,7 @@ fn what_cannot_be_is_proved() {
                 assert!(product <= 1e-14, "{j}: {product}");
             }
         }
-        let gain: f64 = general.c().iter().zip(&pi).map(|(c, pi)| c * pi).sum();
+        let gain: f64 = general.c().iter().zip(pi).map(|(c, pi)| c * pi).sum();
         assert!(gain > 0.1, "{gain}");
     }
 }

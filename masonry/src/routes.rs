@@ -17,15 +17,17 @@ use std::ops::ControlFlow;
 use crate::forms::{RowState, Start};
 use crate::outcome::SolveInfo;
 use crate::scene::Form;
-use crate::solve::SolveError;
 
 pub mod alm;
+mod error;
 pub mod interior;
 pub mod lemke;
 pub mod newton;
 pub mod pgs;
 pub mod qp;
 mod sparse;
+
+pub use error::RouteError;
 
 /// What a route is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,7 +102,7 @@ pub trait Method {
     /// Looks for a solution.
     ///
     /// # Errors
-    /// [`SolveError`] for a tolerance out of range, for data that are not finite, and for a problem that
+    /// [`RouteError`] for a tolerance out of range, for data that are not finite, and for a problem that
     /// the method does not treat.
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, SolveError>;
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError>;
 }

@@ -16,6 +16,7 @@ use crate::model::Model;
 use crate::outcome::{Outcome, PhaseTime};
 use crate::plan::Plan;
 use crate::rigid::{FreeMotion, RigidError};
+use crate::routes::RouteError;
 use crate::scene::{Route, Scene, SceneError};
 use crate::system::SystemError;
 
@@ -79,6 +80,15 @@ pub enum SolveError {
     /// A checkpoint does not fit.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
+}
+
+impl From<RouteError> for SolveError {
+    fn from(error: RouteError) -> Self {
+        match error {
+            RouteError::Solver(error) => Self::Solver(error),
+            RouteError::NotTreated { route, reason } => Self::NotTreated { route, reason },
+        }
+    }
 }
 
 impl SolveError {

@@ -8,7 +8,7 @@ use proptest::test_runner::TestCaseError;
 use super::{parts, problem};
 
 /// Valid files of every kind, to be damaged.
-const VALID: [&str; 10] = [
+const VALID: [&str; 12] = [
     "2\n1 2 # row\n3 4\n-5 -6e0\n",
     "2\n0\n2\n2\n2\t2\n1 2\n3 4\n-5 -6\n\nSome words",
     "3 1 3 3 3 2 2  1 3  1 3  3 3  0 2 3  0 1 1  0 1  1 0 2  2 3 0 4 5\n-1 -2 -3",
@@ -16,6 +16,8 @@ const VALID: [&str; 10] = [
     "1 2 1 1 2\nbanner\n1-by-1, nzmax: 1 nnz: 1, 1-norm: 1\n col 0 : locations 0 to 0\n 0 : 1\n 1",
     "1 1 1 1  0 1 2  0 1  0 2 2 2 2  2 5 3 6  4 7  2 6 3 5 4 7",
     "2 1 0 2 2 2 2  2 1 1 3  -1 4  0.5  1",
+    "2 1 0 2 2 2 2  3 0 0 0  0 2 2 2 2  0 1 1 0  0.4 -2  0.1 -0.2  0.5",
+    r#"{"kind": "contact", "k": [[3, 0], [0, 0]], "f": [0.4, -2], "c_n": [[0, 1]], "c_t": [[1, 0]], "x_0": [0.1], "s_0": [-0.2], "mu": [0.5]}"#,
     r#"{"kind": "boxed", "m": [[2, 0], [0, 1]], "q": [1, -1], "lower": [null, 0], "upper": [3, null]}"#,
     r#"{"kind": "lcp", "m": {"rows": 2, "cols": 2, "triplets": [[0, 1, 2.5]]}, "q": [1, -1]}"#,
     r#"{"kind": "friction", "w": [[2, 1], [1, 3]], "q": [-1, 4], "mu": [0.5]}"#,

@@ -1,8 +1,8 @@
 //! The command-line program: `lcp solve`, `check`, `info`.
 
-use std::io::{stderr, stdout};
+use std::io::{stderr, stdin, stdout};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    lcp::cli::run(std::env::args_os(), &mut stdout(), &mut stderr()).into()
+    lcp::cli::run(std::env::args_os(), &mut stdin(), &mut stdout(), &mut stderr()).into()
 }

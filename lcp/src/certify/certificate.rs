@@ -10,7 +10,7 @@ use crate::{HorizontalLcp, Side};
 /// [`Solution::certificate`](crate::Solution::certificate).
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "lowercase"))]
 #[non_exhaustive]
 pub enum Certificate {
     /// A proof that the linear conditions have no solution: a vector `pi` of the rows with `A^T pi <= 0`,
@@ -21,7 +21,10 @@ pub enum Certificate {
     },
     /// A proof that the linear conditions have no complementary solution: for every choice of the variables that
     /// may be positive, one of a pair, a Farkas vector.
-    Choices(Vec<Leaf>),
+    Choices {
+        /// One for every part of the choices; together they are all.
+        leaves: Vec<Leaf>,
+    },
     /// A secondary ray on which pivots ended. It proves nothing.
     Ray(Ray),
     /// Soft springs that keep their share of the load, however soft they are. Of elastic bodies with friction this
@@ -42,7 +45,7 @@ pub struct Leaf {
 impl Certificate {
     /// Whether it proves that there is no solution, if it [holds](Self::holds).
     pub fn is_proof(&self) -> bool {
-        matches!(self, Self::Farkas { .. } | Self::Choices(_))
+        matches!(self, Self::Farkas { .. } | Self::Choices { .. })
     }
 
     /// Checks what the certificate says against the data of the general form of the problem: products with the
@@ -63,7 +66,7 @@ impl Certificate {
     pub fn holds(&self, problem: &HorizontalLcp) -> bool {
         match self {
             Self::Farkas { pi } => is_proof(problem, pi),
-            Self::Choices(leaves) => {
+            Self::Choices { leaves } => {
                 covers_all(leaves, problem.order())
                     && leaves.iter().all(|leaf| leaf.is_proof(problem))
             }

@@ -172,10 +172,11 @@ impl<'a> Ledger<'a> {
             }
         }
         if t.value > 0.0 && y.value > 0.0 {
-            let (of_t, of_y) = (self.effect(t), self.effect(y));
-            let least = of_t.min(of_y);
-            self.residuals.complementarity = self.residuals.complementarity.max(least);
-            self.change(if of_t <= of_y { t } else { y });
+            let [of_t, of_y] = [t, y].map(|it| (self.effect(it), self.burden(it)));
+            let is_t = of_t.0.max(of_t.1) <= of_y.0.max(of_y.1);
+            let (entry, (effect, _)) = if is_t { (t, of_t) } else { (y, of_y) };
+            self.residuals.complementarity = self.residuals.complementarity.max(effect);
+            self.change(entry);
         }
     }
 
@@ -198,6 +199,13 @@ impl<'a> Ledger<'a> {
             }
         });
         effect.unwrap_or(1.0)
+    }
+
+    /// The same in units of the loads.
+    fn burden(&self, entry: &Entry<'_>) -> f64 {
+        let mut burden = 0.0_f64;
+        (entry.column)(&mut |i, v| burden = burden.max((v * entry.value).abs() * self.weights[i]));
+        burden
     }
 
     fn change(&mut self, entry: &Entry<'_>) {

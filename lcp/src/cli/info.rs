@@ -1,13 +1,14 @@
 //! `lcp info`.
 
 use std::fmt::Write as _;
-use std::io::Write;
+use std::io::{Read, Write};
 
 use serde::Serialize;
 
+use super::input::Input;
 use super::{Failure, InfoArgs, SOLVED, print, print_json};
 use crate::Matrix;
-use crate::io::{Format, Problem, ProblemFile};
+use crate::io::Problem;
 
 /// What `--json` prints.
 #[derive(Debug, Serialize)]
@@ -28,19 +29,32 @@ struct Facts {
 struct MatrixFacts {
     name: &'static str,
     storage: &'static str,
-    order: usize,
+    rows: usize,
+    cols: usize,
     nonzeros: usize,
-    /// Largest `|v_ij - v_ji|` relative to the largest entry.
-    asymmetry: f64,
     /// Smallest entry in size, besides zeros.
     smallest: f64,
     largest: f64,
+    #[serde(flatten)]
+    square: Option<SquareFacts>,
+}
+
+/// What only square matrices have.
+#[derive(Debug, Serialize)]
+struct SquareFacts {
+    order: usize,
+    /// Largest `|v_ij - v_ji|` relative to the largest entry.
+    asymmetry: f64,
     zero_diagonal: usize,
     negative_diagonal: usize,
 }
 
-pub(super) fn run(args: &InfoArgs, out: &mut dyn Write) -> Result<u8, Failure> {
-    let facts = Facts::of(&args.input.read()?);
+pub(super) fn run(
+    args: &InfoArgs,
+    input: &mut dyn Read,
+    out: &mut dyn Write,
+) -> Result<u8, Failure> {
+    let facts = Facts::of(&args.input.read(input)?);
     if args.input.json {
         print_json(out, &facts)?;
     } else {
@@ -50,8 +64,8 @@ pub(super) fn run(args: &InfoArgs, out: &mut dyn Write) -> Result<u8, Failure> {
 }
 
 impl Facts {
-    fn of(file: &ProblemFile) -> Self {
-        let problem = &file.problem;
+    fn of(input: &Input) -> Self {
+        let problem = &input.problem;
         let free = match problem {
             Problem::Mixed(mixed) => Some(mixed.free().iter().filter(|free| **free).count()),
             Problem::Boxed(boxed) => {
@@ -62,14 +76,15 @@ impl Facts {
         };
         let contacts = match problem {
             Problem::Friction(friction) => Some(friction.contacts()),
+            Problem::Contact(contact) => Some(contact.points()),
             _ => None,
         };
         Self {
-            format: Format::name(file.format),
+            format: input.format,
             kind: problem.kind(),
             n: problem.order(),
             pairs: problem.to_general().order(),
-            matrices: problem.matrices().into_iter().map(MatrixFacts::of).collect(),
+            matrices: problem.matrices().iter().map(|(name, m)| MatrixFacts::of(name, m)).collect(),
             free,
             contacts,
         }
@@ -90,38 +105,60 @@ impl Facts {
 }
 
 impl MatrixFacts {
-    fn of((name, matrix): (&'static str, &Matrix)) -> Self {
-        let order = matrix.ncols();
-        let entries = || (0..order).flat_map(|j| matrix.column(j).map(move |(i, v)| (i, j, v)));
-        let sizes = || entries().map(|(_, _, v)| v.abs()).filter(|&v| v > 0.0);
+    fn of(name: &'static str, matrix: &Matrix) -> Self {
+        let (rows, cols) = (matrix.nrows(), matrix.ncols());
+        let sizes = || entries(matrix).map(|(_, _, v)| v.abs()).filter(|&v| v > 0.0);
         let largest = sizes().fold(0.0, f64::max);
-        let skew = entries()
+        Self {
+            name,
+            storage: if matrix.is_sparse() { "sparse" } else { "dense" },
+            rows,
+            cols,
+            nonzeros: sizes().count(),
+            smallest: sizes().reduce(f64::min).unwrap_or(0.0),
+            largest,
+            square: (rows == cols).then(|| SquareFacts::of(matrix, largest)),
+        }
+    }
+
+    fn report(&self) -> String {
+        let Self { name, storage, rows, cols, nonzeros, smallest, largest, square } = self;
+        let square = square.as_ref().map_or_else(String::new, SquareFacts::report);
+        format!(
+            "{name}: {rows} x {cols}, {storage}, {nonzeros} nonzeros of size {smallest:.1e} to \
+             {largest:.1e}{square}\n"
+        )
+    }
+}
+
+impl SquareFacts {
+    fn of(matrix: &Matrix, largest: f64) -> Self {
+        let order = matrix.ncols();
+        let asymmetry = entries(matrix)
             .map(|(i, j, v)| (v / largest - matrix[(j, i)] / largest).abs())
             .fold(0.0, f64::max);
         let diagonal = || (0..order).map(|i| matrix[(i, i)]);
         Self {
-            name,
-            storage: if matrix.is_sparse() { "sparse" } else { "dense" },
             order,
-            nonzeros: sizes().count(),
-            asymmetry: skew,
-            smallest: sizes().reduce(f64::min).unwrap_or(0.0),
-            largest,
+            asymmetry,
             zero_diagonal: diagonal().filter(|&v| v == 0.0).count(),
             negative_diagonal: diagonal().filter(|&v| v < 0.0).count(),
         }
     }
 
     fn report(&self) -> String {
-        let Self { name, storage, order, nonzeros, smallest, largest, .. } = self;
         let symmetry = match self.asymmetry {
             a if a <= f64::EPSILON => "symmetric".to_owned(),
             a => format!("not symmetric, by {a:.1e} of its largest entry"),
         };
         format!(
-            "{name}: {order} x {order}, {storage}, {nonzeros} nonzeros of size {smallest:.1e} to \
-             {largest:.1e}, {symmetry}; on the diagonal {} zeros and {} negative entries\n",
+            ", {symmetry}; on the diagonal {} zeros and {} negative entries",
             self.zero_diagonal, self.negative_diagonal
         )
     }
+}
+
+/// The stored entries with their places.
+fn entries(matrix: &Matrix) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+    (0..matrix.ncols()).flat_map(|j| matrix.column(j).map(move |(i, v)| (i, j, v)))
 }

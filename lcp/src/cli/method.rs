@@ -5,35 +5,41 @@ use std::time::Duration;
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 
+use super::input::Point;
 use super::{Failure, SolveArgs};
 use crate::auto::memory;
 use crate::io::Problem;
 use crate::{
-    Auto, AutoSettings, Error, HorizontalLcp, InteriorPoint, InteriorPointSettings, Lemke,
+    Auto, AutoSettings, Basis, Covering, Error, InteriorPoint, InteriorPointSettings, Lemke,
     LemkeSettings, Method, ProjectedGaussSeidel, ProjectedGaussSeidelSettings, QuadraticProgram,
-    QuadraticProgramSettings, SemismoothNewton, SemismoothNewtonSettings, Solution, Solver,
+    QuadraticProgramSettings, SemismoothNewton, SemismoothNewtonSettings, Side, Solution, Solver,
+    WarmStart,
 };
 
 /// Every method gets the problem in its own form where it treats that, else in the general form, whose
 /// pairs the solution has in any case.
 pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Failure> {
     let time_limit = time_limit(args)?;
+    let start = start(args, problem)?;
     let solution = match method(args)? {
         Method::Auto => {
             let defaults = AutoSettings::default();
             let tolerance = args.tol.unwrap_or(defaults.tolerance);
-            auto(&Auto::new(AutoSettings { tolerance, time_limit, ..defaults }), problem)
+            auto(&Auto::new(AutoSettings { tolerance, time_limit, start }), problem)
         }
         Method::Lemke => {
             let defaults = LemkeSettings::default();
             let settings = LemkeSettings {
                 tolerance: args.tol.unwrap_or(defaults.tolerance),
                 max_pivots: args.max_pivots,
+                max_attempts: args.attempts.unwrap_or(defaults.max_attempts),
+                covering: args.covering.clone().unwrap_or_default(),
                 trace: args.trace.is_some(),
                 time_limit,
+                start,
                 ..defaults
             };
-            lemke(&Lemke::new(settings), &problem.to_general())
+            lemke(&Lemke::new(settings), problem)
         }
         Method::GaussSeidel => {
             let defaults = ProjectedGaussSeidelSettings::default();
@@ -41,6 +47,7 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
                 tolerance: args.tol.unwrap_or(defaults.tolerance),
                 max_iterations: args.max_iterations.unwrap_or(defaults.max_iterations),
                 time_limit,
+                start,
                 ..defaults
             };
             sweep(&ProjectedGaussSeidel::new(settings), problem)
@@ -51,6 +58,7 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
                 tolerance: args.tol.unwrap_or(defaults.tolerance),
                 max_iterations: args.max_iterations.unwrap_or(defaults.max_iterations),
                 time_limit,
+                start,
                 ..defaults
             };
             program(&QuadraticProgram::new(settings), problem)
@@ -61,7 +69,7 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
                 tolerance: args.tol.unwrap_or(defaults.tolerance),
                 max_iterations: args.max_iterations.unwrap_or(defaults.max_iterations),
                 time_limit,
-                ..defaults
+                start,
             };
             newton(&SemismoothNewton::new(settings), problem)
         }
@@ -71,6 +79,7 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
                 tolerance: args.tol.unwrap_or(defaults.tolerance),
                 max_iterations: args.max_iterations.unwrap_or(defaults.max_iterations),
                 time_limit,
+                start,
                 ..defaults
             };
             interior(&InteriorPoint::new(settings), problem)
@@ -81,7 +90,12 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
 
 /// The method, after a look at the options that only some of them have.
 fn method(args: &SolveArgs) -> Result<Method, Failure> {
-    let pivots = [("--max-pivots", args.max_pivots.is_some()), ("--trace", args.trace.is_some())];
+    let pivots = [
+        ("--max-pivots", args.max_pivots.is_some()),
+        ("--attempts", args.attempts.is_some()),
+        ("--covering", args.covering.is_some()),
+        ("--trace", args.trace.is_some()),
+    ];
     let asked = pivots.iter().find_map(|&(option, is_given)| is_given.then_some(option));
     match (args.solver, asked) {
         (Method::Auto | Method::Lemke, _) if args.max_iterations.is_some() => Err(
@@ -108,6 +122,29 @@ fn time_limit(args: &SolveArgs) -> Result<Option<Duration>, Failure> {
     args.time_limit.map(limit).transpose()
 }
 
+/// `ones` or `random:SEED`.
+pub(super) fn covering(text: &str) -> Result<Covering, String> {
+    if text == "ones" {
+        return Ok(Covering::Ones);
+    }
+    let seed = text.strip_prefix("random:").and_then(|seed| seed.parse().ok());
+    seed.map(|seed| Covering::Random { seed })
+        .ok_or_else(|| "it is `ones`, or `random:SEED` with a whole number".to_owned())
+}
+
+fn start(args: &SolveArgs, problem: &Problem) -> Result<WarmStart, Failure> {
+    let Some(start) = &args.start else { return Ok(WarmStart::None) };
+    let all = |side| WarmStart::Basis(Basis::all(side, problem.to_general().order()));
+    match start.to_str() {
+        Some("all-y") => Ok(all(Side::Y)),
+        Some("all-t") => Ok(all(Side::T)),
+        _ => {
+            let (t, y) = Point::read(start, problem)?.to_pairs(problem);
+            Ok(WarmStart::Point { t, y })
+        }
+    }
+}
+
 fn auto(solver: &Auto, problem: &Problem) -> Result<Solution, Error> {
     match problem {
         Problem::Lcp(problem) => solver.solve(problem),
@@ -115,12 +152,17 @@ fn auto(solver: &Auto, problem: &Problem) -> Result<Solution, Error> {
         Problem::Mixed(problem) => solver.solve(problem),
         Problem::Boxed(problem) => solver.solve(problem),
         Problem::Friction(problem) => solver.solve(problem),
+        Problem::Contact(problem) => solver.solve(problem),
     }
 }
 
-fn lemke(solver: &Lemke, problem: &HorizontalLcp) -> Result<Solution, Error> {
+fn lemke(solver: &Lemke, problem: &Problem) -> Result<Solution, Error> {
+    if let Problem::Contact(problem) = problem {
+        return solver.solve(problem);
+    }
+    let problem = problem.to_general();
     memory::check(problem.is_sparse(), problem.order())?;
-    solver.solve(problem)
+    solver.solve(&problem)
 }
 
 fn sweep(solver: &ProjectedGaussSeidel, problem: &Problem) -> Result<Solution, Error> {
@@ -130,6 +172,7 @@ fn sweep(solver: &ProjectedGaussSeidel, problem: &Problem) -> Result<Solution, E
         Problem::Mixed(problem) => solver.solve(&problem.to_general()),
         Problem::Boxed(problem) => solver.solve(problem),
         Problem::Friction(problem) => solver.solve(problem),
+        Problem::Contact(problem) => solver.solve(problem),
     }
 }
 
@@ -138,6 +181,7 @@ fn program(solver: &QuadraticProgram, problem: &Problem) -> Result<Solution, Err
         Problem::Lcp(problem) => solver.solve(problem),
         Problem::Mixed(problem) => solver.solve(problem),
         Problem::Friction(problem) => solver.solve(problem.standard()),
+        Problem::Contact(problem) => solver.solve(problem),
         Problem::Horizontal(_) | Problem::Boxed(_) => solver.solve(&problem.to_general()),
     }
 }
@@ -146,6 +190,7 @@ fn newton(solver: &SemismoothNewton, problem: &Problem) -> Result<Solution, Erro
     match problem {
         Problem::Lcp(problem) => solver.solve(problem),
         Problem::Friction(problem) => solver.solve(problem.standard()),
+        Problem::Contact(problem) => solver.solve(problem),
         Problem::Horizontal(_) | Problem::Mixed(_) | Problem::Boxed(_) => {
             solver.solve(&problem.to_general())
         }
@@ -157,6 +202,7 @@ fn interior(solver: &InteriorPoint, problem: &Problem) -> Result<Solution, Error
         Problem::Lcp(problem) => solver.solve(problem),
         Problem::Mixed(problem) => solver.solve(problem),
         Problem::Friction(problem) => solver.solve(problem),
+        Problem::Contact(problem) => solver.solve(problem),
         Problem::Horizontal(_) | Problem::Boxed(_) => solver.solve(&problem.to_general()),
     }
 }

@@ -5,25 +5,28 @@ use std::fmt::Write as _;
 use super::residual_lines;
 use super::solve::{Answer, Work};
 use crate::Status;
-use crate::io::ProblemFile;
 use crate::pivoting::{Attempt, Perturbation};
 
-pub(super) fn text(file: &ProblemFile, answer: &Answer<'_>) -> String {
-    let Answer { status, solver, n, work, time_s, .. } = answer;
-    let mut text = format!("{} of order {n}, read as {}\n", answer.kind, file.format);
-    let _ = writeln!(text, "{status}: {}, {work}, {time_s:.3} s", solver.full_name());
-    if let Some(meaning) = meaning(answer) {
-        let _ = writeln!(text, "{meaning}");
+impl Answer<'_> {
+    /// For people.
+    pub(super) fn report(&self, format: &str) -> String {
+        let Answer { status, solver, n, work, time_s, cpu_s, .. } = self;
+        let cpu = cpu_s.map_or_else(String::new, |cpu| format!(", {cpu:.3} s of processor time"));
+        let mut text = format!("{} of order {n}, read as {format}\n", self.kind);
+        let _ = writeln!(text, "{status}: {}, {work}, {time_s:.3} s{cpu}", solver.full_name());
+        if let Some(meaning) = meaning(self) {
+            let _ = writeln!(text, "{meaning}");
+        }
+        text += &route_lines(self);
+        text.push('\n');
+        text += &residual_lines(&self.residuals);
+        if *status == Status::Solved {
+            text += &point_lines(self);
+        } else {
+            text += &attempt_lines(self.attempts);
+        }
+        text
     }
-    text += &route_lines(answer);
-    text.push('\n');
-    text += &residual_lines(&answer.residuals);
-    if *status == Status::Solved {
-        text += &point_lines(answer);
-    } else {
-        text += &attempt_lines(answer.attempts);
-    }
-    text
 }
 
 impl std::fmt::Display for Work {

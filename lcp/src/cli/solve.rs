@@ -1,13 +1,16 @@
 //! `lcp solve`.
 
-use std::io::Write;
+use std::io::{Read, Write};
 
+use cpu_time::ProcessTime;
 use serde::Serialize;
 
-use super::{Failure, NOT_SOLVED, SOLVED, SolveArgs, in_file, method, print, print_json, report};
+use super::{Failure, NOT_SOLVED, SOLVED, SolveArgs, in_file, method, print, print_json};
 use crate::io::Problem;
 use crate::pivoting::Attempt;
-use crate::{Certificate, ContactForces, Info, Method, Residuals, Route, Solution, Status};
+use crate::{
+    Certificate, ContactForces, ContactState, Info, Method, Residuals, Route, Solution, Status,
+};
 
 /// What `--json` prints.
 #[derive(Debug, Serialize)]
@@ -16,7 +19,10 @@ pub(super) struct Answer<'a> {
     pub(super) kind: &'static str,
     pub(super) solver: Method,
     pub(super) n: usize,
+    /// Wall-clock time.
     pub(super) time_s: f64,
+    /// Processor time, where the system tells it.
+    pub(super) cpu_s: Option<f64>,
     #[serde(flatten)]
     pub(super) work: Work,
     pub(super) residuals: Residuals,
@@ -24,6 +30,8 @@ pub(super) struct Answer<'a> {
     pub(super) w: Vec<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) contacts: Option<ContactForces>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    contact: Option<ContactState>,
     certificate: Option<&'a Certificate>,
     pub(super) attempts: &'a [Attempt],
     #[serde(skip_serializing_if = "<[Route]>::is_empty")]
@@ -38,26 +46,36 @@ pub(super) enum Work {
     Iterations { iterations: usize, factorisations: usize },
 }
 
-pub(super) fn run(args: &SolveArgs, out: &mut dyn Write) -> Result<u8, Failure> {
-    let file = args.input.read()?;
-    let solution = method::solve(args, &file.problem)?;
+pub(super) fn run(
+    args: &SolveArgs,
+    input: &mut dyn Read,
+    out: &mut dyn Write,
+) -> Result<u8, Failure> {
+    let input = args.input.read(input)?;
+    let began = ProcessTime::try_now();
+    let solution = method::solve(args, &input.problem)?;
+    let cpu_s = began.and_then(|began| began.try_elapsed()).map(|time| time.as_secs_f64());
     if let Some(path) = &args.trace {
         let trace = serde_json::to_string(&solution.trace)? + "\n";
         std::fs::write(path, trace).map_err(|error| in_file(path, &error))?;
     }
-    let answer = answer(&file.problem, &solution);
+    let answer = answer(&input.problem, &solution, cpu_s.ok());
     if args.input.json {
         print_json(out, &answer)?;
     } else {
-        print(out, &report::text(&file, &answer))?;
+        print(out, &answer.report(input.format))?;
     }
     Ok(if solution.is_solved() { SOLVED } else { NOT_SOLVED })
 }
 
-fn answer<'a>(problem: &Problem, solution: &'a Solution) -> Answer<'a> {
+fn answer<'a>(problem: &Problem, solution: &'a Solution, cpu_s: Option<f64>) -> Answer<'a> {
     let (z, w) = problem.recover(&solution.t, &solution.y);
-    let contacts = match problem {
-        Problem::Friction(problem) => Some(problem.forces(&z)),
+    let contact = problem.state(solution);
+    let contacts = match (problem, &contact) {
+        (Problem::Friction(problem), _) => Some(problem.forces(&z)),
+        (_, Some(ContactState { t_n, t_t, .. })) => {
+            Some(ContactForces { normal: t_n.clone(), tangential: t_t.clone() })
+        }
         _ => None,
     };
     let info = &solution.info;
@@ -67,11 +85,13 @@ fn answer<'a>(problem: &Problem, solution: &'a Solution) -> Answer<'a> {
         solver: info.method,
         n: problem.order(),
         time_s: info.seconds,
+        cpu_s,
         work: Work::of(info),
         residuals: solution.residuals,
         z,
         w,
         contacts,
+        contact,
         certificate: solution.certificate.as_ref(),
         attempts: &info.attempts,
         routes: &info.routes,

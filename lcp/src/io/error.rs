@@ -68,7 +68,8 @@ pub enum ReadError {
     },
     /// No format fits; this one came furthest.
     #[error(
-        "{source} (read as {format}, the format that fits best; name another if that is wrong)"
+        "{source} (none of the known formats fits: {}; {format} comes furthest: name another if that is wrong)",
+        known()
     )]
     Unrecognised {
         /// The format.
@@ -76,6 +77,18 @@ pub enum ReadError {
         /// Why it does not fit.
         source: Box<ReadError>,
     },
+    /// A name that no format has.
+    #[error("there is no format `{name}`: take one of {}", known())]
+    UnknownFormat {
+        /// The name.
+        name: String,
+    },
+    /// A Matrix Market file, which holds one matrix, where a problem is expected.
+    #[error(
+        "a Matrix Market file holds one matrix and no problem: name the file of every part, as in \
+         --m M.mtx --q q.mtx or --a A.mtx --b B.mtx --c c.mtx"
+    )]
+    OneMatrix,
     /// More than one format fits.
     #[error("the file can be read as {}; name the format", list(.formats))]
     Ambiguous {
@@ -111,9 +124,17 @@ impl ReadError {
             | Self::Json { at, .. }
             | Self::Refused { at, .. } => Some(*at),
             Self::Unrecognised { source, .. } => source.position(),
-            Self::Ambiguous { .. } | Self::File { .. } => None,
+            Self::UnknownFormat { .. }
+            | Self::OneMatrix
+            | Self::Ambiguous { .. }
+            | Self::File { .. } => None,
         }
     }
+}
+
+/// The names of all formats.
+fn known() -> String {
+    Format::ALL.map(Format::name).join(", ")
 }
 
 fn list(formats: &[Format]) -> String {

@@ -19,6 +19,7 @@ enum Kind {
     Mixed,
     Boxed,
     Friction,
+    Contact,
 }
 
 impl std::fmt::Display for Kind {
@@ -29,6 +30,7 @@ impl std::fmt::Display for Kind {
             Self::Mixed => "mixed",
             Self::Boxed => "boxed",
             Self::Friction => "friction",
+            Self::Contact => "contact",
         })
     }
 }
@@ -58,6 +60,18 @@ struct Document<'a> {
     w: Option<&'a RawValue>,
     #[serde(borrow)]
     mu: Option<&'a RawValue>,
+    #[serde(borrow)]
+    k: Option<&'a RawValue>,
+    #[serde(borrow)]
+    f: Option<&'a RawValue>,
+    #[serde(borrow)]
+    c_n: Option<&'a RawValue>,
+    #[serde(borrow)]
+    c_t: Option<&'a RawValue>,
+    #[serde(borrow)]
+    x_0: Option<&'a RawValue>,
+    #[serde(borrow)]
+    s_0: Option<&'a RawValue>,
 }
 
 pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
@@ -77,6 +91,12 @@ pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
             ("upper", document.upper),
             ("w", document.w),
             ("mu", document.mu),
+            ("k", document.k),
+            ("f", document.f),
+            ("c_n", document.c_n),
+            ("c_t", document.c_t),
+            ("x_0", document.x_0),
+            ("s_0", document.s_0),
         ],
     );
     let problem = match document.kind {
@@ -109,6 +129,14 @@ pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
             let q = fields.vector_of("q", 2 * mu.len())?;
             let w = fields.matrix("w", q.len())?;
             Problem::friction(w, q, mu, fields.begin())
+        }
+        Kind::Contact => {
+            let f = fields.vector("f")?;
+            let mu = fields.frictions("mu")?;
+            let k = fields.matrix("k", f.len())?;
+            let [c_n, c_t] = ["c_n", "c_t"].map(|name| fields.matrix_of(name, mu.len(), f.len()));
+            let [x_0, s_0] = ["x_0", "s_0"].map(|name| fields.vector_of(name, mu.len()));
+            Problem::contact((k, f), (c_n?, c_t?), (x_0?, s_0?, mu), fields.begin())
         }
     }?;
     fields.none_left()?;

@@ -1,12 +1,17 @@
 //! The problems that files hold.
 
+use std::borrow::Cow;
+
 use super::{Position, ReadError};
-use crate::{BoxedLcp, Friction2d, HorizontalLcp, Lcp, Matrix, MixedLcp, Residuals};
+use crate::{
+    BoxedLcp, Contact2d, ContactState, Friction2d, HorizontalLcp, Lcp, Matrix, MixedLcp, Residuals,
+    Solution,
+};
 
 /// A problem of any kind that files hold.
 ///
-/// All kinds have the vectors `z` and `w`: in the general form `z = t` and `w = y`; in contact with
-/// friction those of its standard form.
+/// All kinds have the vectors `z` and `w`: in the general form `z = t` and `w = y`; of [`Friction2d`] those of its
+/// standard form, and of [`Contact2d`] the pairs of its general form.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub enum Problem {
@@ -18,8 +23,10 @@ pub enum Problem {
     Mixed(MixedLcp),
     /// Variables between bounds.
     Boxed(BoxedLcp),
-    /// Contact with friction in the plane.
+    /// Contact with friction in the plane, reduced to the contacts.
     Friction(Friction2d),
+    /// Contact with friction in the plane, with the displacements as unknowns.
+    Contact(Contact2d),
 }
 
 impl Problem {
@@ -31,6 +38,7 @@ impl Problem {
             Self::Mixed(_) => "mixed",
             Self::Boxed(_) => "boxed",
             Self::Friction(_) => "friction",
+            Self::Contact(_) => "contact",
         }
     }
 
@@ -42,17 +50,29 @@ impl Problem {
             Self::Mixed(problem) => problem.order(),
             Self::Boxed(problem) => problem.order(),
             Self::Friction(problem) => problem.order(),
+            Self::Contact(problem) => problem.order(),
         }
     }
 
     /// The matrices, with their names.
-    pub fn matrices(&self) -> Vec<(&'static str, &Matrix)> {
+    pub fn matrices(&self) -> Vec<(&'static str, Cow<'_, Matrix>)> {
+        let borrowed = |name, matrix| (name, Cow::Borrowed(matrix));
         match self {
-            Self::Lcp(problem) => vec![("M", problem.m())],
-            Self::Horizontal(problem) => vec![("A", problem.a()), ("B", problem.b())],
-            Self::Mixed(problem) => vec![("M", problem.m())],
-            Self::Boxed(problem) => vec![("M", problem.m())],
-            Self::Friction(problem) => vec![("W", problem.w())],
+            Self::Lcp(problem) => vec![borrowed("M", problem.m())],
+            Self::Horizontal(problem) => {
+                vec![borrowed("A", problem.a()), borrowed("B", problem.b())]
+            }
+            Self::Mixed(problem) => vec![borrowed("M", problem.m())],
+            Self::Boxed(problem) => vec![borrowed("M", problem.m())],
+            Self::Friction(problem) => vec![borrowed("W", problem.w())],
+            Self::Contact(problem) => {
+                let named = [
+                    ("K", problem.stiffness()),
+                    ("C_n", problem.normal()),
+                    ("C_t", problem.tangent()),
+                ];
+                named.map(|(name, m)| (name, Cow::Owned(m.clone().into()))).into()
+            }
         }
     }
 
@@ -64,6 +84,7 @@ impl Problem {
             Self::Mixed(problem) => problem.to_general(),
             Self::Boxed(problem) => problem.to_general(),
             Self::Friction(problem) => problem.standard().clone().into(),
+            Self::Contact(problem) => problem.to_general(),
         }
     }
 
@@ -75,11 +96,31 @@ impl Problem {
         match self {
             Self::Mixed(problem) => problem.recover(t, y),
             Self::Boxed(problem) => problem.recover(t, y),
-            Self::Lcp(_) | Self::Horizontal(_) | Self::Friction(_) => (t.to_vec(), y.to_vec()),
+            _ => (t.to_vec(), y.to_vec()),
         }
     }
 
-    /// `w = M z + q`, for the kinds that have it so: all but the general form.
+    /// The point of the general problem that belongs to `(z, w)`.
+    ///
+    /// # Panics
+    /// If `z` or `w` does not have one entry for every variable.
+    pub fn to_pairs(&self, z: &[f64], w: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        match self {
+            Self::Mixed(problem) => problem.to_pairs(z, w),
+            Self::Boxed(problem) => problem.to_pairs(z, w),
+            _ => (z.to_vec(), w.to_vec()),
+        }
+    }
+
+    /// The state of an answer, of the kind that has one.
+    pub(crate) fn state(&self, solution: &Solution) -> Option<ContactState> {
+        match self {
+            Self::Contact(problem) => Some(problem.variables(solution)),
+            _ => None,
+        }
+    }
+
+    /// `w = M z + q`, for the kinds that have it so: all but the general form and contact.
     ///
     /// # Panics
     /// If `z` does not have one entry for every variable.
@@ -92,7 +133,7 @@ impl Problem {
                 let problem = problem.standard();
                 Some(affine(problem.m(), z, problem.q()))
             }
-            Self::Horizontal(_) => None,
+            Self::Horizontal(_) | Self::Contact(_) => None,
         }
     }
 
@@ -107,6 +148,7 @@ impl Problem {
             Self::Boxed(problem) => problem.residuals(z, w),
             Self::Lcp(problem) => problem.residuals(z, w),
             Self::Friction(problem) => problem.residuals(&problem.forces(z)),
+            Self::Contact(problem) => problem.residuals(&problem.recover(z, w)),
         }
     }
 
@@ -140,6 +182,16 @@ impl Problem {
         at: Position,
     ) -> Result<Self, ReadError> {
         refused(BoxedLcp::new(m, q, lower, upper), at).map(Self::Boxed)
+    }
+
+    /// From `(K, f)`, `(C_n, C_t)` and `(x_0, s_0, mu)`.
+    pub(super) fn contact(
+        (k, f): (Matrix, Vec<f64>),
+        (c_n, c_t): (Matrix, Matrix),
+        (x_0, s_0, mu): (Vec<f64>, Vec<f64>, Vec<f64>),
+        at: Position,
+    ) -> Result<Self, ReadError> {
+        refused(Contact2d::new(k, f, c_n, c_t, x_0, s_0, mu), at).map(Self::Contact)
     }
 
     pub(super) fn friction(

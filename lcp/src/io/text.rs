@@ -12,9 +12,6 @@ pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
     let at = tokens.position();
     let by_rows = tokens.numbers(n * n, "M")?;
     let q = tokens.numbers(n, "q")?;
-    if let Some(token) = tokens.next() {
-        let remedy = "there are n numbers of q after the n x n numbers of M, and nothing else";
-        return Err(token.unexpected("the end of the file".to_owned(), remedy));
-    }
+    tokens.end("there are n numbers of q after the n x n numbers of M, and nothing else")?;
     Problem::lcp(Mat::from_fn(n, n, |i, j| by_rows[i * n + j]).into(), q, at)
 }

@@ -2,6 +2,8 @@
 
 use super::{Position, ReadError};
 
+const END: &str = "the end of the file";
+
 /// A word and its place.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Token<'a> {
@@ -29,36 +31,46 @@ impl Token<'_> {
     }
 }
 
-/// The words of a text, separated by white space; `#` begins a comment up to the end of the line.
+/// The words of a text, separated by white space; `#`, or another sign, begins a comment up to the end of the
+/// line.
 ///
 /// The number of words is counted in advance, so that sizes in a header are compared with it before
 /// anything is allocated.
 #[derive(Debug, Clone)]
 pub(super) struct Tokens<'a> {
     rest: &'a str,
+    comment: char,
     next: Position,
     left: usize,
 }
 
 impl<'a> Tokens<'a> {
     pub(super) fn new(text: &'a str) -> Self {
-        let left = text.lines().map(|line| words(line).count()).sum();
-        Self { rest: text, next: Position { line: 1, column: 1 }, left }
+        Self::with_comments(text, '#')
+    }
+
+    pub(super) fn with_comments(text: &'a str, comment: char) -> Self {
+        let words = |line: &'a str| line.split(comment).next().unwrap_or_default();
+        let left = text.lines().map(|line| words(line).split_whitespace().count()).sum();
+        Self { rest: text, comment, next: Position { line: 1, column: 1 }, left }
     }
 
     /// The next word, if there is one.
     pub(super) fn next(&mut self) -> Option<Token<'a>> {
         loop {
-            let begin = self.rest.find(|c: char| c == '\n' || c == '#' || !c.is_whitespace())?;
+            let begin = self.rest.find(|c: char| c == '\n' || !c.is_whitespace())?;
             self.skip(begin);
-            match self.rest.as_bytes().first()? {
-                b'\n' => {
+            match self.rest.chars().next()? {
+                '\n' => {
                     self.rest = &self.rest[1..];
                     self.next = Position { line: self.next.line + 1, column: 1 };
                 }
-                b'#' => self.skip(self.rest.find('\n').unwrap_or(self.rest.len())),
+                c if c == self.comment => {
+                    self.skip(self.rest.find('\n').unwrap_or(self.rest.len()));
+                }
                 _ => {
-                    let end = self.rest.find(ends_word).unwrap_or(self.rest.len());
+                    let ends = |c: char| c == self.comment || c.is_whitespace();
+                    let end = self.rest.find(ends).unwrap_or(self.rest.len());
                     let token = Token { text: &self.rest[..end], at: self.next };
                     self.skip(end);
                     self.left = self.left.saturating_sub(1);
@@ -76,7 +88,7 @@ impl<'a> Tokens<'a> {
         self.next().ok_or_else(|| ReadError::Unexpected {
             at: self.next,
             expected: expected(),
-            found: "the end of the file".to_owned(),
+            found: END.to_owned(),
             remedy: "complete the file",
         })
     }
@@ -133,6 +145,39 @@ impl<'a> Tokens<'a> {
         Ok(values)
     }
 
+    /// Refuses numbers where the format has none left. Words may follow, which are for people, and before them
+    /// up to `known` numbers of an answer that is known.
+    pub(super) fn end_of_numbers(&mut self, known: usize) -> Result<(), ReadError> {
+        for _ in 0..known {
+            match self.next() {
+                Some(token) if token.text.parse::<f64>().is_ok() => {}
+                _ => return Ok(()),
+            }
+        }
+        match self.next().filter(|token| token.text.parse::<f64>().is_ok()) {
+            Some(token) => {
+                Err(token.unexpected(END.to_owned(), "correct the sizes, or take it out"))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Passes over 0 or 1, if that comes next.
+    pub(super) fn flag(&mut self) {
+        let mut ahead = self.clone();
+        if ahead.next().is_some_and(|token| matches!(token.text, "0" | "1")) {
+            *self = ahead;
+        }
+    }
+
+    /// Refuses whatever is left.
+    pub(super) fn end(&mut self, remedy: &'static str) -> Result<(), ReadError> {
+        match self.next() {
+            Some(token) => Err(token.unexpected(END.to_owned(), remedy)),
+            None => Ok(()),
+        }
+    }
+
     /// Where the next word is looked for.
     pub(super) fn position(&self) -> Position {
         self.next
@@ -156,14 +201,6 @@ impl<'a> Tokens<'a> {
         self.rest = &self.rest[bytes..];
         self.next.column += bytes;
     }
-}
-
-fn words(line: &str) -> impl Iterator<Item = &str> {
-    line.split('#').next().unwrap_or_default().split_whitespace()
-}
-
-fn ends_word(c: char) -> bool {
-    c == '#' || c.is_whitespace()
 }
 
 /// A word as it stands in a message; a long one is cut.

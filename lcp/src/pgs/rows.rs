@@ -79,14 +79,16 @@ pub trait Rows {
 /// What is asked of the entries of `z` that one relaxation changes together. In the order of the rows:
 /// every bound takes one row, and every contact takes two.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Constraint {
     /// `lower <= z_i <= upper`, either of which may be infinite, with `w_i >= 0` at the lower bound,
     /// `w_i <= 0` at the upper one, and `w_i = 0` in between.
     Bounds {
         /// The lower bound.
+        #[cfg_attr(feature = "serde", serde(with = "crate::wire::minus_infinity"))]
         lower: f64,
         /// The upper bound.
+        #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
         upper: f64,
     },
     /// Unilateral contact with Coulomb's friction in the plane, `z_i` and `z_(i + 1)` being the normal and

@@ -6,7 +6,7 @@ use crate::{Error, WarmStart};
 
 /// The order in which a sweep goes over the rows, or over the contacts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum SweepOrder {
     /// From the first to the last.
     #[default]

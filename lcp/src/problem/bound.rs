@@ -7,7 +7,7 @@ use crate::Error;
 
 /// What the symmetric part of `M` says about the problem `w = M z + q`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Monotonicity {
     /// Positive definite: there is exactly one solution, whatever `q`.
     Strong {
@@ -23,7 +23,7 @@ pub enum Monotonicity {
 
 /// How wrong a point is. See [`Lcp::error_bound`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ErrorBound {
     /// What the symmetric part of `M` says.

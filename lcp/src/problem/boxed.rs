@@ -15,8 +15,8 @@ use crate::{Error, Matrix};
 /// use lcp::{BoxedLcp, Lemke, Solver};
 /// let m = mat![[2.0, 1.0], [1.0, 2.0]];
 /// let boxed = BoxedLcp::new(m, vec![-9.0, 2.0], vec![-1.0, -1.0], vec![3.0, f64::INFINITY])?;
-/// let solution = Lemke::default().solve(&boxed.to_general())?;
-/// let (z, w) = boxed.recover(&solution.t, &solution.y);
+/// let solution = Lemke::default().solve(&boxed)?;
+/// let (z, w) = boxed.variables(&solution);
 /// assert_eq!((z, w), (vec![3.0, -1.0], vec![-4.0, 3.0]));
 /// # Ok::<(), lcp::Error>(())
 /// ```

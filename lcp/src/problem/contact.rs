@@ -1,11 +1,13 @@
 //! Contact with friction in the plane, sparse, with the displacements as free variables.
 
 mod bedding;
+mod builder;
 mod mixed;
 mod units;
 
 pub use bedding::Bedding;
 pub(crate) use bedding::check_epsilon;
+pub use builder::{Contact2dBuilder, ContactPoint};
 pub(crate) use units::{column_factors, diagonal, median, power_of_two};
 
 use faer::sparse::SparseColMat;
@@ -27,19 +29,8 @@ use crate::{Error, Matrix};
 /// and whose `K` is zero (in statics) or their mass. A point with `mu = 0` has no tangential force,
 /// whatever its row of `C_t`.
 ///
-/// ```
-/// use faer::mat;
-/// use lcp::{Contact2d, Lemke, Solver};
-/// // A body of weight 2 on a plane (mu = 0.5), pushed by 0.4, with the stiffness 3 behind it
-/// let contact = Contact2d::new(
-///     mat![[0.0, 0.0], [0.0, 3.0]], vec![-2.0, 0.4],
-///     mat![[1.0, 0.0]], mat![[0.0, 1.0]], vec![0.0], vec![0.0], vec![0.5],
-/// )?;
-/// let solution = Solver::<Contact2d>::solve(&Lemke::default(), &contact)?;
-/// let state = contact.recover(&solution.t, &solution.y);
-/// assert!((state.t_n[0] - 2.0).abs() < 1e-14 && (state.t_t[0] + 0.4).abs() < 1e-14);
-/// # Ok::<(), lcp::Error>(())
-/// ```
+/// [`Contact2d::builder`] takes the points one by one, [`Contact2d::new`] takes matrices, and
+/// [`Contact2d::variables`] reads an answer.
 #[derive(Debug, Clone)]
 pub struct Contact2d {
     k: SparseColMat<usize, f64>,
@@ -55,7 +46,7 @@ pub struct Contact2d {
 
 /// Displacements and contact forces with the gaps and slips that belong to them.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ContactState {
     /// The displacements.
@@ -71,7 +62,8 @@ pub struct ContactState {
 }
 
 impl Contact2d {
-    /// A problem from `K` (n x n), `f` (n), `C_n` and `C_t` (m x n), `x_0`, `s_0` and `mu` (m).
+    /// A problem from `K` (n x n), `f` (n), `C_n` and `C_t` (m x n), `x_0`, `s_0` and `mu` (m);
+    /// [`builder`](Self::builder) takes the points one by one.
     ///
     /// # Errors
     /// [`Error::Shape`] or [`Error::Length`] when the shapes do not fit, [`Error::NotFinite`] for a

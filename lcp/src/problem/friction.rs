@@ -25,8 +25,8 @@ use crate::{Error, Lcp, Matrix};
 /// use lcp::{Friction2d, Lemke, Solver};
 /// // A point of mass 1 hits a floor (mu = 0.5) with 2, and slides along it with 3.
 /// let friction = Friction2d::new(mat![[1.0, 0.0], [0.0, 1.0]], vec![-2.0, -3.0], vec![0.5])?;
-/// let solution = Solver::<Friction2d>::solve(&Lemke::default(), &friction)?;
-/// let forces = friction.forces(&solution.t);
+/// let solution = Lemke::default().solve(&friction)?;
+/// let forces = friction.variables(&solution);
 /// assert_eq!((forces.normal[0], forces.tangential[0]), (2.0, 1.0));
 /// # Ok::<(), lcp::Error>(())
 /// ```
@@ -40,7 +40,7 @@ pub struct Friction2d {
 
 /// The forces at the contacts.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ContactForces {
     /// The normal force at every contact.

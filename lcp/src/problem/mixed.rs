@@ -10,12 +10,11 @@ use crate::{Error, Matrix};
 ///
 /// ```
 /// use faer::mat;
-/// use lcp::{Lemke, Solver, MixedLcp};
+/// use lcp::{Lemke, MixedLcp, Solver};
 /// // u free and v >= 0:  v - 1 = 0,  w = -u + v + 1: the block of u is zero
 /// let mixed = MixedLcp::new(mat![[0.0, 1.0], [-1.0, 1.0]], vec![-1.0, 1.0], vec![true, false])?;
-/// let general = mixed.to_general();
-/// let solution = Lemke::default().solve(&general)?;
-/// let (z, w) = mixed.recover(&solution.t, &solution.y);
+/// let solution = Lemke::default().solve(&mixed)?;
+/// let (z, w) = mixed.variables(&solution);
 /// assert_eq!((z, w), (vec![2.0, 1.0], vec![0.0, 0.0]));
 /// # Ok::<(), lcp::Error>(())
 /// ```

@@ -8,12 +8,12 @@ use crate::{Error, Matrix};
 /// As a general problem `t = z`, `y = w`, `A = -M`, `B = 1`, `c = q`.
 ///
 /// ```
-/// use faer::mat;
 /// use lcp::{Lcp, Lemke, Solver};
-/// let lcp = Lcp::new(mat![[2.0, 1.0], [1.0, 2.0]], vec![-5.0, -6.0])?;
+/// let lcp = Lcp::new([[2.0, 1.0], [1.0, 2.0]], vec![-5.0, -6.0])?;
 /// let solution = Lemke::default().solve(&lcp)?;
-/// assert!((solution.t[0] - 4.0 / 3.0).abs() < 1e-15);
-/// assert!((solution.t[1] - 7.0 / 3.0).abs() < 1e-15);
+/// let (z, w) = lcp.variables(&solution);
+/// assert!((z[0] - 4.0 / 3.0).abs() < 1e-15 && (z[1] - 7.0 / 3.0).abs() < 1e-15);
+/// assert_eq!(w, [0.0, 0.0]);
 /// # Ok::<(), lcp::Error>(())
 /// ```
 #[derive(Debug, Clone)]

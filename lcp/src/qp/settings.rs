@@ -8,7 +8,7 @@ use crate::{Error, WarmStart};
 
 /// Which of its two programs a contact problem becomes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum ContactForm {
     /// The dual one where `K` is positive definite and there are few contacts, else the primal one.
@@ -25,7 +25,7 @@ pub enum ContactForm {
 ///
 /// Every displacement has a spring, of the stiffness that [`Bedding`](crate::Bedding) says.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SoftConstraints {
     /// Stiffness of the springs, relative to that of the bodies. In `(0, 1]`.
     pub epsilon: f64,

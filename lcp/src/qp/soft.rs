@@ -20,7 +20,7 @@ use crate::{
 
 /// A contact problem with soft springs on all displacements, solved, and what the springs changed.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct SoftSolution {
     /// Of the problem with springs.
@@ -39,6 +39,7 @@ pub struct SoftSolution {
     /// Estimate of the error of the displacements that the springs cause, relative to the displacements, in
     /// the norm `sqrt(sum k_j u_j^2)`: what centring the springs at the solution changes. Infinite where
     /// that problem was not solved.
+    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub displacement_error: f64,
 }
 

@@ -7,11 +7,12 @@ use crate::extended::Extended;
 
 /// How far the inequalities of the contact law are from being violated, at the contact that is nearest to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Margin {
     /// The least of all: of gaps of open contacts and slips of sliding ones, in units of the largest
     /// displacement; of normal forces of closed contacts and what friction lacks to its bound at sticking
     /// ones, in units of the largest force. Negative where one is violated; infinite without contacts.
+    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub least: f64,
     /// The contact; `None` without contacts.
     pub contact: Option<usize>,

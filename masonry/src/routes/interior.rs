@@ -7,10 +7,9 @@
 use lcp::{InteriorPoint, InteriorPointSettings, Solver};
 
 use super::sparse::Found;
-use super::{Answer, Method, Observer, Request, sparse};
+use super::{Answer, Method, Observer, Request, RouteError, sparse};
 use crate::forms::Sparse;
 use crate::scene::Route;
-use crate::solve::SolveError;
 
 /// The route on a sparse problem.
 #[derive(Debug, Clone, Copy)]
@@ -20,7 +19,7 @@ pub struct Interior<'a> {
 }
 
 impl Method for Interior<'_> {
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, SolveError> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
         let settings = InteriorPointSettings { tolerance: request.tolerance, ..Default::default() };
         let solution = InteriorPoint::new(settings)
             .solve_observed(&self.sparse.problem, &mut |at| observer(at.into()))?;

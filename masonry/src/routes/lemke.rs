@@ -10,12 +10,11 @@
 use lcp::lemke::{Attempt, AttemptCovering, AttemptEnd, AttemptStart, Perturbation};
 use lcp::{Basis, Covering, Lemke, LemkeSettings, Residuals, Side, Status, WarmStart};
 
-use super::{Answer, Method, Motion, Observer, Request, Step};
+use super::{Answer, Method, Motion, Observer, Request, RouteError, Step};
 use crate::forms::{Form, FormKind, RowState, Start};
 use crate::outcome::SolveInfo;
 use crate::reduction::Reduction;
 use crate::scene;
-use crate::solve::SolveError;
 use crate::system::System;
 
 /// Start bases of a reduced form that are tried.
@@ -42,7 +41,7 @@ pub struct Pivots<'a> {
 }
 
 impl Method for Pivots<'_> {
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, SolveError> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
         let Self { system, reduction, start } = *self;
         let kinds: &[FormKind] = match request.form {
             scene::Form::Auto => &[FormKind::Coulomb, FormKind::Mixed],
@@ -84,7 +83,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn run(&mut self, form: Form, observer: Observer<'_>) -> Result<Answer, SolveError> {
+    fn run(&mut self, form: Form, observer: Observer<'_>) -> Result<Answer, RouteError> {
         let mut last = None;
         for (settings, start) in self.settings(&form) {
             let solution = Lemke::new(settings)

@@ -3,10 +3,9 @@
 use lcp::{SemismoothNewton, SemismoothNewtonSettings, Solver};
 
 use super::sparse::Found;
-use super::{Answer, Method, Observer, Request, sparse};
+use super::{Answer, Method, Observer, Request, RouteError, sparse};
 use crate::forms::Sparse;
 use crate::scene::Route;
-use crate::solve::SolveError;
 
 /// The route on a sparse problem.
 #[derive(Debug, Clone, Copy)]
@@ -16,7 +15,7 @@ pub struct Newton<'a> {
 }
 
 impl Method for Newton<'_> {
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, SolveError> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
         let settings =
             SemismoothNewtonSettings { tolerance: request.tolerance, ..Default::default() };
         let solution = SemismoothNewton::new(settings)

@@ -13,11 +13,10 @@ use lcp::{
 };
 
 use super::sparse::Found;
-use super::{Answer, Method, Observer, Request, Step, sparse};
+use super::{Answer, Method, Observer, Request, RouteError, Step, sparse};
 use crate::forms::Sparse;
 use crate::outcome::SoftReport;
 use crate::scene::Route;
-use crate::solve::SolveError;
 
 /// Stiffness of the springs where the scene gives none: soft ones need fewer rounds, and more sweeps in
 /// each of them.
@@ -51,7 +50,7 @@ pub struct Sweeps<'a> {
 }
 
 impl Method for Sweeps<'_> {
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, SolveError> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
         let problem = &self.sparse.problem;
         let stiffness = request.soft.unwrap_or(SOFT);
         let bedding = Bedding::new(problem, stiffness)?;

@@ -10,11 +10,10 @@ use lcp::qp::SoftConstraints;
 use lcp::{QuadraticProgram, QuadraticProgramSettings, Solver, Status};
 
 use super::sparse::Found;
-use super::{Answer, Method, Observer, Request, sparse};
+use super::{Answer, Method, Observer, Request, RouteError, sparse};
 use crate::forms::Sparse;
 use crate::outcome::SoftReport;
 use crate::scene::Route;
-use crate::solve::SolveError;
 
 /// The route on a sparse problem.
 #[derive(Debug, Clone, Copy)]
@@ -24,7 +23,7 @@ pub struct Programs<'a> {
 }
 
 impl Method for Programs<'_> {
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, SolveError> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
         let problem = &self.sparse.problem;
         let soft = request.soft.map(|epsilon| SoftConstraints { epsilon, ..Default::default() });
         let settings =

@@ -257,7 +257,7 @@ impl<'a> Chain<'a> {
             })
         });
         self.clock.add("solve", began);
-        answer
+        Ok(answer?)
     }
 
     fn concluded(&self, answer: Answer, state: Option<State>) -> Attempt {

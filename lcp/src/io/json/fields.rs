@@ -108,41 +108,61 @@ impl<'a, const N: usize> Fields<'a, N> {
 
     /// A square matrix of that order, as rows or as triplets.
     pub(super) fn matrix(&mut self, name: &'static str, order: usize) -> Result<Matrix, ReadError> {
+        self.matrix_of(name, order, order)
+    }
+
+    /// A matrix of that size.
+    pub(super) fn matrix_of(
+        &mut self,
+        name: &'static str,
+        rows: usize,
+        cols: usize,
+    ) -> Result<Matrix, ReadError> {
         let raw = self.take(name)?;
         if raw.get().starts_with('{') {
-            self.sparse(name, raw, order)
+            self.sparse(name, raw, (rows, cols))
         } else {
-            self.dense(name, raw, order)
+            self.dense(name, raw, (rows, cols))
         }
     }
 
-    fn dense(&self, name: &str, raw: &'a RawValue, order: usize) -> Result<Matrix, ReadError> {
+    fn dense(
+        &self,
+        name: &str,
+        raw: &'a RawValue,
+        (height, width): (usize, usize),
+    ) -> Result<Matrix, ReadError> {
         let rows: Vec<&RawValue> = self.parse(raw)?;
-        self.check_length(raw, name, "rows", rows.len(), order)?;
-        let mut matrix = Mat::zeros(order, order);
+        self.check_length(raw, name, "rows", rows.len(), height)?;
+        let mut matrix = Mat::zeros(height, width);
         for (i, raw) in rows.into_iter().enumerate() {
             let row: Vec<f64> = self.parse(raw)?;
-            self.check_length(raw, name, &format!("entries in row {i}"), row.len(), order)?;
+            self.check_length(raw, name, &format!("entries in row {i}"), row.len(), width)?;
             row.into_iter().enumerate().for_each(|(j, v)| matrix[(i, j)] = v);
         }
         Ok(matrix.into())
     }
 
-    fn sparse(&self, name: &str, raw: &'a RawValue, order: usize) -> Result<Matrix, ReadError> {
+    fn sparse(
+        &self,
+        name: &str,
+        raw: &'a RawValue,
+        (height, width): (usize, usize),
+    ) -> Result<Matrix, ReadError> {
         let Sparse { rows, cols, triplets } = self.parse(raw)?;
-        self.check_length(raw, name, "rows", rows, order)?;
-        self.check_length(raw, name, "columns", cols, order)?;
+        self.check_length(raw, name, "rows", rows, height)?;
+        self.check_length(raw, name, "columns", cols, width)?;
         let mut entries = Vec::with_capacity(triplets.len());
         for raw in triplets {
             let (row, col, value): (usize, usize, f64) = self.parse(raw)?;
-            if row >= order || col >= order {
+            if row >= height || col >= width {
                 let message =
-                    format!("entry [{row}, {col}] of `{name}` is outside {order} x {order}");
+                    format!("entry [{row}, {col}] of `{name}` is outside {height} x {width}");
                 return Err(self.wrong(raw, message));
             }
             entries.push((row, col, value));
         }
-        Ok(Matrix::from_entries(order, order, entries.into_iter()))
+        Ok(Matrix::from_entries(height, width, entries.into_iter()))
     }
 
     fn list<T: Deserialize<'a>>(
@@ -175,9 +195,8 @@ impl<'a, const N: usize> Fields<'a, N> {
         if length == expected {
             return Ok(());
         }
-        let message = format!(
-            "`{name}` has {length} {what}, but must have {expected}, as the vector has entries"
-        );
+        let message =
+            format!("`{name}` has {length} {what}, but must have {expected}, to fit the vectors");
         Err(self.wrong(raw, message))
     }
 

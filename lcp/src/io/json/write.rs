@@ -41,6 +41,15 @@ pub fn to_json(problem: &Problem) -> String {
             ("q", numbers(problem.q())),
             ("mu", numbers(problem.mu())),
         ],
+        Problem::Contact(problem) => vec![
+            ("k", matrix(&problem.stiffness().clone().into())),
+            ("f", numbers(problem.loads())),
+            ("c_n", matrix(&problem.normal().clone().into())),
+            ("c_t", matrix(&problem.tangent().clone().into())),
+            ("x_0", numbers(problem.initial_gaps())),
+            ("s_0", numbers(problem.initial_slips())),
+            ("mu", numbers(problem.mu())),
+        ],
     };
     let mut out = format!("{{\n  \"kind\": \"{}\"", problem.kind());
     for (name, value) in fields {

@@ -6,36 +6,38 @@ use crate::Matrix;
 use crate::io::ReadError;
 use crate::io::tokens::{Token, Tokens};
 
+const SIZE: &str = "the size, as 3-by-3";
 const SIZES: &str = "sizes must agree with each other";
 
-/// A square matrix of that order, in any storage.
-pub(super) fn read(tokens: &mut Tokens<'_>, order: usize) -> Result<Matrix, ReadError> {
-    let what = "the storage type: 0 (dense), 1 (blocks) or 2 (sparse)";
-    let storage = tokens.expect(|| what.to_owned())?;
-    tokens.fixed("the number of rows", order)?;
-    tokens.fixed("the number of columns", order)?;
+pub(super) const STORAGE: &str = "the storage type: 0 (dense), 1 (blocks) or 2 (sparse)";
+
+/// A matrix of that size, in any storage.
+pub(super) fn read(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matrix, ReadError> {
+    let storage = tokens.expect(|| STORAGE.to_owned())?;
+    tokens.fixed("the number of rows", rows)?;
+    tokens.fixed("the number of columns", cols)?;
     match storage.text {
-        "0" => read_dense(tokens, order),
-        "1" => read_blocks(tokens, order),
-        "2" => read_sparse(tokens, order),
-        _ => Err(storage.unexpected(what.to_owned(), "no other storage exists")),
+        "0" => read_dense(tokens, rows, cols),
+        "1" => read_blocks(tokens, rows, cols),
+        "2" => read_sparse(tokens, rows, cols),
+        _ => Err(storage.unexpected(STORAGE.to_owned(), "no other storage exists")),
     }
 }
 
-fn read_dense(tokens: &mut Tokens<'_>, order: usize) -> Result<Matrix, ReadError> {
-    tokens.fixed("the number of rows", order)?;
-    tokens.fixed("the number of columns", order)?;
-    tokens.room_for(order.checked_mul(order), "the matrix")?;
-    let by_columns = tokens.numbers(order * order, "the matrix")?;
-    Ok(Mat::from_fn(order, order, |i, j| by_columns[j * order + i]).into())
+fn read_dense(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matrix, ReadError> {
+    tokens.fixed("the number of rows", rows)?;
+    tokens.fixed("the number of columns", cols)?;
+    tokens.room_for(rows.checked_mul(cols), "the matrix")?;
+    let by_columns = tokens.numbers(rows * cols, "the matrix")?;
+    Ok(Mat::from_fn(rows, cols, |i, j| by_columns[j * rows + i]).into())
 }
 
-fn read_blocks(tokens: &mut Tokens<'_>, order: usize) -> Result<Matrix, ReadError> {
+fn read_blocks(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matrix, ReadError> {
     let blocks = tokens.count("the number of blocks")?;
     let block_rows = tokens.count("the number of block rows")?;
     let block_cols = tokens.count("the number of block columns")?;
-    let row_ends = read_ends(tokens, block_rows, order)?;
-    let col_ends = read_ends(tokens, block_cols, order)?;
+    let row_ends = read_ends(tokens, block_rows, rows)?;
+    let col_ends = read_ends(tokens, block_cols, cols)?;
     let pointer_count = tokens.expect(|| "the number of block row pointers".to_owned())?;
     let pointers = pointer_count.count("the number of block row pointers")?;
     if pointers == 0 || pointers > block_rows + 1 {
@@ -49,24 +51,24 @@ fn read_blocks(tokens: &mut Tokens<'_>, order: usize) -> Result<Matrix, ReadErro
     let mut triplets = Vec::new();
     for (number, (&row, &col)) in block_row.iter().zip(&block_col).enumerate() {
         tokens.fixed("the number of the block", number)?;
-        let (rows, cols) = (range(&row_ends, row), range(&col_ends, col));
-        tokens.room_for(rows.len().checked_mul(cols.len()), "a block")?;
-        let values = tokens.numbers(rows.len() * cols.len(), "a block")?;
-        let places = cols.flat_map(|j| rows.clone().map(move |i| (i, j)));
+        let (of_rows, of_cols) = (range(&row_ends, row), range(&col_ends, col));
+        tokens.room_for(of_rows.len().checked_mul(of_cols.len()), "a block")?;
+        let values = tokens.numbers(of_rows.len() * of_cols.len(), "a block")?;
+        let places = of_cols.flat_map(|j| of_rows.clone().map(move |i| (i, j)));
         triplets.extend(places.zip(values).map(|((i, j), v)| (i, j, v)));
     }
-    Ok(Matrix::from_entries(order, order, triplets.into_iter()))
+    Ok(Matrix::from_entries(rows, cols, triplets.into_iter()))
 }
 
-/// Where every block ends: increasing up to the order.
-fn read_ends(tokens: &mut Tokens<'_>, count: usize, order: usize) -> Result<Vec<usize>, ReadError> {
+/// Where every block ends: increasing up to the number of rows or columns.
+fn read_ends(tokens: &mut Tokens<'_>, count: usize, size: usize) -> Result<Vec<usize>, ReadError> {
     tokens.room_for(Some(count), "the ends of the blocks")?;
     let mut ends = Vec::with_capacity(count);
     let mut last = 0;
-    if count == 0 && order > 0 {
+    if count == 0 && size > 0 {
         return Err(ReadError::Unexpected {
             at: tokens.position(),
-            expected: format!("blocks with {order} rows and columns"),
+            expected: format!("blocks that cover {size} rows or columns"),
             found: "no block".to_owned(),
             remedy: SIZES,
         });
@@ -75,8 +77,8 @@ fn read_ends(tokens: &mut Tokens<'_>, count: usize, order: usize) -> Result<Vec<
         let token = tokens.expect(|| "the end of a block".to_owned())?;
         let end = token.count("the end of a block")?;
         let is_last = index + 1 == count;
-        if end <= last || end > order || (is_last && end != order) {
-            let expected = format!("an end of a block above {last}, the last one {order}");
+        if end <= last || end > size || (is_last && end != size) {
+            let expected = format!("an end of a block above {last}, the last one {size}");
             return Err(token.unexpected(expected, SIZES));
         }
         ends.push(end);
@@ -119,12 +121,15 @@ fn range(ends: &[usize], index: usize) -> std::ops::Range<usize> {
     begin..ends[index]
 }
 
-fn read_sparse(tokens: &mut Tokens<'_>, order: usize) -> Result<Matrix, ReadError> {
+fn read_sparse(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matrix, ReadError> {
     let what = "the origin: 1 (triplets), 2 (by columns) or 3 (by rows)";
     let origin = tokens.expect(|| what.to_owned())?;
     let (size, is_triplets) = skip_banner(tokens)?;
-    if size.text.trim_end_matches(',') != format!("{order}-by-{order}") {
-        return Err(size.unexpected(format!("{order}-by-{order}"), SIZES));
+    // Rows are written as the columns of the transpose.
+    let (written_rows, written_cols) = if origin.text == "3" { (cols, rows) } else { (rows, cols) };
+    let expected = format!("{written_rows}-by-{written_cols}");
+    if size.text.trim_end_matches(',') != expected {
+        return Err(size.unexpected(expected, SIZES));
     }
     tokens.word("nzmax:")?;
     tokens.count("nzmax")?;
@@ -133,8 +138,8 @@ fn read_sparse(tokens: &mut Tokens<'_>, order: usize) -> Result<Matrix, ReadErro
     let nnz = Token { text: token.text.trim_end_matches(','), ..token };
     let nnz = nnz.count("the number of entries")?;
     let mut triplets = match (origin.text, is_triplets) {
-        ("1", true) => read_triplets(tokens, order, nnz)?,
-        ("2" | "3", false) => read_columns(tokens, order, nnz)?,
+        ("1", true) => read_triplets(tokens, (rows, cols), nnz)?,
+        ("2" | "3", false) => read_columns(tokens, (written_rows, written_cols), nnz)?,
         _ => return Err(origin.unexpected(what.to_owned(), "it must suit the entries that follow")),
     };
     if origin.text == "3" {
@@ -142,41 +147,50 @@ fn read_sparse(tokens: &mut Tokens<'_>, order: usize) -> Result<Matrix, ReadErro
             std::mem::swap(i, j);
         }
     }
-    Ok(Matrix::from_entries(order, order, triplets.into_iter()))
+    Ok(Matrix::from_entries(rows, cols, triplets.into_iter()))
 }
 
 /// The word with the size, and whether triplets follow.
 fn skip_banner<'a>(tokens: &mut Tokens<'a>) -> Result<(Token<'a>, bool), ReadError> {
-    let mut is_triplets = false;
-    loop {
-        let token = tokens.expect(|| "the size, as 3-by-3".to_owned())?;
-        if token.text.contains("-by-") {
-            return Ok((token, is_triplets));
-        }
+    let first = tokens.expect(|| SIZE.to_owned())?;
+    let (mut token, mut is_triplets) = (first, false);
+    while !token.text.contains("-by-") {
         is_triplets = token.text == "triplet:";
+        // Without a size the file went wrong where the banner should begin, and not at its end.
+        let missing = || first.unexpected(SIZE.to_owned(), "it follows a line about the library");
+        token = tokens.next().ok_or_else(missing)?;
     }
+    Ok((token, is_triplets))
 }
 
 type Triplets = Vec<(usize, usize, f64)>;
 
-fn read_triplets(tokens: &mut Tokens<'_>, order: usize, nnz: usize) -> Result<Triplets, ReadError> {
+fn read_triplets(
+    tokens: &mut Tokens<'_>,
+    (rows, cols): (usize, usize),
+    nnz: usize,
+) -> Result<Triplets, ReadError> {
     tokens.room_for(nnz.checked_mul(4), "the list of entries")?;
     let mut triplets = Vec::with_capacity(nnz);
     for _ in 0..nnz {
-        let row = tokens.index(order, "a row")?;
-        let col = tokens.index(order, "a column")?;
+        let row = tokens.index(rows, "a row")?;
+        let col = tokens.index(cols, "a column")?;
         tokens.word(":")?;
         triplets.push((row, col, tokens.number("the value of an entry")?));
     }
     Ok(triplets)
 }
 
-fn read_columns(tokens: &mut Tokens<'_>, order: usize, nnz: usize) -> Result<Triplets, ReadError> {
+fn read_columns(
+    tokens: &mut Tokens<'_>,
+    (rows, cols): (usize, usize),
+    nnz: usize,
+) -> Result<Triplets, ReadError> {
     tokens.word("1-norm:")?;
     tokens.expect(|| "the norm".to_owned())?;
     tokens.room_for(nnz.checked_mul(3), "the list of entries")?;
     let mut triplets = Vec::with_capacity(nnz);
-    for col in 0..order {
+    for col in 0..cols {
         tokens.word("col")?;
         tokens.fixed("the column", col)?;
         tokens.word(":")?;
@@ -193,7 +207,7 @@ fn read_columns(tokens: &mut Tokens<'_>, order: usize, nnz: usize) -> Result<Tri
             return Err(last.unexpected("the last location of the column".to_owned(), SIZES));
         };
         while triplets.len() < end {
-            let row = tokens.index(order, "a row")?;
+            let row = tokens.index(rows, "a row")?;
             tokens.word(":")?;
             triplets.push((row, col, tokens.number("the value of an entry")?));
         }

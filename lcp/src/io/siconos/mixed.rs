@@ -37,6 +37,8 @@ pub(in crate::io) fn read_mlcp(text: &str) -> Result<Problem, ReadError> {
             });
         }
     };
+    // Some files end with the known values of the variables and of w.
+    tokens.end_of_numbers(n + 2 * m)?;
     let Mixed { m, q, free } = mixed;
     Problem::mixed(m, q, free, at)
 }
@@ -90,7 +92,7 @@ impl Mixed {
                 remedy: "the kinds of the blocks must agree with n and m",
             });
         }
-        Ok(Self { m: matrix::read(tokens, order)?, q: tokens.numbers(order, "q")?, free })
+        Ok(Self { m: matrix::read(tokens, order, order)?, q: tokens.numbers(order, "q")?, free })
     }
 
     /// `A` (n x n), `B` (m x m), `C` (n x m) and `D` (m x n) by rows, `a` and `b`.

@@ -4,7 +4,7 @@ use crate::{Basis, Status};
 
 /// How a trace ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum ParametricEnd {
     /// The parameter has reached its last value.
@@ -28,7 +28,7 @@ pub enum ParametricEnd {
 
 /// A point of the path.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Breakpoint {
     /// Value of the parameter.
     pub lambda: f64,
@@ -40,7 +40,7 @@ pub struct Breakpoint {
 
 /// The direction of a path that goes on for ever.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ParametricRay {
     /// Rate of the parameter.
     pub dlambda: f64,
@@ -53,7 +53,7 @@ pub struct ParametricRay {
 /// A piecewise linear path of solutions: between two breakpoints that follow each other every point
 /// on the straight line solves the problem for the parameter on that line.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ParametricPath {
     /// How the trace ended.
@@ -68,6 +68,7 @@ pub struct ParametricPath {
     /// Where the path goes on for ever.
     pub ray: Option<ParametricRay>,
     /// The worst residual of all breakpoints, from the original data.
+    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub residual: f64,
 }
 

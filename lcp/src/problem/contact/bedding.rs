@@ -24,7 +24,7 @@ use crate::{Error, Matrix};
 /// let bedding = Bedding::new(&contact, 0.1)?;
 /// let bedded = bedding.attached(&contact, &[0.0, 0.0])?;
 /// let solution = ProjectedGaussSeidel::default().solve(&bedded)?;
-/// let state = bedded.recover(&solution.t, &solution.y);
+/// let state = bedded.variables(&solution);
 /// assert!(solution.is_solved() && (state.t_t[0] + 0.4).abs() < 1e-7);
 /// assert!(bedding.share(&contact, &bedding.forces(&state.u, &[0.0, 0.0])) < 1e-7);
 /// # Ok::<(), lcp::Error>(())

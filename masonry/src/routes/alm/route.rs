@@ -5,9 +5,8 @@ use lcp::Error;
 use super::{AlmError, Settings, solve};
 use crate::forms::Sparse;
 use crate::routes::sparse::{self, Found};
-use crate::routes::{Answer, Method, Observer, Request, Step};
+use crate::routes::{Answer, Method, Observer, Request, RouteError, Step};
 use crate::scene::Route;
-use crate::solve::SolveError;
 
 /// The route on a sparse problem.
 #[derive(Debug, Clone, Copy)]
@@ -17,7 +16,7 @@ pub struct Multipliers<'a> {
 }
 
 impl Method for Multipliers<'_> {
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, SolveError> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
         let problem = &self.sparse.problem;
         let settings = Settings { tolerance: request.tolerance, ..Settings::default() };
         let mut number = 0;
@@ -41,7 +40,7 @@ impl Method for Multipliers<'_> {
     }
 }
 
-impl From<AlmError> for SolveError {
+impl From<AlmError> for RouteError {
     fn from(error: AlmError) -> Self {
         match error {
             AlmError::Tolerance { tolerance } => {

@@ -7,9 +7,8 @@ use super::{MortaredError, MortaredWall, Settings};
 use crate::forms::Sparse;
 use crate::model::Model;
 use crate::routes::sparse::{self, Found};
-use crate::routes::{Answer, Method, Observer, Request, Step};
+use crate::routes::{Answer, Method, Observer, Request, RouteError, Step};
 use crate::scene::Route;
-use crate::solve::SolveError;
 use crate::system::System;
 
 /// The iteration goes on until it is better than the tolerance by this factor, because residuals of the problem
@@ -57,7 +56,7 @@ impl Strips<'_> {
 }
 
 impl Method for Strips<'_> {
-    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, SolveError> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
         let wall = MortaredWall::new(self.model)?;
         let settings = Settings { tolerance: BETTER * request.tolerance, ..Settings::default() };
         let mut number = 0;
@@ -87,7 +86,7 @@ impl Method for Strips<'_> {
     }
 }
 
-impl From<MortaredError> for SolveError {
+impl From<MortaredError> for RouteError {
     fn from(error: MortaredError) -> Self {
         match error {
             MortaredError::Data(error) => error.into(),

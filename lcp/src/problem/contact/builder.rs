@@ -1,0 +1,130 @@
+//! Contact problems point by point.
+
+use super::Contact2d;
+use crate::{Error, Matrix};
+
+/// A contact point with the displacements that open it and move it along. A row is a list of pairs
+/// `(displacement, coefficient)`; coefficients of the same displacement add up.
+///
+/// Without `tangent`, `gap`, `slip` and `mu` it is a closed point without friction:
+///
+/// ```
+/// use lcp::ContactPoint;
+/// let point = ContactPoint { normal: &[(0, 1.0)], ..Default::default() };
+/// assert!(point.gap == 0.0 && point.mu == 0.0);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ContactPoint<'a> {
+    /// The row of `C_n`: by how much the gap grows for unit displacements.
+    pub normal: &'a [(usize, f64)],
+    /// The row of `C_t`: by how much the slip grows for unit displacements.
+    pub tangent: &'a [(usize, f64)],
+    /// The gap without displacements; negative where the bodies overlap.
+    pub gap: f64,
+    /// The slip without displacements.
+    pub slip: f64,
+    /// The coefficient of friction, at least zero.
+    pub mu: f64,
+}
+
+/// Puts a [`Contact2d`] together point by point: see [`Contact2d::builder`].
+#[derive(Debug, Clone)]
+pub struct Contact2dBuilder {
+    k: Matrix,
+    f: Vec<f64>,
+    normal: Rows,
+    tangent: Rows,
+    gaps: Vec<f64>,
+    slips: Vec<f64>,
+    mu: Vec<f64>,
+}
+
+/// Rows of a matrix as triplets.
+type Rows = Vec<(usize, usize, f64)>;
+
+impl Contact2d {
+    /// A problem with the stiffness or mass `K` (n x n) and the loads `f` (n), to which contact points are added.
+    ///
+    /// ```
+    /// use lcp::{Contact2d, ContactPoint, Lemke, Solver};
+    /// // A body of weight 2 on a plane, pushed by 0.4, with the stiffness 3 behind it
+    /// let mut builder = Contact2d::builder([[3.0, 0.0], [0.0, 0.0]], vec![0.4, -2.0]);
+    /// let (x, y) = (0, 1);
+    /// let foot = builder.add_point(ContactPoint {
+    ///     normal: &[(y, 1.0)],
+    ///     tangent: &[(x, 1.0)],
+    ///     mu: 0.5,
+    ///     ..Default::default()
+    /// });
+    /// let contact = builder.build()?;
+    /// let state = contact.variables(&Lemke::default().solve(&contact)?);
+    /// assert!((state.t_n[foot] - 2.0).abs() < 1e-14 && (state.t_t[foot] + 0.4).abs() < 1e-14);
+    /// # Ok::<(), lcp::Error>(())
+    /// ```
+    pub fn builder(k: impl Into<Matrix>, f: Vec<f64>) -> Contact2dBuilder {
+        Contact2dBuilder {
+            k: k.into(),
+            f,
+            normal: Vec::new(),
+            tangent: Vec::new(),
+            gaps: Vec::new(),
+            slips: Vec::new(),
+            mu: Vec::new(),
+        }
+    }
+}
+
+impl Contact2dBuilder {
+    /// Adds a contact point and gives its number, by which the answer names it.
+    pub fn add_point(&mut self, point: ContactPoint<'_>) -> usize {
+        let number = self.mu.len();
+        let ContactPoint { normal, tangent, gap, slip, mu } = point;
+        self.normal.extend(normal.iter().map(|&(index, value)| (number, index, value)));
+        self.tangent.extend(tangent.iter().map(|&(index, value)| (number, index, value)));
+        self.gaps.push(gap);
+        self.slips.push(slip);
+        self.mu.push(mu);
+        number
+    }
+
+    /// The problem.
+    ///
+    /// # Errors
+    /// [`Error::PointEntry`] or [`Error::PointValue`] with the number of a point whose data are wrong, and those
+    /// of [`Contact2d::new`] for `K` and `f`.
+    pub fn build(self) -> Result<Contact2d, Error> {
+        let Self { k, f, normal, tangent, gaps, slips, mu } = self;
+        let (n, m) = (f.len(), mu.len());
+        for (row, entries) in [("normal", &normal), ("tangent", &tangent)] {
+            check_entries(row, entries, n)?;
+        }
+        for (name, values) in [("gap", &gaps), ("slip", &slips)] {
+            check_values(name, values, "finite", f64::is_finite)?;
+        }
+        check_values("mu", &mu, "at least zero and finite", |mu| mu >= 0.0 && mu.is_finite())?;
+        let [c_n, c_t] = [normal, tangent].map(|rows| Matrix::from_entries(m, n, rows.into_iter()));
+        Contact2d::new(k, f, c_n, c_t, gaps, slips, mu)
+    }
+}
+
+fn check_entries(row: &'static str, entries: &Rows, displacements: usize) -> Result<(), Error> {
+    let wrong = entries.iter().find(|(_, index, v)| *index >= displacements || !v.is_finite());
+    match wrong {
+        Some(&(point, index, value)) => {
+            Err(Error::PointEntry { point, row, index, value, displacements })
+        }
+        None => Ok(()),
+    }
+}
+
+fn check_values(
+    name: &'static str,
+    values: &[f64],
+    range: &'static str,
+    fits: impl Fn(f64) -> bool,
+) -> Result<(), Error> {
+    match values.iter().position(|&value| !fits(value)) {
+        Some(point) => Err(Error::PointValue { point, name, value: values[point], range }),
+        None => Ok(()),
+    }
+}

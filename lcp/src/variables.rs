@@ -1,0 +1,60 @@
+//! Answers in the variables of the problem as it was posed.
+
+use crate::{
+    BoxedLcp, Contact2d, ContactForces, ContactState, Friction2d, Lcp, MixedLcp, Solution,
+};
+
+impl Lcp {
+    /// The variables of an answer, `(z, w)`: its `t` and `y`.
+    ///
+    /// # Panics
+    /// If the answer is that of a problem of another size.
+    pub fn variables(&self, solution: &Solution) -> (Vec<f64>, Vec<f64>) {
+        let (t, y) = (&solution.t, &solution.y);
+        assert!(t.len() == self.order() && y.len() == self.order(), "an answer of this problem");
+        (t.clone(), y.clone())
+    }
+}
+
+impl MixedLcp {
+    /// The variables of an answer, `(z, w)`.
+    ///
+    /// # Panics
+    /// If the answer is that of a problem of another size.
+    pub fn variables(&self, solution: &Solution) -> (Vec<f64>, Vec<f64>) {
+        self.recover(&solution.t, &solution.y)
+    }
+}
+
+impl BoxedLcp {
+    /// The variables of an answer, `(z, w)`.
+    ///
+    /// # Panics
+    /// If the answer is that of a problem of another size.
+    pub fn variables(&self, solution: &Solution) -> (Vec<f64>, Vec<f64>) {
+        self.recover(&solution.t, &solution.y)
+    }
+}
+
+impl Friction2d {
+    /// The forces at the contacts of an answer.
+    ///
+    /// # Panics
+    /// If the answer is that of a problem of another size.
+    pub fn variables(&self, solution: &Solution) -> ContactForces {
+        self.forces(&solution.t)
+    }
+}
+
+impl Contact2d {
+    /// The displacements, forces, gaps and slips of an answer.
+    ///
+    /// # Panics
+    /// If the answer is that of a problem of another size.
+    pub fn variables(&self, solution: &Solution) -> ContactState {
+        match &solution.contact {
+            Some(state) => state.clone(),
+            None => self.recover(&solution.t, &solution.y),
+        }
+    }
+}

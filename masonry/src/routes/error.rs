@@ -1,0 +1,20 @@
+//! Why a route did not begin.
+
+use crate::scene::Route;
+
+/// A request that a route refuses.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RouteError {
+    /// The solver refused its settings or the data.
+    #[error(transparent)]
+    Solver(#[from] lcp::Error),
+    /// The route cannot treat the structure.
+    #[error("{} cannot treat this problem: {reason}", .route.name())]
+    NotTreated {
+        /// The route.
+        route: Route,
+        /// What is in the way, and what to take instead.
+        reason: String,
+    },
+}

@@ -1,0 +1,109 @@
+//! Results in files: what is written is read back as it was.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+
+use lcp::faer::mat;
+use lcp::lemke::{Parametric, ParametricPath};
+use lcp::pgs::{Constraint, RowsSolution, SweepOrder};
+use lcp::qp::{ContactForm, SoftConstraints};
+use lcp::refine::{ContactStatus, Margin, Refinement};
+use lcp::{
+    Auto, Basis, Choice, Contact2d, ContactForces, ContactPoint, ContactState, Covering,
+    ErrorBound, Friction2d, Lcp, Lemke, LemkeSettings, Method, QuadraticProgram, Residuals, Side,
+    Solution, Solver, Status, WarmStart, families,
+};
+use serde_json::{from_str, to_string};
+
+/// As text and back; the text of what came back is the same.
+macro_rules! assert_comes_back {
+    ($type:ty, $value:expr) => {{
+        let value: $type = $value;
+        let text = to_string(&value).unwrap();
+        let again: $type = from_str(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
+        assert_eq!(again, value, "{text}");
+        assert_eq!(to_string(&again).unwrap(), text);
+        text
+    }};
+}
+
+fn contact() -> Contact2d {
+    let mut builder = Contact2d::builder(mat![[3.0, 0.0], [0.0, 0.0]], vec![0.4, -2.0]);
+    builder.add_point(ContactPoint {
+        normal: &[(1, 1.0)],
+        tangent: &[(0, 1.0)],
+        mu: 0.5,
+        ..Default::default()
+    });
+    builder.build().unwrap()
+}
+
+#[test]
+fn answers_of_every_end() {
+    let settings = LemkeSettings { trace: true, ..Default::default() };
+    let lemke = Lemke::new(settings);
+    let solved = lemke.solve(&families::positive_definite(6, 1).problem).unwrap();
+    let text = assert_comes_back!(Solution, solved);
+    assert!(text.contains(r#""solver":"lemke""#), "{text}");
+    let infeasible = lemke.solve(&families::kostreva_2().problem).unwrap();
+    assert_eq!(infeasible.status, Status::Infeasible);
+    assert_comes_back!(Solution, infeasible);
+    assert_comes_back!(Solution, Auto::default().solve(&contact()).unwrap());
+    // Pushed up, with a chain of methods and their evidence.
+    let falls = Lcp::new([[1.0, -1.0], [-1.0, 1.0]], vec![-1.0, -1.0]).unwrap();
+    let solution = Auto::default().solve(&falls).unwrap();
+    assert!(solution.info.routes.len() > 1);
+    assert_comes_back!(Solution, solution);
+}
+
+#[test]
+fn residuals_that_are_infinite() {
+    let inf = f64::INFINITY;
+    let [equation, feasibility, complementarity, natural, loads] = [inf, 0.0, 1e-300, inf, 1.0];
+    assert_comes_back!(Residuals, Residuals { equation, feasibility, complementarity, natural, loads });
+    let mut solution = Lemke::default().solve(&families::fathi(3).problem).unwrap();
+    solution.info.history = vec![inf, 1.0];
+    assert_comes_back!(Solution, solution);
+    assert_comes_back!(Constraint, Constraint::Bounds { lower: -inf, upper: inf });
+    assert_comes_back!(Margin, Margin { least: inf, contact: None });
+}
+
+#[test]
+fn parts_of_answers_and_of_settings() {
+    let problem = contact();
+    let solution = Lemke::default().solve(&problem).unwrap();
+    assert_comes_back!(ContactState, problem.variables(&solution));
+    let friction = Friction2d::new([[2.0, 0.0], [0.0, 1.0]], vec![-2.0, -0.25], vec![0.5]).unwrap();
+    let solution = Lemke::default().solve(&friction).unwrap();
+    assert_comes_back!(ContactForces, friction.variables(&solution));
+    let lcp = families::obstacle(4).problem;
+    assert_comes_back!(ErrorBound, lcp.error_bound(&[0.0; 16]).unwrap());
+    assert_comes_back!(Vec<Choice>, Auto::default().plan(&lcp));
+    let general = lcp.into();
+    let path = Parametric::default().trace(&general, &[1.0; 16], 0.0, 1.0).unwrap();
+    assert_comes_back!(ParametricPath, path);
+    assert_comes_back!(Covering, Covering::Random { seed: u64::MAX });
+    assert_comes_back!(WarmStart, WarmStart::Basis(Basis::all(Side::T, 2)));
+    assert_comes_back!(WarmStart, WarmStart::Point { t: vec![0.1], y: vec![1e-320] });
+    assert_comes_back!([ContactStatus; 2], [ContactStatus::Open, ContactStatus::Backwards]);
+    assert_comes_back!([Refinement; 2], [Refinement::Plain, Refinement::Extended]);
+    assert_comes_back!([SweepOrder; 2], [SweepOrder::Forward, SweepOrder::Coloured]);
+    assert_comes_back!(ContactForm, ContactForm::default());
+    assert_comes_back!(SoftConstraints, SoftConstraints::default());
+    let soft = QuadraticProgram::default().solve_soft(&problem, 1e-3).unwrap();
+    assert_comes_back!(lcp::qp::SoftSolution, soft);
+    assert_eq!(
+        to_string(&Method::ALL).unwrap(),
+        r#"["auto","lemke","newton","interior","qp","pgs"]"#
+    );
+    assert_comes_back!([Method; 6], Method::ALL);
+}
+
+#[test]
+fn answers_of_sweeps_over_rows() {
+    let lcp = families::obstacle(3).problem;
+    let mut rows = lcp::pgs::MatrixRows::new(lcp.m());
+    let solver = lcp::ProjectedGaussSeidel::default();
+    let solution =
+        solver.solve_rows(&mut rows, lcp.q(), &vec![Constraint::NONNEGATIVE; 9]).unwrap();
+    assert_comes_back!(RowsSolution, solution);
+}
