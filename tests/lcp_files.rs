@@ -253,11 +253,12 @@ fn in_compositions_of_these() {
                 .then(|problem| scaled(problem, s, r))
                 .then(|problem| permuted(problem, random.order(n)))
                 .then(|problem| swapped(problem, random.choices(n)))
+                .then(|problem| premultiplied(problem, &random.orthogonal(n)))
+                // Not before: rows of different sizes lose their digits where they are mixed.
                 .then(|problem| {
                     let [rows, t, y] = [0; 3].map(|_| random.factors(n));
                     rescaled(problem, &rows, t, y)
                 })
-                .then(|problem| premultiplied(problem, &random.orthogonal(n)))
         };
         (0..10).map(|_| form(random)).collect()
     });

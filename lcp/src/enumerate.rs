@@ -141,8 +141,8 @@ impl<'a> Tree<'a> {
         let size = max_abs(&right);
         if size > 0.0 {
             let unit = size.log2().floor().clamp(-1000.0, 1000.0).exp2();
-            right.iter_mut().for_each(|c| *c /= unit);
-            factors.iter_mut().for_each(|factor| *factor *= unit);
+            right = right.into_iter().map(|c| c / unit).collect();
+            factors = factors.into_iter().map(|factor| factor * unit).collect();
         }
         let is_free = ratios.iter().map(Option::is_some).collect();
         Self { problem, rows, factors, is_free, linear: LeastSquares { columns, right } }
