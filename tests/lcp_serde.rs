@@ -59,7 +59,10 @@ fn answers_of_every_end() {
 fn residuals_that_are_infinite() {
     let inf = f64::INFINITY;
     let [equation, feasibility, complementarity, natural, loads] = [inf, 0.0, 1e-300, inf, 1.0];
-    assert_comes_back!(Residuals, Residuals { equation, feasibility, complementarity, natural, loads });
+    assert_comes_back!(
+        Residuals,
+        Residuals { equation, feasibility, complementarity, natural, loads }
+    );
     let mut solution = Lemke::default().solve(&families::fathi(3).problem).unwrap();
     solution.info.history = vec![inf, 1.0];
     assert_comes_back!(Solution, solution);

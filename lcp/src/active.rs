@@ -9,7 +9,7 @@ mod search;
 
 pub(crate) use condensed::{Condensed, Springs};
 pub(crate) use crossover::Effort;
-pub(crate) use original::{Original, confirmed_pairs, confirmed_state};
+pub(crate) use original::{Original, confirmed_pairs, confirmed_state, state_brought_right};
 pub(crate) use scaled::{Point, Scaled};
 pub(crate) use search::Search;
 

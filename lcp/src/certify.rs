@@ -40,6 +40,7 @@ pub(crate) use contact::{ContactJudge, StateOf};
 pub(crate) use farkas::{is_proof, is_proof_of};
 pub(crate) use general::{GeneralJudge, right_hand_side};
 pub(crate) use ledger::{Precision, ratio};
+pub(crate) use parts::Parts;
 
 use crate::Status;
 

@@ -8,7 +8,7 @@ mod solve;
 pub use law::Margin;
 
 pub use crate::extended::Extended;
-pub(crate) use solve::{Exact, refined_states};
+pub(crate) use solve::{Exact, planned, refined_states};
 
 use at::At;
 use solve::solved;

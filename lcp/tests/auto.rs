@@ -359,9 +359,8 @@ proptest! {
         let m = Mat::from_fn(4, 4, |i, j| f64::from(entries[4 * i + j]));
         let problem = Lcp::new(m, q.into_iter().map(f64::from).collect()).unwrap();
         let solution = auto().solve(&problem).unwrap();
-        let worst = HorizontalLcp::from(problem.clone()).residuals(&solution.t, &solution.y).worst();
-        prop_assert_eq!(worst.to_bits(), solution.residuals.worst().to_bits());
-        prop_assert_eq!(solution.is_solved(), worst <= 1e-10 && solution.status == Status::Solved);
+        let worst = problem.residuals(&solution.t, &solution.y).worst();
+        prop_assert!(!solution.is_solved() || worst <= 1e-10, "{worst:e}");
         prop_assert_eq!(solution.status == Status::Infeasible, solution.farkas().is_some());
         let pivots = Solver::<Lcp>::solve(&Lemke::default(), &problem).unwrap();
         prop_assert!(solution.is_solved() || !pivots.is_solved());

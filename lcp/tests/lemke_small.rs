@@ -7,7 +7,7 @@ use std::time::Duration;
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, mat};
 use lcp::exact::{EnumerationSettings, enumerate};
-use lcp::{Basis, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side, Status};
+use lcp::{Basis, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side, Solver, Status};
 
 /// Xorshift (Marsaglia 2003).
 struct Random(u64);
@@ -73,7 +73,7 @@ fn infeasible_problems_are_proved() {
         let solution = Lemke::default().solve(&problem).unwrap();
         let is_infeasible = solution.status == Status::Infeasible;
         assert_eq!(is_infeasible, !truth.is_feasible(), "{problem:?}");
-        if let Some(pi) = &solution.farkas {
+        if let Some(pi) = solution.farkas() {
             assert!(is_infeasible && is_proof(&problem, pi), "{pi:?} of {problem:?}");
             proved += 1;
         }
@@ -89,7 +89,7 @@ fn a_small_contradiction_is_proved() {
     let problem = Lcp::new(m, vec![-1.0, 1.0 - 1e-9]).unwrap().into();
     let solution = Lemke::default().solve(&problem).unwrap();
     assert_eq!(solution.status, Status::Infeasible);
-    assert!(solution.farkas.is_some_and(|pi| pi[0].total_cmp(&pi[1]).is_eq()));
+    assert!(solution.farkas().is_some_and(|pi| pi[0].total_cmp(&pi[1]).is_eq()));
 }
 
 /// Of every pair one column has a single entry, on either side and in any row: that is where it starts.

@@ -46,7 +46,7 @@ fn difference(found: &[f64], expected: &[f64]) -> f64 {
 fn assert_honest(lcp: &Lcp, solution: &Solution, tolerance: f64) {
     let (z, w) = (&solution.t, &solution.y);
     assert!(z.iter().chain(w).all(|v| v.is_finite()));
-    let residuals = HorizontalLcp::from(lcp.clone()).residuals(z, w);
+    let residuals = lcp.residuals(z, w);
     assert_eq!(residuals, solution.residuals);
     assert_eq!(residuals.worst() <= tolerance, solution.is_solved());
     assert_eq!(solution.info.history.len(), solution.info.iterations + 1);

@@ -252,7 +252,7 @@ fn artificial_columns_complete_a_basis() {
     let negative = HorizontalLcp::new(ones.clone(), ones, vec![-1.0, -1.0]).unwrap();
     let solution = Lemke::default().solve(&negative).unwrap();
     assert_eq!(solution.status, Status::Infeasible);
-    assert!(solution.farkas.is_some_and(|pi| pi[0] + pi[1] < 0.0));
+    assert!(solution.farkas().is_some_and(|pi| pi[0] + pi[1] < 0.0));
 }
 
 #[test]

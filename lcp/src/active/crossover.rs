@@ -84,14 +84,14 @@ impl ContactStatus {
 
 /// Solves for given states and exchanges those that contradict, as long as these become fewer. The forces
 /// are those nearest to the given ones where redundant contacts leave a choice. Says whether one of the
-/// points is a solution; exchanges go on from there to one whose states contradict nowhere.
+/// points is a solution, which is asked of every point with whether its states contradict nowhere; exchanges go on from there to one whose states contradict nowhere.
 pub(crate) fn cross_over(
     problem: &Scaled,
     condensed: &mut Condensed,
     (u, forces): (&[f64], &[(f64, f64)]),
     contacts: Vec<ContactStatus>,
     effort: &Effort,
-    mut is_solution: impl FnMut(&Vertex) -> bool,
+    mut is_solution: impl FnMut(&mut Condensed, &Vertex, bool) -> bool,
 ) -> bool {
     let mut vertex = Vertex { u: u.to_vec(), forces: forces.to_vec(), contacts };
     let (mut fewest, mut least, mut since) = (effort.most(problem.points.len()), f64::INFINITY, 0);
@@ -100,8 +100,10 @@ pub(crate) fn cross_over(
         if vertex.solve(problem, condensed).is_none() {
             break;
         }
-        is_found |= is_solution(&vertex);
-        let (exchanged, largest) = vertex.exchange(problem);
+        problem.settle(&mut vertex.u, &mut vertex.forces);
+        let contradictions = vertex.contradictions(problem);
+        is_found |= is_solution(condensed, &vertex, contradictions.is_empty());
+        let (exchanged, largest) = vertex.exchange(&contradictions);
         let is_nearer = exchanged < fewest - fewest / 4 || largest < SMALLER * least;
         since = if is_nearer { 0 } else { since + 1 };
         let is_hopeless = exchanged > fewest && (is_found || exchanged > 10 * fewest);
@@ -185,9 +187,8 @@ impl Vertex {
         largest
     }
 
-    /// Gives the contacts that contradict their states most other states; says how many contradict, and the
-    /// most that one does.
-    fn exchange(&mut self, problem: &Scaled) -> (usize, f64) {
+    /// The contacts that contradict their states: by how much, which, and the state that fits better.
+    fn contradictions(&self, problem: &Scaled) -> Vec<(f64, usize, ContactStatus)> {
         let force =
             self.forces.iter().fold(max_abs(&problem.f), |max, (t_n, _)| max.max(t_n.abs()));
         let length = max_abs(&self.u);
@@ -212,8 +213,14 @@ impl Vertex {
                 contradictions.push((size, i, next));
             }
         }
+        contradictions
+    }
+
+    /// Gives the contacts that contradict their states most other states; says how many contradict, and the
+    /// most that one does.
+    fn exchange(&mut self, contradictions: &[(f64, usize, ContactStatus)]) -> (usize, f64) {
         let largest = contradictions.iter().fold(0.0_f64, |max, (size, ..)| max.max(*size));
-        for (size, i, next) in &contradictions {
+        for (size, i, next) in contradictions {
             if *size >= LARGE * largest {
                 self.contacts[*i] = *next;
             }

@@ -1,10 +1,11 @@
 //! The problems that the method treats, as contact problems, and back.
 
+use super::condensed::Condensed;
 use super::crossover::nearest;
 use super::scaled::{Point, Scaled};
 use crate::certify::{BoxedJudge, ContactJudge, Precision, StateOf};
 use crate::extended::Extended;
-use crate::refine::{ContactStatus, Exact, refined_states};
+use crate::refine::{ContactStatus, Exact, planned, refined_states};
 use crate::{Basis, Contact2d, ContactState, MixedLcp, Residuals, Side};
 
 /// A point of the general form of a problem.
@@ -21,6 +22,11 @@ impl Judged {
     pub(crate) fn worst(&self) -> f64 {
         self.residuals.worst()
     }
+
+    fn with_loads(mut self, loads: f64) -> Self {
+        self.residuals.loads = loads;
+        self
+    }
 }
 
 /// Displacements and forces of a contact problem in its own units.
@@ -34,6 +40,9 @@ pub(crate) trait Judge {
     fn residuals_of(&self, scaled: &Scaled, at: &Exact) -> Residuals;
 }
 
+/// Residuals that leave nothing to refine.
+const EXACT: f64 = 1e-14;
+
 /// The verdict on a point about to be called solved: with all digits, and, where large terms hide what is left of the
 /// loads, on the points that the equations of the states lead to without rounding errors.
 ///
@@ -41,30 +50,61 @@ pub(crate) trait Judge {
 /// it is a solution. From the given point they lead to one whose rounding this is, if the problem is sound: then the
 /// loads are measured there. Of a problem without a solution no refinement brings them down.
 pub(crate) fn confirmed(
-    judge: &dyn Judge,
-    scaled: &Scaled,
+    (judge, scaled, condensed): (&dyn Judge, &Scaled, &mut Condensed),
     at: At<'_>,
     contacts: &[ContactStatus],
     tolerance: f64,
 ) -> Judged {
-    let mut judged = judge.judged(scaled, at, Precision::Exact);
+    let judged = judge.judged(scaled, at, Precision::Exact);
     let Residuals { equation, natural, .. } = judged.residuals;
     if judged.worst() <= tolerance || equation.max(natural) > tolerance {
         return judged;
     }
     let rest = (vec![0.0; at.0.len()], vec![(0.0, 0.0); at.1.len()]);
-    for (u, forces) in refined_states(scaled, (&rest.0, &rest.1), contacts) {
-        let u: Vec<f64> = u.iter().map(|u| u.rounded()).collect();
-        let forces: Vec<_> = forces.iter().map(|[n, t]| (n.rounded(), t.rounded())).collect();
-        let near = judge.judged(scaled, (&scaled.of_displacements(&u), &forces), Precision::Exact);
+    for exact in refined_states(scaled, condensed, (&rest.0, &rest.1), contacts) {
+        let near = rounded(judge, scaled, &exact);
         if near.worst() <= tolerance {
             return near;
         }
     }
-    let refined = refined_states(scaled, at, contacts);
-    let loads = refined.map(|at| judge.residuals_of(scaled, &at).worst());
-    judged.residuals.loads = loads.fold(judged.residuals.loads, f64::min);
-    judged
+    let refined = refined_states(scaled, condensed, at, contacts);
+    let loads = refined.map(|exact| judge.residuals_of(scaled, &exact).worst());
+    let least = loads.fold(judged.residuals.loads, f64::min);
+    judged.with_loads(least)
+}
+
+/// The point that the states of contacts lead to without rounding errors, where it is better than a given one: what is
+/// small inherits the rounding errors of what is large until it is refined by itself.
+pub(crate) fn brought_right(
+    (judge, scaled, condensed): (&dyn Judge, &Scaled, &mut Condensed),
+    (at, mut best): (At<'_>, Judged),
+    contacts: &[ContactStatus],
+    tolerance: f64,
+) -> Judged {
+    if best.worst() <= EXACT {
+        return best;
+    }
+    for exact in refined_states(scaled, condensed, at, contacts) {
+        let near = rounded(judge, scaled, &exact);
+        let Residuals { equation, natural, loads, .. } = near.residuals;
+        let near = if loads > tolerance && equation.max(natural) <= tolerance {
+            let exact = judge.residuals_of(scaled, &exact).worst();
+            near.with_loads(exact.min(loads))
+        } else {
+            near
+        };
+        best = if near.worst() < best.worst() { near } else { best };
+        if best.worst() <= tolerance {
+            break;
+        }
+    }
+    best
+}
+
+fn rounded(judge: &dyn Judge, scaled: &Scaled, (u, forces): &Exact) -> Judged {
+    let u: Vec<f64> = u.iter().map(|u| u.rounded()).collect();
+    let forces: Vec<_> = forces.iter().map(|[n, t]| (n.rounded(), t.rounded())).collect();
+    judge.judged(scaled, (&scaled.of_displacements(&u), &forces), Precision::Exact)
 }
 
 /// The residuals of a point of a mixed problem after [confirmation](confirmed).
@@ -91,7 +131,31 @@ pub(crate) fn confirmed_state(
 
 fn confirmed_at(problem: &dyn Original, scaled: &Scaled, at: At<'_>, tolerance: f64) -> Residuals {
     let contacts = nearest(scaled, at.0, at.1);
-    confirmed(problem.judge().as_ref(), scaled, at, &contacts, tolerance).residuals
+    let judge = problem.judge();
+    match planned(scaled) {
+        Ok(mut condensed) => {
+            let with = (judge.as_ref(), scaled, &mut condensed);
+            confirmed(with, at, &contacts, tolerance).residuals
+        }
+        Err(_) => judge.judged(scaled, at, Precision::Exact).residuals,
+    }
+}
+
+/// The state of a contact problem that the given one leads to by the states of its contacts, where it is better.
+pub(crate) fn state_brought_right(
+    problem: &Contact2d,
+    state: &ContactState,
+    tolerance: f64,
+) -> Option<(ContactState, Residuals)> {
+    let scaled = problem.scaled();
+    let (mut u, mut forces) = scaled.of_state(state);
+    scaled.settle(&mut u, &mut forces);
+    let (contacts, judge) = (nearest(&scaled, &u, &forces), Original::judge(problem));
+    let at = (&u[..], &forces[..]);
+    let given = judge.judged(&scaled, at, Precision::Exact);
+    let with = (judge.as_ref(), &scaled, &mut planned(&scaled).ok()?);
+    let Judged { contact, residuals, .. } = brought_right(with, (at, given), &contacts, tolerance);
+    contact.map(|state| (state, residuals))
 }
 
 /// A problem as it was given.

@@ -2,6 +2,7 @@
 
 use faer::sparse::SparseColMat;
 
+use crate::certify::Parts;
 use crate::problem::{column_factors, column_of, diagonal, max_abs, median, power_of_two};
 use crate::{Contact2d, ContactState, MixedLcp};
 
@@ -15,6 +16,8 @@ pub(crate) struct Scaled {
     column: Vec<f64>,
     force: f64,
     length: f64,
+    /// Displacements that are zero and points without force, see [`idle`].
+    idle: Option<(Vec<bool>, Vec<bool>)>,
 }
 
 /// A contact point: the displacements that it depends on, with their coefficients in gap and slip.
@@ -72,7 +75,7 @@ impl Scaled {
         };
         let (force, length) = (power_of_two(force), power_of_two(length));
         let k = congruent(problem.stiffness().clone(), &column, length / force);
-        let f = problem.loads().iter().zip(&column).map(|(f, d)| f * d / force).collect();
+        let f: Vec<f64> = problem.loads().iter().zip(&column).map(|(f, d)| f * d / force).collect();
         let mut points: Vec<Point> = (0..problem.points())
             .map(|i| Point {
                 columns: Vec::new(),
@@ -101,7 +104,8 @@ impl Scaled {
                 }
             }
         }
-        Self { k, f, points, column, force, length }
+        let idle = idle(&k, &f, &points);
+        Self { k, f, points, column, force, length, idle }
     }
 
     /// A mixed problem as one of contact without friction: stiffness `M`, loads `-q`, and a contact for
@@ -132,7 +136,7 @@ impl Scaled {
             problem.q().iter().zip(&column).fold(0.0_f64, |max, (q, d)| max.max((q * d).abs()));
         let force = if load > 0.0 { power_of_two(load) } else { 1.0 };
         let k = congruent(m, &column, 1.0);
-        let f = problem.q().iter().zip(&column).map(|(q, d)| -q * d / force).collect();
+        let f: Vec<f64> = problem.q().iter().zip(&column).map(|(q, d)| -q * d / force).collect();
         let bounded = (0..n).filter(|&j| !problem.free()[j]);
         let points = bounded.map(|j| Point {
             columns: vec![j],
@@ -142,7 +146,9 @@ impl Scaled {
             s_0: 0.0,
             mu: 0.0,
         });
-        Self { k, f, points: points.collect(), column, force, length: force }
+        let points: Vec<Point> = points.collect();
+        let idle = idle(&k, &f, &points);
+        Self { k, f, points, column, force, length: force, idle }
     }
 
     /// The unit of contact forces.
@@ -176,6 +182,15 @@ impl Scaled {
     pub(crate) fn is_elastic(&self) -> bool {
         let has_friction = self.points.iter().any(|point| point.mu > 0.0);
         has_friction && diagonal(&self.k).iter().all(|k| *k > 0.0)
+    }
+
+    /// Sets to zero what moves nothing and is moved by nothing.
+    pub(crate) fn settle(&self, u: &mut [f64], forces: &mut [(f64, f64)]) {
+        if let Some((at_rest, without_force)) = &self.idle {
+            u.iter_mut().zip(at_rest).filter(|(_, is)| **is).for_each(|(u, _)| *u = 0.0);
+            let idle = forces.iter_mut().zip(without_force).filter(|(_, is)| **is);
+            idle.for_each(|(forces, _)| *forces = (0.0, 0.0));
+        }
     }
 
     /// Number of displacements.
@@ -212,6 +227,42 @@ impl Scaled {
         }
         terms
     }
+}
+
+/// The displacements that are zero and the points without force: in connected parts without loads, initial gaps and
+/// slips all of them, and in parts without stiffness, gaps and slips the displacements, which have no size there. `None`
+/// if there are none.
+fn idle(
+    k: &SparseColMat<usize, f64>,
+    f: &[f64],
+    points: &[Point],
+) -> Option<(Vec<bool>, Vec<bool>)> {
+    let (n, m) = (f.len(), points.len());
+    let mut parts = Parts::new(n + m);
+    (0..n).for_each(|j| parts.join_all([j].into_iter().chain(column_of(k, j).map(|(i, _)| i))));
+    for (i, point) in points.iter().enumerate() {
+        parts.join_all([n + i].into_iter().chain(point.columns.iter().copied()));
+    }
+    let mut is_loaded = vec![false; n + m];
+    let mut is_stiff = vec![false; n + m];
+    let mut is_open = vec![false; n + m];
+    for j in 0..n {
+        let part = parts.of(j);
+        is_loaded[part] |= f[j] != 0.0;
+        is_stiff[part] |= column_of(k, j).any(|(_, v)| v != 0.0);
+    }
+    for (i, point) in points.iter().enumerate() {
+        is_open[parts.of(n + i)] |= point.x_0 != 0.0 || point.mu > 0.0 && point.s_0 != 0.0;
+    }
+    let mut of = |i: usize| {
+        let part = parts.of(i);
+        (is_loaded[part], is_stiff[part], is_open[part])
+    };
+    let at_rest = |(loaded, stiff, open): (bool, bool, bool)| !open && !(loaded && stiff);
+    let displacements: Vec<bool> = (0..n).map(|j| at_rest(of(j))).collect();
+    let without_force = |(loaded, _, open): (bool, bool, bool)| !loaded && !open;
+    let points: Vec<bool> = (0..m).map(|i| without_force(of(n + i))).collect();
+    (displacements.contains(&true) || points.contains(&true)).then_some((displacements, points))
 }
 
 /// `factor D K D`.

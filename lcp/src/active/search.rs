@@ -2,7 +2,7 @@
 
 use super::condensed::Condensed;
 use super::crossover::{Effort, Vertex, cross_over, nearest};
-use super::original::{At, Judge, Judged, Original, confirmed};
+use super::original::{At, Judge, Judged, Original, brought_right, confirmed};
 use super::scaled::Scaled;
 use crate::certify::Precision;
 use crate::refine::ContactStatus;
@@ -88,10 +88,15 @@ impl<'a> Search<'a> {
         effort: &Effort,
     ) -> bool {
         let Self { judge, tolerance, scaled, condensed, best, .. } = self;
-        cross_over(scaled, condensed, at, contacts, effort, |vertex| {
+        cross_over(scaled, condensed, at, contacts, effort, |condensed, vertex, is_consistent| {
             let point = (&vertex.u[..], &vertex.forces[..]);
-            let judged =
-                judged(judge.as_ref(), scaled, point, *tolerance, || vertex.contacts.clone());
+            let contacts = || vertex.contacts.clone();
+            let with = (judge.as_ref(), &*scaled, &mut *condensed);
+            let mut judged = judged(with, point, *tolerance, contacts);
+            if is_consistent {
+                let with = (judge.as_ref(), &*scaled, condensed);
+                judged = brought_right(with, (point, judged), &vertex.contacts, *tolerance);
+            }
             let is_solution = judged.worst() <= *tolerance;
             keep_better(best, judged, is_solution.then_some(vertex));
             is_solution
@@ -100,9 +105,12 @@ impl<'a> Search<'a> {
 
     /// The worst residual of a point, which is kept if none was better.
     pub(crate) fn judge(&mut self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
-        let Self { judge, tolerance, scaled, best, .. } = self;
-        let contacts = || nearest(scaled, u, forces);
-        let judged = judged(judge.as_ref(), scaled, (u, forces), *tolerance, contacts);
+        let Self { judge, tolerance, scaled, condensed, best, .. } = self;
+        let (mut u, mut forces) = (u.to_vec(), forces.to_vec());
+        scaled.settle(&mut u, &mut forces);
+        let contacts = || nearest(scaled, &u, &forces);
+        let with = (judge.as_ref(), &*scaled, condensed);
+        let judged = judged(with, (&u, &forces), *tolerance, contacts);
         let worst = judged.worst();
         keep_better(best, judged, None);
         worst
@@ -140,8 +148,7 @@ impl<'a> Search<'a> {
 
 /// Quickly, and with all digits where the point may be a solution.
 fn judged(
-    judge: &dyn Judge,
-    scaled: &Scaled,
+    (judge, scaled, condensed): (&dyn Judge, &Scaled, &mut Condensed),
     at: At<'_>,
     tolerance: f64,
     contacts: impl FnOnce() -> Vec<ContactStatus>,
@@ -150,7 +157,7 @@ fn judged(
     if quick.worst() > tolerance {
         return quick;
     }
-    confirmed(judge, scaled, at, &contacts(), tolerance)
+    confirmed((judge, scaled, condensed), at, &contacts(), tolerance)
 }
 
 /// An exact solution is better than a point inside, whose residuals may be smaller.

@@ -258,6 +258,11 @@ impl ByRows {
     }
 }
 
+/// Couplings below this part of the strongest ones of their row are weak.
+const STRONG: f64 = 1.0 / (1 << 10) as f64;
+/// Rounds in which loads are passed on through weak couplings.
+const ROUNDS: usize = 4;
+
 /// Sizes of the loads of a connected part, with displacements by their [factors](column_factors).
 #[derive(Default, Clone)]
 struct Loads {
@@ -267,43 +272,89 @@ struct Loads {
     stiffness: Vec<f64>,
 }
 
+/// Displacements and points, with how strongly they are coupled, at most by one.
+struct Couplings<'a> {
+    problem: &'a Contact2d,
+    factors: Vec<f64>,
+    diagonal: Vec<f64>,
+    /// The largest coefficient of every point, of gap or slip.
+    largest: Vec<f64>,
+}
+
+impl Couplings<'_> {
+    fn for_each(&self, mut visit: impl FnMut(usize, usize, f64)) {
+        let n = self.factors.len();
+        for j in 0..n {
+            for (i, v) in column_of(self.problem.stiffness(), j).filter(|(i, _)| *i > j) {
+                let size = (self.diagonal[i] * self.diagonal[j]).sqrt();
+                visit(i, j, if size > 0.0 { (v.abs() / size).min(1.0) } else { 1.0 });
+            }
+            self.of_points(j, |i, v| visit(n + i, j, v / self.largest[i]));
+        }
+    }
+
+    /// The sizes of the coefficients of a displacement at the points.
+    fn of_points(&self, j: usize, mut visit: impl FnMut(usize, f64)) {
+        let tangent = column_of(self.problem.tangent(), j);
+        let tangent = tangent.filter(|(i, _)| self.problem.mu()[*i] > 0.0);
+        let all = column_of(self.problem.normal(), j).chain(tangent).filter(|(_, v)| *v != 0.0);
+        all.for_each(|(i, v)| visit(i, v.abs() * self.factors[j]));
+    }
+}
+
 fn weights(problem: &Contact2d) -> Vec<f64> {
     let (n, m) = (problem.displacements(), problem.points());
     let factors = column_factors(problem);
+    let diagonal = diagonal(problem.stiffness());
+    let mut couplings = Couplings { problem, factors, diagonal, largest: vec![0.0; m] };
+    let mut largest = vec![0.0_f64; m];
+    (0..n).for_each(|j| couplings.of_points(j, |i, v| largest[i] = largest[i].max(v)));
+    couplings.largest = largest;
     let mut parts = Parts::new(n + m);
-    for j in 0..n {
-        let coupled = column_of(problem.stiffness(), j).map(|(i, _)| i);
-        let normal = column_of(problem.normal(), j).map(|(i, _)| n + i);
-        let tangent = column_of(problem.tangent(), j).filter(|(i, _)| problem.mu()[*i] > 0.0);
-        let tangent = tangent.map(|(i, _)| n + i);
-        parts.join_all([j].into_iter().chain(coupled).chain(normal).chain(tangent));
-    }
-    let of_stiffness = diagonal(problem.stiffness());
+    let mut weak = Vec::new();
+    couplings.for_each(|a, b, coupling| {
+        if coupling >= STRONG {
+            parts.join(a, b);
+        } else if coupling > 0.0 {
+            weak.push((a, b, coupling));
+        }
+    });
     let mut loads = vec![Loads::default(); n + m];
+    let Couplings { factors, diagonal, .. } = couplings;
     for j in 0..n {
         let part = &mut loads[parts.of(j)];
         part.force = part.force.max((problem.loads()[j] * factors[j]).abs());
-        part.stiffness.extend(Some(of_stiffness[j] * factors[j] * factors[j]).filter(|k| *k > 0.0));
+        part.stiffness.extend(Some(diagonal[j] * factors[j] * factors[j]).filter(|k| *k > 0.0));
     }
     for i in 0..m {
         let part = &mut loads[parts.of(n + i)];
         let slip = if problem.mu()[i] > 0.0 { problem.initial_slips()[i].abs() } else { 0.0 };
         part.opening = part.opening.max(problem.initial_gaps()[i].abs()).max(slip);
     }
-    // One over force and length.
-    let units: Vec<(f64, f64)> = loads.iter_mut().map(Loads::reciprocals).collect();
-    let mut weights: Vec<f64> = (0..n).map(|j| factors[j] * units[parts.of(j)].0).collect();
-    weights.extend((0..m).map(|i| units[parts.of(n + i)].1));
-    let slips = (0..m).map(|i| if problem.mu()[i] > 0.0 { units[parts.of(n + i)].1 } else { 0.0 });
+    let mut felt: Vec<(f64, f64)> = loads.iter_mut().map(Loads::felt).collect();
+    for _ in 0..ROUNDS {
+        for &(a, b, coupling) in &weak {
+            for (from, to) in [(parts.of(a), parts.of(b)), (parts.of(b), parts.of(a))] {
+                felt[to].0 = felt[to].0.max(coupling * felt[from].0);
+                felt[to].1 = felt[to].1.max(coupling * felt[from].1);
+            }
+        }
+    }
+    let force = |j: usize, part: usize| factors[j] * reciprocal(felt[part].0);
+    let mut weights: Vec<f64> = (0..n).map(|j| force(j, parts.of(j))).collect();
+    let lengths: Vec<f64> = (0..m).map(|i| reciprocal(felt[parts.of(n + i)].1)).collect();
+    let slips = lengths.iter().zip(problem.mu()).map(|(w, mu)| if *mu > 0.0 { *w } else { 0.0 });
+    let slips: Vec<f64> = slips.collect();
+    weights.extend(lengths);
     weights.extend(slips);
     weights
 }
 
 impl Loads {
-    fn reciprocals(&mut self) -> (f64, f64) {
+    /// The force and the length that the part feels.
+    fn felt(&mut self) -> (f64, f64) {
         let stiffness = median(&mut self.stiffness).unwrap_or(0.0);
         let deformation = if stiffness > 0.0 { self.force / stiffness } else { 0.0 };
-        let force = self.force.max(stiffness * self.opening);
-        (reciprocal(force), reciprocal(self.opening.max(deformation)))
+        (self.force.max(stiffness * self.opening), self.opening.max(deformation))
     }
 }

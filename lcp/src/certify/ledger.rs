@@ -172,9 +172,9 @@ impl<'a> Ledger<'a> {
             }
         }
         if t.value > 0.0 && y.value > 0.0 {
-            let [of_t, of_y] = [t, y].map(|it| (self.effect(it), self.burden(it)));
-            let is_t = of_t.0.max(of_t.1) <= of_y.0.max(of_y.1);
-            let (entry, (effect, _)) = if is_t { (t, of_t) } else { (y, of_y) };
+            // Which one is the smaller is told by the loads, and by the terms where there are none.
+            let [of_t, of_y] = [t, y].map(|it| (self.burden(it), self.effect(it)));
+            let (entry, (_, effect)) = if of_t <= of_y { (t, of_t) } else { (y, of_y) };
             self.residuals.complementarity = self.residuals.complementarity.max(effect);
             self.change(entry);
         }

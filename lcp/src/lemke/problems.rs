@@ -1,6 +1,7 @@
 //! Lemke's method on every kind of problem.
 
 use super::{Lemke, Progress};
+use crate::active::state_brought_right;
 use crate::lower::{Lowered, judged_by};
 use crate::{
     Basis, Certificate, Contact2d, Covering, Error, HorizontalLcp, Iteration, LemkeSettings,
@@ -57,13 +58,18 @@ impl Solver<Contact2d> for Lemke {
         }
         let mut solution = Self::new(settings).solve_iterating(&mixed.to_general(), observer)?;
         let (z, _) = mixed.recover(&solution.t, &solution.y);
-        let state = problem.from_mixed(&z);
+        let mut state = problem.from_mixed(&z);
         let loads = solution.residuals.loads;
         solution.residuals = problem.residuals(&state);
         if matches!(solution.status, Status::Solved | Status::AlmostSolved) {
             solution.residuals.loads = solution.residuals.loads.min(loads);
-            solution.status =
-                solution.residuals.verdict(self.settings().tolerance, Status::AlmostSolved);
+            let tolerance = self.settings().tolerance;
+            if solution.residuals.worst() > tolerance
+                && let Some((right, residuals)) = state_brought_right(problem, &state, tolerance)
+            {
+                (state, solution.residuals) = (right, residuals);
+            }
+            solution.status = solution.residuals.verdict(tolerance, Status::AlmostSolved);
         }
         (solution.t, solution.y) = problem.to_pairs(&state);
         solution.contact = Some(state);

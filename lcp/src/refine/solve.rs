@@ -20,17 +20,22 @@ pub(super) fn solved(
     refinement: Refinement,
 ) -> Result<(Refined, Vec<(f64, ContactStatus)>), Error> {
     let began = Instant::now();
-    let mut solve = Solve::new(scaled, At::from(scaled, state), statuses, WEIGHTS[0])?;
-    solve.run(refinement);
-    if refinement == Refinement::Extended && solve.residual() > FALLEN {
-        let mut other = Solve::new(scaled, At::from(scaled, state), statuses, WEIGHTS[1])?;
-        other.run(refinement);
-        other.passes += solve.passes;
-        if other.residual() < solve.residual() {
-            solve = other;
+    let mut condensed = planned(scaled)?;
+    let mut solved = |weights, passes| {
+        let mut solve =
+            Solve::new(scaled, &mut condensed, At::from(scaled, state), statuses, weights);
+        solve.run(refinement);
+        solve.passes += passes;
+        (solve.residual(), solve.finish(began.elapsed().as_secs_f64()))
+    };
+    let (residual, answer) = solved(WEIGHTS[0], 0);
+    if refinement == Refinement::Extended && residual > FALLEN {
+        let (other_residual, other) = solved(WEIGHTS[1], answer.0.passes);
+        if other_residual < residual {
+            return Ok(other);
         }
     }
-    Ok(solve.finish(began.elapsed().as_secs_f64()))
+    Ok(answer)
 }
 
 /// Displacements in units of the data, and forces in those of the scaled problem.
@@ -39,16 +44,21 @@ pub(crate) type Exact = (Vec<Extended>, Vec<[Extended; 2]>);
 /// Where the equations of the states lead to from a scaled point, without rounding errors, as far as one does.
 pub(crate) fn refined_states(
     scaled: &Scaled,
+    condensed: &mut Condensed,
     (u, forces): (&[f64], &[(f64, f64)]),
     statuses: &[ContactStatus],
 ) -> impl Iterator<Item = Exact> {
     let at = At::of(u, forces);
-    let refined = move |weights| {
-        let mut solve = Solve::new(scaled, at.clone(), statuses, weights).ok()?;
+    WEIGHTS.into_iter().map(move |weights| {
+        let mut solve = Solve::new(scaled, &mut *condensed, at.clone(), statuses, weights);
         solve.refine();
-        Some((solve.at.displacements(scaled), solve.at.forces))
-    };
-    WEIGHTS.into_iter().filter_map(refined)
+        (solve.at.displacements(scaled), solve.at.forces)
+    })
+}
+
+/// The matrix of the equations of any states.
+pub(crate) fn planned(scaled: &Scaled) -> Result<Condensed, Error> {
+    Condensed::new(scaled).map_err(|error| Error::Factors { what: "K", reason: error.to_string() })
 }
 
 /// How much passes hold on to what they start from.
@@ -81,7 +91,7 @@ struct Solve<'a> {
     scaled: &'a Scaled,
     statuses: &'a [ContactStatus],
     springs: Vec<Springs>,
-    condensed: Condensed,
+    condensed: &'a mut Condensed,
     /// Displacements that stay where they are.
     floating: Vec<bool>,
     shifts: Shifts,
@@ -96,12 +106,11 @@ struct Solve<'a> {
 impl<'a> Solve<'a> {
     fn new(
         scaled: &'a Scaled,
+        condensed: &'a mut Condensed,
         mut at: At,
         statuses: &'a [ContactStatus],
         weights: Weights,
-    ) -> Result<Self, Error> {
-        let mut condensed = Condensed::new(scaled)
-            .map_err(|error| Error::Factors { what: "K", reason: error.to_string() })?;
+    ) -> Self {
         let all = scaled.points.iter().zip(statuses);
         let springs: Vec<Springs> =
             all.clone().map(|(point, status)| status.springs(point, weights.stiff)).collect();
@@ -109,7 +118,7 @@ impl<'a> Solve<'a> {
             *forces = status.on_cone(point.mu, *forces);
         }
         condensed.factorise(scaled, &springs, weights.proximal);
-        Ok(Self {
+        Self {
             scaled,
             statuses,
             springs,
@@ -120,7 +129,7 @@ impl<'a> Solve<'a> {
             correction: 0.0,
             shifted: 0.0,
             passes: 0,
-        })
+        }
     }
 
     fn run(&mut self, refinement: Refinement) {

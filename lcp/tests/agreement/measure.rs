@@ -2,10 +2,10 @@
 
 use faer::Mat;
 use faer::sparse::{SparseColMat, Triplet};
-use lcp::{HorizontalLcp, Lcp, Matrix};
+use lcp::{BoxedLcp, HorizontalLcp, Lcp, Matrix};
 
-/// That a residual is summed up here in another order.
-pub(crate) const ROUNDING: f64 = 1.01;
+/// That a residual is measured here in a simpler way, which differs where terms are small against the loads.
+pub(crate) const ROUNDING: f64 = 2.0;
 
 pub(crate) fn largest(v: &[f64]) -> f64 {
     v.iter().fold(0.0, |max, v| max.max(v.abs()))
@@ -43,24 +43,64 @@ pub(crate) fn sparse(m: &Mat<f64>) -> Matrix {
     SparseColMat::try_new_from_triplets(m.nrows(), m.ncols(), &triplets).unwrap().into()
 }
 
-/// The largest residual of a point of the general problem `A t + B y = c`, by the definitions of the
-/// library: rows relative to their terms, but to 2^-10 of the largest possible one at least, pairs
-/// relative to the largest of their vectors.
+/// The largest residual of a point of the general problem `A t + B y = c`: what is left of a row relative to its terms,
+/// and of every pair the smaller one of what its variables are of the terms of their rows. Rows whose terms
+/// are below 2^-10 of the largest right-hand side are measured by that, which fits problems whose entries are near
+/// one.
 pub(crate) fn worst_of_general(problem: &HorizontalLcp, t: &[f64], y: &[f64]) -> f64 {
     let (a, b) = (problem.a().to_dense(), problem.b().to_dense());
-    let (t_max, y_max) = (largest(t), largest(y));
-    let unit = |max: f64| if max > 0.0 { max } else { 1.0 };
-    let pair = |(t, y): (&f64, &f64)| (t / unit(t_max)).min(y / unit(y_max)).abs();
-    let pairs = t.iter().zip(y).map(pair).fold(0.0, f64::max);
-    let row = |i: usize| {
-        let terms = (0..t.len()).flat_map(|j| [a[(i, j)] * t[j], b[(i, j)] * y[j]]);
-        let terms: Vec<f64> = terms.chain([-problem.c()[i]]).collect();
-        let possible = (0..t.len()).flat_map(|j| [a[(i, j)] * t_max, b[(i, j)] * y_max]);
-        let possible: Vec<f64> = possible.collect();
-        let size = terms.iter().map(|v| v.abs()).sum::<f64>().max(largest(&possible) / 1024.0);
-        if size > 0.0 { terms.iter().sum::<f64>().abs() / size } else { 0.0 }
+    let n = t.len();
+    let terms = |i: usize| (0..n).flat_map(|j| [a[(i, j)] * t[j], b[(i, j)] * y[j]]).collect();
+    let terms: Vec<Vec<f64>> = (0..n).map(terms).collect();
+    let least = largest(problem.c()) / 1024.0;
+    let size = |i: usize| {
+        let sum: f64 = terms[i].iter().map(|v| v.abs()).sum();
+        (sum + problem.c()[i].abs()).max(least)
     };
-    (0..t.len()).map(row).fold(pairs, f64::max)
+    let sizes: Vec<f64> = (0..n).map(size).collect();
+    let part = |v: f64, size: f64| if v == 0.0 { 0.0 } else { v.abs() / size };
+    let row = |i: usize| part(terms[i].iter().sum::<f64>() - problem.c()[i], sizes[i]);
+    let effect = |m: &Mat<f64>, j: usize, v: f64| {
+        (0..n).map(|i| part(m[(i, j)] * v, sizes[i])).fold(0.0, f64::max)
+    };
+    let pair = |j: usize| {
+        let (of_t, of_y) = (effect(&a, j, t[j]), effect(&b, j, y[j]));
+        match (t[j] < 0.0, y[j] < 0.0) {
+            (false, false) => of_t.min(of_y),
+            (true, false) => of_t,
+            (false, true) => of_y,
+            (true, true) => of_t.max(of_y),
+        }
+    };
+    (0..n).map(row).chain((0..n).map(pair)).fold(0.0, f64::max)
+}
+
+/// The same of `(z, w)` of a boxed problem: rows `w - M z - q`, and at every bound its distance with the part of `w`
+/// that it allows.
+pub(crate) fn worst_of_boxed(boxed: &BoxedLcp, z: &[f64], w: &[f64]) -> f64 {
+    let (m, n) = (boxed.m().to_dense(), z.len());
+    let terms = |i: usize| (0..n).map(|j| m[(i, j)] * z[j]).chain([boxed.q()[i]]).collect();
+    let terms: Vec<Vec<f64>> = (0..n).map(terms).collect();
+    let size = |i: usize| w[i].abs() + terms[i].iter().map(|v| v.abs()).sum::<f64>();
+    let sizes: Vec<f64> = (0..n).map(size).collect();
+    let least = largest(&sizes) / 1024.0;
+    let part = |v: f64, i: usize| if v == 0.0 { 0.0 } else { v.abs() / sizes[i].max(least) };
+    let row = |i: usize| part(w[i] - terms[i].iter().sum::<f64>(), i);
+    let moved = |j: usize, by: f64| (0..n).map(|i| part(m[(i, j)] * by, i)).fold(0.0, f64::max);
+    let condition = |j: usize, distance: f64, w: f64| {
+        if !distance.is_finite() {
+            part(w, j)
+        } else if distance < 0.0 {
+            moved(j, distance)
+        } else {
+            moved(j, distance).min(part(w, j))
+        }
+    };
+    let of_bounds = |j: usize| {
+        let below = condition(j, z[j] - boxed.lower()[j], w[j].max(0.0));
+        below.max(condition(j, boxed.upper()[j] - z[j], (-w[j]).max(0.0)))
+    };
+    (0..n).map(row).chain((0..n).map(of_bounds)).fold(0.0, f64::max)
 }
 
 /// What a point of `w = M z + q` with a residual may lack of an exact solution of a problem near by.
