@@ -66,19 +66,14 @@ impl Lowered for BoxedLcp {
 }
 
 /// The solution of another form, whose pairs were brought back, judged by the problem itself.
-///
-/// What was measured of the loads with more digits than the point has holds for the problem, too.
 pub(crate) fn judged_by(
     problem: &impl Lowered,
     mut solution: Solution,
     tolerance: f64,
 ) -> Solution {
-    let before = solution.residuals;
     solution.residuals = problem.residuals_of_pairs(&solution.t, &solution.y);
     if matches!(solution.status, Status::Solved | Status::AlmostSolved) {
-        let residuals = &mut solution.residuals;
-        residuals.loads = residuals.loads.min(before.loads);
-        solution.status = residuals.verdict(tolerance, Status::AlmostSolved);
+        solution.status = solution.residuals.verdict(tolerance, Status::AlmostSolved);
     }
     solution
 }

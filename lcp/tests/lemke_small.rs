@@ -86,7 +86,7 @@ fn infeasible_problems_are_proved() {
 #[test]
 fn a_small_contradiction_is_proved() {
     let m = mat![[1.0, -1.0], [-1.0, 1.0]];
-    let problem = Lcp::new(m, vec![-1.0, 1.0 - 1e-9]).unwrap().into();
+    let problem = Lcp::new(m, vec![-1.0, 1.0 - 1e-9]).unwrap();
     let solution = Lemke::default().solve(&problem).unwrap();
     assert_eq!(solution.status, Status::Infeasible);
     assert!(solution.farkas().is_some_and(|pi| pi[0].total_cmp(&pi[1]).is_eq()));

@@ -22,11 +22,6 @@ impl Judged {
     pub(crate) fn worst(&self) -> f64 {
         self.residuals.worst()
     }
-
-    fn with_loads(mut self, loads: f64) -> Self {
-        self.residuals.loads = loads;
-        self
-    }
 }
 
 /// Displacements and forces of a contact problem in its own units.
@@ -62,15 +57,14 @@ pub(crate) fn confirmed(
     }
     let rest = (vec![0.0; at.0.len()], vec![(0.0, 0.0); at.1.len()]);
     for exact in refined_states(scaled, condensed, (&rest.0, &rest.1), contacts) {
-        let near = rounded(judge, scaled, &exact);
+        let near = rounded(judge, scaled, &exact, Precision::Exact);
         if near.worst() <= tolerance {
             return near;
         }
     }
-    let refined = refined_states(scaled, condensed, at, contacts);
-    let loads = refined.map(|exact| judge.residuals_of(scaled, &exact).worst());
-    let least = loads.fold(judged.residuals.loads, f64::min);
-    judged.with_loads(least)
+    let is_sound = refined_states(scaled, condensed, at, contacts)
+        .any(|exact| judge.residuals_of(scaled, &exact).worst() <= tolerance);
+    if is_sound { judge.judged(scaled, at, Precision::Rounded) } else { judged }
 }
 
 /// The point that the states of contacts lead to without rounding errors, where it is better than a given one: what is
@@ -85,14 +79,14 @@ pub(crate) fn brought_right(
         return best;
     }
     for exact in refined_states(scaled, condensed, at, contacts) {
-        let near = rounded(judge, scaled, &exact);
+        let mut near = rounded(judge, scaled, &exact, Precision::Exact);
         let Residuals { equation, natural, loads, .. } = near.residuals;
-        let near = if loads > tolerance && equation.max(natural) <= tolerance {
-            let exact = judge.residuals_of(scaled, &exact).worst();
-            near.with_loads(exact.min(loads))
-        } else {
-            near
-        };
+        if loads > EXACT
+            && equation.max(natural) <= tolerance
+            && judge.residuals_of(scaled, &exact).worst() <= tolerance
+        {
+            near = rounded(judge, scaled, &exact, Precision::Rounded);
+        }
         best = if near.worst() < best.worst() { near } else { best };
         if best.worst() <= tolerance {
             break;
@@ -101,10 +95,15 @@ pub(crate) fn brought_right(
     best
 }
 
-fn rounded(judge: &dyn Judge, scaled: &Scaled, (u, forces): &Exact) -> Judged {
+fn rounded(
+    judge: &dyn Judge,
+    scaled: &Scaled,
+    (u, forces): &Exact,
+    precision: Precision,
+) -> Judged {
     let u: Vec<f64> = u.iter().map(|u| u.rounded()).collect();
     let forces: Vec<_> = forces.iter().map(|[n, t]| (n.rounded(), t.rounded())).collect();
-    judge.judged(scaled, (&scaled.of_displacements(&u), &forces), Precision::Exact)
+    judge.judged(scaled, (&scaled.of_displacements(&u), &forces), precision)
 }
 
 /// The residuals of a point of a mixed problem after [confirmation](confirmed).

@@ -93,7 +93,7 @@ impl<'a> Search<'a> {
             let contacts = || vertex.contacts.clone();
             let with = (judge.as_ref(), &*scaled, &mut *condensed);
             let mut judged = judged(with, point, *tolerance, contacts);
-            if is_consistent {
+            if is_consistent || judged.worst() <= *tolerance {
                 let with = (judge.as_ref(), &*scaled, condensed);
                 judged = brought_right(with, (point, judged), &vertex.contacts, *tolerance);
             }

@@ -14,7 +14,7 @@ impl Lcp {
     /// # Panics
     /// If `z` or `w` does not have `n` entries.
     pub fn residuals(&self, z: &[f64], w: &[f64]) -> Residuals {
-        BoxedJudge::of_standard(self).residuals(z, w, Precision::Exact)
+        BoxedJudge::of_standard(self).residuals(z, w, Precision::Rounded)
     }
 }
 
@@ -37,7 +37,7 @@ impl BoxedLcp {
     /// # Panics
     /// If `z` or `w` does not have `n` entries.
     pub fn residuals(&self, z: &[f64], w: &[f64]) -> Residuals {
-        BoxedJudge::of_boxed(self).residuals(z, w, Precision::Exact)
+        BoxedJudge::of_boxed(self).residuals(z, w, Precision::Rounded)
     }
 }
 
@@ -88,9 +88,10 @@ impl<'a> BoxedJudge<'a> {
         if z.iter().chain(w).any(|v| !v.is_finite()) {
             return Residuals::infinite();
         }
-        if precision == Precision::Exact && self.at(z, w).is_hidden() {
+        if precision != Precision::Quick && self.at(z, w).is_hidden() {
             let extended = |v: &[f64]| v.iter().copied().map(Extended::from).collect::<Vec<_>>();
-            return self.residuals_of(&extended(z), &extended(w));
+            let (z, w) = (extended(z), extended(w));
+            return ledger::residuals(&self.at(&z, &w), &self.weights, self.length, precision);
         }
         ledger::residuals(&self.at(z, w), &self.weights, self.length, precision)
     }

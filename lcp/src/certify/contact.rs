@@ -27,7 +27,7 @@ impl Contact2d {
     /// # Panics
     /// If the lengths are not those of the problem.
     pub fn residuals(&self, state: &ContactState) -> Residuals {
-        ContactJudge::new(self).residuals(state, Precision::Exact)
+        ContactJudge::new(self).residuals(state, Precision::Rounded)
     }
 }
 
@@ -71,11 +71,12 @@ impl<'a> ContactJudge<'a> {
             return Residuals::infinite();
         }
         let at = self.at(StateOf { u, t_n, t_t, openings: Some((gap, slip)) });
-        if precision == Precision::Exact && at.is_hidden() {
+        if precision != Precision::Quick && at.is_hidden() {
             let [u, t_n, t_t, gap, slip] =
                 all.map(|v| v.iter().copied().map(Extended::from).collect::<Vec<_>>());
             let openings = Some((&gap[..], &slip[..]));
-            return self.residuals_of(StateOf { u: &u, t_n: &t_n, t_t: &t_t, openings });
+            let at = self.at(StateOf { u: &u, t_n: &t_n, t_t: &t_t, openings });
+            return ledger::residuals(&at, &self.weights, self.length, precision);
         }
         ledger::residuals(&at, &self.weights, self.length, precision)
     }

@@ -33,7 +33,7 @@ impl HorizontalLcp {
     /// # Panics
     /// If `t` or `y` does not have one entry for every pair.
     pub fn residuals(&self, t: &[f64], y: &[f64]) -> Residuals {
-        GeneralJudge::new(self).residuals(t, y, Precision::Exact)
+        GeneralJudge::new(self).residuals(t, y, Precision::Rounded)
     }
 }
 
@@ -79,9 +79,10 @@ impl<'a> GeneralJudge<'a> {
         if t.iter().chain(y).any(|v| !v.is_finite()) {
             return Residuals::infinite();
         }
-        if precision == Precision::Exact && self.at(t, y).is_hidden() {
+        if precision != Precision::Quick && self.at(t, y).is_hidden() {
             let extended = |v: &[f64]| v.iter().copied().map(Extended::from).collect::<Vec<_>>();
-            return self.residuals_of(&extended(t), &extended(y));
+            let (t, y) = (extended(t), extended(y));
+            return ledger::residuals(&self.at(&t, &y), &self.weights, self.length, precision);
         }
         ledger::residuals(&self.at(t, y), &self.weights, self.length, precision)
     }

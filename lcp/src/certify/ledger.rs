@@ -44,14 +44,22 @@ impl Digits for Extended {
     }
 }
 
-/// How exactly the rows of a point are computed.
+/// How exactly the rows of a point are computed, and what of the loads rounding may excuse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Precision {
-    /// In `f64`, less the rounding errors that this may have: of points on the way.
+    /// In `f64`, less the rounding errors that the sums may have: of points on the way.
     Quick,
-    /// With twice the digits where that may matter: of answers.
+    /// With twice the digits where that may matter, less the rounding error of a point that is exact but for the
+    /// last digit of its numbers: of answers.
+    Rounded,
+    /// With twice the digits: of points about to be called solved, and of those that have these digits.
     Exact,
 }
+
+/// More than this of the loads is not a rounding error, however large the terms are.
+const LARGEST_ROUNDING: f64 = 1e-6;
+/// The rounding error of a row whose variables are rounded, relative to its terms.
+const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// Rows at a point.
 pub(super) struct Rows<X> {
@@ -221,11 +229,16 @@ impl<'a> Ledger<'a> {
         let mut residuals = self.residuals;
         let noise = match precision {
             Precision::Quick => length * f64::EPSILON,
+            Precision::Rounded => ROUNDING,
             Precision::Exact => 0.0,
         };
         for (i, (rest, weight)) in rest.iter().zip(*weights).enumerate() {
-            let left = (rest.abs() - noise * terms[i]).max(0.0);
-            let left = (left + changes.get(i).unwrap_or(&0.0)) * weight;
+            let rounding = match precision {
+                Precision::Quick => noise * terms[i] * weight,
+                _ => (noise * terms[i] * weight).min(LARGEST_ROUNDING),
+            };
+            let left = (rest.abs() * weight - rounding).max(0.0);
+            let left = left + changes.get(i).unwrap_or(&0.0) * weight;
             // A NaN is no small residual.
             residuals.loads = if left.is_nan() { f64::INFINITY } else { residuals.loads.max(left) };
         }

@@ -44,7 +44,9 @@ pub(super) fn solve_basis(problem: &Equilibrated<'_>, basis: &Basis) -> Option<P
         let mut residuals = problem.judge.residuals(&values.t, &values.y, Precision::Exact);
         if residuals.loads > HIDDEN && residuals.equation.max(residuals.natural) <= HIDDEN {
             let low = if is_accurate { low.clone() } else { rest_of(&matrix, &right, x) };
-            residuals.loads = residuals.loads.min(values.exact_loads(problem, basis, &low));
+            let exact = values.exact_loads(problem, basis, &low);
+            let rounded = problem.judge.residuals(&values.t, &values.y, Precision::Rounded).loads;
+            residuals.loads = residuals.loads.min(exact.max(rounded));
         }
         let Values { t, y, sides } = values;
         Point { t, y, basis: Basis::new(sides), residuals, condition }

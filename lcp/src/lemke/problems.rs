@@ -59,10 +59,8 @@ impl Solver<Contact2d> for Lemke {
         let mut solution = Self::new(settings).solve_iterating(&mixed.to_general(), observer)?;
         let (z, _) = mixed.recover(&solution.t, &solution.y);
         let mut state = problem.from_mixed(&z);
-        let loads = solution.residuals.loads;
         solution.residuals = problem.residuals(&state);
         if matches!(solution.status, Status::Solved | Status::AlmostSolved) {
-            solution.residuals.loads = solution.residuals.loads.min(loads);
             let tolerance = self.settings().tolerance;
             if solution.residuals.worst() > tolerance
                 && let Some((right, residuals)) = state_brought_right(problem, &state, tolerance)

@@ -232,7 +232,7 @@ fn error_of_unique_part(planted: &Planted, z: &[f64]) -> f64 {
     rows.resize_with(n + 1, n, |_, j| planted.lcp.q()[j]);
     let entries = (0..n).flat_map(|j| (0..n).map(move |i| (i, j)));
     let stiffness = entries.map(|place| m[place].abs()).fold(0.0, f64::max);
-    let size = stiffness * largest(z);
+    let size = stiffness * largest(z).max(largest(&planted.z));
     let error: Vec<f64> = z.iter().zip(&planted.z).map(|(a, b)| a - b).collect();
     let error = times(&rows, &error).into_iter().fold(0.0_f64, |max, v| max.max(v.abs()));
     if size > 0.0 { error / size } else { error }

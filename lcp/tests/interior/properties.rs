@@ -66,7 +66,7 @@ proptest! {
         let tolerance = 10.0_f64.powi(-digits);
         let settings = InteriorPointSettings { tolerance, crossover: false, ..default() };
         let solution = InteriorPoint::new(settings).solve(&problem).unwrap();
-        prop_assert!(solution.is_solved(), "{:?}", solution.status);
+        prop_assert!(solution.is_solved(), "{:?} {:?}", solution.status, solution.residuals);
         let state = problem.recover(&solution.t, &solution.y);
         prop_assert!(solution.basis.is_none() && problem.residuals(&state).worst() <= tolerance);
     }
