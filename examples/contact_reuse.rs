@@ -21,8 +21,7 @@ use std::error::Error;
 use std::f64::consts::PI;
 use std::path::Path;
 
-use lcp::faer::sparse::{SparseColMat, Triplet};
-use lcp::{Auto, Contact2d, ContactState, Solution, Solver};
+use lcp::{Auto, Contact2d, ContactPoint, ContactState, Matrix, Solution, Solver};
 use pile_svg::{Circle, Force, Frame};
 
 const DISCS: usize = 48;
@@ -138,31 +137,36 @@ fn contacts(discs: &[Disc]) -> Vec<Contact> {
 }
 
 /// The problem of one step.
-fn velocity_problem(discs: &[Disc], contacts: &[Contact]) -> Result<Contact2d, Box<dyn Error>> {
+fn velocity_problem(discs: &[Disc], contacts: &[Contact]) -> Result<Contact2d, lcp::Error> {
     let (mut masses, mut loads) = (Vec::new(), Vec::new());
     for disc in discs {
         let weight = [0.0, -disc.weight(), 0.0];
         for ((mass, v), weight) in disc.masses().into_iter().zip(disc.velocity).zip(weight) {
-            masses.push(Triplet::new(loads.len(), loads.len(), mass / STEP));
+            masses.push((loads.len(), loads.len(), mass / STEP));
             loads.push(mass * v / STEP + weight);
         }
     }
-    let (mut c_n, mut c_t) = (Vec::new(), Vec::new());
-    for (row, contact) in contacts.iter().enumerate() {
+    let k = Matrix::from_triplets(loads.len(), loads.len(), &masses)?;
+    let mut builder = Contact2d::builder(k, loads);
+    for contact in contacts {
         let ([n_x, n_y], [t_x, t_y]) = (contact.normal, contact.tangent());
+        let (mut normal, mut tangent) = (Vec::new(), Vec::new());
         let sides = [(Some(contact.disc), 1.0), (contact.other, -1.0)];
         for (disc, sign) in sides.into_iter().filter_map(|(disc, sign)| Some((disc?, sign))) {
             let [x, y, rotation] = [0, 1, 2].map(|part| 3 * disc + part);
-            c_n.extend([(x, sign * n_x), (y, sign * n_y)].map(|(j, v)| Triplet::new(row, j, v)));
-            let slip = [(x, sign * t_x), (y, sign * t_y), (rotation, -discs[disc].radius)];
-            c_t.extend(slip.map(|(j, v)| Triplet::new(row, j, v)));
+            normal.extend([(x, sign * n_x), (y, sign * n_y)]);
+            tangent.extend([(x, sign * t_x), (y, sign * t_y), (rotation, -discs[disc].radius)]);
         }
+        let gap = contact.gap.max(0.0) / STEP;
+        builder.add_point(ContactPoint {
+            normal: &normal,
+            tangent: &tangent,
+            gap,
+            slip: 0.0,
+            mu: FRICTION,
+        });
     }
-    let (n, m) = (loads.len(), contacts.len());
-    let sparse = |rows, entries: &[_]| SparseColMat::try_new_from_triplets(rows, n, entries);
-    let (k, c_n, c_t) = (sparse(n, &masses)?, sparse(m, &c_n)?, sparse(m, &c_t)?);
-    let gaps = contacts.iter().map(|contact| contact.gap.max(0.0) / STEP).collect();
-    Ok(Contact2d::new(k, loads, c_n, c_t, gaps, vec![0.0; m], vec![FRICTION; m])?)
+    builder.build()
 }
 
 /// A solved step.

@@ -55,7 +55,8 @@ impl InputArgs {
             }
             (_, Some(m), Some(q), ..) => {
                 let q = vector(q)?;
-                let problem = Lcp::new(matrix(m, q.len())?, q)?;
+                let problem =
+                    Lcp::new(matrix(m, q.len())?, q).map_err(|error| in_file(m, &error))?;
                 Ok(Input { problem: Problem::Lcp(problem), format: "matrix-market" })
             }
             (.., Some(a), Some(b), Some(c)) => {
