@@ -1,7 +1,7 @@
 //! What is true of a problem, and what a verdict is worth in this light.
 
 use lcp::exact::{Enumeration, EnumerationSettings, Face, RBig, enumerate};
-use lcp::{HorizontalLcp, Solution, Status};
+use lcp::{Certificate, HorizontalLcp, Leaf, Side, Solution, Status};
 
 use super::methods::TOLERANCE;
 use super::problems::Case;
@@ -51,21 +51,15 @@ pub(crate) fn worth(case: &Case, truth: &Enumeration, solution: &Solution) -> Wo
             defect(case, truth, &t, &y).map_or(Worth::Right, Worth::Wrong)
         }
         Status::Infeasible if truth.is_feasible() => {
-            Worth::Wrong(format!("infeasible, but feasible: {:?}", solution.farkas()))
+            Worth::Wrong(format!("infeasible, but feasible: {:?}", solution.certificate))
         }
-        Status::Infeasible => match solution.farkas() {
+        Status::NoSolution if is_solvable => {
+            Worth::Wrong(format!("no solution, but there is one: {:?}", solution.certificate))
+        }
+        Status::Infeasible | Status::NoSolution => match &solution.certificate {
+            Some(certificate) => of_proof(&case.general, truth, certificate),
             None => Worth::Unproved,
-            Some(pi) => no_proof(&case.general, pi).map_or(Worth::Right, Worth::Wrong),
         },
-        status if status.to_string() == "NoSolution" => {
-            if is_solvable {
-                Worth::Wrong("no solution, but there is one".to_owned())
-            } else if truth.is_feasible() {
-                Worth::Right
-            } else {
-                Worth::Unproved
-            }
-        }
         status => Worth::Open(status.to_string()),
     }
 }
@@ -143,8 +137,38 @@ fn defect(case: &Case, truth: &Enumeration, t: &[f64], y: &[f64]) -> Option<Stri
     (!is_found).then(|| format!("no solution has these positive variables: {}", point()))
 }
 
-/// What keeps a vector from being a proof, by sums without rounding.
-fn no_proof(problem: &HorizontalLcp, pi: &[f64]) -> Option<String> {
+/// An infeasible problem has a Farkas vector; others without a solution need one for every choice.
+fn of_proof(problem: &HorizontalLcp, truth: &Enumeration, certificate: &Certificate) -> Worth {
+    let wrong = match certificate {
+        Certificate::Farkas { pi } => no_proof(problem, &vec![None; problem.order()], pi),
+        Certificate::Choices(_) if !truth.is_feasible() => return Worth::Unproved,
+        Certificate::Choices(leaves) => no_choices(problem, leaves),
+        other => Some(format!("no proof: {other:?}")),
+    };
+    let holds = certificate.holds(problem);
+    let refused = (!holds).then(|| format!("the library does not accept {certificate:?}"));
+    wrong.or(refused).map_or(Worth::Right, Worth::Wrong)
+}
+
+/// What keeps vectors from being a proof for every choice of one side of every pair.
+fn no_choices(problem: &HorizontalLcp, leaves: &[Leaf]) -> Option<String> {
+    let n = problem.order();
+    let is_in = |choice: u32, leaf: &Leaf| {
+        let sides = leaf.sides.iter().enumerate();
+        sides
+            .into_iter()
+            .all(|(j, side)| side.is_none_or(|side| (side == Side::T) == (choice >> j & 1 == 1)))
+    };
+    let is_covered = |choice: u32| leaves.iter().any(|leaf| is_in(choice, leaf));
+    match (0..1 << n).find(|&choice| !is_covered(choice)) {
+        Some(choice) => Some(format!("the choice {choice:b} is not excluded")),
+        None => leaves.iter().find_map(|leaf| no_proof(problem, &leaf.sides, &leaf.pi)),
+    }
+}
+
+/// What keeps a vector from being a proof that columns of these sides cannot reach the right-hand side, by sums without
+/// rounding.
+fn no_proof(problem: &HorizontalLcp, sides: &[Option<Side>], pi: &[f64]) -> Option<String> {
     let n = problem.order();
     if pi.len() != n || pi.iter().any(|v| !v.is_finite()) {
         return Some(format!("no Farkas vector of {n} rows: {pi:?}"));
@@ -154,8 +178,8 @@ fn no_proof(problem: &HorizontalLcp, pi: &[f64]) -> Option<String> {
         let size = (0..n).map(|i| (entry(i) * pi[i]).abs()).sum::<f64>();
         (rounded(&terms().fold(RBig::ZERO, |sum, v| sum + v)), size)
     };
-    for (name, matrix) in [("A", problem.a()), ("B", problem.b())] {
-        for j in 0..n {
+    for (name, matrix, side) in [("A", problem.a(), Side::T), ("B", problem.b(), Side::Y)] {
+        for j in (0..n).filter(|&j| sides[j].is_none_or(|chosen| chosen == side)) {
             let (sum, size) = product(&|i| matrix[(i, j)]);
             if sum > PROOF * size {
                 return Some(format!("{pi:?} times column {j} of {name} is {sum:e}"));
