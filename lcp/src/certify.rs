@@ -26,7 +26,6 @@ mod farkas;
 mod friction;
 mod general;
 mod ledger;
-mod parts;
 mod weights;
 
 pub(crate) use boxed::BoxedJudge;

@@ -2,9 +2,9 @@
 
 use super::Residuals;
 use super::ledger::{Digits, Entry, Ledger, Precision, Rows};
-use super::parts::Parts;
 use super::weights::reciprocal;
 use crate::extended::Extended;
+use crate::parts::Parts;
 use crate::problem::{column_factors, column_of, diagonal, median};
 use crate::{Contact2d, ContactState};
 
