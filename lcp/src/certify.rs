@@ -29,7 +29,6 @@ mod farkas;
 mod friction;
 mod general;
 mod ledger;
-mod parts;
 mod significance;
 mod weights;
 
@@ -40,7 +39,6 @@ pub(crate) use contact::{ContactJudge, StateOf};
 pub(crate) use farkas::{is_proof, is_proof_of};
 pub(crate) use general::{GeneralJudge, right_hand_side};
 pub(crate) use ledger::{Precision, ratio};
-pub(crate) use parts::Parts;
 
 use crate::Status;
 

@@ -126,6 +126,8 @@ mod basis;
 mod certify;
 #[cfg(feature = "cli")]
 pub mod cli;
+#[allow(dead_code)] // until the chain of methods begins with it
+mod divide;
 #[allow(dead_code)] // until the chain of methods ends with it
 mod enumerate;
 mod error;
@@ -143,6 +145,7 @@ mod matrix;
 mod method;
 mod newton;
 mod nonnegative;
+mod parts;
 pub mod pgs;
 mod pivoting;
 mod problem;

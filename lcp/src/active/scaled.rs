@@ -2,7 +2,7 @@
 
 use faer::sparse::SparseColMat;
 
-use crate::certify::Parts;
+use crate::parts::Parts;
 use crate::problem::{column_factors, column_of, diagonal, max_abs, median, power_of_two};
 use crate::{Contact2d, ContactState, MixedLcp};
 

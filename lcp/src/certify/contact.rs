@@ -2,10 +2,10 @@
 
 use super::Residuals;
 use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
-use super::parts::Parts;
 use super::significance::Term;
 use super::weights::reciprocal;
 use crate::extended::Extended;
+use crate::parts::Parts;
 use crate::problem::{column_factors, column_of, diagonal, median};
 use crate::{Contact2d, ContactState};
 

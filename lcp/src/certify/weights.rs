@@ -1,7 +1,7 @@
 //! What a row counts in units of the loads.
 
-use super::parts::Parts;
 use crate::matrix::Column;
+use crate::parts::Parts;
 use crate::scaling::{GIVEN, equilibrate};
 
 /// Entries below this, once rows and columns are equilibrated, couple two rows only weakly.

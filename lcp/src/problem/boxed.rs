@@ -193,6 +193,12 @@ impl BoxedLcp {
         (t, y)
     }
 
+    /// The pair of the upper bound of every variable that has two bounds, in the general form.
+    pub(crate) fn upper_pairs(&self) -> Vec<Option<usize>> {
+        let pair = |kind| if let Kind::Both(pair) = kind { Some(pair) } else { None };
+        self.kinds().into_iter().map(pair).collect()
+    }
+
     fn kinds(&self) -> Vec<Kind> {
         let mut next = self.order();
         let kind = |(&lower, &upper): (&f64, &f64)| match (lower.is_finite(), upper.is_finite()) {

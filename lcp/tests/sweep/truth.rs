@@ -141,8 +141,8 @@ fn defect(case: &Case, truth: &Enumeration, t: &[f64], y: &[f64]) -> Option<Stri
 fn of_proof(problem: &HorizontalLcp, truth: &Enumeration, certificate: &Certificate) -> Worth {
     let wrong = match certificate {
         Certificate::Farkas { pi } => no_proof(problem, &vec![None; problem.order()], pi),
-        Certificate::Choices(_) if !truth.is_feasible() => return Worth::Unproved,
-        Certificate::Choices(leaves) => no_choices(problem, leaves),
+        Certificate::Choices { .. } if !truth.is_feasible() => return Worth::Unproved,
+        Certificate::Choices { leaves } => no_choices(problem, leaves),
         other => Some(format!("no proof: {other:?}")),
     };
     let holds = certificate.holds(problem);
