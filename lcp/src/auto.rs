@@ -2,6 +2,7 @@
 
 mod chain;
 mod contact;
+mod enumerated;
 mod facts;
 pub(crate) mod memory;
 mod method;
@@ -11,7 +12,8 @@ mod standard;
 
 pub use settings::AutoSettings;
 
-use method::Planned;
+pub(crate) use enumerated::Enumeration;
+use method::{Planned, chain_of};
 
 use crate::{Error, Method, Observer, Solution, Solver};
 
@@ -107,7 +109,7 @@ impl Auto {
 
     /// The methods for a problem in the order in which they would be asked.
     pub fn plan<P: Planned>(&self, problem: &P) -> Vec<Choice> {
-        let steps = problem.steps().into_iter();
+        let steps = chain_of(problem).into_iter();
         steps.map(|step| Choice { method: step.method, reason: step.reason }).collect()
     }
 }

@@ -1,20 +1,66 @@
 //! Problems that methods treat in another form, and the way back: a conversion never decides.
+//!
+//! Bounds that are far away compared with what the data make of a variable lose all digits of it once they are part of
+//! the right-hand side. Such a problem is solved without them first, which is right if the answer lies between them.
 
 use std::borrow::Cow;
 
 use crate::certify::Residuals;
-use crate::{BoxedLcp, Friction2d, HorizontalLcp, Lcp, MixedLcp, Solution, Status};
+use crate::{
+    BoxedLcp, Contact2d, ContactState, Error, Friction2d, HorizontalLcp, Lcp, MixedLcp, Solution,
+    Status,
+};
 
 /// A problem with a general form. Only the problems of the library are.
-pub trait Lowered {
+pub trait General {
     /// The general form, whose pairs a [`Solution`] of the problem has.
     fn general(&self) -> Cow<'_, HorizontalLcp>;
 
     /// Residuals of a point of the general form in the variables of the problem itself.
     fn residuals_of_pairs(&self, t: &[f64], y: &[f64]) -> Residuals;
+
+    /// The state that a point of the general form is, of contact.
+    fn state_of_pairs(&self, _: &[f64], _: &[f64]) -> Option<ContactState> {
+        None
+    }
 }
 
-impl Lowered for HorizontalLcp {
+/// A problem that pivots treat in its general form.
+pub trait Lowered: General + Sized {
+    /// The same problem without bounds that are far away, where there are any.
+    fn without_far_bounds(&self) -> Option<Self> {
+        None
+    }
+
+    /// The pairs of the problem from those of the one without far bounds.
+    fn with_far_bounds(&self, _nearer: &Self, pairs: Pairs) -> Pairs {
+        pairs
+    }
+}
+
+/// A point `(t, y)` of a general form.
+type Pairs = (Vec<f64>, Vec<f64>);
+
+impl Lowered for HorizontalLcp {}
+
+impl Lowered for Lcp {}
+
+impl Lowered for Friction2d {}
+
+impl Lowered for MixedLcp {}
+
+impl Lowered for BoxedLcp {
+    fn without_far_bounds(&self) -> Option<Self> {
+        self.without_far_bounds()
+    }
+
+    fn with_far_bounds(&self, nearer: &Self, (t, y): Pairs) -> Pairs {
+        let (z, w) = nearer.recover(&t, &y);
+        self.to_pairs(&z, &w)
+    }
+}
+
+impl General for HorizontalLcp {
     fn general(&self) -> Cow<'_, HorizontalLcp> {
         Cow::Borrowed(self)
     }
@@ -24,7 +70,7 @@ impl Lowered for HorizontalLcp {
     }
 }
 
-impl Lowered for Lcp {
+impl General for Lcp {
     fn general(&self) -> Cow<'_, HorizontalLcp> {
         Cow::Owned(self.clone().into())
     }
@@ -34,7 +80,7 @@ impl Lowered for Lcp {
     }
 }
 
-impl Lowered for Friction2d {
+impl General for Friction2d {
     fn general(&self) -> Cow<'_, HorizontalLcp> {
         self.standard().general()
     }
@@ -44,7 +90,7 @@ impl Lowered for Friction2d {
     }
 }
 
-impl Lowered for MixedLcp {
+impl General for MixedLcp {
     fn general(&self) -> Cow<'_, HorizontalLcp> {
         Cow::Owned(self.to_general())
     }
@@ -54,7 +100,7 @@ impl Lowered for MixedLcp {
     }
 }
 
-impl Lowered for BoxedLcp {
+impl General for BoxedLcp {
     fn general(&self) -> Cow<'_, HorizontalLcp> {
         Cow::Owned(self.to_general())
     }
@@ -65,9 +111,45 @@ impl Lowered for BoxedLcp {
     }
 }
 
+impl General for Contact2d {
+    fn general(&self) -> Cow<'_, HorizontalLcp> {
+        Cow::Owned(self.to_general())
+    }
+
+    fn residuals_of_pairs(&self, t: &[f64], y: &[f64]) -> Residuals {
+        self.residuals(&self.recover(t, y))
+    }
+
+    fn state_of_pairs(&self, t: &[f64], y: &[f64]) -> Option<ContactState> {
+        Some(self.recover(t, y))
+    }
+}
+
+/// Solves a problem by its general form, without far bounds first.
+///
+/// # Errors
+/// Those of the method.
+pub(crate) fn solve_lowered<P: Lowered>(
+    problem: &P,
+    tolerance: f64,
+    mut solve: impl FnMut(&HorizontalLcp, bool) -> Result<Solution, Error>,
+) -> Result<Solution, Error> {
+    if let Some(nearer) = problem.without_far_bounds() {
+        let mut solution = solve(&nearer.general(), true)?;
+        (solution.t, solution.y) = problem.with_far_bounds(&nearer, (solution.t, solution.y));
+        // These belong to the other pairs.
+        (solution.basis, solution.certificate) = (None, None);
+        let solution = judged_by(problem, solution, tolerance);
+        if solution.is_solved() {
+            return Ok(solution);
+        }
+    }
+    Ok(judged_by(problem, solve(&problem.general(), false)?, tolerance))
+}
+
 /// The solution of another form, whose pairs were brought back, judged by the problem itself.
 pub(crate) fn judged_by(
-    problem: &impl Lowered,
+    problem: &impl General,
     mut solution: Solution,
     tolerance: f64,
 ) -> Solution {

@@ -37,17 +37,21 @@ pub enum Method {
     /// [`ProjectedGaussSeidel`](crate::ProjectedGaussSeidel).
     #[cfg_attr(feature = "serde", serde(rename = "pgs"))]
     GaussSeidel,
+    /// The last resort of [`Auto`](crate::Auto) for small problems: all choices of sides, with proofs.
+    #[cfg_attr(feature = "serde", serde(rename = "enumeration"))]
+    Enumeration,
 }
 
 impl Method {
     /// All of them.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Auto,
         Self::Lemke,
         Self::Newton,
         Self::Interior,
         Self::QuadraticProgram,
         Self::GaussSeidel,
+        Self::Enumeration,
     ];
 
     /// The short name.
@@ -59,6 +63,7 @@ impl Method {
             Self::Interior => "interior",
             Self::QuadraticProgram => "qp",
             Self::GaussSeidel => "pgs",
+            Self::Enumeration => "enumeration",
         }
     }
 
@@ -71,6 +76,7 @@ impl Method {
             Self::Interior => "the interior-point method",
             Self::QuadraticProgram => "quadratic programming",
             Self::GaussSeidel => "projected Gauss-Seidel",
+            Self::Enumeration => "enumeration",
         }
     }
 }

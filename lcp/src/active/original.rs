@@ -102,8 +102,10 @@ fn rounded(
     precision: Precision,
 ) -> Judged {
     let u: Vec<f64> = u.iter().map(|u| u.rounded()).collect();
-    let forces: Vec<_> = forces.iter().map(|[n, t]| (n.rounded(), t.rounded())).collect();
-    judge.judged(scaled, (&scaled.of_displacements(&u), &forces), precision)
+    let mut u = scaled.of_displacements(&u);
+    let mut forces: Vec<_> = forces.iter().map(|[n, t]| (n.rounded(), t.rounded())).collect();
+    scaled.settle(&mut u, &mut forces);
+    judge.judged(scaled, (&u, &forces), precision)
 }
 
 /// The residuals of a point of a mixed problem after [confirmation](confirmed).

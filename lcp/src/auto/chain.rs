@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::AutoSettings;
-use super::method::{Effort, Planned, attempt};
+use super::method::{Effort, Planned, attempt, chain_of};
 use crate::{Certificate, Error, Method, Observer, Route, RouteEnd, Solution, Status, WarmStart};
 
 /// A point with larger residuals is no better start than the one that was given.
@@ -33,7 +33,7 @@ pub(super) fn run<P: Planned>(
     let mut routes = Vec::new();
     let mut best: Option<Solution> = None;
     let mut cut = None;
-    for step in problem.steps() {
+    for step in chain_of(problem) {
         let time_limit = settings.time_limit.map(|limit| limit.saturating_sub(began.elapsed()));
         if best.is_some() && time_limit == Some(Duration::ZERO) {
             cut = Some(Status::TimeLimit);

@@ -32,6 +32,7 @@ impl Planned for Friction2d {
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
             Method::Lemke => Some(Box::new(effort.lemke())),
+            Method::Enumeration => Some(Box::new(effort.enumeration())),
             Method::Interior => Some(Box::new(effort.interior_point())),
             Method::GaussSeidel => Some(Box::new(effort.sweeps())),
             _ => None,
@@ -92,6 +93,7 @@ impl Planned for Contact2d {
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
             Method::Lemke => Some(Box::new(effort.lemke())),
+            Method::Enumeration => Some(Box::new(effort.enumeration())),
             Method::Interior => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
             Method::QuadraticProgram => Some(Box::new(effort.quadratic_program())),

@@ -2,7 +2,9 @@
 
 use std::time::Duration;
 
+use super::enumerated::{Enumeration, MOST_VARIABLES, is_small};
 use super::memory;
+use crate::lower::General;
 use crate::{
     Error, InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings, Method, Observer,
     ProjectedGaussSeidel, ProjectedGaussSeidelSettings, SemismoothNewton, SemismoothNewtonSettings,
@@ -24,8 +26,20 @@ impl Step {
     }
 }
 
+/// The chain of a problem, with the last resort for small ones behind pivots, which it is as fast as.
+pub(super) fn chain_of<P: Planned>(problem: &P) -> Vec<Step> {
+    let mut steps = problem.steps();
+    if problem.pairs() <= MOST_VARIABLES && is_small(&problem.general()) {
+        let words = "so few pairs that all choices of sides can be gone through, with proofs";
+        let pivots = steps.iter().position(|step| step.method == Method::Lemke);
+        let place = pivots.map_or(steps.len(), |place| place + 1);
+        steps.insert(place, Step::new(Method::Enumeration, words));
+    }
+    steps
+}
+
 /// A problem with a chain of methods. Only the problems of the library are.
-pub trait Planned: Sized {
+pub trait Planned: General + Sized {
     /// Pairs of a start.
     fn pairs(&self) -> usize;
 
@@ -74,6 +88,10 @@ pub struct Effort<'a> {
 }
 
 impl Effort<'_> {
+    pub(super) fn enumeration(&self) -> Enumeration {
+        Enumeration { tolerance: self.tolerance, time_limit: self.time_limit }
+    }
+
     pub(super) fn lemke(&self) -> Lemke {
         let Self { tolerance, time_limit, .. } = *self;
         let start = self.start.clone();

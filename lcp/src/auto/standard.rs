@@ -7,12 +7,14 @@ use crate::{HorizontalLcp, Lcp, Method, Solver};
 /// Up to this order pivots on a sparse matrix are as fast as factorisations, and say more.
 const FEW: usize = 500;
 
+/// Up to this order the interior-point method, which factorises sparse matrices, takes no time on dense ones.
+const FEW_DENSE: usize = 200;
+
 /// The class of the matrix decides whether the active set method is the first.
 pub(super) fn standard_steps(facts: &Facts) -> Vec<Step> {
     let text = facts.describe();
     let newton = |words| Step::new(Method::Newton, format!("{text}, {words}"));
     let is_symmetric = facts.symmetry != Symmetry::None;
-    let is_large = facts.is_sparse && facts.order > FEW;
     let program = is_symmetric.then(|| {
         format!("{text}: a quadratic program, convex if the matrix is positive semidefinite")
     });
@@ -28,14 +30,10 @@ pub(super) fn standard_steps(facts: &Facts) -> Vec<Step> {
         let words = "with no positive entry off the positive diagonal: the active set method solves \
                      whatever is feasible";
         steps.insert(0, newton(words));
-    } else if is_large && is_symmetric {
+    } else {
         let words = "with a positive diagonal: the active set method takes few factorisations, or \
                      soon gives up";
         steps.insert(0, newton(words));
-    } else if is_large {
-        let words = "with a positive diagonal: the active set method often works, and soon gives up \
-                     where it does not";
-        steps.insert(1, newton(words));
     }
     steps
 }
@@ -61,7 +59,8 @@ pub(super) fn common_steps(
         "the interior-point method takes tens of factorisations at any order",
     );
     let sweeps = step(Method::GaussSeidel, "sweeps are cheap, and promise little");
-    let mut steps: Vec<Step> = first.into_iter().chain([inside]).collect();
+    let inside = (facts.is_sparse || facts.order <= FEW_DENSE).then_some(inside);
+    let mut steps: Vec<Step> = first.into_iter().chain(inside).collect();
     steps.extend(program_step(program));
     steps.extend(can_be_swept.then_some(sweeps));
     steps.extend(last);
@@ -95,6 +94,7 @@ impl Planned for Lcp {
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
             Method::Lemke => Some(Box::new(effort.lemke())),
+            Method::Enumeration => Some(Box::new(effort.enumeration())),
             Method::Newton => Some(Box::new(effort.newton(is_z_matrix(self.m())))),
             Method::Interior => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
@@ -133,6 +133,7 @@ impl Planned for HorizontalLcp {
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
             Method::Lemke => Some(Box::new(effort.lemke())),
+            Method::Enumeration => Some(Box::new(effort.enumeration())),
             Method::Newton => {
                 let is_sure = self.to_standard().is_some_and(|it| is_z_matrix(it.lcp().m()));
                 Some(Box::new(effort.newton(is_sure)))

@@ -7,8 +7,6 @@
 
 /// Shares above this are as good as one.
 const SLACK: f64 = 1.0 / (1 << 10) as f64;
-/// A right-hand side above this part of those that its row feels is a load.
-const LEAST_LOAD: f64 = 1.0 / (1 << 30) as f64;
 /// Shares are told apart by factors of two, down to this power.
 const LEVELS: usize = 1000;
 
@@ -31,8 +29,8 @@ pub(super) fn significance(terms: &[f64], loads: &[f64], felt: &[f64], all: &[Te
         }),
     );
     let mut reached = vec![LEVELS; rows + variables];
-    let is_load = |i: usize| loads[i] > 0.0 && loads[i] * felt[i] >= LEAST_LOAD;
-    links.spread((0..rows).filter(|i| is_load(*i)).map(|i| (0, i)).collect(), &mut reached);
+    let loaded = (0..rows).filter(|i| loads[*i] > 0.0);
+    links.spread(loaded.map(|i| (0, i)).collect(), &mut reached);
     // What no load reaches is measured by the loads around it, if there are any.
     let apart = (0..rows).filter(|i| reached[*i] == LEVELS);
     let size = |i: usize| if felt[i] > 0.0 { level(terms[i] * felt[i]) } else { 0 };
@@ -40,11 +38,10 @@ pub(super) fn significance(terms: &[f64], loads: &[f64], felt: &[f64], all: &[Te
     reached[..rows].iter().map(|level| factor(*level)).collect()
 }
 
-/// How many factors of two a share is below what is as good as one.
+/// How many factors of two a share is below one; none where it is as good as one.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 1000")]
 fn level(share: f64) -> usize {
-    let level = (SLACK / share).log2().ceil();
-    if level > 0.0 { (level as usize).min(LEVELS - 1) } else { 0 }
+    if share >= SLACK { 0 } else { (-share.log2().ceil()).min(LEVELS as f64 - 1.0) as usize }
 }
 
 fn factor(level: usize) -> f64 {

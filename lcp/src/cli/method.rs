@@ -7,13 +7,13 @@ use clap::builder::PossibleValue;
 
 use super::input::Point;
 use super::{Failure, SolveArgs};
-use crate::auto::memory;
+use crate::auto::{Enumeration, memory};
 use crate::io::Problem;
 use crate::{
-    Auto, AutoSettings, Basis, Covering, Error, InteriorPoint, InteriorPointSettings, Lemke,
-    LemkeSettings, Method, ProjectedGaussSeidel, ProjectedGaussSeidelSettings, QuadraticProgram,
-    QuadraticProgramSettings, SemismoothNewton, SemismoothNewtonSettings, Side, Solution, Solver,
-    WarmStart,
+    Auto, AutoSettings, Basis, BoxedLcp, Contact2d, Covering, Error, Friction2d, HorizontalLcp,
+    InteriorPoint, InteriorPointSettings, Lcp, Lemke, LemkeSettings, Method, MixedLcp,
+    ProjectedGaussSeidel, ProjectedGaussSeidelSettings, QuadraticProgram, QuadraticProgramSettings,
+    SemismoothNewton, SemismoothNewtonSettings, Side, Solution, Solver, WarmStart,
 };
 
 /// Every method gets the problem in its own form where it treats that, else in the general form, whose
@@ -40,6 +40,10 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
                 ..defaults
             };
             lemke(&Lemke::new(settings), problem)
+        }
+        Method::Enumeration => {
+            let tolerance = args.tol.unwrap_or(AutoSettings::default().tolerance);
+            in_its_form(&Enumeration { tolerance, time_limit }, problem)
         }
         Method::GaussSeidel => {
             let defaults = ProjectedGaussSeidelSettings::default();
@@ -157,12 +161,29 @@ fn auto(solver: &Auto, problem: &Problem) -> Result<Solution, Error> {
 }
 
 fn lemke(solver: &Lemke, problem: &Problem) -> Result<Solution, Error> {
-    if let Problem::Contact(problem) = problem {
-        return solver.solve(problem);
+    let general = problem.to_general();
+    memory::check(general.is_sparse(), general.order())?;
+    in_its_form(solver, problem)
+}
+
+/// By a method that treats every form.
+fn in_its_form<S>(solver: &S, problem: &Problem) -> Result<Solution, Error>
+where
+    S: Solver<Lcp>
+        + Solver<HorizontalLcp>
+        + Solver<MixedLcp>
+        + Solver<BoxedLcp>
+        + Solver<Friction2d>
+        + Solver<Contact2d>,
+{
+    match problem {
+        Problem::Lcp(problem) => solver.solve(problem),
+        Problem::Horizontal(problem) => solver.solve(problem),
+        Problem::Mixed(problem) => solver.solve(problem),
+        Problem::Boxed(problem) => solver.solve(problem),
+        Problem::Friction(problem) => solver.solve(problem),
+        Problem::Contact(problem) => solver.solve(problem),
     }
-    let problem = problem.to_general();
-    memory::check(problem.is_sparse(), problem.order())?;
-    solver.solve(&problem)
 }
 
 fn sweep(solver: &ProjectedGaussSeidel, problem: &Problem) -> Result<Solution, Error> {
@@ -224,6 +245,7 @@ impl ValueEnum for Method {
                 "Convex quadratic program: symmetric positive semidefinite matrices"
             }
             Self::GaussSeidel => "Projected Gauss-Seidel: positive diagonals; bounds, friction",
+            Self::Enumeration => "All choices of sides, with proofs: up to 12 pairs",
         }))
     }
 }

@@ -1,10 +1,10 @@
 //! The interior-point method on every kind of problem.
 
-use super::InteriorPoint;
-use crate::lower::judged_by;
+use super::{InteriorPoint, InteriorPointSettings};
+use crate::lower::{judged_by, solve_lowered};
 use crate::{
     BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Method, MixedLcp, Observer,
-    Solution, Solver,
+    Solution, Solver, WarmStart,
 };
 
 impl Solver<Contact2d> for InteriorPoint {
@@ -105,7 +105,10 @@ impl Solver<BoxedLcp> for InteriorPoint {
         problem: &BoxedLcp,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        let solution = self.solve_observed(&problem.to_general(), observer)?;
-        Ok(judged_by(problem, solution, self.settings.tolerance))
+        solve_lowered(problem, self.settings.tolerance, |general, is_other| {
+            let start = if is_other { WarmStart::None } else { self.settings.start.clone() };
+            let settings = InteriorPointSettings { start, ..self.settings.clone() };
+            Self::new(settings).solve_observed(general, observer)
+        })
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Lemke, Progress};
 use crate::active::state_brought_right;
-use crate::lower::{Lowered, judged_by};
+use crate::lower::{Lowered, solve_lowered};
 use crate::{
     Basis, Certificate, Contact2d, Covering, Error, HorizontalLcp, Iteration, LemkeSettings,
     Method, Observer, Side, Solution, Solver, Status, WarmStart,
@@ -28,8 +28,15 @@ impl<P: Lowered> Solver<P> for Lemke {
     }
 
     fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
-        let solution = self.solve_iterating(&problem.general(), observer)?;
-        Ok(judged_by(problem, solution, self.settings().tolerance))
+        solve_lowered(problem, self.settings().tolerance, |general, is_other| {
+            if is_other {
+                // A start and a covering vector have the pairs of the problem as it was given.
+                let (start, covering) = (WarmStart::None, Covering::Ones);
+                let settings = LemkeSettings { start, covering, ..self.settings().clone() };
+                return Self::new(settings).solve_iterating(general, observer);
+            }
+            self.solve_iterating(general, observer)
+        })
     }
 }
 

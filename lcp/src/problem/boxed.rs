@@ -7,7 +7,8 @@ use crate::{Error, Matrix};
 /// The problem `w = M z + q`, `lower <= z <= upper` of order `n`, where `w_i >= 0` if `z_i` is at
 /// its lower bound, `w_i <= 0` if it is at its upper one, and `w_i = 0` in between.
 ///
-/// Bounds may be infinite. With `lower = 0` and `upper = inf` it is the standard problem; without
+/// Bounds may be infinite, and methods that work on the general form try bounds beyond 1e6 times what `q` and `M` make
+/// of a variable as infinite first; the answer is judged by the bounds as given. With `lower = 0` and `upper = inf` it is the standard problem; without
 /// bounds a system of equations.
 ///
 /// ```
@@ -199,6 +200,44 @@ impl BoxedLcp {
         self.kinds().into_iter().map(pair).collect()
     }
 
+    /// The same problem with bounds that are [far](FAR) away taken for infinite; `None` where there are none.
+    pub(crate) fn without_far_bounds(&self) -> Option<Self> {
+        let sizes = self.sizes();
+        let is_far = |bound: f64, size: f64| bound.is_finite() && bound.abs() > FAR * size;
+        let lower = |(l, size): (&f64, &f64)| {
+            if *l < 0.0 && is_far(*l, *size) { f64::NEG_INFINITY } else { *l }
+        };
+        let upper = |(u, size): (&f64, &f64)| {
+            if *u > 0.0 && is_far(*u, *size) { f64::INFINITY } else { *u }
+        };
+        let lower: Vec<f64> = self.lower.iter().zip(&sizes).map(lower).collect();
+        let upper: Vec<f64> = self.upper.iter().zip(&sizes).map(upper).collect();
+        let finite = |v: &[f64]| v.iter().filter(|v| v.is_finite()).count();
+        let count = finite(&lower) + finite(&upper);
+        let is_changed = count < finite(&self.lower) + finite(&self.upper);
+        is_changed.then(|| Self { m: self.m.clone(), q: self.q.clone(), lower, upper })
+    }
+
+    /// For every variable the largest value with which it would balance alone a right-hand side in one of its rows,
+    /// and what the bounds nearest to zero add to these.
+    fn sizes(&self) -> Vec<f64> {
+        let nearest = |i: usize| self.lower[i].max(0.0) - self.upper[i].min(0.0);
+        let mut loads: Vec<f64> = self.q.iter().map(|q| q.abs()).collect();
+        for j in (0..self.order()).filter(|j| nearest(*j) != 0.0) {
+            self.m.slice(j).for_each(|i, v| loads[i] += (v * nearest(j)).abs());
+        }
+        let size = |j: usize| {
+            let mut size = nearest(j).abs();
+            self.m.slice(j).for_each(|i, v| {
+                if v != 0.0 {
+                    size = size.max(loads[i] / v.abs());
+                }
+            });
+            size
+        };
+        (0..self.order()).map(size).collect()
+    }
+
     fn kinds(&self) -> Vec<Kind> {
         let mut next = self.order();
         let kind = |(&lower, &upper): (&f64, &f64)| match (lower.is_finite(), upper.is_finite()) {
@@ -223,6 +262,9 @@ impl BoxedLcp {
         }
     }
 }
+
+/// Bounds beyond this multiple of what the data make of a variable are tried as infinite first.
+const FAR: f64 = 1e6;
 
 fn pairs(kinds: &[Kind]) -> usize {
     kinds.len() + kinds.iter().filter(|kind| matches!(kind, Kind::Both(_))).count()

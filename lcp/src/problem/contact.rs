@@ -67,7 +67,7 @@ impl Contact2d {
     ///
     /// # Errors
     /// [`Error::Shape`] or [`Error::Length`] when the shapes do not fit, [`Error::NotFinite`] for a
-    /// NaN or an infinity, [`Error::Setting`] for a negative coefficient of friction, and
+    /// NaN or an infinity, [`Error::Setting`] for a coefficient of friction that is negative or above 1e12, and
     /// [`Error::NotSymmetric`] for a `K` that is not symmetric to rounding.
     pub fn new(
         k: impl Into<Matrix>,
@@ -88,8 +88,9 @@ impl Contact2d {
         for (what, vector) in [("f", &f), ("x_0", &x_0), ("s_0", &s_0), ("mu", &mu)] {
             check_vector(what, vector)?;
         }
-        if let Some(&value) = mu.iter().find(|mu| **mu < 0.0) {
-            return Err(Error::Setting { name: "mu", value, range: "at least zero" });
+        if let Some(&value) = mu.iter().find(|mu| !(0.0..=LARGEST_MU).contains(*mu)) {
+            let range = "from 0 to 1e12: a contact with more never slides, and belongs into K";
+            return Err(Error::Setting { name: "mu", value, range });
         }
         k.check_symmetric("K")?;
         let friction = (0..m).filter(|&i| mu[i] > 0.0).collect();
@@ -255,6 +256,9 @@ impl Contact2d {
             .filter_map(|(i, v)| Some((self.friction.binary_search(&i).ok()?, v)))
     }
 }
+
+/// A tangential force of the size of the normal one cannot be told from zero beside larger friction.
+const LARGEST_MU: f64 = 1e12;
 
 /// The entries of a column.
 pub(crate) fn column_of(

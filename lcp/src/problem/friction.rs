@@ -55,15 +55,17 @@ impl Friction2d {
     ///
     /// # Errors
     /// [`Error::Shape`] or [`Error::Length`] when the shapes do not fit, [`Error::NotFinite`] for a NaN
-    /// or an infinity, [`Error::Setting`] for a negative coefficient of friction.
+    /// or an infinity, [`Error::Setting`] for a coefficient of friction that is negative or above 1e6.
     pub fn new(w: impl Into<Matrix>, q: Vec<f64>, mu: Vec<f64>) -> Result<Self, Error> {
         let w = w.into();
         check_length("q", q.len(), 2 * mu.len())?;
         w.check("W", q.len(), q.len())?;
         check_vector("q", &q)?;
         check_vector("mu", &mu)?;
-        if let Some(&value) = mu.iter().find(|mu| **mu < 0.0) {
-            return Err(Error::Setting { name: "mu", value, range: "at least zero" });
+        if let Some(&value) = mu.iter().find(|mu| !(0.0..=LARGEST_MU).contains(*mu)) {
+            let range = "from 0 to 1e6: with more, forces of this form cannot be told from those of \
+                         contacts that never slide";
+            return Err(Error::Setting { name: "mu", value, range });
         }
         let standard = standard_form(&w, &q, &mu)?;
         Ok(Self { w, q, mu, standard })
@@ -111,6 +113,9 @@ impl Friction2d {
         ContactForces { normal, tangential }
     }
 }
+
+/// Of `r_T = l - mu r_N` a larger coefficient leaves fewer than ten digits.
+const LARGEST_MU: f64 = 1e6;
 
 fn standard_form(w: &Matrix, q: &[f64], mu: &[f64]) -> Result<Lcp, Error> {
     let order = 3 * mu.len();
