@@ -98,6 +98,8 @@ const NEARER: f64 = 0.03;
 /// Steps without a reduction of the products by a tenth after which the iteration has jammed. On a path that
 /// turns back they may grow for a while.
 const PATIENCE: usize = 30;
+/// Steps from a point that is solved but whose states are not yet those of the exact answer.
+const MORE: usize = 8;
 /// Steps shorter than this are none.
 const NO_STEP: f64 = 1e-7;
 
@@ -207,6 +209,7 @@ impl Run<'_, '_> {
         let mut tried = NEAR / NEARER;
         let (_, first) = at.sizes();
         let (mut least, mut since) = (f64::INFINITY, 0);
+        let mut solved = 0;
         loop {
             let forces = at.forces();
             let worst = self.search.judge(&at.u, &forces);
@@ -224,11 +227,12 @@ impl Run<'_, '_> {
                     return Status::Solved;
                 }
             }
-            if is_solved {
+            solved += usize::from(is_solved);
+            if is_solved && (!self.settings.crossover || solved > MORE) {
                 return Status::Solved;
             }
             if let Some(status) = self.monitor.stop(worst) {
-                return status;
+                return if solved > 0 { Status::Solved } else { status };
             }
             let Search { scaled, condensed, .. } = &mut self.search;
             let (next, alpha) = step(scaled, condensed, &at, (0.0, width));
@@ -242,7 +246,7 @@ impl Run<'_, '_> {
                 let contacts = at.contacts(&self.search.scaled);
                 let is_exact = self.settings.crossover
                     && self.search.cross_over((&at.u, &forces), contacts, &Effort::THOROUGH);
-                return if is_exact { Status::Solved } else { Status::Stalled };
+                return if is_exact || solved > 0 { Status::Solved } else { Status::Stalled };
             }
             at = next;
             self.reached = self.reached.max(at.sizes().1);

@@ -32,14 +32,11 @@ pub trait Lowered: General + Sized {
         None
     }
 
-    /// The pairs of the problem from those of the one without far bounds.
-    fn with_far_bounds(&self, _nearer: &Self, pairs: Pairs) -> Pairs {
-        pairs
+    /// The answer of this problem to one of that without far bounds, by a method that has it.
+    fn with_far_bounds(&self, _nearer: &Self, solution: Solution, _tolerance: f64) -> Solution {
+        solution
     }
 }
-
-/// A point `(t, y)` of a general form.
-type Pairs = (Vec<f64>, Vec<f64>);
 
 impl Lowered for HorizontalLcp {}
 
@@ -54,9 +51,14 @@ impl Lowered for BoxedLcp {
         self.without_far_bounds()
     }
 
-    fn with_far_bounds(&self, nearer: &Self, (t, y): Pairs) -> Pairs {
-        let (z, w) = nearer.recover(&t, &y);
-        self.to_pairs(&z, &w)
+    fn with_far_bounds(&self, nearer: &Self, mut solution: Solution, tolerance: f64) -> Solution {
+        let (z, w) = nearer.recover(&solution.t, &solution.y);
+        (solution.t, solution.y) = self.to_pairs(&z, &w);
+        // These belong to the other pairs.
+        (solution.basis, solution.certificate) = (None, None);
+        solution.residuals = self.residuals(&z, &w);
+        solution.boxed = Some((z, w));
+        judged(solution, tolerance)
     }
 }
 
@@ -135,11 +137,8 @@ pub(crate) fn solve_lowered<P: Lowered>(
     mut solve: impl FnMut(&HorizontalLcp, bool) -> Result<Solution, Error>,
 ) -> Result<Solution, Error> {
     if let Some(nearer) = problem.without_far_bounds() {
-        let mut solution = solve(&nearer.general(), true)?;
-        (solution.t, solution.y) = problem.with_far_bounds(&nearer, (solution.t, solution.y));
-        // These belong to the other pairs.
-        (solution.basis, solution.certificate) = (None, None);
-        let solution = judged_by(problem, solution, tolerance);
+        let solution = solve(&nearer.general(), true)?;
+        let solution = problem.with_far_bounds(&nearer, solution, tolerance);
         if solution.is_solved() {
             return Ok(solution);
         }
@@ -154,6 +153,11 @@ pub(crate) fn judged_by(
     tolerance: f64,
 ) -> Solution {
     solution.residuals = problem.residuals_of_pairs(&solution.t, &solution.y);
+    judged(solution, tolerance)
+}
+
+/// What a method called solved, or nearly, by its residuals.
+fn judged(mut solution: Solution, tolerance: f64) -> Solution {
     if matches!(solution.status, Status::Solved | Status::AlmostSolved) {
         solution.status = solution.residuals.verdict(tolerance, Status::AlmostSolved);
     }

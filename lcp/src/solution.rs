@@ -187,6 +187,10 @@ pub struct Solution {
     /// `mu` is large.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub contact: Option<ContactState>,
+    /// The point of a [`BoxedLcp`](crate::BoxedLcp) by its variables `(z, w)`, where the pairs do not have all their
+    /// digits: with bounds far away the distances to these have none left.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub boxed: Option<(Vec<f64>, Vec<f64>)>,
     /// The complementary basis of the point, of methods that end on one: of pivots, of active sets, and of
     /// interior points after a crossover.
     pub basis: Option<Basis>,
@@ -222,6 +226,7 @@ impl Solution {
             basis: None,
             residuals,
             contact: None,
+            boxed: None,
             certificate: None,
             condition: None,
             trace: Vec::new(),

@@ -32,7 +32,8 @@ impl BoxedLcp {
     /// # Panics
     /// If the answer is that of a problem of another size.
     pub fn variables(&self, solution: &Solution) -> (Vec<f64>, Vec<f64>) {
-        self.recover(&solution.t, &solution.y)
+        let recovered = || self.recover(&solution.t, &solution.y);
+        solution.boxed.clone().unwrap_or_else(recovered)
     }
 }
 

@@ -104,7 +104,7 @@ impl Scaled {
                 }
             }
         }
-        let idle = idle(&k, &f, &points);
+        let idle = idle(&k, &f, &points, &vec![false; n]);
         Self { k, f, points, column, force, length, idle }
     }
 
@@ -147,7 +147,9 @@ impl Scaled {
             mu: 0.0,
         });
         let points: Vec<Point> = points.collect();
-        let idle = idle(&k, &f, &points);
+        let moves_nothing = |j: usize| column_of(&k, j).all(|(_, v)| v == 0.0);
+        let moves_nothing: Vec<bool> = (0..n).map(moves_nothing).collect();
+        let idle = idle(&k, &f, &points, &moves_nothing);
         Self { k, f, points, column, force, length: force, idle }
     }
 
@@ -230,12 +232,13 @@ impl Scaled {
 }
 
 /// The displacements that are zero and the points without force: in connected parts without loads, initial gaps and
-/// slips all of them, and in parts without stiffness, gaps and slips the displacements, which have no size there. `None`
-/// if there are none.
+/// slips all of them, and in parts without stiffness, gaps and slips the displacements, which have no size there; and those that act on nothing. `None` if there
+/// are none.
 fn idle(
     k: &SparseColMat<usize, f64>,
     f: &[f64],
     points: &[Point],
+    moves_nothing: &[bool],
 ) -> Option<(Vec<bool>, Vec<bool>)> {
     let (n, m) = (f.len(), points.len());
     let mut parts = Parts::new(n + m);
@@ -259,9 +262,10 @@ fn idle(
         (is_loaded[part], is_stiff[part], is_open[part])
     };
     let at_rest = |(loaded, stiff, open): (bool, bool, bool)| !open && !(loaded && stiff);
-    let displacements: Vec<bool> = (0..n).map(|j| at_rest(of(j))).collect();
+    let displacements: Vec<bool> = (0..n).map(|j| at_rest(of(j)) || moves_nothing[j]).collect();
     let without_force = |(loaded, _, open): (bool, bool, bool)| !loaded && !open;
-    let points: Vec<bool> = (0..m).map(|i| without_force(of(n + i))).collect();
+    let acts = |point: &Point| point.normal.iter().any(|v| *v != 0.0) || point.x_0 <= 0.0;
+    let points: Vec<bool> = (0..m).map(|i| without_force(of(n + i)) || !acts(&points[i])).collect();
     (displacements.contains(&true) || points.contains(&true)).then_some((displacements, points))
 }
 

@@ -5,8 +5,10 @@
 //! terms of the other rows in which they appear, and what these are worth. A row is as significant as the weakest link
 //! of the best chain of such shares that leads from it to a row with a load. No unit enters.
 
-/// Shares above this are as good as one.
-const SLACK: f64 = 1.0 / (1 << 10) as f64;
+/// Shares down to two to minus this are as good as one.
+const SLACK: f64 = 10.0;
+/// Shares of two to minus this are rounding errors.
+const ROUNDING: f64 = 50.0;
 /// Shares are told apart by factors of two, down to this power.
 const LEVELS: usize = 1000;
 
@@ -38,10 +40,13 @@ pub(super) fn significance(terms: &[f64], loads: &[f64], felt: &[f64], all: &[Te
     reached[..rows].iter().map(|level| factor(*level)).collect()
 }
 
-/// How many factors of two a share is below one; none where it is as good as one.
+/// How many factors of two a share is below what is as good as one. Shares of the size of rounding errors are worth
+/// no more than they are.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 1000")]
 fn level(share: f64) -> usize {
-    if share >= SLACK { 0 } else { (-share.log2().ceil()).min(LEVELS as f64 - 1.0) as usize }
+    let bits = -share.log2();
+    let slack = SLACK * (0.5 * (ROUNDING - bits) / SLACK).clamp(0.0, 1.0);
+    (bits - slack).ceil().clamp(0.0, LEVELS as f64 - 1.0) as usize
 }
 
 fn factor(level: usize) -> f64 {

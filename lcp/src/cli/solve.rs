@@ -69,7 +69,8 @@ pub(super) fn run(
 }
 
 fn answer<'a>(problem: &Problem, solution: &'a Solution, cpu_s: Option<f64>) -> Answer<'a> {
-    let (z, w) = problem.recover(&solution.t, &solution.y);
+    let recovered = || problem.recover(&solution.t, &solution.y);
+    let (z, w) = solution.boxed.clone().unwrap_or_else(recovered);
     let contact = problem.state(solution);
     let contacts = match (problem, &contact) {
         (Problem::Friction(problem), _) => Some(problem.forces(&z)),

@@ -17,6 +17,8 @@ struct Task<'a> {
     order: usize,
     /// Of `z` and the part of `w` that the constraints allow.
     residuals: &'a dyn Fn(&[f64], &[f64]) -> Residuals,
+    /// Whether the point is that of a boxed problem.
+    is_boxed: bool,
     matrix: &'a Matrix,
     q: &'a [f64],
     constraints: &'a [Constraint],
@@ -34,6 +36,7 @@ impl Sweepable for Lcp {
     ) -> Result<Solution, Error> {
         let judge = BoxedJudge::of_standard(self);
         let task = Task {
+            is_boxed: false,
             order: self.order(),
             residuals: &|z, w| judge.residuals(z, w, Precision::Exact),
             matrix: self.m(),
@@ -65,6 +68,7 @@ impl Sweepable for HorizontalLcp {
             judge.residuals(&t, &y, Precision::Exact)
         };
         let task = Task {
+            is_boxed: false,
             order: self.order(),
             residuals: &residuals,
             matrix: standard.lcp().m(),
@@ -89,6 +93,7 @@ impl Sweepable for BoxedLcp {
             bounds.map(|(&lower, &upper)| Constraint::Bounds { lower, upper }).collect();
         let judge = BoxedJudge::of_boxed(self);
         let task = Task {
+            is_boxed: true,
             order: self.to_general().order(),
             residuals: &|z, w| judge.residuals(z, w, Precision::Exact),
             matrix: self.m(),
@@ -116,6 +121,7 @@ impl Sweepable for Friction2d {
             self.residuals(&ContactForces { normal, tangential })
         };
         let task = Task {
+            is_boxed: false,
             order: self.order(),
             residuals: &residuals,
             matrix: self.w(),
@@ -158,6 +164,8 @@ impl ProjectedGaussSeidel {
         let (best, status) = sweeps
             .run(&mut monitor, &mut |point: &Point<'_>| (task.residuals)(point.z, point.allowed));
         let pairs = (task.pairs)(&best.z, &best.allowed);
-        Ok(self.solution(pairs, best.residuals, status, monitor))
+        let mut solution = self.solution(pairs, best.residuals, status, monitor);
+        solution.boxed = task.is_boxed.then(|| (best.z.clone(), best.allowed.clone()));
+        Ok(solution)
     }
 }

@@ -45,14 +45,14 @@ pub(crate) fn sparse(m: &Mat<f64>) -> Matrix {
 
 /// The largest residual of a point of the general problem `A t + B y = c`: what is left of a row relative to its terms,
 /// and of every pair the smaller one of what its variables are of the terms of their rows. Rows whose terms
-/// are below 2^-10 of the largest right-hand side are measured by that, which fits problems whose entries are near
+/// are below a sixteenth of the largest right-hand side are measured by that, which fits problems whose entries are near
 /// one.
 pub(crate) fn worst_of_general(problem: &HorizontalLcp, t: &[f64], y: &[f64]) -> f64 {
     let (a, b) = (problem.a().to_dense(), problem.b().to_dense());
     let n = t.len();
     let terms = |i: usize| (0..n).flat_map(|j| [a[(i, j)] * t[j], b[(i, j)] * y[j]]).collect();
     let terms: Vec<Vec<f64>> = (0..n).map(terms).collect();
-    let least = largest(problem.c()) / 1024.0;
+    let least = largest(problem.c()) / 16.0;
     let size = |i: usize| {
         let sum: f64 = terms[i].iter().map(|v| v.abs()).sum();
         (sum + problem.c()[i].abs()).max(least)

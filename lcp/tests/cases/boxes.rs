@@ -16,7 +16,7 @@ fn assert_inside(m: &Mat<f64>, q: &[f64], (lower, upper): (f64, f64), exact: &[f
         let bounds = format!("{name} in [{lower:e}, {upper:e}]");
         match answer {
             Ok(solution) if solution.is_solved() => {
-                let (z, _) = boxed.recover(&solution.t, &solution.y);
+                let (z, _) = boxed.variables(&solution);
                 assert_near(&bounds, &z, exact, 1.0);
             }
             Err(Error::Bounds { .. }) => {}

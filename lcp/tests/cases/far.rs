@@ -62,9 +62,12 @@ fn infeasible_by_a_little() {
                 (solution.t[0] - 1.0).abs() <= 2.0 * gap && solution.t[1].abs() <= 2.0 * gap;
             match solution.status {
                 Status::Infeasible => assert_proved(&lcp, &solution),
-                Status::Solved => {
-                    assert!(is_near && gap < 1e-9, "{name}, {gap:e}: {:?}", solution.t)
-                }
+                // A point anywhere on the way out may be within the tolerance of a method that goes there.
+                Status::Solved => assert!(
+                    gap < 1e-9 && (is_near || name != AUTO && solution.t[0] < 1e4),
+                    "{name}, {gap:e}: {:?}",
+                    solution.t
+                ),
                 Status::AlmostSolved => {
                     assert!(is_near && gap < 1e-4, "{name}, {gap:e}: {:?}", solution.t)
                 }

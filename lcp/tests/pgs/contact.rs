@@ -143,7 +143,7 @@ fn a_pile_comes_to_rest() {
         assert!(distance(&state.t_t, &pushes) <= 1e2 * tolerance);
         // It is the residual that decreases, not a threshold that is met.
         let history = &solution.info.history;
-        assert!(history[history.len() / 2] <= 0.1);
+        assert!(history[3 * history.len() / 4] <= 0.1, "{history:?}");
     }
 }
 
