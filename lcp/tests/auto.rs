@@ -19,6 +19,7 @@ const NEWTON: Method = Method::Newton;
 const INTERIOR: Method = Method::Interior;
 const PROGRAM: Method = Method::QuadraticProgram;
 const SWEEPS: Method = Method::GaussSeidel;
+const CHOICES: Method = Method::Enumeration;
 
 fn auto() -> Auto {
     Auto::default()
@@ -167,7 +168,7 @@ fn large_sparse_problems_have_their_closed_forms() {
     let expected = |i: usize| [1.5, 0.0, 1.0, 3.0][i % 4];
     let problem = Lcp::new(sparse(n, entry, &[1]), q.clone()).unwrap();
     let solution = auto().solve(&problem).unwrap();
-    assert_eq!((solution.status, solution.info.method), (Status::Solved, INTERIOR));
+    assert_eq!((solution.status, solution.info.method), (Status::Solved, NEWTON));
     assert!((0..n).all(|i| (solution.t[i] - expected(i)).abs() < 1e-9));
     // The same with bounds, of which the first is in the way: z1 <= 1, so w1 < 0.
     let upper = (0..n).map(|i| if i % 4 == 0 { 1.0 } else { 8.0 }).collect();
@@ -344,7 +345,8 @@ fn it_is_a_solver_among_others() {
     let problem = families::positive_definite(10, 1).problem;
     let answers = solvers.map(|solver| (solver.method(), solver.solve(&problem).unwrap()));
     assert_eq!((answers[0].0, answers[1].0), (Method::Auto, LEMKE));
-    assert_eq!(answers[0].1.t, answers[1].1.t);
+    let pairs = answers[0].1.t.iter().zip(&answers[1].1.t);
+    assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() <= 1e-12 * (1.0 + b.abs())));
 }
 
 proptest! {
@@ -362,10 +364,10 @@ proptest! {
         let worst = problem.residuals(&solution.t, &solution.y).worst();
         prop_assert!(!solution.is_solved() || worst <= 1e-10, "{worst:e}");
         prop_assert_eq!(solution.status == Status::Infeasible, solution.farkas().is_some());
+        let is_decided =
+            matches!(solution.status, Status::Solved | Status::Infeasible | Status::NoSolution);
+        prop_assert!(is_decided, "{}", solution.status);
         let pivots = Solver::<Lcp>::solve(&Lemke::default(), &problem).unwrap();
         prop_assert!(solution.is_solved() || !pivots.is_solved());
-        if !solution.is_solved() && solution.status != Status::Infeasible {
-            prop_assert_eq!(solution.info.routes.len(), plan!(&problem).len());
-        }
     }
 }

@@ -132,6 +132,7 @@ fn all_refused(routes: &[Route]) -> Error {
 
 #[cfg(test)]
 mod tests {
+    use std::borrow::Cow;
     use std::ops::ControlFlow;
 
     use faer::mat;
@@ -142,6 +143,16 @@ mod tests {
 
     /// A problem for methods that refuse.
     struct Refused;
+
+    impl General for Refused {
+        fn general(&self) -> Cow<'_, HorizontalLcp> {
+            Cow::Owned(Lcp::new(mat![[1.0]], vec![1.0]).expect("one number each").into())
+        }
+
+        fn residuals_of_pairs(&self, _: &[f64], _: &[f64]) -> Residuals {
+            Residuals::default()
+        }
+    }
 
     impl Planned for Refused {
         fn pairs(&self) -> usize {

@@ -30,7 +30,10 @@ impl Step {
 pub(super) fn chain_of<P: Planned>(problem: &P) -> Vec<Step> {
     let mut steps = problem.steps();
     if problem.pairs() <= MOST_VARIABLES && is_small(&problem.general()) {
-        let words = "so few pairs that all choices of sides can be gone through, with proofs";
+        let words = format!(
+            "{} pairs, so few that all choices of sides can be gone through, with proofs",
+            problem.pairs()
+        );
         let pivots = steps.iter().position(|step| step.method == Method::Lemke);
         let place = pivots.map_or(steps.len(), |place| place + 1);
         steps.insert(place, Step::new(Method::Enumeration, words));

@@ -12,6 +12,9 @@ const ROUNDING: f64 = 50.0;
 /// Shares are told apart by factors of two, down to this power.
 const LEVELS: usize = 1000;
 
+/// Right-hand sides below this part of the loads that their row feels are rounding errors of the data.
+const LEAST_LOAD: f64 = 1.0 / (1_u64 << 48) as f64;
+
 /// A term of a row at a point.
 pub(super) struct Term {
     pub(super) row: usize,
@@ -31,7 +34,7 @@ pub(super) fn significance(terms: &[f64], loads: &[f64], felt: &[f64], all: &[Te
         }),
     );
     let mut reached = vec![LEVELS; rows + variables];
-    let loaded = (0..rows).filter(|i| loads[*i] > 0.0);
+    let loaded = (0..rows).filter(|i| loads[*i] > 0.0 && loads[*i] * felt[*i] >= LEAST_LOAD);
     links.spread(loaded.map(|i| (0, i)).collect(), &mut reached);
     // What no load reaches is measured by the loads around it, if there are any.
     let apart = (0..rows).filter(|i| reached[*i] == LEVELS);

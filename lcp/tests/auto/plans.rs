@@ -5,17 +5,19 @@ use lcp::families;
 use lcp::{BoxedLcp, Friction2d, HorizontalLcp, Lcp, MixedLcp};
 use proptest::prelude::*;
 
-use super::{INTERIOR, LEMKE, NEWTON, PROGRAM, SWEEPS, alternating, auto, common, masses, sparse};
+use super::{
+    CHOICES, INTERIOR, LEMKE, NEWTON, PROGRAM, SWEEPS, alternating, auto, common, masses, sparse,
+};
 
 #[test]
 fn signs_and_symmetry_and_size_decide_about_standard_problems() {
-    // Pivots first where they are cheap.
+    // The active set method wherever the diagonal is positive, then pivots where they are cheap.
     let dense = families::positive_definite(30, 1).problem;
-    assert_eq!(plan!(&dense), [LEMKE, INTERIOR, SWEEPS]);
+    assert_eq!(plan!(&dense), [NEWTON, LEMKE, INTERIOR, SWEEPS]);
     let symmetric = families::fathi(10).problem;
-    assert_eq!(plan!(&symmetric), [LEMKE, INTERIOR, PROGRAM, SWEEPS]);
+    assert_eq!(plan!(&symmetric), [NEWTON, LEMKE, CHOICES, INTERIOR, PROGRAM, SWEEPS]);
     let games = families::bimatrix(4, 5, 1).problem;
-    assert_eq!(plan!(&games), [LEMKE, INTERIOR]);
+    assert_eq!(plan!(&games), [LEMKE, CHOICES, INTERIOR]);
     // M-matrices of any size, also such as are not dominant.
     for side in [3, 40] {
         let plan = auto().plan(&families::obstacle(side).problem);
@@ -30,7 +32,7 @@ fn signs_and_symmetry_and_size_decide_about_standard_problems() {
     assert_eq!(plan!(&problem), [NEWTON, INTERIOR, PROGRAM, SWEEPS, LEMKE]);
     let entry = |i: usize, j: usize| if i == j { 3.0 } else { i as f64 - j as f64 };
     let problem = Lcp::new(sparse(600, entry, &[1]), alternating(600)).unwrap();
-    assert_eq!(plan!(&problem), [INTERIOR, NEWTON, SWEEPS, LEMKE]);
+    assert_eq!(plan!(&problem), [NEWTON, INTERIOR, SWEEPS, LEMKE]);
     let entry = |i: usize, j: usize| i as f64 - j as f64;
     let problem = Lcp::new(sparse(600, entry, &[1]), alternating(600)).unwrap();
     assert_eq!(plan!(&problem), [INTERIOR, LEMKE]);
@@ -41,9 +43,9 @@ fn other_forms_have_their_plans() {
     let obstacle = families::obstacle(5).problem;
     let expected = plan!(&obstacle);
     assert_eq!(plan!(&HorizontalLcp::from(obstacle)), expected);
-    assert_eq!(plan!(&families::horizontal_monotone(9, 1).problem), [LEMKE]);
-    assert_eq!(plan!(&families::mixed_monotone(9, 1).problem), [LEMKE, INTERIOR, PROGRAM]);
-    assert_eq!(plan!(&families::mixed_singular(8, 1).problem), [LEMKE, INTERIOR]);
+    assert_eq!(plan!(&families::horizontal_monotone(9, 1).problem), [LEMKE, CHOICES]);
+    assert_eq!(plan!(&families::mixed_monotone(9, 1).problem), [LEMKE, CHOICES, INTERIOR, PROGRAM]);
+    assert_eq!(plan!(&families::mixed_singular(8, 1).problem), [LEMKE, CHOICES, INTERIOR]);
     let entry = |i: usize, j: usize| if i == j { 3.0 } else { 1.0 };
     let m = sparse(900, entry, &[1]);
     let free = (0..900).map(|i| i % 3 == 0).collect();
@@ -58,14 +60,14 @@ fn other_forms_have_their_plans() {
         vec![f64::NEG_INFINITY, 0.0],
         vec![f64::INFINITY, 1.0],
     );
-    assert_eq!(plan!(&free.unwrap()), [LEMKE, SWEEPS]);
+    assert_eq!(plan!(&free.unwrap()), [LEMKE, CHOICES, SWEEPS]);
     let friction = Friction2d::new(mat![[2.0, 0.0], [0.0, 1.0]], vec![-2.0, -0.25], vec![0.5]);
-    assert_eq!(plan!(&friction.unwrap()), [LEMKE, INTERIOR, SWEEPS]);
+    assert_eq!(plan!(&friction.unwrap()), [LEMKE, CHOICES, INTERIOR, SWEEPS]);
 }
 
 #[test]
 fn points_and_friction_decide_about_contact() {
-    assert_eq!(plan!(&masses(1, 0.5, 1.0)), [LEMKE, INTERIOR, PROGRAM, SWEEPS]);
+    assert_eq!(plan!(&masses(1, 0.5, 1.0)), [LEMKE, CHOICES, INTERIOR, PROGRAM, SWEEPS]);
     assert_eq!(plan!(&masses(60, 0.5, 1.0)), [INTERIOR, PROGRAM, LEMKE, SWEEPS]);
     assert_eq!(plan!(&masses(60, 0.0, 1.0)), [INTERIOR, PROGRAM, LEMKE, SWEEPS]);
     assert_eq!(plan!(&masses(600, 0.5, 1.0)), [INTERIOR, PROGRAM, SWEEPS, LEMKE]);
