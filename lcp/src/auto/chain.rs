@@ -139,7 +139,8 @@ mod tests {
 
     use super::*;
     use crate::auto::method::Step;
-    use crate::{Auto, Iteration, Lcp, Solver};
+    use crate::lower::General;
+    use crate::{Auto, HorizontalLcp, Iteration, Lcp, Residuals, Solver};
 
     /// A problem for methods that refuse.
     struct Refused;
