@@ -30,13 +30,19 @@ pub(crate) struct Effort {
     pub(crate) patience: usize,
     /// Points for one contradiction that is allowed, beyond a few.
     pub(crate) points: usize,
+    /// Whether every round starts from the given point, not from the one before: what the states leave free
+    /// stays where it was.
+    pub(crate) anchored: bool,
 }
 
 impl Effort {
     /// While the iteration comes nearer, when few contacts are left to exchange.
-    pub(crate) const QUICK: Self = Self { rounds: 8, patience: 2, points: 400 };
+    pub(crate) const QUICK: Self = Self { rounds: 8, patience: 2, points: 400, anchored: false };
     /// Where it does not come any nearer.
-    pub(crate) const THOROUGH: Self = Self { rounds: 60, patience: 10, points: 20 };
+    pub(crate) const THOROUGH: Self =
+        Self { rounds: 60, patience: 10, points: 20, anchored: false };
+    /// From a point amid all solutions of a convex problem.
+    pub(crate) const ANCHORED: Self = Self { anchored: true, ..Self::THOROUGH };
 
     /// Contradictions with which it makes sense to begin.
     fn most(&self, points: usize) -> usize {
@@ -97,12 +103,19 @@ pub(crate) fn cross_over(
     let (mut fewest, mut least, mut since) = (effort.most(problem.points.len()), f64::INFINITY, 0);
     let mut is_found = false;
     for _ in 0..effort.rounds {
+        if effort.anchored {
+            (vertex.u, vertex.forces) = (u.to_vec(), forces.to_vec());
+        }
         if vertex.solve(problem, condensed).is_none() {
             break;
         }
         problem.settle(&mut vertex.u, &mut vertex.forces);
-        let contradictions = vertex.contradictions(problem);
+        let mut contradictions = vertex.contradictions(problem, ROUNDING);
         is_found |= is_solution(condensed, &vertex, contradictions.is_empty());
+        if contradictions.is_empty() && !is_found {
+            // What may be rounding is too much for the tolerance.
+            contradictions = vertex.contradictions(problem, 0.0);
+        }
         let (exchanged, largest) = vertex.exchange(&contradictions);
         let is_nearer = exchanged < fewest - fewest / 4 || largest < SMALLER * least;
         since = if is_nearer { 0 } else { since + 1 };
@@ -165,11 +178,24 @@ impl Vertex {
             }
             self.u.iter_mut().zip(&u).for_each(|(u, du)| *u += du);
         }
+        self.close(problem);
         if max_abs(&self.u) <= ROUNDING * before.max(1.0) {
             // Bodies at rest: what is left is noise, by which nothing should be measured.
             self.u.fill(0.0);
         }
         Some(())
+    }
+
+    /// Displacements that a closed contact fixes alone, to the last digit.
+    fn close(&mut self, problem: &Scaled) {
+        for (point, contact) in problem.points.iter().zip(&self.contacts) {
+            if *contact != ContactStatus::Open
+                && let ([j], [n]) = (&point.columns[..], &point.normal[..])
+                && *n != 0.0
+            {
+                self.u[*j] = -point.x_0 / n;
+            }
+        }
     }
 
     /// Drops what rows lack by rounding alone, and gives the largest of the rest, relative to the terms of its row.
@@ -187,8 +213,9 @@ impl Vertex {
         largest
     }
 
-    /// The contacts that contradict their states: by how much, which, and the state that fits better.
-    fn contradictions(&self, problem: &Scaled) -> Vec<(f64, usize, ContactStatus)> {
+    /// The contacts that contradict their states by more than `rounding`: by how much, which, and the state that
+    /// fits better.
+    fn contradictions(&self, problem: &Scaled, rounding: f64) -> Vec<(f64, usize, ContactStatus)> {
         let force =
             self.forces.iter().fold(max_abs(&problem.f), |max, (t_n, _)| max.max(t_n.abs()));
         let length = max_abs(&self.u);
@@ -209,7 +236,7 @@ impl Vertex {
                 ContactStatus::Forwards => (relative(-slip, length), ContactStatus::Stick),
                 ContactStatus::Backwards => (relative(slip, length), ContactStatus::Stick),
             };
-            if size > ROUNDING {
+            if size > rounding {
                 contradictions.push((size, i, next));
             }
         }

@@ -107,40 +107,6 @@ fn rounded(judge: &dyn Judge, scaled: &Scaled, (u, forces): &Exact) -> Judged {
     judge.judged(scaled, (&scaled.of_displacements(&u), &forces), Precision::Exact)
 }
 
-/// The residuals of a point of a mixed problem after [confirmation](confirmed).
-pub(crate) fn confirmed_pairs(
-    problem: &MixedLcp,
-    (t, y): (&[f64], &[f64]),
-    tolerance: f64,
-) -> Residuals {
-    let scaled = problem.scaled();
-    let (u, forces) = problem.point(&scaled, t, y);
-    confirmed_at(problem, &scaled, (&u, &forces), tolerance)
-}
-
-/// The same of a contact problem, of which pairs may have fewer digits than states.
-pub(crate) fn confirmed_state(
-    problem: &Contact2d,
-    state: &ContactState,
-    tolerance: f64,
-) -> Residuals {
-    let scaled = problem.scaled();
-    let (u, forces) = scaled.of_state(state);
-    confirmed_at(problem, &scaled, (&u, &forces), tolerance)
-}
-
-fn confirmed_at(problem: &dyn Original, scaled: &Scaled, at: At<'_>, tolerance: f64) -> Residuals {
-    let contacts = nearest(scaled, at.0, at.1);
-    let judge = problem.judge();
-    match planned(scaled) {
-        Ok(mut condensed) => {
-            let with = (judge.as_ref(), scaled, &mut condensed);
-            confirmed(with, at, &contacts, tolerance).residuals
-        }
-        Err(_) => judge.judged(scaled, at, Precision::Exact).residuals,
-    }
-}
-
 /// The state of a contact problem that the given one leads to by the states of its contacts, where it is better.
 pub(crate) fn state_brought_right(
     problem: &Contact2d,

@@ -130,12 +130,14 @@ impl Scaled {
                 }
             }
         }
-        let factor = |v: &f64| if *v > 0.0 { power_of_two(1.0 / v.sqrt()) } else { 1.0 };
+        // Of all together, so that what differs by the unit of `M` alone is the same problem.
+        let stiffness = power_of_two(max_abs(&largest).max(f64::MIN_POSITIVE));
+        let factor = |v: &f64| if *v > 0.0 { power_of_two((stiffness / v).sqrt()) } else { 1.0 };
         let column: Vec<f64> = largest.iter().map(factor).collect();
         let load =
             problem.q().iter().zip(&column).fold(0.0_f64, |max, (q, d)| max.max((q * d).abs()));
         let force = if load > 0.0 { power_of_two(load) } else { 1.0 };
-        let k = congruent(m, &column, 1.0);
+        let k = congruent(m, &column, 1.0 / stiffness);
         let f: Vec<f64> = problem.q().iter().zip(&column).map(|(q, d)| -q * d / force).collect();
         let bounded = (0..n).filter(|&j| !problem.free()[j]);
         let points = bounded.map(|j| Point {
@@ -148,7 +150,7 @@ impl Scaled {
         });
         let points: Vec<Point> = points.collect();
         let idle = idle(&k, &f, &points);
-        Self { k, f, points, column, force, length: force, idle }
+        Self { k, f, points, column, force, length: force / stiffness, idle }
     }
 
     /// The unit of contact forces.
