@@ -5,8 +5,8 @@ use super::PROXIMAL;
 use super::condensed::{Condensed, Springs};
 use super::scaled::{Point, Scaled};
 use crate::certify::ratio;
+use crate::problem::ContactStatus;
 use crate::problem::max_abs;
-use crate::refine::ContactStatus;
 
 /// What a row lacks, relative to its terms, that is nothing but rounding.
 const NOISE: f64 = 4.0 * f64::EPSILON;
@@ -138,16 +138,17 @@ impl Vertex {
         for ((point, contact), (t_n, t_t)) in
             problem.points.iter().zip(&self.contacts).zip(&mut self.forces)
         {
-            (*t_n, *t_t) = on_cone(point, *contact, (*t_n, *t_t));
+            [*t_n, *t_t] = contact.on_cone(point.mu, [*t_n, *t_t]);
         }
         let before = max_abs(&self.u);
         let (mut last, mut last_part) = (f64::INFINITY, f64::INFINITY);
         for _ in 0..REFINEMENTS {
-            let mut u = problem.unbalanced(&self.u, self.forces.iter().copied());
+            let mut rest = problem.unbalanced(&self.u, self.forces.iter().copied());
             let points = || problem.points.iter().zip(&self.contacts);
             let opened: Vec<(f64, f64)> =
-                points().map(|(point, contact)| open(point, *contact, &self.u)).collect();
-            let size = opened.iter().fold(max_abs(&u), |max, (g, s)| max.max(g.abs()).max(s.abs()));
+                points().map(|(point, contact)| point.opened(*contact, &self.u)).collect();
+            let size =
+                opened.iter().fold(max_abs(&rest), |max, (g, s)| max.max(g.abs()).max(s.abs()));
             if !size.is_finite() {
                 return None;
             }
@@ -156,27 +157,19 @@ impl Vertex {
             }
             if size > 0.5 * last {
                 // Stiff bodies are at their rounding errors. Soft ones may not be exact yet.
-                let part = self.drop_noise(problem, &mut u);
+                let part = self.drop_noise(problem, &mut rest);
                 if part == 0.0 || part > 0.5 * last_part {
                     break;
                 }
                 last_part = part;
             }
             last = last.min(size);
-            let mut fixed = Vec::with_capacity(springs.len());
-            for ((point, springs), (gap, slip)) in problem.points.iter().zip(&springs).zip(opened) {
-                let (t_n, t_t) = springs.forces(-gap, -slip);
-                point.add_forces(t_n, t_t, &mut u);
-                fixed.push((t_n, t_t));
+            let (du, changes) = condensed.step(problem, &springs, rest, opened.into_iter());
+            for ((t_n, t_t), change) in self.forces.iter_mut().zip(changes) {
+                *t_n += change.0;
+                *t_t += change.1;
             }
-            condensed.solve(&mut u);
-            for (i, point) in problem.points.iter().enumerate() {
-                let moved = point.moved(&u);
-                let (t_n, t_t) = springs[i].forces(moved.0, moved.1);
-                self.forces[i].0 += fixed[i].0 - t_n;
-                self.forces[i].1 += fixed[i].1 - t_t;
-            }
-            self.u.iter_mut().zip(&u).for_each(|(u, du)| *u += du);
+            self.u.iter_mut().zip(&du).for_each(|(u, du)| *u += du);
         }
         self.close(problem);
         if max_abs(&self.u) <= ROUNDING * before.max(1.0) {
@@ -278,24 +271,5 @@ impl ContactStatus {
             Self::Forwards => Springs { nn: stiffness, tn: -point.mu * stiffness, tt: 0.0 },
             Self::Backwards => Springs { nn: stiffness, tn: point.mu * stiffness, tt: 0.0 },
         }
-    }
-}
-
-/// The forces that a state allows, from any.
-fn on_cone(point: &Point, contact: ContactStatus, (t_n, t_t): (f64, f64)) -> (f64, f64) {
-    match contact {
-        ContactStatus::Open => (0.0, 0.0),
-        ContactStatus::Stick => (t_n, t_t),
-        ContactStatus::Forwards => (t_n, -point.mu * t_n),
-        ContactStatus::Backwards => (t_n, point.mu * t_n),
-    }
-}
-
-/// Gap and slip where the state asks for none.
-fn open(point: &Point, contact: ContactStatus, u: &[f64]) -> (f64, f64) {
-    match contact {
-        ContactStatus::Open => (0.0, 0.0),
-        ContactStatus::Stick if point.mu > 0.0 => (point.gap(u), point.slip(u)),
-        _ => (point.gap(u), 0.0),
     }
 }

@@ -5,7 +5,8 @@ use super::crossover::nearest;
 use super::scaled::{Point, Scaled};
 use crate::certify::{BoxedJudge, ContactJudge, Precision, StateOf};
 use crate::extended::Extended;
-use crate::refine::{ContactStatus, Exact, planned, refined_states};
+use crate::problem::ContactStatus;
+use crate::refine::{Exact, planned, refined_states};
 use crate::{Basis, Contact2d, ContactState, MixedLcp, Residuals, Side};
 
 /// A point of the general form of a problem.

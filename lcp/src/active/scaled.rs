@@ -3,7 +3,9 @@
 use faer::sparse::SparseColMat;
 
 use crate::certify::Parts;
-use crate::problem::{column_factors, column_of, diagonal, max_abs, median, power_of_two};
+use crate::problem::{
+    ContactStatus, column_factors, column_of, diagonal, max_abs, median, power_of_two,
+};
 use crate::{Contact2d, ContactState, MixedLcp};
 
 /// A contact problem whose stiffness, forces and gaps are of order one whatever the units: with the
@@ -37,6 +39,12 @@ impl Point {
 
     pub(crate) fn slip(&self, u: &[f64]) -> f64 {
         self.s_0 + dot(&self.tangent, &self.columns, u)
+    }
+
+    /// Gap and slip where the status allows none.
+    pub(crate) fn opened(&self, status: ContactStatus, u: &[f64]) -> (f64, f64) {
+        let [gap, slip] = status.is_closed(self.mu);
+        (if gap { self.gap(u) } else { 0.0 }, if slip { self.slip(u) } else { 0.0 })
     }
 
     /// The changes of gap and slip by a step of the displacements, which may be far smaller than both.

@@ -5,7 +5,7 @@ use super::crossover::{Effort, Vertex, cross_over, nearest};
 use super::original::{At, Judge, Judged, Original, brought_right, confirmed};
 use super::scaled::Scaled;
 use crate::certify::Precision;
-use crate::refine::ContactStatus;
+use crate::problem::ContactStatus;
 use crate::solve::Monitor;
 use crate::{Error, Method, Solution, Status, WarmStart};
 

@@ -3,7 +3,7 @@
 use super::SemismoothNewton;
 use super::proximal::{At, Proximal};
 use crate::active::{Effort, Search, Springs};
-use crate::refine::ContactStatus;
+use crate::problem::ContactStatus;
 use crate::solve::Monitor;
 use crate::{Contact2d, Error, Method, Observer, Solution, Solver, Status};
 

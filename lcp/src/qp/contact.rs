@@ -52,7 +52,7 @@ pub(super) fn state_of(contact: &Contact2d, point: &Point) -> ContactState {
 
 /// A contact problem ready for the interior-point method.
 pub(super) struct ContactProgram {
-    /// The primal form, on which points are polished whatever program they come from.
+    /// The primal form, whose points are states of the contacts, whatever program they come from.
     pub(super) scaled: Scaled,
     dual: Option<Dual>,
     interior: Interior,
