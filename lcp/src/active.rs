@@ -8,8 +8,8 @@ mod scaled;
 mod search;
 
 pub(crate) use condensed::{Condensed, Springs};
-pub(crate) use crossover::Effort;
-pub(crate) use original::{Original, confirmed_pairs, confirmed_state, state_brought_right};
+pub(crate) use crossover::{Effort, cross_over, nearest};
+pub(crate) use original::{Original, state_brought_right};
 pub(crate) use scaled::{Point, Scaled};
 pub(crate) use search::Search;
 

@@ -190,11 +190,14 @@ impl Run<'_, '_> {
             if limit.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let found = balance(scaled, left, observer);
+        let rest = vec![0.0; scaled.order()];
+        let crossover = self.settings.crossover.then_some(&Effort::THOROUGH);
         match (found, limit) {
             (Balance::Impossible, _) => Status::NoEquilibrium,
             (_, Some(status @ (Status::Cancelled | Status::TimeLimit))) => status,
+            // Bodies that have not moved.
             (Balance::Possible(forces), _)
-                if self.search.try_forces(&forces, self.settings.crossover) =>
+                if self.search.try_point((&rest, &forces), crossover) =>
             {
                 Status::Solved
             }

@@ -5,6 +5,7 @@ mod contact;
 mod dense;
 mod exchange;
 mod forest;
+mod kernel;
 mod lu;
 mod proximal;
 mod system;

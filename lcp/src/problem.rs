@@ -11,7 +11,9 @@ mod standard;
 
 pub use bound::{ErrorBound, Monotonicity};
 pub use boxed::BoxedLcp;
-pub use contact::{Bedding, Contact2d, Contact2dBuilder, ContactPoint, ContactState};
+pub use contact::{
+    Bedding, Contact2d, Contact2dBuilder, ContactPoint, ContactState, ContactStatus,
+};
 pub(crate) use contact::{
     check_epsilon, column_factors, column_of, diagonal, median, power_of_two,
 };

@@ -1,4 +1,4 @@
-//! Convex quadratic programs: an interior-point method, and a polish that makes its answer exact.
+//! Convex quadratic programs: an interior-point method, and the exact states that its points lead to.
 
 mod anderson;
 mod contact;
@@ -8,34 +8,22 @@ mod farkas;
 mod form;
 mod interior;
 mod monotone;
-mod polish;
 mod program;
-mod reduced;
 mod scale;
 mod settings;
 mod soft;
-mod start;
-
-use std::time::Instant;
 
 use coulomb::solve_contact;
 use definite::indefiniteness;
-use farkas::farkas_vector;
-use form::{Form, Point};
-use interior::{Effort, End};
-use monotone::{MixedForm, standard_candidate, standard_form};
-use program::{Assemble, Best, Candidate, Proof, solve_convex};
-use scale::Scaled;
+use form::Point;
+use interior::End;
+use monotone::{MixedForm, standard_form, standard_point};
+use program::Run;
 pub use settings::{ContactForm, QuadraticProgramSettings, SoftConstraints};
 pub use soft::SoftSolution;
-use start::Rows;
 
-use crate::active::{confirmed_pairs, confirmed_state};
-use crate::solve::Monitor;
-use crate::{
-    Certificate, Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Observer, Residuals,
-    Solution, Solver, Status,
-};
+use crate::lower::judged_by;
+use crate::{Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Observer, Solution, Solver};
 
 /// Complementarity problems that are the conditions of a convex quadratic program.
 ///
@@ -48,13 +36,13 @@ use crate::{
 ///   forces frozen (Tresca) the work `g |C_t u + s_0|` is added, and `g` becomes `mu t_n`, accelerated
 ///   after Anderson, until it stays.
 ///
-/// Symmetry and semidefiniteness are checked. Units are removed by powers of two, Clarabel's
-/// interior-point method finds a point near the solution, and the **polish** makes it exact: of every pair
-/// what is larger does not vanish, which leaves a linear system; where signs of its answer are wrong,
-/// pairs change over, for a few rounds. The interior point alone is only good to the square root of its
-/// tolerance where both variables of a pair vanish. The system may be singular but consistent, as for
-/// bodies that float or contacts that share a load: proximal steps solve it. For friction it is the system of
-/// the states open, stick and slip, so that the fixed point need only come near.
+/// Symmetry and semidefiniteness are checked. Units are removed by powers of two, and Clarabel's
+/// interior-point method finds a point near the solution. It is only good to the square root of its tolerance
+/// where both variables of a pair vanish, so the **exchange of states** makes it exact, as for
+/// [`InteriorPoint`](crate::InteriorPoint): of every pair what is larger does not vanish, which leaves a linear
+/// system; where signs of its answer are wrong, pairs change over, as long as these become fewer. The system may
+/// be singular but consistent, as for bodies that float or contacts that share a load: proximal steps solve it. For
+/// friction it is the system of the states open, stick and slip, so that the fixed point need only come near.
 ///
 /// **Guarantee**: in exact arithmetic a program without friction that has a solution is solved, and one that
 /// has none is [`Infeasible`](Status::Infeasible) with a proof, which is itself found as the solution of a
@@ -70,15 +58,14 @@ use crate::{
 /// [`InteriorPoint`](crate::InteriorPoint) are the methods to take, as [`Auto`](crate::Auto) does.
 ///
 /// **Cost**: 10 to 20 factorisations of the sparse matrix `[K, C^T; C, -D]` for every program, and one for
-/// every round of the polish. [`Info::iterations`](crate::Info::iterations) counts programs, and not the
+/// every round of exchanges. [`Info::iterations`](crate::Info::iterations) counts programs, and not the
 /// iterations within them, which [`max_iterations`](QuadraticProgramSettings::max_iterations) limits;
 /// [`Info::factorisations`](crate::Info::factorisations) counts all factorisations. The observer is asked before
 /// every program. With [`soft`](QuadraticProgramSettings::soft) both count the times that the springs are
 /// centred.
 ///
 /// References: P. J. Goulart and Y. Chen, *Clarabel: an interior-point solver for conic programs with
-/// quadratic objectives* (2024), arXiv:2405.12762; B. Stellato et al., *OSQP*, Math. Prog. Comp. 12
-/// (2020), section 5.2, for the polish, DOI 10.1007/s12532-020-00179-2; J. Haslinger, *Approximation of the
+/// quadratic objectives* (2024), arXiv:2405.12762; J. Haslinger, *Approximation of the
 /// Signorini problem with friction*, Math. Methods Appl. Sci. 5 (1983), for the fixed point; H. F. Walker and
 /// P. Ni, *Anderson acceleration for fixed-point iterations*, SIAM J. Numer. Anal. 49 (2011), DOI
 /// 10.1137/10078356X.
@@ -117,12 +104,7 @@ impl QuadraticProgram {
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         let settings = &self.settings;
-        let began = Instant::now();
-        let effort = || self.effort(began);
-        let mut monitor = Monitor::new(settings.max_outer, settings.time_limit, observer);
         let form = contact::primal_form(contact);
-        let assemble =
-            |point: &Point, places: Option<&[_]>| contact::assemble(contact, point, places);
         if settings.form == ContactForm::Dual && !definite::is_definite(&form.p) {
             return Err(Error::NotTreated {
                 method: Method::QuadraticProgram,
@@ -132,124 +114,35 @@ impl QuadraticProgram {
                         .to_owned(),
             });
         }
-        let search = || farkas_vector(&contact.to_general(), effort());
-        let proof = Proof::new(&search);
-        let scaled = Scaled::new(&form);
-        let mut best = Best::new(&scaled, &assemble);
-        let rows = Rows::of_contact(contact);
-        rows.try_start(&settings.start, &scaled, &assemble, &mut best);
-        let end = if best.residual <= settings.tolerance || form.rows() == 0 {
-            best.polish_zero(&scaled, &assemble);
-            monitor.stop(best.residual).map_or(Ok(End::Point), Err)
+        let general = || contact.to_general();
+        let mut run = Run::new(settings, (contact, &general), settings.max_outer, observer)?;
+        let end = if run.is_tried(&form) {
+            run.monitor.stop(run.search.residual()).map_or(Ok(End::Point), Err)
         } else if let Some(mut program) =
-            contact::ContactProgram::new(form, settings.form, effort())
+            contact::ContactProgram::new(form, settings.form, run.effort())
         {
-            let limits = (settings.tolerance, &effort as &dyn Fn() -> Effort);
-            solve_contact(contact, &mut program, limits, (&mut best, &mut monitor, &proof))
+            solve_contact(&mut run, contact, &mut program)
         } else {
             Ok(End::Failed)
         };
-        let confirm = |it: &Candidate| confirmed(contact, it, settings.tolerance);
-        Ok(self.concluded(best, end, &monitor, (proof, &confirm)))
+        Ok(run.finish(end))
     }
 
-    fn solve_form(
+    /// A standard problem, with a proof in the rows of a general one.
+    fn solve_standard(
         &self,
-        form: &Form,
-        (general, confirm): (&HorizontalLcp, &Confirm<'_>),
-        (rows, assemble): (&Rows, &Assemble<'_>),
+        problem: &Lcp,
+        general: &dyn Fn() -> HorizontalLcp,
         observer: &mut Observer<'_>,
-    ) -> Solution {
-        let settings = &self.settings;
-        let began = Instant::now();
-        let mut monitor = Monitor::new(1, settings.time_limit, observer);
-        let scaled = Scaled::new(form);
-        let mut best = Best::new(&scaled, assemble);
-        rows.try_start(&settings.start, &scaled, assemble, &mut best);
-        let end = match monitor.stop(best.residual) {
-            Some(status) => Err(status),
-            None if best.residual <= settings.tolerance => {
-                best.polish_zero(&scaled, assemble);
-                Ok(End::Point)
-            }
-            None => {
-                let end = solve_convex(&scaled, self.effort(began), assemble, &mut best);
-                monitor.history.push(best.residual);
-                Ok(end)
-            }
-        };
-        let search = || farkas_vector(general, self.effort(began));
-        self.concluded(best, end, &monitor, (Proof::new(&search), confirm))
+    ) -> Result<Solution, Error> {
+        self.settings.validate(problem.order())?;
+        let form = standard_form(problem).map_err(|reason| refused(&reason))?;
+        let free = vec![false; problem.order()];
+        let mixed = MixedLcp::new(problem.m().clone(), problem.q().to_vec(), free)?;
+        let mut run = Run::new(&self.settings, (&mixed, general), 1, observer)?;
+        let end = run.solve_convex(&form, &|point: &Point| standard_point(&form, point));
+        Ok(run.finish(end))
     }
-
-    /// The solution that the best point is, or the proof that there is none.
-    fn concluded(
-        &self,
-        best: Best,
-        end: Result<End, Status>,
-        monitor: &Monitor<'_>,
-        (proof, confirm): (Proof<'_>, &Confirm<'_>),
-    ) -> Solution {
-        let tolerance = self.settings.tolerance;
-        let mut farkas = None;
-        let confirmed = (best.residual <= tolerance).then(|| confirm(&best.candidate));
-        let is_solved = confirmed.is_some_and(|residuals| residuals.worst() <= tolerance);
-        let otherwise = match end {
-            _ if is_solved => Status::Solved,
-            Err(status @ (Status::Cancelled | Status::TimeLimit)) => status,
-            Ok(End::TimeLimit) => Status::TimeLimit,
-            Ok(End::IterationLimit) => Status::IterationLimit,
-            Ok(End::Point | End::NoPoint | End::Failed) | Err(_) => {
-                farkas = proof.into_farkas();
-                match end {
-                    _ if farkas.is_some() => Status::Infeasible,
-                    Err(status) => status,
-                    Ok(End::Failed) => Status::NumericalTrouble,
-                    Ok(_) => Status::Stalled,
-                }
-            }
-        };
-        let Best { candidate, factorisations, .. } = best;
-        let point = (candidate.t, candidate.y);
-        let residuals = confirmed.unwrap_or(candidate.residuals);
-        let otherwise = if is_solved { Status::Stalled } else { otherwise };
-        let mut solution = Solution::judged(point, residuals, tolerance, otherwise);
-        solution.contact = candidate.contact;
-        solution.certificate = farkas.map(|pi| Certificate::Farkas { pi });
-        solution.info.method = Method::QuadraticProgram;
-        solution.info.iterations = monitor.iterations();
-        solution.info.factorisations = factorisations;
-        solution.info.history.clone_from(&monitor.history);
-        solution.info.seconds = monitor.seconds();
-        solution
-    }
-
-    fn confirmed_standard(&self, problem: &Lcp, z: &[f64], w: &[f64]) -> Residuals {
-        let (m, q) = (problem.m().clone(), problem.q().to_vec());
-        let mixed = MixedLcp::new(m, q, vec![false; problem.order()]);
-        let tolerance = self.settings.tolerance;
-        mixed.map_or(Residuals::infinite(), |mixed| confirmed_pairs(&mixed, (z, w), tolerance))
-    }
-
-    /// How exact the interior points have to be: the polish needs to tell apart what vanishes and what
-    /// does not, and does the rest.
-    fn effort(&self, began: Instant) -> Effort {
-        let settings = &self.settings;
-        Effort {
-            tolerance: (1e-2 * settings.tolerance).clamp(1e-11, 1e-8),
-            max_iterations: settings.max_iterations,
-            time: settings.time_limit.map(|limit| limit.saturating_sub(began.elapsed())),
-        }
-    }
-}
-
-/// The residuals of a candidate that is about to be called solved.
-type Confirm<'a> = dyn Fn(&Candidate) -> Residuals + 'a;
-
-/// Of a contact problem.
-fn confirmed(contact: &Contact2d, candidate: &Candidate, tolerance: f64) -> Residuals {
-    let state = candidate.contact.as_ref();
-    state.map_or(Residuals::infinite(), |state| confirmed_state(contact, state, tolerance))
 }
 
 fn refused(reason: &str) -> Error {
@@ -269,15 +162,7 @@ impl Solver<Lcp> for QuadraticProgram {
         problem: &Lcp,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        self.settings.validate(problem.order())?;
-        let form = standard_form(problem).map_err(|reason| refused(&reason))?;
-        let general = HorizontalLcp::from(problem.clone());
-        let assemble = |point: &Point, places: Option<&[_]>| {
-            standard_candidate(&form, &general, &|z, w| (z, w), (point, places))
-        };
-        let confirm = |it: &Candidate| self.confirmed_standard(problem, &it.t, &it.y);
-        let rows = Rows::of_pairs(0..problem.order());
-        Ok(self.solve_form(&form, (&general, &confirm), (&rows, &assemble), observer))
+        self.solve_standard(problem, &|| problem.clone().into(), observer)
     }
 }
 
@@ -299,17 +184,14 @@ impl Solver<HorizontalLcp> for QuadraticProgram {
                  in a row of its own",
             )
         })?;
-        let form = standard_form(standard.lcp()).map_err(|reason| refused(&reason))?;
-        let to_pairs = |z: Vec<f64>, w: Vec<f64>| standard.to_pairs(&z, &w);
-        let assemble = |point: &Point, places: Option<&[_]>| {
-            standard_candidate(&form, problem, &to_pairs, (point, places))
+        let settings = QuadraticProgramSettings {
+            start: standard.start(&self.settings.start),
+            ..self.settings.clone()
         };
-        let confirm = |it: &Candidate| {
-            let (z, w) = standard.from_pairs(&it.t, &it.y);
-            self.confirmed_standard(standard.lcp(), &z, &w)
-        };
-        let rows = Rows::of_standard(&standard);
-        Ok(self.solve_form(&form, (problem, &confirm), (&rows, &assemble), observer))
+        let solver = Self::new(settings);
+        let mut solution = solver.solve_standard(standard.lcp(), &|| problem.clone(), observer)?;
+        standard.restore(&mut solution);
+        Ok(judged_by(problem, solution, self.settings.tolerance))
     }
 }
 
@@ -326,13 +208,10 @@ impl Solver<MixedLcp> for QuadraticProgram {
     ) -> Result<Solution, Error> {
         self.settings.validate(problem.order())?;
         let mixed = MixedForm::new(problem).map_err(|reason| refused(&reason))?;
-        let assemble =
-            |point: &Point, places: Option<&[_]>| mixed.candidate(problem, point, places);
-        let rows = Rows::of_pairs((0..problem.order()).filter(|&i| !problem.free()[i]));
-        let confirm =
-            |it: &Candidate| confirmed_pairs(problem, (&it.t, &it.y), self.settings.tolerance);
-        let general = problem.to_general();
-        Ok(self.solve_form(&mixed.form, (&general, &confirm), (&rows, &assemble), observer))
+        let general = || problem.to_general();
+        let mut run = Run::new(&self.settings, (problem, &general), 1, observer)?;
+        let end = run.solve_convex(&mixed.form, &|point: &Point| mixed.to_pairs(problem, point));
+        Ok(run.finish(end))
     }
 }
 

@@ -8,6 +8,7 @@ mod solve;
 pub use law::Margin;
 
 pub use crate::extended::Extended;
+pub use crate::problem::ContactStatus;
 pub(crate) use solve::{Exact, planned, refined_states};
 
 use at::At;
@@ -16,20 +17,6 @@ use solve::solved;
 use crate::active::Scaled;
 use crate::problem::{check_length, check_vector, column_of};
 use crate::{Contact2d, ContactState, Error};
-
-/// What a contact of an answer does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum ContactStatus {
-    /// No force.
-    Open,
-    /// No gap and, with friction, no slip.
-    Stick,
-    /// No gap, slip forwards against all friction, `t_t = -mu t_n`.
-    Forwards,
-    /// No gap, slip backwards against all friction, `t_t = mu t_n`.
-    Backwards,
-}
 
 /// How far [`Contact2d::refine`] goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -120,6 +120,31 @@ impl Condensed {
         self.factors.is_negative()
     }
 
+    /// The changes of displacements and forces that the factorised springs make of what is unbalanced, and of
+    /// the gaps and slips that should not be there.
+    pub(crate) fn step(
+        &self,
+        problem: &Scaled,
+        springs: &[Springs],
+        unbalanced: Vec<f64>,
+        opened: impl Iterator<Item = (f64, f64)>,
+    ) -> (Vec<f64>, Vec<(f64, f64)>) {
+        let mut u = unbalanced;
+        let mut forces = Vec::with_capacity(springs.len());
+        for ((point, springs), (gap, slip)) in problem.points.iter().zip(springs).zip(opened) {
+            let (t_n, t_t) = springs.forces(-gap, -slip);
+            point.add_forces(t_n, t_t, &mut u);
+            forces.push((t_n, t_t));
+        }
+        self.solve(&mut u);
+        for ((point, springs), force) in problem.points.iter().zip(springs).zip(&mut forces) {
+            let (gap, slip) = point.moved(&u);
+            let (t_n, t_t) = springs.forces(gap, slip);
+            *force = (force.0 - t_n, force.1 - t_t);
+        }
+        (u, forces)
+    }
+
     /// Overwrites a right-hand side with the solution.
     pub(crate) fn solve(&self, x: &mut [f64]) {
         let right = x.to_vec();

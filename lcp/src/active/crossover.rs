@@ -5,8 +5,8 @@ use super::PROXIMAL;
 use super::condensed::{Condensed, Springs};
 use super::scaled::{Point, Scaled};
 use crate::certify::ratio;
+use crate::problem::ContactStatus;
 use crate::problem::max_abs;
-use crate::refine::ContactStatus;
 
 /// What a row lacks, relative to its terms, that is nothing but rounding.
 const NOISE: f64 = 4.0 * f64::EPSILON;
@@ -30,13 +30,19 @@ pub(crate) struct Effort {
     pub(crate) patience: usize,
     /// Points for one contradiction that is allowed, beyond a few.
     pub(crate) points: usize,
+    /// Whether every round starts from the given point, not from the one before: what the states leave free
+    /// stays where it was.
+    pub(crate) anchored: bool,
 }
 
 impl Effort {
     /// While the iteration comes nearer, when few contacts are left to exchange.
-    pub(crate) const QUICK: Self = Self { rounds: 8, patience: 2, points: 400 };
+    pub(crate) const QUICK: Self = Self { rounds: 8, patience: 2, points: 400, anchored: false };
     /// Where it does not come any nearer.
-    pub(crate) const THOROUGH: Self = Self { rounds: 60, patience: 10, points: 20 };
+    pub(crate) const THOROUGH: Self =
+        Self { rounds: 60, patience: 10, points: 20, anchored: false };
+    /// From a point amid all solutions of a convex problem.
+    pub(crate) const ANCHORED: Self = Self { anchored: true, ..Self::THOROUGH };
 
     /// Contradictions with which it makes sense to begin.
     fn most(&self, points: usize) -> usize {
@@ -97,12 +103,19 @@ pub(crate) fn cross_over(
     let (mut fewest, mut least, mut since) = (effort.most(problem.points.len()), f64::INFINITY, 0);
     let mut is_found = false;
     for _ in 0..effort.rounds {
+        if effort.anchored {
+            (vertex.u, vertex.forces) = (u.to_vec(), forces.to_vec());
+        }
         if vertex.solve(problem, condensed).is_none() {
             break;
         }
         problem.settle(&mut vertex.u, &mut vertex.forces);
-        let contradictions = vertex.contradictions(problem);
+        let mut contradictions = vertex.contradictions(problem, ROUNDING);
         is_found |= is_solution(condensed, &vertex, contradictions.is_empty());
+        if contradictions.is_empty() && !is_found {
+            // What may be rounding is too much for the tolerance.
+            contradictions = vertex.contradictions(problem, 0.0);
+        }
         let (exchanged, largest) = vertex.exchange(&contradictions);
         let is_nearer = exchanged < fewest - fewest / 4 || largest < SMALLER * least;
         since = if is_nearer { 0 } else { since + 1 };
@@ -125,16 +138,17 @@ impl Vertex {
         for ((point, contact), (t_n, t_t)) in
             problem.points.iter().zip(&self.contacts).zip(&mut self.forces)
         {
-            (*t_n, *t_t) = on_cone(point, *contact, (*t_n, *t_t));
+            [*t_n, *t_t] = contact.on_cone(point.mu, [*t_n, *t_t]);
         }
         let before = max_abs(&self.u);
         let (mut last, mut last_part) = (f64::INFINITY, f64::INFINITY);
         for _ in 0..REFINEMENTS {
-            let mut u = problem.unbalanced(&self.u, self.forces.iter().copied());
+            let mut rest = problem.unbalanced(&self.u, self.forces.iter().copied());
             let points = || problem.points.iter().zip(&self.contacts);
             let opened: Vec<(f64, f64)> =
-                points().map(|(point, contact)| open(point, *contact, &self.u)).collect();
-            let size = opened.iter().fold(max_abs(&u), |max, (g, s)| max.max(g.abs()).max(s.abs()));
+                points().map(|(point, contact)| point.opened(*contact, &self.u)).collect();
+            let size =
+                opened.iter().fold(max_abs(&rest), |max, (g, s)| max.max(g.abs()).max(s.abs()));
             if !size.is_finite() {
                 return None;
             }
@@ -143,33 +157,38 @@ impl Vertex {
             }
             if size > 0.5 * last {
                 // Stiff bodies are at their rounding errors. Soft ones may not be exact yet.
-                let part = self.drop_noise(problem, &mut u);
+                let part = self.drop_noise(problem, &mut rest);
                 if part == 0.0 || part > 0.5 * last_part {
                     break;
                 }
                 last_part = part;
             }
             last = last.min(size);
-            let mut fixed = Vec::with_capacity(springs.len());
-            for ((point, springs), (gap, slip)) in problem.points.iter().zip(&springs).zip(opened) {
-                let (t_n, t_t) = springs.forces(-gap, -slip);
-                point.add_forces(t_n, t_t, &mut u);
-                fixed.push((t_n, t_t));
+            let (du, changes) = condensed.step(problem, &springs, rest, opened.into_iter());
+            for ((t_n, t_t), change) in self.forces.iter_mut().zip(changes) {
+                *t_n += change.0;
+                *t_t += change.1;
             }
-            condensed.solve(&mut u);
-            for (i, point) in problem.points.iter().enumerate() {
-                let moved = point.moved(&u);
-                let (t_n, t_t) = springs[i].forces(moved.0, moved.1);
-                self.forces[i].0 += fixed[i].0 - t_n;
-                self.forces[i].1 += fixed[i].1 - t_t;
-            }
-            self.u.iter_mut().zip(&u).for_each(|(u, du)| *u += du);
+            self.u.iter_mut().zip(&du).for_each(|(u, du)| *u += du);
         }
+        self.close(problem);
         if max_abs(&self.u) <= ROUNDING * before.max(1.0) {
             // Bodies at rest: what is left is noise, by which nothing should be measured.
             self.u.fill(0.0);
         }
         Some(())
+    }
+
+    /// Displacements that a closed contact fixes alone, to the last digit.
+    fn close(&mut self, problem: &Scaled) {
+        for (point, contact) in problem.points.iter().zip(&self.contacts) {
+            if *contact != ContactStatus::Open
+                && let ([j], [n]) = (&point.columns[..], &point.normal[..])
+                && *n != 0.0
+            {
+                self.u[*j] = -point.x_0 / n;
+            }
+        }
     }
 
     /// Drops what rows lack by rounding alone, and gives the largest of the rest, relative to the terms of its row.
@@ -187,8 +206,9 @@ impl Vertex {
         largest
     }
 
-    /// The contacts that contradict their states: by how much, which, and the state that fits better.
-    fn contradictions(&self, problem: &Scaled) -> Vec<(f64, usize, ContactStatus)> {
+    /// The contacts that contradict their states by more than `rounding`: by how much, which, and the state that
+    /// fits better.
+    fn contradictions(&self, problem: &Scaled, rounding: f64) -> Vec<(f64, usize, ContactStatus)> {
         let force =
             self.forces.iter().fold(max_abs(&problem.f), |max, (t_n, _)| max.max(t_n.abs()));
         let length = max_abs(&self.u);
@@ -209,7 +229,7 @@ impl Vertex {
                 ContactStatus::Forwards => (relative(-slip, length), ContactStatus::Stick),
                 ContactStatus::Backwards => (relative(slip, length), ContactStatus::Stick),
             };
-            if size > ROUNDING {
+            if size > rounding {
                 contradictions.push((size, i, next));
             }
         }
@@ -251,24 +271,5 @@ impl ContactStatus {
             Self::Forwards => Springs { nn: stiffness, tn: -point.mu * stiffness, tt: 0.0 },
             Self::Backwards => Springs { nn: stiffness, tn: point.mu * stiffness, tt: 0.0 },
         }
-    }
-}
-
-/// The forces that a state allows, from any.
-fn on_cone(point: &Point, contact: ContactStatus, (t_n, t_t): (f64, f64)) -> (f64, f64) {
-    match contact {
-        ContactStatus::Open => (0.0, 0.0),
-        ContactStatus::Stick => (t_n, t_t),
-        ContactStatus::Forwards => (t_n, -point.mu * t_n),
-        ContactStatus::Backwards => (t_n, point.mu * t_n),
-    }
-}
-
-/// Gap and slip where the state asks for none.
-fn open(point: &Point, contact: ContactStatus, u: &[f64]) -> (f64, f64) {
-    match contact {
-        ContactStatus::Open => (0.0, 0.0),
-        ContactStatus::Stick if point.mu > 0.0 => (point.gap(u), point.slip(u)),
-        _ => (point.gap(u), 0.0),
     }
 }

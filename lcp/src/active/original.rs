@@ -5,7 +5,8 @@ use super::crossover::nearest;
 use super::scaled::{Point, Scaled};
 use crate::certify::{BoxedJudge, ContactJudge, Precision, StateOf};
 use crate::extended::Extended;
-use crate::refine::{ContactStatus, Exact, planned, refined_states};
+use crate::problem::ContactStatus;
+use crate::refine::{Exact, planned, refined_states};
 use crate::{Basis, Contact2d, ContactState, MixedLcp, Residuals, Side};
 
 /// A point of the general form of a problem.
@@ -106,40 +107,6 @@ fn rounded(
     let mut forces: Vec<_> = forces.iter().map(|[n, t]| (n.rounded(), t.rounded())).collect();
     scaled.settle(&mut u, &mut forces);
     judge.judged(scaled, (&u, &forces), precision)
-}
-
-/// The residuals of a point of a mixed problem after [confirmation](confirmed).
-pub(crate) fn confirmed_pairs(
-    problem: &MixedLcp,
-    (t, y): (&[f64], &[f64]),
-    tolerance: f64,
-) -> Residuals {
-    let scaled = problem.scaled();
-    let (u, forces) = problem.point(&scaled, t, y);
-    confirmed_at(problem, &scaled, (&u, &forces), tolerance)
-}
-
-/// The same of a contact problem, of which pairs may have fewer digits than states.
-pub(crate) fn confirmed_state(
-    problem: &Contact2d,
-    state: &ContactState,
-    tolerance: f64,
-) -> Residuals {
-    let scaled = problem.scaled();
-    let (u, forces) = scaled.of_state(state);
-    confirmed_at(problem, &scaled, (&u, &forces), tolerance)
-}
-
-fn confirmed_at(problem: &dyn Original, scaled: &Scaled, at: At<'_>, tolerance: f64) -> Residuals {
-    let contacts = nearest(scaled, at.0, at.1);
-    let judge = problem.judge();
-    match planned(scaled) {
-        Ok(mut condensed) => {
-            let with = (judge.as_ref(), scaled, &mut condensed);
-            confirmed(with, at, &contacts, tolerance).residuals
-        }
-        Err(_) => judge.judged(scaled, at, Precision::Exact).residuals,
-    }
 }
 
 /// The state of a contact problem that the given one leads to by the states of its contacts, where it is better.

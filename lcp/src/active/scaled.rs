@@ -3,7 +3,9 @@
 use faer::sparse::SparseColMat;
 
 use crate::parts::Parts;
-use crate::problem::{column_factors, column_of, diagonal, max_abs, median, power_of_two};
+use crate::problem::{
+    ContactStatus, column_factors, column_of, diagonal, max_abs, median, power_of_two,
+};
 use crate::{Contact2d, ContactState, MixedLcp};
 
 /// A contact problem whose stiffness, forces and gaps are of order one whatever the units: with the
@@ -37,6 +39,12 @@ impl Point {
 
     pub(crate) fn slip(&self, u: &[f64]) -> f64 {
         self.s_0 + dot(&self.tangent, &self.columns, u)
+    }
+
+    /// Gap and slip where the status allows none.
+    pub(crate) fn opened(&self, status: ContactStatus, u: &[f64]) -> (f64, f64) {
+        let [gap, slip] = status.is_closed(self.mu);
+        (if gap { self.gap(u) } else { 0.0 }, if slip { self.slip(u) } else { 0.0 })
     }
 
     /// The changes of gap and slip by a step of the displacements, which may be far smaller than both.
@@ -130,12 +138,14 @@ impl Scaled {
                 }
             }
         }
-        let factor = |v: &f64| if *v > 0.0 { power_of_two(1.0 / v.sqrt()) } else { 1.0 };
+        // Of all together, so that what differs by the unit of `M` alone is the same problem.
+        let stiffness = power_of_two(max_abs(&largest).max(f64::MIN_POSITIVE));
+        let factor = |v: &f64| if *v > 0.0 { power_of_two((stiffness / v).sqrt()) } else { 1.0 };
         let column: Vec<f64> = largest.iter().map(factor).collect();
         let load =
             problem.q().iter().zip(&column).fold(0.0_f64, |max, (q, d)| max.max((q * d).abs()));
         let force = if load > 0.0 { power_of_two(load) } else { 1.0 };
-        let k = congruent(m, &column, 1.0);
+        let k = congruent(m, &column, 1.0 / stiffness);
         let f: Vec<f64> = problem.q().iter().zip(&column).map(|(q, d)| -q * d / force).collect();
         let bounded = (0..n).filter(|&j| !problem.free()[j]);
         let points = bounded.map(|j| Point {
@@ -150,7 +160,7 @@ impl Scaled {
         let moves_nothing = |j: usize| column_of(&k, j).all(|(_, v)| v == 0.0);
         let moves_nothing: Vec<bool> = (0..n).map(moves_nothing).collect();
         let idle = idle(&k, &f, &points, &moves_nothing);
-        Self { k, f, points, column, force, length: force, idle }
+        Self { k, f, points, column, force, length: force / stiffness, idle }
     }
 
     /// The unit of contact forces.

@@ -5,7 +5,7 @@ use super::crossover::{Effort, Vertex, cross_over, nearest};
 use super::original::{At, Judge, Judged, Original, brought_right, confirmed};
 use super::scaled::Scaled;
 use crate::certify::Precision;
-use crate::refine::ContactStatus;
+use crate::problem::ContactStatus;
 use crate::solve::Monitor;
 use crate::{Error, Method, Solution, Status, WarmStart};
 
@@ -68,15 +68,19 @@ impl<'a> Search<'a> {
         true
     }
 
-    /// Whether bodies that have not moved, or what their contacts lead to, are a solution with these forces.
-    pub(crate) fn try_forces(&mut self, forces: &[(f64, f64)], crossover: bool) -> bool {
-        let u = vec![0.0; self.scaled.order()];
-        let is_solved = self.judge(&u, forces) <= self.tolerance;
-        let contacts = nearest(&self.scaled, &u, forces);
-        crossover && self.cross_over((&u, forces), contacts, &Effort::THOROUGH) || is_solved
+    /// Whether a point is a solution, or what its contacts lead to with some effort.
+    pub(crate) fn try_point(
+        &mut self,
+        at: (&[f64], &[(f64, f64)]),
+        effort: Option<&Effort>,
+    ) -> bool {
+        let is_solved = self.judge(at.0, at.1) <= self.tolerance;
+        let contacts = nearest(&self.scaled, at.0, at.1);
+        effort.is_some_and(|effort| self.cross_over(at, contacts, effort)) || is_solved
     }
 
-    fn rest(&self) -> (Vec<f64>, Vec<(f64, f64)>) {
+    /// Nothing moves and no force acts.
+    pub(crate) fn rest(&self) -> (Vec<f64>, Vec<(f64, f64)>) {
         (vec![0.0; self.scaled.order()], vec![(0.0, 0.0); self.scaled.points.len()])
     }
 

@@ -83,7 +83,7 @@ impl Planned for Contact2d {
         if points <= VERY_FEW {
             in_order([pivots, inside, program, sweeps])
         } else if points <= FEW {
-            // Where the interior point comes near, the program starts from there and need only polish.
+            // Where the interior point comes near, the program starts from there and need only exchange states.
             in_order([inside, program, pivots, sweeps])
         } else {
             in_order([inside, program, sweeps, pivots])

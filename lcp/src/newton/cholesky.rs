@@ -11,9 +11,8 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 
-use super::dense::is_vanishing;
 use super::forest::{NONE, postordered};
-use super::system::{Kernel, Outcome};
+use super::kernel::{Kernel, Outcome, is_vanishing};
 use crate::Matrix;
 
 /// Cholesky's method in an order of the whole matrix, by supernodes where these are large.

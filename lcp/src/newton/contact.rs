@@ -3,7 +3,7 @@
 use super::SemismoothNewton;
 use super::proximal::{At, Proximal};
 use crate::active::{Effort, Search, Springs};
-use crate::refine::ContactStatus;
+use crate::problem::ContactStatus;
 use crate::solve::Monitor;
 use crate::{Contact2d, Error, Method, Observer, Solution, Solver, Status};
 
@@ -37,7 +37,7 @@ const FAILURES: usize = 10;
 const EXACT: f64 = 1e-13;
 const MORE: usize = 3;
 /// Exchanges of states after a round: as long as there are fewer contradictions every time, or nearly.
-const EXCHANGES: Effort = Effort { rounds: 20, patience: 1, points: 50 };
+const EXCHANGES: Effort = Effort { rounds: 20, patience: 1, points: 50, anchored: false };
 
 impl Solver<Contact2d> for SemismoothNewton {
     fn method(&self) -> Method {

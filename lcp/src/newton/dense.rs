@@ -3,10 +3,9 @@
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{Mat, MatMut, Side};
 
-use super::system::{Kernel, Outcome, VANISHING};
+use super::kernel::{Kernel, Outcome, is_vanishing, scales};
 use crate::Matrix;
 use crate::linear::Lu;
-use crate::scaling::{GIVEN, equilibrate};
 
 /// Cholesky's method.
 pub(super) struct DenseCholesky<'a> {
@@ -77,19 +76,6 @@ impl Kernel for DenseLu<'_> {
             self.free.iter().zip(packed).for_each(|(&i, v)| x[i] = cols[i] * v);
         }
     }
-}
-
-/// Whether a pivot, the square of a diagonal entry of `L`, is a rounding error against the diagonal entry of
-/// the matrix from which it comes.
-pub(super) fn is_vanishing(l: f64, diagonal: f64) -> bool {
-    let root = (VANISHING * diagonal).sqrt();
-    l.is_nan() || l <= root
-}
-
-/// Factors of rows and columns, powers of two, that bring the entries of a matrix near one.
-pub(super) fn scales(m: &Matrix) -> (Vec<f64>, Vec<f64>) {
-    let columns: Vec<_> = (0..m.ncols()).map(|j| m.slice(j)).collect();
-    equilibrate(m.nrows(), &columns, GIVEN)
 }
 
 fn indices(is_free: &[bool]) -> Vec<usize> {

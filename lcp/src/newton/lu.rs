@@ -1,7 +1,6 @@
 //! Sparse matrices of free sets that are not symmetric positive definite.
 
-use super::dense::scales;
-use super::system::{Kernel, Outcome, VANISHING};
+use super::kernel::{Kernel, Outcome, VANISHING, scales};
 use crate::Matrix;
 use crate::sparse::{Columns, Growing, SparseLu, Turn, elimination_order, row_counts};
 

@@ -1,8 +1,8 @@
 //! The contact problem with springs: on all displacements, and in the place of hard contacts.
 
 use crate::active::{Condensed, Point, Scaled, Springs};
+use crate::problem::ContactStatus;
 use crate::problem::max_abs;
-use crate::refine::ContactStatus;
 
 /// The line search ends where the work of what is unbalanced is this part of that at its start.
 const FLAT: f64 = 0.1;

@@ -2,6 +2,7 @@
 
 use super::cholesky::SparseCholesky;
 use super::dense::{DenseCholesky, DenseLu};
+use super::kernel::{Kernel, Outcome, VANISHING};
 use super::lu::RestrictedLu;
 use crate::Lcp;
 use crate::problem::max_abs;
@@ -16,28 +17,6 @@ const MAY_VANISH: f64 = 1e-11;
 /// Residuals that a step of refinement would not decrease.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 const REFINEMENTS: usize = 3;
-/// Pivots, and right-hand sides, below this relative to the terms that they come from are rounding errors.
-pub(super) const VANISHING: f64 = 1024.0 * f64::EPSILON;
-
-/// What came of a factorisation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Outcome {
-    /// Systems can be solved.
-    Regular,
-    /// The matrix is singular to working precision.
-    Singular,
-    /// This is not a matrix for this kind of factorisation.
-    Unsuited,
-}
-
-/// A factorisation of `M_FF`.
-pub(super) trait Kernel {
-    /// Factorises the matrix of some pairs, at least one.
-    fn factorise(&mut self, is_free: &[bool]) -> Outcome;
-
-    /// Overwrites a right-hand side, zero for pairs that are not free, with the solution.
-    fn solve(&mut self, x: &mut [f64]);
-}
 
 /// A complementary point: `z` is free for some pairs, `w` for the others.
 #[derive(Debug, Clone)]

@@ -3,11 +3,13 @@
 mod bedding;
 mod builder;
 mod mixed;
+mod status;
 mod units;
 
 pub use bedding::Bedding;
 pub(crate) use bedding::check_epsilon;
 pub use builder::{Contact2dBuilder, ContactPoint};
+pub use status::ContactStatus;
 pub(crate) use units::{column_factors, diagonal, median, power_of_two};
 
 use faer::sparse::SparseColMat;

@@ -8,12 +8,10 @@ use faer::{Mat, MatMut, Side};
 use super::definite::is_definite;
 use super::form::{Bounds, Form, Point, add_product};
 use super::interior::{Effort, Found, Interior};
-use super::program::Candidate;
-use super::reduced::Place;
 use super::scale::Scaled;
 use super::settings::ContactForm;
 use crate::problem::column_of;
-use crate::{Contact2d, Matrix};
+use crate::{Contact2d, ContactState, Matrix};
 
 /// Above this many rows the dual program is not chosen unasked.
 const DUAL_ROWS: usize = 400;
@@ -42,27 +40,19 @@ pub(super) fn primal_form(contact: &Contact2d) -> Form {
     }
 }
 
-/// The point of the general problem, with forces within their bounds.
-pub(super) fn assemble(contact: &Contact2d, point: &Point, places: Option<&[Place]>) -> Candidate {
-    let m = contact.points();
-    let t_n: Vec<f64> = point.lambda[..m].iter().map(|t| t.max(0.0)).collect();
-    let mut t_t = vec![0.0; m];
-    for (k, &i) in contact.frictional().iter().enumerate() {
-        let limit = contact.mu()[i] * t_n[i];
-        t_t[i] = match places.map(|places| places[m + k]) {
-            Some(Place::Lower) => -limit,
-            Some(Place::Upper) => limit,
-            Some(Place::Inside) => point.lambda[m + k].clamp(-limit, limit),
-            None => point.lambda[m + k],
-        };
+/// The state that a point of the primal form is.
+pub(super) fn state_of(contact: &Contact2d, point: &Point) -> ContactState {
+    let (t_n, friction) = point.lambda.split_at(contact.points());
+    let mut t_t = vec![0.0; contact.points()];
+    for (&i, t) in contact.frictional().iter().zip(friction) {
+        t_t[i] = *t;
     }
-    let state = contact.state(point.x.clone(), t_n, t_t);
-    Candidate::of(contact, &state)
+    contact.state(point.x.clone(), t_n.to_vec(), t_t)
 }
 
 /// A contact problem ready for the interior-point method.
 pub(super) struct ContactProgram {
-    /// The primal form, on which points are polished whatever program they come from.
+    /// The primal form, whose points are states of the contacts, whatever program they come from.
     pub(super) scaled: Scaled,
     dual: Option<Dual>,
     interior: Interior,

@@ -1,13 +1,11 @@
 //! Coulomb's friction as the fixed point of programs with frozen bounds of the friction forces.
 
 use super::anderson::Anderson;
-use super::contact::{ContactProgram, assemble};
-use super::form::{Bounds, Form, Point};
-use super::interior::{Effort, End};
-use super::program::{Best, Proof};
-use super::reduced::{Law, Place};
-use crate::solve::Monitor;
-use crate::{Contact2d, Status};
+use super::contact::{ContactProgram, state_of};
+use super::form::{Bounds, Form};
+use super::interior::End;
+use super::program::Run;
+use crate::{Contact2d, Status, active};
 
 /// Rounds without progress after which it is asked whether there is a solution at all.
 const DOUBTS: usize = 4;
@@ -15,30 +13,31 @@ const DOUBTS: usize = 4;
 const ENLARGED: usize = 4;
 
 /// Solves the program, and where there is friction the sequence of programs whose bounds are `mu` times
-/// the normal forces of the one before. Every solution is polished with Coulomb's own law, which ends the
-/// sequence as soon as the states of the contacts are right.
+/// the normal forces of the one before. Of every solution the states of the contacts are solved with Coulomb's
+/// own law, which ends the sequence as soon as they are right.
 ///
 /// Says why it ended, where the best point is not good enough.
 pub(super) fn solve_contact(
+    run: &mut Run<'_>,
     contact: &Contact2d,
     program: &mut ContactProgram,
-    (tolerance, effort): (f64, &dyn Fn() -> Effort),
-    (best, monitor, proof): (&mut Best, &mut Monitor<'_>, &Proof<'_>),
 ) -> Result<End, Status> {
     let has_cones = program.scaled.form.has_cones();
     let mut limits = generous(&program.scaled.form);
     let mut anderson = Anderson::default();
     let mut enlarged = 0;
-    let mut residual = best.residual;
+    let effort = if has_cones { &active::Effort::THOROUGH } else { &active::Effort::ANCHORED };
     loop {
-        if let Some(status) = monitor.stop(residual) {
+        if let Some(status) = run.monitor.stop(run.search.residual()) {
             return Err(status);
         }
-        let found = program.solve(&limits, effort());
-        best.factorisations += found.iterations;
+        let found = program.solve(&limits, run.effort());
+        run.steps += found.iterations;
         match found.end {
             End::Failed => return Ok(End::Failed),
-            End::NoPoint if !has_cones || proof.is_found() || enlarged >= ENLARGED => {
+            End::NoPoint
+                if !has_cones || enlarged >= ENLARGED || run.proof.is_found(run.effort()) =>
+            {
                 return Ok(End::NoPoint);
             }
             // The bounds are too small to hold the bodies.
@@ -54,18 +53,18 @@ pub(super) fn solve_contact(
             }
             End::Point | End::IterationLimit | End::TimeLimit => {}
         }
-        let scaled = &program.scaled;
-        let assemble = |point: &Point, places: Option<&[Place]>| assemble(contact, point, places);
-        residual = best.offer(scaled, (&found.point, None), &assemble);
-        best.polish(scaled, Law::Coulomb, &found.point, &assemble);
-        if !has_cones || best.residual <= tolerance || found.end != End::Point {
-            monitor.history.push(best.residual);
+        let state = state_of(contact, &program.scaled.unscaled(&found.point));
+        let (u, forces) = run.search.scaled.of_state(&state);
+        let is_solved = run.search.try_point((&u, &forces), Some(effort));
+        if !has_cones || is_solved || found.end != End::Point {
+            run.monitor.history.push(run.search.residual());
             return Ok(found.end);
         }
-        let image = scaled.form.limits(&found.point.lambda);
+        let image = program.scaled.form.limits(&found.point.lambda);
         limits = anderson.next(&limits, &image);
-        if anderson.is_stalled() || (anderson.idle() >= DOUBTS && proof.is_found()) {
-            monitor.history.push(best.residual);
+        if anderson.is_stalled() || (anderson.idle() >= DOUBTS && run.proof.is_found(run.effort()))
+        {
+            run.monitor.history.push(run.search.residual());
             return Err(Status::Stalled);
         }
     }

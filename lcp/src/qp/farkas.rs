@@ -3,39 +3,66 @@
 //! The vector of the cone `A^T pi <= 0`, `B^T pi <= 0` that is nearest to `c` is zero where there is a
 //! solution, and a proof where there is none: `c . pi = |pi|^2` (Moreau 1962). So the proof is
 //! itself the unique solution of a convex quadratic program, which has an interior-point solution and
-//! can be polished, whatever made the problem infeasible.
+//! can be made exact, whatever made the problem infeasible.
 
-use super::form::{Bounds, Form, Point};
+use std::cell::OnceCell;
+
+use super::form::{Bounds, Form};
 use super::interior::{Effort, End, Interior};
-use super::polish::{places_of, polish};
-use super::reduced::Law;
 use super::scale::Scaled;
+use crate::active::{self, Condensed, Original, cross_over, nearest};
 use crate::certify::is_proof;
 use crate::problem::max_abs;
 use crate::scaling::{GIVEN, equilibrate};
 use crate::{HorizontalLcp, Matrix, Side};
 
+/// The proof that a problem has no solution, looked for at most once.
+pub(super) struct Proof<'a> {
+    general: &'a dyn Fn() -> HorizontalLcp,
+    answer: OnceCell<Option<Vec<f64>>>,
+}
+
+impl<'a> Proof<'a> {
+    pub(super) fn new(general: &'a dyn Fn() -> HorizontalLcp) -> Self {
+        Self { general, answer: OnceCell::new() }
+    }
+
+    pub(super) fn is_found(&self, effort: Effort) -> bool {
+        self.answer.get_or_init(|| farkas_vector(&(self.general)(), effort)).is_some()
+    }
+
+    pub(super) fn into_farkas(self, effort: Effort) -> Option<Vec<f64>> {
+        let search = || farkas_vector(&(self.general)(), effort);
+        self.answer.into_inner().unwrap_or_else(search)
+    }
+}
+
 /// A checked Farkas vector with a largest entry of one, if one is found.
-pub(super) fn farkas_vector(problem: &HorizontalLcp, effort: Effort) -> Option<Vec<f64>> {
+fn farkas_vector(problem: &HorizontalLcp, effort: Effort) -> Option<Vec<f64>> {
     let (form, rows) = projection(problem);
     let scaled = Scaled::new(&form);
     let limits = vec![0.0; form.rows()];
-    let law = Law::Tresca(&limits);
     let found = Interior::new(&scaled.form, effort)?.solve(&scaled.form, &limits, effort.time);
     if matches!(found.end, End::NoPoint | End::Failed) {
         return None;
     }
-    let mut proof = None;
-    let mut judge = |point: &Point| {
-        let pi = scaled.unscaled(point).x;
-        proof = cleaned(problem, (&pi, &rows));
-        proof.is_some()
-    };
-    if !judge(&found.point) {
-        let places = places_of(&scaled.form, law, &found.point);
-        polish(&scaled.form, law, (places, &found.point), &mut |point, _| judge(point));
-    }
-    proof
+    let point = scaled.unscaled(&found.point);
+    cleaned(problem, (&point.x, &rows)).or_else(|| {
+        let mixed = form.to_mixed()?;
+        let scaled = active::Scaled::of_mixed(&mixed);
+        let mut condensed = Condensed::new(&scaled).ok()?;
+        let (t, y) = form.to_pairs(&mixed, &point);
+        let (u, forces) = mixed.point(&scaled, &t, &y);
+        let contacts = nearest(&scaled, &u, &forces);
+        let mut proof = None;
+        let effort = active::Effort::ANCHORED;
+        cross_over(&scaled, &mut condensed, (&u, &forces), contacts, &effort, |_, vertex, _| {
+            let pi = &scaled.displacements(&vertex.u)[..form.unknowns()];
+            proof = proof.take().or_else(|| cleaned(problem, (pi, &rows)));
+            proof.is_some()
+        });
+        proof
+    })
 }
 
 /// `min |r - c|^2 / 2` subject to `A^T r <= 0` and `B^T r <= 0`, in equilibrated rows, with their factors.

@@ -244,7 +244,7 @@ impl Interior {
     }
 }
 
-/// A bound of zero leaves the program without an interior. What this changes the polish puts right.
+/// A bound of zero leaves the program without an interior. What this changes the exchange of states puts right.
 fn least_limit(limits: &[f64]) -> f64 {
     const LEAST: f64 = 1e-9;
     let largest = max_abs(limits);

@@ -2,9 +2,7 @@
 
 use super::definite::indefiniteness;
 use super::form::{Bounds, Form, Point};
-use super::program::Candidate;
-use super::reduced::Place;
-use crate::{Error, HorizontalLcp, Lcp, Matrix, MixedLcp};
+use crate::{Error, Lcp, Matrix, MixedLcp};
 
 /// `min z M z / 2 + q z` subject to `z >= 0`, or what is in the way.
 pub(super) fn standard_form(lcp: &Lcp) -> Result<Form, String> {
@@ -25,35 +23,10 @@ pub(super) fn standard_form(lcp: &Lcp) -> Result<Form, String> {
     })
 }
 
-/// `(z, w)` of a point, with what vanishes at its place.
-pub(super) fn standard_point(
-    form: &Form,
-    point: &Point,
-    places: Option<&[Place]>,
-) -> (Vec<f64>, Vec<f64>) {
-    let slacks = form.slacks(point);
-    let pair = |i: usize| {
-        let (z, w) = (point.lambda[i].max(0.0), slacks[i].max(0.0));
-        match places.map(|places| places[i]) {
-            None => (z, w),
-            Some(Place::Inside) => (z, 0.0),
-            Some(_) => (0.0, w),
-        }
-    };
-    (0..form.rows()).map(pair).unzip()
-}
-
-/// The candidate of a standard problem, judged as a general one.
-pub(super) fn standard_candidate(
-    form: &Form,
-    general: &HorizontalLcp,
-    to_pairs: &dyn Fn(Vec<f64>, Vec<f64>) -> (Vec<f64>, Vec<f64>),
-    (point, places): (&Point, Option<&[Place]>),
-) -> Candidate {
-    let (z, w) = standard_point(form, point, places);
-    let (t, y) = to_pairs(z, w);
-    let residuals = general.residuals(&t, &y);
-    Candidate { t, y, contact: None, residuals }
+/// `(z, w)` of a point.
+pub(super) fn standard_point(form: &Form, point: &Point) -> (Vec<f64>, Vec<f64>) {
+    let positive = |v: &[f64]| v.iter().map(|v| v.max(0.0)).collect();
+    (positive(&point.lambda), positive(&form.slacks(point)))
 }
 
 /// A mixed problem `[P, -G^T; G, S]` as a form, with the variables that are its `x` and its rows.
@@ -92,20 +65,15 @@ impl MixedForm {
         Ok(Self { form: Form { p, d, s, linear, offset, bounds }, free, paired })
     }
 
-    pub(super) fn candidate(
-        &self,
-        mixed: &MixedLcp,
-        point: &Point,
-        places: Option<&[Place]>,
-    ) -> Candidate {
-        let (lambda, slacks) = standard_point(&self.form, point, places);
+    /// The point of the general problem.
+    pub(super) fn to_pairs(&self, mixed: &MixedLcp, point: &Point) -> (Vec<f64>, Vec<f64>) {
+        let (lambda, slacks) = standard_point(&self.form, point);
         let (mut z, mut w) = (vec![0.0; mixed.order()], vec![0.0; mixed.order()]);
         self.free.iter().zip(&point.x).for_each(|(&i, x)| z[i] = *x);
         for (k, &i) in self.paired.iter().enumerate() {
             (z[i], w[i]) = (lambda[k], slacks[k]);
         }
-        let (t, y) = mixed.to_pairs(&z, &w);
-        Candidate { t, y, contact: None, residuals: mixed.residuals(&z, &w) }
+        mixed.to_pairs(&z, &w)
     }
 }
 

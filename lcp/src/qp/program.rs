@@ -1,152 +1,122 @@
-//! A form that is solved: interior point, polish, and the best of what was met.
+//! A problem while it is solved: interior points of programs, and the exact states that they lead to.
 
-use std::cell::OnceCell;
+use std::time::Instant;
 
+use super::farkas::Proof;
 use super::form::{Form, Point};
 use super::interior::{Effort, End, Interior};
-use super::polish::{places_of, polish};
-use super::reduced::{Law, Place};
 use super::scale::Scaled;
-use crate::{Contact2d, ContactState, Residuals};
+use super::settings::QuadraticProgramSettings;
+use crate::active::{self, Original, Search};
+use crate::solve::Monitor;
+use crate::{Certificate, Error, HorizontalLcp, Method, Observer, Solution, Status};
 
-/// A point of the general problem with its residuals.
-#[derive(Debug, Clone)]
-pub(super) struct Candidate {
-    pub(super) t: Vec<f64>,
-    pub(super) y: Vec<f64>,
-    /// The state that it is, of a contact problem.
-    pub(super) contact: Option<ContactState>,
-    pub(super) residuals: Residuals,
+/// Makes the point of the general problem of the unknowns of a form.
+pub(super) type ToPairs<'a> = dyn Fn(&Point) -> (Vec<f64>, Vec<f64>) + 'a;
+
+/// Of an interior point, whatever the tolerance of the answer: where both variables of a pair vanish it is good to
+/// the root of this, and they must not be taken for some that do not.
+const INTERIOR: f64 = 1e-11;
+
+/// The best point so far, what it cost, and the proof that there is none.
+pub(super) struct Run<'a> {
+    pub(super) settings: &'a QuadraticProgramSettings,
+    pub(super) problem: &'a dyn Original,
+    pub(super) search: Search<'a>,
+    pub(super) monitor: Monitor<'a>,
+    pub(super) proof: Proof<'a>,
+    /// Steps of the interior-point method, each of which takes a factorisation.
+    pub(super) steps: usize,
+    began: Instant,
 }
 
-impl Candidate {
-    /// The point that a state of a contact problem is.
-    pub(super) fn of(contact: &Contact2d, state: &ContactState) -> Self {
-        let (t, y) = contact.to_pairs(state);
-        Self { t, y, contact: Some(state.clone()), residuals: contact.residuals(state) }
-    }
-}
-
-/// Makes the point of the general problem from unknowns in the units of the user and, after a polish, the
-/// places of the multipliers.
-pub(super) type Assemble<'a> = dyn Fn(&Point, Option<&[Place]>) -> Candidate + 'a;
-
-/// The proof that there is no solution, looked for at most once.
-pub(super) struct Proof<'a> {
-    search: &'a dyn Fn() -> Option<Vec<f64>>,
-    answer: OnceCell<Option<Vec<f64>>>,
-}
-
-impl<'a> Proof<'a> {
-    pub(super) fn new(search: &'a dyn Fn() -> Option<Vec<f64>>) -> Self {
-        Self { search, answer: OnceCell::new() }
+impl<'a> Run<'a> {
+    /// With so many programs at most.
+    pub(super) fn new(
+        settings: &'a QuadraticProgramSettings,
+        (problem, general): (&'a dyn Original, &'a dyn Fn() -> HorizontalLcp),
+        max_programs: usize,
+        observer: &'a mut Observer<'_>,
+    ) -> Result<Self, Error> {
+        let monitor = Monitor::new(max_programs, settings.time_limit, observer);
+        let search = Search::new(Method::QuadraticProgram, problem, settings.tolerance)?;
+        let proof = Proof::new(general);
+        let began = Instant::now();
+        Ok(Self { settings, problem, search, monitor, proof, steps: 0, began })
     }
 
-    pub(super) fn is_found(&self) -> bool {
-        self.answer.get_or_init(self.search).is_some()
-    }
-
-    pub(super) fn into_farkas(self) -> Option<Vec<f64>> {
-        self.answer.into_inner().unwrap_or_else(self.search)
-    }
-}
-
-/// The best point so far, and what it cost.
-pub(super) struct Best {
-    pub(super) candidate: Candidate,
-    /// Its worst residual, also in units of the loads.
-    pub(super) residual: f64,
-    pub(super) factorisations: usize,
-}
-
-impl Best {
-    /// The zero point of a form.
-    pub(super) fn new(scaled: &Scaled, assemble: &Assemble<'_>) -> Self {
-        let zero = Point::zero(&scaled.form);
-        let candidate = assemble(&zero, None);
-        let residual = candidate.residuals.worst();
-        Self { candidate, residual, factorisations: 0 }
-    }
-
-    /// Takes a scaled point if it is better.
-    pub(super) fn offer(
-        &mut self,
-        scaled: &Scaled,
-        (point, places): (&Point, Option<&[Place]>),
-        assemble: &Assemble<'_>,
-    ) -> f64 {
-        let candidate = assemble(&scaled.unscaled(point), places);
-        let residual = candidate.residuals.worst();
-        if residual < self.residual {
-            (self.candidate, self.residual) = (candidate, residual);
-        }
-        residual
-    }
-
-    /// Polishes a scaled point, from the places that it suggests.
-    pub(super) fn polish(
-        &mut self,
-        scaled: &Scaled,
-        law: Law<'_>,
-        start: &Point,
-        assemble: &Assemble<'_>,
-    ) {
-        let places = places_of(&scaled.form, law, start);
-        self.polish_from(scaled, law, (places, start), assemble);
-    }
-
-    /// Polishes the zero point, which may be good to a tolerance that is large.
-    pub(super) fn polish_zero(&mut self, scaled: &Scaled, assemble: &Assemble<'_>) {
-        if self.residual > EXACT {
-            self.polish(scaled, Law::Coulomb, &Point::zero(&scaled.form), assemble);
+    /// How exact the interior points have to be.
+    pub(super) fn effort(&self) -> Effort {
+        let settings = self.settings;
+        Effort {
+            tolerance: INTERIOR,
+            max_iterations: settings.max_iterations,
+            time: settings.time_limit.map(|limit| limit.saturating_sub(self.began.elapsed())),
         }
     }
 
-    /// Polishes from given places.
-    pub(super) fn polish_from(
-        &mut self,
-        scaled: &Scaled,
-        law: Law<'_>,
-        start: (Vec<Place>, &Point),
-        assemble: &Assemble<'_>,
-    ) {
-        let systems = polish(&scaled.form, law, start, &mut |point, places| {
-            self.offer(scaled, (point, Some(places)), assemble) <= EXACT
-        });
-        self.factorisations += systems;
+    /// Whether there is nothing left for a program: the start of the settings, or the point where nothing moves
+    /// and no force acts, is a solution, or there are nothing but equations.
+    pub(super) fn is_tried(&mut self, form: &Form) -> bool {
+        let is_solved = self.search.try_start(&self.settings.start) || self.search.try_rest(true);
+        let is_linear = form.rows() == 0;
+        if is_linear && !is_solved {
+            let (u, forces) = self.search.rest();
+            self.search.try_point((&u, &forces), Some(&active::Effort::ANCHORED));
+        }
+        is_solved || is_linear
     }
-}
 
-/// Residuals at which there is nothing left to gain.
-const EXACT: f64 = 1e-15;
-
-/// Solves a form without cones: one run of the interior-point method and a polish.
-pub(super) fn solve_convex(
-    scaled: &Scaled,
-    effort: Effort,
-    assemble: &Assemble<'_>,
-    best: &mut Best,
-) -> End {
-    let form = &scaled.form;
-    let limits = vec![0.0; form.rows()];
-    let law = Law::Tresca(&limits);
-    if form.is_linear() {
-        best.polish(scaled, law, &Point::zero(form), assemble);
-        return End::Point;
+    /// Solves a form without cones by one run of the interior-point method.
+    pub(super) fn solve_convex(&mut self, form: &Form, pairs: &ToPairs<'_>) -> Result<End, Status> {
+        let is_tried = self.is_tried(form);
+        if let Some(status) = self.monitor.stop(self.search.residual()) {
+            return Err(status);
+        }
+        if is_tried {
+            return Ok(End::Point);
+        }
+        let scaled = Scaled::new(form);
+        let limits = vec![0.0; form.rows()];
+        let Some(mut interior) = Interior::new(&scaled.form, self.effort()) else {
+            return Ok(End::Failed);
+        };
+        let found = interior.solve(&scaled.form, &limits, self.effort().time);
+        self.steps += found.iterations;
+        if !matches!(found.end, End::NoPoint | End::Failed) {
+            let (t, y) = pairs(&scaled.unscaled(&found.point));
+            let (u, forces) = self.problem.point(&self.search.scaled, &t, &y);
+            self.search.try_point((&u, &forces), Some(&active::Effort::ANCHORED));
+        }
+        self.monitor.history.push(self.search.residual());
+        Ok(found.end)
     }
-    let Some(mut interior) = Interior::new(form, effort) else { return End::Failed };
-    let found = interior.solve(form, &limits, effort.time);
-    best.factorisations += found.iterations;
-    if matches!(found.end, End::Point | End::IterationLimit | End::TimeLimit) {
-        best.offer(scaled, (&found.point, None), assemble);
-        best.polish(scaled, law, &found.point, assemble);
-    }
-    found.end
-}
 
-impl Form {
-    /// Whether there is nothing but equations.
-    fn is_linear(&self) -> bool {
-        self.bounds.iter().all(|bounds| *bounds == super::form::Bounds::Free)
+    /// The best point, or the proof that there is none.
+    pub(super) fn finish(self, end: Result<End, Status>) -> Solution {
+        let is_solved = self.search.residual() <= self.settings.tolerance;
+        let effort = self.effort();
+        let mut farkas = None;
+        let otherwise = match end {
+            Err(status @ (Status::Cancelled | Status::TimeLimit)) => status,
+            Ok(End::TimeLimit) => Status::TimeLimit,
+            Ok(End::IterationLimit) => Status::IterationLimit,
+            _ if is_solved => Status::Stalled,
+            Ok(End::Point | End::NoPoint | End::Failed) | Err(_) => {
+                farkas = self.proof.into_farkas(effort);
+                match end {
+                    _ if farkas.is_some() => Status::Infeasible,
+                    Err(status) => status,
+                    Ok(End::Failed) => Status::NumericalTrouble,
+                    Ok(_) => Status::Stalled,
+                }
+            }
+        };
+        let mut solution = self.search.finish(otherwise, self.monitor);
+        if let Some(pi) = farkas {
+            solution.certificate = Some(Certificate::Farkas { pi });
+        }
+        solution.info.factorisations += self.steps;
+        solution
     }
 }

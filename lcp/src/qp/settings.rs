@@ -42,7 +42,7 @@ impl Default for SoftConstraints {
 /// Settings of [`QuadraticProgram`](crate::QuadraticProgram).
 #[derive(Debug, Clone, PartialEq)]
 pub struct QuadraticProgramSettings {
-    /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`. The polish usually
+    /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`. The exchange of states usually
     /// reaches 1e-14, so that it costs nothing to ask for 1e-12.
     pub tolerance: f64,
     /// Iterations of one run of Clarabel's interior-point method, that is, within one program. Their number is
@@ -55,7 +55,7 @@ pub struct QuadraticProgramSettings {
     /// Wall-clock time; `None` is no limit. Looked at before every run of the interior-point method and
     /// in it before every iteration.
     pub time_limit: Option<Duration>,
-    /// A point or a basis, of the pairs of the general form, from which the polish is tried before anything
+    /// A point or a basis, of the pairs of the general form, whose states are tried before anything
     /// else.
     pub start: WarmStart,
     /// Which program a contact problem becomes.

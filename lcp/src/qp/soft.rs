@@ -1,19 +1,12 @@
 //! Springs that hold a contact problem, the bias that they cause, and their removal.
 
 use std::ops::ControlFlow;
-use std::time::Instant;
 
-use super::contact::primal_form;
 use super::definite::indefiniteness;
-use super::farkas::farkas_vector;
-use super::form::Point;
 use super::interior::End;
-use super::program::{Best, Candidate, Proof};
-use super::reduced::Place;
-use super::scale::Scaled;
+use super::program::Run;
 use super::settings::SoftConstraints;
-use super::{QuadraticProgram, QuadraticProgramSettings, confirmed, refused};
-use crate::solve::Monitor;
+use super::{QuadraticProgram, QuadraticProgramSettings, refused};
 use crate::{
     Bedding, Contact2d, ContactState, Error, Iteration, Observer, Residuals, Solution, Status,
 };
@@ -93,69 +86,49 @@ impl QuadraticProgram {
     ) -> Result<Solution, Error> {
         /// Steps in which the springs let go of nothing.
         const IDLE: usize = 6;
-        let settings = &self.settings;
         let springs = Bedding::new(contact, soft.epsilon)?;
-        let began = Instant::now();
-        let mut monitor = Monitor::new(soft.max_recentrings, settings.time_limit, observer);
+        let general = || contact.to_general();
+        let mut run =
+            Run::new(&self.settings, (contact, &general), soft.max_recentrings, observer)?;
         let mut centre = vec![0.0; contact.displacements()];
-        let scaled = Scaled::new(&primal_form(contact));
-        let assemble =
-            |point: &Point, _: Option<&[Place]>| Candidate::of(contact, &state_of(contact, point));
-        let mut best = Best::new(&scaled, &assemble);
+        let (u, forces) = run.search.rest();
+        let mut residual = run.search.judge(&u, &forces);
         let (mut idle, mut least) = (0, f64::INFINITY);
-        let mut residual = best.residual;
         let end = loop {
-            if residual <= settings.tolerance {
-                monitor.stop(residual);
+            if residual <= self.settings.tolerance {
+                run.monitor.stop(residual);
                 break Ok(End::Point);
             }
-            if let Some(status) = monitor.stop(residual) {
+            if let Some(status) = run.monitor.stop(residual) {
                 break Err(status);
             }
             let sprung = springs.attached(contact, &centre)?;
             let mut solver = self.without_soft();
-            solver.settings.time_limit = self.effort(began).time;
+            solver.settings.time_limit = run.effort().time;
             let solution = solver.solve_plain(&sprung, &mut |_| ControlFlow::Continue(()))?;
-            best.factorisations += solution.info.factorisations;
+            run.steps += solution.info.factorisations;
             if !solution.is_solved() {
                 break Err(solution.status);
             }
             let state = contact.recover(&solution.t, &solution.y);
-            let point = scaled.scaled(&point_of(contact, &state));
-            residual = best.offer(&scaled, (&point, None), &assemble);
+            let (u, forces) = run.search.scaled.of_state(&state);
+            residual = run.search.judge(&u, &forces);
             let share = springs.share(contact, &springs.forces(&state.u, &centre));
             idle = if share < 0.9 * least { 0 } else { idle + 1 };
             least = least.min(share);
             if idle > IDLE {
-                monitor.history.push(residual);
+                run.monitor.history.push(residual);
                 break Err(Status::Stalled);
             }
             centre = state.u;
         };
-        let search = || farkas_vector(&contact.to_general(), self.effort(began));
-        let confirm = |it: &Candidate| confirmed(contact, it, settings.tolerance);
-        Ok(self.concluded(best, end, &monitor, (Proof::new(&search), &confirm)))
+        Ok(run.finish(end))
     }
 
     /// The same solver for a problem that has its springs.
     fn without_soft(&self) -> Self {
         Self::new(QuadraticProgramSettings { soft: None, ..self.settings.clone() })
     }
-}
-
-/// Unknowns of the primal form.
-fn point_of(contact: &Contact2d, state: &ContactState) -> Point {
-    let friction = contact.frictional().iter().map(|&i| state.t_t[i]);
-    Point { x: state.u.clone(), lambda: state.t_n.iter().copied().chain(friction).collect() }
-}
-
-fn state_of(contact: &Contact2d, point: &Point) -> ContactState {
-    let (t_n, friction) = point.lambda.split_at(contact.points());
-    let mut t_t = vec![0.0; contact.points()];
-    for (&i, t) in contact.frictional().iter().zip(friction) {
-        t_t[i] = *t;
-    }
-    contact.state(point.x.clone(), t_n.to_vec(), t_t)
 }
 
 fn ratio(a: f64, b: f64) -> f64 {

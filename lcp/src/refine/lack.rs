@@ -1,10 +1,10 @@
 //! What the equations lack.
 
-use super::ContactStatus;
 use super::at::At;
 use crate::active::{Point, Scaled};
 use crate::certify::ratio;
 use crate::extended::Extended;
+use crate::problem::ContactStatus;
 use crate::problem::{column_of, max_abs};
 
 /// Rows of smaller terms than this part of the largest force or displacement are measured by that: of a body at
@@ -102,9 +102,7 @@ impl Lack {
         let mut unbalanced = scaled.unbalanced(&u, forces.into_iter());
         unbalanced.iter_mut().zip(floating).filter(|(_, is)| **is).for_each(|(v, _)| *v = 0.0);
         let closed = scaled.points.iter().zip(statuses).map(|(point, status)| {
-            let [gap, slip] = status.is_closed(point.mu);
-            let gap = if gap { point.gap(&u) } else { 0.0 };
-            let slip = if slip { point.slip(&u) } else { 0.0 };
+            let (gap, slip) = point.opened(*status, &u);
             [gap, slip].map(Extended::from)
         });
         let opened: Vec<[Extended; 2]> = closed.collect();

@@ -1,9 +1,9 @@
-//! The contact law: what a state demands, and how far its inequalities are from being violated.
+//! How far the inequalities of the contact law are from being violated.
 
-use super::ContactStatus;
 use super::at::At;
 use crate::active::Scaled;
 use crate::extended::Extended;
+use crate::problem::ContactStatus;
 
 /// How far the inequalities of the contact law are from being violated, at the contact that is nearest to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,21 +53,4 @@ pub(super) fn slacks(
         // A force that pulls says more than what friction makes of it.
         if pressed.0 < 0.0 || pressed.0 < other.0 { pressed } else { other }
     })
-}
-
-impl ContactStatus {
-    /// Whether it allows no gap, and no slip.
-    pub(super) fn is_closed(self, mu: f64) -> [bool; 2] {
-        [self != Self::Open, self == Self::Stick && mu > 0.0]
-    }
-
-    /// The forces that it allows, from any.
-    pub(super) fn on_cone(self, mu: f64, [t_n, t_t]: [Extended; 2]) -> [Extended; 2] {
-        match self {
-            Self::Open => [Extended::ZERO; 2],
-            Self::Stick => [t_n, t_t],
-            Self::Forwards => [t_n, -(t_n * mu)],
-            Self::Backwards => [t_n, t_n * mu],
-        }
-    }
 }

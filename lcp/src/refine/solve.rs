@@ -5,11 +5,11 @@ use std::time::Instant;
 use super::at::At;
 use super::lack::{self, Lack, Shifts};
 use super::law::{self, Margin};
-use super::{ContactStatus, DOUBT, Refined, Refinement};
+use super::{DOUBT, Refined, Refinement};
 use crate::active::{Condensed, Scaled, Springs};
 use crate::certify::ratio;
 use crate::extended::Extended;
-use crate::problem::max_abs;
+use crate::problem::{ContactStatus, max_abs};
 use crate::{ContactState, Error};
 
 /// The answer, and what the inequalities of every contact leave.
@@ -186,21 +186,11 @@ impl<'a> Solve<'a> {
 
     /// Solves for what is lacking.
     fn pass(&mut self, lack: &Lack) {
-        let mut step: Vec<f64> = lack.unbalanced.iter().map(|v| v.rounded()).collect();
-        let mut fixed = Vec::with_capacity(self.springs.len());
-        for ((point, springs), [gap, slip]) in
-            self.scaled.points.iter().zip(&self.springs).zip(&lack.opened)
-        {
-            let forces = springs.forces(-gap.rounded(), -slip.rounded());
-            point.add_forces(forces.0, forces.1, &mut step);
-            fixed.push(forces);
-        }
-        self.condensed.solve(&mut step);
+        let unbalanced = lack.unbalanced.iter().map(|v| v.rounded()).collect();
+        let opened = lack.opened.iter().map(|[gap, slip]| (gap.rounded(), slip.rounded()));
+        let (step, of_forces) = self.condensed.step(self.scaled, &self.springs, unbalanced, opened);
         let (mut changes, mut size) = (vec![0.0; step.len()], vec![0.0; step.len()]);
-        for (i, point) in self.scaled.points.iter().enumerate() {
-            let moved = point.moved(&step);
-            let (t_n, t_t) = self.springs[i].forces(moved.0, moved.1);
-            let change = (fixed[i].0 - t_n, fixed[i].1 - t_t);
+        for (i, (point, change)) in self.scaled.points.iter().zip(of_forces).enumerate() {
             point.add_forces(change.0, change.1, &mut changes);
             let forces = &mut self.at.forces[i];
             forces[0] += change.0.into();
