@@ -110,7 +110,7 @@ impl Blocks {
         let count = 1 + draw.index(3);
         let sizes: Vec<usize> = (0..count).map(|_| 1 + draw.index(most)).collect();
         let of = sizes.iter().enumerate().flat_map(|(block, n)| vec![block; *n]).collect();
-        let size = (0..count).map(|_| f64::from(draw.one_of(&[0, 20, 40, 60])).exp2()).collect();
+        let size = (0..count).map(|_| f64::from(draw.one_of(&[0, 20, 40])).exp2()).collect();
         let coupling = draw.one_of(&[0.0, (-20_f64).exp2(), 1.0]);
         Self { of, size, coupling, spread: draw.one_of(&[0, 3, 40, 60]) }
     }
