@@ -155,6 +155,8 @@ mod random;
 pub mod refine;
 mod scaling;
 mod settings;
+#[allow(dead_code)] // until the chain of methods ends with it
+mod smoothing;
 mod solution;
 mod solve;
 mod sparse;
