@@ -22,7 +22,7 @@ fn a_row_with_a_large_coefficient() {
 /// row, too, is no excuse.
 #[test]
 fn a_small_load_beside_a_large_one() {
-    for coupling in [0.0, 1e-6, 1.0, 1e6] {
+    for coupling in [0.0_f64, 1e-6, 1.0, 1e6] {
         let m = mat![[3.0, coupling], [0.0, 3.0]];
         // Smaller ones are rounding errors of what the larger one makes of the row.
         let sizes = (-20..=0).map(|exponent| 10_f64.powi(exponent));
