@@ -98,7 +98,7 @@ fn parts_of_answers_and_of_settings() {
         to_string(&Method::ALL).unwrap(),
         r#"["auto","lemke","newton","interior","qp","pgs"]"#
     );
-    assert_comes_back!([Method; 7], Method::ALL);
+    assert_comes_back!([Method; 8], Method::ALL);
 }
 
 #[test]

@@ -8,12 +8,14 @@ pub(crate) mod memory;
 mod method;
 mod mixed;
 mod settings;
+mod smoothed;
 mod standard;
 
 pub use settings::AutoSettings;
 
 pub(crate) use enumerated::Enumeration;
 use method::{Planned, chain_of};
+pub(crate) use smoothed::Smoothing;
 
 use crate::{Error, Method, Observer, Solution, Solver};
 

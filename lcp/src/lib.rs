@@ -128,7 +128,6 @@ mod certify;
 pub mod cli;
 #[allow(dead_code)] // until the chain of methods begins with it
 mod divide;
-#[allow(dead_code)] // until the chain of methods ends with it
 mod enumerate;
 mod error;
 #[cfg(feature = "exact")]
@@ -155,7 +154,6 @@ mod random;
 pub mod refine;
 mod scaling;
 mod settings;
-#[allow(dead_code)] // until the chain of methods ends with it
 mod smoothing;
 mod solution;
 mod solve;

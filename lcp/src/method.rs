@@ -40,11 +40,14 @@ pub enum Method {
     /// The last resort of [`Auto`](crate::Auto) for small problems: all choices of sides, with proofs.
     #[cfg_attr(feature = "serde", serde(rename = "enumeration"))]
     Enumeration,
+    /// The last resort of [`Auto`](crate::Auto) for larger ones: Newton's method on smoothed equations.
+    #[cfg_attr(feature = "serde", serde(rename = "smoothing"))]
+    Smoothing,
 }
 
 impl Method {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Auto,
         Self::Lemke,
         Self::Newton,
@@ -52,6 +55,7 @@ impl Method {
         Self::QuadraticProgram,
         Self::GaussSeidel,
         Self::Enumeration,
+        Self::Smoothing,
     ];
 
     /// The short name.
@@ -64,6 +68,7 @@ impl Method {
             Self::QuadraticProgram => "qp",
             Self::GaussSeidel => "pgs",
             Self::Enumeration => "enumeration",
+            Self::Smoothing => "smoothing",
         }
     }
 
@@ -77,6 +82,7 @@ impl Method {
             Self::QuadraticProgram => "quadratic programming",
             Self::GaussSeidel => "projected Gauss-Seidel",
             Self::Enumeration => "enumeration",
+            Self::Smoothing => "the smoothed continuation",
         }
     }
 }

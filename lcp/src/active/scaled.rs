@@ -271,7 +271,7 @@ fn idle(
         let part = parts.of(i);
         (is_loaded[part], is_stiff[part], is_open[part])
     };
-    let at_rest = |(loaded, stiff, open): (bool, bool, bool)| !open && !(loaded && stiff);
+    let at_rest = |(loaded, stiff, open): (bool, bool, bool)| !(open || loaded && stiff);
     let displacements: Vec<bool> = (0..n).map(|j| at_rest(of(j)) || moves_nothing[j]).collect();
     let without_force = |(loaded, _, open): (bool, bool, bool)| !loaded && !open;
     let acts = |point: &Point| point.normal.iter().any(|v| *v != 0.0) || point.x_0 <= 0.0;

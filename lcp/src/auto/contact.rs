@@ -33,6 +33,7 @@ impl Planned for Friction2d {
         match method {
             Method::Lemke => Some(Box::new(effort.lemke())),
             Method::Enumeration => Some(Box::new(effort.enumeration())),
+            Method::Smoothing => Some(Box::new(effort.smoothing())),
             Method::Interior => Some(Box::new(effort.interior_point())),
             Method::GaussSeidel => Some(Box::new(effort.sweeps())),
             _ => None,
@@ -94,12 +95,18 @@ impl Planned for Contact2d {
         match method {
             Method::Lemke => Some(Box::new(effort.lemke())),
             Method::Enumeration => Some(Box::new(effort.enumeration())),
+            Method::Smoothing => Some(Box::new(effort.smoothing())),
             Method::Interior => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
             Method::QuadraticProgram => Some(Box::new(effort.quadratic_program())),
             Method::GaussSeidel => Some(Box::new(effort.sweeps())),
             _ => None,
         }
+    }
+
+    /// The interior-point method is the better continuation of this form.
+    fn has_smoothing(&self) -> bool {
+        false
     }
 
     fn is_worth_a_proof(&self, method: Method) -> bool {

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use super::enumerated::{Enumeration, MOST_VARIABLES, is_small};
 use super::memory;
+use super::smoothed::Smoothing;
 use crate::lower::General;
 use crate::{
     Error, InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings, Method, Observer,
@@ -26,7 +27,7 @@ impl Step {
     }
 }
 
-/// The chain of a problem, with the last resort for small ones behind pivots, which it is as fast as.
+/// The chain of a problem with its last resort: for small ones behind pivots, which it is as fast as.
 pub(super) fn chain_of<P: Planned>(problem: &P) -> Vec<Step> {
     let mut steps = problem.steps();
     if problem.pairs() <= MOST_VARIABLES && is_small(&problem.general()) {
@@ -37,6 +38,12 @@ pub(super) fn chain_of<P: Planned>(problem: &P) -> Vec<Step> {
         let pivots = steps.iter().position(|step| step.method == Method::Lemke);
         let place = pivots.map_or(steps.len(), |place| place + 1);
         steps.insert(place, Step::new(Method::Enumeration, words));
+    } else if problem.has_smoothing() {
+        let words = format!(
+            "{} pairs: smoothed equations, from several starts, need no class of matrices either",
+            problem.pairs()
+        );
+        steps.push(Step::new(Method::Smoothing, words));
     }
     steps
 }
@@ -54,6 +61,11 @@ pub trait Planned: General + Sized {
 
     /// A method of the chain with its settings; `None` for all others.
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>>;
+
+    /// Whether the smoothed continuation is worth its time.
+    fn has_smoothing(&self) -> bool {
+        true
+    }
 
     /// Whether a method is worth its time where there is evidence, and no proof yet, that there is no
     /// solution.
@@ -93,6 +105,10 @@ pub struct Effort<'a> {
 impl Effort<'_> {
     pub(super) fn enumeration(&self) -> Enumeration {
         Enumeration { tolerance: self.tolerance, time_limit: self.time_limit }
+    }
+
+    pub(super) fn smoothing(&self) -> Smoothing {
+        Smoothing { tolerance: self.tolerance, time_limit: self.time_limit }
     }
 
     pub(super) fn lemke(&self) -> Lemke {

@@ -35,6 +35,7 @@ impl Planned for MixedLcp {
         match method {
             Method::Lemke => Some(Box::new(effort.lemke())),
             Method::Enumeration => Some(Box::new(effort.enumeration())),
+            Method::Smoothing => Some(Box::new(effort.smoothing())),
             Method::Interior => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
             Method::QuadraticProgram => Some(Box::new(effort.quadratic_program())),
@@ -86,6 +87,7 @@ impl Planned for BoxedLcp {
         match method {
             Method::Lemke => Some(Box::new(effort.lemke())),
             Method::Enumeration => Some(Box::new(effort.enumeration())),
+            Method::Smoothing => Some(Box::new(effort.smoothing())),
             Method::Interior => Some(Box::new(effort.interior_point())),
             Method::GaussSeidel => Some(Box::new(effort.sweeps())),
             _ => None,

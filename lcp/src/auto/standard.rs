@@ -95,6 +95,7 @@ impl Planned for Lcp {
         match method {
             Method::Lemke => Some(Box::new(effort.lemke())),
             Method::Enumeration => Some(Box::new(effort.enumeration())),
+            Method::Smoothing => Some(Box::new(effort.smoothing())),
             Method::Newton => Some(Box::new(effort.newton(is_z_matrix(self.m())))),
             Method::Interior => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
@@ -134,6 +135,7 @@ impl Planned for HorizontalLcp {
         match method {
             Method::Lemke => Some(Box::new(effort.lemke())),
             Method::Enumeration => Some(Box::new(effort.enumeration())),
+            Method::Smoothing => Some(Box::new(effort.smoothing())),
             Method::Newton => {
                 let is_sure = self.to_standard().is_some_and(|it| is_z_matrix(it.lcp().m()));
                 Some(Box::new(effort.newton(is_sure)))

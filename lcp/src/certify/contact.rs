@@ -99,17 +99,14 @@ impl<'a> ContactJudge<'a> {
         let first = first.chain(problem.initial_slips().iter().map(|s| (*s, s.abs())));
         let mut rows = Rows::<X>::new(first);
         terms_of(problem, state, &mut |i, v, x| rows.add(i, v, x));
-        let openings = match openings {
-            Some((gap, slip)) => {
-                assert!(gap.len() == m && slip.len() == m, "a state has the problem's lengths");
-                gap.iter().chain(slip).enumerate().for_each(|(i, v)| rows.add(n + i, -1.0, *v));
-                gap.iter().chain(slip).map(|v| v.rounded()).collect()
-            }
-            None => {
-                let found = rows.rest[n..].iter().map(|v| v.rounded()).collect();
-                rows.rest[n..].fill(X::of(0.0));
-                found
-            }
+        let openings = if let Some((gap, slip)) = openings {
+            assert!(gap.len() == m && slip.len() == m, "a state has the problem's lengths");
+            gap.iter().chain(slip).enumerate().for_each(|(i, v)| rows.add(n + i, -1.0, *v));
+            gap.iter().chain(slip).map(|v| v.rounded()).collect()
+        } else {
+            let found = rows.rest[n..].iter().map(|v| v.rounded()).collect();
+            rows.rest[n..].fill(X::of(0.0));
+            found
         };
         At { judge: self, state, openings, rows: rows.rounded() }
     }

@@ -144,10 +144,13 @@ pub(super) fn residuals(
     ledger.finished(length, precision)
 }
 
+/// Shows the coefficients of a variable: row and value.
+pub(super) type Coefficients<'a> = dyn Fn(&mut dyn FnMut(usize, f64)) + 'a;
+
 /// A variable of a pair: its value, and the coefficients that it has in the rows.
 pub(super) struct Entry<'a> {
     pub(super) value: f64,
-    pub(super) column: &'a dyn Fn(&mut dyn FnMut(usize, f64)),
+    pub(super) column: &'a Coefficients<'a>,
 }
 
 impl<'a> Ledger<'a> {

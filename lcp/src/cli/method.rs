@@ -7,7 +7,7 @@ use clap::builder::PossibleValue;
 
 use super::input::Point;
 use super::{Failure, SolveArgs};
-use crate::auto::{Enumeration, memory};
+use crate::auto::{Enumeration, Smoothing, memory};
 use crate::io::Problem;
 use crate::{
     Auto, AutoSettings, Basis, BoxedLcp, Contact2d, Covering, Error, Friction2d, HorizontalLcp,
@@ -44,6 +44,10 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
         Method::Enumeration => {
             let tolerance = args.tol.unwrap_or(AutoSettings::default().tolerance);
             in_its_form(&Enumeration { tolerance, time_limit }, problem)
+        }
+        Method::Smoothing => {
+            let tolerance = args.tol.unwrap_or(AutoSettings::default().tolerance);
+            in_its_form(&Smoothing { tolerance, time_limit }, problem)
         }
         Method::GaussSeidel => {
             let defaults = ProjectedGaussSeidelSettings::default();
@@ -246,6 +250,7 @@ impl ValueEnum for Method {
             }
             Self::GaussSeidel => "Projected Gauss-Seidel: positive diagonals; bounds, friction",
             Self::Enumeration => "All choices of sides, with proofs: up to 12 pairs",
+            Self::Smoothing => "Newton's method on smoothed equations: where pivots end on a ray",
         }))
     }
 }

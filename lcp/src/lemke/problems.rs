@@ -31,8 +31,8 @@ impl<P: Lowered> Solver<P> for Lemke {
         solve_lowered(problem, self.settings().tolerance, |general, is_other| {
             if is_other {
                 // A start and a covering vector have the pairs of the problem as it was given.
-                let (start, covering) = (WarmStart::None, Covering::Ones);
-                let settings = LemkeSettings { start, covering, ..self.settings().clone() };
+                let (covering, start) = (Covering::Ones, WarmStart::None);
+                let settings = LemkeSettings { covering, start, ..self.settings().clone() };
                 return Self::new(settings).solve_iterating(general, observer);
             }
             self.solve_iterating(general, observer)

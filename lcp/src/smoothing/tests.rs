@@ -28,7 +28,7 @@ fn known_answers_are_found_dense_and_sparse() {
     let mut m =
         Mat::from_fn(n, n, |i, j| if (i + j) % 3 == 0 { random.next_f64() - 0.5 } else { 0.0 });
     (0..n).for_each(|i| m[(i, i)] = 0.5 * n as f64);
-    let z = |j: usize| f64::from(u8::from(j % 2 == 0));
+    let z = |j: usize| f64::from(u8::from(j.is_multiple_of(2)));
     let q = (0..n).map(|i| (0..n).map(|j| -m[(i, j)] * z(j)).sum::<f64>() + 1.0 - z(i)).collect();
     for unit in [1e-8, 1.0, 1e8] {
         let scaled = Mat::from_fn(n, n, |i, j| unit * m[(i, j)]);
@@ -39,7 +39,7 @@ fn known_answers_are_found_dense_and_sparse() {
         for m in [Matrix::from(scaled.clone()), sparse] {
             let problem = Lcp::new(m, q.clone()).expect("fits").into();
             let found = follow(&problem, 0, LIMITS).expect("it arrives");
-            let expected = |j: usize| if j % 2 == 0 { Side::T } else { Side::Y };
+            let expected = |j: usize| if j.is_multiple_of(2) { Side::T } else { Side::Y };
             assert_eq!(found.basis, Basis::new((0..n).map(expected).collect()));
             assert!(is_near(&problem, &found, 1e-8));
         }

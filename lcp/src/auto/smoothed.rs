@@ -1,0 +1,94 @@
+//! The smoothed continuation as a method: the last resort for problems on which pivots end on a ray.
+
+use std::time::{Duration, Instant};
+
+use crate::lower::{General, judged_by};
+use crate::smoothing::{Limits, follow};
+use crate::{
+    Covering, Error, Iteration, Lemke, LemkeSettings, Method, Observer, Solution, Solver, Status,
+    WarmStart,
+};
+
+/// Starts that are tried.
+const STARTS: u64 = 6;
+/// Steps from each.
+const STEPS: usize = 300;
+
+/// Newton's method on smoothed equations, from several starts.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Smoothing {
+    pub(crate) tolerance: f64,
+    pub(crate) time_limit: Option<Duration>,
+}
+
+impl<P: General> Solver<P> for Smoothing {
+    fn method(&self) -> Method {
+        Method::Smoothing
+    }
+
+    fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
+        let general = problem.general();
+        let began = Instant::now();
+        let deadline = self.time_limit.and_then(|limit| began.checked_add(limit));
+        let mut best: Option<Solution> = None;
+        let mut status = Status::Stalled;
+        for start in 0..STARTS {
+            let iteration = usize::try_from(start).unwrap_or(usize::MAX);
+            let residual = best.as_ref().map_or(f64::INFINITY, |best| best.residuals.worst());
+            if observer(&Iteration { iteration, residual }).is_break() {
+                status = Status::Cancelled;
+                break;
+            }
+            if deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+                status = Status::TimeLimit;
+                break;
+            }
+            let Some(found) = follow(&general, start, Limits { steps: STEPS, deadline }) else {
+                continue;
+            };
+            // The sides that it suggests, as a basis that may be the solution itself.
+            let settings = LemkeSettings {
+                tolerance: self.tolerance,
+                time_limit: deadline.map(|it| it.saturating_duration_since(Instant::now())),
+                start: WarmStart::Basis(found.basis),
+                covering: Covering::Ones,
+                max_attempts: 1,
+                prove_infeasible: false,
+                ..LemkeSettings::default()
+            };
+            let solution = Lemke::new(settings).solve(general.as_ref())?;
+            let mut solution = judged_by(problem, solution, self.tolerance);
+            let residuals = problem.residuals_of_pairs(&found.t, &found.y);
+            if !solution.is_solved() && residuals.worst() < solution.residuals.worst() {
+                // The basis may be singular, and the point right.
+                let point = (found.t, found.y);
+                solution = Solution::judged(point, residuals, self.tolerance, Status::Stalled);
+            }
+            solution.contact = problem.state_of_pairs(&solution.t, &solution.y);
+            solution.certificate = None;
+            let is_solved = solution.is_solved();
+            let worst = solution.residuals.worst();
+            if best.as_ref().is_none_or(|best| worst < best.residuals.worst()) {
+                best = Some(solution);
+            }
+            if is_solved {
+                break;
+            }
+        }
+        let mut solution = best.unwrap_or_else(|| {
+            let zero = vec![0.0; general.order()];
+            let residuals = problem.residuals_of_pairs(&zero, &zero);
+            let contact = problem.state_of_pairs(&zero, &zero);
+            let point = (zero.clone(), zero);
+            let mut none = Solution::judged(point, residuals, self.tolerance, status);
+            none.contact = contact;
+            none
+        });
+        if !solution.is_solved() && solution.status != Status::AlmostSolved {
+            solution.status = status;
+        }
+        solution.info.method = Method::Smoothing;
+        solution.info.seconds = began.elapsed().as_secs_f64();
+        Ok(solution)
+    }
+}
