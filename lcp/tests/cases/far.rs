@@ -69,7 +69,7 @@ fn infeasible_by_a_little() {
                     solution.t
                 ),
                 Status::AlmostSolved => {
-                    assert!(is_near && gap < 1e-4, "{name}, {gap:e}: {:?}", solution.t)
+                    assert!(is_near && gap < 1e-4, "{name}, {gap:e}: {:?}", solution.t);
                 }
                 status => assert_ne!(name, AUTO, "{gap:e}: {status} at {:?}", solution.t),
             }

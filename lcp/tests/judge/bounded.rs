@@ -46,16 +46,16 @@ impl Bounded {
             match place[i] {
                 Place::Free => z[i] = draw.number(-3, 3),
                 Place::Lower => {
-                    (lower[i], upper[i], z[i], w[i]) = (bound, bound + far, bound, push)
+                    (lower[i], upper[i], z[i], w[i]) = (bound, bound + far, bound, push);
                 }
                 Place::Upper => {
-                    (lower[i], upper[i], z[i], w[i]) = (bound - far, bound, bound, -push)
+                    (lower[i], upper[i], z[i], w[i]) = (bound - far, bound, bound, -push);
                 }
                 Place::Between => {
-                    (lower[i], upper[i], z[i]) = (bound, bound + room + far, bound + room)
+                    (lower[i], upper[i], z[i]) = (bound, bound + room + far, bound + room);
                 }
                 Place::Fixed => {
-                    (lower[i], upper[i], z[i], w[i]) = (bound, bound, bound, push - 1.0)
+                    (lower[i], upper[i], z[i], w[i]) = (bound, bound, bound, push - 1.0);
                 }
             }
         }
@@ -114,10 +114,10 @@ impl Bounded {
             }
             match place {
                 Place::Lower if w > 0.0 => {
-                    add("z between its bounds with a positive w", i, z + SOME)
+                    add("z between its bounds with a positive w", i, z + SOME);
                 }
                 Place::Upper if w < 0.0 => {
-                    add("z between its bounds with a negative w", i, z - SOME)
+                    add("z between its bounds with a negative w", i, z - SOME);
                 }
                 _ => {}
             }
