@@ -1,7 +1,7 @@
 //! Points `(z, w)` of standard, mixed and boxed problems.
 
 use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
-use super::significance::Term;
+use super::significance::{Term, add_terms};
 use super::{Residuals, weights};
 use crate::extended::Extended;
 use crate::matrix::Column;
@@ -154,11 +154,8 @@ impl<X: Digits> Point for At<'_, X> {
         let of_w = of_w.map(|(i, w)| Term { row: i, variable: n + i, value: w.rounded() });
         let mut terms: Vec<Term> = of_w.collect();
         for (variable, z) in self.z.iter().enumerate().filter(|(_, z)| z.rounded() != 0.0) {
-            self.judge.m.slice(variable).for_each(|row, v| {
-                if v != 0.0 {
-                    terms.push(Term { row, variable, value: v * z.rounded() });
-                }
-            });
+            let column = self.judge.m.slice(variable);
+            add_terms(&mut terms, (variable, z.rounded()), column, &self.judge.weights);
         }
         terms
     }

@@ -1,7 +1,7 @@
 //! Points of the general form.
 
 use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
-use super::significance::Term;
+use super::significance::{Term, add_terms};
 use super::{Residuals, weights};
 use crate::extended::Extended;
 use crate::matrix::Column;
@@ -135,11 +135,7 @@ impl<X: Digits> Point for At<'_, X> {
     fn terms(&self) -> Vec<Term> {
         let mut terms = Vec::new();
         for (variable, x, column) in self.variables() {
-            column.for_each(|row, v| {
-                if v != 0.0 {
-                    terms.push(Term { row, variable, value: v * x.rounded() });
-                }
-            });
+            add_terms(&mut terms, (variable, x.rounded()), column, &self.judge.weights);
         }
         terms
     }

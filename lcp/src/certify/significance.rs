@@ -4,11 +4,18 @@
 //! compared with these the row never holds. Whether it matters is told by its variables: by what they are of the
 //! terms of the other rows in which they appear, and what these are worth. A row is as significant as the weakest link
 //! of the best chain of such shares that leads from it to a row with a load. No unit enters.
+//!
+//! Coefficients that should be zero and are not, by the rounding errors of whoever made them, link nothing.
+
+use crate::matrix::Column;
 
 /// Shares down to two to minus this are as good as one.
 const SLACK: f64 = 10.0;
 /// Shares of two to minus this are rounding errors.
 const ROUNDING: f64 = 50.0;
+/// Coefficients below this part of the largest one of their variable, in units of the loads, are rounding errors of
+/// the data.
+const LEAST_COEFFICIENT: f64 = 1.0 / (1_u64 << 44) as f64;
 /// Shares are told apart by factors of two, down to this power.
 const LEVELS: usize = 1000;
 
@@ -20,6 +27,23 @@ pub(super) struct Term {
     pub(super) row: usize,
     pub(super) variable: usize,
     pub(super) value: f64,
+}
+
+/// Adds the terms of a variable with its column. `felt` is one over the loads that a row feels.
+pub(super) fn add_terms(
+    terms: &mut Vec<Term>,
+    (variable, x): (usize, f64),
+    column: Column<'_>,
+    felt: &[f64],
+) {
+    let mut largest = 0.0_f64;
+    column.for_each(|row, v| largest = largest.max(v.abs() * felt[row]));
+    column.for_each(|row, v| {
+        let is_link = felt[row] == 0.0 || v.abs() * felt[row] >= LEAST_COEFFICIENT * largest;
+        if v * x != 0.0 && is_link {
+            terms.push(Term { row, variable, value: v * x });
+        }
+    });
 }
 
 /// For every row a factor between zero and one. `loads` are the right-hand sides, and `felt` is one over the loads
