@@ -9,16 +9,14 @@
 mod common;
 #[path = "common/sparse.rs"]
 mod sparse;
+#[path = "common/walls.rs"]
+mod walls;
 
 use std::fmt::Write as _;
 
 use faer::sparse::{SparseColMat, Triplet};
 use lcp::{Contact2d, InteriorPoint, InteriorPointSettings, Solver};
-use masonry::forms::Sparse;
-use masonry::model::Model;
-use masonry::scene::{Brick, Joint, Load, Material, Plane, Scene, Support, Wall};
-use masonry::system::System;
-use masonry::units::Units;
+use walls::wall;
 
 /// Length of the walls in metres, and courses.
 const WALLS: [(f64, u32); 3] = [(5.0, 20), (10.0, 40), (20.0, 100)];
@@ -71,27 +69,6 @@ fn line(width: f64, courses: u32, mu: f64) -> String {
         solution.info.factorisations,
         solution.residuals.worst(),
     )
-}
-
-/// A wall in running bond of elastic bricks on a full floor, under its weight and a load on top that is
-/// five times as heavy as the upper course and leans by a tenth. Gives the number of blocks, too.
-fn wall(width: f64, courses: u32, mu: f64) -> (usize, Contact2d) {
-    let top = 0.1 * f64::from(courses);
-    let brick = Brick { length: 0.2, height: 0.1 };
-    let scene = Scene::new("A wall", Units::SI)
-        .plane(Plane::Stress)
-        .thickness(0.1)
-        .material("brick", Material::elastic(1e9, 0.15).density(2000.0))
-        .joint("bed", Joint::mu(mu))
-        .joint("head", Joint::mu(mu))
-        .joint("floor", Joint::mu(mu))
-        .wall(Wall::running_bond("wall", "brick", brick, width, courses).mesh([1, 1]))
-        .support(Support::new("floor", [0.0, 0.0], [width, 0.0], "floor"))
-        .load(Load::traction("top", [0.0, top], [width, top], [1000.0, -10_000.0]));
-    let model = Model::from_scene(&scene).expect("the scene is sound");
-    let system = System::new(&model).expect("the blocks are sound");
-    let problem = Sparse::new(&system).expect("the data are finite").problem;
-    (model.blocks.len(), problem)
 }
 
 /// `K + k C^T C` with the mean diagonal entry of `K` for `k`.

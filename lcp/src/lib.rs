@@ -186,6 +186,9 @@ pub use qp::{QuadraticProgram, QuadraticProgramSettings};
 pub use settings::{Covering, LemkeSettings, WarmStart};
 pub use solution::{Info, Ray, Route, RouteEnd, SoftSprings, Solution, Status};
 pub use solve::{Iteration, Observer, Solver};
+/// For the benches of the workspace.
+#[doc(hidden)]
+pub use sparse::Multifrontal;
 
 /// The programs of the README are compiled and run with the tests.
 #[cfg(doctest)]

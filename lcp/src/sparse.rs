@@ -5,7 +5,7 @@ mod multifrontal;
 mod order;
 
 pub(crate) use lu::{Growing, SparseLu, row_counts};
-pub(crate) use multifrontal::Multifrontal;
+pub use multifrontal::Multifrontal;
 pub(crate) use order::{Turn, elimination_order};
 
 /// Columns of nonzero entries, one after the other.

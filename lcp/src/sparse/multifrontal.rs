@@ -15,7 +15,7 @@ use fronts::Fronts;
 /// pivot that vanishes against its column is replaced by a small one, which iterative refinement of the
 /// caller has to make good. Costs what two sparse Cholesky factorisations of the pattern cost, nearly
 /// all of it in dense matrix products.
-pub(crate) struct Multifrontal {
+pub struct Multifrontal {
     analysis: Analysis,
     fronts: Fronts,
 }
@@ -23,7 +23,10 @@ pub(crate) struct Multifrontal {
 impl Multifrontal {
     /// For the pattern of a square matrix, which must contain every diagonal entry and with every entry
     /// the mirrored one.
-    pub(crate) fn new(pattern: SymbolicSparseColMatRef<'_, usize>) -> Result<Self, FaerError> {
+    ///
+    /// # Errors
+    /// That memory does not suffice.
+    pub fn new(pattern: SymbolicSparseColMatRef<'_, usize>) -> Result<Self, FaerError> {
         let analysis = Analysis::new(pattern)?;
         let fronts = Fronts::new(&analysis);
         Ok(Self { analysis, fronts })
@@ -31,7 +34,7 @@ impl Multifrontal {
 
     /// Factorises for the values of the entries, in the order of the pattern. Gives the number of pivots
     /// that were replaced.
-    pub(crate) fn factorise(&mut self, values: &[f64]) -> usize {
+    pub fn factorise(&mut self, values: &[f64]) -> usize {
         self.fronts.factorise(&self.analysis, values)
     }
 
@@ -41,7 +44,7 @@ impl Multifrontal {
     }
 
     /// Overwrites a right-hand side with the solution for the last factorisation.
-    pub(crate) fn solve(&self, x: &mut [f64]) {
+    pub fn solve(&self, x: &mut [f64]) {
         self.fronts.solve(&self.analysis, x);
     }
 }
