@@ -41,27 +41,30 @@ pub struct Choice {
 ///
 /// | problem | chain |
 /// |---|---|
-/// | [`Lcp`](crate::Lcp), positive diagonal, no positive entry off it | semismooth Newton, then as below |
-/// | [`Lcp`](crate::Lcp), dense, or up to order 500 | Lemke, interior point, quadratic program\*, sweeps† |
-/// | [`Lcp`](crate::Lcp), sparse and larger, symmetric | semismooth Newton†, interior point, quadratic program\*, sweeps†, Lemke |
-/// | [`Lcp`](crate::Lcp), sparse and larger, not symmetric | interior point, semismooth Newton†, sweeps†, Lemke |
+/// | [`Lcp`](crate::Lcp), dense, or up to order 500 | semismooth Newton†, Lemke, interior point§, quadratic program\*, sweeps† |
+/// | [`Lcp`](crate::Lcp), sparse and larger | semismooth Newton†, interior point, quadratic program\*, sweeps†, Lemke |
 /// | [`HorizontalLcp`](crate::HorizontalLcp) | as the standard problem that it is in disguise, else Lemke |
-/// | [`MixedLcp`](crate::MixedLcp), dense, or up to order 500 | Lemke, interior point, quadratic program\* |
+/// | [`MixedLcp`](crate::MixedLcp), dense, or up to order 500 | Lemke, interior point§, quadratic program\* |
 /// | [`MixedLcp`](crate::MixedLcp), sparse and larger | interior point, quadratic program\*, Lemke |
-/// | [`BoxedLcp`](crate::BoxedLcp), dense, or up to order 500 | Lemke, interior point‡, sweeps† |
+/// | [`BoxedLcp`](crate::BoxedLcp), dense, or up to order 500 | Lemke, interior point‡§, sweeps† |
 /// | [`BoxedLcp`](crate::BoxedLcp), sparse and larger | interior point‡, sweeps†, Lemke |
-/// | [`Friction2d`](crate::Friction2d), dense, or up to order 500 | Lemke, interior point, sweeps† |
+/// | [`Friction2d`](crate::Friction2d), dense, or up to order 500 | Lemke, interior point§, sweeps† |
 /// | [`Friction2d`](crate::Friction2d), sparse and larger | interior point, sweeps†, Lemke |
 /// | [`Contact2d`](crate::Contact2d), up to 40 points | Lemke, interior point, quadratic programs, sweeps |
 /// | [`Contact2d`](crate::Contact2d), up to 500 points | interior point, quadratic programs, Lemke, sweeps |
 /// | [`Contact2d`](crate::Contact2d), larger | interior point, quadratic programs, sweeps, Lemke |
 ///
 /// \* with the feature `clarabel`, where `M` is symmetric, for mixed problems within the two kinds of
-/// variables and skew between them; † where the diagonal is positive; ‡ without free variables.
+/// variables and skew between them; † where the diagonal is positive; ‡ without free variables; § sparse, or dense
+/// up to order 200.
+///
+/// Problems of up to 12 pairs, apart from free variables, are never left open: after Lemke's method all choices of sides
+/// are gone through by branching, with a solution or a proof for each. All larger ones but [`Contact2d`](crate::Contact2d)
+/// end with Newton's method on smoothed equations, from several starts.
 ///
 /// # When it ends
-/// With [`Solved`](crate::Status::Solved), with [`Infeasible`](crate::Status::Infeasible) and a proof, which
-/// was checked, and when the time is over. A method that does not treat the problem, or takes more memory than there is,
+/// With [`Solved`](crate::Status::Solved), with [`Infeasible`](crate::Status::Infeasible) or
+/// [`NoSolution`](crate::Status::NoSolution) and a proof, which was checked, and when the time is over. A method that does not treat the problem, or takes more memory than there is,
 /// is passed over. After [`NoEquilibrium`](crate::Status::NoEquilibrium) of more than 500 contact points only
 /// the quadratic program is asked, which may find a proof.
 ///
