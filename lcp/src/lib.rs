@@ -126,8 +126,6 @@ mod basis;
 mod certify;
 #[cfg(feature = "cli")]
 pub mod cli;
-#[allow(dead_code)] // until the chain of methods begins with it
-mod divide;
 mod enumerate;
 mod error;
 #[cfg(feature = "exact")]

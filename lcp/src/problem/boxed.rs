@@ -194,12 +194,6 @@ impl BoxedLcp {
         (t, y)
     }
 
-    /// The pair of the upper bound of every variable that has two bounds, in the general form.
-    pub(crate) fn upper_pairs(&self) -> Vec<Option<usize>> {
-        let pair = |kind| if let Kind::Both(pair) = kind { Some(pair) } else { None };
-        self.kinds().into_iter().map(pair).collect()
-    }
-
     /// The same problem with bounds that are [far](FAR) away taken for infinite; `None` where there are none.
     pub(crate) fn without_far_bounds(&self) -> Option<Self> {
         let sizes = self.sizes();
