@@ -3,7 +3,9 @@
 //! `cargo bench --bench lu` prints a table. Every line is one run on one thread, of every factorisation the
 //! fastest of five; symbolic parts are apart, since `lcp` needs one for a whole solve.
 
+#[allow(dead_code, reason = "other benches write their tables")]
 mod common;
+#[allow(dead_code, reason = "other benches measure memory")]
 #[path = "common/sparse.rs"]
 mod sparse;
 #[path = "common/walls.rs"]
