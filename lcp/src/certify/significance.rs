@@ -10,7 +10,7 @@
 use crate::matrix::Column;
 
 /// Shares down to two to minus this are as good as one.
-const SLACK: f64 = 10.0;
+const SLACK: f64 = 5.0;
 /// Shares of two to minus this are rounding errors.
 const ROUNDING: f64 = 50.0;
 /// Coefficients below this part of the largest one of their variable, in units of the loads, are rounding errors of

@@ -11,7 +11,8 @@ const ROUNDS: usize = 4;
 
 /// For every row one over the loads that it feels, in units of the row: the largest right-hand side of its
 /// connected part, and of others by how weakly they are coupled to it. `loads` are the sizes of the right-hand
-/// sides. Zero where there are none, and only the terms measure.
+/// sides. A part without any takes the largest of the others; without any at all they are zero, and only the terms
+/// measure.
 pub(super) fn weights(columns: &[Column<'_>], loads: &[f64]) -> Vec<f64> {
     let rows = loads.len();
     let (row, col) = equilibrate(rows, columns, GIVEN);
@@ -55,7 +56,13 @@ pub(super) fn weights_of(
             });
         }
     }
-    (0..rows).map(|i| row[i] * reciprocal(felt[part[i]])).collect()
+    let largest = felt.iter().fold(0.0_f64, |max, v| max.max(*v));
+    (0..rows).map(|i| row[i] * reciprocal(or_largest(felt[part[i]], largest))).collect()
+}
+
+/// Where no load is felt, what is zero at the solution is measured by the loads of other parts.
+pub(super) fn or_largest(felt: f64, largest: f64) -> f64 {
+    if felt > 0.0 { felt } else { largest }
 }
 
 /// Zero of zero.

@@ -9,9 +9,9 @@ use super::draw::Draw;
 
 /// What is changed of a component or of the terms of a row.
 const CHANGE: f64 = 1e-3;
-/// What the judge must say at least of such a change: ten times the usual tolerance. Where no load acts on a block
+/// What the judge must say at least of such a change: twice the usual tolerance. Where no load acts on a block
 /// that is coupled weakly to others its rows count less.
-const SEEN: f64 = 1e-9;
+const SEEN: f64 = 2e-10;
 
 /// A problem whose right-hand side is made for a point, in integers.
 pub(crate) trait Planted {

@@ -1,187 +1,279 @@
 //! How well a point solves a problem, and whether a proof is one, in numbers of twice the digits.
 //!
-//! The measures are those of `HorizontalLcp::residuals` and `Contact2d::residuals`, written anew from their
-//! definitions.
+//! The measures are those of the library, written anew: a row by its own terms, a sign or a pair by what it takes to
+//! set it right in the rows. Where all terms of a row vanish at the solution a part of the loads measures it.
 
-use lcp::{Contact2d, HorizontalLcp, Matrix, Solution};
+use lcp::{Contact2d, Friction2d, HorizontalLcp, Lcp, Matrix, MixedLcp, Solution};
 
 use super::double::{Double, shifted};
 use super::problem::Problem;
 
-/// A denominator is at least this part of the largest term that a row could have.
+/// A row is measured by no less than this part of the loads that act on it.
 const FLOOR: f64 = 1.0 / 1024.0;
 
 /// How far a point is from a solution, dimensionless.
 #[derive(Debug, Clone, Copy)]
 pub struct Measure {
-    /// The measure of the library: equations row by row, signs and products of the pairs.
+    /// The measure of the library: rows, signs and pairs.
     pub residual: f64,
-    /// The largest lack of an equation relative to the largest terms of any, and the pairs likewise; of contact
-    /// problems the pairs are measured as in the residual.
+    /// What is left of an equation relative to the largest terms of any, in equilibrated units; and signs and
+    /// pairs as in the residual.
     pub backward: f64,
 }
 
 impl Measure {
     pub fn of(problem: &Problem, solution: &Solution) -> Self {
-        let general = problem.general();
-        let point = (&solution.t[..], &solution.y[..]);
+        let (t, y) = (&solution.t[..], &solution.y[..]);
         match problem {
-            Problem::Contact(contact) => {
-                let residual = of_contact(contact, solution);
-                Self { residual, backward: of_equations(&general, point) }
-            }
-            _ => of_general(&general, point),
+            Problem::Standard(problem) => System::of_standard(problem, t, y),
+            Problem::General(problem) => System::of_general(problem, t, y),
+            Problem::Mixed(problem) => System::of_mixed(problem, problem.recover(t, y)),
+            Problem::Boxed(problem) => System::of_general(&problem.to_general(), t, y),
+            Problem::Contact(problem) => System::of_contact(problem, solution),
+            Problem::Friction(problem) => System::of_friction(problem, t),
         }
-    }
-}
-
-/// What a row lacks of its right-hand side.
-#[derive(Clone)]
-struct Row {
-    /// All that follows is in units of two to this power.
-    exponent: Option<i32>,
-    sum: Double,
-    size: f64,
-    largest: f64,
-}
-
-impl Row {
-    fn add(&mut self, v: Double) {
-        self.sum = self.sum + v;
-        self.size += v.rounded().abs();
-    }
-
-    fn relative(&self) -> f64 {
-        share(self.sum.rounded().abs(), self.size.max(FLOOR * self.largest))
+        .measure()
     }
 }
 
 pub fn of_general(problem: &HorizontalLcp, (t, y): (&[f64], &[f64])) -> Measure {
-    if t.iter().chain(y).any(|v| !v.is_finite()) {
-        return Measure { residual: f64::INFINITY, backward: f64::INFINITY };
+    System::of_general(problem, t, y).measure()
+}
+
+/// Rows with their right-hand sides, the columns and values of all variables, and what is asked of them.
+struct System {
+    right: Vec<f64>,
+    columns: Vec<Vec<(usize, f64)>>,
+    values: Vec<f64>,
+    /// Lists of variables with numbers that may not be negative, and of which one is zero.
+    conditions: Vec<Vec<(usize, f64)>>,
+    /// Rows before this one are forces, of contact, and lengths from it on.
+    forces: usize,
+}
+
+impl System {
+    fn of_general(problem: &HorizontalLcp, t: &[f64], y: &[f64]) -> Self {
+        let n = problem.order();
+        let columns = entries(problem.a(), 1.0).chain(entries(problem.b(), 1.0)).collect();
+        let conditions = (0..n).map(|k| vec![(k, t[k]), (n + k, y[k])]).collect();
+        let values = [t, y].concat();
+        Self { right: problem.c().to_vec(), columns, values, conditions, forces: n }
     }
-    let rows = rows(problem, (t, y));
-    let equation = rows.iter().map(Row::relative).fold(0.0, larger);
-    let (t_max, y_max) = (largest(t), largest(y));
-    let pairs = t.iter().zip(y).map(|(t, y)| relative(*t, t_max).min(relative(*y, y_max)).abs());
-    let natural = pairs.fold(0.0, larger);
-    Measure { residual: equation.max(natural), backward: backward(&rows).max(natural) }
-}
 
-/// The largest lack of an equation relative to the largest terms of any.
-fn of_equations(problem: &HorizontalLcp, point: (&[f64], &[f64])) -> f64 {
-    let is_finite = point.0.iter().chain(point.1).all(|v| v.is_finite());
-    if is_finite { backward(&rows(problem, point)) } else { f64::INFINITY }
-}
+    fn of_standard(problem: &Lcp, z: &[f64], w: &[f64]) -> Self {
+        let n = problem.order();
+        let columns = entries(problem.m(), -1.0).chain(units(n, 0, 1.0)).collect();
+        let conditions = (0..n).map(|k| vec![(k, z[k]), (n + k, w[k])]).collect();
+        let values = [z, w].concat();
+        Self { right: problem.q().to_vec(), columns, values, conditions, forces: n }
+    }
 
-fn backward(rows: &[Row]) -> f64 {
-    let common = rows.iter().filter_map(|row| row.exponent).max().unwrap_or(0);
-    let in_common = |v: f64, row: &Row| shifted(v, row.exponent.map_or(0, |it| it - common));
-    let lack = rows.iter().map(|row| in_common(row.sum.rounded().abs(), row)).fold(0.0, larger);
-    let terms = rows.iter().map(|row| in_common(row.size, row)).fold(0.0, larger);
-    share(lack, terms)
-}
+    fn of_mixed(problem: &MixedLcp, (z, w): (Vec<f64>, Vec<f64>)) -> Self {
+        let n = problem.order();
+        let columns = entries(problem.m(), -1.0).chain(units(n, 0, 1.0)).collect();
+        let pairs = (0..n).filter(|k| !problem.free()[*k]);
+        let mut conditions: Vec<_> = pairs.map(|k| vec![(k, z[k]), (n + k, w[k])]).collect();
+        let free = (0..n).filter(|k| problem.free()[*k]);
+        conditions.extend(free.map(|k| vec![(n + k, -w[k].abs())]));
+        let values = [z, w].concat();
+        Self { right: problem.q().to_vec(), columns, values, conditions, forces: n }
+    }
 
-/// Of every row what it lacks and its terms, without overflow whatever the units.
-fn rows(problem: &HorizontalLcp, (t, y): (&[f64], &[f64])) -> Vec<Row> {
-    let zero = Row { exponent: None, sum: Double::from(0.0), size: 0.0, largest: 0.0 };
-    let mut rows = vec![zero; problem.order()];
-    let sides: [(&Matrix, &[f64]); 2] = [(problem.a(), t), (problem.b(), y)];
-    let units = sides.map(|(_, x)| exponent(largest(x)));
-    for ((matrix, x), unit) in sides.into_iter().zip(units) {
-        let Some(unit) = unit else { continue };
-        for j in 0..x.len() {
-            for (i, v) in matrix.column(j) {
-                rows[i].exponent = rows[i].exponent.max(exponent(v).map(|it| it + unit));
+    /// Displacements, normal and tangential forces, gaps and slips.
+    fn of_contact(problem: &Contact2d, solution: &Solution) -> Self {
+        let (n, m) = (problem.displacements(), problem.points());
+        let [k, c_n, c_t] = [problem.stiffness(), problem.normal(), problem.tangent()]
+            .map(|matrix| Matrix::from(matrix.clone()));
+        let displacements = (0..n).map(|j| {
+            let gaps = c_n.column(j).map(|(i, v)| (n + i, v));
+            k.column(j).chain(gaps).chain(c_t.column(j).map(|(i, v)| (n + m + i, v))).collect()
+        });
+        let mut columns: Vec<Vec<_>> = displacements.collect();
+        let forces = |c: &Matrix, i: usize| (0..n).map(|j| (j, -c[(i, j)])).collect();
+        columns.extend([&c_n, &c_t].into_iter().flat_map(|c| (0..m).map(move |i| forces(c, i))));
+        columns.extend(units(2 * m, n, -1.0));
+        let initial = problem.initial_gaps().iter().chain(problem.initial_slips()).map(|v| -v);
+        let right = problem.loads().iter().copied().chain(initial).collect();
+        let at = solution.contact.clone().unwrap();
+        let laws = (0..m).flat_map(|i| {
+            let (force, opening) = ((at.t_n[i], at.t_t[i]), (at.gap[i], at.slip[i]));
+            law(
+                problem.mu()[i],
+                (force, opening),
+                [n, n + m, n + 2 * m, n + 3 * m].map(|it| it + i),
+            )
+        });
+        let conditions = laws.collect();
+        let values = [at.u, at.t_n, at.t_t, at.gap, at.slip].concat();
+        Self { right, columns, values, conditions, forces: n }
+    }
+
+    /// Forces and velocities, which follow from them.
+    fn of_friction(problem: &Friction2d, t: &[f64]) -> Self {
+        let (m, forces) = (problem.contacts(), problem.forces(t));
+        let pairs = forces.normal.iter().zip(&forces.tangential);
+        let forces: Vec<f64> = pairs.flat_map(|(n, t)| [*n, *t]).collect();
+        let mut v: Vec<Double> = problem.q().iter().map(|q| Double::from(*q)).collect();
+        for (j, force) in forces.iter().enumerate() {
+            let products =
+                problem.w().column(j).map(|(i, w)| (i, Double::from(w) * (*force).into()));
+            products.for_each(|(i, product)| v[i] = v[i] + product);
+        }
+        let v: Vec<f64> = v.into_iter().map(Double::rounded).collect();
+        let laws = (0..m).flat_map(|i| {
+            let [n, t] = [2 * i, 2 * i + 1];
+            let at = ((forces[n], forces[t]), (v[n], v[t]));
+            law(problem.mu()[i], at, [n, t, 2 * m + n, 2 * m + t])
+        });
+        let conditions = laws.collect();
+        let columns = entries(problem.w(), -1.0).chain(units(2 * m, 0, 1.0)).collect();
+        let values = [forces, v].concat();
+        Self { right: problem.q().to_vec(), columns, values, conditions, forces: 2 * m }
+    }
+
+    fn measure(&self) -> Measure {
+        if self.values.iter().any(|v| !v.is_finite()) {
+            return Measure { residual: f64::INFINITY, backward: f64::INFINITY };
+        }
+        let scaled = self.equilibrated();
+        let mut rest: Vec<Double> = scaled.right.iter().map(|c| Double::from(-c)).collect();
+        let mut terms: Vec<f64> = scaled.right.iter().map(|c| c.abs()).collect();
+        for (column, x) in scaled.columns.iter().zip(&scaled.values) {
+            for (i, v) in column {
+                let product = Double::from(*v) * Double::from(*x);
+                rest[*i] = rest[*i] + product;
+                terms[*i] += product.rounded().abs();
             }
         }
+        let rest: Vec<f64> = rest.into_iter().map(|it| it.rounded().abs()).collect();
+        let all = largest(&terms);
+        for (terms, load) in terms.iter_mut().zip(scaled.loads()) {
+            *terms = terms.max(FLOOR * load);
+        }
+        let rows = rest.iter().zip(&terms).map(|(rest, terms)| share(*rest, *terms));
+        let effect = |(variable, v): &(usize, f64)| {
+            let entries = scaled.columns[*variable].iter().filter(|(_, a)| *a != 0.0);
+            let shares = entries.map(|(i, a)| share((a * v).abs(), terms[*i]));
+            shares.reduce(larger).unwrap_or(if *v == 0.0 { 0.0 } else { 1.0 })
+        };
+        let natural = scaled.conditions.iter().map(|list| {
+            let negative = list.iter().filter(|(_, v)| *v < 0.0).map(effect).fold(0.0, larger);
+            let positive = list.iter().map(|it| if it.1 > 0.0 { effect(it) } else { 0.0 });
+            larger(negative, positive.fold(f64::INFINITY, f64::min))
+        });
+        let natural = natural.fold(0.0, larger);
+        let backward = share(rest.iter().copied().fold(0.0, larger), all);
+        Measure {
+            residual: larger(rows.fold(0.0, larger), natural),
+            backward: larger(backward, natural),
+        }
     }
-    for (row, &c) in rows.iter_mut().zip(problem.c()) {
-        row.exponent = row.exponent.max(exponent(c));
-        row.add(Double::from(shifted(-c, -row.exponent.unwrap_or(0))));
-    }
-    for ((matrix, x), unit) in sides.into_iter().zip(units) {
-        let Some(unit) = unit else { continue };
-        let x_max = shifted(largest(x), -unit);
-        for (j, &x) in x.iter().enumerate() {
-            for (i, v) in matrix.column(j).filter(|(_, v)| *v != 0.0) {
-                let v = shifted(v, unit - rows[i].exponent.unwrap_or(0));
-                rows[i].add(Double::from(v) * Double::from(shifted(x, -unit)));
-                rows[i].largest = rows[i].largest.max(v.abs() * x_max);
+
+    /// The same in units in which the largest entries of rows and columns are near one: powers of two.
+    fn equilibrated(&self) -> Self {
+        let (mut row, mut column) =
+            (vec![0.0_f64; self.right.len()], vec![0.0_f64; self.columns.len()]);
+        for _ in 0..20 {
+            let none = f64::NEG_INFINITY;
+            let (mut of_row, mut of_column) = (vec![none; row.len()], vec![none; column.len()]);
+            for (j, entries) in self.columns.iter().enumerate() {
+                for (i, v) in entries.iter().filter(|(_, v)| *v != 0.0) {
+                    let size = v.abs().log2() + row[*i] + column[j];
+                    (of_row[*i], of_column[j]) = (of_row[*i].max(size), of_column[j].max(size));
+                }
+            }
+            for (unit, size) in row.iter_mut().zip(of_row).chain(column.iter_mut().zip(of_column)) {
+                *unit -= if size > none { 0.5 * size } else { 0.0 };
             }
         }
+        #[allow(clippy::cast_possible_truncation, reason = "a few thousand at most")]
+        let [row, column] = [row, column].map(|it| it.iter().map(|v| v.round() as i32).collect());
+        let (row, column): (Vec<i32>, Vec<i32>) = (row, column);
+        let of_variable = |(j, v): (usize, f64)| (j, shifted(v, -column[j]));
+        let of_entry = |j: usize, (i, v): &(usize, f64)| (*i, shifted(*v, row[*i] + column[j]));
+        let columns = self.columns.iter().enumerate();
+        Self {
+            right: self.right.iter().zip(&row).map(|(c, e)| shifted(*c, *e)).collect(),
+            columns: columns.map(|(j, it)| it.iter().map(|it| of_entry(j, it)).collect()).collect(),
+            values: self.values.iter().copied().enumerate().map(|it| of_variable(it).1).collect(),
+            conditions: self
+                .conditions
+                .iter()
+                .map(|list| list.iter().copied().map(of_variable).collect())
+                .collect(),
+            forces: self.forces,
+        }
     }
-    rows
+
+    /// For every row the largest load on its connected part. What forces make of lengths is told by the stiffest
+    /// diagonal entry, and what lengths make of forces by the softest.
+    fn loads(&self) -> Vec<f64> {
+        let mut part: Vec<usize> = (0..self.right.len()).collect();
+        let mut is_same = false;
+        while !is_same {
+            is_same = true;
+            for column in &self.columns {
+                let rows = || column.iter().filter(|(_, v)| *v != 0.0).map(|(i, _)| *i);
+                let Some(least) = rows().map(|i| part[i]).min() else { continue };
+                is_same &= rows().all(|i| part[i] == least);
+                rows().for_each(|i| part[i] = least);
+            }
+        }
+        let mut loads = vec![[0.0_f64; 2]; part.len()];
+        let mut stiffness = vec![[f64::INFINITY, 0.0]; part.len()];
+        for (i, c) in self.right.iter().enumerate() {
+            let load = &mut loads[part[i]][usize::from(i >= self.forces)];
+            *load = load.max(c.abs());
+        }
+        let is_contact = self.forces < part.len();
+        for j in 0..if is_contact { self.forces } else { 0 } {
+            let diagonal = self.columns[j].iter().filter(|(i, v)| *i == j && *v > 0.0);
+            let [softest, stiffest] = &mut stiffness[part[j]];
+            diagonal.for_each(|(_, v)| (*softest, *stiffest) = (softest.min(*v), stiffest.max(*v)));
+        }
+        let felt = |i: usize| {
+            let ([force, length], [softest, stiffest]) = (loads[part[i]], stiffness[part[i]]);
+            match (stiffest > 0.0, i < self.forces) {
+                (true, true) => force.max(softest * length),
+                (true, false) => length.max(force / stiffest),
+                (false, is_force) => {
+                    if is_force {
+                        force
+                    } else {
+                        length
+                    }
+                }
+            }
+        };
+        (0..part.len()).map(felt).collect()
+    }
 }
 
-/// The measure of a contact problem: displacements in units of their stiffness, gaps in units of the largest.
-fn of_contact(problem: &Contact2d, solution: &Solution) -> f64 {
-    let Some(state) = &solution.contact else { return f64::INFINITY };
-    let (u, t_n, t_t) = (&state.u, &state.t_n, &state.t_t);
-    let [k, c_n, c_t] = [problem.stiffness(), problem.normal(), problem.tangent()]
-        .map(|matrix| Matrix::from(matrix.clone()));
-    let root = |j: usize| k[(j, j)].abs().sqrt();
-    let has_friction = |i: usize| problem.mu()[i] > 0.0;
-    let tangential = |j: usize| c_t.column(j).filter(|(i, _)| has_friction(*i));
-    let (mut gap, mut slip): (Vec<Double>, Vec<Double>) = problem
-        .initial_gaps()
-        .iter()
-        .zip(problem.initial_slips())
-        .map(|(x, s)| (Double::from(*x), Double::from(*s)))
-        .unzip();
-    let friction = problem.initial_slips().iter().enumerate().filter(|(i, _)| has_friction(*i));
-    let first = friction.fold(largest(problem.initial_gaps()), |max, (_, s)| max.max(s.abs()));
-    let mut length = first;
-    for (j, &u) in u.iter().enumerate() {
-        for (i, v) in c_n.column(j) {
-            gap[i] = gap[i] + Double::from(v) * Double::from(u);
-            length = length.max((v * u).abs());
-        }
-        for (i, v) in tangential(j) {
-            slip[i] = slip[i] + Double::from(v) * Double::from(u);
-            length = length.max((v * u).abs());
-        }
+/// Contact and friction, of which the two directions have a condition each: normal and tangential force, gap and slip.
+fn law(
+    mu: f64,
+    ((t_n, t_t), (gap, slip)): ((f64, f64), (f64, f64)),
+    at: [usize; 4],
+) -> Vec<Vec<(usize, f64)>> {
+    let mut conditions = vec![vec![(at[0], t_n), (at[2], gap)]];
+    if mu == 0.0 {
+        conditions.push(vec![(at[1], -t_t.abs())]);
+        return conditions;
     }
-    let t_max = largest(t_n).max(largest(t_t));
-    let energy = u.iter().enumerate().map(|(j, u)| root(j) * u.abs()).fold(0.0, f64::max);
-    let (mut worst, mut load, mut contact, mut direct) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
-    for (j, &f) in problem.loads().iter().enumerate() {
-        let mut row =
-            Row { exponent: None, sum: Double::from(0.0), size: 0.0, largest: root(j) * energy };
-        row.add(Double::from(-f));
-        k.column(j).for_each(|(i, v)| row.add(Double::from(v) * Double::from(u[i])));
-        let mut coefficient = 0.0_f64;
-        let contacts = c_n.column(j).map(|(i, v)| (v, t_n[i]));
-        for (v, t) in contacts.chain(tangential(j).map(|(i, v)| (v, t_t[i]))) {
-            row.add(Double::from(-v) * Double::from(t));
-            row.largest = row.largest.max(v.abs() * t_max);
-            coefficient = coefficient.max(v.abs());
-        }
-        worst = larger(worst, row.relative());
-        if root(j) > 0.0 {
-            load = load.max(f.abs() / root(j));
-            contact = contact.max(coefficient / root(j));
-        } else if coefficient > 0.0 {
-            direct = direct.max(f.abs() / coefficient);
-        }
-    }
-    let balancing = if contact > 0.0 { load / contact } else { 0.0 };
-    let force = t_max.max(direct).max(balancing);
-    let length = length.max(load * contact);
-    let mut pair = |t: Double, y: Double| {
-        let least = relative(t.rounded(), force).min(relative(y.rounded(), length));
-        worst = larger(worst, least.abs());
-    };
-    for i in 0..problem.points() {
-        pair(Double::from(t_n[i]), gap[i]);
-        if has_friction(i) {
-            let bound = Double::from(problem.mu()[i]) * Double::from(t_n[i]);
-            let positive = |v: Double| if v.rounded() > 0.0 { v } else { Double::from(0.0) };
-            pair(bound + Double::from(t_t[i]), positive(slip[i]));
-            pair(bound - Double::from(t_t[i]), positive(-slip[i]));
-        }
-    }
-    worst
+    let bound = mu * t_n.max(0.0);
+    let directions = [(bound + t_t, slip), (bound - t_t, -slip)];
+    conditions.extend(directions.map(|(force, slip)| vec![(at[1], force), (at[3], slip.max(0.0))]));
+    conditions
+}
+
+/// The columns of a matrix times a number.
+fn entries(matrix: &Matrix, by: f64) -> impl Iterator<Item = Vec<(usize, f64)>> {
+    (0..matrix.ncols()).map(move |j| matrix.column(j).map(|(i, v)| (i, by * v)).collect())
+}
+
+/// Columns of one entry.
+fn units(count: usize, first: usize, v: f64) -> impl Iterator<Item = Vec<(usize, f64)>> {
+    (0..count).map(move |i| vec![(first + i, v)])
 }
 
 /// Rounding errors of a product with a proof, relative to its terms, and the least that it must exceed them by.
@@ -209,10 +301,6 @@ fn share(part: f64, whole: f64) -> f64 {
     if part <= 0.0 { 0.0 } else { part / whole }
 }
 
-fn relative(v: f64, unit: f64) -> f64 {
-    if unit > 0.0 { v / unit } else { 0.0 }
-}
-
 /// The larger one; what is no number is larger than all.
 fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.max(b) }
@@ -220,10 +308,4 @@ fn larger(a: f64, b: f64) -> f64 {
 
 pub fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |max, v| max.max(v.abs()))
-}
-
-/// The power of two next to a number, from below; `None` of zero.
-fn exponent(v: f64) -> Option<i32> {
-    #[allow(clippy::cast_possible_truncation, reason = "between -1074 and 1023")]
-    (v != 0.0).then(|| v.abs().log2().floor() as i32)
 }
