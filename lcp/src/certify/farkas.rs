@@ -9,7 +9,9 @@ use crate::{HorizontalLcp, Side};
 
 /// Rounding of a sum, for each of its terms, relative to their sizes.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
-/// How many times its rounding the value that must be positive has to be.
+/// Products with columns above this part of their terms are no rounding errors of a vector that was computed.
+const LARGEST_ROUNDING: f64 = 1e-12;
+/// How many times the largest of these the value that must be positive has to be.
 const CLEAR: f64 = 1024.0;
 
 /// Whether a vector proves that the linear conditions of a problem have no solution.
@@ -21,8 +23,8 @@ pub(crate) fn is_proof(problem: &HorizontalLcp, pi: &[f64]) -> bool {
 /// Whether `pi . a <= 0` for all columns and `pi . c > 0`, so that no nonnegative combination of the
 /// columns gives `c` (Farkas 1902).
 ///
-/// The products are summed in twice the digits. Those with the columns may be positive by the rounding
-/// of `pi`, relative to their terms, and `pi . c` has to be far above that.
+/// The products are summed in twice the digits. Those with the columns may be positive by rounding errors of `pi`,
+/// relative to their terms, and `pi . c` has to be far above that.
 pub(crate) fn is_proof_of<'a>(
     columns: impl IntoIterator<Item = Column<'a>>,
     c: &[f64],
@@ -32,12 +34,17 @@ pub(crate) fn is_proof_of<'a>(
         return false;
     }
     let (gap, size, terms) = product(Column::Dense(c), pi);
-    let is_clear = size.is_finite() && gap > CLEAR * ROUNDING * terms * size;
-    let is_separated = |column: Column<'_>| {
+    let mut rounding = ROUNDING * terms;
+    for column in columns {
         let (sum, size, terms) = product(column, pi);
-        size.is_finite() && sum <= ROUNDING * terms * size
-    };
-    is_clear && columns.into_iter().all(is_separated)
+        if !size.is_finite() || sum > LARGEST_ROUNDING.max(ROUNDING * terms) * size {
+            return false;
+        }
+        if sum > 0.0 {
+            rounding = rounding.max(sum / size);
+        }
+    }
+    size.is_finite() && gap > CLEAR * rounding * size
 }
 
 /// The product with a column, the sum of the sizes of its terms, and their number.

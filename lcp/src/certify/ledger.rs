@@ -59,7 +59,7 @@ pub(crate) enum Precision {
 /// More than this of the loads is not a rounding error, however large the terms are.
 const LARGEST_ROUNDING: f64 = 1e-6;
 /// The rounding error of a row whose variables are rounded, relative to its terms.
-const ROUNDING: f64 = 2.0 * f64::EPSILON;
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Rows at a point.
 pub(super) struct Rows<X> {
