@@ -40,10 +40,16 @@ pub(super) fn solve_basis(problem: &Equilibrated<'_>, basis: &Basis) -> Option<P
         return None;
     }
     let judged = |x: &[f64]| {
-        let values = Values::new(problem, basis, x);
+        let mut values = Values::new(problem, basis, x);
         let mut residuals = problem.judge.residuals(&values.t, &values.y, Precision::Exact);
         if residuals.loads > HIDDEN && residuals.equation.max(residuals.natural) <= HIDDEN {
-            let low = if is_accurate { low.clone() } else { rest_of(&matrix, &right, x) };
+            let mut low = low.clone();
+            if !is_accurate {
+                let completed;
+                (completed, low) = with_rest(&matrix, &right, x);
+                values = Values::new(problem, basis, &completed);
+                residuals = problem.judge.residuals(&values.t, &values.y, Precision::Exact);
+            }
             let exact = values.exact_loads(problem, basis, &low);
             let rounded = problem.judge.residuals(&values.t, &values.y, Precision::Rounded).loads;
             residuals.loads = residuals.loads.min(exact.max(rounded));
@@ -104,15 +110,19 @@ fn refined(matrix: &BasisMatrix, right: &[f64], accurate: bool) -> (Vec<f64>, Ve
     (x, low)
 }
 
-/// What rounding leaves out of a solution that was refined in `f64`.
-fn rest_of(matrix: &BasisMatrix, right: &[f64], x: &[f64]) -> Vec<f64> {
+/// A solution that was refined in `f64` with all its digits, and what rounding it leaves out. Zeros stay.
+fn with_rest(matrix: &BasisMatrix, right: &[f64], x: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let mut low = vec![0.0; x.len()];
     for _ in 0..REFINEMENTS {
         let mut step = matrix.accurate_residual(right, x, &low);
         matrix.solve(&mut step);
         low.iter_mut().zip(&step).for_each(|(low, step)| *low += step);
     }
-    low
+    let sums = x.iter().zip(&low).map(|(x, low)| {
+        let sum = if *x == 0.0 { 0.0 } else { x + low };
+        (sum, low - (sum - x))
+    });
+    sums.unzip()
 }
 
 /// The pairs of a basis, in units of the problem.
