@@ -155,7 +155,7 @@ impl<X: Digits> Point for At<'_, X> {
         let mut terms: Vec<Term> = of_w.collect();
         for (variable, z) in self.z.iter().enumerate().filter(|(_, z)| z.rounded() != 0.0) {
             let column = self.judge.m.slice(variable);
-            add_terms(&mut terms, (variable, z.rounded()), column, &self.judge.weights);
+            add_terms(&mut terms, (variable, z.rounded()), column);
         }
         terms
     }

@@ -135,7 +135,7 @@ impl<X: Digits> Point for At<'_, X> {
     fn terms(&self) -> Vec<Term> {
         let mut terms = Vec::new();
         for (variable, x, column) in self.variables() {
-            add_terms(&mut terms, (variable, x.rounded()), column, &self.judge.weights);
+            add_terms(&mut terms, (variable, x.rounded()), column);
         }
         terms
     }

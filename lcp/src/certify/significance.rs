@@ -4,8 +4,6 @@
 //! compared with these the row never holds. Whether it matters is told by its variables: by what they are of the
 //! terms of the other rows in which they appear, and what these are worth. A row is as significant as the weakest link
 //! of the best chain of such shares that leads from it to a row with a load. No unit enters.
-//!
-//! Coefficients that should be zero and are not, by the rounding errors of whoever made them, link nothing.
 
 use crate::matrix::Column;
 
@@ -13,14 +11,8 @@ use crate::matrix::Column;
 const SLACK: f64 = 5.0;
 /// Shares of two to minus this are rounding errors.
 const ROUNDING: f64 = 50.0;
-/// Coefficients below this part of the largest one of their variable, in units of the loads, are rounding errors of
-/// the data.
-const LEAST_COEFFICIENT: f64 = 1.0 / (1_u64 << 44) as f64;
 /// Shares are told apart by factors of two, down to this power.
 const LEVELS: usize = 1000;
-
-/// Right-hand sides below this part of the loads that their row feels are rounding errors of the data.
-const LEAST_LOAD: f64 = 1.0 / (1_u64 << 48) as f64;
 
 /// A term of a row at a point.
 pub(super) struct Term {
@@ -29,18 +21,10 @@ pub(super) struct Term {
     pub(super) value: f64,
 }
 
-/// Adds the terms of a variable with its column. `felt` is one over the loads that a row feels.
-pub(super) fn add_terms(
-    terms: &mut Vec<Term>,
-    (variable, x): (usize, f64),
-    column: Column<'_>,
-    felt: &[f64],
-) {
-    let mut largest = 0.0_f64;
-    column.for_each(|row, v| largest = largest.max(v.abs() * felt[row]));
+/// Adds the terms of a variable with its column.
+pub(super) fn add_terms(terms: &mut Vec<Term>, (variable, x): (usize, f64), column: Column<'_>) {
     column.for_each(|row, v| {
-        let is_link = felt[row] == 0.0 || v.abs() * felt[row] >= LEAST_COEFFICIENT * largest;
-        if v * x != 0.0 && is_link {
+        if v * x != 0.0 {
             terms.push(Term { row, variable, value: v * x });
         }
     });
@@ -58,7 +42,7 @@ pub(super) fn significance(terms: &[f64], loads: &[f64], felt: &[f64], all: &[Te
         }),
     );
     let mut reached = vec![LEVELS; rows + variables];
-    let loaded = (0..rows).filter(|i| loads[*i] > 0.0 && loads[*i] * felt[*i] >= LEAST_LOAD);
+    let loaded = (0..rows).filter(|i| loads[*i] > 0.0);
     links.spread(loaded.map(|i| (0, i)).collect(), &mut reached);
     // What no load reaches is measured by the loads around it, if there are any.
     let apart = (0..rows).filter(|i| reached[*i] == LEVELS);

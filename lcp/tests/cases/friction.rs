@@ -9,7 +9,7 @@ use super::common::cases;
 use super::draw::Draw;
 use super::methods::{AUTO, Treated};
 
-/// Of forces, which the data make about one, and of velocities as a part of their terms.
+/// Of forces, which the data make about one, and of velocities as a part of the terms of their contact.
 const ROUNDING: f64 = 1e-8;
 
 fn exact(value: f64) -> RBig {
@@ -19,11 +19,14 @@ fn exact(value: f64) -> RBig {
 /// Coulomb's law, with velocities without rounding.
 fn violation(problem: &Friction2d, normal: &[f64], tangential: &[f64]) -> Option<String> {
     let forces: Vec<f64> = normal.iter().zip(tangential).flat_map(|(n, t)| [*n, *t]).collect();
+    let size = |i: usize| {
+        let sizes = (0..forces.len()).map(|j| (problem.w()[(i, j)] * forces[j]).abs());
+        sizes.fold(problem.q()[i].abs(), |sum, size| sum + size)
+    };
     let velocity = |i: usize| {
         let terms = (0..forces.len()).map(|j| exact(problem.w()[(i, j)]) * exact(forces[j]));
         let v = terms.fold(exact(problem.q()[i]), |sum, term| sum + term).to_f64().value();
-        let sizes = (0..forces.len()).map(|j| (problem.w()[(i, j)] * forces[j]).abs());
-        v / sizes.fold(problem.q()[i].abs(), |sum, size| sum + size).max(f64::MIN_POSITIVE)
+        v / size(i).max(size(i ^ 1)).max(f64::MIN_POSITIVE)
     };
     for (i, &mu) in problem.mu().iter().enumerate() {
         let (force, friction, bound) = (normal[i], tangential[i], mu * normal[i]);

@@ -102,11 +102,14 @@ impl<'a> Structure<'a> {
     }
 
     /// Residuals of a state, from the data. The law of films holds by its evaluation, and what they
-    /// take is missing in the equation of the contact problem, for which the unbalanced force stands then.
+    /// take is missing in the equation of the contact problem, for which the unbalanced force stands then, and is
+    /// no change of its loads.
     pub(super) fn residuals(&self, state: &ContactState, unbalance: f64) -> Residuals {
         let residuals = self.problem.residuals(state);
-        let equation = if self.films.is_empty() { residuals.equation } else { unbalance };
-        Residuals { equation, ..residuals }
+        if self.films.is_empty() {
+            return residuals;
+        }
+        Residuals { equation: unbalance, loads: unbalance, ..residuals }
     }
 
     /// Largest of `min(force, gap or slip)` over the pairs of the contact law, with forces in units of the
