@@ -3,7 +3,7 @@
 use super::Residuals;
 use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
 use super::significance::Term;
-use super::weights::{or_largest, reciprocal};
+use super::weights::{or_largest, per_load};
 use crate::extended::Extended;
 use crate::parts::Parts;
 use crate::problem::{column_factors, column_of, diagonal, median};
@@ -339,8 +339,8 @@ fn weights(problem: &Contact2d) -> Vec<f64> {
         }
     }
     let largest = felt.iter().fold((0.0_f64, 0.0_f64), |max, v| (max.0.max(v.0), max.1.max(v.1)));
-    let force = |part: usize| reciprocal(or_largest(felt[part].0, largest.0));
-    let length = |part: usize| reciprocal(or_largest(felt[part].1, largest.1));
+    let force = |part: usize| per_load(1.0, or_largest(felt[part].0, largest.0));
+    let length = |part: usize| per_load(1.0, or_largest(felt[part].1, largest.1));
     let mut weights: Vec<f64> = (0..n).map(|j| factors[j] * force(parts.of(j))).collect();
     let lengths: Vec<f64> = (0..m).map(|i| length(parts.of(n + i))).collect();
     let slips = lengths.iter().zip(problem.mu()).map(|(w, mu)| if *mu > 0.0 { *w } else { 0.0 });

@@ -57,7 +57,7 @@ pub(super) fn weights_of(
         }
     }
     let largest = felt.iter().fold(0.0_f64, |max, v| max.max(*v));
-    (0..rows).map(|i| row[i] * reciprocal(or_largest(felt[part[i]], largest))).collect()
+    (0..rows).map(|i| per_load(row[i], or_largest(felt[part[i]], largest))).collect()
 }
 
 /// Where no load is felt, what is zero at the solution is measured by the loads of other parts.
@@ -65,7 +65,7 @@ pub(super) fn or_largest(felt: f64, largest: f64) -> f64 {
     if felt > 0.0 { felt } else { largest }
 }
 
-/// Zero of zero.
-pub(super) fn reciprocal(v: f64) -> f64 {
-    if v > 0.0 { 1.0 / v } else { 0.0 }
+/// One over the loads that a row feels, zero where there are none. Beyond the range of numbers it is the largest.
+pub(super) fn per_load(row: f64, felt: f64) -> f64 {
+    if felt > 0.0 { (row / felt).min(f64::MAX) } else { 0.0 }
 }
