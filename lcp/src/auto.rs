@@ -13,8 +13,10 @@ mod standard;
 
 pub use settings::AutoSettings;
 
+#[cfg(feature = "cli")]
 pub(crate) use enumerated::Enumeration;
 use method::{Planned, chain_of};
+#[cfg(feature = "cli")]
 pub(crate) use smoothed::Smoothing;
 
 use crate::{Error, Method, Observer, Solution, Solver};

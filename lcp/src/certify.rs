@@ -72,6 +72,13 @@ impl Residuals {
         self.equation.max(self.natural).max(self.loads)
     }
 
+    /// What tells progress on the way to a solution: the geometric mean of what decides and of what is left of the
+    /// loads. Where a contact comes to rest the first falls only at the end, long after the second.
+    pub fn merit(&self) -> f64 {
+        let worst = self.worst();
+        (worst * self.loads.max(f64::EPSILON * worst)).sqrt()
+    }
+
     /// What a method may say of a point with these residuals: solved, or what it says of other points; of one
     /// that is not even almost solved it cannot say that.
     pub(crate) fn verdict(&self, tolerance: f64, otherwise: Status) -> Status {

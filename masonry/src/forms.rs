@@ -13,6 +13,7 @@ use faer::Mat;
 use lcp::HorizontalLcp;
 
 use crate::reduction::Reduction;
+use crate::rounding::{cleared, largest};
 use crate::system::System;
 
 mod coulomb;
@@ -103,32 +104,24 @@ struct Equations {
     layout: Layout,
 }
 
-/// Numbers below this part of the largest ones beside them are rounding errors of the reduction.
-const ROUNDING: f64 = 1.0 / (1_u64 << 48) as f64;
-
 impl Equations {
     /// The form, with zeros for the coefficients and right-hand sides that are only rounding errors: to who sees no
     /// more than the equations, they are couplings and loads.
     fn into_form(self, kind: FormKind, starts: Vec<Start>) -> Result<Form, lcp::Error> {
         let Self { mut a, mut b, mut c, scale, layout } = self;
-        let largest = |values: &mut dyn Iterator<Item = &f64>| {
-            values.fold(0.0_f64, |largest, v| largest.max(v.abs()))
-        };
         let rows: Vec<f64> =
-            (0..c.len()).map(|i| largest(&mut a.row(i).iter().chain(b.row(i).iter()))).collect();
+            (0..c.len()).map(|i| largest(a.row(i).iter().chain(b.row(i).iter()))).collect();
         for matrix in [&mut a, &mut b] {
             for column in matrix.as_mut().col_iter_mut() {
-                let of_column = largest(&mut column.as_ref().iter());
-                let is_error = |v: f64, i: usize| v.abs() < ROUNDING * of_column.min(rows[i]);
-                column
-                    .iter_mut()
-                    .enumerate()
-                    .filter(|(i, v)| is_error(**v, *i))
-                    .for_each(|(_, v)| *v = 0.0);
+                let of_column = largest(column.as_ref().iter());
+                let entries = column.iter_mut().zip(&rows);
+                entries.for_each(|(v, of_row)| *v = cleared(*v, of_column.min(*of_row)));
             }
         }
-        let load = largest(&mut c.iter());
-        c.iter_mut().filter(|v| v.abs() < ROUNDING * load).for_each(|v| *v = 0.0);
+        let load = largest(&c);
+        for v in &mut c {
+            *v = cleared(*v, load);
+        }
         Ok(Form { kind, problem: HorizontalLcp::new(a, b, c)?, scale, starts, layout })
     }
 }

@@ -65,6 +65,7 @@ pub mod plan;
 pub mod recover;
 pub mod reduction;
 pub mod rigid;
+mod rounding;
 pub mod routes;
 pub mod scene;
 pub mod solve;

@@ -20,6 +20,7 @@ use crate::ids::{BlockId, ContactId};
 use crate::mesh::BlockMesh;
 use crate::model::{Anchor, Block, Elasticity, FilmPoint, Joint, Model};
 use crate::rigid::Modes;
+use crate::rounding::cleared;
 
 mod loads;
 mod stiffness;
@@ -300,7 +301,7 @@ fn add_row(model: &Model, bodies: &mut [BodySystem], k: usize, row: &Row) {
         let face = geometry::on_edge(&block.corners, anchor.edge, anchor.at);
         // From the face to the middle of the film, against the normal on side `b`.
         let place = face - joint.normal * (sign * film.map_or(0.0, |film| film.half));
-        let modes = body.modes.at(place).map(|mode| mode.dot(&direction));
+        let modes = body.modes.at(place).map(|mode| cleared(mode.dot(&direction), 1.0));
         let entries = match (&block.mesh, body.stiffness) {
             (Some(mesh), Some(_)) => {
                 let mut entries = entries(mesh, anchor, direction);
@@ -327,10 +328,11 @@ fn along_film(film: &FilmPoint, joint: &Joint, direction: Direction) -> Vector2<
 }
 
 fn entries(mesh: &BlockMesh, anchor: Anchor, direction: Vector2<f64>) -> Vec<(usize, f64)> {
+    let size = direction.norm();
     mesh.interpolate(anchor.edge, anchor.at)
         .into_iter()
         .flat_map(|(node, n)| [(2 * node, n * direction.x), (2 * node + 1, n * direction.y)])
-        .filter(|(_, coefficient)| coefficient.abs() > 0.0)
+        .filter(|(_, coefficient)| cleared(*coefficient, size) != 0.0)
         .collect()
 }
 

@@ -184,8 +184,7 @@ impl<X: Digits> Point for At<'_, X> {
 
     fn loads(&self) -> Vec<f64> {
         let problem = self.judge.problem;
-        let all = [problem.loads(), problem.initial_gaps(), problem.initial_slips()];
-        all.concat().into_iter().map(f64::abs).collect()
+        [problem.loads(), problem.initial_gaps(), problem.initial_slips()].concat()
     }
 
     fn terms(&self) -> Vec<Term> {

@@ -64,7 +64,7 @@ impl Point for At<'_> {
     }
 
     fn loads(&self) -> Vec<f64> {
-        self.problem.q().iter().map(|q| q.abs()).collect()
+        self.problem.q().to_vec()
     }
 
     fn terms(&self) -> Vec<Term> {

@@ -129,7 +129,7 @@ impl<X: Digits> Point for At<'_, X> {
     }
 
     fn loads(&self) -> Vec<f64> {
-        self.judge.c.iter().map(|(c, _)| c.abs()).collect()
+        self.judge.c.iter().map(|(c, _)| *c).collect()
     }
 
     fn terms(&self) -> Vec<Term> {

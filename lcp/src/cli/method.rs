@@ -25,7 +25,7 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
         Method::Auto => {
             let defaults = AutoSettings::default();
             let tolerance = args.tol.unwrap_or(defaults.tolerance);
-            auto(&Auto::new(AutoSettings { tolerance, time_limit, start }), problem)
+            in_its_form(&Auto::new(AutoSettings { tolerance, time_limit, start }), problem)
         }
         Method::Lemke => {
             let defaults = LemkeSettings::default();
@@ -150,17 +150,6 @@ fn start(args: &SolveArgs, problem: &Problem) -> Result<WarmStart, Failure> {
             let (t, y) = Point::read(start, problem)?.to_pairs(problem);
             Ok(WarmStart::Point { t, y })
         }
-    }
-}
-
-fn auto(solver: &Auto, problem: &Problem) -> Result<Solution, Error> {
-    match problem {
-        Problem::Lcp(problem) => solver.solve(problem),
-        Problem::Horizontal(problem) => solver.solve(problem),
-        Problem::Mixed(problem) => solver.solve(problem),
-        Problem::Boxed(problem) => solver.solve(problem),
-        Problem::Friction(problem) => solver.solve(problem),
-        Problem::Contact(problem) => solver.solve(problem),
     }
 }
 

@@ -98,7 +98,7 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
             if let Some(status) = limit {
                 break (status, is_due);
             }
-            if is_due && stall.is_stalled(sweep, best.residuals.worst()) {
+            if is_due && stall.is_stalled(sweep, best.residuals.merit()) {
                 break (Status::Stalled, true);
             }
             change = self.sweep(sweep % 2 == 1);
@@ -150,7 +150,7 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
         self.blocks.iter().for_each(|block| block.allowed(&self.z, &mut allowed));
         let point = Point { z: &self.z, w: &w, allowed: &allowed, sizes: &self.sizes };
         let residuals = judge(&point);
-        if residuals.worst() < best.residuals.worst() {
+        if residuals.merit() < best.residuals.merit() {
             *best = Best { z: self.z.clone(), w, allowed, residuals };
         }
         Some(residuals)
@@ -180,24 +180,24 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
     }
 }
 
-/// Whether the best residual still decreases.
+/// Whether the best point still gets better.
 struct Stall {
     window: usize,
     factor: f64,
     since: usize,
-    residual: f64,
+    merit: f64,
 }
 
 impl Stall {
     fn new(settings: &ProjectedGaussSeidelSettings, rows: usize) -> Self {
         const LEAST: usize = 2000;
         let window = settings.stall_window.unwrap_or(LEAST.max(rows));
-        Self { window, factor: settings.stall_factor, since: 0, residual: f64::INFINITY }
+        Self { window, factor: settings.stall_factor, since: 0, merit: f64::INFINITY }
     }
 
     fn is_stalled(&mut self, sweep: usize, best: f64) -> bool {
-        if best < self.factor * self.residual {
-            (self.since, self.residual) = (sweep, best);
+        if best < self.factor * self.merit {
+            (self.since, self.merit) = (sweep, best);
         }
         sweep - self.since >= self.window
     }

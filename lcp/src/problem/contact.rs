@@ -100,6 +100,16 @@ impl Contact2d {
         Ok(Self { k, f, c_n, c_t, x_0, s_0, mu, friction })
     }
 
+    /// The same structure under other loads.
+    ///
+    /// # Errors
+    /// [`Error::Length`] or [`Error::NotFinite`] as [`new`](Self::new).
+    pub fn with_loads(&self, f: Vec<f64>) -> Result<Self, Error> {
+        check_length("f", f.len(), self.f.len())?;
+        check_vector("f", &f)?;
+        Ok(Self { f, ..self.clone() })
+    }
+
     /// Number of displacements.
     pub fn displacements(&self) -> usize {
         self.f.len()

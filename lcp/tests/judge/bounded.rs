@@ -18,6 +18,7 @@ enum Place {
 
 /// A problem with bounds of all kinds.
 pub(crate) struct Bounded {
+    blocks: Blocks,
     m: Mat<f64>,
     place: Vec<Place>,
     lower: Vec<f64>,
@@ -60,7 +61,7 @@ impl Bounded {
             }
         }
         let [row_unit, z_unit] = [0; 2].map(|_| blocks.units(draw));
-        Self { m, place, lower, upper, z, w, row_unit, z_unit }
+        Self { blocks, m, place, lower, upper, z, w, row_unit, z_unit }
     }
 
     /// The matrix and the vector in their units.
@@ -141,6 +142,10 @@ macro_rules! planted_bounds {
         impl Planted for $class {
             fn draw(draw: &mut Draw) -> Self {
                 Self(Bounded::new(draw, &$places, $bound))
+            }
+
+            fn is_loaded(&self, right_side: &[f64]) -> bool {
+                self.0.blocks.are_loaded(right_side)
             }
 
             fn point(&self) -> Vec<f64> {

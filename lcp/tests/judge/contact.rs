@@ -24,6 +24,7 @@ impl Friction for Smooth {
 
 /// A body for every block, elastic or rigid, with as many displacements as points.
 pub(crate) struct Contact<F> {
+    blocks: Blocks,
     k: Mat<f64>,
     c_n: Mat<f64>,
     c_t: Mat<f64>,
@@ -134,7 +135,11 @@ impl<F: Friction> Planted for Contact<F> {
         };
         let displacement = blocks.factors(draw);
         let friction = std::marker::PhantomData;
-        Self { k, c_n, c_t, mu, u, points, force, length, displacement, friction }
+        Self { blocks, k, c_n, c_t, mu, u, points, force, length, displacement, friction }
+    }
+
+    fn is_loaded(&self, right_side: &[f64]) -> bool {
+        self.blocks.are_loaded(&right_side[..self.u.len()])
     }
 
     fn point(&self) -> Vec<f64> {

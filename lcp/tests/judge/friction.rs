@@ -9,6 +9,7 @@ use super::planted::{Blocks, Planted, absolute, minus, plus, product, sizes, tim
 
 /// Normal and tangential components of every contact alternate.
 pub(crate) struct Reduced {
+    blocks: Blocks,
     w: Mat<f64>,
     mu: Vec<f64>,
     points: Vec<Point>,
@@ -35,7 +36,12 @@ impl Planted for Reduced {
             let units = blocks.units(draw);
             units.into_iter().flat_map(|unit| [unit; 2]).collect()
         });
-        Self { w, mu, points, force, velocity }
+        Self { blocks, w, mu, points, force, velocity }
+    }
+
+    fn is_loaded(&self, right_side: &[f64]) -> bool {
+        let sums: Vec<f64> = right_side.chunks(2).map(|q| q[0].abs() + q[1].abs()).collect();
+        self.blocks.are_loaded(&sums)
     }
 
     fn point(&self) -> Vec<f64> {

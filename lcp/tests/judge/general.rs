@@ -7,6 +7,7 @@ use super::draw::Draw;
 use super::planted::{Blocks, Planted, absolute, plus, product, sizes, times};
 
 pub(crate) struct General {
+    blocks: Blocks,
     a: Mat<f64>,
     b: Mat<f64>,
     t: Vec<f64>,
@@ -29,7 +30,11 @@ impl Planted for General {
         };
         let (t, y) = (0..blocks.len()).map(pair).unzip();
         let [row_unit, t_unit, y_unit] = [0; 3].map(|_| blocks.units(draw));
-        Self { a, b, t, y, row_unit, t_unit, y_unit }
+        Self { blocks, a, b, t, y, row_unit, t_unit, y_unit }
+    }
+
+    fn is_loaded(&self, right_side: &[f64]) -> bool {
+        self.blocks.are_loaded(right_side)
     }
 
     fn point(&self) -> Vec<f64> {

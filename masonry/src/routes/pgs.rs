@@ -111,9 +111,9 @@ impl<'a> Rounds<'a> {
         Step::Iteration { number: self.done, residual: self.lack() }
     }
 
-    /// The worst residual, or what the springs still carry.
+    /// How far the rounds have come, or what the springs still carry.
     fn lack(&self) -> f64 {
-        self.residuals.worst().max(self.share)
+        self.residuals.merit().max(self.share)
     }
 
     /// Takes the same forces with all bodies at rest, if that is nearer to a solution: where nothing is
@@ -129,7 +129,7 @@ impl<'a> Rounds<'a> {
 
     fn stop(&self, observer: &mut dyn FnMut(Step) -> ControlFlow<()>) -> Option<Status> {
         let is_cancelled = observer(self.step()).is_break();
-        let lack = self.lack();
+        let lack = self.residuals.worst().max(self.share);
         let is_settled = self.idle >= SETTLED || self.done >= MAX_ROUNDS;
         if lack <= NEARER * self.tolerance || (lack <= self.tolerance && is_settled) {
             Some(Status::Solved)

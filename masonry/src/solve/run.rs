@@ -13,7 +13,7 @@ use crate::history::checkpoint::{Checkpoint, CheckpointError};
 use crate::history::energy::{self, Snapshot};
 use crate::history::{self, History, Step, StepRecord};
 use crate::model::Model;
-use crate::outcome::{Outcome, SolveInfo, State};
+use crate::outcome::{ContactStatus, Outcome, SolveInfo, State};
 use crate::plan::Plan;
 use crate::recover;
 use crate::routes::Request;
@@ -256,7 +256,11 @@ impl Run {
             let in_history = stepped.map(|(model, slips)| {
                 let steps = model.contacts.iter().zip(&mut state.contacts).zip(slips);
                 let frictional = steps.filter(|((contact, _), _)| contact.mu > 0.0);
-                frictional.for_each(|((_, contact), slip)| contact.y_t += slip);
+                for ((_, contact), slip) in frictional {
+                    // What is computed for a contact that sticks is an error, and no slip of the steps to come.
+                    let sticks = contact.status == ContactStatus::Stick;
+                    contact.y_t = if sticks { slip } else { slip + contact.y_t };
+                }
                 let snapshot = Snapshot::of(&model, &self.system, &state);
                 InHistory { model, snapshot }
             });

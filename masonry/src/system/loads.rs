@@ -7,6 +7,7 @@ use crate::geometry;
 use crate::mesh::BlockMesh;
 use crate::model::{Block, EdgeLoad, Model};
 use crate::rigid::Modes;
+use crate::rounding::{cleared, largest};
 
 /// Consistent nodal loads \[N\] of self weight and edge loads, two per node.
 pub fn nodal_loads(model: &Model, block: &Block, mesh: &BlockMesh) -> Vec<f64> {
@@ -31,7 +32,8 @@ pub fn nodal_loads(model: &Model, block: &Block, mesh: &BlockMesh) -> Vec<f64> {
             load[2 * node + 1] += share * whole_edge.y;
         }
     }
-    load
+    let size = largest(&load);
+    load.into_iter().map(|v| cleared(v, size)).collect()
 }
 
 /// Integrals of the shape functions over the loaded part of the edge, as fractions of the edge.
@@ -55,7 +57,6 @@ fn edge_shares(mesh: &BlockMesh, load: &EdgeLoad) -> Vec<(usize, f64)> {
 /// What rounding leaves of loads that cancel, or of the arm of a load through the centroid, is zero:
 /// no contact might be able to balance it.
 pub fn resultant(model: &Model, block: &Block) -> [f64; 3] {
-    const ROUNDING: f64 = 16.0 * f64::EPSILON;
     let modes = Modes::of(&block.corners);
     let (mut sum, mut size) = ([0.0; 3], 0.0);
     for (place, force) in point_loads(model, block) {
@@ -63,7 +64,7 @@ pub fn resultant(model: &Model, block: &Block) -> [f64; 3] {
         sum.iter_mut().zip(add).for_each(|(s, a)| *s += a);
         size += force.norm();
     }
-    sum.map(|value| if value.abs() <= ROUNDING * size { 0.0 } else { value })
+    sum.map(|value| cleared(value, size))
 }
 
 /// The resultant force \[N\] of every load of a block, and the place where it acts \[m\].

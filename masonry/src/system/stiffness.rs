@@ -10,6 +10,7 @@ use crate::element::{constitutive, quad4};
 use crate::mesh::BlockMesh;
 use crate::model::{Block, Elasticity, Model};
 use crate::rigid::Modes;
+use crate::rounding::cleared;
 
 /// Corners, relative to the block's size, closer than this make blocks equal: rounding of the places
 /// of equal bricks in a wall, and nothing that matters.
@@ -44,8 +45,15 @@ impl Stiffness {
         let n = 2 * mesh.nodes.len();
         let elements = element_stiffnesses(block, mesh, e, model)?;
         let entries: Vec<_> = elements.iter().flat_map(Element::entries).collect();
-        let matrix = SparseColMat::try_new_from_triplets(n, n, &entries)
-            .unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}"));
+        let matrix = assembled(n, &entries);
+        let size = |i: usize| matrix.get(i, i).copied().unwrap_or(0.0).sqrt();
+        let sizes: Vec<f64> = (0..n).map(size).collect();
+        let couplings = matrix.triplet_iter().map(|entry| {
+            let (i, j) = (entry.row, entry.col);
+            Triplet::new(i, j, cleared(*entry.val, sizes[i] * sizes[j]))
+        });
+        let couplings: Vec<_> = couplings.filter(|entry| entry.val != 0.0).collect();
+        let matrix = assembled(n, &couplings);
         let factor = match parts {
             Parts::Matrix => None,
             Parts::MatrixAndFactor => Some(factor(block, mesh, e, &entries)?),
@@ -67,6 +75,11 @@ impl Stiffness {
         let entries = self.matrix.triplet_iter();
         entries.map(|entry| 0.5 * u[entry.row] * entry.val * u[entry.col]).sum()
     }
+}
+
+fn assembled(n: usize, entries: &[Triplet<usize, usize, f64>]) -> SparseColMat<usize, f64> {
+    SparseColMat::try_new_from_triplets(n, n, entries)
+        .unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}"))
 }
 
 /// The stiffness of one element and its nodes.

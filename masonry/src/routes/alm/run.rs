@@ -53,8 +53,7 @@ pub(super) fn solve(
         }
     }
     let Run { convergence, factorisations, best: Best { state, .. }, .. } = run;
-    let unbalance = structure.unbalance(&state, &structure.taken(&state.u));
-    let residuals = structure.residuals(&state, unbalance);
+    let residuals = structure.residuals(&state, &structure.taken(&state.u))?;
     Ok(Answer { status, state, residuals, convergence, factorisations })
 }
 
@@ -124,10 +123,11 @@ impl Run<'_> {
             let distance = motion.remaining().max(pull.remaining());
             let iteration = Iteration { attempt, unbalance, distance, changes };
             self.convergence.push(iteration);
-            let residuals = structure.residuals(&at, unbalance);
-            let residual = residuals.worst().max(structure.slack(&at, &taken));
-            let measure = unbalance.max(residual);
-            let is_solved = measure.max(distance) <= settings.tolerance;
+            let residuals = structure.residuals(&at, &taken)?;
+            let slack = structure.slack(&at, &taken);
+            let lack = residuals.worst().max(unbalance).max(slack);
+            let measure = residuals.merit().max(unbalance).max(slack);
+            let is_solved = lack.max(distance) <= settings.tolerance;
             if is_solved || measure < self.best.measure {
                 self.best = Best { state: at.clone(), measure };
             }

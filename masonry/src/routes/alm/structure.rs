@@ -6,6 +6,7 @@ use lcp::{Contact2d, ContactState, Residuals};
 use super::AlmError;
 use super::films::Segment;
 use crate::film::pointwise::FilmResponse;
+use crate::rounding::{cleared, largest};
 
 /// What blocks and films do for displacements of the blocks.
 pub(super) struct Taken {
@@ -101,15 +102,24 @@ impl<'a> Structure<'a> {
         ratio(largest(&rest), if self.load > 0.0 { self.load } else { largest(&state.t_n) })
     }
 
-    /// Residuals of a state, from the data. The law of films holds by its evaluation, and what they
-    /// take is missing in the equation of the contact problem, for which the unbalanced force stands then, and is
-    /// no change of its loads.
-    pub(super) fn residuals(&self, state: &ContactState, unbalance: f64) -> Residuals {
-        let residuals = self.problem.residuals(state);
+    /// Residuals of a state, from the data. The law of films holds by its evaluation, and what they take is no
+    /// load of the contact problem any more.
+    ///
+    /// # Errors
+    /// [`lcp::Error::NotFinite`] where the forces of films overflow.
+    pub(super) fn residuals(
+        &self,
+        state: &ContactState,
+        taken: &Taken,
+    ) -> Result<Residuals, lcp::Error> {
         if self.films.is_empty() {
-            return residuals;
+            return Ok(self.problem.residuals(state));
         }
-        Residuals { equation: unbalance, loads: unbalance, ..residuals }
+        let of_films: Vec<f64> = taken.all.iter().zip(&taken.blocks).map(|(a, b)| a - b).collect();
+        let size = largest(&of_films);
+        let loads = self.problem.loads().iter().zip(&of_films);
+        let left = loads.map(|(f, film)| f - cleared(*film, size)).collect();
+        Ok(self.problem.with_loads(left)?.residuals(state))
     }
 
     /// Largest of `min(force, gap or slip)` over the pairs of the contact law, with forces in units of the
@@ -141,10 +151,6 @@ impl<'a> Structure<'a> {
         }
         worst
     }
-}
-
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |max, v| max.max(v.abs()))
 }
 
 /// Nothing is a small part of anything, and everything a large part of nothing.
