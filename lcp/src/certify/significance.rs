@@ -6,15 +6,14 @@
 //! worth. A row with a load is worth one, and any other the largest product of such shares along a chain from it to a
 //! row with a load. No unit enters.
 
+use std::collections::BinaryHeap;
+
 use crate::matrix::Column;
 
 /// A row that is worth this counts in full: chains are not the only way to the loads.
 const IN_FULL: f64 = 1.0 / 32.0;
 /// Every variable with more than this of the largest term of a row speaks for the row.
 const SPEAKS: f64 = 1.0 / 1024.0;
-/// Factors are told apart by eighths of powers of two, down to two to minus a thousand.
-const PER_POWER: f64 = 8.0;
-const LEVELS: usize = 8000;
 
 /// A term of a row at a point.
 pub(super) struct Term {
@@ -45,36 +44,29 @@ pub(super) fn significance(terms: &[f64], loads: &[f64], felt: &[f64], all: &[Te
         rows + variables,
         all.iter().map(|term| {
             let share = term.value.abs() / largest[term.row];
-            (term.row, rows + term.variable, [level(share), level(share / SPEAKS)])
+            (term.row, rows + term.variable, [share, (share / SPEAKS).min(1.0)])
         }),
     );
-    let mut reached = vec![LEVELS; rows + variables];
-    let loaded = (0..rows).filter(|i| loads[*i] != 0.0);
-    links.spread(loaded.map(|i| (0, i)).collect(), &mut reached);
+    let mut worth = vec![0.0; rows + variables];
+    let loaded: Vec<_> = (0..rows).filter(|i| loads[*i] != 0.0).map(|i| (i, 1.0)).collect();
+    links.spread(&loaded, &mut worth);
     // What no load reaches is measured by the loads around it, if there are any.
-    let apart = (0..rows).filter(|i| reached[*i] == LEVELS);
-    let size = |i: usize| if felt[i] > 0.0 { level(terms[i] * felt[i]) } else { 0 };
-    links.spread(apart.map(|i| (size(i), i)).collect(), &mut reached);
-    reached[..rows].iter().map(|level| factor(*level)).collect()
+    let apart = (0..rows).filter(|i| worth[*i] == 0.0 && terms[*i] > 0.0);
+    let size = |i: usize| if felt[i] > 0.0 { (terms[i] * felt[i]).min(1.0) } else { 1.0 };
+    let apart: Vec<_> = apart.map(|i| (i, size(i))).collect();
+    links.spread(&apart, &mut worth);
+    worth.truncate(rows);
+    worth.into_iter().map(|worth| (worth / IN_FULL).min(1.0)).collect()
 }
 
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 8000")]
-fn level(share: f64) -> usize {
-    (-share.log2() * PER_POWER).round().clamp(0.0, LEVELS as f64 - 1.0) as usize
-}
-
-fn factor(level: usize) -> f64 {
-    ((level as f64 / -PER_POWER).exp2() / IN_FULL).min(1.0)
-}
-
-/// Links between rows and variables, each with the levels from the row to the variable and back.
+/// Links between rows and variables, each with the shares from the row to the variable and back.
 struct Links {
     starts: Vec<usize>,
-    ends: Vec<(usize, usize)>,
+    ends: Vec<(usize, f64)>,
 }
 
 impl Links {
-    fn new(nodes: usize, links: impl Iterator<Item = (usize, usize, [usize; 2])> + Clone) -> Self {
+    fn new(nodes: usize, links: impl Iterator<Item = (usize, usize, [f64; 2])> + Clone) -> Self {
         let mut starts = vec![0; nodes + 1];
         for (row, variable, _) in links.clone() {
             starts[row + 1] += 1;
@@ -84,37 +76,45 @@ impl Links {
             starts[i + 1] += starts[i];
         }
         let mut next = starts.clone();
-        let mut ends = vec![(0, 0); starts[nodes]];
+        let mut ends = vec![(0, 0.0); starts[nodes]];
         for (row, variable, [there, back]) in links {
-            for (from, to, level) in [(row, variable, there), (variable, row, back)] {
-                ends[next[from]] = (to, level);
+            for (from, to, share) in [(row, variable, there), (variable, row, back)] {
+                ends[next[from]] = (to, share);
                 next[from] += 1;
             }
         }
         Self { starts, ends }
     }
 
-    /// Lowers the levels to those of the best chains from the sources: sums of the levels of their links.
-    fn spread(&self, sources: Vec<(usize, usize)>, reached: &mut [usize]) {
-        let mut waiting: Vec<Vec<usize>> = vec![Vec::new(); LEVELS];
-        for (level, node) in sources {
-            if level < reached[node] {
-                reached[node] = level;
-                waiting[level].push(node);
+    /// Raises what rows and variables are worth to the largest products of shares along chains from the sources
+    /// (Dijkstra 1959).
+    fn spread(&self, sources: &[(usize, f64)], worth: &mut [f64]) {
+        sources.iter().for_each(|&(node, value)| worth[node] = value);
+        // Only what the sources raise is waited for: most rows are sources.
+        let mut raised = Vec::new();
+        for (node, _) in sources {
+            self.raise(*node, worth, &mut |to, _| raised.push(to));
+        }
+        // The bits of numbers that are not negative are ordered as they are.
+        raised.sort_unstable();
+        raised.dedup();
+        let raised = raised.into_iter().map(|node| (worth[node].to_bits(), node));
+        let mut waiting: BinaryHeap<(u64, usize)> = raised.collect();
+        while let Some((bits, node)) = waiting.pop() {
+            if f64::from_bits(bits) >= worth[node] {
+                self.raise(node, worth, &mut |to, by| waiting.push((by.to_bits(), to)));
             }
         }
-        for level in 0..LEVELS {
-            while let Some(node) = waiting[level].pop() {
-                if reached[node] < level {
-                    continue;
-                }
-                for &(to, of_link) in &self.ends[self.starts[node]..self.starts[node + 1]] {
-                    let by = level + of_link;
-                    if by < reached[to] {
-                        reached[to] = by;
-                        waiting[by].push(to);
-                    }
-                }
+    }
+
+    /// Raises the neighbours of a node.
+    fn raise(&self, node: usize, worth: &mut [f64], raised: &mut impl FnMut(usize, f64)) {
+        let value = worth[node];
+        for &(to, share) in &self.ends[self.starts[node]..self.starts[node + 1]] {
+            let by = value * share;
+            if by > worth[to] {
+                worth[to] = by;
+                raised(to, by);
             }
         }
     }

@@ -94,7 +94,8 @@ impl Run<'_> {
         let mut taken = structure.taken(&at.u);
         let mut contacts = vec![Contact::Stick; problem.points()];
         let mut factors = None;
-        let (mut least, mut since) = (f64::INFINITY, 0);
+        // Of the measure and of the distance that is left.
+        let (mut least, mut since) = ([f64::INFINITY; 2], 0);
         let [mut motion, mut pull] = structure.units().map(Contraction::new);
         while self.convergence.len() < settings.max_iterations {
             let states = (&contacts[..], &taken.films[..]);
@@ -123,11 +124,9 @@ impl Run<'_> {
             let distance = motion.remaining().max(pull.remaining());
             let iteration = Iteration { attempt, unbalance, distance, changes };
             self.convergence.push(iteration);
-            let residuals = structure.residuals(&at, &taken)?;
-            let slack = structure.slack(&at, &taken);
-            let lack = residuals.worst().max(unbalance).max(slack);
-            let measure = residuals.merit().max(unbalance).max(slack);
-            let is_solved = lack.max(distance) <= settings.tolerance;
+            let measure = unbalance.max(structure.slack(&at, &taken));
+            let is_solved = measure.max(distance) <= settings.tolerance
+                && structure.residuals(&at, &taken)?.worst() <= settings.tolerance;
             if is_solved || measure < self.best.measure {
                 self.best = Best { state: at.clone(), measure };
             }
@@ -138,9 +137,13 @@ impl Run<'_> {
             if is_cancelled {
                 return Ok(Status::Cancelled);
             }
-            since = if measure < 0.9 * least { 0 } else { since + 1 };
-            least = if since == 0 { measure } else { least };
-            if measure > DIVERGED * least || !measure.is_finite() || since > PATIENCE {
+            since += 1;
+            for (least, value) in least.iter_mut().zip([measure, distance]) {
+                if value < 0.9 * *least {
+                    (*least, since) = (value, 0);
+                }
+            }
+            if measure > DIVERGED * least[0] || !measure.is_finite() || since > PATIENCE {
                 return Ok(Status::Stalled);
             }
         }

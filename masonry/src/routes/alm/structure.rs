@@ -122,9 +122,10 @@ impl<'a> Structure<'a> {
         Ok(self.problem.with_loads(left)?.residuals(state))
     }
 
-    /// Largest of `min(force, gap or slip)` over the pairs of the contact law, with forces in units of the
-    /// largest one, and gaps and slips in units of what the bodies are deformed by, or would be by the loads: a body that slid
-    /// far makes all gaps small against its displacements, also those that should carry no force.
+    /// Largest of `min(force, gap or slip)` over the pairs of the contact law, and of what is negative in them, with
+    /// forces in units of the largest one, and gaps and slips in units of what the bodies are deformed by, or would be
+    /// by the loads: a body that slid far makes all gaps small against its displacements, also those that should carry
+    /// no force.
     pub(super) fn slack(&self, state: &ContactState, taken: &Taken) -> f64 {
         let ContactState { u, t_n, t_t, gap, slip, .. } = state;
         let deformed = taken.blocks.iter().zip(&self.diagonal).map(|(force, k)| force / k);
@@ -147,7 +148,9 @@ impl<'a> Structure<'a> {
             ];
             for (t, y) in pairs.into_iter().take(if *mu > 0.0 { 3 } else { 1 }) {
                 worst = worst.max(ratio(t.max(0.0), force).min(ratio(y.max(0.0), length)));
+                worst = worst.max(ratio(-t, force));
             }
+            worst = worst.max(ratio(-gap[i] - in_normal, length));
         }
         worst
     }
