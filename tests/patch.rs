@@ -102,11 +102,9 @@ fn vertices_pass_the_contact_patch_test() {
 
         let scene = compressed(PointRule::Vertices, five_blocks());
         let Some(outcome) = answer_by(&scene, route) else { continue };
+        // Around the foot of a head joint forces of points can circulate, the stresses are the same.
         assert_uniform(&outcome);
-        // Around the foot of a head joint forces can circulate; the pivots leave none.
-        if route == Route::Lemke {
-            assert_uniform_traction(&outcome);
-        }
+        assert_close(outcome.reactions[0].fy, 2.0 * PRESSURE, rounding(route));
     }
 }
 

@@ -173,7 +173,7 @@ fn keep_better(
     let is_better = best.as_ref().is_none_or(|(other, exact)| match (vertex, exact) {
         (Some(_), None) => true,
         (None, Some(_)) => false,
-        _ => judged.worst() < other.worst(),
+        _ => judged.residuals.merit() < other.residuals.merit(),
     });
     if is_better {
         *best = Some((judged, vertex.cloned()));
