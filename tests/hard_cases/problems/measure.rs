@@ -1,15 +1,13 @@
 //! How well a point solves a problem, and whether a proof is one, in numbers of twice the digits.
 //!
 //! The measures are those of the library, written anew: a row by its own terms, a sign or a pair by what it takes to
-//! set it right in the rows. Where all terms of a row vanish at the solution a part of the loads measures it.
+//! set it right in the rows. Where all terms of a row vanish at the solution the loads measure it: a row counts by
+//! no less than the largest one of its connected part.
 
 use lcp::{Contact2d, Friction2d, HorizontalLcp, Lcp, Matrix, MixedLcp, Solution};
 
 use super::double::{Double, shifted};
 use super::problem::Problem;
-
-/// A row is measured by no less than this part of the loads that act on it.
-const FLOOR: f64 = 1.0 / 1024.0;
 
 /// How far a point is from a solution, dimensionless.
 #[derive(Debug, Clone, Copy)]
@@ -148,7 +146,7 @@ impl System {
         let rest: Vec<f64> = rest.into_iter().map(|it| it.rounded().abs()).collect();
         let all = largest(&terms);
         for (terms, load) in terms.iter_mut().zip(scaled.loads()) {
-            *terms = terms.max(FLOOR * load);
+            *terms = terms.max(load);
         }
         let rows = rest.iter().zip(&terms).map(|(rest, terms)| share(*rest, *terms));
         let effect = |(variable, v): &(usize, f64)| {

@@ -41,8 +41,9 @@ pub fn sweeps() -> Vec<Sweep> {
     let orders: Vec<f64> = (2..=14_u8).step_by(3).map(f64::from).collect();
     let lacks: Vec<f64> = (2..=30_i32).step_by(4).map(|bits| 2_f64.powi(-bits)).collect();
     let frictions: Vec<f64> = (-12..=12_i32).step_by(4).map(|tens| 10_f64.powi(tens)).collect();
+    // At 2^50 factors in `f64` have no digit left, and no answer is measured by its loads as one.
     let stiffnesses: Vec<f64> =
-        (0..=50_u8).step_by(10).map(|bits| f64::from(bits).exp2()).collect();
+        (0..=40_u8).step_by(10).map(|bits| f64::from(bits).exp2()).collect();
     let supports: Vec<f64> = [2_u8, 5, 12, 30, 80].map(f64::from).into();
     let lengths: Vec<f64> = [2_u8, 8, 14, 20, 26].map(f64::from).into();
     let small: Vec<f64> = (4..=44_u8).step_by(8).map(|bits| (-f64::from(bits)).exp2()).collect();
