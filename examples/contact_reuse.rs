@@ -33,6 +33,8 @@ const GRAVITY: f64 = 9.81;
 const FRICTION: f64 = 0.4;
 /// Step \[s\].
 const STEP: f64 = 0.01;
+/// What a step may leave of the loads.
+const ENOUGH: f64 = 1e-8;
 
 fn main() -> Result<(), Box<dyn Error>> {
     // Any other solver of the library for contact problems may stand here.
@@ -181,7 +183,9 @@ impl Step {
         let contacts = contacts(discs);
         let problem = velocity_problem(discs, &contacts)?;
         let solution = solver.solve(&problem)?;
-        if !solution.is_solved() {
+        // Of logs that come to rest nothing is left but rounding errors, in which no contact can be told to the last
+        // digit. What is left of the loads decides.
+        if solution.residuals.loads > ENOUGH {
             return Err(format!("{}: {}", solver.method(), solution.status).into());
         }
         let state = problem.variables(&solution);

@@ -45,14 +45,14 @@ use crate::{Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Observer, So
 /// friction it is the system of the states open, stick and slip, so that the fixed point need only come near.
 ///
 /// **Guarantee**: in exact arithmetic a program without friction that has a solution is solved, and one that
-/// has none is [`Infeasible`](Status::Infeasible) with a proof, which is itself found as the solution of a
+/// has none is [`Infeasible`](crate::Status::Infeasible) with a proof, which is itself found as the solution of a
 /// convex program. In floating-point numbers that holds as long as the stiffnesses of one problem differ by
 /// less than about 1e6; at and beyond that many problems end without an answer and without a proof: see below.
 /// For friction the fixed point contracts where `mu` or the ratio of tangential to normal stiffness is small;
-/// where it does not, the status is [`Stalled`](Status::Stalled). In every case
-/// [`Solved`](Status::Solved) and `Infeasible` are said only after a check in the data as given.
+/// where it does not, the status is [`Stalled`](crate::Status::Stalled). In every case
+/// [`Solved`](crate::Status::Solved) and `Infeasible` are said only after a check in the data as given.
 ///
-/// **Failure**: `Stalled` and [`NumericalTrouble`](Status::NumericalTrouble) for data so badly
+/// **Failure**: `Stalled` and [`NumericalTrouble`](crate::Status::NumericalTrouble) for data so badly
 /// conditioned that neither point nor proof comes out: where stiffnesses differ by 1e6 the interior point may be
 /// too far off to tell which contacts are closed. Then [`Lemke`](crate::Lemke) and
 /// [`InteriorPoint`](crate::InteriorPoint) are the methods to take, as [`Auto`](crate::Auto) does.

@@ -144,8 +144,8 @@ impl<X: Digits> Point for At<'_, X> {
         rows.rounded()
     }
 
-    fn loads(&self) -> Vec<f64> {
-        self.judge.loads.clone()
+    fn sources(&self) -> Vec<f64> {
+        ledger::in_full(&self.judge.loads)
     }
 
     fn terms(&self) -> Vec<Term> {

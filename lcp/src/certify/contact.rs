@@ -182,9 +182,15 @@ impl<X: Digits> Point for At<'_, X> {
         self.rows.clone()
     }
 
-    fn loads(&self) -> Vec<f64> {
+    /// Loads down to a millionth of those around them count in full, smaller ones by their size: of a body that
+    /// comes to rest nothing is left but rounding errors. Gaps and slips are differences of positions and have
+    /// their rounding errors: they count by what they are of the lengths around them.
+    fn sources(&self) -> Vec<f64> {
         let problem = self.judge.problem;
-        [problem.loads(), problem.initial_gaps(), problem.initial_slips()].concat()
+        let loads = problem.loads().iter().map(|f| f / FULL);
+        let openings = problem.initial_gaps().iter().chain(problem.initial_slips()).copied();
+        let all = loads.chain(openings).zip(&self.judge.weights);
+        all.map(|(v, weight)| (v.abs() * weight).min(1.0)).collect()
     }
 
     fn terms(&self) -> Vec<Term> {
@@ -255,6 +261,8 @@ impl ByRows {
     }
 }
 
+/// A load of this part of those around it counts in full.
+const FULL: f64 = 1.0 / (1 << 20) as f64;
 /// Couplings below this part of the strongest ones of their row are weak.
 const STRONG: f64 = 1.0 / (1 << 10) as f64;
 /// Rounds in which loads are passed on through weak couplings.

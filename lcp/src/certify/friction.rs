@@ -63,8 +63,8 @@ impl Point for At<'_> {
         (vec![0.0; self.terms.len()], self.terms.clone())
     }
 
-    fn loads(&self) -> Vec<f64> {
-        self.problem.q().to_vec()
+    fn sources(&self) -> Vec<f64> {
+        ledger::in_full(self.problem.q())
     }
 
     fn terms(&self) -> Vec<Term> {

@@ -128,8 +128,9 @@ impl<X: Digits> Point for At<'_, X> {
         rows.rounded()
     }
 
-    fn loads(&self) -> Vec<f64> {
-        self.judge.c.iter().map(|(c, _)| *c).collect()
+    fn sources(&self) -> Vec<f64> {
+        let loads: Vec<f64> = self.judge.c.iter().map(|(c, _)| *c).collect();
+        ledger::in_full(&loads)
     }
 
     fn terms(&self) -> Vec<Term> {

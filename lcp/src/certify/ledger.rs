@@ -104,8 +104,8 @@ pub(super) trait Point {
     /// What is left of the rows, and their terms.
     fn rows(&self) -> (Vec<f64>, Vec<f64>);
 
-    /// The right-hand sides.
-    fn loads(&self) -> Vec<f64>;
+    /// What the right-hand side of every row makes it count, between zero and one.
+    fn sources(&self) -> Vec<f64>;
 
     /// All terms with a variable that is not zero.
     fn terms(&self) -> Vec<Term>;
@@ -136,12 +136,17 @@ pub(super) fn residuals(
     if apparent <= SMALL || loads > MINOR * apparent {
         return strict;
     }
-    let significance = significance(&ledger.terms, &point.loads(), weights, &point.terms());
+    let significance = significance(&ledger.terms, &point.sources(), weights, &point.terms());
     let Ledger { rest, terms, .. } = ledger;
     let mut ledger = Ledger { significance, ..Ledger::new(rest, terms, weights) };
     ledger.count_rows();
     point.conditions(&mut ledger);
     ledger.finished(length, precision)
+}
+
+/// Rows with a right-hand side count in full.
+pub(super) fn in_full(loads: &[f64]) -> Vec<f64> {
+    loads.iter().map(|load| if *load == 0.0 { 0.0 } else { 1.0 }).collect()
 }
 
 /// Shows the coefficients of a variable: row and value.

@@ -31,9 +31,9 @@ pub(super) fn add_terms(terms: &mut Vec<Term>, (variable, x): (usize, f64), colu
     });
 }
 
-/// For every row a factor between zero and one. `loads` are the right-hand sides, and `felt` is one over the loads
-/// that a row feels, zero where there are none.
-pub(super) fn significance(terms: &[f64], loads: &[f64], felt: &[f64], all: &[Term]) -> Vec<f64> {
+/// For every row a factor between zero and one. `sources` are what rows count by their right-hand sides, and `felt`
+/// is one over the loads that a row feels, zero where there are none.
+pub(super) fn significance(terms: &[f64], sources: &[f64], felt: &[f64], all: &[Term]) -> Vec<f64> {
     let rows = terms.len();
     let variables = all.iter().map(|term| term.variable + 1).max().unwrap_or(0);
     let mut largest = vec![0.0_f64; rows];
@@ -48,7 +48,7 @@ pub(super) fn significance(terms: &[f64], loads: &[f64], felt: &[f64], all: &[Te
         }),
     );
     let mut worth = vec![0.0; rows + variables];
-    let loaded: Vec<_> = (0..rows).filter(|i| loads[*i] != 0.0).map(|i| (i, 1.0)).collect();
+    let loaded: Vec<_> = (0..rows).filter(|i| sources[*i] > 0.0).map(|i| (i, sources[i])).collect();
     links.spread(&loaded, &mut worth);
     // What no load reaches is measured by the loads around it, if there are any.
     let apart = (0..rows).filter(|i| worth[*i] == 0.0 && terms[*i] > 0.0);
@@ -89,7 +89,9 @@ impl Links {
     /// Raises what rows and variables are worth to the largest products of shares along chains from the sources
     /// (Dijkstra 1959).
     fn spread(&self, sources: &[(usize, f64)], worth: &mut [f64]) {
-        sources.iter().for_each(|&(node, value)| worth[node] = value);
+        for &(node, value) in sources {
+            worth[node] = value;
+        }
         // Only what the sources raise is waited for: most rows are sources.
         let mut raised = Vec::new();
         for (node, _) in sources {

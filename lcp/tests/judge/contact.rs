@@ -112,7 +112,8 @@ fn with_points(u: &[f64], points: &[Point]) -> Vec<f64> {
 
 impl<F: Friction> Planted for Contact<F> {
     fn draw(draw: &mut Draw) -> Self {
-        let blocks = Blocks::draw(draw, 3);
+        // Gaps that are less than that of others of the same structure are rounding errors of positions.
+        let blocks = Blocks::draw(draw, 3).within((20_f64).exp2());
         let n = blocks.len();
         let r = Mat::from_fn(n, n, |i, j| blocks.between(i, j).trunc() * draw.number(-1, 1));
         let is_rigid: Vec<bool> = (0..n).map(|_| draw.integer(0, 3) == 0).collect();

@@ -127,6 +127,14 @@ impl Blocks {
         Self { of, size, coupling, spread: draw.one_of(&[0, 3, 40, 60]) }
     }
 
+    /// The same, and blocks that are coupled are of sizes up to this.
+    pub(crate) fn within(mut self, largest: f64) -> Self {
+        if self.coupling > 0.0 {
+            self.size.iter_mut().for_each(|size| *size = size.min(largest));
+        }
+        self
+    }
+
     /// Whether all blocks are coupled strongly, or have a right-hand side of their own, given row by row.
     pub(crate) fn are_loaded(&self, right_side: &[f64]) -> bool {
         let rows = || right_side.iter().zip(self.of.iter().cycle());
