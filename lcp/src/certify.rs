@@ -79,6 +79,16 @@ impl Residuals {
         (worst * self.loads.max(f64::EPSILON * worst)).sqrt()
     }
 
+    /// Whether a method that goes on to the tolerance keeps this point: one within it before all others, else the one
+    /// that is further on the way.
+    pub(crate) fn is_better_than(&self, other: &Self, tolerance: f64) -> bool {
+        match (self.worst() <= tolerance, other.worst() <= tolerance) {
+            (false, false) => self.merit() < other.merit(),
+            (true, true) => self.worst() < other.worst(),
+            (is_solved, _) => is_solved,
+        }
+    }
+
     /// What a method may say of a point with these residuals: solved, or what it says of other points; of one
     /// that is not even almost solved it cannot say that.
     pub(crate) fn verdict(&self, tolerance: f64, otherwise: Status) -> Status {
@@ -87,6 +97,8 @@ impl Residuals {
             Status::Solved
         } else if otherwise == Status::AlmostSolved && worst > tolerance.sqrt() {
             Status::NumericalTrouble
+        } else if otherwise == Status::Solved {
+            Status::Stalled
         } else {
             otherwise
         }
@@ -96,5 +108,30 @@ impl Residuals {
     pub(crate) fn infinite() -> Self {
         let inf = f64::INFINITY;
         Self { equation: inf, feasibility: inf, complementarity: inf, natural: inf, loads: inf }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn residuals(natural: f64, loads: f64) -> Residuals {
+        Residuals { natural, loads, ..Residuals::default() }
+    }
+
+    #[test]
+    fn a_point_within_the_tolerance_is_kept_before_one_of_smaller_merit() {
+        let solved = residuals(9e-11, 9e-11);
+        let other = residuals(1e-6, 1e-17);
+        assert!(other.merit() < solved.merit());
+        assert!(solved.is_better_than(&other, 1e-10) && !other.is_better_than(&solved, 1e-10));
+        assert!(other.is_better_than(&residuals(0.5, 1e-3), 1e-10));
+        assert!(residuals(1e-12, 1e-11).is_better_than(&solved, 1e-10));
+    }
+
+    #[test]
+    fn no_method_says_solved_of_a_point_beyond_the_tolerance() {
+        let verdict = |natural| residuals(natural, 0.0).verdict(1e-10, Status::Solved);
+        assert_eq!((verdict(9e-11), verdict(2e-10)), (Status::Solved, Status::Stalled));
     }
 }

@@ -102,7 +102,7 @@ impl<'a> Search<'a> {
                 judged = brought_right(with, (point, judged), &vertex.contacts, *tolerance);
             }
             let is_solution = judged.worst() <= *tolerance;
-            keep_better(best, judged, is_solution.then_some(vertex));
+            keep_better(best, judged, is_solution.then_some(vertex), *tolerance);
             is_solution
         })
     }
@@ -116,7 +116,7 @@ impl<'a> Search<'a> {
         let with = (judge.as_ref(), &*scaled, condensed);
         let judged = judged(with, (&u, &forces), *tolerance, contacts);
         let worst = judged.worst();
-        keep_better(best, judged, None);
+        keep_better(best, judged, None, *tolerance);
         worst
     }
 
@@ -169,11 +169,12 @@ fn keep_better(
     best: &mut Option<(Judged, Option<Vertex>)>,
     judged: Judged,
     vertex: Option<&Vertex>,
+    tolerance: f64,
 ) {
     let is_better = best.as_ref().is_none_or(|(other, exact)| match (vertex, exact) {
         (Some(_), None) => true,
         (None, Some(_)) => false,
-        _ => judged.residuals.merit() < other.residuals.merit(),
+        _ => judged.residuals.is_better_than(&other.residuals, tolerance),
     });
     if is_better {
         *best = Some((judged, vertex.cloned()));

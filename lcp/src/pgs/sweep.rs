@@ -150,7 +150,7 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
         self.blocks.iter().for_each(|block| block.allowed(&self.z, &mut allowed));
         let point = Point { z: &self.z, w: &w, allowed: &allowed, sizes: &self.sizes };
         let residuals = judge(&point);
-        if residuals.merit() < best.residuals.merit() {
+        if residuals.is_better_than(&best.residuals, self.settings.tolerance) {
             *best = Best { z: self.z.clone(), w, allowed, residuals };
         }
         Some(residuals)

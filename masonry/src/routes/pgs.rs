@@ -114,7 +114,12 @@ impl<'a> Rounds<'a> {
     }
 
     fn step(&self) -> Step {
-        Step::Iteration { number: self.done, residual: self.lack() }
+        Step::Iteration { number: self.done, residual: self.residual() }
+    }
+
+    /// The worst residual, or what the springs still carry.
+    fn residual(&self) -> f64 {
+        self.residuals.worst().max(self.share)
     }
 
     /// How far the rounds have come, or what the springs still carry.
@@ -135,9 +140,9 @@ impl<'a> Rounds<'a> {
 
     fn stop(&self, observer: &mut dyn FnMut(Step) -> ControlFlow<()>) -> Option<Status> {
         let is_cancelled = observer(self.step()).is_break();
-        let lack = self.residuals.worst().max(self.share);
+        let residual = self.residual();
         let is_settled = self.idle >= SETTLED || self.done >= MAX_ROUNDS;
-        if lack <= NEARER * self.tolerance || (lack <= self.tolerance && is_settled) {
+        if residual <= NEARER * self.tolerance || (residual <= self.tolerance && is_settled) {
             Some(Status::Solved)
         } else if is_cancelled {
             Some(Status::Cancelled)
@@ -178,12 +183,12 @@ impl<'a> Rounds<'a> {
         self.state = state;
         self.rest();
         self.done += 1;
-        let worst = self.lack();
-        if worst >= self.least {
+        let lack = self.lack();
+        if lack >= self.least {
             self.better = (BETTER * self.better).max(LEAST);
         }
-        self.idle = if worst < 0.9 * self.least { 0 } else { self.idle + 1 };
-        self.least = self.least.min(worst);
+        self.idle = if lack < 0.9 * self.least { 0 } else { self.idle + 1 };
+        self.least = self.least.min(lack);
         Ok(ControlFlow::Continue(()))
     }
 
