@@ -2,6 +2,7 @@
 
 mod chain;
 mod contact;
+mod divided;
 mod enumerated;
 mod facts;
 pub(crate) mod memory;
@@ -15,7 +16,7 @@ pub use settings::AutoSettings;
 
 #[cfg(feature = "cli")]
 pub(crate) use enumerated::Enumeration;
-use method::{Planned, chain_of};
+use method::Planned;
 #[cfg(feature = "cli")]
 pub(crate) use smoothed::Smoothing;
 
@@ -63,6 +64,12 @@ pub struct Choice {
 /// Problems of up to 12 pairs, apart from free variables, are never left open: after Lemke's method all choices of sides
 /// are gone through by branching, with a solution or a proof for each. All larger ones but [`Contact2d`](crate::Contact2d)
 /// end with Newton's method on smoothed equations, from several starts.
+///
+/// # Independent parts
+/// Rows and variables that no entry connects are problems by themselves. Each goes through its own chain, so that a
+/// body on its own costs what it costs alone, and few pairs stay few beside others. A part without a solution
+/// proves that the whole has none. A plan and its [`Route`](crate::Route)s have one line for all parts with which they
+/// go alike. More than 256 parts are first tried as one problem.
 ///
 /// # When it ends
 /// With [`Solved`](crate::Status::Solved), with [`Infeasible`](crate::Status::Infeasible) or
@@ -116,7 +123,7 @@ impl Auto {
 
     /// The methods for a problem in the order in which they would be asked.
     pub fn plan<P: Planned>(&self, problem: &P) -> Vec<Choice> {
-        let steps = chain_of(problem).into_iter();
+        let steps = divided::steps(problem).into_iter();
         steps.map(|step| Choice { method: step.method, reason: step.reason }).collect()
     }
 }
@@ -128,6 +135,6 @@ impl<P: Planned> Solver<P> for Auto {
     }
 
     fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
-        chain::run(problem, &self.settings, observer)
+        divided::run(problem, &self.settings, observer)
     }
 }

@@ -126,6 +126,7 @@ mod basis;
 mod certify;
 #[cfg(feature = "cli")]
 pub mod cli;
+mod divide;
 mod enumerate;
 mod error;
 #[cfg(feature = "exact")]

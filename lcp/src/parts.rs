@@ -44,4 +44,19 @@ impl Parts {
             elements.for_each(|i| self.join(first, i));
         }
     }
+
+    /// The elements of every part in ascending order, the parts by their first elements.
+    pub(crate) fn groups(&mut self) -> Vec<Vec<usize>> {
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        let mut group_of = vec![None; self.parent.len()];
+        for i in 0..self.parent.len() {
+            let first = self.of(i);
+            let group = *group_of[first].get_or_insert_with(|| {
+                groups.push(Vec::new());
+                groups.len() - 1
+            });
+            groups[group].push(i);
+        }
+        groups
+    }
 }

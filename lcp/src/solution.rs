@@ -162,7 +162,8 @@ pub struct Info {
     #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinities"))]
     pub history: Vec<f64>,
     /// The methods that [`Auto`](crate::Auto) asked, in order; the point comes from one of them, and so do
-    /// the other numbers here but for the time.
+    /// the other numbers here but for the time. Of a problem that fell into independent parts they are of all parts,
+    /// the other numbers their sums, and [`method`](Self::method) is that of the largest.
     pub routes: Vec<Route>,
     /// Wall-clock time \[s\].
     pub seconds: f64,

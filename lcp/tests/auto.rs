@@ -51,9 +51,11 @@ fn assert_routes(solution: &Solution, plan: &[Method]) {
     let names: Vec<_> = routes.iter().map(|route| route.method).collect();
     assert_eq!(names, plan[..names.len()]);
     assert!(routes.iter().map(|route| route.seconds).sum::<f64>() <= solution.info.seconds);
+    // The whole is measured by itself where its parts were solved one by one.
+    let is_divided = routes.iter().any(|route| route.reason.contains("independent parts"));
     let is_from = |end: &RouteEnd| {
         matches!(end, RouteEnd::Ended { status, residual } if *status == solution.status
-            && residual.total_cmp(&solution.residuals.worst()).is_eq())
+            && (is_divided || residual.total_cmp(&solution.residuals.worst()).is_eq()))
     };
     let source = routes.iter().find(|route| route.method == solution.info.method).unwrap();
     assert!(is_from(&source.end), "{source:?} but {}", solution.status);
@@ -76,10 +78,16 @@ fn alternating(n: usize) -> Vec<f64> {
     (0..n).map(|i| if i % 3 == 0 { -2.0 } else { 1.0 }).collect()
 }
 
-/// Masses on a plane, one beside the other, pushed to the side, every second by more than friction holds.
+/// Masses on a plane, one beside the other, pushed to the side, every second by more than friction holds. Springs
+/// between them, which resist no motion along the plane, make them one problem.
 fn masses(count: usize, mu: f64, spring: f64) -> Contact2d {
     let n = 2 * count;
-    let k = sparse(n, |_, _| spring, &[]);
+    let k = |i: usize, j: usize| match i % 2 {
+        _ if i == j => spring,
+        0 => -0.25 * spring,
+        _ => 0.0,
+    };
+    let k = sparse(n, k, &[2]);
     let select = |part: usize| {
         Matrix::from(Mat::from_fn(count, n, |i, j| f64::from(u8::from(j == 2 * i + part))))
     };
@@ -269,14 +277,20 @@ fn without_equilibrium_the_chain_looks_for_a_proof() {
     }
 }
 
-/// Blocks of a symmetric matrix that is copositive and not semidefinite: the active set method cycles, the
+/// Blocks of a symmetric matrix that is copositive and not semidefinite, one weakly coupled with the next: the active set method cycles, the
 /// interior point jams, the program is not convex; sweeps decrease a function that is bounded below.
 #[test]
 fn a_method_that_refuses_is_passed_over() {
     let block = families::strictly_copositive(30, 1).problem;
     let entry = |i: usize, j: usize| {
         let (k, l) = (i % 30, j % 30);
-        if i / 30 == j / 30 { 0.5 * (block.m()[(k, l)] + block.m()[(l, k)]) } else { 0.0 }
+        if i / 30 == j / 30 {
+            0.5 * (block.m()[(k, l)] + block.m()[(l, k)])
+        } else if i.abs_diff(j) == 1 {
+            1e-3
+        } else {
+            0.0
+        }
     };
     let offsets: Vec<usize> = (1..30).collect();
     let q = (0..600).map(|i| block.q()[i % 30]).collect();

@@ -11,7 +11,7 @@ const NEAR: f64 = 1e-4;
 
 /// How much an answer says; what comes first says more.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
-enum Rank {
+pub(super) enum Rank {
     /// Solved, or with a proof that there is no solution.
     Decided,
     /// With residuals below the root of the tolerance.
@@ -28,7 +28,6 @@ pub(super) fn run<P: Planned>(
     settings: &AutoSettings,
     observer: &mut Observer<'_>,
 ) -> Result<Solution, Error> {
-    settings.validate(problem.pairs())?;
     let began = Instant::now();
     let mut routes = Vec::new();
     let mut best: Option<Solution> = None;
@@ -80,7 +79,7 @@ pub(super) fn run<P: Planned>(
 }
 
 /// After these no other method is asked.
-fn is_final(solution: &Solution) -> bool {
+pub(super) fn is_final(solution: &Solution) -> bool {
     match solution.status {
         Status::Solved | Status::Cancelled | Status::TimeLimit => true,
         Status::Infeasible | Status::NoSolution => {
@@ -100,14 +99,14 @@ fn near_point(solution: &Solution, tolerance: f64) -> Option<WarmStart> {
 }
 
 /// The one that says more; the earlier one where both say the same.
-fn better(best: Option<Solution>, other: Solution, tolerance: f64) -> Solution {
+pub(super) fn better(best: Option<Solution>, other: Solution, tolerance: f64) -> Solution {
     match best {
         Some(best) if rank(&best, tolerance) <= rank(&other, tolerance) => best,
         _ => other,
     }
 }
 
-fn rank(solution: &Solution, tolerance: f64) -> (Rank, f64) {
+pub(super) fn rank(solution: &Solution, tolerance: f64) -> (Rank, f64) {
     let residual = solution.residuals.worst();
     let rank = match solution.status {
         Status::Solved | Status::Infeasible | Status::NoSolution => Rank::Decided,
@@ -139,6 +138,7 @@ mod tests {
 
     use super::*;
     use crate::auto::method::Step;
+    use crate::divide::{Divide, Part};
     use crate::lower::General;
     use crate::{Auto, HorizontalLcp, Iteration, Lcp, Residuals, Solver};
 
@@ -152,6 +152,12 @@ mod tests {
 
         fn residuals_of_pairs(&self, _: &[f64], _: &[f64]) -> Residuals {
             Residuals::default()
+        }
+    }
+
+    impl Divide for Refused {
+        fn parts(&self) -> Option<Vec<Part<Self>>> {
+            None
         }
     }
 

@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::enumerated::{Enumeration, MOST_VARIABLES, is_small};
 use super::memory;
 use super::smoothed::Smoothing;
-use crate::lower::General;
+use crate::divide::Divide;
 use crate::{
     Error, InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings, Method, Observer,
     ProjectedGaussSeidel, ProjectedGaussSeidelSettings, SemismoothNewton, SemismoothNewtonSettings,
@@ -49,7 +49,7 @@ pub(super) fn chain_of<P: Planned>(problem: &P) -> Vec<Step> {
 }
 
 /// A problem with a chain of methods. Only the problems of the library are.
-pub trait Planned: General + Sized {
+pub trait Planned: Divide {
     /// Pairs of a start.
     fn pairs(&self) -> usize;
 

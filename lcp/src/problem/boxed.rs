@@ -232,6 +232,12 @@ impl BoxedLcp {
         (0..self.order()).map(size).collect()
     }
 
+    /// For every variable the further pair that its two bounds have in the general problem.
+    pub(crate) fn upper_pairs(&self) -> Vec<Option<usize>> {
+        let pair = |kind| if let Kind::Both(pair) = kind { Some(pair) } else { None };
+        self.kinds().into_iter().map(pair).collect()
+    }
+
     fn kinds(&self) -> Vec<Kind> {
         let mut next = self.order();
         let kind = |(&lower, &upper): (&f64, &f64)| match (lower.is_finite(), upper.is_finite()) {

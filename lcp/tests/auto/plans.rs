@@ -44,7 +44,12 @@ fn other_forms_have_their_plans() {
     let obstacle = families::obstacle(5).problem;
     let expected = plan!(&obstacle);
     assert_eq!(plan!(&HorizontalLcp::from(obstacle)), expected);
-    assert_eq!(plan!(&families::horizontal_monotone(9, 1).problem), [LEMKE, CHOICES]);
+    // Two parts, one of them a standard problem in disguise.
+    let horizontal = families::horizontal_monotone(9, 1).problem;
+    assert_eq!(plan!(&horizontal), [LEMKE, CHOICES, INTERIOR, PROGRAM]);
+    let reasons: Vec<_> = auto().plan(&horizontal).into_iter().map(|it| it.reason).collect();
+    assert!(reasons[0].starts_with("2 of 2 independent parts"), "{reasons:?}");
+    assert!(reasons[3].starts_with("1 of 2 independent parts"), "{reasons:?}");
     assert_eq!(plan!(&families::mixed_monotone(9, 1).problem), [LEMKE, CHOICES, INTERIOR, PROGRAM]);
     assert_eq!(plan!(&families::mixed_singular(8, 1).problem), [LEMKE, CHOICES, INTERIOR]);
     let entry = |i: usize, j: usize| if i == j { 3.0 } else { 1.0 };

@@ -1,0 +1,218 @@
+//! Independent parts one by one: each has a chain, units and limits of its own.
+
+use std::time::Instant;
+
+use super::AutoSettings;
+use super::chain::{self, Rank};
+use super::method::{Planned, Step, chain_of};
+use crate::divide::Part;
+use crate::{Basis, Certificate, Error, Observer, Route, RouteEnd, Side, Solution, Status};
+
+/// More parts than these are small, and all of them together are one problem that is solved in the time of some
+/// small ones: they are taken one by one only where that fails.
+const MANY: usize = 256;
+
+/// Solves a problem by its parts, where it has several.
+pub(super) fn run<P: Planned>(
+    problem: &P,
+    settings: &AutoSettings,
+    observer: &mut Observer<'_>,
+) -> Result<Solution, Error> {
+    settings.validate(problem.pairs())?;
+    let Some(parts) = problem.parts() else { return chain::run(problem, settings, observer) };
+    let began = Instant::now();
+    let mut tried = None;
+    if parts.len() > MANY {
+        let solution = chain::run(problem, settings, observer)?;
+        if chain::is_final(&solution) {
+            return Ok(solution);
+        }
+        tried = Some(solution);
+    }
+    let mut divided = Divided { settings, began, answers: Vec::new() };
+    let refusal = divided.solve(parts, observer).err();
+    if let Some(error) = refusal.filter(|_| tried.is_none()) {
+        return Err(error);
+    }
+    let joined = divided.join(problem);
+    Ok(chain::better(tried, joined, settings.tolerance))
+}
+
+/// The plans of the parts; a method that stands at the same place of several plans stands there once.
+pub(super) fn steps<P: Planned>(problem: &P) -> Vec<Step> {
+    let Some(parts) = problem.parts().filter(|parts| parts.len() <= MANY) else {
+        return chain_of(problem);
+    };
+    let plans = parts.iter().map(|part| chain_of(&part.problem));
+    let is_same = |a: &Step, b: &Step| a.method == b.method;
+    merged(plans, is_same, |_, _| {})
+        .into_iter()
+        .map(|(step, count)| Step { reason: named(&step.reason, count, parts.len()), ..step })
+        .collect()
+}
+
+fn named(reason: &str, count: usize, parts: usize) -> String {
+    format!("{count} of {parts} independent parts, the first of {reason}")
+}
+
+/// Lists of several parts as one: entries at the same place that are the same are one entry, with their number.
+fn merged<T>(
+    lists: impl Iterator<Item = Vec<T>>,
+    is_same: impl Fn(&T, &T) -> bool,
+    add: impl Fn(&mut T, &T),
+) -> Vec<(T, usize)> {
+    let mut places: Vec<Vec<(T, usize)>> = Vec::new();
+    for list in lists {
+        for (place, entry) in list.into_iter().enumerate() {
+            if place == places.len() {
+                places.push(Vec::new());
+            }
+            match places[place].iter_mut().find(|(first, _)| is_same(first, &entry)) {
+                Some((first, count)) => {
+                    *count += 1;
+                    add(first, &entry);
+                }
+                None => places[place].push((entry, 1)),
+            }
+        }
+    }
+    places.into_iter().flatten().collect()
+}
+
+/// Whether methods came to the same end.
+fn is_same_end(a: &Route, b: &Route) -> bool {
+    let status = |route: &Route| match &route.end {
+        RouteEnd::Ended { status, .. } => Some(*status),
+        RouteEnd::Refused { .. } => None,
+    };
+    a.method == b.method && status(a) == status(b)
+}
+
+/// The time of both, and the larger residual.
+fn add_route(first: &mut Route, other: &Route) {
+    first.seconds += other.seconds;
+    if let RouteEnd::Ended { residual: largest, .. } = &mut first.end
+        && let RouteEnd::Ended { residual, .. } = &other.end
+    {
+        *largest = largest.max(*residual);
+    }
+}
+
+/// The answers of the parts.
+struct Divided<'a, P> {
+    settings: &'a AutoSettings,
+    began: Instant,
+    answers: Vec<(Part<P>, Solution)>,
+}
+
+impl<P: Planned> Divided<'_, P> {
+    /// Solves one part after the other, until one of them proves that there is no solution.
+    fn solve(&mut self, parts: Vec<Part<P>>, observer: &mut Observer<'_>) -> Result<(), Error> {
+        for part in parts {
+            let left = self.settings.time_limit;
+            let settings = AutoSettings {
+                tolerance: self.settings.tolerance,
+                time_limit: left.map(|limit| limit.saturating_sub(self.began.elapsed())),
+                start: part.start(&self.settings.start),
+            };
+            let answer = chain::run(&part.problem, &settings, observer)?;
+            let is_last = answer.status == Status::Cancelled || is_proof(&answer);
+            self.answers.push((part, answer));
+            if is_last {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// The answer of the whole: the part that says least decides what is said of it, unless one proves that there
+    /// is no solution.
+    fn join(self, problem: &P) -> Solution {
+        let Self { settings, began, mut answers } = self;
+        let pairs = problem.general().order();
+        let (mut t, mut y) = (vec![0.0; pairs], vec![0.0; pairs]);
+        for (part, answer) in &answers {
+            part.put_pairs(&answer.t, &mut t);
+            part.put_pairs(&answer.y, &mut y);
+        }
+        let residuals = problem.residuals_of_pairs(&t, &y);
+        let mut whole = Solution::judged((t, y), residuals, settings.tolerance, Status::Stalled);
+        whole.residuals = problem.join(&mut whole, &answers);
+        let (otherwise, certificate) = outcome(&answers, settings.tolerance, pairs);
+        whole.status = match otherwise {
+            Status::Infeasible | Status::NoSolution | Status::Cancelled => otherwise,
+            _ => whole.residuals.verdict(settings.tolerance, otherwise),
+        };
+        whole.certificate = certificate.filter(|_| whole.status == otherwise);
+        whole.basis = joined_basis(&answers, pairs);
+        whole.condition = joined_condition(&answers);
+        whole.info.method = largest(&answers).info.method;
+        for (_, answer) in &mut answers {
+            let info = &mut answer.info;
+            whole.info.pivots += info.pivots;
+            whole.info.iterations += info.iterations;
+            whole.info.factorisations += info.factorisations;
+            whole.info.pivot_seconds += info.pivot_seconds;
+            whole.info.attempts.append(&mut info.attempts);
+        }
+        let count = answers.len();
+        let routes = answers.into_iter().map(|(_, answer)| answer.info.routes);
+        for (mut route, of_parts) in merged(routes, is_same_end, add_route) {
+            route.reason = named(&route.reason, of_parts, count);
+            whole.info.routes.push(route);
+        }
+        whole.info.seconds = began.elapsed().as_secs_f64();
+        whole
+    }
+}
+
+fn is_proof(answer: &Solution) -> bool {
+    answer.certificate.as_ref().is_some_and(Certificate::is_proof)
+}
+
+/// What the parts say of the whole.
+fn outcome<P>(
+    answers: &[(Part<P>, Solution)],
+    tolerance: f64,
+    pairs: usize,
+) -> (Status, Option<Certificate>) {
+    let says = |(_, answer): &&(Part<P>, Solution)| match chain::rank(answer, tolerance).0 {
+        _ if is_proof(answer) => 3,
+        // Without an equilibrium of one part there is none of the whole.
+        Rank::Evidence => 2,
+        Rank::Decided => 0,
+        Rank::Near | Rank::Ray | Rank::Open => 1,
+    };
+    let Some((part, answer)) = answers.iter().max_by_key(says) else {
+        return (Status::Stalled, None);
+    };
+    let certificate = answer.certificate.as_ref();
+    (answer.status, certificate.map(|it| part.certificate(it, pairs)))
+}
+
+/// The basis of the whole, where all parts have one.
+fn joined_basis<P>(answers: &[(Part<P>, Solution)], pairs: usize) -> Option<Basis> {
+    let mut sides = vec![Side::T; pairs];
+    for (part, answer) in answers {
+        part.put_pairs(answer.basis.as_ref()?.sides(), &mut sides);
+    }
+    let covered: usize = answers.iter().map(|(part, _)| part.pairs.len()).sum();
+    (covered == pairs).then(|| Basis::new(sides))
+}
+
+/// That of the part with the largest, where all are known: blocks are equilibrated, so that their norms are alike.
+fn joined_condition<P>(answers: &[(Part<P>, Solution)]) -> Option<f64> {
+    let mut conditions = answers.iter().map(|(_, answer)| answer.condition);
+    conditions.try_fold(0.0_f64, |largest, condition| Some(largest.max(condition?)))
+}
+
+/// The answer of the first of the largest parts, whose method stands for all.
+fn largest<P>(answers: &[(Part<P>, Solution)]) -> &Solution {
+    let mut largest = &answers[0];
+    for answer in answers {
+        if answer.0.pairs.len() > largest.0.pairs.len() {
+            largest = answer;
+        }
+    }
+    &largest.1
+}
