@@ -106,7 +106,7 @@ struct Divided<'a, P> {
 }
 
 impl<P: Planned> Divided<'_, P> {
-    /// Solves one part after the other, until one of them proves that there is no solution.
+    /// Solves one part after the other, until one of them proves that the linear conditions have no solution.
     fn solve(&mut self, parts: Vec<Part<P>>, observer: &mut Observer<'_>) -> Result<(), Error> {
         for part in parts {
             let left = self.settings.time_limit;
@@ -116,7 +116,10 @@ impl<P: Planned> Divided<'_, P> {
                 start: part.start(&self.settings.start),
             };
             let answer = chain::run(&part.problem, &settings, observer)?;
-            let is_last = answer.status == Status::Cancelled || is_proof(&answer);
+            let is_last = match answer.status {
+                Status::Infeasible => is_proof(&answer),
+                status => status == Status::Cancelled,
+            };
             self.answers.push((part, answer));
             if is_last {
                 break;
@@ -177,6 +180,7 @@ fn outcome<P>(
     pairs: usize,
 ) -> (Status, Option<Certificate>) {
     let says = |(_, answer): &&(Part<P>, Solution)| match chain::rank(answer, tolerance).0 {
+        _ if is_proof(answer) && answer.status == Status::Infeasible => 4,
         _ if is_proof(answer) => 3,
         // Without an equilibrium of one part there is none of the whole.
         Rank::Evidence => 2,
