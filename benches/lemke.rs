@@ -6,14 +6,17 @@
 //! path, and that of the whole solve, with scaling, start basis and final solve, divided by the pivots.
 
 mod common;
+#[path = "common/dense.rs"]
+mod dense;
 
 use std::fmt::Write as _;
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
+use dense::{positive_definite, wave};
 use faer::Mat;
-use lcp::{HorizontalLcp, Lcp, Lemke, Solution, Solver};
+use lcp::{HorizontalLcp, Lemke, Solution, Solver};
 use masonry::forms::{Form, FormKind};
 use masonry::model::Model;
 use masonry::reduction::Reduction;
@@ -25,7 +28,8 @@ fn main() {
         return;
     }
     let random = [100, 200, 400, 800, 1600];
-    let random = random.map(|n| ("random positive definite".to_owned(), positive_definite(n)));
+    let random =
+        random.map(|n| ("random positive definite".to_owned(), positive_definite(n).into()));
     let panels = ["panel_rectangular", "panel_square"];
     let panels = panels.map(|name| (format!("`{name}`, mixed form"), panel(name)));
     let mut table = String::from(
@@ -81,14 +85,6 @@ fn rank_one(n: usize, runs: usize) -> f64 {
     (0..runs).map(|_| update()).fold(f64::INFINITY, f64::min)
 }
 
-/// `M = C C^T + 1` with entries of `C` between -1/2 and 1/2, `q` likewise.
-fn positive_definite(n: usize) -> HorizontalLcp {
-    let c = Mat::from_fn(n, n, |i, j| wave(i * n + j));
-    let m = &c * c.transpose() + Mat::<f64>::identity(n, n);
-    let q = (0..n).map(|i| wave(n * n + i)).collect();
-    Lcp::new(m, q).expect("finite data").into()
-}
-
 /// The general problem that a panel of the repository leads to.
 fn panel(name: &str) -> HorizontalLcp {
     let path =
@@ -98,10 +94,4 @@ fn panel(name: &str) -> HorizontalLcp {
     let system = System::new(&model).expect("the blocks are sound");
     let reduction = Reduction::new(&system, None).expect("no block is free");
     Form::new(FormKind::Mixed, &system, &reduction).expect("finite data").problem
-}
-
-/// A number between -1/2 and 1/2 that looks random.
-fn wave(k: usize) -> f64 {
-    let x = (k as f64 * 12.9898).sin() * 43_758.545_3;
-    x - x.floor() - 0.5
 }

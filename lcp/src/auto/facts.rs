@@ -38,7 +38,8 @@ impl Facts {
             Ok(()) if has_positive_diagonal && is_dominant(m, &diagonal) => Symmetry::Dominant,
             Ok(()) => Symmetry::Symmetric,
         };
-        let nonzeros = (0..order).map(|j| m.column(j).filter(|(_, v)| *v != 0.0).count()).sum();
+        let nonzeros = |j| m.column(j).filter(|(_, v)| *v != 0.0).count();
+        let nonzeros = if m.is_sparse() { (0..order).map(nonzeros).sum() } else { order * order };
         Self {
             order,
             nonzeros,

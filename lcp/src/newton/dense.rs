@@ -1,46 +1,52 @@
 //! Dense matrices of free sets.
 
-use faer::linalg::solvers::{Llt, Solve};
-use faer::{Mat, MatMut, Side};
+use faer::prelude::ReborrowMut;
+use faer::{Mat, MatMut, MatRef};
 
 use super::kernel::{Kernel, Outcome, is_vanishing, scales};
 use crate::Matrix;
-use crate::linear::Lu;
+use crate::linear::{Lu, factorise_cholesky, solve_cholesky};
+use crate::matrix::Column;
 
 /// Cholesky's method.
 pub(super) struct DenseCholesky<'a> {
     m: &'a Matrix,
     free: Vec<usize>,
-    factor: Option<Llt<f64>>,
+    /// The lower half of the factor of the free pairs comes first; kept from step to step, and never shrunk.
+    factor: Vec<f64>,
 }
 
 impl<'a> DenseCholesky<'a> {
     pub(super) fn new(m: &'a Matrix) -> Self {
-        Self { m, free: Vec::new(), factor: None }
+        Self { m, free: Vec::new(), factor: Vec::new() }
     }
 }
 
 impl Kernel for DenseCholesky<'_> {
     fn factorise(&mut self, is_free: &[bool]) -> Outcome {
         self.free = indices(is_free);
-        let free = &self.free;
-        let block = Mat::from_fn(free.len(), free.len(), |i, j| self.m[(free[i], free[j])]);
-        self.factor = Llt::new(block.as_ref(), Side::Lower).ok();
-        let Some(factor) = &self.factor else { return Outcome::Unsuited };
-        let l = factor.L();
-        if (0..free.len()).any(|k| is_vanishing(l[(k, k)], block[(k, k)])) {
-            return Outcome::Singular;
+        let (free, order) = (&self.free, self.free.len());
+        if self.factor.len() < order * order {
+            self.factor = vec![0.0; order * order];
         }
-        Outcome::Regular
+        let entries = &mut self.factor[..order * order];
+        for (k, (column, &j)) in entries.chunks_exact_mut(order).zip(free).enumerate() {
+            picked(self.m.slice(j), &free[k..], &mut column[k..]);
+        }
+        let mut factor = MatMut::from_column_major_slice_mut(entries, order, order);
+        if !factorise_cholesky(factor.rb_mut()) {
+            return Outcome::Unsuited;
+        }
+        let vanishes = |k: usize| is_vanishing(factor[(k, k)], self.m[(free[k], free[k])]);
+        if (0..order).any(vanishes) { Outcome::Singular } else { Outcome::Regular }
     }
 
     fn solve(&mut self, x: &mut [f64]) {
-        if let Some(factor) = &self.factor {
-            let mut packed: Vec<f64> = self.free.iter().map(|&i| x[i]).collect();
-            let order = packed.len();
-            factor.solve_in_place(MatMut::from_column_major_slice_mut(&mut packed, order, 1));
-            self.free.iter().zip(packed).for_each(|(&i, v)| x[i] = v);
-        }
+        let order = self.free.len();
+        let mut packed: Vec<f64> = self.free.iter().map(|&i| x[i]).collect();
+        let factor = &self.factor[..order * order];
+        solve_cholesky(MatRef::from_column_major_slice(factor, order, order), &mut packed);
+        self.free.iter().zip(packed).for_each(|(&i, v)| x[i] = v);
     }
 }
 
@@ -62,8 +68,12 @@ impl Kernel for DenseLu<'_> {
     fn factorise(&mut self, is_free: &[bool]) -> Outcome {
         self.free = indices(is_free);
         let (free, (rows, cols)) = (&self.free, &self.scales);
-        let entry = |i: usize, j: usize| rows[i] * self.m[(i, j)] * cols[j];
-        let block = Mat::from_fn(free.len(), free.len(), |i, j| entry(free[i], free[j]));
+        let mut block = Mat::zeros(free.len(), free.len());
+        for (k, &j) in free.iter().enumerate() {
+            let column = block.col_as_slice_mut(k);
+            picked(self.m.slice(j), free, column);
+            column.iter_mut().zip(free).for_each(|(v, &i)| *v *= rows[i] * cols[j]);
+        }
         self.factor = Lu::new(block.as_ref());
         if self.factor.is_some() { Outcome::Regular } else { Outcome::Singular }
     }
@@ -75,6 +85,13 @@ impl Kernel for DenseLu<'_> {
             factor.solve_vector(&mut packed);
             self.free.iter().zip(packed).for_each(|(&i, v)| x[i] = cols[i] * v);
         }
+    }
+}
+
+/// The entries of a column in some rows.
+fn picked(column: Column<'_>, rows: &[usize], out: &mut [f64]) {
+    if let Column::Dense(values) = column {
+        out.iter_mut().zip(rows).for_each(|(out, &i)| *out = values[i]);
     }
 }
 

@@ -205,10 +205,7 @@ impl Image {
         let mut w = lcp.q().to_vec();
         let mut size: Vec<f64> = w.iter().map(|q| q.abs()).collect();
         for (j, &z) in z.iter().enumerate().filter(|(_, z)| **z != 0.0) {
-            lcp.m().slice(j).for_each(|i, v| {
-                w[i] += v * z;
-                size[i] += (v * z).abs();
-            });
+            lcp.m().slice(j).add_with_sizes(z, (&mut w, &mut size));
         }
         Self { w, size }
     }
