@@ -25,6 +25,7 @@
 mod boxed;
 mod certificate;
 mod contact;
+mod evidence;
 mod farkas;
 mod friction;
 mod general;
@@ -33,6 +34,7 @@ mod significance;
 mod weights;
 
 pub use certificate::{Certificate, Leaf};
+pub use evidence::{Ray, SoftSprings};
 
 pub(crate) use boxed::BoxedJudge;
 pub(crate) use contact::{ContactJudge, StateOf};

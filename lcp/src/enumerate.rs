@@ -15,8 +15,8 @@ use crate::certify::{Leaf, is_proof_of};
 use crate::extended::Extended;
 use crate::matrix::Column;
 use crate::nonnegative::{LeastSquares, Minimum};
-use crate::problem::max_abs;
 use crate::scaling::{GIVEN, equilibrate};
+use crate::vector::max_abs;
 use crate::{Basis, HorizontalLcp, Side};
 
 /// Rounding of a row of an answer, relative to its terms.

@@ -9,7 +9,7 @@ use faer::linalg::triangular_solve::{
 use faer::prelude::{Reborrow, ReborrowMut};
 use faer::{Accum, Mat, MatMut, MatRef, Par, unzip, zip};
 
-use crate::problem::max_abs;
+use crate::vector::max_abs;
 
 /// An LU factorisation that is known not to be singular to working precision.
 #[derive(Debug)]

@@ -12,9 +12,9 @@ mod system;
 
 use std::time::Duration;
 
-use crate::problem::max_abs;
 use crate::settings::check_tolerance;
 use crate::solve::Monitor;
+use crate::vector::max_abs;
 use crate::{
     Basis, Error, HorizontalLcp, Lcp, Method, Observer, Residuals, Side, Solution, Solver, Status,
     WarmStart,

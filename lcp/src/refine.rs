@@ -15,7 +15,8 @@ use at::At;
 use solve::solved;
 
 use crate::active::Scaled;
-use crate::problem::{check_length, check_vector, column_of};
+use crate::problem::column_of;
+use crate::vector::{check_length, check_vector};
 use crate::{Contact2d, ContactState, Error};
 
 /// How far [`Contact2d::refine`] goes.

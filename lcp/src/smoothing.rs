@@ -13,10 +13,10 @@ use faer::Mat;
 
 use crate::linear::Lu;
 use crate::matrix::Column;
-use crate::problem::max_abs;
 use crate::random::SplitMix;
 use crate::scaling::{GIVEN, equilibrate};
 use crate::sparse::{Columns, SparseLu};
+use crate::vector::max_abs;
 use crate::{Basis, HorizontalLcp, Side};
 
 /// `mu` at the end, for a right-hand side of size one.

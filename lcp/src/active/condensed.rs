@@ -3,8 +3,8 @@
 use faer::sparse::{FaerError, Pair, SymbolicSparseColMat};
 
 use super::scaled::Scaled;
-use crate::problem::max_abs;
 use crate::sparse::Multifrontal;
+use crate::vector::max_abs;
 
 /// The stiffness `s` with which a contact point answers to changes of its gap and slip:
 /// `dt_n = -nn dg`, `dt_t = -tn dg - tt ds`.

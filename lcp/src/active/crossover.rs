@@ -6,7 +6,7 @@ use super::condensed::{Condensed, Springs};
 use super::scaled::{Point, Scaled};
 use crate::certify::ratio;
 use crate::problem::ContactStatus;
-use crate::problem::max_abs;
+use crate::vector::max_abs;
 
 /// What a row lacks, relative to its terms, that is nothing but rounding.
 const NOISE: f64 = 4.0 * f64::EPSILON;

@@ -1,9 +1,9 @@
 //! What shows that a problem has no solution.
 
+use super::evidence::{Ray, SoftSprings};
 use super::farkas::{is_proof, is_proof_of};
 use super::ledger::ratio;
 use crate::matrix::Column;
-use crate::solution::{Ray, SoftSprings};
 use crate::{HorizontalLcp, Side};
 
 /// What shows that there is no solution, or what was met in place of one. See

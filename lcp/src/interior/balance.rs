@@ -3,7 +3,8 @@
 use super::InteriorPoint;
 use super::settings::InteriorPointSettings;
 use crate::active::{Point, Scaled};
-use crate::problem::{column_of, max_abs};
+use crate::problem::column_of;
+use crate::vector::max_abs;
 use crate::{Matrix, MixedLcp, Observer, Solver};
 
 /// What a row of `K v` or a contact may miss, relative to its terms: rounding errors.

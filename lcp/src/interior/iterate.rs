@@ -2,7 +2,7 @@
 
 use crate::active::{Condensed, Point, Scaled, Springs};
 use crate::problem::ContactStatus;
-use crate::problem::max_abs;
+use crate::vector::max_abs;
 
 /// Compliance of a contact, relative to that of the bodies, below which a step does not go: forces are
 /// differences of gaps times a stiffness, and lose their digits when that is too large. A step is a

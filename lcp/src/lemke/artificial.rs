@@ -9,7 +9,7 @@ use super::feasibility::in_problem_rows;
 use super::finish::Point;
 use super::start::Equilibrated;
 use crate::certify::is_proof;
-use crate::problem::max_abs;
+use crate::vector::max_abs;
 use crate::{Basis, HorizontalLcp, Matrix, Side, Solution};
 
 /// A part of `c` below this is rounding errors, in equilibrated rows.

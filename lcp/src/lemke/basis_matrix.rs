@@ -4,9 +4,9 @@ use faer::Mat;
 
 use super::start::Equilibrated;
 use crate::linear::{Lu, inverse_norm};
-use crate::problem::max_abs;
 use crate::random::SplitMix;
 use crate::sparse::{Columns, SparseLu};
+use crate::vector::max_abs;
 use crate::{Basis, Side};
 
 /// Entries of a row of the inverse below this multiple of the largest are no numbers of the problem.

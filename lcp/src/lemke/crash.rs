@@ -13,8 +13,8 @@ use sparse::find_sparse;
 use super::start::Equilibrated;
 use super::tableau::Tableau;
 use crate::linear::Lu;
-use crate::problem::max_abs;
 use crate::sparse::Columns;
+use crate::vector::max_abs;
 use crate::{Basis, Matrix, Side};
 
 /// Columns whose part outside the span of those chosen before is below this multiple of the

@@ -12,7 +12,7 @@ use super::ratio::leaving_row;
 use super::start::{Equilibrated, Start};
 use crate::Side;
 use crate::certify::is_proof;
-use crate::problem::max_abs;
+use crate::vector::max_abs;
 
 /// Reduced costs below this multiple of the largest entry of their row are taken for zero.
 const COST_TOLERANCE: f64 = 1e-9;

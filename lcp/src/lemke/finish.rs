@@ -4,7 +4,7 @@ use super::basis_matrix::BasisMatrix;
 use super::start::Equilibrated;
 use crate::certify::Precision;
 use crate::extended::Extended;
-use crate::problem::max_abs;
+use crate::vector::max_abs;
 use crate::{Basis, Residuals, Side};
 
 /// Steps of iterative refinement.

@@ -17,7 +17,7 @@ use super::path::Path;
 use super::ratio::leaving_row;
 use super::start::{Equilibrated, Start};
 use crate::certify::{GeneralJudge, Precision};
-use crate::problem::{check_length, check_vector, max_abs};
+use crate::vector::{check_length, check_vector, max_abs};
 use crate::{Basis, Error, HorizontalLcp, Lemke, LemkeSettings, Solver, Status};
 
 /// Values, and rates of the parameter, below this are rounding errors, relative to their terms.

@@ -11,8 +11,8 @@ use super::kernel::{Kernel, Var};
 use super::ratio::leaving_row;
 use super::start::Start;
 use crate::pivoting::AttemptEnd;
-use crate::problem::max_abs;
 use crate::random::SplitMix;
+use crate::vector::max_abs;
 
 /// Drift of the basic values, or of a column, against the start data above which the tableau is
 /// rebuilt, relative to their size.

@@ -19,9 +19,9 @@ use faer::Mat;
 use super::kernel::{Kernel, Var};
 use super::start::SparseStart;
 use crate::linear::Lu;
-use crate::problem::max_abs;
 use crate::random::SplitMix;
 use crate::sparse::{Columns, SparseLu};
+use crate::vector::max_abs;
 
 /// Residual of the values of a factorised basis above which it is taken for singular, relative to
 /// their size.

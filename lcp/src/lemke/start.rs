@@ -7,9 +7,9 @@ use faer::Mat;
 use crate::certify::{GeneralJudge, right_hand_side};
 use crate::linear::{Lu, all_finite};
 use crate::matrix::Column;
-use crate::problem::max_abs;
 use crate::random::SplitMix;
 use crate::scaling::{COMPUTED, GIVEN, equilibrate};
+use crate::vector::max_abs;
 use crate::{Basis, HorizontalLcp, Side};
 
 use super::any_kernel::AnyKernel;

@@ -2,7 +2,7 @@
 
 use crate::active::{Condensed, Point, Scaled, Springs};
 use crate::problem::ContactStatus;
-use crate::problem::max_abs;
+use crate::vector::max_abs;
 
 /// The line search ends where the work of what is unbalanced is this part of that at its start.
 const FLAT: f64 = 0.1;

@@ -5,8 +5,8 @@ use super::dense::{DenseCholesky, DenseLu};
 use super::kernel::{Kernel, Outcome, VANISHING};
 use super::lu::RestrictedLu;
 use crate::Lcp;
-use crate::problem::max_abs;
 use crate::random::SplitMix;
+use crate::vector::max_abs;
 
 /// Signs below this, relative to the terms of their row, are rounding errors.
 const NOISE: f64 = 64.0 * f64::EPSILON;

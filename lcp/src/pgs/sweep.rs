@@ -3,8 +3,8 @@
 use super::block::Block;
 use super::order::order;
 use super::{Constraint, ProjectedGaussSeidelSettings, Rows, SweepOrder};
-use crate::problem::{check_length, check_vector, max_abs};
 use crate::solve::Monitor;
+use crate::vector::{check_length, check_vector, max_abs};
 use crate::{Error, Method, Residuals, Status};
 
 /// A row whose terms are all at the rounding level of the point is measured by this part of the

@@ -1,6 +1,7 @@
 //! Complementary pairs together with free variables.
 
-use super::{BoxedLcp, HorizontalLcp, check_length};
+use super::{BoxedLcp, HorizontalLcp};
+use crate::vector::check_length;
 use crate::{Error, Matrix};
 
 /// The mixed problem `w = M z + q` of order `n`, where every `z_i` is either free, with `w_i = 0`,

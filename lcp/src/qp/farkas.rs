@@ -12,8 +12,8 @@ use super::interior::{Effort, End, Interior};
 use super::scale::Scaled;
 use crate::active::{self, Condensed, Original, cross_over, nearest};
 use crate::certify::is_proof;
-use crate::problem::max_abs;
 use crate::scaling::{GIVEN, equilibrate};
+use crate::vector::max_abs;
 use crate::{HorizontalLcp, Matrix, Side};
 
 /// The proof that a problem has no solution, looked for at most once.

@@ -10,7 +10,8 @@ use clarabel::solver::{
 };
 
 use super::form::{Bounds, Form, Point};
-use crate::problem::{column_of, max_abs};
+use crate::problem::column_of;
+use crate::vector::max_abs;
 
 /// How exact and how long.
 #[derive(Debug, Clone, Copy)]

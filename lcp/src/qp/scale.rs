@@ -4,7 +4,8 @@ use faer::sparse::SparseColMat;
 
 use super::form::{Bounds, Form, Point};
 use crate::Matrix;
-use crate::problem::{column_of, max_abs};
+use crate::problem::column_of;
+use crate::vector::max_abs;
 
 /// A form whose matrices and vectors are near one, and the way back.
 #[derive(Debug, Clone)]

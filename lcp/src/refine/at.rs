@@ -4,7 +4,7 @@ use crate::ContactState;
 use crate::active::{Point, Scaled};
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
-use crate::problem::max_abs;
+use crate::vector::max_abs;
 
 /// Gaps and slips below this part of the largest are those of a closed contact, whatever its force.
 const CLOSED: f64 = 1e-13;

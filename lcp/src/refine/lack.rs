@@ -5,7 +5,8 @@ use crate::active::{Point, Scaled};
 use crate::certify::ratio;
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
-use crate::problem::{column_of, max_abs};
+use crate::problem::column_of;
+use crate::vector::max_abs;
 
 /// Rows of smaller terms than this part of the largest force or displacement are measured by that: of a body at
 /// rest between others all terms are rounding errors.

@@ -9,7 +9,8 @@ use super::{DOUBT, Refined, Refinement};
 use crate::active::{Condensed, Scaled, Springs};
 use crate::certify::ratio;
 use crate::extended::Extended;
-use crate::problem::{ContactStatus, max_abs};
+use crate::problem::ContactStatus;
+use crate::vector::max_abs;
 use crate::{ContactState, Error};
 
 /// The answer, and what the inequalities of every contact leave.

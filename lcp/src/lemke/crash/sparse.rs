@@ -11,8 +11,8 @@ use super::matching::matched_sides;
 use super::{Crash, RANK_TOLERANCE, is_over};
 use crate::lemke::kernel::{Kernel, Var};
 use crate::lemke::start::Equilibrated;
-use crate::problem::max_abs;
 use crate::sparse::{Columns, Growing, SparseLu, elimination_order, row_counts};
+use crate::vector::max_abs;
 use crate::{Basis, Matrix, Side};
 
 /// Solves that the search for exchanges may take.

@@ -2,8 +2,8 @@
 
 use super::{Equilibrated, LARGEST_GROWTH, Start, StartData};
 use crate::linear::inverse_norm;
-use crate::problem::max_abs;
 use crate::sparse::{Columns, SparseLu};
+use crate::vector::max_abs;
 use crate::{Basis, Side};
 
 /// `W w + Z z = right` in the equilibrated rows of the problem, with the start basis `W`.
