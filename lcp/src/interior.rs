@@ -13,14 +13,15 @@ use std::ops::ControlFlow;
 
 pub use settings::InteriorPointSettings;
 
-use balance::{Balance, balance};
+use balance::{Balance, TOLERANCE, balance};
 use continuation::End;
 use iterate::{Defect, Iterate};
 use path::{WIDTHS, advance};
 use start::{set_out, start_again};
 
-use crate::active::{Condensed, Effort, Original, Scaled, Search};
+use crate::active::{Effort, Original, Search};
 use crate::solve::Monitor;
+use crate::states::{Condensed, Scaled};
 use crate::{Certificate, Error, Iteration, Method, Observer, Solution, Status};
 
 /// An interior-point method for the complementarity problem itself, for large sparse problems: contact
@@ -189,7 +190,13 @@ impl Run<'_, '_> {
             limit = monitor.stop(last);
             if limit.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
-        let found = balance(scaled, left, observer);
+        let settings = InteriorPointSettings {
+            tolerance: TOLERANCE,
+            max_iterations: left,
+            continuation: false,
+            ..InteriorPointSettings::default()
+        };
+        let found = balance(scaled, |mixed| InteriorPoint::new(settings).run(mixed, observer).ok());
         let rest = vec![0.0; scaled.order()];
         let crossover = self.settings.crossover.then_some(&Effort::THOROUGH);
         match (found, limit) {

@@ -156,6 +156,7 @@ mod smoothing;
 mod solution;
 mod solve;
 mod sparse;
+mod states;
 mod status;
 mod variables;
 mod vector;

@@ -1,12 +1,10 @@
 //! The problems that the method treats, as contact problems, and back.
 
-use super::condensed::Condensed;
-use super::crossover::nearest;
-use super::scaled::{Point, Scaled};
 use crate::certify::{BoxedJudge, ContactJudge, Precision, StateOf};
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
 use crate::refine::{Exact, planned, refined_states};
+use crate::states::{Condensed, Point, Scaled, nearest};
 use crate::{Basis, Contact2d, ContactState, MixedLcp, Residuals, Side};
 
 /// A point of the general form of a problem.

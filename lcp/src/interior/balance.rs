@@ -1,18 +1,16 @@
 //! Whether any contact forces balance the loads, wherever the bodies are.
 
-use super::InteriorPoint;
-use super::settings::InteriorPointSettings;
-use crate::active::{Point, Scaled};
 use crate::problem::column_of;
+use crate::states::{Point, Scaled};
 use crate::vector::max_abs;
-use crate::{Matrix, MixedLcp, Observer, Solver};
+use crate::{Matrix, MixedLcp, Solution};
 
 /// What a row of `K v` or a contact may miss, relative to its terms: rounding errors.
 const ROUNDING: f64 = 1e-13;
 /// Least work of the loads on a proof, relative to the sizes of loads and motion.
 const LEAST_WORK: f64 = 1e-9;
 /// Residual of the problem that decides.
-const TOLERANCE: f64 = 1e-12;
+pub(super) const TOLERANCE: f64 = 1e-12;
 
 /// What is known of forces that balance the loads.
 pub(super) enum Balance {
@@ -34,19 +32,11 @@ pub(super) enum Balance {
 /// of bodies at rest is zero. Proof and forces are checked by themselves.
 pub(super) fn balance(
     problem: &Scaled,
-    max_iterations: usize,
-    observer: &mut Observer<'_>,
+    solve: impl FnOnce(&MixedLcp) -> Option<Solution>,
 ) -> Balance {
     let edges = edges(problem);
     let Some(mixed) = nearest(problem, &edges) else { return Balance::Open };
-    let settings = InteriorPointSettings {
-        tolerance: TOLERANCE,
-        max_iterations,
-        continuation: false,
-        ..InteriorPointSettings::default()
-    };
-    let solver = InteriorPoint::new(settings);
-    let Ok(solution) = solver.solve_observed(&mixed, observer) else { return Balance::Open };
+    let Some(solution) = solve(&mixed) else { return Balance::Open };
     let (z, _) = mixed.recover(&solution.t, &solution.y);
     let (v, rest) = z.split_at(problem.order());
     if is_proof(problem, &edges, &without_noise(v)) {

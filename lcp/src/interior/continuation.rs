@@ -4,8 +4,8 @@ use super::iterate::{Defect, Iterate};
 use super::path::{WIDTHS, advance};
 use super::start::start;
 use crate::SoftSprings;
-use crate::active::{Condensed, Scaled};
 use crate::problem::column_of;
+use crate::states::{Condensed, Scaled};
 
 /// The first springs, relative to the stiffness, and the last.
 const FIRST: f64 = 0.1;

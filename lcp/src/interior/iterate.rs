@@ -1,7 +1,7 @@
 //! Points inside the cone, and Newton's steps between them.
 
-use crate::active::{Condensed, Point, Scaled, Springs};
 use crate::problem::ContactStatus;
+use crate::states::{Condensed, Point, Scaled, Springs};
 use crate::vector::max_abs;
 
 /// Compliance of a contact, relative to that of the bodies, below which a step does not go: forces are

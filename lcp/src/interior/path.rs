@@ -2,7 +2,7 @@
 
 use super::iterate::{Defect, Iterate, Tangent};
 use super::turn::turn;
-use crate::active::{Condensed, PROXIMAL, Scaled};
+use crate::states::{Condensed, PROXIMAL, Scaled};
 
 /// Least products of a pair, relative to the mean, one after the other: where the path turns often, it has to
 /// be followed closely, but how closely cannot be foreseen.

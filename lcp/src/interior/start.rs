@@ -2,7 +2,7 @@
 
 use super::iterate::{Iterate, Pairs};
 use super::path::{Ahead, advance};
-use crate::active::{Condensed, PROXIMAL, Scaled, Springs};
+use crate::states::{Condensed, PROXIMAL, Scaled, Springs};
 
 /// Largest change of a gap by the predictor, relative to the mean gap, that a start is wide enough for.
 const WIDE: f64 = 2.0;

@@ -1,7 +1,7 @@
 //! Where the central path turns back.
 
 use super::iterate::{Defect, Iterate, Tangent};
-use crate::active::Scaled;
+use crate::states::Scaled;
 
 /// Largest relative change of a variable by a piece of the path; the first that leaves a step of length
 /// [`LONG`] is taken.

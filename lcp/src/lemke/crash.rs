@@ -1,5 +1,6 @@
 //! Start bases: one column of every pair, together nonsingular.
 
+mod found;
 mod matching;
 mod sparse;
 
@@ -7,6 +8,9 @@ use std::time::Instant;
 
 use faer::{Mat, MatRef};
 
+pub(super) use found::Crash;
+
+use found::{RANK_TOLERANCE, is_over};
 use matching::matched_sides;
 use sparse::find_sparse;
 
@@ -15,26 +19,11 @@ use super::tableau::Tableau;
 use crate::linear::Lu;
 use crate::sparse::Columns;
 use crate::vector::max_abs;
-use crate::{Basis, Matrix, Side};
-
-/// Columns whose part outside the span of those chosen before is below this multiple of the
-/// largest are taken for dependent.
-const RANK_TOLERANCE: f64 = 1e-10;
+use crate::{Basis, Side};
 
 /// Sparse problems up to this order, for which the sparse search finds no basis, are searched with dense
 /// matrices.
 const DENSE_SEARCH: usize = 2000;
-
-/// As many independent columns as there are, at most one of every pair.
-pub(super) enum Crash {
-    /// One of every pair.
-    Complete(Basis),
-    /// Pairs without a column, as many as there are columns that complete the chosen ones: an
-    /// orthonormal basis of what these leave out, or unit columns.
-    Partial { chosen: Vec<Option<Side>>, complement: Matrix },
-    /// The time was over first.
-    Late,
-}
 
 /// A nonsingular complementary basis: the preferred sides or all `y` or all `t` where these are
 /// diagonal, one of columns with a single entry, or one grown from independent columns of the preferred
@@ -83,10 +72,6 @@ pub(super) fn find_basis(
         Some(sides) => Crash::Complete(enlarged(problem, Basis::new(sides), deadline)),
         None => Crash::Partial { chosen, complement: complement.into() },
     }
-}
-
-fn is_over(deadline: Option<Instant>) -> bool {
-    deadline.is_some_and(|deadline| Instant::now() >= deadline)
 }
 
 /// The basis that the structure of the problem offers, as slack variables do: of every pair a column with

@@ -8,7 +8,6 @@
 use super::basis_matrix::BasisMatrix;
 use super::kernel::{Kernel, Var};
 use super::path::Path;
-use super::ratio::leaving_row;
 use super::start::{Equilibrated, Start};
 use crate::Side;
 use crate::certify::is_proof;
@@ -38,7 +37,7 @@ pub(super) fn farkas_vector<K: Kernel>(
             return is_proof(problem.problem, &pi).then_some(pi);
         };
         path.kernel.column(entering, &mut column);
-        let leaving = leaving_row(&path, &column)?;
+        let leaving = path.leaving_row(&column)?;
         if !path.is_new() {
             return None;
         }

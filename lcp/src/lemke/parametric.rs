@@ -14,7 +14,6 @@ use super::basis_matrix::BasisMatrix;
 use super::crash::{Crash, find_basis};
 use super::kernel::{Kernel, Var};
 use super::path::Path;
-use super::ratio::leaving_row;
 use super::start::{Equilibrated, Start};
 use crate::certify::{GeneralJudge, Precision};
 use crate::vector::{check_length, check_vector, max_abs};
@@ -196,7 +195,7 @@ impl Tracer<'_> {
             }
             path.kernel.column(entering, &mut column);
             out.bases.push(present_basis(&path, start, entering));
-            let row = leaving_row(&path, &column);
+            let row = path.leaving_row(&column);
             let step = row.map_or(f64::INFINITY, |row| path.values[row].max(0.0) / column[row]);
             let value = path.value(parameter);
             let speed = match path.artificial_row() {

@@ -17,7 +17,7 @@ use std::borrow::Cow;
 use faer::Mat;
 
 use super::kernel::{Kernel, Var};
-use super::start::SparseStart;
+use super::sparse_start::SparseStart;
 use crate::linear::Lu;
 use crate::random::SplitMix;
 use crate::sparse::{Columns, SparseLu};

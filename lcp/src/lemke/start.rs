@@ -16,7 +16,7 @@ use super::any_kernel::AnyKernel;
 use super::dense::Dense;
 use super::kernel::{Kernel, Var};
 use super::sparse::Sparse;
-pub(super) use sparse::SparseStart;
+use super::sparse_start::SparseStart;
 
 /// Entries of an equilibrated inverse basis beyond this betray a nearly singular basis.
 const LARGEST_GROWTH: f64 = 1e10;

@@ -2,9 +2,10 @@
 
 use super::SemismoothNewton;
 use super::proximal::{At, Proximal};
-use crate::active::{Effort, Search, Springs};
+use crate::active::{Effort, Search};
 use crate::problem::ContactStatus;
 use crate::solve::Monitor;
+use crate::states::Springs;
 use crate::{Contact2d, Error, Method, Observer, Solution, Solver, Status};
 
 /// Stiffness of the contacts that are glued together at the start, and the springs that hold what they do not,

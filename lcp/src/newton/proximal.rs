@@ -1,7 +1,7 @@
 //! The contact problem with springs: on all displacements, and in the place of hard contacts.
 
-use crate::active::{Condensed, Point, Scaled, Springs};
 use crate::problem::ContactStatus;
+use crate::states::{Condensed, Point, Scaled, Springs};
 use crate::vector::max_abs;
 
 /// The line search ends where the work of what is unbalanced is this part of that at its start.

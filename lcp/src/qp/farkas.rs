@@ -10,9 +10,10 @@ use std::cell::OnceCell;
 use super::form::{Bounds, Form};
 use super::interior::{Effort, End, Interior};
 use super::scale::Scaled;
-use crate::active::{self, Condensed, Original, cross_over, nearest};
+use crate::active::{self, Original, cross_over};
 use crate::certify::is_proof;
 use crate::scaling::{GIVEN, equilibrate};
+use crate::states::{self, Condensed, nearest};
 use crate::vector::max_abs;
 use crate::{HorizontalLcp, Matrix, Side};
 
@@ -49,7 +50,7 @@ fn farkas_vector(problem: &HorizontalLcp, effort: Effort) -> Option<Vec<f64>> {
     let point = scaled.unscaled(&found.point);
     cleaned(problem, (&point.x, &rows)).or_else(|| {
         let mixed = form.to_mixed()?;
-        let scaled = active::Scaled::of_mixed(&mixed);
+        let scaled = states::Scaled::of_mixed(&mixed);
         let mut condensed = Condensed::new(&scaled).ok()?;
         let (t, y) = form.to_pairs(&mixed, &point);
         let (u, forces) = mixed.point(&scaled, &t, &y);

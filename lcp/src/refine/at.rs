@@ -1,9 +1,9 @@
 //! Displacements and forces while they are refined.
 
 use crate::ContactState;
-use crate::active::{Point, Scaled};
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
+use crate::states::{Point, Scaled};
 use crate::vector::max_abs;
 
 /// Gaps and slips below this part of the largest are those of a closed contact, whatever its force.

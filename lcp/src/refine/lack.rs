@@ -1,11 +1,11 @@
 //! What the equations lack.
 
 use super::at::At;
-use crate::active::{Point, Scaled};
 use crate::certify::ratio;
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
 use crate::problem::column_of;
+use crate::states::{Point, Scaled};
 use crate::vector::max_abs;
 
 /// Rows of smaller terms than this part of the largest force or displacement are measured by that: of a body at

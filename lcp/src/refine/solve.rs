@@ -2,14 +2,14 @@
 
 use std::time::Instant;
 
+use super::answer::{DOUBT, Refined, Refinement};
 use super::at::At;
 use super::lack::{self, Lack, Shifts};
 use super::law::{self, Margin};
-use super::{DOUBT, Refined, Refinement};
-use crate::active::{Condensed, Scaled, Springs};
 use crate::certify::ratio;
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
+use crate::states::{Condensed, Scaled, Springs};
 use crate::vector::max_abs;
 use crate::{ContactState, Error};
 

@@ -7,8 +7,8 @@
 
 use std::time::Instant;
 
+use super::found::{Crash, RANK_TOLERANCE, is_over};
 use super::matching::matched_sides;
-use super::{Crash, RANK_TOLERANCE, is_over};
 use crate::lemke::kernel::{Kernel, Var};
 use crate::lemke::start::Equilibrated;
 use crate::sparse::{Columns, Growing, SparseLu, elimination_order, row_counts};
