@@ -1,6 +1,7 @@
 //! Interior-point method for contact with friction and for mixed problems.
 
 mod balance;
+mod constants;
 mod continuation;
 mod iterate;
 mod path;
@@ -13,10 +14,11 @@ use std::ops::ControlFlow;
 
 pub use settings::InteriorPointSettings;
 
-use balance::{Balance, TOLERANCE, balance};
+use balance::{Balance, balance};
+use constants::{BALANCE_TOLERANCE, MORE, NEAR, NEARER, NO_STEP, PATIENCE, WIDTHS};
 use continuation::End;
 use iterate::{Defect, Iterate};
-use path::{WIDTHS, advance};
+use path::advance;
 use start::{set_out, start_again};
 
 use crate::active::{Effort, Original, Search};
@@ -91,18 +93,6 @@ use crate::{Certificate, Error, Iteration, Method, Observer, Solution, Status};
 pub struct InteriorPoint {
     settings: InteriorPointSettings,
 }
-
-/// Residuals above which no crossover is tried.
-const NEAR: f64 = 3e-6;
-/// The residual must have decreased by this factor before it is tried again.
-const NEARER: f64 = 0.03;
-/// Steps without a reduction of the products by a tenth after which the iteration has jammed. On a path that
-/// turns back they may grow for a while.
-const PATIENCE: usize = 30;
-/// Steps from a point that is solved but whose states are not yet those of the exact answer.
-const MORE: usize = 8;
-/// Steps shorter than this are none.
-const NO_STEP: f64 = 1e-7;
 
 impl InteriorPoint {
     /// A solver with these settings.
@@ -191,7 +181,7 @@ impl Run<'_, '_> {
             if limit.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let settings = InteriorPointSettings {
-            tolerance: TOLERANCE,
+            tolerance: BALANCE_TOLERANCE,
             max_iterations: left,
             continuation: false,
             ..InteriorPointSettings::default()

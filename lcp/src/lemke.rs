@@ -3,6 +3,7 @@
 mod any_kernel;
 mod artificial;
 mod basis_matrix;
+mod constants;
 mod crash;
 mod dense;
 mod feasibility;

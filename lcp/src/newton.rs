@@ -1,6 +1,7 @@
 //! A primal-dual active set method, which is a semismooth Newton method, with a safeguard.
 
 mod cholesky;
+mod constants;
 mod contact;
 mod dense;
 mod exchange;

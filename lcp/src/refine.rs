@@ -2,6 +2,7 @@
 
 mod answer;
 mod at;
+mod constants;
 mod lack;
 mod law;
 mod solve;
@@ -13,17 +14,14 @@ pub use crate::extended::Extended;
 pub use crate::problem::ContactStatus;
 pub(crate) use solve::{Exact, planned, refined_states};
 
-use answer::DOUBT;
 use at::At;
+use constants::{DOUBT, EXCHANGES};
 use solve::solved;
 
 use crate::problem::column_of;
 use crate::states::Scaled;
 use crate::vector::{check_length, check_vector};
 use crate::{Contact2d, ContactState, Error};
-
-/// Rounds of exchanges.
-const EXCHANGES: usize = 10;
 
 impl Contact2d {
     /// The states that an answer is nearest to: a contact is open where its gap, in units of the largest

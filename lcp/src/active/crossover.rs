@@ -1,24 +1,11 @@
 //! From a point inside to the exact one on the boundary: the state of every contact is guessed, the
 //! equations of these states are solved, and the few contacts that contradict change their state.
 
+use super::constants::{LARGE, NOISE, REFINEMENTS, ROUNDING, SMALLER, STIFF};
 use crate::certify::ratio;
 use crate::problem::ContactStatus;
 use crate::states::{Condensed, PROXIMAL, Point, Scaled, Springs};
 use crate::vector::max_abs;
-
-/// What a row lacks, relative to its terms, that is nothing but rounding.
-const NOISE: f64 = 4.0 * f64::EPSILON;
-/// Stiffness of a closed contact, relative to the bodies: the equations are solved to the last digit by
-/// refinement, so that it is no penalty but the size of a proximal step, which redundant contacts need.
-const STIFF: f64 = 1e8;
-/// Steps of refinement.
-const REFINEMENTS: usize = 12;
-/// Contradictions smaller than this part of the largest are left to what its exchange makes of them.
-const LARGE: f64 = 0.01;
-/// A largest contradiction below this part of those before is progress, as a smaller number is.
-const SMALLER: f64 = 0.1;
-/// Contradictions up to this part of the largest force or displacement are rounding errors.
-const ROUNDING: f64 = 1e-13;
 
 /// How much is spent on exchanges. Every round costs a factorisation, as a step of the iteration does.
 pub(crate) struct Effort {

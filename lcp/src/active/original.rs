@@ -1,5 +1,6 @@
 //! The problems that the method treats, as contact problems, and back.
 
+use super::constants::EXACT;
 use crate::certify::{BoxedJudge, ContactJudge, Precision, StateOf};
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
@@ -33,9 +34,6 @@ pub(crate) trait Judge {
     /// Residuals of displacements in units of the data and scaled forces, of twice the digits.
     fn residuals_of(&self, scaled: &Scaled, at: &Exact) -> Residuals;
 }
-
-/// Residuals that leave nothing to refine.
-const EXACT: f64 = 1e-14;
 
 /// The verdict on a point about to be called solved: with all digits, and, where large terms hide what is left of the
 /// loads, on the points that the equations of the states lead to without rounding errors.

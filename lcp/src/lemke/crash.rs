@@ -10,20 +10,17 @@ use faer::{Mat, MatRef};
 
 pub(super) use found::Crash;
 
-use found::{RANK_TOLERANCE, is_over};
+use found::is_over;
 use matching::matched_sides;
 use sparse::find_sparse;
 
+use super::constants::{DENSE_SEARCH, GAIN, GAIN_SWEEPS, RANK_TOLERANCE};
 use super::start::Equilibrated;
 use super::tableau::Tableau;
 use crate::linear::Lu;
 use crate::sparse::Columns;
 use crate::vector::max_abs;
 use crate::{Basis, Side};
-
-/// Sparse problems up to this order, for which the sparse search finds no basis, are searched with dense
-/// matrices.
-const DENSE_SEARCH: usize = 2000;
 
 /// A nonsingular complementary basis: the preferred sides or all `y` or all `t` where these are
 /// diagonal, one of columns with a single entry, or one grown from independent columns of the preferred
@@ -93,8 +90,6 @@ fn single_entries(problem: &Equilibrated<'_>, preferred: &Basis) -> Option<Basis
 /// A basis whose determinant no exchange of a single pair makes larger: those found by independence
 /// alone may be so poor that every path from them ends on a ray.
 fn enlarged(problem: &Equilibrated<'_>, basis: Basis, deadline: Option<Instant>) -> Basis {
-    const GAIN: f64 = 1.0 + 1e-6;
-    const SWEEPS: usize = 8;
     let n = problem.order();
     let pick = |complement: bool| -> Vec<(usize, Side)> {
         let sides = basis.sides().iter().copied().enumerate();
@@ -106,7 +101,7 @@ fn enlarged(problem: &Equilibrated<'_>, basis: Basis, deadline: Option<Instant>)
     let mut tableau = Tableau::new(t);
     let mut column = vec![0.0; n];
     let mut sides = basis.sides().to_vec();
-    for _ in 0..SWEEPS {
+    for _ in 0..GAIN_SWEEPS {
         let mut is_settled = true;
         for (k, side) in sides.iter_mut().enumerate() {
             tableau.column(k, &mut column);

@@ -6,6 +6,7 @@
 //! system is feasible. If not, the multipliers of the last basis are the proof.
 
 use super::basis_matrix::BasisMatrix;
+use super::constants::COST_TOLERANCE;
 use super::kernel::{Kernel, Var};
 use super::path::Path;
 use super::start::{Equilibrated, Start};
@@ -13,8 +14,6 @@ use crate::Side;
 use crate::certify::is_proof;
 use crate::vector::max_abs;
 
-/// Reduced costs below this multiple of the largest entry of their row are taken for zero.
-const COST_TOLERANCE: f64 = 1e-9;
 /// A checked Farkas vector, if one is found along a path that has not begun. `is_over` is asked before
 /// every pivot.
 pub(super) fn farkas_vector<K: Kernel>(

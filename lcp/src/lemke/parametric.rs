@@ -11,6 +11,7 @@ pub use outcome::{Breakpoint, ParametricEnd, ParametricPath, ParametricRay};
 use std::time::Instant;
 
 use super::basis_matrix::BasisMatrix;
+use super::constants::{ROUNDING, STANDSTILL};
 use super::crash::{Crash, find_basis};
 use super::kernel::{Kernel, Var};
 use super::path::Path;
@@ -18,11 +19,6 @@ use super::start::{Equilibrated, Start};
 use crate::certify::{GeneralJudge, Precision};
 use crate::vector::{check_length, check_vector, max_abs};
 use crate::{Basis, Error, HorizontalLcp, Lemke, LemkeSettings, Solver, Status};
-
-/// Values, and rates of the parameter, below this are rounding errors, relative to their terms.
-const ROUNDING: f64 = 1e-14;
-/// A pivot that moves no variable by more than this, relative to the largest, makes no breakpoint.
-const STANDSTILL: f64 = 1e-13;
 
 /// Settings of [`Parametric`].
 #[derive(Debug, Clone, PartialEq, Default)]

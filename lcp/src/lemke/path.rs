@@ -7,18 +7,13 @@
 
 use std::collections::HashSet;
 
+use super::constants::{ARTIFICIAL_ZERO, DRIFT};
 use super::kernel::{Kernel, Var};
 use super::ratio::Basic;
 use super::start::Start;
 use crate::pivoting::AttemptEnd;
 use crate::random::SplitMix;
 use crate::vector::max_abs;
-
-/// Drift of the basic values, or of a column, against the start data above which the tableau is
-/// rebuilt, relative to their size.
-const DRIFT: f64 = 1e-10;
-/// Below this multiple of its first value the artificial variable is zero.
-const ARTIFICIAL_ZERO: f64 = 1e-10;
 
 /// One exchange.
 #[derive(Debug, Clone, Copy)]

@@ -1,18 +1,7 @@
 //! The ratio test: which basic variable leaves.
 
+use super::constants::{ARTIFICIAL_ZERO, NOISE, PIVOT_TOLERANCE, TIE_PIVOT, TIE_WINDOW};
 use super::kernel::Kernel;
-
-/// Entries of the entering column below this multiple of its largest one are taken for zero.
-const PIVOT_TOLERANCE: f64 = 1e-10;
-/// Entries of the entering column below this are rounding errors of an equilibrated tableau.
-const NOISE: f64 = 1e-13;
-/// The artificial variable leaves when the step would bring it below this multiple of the value
-/// it started from. Narrower windows run past the solution onto false rays, wider ones stop early.
-const ARTIFICIAL_WINDOW: f64 = 1e-10;
-/// A step may bring basic variables this far below zero, relative to the largest.
-const TIE_WINDOW: f64 = 1e-12;
-/// Among tied rows, pivots below this multiple of the largest are not used.
-const TIE_PIVOT: f64 = 1e-4;
 
 /// What the test looks at: the basic variables, row by row.
 pub(super) struct Basic<'a, K, B> {
@@ -42,7 +31,7 @@ impl<K: Kernel, B: Fn(usize) -> bool> Basic<'_, K, B> {
             (0..column.len()).filter(blocks).map(|i| value(i) / column[i]).reduce(f64::min)?;
         if let Some((row, first)) = self.driven {
             let after = self.values[row] - shortest * column[row];
-            if column[row] > NOISE && after <= ARTIFICIAL_WINDOW * first {
+            if column[row] > NOISE && after <= ARTIFICIAL_ZERO * first {
                 return Some(row);
             }
         }

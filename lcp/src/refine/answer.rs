@@ -84,7 +84,3 @@ pub struct Verified {
     /// Displacements and forces.
     pub refined: Refined,
 }
-
-/// Inequalities that are violated by less than this part of the largest force or displacement may hold but for
-/// rounding errors of the answer.
-pub(super) const DOUBT: f64 = 1e-8;

@@ -4,10 +4,6 @@ use std::time::Instant;
 
 use crate::{Basis, Matrix, Side};
 
-/// Columns whose part outside the span of those chosen before is below this multiple of the
-/// largest are taken for dependent.
-pub(super) const RANK_TOLERANCE: f64 = 1e-10;
-
 /// As many independent columns as there are, at most one of every pair.
 pub(crate) enum Crash {
     /// One of every pair.

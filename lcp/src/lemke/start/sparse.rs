@@ -1,6 +1,7 @@
 //! The start of a sparse problem.
 
-use super::{Equilibrated, LARGEST_GROWTH, Start, StartData};
+use super::{Equilibrated, Start, StartData};
+use crate::lemke::constants::LARGEST_GROWTH;
 use crate::lemke::sparse_start::SparseStart;
 use crate::linear::inverse_norm;
 use crate::sparse::{Columns, SparseLu};
