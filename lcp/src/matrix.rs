@@ -7,6 +7,10 @@ use faer::sparse::{SparseColMat, Triplet};
 
 use crate::Error;
 
+/// What entries may be off by, relative to what they are compared with, and still be taken for exact. Chosen: the
+/// rounding errors of whoever computed them.
+pub(crate) const DATA_ROUNDING: f64 = 1e-12;
+
 /// A matrix of a problem, dense or sparse.
 ///
 /// Problems take whatever converts into one: an array of rows, a `Mat` or a `SparseColMat` of `faer`, and, with
@@ -174,14 +178,13 @@ impl Matrix {
     /// That a square matrix is symmetric to rounding, measured by the roots of its diagonal entries, as
     /// fits one that is positive semidefinite.
     pub(crate) fn check_symmetric(&self, what: &'static str) -> Result<(), Error> {
-        const ROUNDING: f64 = 1e-12;
         let n = self.ncols();
         let size: Vec<f64> = (0..n).map(|i| self[(i, i)].abs().sqrt()).collect();
         for col in 0..n {
             for (row, v) in self.column(col) {
                 let mirrored = self[(col, row)];
                 let largest = v.abs().max(mirrored.abs()).max(size[row] * size[col]);
-                if (v - mirrored).abs() > ROUNDING * largest {
+                if (v - mirrored).abs() > DATA_ROUNDING * largest {
                     return Err(Error::NotSymmetric { what, row, col, value: v, mirrored });
                 }
             }

@@ -1,7 +1,5 @@
-//! The numbers that exchanges of states go by; how much is spent on them says [`Effort`](super::Effort).
-//!
-//! Each says where it comes from: what was measured, what the theory asks for, or the rounding errors that it
-//! stands for. "Chosen" is by judgement: no measurement of it is kept.
+//! The numbers that exchanges of states go by beside their [`Effort`](super::Effort), each with where it comes from.
+//! What is "chosen" is so by judgement: no measurement is kept.
 
 /// Stiffness of a closed contact, relative to the bodies. Theory: the equations are solved to the last digit by
 /// refinement, so that it is no penalty but the size of a proximal step, which redundant contacts need.

@@ -3,6 +3,7 @@
 use super::facts::Facts;
 use super::method::{Effort, Planned, Step};
 use super::standard::common_steps;
+use crate::matrix::DATA_ROUNDING;
 use crate::{BoxedLcp, Method, MixedLcp, Solver};
 
 impl Planned for MixedLcp {
@@ -46,14 +47,13 @@ impl Planned for MixedLcp {
 
 /// Whether `M` is symmetric within the free and within the other variables, and skew between them.
 fn is_program(mixed: &MixedLcp) -> bool {
-    const ROUNDING: f64 = 1e-12;
     let (m, free) = (mixed.m(), mixed.free());
     let size: Vec<f64> = (0..mixed.order()).map(|i| m[(i, i)].abs().sqrt()).collect();
     let fits = |i: usize, j: usize, v: f64| {
         let mirrored = m[(j, i)];
         let wrong = if free[i] == free[j] { v - mirrored } else { v + mirrored };
         let largest = v.abs().max(mirrored.abs()).max(size[i] * size[j]);
-        wrong.abs() <= ROUNDING * largest
+        wrong.abs() <= DATA_ROUNDING * largest
     };
     (0..mixed.order()).all(|j| m.column(j).all(|(i, v)| fits(i, j, v)))
 }

@@ -1,25 +1,23 @@
-//! The numbers that the interior-point method goes by.
-//!
-//! Each says where it comes from: what was measured, what the theory asks for, or the rounding errors that it
-//! stands for. "Chosen" is by judgement: no measurement of it is kept.
+//! The numbers that the interior-point method goes by, each with where it comes from.
+//! What is "chosen" is so by judgement: no measurement is kept.
 
 /// Residuals above which no crossover is tried. Chosen: every trial costs factorisations.
 pub(super) const NEAR: f64 = 3e-6;
 /// The residual must have decreased by this factor before it is tried again. Chosen.
 pub(super) const NEARER: f64 = 0.03;
-/// Steps without a reduction of the products by a tenth after which the iteration has jammed. Measured on walls:
-/// one that was stuck for some 40 steps was better left; where the path turns back products grow for a while.
+/// Steps without a reduction of the products by a tenth after which the iteration has jammed. Measured on walls: one
+/// that was stuck for some 40 steps was better left; where the path turns back products grow for a while.
 pub(super) const PATIENCE: usize = 30;
 /// Steps from a point that is solved but whose states are not yet those of the exact answer. Chosen.
 pub(super) const MORE: usize = 8;
 /// Steps shorter than this are none. Chosen.
 pub(super) const NO_STEP: f64 = 1e-7;
 
-/// Largest change of a gap by the predictor, relative to the mean gap, that a start is wide enough for. Chosen:
-/// walls of bricks keep their first start.
+/// Largest change of a gap by the predictor, relative to the mean gap, that a start is wide enough for. Chosen: walls
+/// of bricks keep their first start.
 pub(super) const WIDE: f64 = 2.0;
-/// A start that is not is opened by this many times its mean gap. Measured on a beam that is lifted at its end: two
-/// or three times are enough.
+/// A start that is not is opened by this many times its mean gap. Measured on a beam that is lifted at its end: two or
+/// three times are enough.
 pub(super) const OPENED: f64 = 100.0;
 /// That must bring the change down by this. Chosen.
 pub(super) const HALF: f64 = 0.5;
@@ -58,8 +56,8 @@ pub(super) const PROGRESS: f64 = 0.05;
 /// Products between these multiples of their mean make a point central. Chosen.
 pub(super) const IS_CENTRAL: (f64, f64) = (0.3, 3.0);
 /// Compliance of a contact, relative to that of the bodies, below which a step does not go. Rounding: forces are
-/// differences of gaps times a stiffness, and lose their digits when that is too large. A step is a proximal one
-/// then, which changes nothing where the iteration ends.
+/// differences of gaps times a stiffness, and lose their digits when that is too large. A step is a proximal one then,
+/// which changes nothing where the iteration ends.
 pub(super) const COMPLIANCE: f64 = 1e-8;
 /// Largest relative change of a variable by a piece of the path; the first that leaves a step of length [`LONG`] is
 /// taken. Chosen.
@@ -73,8 +71,8 @@ pub(super) const FIRST_SPRING: f64 = 0.1;
 pub(super) const LAST_SPRING: f64 = 1e-9;
 /// Factor from one spring to the next. Chosen.
 pub(super) const SOFTER: f64 = 0.1;
-/// Where one spring ends the pairs are too near the boundary for the next: they are lifted by this part of the
-/// largest force and gap. Chosen.
+/// Where one spring ends the pairs are too near the boundary for the next: they are lifted by this part of the largest
+/// force and gap. Chosen.
 pub(super) const LIFT: f64 = 0.1;
 /// Steps for one spring. Chosen.
 pub(super) const STEPS: usize = 60;
@@ -88,14 +86,13 @@ pub(super) const NOTHING: f64 = 1e-7;
 pub(super) const CONSTANT: f64 = 0.8;
 /// How many times. Chosen.
 pub(super) const IN_SEQUENCE: usize = 4;
-/// Stiffer springs than this do not tell bodies that nothing holds from those that something soft does. Chosen:
-/// supports a million times softer than bodies occur.
+/// Stiffer springs than this do not tell bodies that nothing holds from those that something soft does. Chosen.
 pub(super) const SOFT: f64 = 2e-6;
-/// Resistance of a motion, relative to that of springs of the square, which is an error of the solution: its
-/// accuracy enters by the square as well. Chosen.
+/// Resistance of a motion, relative to that of springs of the square, which is an error of the solution: its accuracy
+/// enters by the square as well. Chosen.
 pub(super) const RESISTANCE: f64 = 1e-6;
-/// Resistance of a body, relative to the terms that it is the sum of, which is a rounding error. Rounding: errors
-/// of short sums.
+/// Resistance of a body, relative to the terms that it is the sum of, which is a rounding error. Rounding: errors of
+/// short sums.
 pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// What a row of `K v` or a contact may miss in a proof, relative to its terms. Rounding: some hundred eps.

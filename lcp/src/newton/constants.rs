@@ -1,7 +1,5 @@
-//! The numbers that the active set method goes by, on matrices and on contact.
-//!
-//! Each says where it comes from: what was measured, what the theory asks for, or the rounding errors that it
-//! stands for. "Chosen" is by judgement: no measurement of it is kept.
+//! The numbers that the active set method goes by, each with where it comes from.
+//! What is "chosen" is so by judgement: no measurement is kept.
 
 use crate::active::Effort;
 
@@ -9,8 +7,8 @@ use crate::active::Effort;
 pub(super) const PATIENCE: usize = 10;
 /// The same once fewer than all are exchanged. Chosen.
 pub(super) const REDUCED_PATIENCE: usize = 4;
-/// Pivots, and right-hand sides, below this relative to the terms that they come from are rounding errors.
-/// Rounding: errors of long sums.
+/// Pivots, and right-hand sides, below this relative to the terms that they come from are rounding errors. Rounding:
+/// errors of long sums.
 pub(super) const VANISHING: f64 = 1024.0 * f64::EPSILON;
 /// Signs below this, relative to the terms of their row, are rounding errors. Rounding: errors of short sums.
 pub(super) const NOISE: f64 = 64.0 * f64::EPSILON;

@@ -7,6 +7,7 @@
 
 use std::cell::OnceCell;
 
+use super::constants::NOISE;
 use super::form::{Bounds, Form};
 use super::interior::{Effort, End, Interior};
 use super::scale::Scaled;
@@ -114,7 +115,6 @@ fn is_free(problem: &HorizontalLcp, pair: usize) -> bool {
 /// The proof that a vector of equilibrated rows is, after what is rounding error in it was set to zero: in
 /// the units of the user a displacement and a force could not be compared.
 fn cleaned(problem: &HorizontalLcp, (pi, rows): (&[f64], &[f64])) -> Option<Vec<f64>> {
-    const NOISE: [f64; 6] = [0.0, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11];
     let largest = max_abs(pi);
     if !(largest > 0.0 && largest.is_finite()) {
         return None;

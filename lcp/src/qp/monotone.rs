@@ -2,6 +2,7 @@
 
 use super::definite::indefiniteness;
 use super::form::{Bounds, Form, Point};
+use crate::matrix::DATA_ROUNDING;
 use crate::{Error, Lcp, Matrix, MixedLcp};
 
 /// `min z M z / 2 + q z` subject to `z >= 0`, or what is in the way.
@@ -79,7 +80,6 @@ impl MixedForm {
 
 /// That `M` is symmetric within the free and within the other variables, and skew between them.
 fn check_structure(mixed: &MixedLcp) -> Result<(), String> {
-    const ROUNDING: f64 = 1e-12;
     let m = mixed.m();
     let free = mixed.free();
     let size: Vec<f64> = (0..mixed.order()).map(|i| m[(i, i)].abs().sqrt()).collect();
@@ -89,7 +89,7 @@ fn check_structure(mixed: &MixedLcp) -> Result<(), String> {
             let is_skew = free[i] != free[j];
             let wrong = if is_skew { v + mirrored } else { v - mirrored };
             let largest = v.abs().max(mirrored.abs()).max(size[i] * size[j]);
-            if wrong.abs() > ROUNDING * largest {
+            if wrong.abs() > DATA_ROUNDING * largest {
                 let kind = if is_skew {
                     "skew between free and complementary variables"
                 } else {
