@@ -1,6 +1,7 @@
 //! The method that suits a problem, and the next one where it fails.
 
 mod chain;
+mod constants;
 mod contact;
 mod divided;
 mod enumerated;

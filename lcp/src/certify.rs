@@ -24,7 +24,9 @@
 
 mod boxed;
 mod certificate;
+mod constants;
 mod contact;
+mod evidence;
 mod farkas;
 mod friction;
 mod general;
@@ -33,8 +35,10 @@ mod significance;
 mod weights;
 
 pub use certificate::{Certificate, Leaf};
+pub use evidence::{Ray, SoftSprings};
 
 pub(crate) use boxed::BoxedJudge;
+pub(crate) use constants::ROUNDING;
 pub(crate) use contact::{ContactJudge, StateOf};
 pub(crate) use farkas::{is_proof, is_proof_of};
 pub(crate) use general::{GeneralJudge, right_hand_side};

@@ -11,18 +11,15 @@
 
 use std::time::Instant;
 
-use crate::certify::{Leaf, is_proof_of};
+use crate::certify::{Leaf, ROUNDING, is_proof_of};
 use crate::extended::Extended;
 use crate::matrix::Column;
 use crate::nonnegative::{LeastSquares, Minimum};
-use crate::problem::max_abs;
 use crate::scaling::{GIVEN, equilibrate};
+use crate::vector::max_abs;
 use crate::{Basis, HorizontalLcp, Side};
 
-/// Rounding of a row of an answer, relative to its terms.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
-
-/// What may be left of the right-hand side, relative to its largest entry.
+/// What may be left of the right-hand side, relative to its largest entry. Chosen.
 const NEAR: f64 = 1e-6;
 
 /// When to give up.

@@ -1,6 +1,8 @@
 //! Misuse: errors name the place and the remedy. What the mathematics decides is a
 //! [`Status`](crate::Status), not an error.
 
+use std::str::FromStr;
+
 use crate::Method;
 
 /// Why a problem or a setting was refused.
@@ -169,4 +171,14 @@ pub enum Error {
         /// What is in the way.
         reason: String,
     },
+}
+
+/// From the short name.
+impl FromStr for Method {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Self, Error> {
+        let found = Self::ALL.into_iter().find(|method| method.name() == name);
+        found.ok_or_else(|| Error::UnknownMethod { name: name.to_owned() })
+    }
 }

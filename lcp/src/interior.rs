@@ -1,6 +1,7 @@
 //! Interior-point method for contact with friction and for mixed problems.
 
 mod balance;
+mod constants;
 mod continuation;
 mod iterate;
 mod path;
@@ -14,13 +15,15 @@ use std::ops::ControlFlow;
 pub use settings::InteriorPointSettings;
 
 use balance::{Balance, balance};
+use constants::{BALANCE_TOLERANCE, MORE, NEAR, NEARER, NO_STEP, PATIENCE, WIDTHS};
 use continuation::End;
 use iterate::{Defect, Iterate};
-use path::{WIDTHS, advance};
+use path::advance;
 use start::{set_out, start_again};
 
-use crate::active::{Condensed, Effort, Original, Scaled, Search};
+use crate::active::{Effort, Original, Search};
 use crate::solve::Monitor;
+use crate::states::{Condensed, Scaled};
 use crate::{Certificate, Error, Iteration, Method, Observer, Solution, Status};
 
 /// An interior-point method for the complementarity problem itself, for large sparse problems: contact
@@ -90,18 +93,6 @@ use crate::{Certificate, Error, Iteration, Method, Observer, Solution, Status};
 pub struct InteriorPoint {
     settings: InteriorPointSettings,
 }
-
-/// Residuals above which no crossover is tried.
-const NEAR: f64 = 3e-6;
-/// The residual must have decreased by this factor before it is tried again.
-const NEARER: f64 = 0.03;
-/// Steps without a reduction of the products by a tenth after which the iteration has jammed. On a path that
-/// turns back they may grow for a while.
-const PATIENCE: usize = 30;
-/// Steps from a point that is solved but whose states are not yet those of the exact answer.
-const MORE: usize = 8;
-/// Steps shorter than this are none.
-const NO_STEP: f64 = 1e-7;
 
 impl InteriorPoint {
     /// A solver with these settings.
@@ -189,7 +180,13 @@ impl Run<'_, '_> {
             limit = monitor.stop(last);
             if limit.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
-        let found = balance(scaled, left, observer);
+        let settings = InteriorPointSettings {
+            tolerance: BALANCE_TOLERANCE,
+            max_iterations: left,
+            continuation: false,
+            ..InteriorPointSettings::default()
+        };
+        let found = balance(scaled, |mixed| InteriorPoint::new(settings).run(mixed, observer).ok());
         let rest = vec![0.0; scaled.order()];
         let crossover = self.settings.crossover.then_some(&Effort::THOROUGH);
         match (found, limit) {

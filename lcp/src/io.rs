@@ -34,6 +34,7 @@
 //! [`market`] reads the matrices and vectors of a problem one by one.
 
 mod error;
+mod format;
 mod json;
 pub mod market;
 mod problem;
@@ -47,50 +48,11 @@ use std::path::Path;
 use crate::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, MixedLcp};
 
 pub use error::{Position, ReadError};
+pub use format::Format;
 pub use json::to_json;
 pub use problem::Problem;
 
-/// A format of files.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Format {
-    /// Our JSON.
-    Json,
-    /// Plain text: `n`, `M` by rows, `q`.
-    Text,
-    /// A linear complementarity problem of Siconos.
-    SiconosLcp,
-    /// A mixed linear complementarity problem of Siconos.
-    SiconosMlcp,
-    /// A contact problem of Siconos with friction in the plane, reduced to the contacts.
-    SiconosFriction,
-    /// A contact problem of Siconos with friction in the plane, with the velocities of the bodies.
-    SiconosGlobalFriction,
-}
-
 impl Format {
-    /// All formats.
-    pub const ALL: [Self; 6] = [
-        Self::Json,
-        Self::Text,
-        Self::SiconosLcp,
-        Self::SiconosMlcp,
-        Self::SiconosFriction,
-        Self::SiconosGlobalFriction,
-    ];
-
-    /// The name, as it is typed.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Json => "json",
-            Self::Text => "text",
-            Self::SiconosLcp => "siconos-lcp",
-            Self::SiconosMlcp => "siconos-mlcp",
-            Self::SiconosFriction => "siconos-friction",
-            Self::SiconosGlobalFriction => "siconos-global-friction",
-        }
-    }
-
     fn parse(self, text: &str) -> Result<Problem, ReadError> {
         match self {
             Self::Json => json::read(text),
@@ -100,22 +62,6 @@ impl Format {
             Self::SiconosFriction => siconos::read_friction(text),
             Self::SiconosGlobalFriction => siconos::read_global(text),
         }
-    }
-}
-
-impl std::fmt::Display for Format {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-/// From its name.
-impl std::str::FromStr for Format {
-    type Err = ReadError;
-
-    fn from_str(name: &str) -> Result<Self, ReadError> {
-        let found = Self::ALL.into_iter().find(|format| format.name() == name);
-        found.ok_or_else(|| ReadError::UnknownFormat { name: name.to_owned() })
     }
 }
 

@@ -3,6 +3,7 @@
 mod any_kernel;
 mod artificial;
 mod basis_matrix;
+mod constants;
 mod crash;
 mod dense;
 mod feasibility;
@@ -11,9 +12,11 @@ mod kernel;
 mod parametric;
 mod path;
 mod problems;
+mod progress;
 mod ratio;
 mod search;
 mod sparse;
+mod sparse_start;
 mod start;
 mod tableau;
 mod translate;
@@ -22,6 +25,7 @@ mod trial;
 pub use parametric::{
     Breakpoint, Parametric, ParametricEnd, ParametricPath, ParametricRay, ParametricSettings,
 };
+pub use progress::Progress;
 
 pub use crate::pivoting::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Perturbation, PivotRecord, Variable,
@@ -33,21 +37,6 @@ use std::time::Instant;
 use search::Search;
 
 use crate::{Error, HorizontalLcp, LemkeSettings, Method, Solution};
-
-/// How far a solve of [`Lemke`] has come, for an observer.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct Progress {
-    /// The attempt, from 1.
-    pub attempt: usize,
-    /// Pivots of this attempt.
-    pub pivots: usize,
-    /// Order of the problem.
-    pub order: usize,
-    /// Value of the artificial variable, relative to its first one: 1 before it enters, and in attempts in which
-    /// the variable of a pair takes its place.
-    pub artificial: f64,
-}
 
 /// Lemke's method (Lemke 1965; Cottle, Pang and Stone, *The Linear Complementarity Problem*,
 /// section 4.4) on the general form `A t + B y = c` as it stands.

@@ -157,7 +157,10 @@ mod smoothing;
 mod solution;
 mod solve;
 mod sparse;
+mod states;
+mod status;
 mod variables;
+mod vector;
 #[cfg(feature = "serde")]
 mod wire;
 
@@ -165,7 +168,7 @@ pub use faer;
 
 pub use auto::{Auto, AutoSettings, Choice};
 pub use basis::{Basis, Side};
-pub use certify::{Certificate, Leaf, Residuals};
+pub use certify::{Certificate, Leaf, Ray, Residuals, SoftSprings};
 pub use error::Error;
 pub use interior::{InteriorPoint, InteriorPointSettings};
 #[doc(inline)]
@@ -183,11 +186,12 @@ pub use problem::{
 #[doc(inline)]
 pub use qp::{QuadraticProgram, QuadraticProgramSettings};
 pub use settings::{Covering, LemkeSettings, WarmStart};
-pub use solution::{Info, Ray, Route, RouteEnd, SoftSprings, Solution, Status};
+pub use solution::{Info, Route, RouteEnd, Solution};
 pub use solve::{Iteration, Observer, Solver};
 /// For the benches of the workspace.
 #[doc(hidden)]
 pub use sparse::Multifrontal;
+pub use status::Status;
 
 /// The programs of the README are compiled and run with the tests.
 #[cfg(doctest)]

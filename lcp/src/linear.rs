@@ -11,7 +11,7 @@ use faer::linalg::triangular_solve::{
 use faer::prelude::{Reborrow, ReborrowMut};
 use faer::{Accum, Mat, MatMut, MatRef, Par, Spec, unzip, zip};
 
-use crate::problem::max_abs;
+use crate::vector::max_abs;
 
 /// An LU factorisation that is known not to be singular to working precision.
 #[derive(Debug)]

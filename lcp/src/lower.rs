@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use crate::certify::Residuals;
 use crate::{
     BoxedLcp, Contact2d, ContactState, Error, Friction2d, HorizontalLcp, Lcp, MixedLcp, Solution,
-    Status,
+    StandardForm, Status,
 };
 
 /// A problem with a general form. Only the problems of the library are.
@@ -59,6 +59,14 @@ impl Lowered for BoxedLcp {
         solution.residuals = self.residuals(&z, &w);
         solution.boxed = Some((z, w));
         judged(solution, tolerance)
+    }
+}
+
+impl StandardForm {
+    /// Brings a solution of the standard problem back to the pairs of the general one.
+    pub(crate) fn restore(&self, solution: &mut Solution) {
+        (solution.t, solution.y) = self.to_pairs(&solution.t, &solution.y);
+        solution.basis = solution.basis.as_ref().map(|basis| self.basis(basis));
     }
 }
 

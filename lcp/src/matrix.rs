@@ -7,6 +7,10 @@ use faer::sparse::{SparseColMat, Triplet};
 
 use crate::Error;
 
+/// What entries may be off by, relative to what they are compared with, and still be taken for exact. Chosen: the
+/// rounding errors of whoever computed them.
+pub(crate) const DATA_ROUNDING: f64 = 1e-12;
+
 /// A matrix of a problem, dense or sparse.
 ///
 /// Problems take whatever converts into one: an array of rows, a `Mat` or a `SparseColMat` of `faer`, and, with
@@ -174,22 +178,27 @@ impl Matrix {
     /// That a square matrix is symmetric to rounding, measured by the roots of its diagonal entries, as
     /// fits one that is positive semidefinite.
     pub(crate) fn check_symmetric(&self, what: &'static str) -> Result<(), Error> {
-        let n = self.ncols();
-        let size: Vec<f64> = (0..n).map(|i| self[(i, i)].abs().sqrt()).collect();
         if let Self::Dense(m) = self
-            && is_symmetric(m, &size)
+            && is_symmetric(m)
         {
             return Ok(());
         }
-        for col in 0..n {
-            for (row, v) in self.column(col) {
-                let mirrored = self[(col, row)];
-                if !are_alike(v, mirrored, size[row] * size[col]) {
-                    return Err(Error::NotSymmetric { what, row, col, value: v, mirrored });
-                }
+        match self.asymmetry(|_, _| 1.0) {
+            None => Ok(()),
+            Some((row, col)) => {
+                let (value, mirrored) = (self[(row, col)], self[(col, row)]);
+                Err(Error::NotSymmetric { what, row, col, value, mirrored })
             }
         }
-        Ok(())
+    }
+
+    /// The first entry of a square matrix that is not its mirror image, up to rounding and with a sign by row and column.
+    pub(crate) fn asymmetry(&self, sign: impl Fn(usize, usize) -> f64) -> Option<(usize, usize)> {
+        let size: Vec<f64> = (0..self.ncols()).map(|i| self[(i, i)].abs().sqrt()).collect();
+        let places = (0..self.ncols()).flat_map(|j| self.column(j).map(move |(i, v)| (i, j, v)));
+        let mut unlike =
+            places.filter(|&(i, j, v)| !are_alike(v, sign(i, j) * self[(j, i)], size[i] * size[j]));
+        unlike.next().map(|(i, j, _)| (i, j))
     }
 
     pub(crate) fn slice(&self, j: usize) -> Column<'_> {
@@ -291,14 +300,14 @@ impl From<&nalgebra::DMatrix<f64>> for Matrix {
 
 /// Whether entries on both sides of the diagonal differ by rounding errors of their own size, or of that of the diagonal.
 fn are_alike(v: f64, mirrored: f64, size: f64) -> bool {
-    const ROUNDING: f64 = 1e-12;
     let larger = |a: f64, b: f64| if a > b { a } else { b };
-    (v - mirrored).abs() <= ROUNDING * larger(larger(v.abs(), mirrored.abs()), size)
+    (v - mirrored).abs() <= DATA_ROUNDING * larger(larger(v.abs(), mirrored.abs()), size)
 }
 
 /// Whether a dense matrix is symmetric: tile by tile, so that rows come from the cache.
-fn is_symmetric(m: &Mat<f64>, size: &[f64]) -> bool {
+fn is_symmetric(m: &Mat<f64>) -> bool {
     const TILE: usize = 32;
+    let size: Vec<f64> = (0..m.ncols()).map(|i| m[(i, i)].abs().sqrt()).collect();
     let tile = |from: usize| from..(from + TILE).min(m.ncols());
     let starts = || (0..m.ncols()).step_by(TILE);
     let mut mirrored = [[0.0; TILE]; TILE];

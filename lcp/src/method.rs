@@ -1,9 +1,6 @@
 //! The methods by name.
 
 use std::fmt;
-use std::str::FromStr;
-
-use crate::Error;
 
 /// A method of the library. In text and in files it goes by its short name.
 ///
@@ -91,15 +88,5 @@ impl Method {
 impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
-    }
-}
-
-/// From the short name.
-impl FromStr for Method {
-    type Err = Error;
-
-    fn from_str(name: &str) -> Result<Self, Error> {
-        let found = Self::ALL.into_iter().find(|method| method.name() == name);
-        found.ok_or_else(|| Error::UnknownMethod { name: name.to_owned() })
     }
 }

@@ -1,6 +1,7 @@
 //! A primal-dual active set method, which is a semismooth Newton method, with a safeguard.
 
 mod cholesky;
+mod constants;
 mod contact;
 mod dense;
 mod exchange;
@@ -12,9 +13,9 @@ mod system;
 
 use std::time::Duration;
 
-use crate::problem::max_abs;
 use crate::settings::check_tolerance;
 use crate::solve::Monitor;
+use crate::vector::max_abs;
 use crate::{
     Basis, Error, HorizontalLcp, Lcp, Method, Observer, Residuals, Side, Solution, Solver, Status,
     WarmStart,

@@ -2,6 +2,7 @@
 
 mod block;
 mod body;
+mod constants;
 mod contact;
 mod coulomb;
 mod delassus;

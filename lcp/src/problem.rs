@@ -22,20 +22,3 @@ pub use friction::{ContactForces, Friction2d};
 pub use horizontal::HorizontalLcp;
 pub use mixed::MixedLcp;
 pub use standard::Lcp;
-
-use crate::Error;
-
-pub(crate) fn max_abs(v: &[f64]) -> f64 {
-    v.iter().fold(0.0, |max, x| max.max(x.abs()))
-}
-
-pub(crate) fn check_vector(what: &'static str, v: &[f64]) -> Result<(), Error> {
-    match v.iter().position(|x| !x.is_finite()) {
-        Some(row) => Err(Error::NotFinite { what, row, col: 0, value: v[row] }),
-        None => Ok(()),
-    }
-}
-
-pub(crate) fn check_length(name: &'static str, len: usize, expected: usize) -> Result<(), Error> {
-    if len == expected { Ok(()) } else { Err(Error::Length { name, len, expected }) }
-}

@@ -1,6 +1,7 @@
 //! Convex quadratic programs: an interior-point method, and the exact states that its points lead to.
 
 mod anderson;
+mod constants;
 mod contact;
 mod coulomb;
 mod definite;

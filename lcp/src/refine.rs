@@ -1,10 +1,13 @@
 //! The equations of given states of all contacts, solved to twice the usual digits.
 
+mod answer;
 mod at;
+mod constants;
 mod lack;
 mod law;
 mod solve;
 
+pub use answer::{Refined, Refinement, Verified};
 pub use law::Margin;
 
 pub use crate::extended::Extended;
@@ -12,88 +15,13 @@ pub use crate::problem::ContactStatus;
 pub(crate) use solve::{Exact, planned, refined_states};
 
 use at::At;
+use constants::{DOUBT, EXCHANGES};
 use solve::solved;
 
-use crate::active::Scaled;
-use crate::problem::{check_length, check_vector, column_of};
+use crate::problem::column_of;
+use crate::states::Scaled;
+use crate::vector::{check_length, check_vector};
 use crate::{Contact2d, ContactState, Error};
-
-/// How far [`Contact2d::refine`] goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(rename_all = "lowercase")
-)]
-pub enum Refinement {
-    /// One solve with the factors.
-    Plain,
-    /// One more, for a residual in `f64`.
-    Single,
-    /// Solves for residuals in [`Extended`], as long as these fall.
-    Extended,
-}
-
-/// Displacements and forces that belong to the states of the contacts, from [`Contact2d::refine`].
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Refined {
-    /// The displacements.
-    pub u: Vec<Extended>,
-    /// The normal forces.
-    pub t_n: Vec<Extended>,
-    /// The tangential forces.
-    pub t_t: Vec<Extended>,
-    /// The forces of all contacts on the displacements, `C^T t`: unique where single forces are not.
-    pub on_bodies: Vec<Extended>,
-    /// The largest lack of an equation, relative to the terms of its row, computed in [`Extended`]: of
-    /// equilibrium, and of gap and slip where the states allow none.
-    pub residual: f64,
-    /// By how much the data were changed, relative to the terms of their row: what redundant contacts
-    /// contradict each other, and what bodies that move freely have of a stiffness against that, by the
-    /// rounding errors of the data. Zero where there is nothing of that sort.
-    pub shift: f64,
-    /// What the last pass changed of `on_bodies`, relative to the largest: the error that is left is smaller.
-    /// Where data were changed, the largest that a pass did just before.
-    pub correction: f64,
-    /// How well the inequalities of the contact law hold.
-    pub margin: Margin,
-    /// Solves with the factors.
-    pub passes: usize,
-    /// Displacements of bodies without loads that no contact presses: they stay where they were. Their gaps are
-    /// in the margin only where they are more negative than a rounding error makes them.
-    pub floating: usize,
-    /// Wall-clock time of analysis, factorisation and passes \[s\].
-    pub seconds: f64,
-}
-
-impl Refined {
-    /// The nearest state in `f64`.
-    pub fn rounded(&self, problem: &Contact2d) -> ContactState {
-        let [u, t_n, t_t] =
-            [&self.u, &self.t_n, &self.t_t].map(|v| v.iter().map(|v| v.rounded()).collect());
-        problem.state(u, t_n, t_t)
-    }
-
-    /// How far other forces on the displacements are from these: the largest difference, relative to the
-    /// largest of these; `None` where these are all zero.
-    ///
-    /// # Panics
-    /// If the numbers of displacements differ.
-    pub fn distance(&self, on_bodies: &[Extended]) -> Option<f64> {
-        assert!(self.on_bodies.len() == on_bodies.len(), "answers of one problem are compared");
-        let largest = |size: f64, it: Extended| size.max(it.rounded().abs());
-        let size = self.on_bodies.iter().copied().fold(0.0, largest);
-        let differences = self.on_bodies.iter().zip(on_bodies).map(|(a, b)| *a - *b);
-        (size > 0.0).then(|| differences.fold(0.0, largest) / size)
-    }
-}
-
-/// Inequalities that are violated by less than this part of the largest force or displacement may hold but for
-/// rounding errors of the answer.
-const DOUBT: f64 = 1e-8;
-/// Rounds of exchanges.
-const EXCHANGES: usize = 10;
 
 impl Contact2d {
     /// The states that an answer is nearest to: a contact is open where its gap, in units of the largest
@@ -214,13 +142,4 @@ impl Contact2d {
         }
         check_length("statuses", statuses.len(), m)
     }
-}
-
-/// An answer with the states of its contacts, from [`Contact2d::verify`].
-#[derive(Debug, Clone, PartialEq)]
-pub struct Verified {
-    /// What the contacts do.
-    pub statuses: Vec<ContactStatus>,
-    /// Displacements and forces.
-    pub refined: Refined,
 }

@@ -61,17 +61,24 @@ impl Factors {
         const SETTLED: f64 = 0.25;
         let mut row = vec![0.0; self.row.len()];
         let mut col = vec![0.0; self.col.len()];
-        for sweep in 0..SWEEPS {
+        for sweep in 0..=SWEEPS {
+            let is_last = sweep == SWEEPS;
             let mut sums = Sums::new(row.len());
-            for ((column, log_col), factor) in columns.iter().zip(&col).zip(&self.col) {
-                sums.add(*column, &self.row, (*factor, *log_col), noise);
+            // Each column is read once: its own mean, then its share of the sums along rows.
+            for ((column, log_col), factor) in columns.iter().zip(&mut col).zip(&self.col) {
+                if sweep > 0 {
+                    *log_col = negative_column_mean(*column, (&self.row, &row), *factor, noise);
+                }
+                if !is_last {
+                    sums.add(*column, &self.row, (*factor, *log_col), noise);
+                }
+            }
+            if is_last {
+                break;
             }
             let before = std::mem::replace(&mut row, sums.negative_means());
             if sweep > 0 && row.iter().zip(&before).all(|(a, b)| (a - b).abs() <= SETTLED) {
                 break;
-            }
-            for ((column, log_col), factor) in columns.iter().zip(&mut col).zip(&self.col) {
-                *log_col = negative_column_mean(*column, (&self.row, &row), *factor, noise);
             }
         }
         self.row.iter_mut().zip(row).for_each(|(factor, log)| *factor *= log.exp2());

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::problem::{check_length, check_vector};
+use crate::vector::{check_length, check_vector};
 use crate::{Basis, Error};
 
 /// The covering vector `d > 0` of the artificial variable, in the rows of the start basis. In rows

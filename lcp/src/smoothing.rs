@@ -13,23 +13,23 @@ use faer::Mat;
 
 use crate::linear::Lu;
 use crate::matrix::Column;
-use crate::problem::max_abs;
 use crate::random::SplitMix;
 use crate::scaling::{GIVEN, equilibrate};
 use crate::sparse::{Columns, SparseLu};
+use crate::vector::max_abs;
 use crate::{Basis, HorizontalLcp, Side};
 
-/// `mu` at the end, for a right-hand side of size one.
+/// `mu` at the end, for a right-hand side of size one. Theory: `t y` of rounding errors.
 const LAST: f64 = 1e-18;
-/// By how much `mu` falls.
+/// By how much `mu` falls. Chosen.
 const FALL: f64 = 0.1;
-/// By how much where one step was enough.
+/// By how much where one step was enough. Chosen.
 const FAST: f64 = 1e-3;
-/// How near a point has to be before `mu` falls, in units of `sqrt(mu)`.
+/// How near a point has to be before `mu` falls, in units of `sqrt(mu)`. Chosen.
 const NEAR: f64 = 0.3;
-/// Least share of the decrease that the linear model promises.
+/// Least share of the decrease that the linear model promises. Theory: the usual value of Armijo.
 const DECREASE: f64 = 1e-4;
-/// Halvings of a step.
+/// Halvings of a step. Chosen.
 const HALVINGS: usize = 25;
 
 /// When to give up.

@@ -1,26 +1,11 @@
 //! From a point inside to the exact one on the boundary: the state of every contact is guessed, the
 //! equations of these states are solved, and the few contacts that contradict change their state.
 
-use super::PROXIMAL;
-use super::condensed::{Condensed, Springs};
-use super::scaled::{Point, Scaled};
+use super::constants::{LARGE, NOISE, REFINEMENTS, ROUNDING, SMALLER, STIFF};
 use crate::certify::ratio;
 use crate::problem::ContactStatus;
-use crate::problem::max_abs;
-
-/// What a row lacks, relative to its terms, that is nothing but rounding.
-const NOISE: f64 = 4.0 * f64::EPSILON;
-/// Stiffness of a closed contact, relative to the bodies: the equations are solved to the last digit by
-/// refinement, so that it is no penalty but the size of a proximal step, which redundant contacts need.
-const STIFF: f64 = 1e8;
-/// Steps of refinement.
-const REFINEMENTS: usize = 12;
-/// Contradictions smaller than this part of the largest are left to what its exchange makes of them.
-const LARGE: f64 = 0.01;
-/// A largest contradiction below this part of those before is progress, as a smaller number is.
-const SMALLER: f64 = 0.1;
-/// Contradictions up to this part of the largest force or displacement are rounding errors.
-const ROUNDING: f64 = 1e-13;
+use crate::states::{Condensed, PROXIMAL, Point, Scaled, Springs};
+use crate::vector::max_abs;
 
 /// How much is spent on exchanges. Every round costs a factorisation, as a step of the iteration does.
 pub(crate) struct Effort {
@@ -56,36 +41,6 @@ pub(crate) struct Vertex {
     pub(crate) u: Vec<f64>,
     pub(crate) forces: Vec<(f64, f64)>,
     pub(crate) contacts: Vec<ContactStatus>,
-}
-
-/// The states that displacements and forces are nearest to, wherever they are.
-pub(crate) fn nearest(problem: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Vec<ContactStatus> {
-    let points = problem.points.iter().zip(forces).map(|(point, &forces)| {
-        let slip = if point.mu > 0.0 { point.slip(u) } else { 0.0 };
-        ContactStatus::nearest(point, forces, (point.gap(u), slip.max(0.0), (-slip).max(0.0)))
-    });
-    points.collect()
-}
-
-impl ContactStatus {
-    /// The state that is nearest to normal and tangential force, gap, and slips forwards and backwards.
-    pub(crate) fn nearest(
-        point: &Point,
-        (t_n, t_t): (f64, f64),
-        (gap, slip_plus, slip_minus): (f64, f64, f64),
-    ) -> Self {
-        if gap > t_n {
-            return Self::Open;
-        }
-        let bound = point.mu * t_n;
-        let (plus, minus) = (slip_plus > bound + t_t, slip_minus > bound - t_t);
-        match (point.mu > 0.0 && plus, point.mu > 0.0 && minus) {
-            (true, _) if slip_plus >= slip_minus => Self::Forwards,
-            (_, true) => Self::Backwards,
-            (true, false) => Self::Forwards,
-            (false, false) => Self::Stick,
-        }
-    }
 }
 
 /// Solves for given states and exchanges those that contradict, as long as these become fewer. The forces
@@ -258,18 +213,5 @@ fn closed(point: &Point, gap: f64, slip: f64) -> ContactStatus {
         ContactStatus::Forwards
     } else {
         ContactStatus::Backwards
-    }
-}
-
-impl ContactStatus {
-    /// Springs of this stiffness against what the state does not allow.
-    pub(crate) fn springs(self, point: &Point, stiffness: f64) -> Springs {
-        let tangential = if point.mu > 0.0 { stiffness } else { 0.0 };
-        match self {
-            Self::Open => Springs::default(),
-            Self::Stick => Springs { nn: stiffness, tn: 0.0, tt: tangential },
-            Self::Forwards => Springs { nn: stiffness, tn: -point.mu * stiffness, tt: 0.0 },
-            Self::Backwards => Springs { nn: stiffness, tn: point.mu * stiffness, tt: 0.0 },
-        }
     }
 }

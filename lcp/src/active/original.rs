@@ -1,12 +1,11 @@
 //! The problems that the method treats, as contact problems, and back.
 
-use super::condensed::Condensed;
-use super::crossover::nearest;
-use super::scaled::{Point, Scaled};
+use super::constants::EXACT;
 use crate::certify::{BoxedJudge, ContactJudge, Precision, StateOf};
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
 use crate::refine::{Exact, planned, refined_states};
+use crate::states::{Condensed, Point, Scaled, nearest};
 use crate::{Basis, Contact2d, ContactState, MixedLcp, Residuals, Side};
 
 /// A point of the general form of a problem.
@@ -35,9 +34,6 @@ pub(crate) trait Judge {
     /// Residuals of displacements in units of the data and scaled forces, of twice the digits.
     fn residuals_of(&self, scaled: &Scaled, at: &Exact) -> Residuals;
 }
-
-/// Residuals that leave nothing to refine.
-const EXACT: f64 = 1e-14;
 
 /// The verdict on a point about to be called solved: with all digits, and, where large terms hide what is left of the
 /// loads, on the points that the equations of the states lead to without rounding errors.

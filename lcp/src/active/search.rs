@@ -1,12 +1,11 @@
 //! The points that a method comes to, of which the best one is kept.
 
-use super::condensed::Condensed;
-use super::crossover::{Effort, Vertex, cross_over, nearest};
+use super::crossover::{Effort, Vertex, cross_over};
 use super::original::{At, Judge, Judged, Original, brought_right, confirmed};
-use super::scaled::Scaled;
 use crate::certify::Precision;
 use crate::problem::ContactStatus;
 use crate::solve::Monitor;
+use crate::states::{Condensed, Scaled, nearest};
 use crate::{Error, Method, Solution, Status, WarmStart};
 
 /// A problem with the best point so far.

@@ -3,11 +3,9 @@
 use std::time::{Duration, Instant};
 
 use super::AutoSettings;
+use super::constants::NEAR;
 use super::method::{Effort, Planned, attempt, chain_of};
 use crate::{Certificate, Error, Method, Observer, Route, RouteEnd, Solution, Status, WarmStart};
-
-/// A point with larger residuals is no better start than the one that was given.
-const NEAR: f64 = 1e-4;
 
 /// How much an answer says; what comes first says more.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]

@@ -1,14 +1,10 @@
 //! The chains of contact with friction.
 
+use super::constants::{FEW_POINTS, VERY_FEW_POINTS};
 use super::facts::Facts;
 use super::method::{Effort, Planned, Step};
 use super::standard::{common_steps, program_step};
 use crate::{Contact2d, Friction2d, Method, Solver};
-
-/// Up to so many contact points pivots take no time.
-const VERY_FEW: usize = 40;
-/// Up to so many they are fast.
-const FEW: usize = 500;
 
 impl Planned for Friction2d {
     fn pairs(&self) -> usize {
@@ -73,7 +69,7 @@ impl Planned for Contact2d {
         let program = program_step(Some(program));
         let pivots = step(
             Method::Lemke,
-            if points <= FEW {
+            if points <= FEW_POINTS {
                 "pivots are fast, need no convergence and may find a proof"
             } else {
                 "pivots take long at this number, but need no convergence"
@@ -81,9 +77,9 @@ impl Planned for Contact2d {
         );
         let in_order = |steps: [Option<Step>; 4]| steps.into_iter().flatten().collect();
         let (pivots, inside, sweeps) = (Some(pivots), Some(inside), Some(sweeps));
-        if points <= VERY_FEW {
+        if points <= VERY_FEW_POINTS {
             in_order([pivots, inside, program, sweeps])
-        } else if points <= FEW {
+        } else if points <= FEW_POINTS {
             // Where the interior point comes near, the program starts from there and need only exchange states.
             in_order([inside, program, pivots, sweeps])
         } else {
@@ -111,6 +107,6 @@ impl Planned for Contact2d {
 
     fn is_worth_a_proof(&self, method: Method) -> bool {
         let is_cheap = !matches!(method, Method::Lemke | Method::GaussSeidel);
-        self.points() <= FEW || is_cheap
+        self.points() <= FEW_POINTS || is_cheap
     }
 }

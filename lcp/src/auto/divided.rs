@@ -4,13 +4,10 @@ use std::time::Instant;
 
 use super::AutoSettings;
 use super::chain::{self, Rank};
+use super::constants::MANY_PARTS;
 use super::method::{Planned, Step, chain_of};
 use crate::divide::Part;
 use crate::{Basis, Certificate, Error, Observer, Route, RouteEnd, Side, Solution, Status};
-
-/// More parts than these are small, and all of them together are one problem that is solved in the time of some
-/// small ones: they are taken one by one only where that fails.
-const MANY: usize = 256;
 
 /// Solves a problem by its parts, where it has several.
 pub(super) fn run<P: Planned>(
@@ -22,7 +19,7 @@ pub(super) fn run<P: Planned>(
     let Some(parts) = problem.parts() else { return chain::run(problem, settings, observer) };
     let began = Instant::now();
     let mut tried = None;
-    if parts.len() > MANY {
+    if parts.len() > MANY_PARTS {
         let solution = chain::run(problem, settings, observer)?;
         if chain::is_final(&solution) {
             return Ok(solution);
@@ -40,7 +37,7 @@ pub(super) fn run<P: Planned>(
 
 /// The plans of the parts; a method that stands at the same place of several plans stands there once.
 pub(super) fn steps<P: Planned>(problem: &P) -> Vec<Step> {
-    let Some(parts) = problem.parts().filter(|parts| parts.len() <= MANY) else {
+    let Some(parts) = problem.parts().filter(|parts| parts.len() <= MANY_PARTS) else {
         return chain_of(problem);
     };
     let plans = parts.iter().map(|part| chain_of(&part.problem));

@@ -3,19 +3,13 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+use super::constants::{MOST_PAIRS, MOST_VARIABLES, NODES};
 use crate::certify::Residuals;
 use crate::enumerate::{Enumerated, Limits, enumerate};
 use crate::lower::General;
 use crate::{
     Basis, Certificate, Error, HorizontalLcp, Iteration, Method, Observer, Solution, Solver, Status,
 };
-
-/// Pairs, apart from free variables, of which all choices are gone through.
-const MOST_PAIRS: usize = 12;
-/// Variables at most, free ones included.
-pub(super) const MOST_VARIABLES: usize = 4 * MOST_PAIRS;
-/// Nodes of the tree: all that there can be.
-const NODES: usize = 1 << (MOST_PAIRS + 1);
 
 /// Whether a problem is small enough.
 pub(super) fn is_small(general: &HorizontalLcp) -> bool {

@@ -1,6 +1,7 @@
 //! What a matrix shows without a factorisation.
 
 use crate::Matrix;
+use crate::matrix::DATA_ROUNDING;
 
 /// How far a matrix is symmetric.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,11 +78,10 @@ pub(super) fn is_z_matrix(m: &Matrix) -> bool {
 
 /// `sum_j |M_ij| / sqrt(M_ii M_jj) <= 1` for every `i`, up to rounding.
 fn is_dominant(m: &Matrix, diagonal: &[f64]) -> bool {
-    const ROUNDING: f64 = 1e-12;
     let roots: Vec<f64> = diagonal.iter().map(|d| d.sqrt()).collect();
     let off_diagonal = |j: usize| {
         let terms = m.column(j).filter(|(i, _)| *i != j);
         terms.map(|(i, v)| v.abs() / roots[i] / roots[j]).sum::<f64>()
     };
-    (0..m.ncols()).all(|j| off_diagonal(j) <= 1.0 + ROUNDING)
+    (0..m.ncols()).all(|j| off_diagonal(j) <= 1.0 + DATA_ROUNDING)
 }

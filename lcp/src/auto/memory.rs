@@ -1,11 +1,11 @@
 //! Whether the memory suffices for pivots on dense matrices.
 
+use super::constants::MATRICES;
 use crate::{Error, Method};
 
 /// Refuses orders of dense problems for which the system has not the memory that Lemke's method takes, before
 /// it takes it.
 pub(crate) fn check(is_sparse: bool, order: usize) -> Result<(), Error> {
-    const MATRICES: usize = 5;
     if is_sparse {
         return Ok(());
     }

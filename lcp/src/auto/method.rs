@@ -2,7 +2,8 @@
 
 use std::time::Duration;
 
-use super::enumerated::{Enumeration, MOST_VARIABLES, is_small};
+use super::constants::{MOST_VARIABLES, TRIAL};
+use super::enumerated::{Enumeration, is_small};
 use super::memory;
 use super::smoothed::Smoothing;
 use crate::divide::Divide;
@@ -119,7 +120,6 @@ impl Effort<'_> {
 
     /// Steps are factorisations: where the method does not promise to arrive, they are few.
     pub(super) fn newton(&self, is_sure: bool) -> SemismoothNewton {
-        const TRIAL: usize = 100;
         let Self { tolerance, time_limit, .. } = *self;
         let start = self.start.clone();
         let sure = SemismoothNewtonSettings { tolerance, time_limit, start, ..Default::default() };

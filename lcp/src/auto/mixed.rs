@@ -17,7 +17,7 @@ impl Planned for MixedLcp {
     fn steps(&self) -> Vec<Step> {
         let facts = Facts::of(self.m());
         let free = self.free().iter().filter(|free| **free).count();
-        let program = is_program(self).then(|| {
+        let program = self.asymmetry().is_none().then(|| {
             format!(
                 "{}, M = [P, -G^T; G, S]: a quadratic program, convex if P and S are positive \
                  semidefinite",
@@ -42,20 +42,6 @@ impl Planned for MixedLcp {
             _ => None,
         }
     }
-}
-
-/// Whether `M` is symmetric within the free and within the other variables, and skew between them.
-fn is_program(mixed: &MixedLcp) -> bool {
-    const ROUNDING: f64 = 1e-12;
-    let (m, free) = (mixed.m(), mixed.free());
-    let size: Vec<f64> = (0..mixed.order()).map(|i| m[(i, i)].abs().sqrt()).collect();
-    let fits = |i: usize, j: usize, v: f64| {
-        let mirrored = m[(j, i)];
-        let wrong = if free[i] == free[j] { v - mirrored } else { v + mirrored };
-        let largest = v.abs().max(mirrored.abs()).max(size[i] * size[j]);
-        wrong.abs() <= ROUNDING * largest
-    };
-    (0..mixed.order()).all(|j| m.column(j).all(|(i, v)| fits(i, j, v)))
 }
 
 impl Planned for BoxedLcp {

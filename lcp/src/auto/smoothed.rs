@@ -2,17 +2,13 @@
 
 use std::time::{Duration, Instant};
 
+use super::constants::{STARTS, STEPS};
 use crate::lower::{General, judged_by};
 use crate::smoothing::{Limits, follow};
 use crate::{
     Covering, Error, Iteration, Lemke, LemkeSettings, Method, Observer, Solution, Solver, Status,
     WarmStart,
 };
-
-/// Starts that are tried.
-const STARTS: u64 = 6;
-/// Steps from each.
-const STEPS: usize = 300;
 
 /// Newton's method on smoothed equations, from several starts.
 #[derive(Debug, Clone, Copy)]

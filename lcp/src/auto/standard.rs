@@ -1,14 +1,9 @@
 //! The chain of standard problems, and of general ones that are standard in disguise.
 
+use super::constants::{FEW, FEW_DENSE};
 use super::facts::{Facts, Symmetry, is_z_matrix};
 use super::method::{Effort, Planned, Step};
 use crate::{HorizontalLcp, Lcp, Method, Solver};
-
-/// Up to this order pivots on a sparse matrix are as fast as factorisations, and say more.
-const FEW: usize = 500;
-
-/// Up to this order the interior-point method, which factorises sparse matrices, takes no time on dense ones.
-const FEW_DENSE: usize = 200;
 
 /// The class of the matrix decides whether the active set method is the first.
 pub(super) fn standard_steps(facts: &Facts) -> Vec<Step> {

@@ -1,9 +1,10 @@
 //! What shows that a problem has no solution.
 
+use super::constants::RAY_ROUNDING;
+use super::evidence::{Ray, SoftSprings};
 use super::farkas::{is_proof, is_proof_of};
 use super::ledger::ratio;
 use crate::matrix::Column;
-use crate::solution::{Ray, SoftSprings};
 use crate::{HorizontalLcp, Side};
 
 /// What shows that there is no solution, or what was met in place of one. See
@@ -106,7 +107,6 @@ fn covers_all(leaves: &[Leaf], n: usize) -> bool {
 
 /// `A dt + B dy = covering dz0`, nothing negative, and `dt.dy = 0`, to rounding errors.
 fn is_ray(problem: &HorizontalLcp, ray: &Ray) -> bool {
-    const ROUNDING: f64 = 1e-8;
     let n = problem.order();
     let Ray { dt, dy, dz0, covering } = ray;
     if [dt, dy, covering].iter().any(|v| v.len() != n) {
@@ -123,7 +123,7 @@ fn is_ray(problem: &HorizontalLcp, ray: &Ray) -> bool {
             });
         }
     }
-    let holds = rest.iter().zip(&terms).all(|(rest, terms)| ratio(*rest, *terms) <= ROUNDING);
+    let holds = rest.iter().zip(&terms).all(|(rest, terms)| ratio(*rest, *terms) <= RAY_ROUNDING);
     let is_free = |pair: usize| problem.opposite(pair).is_some();
     let fits = |pair: usize| {
         dt[pair] >= 0.0 && dy[pair] >= 0.0 && (is_free(pair) || dt[pair].min(dy[pair]) == 0.0)

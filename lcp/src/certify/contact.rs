@@ -1,6 +1,7 @@
 //! Displacements, forces, gaps and slips of contact.
 
 use super::Residuals;
+use super::constants::{FULL, ROUNDS, STRONG};
 use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
 use super::significance::Term;
 use super::weights::{or_largest, per_load};
@@ -260,13 +261,6 @@ impl ByRows {
         &self.entries[self.starts[i]..self.starts[i + 1]]
     }
 }
-
-/// A load of this part of those around it counts in full.
-const FULL: f64 = 1.0 / (1 << 20) as f64;
-/// Couplings below this part of the strongest ones of their row are weak.
-const STRONG: f64 = 1.0 / (1 << 10) as f64;
-/// Rounds in which loads are passed on through weak couplings.
-const ROUNDS: usize = 4;
 
 /// Sizes of the loads of a connected part, with displacements by their [factors](column_factors).
 #[derive(Default, Clone)]

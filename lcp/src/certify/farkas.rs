@@ -3,16 +3,10 @@
 //! By Farkas' lemma `A t + B y = c` has no solution with `t >= 0` and `y >= 0` exactly if some `pi` has
 //! `A^T pi <= 0`, `B^T pi <= 0` and `c.pi > 0`.
 
+use super::constants::{CLEAR, LARGEST_OF_VECTOR, SUM_ROUNDING};
 use crate::extended::Extended;
 use crate::matrix::Column;
 use crate::{HorizontalLcp, Side};
-
-/// Rounding of a sum, for each of its terms, relative to their sizes.
-const ROUNDING: f64 = 2.0 * f64::EPSILON;
-/// Products with columns above this part of their terms are no rounding errors of a vector that was computed.
-const LARGEST_ROUNDING: f64 = 1e-12;
-/// How many times the largest of these the value that must be positive has to be.
-const CLEAR: f64 = 1024.0;
 
 /// Whether a vector proves that the linear conditions of a problem have no solution.
 pub(crate) fn is_proof(problem: &HorizontalLcp, pi: &[f64]) -> bool {
@@ -34,10 +28,10 @@ pub(crate) fn is_proof_of<'a>(
         return false;
     }
     let (gap, size, terms) = product(Column::Dense(c), pi);
-    let mut rounding = ROUNDING * terms;
+    let mut rounding = SUM_ROUNDING * terms;
     for column in columns {
         let (sum, size, terms) = product(column, pi);
-        if !size.is_finite() || sum > LARGEST_ROUNDING.max(ROUNDING * terms) * size {
+        if !size.is_finite() || sum > LARGEST_OF_VECTOR.max(SUM_ROUNDING * terms) * size {
             return false;
         }
         if sum > 0.0 {

@@ -1,6 +1,7 @@
 //! Rows at a point: what is left of each, the sizes of its terms, and what violated conditions add.
 
 use super::Residuals;
+use super::constants::{LARGEST_ROUNDING, MINOR, ROUNDING, SMALL};
 use super::significance::{Term, significance};
 use crate::extended::Extended;
 
@@ -56,11 +57,6 @@ pub(crate) enum Precision {
     Exact,
 }
 
-/// More than this of the loads is not a rounding error, however large the terms are.
-const LARGEST_ROUNDING: f64 = 1e-6;
-/// The rounding error of a row whose variables are rounded, relative to its terms.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
-
 /// Rows at a point.
 pub(super) struct Rows<X> {
     pub(super) rest: Vec<X>,
@@ -113,11 +109,6 @@ pub(super) trait Point {
     /// Goes through the conditions on the variables.
     fn conditions(&self, ledger: &mut Ledger<'_>);
 }
-
-/// Residuals above this may be due to rows that do not matter.
-const SMALL: f64 = 1e-13;
-/// What is left of the loads below this part of the other residuals says that these do not matter.
-const MINOR: f64 = 1e-2;
 
 /// The residuals of a point with one over the loads of its rows. Rows that do not matter to the loads are told only
 /// where something in them seems to be wrong.

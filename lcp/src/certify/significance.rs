@@ -8,12 +8,8 @@
 
 use std::collections::BinaryHeap;
 
+use super::constants::{IN_FULL, SPEAKS};
 use crate::matrix::Column;
-
-/// A row that is worth this counts in full: chains are not the only way to the loads.
-const IN_FULL: f64 = 1.0 / 32.0;
-/// Every variable with more than this of the largest term of a row speaks for the row.
-const SPEAKS: f64 = 1.0 / 1024.0;
 
 /// A term of a row at a point.
 pub(super) struct Term {

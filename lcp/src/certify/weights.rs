@@ -1,13 +1,9 @@
 //! What a row counts in units of the loads.
 
+use super::constants::{ROUNDS, STRONG};
 use crate::matrix::Column;
 use crate::parts::Parts;
 use crate::scaling::{GIVEN, equilibrate};
-
-/// Entries below this, once rows and columns are equilibrated, couple two rows only weakly.
-const STRONG: f64 = 1.0 / (1 << 10) as f64;
-/// Rounds in which loads are passed on through weak couplings.
-const ROUNDS: usize = 4;
 
 /// For every row one over the loads that it feels, in units of the row: the largest right-hand side of its
 /// connected part, and of others by how weakly they are coupled to it. `loads` are the sizes of the right-hand

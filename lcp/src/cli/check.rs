@@ -4,8 +4,9 @@ use std::io::{Read, Write};
 
 use serde::Serialize;
 
+use super::args::CheckArgs;
 use super::input::Point;
-use super::{CheckArgs, Failure, NOT_SOLVED, SOLVED, print, print_json, residual_lines};
+use super::output::{Failure, NOT_SOLVED, SOLVED, print, print_json, residual_lines};
 use crate::Residuals;
 use crate::io::Problem;
 

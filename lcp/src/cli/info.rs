@@ -5,8 +5,9 @@ use std::io::{Read, Write};
 
 use serde::Serialize;
 
+use super::args::InfoArgs;
 use super::input::Input;
-use super::{Failure, InfoArgs, SOLVED, print, print_json};
+use super::output::{Failure, SOLVED, print, print_json};
 use crate::Matrix;
 use crate::io::Problem;
 

@@ -7,7 +7,7 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 use serde::Deserialize;
 
-use super::{Failure, in_file};
+use super::output::{Failure, in_file};
 use crate::io::{Format, Problem, ProblemFile, ReadError, market, read, read_file};
 use crate::{Contact2d, ContactState, HorizontalLcp, Lcp};
 

@@ -5,12 +5,13 @@ use std::time::Duration;
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 
+use super::args::SolveArgs;
 use super::input::Point;
-use super::{Failure, SolveArgs};
+use super::output::Failure;
 use crate::auto::{Enumeration, Smoothing, memory};
 use crate::io::Problem;
 use crate::{
-    Auto, AutoSettings, Basis, BoxedLcp, Contact2d, Covering, Error, Friction2d, HorizontalLcp,
+    Auto, AutoSettings, Basis, BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp,
     InteriorPoint, InteriorPointSettings, Lcp, Lemke, LemkeSettings, Method, MixedLcp,
     ProjectedGaussSeidel, ProjectedGaussSeidelSettings, QuadraticProgram, QuadraticProgramSettings,
     SemismoothNewton, SemismoothNewtonSettings, Side, Solution, Solver, WarmStart,
@@ -128,16 +129,6 @@ fn time_limit(args: &SolveArgs) -> Result<Option<Duration>, Failure> {
             .map_err(|error| format!("--time-limit {seconds}: {error}").into())
     };
     args.time_limit.map(limit).transpose()
-}
-
-/// `ones` or `random:SEED`.
-pub(super) fn covering(text: &str) -> Result<Covering, String> {
-    if text == "ones" {
-        return Ok(Covering::Ones);
-    }
-    let seed = text.strip_prefix("random:").and_then(|seed| seed.parse().ok());
-    seed.map(|seed| Covering::Random { seed })
-        .ok_or_else(|| "it is `ones`, or `random:SEED` with a whole number".to_owned())
 }
 
 fn start(args: &SolveArgs, problem: &Problem) -> Result<WarmStart, Failure> {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::residual_lines;
+use super::output::residual_lines;
 use super::solve::{Answer, Work};
 use crate::Status;
 use crate::pivoting::{Attempt, Perturbation};

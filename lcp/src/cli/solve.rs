@@ -5,7 +5,9 @@ use std::io::{Read, Write};
 use cpu_time::ProcessTime;
 use serde::Serialize;
 
-use super::{Failure, NOT_SOLVED, SOLVED, SolveArgs, in_file, method, print, print_json};
+use super::args::SolveArgs;
+use super::method;
+use super::output::{Failure, NOT_SOLVED, SOLVED, in_file, print, print_json};
 use crate::io::Problem;
 use crate::pivoting::Attempt;
 use crate::{

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::problem::{check_length, check_vector};
+use crate::vector::{check_length, check_vector};
 use crate::{Basis, Error, Lcp, Matrix, Side, WarmStart};
 
 /// What the membrane lies on.

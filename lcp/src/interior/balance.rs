@@ -1,17 +1,10 @@
 //! Whether any contact forces balance the loads, wherever the bodies are.
 
-use super::InteriorPoint;
-use super::settings::InteriorPointSettings;
-use crate::active::{Point, Scaled};
-use crate::problem::{column_of, max_abs};
-use crate::{Matrix, MixedLcp, Observer, Solver};
-
-/// What a row of `K v` or a contact may miss, relative to its terms: rounding errors.
-const ROUNDING: f64 = 1e-13;
-/// Least work of the loads on a proof, relative to the sizes of loads and motion.
-const LEAST_WORK: f64 = 1e-9;
-/// Residual of the problem that decides.
-const TOLERANCE: f64 = 1e-12;
+use super::constants::{LEAST_WORK, ROW_ROUNDING};
+use crate::problem::column_of;
+use crate::states::{Point, Scaled};
+use crate::vector::max_abs;
+use crate::{Matrix, MixedLcp, Solution};
 
 /// What is known of forces that balance the loads.
 pub(super) enum Balance {
@@ -33,19 +26,11 @@ pub(super) enum Balance {
 /// of bodies at rest is zero. Proof and forces are checked by themselves.
 pub(super) fn balance(
     problem: &Scaled,
-    max_iterations: usize,
-    observer: &mut Observer<'_>,
+    solve: impl FnOnce(&MixedLcp) -> Option<Solution>,
 ) -> Balance {
     let edges = edges(problem);
     let Some(mixed) = nearest(problem, &edges) else { return Balance::Open };
-    let settings = InteriorPointSettings {
-        tolerance: TOLERANCE,
-        max_iterations,
-        continuation: false,
-        ..InteriorPointSettings::default()
-    };
-    let solver = InteriorPoint::new(settings);
-    let Ok(solution) = solver.solve_observed(&mixed, observer) else { return Balance::Open };
+    let Some(solution) = solve(&mixed) else { return Balance::Open };
     let (z, _) = mixed.recover(&solution.t, &solution.y);
     let (v, rest) = z.split_at(problem.order());
     if is_proof(problem, &edges, &without_noise(v)) {
@@ -107,7 +92,7 @@ fn nearest(problem: &Scaled, edges: &[(usize, f64)]) -> Option<MixedLcp> {
 
 /// What does not move but for rounding errors is at rest: errors of their own size would contradict a proof.
 fn without_noise(v: &[f64]) -> Vec<f64> {
-    let noise = ROUNDING * max_abs(v);
+    let noise = ROW_ROUNDING * max_abs(v);
     v.iter().map(|v| if v.abs() <= noise { 0.0 } else { *v }).collect()
 }
 
@@ -124,11 +109,11 @@ fn is_proof(problem: &Scaled, edges: &[(usize, f64)], v: &[f64]) -> bool {
     // `K` is symmetric: its columns are its rows.
     let is_free = (0..v.len()).all(|j| {
         let (sum, terms) = sum(&mut column_of(&problem.k, j));
-        sum.abs() <= ROUNDING * terms
+        sum.abs() <= ROW_ROUNDING * terms
     });
     let opens = edges.iter().all(|edge| {
         let (sum, terms) = sum(&mut components(problem, *edge));
-        sum >= -ROUNDING * terms
+        sum >= -ROW_ROUNDING * terms
     });
     max_abs(v) > 0.0 && work >= LEAST_WORK * load * motion && is_free && opens
 }

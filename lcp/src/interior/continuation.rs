@@ -1,37 +1,15 @@
 //! Where there may be no equilibrium: soft springs that are reduced step by step.
 
+use super::constants::{
+    ACCURACY, CONSTANT, FIRST_SPRING, IN_SEQUENCE, LAST_SPRING, LIFT, NOTHING, RESISTANCE,
+    ROUNDING, SOFT, SOFTER, STEPS, WIDTHS,
+};
 use super::iterate::{Defect, Iterate};
-use super::path::{WIDTHS, advance};
+use super::path::advance;
 use super::start::start;
-use crate::active::{Condensed, Scaled};
+use crate::SoftSprings;
 use crate::problem::column_of;
-use crate::solution::SoftSprings;
-
-/// The first springs, relative to the stiffness, and the last.
-const FIRST: f64 = 0.1;
-const LAST: f64 = 1e-9;
-/// Factors from one spring to the next.
-const FACTOR: f64 = 0.1;
-/// Where one spring ends the pairs are too near the boundary for the next: they are lifted by this part of
-/// the largest force and gap.
-const LIFT: f64 = 0.1;
-/// Steps for one spring.
-const STEPS: usize = 60;
-/// The natural residual up to which the problem with springs is solved, relative to the largest force.
-const ACCURACY: f64 = 1e-5;
-/// Springs that carry less than this share of the load have nothing to say any more.
-const NOTHING: f64 = 1e-7;
-/// Where a tenth of the spring still carries this part of what the spring carried, several times in
-/// sequence, the share does not tend to zero.
-const CONSTANT: f64 = 0.8;
-const IN_SEQUENCE: usize = 4;
-/// Stiffer springs than this do not tell bodies that nothing holds from those that something soft does.
-const SOFT: f64 = 2e-6;
-/// Resistance of a motion, relative to that of springs of the square, which is an error of the solution: its
-/// accuracy enters by the square as well.
-const RESISTANCE: f64 = 1e-6;
-/// Resistance of a body, relative to the terms that it is the sum of, which is a rounding error.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
+use crate::states::{Condensed, Scaled};
 
 /// How the continuation ended.
 pub(super) enum End {
@@ -50,11 +28,11 @@ pub(super) fn follow(
     mut go_on: impl FnMut() -> bool,
 ) -> End {
     let load: f64 = problem.f.iter().map(|f| f.abs()).sum();
-    let mut spring = FIRST;
+    let mut spring = FIRST_SPRING;
     let mut at = start(problem, condensed, spring);
     let mut path = SoftSprings::default();
     let mut constant = 0;
-    while spring >= LAST {
+    while spring >= LAST_SPRING {
         let before = at.u.clone();
         let Some(next) = solve(problem, condensed, at, spring, &mut go_on) else {
             return End::Open;
@@ -73,7 +51,7 @@ pub(super) fn follow(
             path.motion = problem.displacements(&at.u);
             return End::Falling(path);
         }
-        spring *= FACTOR;
+        spring *= SOFTER;
         at = at.lifted(problem, LIFT);
     }
     End::Open

@@ -1,13 +1,9 @@
 //! Points inside the cone, and Newton's steps between them.
 
-use crate::active::{Condensed, Point, Scaled, Springs};
+use super::constants::COMPLIANCE;
 use crate::problem::ContactStatus;
-use crate::problem::max_abs;
-
-/// Compliance of a contact, relative to that of the bodies, below which a step does not go: forces are
-/// differences of gaps times a stiffness, and lose their digits when that is too large. A step is a
-/// proximal one then, which changes nothing where the iteration ends.
-const COMPLIANCE: f64 = 1e-8;
+use crate::states::{Condensed, Point, Scaled, Springs};
+use crate::vector::max_abs;
 
 /// A point with all forces inside their cones and all gaps open; or a step between two of them.
 #[derive(Debug, Clone)]

@@ -1,35 +1,12 @@
 //! The interior-point iteration: predictor, correctors, and what to do when they get nowhere.
 
+use super::constants::{
+    BACK, CENTRAL, CORRECTORS, IS_CENTRAL, LEAST_AIM, LONG_ENOUGH, LONGER, MIXTURES, PROGRESS,
+    SHORT, SHORTER, SHORTEST,
+};
 use super::iterate::{Defect, Iterate, Tangent};
 use super::turn::turn;
-use crate::active::{Condensed, PROXIMAL, Scaled};
-
-/// Least products of a pair, relative to the mean, one after the other: where the path turns often, it has to
-/// be followed closely, but how closely cannot be foreseen.
-pub(super) const WIDTHS: [f64; 3] = [0.1, 0.01, 0.3];
-/// Part of the longest step that is taken.
-const BACK: f64 = 0.995;
-/// A step that makes a product smaller than it may be is shortened by this.
-const SHORTER: f64 = 0.7;
-/// No step is made shorter than this for it.
-const SHORTEST: f64 = 1e-4;
-/// Correctors of the centrality of a step, at most.
-const CORRECTORS: usize = 2;
-/// A step of this length needs none, and a corrector has to make it longer by this.
-const LONG: f64 = 0.9;
-const LONGER: f64 = 0.03;
-/// Products of the pairs, relative to what they should be, that correctors leave alone.
-const CENTRAL: (f64, f64) = (0.1, 10.0);
-/// Products are not driven below this part of their mean by a corrector.
-const LEAST_AIM: f64 = 0.01;
-/// Below this length a step is replaced by a mixture of the predictor and of centring.
-const SHORT: f64 = 0.05;
-/// Shares of centring that are tried.
-const MIXTURES: [f64; 12] = [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98];
-/// A mixture must reduce the products by this part, except at points that are central already.
-const PROGRESS: f64 = 0.05;
-/// Products between these multiples of their mean make a point central.
-const IS_CENTRAL: (f64, f64) = (0.3, 3.0);
+use crate::states::{Condensed, PROXIMAL, Scaled};
 
 /// One step of Mehrotra's method (1992) with Gondzio's correctors (1996), which costs one factorisation.
 /// The problem is not monotone with friction: where the step is short, the best mixture of predictor and
@@ -91,7 +68,7 @@ fn forwards(
     let mut step = tangent.step(defect, &targets(problem, at, aim, Some(predictor)));
     let mut alpha = at.longest(problem, &step);
     for _ in 0..CORRECTORS {
-        if alpha >= LONG {
+        if alpha >= LONG_ENOUGH {
             break;
         }
         let trial = at.moved(&step, (1.5 * alpha + 0.3).min(1.0));

@@ -1,18 +1,9 @@
 //! Where the iteration starts, and how it finds out how far bodies move.
 
+use super::constants::{FAR, HALF, OPENED, OPENINGS, WIDE};
 use super::iterate::{Iterate, Pairs};
 use super::path::{Ahead, advance};
-use crate::active::{Condensed, PROXIMAL, Scaled, Springs};
-
-/// Largest change of a gap by the predictor, relative to the mean gap, that a start is wide enough for.
-const WIDE: f64 = 2.0;
-/// A start that is not is opened by this many times its mean gap, which must bring that change down by half.
-const OPENED: f64 = 100.0;
-const HALF: f64 = 0.5;
-/// No start is opened more often.
-const OPENINGS: usize = 8;
-/// An attempt whose gaps have grown by this factor began too near.
-const FAR: f64 = 10.0;
+use crate::states::{Condensed, PROXIMAL, Scaled, Springs};
 
 /// A start from the forces that the contacts would carry if they were springs in both directions.
 pub(super) fn start(problem: &Scaled, condensed: &mut Condensed, spring: f64) -> Iterate {

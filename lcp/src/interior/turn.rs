@@ -1,12 +1,8 @@
 //! Where the central path turns back.
 
+use super::constants::{LONG, PIECES};
 use super::iterate::{Defect, Iterate, Tangent};
-use crate::active::Scaled;
-
-/// Largest relative change of a variable by a piece of the path; the first that leaves a step of length
-/// [`LONG`] is taken.
-const PIECES: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.0];
-const LONG: f64 = 0.7;
+use crate::states::Scaled;
 
 /// A step along the central path where it turns, or nearly.
 ///

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::Format;
+use super::format::Format;
 
 /// A place in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -140,4 +140,14 @@ fn known() -> String {
 fn list(formats: &[Format]) -> String {
     let names: Vec<String> = formats.iter().map(ToString::to_string).collect();
     names.join(" or as ")
+}
+
+/// From its name.
+impl std::str::FromStr for Format {
+    type Err = ReadError;
+
+    fn from_str(name: &str) -> Result<Self, ReadError> {
+        let found = Self::ALL.into_iter().find(|format| format.name() == name);
+        found.ok_or_else(|| ReadError::UnknownFormat { name: name.to_owned() })
+    }
 }

@@ -1,39 +1,17 @@
 //! Our JSON.
 
 mod fields;
+mod kind;
 mod write;
 
 use fields::Fields;
+use kind::Kind;
 use serde::Deserialize;
 use serde_json::value::RawValue;
 
 use super::{Problem, ReadError};
 
 pub use write::to_json;
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-enum Kind {
-    Lcp,
-    Horizontal,
-    Mixed,
-    Boxed,
-    Friction,
-    Contact,
-}
-
-impl std::fmt::Display for Kind {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Lcp => "lcp",
-            Self::Horizontal => "horizontal",
-            Self::Mixed => "mixed",
-            Self::Boxed => "boxed",
-            Self::Friction => "friction",
-            Self::Contact => "contact",
-        })
-    }
-}
 
 /// The fields of all kinds, as they stand in the text, so that every error has its place.
 #[derive(Deserialize)]

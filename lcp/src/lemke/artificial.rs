@@ -5,18 +5,13 @@
 //! basis. A solution in which all artificial variables are zero solves the problem as given, which
 //! the residuals of the original data decide.
 
+use super::constants::{LEAST_PART, NOISE};
 use super::feasibility::in_problem_rows;
 use super::finish::Point;
 use super::start::Equilibrated;
 use crate::certify::is_proof;
-use crate::problem::max_abs;
+use crate::vector::max_abs;
 use crate::{Basis, HorizontalLcp, Matrix, Side, Solution};
-
-/// A part of `c` below this is rounding errors, in equilibrated rows.
-const LEAST_PART: f64 = 1e-9;
-
-/// Entries of that part below this multiple of the largest are rounding errors.
-const NOISE: f64 = 1e-13;
 
 /// The problem in which the missing pairs have an artificial column instead of that of `side`.
 pub(super) fn completed(

@@ -2,15 +2,13 @@
 
 use faer::Mat;
 
+use super::constants::{LEVEL, NOTHING, SAMPLES};
 use super::start::Equilibrated;
 use crate::linear::{Lu, inverse_norm};
-use crate::problem::max_abs;
 use crate::random::SplitMix;
 use crate::sparse::{Columns, SparseLu};
+use crate::vector::max_abs;
 use crate::{Basis, Side};
-
-/// Entries of a row of the inverse below this multiple of the largest are no numbers of the problem.
-const NOTHING: f64 = 1e-24;
 
 /// The equilibrated matrix of a basis.
 pub(super) enum BasisMatrix {
@@ -241,8 +239,6 @@ impl Bordered {
 /// Solutions for random right-hand sides of rounding size: the largest of each entry. Sizes are random
 /// too, since signs alone cancel now and then.
 fn sampled(sizes: &[f64], solve: impl Fn(&mut [f64])) -> Vec<f64> {
-    const SAMPLES: u64 = 5;
-    const LEVEL: f64 = 8.0 * f64::EPSILON;
     let mut errors = vec![0.0_f64; sizes.len()];
     for seed in 0..SAMPLES {
         let mut random = SplitMix::new(seed);

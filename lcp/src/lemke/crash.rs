@@ -1,5 +1,6 @@
 //! Start bases: one column of every pair, together nonsingular.
 
+mod found;
 mod matching;
 mod sparse;
 
@@ -7,34 +8,19 @@ use std::time::Instant;
 
 use faer::{Mat, MatRef};
 
+pub(super) use found::Crash;
+
+use found::is_over;
 use matching::matched_sides;
 use sparse::find_sparse;
 
+use super::constants::{DENSE_SEARCH, GAIN, GAIN_SWEEPS, RANK_TOLERANCE};
 use super::start::Equilibrated;
 use super::tableau::Tableau;
 use crate::linear::Lu;
-use crate::problem::max_abs;
 use crate::sparse::Columns;
-use crate::{Basis, Matrix, Side};
-
-/// Columns whose part outside the span of those chosen before is below this multiple of the
-/// largest are taken for dependent.
-const RANK_TOLERANCE: f64 = 1e-10;
-
-/// Sparse problems up to this order, for which the sparse search finds no basis, are searched with dense
-/// matrices.
-const DENSE_SEARCH: usize = 2000;
-
-/// As many independent columns as there are, at most one of every pair.
-pub(super) enum Crash {
-    /// One of every pair.
-    Complete(Basis),
-    /// Pairs without a column, as many as there are columns that complete the chosen ones: an
-    /// orthonormal basis of what these leave out, or unit columns.
-    Partial { chosen: Vec<Option<Side>>, complement: Matrix },
-    /// The time was over first.
-    Late,
-}
+use crate::vector::max_abs;
+use crate::{Basis, Side};
 
 /// A nonsingular complementary basis: the preferred sides or all `y` or all `t` where these are
 /// diagonal, one of columns with a single entry, or one grown from independent columns of the preferred
@@ -85,10 +71,6 @@ pub(super) fn find_basis(
     }
 }
 
-fn is_over(deadline: Option<Instant>) -> bool {
-    deadline.is_some_and(|deadline| Instant::now() >= deadline)
-}
-
 /// The basis that the structure of the problem offers, as slack variables do: of every pair a column with
 /// a single entry, all in different rows.
 fn single_entries(problem: &Equilibrated<'_>, preferred: &Basis) -> Option<Basis> {
@@ -108,8 +90,6 @@ fn single_entries(problem: &Equilibrated<'_>, preferred: &Basis) -> Option<Basis
 /// A basis whose determinant no exchange of a single pair makes larger: those found by independence
 /// alone may be so poor that every path from them ends on a ray.
 fn enlarged(problem: &Equilibrated<'_>, basis: Basis, deadline: Option<Instant>) -> Basis {
-    const GAIN: f64 = 1.0 + 1e-6;
-    const SWEEPS: usize = 8;
     let n = problem.order();
     let pick = |complement: bool| -> Vec<(usize, Side)> {
         let sides = basis.sides().iter().copied().enumerate();
@@ -121,7 +101,7 @@ fn enlarged(problem: &Equilibrated<'_>, basis: Basis, deadline: Option<Instant>)
     let mut tableau = Tableau::new(t);
     let mut column = vec![0.0; n];
     let mut sides = basis.sides().to_vec();
-    for _ in 0..SWEEPS {
+    for _ in 0..GAIN_SWEEPS {
         let mut is_settled = true;
         for (k, side) in sides.iter_mut().enumerate() {
             tableau.column(k, &mut column);

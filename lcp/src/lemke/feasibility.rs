@@ -6,16 +6,14 @@
 //! system is feasible. If not, the multipliers of the last basis are the proof.
 
 use super::basis_matrix::BasisMatrix;
+use super::constants::COST_TOLERANCE;
 use super::kernel::{Kernel, Var};
 use super::path::Path;
-use super::ratio::leaving_row;
 use super::start::{Equilibrated, Start};
 use crate::Side;
 use crate::certify::is_proof;
-use crate::problem::max_abs;
+use crate::vector::max_abs;
 
-/// Reduced costs below this multiple of the largest entry of their row are taken for zero.
-const COST_TOLERANCE: f64 = 1e-9;
 /// A checked Farkas vector, if one is found along a path that has not begun. `is_over` is asked before
 /// every pivot.
 pub(super) fn farkas_vector<K: Kernel>(
@@ -38,7 +36,7 @@ pub(super) fn farkas_vector<K: Kernel>(
             return is_proof(problem.problem, &pi).then_some(pi);
         };
         path.kernel.column(entering, &mut column);
-        let leaving = leaving_row(&path, &column)?;
+        let leaving = path.leaving_row(&column)?;
         if !path.is_new() {
             return None;
         }

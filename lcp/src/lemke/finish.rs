@@ -1,18 +1,12 @@
 //! From a complementary basis to a point that the original data vouches for.
 
 use super::basis_matrix::BasisMatrix;
+use super::constants::{HIDDEN, ILL_CONDITIONED, REFINEMENTS};
 use super::start::Equilibrated;
 use crate::certify::Precision;
 use crate::extended::Extended;
-use crate::problem::max_abs;
+use crate::vector::max_abs;
 use crate::{Basis, Residuals, Side};
-
-/// Steps of iterative refinement.
-const REFINEMENTS: usize = 3;
-/// With a condition number above this, residuals are computed with twice the working precision.
-const ILL_CONDITIONED: f64 = 1e6;
-/// Residuals that are rounding errors; loads above are measured with all digits.
-const HIDDEN: f64 = 1e-12;
 
 /// A point and what the original data says of it.
 #[derive(Debug, Clone)]

@@ -11,19 +11,14 @@ pub use outcome::{Breakpoint, ParametricEnd, ParametricPath, ParametricRay};
 use std::time::Instant;
 
 use super::basis_matrix::BasisMatrix;
+use super::constants::{ROUNDING, STANDSTILL};
 use super::crash::{Crash, find_basis};
 use super::kernel::{Kernel, Var};
 use super::path::Path;
-use super::ratio::leaving_row;
 use super::start::{Equilibrated, Start};
 use crate::certify::{GeneralJudge, Precision};
-use crate::problem::{check_length, check_vector, max_abs};
+use crate::vector::{check_length, check_vector, max_abs};
 use crate::{Basis, Error, HorizontalLcp, Lemke, LemkeSettings, Solver, Status};
-
-/// Values, and rates of the parameter, below this are rounding errors, relative to their terms.
-const ROUNDING: f64 = 1e-14;
-/// A pivot that moves no variable by more than this, relative to the largest, makes no breakpoint.
-const STANDSTILL: f64 = 1e-13;
 
 /// Settings of [`Parametric`].
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -196,7 +191,7 @@ impl Tracer<'_> {
             }
             path.kernel.column(entering, &mut column);
             out.bases.push(present_basis(&path, start, entering));
-            let row = leaving_row(&path, &column);
+            let row = path.leaving_row(&column);
             let step = row.map_or(f64::INFINITY, |row| path.values[row].max(0.0) / column[row]);
             let value = path.value(parameter);
             let speed = match path.artificial_row() {

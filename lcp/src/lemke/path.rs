@@ -7,18 +7,13 @@
 
 use std::collections::HashSet;
 
+use super::constants::{ARTIFICIAL_ZERO, DRIFT};
 use super::kernel::{Kernel, Var};
-use super::ratio::leaving_row;
+use super::ratio::Basic;
 use super::start::Start;
 use crate::pivoting::AttemptEnd;
-use crate::problem::max_abs;
 use crate::random::SplitMix;
-
-/// Drift of the basic values, or of a column, against the start data above which the tableau is
-/// rebuilt, relative to their size.
-const DRIFT: f64 = 1e-10;
-/// Below this multiple of its first value the artificial variable is zero.
-const ARTIFICIAL_ZERO: f64 = 1e-10;
+use crate::vector::max_abs;
 
 /// One exchange.
 #[derive(Debug, Clone, Copy)]
@@ -48,7 +43,7 @@ pub(super) struct Path<'a, K> {
     /// Whether the artificial variable is a parameter, which may have any value.
     is_parametric: bool,
     /// First value of the artificial variable.
-    pub(super) artificial_start: f64,
+    artificial_start: f64,
     scale: f64,
     pub(super) pivots: usize,
     pub(super) factorisations: usize,
@@ -138,13 +133,8 @@ impl<'a, K: Kernel> Path<'a, K> {
         self.artificial_row().map_or(1.0, |row| self.values[row] / self.artificial_start)
     }
 
-    /// The row in which the artificial variable stands to become zero.
-    pub(super) fn driven_row(&self) -> Option<usize> {
-        self.artificial_row().filter(|_| !self.is_parametric)
-    }
-
     /// Whether the basic variable of a row must not be negative. A free variable, once basic, stays.
-    pub(super) fn is_bounded(&self, row: usize) -> bool {
+    fn is_bounded(&self, row: usize) -> bool {
         let n = self.order();
         let var = self.basic[row];
         if var == 2 * n { !self.is_parametric } else { !self.start.is_free(var % n) }
@@ -155,9 +145,18 @@ impl<'a, K: Kernel> Path<'a, K> {
         self.scale
     }
 
-    /// The row in which a variable is basic.
-    pub(super) fn row_of(&self, var: Var) -> Option<usize> {
-        self.row_of[var]
+    /// The row that leaves for a column that enters.
+    pub(super) fn leaving_row(&self, column: &[f64]) -> Option<usize> {
+        let driven = self.artificial_row().filter(|_| !self.is_parametric);
+        let basic = Basic {
+            kernel: &self.kernel,
+            values: &self.values,
+            row_of: &self.row_of,
+            is_bounded: |row| self.is_bounded(row),
+            driven: driven.map(|row| (row, self.artificial_start)),
+            scale: self.scale,
+        };
+        basic.leaving_row(column)
     }
 
     /// Follows the path to its end.
@@ -237,7 +236,7 @@ impl<'a, K: Kernel> Path<'a, K> {
                 return AttemptEnd::Singular;
             }
             self.kernel.column(entering, column);
-            match leaving_row(self, column) {
+            match self.leaving_row(column) {
                 Some(row) => {
                     // The rule is deterministic: a basis that came back comes back for ever.
                     if !self.is_new() {

@@ -1,47 +1,95 @@
 //! The ratio test: which basic variable leaves.
 
+use super::constants::{ARTIFICIAL_ZERO, NOISE, PIVOT_TOLERANCE, TIE_PIVOT, TIE_WINDOW};
 use super::kernel::Kernel;
-use super::path::Path;
 
-/// Entries of the entering column below this multiple of its largest one are taken for zero.
-const PIVOT_TOLERANCE: f64 = 1e-10;
-/// Entries of the entering column below this are rounding errors of an equilibrated tableau.
-const NOISE: f64 = 1e-13;
-/// The artificial variable leaves when the step would bring it below this multiple of the value
-/// it started from. Narrower windows run past the solution onto false rays, wider ones stop early.
-const ARTIFICIAL_WINDOW: f64 = 1e-10;
-/// A step may bring basic variables this far below zero, relative to the largest.
-const TIE_WINDOW: f64 = 1e-12;
-/// Among tied rows, pivots below this multiple of the largest are not used.
-const TIE_PIVOT: f64 = 1e-4;
+/// What the test looks at: the basic variables, row by row.
+pub(super) struct Basic<'a, K, B> {
+    pub(super) kernel: &'a K,
+    pub(super) values: &'a [f64],
+    /// Row of every variable, where it is basic.
+    pub(super) row_of: &'a [Option<usize>],
+    /// Whether the variable of a row must not be negative.
+    pub(super) is_bounded: B,
+    /// The row of the variable that stands to become zero, with its first value.
+    pub(super) driven: Option<(usize, f64)>,
+    /// Size of the values, against which a tie is judged.
+    pub(super) scale: f64,
+}
 
-/// The row that leaves, or `None` when nothing blocks the entering variable. In two passes: the
-/// longest step that brings no variable below zero by more than the window, then among the rows that
-/// block within it those with sound pivots.
-pub(super) fn leaving_row<K: Kernel>(path: &Path<'_, K>, column: &[f64]) -> Option<usize> {
-    let largest = column.iter().fold(0.0_f64, |max, a| max.max(a.abs()));
-    let smallest_pivot = (PIVOT_TOLERANCE * largest).max(NOISE);
-    let blocks = |&i: &usize| column[i] > smallest_pivot && path.is_bounded(i);
-    let value = |i: usize| path.values[i].max(0.0);
+impl<K: Kernel, B: Fn(usize) -> bool> Basic<'_, K, B> {
+    /// The row that leaves, or `None` when nothing blocks the entering variable. In two passes: the
+    /// longest step that brings no variable below zero by more than the window, then among the rows that
+    /// block within it those with sound pivots.
+    pub(super) fn leaving_row(&self, column: &[f64]) -> Option<usize> {
+        let largest = column.iter().fold(0.0_f64, |max, a| max.max(a.abs()));
+        let smallest_pivot = (PIVOT_TOLERANCE * largest).max(NOISE);
+        let blocks = |&i: &usize| column[i] > smallest_pivot && (self.is_bounded)(i);
+        let value = |i: usize| self.values[i].max(0.0);
 
-    let shortest =
-        (0..column.len()).filter(blocks).map(|i| value(i) / column[i]).reduce(f64::min)?;
-    if let Some(row) = path.driven_row() {
-        let after = path.values[row] - shortest * column[row];
-        if column[row] > NOISE && after <= ARTIFICIAL_WINDOW * path.artificial_start {
-            return Some(row);
+        let shortest =
+            (0..column.len()).filter(blocks).map(|i| value(i) / column[i]).reduce(f64::min)?;
+        if let Some((row, first)) = self.driven {
+            let after = self.values[row] - shortest * column[row];
+            if column[row] > NOISE && after <= ARTIFICIAL_ZERO * first {
+                return Some(row);
+            }
+        }
+        let window = TIE_WINDOW * self.scale;
+        let tied: Vec<usize> = (0..column.len())
+            .filter(blocks)
+            .filter(|&i| value(i) - shortest * column[i] <= window)
+            .collect();
+        let best = tied.iter().fold(0.0_f64, |max, &i| max.max(column[i]));
+        let safe: Vec<usize> =
+            tied.into_iter().filter(|&i| column[i] >= TIE_PIVOT * best).collect();
+        match self.kernel.parting(safe.len()) {
+            Some(parting) => first_parted(&parting, column, &safe),
+            None => Some(self.lexicographic_minimum(column, safe)),
         }
     }
-    let window = TIE_WINDOW * path.value_scale();
-    let tied: Vec<usize> = (0..column.len())
-        .filter(blocks)
-        .filter(|&i| value(i) - shortest * column[i] <= window)
-        .collect();
-    let best = tied.iter().fold(0.0_f64, |max, &i| max.max(column[i]));
-    let safe: Vec<usize> = tied.into_iter().filter(|&i| column[i] >= TIE_PIVOT * best).collect();
-    match path.kernel.parting(safe.len()) {
-        Some(parting) => first_parted(&parting, column, &safe),
-        None => Some(lexicographic_minimum(path, column, safe)),
+
+    /// Of tied rows the one whose row of the inverse basis, divided by its pivot, comes first in
+    /// lexicographic order. In exact arithmetic no basis comes back along a path of such choices.
+    fn lexicographic_minimum(&self, column: &[f64], mut tied: Vec<usize>) -> usize {
+        let mut left = tied.len();
+        if left == 1 {
+            return tied[0];
+        }
+        let mut is_out = vec![false; column.len()];
+        let mut rows: Option<Vec<K::Row>> = None;
+        for k in 0..column.len() {
+            if left == 1 {
+                break;
+            }
+            // Where `w_k` is basic its column of the inverse is a unit column: among zeros the one of
+            // that row, which is positive, is not the least.
+            if let Some(at) = self.row_of[k] {
+                if !is_out[at] && tied.binary_search(&at).is_ok() {
+                    is_out[at] = true;
+                    left -= 1;
+                }
+                continue;
+            }
+            if let Some(rows) = &mut rows {
+                retain(rows, tied.iter().map(|&i| !is_out[i]));
+            }
+            tied.retain(|&i| !is_out[i]);
+            let kernel = self.kernel;
+            let rows = rows.get_or_insert_with(|| tied.iter().map(|&i| kernel.row(i)).collect());
+            let key = |(&i, row): (&usize, &K::Row)| kernel.entry(row, k) / column[i];
+            let keys: Vec<f64> = tied.iter().zip(rows.iter()).map(key).collect();
+            let least = keys.iter().copied().fold(f64::INFINITY, f64::min);
+            // Entries of an equilibrated tableau are of order one: where all keys are rounding errors of
+            // zero they must not be measured against each other.
+            let smallest_pivot = tied.iter().fold(f64::INFINITY, |min, &i| min.min(column[i]));
+            let scale = keys.iter().fold(1.0 / smallest_pivot, |max, key| max.max(key.abs()));
+            for (&i, key) in tied.iter().zip(&keys) {
+                is_out[i] = key - least > TIE_WINDOW * scale;
+            }
+            left = tied.iter().filter(|&&i| !is_out[i]).count();
+        }
+        tied.iter().copied().find(|&i| !is_out[i]).unwrap_or(tied[0])
     }
 }
 
@@ -54,53 +102,6 @@ fn first_parted(parting: &[f64], column: &[f64], tied: &[usize]) -> Option<usize
     let is_first = |i: &&usize| key(i) - least <= TIE_WINDOW * scale;
     let first = tied.iter().filter(is_first);
     first.max_by(|&&i, &&j| column[i].total_cmp(&column[j])).copied()
-}
-
-/// Of tied rows the one whose row of the inverse basis, divided by its pivot, comes first in
-/// lexicographic order. In exact arithmetic no basis comes back along a path of such choices.
-fn lexicographic_minimum<K: Kernel>(
-    path: &Path<'_, K>,
-    column: &[f64],
-    mut tied: Vec<usize>,
-) -> usize {
-    let mut left = tied.len();
-    if left == 1 {
-        return tied[0];
-    }
-    let mut is_out = vec![false; column.len()];
-    let mut rows: Option<Vec<K::Row>> = None;
-    for k in 0..column.len() {
-        if left == 1 {
-            break;
-        }
-        // Where `w_k` is basic its column of the inverse is a unit column: among zeros the one of
-        // that row, which is positive, is not the least.
-        if let Some(at) = path.row_of(k) {
-            if !is_out[at] && tied.binary_search(&at).is_ok() {
-                is_out[at] = true;
-                left -= 1;
-            }
-            continue;
-        }
-        if let Some(rows) = &mut rows {
-            retain(rows, tied.iter().map(|&i| !is_out[i]));
-        }
-        tied.retain(|&i| !is_out[i]);
-        let kernel = &path.kernel;
-        let rows = rows.get_or_insert_with(|| tied.iter().map(|&i| kernel.row(i)).collect());
-        let key = |(&i, row): (&usize, &K::Row)| kernel.entry(row, k) / column[i];
-        let keys: Vec<f64> = tied.iter().zip(rows.iter()).map(key).collect();
-        let least = keys.iter().copied().fold(f64::INFINITY, f64::min);
-        // Entries of an equilibrated tableau are of order one: where all keys are rounding errors of
-        // zero they must not be measured against each other.
-        let smallest_pivot = tied.iter().fold(f64::INFINITY, |min, &i| min.min(column[i]));
-        let scale = keys.iter().fold(1.0 / smallest_pivot, |max, key| max.max(key.abs()));
-        for (&i, key) in tied.iter().zip(&keys) {
-            is_out[i] = key - least > TIE_WINDOW * scale;
-        }
-        left = tied.iter().filter(|&&i| !is_out[i]).count();
-    }
-    tied.iter().copied().find(|&i| !is_out[i]).unwrap_or(tied[0])
 }
 
 fn retain<T>(items: &mut Vec<T>, keep: impl Iterator<Item = bool>) {

@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use super::Progress;
 use super::artificial::{completed, part_outside, without_artificial};
+use super::constants::{SMALL, START_ROUNDING};
 use super::crash::{Crash, find_basis};
 use super::feasibility::farkas_vector;
 use super::finish::{Point, solve_basis};
@@ -22,10 +23,6 @@ use crate::{
     Basis, Certificate, Covering, HorizontalLcp, Info, LemkeSettings, Matrix, Ray, Side, Solution,
     Status, WarmStart,
 };
-
-/// Up to this order a proof is also searched by least squares in twice the digits, which singular bases
-/// and ties do not disturb.
-const SMALL: usize = 40;
 
 pub(super) type Observer<'a> = &'a mut dyn FnMut(&Progress) -> ControlFlow<()>;
 
@@ -213,8 +210,7 @@ impl<'a> Search<'a> {
     /// The point of the start basis where it solves the problem. The values of a basis that had to be
     /// factorised are not zero where they should be, so that a path would start at rounding errors.
     fn solution_at(&self, start: &Start) -> Option<Point> {
-        const ROUNDING: f64 = 1e-12;
-        let is_negative = |(k, &q): (usize, &f64)| q < -ROUNDING && !start.is_free(k);
+        let is_negative = |(k, &q): (usize, &f64)| q < -START_ROUNDING && !start.is_free(k);
         if start.q.iter().enumerate().any(is_negative) {
             return None;
         }

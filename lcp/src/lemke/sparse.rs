@@ -16,18 +16,13 @@ use std::borrow::Cow;
 
 use faer::Mat;
 
+use super::constants::{FEW_TIES, SINGULAR};
 use super::kernel::{Kernel, Var};
-use super::start::SparseStart;
+use super::sparse_start::SparseStart;
 use crate::linear::Lu;
-use crate::problem::max_abs;
 use crate::random::SplitMix;
 use crate::sparse::{Columns, SparseLu};
-
-/// Residual of the values of a factorised basis above which it is taken for singular, relative to
-/// their size.
-const SINGULAR: f64 = 1e-9;
-/// Ties up to this number are resolved by rows of the inverse.
-const FEW_TIES: usize = 8;
+use crate::vector::max_abs;
 
 /// A factorised basis with the pivots done since.
 pub(super) struct Sparse<'a> {

@@ -7,19 +7,17 @@ use faer::Mat;
 use crate::certify::{GeneralJudge, right_hand_side};
 use crate::linear::{Lu, all_finite};
 use crate::matrix::Column;
-use crate::problem::max_abs;
 use crate::random::SplitMix;
 use crate::scaling::{COMPUTED, GIVEN, equilibrate};
+use crate::vector::max_abs;
 use crate::{Basis, HorizontalLcp, Side};
 
 use super::any_kernel::AnyKernel;
+use super::constants::{LARGEST_GROWTH, MANY_FLIPS, ROUNDING, SOUND_PIVOT};
 use super::dense::Dense;
 use super::kernel::{Kernel, Var};
 use super::sparse::Sparse;
-pub(super) use sparse::SparseStart;
-
-/// Entries of an equilibrated inverse basis beyond this betray a nearly singular basis.
-const LARGEST_GROWTH: f64 = 1e10;
+use super::sparse_start::SparseStart;
 
 /// The problem with equilibrated rows and columns: `row * A * t_factor`, `row * B * y_factor`.
 pub(super) struct Equilibrated<'a> {
@@ -195,7 +193,6 @@ impl<'a> Equilibrated<'a> {
 /// Sets to zero what the solution of an equilibrated system leaves in place of zeros: a row of
 /// nothing else would be scaled up to coefficients.
 fn drop_rounding(t: &mut Mat<f64>) {
-    const ROUNDING: f64 = 1e-14;
     for j in 0..t.ncols() {
         let column = t.col_as_slice_mut(j);
         let least = ROUNDING * max_abs(column).max(1.0);
@@ -289,11 +286,9 @@ impl Start {
     /// the diagonal is not, together with the pair that makes a block of order two sound. Of many
     /// sparse pairs no more than some hundreds are drawn.
     pub(super) fn flipped(&self, seed: u64) -> Basis {
-        const SOUND: f64 = 1e-2;
-        const MANY: f64 = 500.0;
         let n = self.q.len();
         let is_sparse = matches!(self.data, StartData::Sparse(_));
-        let share = if is_sparse { (MANY / n as f64).min(0.5) } else { 0.5 };
+        let share = if is_sparse { (MANY_FLIPS / n as f64).min(0.5) } else { 0.5 };
         let mut random = SplitMix::new(seed);
         let covering = vec![0.0; n];
         let mut kernel = self.kernel(&covering, None);
@@ -309,7 +304,7 @@ impl Start {
                 break;
             }
             kernel.column(n + pair, &mut column);
-            let sound = SOUND * max_abs(&column);
+            let sound = SOUND_PIVOT * max_abs(&column);
             if sound == 0.0 {
                 continue;
             }
@@ -327,7 +322,7 @@ impl Start {
                 // Row `partner` of column `pair`, then row `pair` of column `partner`.
                 kernel.exchange(partner, n + pair, partner, &column);
                 kernel.column(n + partner, &mut column);
-                if column[pair].abs() >= SOUND * max_abs(&column) {
+                if column[pair].abs() >= SOUND_PIVOT * max_abs(&column) {
                     kernel.exchange(pair, n + partner, pair, &column);
                     (basic[partner], basic[pair]) = (n + pair, n + partner);
                     (flipped[pair], flipped[partner]) = (true, true);

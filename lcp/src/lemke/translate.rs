@@ -4,7 +4,7 @@ use super::kernel::{Kernel, Var};
 use super::path::{Exchange, Path};
 use super::start::{Equilibrated, Start};
 use crate::pivoting::{AttemptStart, PivotRecord, Variable};
-use crate::problem::max_abs;
+use crate::vector::max_abs;
 use crate::{Basis, Ray, Side};
 
 /// Of every pair the variable that is larger, in units of the largest of its vector.

@@ -1,11 +1,9 @@
 //! What the attempts vary, and in which order.
 
+use super::constants::TIES;
 use super::start::Start;
 use crate::pivoting::{AttemptCovering, AttemptEnd, AttemptStart, Perturbation};
 use crate::random::SplitMix;
-
-/// Size of the perturbation that parts ties, relative to the largest entry of `q`.
-const TIES: f64 = 1e-8;
 
 /// One attempt before it is made.
 #[derive(Debug, Clone, Copy)]

@@ -1,43 +1,16 @@
 //! Newton's method on contact problems with friction: which contacts are open, stick and slide.
 
 use super::SemismoothNewton;
+use super::constants::{
+    EXACT, EXCHANGES, FAILURES, FEW, GLUE, HARDER, INEXACT, LEAST_SPRING, LEAST_STIFFNESS, MORE,
+    MOST_STIFFNESS, ROUNDS, SOFTER, SPRING, STEPS, STIFFER, STIFFNESS,
+};
 use super::proximal::{At, Proximal};
-use crate::active::{Effort, Search, Springs};
+use crate::active::{Effort, Search};
 use crate::problem::ContactStatus;
 use crate::solve::Monitor;
+use crate::states::Springs;
 use crate::{Contact2d, Error, Method, Observer, Solution, Solver, Status};
-
-/// Stiffness of the contacts that are glued together at the start, and the springs that hold what they do not,
-/// relative to the stiffness of the bodies, as all that follow.
-const GLUE: (f64, f64) = (1e4, 1e-4);
-/// Stiffness of the contacts in the first round. Stiffer ones come nearer in a round, but with friction the
-/// matrix of a step is positive definite only where they are not much stiffer than the bodies.
-const STIFFNESS: f64 = 3.0;
-const LEAST_STIFFNESS: f64 = 1.0;
-const MOST_STIFFNESS: f64 = 1e6;
-/// Factor by which a round makes them stiffer or softer.
-const STIFFER: f64 = 3.0;
-/// Springs on all displacements in the first round, and at least.
-const SPRING: f64 = 0.01;
-const LEAST_SPRING: f64 = 1e-10;
-/// Factors by which a round makes them softer, or stiffer where it failed.
-const SOFTER: f64 = 0.1;
-const HARDER: f64 = 3.0;
-/// Steps of a round at most.
-const STEPS: usize = 12;
-/// A round of so few steps is followed by one with stiffer contacts.
-const FEW: usize = 4;
-/// Part of the unbalanced forces at its start that a round may leave to the next.
-const INEXACT: f64 = 0.01;
-/// Rounds at most, and those that may fail one after the other.
-const ROUNDS: usize = 40;
-const FAILURES: usize = 10;
-/// A residual above this is more than rounding: states fit the tolerance and not each other. So many rounds more
-/// may lead to better ones.
-const EXACT: f64 = 1e-13;
-const MORE: usize = 3;
-/// Exchanges of states after a round: as long as there are fewer contradictions every time, or nearly.
-const EXCHANGES: Effort = Effort { rounds: 20, patience: 1, points: 50, anchored: false };
 
 impl Solver<Contact2d> for SemismoothNewton {
     fn method(&self) -> Method {

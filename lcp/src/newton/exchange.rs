@@ -2,10 +2,7 @@
 
 use std::collections::HashSet;
 
-/// Steps without fewer negative variables than ever before, after which fewer pairs are exchanged.
-const PATIENCE: usize = 10;
-/// The same once fewer than all are exchanged.
-const REDUCED_PATIENCE: usize = 4;
+use super::constants::{PATIENCE, REDUCED_PATIENCE};
 
 /// What to do about so many negative variables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,10 +1,8 @@
 //! What factorisations of the matrices of free sets have in common.
 
+use super::constants::VANISHING;
 use crate::Matrix;
 use crate::scaling::{GIVEN, equilibrate};
-
-/// Pivots, and right-hand sides, below this relative to the terms that they come from are rounding errors.
-pub(super) const VANISHING: f64 = 1024.0 * f64::EPSILON;
 
 /// What came of a factorisation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

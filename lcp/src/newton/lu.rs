@@ -1,6 +1,7 @@
 //! Sparse matrices of free sets that are not symmetric positive definite.
 
-use super::kernel::{Kernel, Outcome, VANISHING, scales};
+use super::constants::VANISHING;
+use super::kernel::{Kernel, Outcome, scales};
 use crate::Matrix;
 use crate::sparse::{Columns, Growing, SparseLu, Turn, elimination_order, row_counts};
 

@@ -1,15 +1,9 @@
 //! The contact problem with springs: on all displacements, and in the place of hard contacts.
 
-use crate::active::{Condensed, Point, Scaled, Springs};
+use super::constants::{FLAT, MARGIN, TRIALS};
 use crate::problem::ContactStatus;
-use crate::problem::max_abs;
-
-/// The line search ends where the work of what is unbalanced is this part of that at its start.
-const FLAT: f64 = 0.1;
-/// Points that it tries at most.
-const TRIALS: usize = 12;
-/// It leaves out this part of the interval at both of its ends.
-const MARGIN: f64 = 0.1;
+use crate::states::{Condensed, Point, Scaled, Springs};
+use crate::vector::max_abs;
 
 /// One step of the proximal method: displacements are held by springs at those of the last one, and forces
 /// follow from gaps and slips by a finite stiffness,

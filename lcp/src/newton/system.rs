@@ -1,22 +1,13 @@
 //! The points that belong to free sets.
 
 use super::cholesky::SparseCholesky;
+use super::constants::{MAY_VANISH, NOISE, REFINEMENTS, ROUNDING, USABLE, VANISHING};
 use super::dense::{DenseCholesky, DenseLu};
-use super::kernel::{Kernel, Outcome, VANISHING};
+use super::kernel::{Kernel, Outcome};
 use super::lu::RestrictedLu;
 use crate::Lcp;
-use crate::problem::max_abs;
 use crate::random::SplitMix;
-
-/// Signs below this, relative to the terms of their row, are rounding errors.
-const NOISE: f64 = 64.0 * f64::EPSILON;
-/// Largest residual, relative to the terms of its row, of a system that counts as solved.
-const USABLE: f64 = 1e-6;
-/// A variable below this, relative to the largest, may be one that vanishes.
-const MAY_VANISH: f64 = 1e-11;
-/// Residuals that a step of refinement would not decrease.
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
-const REFINEMENTS: usize = 3;
+use crate::vector::max_abs;
 
 /// A complementary point: `z` is free for some pairs, `w` for the others.
 #[derive(Debug, Clone)]

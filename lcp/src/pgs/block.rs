@@ -2,7 +2,7 @@
 
 use super::coulomb::Coulomb;
 use super::{Constraint, Rows};
-use crate::problem::check_length;
+use crate::vector::check_length;
 use crate::{Error, Method};
 
 /// A constraint with its first row and what its relaxation needs of the matrix.

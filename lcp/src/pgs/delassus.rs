@@ -3,12 +3,10 @@
 use faer::sparse::SparseColMat;
 
 use super::body::{Body, coupled_displacements};
+use super::constants::LARGEST;
 use super::{ProjectedGaussSeidel, Rows};
 use crate::Error;
 use crate::sparse::Columns;
-
-/// Most numbers of `K^-1 C^T`.
-const LARGEST: usize = 1 << 25;
 
 /// `K^-1 C^T`. Bodies that `K` does not couple are factorised one by one, so that a column has entries for
 /// the bodies at its contact only.

@@ -1,15 +1,12 @@
 //! The sweeps, and when they end.
 
 use super::block::Block;
+use super::constants::{FLOOR, LEAST_WINDOW};
 use super::order::order;
 use super::{Constraint, ProjectedGaussSeidelSettings, Rows, SweepOrder};
-use crate::problem::{check_length, check_vector, max_abs};
 use crate::solve::Monitor;
+use crate::vector::{check_length, check_vector, max_abs};
 use crate::{Error, Method, Residuals, Status};
-
-/// A row whose terms are all at the rounding level of the point is measured by this part of the
-/// largest term that it could have, as in [`HorizontalLcp::residuals`](crate::HorizontalLcp::residuals).
-const FLOOR: f64 = 1.0 / (1 << 10) as f64;
 
 /// Rows with their constraints, and a point that meets them.
 pub(super) struct Sweeps<'a, R: ?Sized> {
@@ -190,8 +187,7 @@ struct Stall {
 
 impl Stall {
     fn new(settings: &ProjectedGaussSeidelSettings, rows: usize) -> Self {
-        const LEAST: usize = 2000;
-        let window = settings.stall_window.unwrap_or(LEAST.max(rows));
+        let window = settings.stall_window.unwrap_or(LEAST_WINDOW.max(rows));
         Self { window, factor: settings.stall_factor, since: 0, merit: f64::INFINITY }
     }
 

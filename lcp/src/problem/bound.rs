@@ -2,8 +2,9 @@
 
 use faer::{Mat, Side as Triangle};
 
-use super::{Lcp, check_length, max_abs};
+use super::Lcp;
 use crate::Error;
+use crate::vector::{check_length, max_abs};
 
 /// What the symmetric part of `M` says about the problem `w = M z + q`.
 #[derive(Debug, Clone, Copy, PartialEq)]

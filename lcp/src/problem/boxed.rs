@@ -1,7 +1,8 @@
 //! Variables between bounds.
 
-use super::{HorizontalLcp, check_length, check_vector};
+use super::HorizontalLcp;
 use crate::matrix::Column;
+use crate::vector::{check_length, check_vector};
 use crate::{Error, Matrix};
 
 /// The problem `w = M z + q`, `lower <= z <= upper` of order `n`, where `w_i >= 0` if `z_i` is at

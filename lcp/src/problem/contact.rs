@@ -14,7 +14,8 @@ pub(crate) use units::{column_factors, diagonal, median, power_of_two};
 
 use faer::sparse::SparseColMat;
 
-use super::{HorizontalLcp, check_length, check_vector};
+use super::HorizontalLcp;
+use crate::vector::{check_length, check_vector};
 use crate::{Error, Matrix};
 
 /// Unilateral contact with Coulomb's friction between elastic or rigid bodies in the plane:

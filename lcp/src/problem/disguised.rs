@@ -3,7 +3,7 @@
 use faer::Mat;
 
 use super::{HorizontalLcp, Lcp};
-use crate::{Basis, Matrix, Side, Solution, WarmStart};
+use crate::{Basis, Matrix, Side, WarmStart};
 
 /// A general problem written in the standard form. See [`HorizontalLcp::to_standard`].
 #[derive(Debug, Clone)]
@@ -119,14 +119,8 @@ impl StandardForm {
         }
     }
 
-    /// Brings a solution of the standard problem back to the pairs of the general one.
-    pub(crate) fn restore(&self, solution: &mut Solution) {
-        (solution.t, solution.y) = self.to_pairs(&solution.t, &solution.y);
-        solution.basis = solution.basis.as_ref().map(|basis| self.basis(basis));
-    }
-
     /// A basis of the one problem as one of the other.
-    fn basis(&self, basis: &Basis) -> Basis {
+    pub(crate) fn basis(&self, basis: &Basis) -> Basis {
         let exchanged = |(side, w): (&Side, &Side)| match w {
             Side::Y => *side,
             Side::T => side.complement(),

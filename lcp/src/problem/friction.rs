@@ -2,7 +2,7 @@
 
 use faer::Mat;
 
-use super::{check_length, check_vector};
+use crate::vector::{check_length, check_vector};
 use crate::{Error, Lcp, Matrix};
 
 /// Contact with Coulomb's friction in the plane, reduced to the contacts: the relative velocities

@@ -1,7 +1,7 @@
 //! The general (horizontal) form.
 
-use super::{check_length, check_vector};
 use crate::matrix::Column;
+use crate::vector::{check_length, check_vector};
 use crate::{Error, Matrix, Side};
 
 /// The general (horizontal) linear complementarity problem

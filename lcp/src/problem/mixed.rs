@@ -1,6 +1,7 @@
 //! Complementary pairs together with free variables.
 
-use super::{BoxedLcp, HorizontalLcp, check_length};
+use super::{BoxedLcp, HorizontalLcp};
+use crate::vector::check_length;
 use crate::{Error, Matrix};
 
 /// The mixed problem `w = M z + q` of order `n`, where every `z_i` is either free, with `w_i = 0`,
@@ -78,6 +79,13 @@ impl MixedLcp {
     /// If `z` or `w` does not have `n` entries.
     pub fn to_pairs(&self, z: &[f64], w: &[f64]) -> (Vec<f64>, Vec<f64>) {
         self.boxed.to_pairs(z, w)
+    }
+
+    /// An entry that keeps `M` from being symmetric within the free and within the other variables, and skew between
+    /// them.
+    pub(crate) fn asymmetry(&self) -> Option<(usize, usize)> {
+        let free = self.free();
+        self.m().asymmetry(|i, j| if free[i] == free[j] { 1.0 } else { -1.0 })
     }
 
     /// The same problem by bounds.

@@ -1,6 +1,7 @@
 //! The standard form.
 
-use super::{HorizontalLcp, check_vector};
+use super::HorizontalLcp;
+use crate::vector::check_vector;
 use crate::{Error, Matrix};
 
 /// The standard linear complementarity problem `w = M z + q`, `z >= 0`, `w >= 0`, `z.w = 0`.

@@ -3,15 +3,7 @@
 use faer::Mat;
 use faer::prelude::SolveLstsq;
 
-/// Steps that are remembered.
-const MEMORY: usize = 5;
-/// Share of the residual that is added. Where more load goes into friction at one place it is missing at
-/// others, so that whole steps swing to and fro.
-const DAMPING: f64 = 0.5;
-/// Steps without progress after which the acceleration is left off.
-const IDLE: usize = 8;
-/// Steps without progress, then, after which there is no hope.
-const PLAIN_IDLE: usize = 20;
+use super::constants::{DAMPING, IDLE, MEMORY, PLAIN_IDLE, TIKHONOV};
 
 /// The next point of the iteration `g = T(g)` from the ones before (Anderson 1965; Walker and Ni 2011),
 /// damped and kept from going astray: an accelerated step that is worse than what was met before is taken
@@ -93,8 +85,6 @@ impl Anderson {
 
     /// The combination of the last images whose residual is least.
     fn mixed(&self) -> Option<Vec<f64>> {
-        /// Keeps the weights small where the differences are nearly dependent.
-        const TIKHONOV: f64 = 1e-10;
         let (last, older) = self.steps.split_last()?;
         let (n, count) = (last.0.len(), older.len());
         if count == 0 {

@@ -5,6 +5,7 @@ use faer::sparse::SparseColMat;
 use faer::sparse::linalg::solvers::Llt;
 use faer::{Mat, MatMut, Side};
 
+use super::constants::DUAL_ROWS;
 use super::definite::is_definite;
 use super::form::{Bounds, Form, Point, add_product};
 use super::interior::{Effort, Found, Interior};
@@ -12,9 +13,6 @@ use super::scale::Scaled;
 use super::settings::ContactForm;
 use crate::problem::column_of;
 use crate::{Contact2d, ContactState, Matrix};
-
-/// Above this many rows the dual program is not chosen unasked.
-const DUAL_ROWS: usize = 400;
 
 /// The primal form: `x = u`, a row for every gap, then one for every slip with friction.
 pub(super) fn primal_form(contact: &Contact2d) -> Form {

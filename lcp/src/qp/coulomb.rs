@@ -1,16 +1,12 @@
 //! Coulomb's friction as the fixed point of programs with frozen bounds of the friction forces.
 
 use super::anderson::Anderson;
+use super::constants::{DOUBTS, ENLARGED};
 use super::contact::{ContactProgram, state_of};
 use super::form::{Bounds, Form};
 use super::interior::End;
 use super::program::Run;
 use crate::{Contact2d, Status, active};
-
-/// Rounds without progress after which it is asked whether there is a solution at all.
-const DOUBTS: usize = 4;
-/// Times that larger bounds are tried where no bounds were large enough yet.
-const ENLARGED: usize = 4;
 
 /// Solves the program, and where there is friction the sequence of programs whose bounds are `mu` times
 /// the normal forces of the one before. Of every solution the states of the contacts are solved with Coulomb's

@@ -3,13 +3,9 @@
 use faer::sparse::SparseColMat;
 use faer::{Mat, Side};
 
+use super::constants::{DENSE, MODULUS, ROUNDING};
 use crate::Matrix;
 use crate::problem::column_of;
-
-/// Eigenvalues down to minus this, of the matrix with a diagonal of ones, are taken for zero.
-const ROUNDING: f64 = 1e-10;
-/// Above this order the matrix is not looked at as a dense one to say how far it is from semidefinite.
-const DENSE: usize = 300;
 
 /// What is in the way of a symmetric matrix being positive semidefinite, if anything is.
 ///
@@ -45,7 +41,6 @@ pub(super) fn indefiniteness(what: &str, matrix: &SparseColMat<usize, f64>) -> O
 
 /// Whether a symmetric positive semidefinite matrix is safely nonsingular.
 pub(super) fn is_definite(matrix: &SparseColMat<usize, f64>) -> bool {
-    const MODULUS: f64 = 1e-8;
     let n = matrix.ncols();
     let diagonal: Vec<f64> = (0..n).map(|i| *matrix.get(i, i).unwrap_or(&0.0)).collect();
     diagonal.iter().all(|d| *d > 0.0)

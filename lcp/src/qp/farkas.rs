@@ -7,13 +7,15 @@
 
 use std::cell::OnceCell;
 
+use super::constants::NOISE;
 use super::form::{Bounds, Form};
 use super::interior::{Effort, End, Interior};
 use super::scale::Scaled;
-use crate::active::{self, Condensed, Original, cross_over, nearest};
+use crate::active::{self, Original, cross_over};
 use crate::certify::is_proof;
-use crate::problem::max_abs;
 use crate::scaling::{GIVEN, equilibrate};
+use crate::states::{self, Condensed, nearest};
+use crate::vector::max_abs;
 use crate::{HorizontalLcp, Matrix, Side};
 
 /// The proof that a problem has no solution, looked for at most once.
@@ -49,7 +51,7 @@ fn farkas_vector(problem: &HorizontalLcp, effort: Effort) -> Option<Vec<f64>> {
     let point = scaled.unscaled(&found.point);
     cleaned(problem, (&point.x, &rows)).or_else(|| {
         let mixed = form.to_mixed()?;
-        let scaled = active::Scaled::of_mixed(&mixed);
+        let scaled = states::Scaled::of_mixed(&mixed);
         let mut condensed = Condensed::new(&scaled).ok()?;
         let (t, y) = form.to_pairs(&mixed, &point);
         let (u, forces) = mixed.point(&scaled, &t, &y);
@@ -113,7 +115,6 @@ fn is_free(problem: &HorizontalLcp, pair: usize) -> bool {
 /// The proof that a vector of equilibrated rows is, after what is rounding error in it was set to zero: in
 /// the units of the user a displacement and a force could not be compared.
 fn cleaned(problem: &HorizontalLcp, (pi, rows): (&[f64], &[f64])) -> Option<Vec<f64>> {
-    const NOISE: [f64; 6] = [0.0, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11];
     let largest = max_abs(pi);
     if !(largest > 0.0 && largest.is_finite()) {
         return None;

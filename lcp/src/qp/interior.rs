@@ -9,8 +9,10 @@ use clarabel::solver::{
     DefaultInfo, DefaultSettings, DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus,
 };
 
+use super::constants::{LEAST_LIMIT, NEAR, WORSE};
 use super::form::{Bounds, Form, Point};
-use crate::problem::{column_of, max_abs};
+use crate::problem::column_of;
+use crate::vector::max_abs;
 
 /// How exact and how long.
 #[derive(Debug, Clone, Copy)]
@@ -246,16 +248,13 @@ impl Interior {
 
 /// A bound of zero leaves the program without an interior. What this changes the exchange of states puts right.
 fn least_limit(limits: &[f64]) -> f64 {
-    const LEAST: f64 = 1e-9;
     let largest = max_abs(limits);
-    if largest > 0.0 { LEAST * largest } else { LEAST }
+    if largest > 0.0 { LEAST_LIMIT * largest } else { LEAST_LIMIT }
 }
 
 /// Whether a run was near a solution once and is on its way away from it: where the tolerance is below what
 /// rounding errors allow, which depends on the program, the iteration goes on and ends anywhere.
 fn is_past_best() -> impl FnMut(&DefaultInfo<f64>) -> bool {
-    const NEAR: f64 = 1e-8;
-    const WORSE: f64 = 10.0;
     let mut best = f64::INFINITY;
     move |info| {
         let error = info.gap_abs.min(info.gap_rel).max(info.res_primal).max(info.res_dual);

@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use super::constants::INTERIOR;
 use super::farkas::Proof;
 use super::form::{Form, Point};
 use super::interior::{Effort, End, Interior};
@@ -13,10 +14,6 @@ use crate::{Certificate, Error, HorizontalLcp, Method, Observer, Solution, Statu
 
 /// Makes the point of the general problem of the unknowns of a form.
 pub(super) type ToPairs<'a> = dyn Fn(&Point) -> (Vec<f64>, Vec<f64>) + 'a;
-
-/// Of an interior point, whatever the tolerance of the answer: where both variables of a pair vanish it is good to
-/// the root of this, and they must not be taken for some that do not.
-const INTERIOR: f64 = 1e-11;
 
 /// The best point so far, what it cost, and the proof that there is none.
 pub(super) struct Run<'a> {

@@ -2,9 +2,11 @@
 
 use faer::sparse::SparseColMat;
 
+use super::constants::SWEEPS;
 use super::form::{Bounds, Form, Point};
 use crate::Matrix;
-use crate::problem::{column_of, max_abs};
+use crate::problem::column_of;
+use crate::vector::max_abs;
 
 /// A form whose matrices and vectors are near one, and the way back.
 #[derive(Debug, Clone)]
@@ -102,7 +104,6 @@ impl Units {
 /// Factors of `x` and `lambda` that bring the largest entry of every row of `[P, D^T; D, S]`, whose
 /// blocks come with a factor each, near one.
 fn balance(form: &Form, [p, d, s]: [f64; 3]) -> (Vec<f64>, Vec<f64>) {
-    const SWEEPS: usize = 6;
     let mut x = vec![1.0_f64; form.unknowns()];
     let mut lambda = vec![1.0_f64; form.rows()];
     for _ in 0..SWEEPS {

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use super::constants::SOFT_IDLE;
 use super::definite::indefiniteness;
 use super::interior::End;
 use super::program::Run;
@@ -84,8 +85,6 @@ impl QuadraticProgram {
         soft: SoftConstraints,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        /// Steps in which the springs let go of nothing.
-        const IDLE: usize = 6;
         let springs = Bedding::new(contact, soft.epsilon)?;
         let general = || contact.to_general();
         let mut run =
@@ -116,7 +115,7 @@ impl QuadraticProgram {
             let share = springs.share(contact, &springs.forces(&state.u, &centre));
             idle = if share < 0.9 * least { 0 } else { idle + 1 };
             least = least.min(share);
-            if idle > IDLE {
+            if idle > SOFT_IDLE {
                 run.monitor.history.push(residual);
                 break Err(Status::Stalled);
             }

@@ -1,13 +1,11 @@
 //! Displacements and forces while they are refined.
 
+use super::constants::CLOSED;
 use crate::ContactState;
-use crate::active::{Point, Scaled};
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
-use crate::problem::max_abs;
-
-/// Gaps and slips below this part of the largest are those of a closed contact, whatever its force.
-const CLOSED: f64 = 1e-13;
+use crate::states::{Point, Scaled};
+use crate::vector::max_abs;
 
 /// Displacements and forces in the units of the scaled problem.
 #[derive(Debug, Clone)]

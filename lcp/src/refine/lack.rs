@@ -1,15 +1,13 @@
 //! What the equations lack.
 
 use super::at::At;
-use crate::active::{Point, Scaled};
+use super::constants::{FLOOR, IDLE};
 use crate::certify::ratio;
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
-use crate::problem::{column_of, max_abs};
-
-/// Rows of smaller terms than this part of the largest force or displacement are measured by that: of a body at
-/// rest between others all terms are rounding errors.
-const FLOOR: f64 = 1.0 / (1 << 10) as f64;
+use crate::problem::column_of;
+use crate::states::{Point, Scaled};
+use crate::vector::max_abs;
 
 /// What the equations of the states lack.
 pub(super) struct Lack {
@@ -129,9 +127,6 @@ pub(super) fn floating(scaled: &Scaled, statuses: &[ContactStatus]) -> Vec<bool>
     let closed = |i: usize| statuses[i] != ContactStatus::Open;
     unreached(scaled, closed)
 }
-
-/// Forces below this part of the largest are none to a body without loads.
-const IDLE: f64 = 1e-10;
 
 /// The states with contacts open that press, if at all, on bodies without loads that no contact presses.
 pub(super) fn without_idle(

@@ -1,9 +1,9 @@
 //! How far the inequalities of the contact law are from being violated.
 
 use super::at::At;
-use crate::active::Scaled;
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
+use crate::states::Scaled;
 
 /// How far the inequalities of the contact law are from being violated, at the contact that is nearest to it.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,14 +2,16 @@
 
 use std::time::Instant;
 
+use super::answer::{Refined, Refinement};
 use super::at::At;
+use super::constants::{CONTRADICTION, DOUBT, ENOUGH, FALLEN, PASSES, PATIENCE, WEIGHTS, Weights};
 use super::lack::{self, Lack, Shifts};
 use super::law::{self, Margin};
-use super::{DOUBT, Refined, Refinement};
-use crate::active::{Condensed, Scaled, Springs};
 use crate::certify::ratio;
 use crate::extended::Extended;
-use crate::problem::{ContactStatus, max_abs};
+use crate::problem::ContactStatus;
+use crate::states::{Condensed, Scaled, Springs};
+use crate::vector::max_abs;
 use crate::{ContactState, Error};
 
 /// The answer, and what the inequalities of every contact leave.
@@ -60,31 +62,6 @@ pub(crate) fn refined_states(
 pub(crate) fn planned(scaled: &Scaled) -> Result<Condensed, Error> {
     Condensed::new(scaled).map_err(|error| Error::Factors { what: "K", reason: error.to_string() })
 }
-
-/// How much passes hold on to what they start from.
-#[derive(Debug, Clone, Copy)]
-struct Weights {
-    /// Stiffness of a closed contact, relative to the bodies: a proximal step for forces, which redundant
-    /// contacts need. What it leaves open the next pass closes.
-    stiff: f64,
-    /// Springs on all displacements, relative to the stiffness: a proximal step for bodies that nothing holds.
-    proximal: f64,
-}
-
-/// The first converge faster. Where bodies move freely, rounding errors move them far against the first, and
-/// stiff contacts make forces of the rounding errors of that.
-const WEIGHTS: [Weights; 2] =
-    [Weights { stiff: 1e8, proximal: 1e-10 }, Weights { stiff: 1e6, proximal: 1e-7 }];
-/// Residuals above this are tried again with other weights.
-const FALLEN: f64 = 1e-24;
-/// Passes at most.
-const PASSES: usize = 60;
-/// Passes without a residual that falls, after which what is left is taken for an error of the data.
-const PATIENCE: usize = 2;
-/// Residuals that are rounding errors of [`Extended`].
-const ENOUGH: f64 = f64::EPSILON * f64::EPSILON;
-/// The most, relative to the terms of a row, that may be a rounding error of the data.
-const CONTRADICTION: f64 = 1e-12;
 
 /// One solve.
 struct Solve<'a> {

@@ -4,7 +4,7 @@ use faer::Mat;
 use serde::Deserialize;
 use serde_json::value::RawValue;
 
-use super::Kind;
+use super::kind::Kind;
 use crate::Matrix;
 use crate::io::{Position, ReadError};
 

@@ -7,20 +7,14 @@
 
 use std::time::Instant;
 
+use super::found::{Crash, is_over};
 use super::matching::matched_sides;
-use super::{Crash, RANK_TOLERANCE, is_over};
+use crate::lemke::constants::{DEPENDENCE, ENLARGED, GAIN, RANK_TOLERANCE, SOLVES};
 use crate::lemke::kernel::{Kernel, Var};
 use crate::lemke::start::Equilibrated;
-use crate::problem::max_abs;
 use crate::sparse::{Columns, Growing, SparseLu, elimination_order, row_counts};
+use crate::vector::max_abs;
 use crate::{Basis, Matrix, Side};
-
-/// Solves that the search for exchanges may take.
-const SOLVES: usize = 5000;
-/// Up to this order bases are enlarged, which takes several times as many solves.
-const ENLARGED: usize = 1000;
-/// A column depends on another if its coordinate exceeds this multiple of its largest one.
-const TOLERANCE: f64 = 1e-8;
 
 /// A complementary basis, or as many columns as were found, completed by unit columns.
 pub(super) fn find_sparse(
@@ -76,7 +70,6 @@ pub(super) fn find_sparse(
 
 /// A basis whose determinant no exchange of a single pair makes larger, as for dense problems.
 fn enlarged(problem: &Equilibrated<'_>, basis: Basis, deadline: Option<Instant>) -> Basis {
-    const GAIN: f64 = 1.0 + 1e-6;
     let n = basis.len();
     let Some(start) = problem.start(&basis) else { return basis };
     let covering = vec![0.0; n];
@@ -189,7 +182,7 @@ impl<'a> Search<'a> {
             self.columns.add_to(self.position(pair, side), 1.0, &mut x);
             chosen.lu.solve(&mut x, &mut work);
             *solves += 1;
-            let tolerance = TOLERANCE * max_abs(&x);
+            let tolerance = DEPENDENCE * max_abs(&x);
             if chosen.missing.iter().any(|&(slot, _)| x[slot].abs() > tolerance) {
                 let mut next = chosen.sides.clone();
                 let mut at = Some(head);

@@ -1,46 +1,12 @@
-//! The start of a sparse problem: its columns, and the factorised basis.
+//! The start of a sparse problem.
 
-use super::{Equilibrated, LARGEST_GROWTH, Start, StartData};
+use super::{Equilibrated, Start, StartData};
+use crate::lemke::constants::LARGEST_GROWTH;
+use crate::lemke::sparse_start::SparseStart;
 use crate::linear::inverse_norm;
-use crate::problem::max_abs;
 use crate::sparse::{Columns, SparseLu};
+use crate::vector::max_abs;
 use crate::{Basis, Side};
-
-/// `W w + Z z = right` in the equilibrated rows of the problem, with the start basis `W`.
-#[derive(Debug, Clone)]
-pub(crate) struct SparseStart {
-    /// `[W Z]`.
-    pub(crate) columns: Columns,
-    pub(crate) right: Vec<f64>,
-    /// Of `W`.
-    pub(crate) lu: SparseLu,
-}
-
-impl SparseStart {
-    /// Adds `W increase` to the right-hand side.
-    pub(super) fn add_to_values(&mut self, increase: &[f64]) {
-        for (k, &v) in increase.iter().enumerate().filter(|(_, v)| **v != 0.0) {
-            self.columns.add_to(k, v, &mut self.right);
-        }
-    }
-
-    /// Adds `W` times a diagonal matrix to `Z`.
-    pub(super) fn add_to_diagonal(&mut self, diagonal: &[f64]) {
-        let n = diagonal.len();
-        let mut columns = Columns::default();
-        let mut sum = Accumulator::new(n);
-        for k in 0..n {
-            sum.add(self.columns.entries(k));
-            sum.flush(&mut columns);
-        }
-        for (k, &v) in diagonal.iter().enumerate() {
-            sum.add(self.columns.entries(n + k));
-            sum.add(self.columns.entries(k).map(|(i, w)| (i, v * w)));
-            sum.flush(&mut columns);
-        }
-        self.columns = columns;
-    }
-}
 
 impl Equilibrated<'_> {
     pub(super) fn sparse_start(&self, basis: &Basis) -> Option<Start> {
@@ -117,39 +83,5 @@ impl Equilibrated<'_> {
     pub(crate) fn sparse_lu(&self, picked: &[(usize, Side)]) -> Option<SparseLu> {
         let (lu, replaced) = SparseLu::new(&self.sparse_columns(picked.iter().copied()));
         replaced.is_empty().then_some(lu)
-    }
-}
-
-/// The sum of sparse columns.
-struct Accumulator {
-    values: Vec<f64>,
-    is_set: Vec<bool>,
-    rows: Vec<usize>,
-}
-
-impl Accumulator {
-    fn new(rows: usize) -> Self {
-        Self { values: vec![0.0; rows], is_set: vec![false; rows], rows: Vec::new() }
-    }
-
-    fn add(&mut self, entries: impl Iterator<Item = (usize, f64)>) {
-        for (i, v) in entries {
-            if !std::mem::replace(&mut self.is_set[i], true) {
-                self.rows.push(i);
-            }
-            self.values[i] += v;
-        }
-    }
-
-    /// Writes the sum as a new column, and starts anew.
-    fn flush(&mut self, columns: &mut Columns) {
-        for i in self.rows.drain(..) {
-            let value = std::mem::take(&mut self.values[i]);
-            self.is_set[i] = false;
-            if value != 0.0 {
-                columns.push(i, value);
-            }
-        }
-        columns.close();
     }
 }

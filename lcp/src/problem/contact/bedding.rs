@@ -1,7 +1,7 @@
 //! Springs on all displacements of a contact problem.
 
 use super::{Contact2d, column_of};
-use crate::problem::max_abs;
+use crate::vector::max_abs;
 use crate::{Error, Matrix};
 
 /// Soft springs that hold all displacements of a [`Contact2d`].

@@ -2,9 +2,10 @@
 
 use faer::sparse::{FaerError, Pair, SymbolicSparseColMat};
 
+use super::constants::{ENOUGH, REFINEMENTS};
 use super::scaled::Scaled;
-use crate::problem::max_abs;
 use crate::sparse::Multifrontal;
+use crate::vector::max_abs;
 
 /// The stiffness `s` with which a contact point answers to changes of its gap and slip:
 /// `dt_n = -nn dg`, `dt_t = -tn dg - tt ds`.
@@ -35,10 +36,6 @@ pub(crate) struct Condensed {
     factors: Multifrontal,
     pub(crate) factorisations: usize,
 }
-
-/// Steps of iterative refinement, and the residual, relative to the right-hand side, that needs none.
-const REFINEMENTS: usize = 2;
-const ENOUGH: f64 = 1e-11;
 
 impl Condensed {
     pub(crate) fn new(problem: &Scaled) -> Result<Self, FaerError> {

@@ -3,9 +3,8 @@
 use faer::sparse::SparseColMat;
 
 use crate::parts::Parts;
-use crate::problem::{
-    ContactStatus, column_factors, column_of, diagonal, max_abs, median, power_of_two,
-};
+use crate::problem::{ContactStatus, column_factors, column_of, diagonal, median, power_of_two};
+use crate::vector::max_abs;
 use crate::{Contact2d, ContactState, MixedLcp};
 
 /// A contact problem whose stiffness, forces and gaps are of order one whatever the units: with the

@@ -1,0 +1,31 @@
+//! The sizes that the choice of methods goes by, each with where it comes from.
+//! What is "chosen" is so by judgement: no measurement is kept.
+
+/// Up to this order pivots on a sparse matrix are as fast as factorisations, and say more. Chosen.
+pub(super) const FEW: usize = 500;
+/// Up to so many contact points they are fast. Chosen.
+pub(super) const FEW_POINTS: usize = 500;
+/// Up to so many they take no time. Chosen.
+pub(super) const VERY_FEW_POINTS: usize = 40;
+/// Up to this order the interior-point method, which factorises sparse matrices, takes no time on dense ones. Chosen.
+pub(super) const FEW_DENSE: usize = 200;
+/// Dense matrices that the pivots of a dense problem take at the peak. Measured.
+pub(super) const MATRICES: usize = 5;
+/// Factorisations of active sets where they do not promise to arrive. Chosen.
+pub(super) const TRIAL: usize = 100;
+/// A point with larger residuals is no better start than the one that was given. Chosen.
+pub(super) const NEAR: f64 = 1e-4;
+
+/// Pairs, apart from free variables, of which all choices are gone through. Chosen.
+pub(super) const MOST_PAIRS: usize = 12;
+/// Variables at most, free ones included. Chosen.
+pub(super) const MOST_VARIABLES: usize = 4 * MOST_PAIRS;
+/// Nodes of the tree. Theory: all that there can be.
+pub(super) const NODES: usize = 1 << (MOST_PAIRS + 1);
+/// Starts of the smoothed continuation. Chosen.
+pub(super) const STARTS: u64 = 6;
+/// Its steps from each. Chosen.
+pub(super) const STEPS: usize = 300;
+/// More independent parts than these are small, and all of them together are one problem that is solved in the time of
+/// some small ones: they are taken one by one only where that fails. Chosen.
+pub(super) const MANY_PARTS: usize = 256;

@@ -1,0 +1,103 @@
+//! The numbers that the interior-point method goes by, each with where it comes from.
+//! What is "chosen" is so by judgement: no measurement is kept.
+
+/// Residuals above which no crossover is tried. Chosen: every trial costs factorisations.
+pub(super) const NEAR: f64 = 3e-6;
+/// The residual must have decreased by this factor before it is tried again. Chosen.
+pub(super) const NEARER: f64 = 0.03;
+/// Steps without a reduction of the products by a tenth after which the iteration has jammed. Measured on walls: one
+/// that was stuck for some 40 steps was better left; where the path turns back products grow for a while.
+pub(super) const PATIENCE: usize = 30;
+/// Steps from a point that is solved but whose states are not yet those of the exact answer. Chosen.
+pub(super) const MORE: usize = 8;
+/// Steps shorter than this are none. Chosen.
+pub(super) const NO_STEP: f64 = 1e-7;
+
+/// Largest change of a gap by the predictor, relative to the mean gap, that a start is wide enough for. Chosen: walls
+/// of bricks keep their first start.
+pub(super) const WIDE: f64 = 2.0;
+/// A start that is not is opened by this many times its mean gap. Measured on a beam that is lifted at its end: two or
+/// three times are enough.
+pub(super) const OPENED: f64 = 100.0;
+/// That must bring the change down by this. Chosen.
+pub(super) const HALF: f64 = 0.5;
+/// No start is opened more often. Chosen.
+pub(super) const OPENINGS: usize = 8;
+/// An attempt whose gaps have grown by this factor began too near. Chosen.
+pub(super) const FAR: f64 = 10.0;
+
+/// Least products of a pair, relative to the mean, one after the other: where the path turns often, it has to be
+/// followed closely. Measured on walls: no width is right for all, and each of several was the best by far on one.
+pub(super) const WIDTHS: [f64; 3] = [0.1, 0.01, 0.3];
+/// Part of the longest step that is taken. Theory: it must stay inside; the usual value of predictor and corrector.
+pub(super) const BACK: f64 = 0.995;
+/// A step that makes a product smaller than it may be is shortened by this. Chosen.
+pub(super) const SHORTER: f64 = 0.7;
+/// No step is made shorter than this for it. Chosen.
+pub(super) const SHORTEST: f64 = 1e-4;
+/// Correctors of the centrality of a step, at most. Chosen: each costs a solve (Gondzio 1996).
+pub(super) const CORRECTORS: usize = 2;
+/// A step of this length needs none. Chosen.
+pub(super) const LONG_ENOUGH: f64 = 0.9;
+/// A corrector has to make the step longer by this. Chosen.
+pub(super) const LONGER: f64 = 0.03;
+/// Products of the pairs, relative to what they should be, that correctors leave alone. Theory: the box of Gondzio
+/// (1996).
+pub(super) const CENTRAL: (f64, f64) = (0.1, 10.0);
+/// Products are not driven below this part of their mean by a corrector. Chosen.
+pub(super) const LEAST_AIM: f64 = 0.01;
+/// Below this length a step is replaced by a mixture of the predictor and of centring. Chosen.
+pub(super) const SHORT: f64 = 0.05;
+/// Shares of centring that are tried. Chosen.
+pub(super) const MIXTURES: [f64; 12] =
+    [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98];
+/// A mixture must reduce the products by this part, except at points that are central already. Chosen.
+pub(super) const PROGRESS: f64 = 0.05;
+/// Products between these multiples of their mean make a point central. Chosen.
+pub(super) const IS_CENTRAL: (f64, f64) = (0.3, 3.0);
+/// Compliance of a contact, relative to that of the bodies, below which a step does not go. Rounding: forces are
+/// differences of gaps times a stiffness, and lose their digits when that is too large. A step is a proximal one then,
+/// which changes nothing where the iteration ends.
+pub(super) const COMPLIANCE: f64 = 1e-8;
+/// Largest relative change of a variable by a piece of the path; the first that leaves a step of length [`LONG`] is
+/// taken. Chosen.
+pub(super) const PIECES: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.0];
+/// See [`PIECES`]. Chosen.
+pub(super) const LONG: f64 = 0.7;
+
+/// The first springs, relative to the stiffness. Chosen.
+pub(super) const FIRST_SPRING: f64 = 0.1;
+/// The last springs. Chosen.
+pub(super) const LAST_SPRING: f64 = 1e-9;
+/// Factor from one spring to the next. Chosen.
+pub(super) const SOFTER: f64 = 0.1;
+/// Where one spring ends the pairs are too near the boundary for the next: they are lifted by this part of the largest
+/// force and gap. Chosen.
+pub(super) const LIFT: f64 = 0.1;
+/// Steps for one spring. Chosen.
+pub(super) const STEPS: usize = 60;
+/// The natural residual up to which the problem with springs is solved, relative to the largest force. Chosen: only
+/// shares are asked for.
+pub(super) const ACCURACY: f64 = 1e-5;
+/// Springs that carry less than this share of the load have nothing to say any more. Chosen.
+pub(super) const NOTHING: f64 = 1e-7;
+/// Where a tenth of the spring still carries this part of what the spring carried, several times in sequence, the
+/// share does not tend to zero. Theory: the part tends to a tenth where there is an equilibrium, else to one.
+pub(super) const CONSTANT: f64 = 0.8;
+/// How many times. Chosen.
+pub(super) const IN_SEQUENCE: usize = 4;
+/// Stiffer springs than this do not tell bodies that nothing holds from those that something soft does. Chosen.
+pub(super) const SOFT: f64 = 2e-6;
+/// Resistance of a motion, relative to that of springs of the square, which is an error of the solution: its accuracy
+/// enters by the square as well. Chosen.
+pub(super) const RESISTANCE: f64 = 1e-6;
+/// Resistance of a body, relative to the terms that it is the sum of, which is a rounding error. Rounding: errors of
+/// short sums.
+pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// What a row of `K v` or a contact may miss in a proof, relative to its terms. Rounding: some hundred eps.
+pub(super) const ROW_ROUNDING: f64 = 1e-13;
+/// Least work of the loads on a proof, relative to the sizes of loads and motion. Chosen: far above rounding.
+pub(super) const LEAST_WORK: f64 = 1e-9;
+/// Residual of the problem that decides whether any forces balance the loads. Chosen: below all other tolerances.
+pub(super) const BALANCE_TOLERANCE: f64 = 1e-12;

@@ -1,0 +1,49 @@
+//! The formats by name.
+
+/// A format of files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Format {
+    /// Our JSON.
+    Json,
+    /// Plain text: `n`, `M` by rows, `q`.
+    Text,
+    /// A linear complementarity problem of Siconos.
+    SiconosLcp,
+    /// A mixed linear complementarity problem of Siconos.
+    SiconosMlcp,
+    /// A contact problem of Siconos with friction in the plane, reduced to the contacts.
+    SiconosFriction,
+    /// A contact problem of Siconos with friction in the plane, with the velocities of the bodies.
+    SiconosGlobalFriction,
+}
+
+impl Format {
+    /// All formats.
+    pub const ALL: [Self; 6] = [
+        Self::Json,
+        Self::Text,
+        Self::SiconosLcp,
+        Self::SiconosMlcp,
+        Self::SiconosFriction,
+        Self::SiconosGlobalFriction,
+    ];
+
+    /// The name, as it is typed.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Json => "json",
+            Self::Text => "text",
+            Self::SiconosLcp => "siconos-lcp",
+            Self::SiconosMlcp => "siconos-mlcp",
+            Self::SiconosFriction => "siconos-friction",
+            Self::SiconosGlobalFriction => "siconos-global-friction",
+        }
+    }
+}
+
+impl std::fmt::Display for Format {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}

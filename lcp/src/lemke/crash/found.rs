@@ -1,0 +1,20 @@
+//! What a search for a start basis finds, dense or sparse, and what both searches go by.
+
+use std::time::Instant;
+
+use crate::{Basis, Matrix, Side};
+
+/// As many independent columns as there are, at most one of every pair.
+pub(crate) enum Crash {
+    /// One of every pair.
+    Complete(Basis),
+    /// Pairs without a column, as many as there are columns that complete the chosen ones: an
+    /// orthonormal basis of what these leave out, or unit columns.
+    Partial { chosen: Vec<Option<Side>>, complement: Matrix },
+    /// The time was over first.
+    Late,
+}
+
+pub(super) fn is_over(deadline: Option<Instant>) -> bool {
+    deadline.is_some_and(|deadline| Instant::now() >= deadline)
+}

@@ -1,0 +1,47 @@
+//! The numbers that quadratic programs go by, each with where it comes from.
+//! What is "chosen" is so by judgement: no measurement is kept.
+
+/// Tolerance of an interior point, whatever that of the answer. Theory: where both variables of a pair vanish it is
+/// good to the root of this, and they must not be taken for some that do not.
+pub(super) const INTERIOR: f64 = 1e-11;
+/// A run that was within this and is on its way away from it ends. Chosen: where the tolerance is below what rounding
+/// errors allow, the iteration goes on and ends anywhere.
+pub(super) const NEAR: f64 = 1e-8;
+/// It is on its way away once it is this many times farther off. Chosen.
+pub(super) const WORSE: f64 = 10.0;
+/// Least bound of friction, relative to the largest: a bound of zero leaves the program without an interior. Chosen:
+/// what this changes the exchange of states puts right.
+pub(super) const LEAST_LIMIT: f64 = 1e-9;
+/// Times that rows and columns are brought near one. Chosen.
+pub(super) const SWEEPS: usize = 6;
+/// Above this many rows the dual program is not chosen unasked. Chosen: its matrix is dense.
+pub(super) const DUAL_ROWS: usize = 400;
+
+/// Eigenvalues down to minus this, of the matrix with a diagonal of ones, are taken for zero. Chosen.
+pub(super) const ROUNDING: f64 = 1e-10;
+/// Above this order the matrix is not looked at as a dense one to say how far it is from semidefinite. Chosen: up to
+/// it that takes no time.
+pub(super) const DENSE: usize = 300;
+/// Eigenvalues above this, likewise, make it safely nonsingular. Chosen: the root of eps.
+pub(super) const MODULUS: f64 = 1e-8;
+/// Parts of the largest entry of a proof that are set to zero one after the other until it holds. Rounding: from none
+/// to some thousand eps.
+pub(super) const NOISE: [f64; 6] = [0.0, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11];
+
+/// Rounds without progress after which it is asked whether there is a solution at all. Chosen.
+pub(super) const DOUBTS: usize = 4;
+/// Times that larger bounds are tried where no bounds were large enough yet. Chosen.
+pub(super) const ENLARGED: usize = 4;
+/// Steps that the acceleration remembers. Chosen.
+pub(super) const MEMORY: usize = 5;
+/// Share of the residual that is added. Theory: where more load goes into friction at one place it is missing at
+/// others, so that whole steps swing to and fro.
+pub(super) const DAMPING: f64 = 0.5;
+/// Steps without progress after which the acceleration is left off. Chosen.
+pub(super) const IDLE: usize = 8;
+/// Steps without progress, then, after which there is no hope. Chosen.
+pub(super) const PLAIN_IDLE: usize = 20;
+/// Keeps the weights small where the differences are nearly dependent. Chosen.
+pub(super) const TIKHONOV: f64 = 1e-10;
+/// Times that soft springs are centred anew and let go of nothing, after which they stay. Chosen.
+pub(super) const SOFT_IDLE: usize = 6;

@@ -1,0 +1,41 @@
+//! The numbers that the refinement of states goes by, each with where it comes from.
+//! What is "chosen" is so by judgement: no measurement is kept.
+
+/// How much passes hold on to what they start from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Weights {
+    /// Stiffness of a closed contact, relative to the bodies: a proximal step for forces, which redundant contacts
+    /// need. What it leaves open the next pass closes.
+    pub(super) stiff: f64,
+    /// Springs on all displacements, relative to the stiffness: a proximal step for bodies that nothing holds.
+    pub(super) proximal: f64,
+}
+
+/// Rounds of exchanges. Chosen.
+pub(super) const EXCHANGES: usize = 10;
+/// Inequalities that are violated by less than this part of the largest force or displacement may hold but for
+/// rounding errors of the answer. Chosen: the root of eps.
+pub(super) const DOUBT: f64 = 1e-8;
+/// Gaps and slips below this part of the largest are those of a closed contact, whatever its force. Rounding: some
+/// hundred eps.
+pub(super) const CLOSED: f64 = 1e-13;
+/// Rows of smaller terms than this part of the largest force or displacement are measured by that: of a body at rest
+/// between others all terms are rounding errors. Chosen.
+pub(super) const FLOOR: f64 = 1.0 / (1 << 10) as f64;
+/// Forces below this part of the largest are none to a body without loads. Chosen: the tolerance of answers.
+pub(super) const IDLE: f64 = 1e-10;
+/// Stiffness of closed contacts and springs on all displacements, one after the other. Theory: the first converge
+/// faster; where bodies move freely, rounding errors move them far against the first, and stiff contacts make forces
+/// of the rounding errors of that.
+pub(super) const WEIGHTS: [Weights; 2] =
+    [Weights { stiff: 1e8, proximal: 1e-10 }, Weights { stiff: 1e6, proximal: 1e-7 }];
+/// Residuals above this are tried again with other weights. Chosen.
+pub(super) const FALLEN: f64 = 1e-24;
+/// Passes at most. Chosen.
+pub(super) const PASSES: usize = 60;
+/// Passes without a residual that falls, after which what is left is taken for an error of the data. Chosen.
+pub(super) const PATIENCE: usize = 2;
+/// Residuals that are rounding errors of numbers of twice the digits. Rounding: the square of eps.
+pub(super) const ENOUGH: f64 = f64::EPSILON * f64::EPSILON;
+/// The most, relative to the terms of a row, that may be a rounding error of the data. Rounding: some thousand eps.
+pub(super) const CONTRADICTION: f64 = 1e-12;

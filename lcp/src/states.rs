@@ -1,0 +1,12 @@
+//! What methods for contact share that come down to a state of every contact: the problem in units of its own, the
+//! law of a state, and the linear system.
+
+mod condensed;
+mod constants;
+mod law;
+mod scaled;
+
+pub(crate) use condensed::{Condensed, Springs};
+pub(crate) use constants::PROXIMAL;
+pub(crate) use law::nearest;
+pub(crate) use scaled::{Point, Scaled};
