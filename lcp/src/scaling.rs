@@ -1,5 +1,10 @@
 //! Equilibration by powers of two: exact, so that it costs no accuracy.
 
+#![allow(
+    clippy::inline_always,
+    reason = "a loop is compiled for wide vectors only where it is inlined"
+)]
+
 use crate::matrix::Column;
 
 /// Entries below this, once the largest of their row and column is near one, are rounding errors
@@ -95,13 +100,16 @@ fn largest(column: Column<'_>, row: &[f64], col: f64, row_max: &mut [f64]) -> f6
     let mut lanes = [0.0_f64; LANES];
     match column {
         Column::Dense(values) => {
-            let chunks = values.chunks(LANES).zip(row.chunks(LANES));
-            for ((values, rows), row_max) in chunks.zip(row_max.chunks_mut(LANES)) {
-                let entries = values.iter().zip(rows).zip(row_max);
-                for (((v, row), row_max), lane) in entries.zip(&mut lanes) {
-                    *lane = max(v.abs() * row, *lane);
-                    *row_max = max(v.abs() * col, *row_max);
+            let (values, row, row_max) = (lanes_of(values), lanes_of(row), lanes_of_mut(row_max));
+            for ((v, row), row_max) in values.0.iter().zip(row.0).zip(row_max.0) {
+                for k in 0..LANES {
+                    lanes[k] = max(v[k].abs() * row[k], lanes[k]);
+                    row_max[k] = max(v[k].abs() * col, row_max[k]);
                 }
+            }
+            for ((v, row), row_max) in values.1.iter().zip(row.1).zip(row_max.1) {
+                lanes[0] = max(v.abs() * row, lanes[0]);
+                *row_max = max(v.abs() * col, *row_max);
             }
         }
         Column::Sparse { .. } => column.for_each(|i, v| {
@@ -155,26 +163,35 @@ fn negative_column_mean(
     col: f64,
     noise: f64,
 ) -> f64 {
-    let mut sums = [(0.0, 0.0); LANES];
+    let (mut sums, mut counts) = ([0.0; LANES], [0.0; LANES]);
+    let mut add = |lane: usize, v: f64, row: f64, correction: f64| {
+        let (log, kept) = logarithm(v * row * col, noise);
+        sums[lane] += kept * (log + correction);
+        counts[lane] += kept;
+    };
     match column {
         Column::Dense(values) => {
-            let chunks = values.chunks(LANES).zip(row.chunks(LANES));
-            for ((values, rows), corrections) in chunks.zip(correction.chunks(LANES)) {
-                let entries = values.iter().zip(rows).zip(corrections);
-                for (((v, row), correction), sum) in entries.zip(&mut sums) {
-                    let (log, kept) = logarithm(v * row * col, noise);
-                    sum.0 += kept * (log + correction);
-                    sum.1 += kept;
+            let (values, row, correction) = (lanes_of(values), lanes_of(row), lanes_of(correction));
+            for ((v, row), correction) in values.0.iter().zip(row.0).zip(correction.0) {
+                for k in 0..LANES {
+                    add(k, v[k], row[k], correction[k]);
                 }
             }
+            for ((v, row), correction) in values.1.iter().zip(row.1).zip(correction.1) {
+                add(0, *v, *row, *correction);
+            }
         }
-        Column::Sparse { .. } => column.for_each(|i, v| {
-            let (log, kept) = logarithm(v * row[i] * col, noise);
-            sums[0].0 += kept * (log + correction[i]);
-            sums[0].1 += kept;
-        }),
+        Column::Sparse { .. } => column.for_each(|i, v| add(0, v, row[i], correction[i])),
     }
-    negative_mean(sums.iter().fold((0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1)))
+    negative_mean((sums.iter().sum(), counts.iter().sum()))
+}
+
+fn lanes_of(values: &[f64]) -> (&[[f64; LANES]], &[f64]) {
+    values.as_chunks()
+}
+
+fn lanes_of_mut(values: &mut [f64]) -> (&mut [[f64; LANES]], &mut [f64]) {
+    values.as_chunks_mut()
 }
 
 /// Minus the mean of so many values with that sum; zero for none.
