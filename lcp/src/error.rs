@@ -35,6 +35,17 @@ pub enum Error {
         /// The entry.
         value: f64,
     },
+    /// Numbers that add up to more than the largest one.
+    #[error(
+        "the sizes of {what} in row {row} add up to more than the largest number: choose units in which they are \
+         smaller"
+    )]
+    Overflow {
+        /// Of what.
+        what: &'static str,
+        /// The row, from 0.
+        row: usize,
+    },
     /// An entry outside a matrix.
     #[error("entry ({row}, {col}) lies outside a matrix of {rows} x {cols}: indices begin at 0")]
     Outside {
@@ -104,7 +115,7 @@ pub enum Error {
     },
     /// A variable that no value fits.
     #[error(
-        "bounds of variable {index} are {lower} and {upper}: the lower one must not exceed the upper \
+        "bounds of variable {index} are {lower:?} and {upper:?}: the lower one must not exceed the upper \
          one, their distance must be a finite number, and -inf or inf is for no bound"
     )]
     Bounds {

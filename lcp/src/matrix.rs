@@ -226,7 +226,7 @@ impl Matrix {
         }
     }
 
-    /// That the matrix is `rows` by `cols` and has finite entries.
+    /// That the matrix is `rows` by `cols` and has finite entries, which add up to finite sums.
     pub(crate) fn check(&self, what: &'static str, rows: usize, cols: usize) -> Result<(), Error> {
         if self.nrows() != rows || self.ncols() != cols {
             return Err(Error::Shape {
@@ -237,12 +237,22 @@ impl Matrix {
                 expected_cols: cols,
             });
         }
+        let mut sums = vec![0.0; rows];
         for col in 0..cols {
             if let Some((row, value)) = self.column(col).find(|(_, v)| !v.is_finite()) {
                 return Err(Error::NotFinite { what, row, col, value });
             }
+            self.slice(col).for_each(|row, v| sums[row] += v.abs());
         }
-        Ok(())
+        check_sums(what, &sums)
+    }
+}
+
+/// That sums of sizes, row by row, are within the range of numbers.
+pub(crate) fn check_sums(what: &'static str, sums: &[f64]) -> Result<(), Error> {
+    match sums.iter().position(|sum| !sum.is_finite()) {
+        Some(row) => Err(Error::Overflow { what, row }),
+        None => Ok(()),
     }
 }
 

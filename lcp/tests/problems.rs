@@ -166,7 +166,7 @@ fn misuse_is_an_error() {
         assert!(matches!(with(lower, upper), Err(Error::Bounds { index: 0, .. })));
     }
     let message = with(1.0, 0.0).unwrap_err().to_string();
-    assert!(message.starts_with("bounds of variable 0 are 1 and 0"), "{message}");
+    assert!(message.starts_with("bounds of variable 0 are 1.0 and 0.0"), "{message}");
     assert!(MixedLcp::new(one(), vec![0.0], vec![]).is_err());
 }
 
@@ -176,4 +176,26 @@ fn a_free_variable_with_a_force_is_no_solution() {
     let mixed = MixedLcp::new(Mat::<f64>::identity(1, 1), vec![-1.0], vec![true]).unwrap();
     assert!(mixed.residuals(&[1.0], &[0.0]).worst() <= 0.0);
     assert!(mixed.residuals(&[2.0], &[1.0]).worst() > 0.1);
+}
+
+/// Data whose sums leave the range of numbers are refused where they come in: no method can judge them.
+#[test]
+fn sums_that_overflow_are_errors() {
+    let refused = |what: &'static str| {
+        move |error: Error| {
+            let text = error.to_string();
+            assert!(matches!(error, Error::Overflow { row: 1, .. }), "{text}");
+            assert!(text.contains(what) && text.contains("choose units"), "{text}");
+        }
+    };
+    let huge = [[1.0, 0.0], [1e308, -1e308]];
+    Lcp::new(huge, vec![1.0; 2]).map(drop).map_err(refused("M in row 1")).unwrap_err();
+    let bounds = |lower| {
+        let m = [[1.0, 0.0], [0.0, 1e200]];
+        BoxedLcp::new(m, vec![-1.0; 2], vec![0.0, lower], vec![f64::INFINITY; 2])
+    };
+    bounds(1e200).map(drop).map_err(refused("q + M z")).unwrap_err();
+    // As large as can be.
+    Lcp::new([[1e308, 0.0], [0.0, 1e308]], vec![1.0; 2]).unwrap();
+    bounds(1e100).unwrap();
 }

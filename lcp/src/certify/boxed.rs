@@ -56,25 +56,21 @@ pub(crate) struct BoxedJudge<'a> {
 
 impl<'a> BoxedJudge<'a> {
     pub(crate) fn of_standard(problem: &'a Lcp) -> Self {
-        Self::new(problem.m(), problem.q(), None)
+        let loads = problem.q().iter().map(|q| q.abs()).collect();
+        Self::new((problem.m(), problem.q()), loads, None)
     }
 
     pub(crate) fn of_boxed(problem: &'a BoxedLcp) -> Self {
         let bounds = (problem.lower(), problem.upper());
-        Self::new(problem.m(), problem.q(), Some(bounds))
+        Self::new((problem.m(), problem.q()), problem.loads(), Some(bounds))
     }
 
-    fn new(m: &'a Matrix, q: &'a [f64], bounds: Option<(&'a [f64], &'a [f64])>) -> Self {
+    fn new(
+        (m, q): (&'a Matrix, &'a [f64]),
+        loads: Vec<f64>,
+        bounds: Option<(&'a [f64], &'a [f64])>,
+    ) -> Self {
         let n = q.len();
-        // Bounds that keep a variable from zero are loads, too.
-        let mut loads: Vec<f64> = q.iter().map(|q| q.abs()).collect();
-        for (j, (lower, upper)) in bounds.into_iter().flat_map(|(l, u)| l.iter().zip(u)).enumerate()
-        {
-            let nearest = lower.max(0.0) - upper.min(0.0);
-            if nearest != 0.0 {
-                m.slice(j).for_each(|i, v| loads[i] += (v * nearest).abs());
-            }
-        }
         let columns: Vec<Column<'_>> = (0..n).map(|j| m.slice(j)).collect();
         let weights = weights::weights(&columns, &loads);
         Self { m, q, bounds, loads, weights, length: n as f64 + 2.0 }

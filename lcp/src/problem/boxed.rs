@@ -1,7 +1,7 @@
 //! Variables between bounds.
 
 use super::HorizontalLcp;
-use crate::matrix::Column;
+use crate::matrix::{Column, check_sums};
 use crate::vector::{check_length, check_vector};
 use crate::{Error, Matrix};
 
@@ -51,7 +51,8 @@ impl BoxedLcp {
     /// # Errors
     /// [`Error::Shape`] or [`Error::Length`] when the shapes do not fit, [`Error::NotFinite`] for a
     /// NaN or an infinity other than those of bounds, [`Error::Bounds`] for a lower bound above the
-    /// upper one, a lower bound of `+inf` or an upper one of `-inf`.
+    /// upper one, a lower bound of `+inf` or an upper one of `-inf`, [`Error::Overflow`] where sums of these data leave
+    /// the range of numbers.
     pub fn new(
         m: impl Into<Matrix>,
         q: Vec<f64>,
@@ -72,7 +73,12 @@ impl BoxedLcp {
                 return Err(Error::Bounds { index, lower, upper });
             }
         }
-        Ok(Self { m, q, lower, upper })
+        let problem = Self { m, q, lower, upper };
+        check_sums(
+            "the terms of q + M z, with z at the bounds nearest to zero,",
+            &problem.loads(),
+        )?;
+        Ok(problem)
     }
 
     /// Number of variables.
@@ -213,16 +219,29 @@ impl BoxedLcp {
         is_changed.then(|| Self { m: self.m.clone(), q: self.q.clone(), lower, upper })
     }
 
+    /// The value nearest to zero that the bounds of a variable allow.
+    fn nearest(&self, i: usize) -> f64 {
+        self.lower[i].max(0.0) + self.upper[i].min(0.0)
+    }
+
+    /// The sizes of the right-hand sides: bounds that keep a variable from zero are loads, too.
+    pub(crate) fn loads(&self) -> Vec<f64> {
+        let mut loads: Vec<f64> = self.q.iter().map(|q| q.abs()).collect();
+        for j in 0..self.order() {
+            let nearest = self.nearest(j);
+            if nearest != 0.0 {
+                self.m.slice(j).for_each(|i, v| loads[i] += (v * nearest).abs());
+            }
+        }
+        loads
+    }
+
     /// For every variable the largest value with which it would balance alone a right-hand side in one of its rows,
     /// and what the bounds nearest to zero add to these.
     fn sizes(&self) -> Vec<f64> {
-        let nearest = |i: usize| self.lower[i].max(0.0) - self.upper[i].min(0.0);
-        let mut loads: Vec<f64> = self.q.iter().map(|q| q.abs()).collect();
-        for j in (0..self.order()).filter(|j| nearest(*j) != 0.0) {
-            self.m.slice(j).for_each(|i, v| loads[i] += (v * nearest(j)).abs());
-        }
+        let loads = self.loads();
         let size = |j: usize| {
-            let mut size = nearest(j).abs();
+            let mut size = self.nearest(j).abs();
             self.m.slice(j).for_each(|i, v| {
                 if v != 0.0 {
                     size = size.max(loads[i] / v.abs());
