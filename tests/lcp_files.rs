@@ -167,7 +167,7 @@ fn end(original: &Problem, equivalent: &Equivalent, answer: &Answer) -> End {
     }
     let (t, y) = (equivalent.back)(&(solution.t, solution.y));
     // Small rows lose their digits where they are mixed with large ones.
-    let missed = if equivalent.name.contains("premultiplied") {
+    let missed = if equivalent.are_rows_mixed {
         missed(&original.to_general(), (&t, &y))
     } else {
         original.to_general().residuals(&t, &y).worst()

@@ -11,12 +11,19 @@ pub struct Equivalent {
     pub name: String,
     pub problem: HorizontalLcp,
     pub back: Box<dyn Fn(&Point) -> Point>,
+    /// Rows are sums of several of the original ones.
+    pub are_rows_mixed: bool,
 }
 
 impl Equivalent {
     /// The original problem itself.
     pub fn original(problem: HorizontalLcp) -> Self {
-        Self { name: "as it stands".to_owned(), problem, back: Box::new(Point::clone) }
+        Self {
+            name: "as it stands".to_owned(),
+            problem,
+            back: Box::new(Point::clone),
+            are_rows_mixed: false,
+        }
     }
 
     /// Another transformation after those so far.
@@ -27,6 +34,7 @@ impl Equivalent {
             name: format!("{}, {}", self.name, next.name),
             problem: next.problem,
             back: Box::new(move |point| first(&second(point))),
+            are_rows_mixed: self.are_rows_mixed || next.are_rows_mixed,
         }
     }
 }
@@ -46,6 +54,7 @@ pub fn scaled(problem: &HorizontalLcp, s: f64, r: f64) -> Equivalent {
         problem.c().iter().map(|c| r * c).collect(),
     );
     Equivalent {
+        are_rows_mixed: false,
         name: format!("M times {s:e}, q times {r:e}"),
         problem: scaled.unwrap(),
         back: Box::new(move |(t, y)| {
@@ -71,6 +80,7 @@ pub fn rescaled(problem: &HorizontalLcp, rows: &[f64], t: Vec<f64>, mut y: Vec<f
     );
     let times = |v: &[f64], units: &[f64]| v.iter().zip(units).map(|(v, unit)| v * unit).collect();
     Equivalent {
+        are_rows_mixed: false,
         name: "rows and variables in units of their own".to_owned(),
         problem: rescaled.unwrap(),
         back: Box::new(move |point| (times(&point.0, &t), times(&point.1, &y))),
@@ -87,6 +97,7 @@ pub fn permuted(problem: &HorizontalLcp, order: Vec<usize>) -> Equivalent {
         order.iter().map(|&i| problem.c()[i]).collect(),
     );
     Equivalent {
+        are_rows_mixed: false,
         name: "permuted".to_owned(),
         problem: permuted.unwrap(),
         back: Box::new(move |(t, y)| {
@@ -109,6 +120,7 @@ pub fn swapped(problem: &HorizontalLcp, swap: Vec<bool>) -> Equivalent {
         problem.c().to_vec(),
     );
     Equivalent {
+        are_rows_mixed: false,
         name: format!("{} pairs swapped", swap.iter().filter(|swap| **swap).count()),
         problem: exchanged.unwrap(),
         back: Box::new(move |(t, y)| {
@@ -129,6 +141,7 @@ pub fn premultiplied(problem: &HorizontalLcp, matrix: &Mat<f64>) -> Equivalent {
         (0..n).map(|i| c[(i, 0)]).collect(),
     );
     Equivalent {
+        are_rows_mixed: true,
         name: "rows premultiplied".to_owned(),
         problem: multiplied.unwrap(),
         back: Box::new(Point::clone),
@@ -148,6 +161,7 @@ pub fn extended(problem: &HorizontalLcp, size: f64) -> Equivalent {
     let c = problem.c().iter().copied().chain([-size]).collect();
     let (a, b) = (corner(problem.a().to_dense(), -1.0), corner(problem.b().to_dense(), 1.0));
     Equivalent {
+        are_rows_mixed: false,
         name: "one pair more".to_owned(),
         problem: HorizontalLcp::new(a, b, c).unwrap(),
         back: Box::new(move |(t, y)| (t[..n].to_vec(), y[..n].to_vec())),

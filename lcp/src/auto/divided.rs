@@ -49,7 +49,7 @@ pub(super) fn steps<P: Planned>(problem: &P) -> Vec<Step> {
 }
 
 fn named(reason: &str, count: usize, parts: usize) -> String {
-    format!("{count} of {parts} independent parts, the first of {reason}")
+    format!("{count} of {parts} independent parts, the first: {reason}")
 }
 
 /// Lists of several parts as one: entries at the same place that are the same are one entry, with their number.
