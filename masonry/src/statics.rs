@@ -23,6 +23,7 @@ use crate::model::Model;
 use crate::system::{BodySystem, System};
 
 pub mod proof;
+mod sharpen;
 
 pub use proof::Proof;
 
@@ -92,10 +93,13 @@ impl Search<'_, '_> {
             if let Some(forces) = self.program.admissible(&z) {
                 return Ok(Statics::Admissible(forces));
             }
+            // Where there are none, its multipliers grow along a proof.
+            if let Some(proof) = self.proof(&z) {
+                return Ok(Statics::Impossible(proof));
+            }
             let solution = self.solved(&nearest, by_clarabel)?;
             let (z, _) = nearest.recover(&solution.t, &solution.y);
-            let motion = &z[..self.program.unknowns()];
-            if let Some(proof) = Proof::of(self.model, motion) {
+            if let Some(proof) = self.proof(&z) {
                 return Ok(Statics::Impossible(proof));
             }
             if let Some(forces) = self.program.admissible(&z) {
@@ -103,6 +107,14 @@ impl Search<'_, '_> {
             }
         }
         Ok(Statics::Open)
+    }
+
+    /// The proof that the motion at the beginning of `z` leads to.
+    fn proof(&self, z: &[f64]) -> Option<Proof> {
+        let Program { entries, .. } = self.program;
+        let motion = &z[..self.program.unknowns()];
+        sharpen::candidates(motion, entries, self.program.edges())
+            .find_map(|motion| Proof::of(self.model, &motion))
     }
 
     fn solved(&mut self, program: &MixedLcp, by_clarabel: bool) -> Result<Solution, lcp::Error> {
