@@ -29,7 +29,7 @@ const FEW: usize = 2000;
 /// Most walls are solved in so many steps of the interior points.
 pub(crate) const STEPS_BEFORE_PROOF: usize = 40;
 /// How long the last route may take, which seldom has an answer where the others have none.
-const LAST_RESORT: Duration = Duration::from_secs(30);
+const LAST_RESORT: Duration = Duration::from_secs(10);
 
 /// What decides between the routes.
 #[derive(Debug, Clone, Copy)]
@@ -104,6 +104,14 @@ fn chosen(facts: Facts) -> Vec<(Route, String)> {
         format!("where all others come to no end, for at most {} s", LAST_RESORT.as_secs()),
     ));
     list
+}
+
+/// Pivots of one attempt, in multiples of the order: two to three are usual.
+const PIVOTS: usize = 5;
+
+/// How many pivots an attempt on a problem of this order may take, where other routes follow.
+pub(crate) fn max_pivots(route: Route, order: usize, routes: usize) -> Option<usize> {
+    (route == Route::Lemke && routes > 1).then_some(PIVOTS * order)
 }
 
 /// How long a route may take, of which there are so many.

@@ -31,8 +31,8 @@ pub use proof::Proof;
 const BALANCED: f64 = 1e-9;
 /// Residual of the programs that decide.
 const TOLERANCE: f64 = 1e-12;
-/// Steps of each; they take ten to thirty.
-const MAX_STEPS: usize = 150;
+/// Steps of each: forces take ten to forty where there are any, proofs near the limit more.
+const MAX_STEPS: [usize; 2] = [60, 150];
 
 /// What is known of forces that balance the loads.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,7 +88,7 @@ impl Search<'_, '_> {
         // The first of them takes a quarter of the time, and most walls stand. What interior points leave open the
         // convex programs of another library decide.
         for by_clarabel in [false, true] {
-            let solution = self.solved(&least, by_clarabel)?;
+            let solution = self.solved(&least, MAX_STEPS[0], by_clarabel)?;
             let (z, _) = least.recover(&solution.t, &solution.y);
             if let Some(forces) = self.program.admissible(&z) {
                 return Ok(Statics::Admissible(forces));
@@ -97,7 +97,7 @@ impl Search<'_, '_> {
             if let Some(proof) = self.proof(&z) {
                 return Ok(Statics::Impossible(proof));
             }
-            let solution = self.solved(&nearest, by_clarabel)?;
+            let solution = self.solved(&nearest, MAX_STEPS[1], by_clarabel)?;
             let (z, _) = nearest.recover(&solution.t, &solution.y);
             if let Some(proof) = self.proof(&z) {
                 return Ok(Statics::Impossible(proof));
@@ -117,19 +117,24 @@ impl Search<'_, '_> {
             .find_map(|motion| Proof::of(self.model, &motion))
     }
 
-    fn solved(&mut self, program: &MixedLcp, by_clarabel: bool) -> Result<Solution, lcp::Error> {
+    fn solved(
+        &mut self,
+        program: &MixedLcp,
+        max_iterations: usize,
+        by_clarabel: bool,
+    ) -> Result<Solution, lcp::Error> {
         let observer = &mut |at: &Iteration| (self.observer)(at);
         let solution = if by_clarabel {
             let settings = QuadraticProgramSettings {
                 tolerance: TOLERANCE,
-                max_iterations: MAX_STEPS,
+                max_iterations,
                 ..Default::default()
             };
             QuadraticProgram::new(settings).solve_observed(program, observer)?
         } else {
             let settings = InteriorPointSettings {
                 tolerance: TOLERANCE,
-                max_iterations: MAX_STEPS,
+                max_iterations,
                 continuation: false,
                 ..Default::default()
             };

@@ -134,9 +134,8 @@ fn warnings(known: &Known<'_>, movement: Option<Movement>) -> Vec<String> {
 /// How far blocks have moved against each other, relative to their size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Movement {
-    /// The largest displacement of one side of a contact against the other \[m\], and relative to the smaller of the
-    /// blocks there.
-    pub(crate) apart: f64,
+    /// The largest displacement of one side of a contact against the other, relative to the smaller of the blocks there;
+    /// or of a node against the rigid motion of its block.
     pub(crate) share: f64,
     /// The largest rotation of a block \[rad\].
     pub(crate) turned: f64,
@@ -149,20 +148,22 @@ const TOO_LARGE: [f64; 2] = [1.0, 0.5];
 
 impl Movement {
     pub(crate) fn of(model: &Model, state: &State) -> Self {
-        let mut movement = Self { apart: 0.0, share: 0.0, turned: 0.0 };
+        let mut movement = Self { share: 0.0, turned: 0.0 };
         for contact in &model.contacts {
             let apart = apart(model, state, contact);
             let anchors = [Some(contact.b), contact.a].into_iter().flatten();
             let sizes = anchors.map(|it| geometry::size(&model.blocks[it.block.index()].corners));
-            let share = apart / sizes.fold(f64::INFINITY, f64::min);
-            if share > movement.share {
-                (movement.apart, movement.share) = (apart, share);
-            }
+            movement.share = movement.share.max(apart / sizes.fold(f64::INFINITY, f64::min));
         }
         for (b, (block, moved)) in model.blocks.iter().zip(&state.displacements).enumerate() {
             let modes = Modes::of(&block.corners);
-            let [.., turned] = modes.amplitudes(displaced_nodes(model, BlockId::new(b)), moved);
-            movement.turned = movement.turned.max((turned / modes.length).abs());
+            let places = displaced_nodes(model, BlockId::new(b));
+            let amplitudes = modes.amplitudes(places, moved);
+            movement.turned = movement.turned.max((amplitudes[2] / modes.length).abs());
+            for (place, u) in places.iter().zip(moved) {
+                let deformed = (u - modes.displacement(*place, &amplitudes)).norm();
+                movement.share = movement.share.max(deformed / modes.length);
+            }
         }
         movement
     }

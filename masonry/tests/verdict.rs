@@ -15,7 +15,7 @@ use masonry::solve::solve;
 use masonry::verdict::{Evidence, Verdict};
 
 use program::{Limit, largest_tilt};
-use walls::{GRAVITY, Kind, Random};
+use walls::{Kind, Random};
 
 /// Of the largest tilt.
 const AROUND: [f64; 5] = [0.5, 1.0 - 1e-3, 1.0 - 1e-5, 1.0 + 1e-5, 1.0 + 1e-3];
@@ -24,7 +24,7 @@ const AROUND: [f64; 5] = [0.5, 1.0 - 1e-3, 1.0 - 1e-5, 1.0 + 1e-5, 1.0 + 1e-3];
 fn verdicts_agree_with_a_linear_program() {
     let mut random = Random(20_261_122);
     let (mut scenes, mut open) = (0, Vec::new());
-    for number in 0..44 {
+    for number in 0..48 {
         let wall = walls::any(&mut random);
         let limit = largest_tilt(&wall.model());
         let tilts: Vec<(f64, bool)> = match limit {
@@ -56,8 +56,7 @@ fn verdicts_agree_with_a_linear_program() {
             }
         }
     }
-    assert!((150..300).contains(&scenes), "{scenes} scenes");
+    assert!((180..300).contains(&scenes), "{scenes} scenes");
     // Near the limit an elastic wall may find no equilibrium although there are admissible forces.
     assert!(10 * open.len() <= scenes, "{} of {scenes}: {open:#?}", open.len());
-    assert!(GRAVITY > 0.0);
 }

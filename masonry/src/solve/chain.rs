@@ -104,6 +104,8 @@ impl<'a> Chain<'a> {
                 ends.push(RouteEnd { route: choice.route, because, end, seconds });
             };
             self.request.time_limit = policy::time_limit(choice.route, routes.len());
+            let limit = policy::max_pivots(choice.route, choice.largest_order, routes.len());
+            self.request.max_pivots = self.request.max_pivots.or(limit);
             self.may_be_cut = routes[position + 1..].iter().any(|it| it.route == Route::Forces);
             match self.attempt(choice.route) {
                 Ok(mut attempt) => {
@@ -145,7 +147,8 @@ impl<'a> Chain<'a> {
     fn add_statics(&mut self, best: &mut Attempt) {
         let is_far =
             best.state.as_ref().is_some_and(|state| Movement::of(self.model, state).is_large());
-        let is_open = best.info.status != Status::Solved || is_far;
+        // Of blocks at rest they are all there is to know, whatever tolerance another route has found them to.
+        let is_open = best.info.status != Status::Solved || is_far || self.system.is_at_rest();
         if !is_open || best.info.status == Status::Cancelled {
             return;
         }

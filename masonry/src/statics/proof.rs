@@ -16,7 +16,7 @@ use crate::rigid::Modes;
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Forces that would balance the loads in spite of the rounding errors of the motion are this much larger than all
 /// loads together.
-const CLEAR: f64 = 1e8;
+const CLEAR: f64 = 1e6;
 
 /// A motion that was checked to be a proof.
 #[derive(Debug, Clone, PartialEq)]

@@ -40,9 +40,10 @@ pub(super) fn of(
 
 /// The size of a movement.
 pub(super) fn of_movement(movement: Movement) -> String {
-    let Movement { share, turned, .. } = movement;
+    let Movement { share, turned } = movement;
     format!(
-        "blocks move against each other by up to {share:.2} of their size and turn by up to {turned:.2} rad"
+        "blocks move against each other or are deformed by up to {share:.2} of their size, and turn by up to \
+         {turned:.2} rad"
     )
 }
 

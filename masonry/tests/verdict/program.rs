@@ -7,11 +7,11 @@ use clarabel::solver::{
 use masonry::model::{Anchor, Block, Model};
 use nalgebra::{Point2, Vector2};
 
-use super::GRAVITY;
+use super::walls::GRAVITY;
 
 /// What the program says.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Limit {
+pub(crate) enum Limit {
     /// Not even upright.
     None,
     /// Up to this horizontal acceleration, in units of gravity.
@@ -25,7 +25,7 @@ const ANY: f64 = 10.0;
 
 /// `max a` subject to the balance of every block under its weight, its loads, and `a` times its weight to the side; with the
 /// normal force and the two distances to the edges of the friction cone as variables, which are nonnegative.
-pub fn largest_tilt(model: &Model) -> Limit {
+pub(crate) fn largest_tilt(model: &Model) -> Limit {
     let points = model.contacts.len();
     let blocks = model.blocks.len();
     // Variables: a, then t_n and t_t of every point.

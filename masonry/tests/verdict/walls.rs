@@ -4,11 +4,11 @@ use masonry::model::{Model, Plane};
 use masonry::scene::{Block, Brick, Joint, Load, Material, Scene, Support, Wall};
 use masonry::units::Units;
 
-pub const GRAVITY: f64 = 10.0;
+pub(crate) const GRAVITY: f64 = 10.0;
 
 /// What blocks are made of, and whether they touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub(crate) enum Kind {
     Rigid,
     Elastic,
     /// Rigid, and the floor is a little below.
@@ -16,7 +16,7 @@ pub enum Kind {
 }
 
 /// Numbers between 0 and 1 that are the same in every run (Knuth's linear congruential generator).
-pub struct Random(pub u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
     fn next(&mut self) -> f64 {
@@ -37,27 +37,27 @@ impl Random {
 }
 
 /// A scene but for its tilt.
-pub struct Tiltable {
+pub(crate) struct Tiltable {
     scene: Scene,
-    pub kind: Kind,
+    pub(crate) kind: Kind,
 }
 
 impl Tiltable {
-    pub fn model(&self) -> Model {
+    pub(crate) fn model(&self) -> Model {
         Model::from_scene(&self.tilted(0.0)).unwrap()
     }
 
-    pub fn title(&self) -> &str {
+    pub(crate) fn title(&self) -> &str {
         &self.scene.title
     }
 
     /// With a horizontal acceleration of `tilt` times gravity.
-    pub fn tilted(&self, tilt: f64) -> Scene {
+    pub(crate) fn tilted(&self, tilt: f64) -> Scene {
         self.scene.clone().gravity([tilt * GRAVITY, -GRAVITY])
     }
 }
 
-pub fn any(random: &mut Random) -> Tiltable {
+pub(crate) fn any(random: &mut Random) -> Tiltable {
     let kind = random.one_of(&[Kind::Rigid, Kind::Rigid, Kind::Elastic, Kind::Gap]);
     // Some that are tangents of the geometry.
     let mu = random.one_of(&[0.0, 0.1, 0.3, 0.5, 0.65, 1.0, 1.5, 3.0]);
