@@ -244,9 +244,9 @@ fn why(outcome: &Outcome) -> Option<&'static str> {
              forces and loads, does not hold. What was computed is kept for inspection only."
         }
         lcp::Status::RayTermination if outcome.mechanism.is_some() => {
-            "No attempt found an equilibrium, and one ended on a secondary ray that is a mechanism: \
-             a movement of the blocks that the supports do not stop and on which the loads do \
-             work. This points to collapse, but with friction it is not a proof."
+            "No attempt found an equilibrium, and one ended on a secondary ray that is a movement of \
+             the blocks that the supports do not stop and on which the loads do work. Friction may \
+             stop it: by itself this is not a proof of collapse."
         }
         lcp::Status::RayTermination => {
             "No attempt found an equilibrium, and the last form ended on secondary rays. With \
@@ -259,8 +259,8 @@ fn why(outcome: &Outcome) -> Option<&'static str> {
              data (Farkas)."
         }
         lcp::Status::NoEquilibrium => {
-            "Springs on all blocks keep their share of the load however soft they are: nothing else \
-             carries it. This points to collapse, but with friction it is not a proof."
+            "Springs on all blocks keep their share of the load however soft they are: from there \
+             no equilibrium was reached. With friction this is not a proof of collapse."
         }
         lcp::Status::Stalled => {
             "The residuals stopped falling before the tolerance was reached. This says nothing about the \

@@ -23,7 +23,9 @@ pub(super) fn candidates<'a>(
 ) -> impl Iterator<Item = Vec<f64>> + 'a {
     let largest = motion.iter().fold(0.0, |max: f64, v| max.max(v.abs()));
     let mut work = vec![0.0; edges];
-    entries.iter().for_each(|&(i, k, v)| work[k] += v * motion[i]);
+    for &(i, k, v) in entries {
+        work[k] += v * motion[i];
+    }
     let mut last = 0;
     let near = AT_REST.into_iter().filter_map(move |part| {
         let is_idle: Vec<bool> = work.iter().map(|work| work.abs() <= part * largest).collect();

@@ -4,6 +4,7 @@ use lcp::Status;
 
 use super::{Evidence, Known, Movement, Verdict};
 use crate::history::{History, Step};
+use crate::model::Model;
 use crate::scene::Movement as Place;
 
 /// The sentence of a verdict; of a load history two, the second of which says how far it went.
@@ -32,7 +33,11 @@ pub(super) fn of(
         ),
         (Verdict::Undecided, _) => format!("Undecided{at}: {}", undecided(known, evidence, movement)),
     };
-    match known.history.filter(|_| verdict != Verdict::Stands).and_then(reached) {
+    match known
+        .history
+        .filter(|_| verdict != Verdict::Stands)
+        .and_then(|it| reached(known.model, it))
+    {
         Some(reached) => format!("{first} {reached}"),
         None => first,
     }
@@ -91,7 +96,7 @@ fn at_step(step: &Step) -> String {
 }
 
 /// How far a history went before the step that failed.
-fn reached(history: &History) -> Option<String> {
+fn reached(model: &Model, history: &History) -> Option<String> {
     let failed = history.failed.as_ref()?;
     let Some(last) = history.records.last() else {
         return Some("No step before it was solved.".to_owned());
@@ -108,11 +113,14 @@ fn reached(history: &History) -> Option<String> {
     for ((name, before), after) in history.loads.iter().zip(&before.loads).zip(&after.loads) {
         factor(&format!("load \"{name}\""), [*before, *after]);
     }
-    let places = before.movements.iter().zip(&after.movements);
-    let moved = places.filter(|(before, after)| before != after);
-    changed.extend(moved.map(|(before, after)| {
-        let part = share(before, after);
-        format!("a support at {part:.4} of the movement asked for")
+    let places = before.movements.iter().zip(&after.movements).zip(&model.supports);
+    let moved = places.filter(|((before, after), _)| before != after);
+    let length = model.units.length_to_si();
+    changed.extend(moved.map(|((before, _), support)| {
+        let Place { x, y, turn } = before.in_lengths(1.0 / length);
+        let [x, y, turn] = [x, y, turn].map(short);
+        let unit = model.units.length_name();
+        format!("support \"{}\" moved by ({x}, {y}) {unit} and turned by {turn} rad", support.name)
     }));
     let Step { stage, number, of, .. } = &last.step;
     let solved = history.records.len();
@@ -126,9 +134,7 @@ fn reached(history: &History) -> Option<String> {
     })
 }
 
-/// The part of the way to a place that another one is.
-fn share(before: &Place, after: &Place) -> f64 {
-    let size = |it: &Place| it.x.hypot(it.y).max(it.turn.abs());
-    let whole = size(after);
-    if whole > 0.0 { size(before) / whole } else { 0.0 }
+/// Without the digits that interpolation leaves.
+fn short(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }
