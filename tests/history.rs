@@ -352,7 +352,7 @@ fn checkpoints_of_other_scenes() {
 /// Numbers that were changed are refused, or change nothing.
 #[test]
 fn checkpoints_that_were_tampered_with() {
-    let scene = pushed(2);
+    let scene = pushed(2).route(Route::Lemke);
     let run = begun(&scene);
     let changed = |name: &str, from: &str, to: &str| {
         let checkpoint = through_a_file(&run, name, |text| {

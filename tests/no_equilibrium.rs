@@ -18,6 +18,7 @@ use masonry::scene::{self, Block, Brick, Joint, Load, Material, Route, Scene, Su
 use masonry::solve::{SolveError, solve};
 use masonry::system::{Direction, System};
 use masonry::units::Units;
+use masonry::verdict::{Evidence, Verdict};
 
 const BRICK: Brick = Brick { length: 0.1, height: 0.1 };
 
@@ -45,7 +46,8 @@ fn elastic() -> Material {
 #[test]
 fn a_panel_falls_between_smooth_walls() {
     for courses in [2, 3, 4] {
-        let outcome = solve(&panel(courses, 1.0, elastic())).unwrap();
+        let panel = panel(courses, 1.0, elastic());
+        let outcome = solve(&panel.clone().route(Route::Lemke)).unwrap();
         assert_eq!(outcome.solve.status, Status::RayTermination);
         assert!(outcome.state.is_none() && outcome.checks.is_none());
         assert!(outcome.reactions.is_empty());
@@ -55,6 +57,11 @@ fn a_panel_falls_between_smooth_walls() {
         }
         assert_admissible(&outcome);
         assert_honest(&outcome);
+        // Walls that were prestressed could hold it, so that nothing proves that it falls.
+        for outcome in [outcome, solve(&panel).unwrap()] {
+            assert_eq!(outcome.judgement.verdict, Verdict::Undecided);
+            assert_eq!(outcome.judgement.evidence, Evidence::AdmissibleForces);
+        }
     }
 }
 
@@ -82,10 +89,14 @@ fn a_panel_hangs_between_rough_walls() {
     }
 }
 
-/// Nothing resists without friction, and this is known before anything is solved.
+/// Nothing resists without friction: this is proved, and pivots know it before they begin.
 #[test]
 fn a_panel_between_frictionless_walls_is_refused() {
-    let error = solve(&panel(3, 0.0, elastic())).unwrap_err();
+    let panel = panel(3, 0.0, elastic());
+    let outcome = solve(&panel).unwrap();
+    assert_eq!((outcome.solve.status, outcome.solve.proved), (Status::Infeasible, true));
+    assert_eq!(outcome.judgement.verdict, Verdict::Falls);
+    let error = solve(&panel.route(Route::Lemke)).unwrap_err();
     let SolveError::Free { block, free, .. } = &error else { panic!("{error}") };
     assert!(block.starts_with("panel/") && *free > 0, "{error}");
 }
@@ -176,8 +187,10 @@ fn a_free_block_is_named_beside_one_that_is_held() {
         .support(Support::new("left", [0.3, 0.7], [0.3, 1.7], "rough"))
         .support(Support::new("right", [1.3, 0.7], [1.3, 1.7], "rough"))
         .support(Support::new("ice", [2.3, 0.7], [5.3, 0.7], "smooth"));
-    let error = solve(&scene).unwrap_err();
+    let error = solve(&scene.clone().route(Route::Lemke)).unwrap_err();
     assert!(matches!(&error, SolveError::Free { block, .. } if block == "loose"), "{error}");
+    // Nothing pushes it, so that it stands.
+    assert_eq!(solve(&scene).unwrap().judgement.verdict, Verdict::Stands);
 }
 
 #[test]

@@ -92,7 +92,7 @@ impl Checks {
 }
 
 /// A force \[N\] and where it acts \[m\].
-type PlacedForce = (Point2<f64>, Vector2<f64>);
+pub(crate) type PlacedForce = (Point2<f64>, Vector2<f64>);
 
 /// What is left over on one block, relative to the forces on it and, of the moment, to its size.
 struct Unbalanced {
@@ -141,7 +141,7 @@ fn unbalanced(model: &Model, state: &State, [contact, total]: [f64; 2]) -> Vec<U
 }
 
 /// Self weight and edge loads of a block as forces \[N\] at places.
-fn loads(model: &Model, block: &Block) -> Vec<PlacedForce> {
+pub(crate) fn loads(model: &Model, block: &Block) -> Vec<PlacedForce> {
     let mass = block.density.unwrap_or(0.0) * geometry::area(&block.corners) * model.thickness;
     let mut forces = vec![(geometry::centroid(&block.corners), model.gravity * mass)];
     forces.extend(block.edge_loads.iter().map(|load| {

@@ -40,6 +40,8 @@
 //! | solution | [`routes`] | [`routes::Answer`] |
 //! | displacements, stresses, reactions | [`recover`] | [`outcome::State`] |
 //! | balances that use nothing of the method | [`check`] | [`check::Checks`] |
+//! | forces inside friction that balance the loads, or the proof that there are none | [`statics`] | [`statics::Statics`] |
+//! | stands, falls or undecided, with the evidence | [`verdict`] | [`verdict::Judgement`] |
 //! | text, pictures, tables, meshes | [`output`] | files |
 //! | what accuracy costs: routes, tolerances, meshes compared | [`study`] | [`study::Study`] |
 //!
@@ -62,6 +64,7 @@ pub mod model;
 pub mod outcome;
 pub mod output;
 pub mod plan;
+mod policy;
 pub mod recover;
 pub mod reduction;
 pub mod rigid;
@@ -69,9 +72,11 @@ mod rounding;
 pub mod routes;
 pub mod scene;
 pub mod solve;
+pub mod statics;
 pub mod study;
 pub mod system;
 pub mod units;
+pub mod verdict;
 
 /// The programs of the README and of the guide are compiled and run with the tests.
 #[cfg(doctest)]

@@ -10,6 +10,7 @@ use crate::model::Model;
 use crate::plan::Plan;
 use crate::routes::alm;
 use crate::scene::Route;
+use crate::verdict::Judgement;
 
 /// The mechanical state of a model under its loads, in SI units.
 #[derive(Debug, Clone)]
@@ -246,6 +247,8 @@ pub struct Outcome {
     /// The mechanism, when there is no solution and the method found one, along a secondary ray, on soft
     /// springs or by a proof: displacement rates of the corners of every block, scaled to a largest component of one.
     pub mechanism: Option<Vec<[Vector2<f64>; 4]>>,
+    /// Whether the wall stands.
+    pub judgement: Judgement,
     /// Time of every phase.
     pub times: Vec<PhaseTime>,
 }

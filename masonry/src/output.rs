@@ -129,7 +129,8 @@ pub fn write_all(
 
 /// Names and contents of all files but `result.json`.
 fn contents(outcome: &Outcome, options: &Options) -> Vec<(&'static str, Vec<u8>)> {
-    let (title, model, state) = (&outcome.title, &outcome.model, outcome.state.as_ref());
+    let (model, state) = (&outcome.model, outcome.state.as_ref());
+    let title = &titled(outcome);
     let mut files = Vec::new();
     if options.formats.contains(&Format::Svg) {
         files.push(("scene.svg", svg::scene(title, model).into_bytes()));
@@ -158,6 +159,16 @@ fn contents(outcome: &Outcome, options: &Options) -> Vec<(&'static str, Vec<u8>)
         files.push(("report.txt", table::report(outcome).into_bytes()));
     }
     files
+}
+
+/// The title of the pictures: the verdict, and of what.
+fn titled(outcome: &Outcome) -> String {
+    let verdict = outcome.judgement.verdict;
+    if outcome.title.is_empty() {
+        verdict.to_string()
+    } else {
+        format!("{verdict}: {}", outcome.title)
+    }
 }
 
 pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {

@@ -82,7 +82,7 @@ impl Plan {
     /// The plan for a scene and the model made of it.
     pub fn of(scene: &Scene, model: &Model) -> Self {
         let sizes = Sizes::of(model);
-        let routes = routes::of(scene, &sizes);
+        let routes = routes::of(scene, model, &sizes);
         let Choice { route, order, largest_order, .. } = routes[0];
         let (solver, because) = solver(route, scene.solver.form, sizes.frictional);
         Self {
@@ -120,6 +120,11 @@ impl Plan {
 fn solver(route: Route, form: Form, frictional_points: usize) -> (&'static str, &'static str) {
     let has_friction = frictional_points > 0;
     match (route, form) {
+        (Route::Forces, _) => (
+            "admissible forces",
+            "one convex program, of three unknowns a block, finds forces inside friction that balance the loads, or \
+             proves that there are none",
+        ),
         (Route::Interior, _) => (
             "interior points",
             "every step factorises one sparse matrix of the order of the displacements",

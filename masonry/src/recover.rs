@@ -87,11 +87,9 @@ pub fn from_displacements(
 }
 
 fn is_at_rest(system: &System, u: &[f64], tolerance: f64) -> bool {
-    let are_rigid = system.bodies.iter().all(|body| body.stiffness.is_none());
-    let are_closed = system.rows.iter().all(|row| row.offset.abs() <= 0.0 && row.compliance <= 0.0);
     let size = system.bodies.iter().map(|body| body.modes.length).fold(0.0, f64::max);
     let rest = tolerance.max(REST) * size;
-    are_rigid && are_closed && u.iter().all(|u| u.abs() <= rest)
+    system.is_at_rest() && u.iter().all(|u| u.abs() <= rest)
 }
 
 fn of_blocks(

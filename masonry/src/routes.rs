@@ -2,6 +2,7 @@
 //!
 //! | route | works on | how |
 //! |---|---|---|
+//! | [`forces`] | [`System`](crate::system::System) | admissible forces, by one convex program, or the proof that there are none |
 //! | [`lemke`] | [`Reduction`](crate::reduction::Reduction), dense | complementary pivoting |
 //! | [`interior`] | [`Sparse`](crate::forms::Sparse) | interior points, with evidence where nothing stands |
 //! | [`newton`] | [`Sparse`](crate::forms::Sparse) | active sets: the states of the contacts, exchanged until none contradicts |
@@ -13,6 +14,7 @@
 //! [`Plan`](crate::plan::Plan).
 
 use std::ops::ControlFlow;
+use std::time::Duration;
 
 use crate::forms::{RowState, Start};
 use crate::outcome::SolveInfo;
@@ -20,12 +22,13 @@ use crate::scene::Form;
 
 pub mod alm;
 mod error;
+pub mod forces;
 pub mod interior;
 pub mod lemke;
 pub mod newton;
 pub mod pgs;
 pub mod qp;
-mod sparse;
+pub(crate) mod sparse;
 
 pub use error::RouteError;
 
@@ -41,12 +44,14 @@ pub struct Request {
     /// Stiffness of springs on all displacements, relative to that of the blocks, for the routes that
     /// have them.
     pub soft: Option<f64>,
+    /// Wall-clock time of the programs; `None` is no limit.
+    pub time_limit: Option<Duration>,
 }
 
 impl Request {
     /// A request with this tolerance and nothing else.
     pub fn new(tolerance: f64) -> Self {
-        Self { tolerance, form: Form::Auto, max_pivots: None, soft: None }
+        Self { tolerance, form: Form::Auto, max_pivots: None, soft: None, time_limit: None }
     }
 }
 

@@ -221,6 +221,12 @@ impl System {
         self.bodies.iter().any(is_elastic) || self.rows.iter().any(|row| row.compliance > 0.0)
     }
 
+    /// Whether blocks may be at rest under any forces: all are rigid, no gap is open, no slip is left and nothing has a film.
+    pub fn is_at_rest(&self) -> bool {
+        let is_closed = |row: &Row| row.offset.abs() <= 0.0 && row.compliance <= 0.0;
+        !self.gives_way() && self.rows.iter().all(is_closed)
+    }
+
     /// `G = C N`: the relative displacements of the rigid motions, rows by three columns per block.
     pub fn rigid_rows(&self) -> Mat<f64> {
         let mut g = Mat::zeros(self.rows.len(), 3 * self.bodies.len());

@@ -113,7 +113,7 @@ fn assert_files(object: &Value, directory: &Path) {
 fn plan_says_what_will_be_built() {
     let directory = directory("plan");
     let scene = written(&directory, &block(0.1));
-    let output = masonry(&["plan", &scene, "--json"]);
+    let output = masonry(&["plan", &scene, "--route", "lemke", "--json"]);
     assert_eq!(output.status.code(), Some(0));
     assert!(output.stderr.is_empty());
     let plan = object(&output);
@@ -147,7 +147,11 @@ fn a_solved_scene_is_one_object_and_code_zero() {
     assert!(output.stderr.is_empty(), "{}", stderr(&output));
     let result = object(&output);
     assert_eq!(result["status"], "Solved");
-    assert_eq!(result["order"], 6);
+    // Three motions of the block, and two edges of the friction cone at each of two points.
+    assert_eq!(result["order"], 7);
+    assert_eq!(result["verdict"], "stands");
+    assert_eq!(result["evidence"], "admissible forces");
+    assert!(result["sentence"].as_str().unwrap().starts_with("The wall stands: "));
     assert!(result["plan"].is_object() && result.get("reason").is_none());
     for key in ["equation", "feasibility", "complementarity"] {
         assert!(result["residuals"][key].as_f64().unwrap() <= 1e-10, "{key}");
@@ -178,12 +182,20 @@ fn the_report_for_people_is_no_json() {
     assert_eq!(output.status.code(), Some(0));
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(serde_json::from_str::<Value>(&text).is_err());
+    assert!(text.starts_with("The wall stands: "), "{text}");
     assert!(text.contains("Solved") && text.contains("result.json"), "{text}");
+    let picture = fs::read_to_string(out.join("deformed.svg")).unwrap();
+    assert!(picture.contains("Stands: Block"), "{picture}");
 }
 
 #[test]
 fn what_is_not_solved_says_why_and_has_code_one() {
-    for (name, scene) in [("tipped", block(0.21)), ("no_floor", NO_FLOOR.to_owned())] {
+    // Walls that were prestressed could hold the panel.
+    let falls = ["falls", "no admissible forces", "The wall falls: "];
+    let open = ["undecided", "admissible forces", "Undecided: "];
+    for (name, scene, [verdict, evidence, sentence]) in
+        [("tipped", block(0.21), falls), ("no_floor", NO_FLOOR.to_owned(), open)]
+    {
         let directory = directory(name);
         let scene = written(&directory, &scene);
         let out = directory.join("out");
@@ -191,6 +203,8 @@ fn what_is_not_solved_says_why_and_has_code_one() {
         assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
         let result = object(&output);
         assert_ne!(result["status"], "Solved");
+        assert_eq!((&result["verdict"], &result["evidence"]), (&verdict.into(), &evidence.into()));
+        assert!(result["sentence"].as_str().unwrap().starts_with(sentence));
         assert!(!result["reason"].as_str().unwrap().is_empty());
         for key in ["balance", "reactions", "contacts", "strain_energy", "max_displacement"] {
             assert!(result[key].is_null(), "{key}");
@@ -208,7 +222,8 @@ fn a_route_can_be_chosen() {
     let scene = written(&directory, &block(0.1));
     let out = directory.join("out");
     for (option, expected) in [
-        ("auto", "lemke"),
+        ("auto", "forces"),
+        ("forces", "forces"),
         ("lemke", "lemke"),
         ("interior", "interior"),
         ("newton", "newton"),
@@ -306,17 +321,20 @@ fn what_cannot_be_read_or_understood_has_code_two() {
     }
 }
 
-/// A block that nothing holds against sliding is found out before the solver starts.
+/// A block that nothing holds against sliding falls; pivots find it out before they start.
 #[test]
 fn a_block_that_can_slide_freely_has_code_two() {
     let directory = directory("free");
     let scene = written(&directory, &block(0.1).replace("mu = 0.7", "mu = 0.0"));
     let out = directory.join("out");
-    let output = masonry(&["solve", &scene, "--out", out.to_str().unwrap(), "--json"]);
+    let out = out.to_str().unwrap();
+    let output = masonry(&["solve", &scene, "--out", out, "--route", "lemke", "--json"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(output.stdout.is_empty());
     let message = stderr(&output);
     assert!(message.contains("block \"block\" can slide"), "{message}");
+    let output = masonry(&["solve", &scene, "--out", out, "--json"]);
+    assert_eq!((output.status.code(), &object(&output)["verdict"]), (Some(1), &"falls".into()));
 }
 
 #[test]

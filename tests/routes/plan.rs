@@ -8,21 +8,23 @@ use masonry::plan::Plan;
 use masonry::scene::{Form, Joint, Load, Route, Scene, Support};
 use masonry::solve::{SolveError, solve};
 
-/// Small scenes go to the pivots, large ones to the interior points, and the plan says why. Sparse routes
+/// Elastic walls go to the interior points, small ones then to the pivots, and the plan says why. Sparse routes
 /// have no dense matrices, and so need little memory.
 #[test]
 fn the_plan_has_no_dense_matrices_for_sparse_routes() {
     let plan = |scene: &Scene| Plan::of(scene, &Model::from_scene(scene).unwrap());
     let small = plan(&wall(3, materials()[1]));
     let routes = |plan: &Plan| -> Vec<Route> { plan.routes.iter().map(|it| it.route).collect() };
-    assert_eq!(routes(&small), [Route::Lemke, Route::Interior, Route::Qp]);
-    assert!(small.dense_numbers() > 9 * small.largest_order * small.largest_order);
-    assert!(small.routes[0].because.contains(&small.largest_order.to_string()));
+    assert_eq!(routes(&small), [Route::Interior, Route::Forces, Route::Lemke, Route::Qp]);
+    let by_pivots = &small.routes[2];
+    assert!(small.dense_numbers() > 9 * by_pivots.largest_order * by_pivots.largest_order);
+    assert!(by_pivots.because.contains(&by_pivots.largest_order.to_string()));
 
     let large = wall(200, materials()[1]);
     let chosen = plan(&large);
-    assert_eq!(routes(&chosen), [Route::Interior, Route::Qp]);
-    assert!(chosen.routes[0].because.contains("above 4000"), "{:?}", chosen.routes);
+    assert_eq!(routes(&chosen), [Route::Interior, Route::Forces, Route::Qp]);
+    let rigid = plan(&wall(200, materials()[0]));
+    assert_eq!(routes(&rigid), [Route::Forces, Route::Interior, Route::Qp]);
     let pivots = plan(&large.clone().route(Route::Lemke));
     assert_eq!(routes(&pivots), [Route::Lemke]);
     for route in [Route::Interior, Route::Qp, Route::Pgs] {
@@ -42,12 +44,14 @@ fn the_plan_has_no_dense_matrices_for_sparse_routes() {
 /// A large wall is solved without asking for it, and nothing is reduced.
 #[test]
 fn a_large_wall_goes_to_the_interior_points() {
-    let outcome = solve(&wall(200, materials()[0])).unwrap();
-    assert_eq!((outcome.solve.status, outcome.solve.route), (Status::Solved, Route::Interior));
-    assert_sound(&outcome, 1e-9);
-    assert_close(outcome.reactions[0].fy, -applied_load(&outcome.model).y, 1e-9);
-    let phases: Vec<&str> = outcome.times.iter().map(|time| time.phase.as_str()).collect();
-    assert_eq!(phases, ["model", "system", "sparse form", "solve", "recovery"]);
+    for (material, route) in materials().into_iter().zip([Route::Forces, Route::Interior]) {
+        let outcome = solve(&wall(200, material)).unwrap();
+        assert_eq!((outcome.solve.status, outcome.solve.route), (Status::Solved, route));
+        assert_sound(&outcome, 1e-9);
+        assert_close(outcome.reactions[0].fy, -applied_load(&outcome.model).y, 1e-9);
+        let phases: Vec<&str> = outcome.times.iter().map(|time| time.phase.as_str()).collect();
+        assert_eq!(phases, ["model", "system", "sparse form", "solve", "recovery"]);
+    }
 }
 
 /// The mesh of one block is too fine for dense matrices, and nothing to the sparse routes.
@@ -71,7 +75,7 @@ fn the_next_route_follows_where_one_fails() {
     assert_eq!(outcome.solve.status, Status::PivotLimit, "a limit is meant for the pivots");
     assert_eq!(outcome.solve.routes.len(), 1);
 
-    // Without friction a proof follows what springs show.
+    // A proof follows where the interior points come to no end.
     let pull = Load::traction("pull", [0.0, 1.0], [1.0, 1.0], [0.0, 20.0]);
     let lifted = scene
         .joint("bed", Joint::mu(0.0))
@@ -80,7 +84,7 @@ fn the_next_route_follows_where_one_fails() {
     let outcome = solve(&lifted.gravity([0.0, -GRAVITY])).unwrap();
     assert_eq!(outcome.solve.status, Status::Infeasible, "{:?}", outcome.solve.attempts);
     let [first, second] = &outcome.solve.routes[..] else { panic!("{:?}", outcome.solve.routes) };
-    assert_eq!((first.route, second.route), (Route::Interior, Route::Qp));
+    assert_eq!((first.route, second.route), (Route::Interior, Route::Forces));
     assert!(["NoEquilibrium", "Stalled"].contains(&first.end.as_str()), "{}", first.end);
     assert_eq!(second.end, "Infeasible");
     assert_eq!(outcome.solve.attempts.len(), 2);

@@ -1,7 +1,7 @@
 //! The contact problem with all displacements as unknowns: larger than the reduced forms, but sparse.
 
 use faer::sparse::{SparseColMat, Triplet};
-use lcp::{Contact2d, ContactState};
+use lcp::{Contact2d, ContactState, Residuals};
 
 use super::RowState;
 use crate::ids::BlockId;
@@ -128,6 +128,19 @@ impl Sparse {
         let films = system.rows.iter().zip(forces).filter(|(row, _)| row.compliance > 0.0);
         u.extend(films.map(|(row, t)| row.compliance * t));
         self.problem.state(u, t_n, t_t)
+    }
+
+    /// The state on the statuses of the contacts of another one, solved anew with twice the digits; `None` where
+    /// that is no solution to this tolerance either.
+    pub fn refined(
+        &self,
+        state: &ContactState,
+        tolerance: f64,
+    ) -> Option<(ContactState, Residuals)> {
+        // States that overflow are not refined.
+        let refined = self.problem.verify(state).ok()?.refined.rounded(&self.problem);
+        let residuals = self.problem.residuals(&refined);
+        (residuals.worst() <= tolerance).then_some((refined, residuals))
     }
 
     /// The first displacement of every block, and one past the last.

@@ -5,13 +5,19 @@ mod history;
 use serde::{Serialize, Serializer};
 
 use super::format::{InUnits, block_name};
-use super::summary::{extreme_film_stresses, extreme_stresses, largest_displacement, reason};
+use super::summary::{
+    CornerSum, Resultant, corner_sums, edge_loads, extreme_film_stresses, extreme_stresses,
+    largest_displacement, reason, weight,
+};
 use crate::outcome::{Outcome, Reaction, RouteEnd, SoftReport, SpringShares};
 use crate::plan::Plan;
 use crate::routes::alm::Iteration;
 use crate::scene::Route;
+use crate::verdict::{Evidence, Verdict};
 
 /// The object of `result.json` and of `masonry solve --json`, pretty-printed.
+///
+/// `verdict`, `evidence`, `sentence` and `warnings` come first, as in [`Judgement`](crate::verdict::Judgement).
 ///
 /// Physical quantities are in the units of the scene, which `units` names one by one. Without a
 /// solution `residuals`, `balance`, `reactions`, `contacts`, `strain_energy`, `max_displacement` and the stresses
@@ -31,6 +37,10 @@ pub fn result(outcome: &Outcome, files: &[String]) -> Result<String, serde_json:
 
 #[derive(Serialize)]
 struct Report<'a> {
+    verdict: Verdict,
+    evidence: Evidence,
+    sentence: &'a str,
+    warnings: &'a [String],
     status: lcp::Status,
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
@@ -53,6 +63,10 @@ struct Report<'a> {
     coulomb_residuals: Option<lcp::Residuals>,
     balance: Option<Balance>,
     reactions: Option<ByName<'a, Force>>,
+    /// Sums of reactions of which only the sum is unique.
+    corners: Option<Vec<Corner>>,
+    weight: Force,
+    loads: Force,
     contacts: Option<Contacts>,
     strain_energy: Option<f64>,
     max_displacement: Option<Displacement<'a>>,
@@ -115,6 +129,22 @@ struct Force {
     m: f64,
 }
 
+/// Supports that meet in a corner.
+#[derive(Serialize)]
+struct Corner {
+    supports: Vec<String>,
+    #[serde(flatten)]
+    sum: Force,
+}
+
+impl Force {
+    fn of(it: Resultant, units: InUnits) -> Self {
+        let Resultant { force, moment } = it;
+        let [fx, fy] = [force.x, force.y].map(|it| units.force(it));
+        Self { fx, fy, m: units.energy(moment) }
+    }
+}
+
 #[derive(Serialize)]
 struct Contacts {
     open: usize,
@@ -159,7 +189,7 @@ impl<T: Serialize> Serialize for ByName<'_, T> {
 
 impl<'a> Report<'a> {
     fn of(outcome: &'a Outcome, files: &'a [String]) -> Self {
-        let (model, solve) = (&outcome.model, &outcome.solve);
+        let (model, solve, judgement) = (&outcome.model, &outcome.solve, &outcome.judgement);
         let units = InUnits(model.units);
         let checks = outcome.checks.as_ref();
         let state = outcome.state.as_ref();
@@ -171,6 +201,10 @@ impl<'a> Report<'a> {
             y: units.length(it.position.y),
         };
         Self {
+            verdict: judgement.verdict,
+            evidence: judgement.evidence,
+            sentence: &judgement.sentence,
+            warnings: &judgement.warnings,
             status: solve.status,
             reason: reason(outcome),
             title: &outcome.title,
@@ -199,6 +233,13 @@ impl<'a> Report<'a> {
             reactions: state.map(|_| {
                 ByName(outcome.reactions.iter().map(|it| named_force(it, units)).collect())
             }),
+            corners: state.map(|_| {
+                let of =
+                    |it: CornerSum| Corner { supports: it.supports, sum: Force::of(it.sum, units) };
+                corner_sums(outcome).into_iter().map(of).collect()
+            }),
+            weight: Force::of(weight(model), units),
+            loads: Force::of(edge_loads(model), units),
             contacts: checks.map(|checks| Contacts {
                 open: checks.open,
                 stick: checks.stick,

@@ -5,8 +5,9 @@ use nalgebra::{Point2, Vector2};
 use crate::geometry;
 use crate::history::Step;
 use crate::ids::BlockId;
-use crate::model::{Block, EdgeLoad, Model};
+use crate::model::{Block, Body, EdgeLoad, Model};
 use crate::outcome::{FilmStress, Outcome, State};
+use crate::verdict::Verdict;
 
 /// The displacement component of largest size, with its sign and place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -119,6 +120,12 @@ pub fn extreme_film_stresses(state: &State) -> Option<FilmExtremes> {
 
 /// The resultant of all edge loads and self weights.
 pub fn applied_load(model: &Model) -> Resultant {
+    let (loads, weight) = (edge_loads(model), weight(model));
+    Resultant { force: loads.force + weight.force, moment: loads.moment + weight.moment }
+}
+
+/// The resultant of all edge loads.
+pub fn edge_loads(model: &Model) -> Resultant {
     let mut total = Resultant::default();
     for block in &model.blocks {
         for load in &block.edge_loads {
@@ -126,6 +133,14 @@ pub fn applied_load(model: &Model) -> Resultant {
             let area = (to - from).norm() * model.thickness;
             total.add(load.traction * area, nalgebra::center(&from, &to));
         }
+    }
+    total
+}
+
+/// The resultant of all self weights.
+pub fn weight(model: &Model) -> Resultant {
+    let mut total = Resultant::default();
+    for block in &model.blocks {
         if let Some(density) = block.density {
             let (area, centroid) =
                 (geometry::area(&block.corners), geometry::centroid(&block.corners));
@@ -145,6 +160,56 @@ pub fn total_reaction(outcome: &Outcome) -> Resultant {
     total
 }
 
+/// Supports that meet in a corner of the structure, and the resultant of all of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CornerSum {
+    /// Their names.
+    pub supports: Vec<String>,
+    /// The sum of their reactions.
+    pub sum: Resultant,
+}
+
+/// Supports that hold a block at the same place: what each of them carries there is not unique, and only their
+/// sum is.
+pub fn corner_sums(outcome: &Outcome) -> Vec<CornerSum> {
+    let groups = groups_at_corners(&outcome.model);
+    let of_group = |group: Vec<usize>| {
+        let mut sum = Resultant::default();
+        for reaction in group.iter().filter_map(|id| outcome.reactions.get(*id)) {
+            sum.force += Vector2::new(reaction.fx, reaction.fy);
+            sum.moment += reaction.m;
+        }
+        let names = group.iter().map(|id| outcome.model.supports[*id].name.clone());
+        CornerSum { supports: names.collect(), sum }
+    };
+    groups.into_iter().filter(|_| !outcome.reactions.is_empty()).map(of_group).collect()
+}
+
+fn groups_at_corners(model: &Model) -> Vec<Vec<usize>> {
+    /// Relative to the size of a block.
+    const SAME_PLACE: f64 = 1e-9;
+    let mut held: Vec<Vec<(usize, Point2<f64>)>> = vec![Vec::new(); model.blocks.len()];
+    for contact in &model.contacts {
+        if let Body::Support(id) = model.joints[contact.joint.index()].a {
+            held[contact.b.block.index()].push((id.index(), contact.position));
+        }
+    }
+    let mut group: Vec<usize> = (0..model.supports.len()).collect();
+    for (block, held) in model.blocks.iter().zip(&held) {
+        let near = SAME_PLACE * geometry::size(&block.corners);
+        for (k, (a, place)) in held.iter().enumerate() {
+            for (b, other) in &held[k + 1..] {
+                if (place - other).norm() <= near {
+                    let (from, to) = (group[*a].max(group[*b]), group[*a].min(group[*b]));
+                    group.iter_mut().filter(|it| **it == from).for_each(|it| *it = to);
+                }
+            }
+        }
+    }
+    let members = |head| (0..group.len()).filter(|id| group[*id] == head).collect::<Vec<_>>();
+    (0..group.len()).map(members).filter(|members| members.len() > 1).collect()
+}
+
 /// Start and end of the loaded part of an edge \[m\].
 pub fn loaded_part(block: &Block, load: &EdgeLoad) -> (Point2<f64>, Point2<f64>) {
     let place = |at| geometry::on_edge(&block.corners, load.edge, at);
@@ -153,14 +218,20 @@ pub fn loaded_part(block: &Block, load: &EdgeLoad) -> (Point2<f64>, Point2<f64>)
 
 /// Why the scene is not solved, in a sentence or two; `None` when it is.
 pub fn reason(outcome: &Outcome) -> Option<String> {
-    let why = why(outcome)?;
+    let mut why = why(outcome)?.to_owned();
+    if outcome.judgement.verdict == Verdict::Falls
+        && outcome.solve.status != lcp::Status::Infeasible
+    {
+        why += " What proves it is another vector, a motion that was checked in the geometry: no contact forces within \
+                friction balance the loads.";
+    }
     let history = outcome.history.as_ref().filter(|history| !history.records.is_empty());
     Some(match history.and_then(|history| history.failed.as_ref()) {
         Some(Step { stage, number, of, .. }) => format!(
             "Step {number} of {of} of stage \"{stage}\" could not be solved. {why} Load history, reactions and \
              state are those of the step before, which was solved."
         ),
-        None => why.to_owned(),
+        None => why,
     })
 }
 
@@ -173,9 +244,9 @@ fn why(outcome: &Outcome) -> Option<&'static str> {
              forces and loads, does not hold. What was computed is kept for inspection only."
         }
         lcp::Status::RayTermination if outcome.mechanism.is_some() => {
-            "No attempt found an equilibrium, and one ended on a secondary ray that is a mechanism: \
-             a movement of the blocks that the supports do not stop and on which the loads do \
-             work. This points to collapse, but with friction it is not a proof."
+            "No attempt found an equilibrium, and one ended on a secondary ray that is a movement of \
+             the blocks that the supports do not stop and on which the loads do work. Friction may \
+             stop it: by itself this is not a proof of collapse."
         }
         lcp::Status::RayTermination => {
             "No attempt found an equilibrium, and the last form ended on secondary rays. With \
@@ -188,8 +259,8 @@ fn why(outcome: &Outcome) -> Option<&'static str> {
              data (Farkas)."
         }
         lcp::Status::NoEquilibrium => {
-            "Springs on all blocks keep their share of the load however soft they are: nothing else \
-             carries it. This points to collapse, but with friction it is not a proof."
+            "Springs on all blocks keep their share of the load however soft they are: from there \
+             no equilibrium was reached. With friction this is not a proof of collapse."
         }
         lcp::Status::Stalled => {
             "The residuals stopped falling before the tolerance was reached. This says nothing about the \

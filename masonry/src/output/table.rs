@@ -6,8 +6,8 @@ use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyl
 
 use super::format::{InUnits, aligned, block_name, significant};
 use super::summary::{
-    ExtremeStress, Resultant, applied_load, extreme_film_stresses, extreme_stresses,
-    largest_displacement, reason, total_reaction,
+    CornerSum, ExtremeStress, Resultant, applied_load, corner_sums, edge_loads,
+    extreme_film_stresses, extreme_stresses, largest_displacement, reason, total_reaction, weight,
 };
 use crate::outcome::{FilmStress, Outcome, SoftReport, SpringShares, State};
 use crate::plan::Plan;
@@ -15,12 +15,15 @@ use crate::scene::Route;
 
 const WIDTH: u16 = 100;
 
-/// The whole report: plan, solution, checks, reactions, state, times; or what was tried and what
+/// The whole report: verdict, plan, solution, checks, reactions, state, times; or what was tried and what
 /// it means when there is no solution.
 pub fn report(outcome: &Outcome) -> String {
     let title = if outcome.title.is_empty() { "Untitled scene" } else { &outcome.title };
     let rule: String = title.chars().map(|_| '=').collect();
-    let mut text = format!("{title}\n{rule}\n\n{}", plan(&outcome.plan));
+    let judgement = &outcome.judgement;
+    let warnings = judgement.warnings.iter().map(|warning| head(&format!("Warning: {warning}")));
+    let verdict = head(&judgement.sentence) + &warnings.collect::<String>();
+    let mut text = format!("{verdict}\n{title}\n{rule}\n\n{}", plan(&outcome.plan));
     if let Some(reason) = reason(outcome) {
         text += &section("No equilibrium found");
         text += &paragraph(&reason);
@@ -83,6 +86,7 @@ fn residuals(it: &lcp::Residuals) -> String {
         ("feasibility", it.feasibility),
         ("complementarity", it.complementarity),
         ("natural", it.natural),
+        ("loads", it.loads),
     ])
 }
 
@@ -153,10 +157,19 @@ fn reactions(outcome: &Outcome) -> String {
     let mut table = table(&heads, &[1, 2, 3]);
     let (sum, load) = (total_reaction(outcome), applied_load(&outcome.model));
     let rest = Resultant { force: sum.force + load.force, moment: sum.moment + load.moment };
-    let single = outcome.reactions.iter().map(|it| (it.support.as_str(), [it.fx, it.fy, it.m]));
-    let totals = [("sum of reactions", sum), ("applied load", load), ("unbalanced", rest)]
-        .map(|(name, it)| (name, [it.force.x, it.force.y, it.moment]));
-    let rows: Vec<(&str, [f64; 3])> = single.chain(totals).collect();
+    let parts = |it: Resultant| [it.force.x, it.force.y, it.moment];
+    let single = outcome.reactions.iter().map(|it| (it.support.clone(), [it.fx, it.fy, it.m]));
+    let mut rows: Vec<(String, [f64; 3])> = single.collect();
+    let mut totals = vec![("sum of reactions", sum)];
+    let (weight, loads) = (weight(&outcome.model), edge_loads(&outcome.model));
+    if weight != Resultant::default() && loads != Resultant::default() {
+        totals.extend([("self weight", weight), ("loads", loads)]);
+    }
+    totals.extend([("applied load", load), ("unbalanced", rest)]);
+    let corners = corner_sums(outcome);
+    let together = |it: &CornerSum| (it.supports.join(" + "), parts(it.sum));
+    rows.extend(corners.iter().map(together));
+    rows.extend(totals.into_iter().map(|(name, it)| (name.to_owned(), parts(it))));
     let forces: Vec<f64> =
         rows.iter().flat_map(|(_, [fx, fy, _])| [*fx, *fy]).map(|it| units.force(it)).collect();
     let moments: Vec<f64> = rows.iter().map(|(_, [_, _, m])| units.energy(*m)).collect();
@@ -166,9 +179,13 @@ fn reactions(outcome: &Outcome) -> String {
             table.add_row(vec![""]);
         }
         let (fx, fy) = (&forces[2 * index], &forces[2 * index + 1]);
-        table.add_row(vec![*name, fx, fy, &moments[index]]);
+        table.add_row(vec![name.as_str(), fx, fy, &moments[index]]);
     }
-    table.trim_fmt() + "\n Moments are about the origin.\n"
+    let mut text = table.trim_fmt() + "\n Moments are about the origin.\n";
+    if !corners.is_empty() {
+        text += " Of supports that meet in a corner only the sum (+) is unique.\n";
+    }
+    text
 }
 
 fn state_figures(outcome: &Outcome, state: &State) -> Vec<(&'static str, String)> {
@@ -257,6 +274,11 @@ pub(super) fn paragraph(text: &str) -> String {
     table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic);
     table.set_width(WIDTH).add_row(vec![text]);
     table.trim_fmt() + "\n"
+}
+
+/// A paragraph of the head of the report.
+fn head(text: &str) -> String {
+    paragraph(text).lines().map(|line| line.trim_start().to_owned() + "\n").collect()
 }
 
 /// Names and values in two columns.

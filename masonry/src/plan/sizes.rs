@@ -50,6 +50,11 @@ impl Sizes {
         }
     }
 
+    /// No block is elastic, and no joint gives way.
+    pub(super) fn is_rigid(&self) -> bool {
+        self.rigid_blocks == self.blocks && self.film_points == 0
+    }
+
     pub(super) fn rigid_modes(&self) -> usize {
         3 * self.blocks
     }
@@ -95,6 +100,11 @@ impl Sizes {
         match route {
             Route::Auto | Route::Lemke => self.lemke(form),
             Route::Interior | Route::Newton => sparse,
+            // An edge of the cone for every normal force, and one more with friction.
+            Route::Forces => {
+                let order = self.rigid_modes() + self.points + self.frictional;
+                Choice { order, largest_order: order, ..sparse }
+            }
             // Contact forces are no unknowns of its linear systems, and neither is what strips do.
             Route::Alm => {
                 let order = displacements - if self.strips { self.compliances() } else { 0 };

@@ -54,10 +54,9 @@ pub struct Sweeps<'a> {
 
 impl Method for Sweeps<'_> {
     fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
-        let problem = &self.sparse.problem;
         let stiffness = request.soft.unwrap_or(SOFT);
-        let bedding = Bedding::new(problem, stiffness)?;
-        let mut rounds = Rounds::new(problem, &bedding, request.tolerance);
+        let bedding = Bedding::new(&self.sparse.problem, stiffness)?;
+        let mut rounds = Rounds::new(self.sparse, &bedding, request.tolerance);
         let status = loop {
             if let Some(status) = rounds.stop(observer) {
                 break status;
@@ -76,6 +75,7 @@ impl Method for Sweeps<'_> {
 
 /// Rounds of springs that are centred anew.
 struct Rounds<'a> {
+    sparse: &'a Sparse,
     problem: &'a Contact2d,
     bedding: &'a Bedding,
     tolerance: f64,
@@ -93,11 +93,13 @@ struct Rounds<'a> {
 }
 
 impl<'a> Rounds<'a> {
-    fn new(problem: &'a Contact2d, bedding: &'a Bedding, tolerance: f64) -> Self {
+    fn new(sparse: &'a Sparse, bedding: &'a Bedding, tolerance: f64) -> Self {
+        let problem = &sparse.problem;
         let (n, m) = (problem.displacements(), problem.points());
         let state = problem.state(vec![0.0; n], vec![0.0; m], vec![0.0; m]);
         let residuals = problem.residuals(&state);
         Self {
+            sparse,
             problem,
             bedding,
             tolerance,
@@ -194,12 +196,10 @@ impl<'a> Rounds<'a> {
 
     /// Solves the equations of the states that the contacts have come to, and takes the answer if it is a solution.
     fn finish(&mut self) -> bool {
-        let Ok(verified) = self.problem.verify(&self.state) else { return false };
-        let state = verified.refined.rounded(self.problem);
-        let residuals = self.problem.residuals(&state);
-        let is_solved = residuals.worst() <= self.tolerance;
-        if is_solved {
-            (self.state, self.residuals) = (state, residuals);
+        let refined = self.sparse.refined(&self.state, self.tolerance);
+        let is_solved = refined.is_some();
+        if let Some(refined) = refined {
+            (self.state, self.residuals) = refined;
         }
         is_solved
     }

@@ -10,6 +10,15 @@ use crate::scene::Route;
 /// The name of the problem in reports, in the place of a form.
 const FORM: &str = "contact";
 
+/// Residuals of what was never tried.
+pub(crate) const UNKNOWN: Residuals = Residuals {
+    equation: f64::INFINITY,
+    feasibility: f64::INFINITY,
+    complementarity: f64::INFINITY,
+    natural: f64::INFINITY,
+    loads: f64::INFINITY,
+};
+
 /// What a method found on the sparse problem.
 pub(super) struct Found {
     pub(super) status: Status,

@@ -45,6 +45,9 @@ pub enum Route {
     /// Chosen by the size of the scene, and another one where that fails.
     #[default]
     Auto,
+    /// Forces inside friction that balance the loads, by one convex program: the answer for rigid blocks without gaps,
+    /// and the proof where there are none.
+    Forces,
     /// Pivots on the problem reduced to contact forces, with dense matrices.
     Lemke,
     /// The interior-point method on the sparse problem with all displacements.
@@ -66,6 +69,7 @@ impl Route {
     pub fn name(self) -> &'static str {
         match self {
             Self::Auto => "auto",
+            Self::Forces => "forces",
             Self::Lemke => "lemke",
             Self::Interior => "interior",
             Self::Newton => "newton",

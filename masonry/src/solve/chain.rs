@@ -12,9 +12,11 @@ use crate::forms::{Sparse, Start};
 use crate::model::Model;
 use crate::outcome::{RouteEnd, SolveInfo, State};
 use crate::plan::Choice;
+use crate::policy::{self, Rank};
 use crate::recover;
 use crate::reduction::Reduction;
 use crate::routes::alm::{Multipliers, Strips};
+use crate::routes::forces;
 use crate::routes::interior::Interior;
 use crate::routes::lemke::Pivots;
 use crate::routes::newton::Newton;
@@ -22,7 +24,9 @@ use crate::routes::pgs::Sweeps;
 use crate::routes::qp::Programs;
 use crate::routes::{Answer, Method, Request, Step};
 use crate::scene::Route;
+use crate::statics::{self, Decision, Statics};
 use crate::system::System;
+use crate::verdict::Movement;
 
 /// What a route came to.
 pub(super) struct Attempt {
@@ -31,40 +35,13 @@ pub(super) struct Attempt {
     pub(super) checks: Option<Checks>,
     pub(super) mechanism: Option<Vec<[Vector2<f64>; 4]>>,
     pub(super) basis: Option<Start>,
-}
-
-/// How much an attempt says; what comes first says more.
-#[derive(PartialEq, PartialOrd)]
-enum Rank {
-    Solved,
-    /// There is none, with a proof, or with springs or a ray that show how it falls.
-    Proved,
-    Springs,
-    Mechanism,
-    /// Something was found that does not hold.
-    Almost,
-    Open,
+    /// What is known of admissible forces, where it was asked.
+    pub(super) statics: Option<Statics>,
 }
 
 impl Attempt {
     fn rank(&self) -> Rank {
-        match self.info.status {
-            Status::Solved => Rank::Solved,
-            Status::Infeasible if self.info.proved => Rank::Proved,
-            Status::NoEquilibrium if self.info.springs.is_some() => Rank::Springs,
-            _ if self.mechanism.is_some() => Rank::Mechanism,
-            Status::AlmostSolved => Rank::Almost,
-            _ => Rank::Open,
-        }
-    }
-
-    /// Whether no other route has more to say. Without friction a proof may follow what springs show.
-    fn is_final(&self, has_friction: bool) -> bool {
-        match self.rank() {
-            Rank::Solved | Rank::Proved | Rank::Mechanism => true,
-            Rank::Springs => has_friction,
-            Rank::Almost | Rank::Open => self.info.status == Status::Cancelled,
-        }
+        Rank::of(&self.info, self.mechanism.is_some())
     }
 }
 
@@ -76,20 +53,37 @@ pub(super) struct Chain<'a> {
     pub(super) with_stresses: bool,
     pub(super) clock: &'a mut Clock,
     pub(super) observer: &'a mut dyn FnMut(Event) -> ControlFlow<()>,
-    /// The basis of the step before.
+    /// The basis of the step before, and its state.
     start: Option<Start>,
+    before: Option<&'a State>,
     sparse: Option<Sparse>,
+    /// Whether there are admissible forces; asked at most once.
+    decision: Option<Decision>,
+    /// Whether the proof that there are none would end the route at hand.
+    may_be_cut: bool,
 }
 
 impl<'a> Chain<'a> {
     pub(super) fn new(
         (model, system): (&'a Model, &'a System),
         (request, with_stresses): (Request, bool),
-        start: Option<Start>,
+        (start, before): (Option<Start>, Option<&'a State>),
         clock: &'a mut Clock,
         observer: &'a mut dyn FnMut(Event) -> ControlFlow<()>,
     ) -> Self {
-        Self { model, system, request, with_stresses, clock, observer, start, sparse: None }
+        Self {
+            model,
+            system,
+            request,
+            with_stresses,
+            clock,
+            observer,
+            start,
+            before,
+            sparse: None,
+            decision: None,
+            may_be_cut: false,
+        }
     }
 
     /// The attempt that says most; with all lines of all of them.
@@ -98,34 +92,41 @@ impl<'a> Chain<'a> {
         let (mut ends, mut lines, mut pivots) = (Vec::new(), Vec::new(), 0);
         let mut best: Option<Attempt> = None;
         let mut refusal = None;
-        for choice in routes {
+        for (position, choice) in routes.iter().enumerate() {
+            let known = best.as_ref().map(Attempt::rank);
+            if known.is_some_and(|known| !policy::is_asked(choice.route, known, has_friction)) {
+                continue;
+            }
             let began = Instant::now();
             let mut end = |end: String| {
                 let seconds = began.elapsed().as_secs_f64();
                 let because = choice.because.clone();
                 ends.push(RouteEnd { route: choice.route, because, end, seconds });
             };
+            self.request.time_limit = policy::time_limit(choice.route, routes.len());
+            let limit = policy::max_pivots(choice.route, choice.largest_order, routes.len());
+            self.request.max_pivots = self.request.max_pivots.or(limit);
+            self.may_be_cut = routes[position + 1..].iter().any(|it| it.route == Route::Forces);
             match self.attempt(choice.route) {
                 Ok(mut attempt) => {
                     attempt.info.because.clone_from(&choice.because);
                     end(attempt.info.status.to_string());
                     lines.append(&mut attempt.info.attempts);
                     pivots += attempt.info.pivots;
-                    let is_final = attempt.is_final(has_friction);
+                    let is_cancelled = attempt.info.status == Status::Cancelled;
+                    let is_final = attempt.rank().is_final(has_friction) || is_cancelled;
                     let is_better = best.as_ref().is_none_or(|best| attempt.rank() < best.rank());
-                    if is_better || attempt.info.status == Status::Cancelled {
+                    if is_better || is_cancelled {
                         best = Some(attempt);
                     }
                     if is_final {
                         break;
                     }
                 }
-                Err(error) if error.is_refusal() => {
-                    end(match &error {
-                        SolveError::Solver(error) => format!("refused: {error}"),
-                        other => format!("refused: {other}"),
-                    });
-                    refusal = Some(error);
+                // The next route may treat what this one does not.
+                Err(error) if routes.len() > 1 => {
+                    end(format!("refused: {error}"));
+                    refusal = refusal.or(Some(error));
                 }
                 Err(error) => return Err(error),
             }
@@ -138,15 +139,57 @@ impl<'a> Chain<'a> {
         best.info.routes = ends;
         best.info.attempts = lines;
         best.info.pivots = pivots;
+        self.add_statics(&mut best);
         Ok(best)
     }
 
-    fn attempt(&mut self, route: Route) -> Result<Attempt, SolveError> {
-        if matches!(route, Route::Auto | Route::Lemke) {
-            self.by_pivots()
-        } else {
-            self.on_sparse(route)
+    /// What a verdict needs where there is no answer, or one far away: whether any forces balance the loads.
+    fn add_statics(&mut self, best: &mut Attempt) {
+        let is_far =
+            best.state.as_ref().is_some_and(|state| Movement::of(self.model, state).is_large());
+        // Of blocks at rest they are all there is to know, whatever tolerance another route has found them to.
+        let is_open = best.info.status != Status::Solved || is_far || self.system.is_at_rest();
+        if !is_open || best.info.status == Status::Cancelled {
+            return;
         }
+        // Data that overflow leave it open.
+        best.statics = self.statics().ok().map(|decision| decision.statics.clone());
+        if let Some(Statics::Impossible(proof)) = &best.statics {
+            best.mechanism.get_or_insert_with(|| proof.rates.clone());
+        }
+    }
+
+    /// Whether there are admissible forces.
+    fn statics(&mut self) -> Result<&Decision, lcp::Error> {
+        if self.decision.is_none() {
+            let (parts, observer) = ((self.model, self.system), &mut *self.observer);
+            let _ = observer(Event::Phase("solve"));
+            let began = Instant::now();
+            let decision = statics::decide(parts, &mut |at| {
+                observer(Event::Iteration { number: at.iteration, residual: at.residual })
+            })?;
+            self.clock.add("solve", began);
+            self.decision = Some(decision);
+        }
+        Ok(self.decision.as_ref().unwrap_or_else(|| unreachable!("it was just decided")))
+    }
+
+    fn attempt(&mut self, route: Route) -> Result<Attempt, SolveError> {
+        match route {
+            Route::Auto | Route::Lemke => self.by_pivots(),
+            Route::Forces => self.by_forces(),
+            _ => self.on_sparse(route),
+        }
+    }
+
+    fn by_forces(&mut self) -> Result<Attempt, SolveError> {
+        let sparse = self.sparse()?;
+        let (system, tolerance) = (self.system, self.request.tolerance);
+        let decision = self.statics()?;
+        let answer = forces::answer((system, &sparse), decision, tolerance);
+        let state = self.recovered(&sparse, &answer);
+        self.sparse = Some(sparse);
+        Ok(self.concluded(answer, state))
     }
 
     fn by_pivots(&mut self) -> Result<Attempt, SolveError> {
@@ -178,14 +221,11 @@ impl<'a> Chain<'a> {
         let Self { model, system, .. } = *self;
         let Some(state) = &attempt.state else { return Ok(attempt) };
         let sparse = self.sparse()?;
-        let problem = &sparse.problem;
         let given = sparse.state((model, system), state);
         let tolerance = self.request.tolerance;
-        let verified = self.clock.time("refinement", self.observer, || problem.verify(&given));
-        // States that overflow are not refined.
-        let refined = verified.ok().map(|it| it.refined.rounded(problem));
-        let judged = refined.map(|state| (problem.residuals(&state), state));
-        if let Some((residuals, refined)) = judged.filter(|(it, _)| it.worst() <= tolerance) {
+        let refined =
+            self.clock.time("refinement", self.observer, || sparse.refined(&given, tolerance));
+        if let Some((refined, residuals)) = refined {
             let state = recover::from_displacements(
                 (model, system, &sparse),
                 (&sparse.rows(&refined), &refined.u),
@@ -218,23 +258,35 @@ impl<'a> Chain<'a> {
                 self.timed(&Strips { model, system, sparse: &sparse })
             }
             Route::Alm => self.timed(&Multipliers { sparse: &sparse }),
-            _ => self.timed(&Interior { sparse: &sparse }),
+            _ => {
+                let start = self.before.map(|state| sparse.state((model, system), state));
+                self.timed(&Interior { sparse: &sparse, start: start.as_ref() })
+            }
         };
-        let answer = answer?;
-        let (tolerance, with_stresses) = (self.request.tolerance, self.with_stresses);
-        let found = answer.rows.as_ref().zip(answer.displacements.as_deref());
-        let state = found.map(|(rows, u)| {
-            self.clock.time("recovery", self.observer, || {
-                recover::from_displacements(
-                    (model, system, &sparse),
-                    (rows, u),
-                    tolerance,
-                    with_stresses,
-                )
-            })
-        });
+        let mut answer = answer?;
+        if let Some(Decision { statics: Statics::Impossible(_), .. }) = &self.decision
+            && answer.info.status == Status::Cancelled
+        {
+            let SolveInfo { status, attempts, iterations, .. } = &mut answer.info;
+            *status = Status::Stalled;
+            *attempts = vec![format!(
+                "{}: left after {iterations} steps, since no forces inside friction balance the loads",
+                route.name()
+            )];
+        }
+        let state = self.recovered(&sparse, &answer);
         self.sparse = Some(sparse);
         Ok(self.concluded(answer, state))
+    }
+
+    /// The state that an answer on the sparse problem is.
+    fn recovered(&mut self, sparse: &Sparse, answer: &Answer) -> Option<State> {
+        let Self { model, system, with_stresses, .. } = *self;
+        let (rows, u) = answer.rows.as_ref().zip(answer.displacements.as_deref())?;
+        let (parts, tolerance) = ((model, system, sparse), self.request.tolerance);
+        Some(self.clock.time("recovery", self.observer, || {
+            recover::from_displacements(parts, (rows, u), tolerance, with_stresses)
+        }))
     }
 
     /// The sparse problem, built once; who takes it gives it back.
@@ -247,14 +299,29 @@ impl<'a> Chain<'a> {
     }
 
     fn timed(&mut self, method: &dyn Method) -> Result<Answer, SolveError> {
-        let observer = &mut *self.observer;
+        let (parts, observer) = ((self.model, self.system), &mut *self.observer);
         let _ = observer(Event::Phase("solve"));
         let began = Instant::now();
+        let (mut may_be_cut, decision) = (self.may_be_cut, &mut self.decision);
         let answer = method.solve(&self.request, &mut |step| {
-            observer(match step {
+            let event = match step {
                 Step::Pivots(progress) => Event::Pivots(progress),
-                Step::Iteration { number, residual } => Event::Iteration { number, residual },
-            })
+                Step::Iteration { number, residual } => {
+                    if may_be_cut && number >= policy::STEPS_BEFORE_PROOF {
+                        may_be_cut = false;
+                        let found = statics::decide(parts, &mut |_| {
+                            observer(Event::Iteration { number, residual })
+                        });
+                        *decision = found.ok();
+                        let found = decision.as_ref().map(|decision| &decision.statics);
+                        if let Some(Statics::Impossible(_)) = found {
+                            return ControlFlow::Break(());
+                        }
+                    }
+                    Event::Iteration { number, residual }
+                }
+            };
+            observer(event)
         });
         self.clock.add("solve", began);
         Ok(answer?)
@@ -272,6 +339,6 @@ impl<'a> Chain<'a> {
         let mechanism = motion.and_then(|motion| {
             recover::mechanism(self.model, self.system, self.sparse.as_ref(), motion)
         });
-        Attempt { info, state, checks, mechanism, basis: answer.basis }
+        Attempt { info, state, checks, mechanism, basis: answer.basis, statics: None }
     }
 }

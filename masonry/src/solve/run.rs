@@ -8,7 +8,7 @@ use nalgebra::Vector2;
 use super::chain::{Attempt, Chain};
 use super::{Clock, Event, SolveError, check_size};
 use crate::check::Checks;
-use crate::forms::Start;
+use crate::forms::{Sparse, Start};
 use crate::history::checkpoint::{Checkpoint, CheckpointError};
 use crate::history::energy::{self, Snapshot};
 use crate::history::{self, History, Step, StepRecord};
@@ -17,8 +17,11 @@ use crate::outcome::{ContactStatus, Outcome, SolveInfo, State};
 use crate::plan::Plan;
 use crate::recover;
 use crate::routes::Request;
+use crate::routes::sparse::UNKNOWN;
 use crate::scene::{Scene, Solver};
+use crate::statics::Statics;
 use crate::system::System;
+use crate::verdict::{self, Judgement, Known};
 
 /// A scene that is solved step by step.
 ///
@@ -72,15 +75,6 @@ pub struct Run {
     clock: Clock,
 }
 
-/// Residuals of what was never tried.
-const UNKNOWN: lcp::Residuals = lcp::Residuals {
-    equation: f64::INFINITY,
-    feasibility: f64::INFINITY,
-    complementarity: f64::INFINITY,
-    natural: f64::INFINITY,
-    loads: f64::INFINITY,
-};
-
 /// What the last step that was solved has come to.
 #[derive(Debug)]
 struct Reached {
@@ -101,6 +95,7 @@ struct InHistory {
 #[derive(Debug)]
 struct Last {
     info: SolveInfo,
+    statics: Option<Statics>,
     mechanism: Option<Vec<[Vector2<f64>; 4]>>,
 }
 
@@ -137,7 +132,7 @@ impl Run {
             steps,
             loads: scene.loads.iter().map(|load| load.name.clone()).collect(),
             origin,
-            request: Request { tolerance, form, max_pivots, soft },
+            request: Request { tolerance, form, max_pivots, soft, time_limit: None },
             with_stresses: scene.output.stresses,
             solved: 0,
             records: Vec::new(),
@@ -188,7 +183,7 @@ impl Run {
         }
         let in_history = Some(InHistory { model, snapshot });
         self.reached = Some(Reached { state, checks: Some(checks), in_history });
-        self.last = Some(Last { info, mechanism: None });
+        self.last = Some(Last { info, statics: None, mechanism: None });
         self.solved = records.len();
         self.records.clone_from(records);
         self.basis = checkpoint.basis(self.system.rows.len() + self.system.friction.len());
@@ -219,14 +214,15 @@ impl Run {
         let model = stepped.as_ref().map_or(&self.model, |(model, _)| model);
         let wanted = (self.request, self.with_stresses);
         let parts = (model, &self.system);
-        let start = self.basis.take();
+        let before = self.reached.as_ref().map(|reached| &reached.state);
+        let start = (self.basis.take(), before);
         let found = Chain::new(parts, wanted, start, &mut self.clock, observer);
         match found.run(&self.plan.routes) {
             Ok(found) => self.take(step, stepped, found),
             Err(error) if self.solved == 0 => return Err(error),
             Err(error) => {
                 let info = SolveInfo::new(Status::NumericalTrouble, UNKNOWN);
-                self.last = Some(Last { info, mechanism: None });
+                self.last = Some(Last { info, statics: None, mechanism: None });
                 let Step { stage, number, .. } = step;
                 let error = Box::new(error);
                 return Err(SolveError::Step { stage, step: number, error });
@@ -246,7 +242,7 @@ impl Run {
     /// Keeps a step that was solved; of one that was not, its state only where there is none before.
     /// Of the only step there is nothing to remember but its state.
     fn take(&mut self, step: Step, stepped: Option<(Model, Vec<f64>)>, found: Attempt) {
-        let Attempt { mut info, state, checks, mechanism, basis } = found;
+        let Attempt { mut info, state, checks, mechanism, basis, statics } = found;
         self.basis = basis;
         if let Some(mut state) = state {
             let dissipation = energy::dissipation(&state.contacts);
@@ -274,7 +270,7 @@ impl Run {
                 self.reached = Some(reached);
             }
         }
-        self.last = Some(Last { info, mechanism });
+        self.last = Some(Last { info, statics, mechanism });
     }
 
     /// The record of a step that follows the last one reached; `None` where there is no history.
@@ -328,9 +324,9 @@ impl Run {
     /// The outcome: the state after the last step that was solved.
     pub fn finish(self) -> Outcome {
         let failed = self.steps.get(self.solved).cloned();
-        let Last { info, mechanism } = self.last.unwrap_or_else(|| {
+        let Last { info, statics, mechanism } = self.last.unwrap_or_else(|| {
             let info = SolveInfo::new(Status::Cancelled, UNKNOWN);
-            Last { info, mechanism: None }
+            Last { info, statics: None, mechanism: None }
         });
         let steps = self.steps.len();
         let history = History { records: self.records, failed, steps, loads: self.loads };
@@ -343,6 +339,19 @@ impl Run {
         let contacts = state.as_ref().map(|state| &state.contacts);
         let reactions =
             contacts.map_or_else(Vec::new, |contacts| recover::reactions(&model, contacts));
+        let history = (steps > 1).then_some(history);
+        let sparse = state.as_ref().and_then(|_| Sparse::new(&self.system).ok());
+        let circulating = state.as_ref().zip(sparse);
+        let judgement = Judgement::of(&Known {
+            model: &model,
+            info: &info,
+            state: state.as_ref(),
+            statics: statics.as_ref(),
+            history: history.as_ref(),
+            at_rest: self.system.is_at_rest(),
+            circulating: circulating
+                .map_or(0, |(state, sparse)| verdict::circulating(&sparse.problem, state)),
+        });
         Outcome {
             title: self.title,
             model,
@@ -351,8 +360,9 @@ impl Run {
             state,
             checks,
             reactions,
-            history: (steps > 1).then_some(history),
+            history,
             mechanism,
+            judgement,
             times: self.clock.times,
         }
     }

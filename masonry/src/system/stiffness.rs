@@ -56,7 +56,7 @@ impl Stiffness {
         let matrix = assembled(n, &couplings);
         let factor = match parts {
             Parts::Matrix => None,
-            Parts::MatrixAndFactor => Some(factor(block, mesh, e, &entries)?),
+            Parts::MatrixAndFactor => Some(factor(block, mesh, e, &couplings)?),
         };
         Ok(Self { matrix, factor })
     }

@@ -14,6 +14,7 @@ use masonry::outcome::{
 use masonry::plan::{Choice, Effect, Plan};
 use masonry::scene::Route;
 use masonry::units::{ForceUnit, LengthUnit, Units};
+use masonry::verdict::{Evidence, Judgement, Verdict};
 use nalgebra::{Point2, Vector2};
 
 /// Sizes of the wall.
@@ -95,6 +96,12 @@ pub(crate) fn solved(wall: Wall) -> Outcome {
         reactions,
         history: None,
         mechanism: None,
+        judgement: Judgement {
+            verdict: Verdict::Stands,
+            evidence: Evidence::Equilibrium,
+            sentence: "The wall stands: equilibrium found and verified.".to_owned(),
+            warnings: Vec::new(),
+        },
         times: [("model", 0.0012), ("assembly", 0.031), ("reduction", 0.22), ("solve", 1.75)]
             .map(|(phase, seconds)| PhaseTime { phase: phase.to_owned(), seconds })
             .to_vec(),
@@ -114,6 +121,9 @@ pub(crate) fn unsolved(wall: Wall) -> Outcome {
         [Vector2::new(0.0, if hangs(middle, wall) { -1.0 } else { 0.0 }); 4]
     });
     outcome.mechanism = Some(rates.collect());
+    outcome.judgement.verdict = Verdict::Undecided;
+    outcome.judgement.evidence = Evidence::None;
+    "Undecided: neither was found.".clone_into(&mut outcome.judgement.sentence);
     outcome
 }
 

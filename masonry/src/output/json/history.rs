@@ -39,6 +39,8 @@ struct Record<'a> {
     work: f64,
     dissipation: f64,
     strain_energy: f64,
+    /// `W - U - D` from the beginning.
+    balance: f64,
     max_displacement: f64,
     contacts: Contacts,
     reactions: ByName<'a, Force>,
@@ -46,7 +48,12 @@ struct Record<'a> {
 
 impl<'a> Report<'a> {
     pub(super) fn of(history: &'a History, supports: &'a [Support], units: InUnits) -> Self {
-        let record = |record| Record::of(record, (&history.loads, supports), units);
+        let mut spent = 0.0;
+        let record = |record: &'a StepRecord| {
+            spent += record.work - record.dissipation;
+            let balance = spent - record.strain_energy;
+            Record::of(record, balance, (&history.loads, supports), units)
+        };
         Self {
             steps: history.steps,
             solved: history.records.len(),
@@ -67,6 +74,7 @@ impl<'a> At<'a> {
 impl<'a> Record<'a> {
     fn of(
         record: &'a StepRecord,
+        balance: f64,
         (loads, supports): (&'a [String], &'a [Support]),
         units: InUnits,
     ) -> Self {
@@ -84,6 +92,7 @@ impl<'a> Record<'a> {
             work: units.energy(record.work),
             dissipation: units.energy(record.dissipation),
             strain_energy: units.energy(record.strain_energy),
+            balance: units.energy(balance),
             max_displacement: units.length(record.largest_displacement),
             contacts: Contacts { open, stick, slip },
             reactions: ByName(record.reactions.iter().map(|it| named_force(it, units)).collect()),

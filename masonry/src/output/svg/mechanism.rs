@@ -6,7 +6,7 @@ use super::canvas::{Pixel, fixed};
 use super::deformed::magnification;
 use super::marks::{self, BRICK, OUTLINE};
 use super::sheet::{Bounds, Margins, Sheet};
-use crate::model::Model;
+use crate::model::{Anchor, Model};
 use crate::output::format::InUnits;
 
 const MOVING: &str = "#f0b98d";
@@ -63,8 +63,27 @@ pub fn mechanism(title: &str, model: &Model, rates: &[[Vector2<f64>; 4]]) -> Str
         });
     }
     sheet.entry("amplitude is arbitrary", |_| {});
+    if dilates(model, rates) {
+        // A motion that proves collapse.
+        sheet.entry("joints that slide open by mu times the slip: a bound, not the path", |_| {});
+    }
     sheet.length_bar(InUnits(model.units));
     sheet.finish()
+}
+
+/// Whether joints open just so far that no force inside their friction cones does work.
+fn dilates(model: &Model, rates: &[[Vector2<f64>; 4]]) -> bool {
+    let at = |anchor: Anchor| {
+        let corners = &rates[anchor.block.index()];
+        corners[anchor.edge] * (1.0 - anchor.at) + corners[(anchor.edge + 1) % 4] * anchor.at
+    };
+    model.contacts.iter().any(|contact| {
+        let joint = &model.joints[contact.joint.index()];
+        let apart = at(contact.b) - contact.a.map_or_else(Vector2::zeros, at);
+        let (opens, slides) = (apart.dot(&joint.normal), apart.dot(&joint.tangent()).abs());
+        let edge = contact.mu * slides;
+        edge > AT_REST.sqrt() && (opens - edge).abs() <= AT_REST * edge.max(opens)
+    })
 }
 
 fn speed(rate: &[Vector2<f64>; 4]) -> f64 {

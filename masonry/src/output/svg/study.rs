@@ -233,7 +233,7 @@ fn rounded(lines: &[Line], rounding: f64) -> Option<String> {
 /// A route has the same colour in every picture.
 fn style(route: Route) -> usize {
     match route {
-        Route::Auto | Route::Lemke => 0,
+        Route::Auto | Route::Forces | Route::Lemke => 0,
         Route::Interior => 1,
         Route::Qp => 2,
         Route::Pgs => 3,

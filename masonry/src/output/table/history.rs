@@ -26,12 +26,13 @@ pub(super) fn history(history: &History, units: InUnits) -> String {
         &format!("work [{energy}]"),
         &format!("dissipated [{energy}]"),
         &format!("strain energy [{energy}]"),
+        &format!("W-U-D [{energy}]"),
         &format!("displacement [{length}]"),
         "open",
         "stick",
         "slip",
     ];
-    let mut table = table(&heads, &[2, 3, 4, 5, 6, 7, 8]);
+    let mut table = table(&heads, &[2, 3, 4, 5, 6, 7, 8, 9]);
     let total = |of: fn(&StepRecord) -> f64| {
         shown.iter().map(move |last| {
             let until = records.iter().take_while(|record| record.step != last.step);
@@ -40,23 +41,28 @@ pub(super) fn history(history: &History, units: InUnits) -> String {
     };
     let work: Vec<f64> = total(|record| record.work).collect();
     let dissipated: Vec<f64> = total(|record| record.dissipation).collect();
-    let stored = shown.iter().map(|record| units.energy(record.strain_energy));
-    let energies: Vec<f64> = work.into_iter().chain(dissipated).chain(stored).collect();
+    let stored: Vec<f64> = shown.iter().map(|record| units.energy(record.strain_energy)).collect();
+    let left = (0..shown.len()).map(|k| work[k] - stored[k] - dissipated[k]);
+    let left: Vec<f64> = left.collect();
+    let energies = [work, dissipated, stored, left].concat();
     let energies = aligned(&energies, 5);
     let moved: Vec<f64> =
         shown.iter().map(|record| units.length(record.largest_displacement)).collect();
     let moved = aligned(&moved, 5);
     for (k, record) in shown.iter().enumerate() {
-        let [work, dissipated, stored] =
-            [0, 1, 2].map(|column| &energies[column * shown.len() + k]);
+        let [work, dissipated, stored, left] =
+            [0, 1, 2, 3].map(|column| &energies[column * shown.len() + k]);
         let counts = record.contacts.map(|count| count.to_string());
         let [open, stick, slip] = &counts;
         let step = place(&record.step);
         let stage = &record.step.stage;
-        table.add_row(vec![stage, &step, work, dissipated, stored, &moved[k], open, stick, slip]);
+        table.add_row(vec![
+            stage, &step, work, dissipated, stored, left, &moved[k], open, stick, slip,
+        ]);
     }
-    let mut text =
-        table.trim_fmt() + "\n Work and dissipated energy are sums from the beginning.\n";
+    let mut text = table.trim_fmt()
+        + "\n Work W and dissipated energy D are sums from the beginning. W-U-D, with the strain energy U, \n is what the \
+         steps are too long for.\n";
     if let Some(failed) = &history.failed {
         let step = format!("{} of stage \"{}\"", place(failed), failed.stage);
         text += &pairs(&[("not solved", step)]);

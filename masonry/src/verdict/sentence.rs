@@ -1,0 +1,140 @@
+//! Verdicts in the words of an engineer.
+
+use lcp::Status;
+
+use super::{Evidence, Known, Movement, Verdict};
+use crate::history::{History, Step};
+use crate::model::Model;
+use crate::scene::Movement as Place;
+
+/// The sentence of a verdict; of a load history two, the second of which says how far it went.
+pub(super) fn of(
+    known: &Known<'_>,
+    (verdict, evidence): (Verdict, Evidence),
+    movement: Option<Movement>,
+) -> String {
+    let failed = known.history.and_then(|history| history.failed.as_ref());
+    let at = failed.map(at_step).unwrap_or_default();
+    let first = match (verdict, evidence) {
+        (Verdict::Stands, Evidence::AdmissibleForces) => {
+            "The wall stands: admissible forces exist and were verified, which is the upper end of what \
+             friction allows."
+                .to_owned()
+        }
+        (Verdict::Stands, _) => match known.history {
+            Some(history) => format!(
+                "The wall stands in all {} steps: equilibrium found and verified in each.",
+                history.steps
+            ),
+            None => "The wall stands: equilibrium found and verified.".to_owned(),
+        },
+        (Verdict::Falls, _) => format!(
+            "The wall falls{at}: no contact forces within friction balance the loads (proof checked)."
+        ),
+        (Verdict::Undecided, _) => format!("Undecided{at}: {}", undecided(known, evidence, movement)),
+    };
+    match known
+        .history
+        .filter(|_| verdict != Verdict::Stands)
+        .and_then(|it| reached(known.model, it))
+    {
+        Some(reached) => format!("{first} {reached}"),
+        None => first,
+    }
+}
+
+/// The size of a movement.
+pub(super) fn of_movement(movement: Movement) -> String {
+    let Movement { share, turned } = movement;
+    format!(
+        "blocks move against each other or are deformed by up to {share:.2} of their size, and turn by up to \
+         {turned:.2} rad"
+    )
+}
+
+fn undecided(known: &Known<'_>, evidence: Evidence, movement: Option<Movement>) -> String {
+    let info = known.info;
+    let tried = tried(known);
+    match (info.status, evidence) {
+        (Status::Solved, _) => {
+            let movement = movement.map(of_movement).unwrap_or_default();
+            format!("an equilibrium was computed, but far beyond small displacements: {movement}.")
+        }
+        (Status::Cancelled, _) => "the solve was cancelled before it came to an end.".to_owned(),
+        (Status::Infeasible, _) if info.proved => {
+            "it is proved that no displacements and forces fit gaps, supports and loads together, but not \
+             that the loads find no forces that balance them."
+                .to_owned()
+        }
+        (_, Evidence::AdmissibleForces) => format!(
+            "forces within friction that balance the loads exist, but no equilibrium with displacements \
+             that fit them was found{tried}."
+        ),
+        _ => format!("neither an equilibrium nor a proof that there is none was found{tried}."),
+    }
+}
+
+/// What was tried, and how near it came.
+fn tried(known: &Known<'_>) -> String {
+    let info = known.info;
+    let mut names: Vec<&str> = info.routes.iter().map(|end| end.route.name()).collect();
+    names.retain(|name| *name != "forces");
+    let near = info.residuals.worst();
+    let near = if near.is_finite() {
+        format!("; what came nearest leaves a residual of {near:.0e}")
+    } else {
+        String::new()
+    };
+    match names.as_slice() {
+        [] => String::new(),
+        names => format!(" (tried: {}{near})", names.join(", ")),
+    }
+}
+
+fn at_step(step: &Step) -> String {
+    format!(" in step {} of {} of stage \"{}\"", step.number, step.of, step.stage)
+}
+
+/// How far a history went before the step that failed.
+fn reached(model: &Model, history: &History) -> Option<String> {
+    let failed = history.failed.as_ref()?;
+    let Some(last) = history.records.last() else {
+        return Some("No step before it was solved.".to_owned());
+    };
+    let (before, after) = (&last.step.actions, &failed.actions);
+    let mut changed = Vec::new();
+    let mut factor = |name: &str, [before, after]: [f64; 2]| {
+        if (before - after).abs() > 0.0 {
+            changed
+                .push(format!("{name} at {before:.4} times its full value, {after:.4} asked for"));
+        }
+    };
+    factor("gravity", [before.gravity, after.gravity]);
+    for ((name, before), after) in history.loads.iter().zip(&before.loads).zip(&after.loads) {
+        factor(&format!("load \"{name}\""), [*before, *after]);
+    }
+    let places = before.movements.iter().zip(&after.movements).zip(&model.supports);
+    let moved = places.filter(|((before, after), _)| before != after);
+    let length = model.units.length_to_si();
+    changed.extend(moved.map(|((before, _), support)| {
+        let Place { x, y, turn } = before.in_lengths(1.0 / length);
+        let [x, y, turn] = [x, y, turn].map(short);
+        let unit = model.units.length_name();
+        format!("support \"{}\" moved by ({x}, {y}) {unit} and turned by {turn} rad", support.name)
+    }));
+    let Step { stage, number, of, .. } = &last.step;
+    let solved = history.records.len();
+    let steps = history.steps;
+    let place = format!(
+        "It stood in {solved} of {steps} steps, up to step {number} of {of} of stage \"{stage}\""
+    );
+    Some(match changed.as_slice() {
+        [] => format!("{place}."),
+        changed => format!("{place}: {}.", changed.join("; ")),
+    })
+}
+
+/// Without the digits that interpolation leaves.
+fn short(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}

@@ -1,0 +1,62 @@
+//! Verdicts of random walls against a linear program of admissible forces that is set up here, from the geometry of the
+//! contact points alone, and solved by another library.
+//!
+//! Every wall is tilted around the largest tilt for which that program has a solution. Rigid walls without gaps stand
+//! below it and fall above; elastic ones and those with gaps fall above it too, and nothing ever falls below.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+
+#[path = "verdict/program.rs"]
+mod program;
+#[path = "verdict/walls.rs"]
+mod walls;
+
+use masonry::solve::solve;
+use masonry::verdict::{Evidence, Verdict};
+
+use program::{Limit, largest_tilt};
+use walls::{Kind, Random};
+
+/// Of the largest tilt.
+const AROUND: [f64; 5] = [0.5, 1.0 - 1e-3, 1.0 - 1e-5, 1.0 + 1e-5, 1.0 + 1e-3];
+
+#[test]
+fn verdicts_agree_with_a_linear_program() {
+    let mut random = Random(20_261_122);
+    let (mut scenes, mut open) = (0, Vec::new());
+    for number in 0..48 {
+        let wall = walls::any(&mut random);
+        let limit = largest_tilt(&wall.model());
+        let tilts: Vec<(f64, bool)> = match limit {
+            Limit::None => vec![(0.0, false)],
+            Limit::Unlimited => vec![(0.3, true), (3.0, true)],
+            Limit::Tilt(limit) if limit > 1e-6 => {
+                AROUND.iter().map(|part| (part * limit, *part < 1.0)).collect()
+            }
+            // Any tilt is too much.
+            Limit::Tilt(_) => vec![(1e-3, false), (0.1, false)],
+        };
+        for (tilt, stands) in tilts {
+            let name = format!("{number}: {} tilted by {tilt}, limit {limit:?}", wall.title());
+            let outcome =
+                solve(&wall.tilted(tilt)).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let (verdict, evidence) = (outcome.judgement.verdict, outcome.judgement.evidence);
+            scenes += 1;
+            if !stands {
+                assert_eq!(verdict, Verdict::Falls, "{name}: {:#?}", outcome.solve.attempts);
+                assert_eq!(evidence, Evidence::NoAdmissibleForces, "{name}");
+                continue;
+            }
+            assert_ne!(verdict, Verdict::Falls, "{name}: {:#?}", outcome.solve.attempts);
+            if wall.kind == Kind::Rigid {
+                assert_eq!(verdict, Verdict::Stands, "{name}: {:#?}", outcome.solve.attempts);
+                assert_eq!(evidence, Evidence::AdmissibleForces, "{name}");
+            } else if verdict == Verdict::Undecided {
+                open.push(format!("{name}: {}", outcome.judgement.sentence));
+            }
+        }
+    }
+    assert!((180..300).contains(&scenes), "{scenes} scenes");
+    // Near the limit an elastic wall may find no equilibrium although there are admissible forces.
+    assert!(10 * open.len() <= scenes, "{} of {scenes}: {open:#?}", open.len());
+}
