@@ -27,12 +27,8 @@ impl Planned for Friction2d {
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
-            Method::Lemke => Some(Box::new(effort.lemke())),
-            Method::Enumeration => Some(Box::new(effort.enumeration())),
-            Method::Smoothing => Some(Box::new(effort.smoothing())),
-            Method::Interior => Some(Box::new(effort.interior_point())),
             Method::GaussSeidel => Some(Box::new(effort.sweeps())),
-            _ => None,
+            _ => effort.common(method),
         }
     }
 }
@@ -89,14 +85,10 @@ impl Planned for Contact2d {
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
-            Method::Lemke => Some(Box::new(effort.lemke())),
-            Method::Enumeration => Some(Box::new(effort.enumeration())),
-            Method::Smoothing => Some(Box::new(effort.smoothing())),
-            Method::Interior => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
             Method::QuadraticProgram => Some(Box::new(effort.quadratic_program())),
             Method::GaussSeidel => Some(Box::new(effort.sweeps())),
-            _ => None,
+            _ => effort.common(method),
         }
     }
 

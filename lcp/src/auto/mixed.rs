@@ -33,13 +33,9 @@ impl Planned for MixedLcp {
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
-            Method::Lemke => Some(Box::new(effort.lemke())),
-            Method::Enumeration => Some(Box::new(effort.enumeration())),
-            Method::Smoothing => Some(Box::new(effort.smoothing())),
-            Method::Interior => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
             Method::QuadraticProgram => Some(Box::new(effort.quadratic_program())),
-            _ => None,
+            _ => effort.common(method),
         }
     }
 }
@@ -71,12 +67,8 @@ impl Planned for BoxedLcp {
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
-            Method::Lemke => Some(Box::new(effort.lemke())),
-            Method::Enumeration => Some(Box::new(effort.enumeration())),
-            Method::Smoothing => Some(Box::new(effort.smoothing())),
-            Method::Interior => Some(Box::new(effort.interior_point())),
             Method::GaussSeidel => Some(Box::new(effort.sweeps())),
-            _ => None,
+            _ => effort.common(method),
         }
     }
 }
