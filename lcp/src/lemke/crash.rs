@@ -10,7 +10,6 @@ use faer::{Mat, MatRef};
 
 pub(super) use found::Crash;
 
-use found::is_over;
 use matching::matched_sides;
 use sparse::find_sparse;
 
@@ -18,6 +17,7 @@ use super::constants::{DENSE_SEARCH, GAIN, GAIN_SWEEPS, RANK_TOLERANCE};
 use super::start::Equilibrated;
 use super::tableau::Tableau;
 use crate::linear::Lu;
+use crate::solve::is_over;
 use crate::sparse::Columns;
 use crate::vector::max_abs;
 use crate::{Basis, Side};

@@ -1,7 +1,5 @@
 //! What a search for a start basis finds, dense or sparse, and what both searches go by.
 
-use std::time::Instant;
-
 use crate::{Basis, Matrix, Side};
 
 /// As many independent columns as there are, at most one of every pair.
@@ -13,8 +11,4 @@ pub(crate) enum Crash {
     Partial { chosen: Vec<Option<Side>>, complement: Matrix },
     /// The time was over first.
     Late,
-}
-
-pub(super) fn is_over(deadline: Option<Instant>) -> bool {
-    deadline.is_some_and(|deadline| Instant::now() >= deadline)
 }

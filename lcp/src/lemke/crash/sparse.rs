@@ -7,11 +7,12 @@
 
 use std::time::Instant;
 
-use super::found::{Crash, is_over};
+use super::found::Crash;
 use super::matching::matched_sides;
 use crate::lemke::constants::{DEPENDENCE, ENLARGED, GAIN, RANK_TOLERANCE, SOLVES};
 use crate::lemke::kernel::{Kernel, Var};
 use crate::lemke::start::Equilibrated;
+use crate::solve::is_over;
 use crate::sparse::{Columns, Growing, SparseLu, elimination_order, row_counts};
 use crate::vector::max_abs;
 use crate::{Basis, Matrix, Side};
