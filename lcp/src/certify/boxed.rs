@@ -3,7 +3,7 @@
 use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
 use super::significance::{Term, add_terms};
 use super::{Residuals, weights};
-use crate::extended::Extended;
+use crate::extended::{Extended, extended};
 use crate::matrix::Column;
 use crate::{BoxedLcp, Lcp, Matrix, MixedLcp};
 
@@ -56,25 +56,22 @@ pub(crate) struct BoxedJudge<'a> {
 
 impl<'a> BoxedJudge<'a> {
     pub(crate) fn of_standard(problem: &'a Lcp) -> Self {
-        Self::new(problem.m(), problem.q(), None)
+        let loads = problem.q().iter().map(|q| q.abs()).collect();
+        Self::new(problem.m(), problem.q(), None, loads)
     }
 
     pub(crate) fn of_boxed(problem: &'a BoxedLcp) -> Self {
         let bounds = (problem.lower(), problem.upper());
-        Self::new(problem.m(), problem.q(), Some(bounds))
+        Self::new(problem.m(), problem.q(), Some(bounds), problem.row_loads())
     }
 
-    fn new(m: &'a Matrix, q: &'a [f64], bounds: Option<(&'a [f64], &'a [f64])>) -> Self {
+    fn new(
+        m: &'a Matrix,
+        q: &'a [f64],
+        bounds: Option<(&'a [f64], &'a [f64])>,
+        loads: Vec<f64>,
+    ) -> Self {
         let n = q.len();
-        // Bounds that keep a variable from zero are loads, too.
-        let mut loads: Vec<f64> = q.iter().map(|q| q.abs()).collect();
-        for (j, (lower, upper)) in bounds.into_iter().flat_map(|(l, u)| l.iter().zip(u)).enumerate()
-        {
-            let nearest = lower.max(0.0) - upper.min(0.0);
-            if nearest != 0.0 {
-                m.slice(j).for_each(|i, v| loads[i] += (v * nearest).abs());
-            }
-        }
         let columns: Vec<Column<'_>> = (0..n).map(|j| m.slice(j)).collect();
         let weights = weights::weights(&columns, &loads);
         Self { m, q, bounds, loads, weights, length: n as f64 + 2.0 }
@@ -88,17 +85,15 @@ impl<'a> BoxedJudge<'a> {
         if z.iter().chain(w).any(|v| !v.is_finite()) {
             return Residuals::infinite();
         }
-        if precision != Precision::Quick && self.at(z, w).is_hidden() {
-            let extended = |v: &[f64]| v.iter().copied().map(Extended::from).collect::<Vec<_>>();
-            let (z, w) = (extended(z), extended(w));
-            return ledger::residuals(&self.at(&z, &w), &self.weights, self.length, precision);
-        }
-        ledger::residuals(&self.at(z, w), &self.weights, self.length, precision)
+        let rows = (&self.weights[..], self.length);
+        ledger::residuals_or_refined(&self.at(z, w), rows, precision, || {
+            ledger::residuals(&self.at(&extended(z), &extended(w)), rows, precision)
+        })
     }
 
     /// The same of a point of twice the digits.
     pub(crate) fn residuals_of(&self, z: &[Extended], w: &[Extended]) -> Residuals {
-        ledger::residuals(&self.at(z, w), &self.weights, self.length, Precision::Exact)
+        ledger::residuals(&self.at(z, w), (&self.weights, self.length), Precision::Exact)
     }
 
     fn at<'b, X: Digits>(&'b self, z: &'b [X], w: &'b [X]) -> At<'b, X> {
@@ -126,12 +121,6 @@ struct At<'a, X> {
     judge: &'a BoxedJudge<'a>,
     z: &'a [X],
     w: &'a [X],
-}
-
-impl<X: Digits> At<'_, X> {
-    fn is_hidden(&self) -> bool {
-        ledger::is_hidden(&self.rows().1, &self.judge.weights, self.judge.length)
-    }
 }
 
 impl<X: Digits> Point for At<'_, X> {

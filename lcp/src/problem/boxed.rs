@@ -145,8 +145,8 @@ impl BoxedLcp {
                 }
             }
         }
-        let a = a.into_matrix(c.len(), self.m.is_sparse());
-        HorizontalLcp::from_parts(a, b.into_matrix(c.len(), true), c)
+        let a = Matrix::assembled(c.len(), self.m.is_sparse(), a.0.into_iter());
+        HorizontalLcp::from_parts(a, Matrix::from_entries(c.len(), c.len(), b.0.into_iter()), c)
     }
 
     /// `(z, w)` from a point of the general problem.
@@ -216,13 +216,9 @@ impl BoxedLcp {
     /// For every variable the largest value with which it would balance alone a right-hand side in one of its rows,
     /// and what the bounds nearest to zero add to these.
     fn sizes(&self) -> Vec<f64> {
-        let nearest = |i: usize| self.lower[i].max(0.0) - self.upper[i].min(0.0);
-        let mut loads: Vec<f64> = self.q.iter().map(|q| q.abs()).collect();
-        for j in (0..self.order()).filter(|j| nearest(*j) != 0.0) {
-            self.m.slice(j).for_each(|i, v| loads[i] += (v * nearest(j)).abs());
-        }
+        let loads = self.row_loads();
         let size = |j: usize| {
-            let mut size = nearest(j).abs();
+            let mut size = self.nearest(j).abs();
             self.m.slice(j).for_each(|i, v| {
                 if v != 0.0 {
                     size = size.max(loads[i] / v.abs());
@@ -231,6 +227,20 @@ impl BoxedLcp {
             size
         };
         (0..self.order()).map(size).collect()
+    }
+
+    /// The sizes of the right-hand sides. Bounds that keep a variable from zero are loads, too.
+    pub(crate) fn row_loads(&self) -> Vec<f64> {
+        let mut loads: Vec<f64> = self.q.iter().map(|q| q.abs()).collect();
+        for j in (0..self.order()).filter(|j| self.nearest(*j) != 0.0) {
+            self.m.slice(j).for_each(|i, v| loads[i] += (v * self.nearest(j)).abs());
+        }
+        loads
+    }
+
+    /// The bound that keeps a variable from zero, or zero.
+    fn nearest(&self, j: usize) -> f64 {
+        self.lower[j].max(0.0) - self.upper[j].min(0.0)
     }
 
     /// For every variable the further pair that its two bounds have in the general problem.
@@ -286,14 +296,5 @@ impl Entries {
                 self.0.push((i, j, factor * v));
             }
         });
-    }
-
-    fn into_matrix(self, n: usize, sparse: bool) -> Matrix {
-        if sparse {
-            return Matrix::from_entries(n, n, self.0.into_iter());
-        }
-        let mut dense = faer::Mat::zeros(n, n);
-        self.0.into_iter().for_each(|(i, j, v)| dense[(i, j)] += v);
-        Matrix::Dense(dense)
     }
 }
