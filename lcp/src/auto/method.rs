@@ -29,6 +29,14 @@ impl Step {
     }
 }
 
+/// The same steps, whose reasons say first what problem it is.
+pub(super) fn named(problem: &str, mut steps: Vec<Step>) -> Vec<Step> {
+    for step in &mut steps {
+        step.reason = format!("{problem}, {}", step.reason);
+    }
+    steps
+}
+
 /// The chain of a problem with its last resort: for small ones behind pivots, which it is as fast as.
 pub(super) fn chain_of<P: Planned>(problem: &P) -> Vec<Step> {
     let mut steps = problem.steps();

@@ -12,3 +12,27 @@ pub(crate) enum Crash {
     /// The time was over first.
     Late,
 }
+
+/// A chosen column of a pair, and the place in the queue of the one that it takes the place of.
+pub(super) type Exchange = (usize, Side, Option<usize>);
+
+/// The chosen columns after all exchanges that led to a place of the queue.
+pub(super) fn exchanged(
+    chosen: &[Option<Side>],
+    queue: &[Exchange],
+    last: usize,
+) -> Vec<Option<Side>> {
+    let mut next = chosen.to_vec();
+    let mut at = Some(last);
+    while let Some(i) = at {
+        let (pair, side, from) = queue[i];
+        next[pair] = Some(side);
+        at = from;
+    }
+    next
+}
+
+/// Both columns of pairs without one, with which chains begin.
+pub(super) fn beginnings(pairs: impl Iterator<Item = usize>, preferred: &[Side]) -> Vec<Exchange> {
+    pairs.flat_map(|k| [(k, preferred[k], None), (k, preferred[k].complement(), None)]).collect()
+}
