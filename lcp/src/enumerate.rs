@@ -12,7 +12,7 @@
 use std::time::Instant;
 
 use crate::certify::{Leaf, ROUNDING, is_proof_of};
-use crate::extended::Extended;
+use crate::extended::{Extended, extended};
 use crate::matrix::Column;
 use crate::nonnegative::{LeastSquares, Minimum};
 use crate::scaling::{GIVEN, equilibrate};
@@ -209,7 +209,7 @@ impl<'a> Tree<'a> {
     /// Whether every row of the problem holds up to rounding, and up to a small part of the right-hand
     /// side: far enough out all rows hold compared with their terms.
     fn holds(&self, t: &[f64], y: &[f64]) -> bool {
-        let mut rest: Vec<Extended> = self.problem.c().iter().map(|&c| Extended::from(c)).collect();
+        let mut rest = extended(self.problem.c());
         let mut terms: Vec<f64> = self.problem.c().iter().map(|c| c.abs()).collect();
         for (column, &x) in columns(self.problem, &vec![None; t.len()]).zip(t.iter().chain(y)) {
             column.for_each(|i, v| {

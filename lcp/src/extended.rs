@@ -134,3 +134,8 @@ impl std::ops::Div for Extended {
         Self::normal(first, second) + Self::from(rest.high / other.high)
     }
 }
+
+/// The same numbers with twice the digits.
+pub(crate) fn extended(v: &[f64]) -> Vec<Extended> {
+    v.iter().copied().map(Extended::from).collect()
+}

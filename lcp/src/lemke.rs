@@ -36,6 +36,7 @@ use std::time::Instant;
 
 use search::Search;
 
+use crate::solve::deadline_of;
 use crate::{Error, HorizontalLcp, LemkeSettings, Method, Solution};
 
 /// Lemke's method (Lemke 1965; Cottle, Pang and Stone, *The Linear Complementarity Problem*,
@@ -96,7 +97,7 @@ impl Lemke {
     ) -> Result<Solution, Error> {
         self.settings.validate(problem.order())?;
         let began = Instant::now();
-        let deadline = self.settings.time_limit.and_then(|limit| began.checked_add(limit));
+        let deadline = deadline_of(began, self.settings.time_limit);
         let mut solution = Search::new(&self.settings, problem, deadline).run(observer);
         solution.info.method = Method::Lemke;
         solution.info.seconds = began.elapsed().as_secs_f64();

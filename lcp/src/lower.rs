@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use crate::certify::Residuals;
 use crate::{
     BoxedLcp, Contact2d, ContactState, Error, Friction2d, HorizontalLcp, Lcp, MixedLcp, Solution,
-    StandardForm, Status,
+    Status, WarmStart,
 };
 
 /// A problem with a general form. Only the problems of the library are.
@@ -59,14 +59,6 @@ impl Lowered for BoxedLcp {
         solution.residuals = self.residuals(&z, &w);
         solution.boxed = Some((z, w));
         judged(solution, tolerance)
-    }
-}
-
-impl StandardForm {
-    /// Brings a solution of the standard problem back to the pairs of the general one.
-    pub(crate) fn restore(&self, solution: &mut Solution) {
-        (solution.t, solution.y) = self.to_pairs(&solution.t, &solution.y);
-        solution.basis = solution.basis.as_ref().map(|basis| self.basis(basis));
     }
 }
 
@@ -152,6 +144,35 @@ pub(crate) fn solve_lowered<P: Lowered>(
         }
     }
     Ok(judged_by(problem, solve(&problem.general(), false)?, tolerance))
+}
+
+/// Solves a problem that is a standard one in disguise, with the start that belongs to that one.
+///
+/// # Errors
+/// Those of the method, and for other problems the one given.
+pub(crate) fn solve_disguised(
+    problem: &HorizontalLcp,
+    (start, tolerance): (&WarmStart, f64),
+    refused: impl FnOnce() -> Error,
+    solve: impl FnOnce(&Lcp, WarmStart) -> Result<Solution, Error>,
+) -> Result<Solution, Error> {
+    let standard = problem.to_standard().ok_or_else(refused)?;
+    let mut solution = solve(standard.lcp(), standard.start(start))?;
+    (solution.t, solution.y) = standard.to_pairs(&solution.t, &solution.y);
+    solution.basis = solution.basis.map(|basis| standard.basis(&basis));
+    Ok(judged_by(problem, solution, tolerance))
+}
+
+/// A point of the general form, judged by the problem itself.
+pub(crate) fn judged_point(
+    problem: &impl General,
+    (t, y): (Vec<f64>, Vec<f64>),
+    tolerance: f64,
+    otherwise: Status,
+) -> Solution {
+    let residuals = problem.residuals_of_pairs(&t, &y);
+    let contact = problem.state_of_pairs(&t, &y);
+    Solution { contact, ..Solution::judged((t, y), residuals, tolerance, otherwise) }
 }
 
 /// The solution of another form, whose pairs were brought back, judged by the problem itself.

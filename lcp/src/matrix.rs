@@ -100,6 +100,20 @@ impl Matrix {
         Self::from_entries(n, n, (0..n).map(|i| (i, i, value)))
     }
 
+    /// A square matrix from entries `(row, column, value)`, which add up where they coincide.
+    pub(crate) fn assembled(
+        n: usize,
+        is_sparse: bool,
+        entries: impl Iterator<Item = (usize, usize, f64)>,
+    ) -> Self {
+        if is_sparse {
+            return Self::from_entries(n, n, entries);
+        }
+        let mut dense = Mat::zeros(n, n);
+        entries.for_each(|(i, j, v)| dense[(i, j)] += v);
+        dense.into()
+    }
+
     /// A sparse matrix from entries `(row, column, value)`, which add up where they coincide.
     pub(crate) fn from_entries(
         rows: usize,

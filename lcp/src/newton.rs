@@ -166,11 +166,8 @@ impl SemismoothNewton {
         }
         let mut solution = Solution::judged(point, residuals, settings.tolerance, status);
         solution.basis = Some(basis_of(is_free));
-        solution.info.method = Method::Newton;
-        solution.info.iterations = monitor.iterations();
+        solution.info = monitor.info(Method::Newton);
         solution.info.factorisations = system.factorisations();
-        solution.info.seconds = monitor.seconds();
-        solution.info.history = monitor.history;
         Ok(solution)
     }
 
@@ -316,17 +313,10 @@ impl Solver<HorizontalLcp> for SemismoothNewton {
                      pair, all in different rows: take Lemke"
                     .to_owned(),
         })?;
-        let exchanged = |basis: &Basis| {
-            let indicator = |it| basis.sides().iter().map(|s| f64::from(*s == it)).collect();
-            let (t, y): (Vec<f64>, Vec<f64>) = (indicator(Side::T), indicator(Side::Y));
-            let (z, w) = standard.from_pairs(&t, &y);
-            basis_of(&larger(&z, &w))
-        };
         let start = match &settings.start {
-            WarmStart::None => WarmStart::None,
-            WarmStart::Basis(basis) => WarmStart::Basis(exchanged(basis)),
             // In units of the vectors of the problem as it was given.
-            WarmStart::Point { t, y } => WarmStart::Basis(exchanged(&basis_of(&larger(t, y)))),
+            WarmStart::Point { t, y } => WarmStart::Basis(standard.basis(&basis_of(&larger(t, y)))),
+            other => standard.start(other),
         };
         let inner = Self::new(SemismoothNewtonSettings { start, ..settings.clone() });
         let mut solution = inner.solve_judged(standard.lcp(), observer, |z, w| {
@@ -334,7 +324,7 @@ impl Solver<HorizontalLcp> for SemismoothNewton {
             let residuals = problem.residuals(&t, &y);
             ((t, y), residuals)
         })?;
-        solution.basis = solution.basis.as_ref().map(exchanged);
+        solution.basis = solution.basis.map(|basis| standard.basis(&basis));
         Ok(solution)
     }
 }

@@ -6,7 +6,7 @@
 //! `r = c - sum x_j a_j` has `r . a_j <= 0` for all columns and `r . c = |r|^2`: where it is not zero, it
 //! proves that `c` is no nonnegative combination of the columns.
 
-use crate::extended::Extended;
+use crate::extended::{Extended, extended};
 
 /// Rounding of sums in [`Extended`], relative to the sizes of what they come from.
 const ROUNDING: f64 = f64::EPSILON * f64::EPSILON * 256.0;
@@ -111,8 +111,7 @@ impl LeastSquares {
 
     /// Values of the passive columns at the minimum, refined once.
     fn minimum_of(&self, passive: &Passive) -> Vec<Extended> {
-        let right: Vec<Extended> = self.right.iter().map(|&c| Extended::from(c)).collect();
-        let mut values = passive.minimum(right);
+        let mut values = passive.minimum(extended(&self.right));
         let mut x = vec![Extended::ZERO; self.columns.len()];
         passive.columns.iter().zip(&values).for_each(|(&j, &value)| x[j] = value);
         let correction = passive.minimum(self.difference(&x));
@@ -128,7 +127,7 @@ impl LeastSquares {
     }
 
     fn difference(&self, x: &[Extended]) -> Vec<Extended> {
-        let mut rest: Vec<Extended> = self.right.iter().map(|&c| Extended::from(c)).collect();
+        let mut rest = extended(&self.right);
         for (column, &x) in self.columns.iter().zip(x).filter(|(_, x)| **x != Extended::ZERO) {
             rest.iter_mut().zip(column).for_each(|(rest, &v)| *rest += -(x * v));
         }
@@ -177,7 +176,7 @@ struct Passive {
 impl Passive {
     /// Says no where the column depends on the others.
     fn add(&mut self, j: usize, column: &[f64]) -> bool {
-        let mut rest: Vec<Extended> = column.iter().map(|&v| Extended::from(v)).collect();
+        let mut rest = extended(column);
         let whole = dot(&rest, &rest);
         let mut factors = vec![Extended::ZERO; self.columns.len()];
         for _ in 0..2 {

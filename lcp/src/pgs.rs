@@ -164,7 +164,13 @@ impl ProjectedGaussSeidel {
         let sweeps = Sweeps::new(&self.settings, rows, q, constraints, start)?;
         let (best, status) = sweeps.run(&mut monitor, &mut residuals_of_rows);
         let Best { z, w, residuals, .. } = best;
-        Ok(RowsSolution { status, z, w, residual: residuals.worst(), info: info(monitor) })
+        Ok(RowsSolution {
+            status,
+            z,
+            w,
+            residual: residuals.worst(),
+            info: monitor.info(Method::GaussSeidel),
+        })
     }
 
     fn monitor<'a>(&self, observer: &'a mut Observer<'a>) -> Monitor<'a> {
@@ -195,7 +201,7 @@ impl ProjectedGaussSeidel {
         monitor: Monitor<'_>,
     ) -> Solution {
         let mut solution = Solution::judged(pairs, residuals, self.settings.tolerance, status);
-        solution.info = info(monitor);
+        solution.info = monitor.info(Method::GaussSeidel);
         solution
     }
 }
@@ -207,16 +213,6 @@ impl<P: Sweepable> Solver<P> for ProjectedGaussSeidel {
 
     fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         problem.solve_by(self, observer)
-    }
-}
-
-fn info(monitor: Monitor<'_>) -> Info {
-    Info {
-        method: Method::GaussSeidel,
-        iterations: monitor.iterations(),
-        seconds: monitor.seconds(),
-        history: monitor.history,
-        ..Info::default()
     }
 }
 

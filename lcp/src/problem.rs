@@ -14,9 +14,9 @@ pub use boxed::BoxedLcp;
 pub use contact::{
     Bedding, Contact2d, Contact2dBuilder, ContactPoint, ContactState, ContactStatus,
 };
-pub(crate) use contact::{
-    check_epsilon, column_factors, column_of, diagonal, median, power_of_two,
-};
+#[cfg(feature = "clarabel")]
+pub(crate) use contact::{check_epsilon, ratio};
+pub(crate) use contact::{column_factors, column_of, diagonal, median};
 pub use disguised::StandardForm;
 pub use friction::{ContactForces, Friction2d};
 pub use horizontal::HorizontalLcp;

@@ -23,7 +23,7 @@ use program::Run;
 pub use settings::{ContactForm, QuadraticProgramSettings, SoftConstraints};
 pub use soft::SoftSolution;
 
-use crate::lower::judged_by;
+use crate::lower::solve_disguised;
 use crate::{Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Observer, Solution, Solver};
 
 /// Complementarity problems that are the conditions of a convex quadratic program.
@@ -179,20 +179,17 @@ impl Solver<HorizontalLcp> for QuadraticProgram {
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         self.settings.validate(problem.order())?;
-        let standard = problem.to_standard().ok_or_else(|| {
+        let not_standard = || {
             refused(
                 "it is no standard problem w = M z + q: not every pair has a column with one entry \
                  in a row of its own",
             )
-        })?;
-        let settings = QuadraticProgramSettings {
-            start: standard.start(&self.settings.start),
-            ..self.settings.clone()
         };
-        let solver = Self::new(settings);
-        let mut solution = solver.solve_standard(standard.lcp(), &|| problem.clone(), observer)?;
-        standard.restore(&mut solution);
-        Ok(judged_by(problem, solution, self.settings.tolerance))
+        let given = (&self.settings.start, self.settings.tolerance);
+        solve_disguised(problem, given, not_standard, |lcp, start| {
+            let solver = Self::new(QuadraticProgramSettings { start, ..self.settings.clone() });
+            solver.solve_standard(lcp, &|| problem.clone(), observer)
+        })
     }
 }
 

@@ -213,8 +213,8 @@ fn logarithm(v: f64, noise: f64) -> (f64, f64) {
     (digits * UNIT - BIAS, kept)
 }
 
-/// The power of two nearest to a positive number, on a logarithmic scale.
-fn power_of_two(x: f64) -> f64 {
+/// The power of two nearest to a positive number, on a logarithmic scale: as a factor it costs no accuracy.
+pub(crate) fn power_of_two(x: f64) -> f64 {
     x.log2().round().clamp(-1000.0, 1000.0).exp2()
 }
 

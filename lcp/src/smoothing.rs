@@ -105,9 +105,7 @@ enum Factors {
 impl Data {
     fn new(problem: &HorizontalLcp) -> Self {
         let n = problem.order();
-        let sides = [Side::T, Side::Y].into_iter();
-        let columns: Vec<Column<'_>> =
-            sides.flat_map(|side| (0..n).map(move |j| problem.column(j, side))).collect();
+        let columns = problem.columns();
         let (rows, cols) = equilibrate(n, &columns, GIVEN);
         let right: Vec<f64> = problem.c().iter().zip(&rows).map(|(c, row)| c * row).collect();
         let size = if max_abs(&right) > 0.0 { max_abs(&right) } else { 1.0 };

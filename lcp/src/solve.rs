@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use crate::{Error, Method, Solution, Status};
+use crate::{Error, Info, Method, Solution, Status};
 
 /// A method that treats problems of type `P`.
 ///
@@ -62,6 +62,15 @@ pub struct Iteration {
 /// What is called while a method is at work, and says whether it goes on.
 pub type Observer<'a> = dyn FnMut(&Iteration) -> ControlFlow<()> + 'a;
 
+/// When a limit on time is over; a limit beyond all clocks is none.
+pub(crate) fn deadline_of(began: Instant, time_limit: Option<Duration>) -> Option<Instant> {
+    time_limit.and_then(|limit| began.checked_add(limit))
+}
+
+pub(crate) fn is_over(deadline: Option<Instant>) -> bool {
+    deadline.is_some_and(|deadline| Instant::now() >= deadline)
+}
+
 /// Watches over the iterations of a method: limits, history, observer.
 pub(crate) struct Monitor<'a> {
     began: Instant,
@@ -79,7 +88,7 @@ impl<'a> Monitor<'a> {
         observer: &'a mut Observer<'a>,
     ) -> Self {
         let began = Instant::now();
-        let deadline = time_limit.and_then(|limit| began.checked_add(limit));
+        let deadline = deadline_of(began, time_limit);
         Self { began, deadline, max_iterations, observer, history: Vec::new() }
     }
 
@@ -93,8 +102,12 @@ impl<'a> Monitor<'a> {
         if iteration >= self.max_iterations {
             return Some(Status::IterationLimit);
         }
-        let is_late = self.deadline.is_some_and(|deadline| Instant::now() >= deadline);
-        is_late.then_some(Status::TimeLimit)
+        is_over(self.deadline).then_some(Status::TimeLimit)
+    }
+
+    /// When there must be no more of them.
+    pub(crate) fn deadline(&self) -> Option<Instant> {
+        self.deadline
     }
 
     /// Iterations done.
@@ -104,5 +117,11 @@ impl<'a> Monitor<'a> {
 
     pub(crate) fn seconds(&self) -> f64 {
         self.began.elapsed().as_secs_f64()
+    }
+
+    /// What it all cost, by a method.
+    pub(crate) fn info(self, method: Method) -> Info {
+        let (iterations, seconds) = (self.iterations(), self.seconds());
+        Info { method, iterations, seconds, history: self.history, ..Info::default() }
     }
 }

@@ -5,7 +5,7 @@
 //!
 //! 1. Rigid blocks without gaps and films: the program of admissible forces ([`statics`](crate::statics)) decides
 //!    either way.
-//! 2. All other walls: interior points, at every size. Where they have come to no end after
+//! 2. All other walls: interior points, at every size. Where they have no answer after
 //!    [`STEPS_BEFORE_PROOF`], that program is asked whether any forces balance the loads at all, and if it proves that none
 //!    do, that is the answer.
 //! 3. Pivots, for a second opinion, where their dense matrices take about a second.
@@ -101,7 +101,7 @@ fn chosen(facts: Facts) -> Vec<(Route, String)> {
     }
     list.push((
         Route::Qp,
-        format!("where all others come to no end, for at most {} s", LAST_RESORT.as_secs()),
+        format!("where all others fail, for at most {} s", LAST_RESORT.as_secs()),
     ));
     list
 }

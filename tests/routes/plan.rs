@@ -75,7 +75,7 @@ fn the_next_route_follows_where_one_fails() {
     assert_eq!(outcome.solve.status, Status::PivotLimit, "a limit is meant for the pivots");
     assert_eq!(outcome.solve.routes.len(), 1);
 
-    // A proof follows where the interior points come to no end.
+    // A proof follows where the interior points find no answer.
     let pull = Load::traction("pull", [0.0, 1.0], [1.0, 1.0], [0.0, 20.0]);
     let lifted = scene
         .joint("bed", Joint::mu(0.0))

@@ -27,6 +27,7 @@ impl Effort {
     pub(crate) const THOROUGH: Self =
         Self { rounds: 60, patience: 10, points: 20, anchored: false };
     /// From a point amid all solutions of a convex problem.
+    #[cfg(feature = "clarabel")]
     pub(crate) const ANCHORED: Self = Self { anchored: true, ..Self::THOROUGH };
 
     /// Contradictions with which it makes sense to begin.

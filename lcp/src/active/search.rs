@@ -140,11 +140,8 @@ impl<'a> Search<'a> {
         let mut solution = Solution::judged((t, y), residuals, self.tolerance, otherwise);
         solution.contact = contact;
         solution.basis = basis;
-        solution.info.method = self.method;
-        solution.info.iterations = monitor.iterations();
+        solution.info = monitor.info(self.method);
         solution.info.factorisations = self.condensed.factorisations;
-        solution.info.seconds = monitor.seconds();
-        solution.info.history = monitor.history;
         solution
     }
 }

@@ -2,7 +2,7 @@
 
 use super::constants::{FEW_POINTS, VERY_FEW_POINTS};
 use super::facts::Facts;
-use super::method::{Effort, Planned, Step};
+use super::method::{Effort, Planned, Step, named};
 use super::standard::{common_steps, program_step};
 use crate::{Contact2d, Friction2d, Method, Solver};
 
@@ -18,21 +18,14 @@ impl Planned for Friction2d {
     fn steps(&self) -> Vec<Step> {
         let facts = Facts::of(self.standard().m());
         let w = Facts::of(self.w());
-        let mut steps = common_steps(&facts, None, w.has_positive_diagonal);
-        for step in &mut steps {
-            step.reason = format!("{} contacts, {}", self.contacts(), step.reason);
-        }
-        steps
+        let steps = common_steps(&facts, None, w.has_positive_diagonal);
+        named(&format!("{} contacts", self.contacts()), steps)
     }
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
-            Method::Lemke => Some(Box::new(effort.lemke())),
-            Method::Enumeration => Some(Box::new(effort.enumeration())),
-            Method::Smoothing => Some(Box::new(effort.smoothing())),
-            Method::Interior => Some(Box::new(effort.interior_point())),
             Method::GaussSeidel => Some(Box::new(effort.sweeps())),
-            _ => None,
+            _ => effort.common(method),
         }
     }
 }
@@ -89,14 +82,10 @@ impl Planned for Contact2d {
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
-            Method::Lemke => Some(Box::new(effort.lemke())),
-            Method::Enumeration => Some(Box::new(effort.enumeration())),
-            Method::Smoothing => Some(Box::new(effort.smoothing())),
-            Method::Interior => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
             Method::QuadraticProgram => Some(Box::new(effort.quadratic_program())),
             Method::GaussSeidel => Some(Box::new(effort.sweeps())),
-            _ => None,
+            _ => effort.common(method),
         }
     }
 

@@ -1,15 +1,12 @@
 //! Enumeration as a method: the last resort for small problems.
 
-use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::constants::{MOST_PAIRS, MOST_VARIABLES, NODES};
-use crate::certify::Residuals;
 use crate::enumerate::{Enumerated, Limits, enumerate};
-use crate::lower::General;
-use crate::{
-    Basis, Certificate, Error, HorizontalLcp, Iteration, Method, Observer, Solution, Solver, Status,
-};
+use crate::lower::{General, judged_point};
+use crate::solve::{Monitor, is_over};
+use crate::{Certificate, Error, HorizontalLcp, Method, Observer, Solution, Solver, Status};
 
 /// Whether a problem is small enough.
 pub(super) fn is_small(general: &HorizontalLcp) -> bool {
@@ -38,54 +35,38 @@ impl<P: General> Solver<P> for Enumeration {
                 reason: format!("it has more than {MOST_PAIRS} pairs"),
             });
         }
-        let began = Instant::now();
-        if observer(&Iteration { iteration: 0, residual: f64::INFINITY }) == ControlFlow::Break(())
-        {
-            return Ok(self.answer(problem, None, (Status::Cancelled, None), began));
-        }
-        let deadline = self.time_limit.and_then(|limit| began.checked_add(limit));
-        let found = enumerate(&general, Limits { nodes: NODES, deadline });
-        let is_late = deadline.is_some_and(|deadline| Instant::now() >= deadline);
-        let (point, otherwise) = match found {
-            Enumerated::Found { t, y, basis } => {
-                (Some((t, y, basis)), (Status::NumericalTrouble, None))
-            }
+        let mut monitor = Monitor::new(usize::MAX, self.time_limit, observer);
+        let is_cancelled = monitor.stop(f64::INFINITY) == Some(Status::Cancelled);
+        let deadline = monitor.deadline();
+        let found = if is_cancelled {
+            Enumerated::Open
+        } else {
+            enumerate(&general, Limits { nodes: NODES, deadline })
+        };
+        let zero = || vec![0.0; general.order()];
+        let (mut point, mut basis, mut proof) = ((zero(), zero()), None, None);
+        let mut otherwise = Status::NumericalTrouble;
+        match found {
+            Enumerated::Found { t, y, basis: found } => (point, basis) = ((t, y), Some(found)),
             Enumerated::Infeasible(pi) => {
-                (None, (Status::Infeasible, Some(Certificate::Farkas { pi })))
+                proof = Some((Status::Infeasible, Certificate::Farkas { pi }));
             }
             Enumerated::NoSolution(leaves) => {
-                (None, (Status::NoSolution, Some(Certificate::Choices { leaves })))
+                proof = Some((Status::NoSolution, Certificate::Choices { leaves }));
             }
-            Enumerated::Open if is_late => (None, (Status::TimeLimit, None)),
-            Enumerated::Open => (None, (Status::NumericalTrouble, None)),
-        };
-        Ok(self.answer(problem, point, otherwise, began))
-    }
-}
-
-impl Enumeration {
-    fn answer<P: General>(
-        &self,
-        problem: &P,
-        point: Option<(Vec<f64>, Vec<f64>, Basis)>,
-        (otherwise, certificate): (Status, Option<Certificate>),
-        began: Instant,
-    ) -> Solution {
-        let zero = || vec![0.0; problem.general().order()];
-        let (t, y, basis) =
-            point.map_or_else(|| (zero(), zero(), None), |(t, y, basis)| (t, y, Some(basis)));
-        let residuals: Residuals = problem.residuals_of_pairs(&t, &y);
-        let contact = problem.state_of_pairs(&t, &y);
-        let is_proved = certificate.is_some();
-        let mut solution = Solution::judged((t, y), residuals, self.tolerance, otherwise);
-        if is_proved {
-            solution.status = otherwise;
+            Enumerated::Open if is_cancelled => otherwise = Status::Cancelled,
+            Enumerated::Open if is_over(deadline) => {
+                otherwise = Status::TimeLimit;
+            }
+            Enumerated::Open => {}
         }
-        solution.contact = contact;
+        let mut solution = judged_point(problem, point, self.tolerance, otherwise);
         solution.basis = basis;
-        solution.certificate = certificate;
+        if let Some((status, certificate)) = proof.filter(|(_, it)| it.holds(&general)) {
+            (solution.status, solution.certificate) = (status, Some(certificate));
+        }
         solution.info.method = Method::Enumeration;
-        solution.info.seconds = began.elapsed().as_secs_f64();
-        solution
+        solution.info.seconds = monitor.seconds();
+        Ok(solution)
     }
 }

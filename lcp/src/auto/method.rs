@@ -7,6 +7,7 @@ use super::enumerated::{Enumeration, is_small};
 use super::memory;
 use super::smoothed::Smoothing;
 use crate::divide::Divide;
+use crate::lower::General;
 use crate::{
     Error, InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings, Method, Observer,
     ProjectedGaussSeidel, ProjectedGaussSeidelSettings, SemismoothNewton, SemismoothNewtonSettings,
@@ -26,6 +27,14 @@ impl Step {
     pub(super) fn new(method: Method, reason: impl Into<String>) -> Self {
         Self { method, reason: reason.into() }
     }
+}
+
+/// The same steps, whose reasons say first what problem it is.
+pub(super) fn named(problem: &str, mut steps: Vec<Step>) -> Vec<Step> {
+    for step in &mut steps {
+        step.reason = format!("{problem}, {}", step.reason);
+    }
+    steps
 }
 
 /// The chain of a problem with its last resort: for small ones behind pivots, which it is as fast as.
@@ -104,18 +113,29 @@ pub struct Effort<'a> {
 }
 
 impl Effort<'_> {
-    pub(super) fn enumeration(&self) -> Enumeration {
-        Enumeration { tolerance: self.tolerance, time_limit: self.time_limit }
-    }
-
-    pub(super) fn smoothing(&self) -> Smoothing {
-        Smoothing { tolerance: self.tolerance, time_limit: self.time_limit }
-    }
-
-    pub(super) fn lemke(&self) -> Lemke {
+    /// The methods that treat every problem.
+    pub(super) fn common<P>(&self, method: Method) -> Option<Box<dyn Solver<P>>>
+    where
+        P: General,
+        Lemke: Solver<P>,
+        InteriorPoint: Solver<P>,
+    {
         let Self { tolerance, time_limit, .. } = *self;
         let start = self.start.clone();
-        Lemke::new(LemkeSettings { tolerance, time_limit, start, ..Default::default() })
+        match method {
+            Method::Lemke => {
+                let settings = LemkeSettings { tolerance, time_limit, start, ..Default::default() };
+                Some(Box::new(Lemke::new(settings)))
+            }
+            Method::Enumeration => Some(Box::new(Enumeration { tolerance, time_limit })),
+            Method::Smoothing => Some(Box::new(Smoothing { tolerance, time_limit })),
+            Method::Interior => {
+                let defaults = InteriorPointSettings::default();
+                let settings = InteriorPointSettings { tolerance, time_limit, start, ..defaults };
+                Some(Box::new(InteriorPoint::new(settings)))
+            }
+            _ => None,
+        }
     }
 
     /// Steps are factorisations: where the method does not promise to arrive, they are few.
@@ -125,17 +145,6 @@ impl Effort<'_> {
         let sure = SemismoothNewtonSettings { tolerance, time_limit, start, ..Default::default() };
         let max_iterations = if is_sure { sure.max_iterations } else { TRIAL };
         SemismoothNewton::new(SemismoothNewtonSettings { max_iterations, ..sure })
-    }
-
-    pub(super) fn interior_point(&self) -> InteriorPoint {
-        let Self { tolerance, time_limit, .. } = *self;
-        let start = self.start.clone();
-        InteriorPoint::new(InteriorPointSettings {
-            tolerance,
-            time_limit,
-            start,
-            ..Default::default()
-        })
     }
 
     #[cfg(feature = "clarabel")]

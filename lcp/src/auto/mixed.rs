@@ -1,7 +1,7 @@
 //! The chains of problems with free and with bounded variables.
 
 use super::facts::Facts;
-use super::method::{Effort, Planned, Step};
+use super::method::{Effort, Planned, Step, named};
 use super::standard::common_steps;
 use crate::{BoxedLcp, Method, MixedLcp, Solver};
 
@@ -24,22 +24,15 @@ impl Planned for MixedLcp {
                 facts.size()
             )
         });
-        let mut steps = common_steps(&facts, program, false);
-        for step in &mut steps {
-            step.reason = format!("{free} free variables, {}", step.reason);
-        }
-        steps
+        let steps = common_steps(&facts, program, false);
+        named(&format!("{free} free variables"), steps)
     }
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
-            Method::Lemke => Some(Box::new(effort.lemke())),
-            Method::Enumeration => Some(Box::new(effort.enumeration())),
-            Method::Smoothing => Some(Box::new(effort.smoothing())),
-            Method::Interior => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
             Method::QuadraticProgram => Some(Box::new(effort.quadratic_program())),
-            _ => None,
+            _ => effort.common(method),
         }
     }
 }
@@ -62,21 +55,13 @@ impl Planned for BoxedLcp {
         // Where a variable is free the general problem is no standard one.
         let is_standard = general.to_standard().is_some();
         steps.retain(|step| is_standard || step.method != Method::Interior);
-        for step in &mut steps {
-            step.reason =
-                format!("{} pairs with those of the bounds, {}", general.order(), step.reason);
-        }
-        steps
+        named(&format!("{} pairs with those of the bounds", general.order()), steps)
     }
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
-            Method::Lemke => Some(Box::new(effort.lemke())),
-            Method::Enumeration => Some(Box::new(effort.enumeration())),
-            Method::Smoothing => Some(Box::new(effort.smoothing())),
-            Method::Interior => Some(Box::new(effort.interior_point())),
             Method::GaussSeidel => Some(Box::new(effort.sweeps())),
-            _ => None,
+            _ => effort.common(method),
         }
     }
 }

@@ -3,11 +3,11 @@
 use std::time::{Duration, Instant};
 
 use super::constants::{STARTS, STEPS};
-use crate::lower::{General, judged_by};
+use crate::lower::{General, judged_by, judged_point};
 use crate::smoothing::{Limits, follow};
+use crate::solve::Monitor;
 use crate::{
-    Covering, Error, Iteration, Lemke, LemkeSettings, Method, Observer, Solution, Solver, Status,
-    WarmStart,
+    Covering, Error, Lemke, LemkeSettings, Method, Observer, Solution, Solver, Status, WarmStart,
 };
 
 /// Newton's method on smoothed equations, from several starts.
@@ -24,19 +24,14 @@ impl<P: General> Solver<P> for Smoothing {
 
     fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         let general = problem.general();
-        let began = Instant::now();
-        let deadline = self.time_limit.and_then(|limit| began.checked_add(limit));
+        let mut monitor = Monitor::new(usize::MAX, self.time_limit, observer);
+        let deadline = monitor.deadline();
         let mut best: Option<Solution> = None;
         let mut status = Status::Stalled;
         for start in 0..STARTS {
-            let iteration = usize::try_from(start).unwrap_or(usize::MAX);
             let residual = best.as_ref().map_or(f64::INFINITY, |best| best.residuals.worst());
-            if observer(&Iteration { iteration, residual }).is_break() {
-                status = Status::Cancelled;
-                break;
-            }
-            if deadline.is_some_and(|deadline| Instant::now() >= deadline) {
-                status = Status::TimeLimit;
+            if let Some(stopped) = monitor.stop(residual) {
+                status = stopped;
                 break;
             }
             let Some(found) = follow(&general, start, Limits { steps: STEPS, deadline }) else {
@@ -54,13 +49,12 @@ impl<P: General> Solver<P> for Smoothing {
             };
             let solution = Lemke::new(settings).solve(general.as_ref())?;
             let mut solution = judged_by(problem, solution, self.tolerance);
-            let residuals = problem.residuals_of_pairs(&found.t, &found.y);
-            if !solution.is_solved() && residuals.worst() < solution.residuals.worst() {
-                // The basis may be singular, and the point right.
-                let point = (found.t, found.y);
-                solution = Solution::judged(point, residuals, self.tolerance, Status::Stalled);
-            }
             solution.contact = problem.state_of_pairs(&solution.t, &solution.y);
+            let point = judged_point(problem, (found.t, found.y), self.tolerance, Status::Stalled);
+            if !solution.is_solved() && point.residuals.worst() < solution.residuals.worst() {
+                // The basis may be singular, and the point right.
+                solution = point;
+            }
             solution.certificate = None;
             let is_solved = solution.is_solved();
             let worst = solution.residuals.worst();
@@ -73,18 +67,13 @@ impl<P: General> Solver<P> for Smoothing {
         }
         let mut solution = best.unwrap_or_else(|| {
             let zero = vec![0.0; general.order()];
-            let residuals = problem.residuals_of_pairs(&zero, &zero);
-            let contact = problem.state_of_pairs(&zero, &zero);
-            let point = (zero.clone(), zero);
-            let mut none = Solution::judged(point, residuals, self.tolerance, status);
-            none.contact = contact;
-            none
+            judged_point(problem, (zero.clone(), zero), self.tolerance, status)
         });
         if !solution.is_solved() && solution.status != Status::AlmostSolved {
             solution.status = status;
         }
         solution.info.method = Method::Smoothing;
-        solution.info.seconds = began.elapsed().as_secs_f64();
+        solution.info.seconds = monitor.seconds();
         Ok(solution)
     }
 }

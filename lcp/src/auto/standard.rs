@@ -88,15 +88,11 @@ impl Planned for Lcp {
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
-            Method::Lemke => Some(Box::new(effort.lemke())),
-            Method::Enumeration => Some(Box::new(effort.enumeration())),
-            Method::Smoothing => Some(Box::new(effort.smoothing())),
             Method::Newton => Some(Box::new(effort.newton(is_z_matrix(self.m())))),
-            Method::Interior => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
             Method::QuadraticProgram => Some(Box::new(effort.quadratic_program())),
             Method::GaussSeidel => Some(Box::new(effort.sweeps())),
-            _ => None,
+            _ => effort.common(method),
         }
     }
 }
@@ -128,18 +124,14 @@ impl Planned for HorizontalLcp {
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
         match method {
-            Method::Lemke => Some(Box::new(effort.lemke())),
-            Method::Enumeration => Some(Box::new(effort.enumeration())),
-            Method::Smoothing => Some(Box::new(effort.smoothing())),
             Method::Newton => {
                 let is_sure = self.to_standard().is_some_and(|it| is_z_matrix(it.lcp().m()));
                 Some(Box::new(effort.newton(is_sure)))
             }
-            Method::Interior => Some(Box::new(effort.interior_point())),
             #[cfg(feature = "clarabel")]
             Method::QuadraticProgram => Some(Box::new(effort.quadratic_program())),
             Method::GaussSeidel => Some(Box::new(effort.sweeps())),
-            _ => None,
+            _ => effort.common(method),
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
 use super::significance::{Term, add_terms};
 use super::{Residuals, weights};
-use crate::extended::Extended;
+use crate::extended::{Extended, extended};
 use crate::matrix::Column;
 use crate::{BoxedLcp, Lcp, Matrix, MixedLcp};
 
@@ -84,17 +84,15 @@ impl<'a> BoxedJudge<'a> {
         if z.iter().chain(w).any(|v| !v.is_finite()) {
             return Residuals::infinite();
         }
-        if precision != Precision::Quick && self.at(z, w).is_hidden() {
-            let extended = |v: &[f64]| v.iter().copied().map(Extended::from).collect::<Vec<_>>();
-            let (z, w) = (extended(z), extended(w));
-            return ledger::residuals(&self.at(&z, &w), &self.weights, self.length, precision);
-        }
-        ledger::residuals(&self.at(z, w), &self.weights, self.length, precision)
+        let rows = (&self.weights[..], self.length);
+        ledger::residuals_or_refined(&self.at(z, w), rows, precision, || {
+            ledger::residuals(&self.at(&extended(z), &extended(w)), rows, precision)
+        })
     }
 
     /// The same of a point of twice the digits.
     pub(crate) fn residuals_of(&self, z: &[Extended], w: &[Extended]) -> Residuals {
-        ledger::residuals(&self.at(z, w), &self.weights, self.length, Precision::Exact)
+        ledger::residuals(&self.at(z, w), (&self.weights, self.length), Precision::Exact)
     }
 
     fn at<'b, X: Digits>(&'b self, z: &'b [X], w: &'b [X]) -> At<'b, X> {
@@ -122,12 +120,6 @@ struct At<'a, X> {
     judge: &'a BoxedJudge<'a>,
     z: &'a [X],
     w: &'a [X],
-}
-
-impl<X: Digits> At<'_, X> {
-    fn is_hidden(&self) -> bool {
-        ledger::is_hidden(&self.rows().1, &self.judge.weights, self.judge.length)
-    }
 }
 
 impl<X: Digits> Point for At<'_, X> {

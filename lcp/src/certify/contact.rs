@@ -5,7 +5,7 @@ use super::constants::{FULL, ROUNDS, STRONG};
 use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
 use super::significance::Term;
 use super::weights::{or_largest, per_load};
-use crate::extended::Extended;
+use crate::extended::{Extended, extended};
 use crate::parts::Parts;
 use crate::problem::{column_factors, column_of, diagonal, median};
 use crate::{Contact2d, ContactState};
@@ -71,20 +71,18 @@ impl<'a> ContactJudge<'a> {
         if all.iter().any(|v| v.iter().any(|v| !v.is_finite())) {
             return Residuals::infinite();
         }
+        let rows = (&self.weights[..], self.length);
         let at = self.at(StateOf { u, t_n, t_t, openings: Some((gap, slip)) });
-        if precision != Precision::Quick && at.is_hidden() {
-            let [u, t_n, t_t, gap, slip] =
-                all.map(|v| v.iter().copied().map(Extended::from).collect::<Vec<_>>());
-            let openings = Some((&gap[..], &slip[..]));
-            let at = self.at(StateOf { u: &u, t_n: &t_n, t_t: &t_t, openings });
-            return ledger::residuals(&at, &self.weights, self.length, precision);
-        }
-        ledger::residuals(&at, &self.weights, self.length, precision)
+        ledger::residuals_or_refined(&at, rows, precision, || {
+            let [u, t_n, t_t, gap, slip] = &all.map(|v| extended(v));
+            let at = self.at(StateOf { u, t_n, t_t, openings: Some((gap, slip)) });
+            ledger::residuals(&at, rows, precision)
+        })
     }
 
     /// The same of a state of twice the digits.
     pub(crate) fn residuals_of(&self, state: StateOf<'_, Extended>) -> Residuals {
-        ledger::residuals(&self.at(state), &self.weights, self.length, Precision::Exact)
+        ledger::residuals(&self.at(state), (&self.weights, self.length), Precision::Exact)
     }
 
     fn at<'b, X: Digits>(&'b self, state: StateOf<'b, X>) -> At<'b, X> {
@@ -150,12 +148,6 @@ struct At<'a, X> {
     /// Gaps, then slips.
     openings: Vec<f64>,
     rows: (Vec<f64>, Vec<f64>),
-}
-
-impl<X: Digits> At<'_, X> {
-    fn is_hidden(&self) -> bool {
-        ledger::is_hidden(&self.rows.1, &self.judge.weights, self.judge.length)
-    }
 }
 
 /// The terms of all rows with displacements and forces: row, coefficient and variable, with its number.

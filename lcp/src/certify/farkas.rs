@@ -4,14 +4,13 @@
 //! `A^T pi <= 0`, `B^T pi <= 0` and `c.pi > 0`.
 
 use super::constants::{CLEAR, LARGEST_OF_VECTOR, SUM_ROUNDING};
+use crate::HorizontalLcp;
 use crate::extended::Extended;
 use crate::matrix::Column;
-use crate::{HorizontalLcp, Side};
 
 /// Whether a vector proves that the linear conditions of a problem have no solution.
 pub(crate) fn is_proof(problem: &HorizontalLcp, pi: &[f64]) -> bool {
-    let of_side = |side| (0..problem.order()).map(move |pair| problem.column(pair, side));
-    is_proof_of([Side::T, Side::Y].into_iter().flat_map(of_side), problem.c(), pi)
+    is_proof_of(problem.columns(), problem.c(), pi)
 }
 
 /// Whether `pi . a <= 0` for all columns and `pi . c > 0`, so that no nonnegative combination of the

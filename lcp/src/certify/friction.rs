@@ -1,7 +1,7 @@
 //! Forces of a contact problem that is reduced to the contacts.
 
 use super::ledger::{self, Entry, Ledger, Point, Precision, Rows};
-use super::significance::Term;
+use super::significance::{Term, add_terms};
 use super::{Residuals, weights};
 use crate::extended::Extended;
 use crate::matrix::Column;
@@ -44,7 +44,7 @@ impl Friction2d {
         }
         let (velocities, terms) = rows.rounded();
         let at = At { problem: self, columns, forces, velocities, terms };
-        ledger::residuals(&at, &weights, 2.0 * contacts as f64 + 1.0, Precision::Rounded)
+        ledger::residuals(&at, (&weights, 2.0 * contacts as f64 + 1.0), Precision::Rounded)
     }
 }
 
@@ -73,11 +73,7 @@ impl Point for At<'_> {
         let own = nonzero.map(|(row, v)| Term { row, variable: rows + row, value: *v });
         let mut terms: Vec<Term> = own.collect();
         for (variable, (column, force)) in self.columns.iter().zip(&self.forces).enumerate() {
-            column.for_each(|row, v| {
-                if v * force != 0.0 {
-                    terms.push(Term { row, variable, value: v * force });
-                }
-            });
+            add_terms(&mut terms, (variable, *force), *column);
         }
         terms
     }

@@ -3,7 +3,7 @@
 use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
 use super::significance::{Term, add_terms};
 use super::{Residuals, weights};
-use crate::extended::Extended;
+use crate::extended::{Extended, extended};
 use crate::matrix::Column;
 use crate::scaling::{GIVEN, equilibrate};
 use crate::{HorizontalLcp, Side};
@@ -54,7 +54,7 @@ impl<'a> GeneralJudge<'a> {
 
     /// For another right-hand side, of which every entry comes with the size of its terms.
     pub(crate) fn with_right_hand_side(problem: &'a HorizontalLcp, c: Vec<(f64, f64)>) -> Self {
-        let (row, col) = equilibrate(problem.order(), &columns(problem), GIVEN);
+        let (row, col) = equilibrate(problem.order(), &problem.columns(), GIVEN);
         Self::with_factors(problem, c, (&row, &col))
     }
 
@@ -64,9 +64,8 @@ impl<'a> GeneralJudge<'a> {
         c: Vec<(f64, f64)>,
         (row, col): (&[f64], &[f64]),
     ) -> Self {
-        let columns = columns(problem);
         let loads: Vec<f64> = c.iter().map(|(_, size)| *size).collect();
-        let weights = weights::weights_of(&columns, &loads, (row, col));
+        let weights = weights::weights_of(&problem.columns(), &loads, (row, col));
         let length = 2.0 * problem.order() as f64 + 1.0;
         Self { problem, c, weights, length }
     }
@@ -79,17 +78,15 @@ impl<'a> GeneralJudge<'a> {
         if t.iter().chain(y).any(|v| !v.is_finite()) {
             return Residuals::infinite();
         }
-        if precision != Precision::Quick && self.at(t, y).is_hidden() {
-            let extended = |v: &[f64]| v.iter().copied().map(Extended::from).collect::<Vec<_>>();
-            let (t, y) = (extended(t), extended(y));
-            return ledger::residuals(&self.at(&t, &y), &self.weights, self.length, precision);
-        }
-        ledger::residuals(&self.at(t, y), &self.weights, self.length, precision)
+        let rows = (&self.weights[..], self.length);
+        ledger::residuals_or_refined(&self.at(t, y), rows, precision, || {
+            ledger::residuals(&self.at(&extended(t), &extended(y)), rows, precision)
+        })
     }
 
     /// The same of a point of twice the digits.
     pub(crate) fn residuals_of(&self, t: &[Extended], y: &[Extended]) -> Residuals {
-        ledger::residuals(&self.at(t, y), &self.weights, self.length, Precision::Exact)
+        ledger::residuals(&self.at(t, y), (&self.weights, self.length), Precision::Exact)
     }
 
     fn at<'b, X: Digits>(&'b self, t: &'b [X], y: &'b [X]) -> At<'b, X> {
@@ -105,10 +102,6 @@ struct At<'a, X> {
 }
 
 impl<X: Digits> At<'_, X> {
-    fn is_hidden(&self) -> bool {
-        ledger::is_hidden(&self.rows().1, &self.judge.weights, self.judge.length)
-    }
-
     /// Every variable that is not zero, with its number and its column.
     fn variables(&self) -> impl Iterator<Item = (usize, X, Column<'_>)> {
         let sides = [(Side::T, self.t), (Side::Y, self.y)];
@@ -153,12 +146,6 @@ impl<X: Digits> Point for At<'_, X> {
             );
         }
     }
-}
-
-/// All columns, of `A` and then of `B`.
-fn columns(problem: &HorizontalLcp) -> Vec<Column<'_>> {
-    let of_side = |side| (0..problem.order()).map(move |pair| problem.column(pair, side));
-    [Side::T, Side::Y].into_iter().flat_map(of_side).collect()
 }
 
 /// Every entry with its size.

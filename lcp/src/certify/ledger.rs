@@ -110,15 +110,39 @@ pub(super) trait Point {
     fn conditions(&self, ledger: &mut Ledger<'_>);
 }
 
-/// The residuals of a point with one over the loads of its rows. Rows that do not matter to the loads are told only
-/// where something in them seems to be wrong.
+/// The residuals of a point, or the `refined` ones of the same with twice the digits where the rounding errors of its
+/// terms are not small against the loads.
+pub(super) fn residuals_or_refined(
+    point: &impl Point,
+    (weights, length): (&[f64], f64),
+    precision: Precision,
+    refined: impl FnOnce() -> Residuals,
+) -> Residuals {
+    let rows = point.rows();
+    let mut sizes = rows.1.iter().zip(weights);
+    let is_hidden = |(terms, weight)| length * f64::EPSILON * terms * weight > SMALL;
+    if precision != Precision::Quick && sizes.any(is_hidden) {
+        return refined();
+    }
+    residuals_of_rows(point, rows, (weights, length), precision)
+}
+
+/// The residuals of a point with one over the loads of its rows, of so many terms at most.
 pub(super) fn residuals(
     point: &impl Point,
-    weights: &[f64],
-    length: f64,
+    rows: (&[f64], f64),
     precision: Precision,
 ) -> Residuals {
-    let (rest, terms) = point.rows();
+    residuals_of_rows(point, point.rows(), rows, precision)
+}
+
+/// Rows that do not matter to the loads are told only where something in them seems to be wrong.
+fn residuals_of_rows(
+    point: &impl Point,
+    (rest, terms): (Vec<f64>, Vec<f64>),
+    (weights, length): (&[f64], f64),
+    precision: Precision,
+) -> Residuals {
     let mut ledger = Ledger::new(rest, terms, weights);
     point.conditions(&mut ledger);
     let strict = ledger.finished(length, precision);
@@ -244,12 +268,6 @@ impl<'a> Ledger<'a> {
         residuals.natural = residuals.feasibility.max(residuals.complementarity);
         residuals
     }
-}
-
-/// Whether rounding errors of the terms are not small against the loads.
-pub(super) fn is_hidden(terms: &[f64], weights: &[f64], length: f64) -> bool {
-    let mut rows = terms.iter().zip(weights);
-    rows.any(|(terms, weight)| length * f64::EPSILON * terms * weight > SMALL)
 }
 
 /// A part of the terms of a row. Terms beyond the range of numbers say nothing, which is no small part.

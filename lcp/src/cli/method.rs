@@ -17,6 +17,18 @@ use crate::{
     SemismoothNewton, SemismoothNewtonSettings, Side, Solution, Solver, WarmStart,
 };
 
+/// By a method in the forms that it treats, of friction in the standard form where it treats only that, and in the
+/// general form of the others.
+macro_rules! in_a_form {
+    ($solver:expr, $problem:expr, $($own:ident)|+ $(, standard of $standard:ident)?) => {
+        match $problem {
+            $(Problem::$own(problem) => $solver.solve(problem),)+
+            $(Problem::$standard(problem) => $solver.solve(problem.standard()),)?
+            other => $solver.solve(&other.to_general()),
+        }
+    };
+}
+
 /// Every method gets the problem in its own form where it treats that, else in the general form, whose
 /// pairs the solution has in any case.
 pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Failure> {
@@ -59,7 +71,8 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
                 start,
                 ..defaults
             };
-            sweep(&ProjectedGaussSeidel::new(settings), problem)
+            let solver = ProjectedGaussSeidel::new(settings);
+            in_a_form!(solver, problem, Lcp | Horizontal | Boxed | Friction | Contact)
         }
         Method::QuadraticProgram => {
             let defaults = QuadraticProgramSettings::default();
@@ -70,7 +83,8 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
                 start,
                 ..defaults
             };
-            program(&QuadraticProgram::new(settings), problem)
+            let solver = QuadraticProgram::new(settings);
+            in_a_form!(solver, problem, Lcp | Mixed | Contact, standard of Friction)
         }
         Method::Newton => {
             let defaults = SemismoothNewtonSettings::default();
@@ -80,7 +94,8 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
                 time_limit,
                 start,
             };
-            newton(&SemismoothNewton::new(settings), problem)
+            let solver = SemismoothNewton::new(settings);
+            in_a_form!(solver, problem, Lcp | Contact, standard of Friction)
         }
         Method::Interior => {
             let defaults = InteriorPointSettings::default();
@@ -91,7 +106,8 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
                 start,
                 ..defaults
             };
-            interior(&InteriorPoint::new(settings), problem)
+            let solver = InteriorPoint::new(settings);
+            in_a_form!(solver, problem, Lcp | Mixed | Friction | Contact)
         }
     };
     Ok(solution?)
@@ -167,48 +183,6 @@ where
         Problem::Boxed(problem) => solver.solve(problem),
         Problem::Friction(problem) => solver.solve(problem),
         Problem::Contact(problem) => solver.solve(problem),
-    }
-}
-
-fn sweep(solver: &ProjectedGaussSeidel, problem: &Problem) -> Result<Solution, Error> {
-    match problem {
-        Problem::Lcp(problem) => solver.solve(problem),
-        Problem::Horizontal(problem) => solver.solve(problem),
-        Problem::Mixed(problem) => solver.solve(&problem.to_general()),
-        Problem::Boxed(problem) => solver.solve(problem),
-        Problem::Friction(problem) => solver.solve(problem),
-        Problem::Contact(problem) => solver.solve(problem),
-    }
-}
-
-fn program(solver: &QuadraticProgram, problem: &Problem) -> Result<Solution, Error> {
-    match problem {
-        Problem::Lcp(problem) => solver.solve(problem),
-        Problem::Mixed(problem) => solver.solve(problem),
-        Problem::Friction(problem) => solver.solve(problem.standard()),
-        Problem::Contact(problem) => solver.solve(problem),
-        Problem::Horizontal(_) | Problem::Boxed(_) => solver.solve(&problem.to_general()),
-    }
-}
-
-fn newton(solver: &SemismoothNewton, problem: &Problem) -> Result<Solution, Error> {
-    match problem {
-        Problem::Lcp(problem) => solver.solve(problem),
-        Problem::Friction(problem) => solver.solve(problem.standard()),
-        Problem::Contact(problem) => solver.solve(problem),
-        Problem::Horizontal(_) | Problem::Mixed(_) | Problem::Boxed(_) => {
-            solver.solve(&problem.to_general())
-        }
-    }
-}
-
-fn interior(solver: &InteriorPoint, problem: &Problem) -> Result<Solution, Error> {
-    match problem {
-        Problem::Lcp(problem) => solver.solve(problem),
-        Problem::Mixed(problem) => solver.solve(problem),
-        Problem::Friction(problem) => solver.solve(problem),
-        Problem::Contact(problem) => solver.solve(problem),
-        Problem::Horizontal(_) | Problem::Boxed(_) => solver.solve(&problem.to_general()),
     }
 }
 

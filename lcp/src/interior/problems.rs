@@ -1,7 +1,7 @@
 //! The interior-point method on every kind of problem.
 
 use super::{InteriorPoint, InteriorPointSettings};
-use crate::lower::{judged_by, solve_lowered};
+use crate::lower::{judged_by, solve_disguised, solve_lowered};
 use crate::{
     BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Method, MixedLcp, Observer,
     Solution, Solver, WarmStart,
@@ -78,19 +78,19 @@ impl Solver<HorizontalLcp> for InteriorPoint {
         problem: &HorizontalLcp,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        let standard = problem.to_standard().ok_or_else(|| Error::NotTreated {
+        self.settings.validate(problem.order())?;
+        let refused = || Error::NotTreated {
             method: Method::Interior,
             reason:
                 "it is not a standard one in disguise: Lemke's method treats it, or give the mixed \
                      or the contact problem that it comes from"
                     .to_owned(),
-        })?;
-        let mut settings = self.settings.clone();
-        settings.validate(problem.order())?;
-        settings.start = standard.start(&settings.start);
-        let mut solution = Self::new(settings).solve_observed(standard.lcp(), observer)?;
-        standard.restore(&mut solution);
-        Ok(judged_by(problem, solution, self.settings.tolerance))
+        };
+        let given = (&self.settings.start, self.settings.tolerance);
+        solve_disguised(problem, given, refused, |lcp, start| {
+            let settings = InteriorPointSettings { start, ..self.settings.clone() };
+            Self::new(settings).solve_observed(lcp, observer)
+        })
     }
 }
 

@@ -92,7 +92,7 @@ pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
         Kind::Mixed => {
             let q = fields.vector("q")?;
             let m = fields.matrix("m", q.len())?;
-            let free = fields.flags("free", q.len())?;
+            let free = fields.list("free", q.len())?;
             Problem::mixed(m, q, free, fields.begin())
         }
         Kind::Boxed => {
@@ -104,7 +104,7 @@ pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
         }
         Kind::Friction => {
             let mu = fields.frictions("mu")?;
-            let q = fields.vector_of("q", 2 * mu.len())?;
+            let q = fields.list("q", 2 * mu.len())?;
             let w = fields.matrix("w", q.len())?;
             Problem::friction(w, q, mu, fields.begin())
         }
@@ -113,7 +113,7 @@ pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
             let mu = fields.frictions("mu")?;
             let k = fields.matrix("k", f.len())?;
             let [c_n, c_t] = ["c_n", "c_t"].map(|name| fields.matrix_of(name, mu.len(), f.len()));
-            let [x_0, s_0] = ["x_0", "s_0"].map(|name| fields.vector_of(name, mu.len()));
+            let [x_0, s_0] = ["x_0", "s_0"].map(|name| fields.list(name, mu.len()));
             Problem::contact((k, f), (c_n?, c_t?), (x_0?, s_0?, mu), fields.begin())
         }
     }?;

@@ -10,7 +10,7 @@ use faer::{Mat, MatRef};
 
 pub(super) use found::Crash;
 
-use found::is_over;
+use found::{beginnings, exchanged};
 use matching::matched_sides;
 use sparse::find_sparse;
 
@@ -18,6 +18,7 @@ use super::constants::{DENSE_SEARCH, GAIN, GAIN_SWEEPS, RANK_TOLERANCE};
 use super::start::Equilibrated;
 use super::tableau::Tableau;
 use crate::linear::Lu;
+use crate::solve::is_over;
 use crate::sparse::Columns;
 use crate::vector::max_abs;
 use crate::{Basis, Side};
@@ -180,11 +181,8 @@ impl Search<'_> {
         };
 
         // Breadth first over columns (pair, side); `from` remembers how a pair's column came up.
-        let mut queue: Vec<(usize, Side, Option<usize>)> = Vec::new();
-        for pair in (0..n).filter(|&k| chosen[k].is_none()) {
-            let side = self.preferred[pair];
-            queue.extend([(pair, side, None), (pair, side.complement(), None)]);
-        }
+        let open = (0..n).filter(|&k| chosen[k].is_none());
+        let mut queue = beginnings(open, self.preferred);
         let mut seen = vec![false; n];
         let mut head = 0;
         while head < queue.len() && !is_over(self.deadline) {
@@ -192,14 +190,7 @@ impl Search<'_> {
             let x = coordinates(pair, side);
             let tolerance = tolerance * max_abs(&x);
             if max_abs(&x[picked.len()..]) > tolerance {
-                let mut next = chosen.to_vec();
-                let mut at = Some(head);
-                while let Some(i) = at {
-                    let (pair, side, from) = queue[i];
-                    next[pair] = Some(side);
-                    at = from;
-                }
-                return Some(next);
+                return Some(exchanged(chosen, &queue, head));
             }
             for (j, &other) in picked.iter().enumerate() {
                 if x[j].abs() > tolerance && !seen[other] {

@@ -4,7 +4,7 @@ use super::basis_matrix::BasisMatrix;
 use super::constants::{HIDDEN, ILL_CONDITIONED, REFINEMENTS};
 use super::start::Equilibrated;
 use crate::certify::Precision;
-use crate::extended::Extended;
+use crate::extended::{Extended, extended};
 use crate::vector::max_abs;
 use crate::{Basis, Residuals, Side};
 
@@ -149,8 +149,7 @@ impl Values {
 
     /// What is left of the loads with the digits of the basic variables that rounding left out.
     fn exact_loads(&self, problem: &Equilibrated<'_>, basis: &Basis, low: &[f64]) -> f64 {
-        let [mut t, mut y] =
-            [&self.t, &self.y].map(|v| v.iter().copied().map(Extended::from).collect::<Vec<_>>());
+        let (mut t, mut y) = (extended(&self.t), extended(&self.y));
         for (j, (side, &low)) in self.sides.iter().zip(low).enumerate() {
             // One that was set to zero stays there.
             let value = match side {

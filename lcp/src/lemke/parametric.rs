@@ -17,6 +17,7 @@ use super::kernel::{Kernel, Var};
 use super::path::Path;
 use super::start::{Equilibrated, Start};
 use crate::certify::{GeneralJudge, Precision};
+use crate::solve::{deadline_of, is_over};
 use crate::vector::{check_length, check_vector, max_abs};
 use crate::{Basis, Error, HorizontalLcp, Lemke, LemkeSettings, Solver, Status};
 
@@ -82,8 +83,7 @@ impl Parametric {
         if to.is_nan() {
             return Err(Error::Setting { name: "to", value: to, range: "a number or infinite" });
         }
-        let time_limit = self.settings.lemke.time_limit;
-        let deadline = time_limit.and_then(|limit| Instant::now().checked_add(limit));
+        let deadline = deadline_of(Instant::now(), self.settings.lemke.time_limit);
         let at_start = problem.with_right_hand_side(right_hand_side(problem, c1, from))?;
         let solution = Lemke::new(self.settings.lemke.clone()).solve(&at_start)?;
         let mut path = ParametricPath {
@@ -183,7 +183,7 @@ impl Tracer<'_> {
             if out.breakpoints.len() > limit {
                 return ParametricEnd::BreakpointLimit;
             }
-            if self.deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+            if is_over(self.deadline) {
                 return ParametricEnd::TimeLimit;
             }
             if path.kernel.is_due() && !path.tidy() {

@@ -19,6 +19,7 @@ use crate::enumerate;
 use crate::pivoting::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Perturbation, PivotRecord,
 };
+use crate::solve::is_over;
 use crate::{
     Basis, Certificate, Covering, HorizontalLcp, Info, LemkeSettings, Matrix, Ray, Side, Solution,
     Status, WarmStart,
@@ -279,7 +280,7 @@ impl<'a> Search<'a> {
             let progress = Progress { attempt: number, pivots, order, artificial };
             if pivots >= max_pivots {
                 Some(AttemptEnd::PivotLimit)
-            } else if deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+            } else if is_over(deadline) {
                 Some(AttemptEnd::TimeLimit)
             } else {
                 observer(&progress).is_break().then_some(AttemptEnd::Cancelled)
@@ -333,7 +334,7 @@ impl<'a> Search<'a> {
         let mut stop = None;
         let found = farkas_vector(&self.problem, start, path, &mut |pivots, artificial| {
             let progress = Progress { attempt: number, pivots, order, artificial };
-            if deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+            if is_over(deadline) {
                 stop = Some(Status::TimeLimit);
             } else if observer(&progress).is_break() {
                 stop = Some(Status::Cancelled);

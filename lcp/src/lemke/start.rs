@@ -33,11 +33,7 @@ pub(super) struct Equilibrated<'a> {
 impl<'a> Equilibrated<'a> {
     pub(super) fn new(problem: &'a HorizontalLcp) -> Self {
         let n = problem.order();
-        let columns: Vec<Column<'_>> = [Side::T, Side::Y]
-            .into_iter()
-            .flat_map(|side| (0..n).map(move |j| problem.column(j, side)))
-            .collect();
-        let (row, factors) = equilibrate(n, &columns, GIVEN);
+        let (row, factors) = equilibrate(n, &problem.columns(), GIVEN);
         let (t_factor, y_factor) = (factors[..n].to_vec(), factors[n..].to_vec());
         let opposite = (0..n).map(|pair| problem.opposite(pair)).collect();
         let judge = GeneralJudge::with_factors(problem, right_hand_side(problem), (&row, &factors));

@@ -151,8 +151,8 @@ impl BoxedLcp {
                 }
             }
         }
-        let a = a.into_matrix(c.len(), self.m.is_sparse());
-        HorizontalLcp::from_parts(a, b.into_matrix(c.len(), true), c)
+        let a = Matrix::assembled(c.len(), self.m.is_sparse(), a.0.into_iter());
+        HorizontalLcp::from_parts(a, Matrix::from_entries(c.len(), c.len(), b.0.into_iter()), c)
     }
 
     /// `(z, w)` from a point of the general problem.
@@ -305,14 +305,5 @@ impl Entries {
                 self.0.push((i, j, factor * v));
             }
         });
-    }
-
-    fn into_matrix(self, n: usize, sparse: bool) -> Matrix {
-        if sparse {
-            return Matrix::from_entries(n, n, self.0.into_iter());
-        }
-        let mut dense = faer::Mat::zeros(n, n);
-        self.0.into_iter().for_each(|(i, j, v)| dense[(i, j)] += v);
-        Matrix::Dense(dense)
     }
 }

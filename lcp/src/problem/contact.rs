@@ -7,10 +7,11 @@ mod status;
 mod units;
 
 pub use bedding::Bedding;
-pub(crate) use bedding::check_epsilon;
+#[cfg(feature = "clarabel")]
+pub(crate) use bedding::{check_epsilon, ratio};
 pub use builder::{Contact2dBuilder, ContactPoint};
 pub use status::ContactStatus;
-pub(crate) use units::{column_factors, diagonal, median, power_of_two};
+pub(crate) use units::{column_factors, diagonal, median};
 
 use faer::sparse::SparseColMat;
 

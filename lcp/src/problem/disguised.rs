@@ -1,7 +1,5 @@
 //! General problems that are standard ones in disguise.
 
-use faer::Mat;
-
 use super::{HorizontalLcp, Lcp};
 use crate::{Basis, Matrix, Side, WarmStart};
 
@@ -73,13 +71,7 @@ impl HorizontalLcp {
                 (pair, j, -v / value)
             })
         });
-        let m: Matrix = if self.is_sparse() {
-            Matrix::from_entries(n, n, entries)
-        } else {
-            let mut dense = Mat::zeros(n, n);
-            entries.for_each(|(i, j, v)| dense[(i, j)] = v);
-            dense.into()
-        };
+        let m = Matrix::assembled(n, self.is_sparse(), entries);
         // Divisions may overflow.
         Lcp::new(m, q).ok()
     }

@@ -1,7 +1,5 @@
 //! Contact with friction in the plane.
 
-use faer::Mat;
-
 use crate::vector::{check_length, check_vector};
 use crate::{Error, Lcp, Matrix};
 
@@ -132,15 +130,7 @@ fn standard_form(w: &Matrix, q: &[f64], mu: &[f64]) -> Result<Lcp, Error> {
         entries.push((sliding, normal, 2.0 * mu));
         entries.push((sliding, shifted, -1.0));
     }
-    let matrix = if w.is_sparse() {
-        Matrix::from_entries(order, order, entries.into_iter())
-    } else {
-        let mut dense = Mat::zeros(order, order);
-        for (i, j, v) in entries {
-            dense[(i, j)] += v;
-        }
-        dense.into()
-    };
+    let matrix = Matrix::assembled(order, w.is_sparse(), entries.into_iter());
     let vector = q.chunks_exact(2).flat_map(|q| [q[0], q[1], 0.0]).collect();
     Lcp::new(matrix, vector)
 }

@@ -90,6 +90,13 @@ impl HorizontalLcp {
             Side::Y => self.b.slice(pair),
         }
     }
+
+    /// All columns, of `A` and then of `B`.
+    pub(crate) fn columns(&self) -> Vec<Column<'_>> {
+        let of_side = |side| (0..self.order()).map(move |pair| self.column(pair, side));
+        [Side::T, Side::Y].into_iter().flat_map(of_side).collect()
+    }
+
     /// For a free pair the positive `r` with `B_j = -r A_j`: one unit of `y` is `r` units of `-t`.
     pub(crate) fn opposite(&self, pair: usize) -> Option<f64> {
         opposite(self.column(pair, Side::T), self.column(pair, Side::Y))

@@ -16,7 +16,7 @@ use crate::certify::is_proof;
 use crate::scaling::{GIVEN, equilibrate};
 use crate::states::{self, Condensed, nearest};
 use crate::vector::max_abs;
-use crate::{HorizontalLcp, Matrix, Side};
+use crate::{HorizontalLcp, Matrix};
 
 /// The proof that a problem has no solution, looked for at most once.
 pub(super) struct Proof<'a> {
@@ -71,10 +71,7 @@ fn farkas_vector(problem: &HorizontalLcp, effort: Effort) -> Option<Vec<f64>> {
 /// The two conditions of a free variable, whose columns are opposite, are one equation.
 fn projection(problem: &HorizontalLcp) -> (Form, Vec<f64>) {
     let n = problem.order();
-    let columns: Vec<_> = [Side::T, Side::Y]
-        .into_iter()
-        .flat_map(|side| (0..n).map(move |pair| problem.column(pair, side)))
-        .collect();
+    let columns = problem.columns();
     let (rows, cols) = equilibrate(n, &columns, GIVEN);
     let is_free: Vec<bool> = (0..n).map(|pair| is_free(problem, pair)).collect();
     let mut entries = Vec::new();

@@ -8,6 +8,7 @@ use super::interior::End;
 use super::program::Run;
 use super::settings::SoftConstraints;
 use super::{QuadraticProgram, QuadraticProgramSettings, refused};
+use crate::problem::ratio;
 use crate::{
     Bedding, Contact2d, ContactState, Error, Iteration, Observer, Residuals, Solution, Status,
 };
@@ -127,15 +128,5 @@ impl QuadraticProgram {
     /// The same solver for a problem that has its springs.
     fn without_soft(&self) -> Self {
         Self::new(QuadraticProgramSettings { soft: None, ..self.settings.clone() })
-    }
-}
-
-fn ratio(a: f64, b: f64) -> f64 {
-    if a <= 0.0 {
-        0.0
-    } else if b > 0.0 {
-        a / b
-    } else {
-        f64::INFINITY
     }
 }

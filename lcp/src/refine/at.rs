@@ -2,7 +2,7 @@
 
 use super::constants::CLOSED;
 use crate::ContactState;
-use crate::extended::Extended;
+use crate::extended::{Extended, extended};
 use crate::problem::ContactStatus;
 use crate::states::{Point, Scaled};
 use crate::vector::max_abs;
@@ -24,7 +24,7 @@ impl At {
 
     pub(super) fn of(u: &[f64], forces: &[(f64, f64)]) -> Self {
         let forces = forces.iter().map(|(n, t)| [*n, *t].map(Extended::from));
-        Self { u: u.iter().copied().map(Extended::from).collect(), forces: forces.collect() }
+        Self { u: extended(u), forces: forces.collect() }
     }
 
     /// Displacements, and pairs of forces, to the usual digits.

@@ -3,7 +3,8 @@
 use faer::sparse::SparseColMat;
 
 use crate::parts::Parts;
-use crate::problem::{ContactStatus, column_factors, column_of, diagonal, median, power_of_two};
+use crate::problem::{ContactStatus, column_factors, column_of, diagonal, median};
+use crate::scaling::power_of_two;
 use crate::vector::max_abs;
 use crate::{Contact2d, ContactState, MixedLcp};
 

@@ -68,23 +68,6 @@ impl<'a, const N: usize> Fields<'a, N> {
         self.parse(raw)
     }
 
-    /// A vector of that length.
-    pub(super) fn vector_of(
-        &mut self,
-        name: &'static str,
-        length: usize,
-    ) -> Result<Vec<f64>, ReadError> {
-        self.list(name, length)
-    }
-
-    pub(super) fn flags(
-        &mut self,
-        name: &'static str,
-        length: usize,
-    ) -> Result<Vec<bool>, ReadError> {
-        self.list(name, length)
-    }
-
     /// Bounds, where `null` is none.
     pub(super) fn bounds(
         &mut self,
@@ -165,7 +148,8 @@ impl<'a, const N: usize> Fields<'a, N> {
         Ok(Matrix::from_entries(height, width, entries.into_iter()))
     }
 
-    fn list<T: Deserialize<'a>>(
+    /// A list of that length.
+    pub(super) fn list<T: Deserialize<'a>>(
         &mut self,
         name: &'static str,
         length: usize,

@@ -7,11 +7,12 @@
 
 use std::time::Instant;
 
-use super::found::{Crash, is_over};
+use super::found::{Crash, beginnings, exchanged};
 use super::matching::matched_sides;
 use crate::lemke::constants::{DEPENDENCE, ENLARGED, GAIN, RANK_TOLERANCE, SOLVES};
 use crate::lemke::kernel::{Kernel, Var};
 use crate::lemke::start::Equilibrated;
+use crate::solve::is_over;
 use crate::sparse::{Columns, Growing, SparseLu, elimination_order, row_counts};
 use crate::vector::max_abs;
 use crate::{Basis, Matrix, Side};
@@ -168,11 +169,8 @@ impl<'a> Search<'a> {
     /// One more pair with a column, through the shortest chain of exchanges, as for dense problems.
     fn exchange(&self, chosen: &Chosen, solves: &mut usize) -> Option<Vec<Option<Side>>> {
         let n = self.order();
-        let mut queue: Vec<(usize, Side, Option<usize>)> = Vec::new();
-        for &(pair, _) in &chosen.missing {
-            let side = self.preferred[pair];
-            queue.extend([(pair, side, None), (pair, side.complement(), None)]);
-        }
+        let open = chosen.missing.iter().map(|&(pair, _)| pair);
+        let mut queue = beginnings(open, self.preferred);
         let mut seen = vec![false; n];
         let mut work = Vec::new();
         let mut head = 0;
@@ -184,14 +182,7 @@ impl<'a> Search<'a> {
             *solves += 1;
             let tolerance = DEPENDENCE * max_abs(&x);
             if chosen.missing.iter().any(|&(slot, _)| x[slot].abs() > tolerance) {
-                let mut next = chosen.sides.clone();
-                let mut at = Some(head);
-                while let Some(i) = at {
-                    let (pair, side, from) = queue[i];
-                    next[pair] = Some(side);
-                    at = from;
-                }
-                return Some(next);
+                return Some(exchanged(&chosen.sides, &queue, head));
             }
             for other in (0..n).filter(|&k| x[k].abs() > tolerance) {
                 if let Some(side) = chosen.sides[other]

@@ -1,6 +1,6 @@
 //! Springs on all displacements of a contact problem.
 
-use super::{Contact2d, column_of};
+use super::{Contact2d, column_of, diagonal};
 use crate::vector::max_abs;
 use crate::{Error, Matrix};
 
@@ -88,7 +88,7 @@ impl Bedding {
 /// See [`Bedding`].
 fn units(contact: &Contact2d) -> Vec<f64> {
     let n = contact.displacements();
-    let diagonal = |j: usize| contact.stiffness().get(j, j).copied().unwrap_or(0.0);
+    let diagonal = diagonal(contact.stiffness());
     let squared: Vec<f64> = (0..n)
         .map(|j| {
             let both = [contact.normal(), contact.tangent()];
@@ -96,8 +96,8 @@ fn units(contact: &Contact2d) -> Vec<f64> {
         })
         .collect();
     let logs: Vec<f64> = (0..n)
-        .filter(|&j| diagonal(j) > 0.0 && squared[j] > 0.0)
-        .map(|j| (diagonal(j) / squared[j]).ln())
+        .filter(|&j| diagonal[j] > 0.0 && squared[j] > 0.0)
+        .map(|j| (diagonal[j] / squared[j]).ln())
         .collect();
     let mean = if logs.is_empty() {
         let force = (0..n)
@@ -112,7 +112,7 @@ fn units(contact: &Contact2d) -> Vec<f64> {
     };
     let unit = |j: usize| {
         let from_contact = mean * squared[j];
-        match diagonal(j) {
+        match diagonal[j] {
             stiffness if stiffness > 0.0 => stiffness,
             _ if from_contact > 0.0 => from_contact,
             _ => mean,
@@ -125,7 +125,7 @@ fn norm(v: impl Iterator<Item = f64>) -> f64 {
     v.map(|v| v * v).sum::<f64>().sqrt()
 }
 
-fn ratio(a: f64, b: f64) -> f64 {
+pub(crate) fn ratio(a: f64, b: f64) -> f64 {
     if a <= 0.0 {
         0.0
     } else if b > 0.0 {

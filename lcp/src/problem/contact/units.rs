@@ -3,6 +3,7 @@
 use faer::sparse::SparseColMat;
 
 use super::{Contact2d, column_of};
+use crate::scaling::power_of_two;
 
 /// Factors that bring the largest coefficient of every displacement in a gap or a slip near one; those of
 /// displacements that no contact sees bring their stiffness to that of the others.
@@ -41,9 +42,4 @@ pub(crate) fn diagonal(k: &SparseColMat<usize, f64>) -> Vec<f64> {
 pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
     let middle = values.len() / 2;
     (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
-}
-
-/// Factors that are powers of two cost no accuracy.
-pub(crate) fn power_of_two(x: f64) -> f64 {
-    x.log2().round().clamp(-1000.0, 1000.0).exp2()
 }
