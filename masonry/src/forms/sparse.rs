@@ -7,6 +7,7 @@ use super::RowState;
 use crate::ids::BlockId;
 use crate::model::Model;
 use crate::outcome::State;
+use crate::rounding::cleared;
 use crate::system::{BodySystem, System, displaced_nodes};
 
 /// A [`System`] as a sparse contact problem in SI units, and back.
@@ -98,13 +99,24 @@ impl Sparse {
         Ok(Self { problem, starts })
     }
 
-    /// Forces and relative displacements of all rows of the system.
+    /// Forces and relative displacements of all rows of the system; relative displacements that are rounding errors of
+    /// those of the two sides are zero, as those of contacts that are closed or stick.
     pub fn rows(&self, state: &ContactState) -> RowState {
         let friction = self.problem.frictional();
+        let cleared_by = |matrix: &SparseColMat<usize, f64>, values: &[f64]| -> Vec<f64> {
+            let mut sizes = vec![0.0_f64; values.len()];
+            for entry in matrix.triplet_iter() {
+                let term = (entry.val * state.u[entry.col]).abs();
+                sizes[entry.row] = sizes[entry.row].max(term);
+            }
+            values.iter().zip(sizes).map(|(value, size)| cleared(*value, size)).collect()
+        };
+        let gap = cleared_by(self.problem.normal(), &state.gap);
+        let slip = cleared_by(self.problem.tangent(), &state.slip);
         let rows = |normal: &[f64], tangential: &[f64]| {
             normal.iter().copied().chain(friction.iter().map(|&i| tangential[i])).collect()
         };
-        RowState { t: rows(&state.t_n, &state.t_t), y: rows(&state.gap, &state.slip) }
+        RowState { t: rows(&state.t_n, &state.t_t), y: rows(&gap, &slip) }
     }
 
     /// Displacements and forces of the problem from those of the structure, the way back of

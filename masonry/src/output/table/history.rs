@@ -23,11 +23,11 @@ pub(super) fn history(history: &History, units: InUnits) -> String {
     let heads = [
         "stage",
         "step",
-        &format!("work [{energy}]"),
-        &format!("dissipated [{energy}]"),
-        &format!("strain energy [{energy}]"),
+        &format!("W [{energy}]"),
+        &format!("D [{energy}]"),
+        &format!("U [{energy}]"),
         &format!("W-U-D [{energy}]"),
-        &format!("displacement [{length}]"),
+        &format!("moved [{length}]"),
         "open",
         "stick",
         "slip",
@@ -45,10 +45,10 @@ pub(super) fn history(history: &History, units: InUnits) -> String {
     let left = (0..shown.len()).map(|k| work[k] - stored[k] - dissipated[k]);
     let left: Vec<f64> = left.collect();
     let energies = [work, dissipated, stored, left].concat();
-    let energies = aligned(&energies, 5);
+    let energies = aligned(&energies, 4);
     let moved: Vec<f64> =
         shown.iter().map(|record| units.length(record.largest_displacement)).collect();
-    let moved = aligned(&moved, 5);
+    let moved = aligned(&moved, 4);
     for (k, record) in shown.iter().enumerate() {
         let [work, dissipated, stored, left] =
             [0, 1, 2, 3].map(|column| &energies[column * shown.len() + k]);
@@ -61,8 +61,8 @@ pub(super) fn history(history: &History, units: InUnits) -> String {
         ]);
     }
     let mut text = table.trim_fmt()
-        + "\n Work W and dissipated energy D are sums from the beginning. W-U-D, with the strain energy U, \n is what the \
-         steps are too long for.\n";
+        + "\n W: work, D: dissipated energy, both from the beginning; U: strain energy. W-U-D is what steps that\n \
+           are too long make of the balance. moved: the largest displacement.\n";
     if let Some(failed) = &history.failed {
         let step = format!("{} of stage \"{}\"", place(failed), failed.stage);
         text += &pairs(&[("not solved", step)]);
