@@ -72,7 +72,7 @@ impl Kernel for DenseLu<'_> {
         for (k, &j) in free.iter().enumerate() {
             let column = block.col_as_slice_mut(k);
             picked(self.m.slice(j), free, column);
-            column.iter_mut().zip(free).for_each(|(v, &i)| *v *= rows[i] * cols[j]);
+            column.iter_mut().zip(free).for_each(|(v, &i)| *v = rows[i] * *v * cols[j]);
         }
         self.factor = Lu::new(block.as_ref());
         if self.factor.is_some() { Outcome::Regular } else { Outcome::Singular }
