@@ -6,7 +6,7 @@
 //! worth. A row with a load is worth one, and any other the largest product of such shares along a chain from it to a
 //! row with a load. No unit enters.
 
-use std::collections::BinaryHeap;
+use std::collections::VecDeque;
 
 use super::constants::{IN_FULL, SPEAKS};
 use crate::matrix::Column;
@@ -82,8 +82,8 @@ impl Links {
         Self { starts, ends }
     }
 
-    /// Raises what rows and variables are worth to the largest products of shares along chains from the sources
-    /// (Dijkstra 1959).
+    /// Raises what rows and variables are worth to the largest products of shares along chains from the sources: octave
+    /// by octave of values, as no share is above one (Dial 1969), and first come, first served within one.
     fn spread(&self, sources: &[(usize, f64)], worth: &mut [f64]) {
         for &(node, value) in sources {
             worth[node] = value;
@@ -93,14 +93,18 @@ impl Links {
         for (node, _) in sources {
             self.raise(*node, worth, &mut |to, _| raised.push(to));
         }
-        // The bits of numbers that are not negative are ordered as they are.
         raised.sort_unstable();
         raised.dedup();
-        let raised = raised.into_iter().map(|node| (worth[node].to_bits(), node));
-        let mut waiting: BinaryHeap<(u64, usize)> = raised.collect();
-        while let Some((bits, node)) = waiting.pop() {
-            if f64::from_bits(bits) >= worth[node] {
-                self.raise(node, worth, &mut |to, by| waiting.push((by.to_bits(), to)));
+        let mut waiting: [VecDeque<(f64, usize)>; OCTAVES] =
+            std::array::from_fn(|_| VecDeque::new());
+        for node in raised {
+            waiting[octave(worth[node])].push_back((worth[node], node));
+        }
+        for at in 0..OCTAVES {
+            while let Some((value, node)) = waiting[at].pop_front() {
+                if value >= worth[node] {
+                    self.raise(node, worth, &mut |to, by| waiting[octave(by)].push_back((by, to)));
+                }
             }
         }
     }
@@ -116,4 +120,14 @@ impl Links {
             }
         }
     }
+}
+
+/// Octaves of values that are told apart; the last has all that is smaller.
+const OCTAVES: usize = 64;
+
+/// Of a value up to one, from one downwards.
+fn octave(value: f64) -> usize {
+    const ONE: u64 = 1023;
+    let below = ONE.saturating_sub(value.to_bits() >> 52);
+    usize::try_from(below).map_or(OCTAVES - 1, |below| below.min(OCTAVES - 1))
 }
