@@ -27,12 +27,10 @@ pub(super) fn run<P: Planned>(
         tried = Some(solution);
     }
     let mut divided = Divided { settings, began, answers: Vec::new() };
-    let refusal = divided.solve(parts, observer).err();
-    if let Some(error) = refusal.filter(|_| tried.is_none()) {
-        return Err(error);
+    match divided.solve(parts, observer) {
+        Ok(()) => Ok(chain::better(tried, divided.join(problem), settings.tolerance)),
+        Err(error) => tried.ok_or(error),
     }
-    let joined = divided.join(problem);
-    Ok(chain::better(tried, joined, settings.tolerance))
 }
 
 /// The plans of the parts; a method that stands at the same place of several plans stands there once.

@@ -62,8 +62,8 @@ fn undecided(known: &Known<'_>, evidence: Evidence, movement: Option<Movement>) 
         }
         (Status::Cancelled, _) => "the solve was cancelled before it came to an end.".to_owned(),
         (Status::Infeasible, _) if info.proved => {
-            "it is proved that no displacements and forces fit gaps, supports and loads together, but not \
-             that the loads find no forces that balance them."
+            "no displacements and forces satisfy gaps, supports and loads together (proved), but forces that \
+             balance the loads may exist."
                 .to_owned()
         }
         (_, Evidence::AdmissibleForces) => format!(
@@ -105,8 +105,9 @@ fn reached(model: &Model, history: &History) -> Option<String> {
     let mut changed = Vec::new();
     let mut factor = |name: &str, [before, after]: [f64; 2]| {
         if (before - after).abs() > 0.0 {
-            changed
-                .push(format!("{name} at {before:.4} times its full value, {after:.4} asked for"));
+            changed.push(format!(
+                "{name} at {before:.4} times its full value, of {after:.4} in the next step"
+            ));
         }
     };
     factor("gravity", [before.gravity, after.gravity]);
