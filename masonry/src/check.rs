@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use crate::geometry;
 use crate::model::{Anchor, Block, ContactPoint, Model};
-use crate::outcome::{ContactState, ContactStatus, State};
 use crate::recover;
+use crate::state::{ContactState, ContactStatus, State};
 
 /// Balances and violations, dimensionless, recomputed from the contact forces and the loads.
 #[derive(Debug, Clone, Serialize)]

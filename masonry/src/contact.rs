@@ -13,6 +13,7 @@
 
 use nalgebra::{Point2, Vector2};
 
+pub use self::error::ContactError;
 pub(crate) use self::search::near_pairs;
 use crate::geometry::{self, SegmentOverlap};
 use crate::ids::{BlockId, FilmId, JointId, SupportId};
@@ -21,6 +22,7 @@ use crate::model::{
 };
 pub use crate::scene::{Films, PointRule};
 
+pub(crate) mod error;
 mod points;
 mod search;
 
@@ -57,43 +59,6 @@ impl Default for Options {
             films: Films::Compliance,
         }
     }
-}
-
-/// Why contact points could not be placed.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ContactError {
-    /// A joint has no place where nodes of both sides coincide.
-    #[error(
-        "the joint between {a} and {b} has no coincident nodes: \
-         refine the mesh so that nodes match, or place contact points at vertices"
-    )]
-    NoNodalPair {
-        /// Name of side `a`.
-        a: String,
-        /// Name of side `b`.
-        b: String,
-    },
-    /// Two edges that should have mortar between them are too close, or not parallel.
-    #[error(
-        "{a} and {b} stand {nearest:.6} to {farthest:.6} m apart, but their joint, of class \"{class}\", has \
-         mortar of {thickness:.6} m between parallel faces: move them apart by that, or give the joint \
-         no thickness"
-    )]
-    NoRoomForFilm {
-        /// Name of side `a`.
-        a: String,
-        /// Name of side `b`.
-        b: String,
-        /// Name of the joint class.
-        class: String,
-        /// Smaller distance at the ends of their overlap \[m\].
-        nearest: f64,
-        /// Larger distance at the ends of their overlap \[m\].
-        farthest: f64,
-        /// Thickness of the mortar \[m\].
-        thickness: f64,
-    },
 }
 
 /// Finds all joints and places their contact points.

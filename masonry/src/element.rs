@@ -2,7 +2,8 @@
 
 use nalgebra::Matrix3;
 
-use crate::model::{Elasticity, Plane};
+use crate::material::Elasticity;
+use crate::scene::Plane;
 
 pub mod quad4;
 pub mod quadrature;

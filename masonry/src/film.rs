@@ -51,7 +51,8 @@
 use nalgebra::{Matrix3, SMatrix, SVector};
 
 use crate::element::constitutive;
-use crate::model::{Elasticity, Plane};
+use crate::material::Elasticity;
+use crate::scene::Plane;
 
 pub mod change;
 pub mod law;

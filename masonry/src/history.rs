@@ -21,8 +21,8 @@ use std::collections::BTreeSet;
 use serde::{Deserialize, Serialize};
 
 use crate::model::{Body, Model};
-use crate::outcome::Reaction;
 use crate::scene::{Movement, Route, Scene, Stage};
+use crate::state::Reaction;
 
 pub mod checkpoint;
 pub(crate) mod energy;

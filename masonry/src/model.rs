@@ -19,6 +19,7 @@ use nalgebra::{Point2, Vector2};
 use crate::element::constitutive;
 use crate::film::FilmMaterial;
 use crate::ids::{BlockId, FilmId, JointId, LoadId, SupportId};
+pub use crate::material::Elasticity;
 use crate::mesh::BlockMesh;
 pub use crate::scene::{Movement, Plane};
 use crate::units::Units;
@@ -49,15 +50,6 @@ pub struct Model {
     pub gravity: Vector2<f64>,
     /// The units of the scene, in which results are reported.
     pub units: Units,
-}
-
-/// Linear elasticity of a deformable block.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Elasticity {
-    /// Young's modulus \[Pa\].
-    pub young: f64,
-    /// Poisson's ratio \[-\].
-    pub poisson: f64,
 }
 
 /// A block (brick, voussoir): a convex quadrilateral.

@@ -1,5 +1,6 @@
 //! The plan: which effects a scene calls for, why, and what they cost.
 
+mod choice;
 mod effects;
 mod history;
 mod routes;
@@ -7,7 +8,7 @@ mod sizes;
 
 use serde::Serialize;
 
-pub use routes::Choice;
+pub use choice::Choice;
 use sizes::Sizes;
 
 use crate::model::Model;

@@ -21,7 +21,7 @@ use std::time::Duration;
 
 use lcp::Status;
 
-use crate::outcome::SolveInfo;
+use crate::info::SolveInfo;
 use crate::scene::{Form, Route, Solver};
 
 /// Pivots on dense matrices of this order take about a second; the time grows with the cube.

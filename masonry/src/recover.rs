@@ -6,10 +6,10 @@ use crate::element::{constitutive, quad4};
 use crate::forms::{RowState, Sparse};
 use crate::ids::{BlockId, ContactId};
 use crate::model::{Anchor, Body, ContactPoint, Model};
-use crate::outcome::{
+use crate::reduction::Reduction;
+use crate::state::{
     ContactState, ContactStatus, ElementStress, FilmStress, Principal, Reaction, State,
 };
-use crate::reduction::Reduction;
 use crate::system::{BodySystem, System, displaced_nodes};
 
 /// Gaps and slips below this fraction of the largest displacement or film compression count as zero when points are called

@@ -17,7 +17,7 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use crate::forms::{RowState, Start};
-use crate::outcome::SolveInfo;
+use crate::info::SolveInfo;
 use crate::scene::Form;
 
 pub mod alm;

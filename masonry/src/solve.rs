@@ -12,8 +12,9 @@ use std::time::Instant;
 pub use run::Run;
 
 use crate::history::checkpoint::CheckpointError;
+use crate::info::PhaseTime;
 use crate::model::Model;
-use crate::outcome::{Outcome, PhaseTime};
+use crate::outcome::Outcome;
 use crate::plan::Plan;
 use crate::rigid::{FreeMotion, RigidError};
 use crate::routes::RouteError;

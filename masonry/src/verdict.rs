@@ -16,10 +16,11 @@ use serde::Serialize;
 use crate::geometry;
 use crate::history::History;
 use crate::ids::BlockId;
+use crate::info::SolveInfo;
 use crate::model::{Body, ContactPoint, Model};
-use crate::outcome::{SolveInfo, State};
 use crate::recover;
 use crate::rigid::Modes;
+use crate::state::State;
 use crate::statics::Statics;
 use crate::system::displaced_nodes;
 

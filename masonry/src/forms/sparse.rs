@@ -6,8 +6,8 @@ use lcp::{Contact2d, ContactState, Residuals};
 use super::RowState;
 use crate::ids::BlockId;
 use crate::model::Model;
-use crate::outcome::State;
 use crate::rounding::cleared;
+use crate::state::State;
 use crate::system::{BodySystem, System, displaced_nodes};
 
 /// A [`System`] as a sparse contact problem in SI units, and back.

@@ -9,10 +9,10 @@ use serde::{Deserialize, Serialize};
 use super::StepRecord;
 use crate::forms::Start;
 use crate::model::Model;
-use crate::outcome::{ContactState, State};
 use crate::output::write_atomically;
 use crate::recover;
 use crate::scene::{Output, Scene, SceneError, Solver};
+use crate::state::{ContactState, State};
 
 /// The version of the format.
 const VERSION: u32 = 1;

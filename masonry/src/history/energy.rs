@@ -10,8 +10,8 @@ use nalgebra::Vector2;
 
 use crate::ids::BlockId;
 use crate::model::{Body, Model};
-use crate::outcome::{ContactState, State};
 use crate::recover;
+use crate::state::{ContactState, State};
 use crate::system::{System, displaced_nodes};
 
 /// What loads and supports need to have their work told.

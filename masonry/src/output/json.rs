@@ -9,10 +9,12 @@ use super::summary::{
     CornerSum, Resultant, corner_sums, edge_loads, extreme_film_stresses, extreme_stresses,
     largest_displacement, reason, weight,
 };
-use crate::outcome::{Outcome, Reaction, RouteEnd, SoftReport, SpringShares};
+use crate::info::{RouteEnd, SoftReport, SpringShares};
+use crate::outcome::Outcome;
 use crate::plan::Plan;
 use crate::routes::alm::Iteration;
 use crate::scene::Route;
+use crate::state::Reaction;
 use crate::verdict::{Evidence, Verdict};
 
 /// The object of `result.json` and of `masonry solve --json`, pretty-printed.

@@ -6,7 +6,8 @@ use crate::geometry;
 use crate::history::Step;
 use crate::ids::BlockId;
 use crate::model::{Block, Body, EdgeLoad, Model};
-use crate::outcome::{FilmStress, Outcome, State};
+use crate::outcome::Outcome;
+use crate::state::{FilmStress, State};
 use crate::verdict::Verdict;
 
 /// The displacement component of largest size, with its sign and place.

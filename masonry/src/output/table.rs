@@ -9,9 +9,11 @@ use super::summary::{
     CornerSum, ExtremeStress, Resultant, applied_load, corner_sums, edge_loads,
     extreme_film_stresses, extreme_stresses, largest_displacement, reason, total_reaction, weight,
 };
-use crate::outcome::{FilmStress, Outcome, SoftReport, SpringShares, State};
+use crate::info::{SoftReport, SpringShares};
+use crate::outcome::Outcome;
 use crate::plan::Plan;
 use crate::scene::Route;
+use crate::state::{FilmStress, State};
 
 const WIDTH: u16 = 100;
 

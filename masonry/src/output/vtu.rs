@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 use super::format::InUnits;
 use super::summary::nodes;
 use crate::model::Model;
-use crate::outcome::{ElementStress, State};
+use crate::state::{ElementStress, State};
 
 const QUAD: u8 = 9;
 

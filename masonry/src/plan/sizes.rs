@@ -1,6 +1,6 @@
 //! How large the problem of a model is on each route, and what it would be without an effect.
 
-use super::Choice;
+use super::choice::Choice;
 use crate::model::{Anchor, Block, Model};
 use crate::routes::alm::Strips;
 use crate::scene::{Form, Route};

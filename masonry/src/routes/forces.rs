@@ -7,7 +7,7 @@ use lcp::{ContactState, Residuals, Status};
 
 use super::{Answer, sparse};
 use crate::forms::Sparse;
-use crate::outcome::SolveInfo;
+use crate::info::SolveInfo;
 use crate::scene::Route;
 use crate::statics::{Decision, Statics};
 use crate::system::System;

@@ -12,7 +12,7 @@ use lcp::{Basis, Covering, Lemke, LemkeSettings, Residuals, Side, Status, WarmSt
 
 use super::{Answer, Method, Motion, Observer, Request, RouteError, Step};
 use crate::forms::{Form, FormKind, RowState, Start};
-use crate::outcome::SolveInfo;
+use crate::info::SolveInfo;
 use crate::reduction::Reduction;
 use crate::scene;
 use crate::system::System;

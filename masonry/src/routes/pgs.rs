@@ -16,7 +16,7 @@ use lcp::{
 use super::sparse::Found;
 use super::{Answer, Method, Observer, Request, RouteError, Step, sparse};
 use crate::forms::Sparse;
-use crate::outcome::SoftReport;
+use crate::info::SoftReport;
 use crate::scene::Route;
 
 /// Stiffness of the springs where the scene gives none: soft ones need fewer rounds, and more sweeps in

@@ -12,7 +12,7 @@ use lcp::{QuadraticProgram, QuadraticProgramSettings, Solver, Status};
 use super::sparse::Found;
 use super::{Answer, Method, Observer, Request, RouteError, sparse};
 use crate::forms::Sparse;
-use crate::outcome::SoftReport;
+use crate::info::SoftReport;
 use crate::scene::Route;
 
 /// The route on a sparse problem.

@@ -4,7 +4,7 @@ use lcp::{Certificate, ContactState, Residuals, SoftSprings, Solution, Status};
 
 use super::{Answer, Motion};
 use crate::forms::Sparse;
-use crate::outcome::{SoftReport, SolveInfo, SpringShares};
+use crate::info::{SoftReport, SolveInfo, SpringShares};
 use crate::scene::Route;
 
 /// The name of the problem in reports, in the place of a form.

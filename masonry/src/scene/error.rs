@@ -339,7 +339,7 @@ pub enum SceneErrorKind {
     },
     /// Contact points could not be placed.
     #[error("{0}")]
-    Contact(#[from] crate::contact::ContactError),
+    Contact(#[from] crate::contact::error::ContactError),
 }
 
 /// The names of a kind that a scene has.

@@ -5,8 +5,8 @@ use serde::Serialize;
 
 use crate::geometry;
 use crate::model::{Anchor, Block, Model};
-use crate::outcome::State;
 use crate::recover;
+use crate::state::State;
 
 /// Errors of an answer relative to a reference \[-\]; `None` where the reference has nothing but zeros.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

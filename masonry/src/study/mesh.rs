@@ -11,9 +11,9 @@ use super::refining::{self, Refining};
 use super::runs::Runner;
 use super::verified::Exact;
 use crate::model::{Block, Body, Model};
-use crate::outcome::State;
 use crate::recover;
 use crate::scene::Scene;
+use crate::state::State;
 
 /// A mesh and its reference.
 #[derive(Debug, Clone, PartialEq, Serialize)]

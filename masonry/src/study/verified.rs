@@ -7,8 +7,9 @@ use serde::Serialize;
 use super::Figures;
 use crate::forms::Sparse;
 use crate::model::Model;
-use crate::outcome::{Outcome, State};
+use crate::outcome::Outcome;
 use crate::recover;
+use crate::state::State;
 use crate::system::System;
 
 /// What numbers of twice the digits say of an answer: see [`lcp::Contact2d::verify`]. Of a load history it is the

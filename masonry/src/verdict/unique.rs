@@ -6,7 +6,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{Col, Side};
 use lcp::Contact2d;
 
-use crate::outcome::{ContactState, State};
+use crate::state::{ContactState, State};
 
 /// Normal forces below this part of the largest are none, and forces this near to an edge of the cone are on it.
 const NONE: f64 = 1e-9;

@@ -6,9 +6,9 @@ use super::canvas::{Canvas, Pixel, fixed};
 use super::marks::{self, OUTLINE};
 use super::sheet::{Bounds, Frame, Margins, Sheet};
 use crate::model::{Block, Model};
-use crate::outcome::State;
 use crate::output::format::{InUnits, round_down, significant};
 use crate::output::summary::{largest_displacement, nodes};
+use crate::state::State;
 
 const UNDEFORMED: &str = "#a8a8a8";
 const FILLED: &str = "#f0dcc3";

@@ -7,7 +7,7 @@ use super::sheet::{Bounds, Frame, Sheet};
 use crate::geometry;
 use crate::ids::SupportId;
 use crate::model::{Block, Body, ContactPoint, Model, Support};
-use crate::outcome::{ContactState, ContactStatus};
+use crate::state::{ContactState, ContactStatus};
 
 /// Compression: a blue that the colour-blind tell from [`TENSION`].
 pub(super) const COMPRESSION: &str = "#0072b2";

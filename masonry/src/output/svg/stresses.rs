@@ -8,10 +8,10 @@ use super::sheet::{Frame, Margins, Sheet, draw_bar};
 use crate::bond::JointThickness;
 use crate::geometry;
 use crate::model::Model;
-use crate::outcome::{ElementStress, State};
 use crate::output::format::{InUnits, round_down};
 use crate::output::summary::extreme_stresses;
 use crate::scene::Scene;
+use crate::state::{ElementStress, State};
 
 const REFERENCE: &str = "#009e73";
 

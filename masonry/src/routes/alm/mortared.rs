@@ -15,8 +15,8 @@ use super::{AlmError, Answer, Iteration, Settings, run};
 use crate::film::pointwise::FilmResponse;
 use crate::forms::Sparse;
 use crate::model::{Body, Model};
-use crate::outcome::{Reaction, State};
 use crate::recover;
+use crate::state::{Reaction, State};
 use crate::system::{System, SystemError};
 
 /// Why a wall could not be set up.

@@ -1,0 +1,105 @@
+//! The mechanical state of a structure: plain data, which imports nothing of the crate but the numbers of its parts.
+
+use nalgebra::{Point2, Vector2};
+use serde::{Deserialize, Serialize};
+
+use crate::ids::{BlockId, ContactId, FilmId};
+
+/// The mechanical state of a model under its loads, in SI units.
+#[derive(Debug, Clone)]
+pub struct State {
+    /// Displacements \[m\] of the nodes of every block, in the order of the block's mesh; of the
+    /// four corners for a rigid block.
+    pub displacements: Vec<Vec<Vector2<f64>>>,
+    /// Force, gap and slip at every contact point.
+    pub contacts: Vec<ContactState>,
+    /// Stresses at the contact points of the mortar films, in the order of the points; empty without
+    /// films, and when no output shows stresses.
+    pub films: Vec<FilmStress>,
+    /// Stresses at the centre of every element; empty when no output shows them.
+    pub stresses: Vec<ElementStress>,
+    /// Strain energy of all blocks and films \[J\].
+    pub strain_energy: f64,
+}
+
+/// What happens at one contact point.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ContactState {
+    /// Normal contact force \[N\], compression positive.
+    pub t_n: f64,
+    /// Tangential contact force \[N\] on side `b` along `t`.
+    pub t_t: f64,
+    /// Normal gap \[m\]; across a film, beyond its compression.
+    pub y_n: f64,
+    /// Slip \[m\] of side `b` relative to `a` along `t`; across a film, beyond its shear.
+    pub y_t: f64,
+    /// Open, stick or slip.
+    pub status: ContactStatus,
+}
+
+/// The three states of a frictional contact point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ContactStatus {
+    /// The gap is positive: no force is carried.
+    Open,
+    /// Closed without sliding.
+    Stick,
+    /// Closed, and the sides slide on each other: the force is on the edge of the friction cone.
+    Slip,
+}
+
+/// Stress at one contact point of a mortar film, in the film's axes: `x` along the tangent of the
+/// joint and `y` along its normal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FilmStress {
+    /// The film.
+    pub film: FilmId,
+    /// The contact point.
+    pub contact: ContactId,
+    /// Stress along the joint \[Pa\], tension positive; `None` where films act across their joints only.
+    pub sigma_x: Option<f64>,
+    /// Stress across the joint \[Pa\], tension positive: never above zero.
+    pub sigma_y: f64,
+    /// Shear stress \[Pa\].
+    pub tau: f64,
+}
+
+/// Stress at the centre of one element.
+#[derive(Debug, Clone, Copy)]
+pub struct ElementStress {
+    /// The block that the element belongs to.
+    pub block: BlockId,
+    /// The element's position in the block's mesh.
+    pub element: usize,
+    /// The centre of the element \[m\].
+    pub centre: Point2<f64>,
+    /// `sigma_x, sigma_y, tau_xy` \[Pa\], tension positive.
+    pub sigma: [f64; 3],
+    /// The principal stresses and their direction.
+    pub principal: Principal,
+}
+
+/// Principal stresses of a plane state of stress.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Principal {
+    /// The larger (more tensile) principal stress \[Pa\].
+    pub sigma_1: f64,
+    /// The smaller (more compressive) principal stress \[Pa\].
+    pub sigma_2: f64,
+    /// Angle of the direction of `sigma_1` from the x axis \[rad\], in `(-pi/2, pi/2]`.
+    pub theta: f64,
+}
+
+/// The resultant of the contact forces of one support on the structure, in SI units.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Reaction {
+    /// Name of the support.
+    pub support: String,
+    /// Horizontal force on the structure \[N\].
+    pub fx: f64,
+    /// Vertical force on the structure \[N\].
+    pub fy: f64,
+    /// Moment about the origin, counter-clockwise \[N m\].
+    pub m: f64,
+}
