@@ -15,9 +15,9 @@ mod tables;
 use std::path::Path;
 use std::time::Duration;
 
-use masonry::output;
+use masonry::analysis::study::{Settings, Study, study};
+use masonry::report;
 use masonry::scene::{Brick, Joint, Load, Material, Plane, Scene, Support, Wall};
-use masonry::study::{Settings, Study, study};
 use masonry::units::Units;
 
 /// Elements of a square in each direction; the first are those of the scenes.
@@ -88,6 +88,6 @@ fn told(scene: &Scene, settings: Settings) -> Study {
         eprintln!("{}: mesh {}, {} to {:e}", scene.title, at.mesh, at.route.name(), at.tolerance);
     });
     let study = study.expect("the scene is sound");
-    println!("{}", output::study::table(&study));
+    println!("{}", report::study::table(&study));
     study
 }

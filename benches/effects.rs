@@ -18,12 +18,12 @@ use std::time::Instant;
 
 use allocation_counter::measure;
 use lcp::Status;
-use masonry::forms::{Form, FormKind, Sparse};
+use masonry::analysis::outcome::Outcome;
+use masonry::analysis::solve::solve;
+use masonry::method::forms::{Form, FormKind, Sparse};
+use masonry::method::reduction::Reduction;
 use masonry::model::Model;
-use masonry::outcome::Outcome;
-use masonry::reduction::Reduction;
 use masonry::scene::{Route, Scene};
-use masonry::solve::solve;
 use masonry::system::System;
 use wall::Wall;
 

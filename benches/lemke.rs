@@ -17,9 +17,9 @@ use std::time::Instant;
 use dense::{positive_definite, wave};
 use faer::Mat;
 use lcp::{HorizontalLcp, Lemke, Solution, Solver};
-use masonry::forms::{Form, FormKind};
+use masonry::method::forms::{Form, FormKind};
+use masonry::method::reduction::Reduction;
 use masonry::model::Model;
-use masonry::reduction::Reduction;
 use masonry::scene::Scene;
 use masonry::system::System;
 

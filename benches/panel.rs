@@ -10,17 +10,17 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use faer::Mat;
-use masonry::check::Checks;
-use masonry::forms::{Form, FormKind};
+use masonry::method::forms::{Form, FormKind};
+use masonry::method::lemke::Pivots;
+use masonry::method::reduction::Reduction;
+use masonry::method::{Method, Request};
 use masonry::model::Model;
-use masonry::output::svg;
 use masonry::plan::Plan;
 use masonry::recover::recover;
-use masonry::reduction::Reduction;
-use masonry::routes::lemke::Pivots;
-use masonry::routes::{Method, Request};
+use masonry::report::svg;
 use masonry::scene::{self, Scene};
 use masonry::system::System;
+use masonry::verify::checks::Checks;
 
 fn panel(c: &mut Criterion) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/panel_square.toml");

@@ -11,8 +11,8 @@ mod beam;
 use std::time::Instant;
 
 use beam::{Beam, Uplift};
+use masonry::analysis::solve::solve;
 use masonry::scene::Route;
-use masonry::solve::solve;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("l: length of the lifted part, h: height, a: length of an element; lengths and rises");

@@ -17,10 +17,10 @@ use std::time::Instant;
 
 use bandwidth::semi_bandwidth;
 use lcp::Status;
+use masonry::analysis::solve::solve;
 use masonry::model::Model;
-use masonry::routes::alm::{Iteration, MortaredWall, Settings};
+use masonry::paper::alm::{Iteration, MortaredWall, Settings};
 use masonry::scene::{Route, Scene};
-use masonry::solve::solve;
 
 const PANELS: [&str; 4] = [
     "panel_square",

@@ -21,7 +21,7 @@ use lcp::{
     Method, ProjectedGaussSeidel, ProjectedGaussSeidelSettings, QuadraticProgram,
     QuadraticProgramSettings, SemismoothNewton, SemismoothNewtonSettings, Solver, Status,
 };
-use masonry::forms::Sparse;
+use masonry::method::forms::Sparse;
 use masonry::model::{Body, Model};
 use masonry::recover::stresses;
 use masonry::system::System;

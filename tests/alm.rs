@@ -7,9 +7,9 @@ use std::path::Path;
 
 use faer::mat;
 use lcp::{Contact2d, InteriorPoint, Solver, Status};
-use masonry::forms::Sparse;
+use masonry::method::forms::Sparse;
 use masonry::model::Model;
-use masonry::routes::alm::{self, AlmError, Answer, Settings};
+use masonry::paper::alm::{self, AlmError, Answer, Settings};
 use masonry::scene::Scene;
 use masonry::system::System;
 

@@ -13,15 +13,15 @@ use common::{
     M_KN, all_displacements, all_stresses, assert_close, difference, panels, solved, state,
 };
 use lcp::{Contact2d, Status};
-use masonry::contact::PointRule;
-use masonry::film::law::PointContact;
-use masonry::film::updating::{Settling, Updating};
+use masonry::analysis::outcome::Reaction;
+use masonry::model::joints::PointRule;
 use masonry::model::{Model, Plane};
-use masonry::outcome::Reaction;
-use masonry::output::summary;
-use masonry::routes::alm::{
+use masonry::paper::alm::{
     AlmError, Answer, AttachError, MortaredError, MortaredState, MortaredWall, Settings, Updates,
 };
+use masonry::paper::film::law::PointContact;
+use masonry::paper::film::updating::{Settling, Updating};
+use masonry::report::summary;
 use masonry::scene::{Brick, Joint, Load, Material, Route, Scene, Support, Wall};
 use nalgebra::{DMatrix, DVector};
 

@@ -13,15 +13,15 @@ use common::{
     rectangle, state,
 };
 use lcp::Status;
-use masonry::contact::PointRule;
+use masonry::analysis::outcome::Outcome;
+use masonry::analysis::solve::{Event, SolveError, solve, solve_observed};
 use masonry::model::Plane;
-use masonry::outcome::Outcome;
-use masonry::output::{json, table};
+use masonry::model::joints::PointRule;
 use masonry::plan::Plan;
+use masonry::report::{json, table};
 use masonry::scene::{
     Brick, Films, Joint, Load, Material, Movement, Route, Scene, Stage, Support, Wall,
 };
-use masonry::solve::{Event, SolveError, solve, solve_observed};
 use serde_json::Value;
 
 const TOLERANCE: f64 = 1e-8;

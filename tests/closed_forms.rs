@@ -10,13 +10,13 @@ use common::{
     stands,
 };
 use lcp::Status;
-use masonry::contact::PointRule;
+use masonry::analysis::outcome::Outcome;
+use masonry::analysis::solve::solve;
 use masonry::ids::{BlockId, SupportId};
+use masonry::model::joints::PointRule;
 use masonry::model::{Body, Plane};
-use masonry::outcome::Outcome;
 use masonry::scene::{Block, Joint, Load, Material, Route, Scene, Support};
-use masonry::solve::solve;
-use masonry::verdict::Verdict;
+use masonry::verify::verdict::Verdict;
 use nalgebra::{Point2, Vector2};
 
 /// Weight of the stone, kN/m3.

@@ -20,12 +20,12 @@ use std::ops::ControlFlow;
 
 use common::routes::{ROUTES, answer_by, routes_for};
 use common::state;
-use masonry::forms::{Form, FormKind, Sparse};
+use masonry::analysis::solve::{Run, solve};
+use masonry::method::forms::{Form, FormKind, Sparse};
+use masonry::method::reduction::Reduction;
 use masonry::model::{Model, Support};
 use masonry::plan::{Effect, Plan};
-use masonry::reduction::Reduction;
 use masonry::scene::{Films, Joint, Material, Movement, Route, Scene};
-use masonry::solve::{Run, solve};
 use masonry::system::{Direction, System};
 use scenes::{boxed, elastic, piers};
 

@@ -39,9 +39,9 @@ use std::sync::LazyLock;
 use case::{Case, End, Theme};
 use checks::Errors;
 use common::{all_displacements, all_reactions, difference};
+use masonry::analysis::outcome::{ContactStatus, Outcome, State};
 use masonry::ids::BlockId;
 use masonry::model::{ContactPoint, Model};
-use masonry::outcome::{ContactStatus, Outcome, State};
 use nalgebra::Vector2;
 
 /// A theme whose cases are solved once, for all tests.
@@ -137,7 +137,7 @@ fn sweeps_of_growth() {
 fn panel_without_a_floor_is_an_arch() {
     let errors = |mu: f64| {
         let course = common::solved(&limits::arch(mu.max(1.2)).scene);
-        let mut panel = masonry::solve::solve(&limits::hanging(mu).scene).unwrap();
+        let mut panel = masonry::analysis::solve::solve(&limits::hanging(mu).scene).unwrap();
         panel.state = Some(above_dropped_bricks(&course, &panel.model));
         Errors::of(&panel)
     };
@@ -161,7 +161,7 @@ fn above_dropped_bricks(course: &Outcome, panel: &Model) -> State {
     let blocks = |contact: &ContactPoint| {
         [Some(contact.b), contact.a].map(|it| it.map(|anchor| anchor.block))
     };
-    let none = masonry::outcome::ContactState {
+    let none = masonry::analysis::outcome::ContactState {
         t_n: 0.0,
         t_t: 0.0,
         y_n: 0.0,

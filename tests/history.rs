@@ -7,12 +7,12 @@ use std::ops::ControlFlow;
 
 use common::assert_close;
 use lcp::Status;
-use masonry::history::checkpoint::{Checkpoint, CheckpointError};
-use masonry::outcome::Outcome;
+use masonry::analysis::checkpoint::{Checkpoint, CheckpointError};
+use masonry::analysis::outcome::Outcome;
+use masonry::analysis::solve::{Run, SolveError, solve};
 use masonry::scene::{
     Block, Brick, Joint, Load, Material, Movement, Plane, Route, Scene, Stage, Support, Wall,
 };
-use masonry::solve::{Run, SolveError, solve};
 use masonry::units::Units;
 
 const ROUTES: [Route; 5] = [Route::Lemke, Route::Interior, Route::Newton, Route::Qp, Route::Pgs];
@@ -280,7 +280,7 @@ fn a_step_that_fails_keeps_the_one_before() {
         assert_close(outcome.reactions[0].fx, thrust, 1e-9);
         let carried: f64 = outcome.reactions.iter().map(|it| it.fy).sum();
         assert_close(carried, 0.9 * 1.01 * thrust, 1e-9);
-        let report = masonry::output::table::report(&outcome);
+        let report = masonry::report::table::report(&outcome);
         assert!(report.contains("Step 10 of 10 of stage \"load\" could not be solved"), "{report}");
     }
 }

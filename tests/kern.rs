@@ -7,9 +7,9 @@ mod common;
 
 use common::routes::{answer_by, routes_for, solved_by, stands_by};
 use common::{M_KN, displacements, rectangle, state};
-use masonry::contact::PointRule;
+use masonry::analysis::outcome::Outcome;
 use masonry::model::Plane;
-use masonry::outcome::Outcome;
+use masonry::model::joints::PointRule;
 use masonry::scene::{Block, Joint, Load, Material, Route, Scene, Support};
 
 /// Width of the block \[m\].

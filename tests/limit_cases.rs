@@ -7,8 +7,8 @@ mod common;
 
 use common::routes::{OF_RIGID_BLOCKS, answer_by, solved_by};
 use common::{M_KN, all_displacements, all_reactions, all_stresses, difference, rectangle, state};
+use masonry::analysis::outcome::Outcome;
 use masonry::model::Plane;
-use masonry::outcome::Outcome;
 use masonry::scene::{Brick, Joint, Load, Material, Route, Scene, Support, Wall};
 
 /// Three courses of bricks 0.2 long, pushed a little to the side, in joints of this class.

@@ -12,15 +12,15 @@ use common::{
     M_KN, assert_close, block_named, displacements, panels, rectangle, solved, stands, state,
 };
 use lcp::{InteriorPoint, Solver};
-use masonry::contact::PointRule;
-use masonry::forms::Sparse;
+use masonry::analysis::outcome::{ContactStatus, Outcome};
 use masonry::ids::FilmId;
+use masonry::method::forms::Sparse;
+use masonry::model::joints::PointRule;
 use masonry::model::{Body, Model, Plane};
-use masonry::outcome::{ContactStatus, Outcome};
-use masonry::output::summary;
+use masonry::paper::alm::{self, Settings};
 use masonry::plan::Plan;
 use masonry::recover;
-use masonry::routes::alm::{self, Settings};
+use masonry::report::summary;
 use masonry::scene::{Brick, Joint, Load, Material, Route, Scene, Support, Wall};
 use masonry::system::System;
 use nalgebra::Vector2;
@@ -323,9 +323,9 @@ fn the_plan_and_the_files_tell_of_films() {
     let films = effect(&SQUARE);
     assert!(films.on);
     assert!(films.because.contains("bed, head: 335 films"), "{}", films.because);
-    let text = masonry::output::table::report(&SQUARE);
+    let text = masonry::report::table::report(&SQUARE);
     assert!(text.contains("film compression") && text.contains("film shear"), "{text}");
-    let csv = |outcome: &Outcome| masonry::output::csv::contacts(&outcome.model, state(outcome));
+    let csv = |outcome: &Outcome| masonry::report::csv::contacts(&outcome.model, state(outcome));
     let head = "mu,status,film_sigma_y_kN/m2,film_tau_kN/m2";
     assert!(csv(&SQUARE).lines().next().is_some_and(|line| line.ends_with(head)));
 
@@ -341,7 +341,7 @@ fn the_plan_and_the_files_tell_of_films() {
     let films = effect(&dry);
     assert!(!films.on && films.because.contains("dry"), "{}", films.because);
     assert!(!csv(&dry).contains("film"));
-    assert!(!masonry::output::table::report(&dry).contains("film compression"));
+    assert!(!masonry::report::table::report(&dry).contains("film compression"));
     let system = System::new(&dry.model).unwrap();
     assert!(system.rows.iter().all(|row| row.compliance <= 0.0));
     let unknowns: usize = system.bodies.iter().map(|body| body.load.len()).sum();

@@ -9,16 +9,16 @@ mod common;
 
 use common::{M_KN, applied_load, assert_admissible, assert_close, solved};
 use lcp::Status;
-use masonry::forms::{Form, FormKind, RowState};
+use masonry::analysis::outcome::Outcome;
+use masonry::analysis::solve::{SolveError, solve};
+use masonry::method::forms::{Form, FormKind, RowState};
+use masonry::method::reduction::Reduction;
 use masonry::model::{Model, Plane};
-use masonry::outcome::Outcome;
-use masonry::output::{summary, table};
-use masonry::reduction::Reduction;
+use masonry::report::{summary, table};
 use masonry::scene::{self, Block, Brick, Joint, Load, Material, Route, Scene, Support, Wall};
-use masonry::solve::{SolveError, solve};
 use masonry::system::{Direction, System};
 use masonry::units::Units;
-use masonry::verdict::{Evidence, Verdict};
+use masonry::verify::verdict::{Evidence, Verdict};
 
 const BRICK: Brick = Brick { length: 0.1, height: 0.1 };
 

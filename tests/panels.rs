@@ -10,11 +10,11 @@ use std::sync::LazyLock;
 
 use common::panels;
 
+use masonry::analysis::outcome::{Outcome, State};
+use masonry::analysis::solve::solve;
 use masonry::model::{Body, ContactPoint};
-use masonry::outcome::{Outcome, State};
 use masonry::scene::{Form, Route, Scene};
-use masonry::solve::solve;
-use masonry::verdict::Verdict;
+use masonry::verify::verdict::Verdict;
 
 static OPEN: LazyLock<Outcome> = LazyLock::new(|| {
     // By pivots, as published: where the two loose bricks in the lowest course are is theirs.
@@ -159,7 +159,7 @@ fn the_default_contact_points_are_the_nodal_pairs_here() {
     for name in ["panel_square", "panel_rectangular"] {
         let scene = panels::scene(name);
         let mut pairs = scene.clone();
-        pairs.contact.points = masonry::contact::PointRule::NodalPairs;
+        pairs.contact.points = masonry::model::joints::PointRule::NodalPairs;
         let model = |scene: &Scene| masonry::model::Model::from_scene(scene).unwrap();
         let (points, pairs) = (model(&scene).contacts, model(&pairs).contacts);
         assert_eq!(points.len(), pairs.len());

@@ -14,9 +14,9 @@ use common::{
     all_displacements, all_stresses, assert_close, assert_sound, difference, panels, state,
 };
 use lcp::Status;
-use masonry::outcome::Outcome;
+use masonry::analysis::outcome::Outcome;
+use masonry::analysis::solve::solve;
 use masonry::scene::{Route, Scene};
-use masonry::solve::solve;
 
 const TOLERANCE: f64 = 1e-8;
 

@@ -9,9 +9,9 @@ mod common;
 
 use common::routes::{ROUTES, answer_by, rounding, solved_by};
 use common::{M_KN, assert_close, displacements, rectangle, state};
-use masonry::contact::PointRule;
+use masonry::analysis::outcome::Outcome;
 use masonry::model::Plane;
-use masonry::outcome::Outcome;
+use masonry::model::joints::PointRule;
 use masonry::scene::{Block, Joint, Load, Material, Movement, Route, Scene, Stage, Support};
 use masonry::units::Units;
 

@@ -6,13 +6,13 @@ mod common;
 
 use common::{GRAVITY, M_KN, applied_load, assert_admissible, assert_sound, state};
 use lcp::Status;
-use masonry::bond;
-use masonry::forms::{Form, FormKind, RowState};
+use masonry::analysis::outcome::{ContactState, Outcome};
+use masonry::analysis::solve::solve;
+use masonry::method::forms::{Form, FormKind, RowState};
+use masonry::method::reduction::Reduction;
 use masonry::model::{Body, ContactPoint, Model, Plane};
-use masonry::outcome::{ContactState, Outcome};
-use masonry::reduction::Reduction;
+use masonry::scene::bond;
 use masonry::scene::{Block, Brick, Joint, Load, Material, Scene, Support, Wall};
-use masonry::solve::solve;
 use masonry::system::System;
 use nalgebra::Vector2;
 use proptest::prelude::*;

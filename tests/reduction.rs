@@ -12,16 +12,16 @@ use common::{
     GRAVITY, M_KN, all_displacements, all_reactions, all_stresses, difference, solved, state,
 };
 use lcp::Status;
-use masonry::bond;
+use masonry::analysis::outcome::{Outcome, State};
+use masonry::analysis::solve::solve;
 use masonry::ids::BlockId;
+use masonry::method::lemke::Pivots;
+use masonry::method::reduction::Reduction;
+use masonry::method::{Method, Request};
 use masonry::model::{Model, Plane};
-use masonry::outcome::{Outcome, State};
 use masonry::recover::recover;
-use masonry::reduction::Reduction;
-use masonry::routes::lemke::Pivots;
-use masonry::routes::{Method, Request};
+use masonry::scene::bond;
 use masonry::scene::{Block, Brick, Form, Joint, Load, Material, Scene, Support, Wall};
-use masonry::solve::solve;
 use masonry::system::System;
 use masonry::units::{ForceUnit, LengthUnit, Units};
 use nalgebra::{DMatrix, Vector2};

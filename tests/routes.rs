@@ -19,14 +19,14 @@ use common::{
     difference, joint_resultant, rectangle, state,
 };
 use lcp::Status;
+use masonry::analysis::outcome::Outcome;
+use masonry::analysis::solve::{Event, SolveError, solve, solve_observed};
 use masonry::ids::{BlockId, SupportId};
 use masonry::model::{Body, Plane};
-use masonry::outcome::Outcome;
-use masonry::output::{json, summary, table};
+use masonry::report::{json, summary, table};
 use masonry::scene::{
     Block, Brick, Form, Joint, Load, Material, Route, Scene, SceneErrorKind, Support, Wall,
 };
-use masonry::solve::{Event, SolveError, solve, solve_observed};
 use nalgebra::Vector2;
 use serde_json::Value;
 

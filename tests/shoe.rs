@@ -9,10 +9,10 @@ mod common;
 use common::routes::{answer_by, rounding, routes_for, solved_by};
 use common::{assert_close, displacements, rectangle, state};
 use lcp::Status;
+use masonry::analysis::outcome::{ContactState, ContactStatus, Outcome};
+use masonry::analysis::solve::solve;
 use masonry::model::{Body, Plane};
-use masonry::outcome::{ContactState, ContactStatus, Outcome};
 use masonry::scene::{Joint, Load, Material, Route, Scene, Support};
-use masonry::solve::solve;
 use masonry::units::{ForceUnit, LengthUnit, Units};
 
 const MM_N: Units = Units { length: LengthUnit::Mm, force: ForceUnit::N };

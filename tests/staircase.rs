@@ -8,7 +8,7 @@ mod common;
 
 use common::routes::solved_by;
 use common::{panels, state};
-use masonry::outcome::{ContactState, ContactStatus, Outcome};
+use masonry::analysis::outcome::{ContactState, ContactStatus, Outcome};
 use masonry::scene::Route;
 use nalgebra::Point2;
 

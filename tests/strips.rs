@@ -11,9 +11,9 @@ use common::films::{
 use common::{
     M_KN, all_displacements, all_reactions, all_stresses, assert_close, difference, solved, state,
 };
-use masonry::contact::PointRule;
+use masonry::analysis::outcome::{ContactStatus, Outcome};
+use masonry::model::joints::PointRule;
 use masonry::model::{Body, Model, Plane};
-use masonry::outcome::{ContactStatus, Outcome};
 use masonry::plan::{Effect, Plan};
 use masonry::scene::{
     Brick, Films, Form, Joint, Load, Material, Route, Scene, Stage, Support, Wall,
@@ -231,10 +231,10 @@ fn nothing_is_built_of_strips_unless_asked_for() {
 fn reports_show_the_stress_along_strips() {
     let text = |films| {
         let outcome = solved(&pushed(0.02, films));
-        let csv = masonry::output::csv::contacts(&outcome.model, state(&outcome));
-        let json = masonry::output::json::result(&outcome, &[]).unwrap();
+        let csv = masonry::report::csv::contacts(&outcome.model, state(&outcome));
+        let json = masonry::report::json::result(&outcome, &[]).unwrap();
         let head = csv.lines().next().unwrap().to_owned();
-        (head, masonry::output::table::report(&outcome), json, outcome)
+        (head, masonry::report::table::report(&outcome), json, outcome)
     };
     let (head, table, json, outcome) = text(Films::Strips);
     let columns = "status,film_sigma_x_kN/m2,film_sigma_y_kN/m2,film_tau_kN/m2";

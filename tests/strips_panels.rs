@@ -9,11 +9,11 @@ use std::sync::LazyLock;
 use common::films::{assert_energy, assert_films_balance};
 use common::{assert_close, assert_sound, panels, state};
 use lcp::Status;
+use masonry::analysis::outcome::Outcome;
+use masonry::analysis::solve::solve;
 use masonry::model::Model;
-use masonry::outcome::Outcome;
-use masonry::output::summary;
+use masonry::report::summary;
 use masonry::scene::{Films, Route};
-use masonry::solve::solve;
 
 const SQUARE: &str = "panel_square_mortar_open";
 const RECTANGULAR: &str = "panel_rectangular_mortar_open";

@@ -10,12 +10,12 @@ use std::path::Path;
 
 use common::{M_KN, panels, rectangle, state};
 use lcp::Status;
+use masonry::analysis::outcome::Outcome;
+use masonry::analysis::solve::solve;
 use masonry::model::Plane;
-use masonry::outcome::Outcome;
-use masonry::output::{json, summary, table};
+use masonry::report::{json, summary, table};
 use masonry::scene::{Joint, Load, Material, Movement, Route, Scene, Stage, Support};
-use masonry::solve::solve;
-use masonry::verdict::{Evidence, Verdict};
+use masonry::verify::verdict::{Evidence, Verdict};
 use serde_json::Value;
 
 fn verdict(scene: &Scene) -> (Verdict, Evidence) {

@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use lcp::Status;
-use masonry::output::{study, svg};
+use masonry::analysis::study::{End, Record, Study};
+use masonry::report::{study, svg};
 use masonry::scene::Route;
-use masonry::study::{End, Record, Study};
 
 use super::tables::{self, seconds};
 use super::{TOLERANCES, common, machine};

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use lcp::refine::Refinement;
-use masonry::study::{End, Mesh, MeshErrors, Record, Study};
+use masonry::analysis::study::{End, Mesh, MeshErrors, Record, Study};
 
 /// Time and algebraic error: a line for each route, a column for each tolerance.
 pub(crate) fn by_tolerance(panel: &Study, mesh: u32) -> String {

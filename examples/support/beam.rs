@@ -4,8 +4,8 @@
 //! `P l = q l^2 / 2`, so `l = 2 P / q`, and the end rises by `P l^3 / (3 E I) - q l^4 / (8 E I)`, which is
 //! `q l^4 / (24 E I)` or `2 P^4 / (3 q^3 E I)`.
 
+use masonry::analysis::outcome::Outcome;
 use masonry::model::Plane;
-use masonry::outcome::Outcome;
 use masonry::scene::{Block, Joint, Load, Material, Route, Scene, Support};
 use masonry::units::{ForceUnit, LengthUnit, Units};
 

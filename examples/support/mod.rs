@@ -5,10 +5,10 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use lcp::Status;
-use masonry::output::svg::ReferenceLines;
-use masonry::output::{self, Options, table};
+use masonry::analysis::solve::{Event, solve_observed};
+use masonry::report::svg::ReferenceLines;
+use masonry::report::{self, Options, table};
 use masonry::scene::Scene;
-use masonry::solve::{Event, solve_observed};
 
 /// Solves `scenes/NAME.toml`, prints the report and writes all files into `target/NAME/`.
 pub(crate) fn run(name: &str) -> Result<(), Box<dyn Error>> {
@@ -27,7 +27,7 @@ pub(crate) fn run(name: &str) -> Result<(), Box<dyn Error>> {
         ControlFlow::Continue(())
     })?;
     let options = Options { reference: ReferenceLines::of(&scene), ..Options::default() };
-    let files = output::write_all(&outcome, &root.join("target").join(name), &options)?;
+    let files = report::write_all(&outcome, &root.join("target").join(name), &options)?;
     println!("{}", table::report(&outcome));
     for file in files {
         println!("wrote {}", file.strip_prefix(root).unwrap_or(&file).display());

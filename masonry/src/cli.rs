@@ -3,23 +3,24 @@
 //! `--json` prints one JSON object on standard output and nothing else there; progress and errors
 //! go to standard error. The exit code is 0 when solved, 1 when not solved, 2 for bad input.
 
+mod end;
 mod progress;
 mod study;
 
-use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 
-use crate::history::checkpoint::{Checkpoint, CheckpointError};
+use crate::analysis::checkpoint::{Checkpoint, CheckpointError};
+use crate::analysis::outcome::Outcome;
+use crate::analysis::solve::Run;
 use crate::model::Model;
-use crate::outcome::Outcome;
-use crate::output::svg::ReferenceLines;
-use crate::output::{self, Options, json, svg, table};
 use crate::plan::Plan;
+use crate::report::svg::ReferenceLines;
+use crate::report::{self, Options, json, svg, table};
 use crate::scene::{Route, Scene};
-use crate::solve::Run;
+use end::{BAD_INPUT, Failure, NOT_SOLVED, SOLVED, listing, names, print};
 use progress::Progress;
 
 /// How a wall or an arch of blocks carries its load.
@@ -81,12 +82,6 @@ struct DrawArgs {
     out: Option<PathBuf>,
 }
 
-type Failure = Box<dyn std::error::Error>;
-
-const SOLVED: u8 = 0;
-const NOT_SOLVED: u8 = 1;
-const BAD_INPUT: u8 = 2;
-
 /// Runs the program on the arguments of the process.
 pub fn run() -> ExitCode {
     let result = match Cli::parse().command {
@@ -117,7 +112,7 @@ fn solve(args: &SolveArgs) -> Result<u8, Failure> {
     let scene = on_route(Scene::read(&args.scene)?, args.route);
     let Ran { outcome, mut files, end } = run_steps(&scene, args)?;
     let options = Options { reference: ReferenceLines::of(&scene), ..Options::default() };
-    let written = output::write_all(&outcome, &args.out, &options);
+    let written = report::write_all(&outcome, &args.out, &options);
     // What was computed is printed even when a file could not be written.
     files.extend_from_slice(written.as_deref().unwrap_or_default());
     if args.json {
@@ -190,22 +185,4 @@ fn draw(args: &DrawArgs) -> Result<u8, Failure> {
         .map_err(|error| format!("cannot write {}: {error}", out.display()))?;
     print(&format!("{}\n", out.display()))?;
     Ok(SOLVED)
-}
-
-fn names(files: &[PathBuf]) -> Vec<String> {
-    let name = |path: &PathBuf| path.file_name().map(|name| name.to_string_lossy().into_owned());
-    files.iter().filter_map(name).collect()
-}
-
-fn listing(files: &[PathBuf]) -> String {
-    let lines: Vec<String> = files.iter().map(|path| format!("wrote {}", path.display())).collect();
-    lines.join("\n") + "\n"
-}
-
-/// A closed pipe is the reader's choice, not a failure of ours.
-fn print(text: &str) -> Result<(), Failure> {
-    match std::io::stdout().write_all(text.as_bytes()) {
-        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
-        other => Ok(other?),
-    }
 }

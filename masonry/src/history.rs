@@ -24,7 +24,6 @@ use crate::model::{Body, Model};
 use crate::scene::{Movement, Route, Scene, Stage};
 use crate::state::Reaction;
 
-pub mod checkpoint;
 pub(crate) mod energy;
 
 /// What acts on a model.

@@ -2,12 +2,11 @@
 //!
 //! Blocks, elastic (four-node elements) or rigid, meet in joints that carry no tension and slide by
 //! Coulomb's law. Their displacements are eliminated, and what remains is a linear complementarity
-//! problem in the contact forces, which [`lcp`] solves. [`solve::solve`] does it all:
+//! problem in the contact forces, which [`lcp`] solves. [`solve`] does it all:
 //!
 //! ```
 //! use masonry::scene::{Brick, Joint, Load, Material, Scene, Support, Wall};
-//! use masonry::units::Units;
-//! use masonry::{output::table, solve::solve};
+//! use masonry::{Units, report, solve};
 //!
 //! let brick = Brick { length: 0.2, height: 0.1 };
 //! let scene = Scene::new("Three courses", Units::SI)
@@ -20,66 +19,62 @@
 //!     .load(Load::pressure("top", [0.0, 0.3], [0.4, 0.3], 1e4));
 //! let outcome = solve(&scene)?;
 //! assert!((outcome.reactions[0].fy - 400.0).abs() < 1e-9);
-//! assert!(table::report(&outcome).contains("Solved"));
-//! # Ok::<(), masonry::solve::SolveError>(())
+//! assert!(report::table::report(&outcome).contains("Stands"));
+//! # Ok::<(), masonry::SolveError>(())
 //! ```
 //!
 //! # The way of the data
-//! Every stage is a module and can be used on its own; each builds on those before it.
+//! Every stage is a module and can be used on its own; each imports only modules above it.
 //!
-//! | stage | module | result |
-//! |---|---|---|
-//! | scene: what is there, in its own units | [`scene`], [`units`], [`bond`] | [`scene::Scene`] |
-//! | model: blocks, joints, contact points, in SI units | [`model`], [`geometry`], [`mesh`], [`contact`], [`ids`] | [`model::Model`] |
-//! | plan: what the scene calls for | [`plan`] | [`plan::Plan`] |
-//! | load history: what acts in every step | [`history`] | [`history::Step`] |
-//! | system: stiffness, loads, contact rows (3.2) | [`system`], [`element`], [`rigid`] | [`system::System`] |
-//! | mortar films as strips with nodes (3.28)-(3.53), beside the scene's own | [`film`] | [`film::pointwise::PointwiseFilm`] |
-//! | reduction to contact forces (3.18), (3.23) | [`reduction`] | [`reduction::Reduction`] |
-//! | complementarity problem (3.27) and its other forms; the sparse one | [`forms`] | [`forms::Form`], [`forms::Sparse`] |
-//! | solution | [`routes`] | [`routes::Answer`] |
-//! | displacements, stresses, reactions | [`recover`] | [`outcome::State`] |
-//! | balances that use nothing of the method | [`check`] | [`check::Checks`] |
-//! | forces inside friction that balance the loads, or the proof that there are none | [`statics`] | [`statics::Statics`] |
-//! | stands, falls or undecided, with the evidence | [`verdict`] | [`verdict::Judgement`] |
-//! | text, pictures, tables, meshes | [`output`] | files |
-//! | what accuracy costs: routes, tolerances, meshes compared | [`study`] | [`study::Study`] |
+//! | module | what it holds |
+//! |---|---|
+//! | [`units`], [`ids`], [`geometry`], [`material`], [`element`] | what all others use |
+//! | [`scene`] | what is there, in its own units: text, checks, builders, bonds of bricks |
+//! | [`model`] | blocks, joints, contact points and meshes, in SI units |
+//! | [`system`] | stiffness, loads, contact rows (3.2), rigid motions |
+//! | [`state`] | displacements, contact forces, stresses: plain data |
+//! | [`method`] | one file a method, the choice among them (`auto`), the forms of the problem (3.27) and its reduction (3.18), (3.23), admissible forces |
+//! | [`recover`] | from contact forces to displacements, stresses, reactions |
+//! | [`paper`] | what only the paper's own program does: augmented Lagrangian method, films with nodes |
+//! | [`history`] | what acts in every step |
+//! | [`plan`] | what the scene calls for, and why |
+//! | [`verify`] | the judge: balances and the contact law of a state; stands, falls or undecided |
+//! | [`analysis`] | one solution, load histories, studies of accuracy |
+//! | [`report`] | text, pictures, tables, meshes |
 //!
 //! Numbers in brackets are equations of N.M. Auciello and A. Ercolano, *Numerical simulation of
 //! masonry panels* (1997). Signs and directions are those of [`model`].
 
-pub mod bond;
-pub mod check;
+pub mod analysis;
 #[cfg(feature = "cli")]
 pub mod cli;
-pub mod contact;
 pub mod element;
-pub mod film;
-pub mod forms;
+mod files;
 pub mod geometry;
 pub mod history;
 pub mod ids;
-mod info;
-mod material;
-pub mod mesh;
+pub mod material;
+pub mod method;
 pub mod model;
-pub mod outcome;
-pub mod output;
+pub mod paper;
 pub mod plan;
-mod policy;
 pub mod recover;
-pub mod reduction;
-pub mod rigid;
+pub mod report;
 mod rounding;
-pub mod routes;
 pub mod scene;
-pub mod solve;
-mod state;
-pub mod statics;
-pub mod study;
+pub mod state;
 pub mod system;
 pub mod units;
-pub mod verdict;
+pub mod verify;
+
+pub use analysis::outcome::Outcome;
+pub use analysis::solve::{Run, SolveError, solve, solve_observed};
+pub use model::Model;
+pub use plan::Plan;
+pub use scene::{Scene, SceneError};
+pub use state::State;
+pub use units::Units;
+pub use verify::verdict::{Evidence, Judgement, Verdict};
 
 /// The programs of the README and of the guide are compiled and run with the tests.
 #[cfg(doctest)]

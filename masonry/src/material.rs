@@ -1,5 +1,8 @@
 //! What blocks and mortar are made of.
 
+use nalgebra::Matrix3;
+use serde::{Deserialize, Serialize};
+
 /// Linear elasticity of a deformable block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Elasticity {
@@ -7,4 +10,34 @@ pub struct Elasticity {
     pub young: f64,
     /// Poisson's ratio \[-\].
     pub poisson: f64,
+}
+
+/// The two-dimensional idealisation of elasticity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Plane {
+    /// Free out of the plane: `sigma_z = 0`.
+    Stress,
+    /// Held out of the plane: `eps_z = 0`.
+    Strain,
+}
+
+/// The mortar of a film.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FilmMaterial {
+    /// Elastic constants.
+    pub elasticity: Elasticity,
+    /// Plane stress or plane strain.
+    pub plane: Plane,
+}
+
+/// The matrix that maps `eps_x, eps_y, gamma_xy` to `sigma_x, sigma_y, tau_xy` \[Pa\].
+pub fn constitutive(elasticity: Elasticity, plane: Plane) -> Matrix3<f64> {
+    let Elasticity { young, poisson } = elasticity;
+    // Plane strain is plane stress with the constants of an infinitely long body.
+    let (e, nu) = match plane {
+        Plane::Stress => (young, poisson),
+        Plane::Strain => (young / (1.0 - poisson * poisson), poisson / (1.0 - poisson)),
+    };
+    Matrix3::new(1.0, nu, 0.0, nu, 1.0, 0.0, 0.0, 0.0, 0.5 * (1.0 - nu)) * (e / (1.0 - nu * nu))
 }

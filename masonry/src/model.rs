@@ -12,22 +12,21 @@
 
 mod edge_loads;
 mod from_scene;
+pub mod joints;
+mod loads;
+pub mod mesh;
 mod placement;
 
+pub use loads::PlacedForce;
 use nalgebra::{Point2, Vector2};
 
-use crate::element::constitutive;
-use crate::film::FilmMaterial;
 use crate::ids::{BlockId, FilmId, JointId, LoadId, SupportId};
 pub use crate::material::Elasticity;
-use crate::mesh::BlockMesh;
+use crate::material::constitutive;
+use crate::model::mesh::BlockMesh;
+use crate::paper::film::FilmMaterial;
 pub use crate::scene::{Movement, Plane};
 use crate::units::Units;
-
-/// Name of the class of the joints between blocks whose normal is closer to the vertical.
-pub(crate) const BED: &str = "bed";
-/// Name of the class of the other joints between blocks.
-pub(crate) const HEAD: &str = "head";
 
 /// Everything that the mechanics needs of a scene, in SI units (m, N, Pa, kg/m^3).
 #[derive(Debug, Clone)]

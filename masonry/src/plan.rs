@@ -1,6 +1,7 @@
 //! The plan: which effects a scene calls for, why, and what they cost.
 
 mod choice;
+mod effect;
 mod effects;
 mod history;
 mod routes;
@@ -9,37 +10,11 @@ mod sizes;
 use serde::Serialize;
 
 pub use choice::Choice;
+pub use effect::Effect;
 use sizes::Sizes;
 
 use crate::model::Model;
 use crate::scene::{Form, Route, Scene};
-
-/// One physical effect, on or off, and the reason.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Effect {
-    /// Name of the effect, such as `friction`.
-    pub name: &'static str,
-    /// Whether it is built.
-    pub on: bool,
-    /// What in the scene calls for it, or what is missing.
-    pub because: String,
-    /// By how much the [`order`](Plan::order) of the plan is larger than without it, contact points being
-    /// the same: on the pivoting route displacements are eliminated, and add nothing.
-    pub unknowns: usize,
-    /// What it is expected to cost on the first route, in words: `none` where it is off.
-    pub cost: String,
-}
-
-impl Effect {
-    fn off(name: &'static str, because: String) -> Self {
-        Self { name, on: false, because, unknowns: 0, cost: "none".to_owned() }
-    }
-
-    /// An effect that adds no unknowns.
-    fn on(name: &'static str, because: String, cost: String) -> Self {
-        Self { name, on: true, because, unknowns: 0, cost }
-    }
-}
 
 /// What will be built for a scene, known before anything is assembled.
 ///

@@ -2,11 +2,12 @@
 
 use nalgebra::{SVector, Vector2};
 
-use crate::element::{constitutive, quad4};
-use crate::forms::{RowState, Sparse};
+use crate::element::quad4;
 use crate::ids::{BlockId, ContactId};
+use crate::material::constitutive;
+use crate::method::forms::{RowState, Sparse};
+use crate::method::reduction::Reduction;
 use crate::model::{Anchor, Body, ContactPoint, Model};
-use crate::reduction::Reduction;
 use crate::state::{
     ContactState, ContactStatus, ElementStress, FilmStress, Principal, Reaction, State,
 };
@@ -282,7 +283,7 @@ impl Principal {
     /// Principal stresses of `sigma_x, sigma_y, tau_xy`.
     ///
     /// ```
-    /// use masonry::outcome::Principal;
+    /// use masonry::analysis::outcome::Principal;
     /// let p = Principal::of([-2.0, -10.0, 3.0]);
     /// assert_eq!((p.sigma_1, p.sigma_2), (-1.0, -11.0));
     /// assert!((p.theta.to_degrees() - 18.4349488229).abs() < 1e-9);

@@ -20,6 +20,7 @@
 //! # Ok::<(), masonry::scene::SceneError>(())
 //! ```
 
+pub mod bond;
 mod builder;
 mod check;
 mod courses;
@@ -36,12 +37,18 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 pub(crate) use self::error::Fault;
-pub use self::error::{SceneError, SceneErrorKind};
+pub use self::error::{ContactError, SceneError, SceneErrorKind};
 pub use self::key_path::KeyPath;
 pub use self::solver::{Form, Route, Solver};
 use self::source::Source;
 pub use self::stages::{Movement, Stage};
+pub use crate::material::Plane;
 use crate::units::Units;
+
+/// Name of the class of the joints between blocks whose normal is closer to the vertical.
+pub(crate) const BED: &str = "bed";
+/// Name of the class of the other joints between blocks.
+pub(crate) const HEAD: &str = "head";
 
 /// A scene as its author describes it, in the scene's own units.
 ///
@@ -112,16 +119,6 @@ pub struct Scene {
     source: Source,
 }
 
-/// The two-dimensional idealisation of elasticity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Plane {
-    /// Free out of the plane: `sigma_z = 0`.
-    Stress,
-    /// Held out of the plane: `eps_z = 0`.
-    Strain,
-}
-
 /// A material: rigid without `E`, elastic with `E` and `nu`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -162,7 +159,7 @@ impl Joint {
     }
 }
 
-/// A wall of bricks in courses, built by [`bond`](crate::bond).
+/// A wall of bricks in courses, built by [`bond`](crate::scene::bond).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wall {

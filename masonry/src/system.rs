@@ -17,52 +17,25 @@ use nalgebra::{Point2, Vector2};
 
 use crate::geometry;
 use crate::ids::{BlockId, ContactId};
-use crate::mesh::BlockMesh;
-use crate::model::{Anchor, Block, Elasticity, FilmPoint, Joint, Model};
-use crate::rigid::Modes;
+use crate::model::mesh::BlockMesh;
+use crate::model::{Block, Elasticity, FilmPoint, Joint, Model};
 use crate::rounding::cleared;
+use crate::system::rigid::Modes;
 
+mod body;
+mod error;
 mod loads;
+pub mod rigid;
 mod stiffness;
 mod stretch;
 
+use body::entries;
+pub use body::{BodyRow, BodyStretch, BodySystem};
+pub use error::SystemError;
 pub use loads::{nodal_loads, resultant};
 use stiffness::Parts;
 pub use stiffness::Stiffness;
-pub use stretch::{BodyStretch, StretchRow};
-
-/// Why the stiffness of a block could not be built.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SystemError {
-    /// A deformable block has no mesh.
-    #[error("block `{block}` is elastic but has no mesh: give it a mesh or make it rigid")]
-    NoMesh {
-        /// Name of the block.
-        block: String,
-    },
-    /// An element is folded.
-    #[error("element {element} of block `{block}` is folded: the block must be convex")]
-    FoldedElement {
-        /// Name of the block.
-        block: String,
-        /// Position of the element in the block's mesh.
-        element: usize,
-    },
-    /// The stiffness has more zero modes than the three rigid motions, or negative ones.
-    #[error(
-        "the stiffness of block `{block}` is not positive definite (E = {young:e} Pa, \
-         nu = {poisson}): E must be positive, nu above -1 and below 0.5"
-    )]
-    NotElastic {
-        /// Name of the block.
-        block: String,
-        /// Young's modulus \[Pa\].
-        young: f64,
-        /// Poisson's ratio \[-\].
-        poisson: f64,
-    },
-}
+pub use stretch::StretchRow;
 
 /// The direction in which a contact row measures the relative displacement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -84,34 +57,6 @@ pub struct Row {
     pub offset: f64,
     /// Compression or shear of the film under a unit of force \[m/N\]; zero in a dry joint.
     pub compliance: f64,
-}
-
-/// What one block contributes to a contact row.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BodyRow {
-    /// The row of the system.
-    pub row: usize,
-    /// Degrees of freedom of the block and their coefficients; empty for a rigid block.
-    pub entries: Vec<(usize, f64)>,
-    /// The relative displacement of the three rigid motions: the block's part of the row of `G = C N`.
-    pub modes: [f64; 3],
-}
-
-/// One block of the system.
-#[derive(Debug, Clone)]
-pub struct BodySystem {
-    /// Its rigid motions.
-    pub modes: Modes,
-    /// Its stiffness, an index into [`System::stiffnesses`]; `None` for a rigid block.
-    pub stiffness: Option<usize>,
-    /// Nodal loads `f` \[N\], two per node; empty for a rigid block.
-    pub load: Vec<f64>,
-    /// Work of the loads in the three rigid motions, `N^T f` \[N\].
-    pub resultant: [f64; 3],
-    /// Its contact rows, increasing.
-    pub rows: Vec<BodyRow>,
-    /// The strips that stretch with it; none for a rigid block.
-    pub stretches: Vec<BodyStretch>,
 }
 
 /// Stiffness, loads and contact rows of a whole model.
@@ -138,7 +83,7 @@ impl System {
         Self::build(model, Parts::MatrixAndFactor)
     }
 
-    /// The same without the dense factors of the stiffnesses, for [`Sparse`](crate::forms::Sparse): it
+    /// The same without the dense factors of the stiffnesses, for [`Sparse`](crate::method::forms::Sparse): it
     /// can be neither reduced nor asked for [`elastic_displacements`](Self::elastic_displacements).
     ///
     /// # Errors
@@ -331,15 +276,6 @@ fn along_film(film: &FilmPoint, joint: &Joint, direction: Direction) -> Vector2<
         Direction::Normal => joint.tangent() * (0.5 * film.gap_per_elongation()),
         Direction::Tangent => joint.normal * (film.half / film.length),
     }
-}
-
-fn entries(mesh: &BlockMesh, anchor: Anchor, direction: Vector2<f64>) -> Vec<(usize, f64)> {
-    let size = direction.norm();
-    mesh.interpolate(anchor.edge, anchor.at)
-        .into_iter()
-        .flat_map(|(node, n)| [(2 * node, n * direction.x), (2 * node + 1, n * direction.y)])
-        .filter(|(_, coefficient)| cleared(*coefficient, size) != 0.0)
-        .collect()
 }
 
 /// The nodes that carry a block's displacements: those of its mesh, or the corners of a rigid block.

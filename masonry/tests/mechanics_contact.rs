@@ -6,9 +6,9 @@
 mod common;
 
 use common::{block, model, model_with, panel, rectangle, support};
-use masonry::contact::{ContactError, Options, PointRule};
 use masonry::geometry::{self, QuadError};
-use masonry::mesh::BlockMesh;
+use masonry::model::joints::{ContactError, Options, PointRule};
+use masonry::model::mesh::BlockMesh;
 use masonry::model::{Body, Model};
 use nalgebra::{Point2, Rotation2, Vector2};
 use proptest::prelude::*;
@@ -110,7 +110,7 @@ fn nodal_pairs_need_matching_nodes() {
     ];
     let options = Options { points: PointRule::NodalPairs, ..Options::default() };
     let classes = [masonry::model::JointClass { name: "bed".into(), mu: 0.5, mortar: None }];
-    let found = masonry::contact::find(&blocks, &[], &classes, |_| 0, 1.0, &options);
+    let found = masonry::model::joints::find(&blocks, &[], &classes, |_| 0, 1.0, &options);
     let (a, b) = ("lower".to_string(), "upper".to_string());
     assert_eq!(found.unwrap_err(), ContactError::NoNodalPair { a, b });
 }

@@ -6,11 +6,12 @@ mod common;
 
 use common::{YOUNG, block, model, rectangle, traction};
 use faer::Side;
-use masonry::element::{constitutive, quad4};
-use masonry::mesh::BlockMesh;
+use masonry::analysis::outcome::Principal;
+use masonry::element::quad4;
+use masonry::material::constitutive;
+use masonry::model::mesh::BlockMesh;
 use masonry::model::{Elasticity, Plane};
-use masonry::outcome::Principal;
-use masonry::rigid::Modes;
+use masonry::system::rigid::Modes;
 use masonry::system::{System, SystemError, nodal_loads, resultant};
 use nalgebra::{Matrix2, Matrix3, Point2, SVector, Vector2, Vector3};
 

@@ -2,12 +2,12 @@
 
 #![allow(clippy::unwrap_used, reason = "a failed set-up should fail the test")]
 
-use masonry::film::law::{FilmLaw, FilmState, PointContact};
-use masonry::film::pointwise::PointwiseFilm;
-use masonry::film::strip::Strip;
-use masonry::film::updating::{Settling, UpdateHistory, Updating};
-use masonry::film::{FilmError, FilmMaterial, Vector8};
 use masonry::model::{Elasticity, Plane};
+use masonry::paper::film::law::{FilmLaw, FilmState, PointContact};
+use masonry::paper::film::pointwise::PointwiseFilm;
+use masonry::paper::film::strip::Strip;
+use masonry::paper::film::updating::{Settling, UpdateHistory, Updating};
+use masonry::paper::film::{FilmError, FilmMaterial, Vector8};
 use nalgebra::{Matrix2, Point2, SMatrix, Vector2, Vector3};
 use proptest::prelude::*;
 

@@ -2,15 +2,16 @@
 
 #![allow(clippy::unwrap_used, reason = "a failed set-up should fail the test")]
 
-use masonry::element::{constitutive, quad4};
-use masonry::film::change::NodalChange;
-use masonry::film::law::PointContact;
-use masonry::film::master::MasterFilm;
-use masonry::film::pointwise::{FilmResponse, PointwiseFilm};
-use masonry::film::strip::{Strip, local_axes};
-use masonry::film::updating::Updating;
-use masonry::film::{FilmMaterial, Matrix8, Vector8};
+use masonry::element::quad4;
+use masonry::material::constitutive;
 use masonry::model::{Elasticity, Plane};
+use masonry::paper::film::change::NodalChange;
+use masonry::paper::film::law::PointContact;
+use masonry::paper::film::master::MasterFilm;
+use masonry::paper::film::pointwise::{FilmResponse, PointwiseFilm};
+use masonry::paper::film::strip::{Strip, local_axes};
+use masonry::paper::film::updating::Updating;
+use masonry::paper::film::{FilmMaterial, Matrix8, Vector8};
 use nalgebra::{DMatrix, DVector, Matrix2, Point2, SMatrix, Vector2, Vector3};
 
 fn mortar(young: f64, poisson: f64) -> FilmMaterial {

@@ -6,14 +6,14 @@ mod common;
 
 use common::enumerate::{solutions, violation};
 use common::{model, model_with, rectangle, support, traction};
-use masonry::check::Checks;
-use masonry::contact::Options;
-use masonry::forms::{Form, FormKind};
+use masonry::analysis::outcome::{ContactStatus, State};
+use masonry::method::forms::{Form, FormKind};
+use masonry::method::reduction::Reduction;
+use masonry::model::joints::Options;
 use masonry::model::{Block, Model};
-use masonry::outcome::{ContactStatus, State};
 use masonry::recover::{reactions, recover};
-use masonry::reduction::Reduction;
 use masonry::system::System;
+use masonry::verify::checks::Checks;
 
 const FORMS: [FormKind; 3] = [FormKind::Coulomb, FormKind::StewartTrinkle, FormKind::Mixed];
 

@@ -2,14 +2,14 @@
 
 #![allow(clippy::unwrap_used, reason = "a failed set-up should fail the test")]
 
-use masonry::element::constitutive;
 use masonry::element::quad4::{self, Nodes, StrainMatrix};
 use masonry::element::quadrature::GAUSS_2;
-use masonry::film::change::{ChangeError, LIMIT, NodalChange};
-use masonry::film::master::MasterFilm;
-use masonry::film::strip::Strip;
-use masonry::film::{FilmMaterial, Matrix8, Vector8};
+use masonry::material::constitutive;
 use masonry::model::{Elasticity, Plane};
+use masonry::paper::film::change::{ChangeError, LIMIT, NodalChange};
+use masonry::paper::film::master::MasterFilm;
+use masonry::paper::film::strip::Strip;
+use masonry::paper::film::{FilmMaterial, Matrix8, Vector8};
 use nalgebra::{Matrix2, Matrix4, Point2, Vector2, Vector4};
 use proptest::prelude::*;
 

@@ -7,14 +7,14 @@ mod common;
 use common::reference::{Told, by_displacements, by_reduction, difference};
 use common::{block, model, model_with, rectangle, running_bond, support, traction};
 use faer::Side;
-use masonry::check::Checks;
-use masonry::contact::{Options, PointRule};
+use masonry::analysis::outcome::State;
+use masonry::method::reduction::Reduction;
 use masonry::model::Model;
-use masonry::outcome::State;
+use masonry::model::joints::{Options, PointRule};
 use masonry::recover::{reactions, recover};
-use masonry::reduction::Reduction;
-use masonry::rigid::{FreeMotion, RigidError};
 use masonry::system::System;
+use masonry::system::rigid::{FreeMotion, RigidError};
+use masonry::verify::checks::Checks;
 use nalgebra::{Point2, Vector2};
 
 /// Three blocks on a floor: no normal sees a horizontal motion.

@@ -6,8 +6,8 @@ mod synthetic;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use masonry::output::svg::ReferenceLines;
-use masonry::output::{Format, Options, OutputError, write_all};
+use masonry::report::svg::ReferenceLines;
+use masonry::report::{Format, Options, OutputError, write_all};
 use nalgebra::Point2;
 use synthetic::Wall;
 

@@ -3,9 +3,9 @@
 #[path = "output/synthetic.rs"]
 mod synthetic;
 
+use masonry::analysis::outcome::ContactStatus;
 use masonry::model::Body;
-use masonry::outcome::ContactStatus;
-use masonry::output::{csv, json, summary, table, vtu};
+use masonry::report::{csv, json, summary, table, vtu};
 use masonry::units::{ForceUnit, LengthUnit, Units};
 use roxmltree::Document;
 use serde_json::Value;

@@ -6,10 +6,10 @@ mod synthetic;
 use std::fs;
 use std::path::PathBuf;
 
+use masonry::analysis::outcome::{ContactStatus, Outcome};
 use masonry::ids::LoadId;
 use masonry::model::{Block, EdgeLoad, Model, Movement, Support};
-use masonry::outcome::{ContactStatus, Outcome};
-use masonry::output::svg::{self, ReferenceLines};
+use masonry::report::svg::{self, ReferenceLines};
 use masonry::units::{ForceUnit, LengthUnit, Units};
 use nalgebra::{Point2, Vector2};
 use roxmltree::{Document, Node};

@@ -1,8 +1,8 @@
 //! Bonds, units and arbitrary input: what holds for every wall and every text.
 
-use masonry::bond::{self, PlacedBrick};
 use masonry::geometry;
 use masonry::model::{Block, Model, Plane};
+use masonry::scene::bond::{self, PlacedBrick};
 use masonry::scene::{Brick, Joint, Load, Material, Scene, SceneErrorKind, Support, Wall};
 use masonry::units::{ForceUnit, LengthUnit, Units};
 use proptest::prelude::*;

@@ -14,12 +14,12 @@ use std::time::Duration;
 
 use lcp::Status;
 use lcp::refine::Refinement;
+use masonry::analysis::study::{End, MeshErrors, Record, Settings, Study, StudyError, study};
 use masonry::model::Plane;
-use masonry::output::study as output;
+use masonry::report::study as output;
 use masonry::scene::{
     Block, Brick, Joint, Load, Material, Movement, Route, Scene, Stage, Support, Wall,
 };
-use masonry::study::{End, MeshErrors, Record, Settings, Study, StudyError, study};
 use masonry::units::Units;
 
 const ROUTES: [Route; 6] =

@@ -11,8 +11,8 @@ mod program;
 #[path = "verdict/walls.rs"]
 mod walls;
 
-use masonry::solve::solve;
-use masonry::verdict::{Evidence, Verdict};
+use masonry::analysis::solve::solve;
+use masonry::verify::verdict::{Evidence, Verdict};
 
 use program::{Limit, largest_tilt};
 use walls::{Kind, Random};

@@ -1,15 +1,16 @@
 //! Bricks and whole strips at the nodes of a model, by elements and changes of nodes: nothing of contact points.
 
 use super::{assert_close, state};
-use masonry::element::{constitutive, quad4};
-use masonry::film::change::NodalChange;
-use masonry::film::law::{FilmState, PointContact};
-use masonry::film::master::MasterFilm;
-use masonry::film::pointwise::{FilmResponse, PointwiseFilm};
-use masonry::film::strip::{Strip, local_axes};
-use masonry::film::{Matrix8, Vector8};
+use masonry::analysis::outcome::{ContactStatus, Outcome};
+use masonry::element::quad4;
+use masonry::material::constitutive;
 use masonry::model::{Body, Joint, Model};
-use masonry::outcome::{ContactStatus, Outcome};
+use masonry::paper::film::change::NodalChange;
+use masonry::paper::film::law::{FilmState, PointContact};
+use masonry::paper::film::master::MasterFilm;
+use masonry::paper::film::pointwise::{FilmResponse, PointwiseFilm};
+use masonry::paper::film::strip::{Strip, local_axes};
+use masonry::paper::film::{Matrix8, Vector8};
 use masonry::recover::contact_force;
 use masonry::system::nodal_loads;
 use nalgebra::{DMatrix, DVector, Point2, Vector2};

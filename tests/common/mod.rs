@@ -8,12 +8,12 @@ pub mod panels;
 pub mod routes;
 
 use lcp::Status;
+use masonry::analysis::outcome::{Outcome, State};
+use masonry::analysis::solve::solve;
 use masonry::ids::BlockId;
 use masonry::model::{Anchor, Body, Model};
-use masonry::outcome::{Outcome, State};
 use masonry::recover::contact_force;
 use masonry::scene::{Block, Scene};
-use masonry::solve::solve;
 use masonry::units::{ForceUnit, LengthUnit, Units};
 use nalgebra::{Point2, Vector2};
 
@@ -105,7 +105,7 @@ pub fn assert_close(found: f64, expected: f64, tolerance: f64) {
 
 /// The resultant of self weights and edge loads \[N\].
 pub fn applied_load(model: &Model) -> Vector2<f64> {
-    masonry::output::summary::applied_load(model).force
+    masonry::report::summary::applied_load(model).force
 }
 
 /// The mechanism closes no joint beyond contact, and the loads do work on it.

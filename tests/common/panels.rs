@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use masonry::outcome::{Outcome, Reaction};
+use masonry::analysis::outcome::{Outcome, Reaction};
 use masonry::scene::Scene;
 
 pub fn scene(name: &str) -> Scene {

@@ -1,9 +1,9 @@
 //! The routes of scenes, in one place for all tests that treat every one of them.
 
 use lcp::Status;
-use masonry::outcome::Outcome;
+use masonry::analysis::outcome::Outcome;
+use masonry::analysis::solve::solve;
 use masonry::scene::{Route, Scene};
-use masonry::solve::solve;
 
 use super::assert_sound;
 

@@ -5,12 +5,12 @@ use allocation_counter::{AllocationInfo, measure};
 use super::common::routes::ROUTES;
 use super::scenes::{boxed, elastic, long_wall, stack};
 use super::{built, effect};
-use masonry::forms::Sparse;
+use masonry::analysis::outcome::ElementStress;
+use masonry::analysis::solve::solve;
+use masonry::method::forms::Sparse;
+use masonry::method::reduction::Reduction;
 use masonry::model::Model;
-use masonry::outcome::ElementStress;
-use masonry::reduction::Reduction;
 use masonry::scene::{Joint, Material, Movement, Route, Scene, Stage};
-use masonry::solve::solve;
 use masonry::system::System;
 
 /// Bytes of a dense matrix of this order.

@@ -6,8 +6,8 @@ use super::common::{
 };
 use super::scenes::{boxed, column, elastic, in_mortar, piers, stack};
 use super::{built, effect};
-use masonry::outcome::Outcome;
-use masonry::output::summary::total_reaction;
+use masonry::analysis::outcome::Outcome;
+use masonry::report::summary::total_reaction;
 use masonry::scene::{Films, Joint, Material, Movement, Route, Scene, Stage};
 
 /// What is unique: of a corner between two supports any part of the force may be shifted from one to the other.

@@ -3,10 +3,10 @@
 use super::common::routes::{ROUTES, routes_for};
 use super::scenes::{boxed, elastic, in_mortar, piers, stack};
 use super::{built, effect};
-use masonry::forms::{Form, FormKind, Sparse};
+use masonry::method::forms::{Form, FormKind, Sparse};
+use masonry::method::reduction::Reduction;
 use masonry::model::Model;
 use masonry::plan::Plan;
-use masonry::reduction::Reduction;
 use masonry::scene::{self, Films, Joint, Material, Route, Scene};
 use masonry::system::System;
 

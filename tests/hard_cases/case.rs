@@ -1,9 +1,9 @@
 //! A hard case, and what every route gives for it.
 
 use lcp::Status;
-use masonry::outcome::Outcome;
+use masonry::analysis::outcome::Outcome;
+use masonry::analysis::solve::solve;
 use masonry::scene::{Route, Scene};
-use masonry::solve::solve;
 
 use super::checks::Errors;
 use super::common::routes::ROUTES;

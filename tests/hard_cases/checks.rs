@@ -1,12 +1,13 @@
 //! What an answer has to satisfy, recomputed from forces, displacements and data alone.
 //!
-//! Forces are compared with those on the same block, down to finer digits than in `masonry::check`: a light one is
+//! Forces are compared with those on the same block, down to finer digits than in `masonry::verify::checks`: a light one is
 //! not excused by a heavy neighbour.
 
-use masonry::element::{constitutive, quad4};
+use masonry::analysis::outcome::{ContactState, Outcome, State};
+use masonry::element::quad4;
 use masonry::geometry;
+use masonry::material::constitutive;
 use masonry::model::{Anchor, Block, ContactPoint, EdgeLoad, Model};
-use masonry::outcome::{ContactState, Outcome, State};
 use masonry::system::nodal_loads;
 use nalgebra::Vector2;
 

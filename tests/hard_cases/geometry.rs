@@ -1,6 +1,6 @@
 //! Many points, thin bricks, thin films, tiny gaps.
 
-use masonry::contact::PointRule;
+use masonry::model::joints::PointRule;
 use masonry::scene::{Films, Joint, Load, Material, Scene, Support};
 
 use super::case::Case;

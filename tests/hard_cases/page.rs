@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write};
 
-use masonry::outcome::Outcome;
+use masonry::analysis::outcome::Outcome;
 
 use super::case::{End, Theme, Tried};
 use super::common::routes::ROUTES;

@@ -1,7 +1,7 @@
 //! What the scenes of several themes are made of, and numbers that are read off their answers.
 
+use masonry::analysis::outcome::Outcome;
 use masonry::model::{Body, Plane};
-use masonry::outcome::Outcome;
 use masonry::scene::{Brick, Joint, Load, Material, Scene, Support, Wall};
 use nalgebra::Vector2;
 

@@ -3,10 +3,10 @@
 use super::common::{GRAVITY, applied_load, assert_close, assert_sound, rectangle};
 use super::{materials, scene, stack, wall};
 use lcp::Status;
+use masonry::analysis::solve::{SolveError, solve};
 use masonry::model::Model;
 use masonry::plan::Plan;
 use masonry::scene::{Form, Joint, Load, Route, Scene, Support};
-use masonry::solve::{SolveError, solve};
 
 /// Elastic walls go to the interior points, small ones then to the pivots, and the plan says why. Sparse routes
 /// have no dense matrices, and so need little memory.

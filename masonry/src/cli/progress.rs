@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::solve::Event;
+use crate::analysis::solve::Event;
 
 /// A spinner with the present phase; hidden when standard error is not a terminal.
 pub(super) struct Progress(ProgressBar);

@@ -5,11 +5,11 @@ use std::time::Duration;
 
 use clap::Args;
 
+use super::end::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
 use super::progress::Progress;
-use super::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
-use crate::output::study as output;
+use crate::analysis::study::{Settings, machine, study};
+use crate::report::study as output;
 use crate::scene::{Route, Scene};
-use crate::study::{Settings, machine, study};
 
 #[derive(Debug, Args)]
 pub(super) struct StudyArgs {

@@ -3,15 +3,15 @@
 use nalgebra::{Point2, Vector2};
 
 use super::{
-    BED, Block, Body, ContactPoint, Elasticity, HEAD, Joint, JointClass, Model, Mortar, Movement,
-    Plane, Support, edge_loads, placement,
+    Block, Body, ContactPoint, Elasticity, Joint, JointClass, Model, Mortar, Movement, Plane,
+    Support, edge_loads, placement,
 };
-use crate::bond::{self, JointThickness};
-use crate::contact::{self, ContactError, JointKind, Options};
-use crate::film::FilmMaterial;
 use crate::geometry::{self, QuadError};
-use crate::mesh::BlockMesh;
-use crate::scene::{self, Fault, KeyPath, Scene, SceneError, SceneErrorKind};
+use crate::model::joints::{self, ContactError, JointKind, Options};
+use crate::model::mesh::BlockMesh;
+use crate::paper::film::FilmMaterial;
+use crate::scene::bond::{self, JointThickness};
+use crate::scene::{self, BED, Fault, HEAD, KeyPath, Scene, SceneError, SceneErrorKind};
 use crate::units::Units;
 
 impl Model {
@@ -166,7 +166,7 @@ fn find_joints(
         films: scene.contact.films,
         ..Options::default()
     };
-    let (joints, contacts) = contact::find(
+    let (joints, contacts) = joints::find(
         blocks, supports, &classes, class_of, thickness, &options,
     )
     .map_err(|error| {

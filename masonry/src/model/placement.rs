@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use nalgebra::Point2;
 
 use super::{Block, Body, Joint, Support};
-use crate::contact::{Options, near_pairs};
 use crate::geometry::{self, Quad};
+use crate::model::joints::{Options, near_pairs};
 use crate::scene::{Fault, KeyPath, Scene, SceneErrorKind};
 use crate::units::Units;
 

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use super::choice::Choice;
+use super::effect::Effect;
 use super::sizes::Sizes;
-use super::{Choice, Effect};
 use crate::model::{Block, Model};
 use crate::scene::{Films, Form, Route, Scene};
 

@@ -1,6 +1,6 @@
 //! Whether the way to the last state matters, and so whether there is a load history.
 
-use super::Effect;
+use super::effect::Effect;
 use super::effects::RIGHT_HAND_SIDE;
 use crate::history::moving_supports;
 use crate::model::Model;

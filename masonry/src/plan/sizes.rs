@@ -2,7 +2,7 @@
 
 use super::choice::Choice;
 use crate::model::{Anchor, Block, Model};
-use crate::routes::alm::Strips;
+use crate::paper::alm::Strips;
 use crate::scene::{Form, Route};
 
 /// Numbers of a model that decide what routes take.

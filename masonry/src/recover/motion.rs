@@ -2,10 +2,10 @@
 
 use nalgebra::Vector2;
 
-use crate::forms::Sparse;
 use crate::ids::BlockId;
+use crate::method::Motion;
+use crate::method::forms::Sparse;
 use crate::model::{ContactPoint, Model};
-use crate::routes::Motion;
 use crate::system::{System, displaced_nodes};
 
 /// Gap rates above minus this fraction of the largest rate of a mechanism do not close a contact.

@@ -9,8 +9,8 @@ use super::{
     Block, Courses, Fault, Form, Joint, KeyPath, Load, Material, Route, Scene, SceneError,
     SceneErrorKind, Solver, Support, Wall,
 };
-use crate::bond::JointThickness;
 use crate::geometry::{self, QuadError};
+use crate::scene::bond::JointThickness;
 
 mod mortar;
 mod stages;

@@ -1,7 +1,11 @@
 //! What can be wrong with a scene, and where.
 
+mod contact;
+
 use std::fmt;
 use std::path::{Path, PathBuf};
+
+pub use contact::ContactError;
 
 use super::source::{Place, Source};
 use super::{KeyPath, Scene};
@@ -339,7 +343,7 @@ pub enum SceneErrorKind {
     },
     /// Contact points could not be placed.
     #[error("{0}")]
-    Contact(#[from] crate::contact::error::ContactError),
+    Contact(#[from] ContactError),
 }
 
 /// The names of a kind that a scene has.

@@ -1,13 +1,11 @@
 //! Loads of a block: self weight and tractions on its edges.
 
-use nalgebra::Vector2;
-
 use crate::element::quad4;
 use crate::geometry;
-use crate::mesh::BlockMesh;
+use crate::model::mesh::BlockMesh;
 use crate::model::{Block, EdgeLoad, Model};
-use crate::rigid::Modes;
 use crate::rounding::{cleared, largest};
+use crate::system::rigid::Modes;
 
 /// Consistent nodal loads \[N\] of self weight and edge loads, two per node.
 pub fn nodal_loads(model: &Model, block: &Block, mesh: &BlockMesh) -> Vec<f64> {
@@ -59,28 +57,10 @@ fn edge_shares(mesh: &BlockMesh, load: &EdgeLoad) -> Vec<(usize, f64)> {
 pub fn resultant(model: &Model, block: &Block) -> [f64; 3] {
     let modes = Modes::of(&block.corners);
     let (mut sum, mut size) = ([0.0; 3], 0.0);
-    for (place, force) in point_loads(model, block) {
+    for (place, force) in model.forces_on(block) {
         let add = modes.resultant(place, force);
         sum.iter_mut().zip(add).for_each(|(s, a)| *s += a);
         size += force.norm();
     }
     sum.map(|value| cleared(value, size))
-}
-
-/// The resultant force \[N\] of every load of a block, and the place where it acts \[m\].
-pub(crate) fn point_loads(
-    model: &Model,
-    block: &Block,
-) -> Vec<(nalgebra::Point2<f64>, Vector2<f64>)> {
-    let weight = block.density.map(|density| {
-        let mass = density * geometry::area(&block.corners) * model.thickness;
-        (geometry::centroid(&block.corners), model.gravity * mass)
-    });
-    let edges = block.edge_loads.iter().map(|load| {
-        let [p, q] = geometry::edge(&block.corners, load.edge);
-        let loaded = (load.to - load.from) * (q - p).norm() * model.thickness;
-        let middle = geometry::on_edge(&block.corners, load.edge, 0.5 * (load.from + load.to));
-        (middle, load.traction * loaded)
-    });
-    weight.into_iter().chain(edges).collect()
 }

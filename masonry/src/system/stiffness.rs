@@ -5,12 +5,13 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, Side};
 use nalgebra::{SMatrix, Vector2};
 
-use super::SystemError;
-use crate::element::{constitutive, quad4};
-use crate::mesh::BlockMesh;
+use super::error::SystemError;
+use crate::element::quad4;
+use crate::material::constitutive;
+use crate::model::mesh::BlockMesh;
 use crate::model::{Block, Elasticity, Model};
-use crate::rigid::Modes;
 use crate::rounding::cleared;
+use crate::system::rigid::Modes;
 
 /// Corners, relative to the block's size, closer than this make blocks equal: rounding of the places
 /// of equal bricks in a wall, and nothing that matters.

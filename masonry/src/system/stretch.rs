@@ -3,7 +3,7 @@
 use crate::ids::ContactId;
 use crate::model::{Anchor, Model};
 
-use super::{BodySystem, entries};
+use super::body::{BodyStretch, BodySystem, entries};
 
 /// The bar in one part of a strip of mortar: a spring between the blocks of its joint that always acts.
 ///
@@ -15,15 +15,6 @@ pub struct StretchRow {
     pub contact: ContactId,
     /// `k` \[N/m\].
     pub stiffness: f64,
-}
-
-/// What one elastic block contributes to the elongation of a strip.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BodyStretch {
-    /// The row, an index into [`System::stretches`](super::System::stretches).
-    pub row: usize,
-    /// Degrees of freedom of the block and their coefficients.
-    pub entries: Vec<(usize, f64)>,
 }
 
 /// The rows of all strips between blocks of which at least one is elastic, given also to these blocks.

@@ -6,9 +6,9 @@
 pub mod enumerate;
 pub mod reference;
 
-use masonry::contact::{self, JointKind, Options};
 use masonry::ids::LoadId;
-use masonry::mesh::BlockMesh;
+use masonry::model::joints::{self, JointKind, Options};
+use masonry::model::mesh::BlockMesh;
 use masonry::model::{Block, EdgeLoad, Elasticity, JointClass, Model, Movement, Plane, Support};
 use masonry::units::Units;
 use nalgebra::{Point2, Vector2};
@@ -72,7 +72,7 @@ pub fn model_with(
         JointKind::Support(_) => 2,
     };
     let (joints, contacts) =
-        contact::find(&blocks, &supports, &joint_classes, class_of, 1.0, options)
+        joints::find(&blocks, &supports, &joint_classes, class_of, 1.0, options)
             .expect("a model whose contact points can be placed");
     Model {
         blocks,

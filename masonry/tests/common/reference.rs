@@ -4,13 +4,14 @@
 //! single elements, contact rows found by searching the boundary for the contact points' places.
 //! [`by_reduction`] uses equilibrium and compatibility in the contact forces.
 
-use masonry::element::{constitutive, quad4};
-use masonry::forms::{Form, FormKind, RowState};
+use masonry::element::quad4;
 use masonry::geometry;
+use masonry::material::constitutive;
+use masonry::method::forms::{Form, FormKind, RowState};
+use masonry::method::reduction::Reduction;
 use masonry::model::{Block, Model};
-use masonry::reduction::Reduction;
-use masonry::rigid::Modes;
 use masonry::system::System;
+use masonry::system::rigid::Modes;
 use nalgebra::{DMatrix, DVector, Point2, Vector2};
 
 /// What a contact point is told to do.

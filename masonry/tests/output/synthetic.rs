@@ -1,20 +1,20 @@
 //! A running-bond wall with an invented state: reports are tested without solving anything.
 
-use masonry::check::Checks;
+use masonry::analysis::outcome::{
+    ContactState, ContactStatus, ElementStress, Outcome, PhaseTime, Principal, Reaction, RouteEnd,
+    SolveInfo, State,
+};
 use masonry::ids::{BlockId, JointId, LoadId, SupportId};
-use masonry::mesh::BlockMesh;
+use masonry::model::mesh::BlockMesh;
 use masonry::model::{
     Anchor, Block, Body, ContactPoint, EdgeLoad, Elasticity, Joint, JointClass, Model, Movement,
     Plane, Support,
 };
-use masonry::outcome::{
-    ContactState, ContactStatus, ElementStress, Outcome, PhaseTime, Principal, Reaction, RouteEnd,
-    SolveInfo, State,
-};
 use masonry::plan::{Choice, Effect, Plan};
 use masonry::scene::Route;
 use masonry::units::{ForceUnit, LengthUnit, Units};
-use masonry::verdict::{Evidence, Judgement, Verdict};
+use masonry::verify::checks::Checks;
+use masonry::verify::verdict::{Evidence, Judgement, Verdict};
 use nalgebra::{Point2, Vector2};
 
 /// Sizes of the wall.

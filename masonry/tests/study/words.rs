@@ -3,9 +3,9 @@
 use std::time::Duration;
 
 use lcp::Status;
-use masonry::output::{study as output, svg};
+use masonry::analysis::study::{End, Record, Settings};
+use masonry::report::{study as output, svg};
 use masonry::scene::Route;
-use masonry::study::{End, Record, Settings};
 
 use super::{block, settings, studied, wall};
 

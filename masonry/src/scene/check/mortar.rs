@@ -1,7 +1,7 @@
 //! Checks of joints with mortar, and of the bricks that it leaves room for.
 
 use super::{Check, missing, not_negative, positive, unknown, unwanted, value};
-use crate::bond::{self, JointThickness};
+use crate::scene::bond::{self, JointThickness};
 use crate::scene::error::Known;
 use crate::scene::{Courses, Films, Joint, KeyPath, PointRule, Scene, Wall};
 

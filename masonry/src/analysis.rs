@@ -1,0 +1,6 @@
+//! What is asked of a scene: one solution, a load history step by step, a study of what accuracy costs.
+
+pub mod checkpoint;
+pub mod outcome;
+pub mod solve;
+pub mod study;

@@ -1,0 +1,223 @@
+//! The state after a step, as a file from which a run can go on.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+
+use crate::files::write_atomically;
+use crate::history::StepRecord;
+use crate::method::forms::Start;
+use crate::model::Model;
+use crate::recover;
+use crate::scene::{Output, Scene, SceneError, Solver};
+use crate::state::{ContactState, State};
+
+/// The version of the format.
+const VERSION: u32 = 1;
+
+/// Why a checkpoint cannot be used.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CheckpointError {
+    /// The file cannot be read.
+    #[error("cannot read the checkpoint {}: {source}; solve from the first step", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The file cannot be written.
+    #[error("cannot write the checkpoint {}: {source}; choose another directory", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The text is no checkpoint.
+    #[error(
+        "{}, line {}, column {}: this is no checkpoint: {source}; solve from the first step",
+        path.display(), source.line(), source.column()
+    )]
+    Syntax {
+        /// The file.
+        path: PathBuf,
+        /// What the reader said.
+        source: serde_json::Error,
+    },
+    /// It was written by another version of this program.
+    #[error(
+        "the checkpoint has format {found}, and this program reads {VERSION}: solve from the first step"
+    )]
+    Version {
+        /// The version of the file.
+        found: u32,
+    },
+    /// It belongs to another scene.
+    #[error(
+        "the checkpoint belongs to another scene: only stages that are still to come, the solver and \
+         the output may change; solve from the first step"
+    )]
+    OtherScene,
+    /// It belongs to other steps.
+    #[error(
+        "the checkpoint has another step {step} of stage \"{stage}\" than the scene: stages that are \
+         done must stay as they were; solve from the first step"
+    )]
+    OtherSteps {
+        /// The stage.
+        stage: String,
+        /// The step in it, from 1.
+        step: usize,
+    },
+    /// The scene has one step.
+    #[error(
+        "the scene has one step, after which there is nothing to go on with: solve it without a checkpoint"
+    )]
+    OneStep,
+    /// A number is not finite, or forces and displacements are not those of an equilibrium.
+    #[error(
+        "the state in the checkpoint is no equilibrium of the scene: solve from the first step"
+    )]
+    NoEquilibrium,
+    /// Lists of wrong lengths.
+    #[error("the checkpoint has {found} {what}, and the scene {wanted}: solve from the first step")]
+    Size {
+        /// What there is too much or too little of.
+        what: String,
+        /// How many the checkpoint has.
+        found: usize,
+        /// How many the scene has.
+        wanted: usize,
+    },
+}
+
+/// Everything that the next step needs, and all that was recorded before.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Checkpoint {
+    version: u32,
+    /// The scene without stages, solver and output.
+    pub(crate) origin: String,
+    /// What the steps came to.
+    pub records: Vec<StepRecord>,
+    displacements: Vec<Vec<[f64; 2]>>,
+    contacts: Vec<ContactState>,
+    strain_energy: f64,
+    /// The side of every pair that is basic, `t` or `y`, where pivots end: the next step starts there.
+    basis: Option<String>,
+}
+
+/// The version alone.
+#[derive(Deserialize)]
+struct Version {
+    version: u32,
+}
+
+impl Checkpoint {
+    pub(crate) fn new(
+        origin: String,
+        records: Vec<StepRecord>,
+        (state, basis): (&State, Option<&Start>),
+    ) -> Self {
+        let side = |is_t: &bool| if *is_t { 't' } else { 'y' };
+        Self {
+            version: VERSION,
+            origin,
+            records,
+            displacements: state
+                .displacements
+                .iter()
+                .map(|moved| moved.iter().map(|u| [u.x, u.y]).collect())
+                .collect(),
+            contacts: state.contacts.clone(),
+            strain_energy: state.strain_energy,
+            basis: basis.map(|basis| basis.t_basic.iter().map(side).collect()),
+        }
+    }
+
+    /// Where the pivots of the next step start, if that is a basis of a problem of this order.
+    pub(crate) fn basis(&self, order: usize) -> Option<Start> {
+        let sides = self.basis.as_ref().filter(|sides| sides.len() == order)?;
+        Some(Start::last(sides.chars().map(|it| it == 't').collect()))
+    }
+
+    /// What of a scene must not change between a checkpoint and a run that goes on from it, as text.
+    pub(crate) fn origin_of(scene: &Scene) -> Result<String, SceneError> {
+        let mut origin = scene.clone();
+        origin.stages = Vec::new();
+        origin.solver = Solver::default();
+        origin.output = Output::default();
+        origin.to_toml()
+    }
+
+    /// Reads a file that [`write`](Self::write) has written; numbers come back to the last digit.
+    ///
+    /// # Errors
+    /// [`CheckpointError`] with the path, and line and column where the text is wrong.
+    pub fn read(path: &Path) -> Result<Self, CheckpointError> {
+        let path_buf = || path.to_owned();
+        let text = fs::read_to_string(path)
+            .map_err(|source| CheckpointError::Read { path: path_buf(), source })?;
+        let syntax = |source| CheckpointError::Syntax { path: path_buf(), source };
+        // What else another version has in it is not known.
+        match serde_json::from_str(&text).map_err(syntax)? {
+            Version { version: VERSION } => serde_json::from_str(&text).map_err(syntax),
+            Version { version: found } => Err(CheckpointError::Version { found }),
+        }
+    }
+
+    /// Writes a file, whole or not at all.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Write`].
+    pub fn write(&self, path: &Path) -> Result<(), CheckpointError> {
+        let failed = |source| CheckpointError::Write { path: path.to_owned(), source };
+        let text = serde_json::to_string(self).map_err(|error| failed(error.into()))?;
+        write_atomically(path, text.as_bytes()).map_err(failed)
+    }
+
+    /// The state after the last step, for the model that it belongs to.
+    pub(crate) fn state(
+        &self,
+        model: &Model,
+        with_stresses: bool,
+    ) -> Result<State, CheckpointError> {
+        same("blocks", self.displacements.len(), model.blocks.len())?;
+        for (block, moved) in model.blocks.iter().zip(&self.displacements) {
+            same(&format!("displacements of block \"{}\"", block.name), moved.len(), nodes(block))?;
+        }
+        same("contact points", self.contacts.len(), model.contacts.len())?;
+        for record in &self.records {
+            same("reactions in a record", record.reactions.len(), model.supports.len())?;
+        }
+        if !(self.strain_energy >= 0.0 && self.strain_energy.is_finite()) {
+            return Err(CheckpointError::NoEquilibrium);
+        }
+        let displacements: Vec<Vec<Vector2<f64>>> = self
+            .displacements
+            .iter()
+            .map(|moved| moved.iter().map(|u| Vector2::from(*u)).collect())
+            .collect();
+        let contacts = self.contacts.clone();
+        let (stresses, films) =
+            recover::wanted_stresses(model, &displacements, &contacts, with_stresses);
+        Ok(State { displacements, contacts, films, stresses, strain_energy: self.strain_energy })
+    }
+}
+
+fn nodes(block: &crate::model::Block) -> usize {
+    block.mesh.as_ref().map_or(block.corners.len(), |mesh| mesh.nodes.len())
+}
+
+fn same(what: &str, found: usize, wanted: usize) -> Result<(), CheckpointError> {
+    let what = || what.to_owned();
+    if found == wanted {
+        Ok(())
+    } else {
+        Err(CheckpointError::Size { what: what(), found, wanted })
+    }
+}

@@ -1,0 +1,44 @@
+//! What a solved scene consists of: displacements, contact forces, stresses, checks, times.
+
+use nalgebra::Vector2;
+
+use crate::history::History;
+pub use crate::method::info::{PhaseTime, RouteEnd, SoftReport, SolveInfo, SpringShares};
+use crate::model::Model;
+use crate::plan::Plan;
+pub use crate::state::{
+    ContactState, ContactStatus, ElementStress, FilmStress, Principal, Reaction, State,
+};
+use crate::verify::checks::Checks;
+use crate::verify::verdict::Judgement;
+
+/// Everything known about a scene after an attempt to solve it.
+///
+/// `state` and `checks` are `None` when no solution was found; all else is kept. Where a step of the load
+/// history could not be solved, they are those of the step before, and `solve` tells how the step failed.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// Title of the scene.
+    pub title: String,
+    /// The model that was solved.
+    pub model: Model,
+    /// What was built, and why.
+    pub plan: Plan,
+    /// How the complementarity problem was solved.
+    pub solve: SolveInfo,
+    /// The mechanical state, when solved.
+    pub state: Option<State>,
+    /// Balances and the friction cone, recomputed from the state.
+    pub checks: Option<Checks>,
+    /// The reaction of every support, when solved.
+    pub reactions: Vec<Reaction>,
+    /// The steps of the load history, where the answer depends on the way.
+    pub history: Option<History>,
+    /// The mechanism, when there is no solution and the method found one, along a secondary ray, on soft
+    /// springs or by a proof: displacement rates of the corners of every block, scaled to a largest component of one.
+    pub mechanism: Option<Vec<[Vector2<f64>; 4]>>,
+    /// Whether the wall stands.
+    pub judgement: Judgement,
+    /// Time of every phase.
+    pub times: Vec<PhaseTime>,
+}

@@ -1,0 +1,345 @@
+//! One route after the other, each with what it is built on, until one has the answer.
+
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use lcp::Status;
+use nalgebra::Vector2;
+
+use super::{Clock, Event, SolveError, named};
+use crate::method::auto::{self, Rank};
+use crate::method::forces;
+use crate::method::forms::{Sparse, Start};
+use crate::method::info::{RouteEnd, SolveInfo};
+use crate::method::interior::Interior;
+use crate::method::lemke::Pivots;
+use crate::method::newton::Newton;
+use crate::method::pgs::Sweeps;
+use crate::method::qp::Programs;
+use crate::method::reduction::Reduction;
+use crate::method::statics::{self, Decision, Statics};
+use crate::method::{Answer, Method, Request, Step};
+use crate::model::Model;
+use crate::paper::alm::{Multipliers, Strips};
+use crate::plan::Choice;
+use crate::recover;
+use crate::scene::Route;
+use crate::state::State;
+use crate::system::System;
+use crate::verify::checks::Checks;
+use crate::verify::verdict::Movement;
+
+/// What a route came to.
+pub(super) struct Attempt {
+    pub(super) info: SolveInfo,
+    pub(super) state: Option<State>,
+    pub(super) checks: Option<Checks>,
+    pub(super) mechanism: Option<Vec<[Vector2<f64>; 4]>>,
+    pub(super) basis: Option<Start>,
+    /// What is known of admissible forces, where it was asked.
+    pub(super) statics: Option<Statics>,
+}
+
+impl Attempt {
+    fn rank(&self) -> Rank {
+        Rank::of(&self.info, self.mechanism.is_some())
+    }
+}
+
+/// A model on its way through the routes.
+pub(super) struct Chain<'a> {
+    pub(super) model: &'a Model,
+    pub(super) system: &'a System,
+    pub(super) request: Request,
+    pub(super) with_stresses: bool,
+    pub(super) clock: &'a mut Clock,
+    pub(super) observer: &'a mut dyn FnMut(Event) -> ControlFlow<()>,
+    /// The basis of the step before, and its state.
+    start: Option<Start>,
+    before: Option<&'a State>,
+    sparse: Option<Sparse>,
+    /// Whether there are admissible forces; asked at most once.
+    decision: Option<Decision>,
+    /// Whether the proof that there are none would end the route at hand.
+    may_be_cut: bool,
+}
+
+impl<'a> Chain<'a> {
+    pub(super) fn new(
+        (model, system): (&'a Model, &'a System),
+        (request, with_stresses): (Request, bool),
+        (start, before): (Option<Start>, Option<&'a State>),
+        clock: &'a mut Clock,
+        observer: &'a mut dyn FnMut(Event) -> ControlFlow<()>,
+    ) -> Self {
+        Self {
+            model,
+            system,
+            request,
+            with_stresses,
+            clock,
+            observer,
+            start,
+            before,
+            sparse: None,
+            decision: None,
+            may_be_cut: false,
+        }
+    }
+
+    /// The attempt that says most; with all lines of all of them.
+    pub(super) fn run(mut self, routes: &[Choice]) -> Result<Attempt, SolveError> {
+        let has_friction = !self.system.friction.is_empty();
+        let (mut ends, mut lines, mut pivots) = (Vec::new(), Vec::new(), 0);
+        let mut best: Option<Attempt> = None;
+        let mut refusal = None;
+        for (position, choice) in routes.iter().enumerate() {
+            let known = best.as_ref().map(Attempt::rank);
+            if known.is_some_and(|known| !auto::is_asked(choice.route, known, has_friction)) {
+                continue;
+            }
+            let began = Instant::now();
+            let mut end = |end: String| {
+                let seconds = began.elapsed().as_secs_f64();
+                let because = choice.because.clone();
+                ends.push(RouteEnd { route: choice.route, because, end, seconds });
+            };
+            self.request.time_limit = auto::time_limit(choice.route, routes.len());
+            let limit = auto::max_pivots(choice.route, choice.largest_order, routes.len());
+            self.request.max_pivots = self.request.max_pivots.or(limit);
+            self.may_be_cut = routes[position + 1..].iter().any(|it| it.route == Route::Forces);
+            match self.attempt(choice.route) {
+                Ok(mut attempt) => {
+                    attempt.info.because.clone_from(&choice.because);
+                    end(attempt.info.status.to_string());
+                    lines.append(&mut attempt.info.attempts);
+                    pivots += attempt.info.pivots;
+                    let is_cancelled = attempt.info.status == Status::Cancelled;
+                    let is_final = attempt.rank().is_final(has_friction) || is_cancelled;
+                    let is_better = best.as_ref().is_none_or(|best| attempt.rank() < best.rank());
+                    if is_better || is_cancelled {
+                        best = Some(attempt);
+                    }
+                    if is_final {
+                        break;
+                    }
+                }
+                // The next route may treat what this one does not.
+                Err(error) if routes.len() > 1 => {
+                    end(format!("refused: {error}"));
+                    refusal = refusal.or(Some(error));
+                }
+                Err(error) => return Err(error),
+            }
+        }
+        let mut best = match (best, refusal) {
+            (Some(best), _) => best,
+            (None, Some(refusal)) => return Err(refusal),
+            (None, None) => unreachable!("every plan has a route"),
+        };
+        best.info.routes = ends;
+        best.info.attempts = lines;
+        best.info.pivots = pivots;
+        self.add_statics(&mut best);
+        Ok(best)
+    }
+
+    /// What a verdict needs where there is no answer, or one far away: whether any forces balance the loads.
+    fn add_statics(&mut self, best: &mut Attempt) {
+        let is_far =
+            best.state.as_ref().is_some_and(|state| Movement::of(self.model, state).is_large());
+        // Of blocks at rest they are all there is to know, whatever tolerance another route has found them to.
+        let is_open = best.info.status != Status::Solved || is_far || self.system.is_at_rest();
+        if !is_open || best.info.status == Status::Cancelled {
+            return;
+        }
+        // Data that overflow leave it open.
+        best.statics = self.statics().ok().map(|decision| decision.statics.clone());
+        if let Some(Statics::Impossible(proof)) = &best.statics {
+            best.mechanism.get_or_insert_with(|| proof.rates.clone());
+        }
+    }
+
+    /// Whether there are admissible forces.
+    fn statics(&mut self) -> Result<&Decision, lcp::Error> {
+        if self.decision.is_none() {
+            let (parts, observer) = ((self.model, self.system), &mut *self.observer);
+            let _ = observer(Event::Phase("solve"));
+            let began = Instant::now();
+            let decision = statics::decide(parts, &mut |at| {
+                observer(Event::Iteration { number: at.iteration, residual: at.residual })
+            })?;
+            self.clock.add("solve", began);
+            self.decision = Some(decision);
+        }
+        Ok(self.decision.as_ref().unwrap_or_else(|| unreachable!("it was just decided")))
+    }
+
+    fn attempt(&mut self, route: Route) -> Result<Attempt, SolveError> {
+        match route {
+            Route::Auto | Route::Lemke => self.by_pivots(),
+            Route::Forces => self.by_forces(),
+            _ => self.on_sparse(route),
+        }
+    }
+
+    fn by_forces(&mut self) -> Result<Attempt, SolveError> {
+        let sparse = self.sparse()?;
+        let (system, tolerance) = (self.system, self.request.tolerance);
+        let decision = self.statics()?;
+        let answer = forces::answer((system, &sparse), decision, tolerance);
+        let state = self.recovered(&sparse, &answer);
+        self.sparse = Some(sparse);
+        Ok(self.concluded(answer, state))
+    }
+
+    fn by_pivots(&mut self) -> Result<Attempt, SolveError> {
+        let Self { model, system, .. } = *self;
+        let reduction = self
+            .clock
+            .time("reduction", self.observer, || Reduction::new(system, None))
+            .map_err(|error| named(error, model))?;
+        let start = self.start.take();
+        let pivots = Pivots { system, reduction: &reduction, start: start.as_ref() };
+        let answer = self.timed(&pivots)?;
+        let with_stresses = self.with_stresses;
+        let state = answer.rows.as_ref().map(|rows| {
+            self.clock.time("recovery", self.observer, || {
+                recover::recover(model, system, &reduction, rows, with_stresses)
+            })
+        });
+        let attempt = self.concluded(answer, state);
+        if attempt.info.status == Status::AlmostSolved {
+            self.refined(attempt)
+        } else {
+            Ok(attempt)
+        }
+    }
+
+    /// The answer on the states of its contacts, solved anew with all displacements as unknowns: the reduced
+    /// forms lose digits of flat bricks, and of huge friction. As it was, where that is no better.
+    fn refined(&mut self, mut attempt: Attempt) -> Result<Attempt, SolveError> {
+        let Self { model, system, .. } = *self;
+        let Some(state) = &attempt.state else { return Ok(attempt) };
+        let sparse = self.sparse()?;
+        let given = sparse.state((model, system), state);
+        let tolerance = self.request.tolerance;
+        let refined =
+            self.clock.time("refinement", self.observer, || sparse.refined(&given, tolerance));
+        if let Some((refined, residuals)) = refined {
+            let state = recover::from_displacements(
+                (model, system, &sparse),
+                (&sparse.rows(&refined), &refined.u),
+                tolerance,
+                self.with_stresses,
+            );
+            let checks = Checks::of(model, &state);
+            if checks.hold(tolerance) {
+                attempt.info.status = Status::Solved;
+                attempt.info.residuals = residuals;
+                attempt.info.attempts.push(format!(
+                    "refined on all displacements, residual {:.1e}",
+                    residuals.worst()
+                ));
+                (attempt.state, attempt.checks) = (Some(state), Some(checks));
+            }
+        }
+        self.sparse = Some(sparse);
+        Ok(attempt)
+    }
+
+    fn on_sparse(&mut self, route: Route) -> Result<Attempt, SolveError> {
+        let Self { model, system, .. } = *self;
+        let sparse = self.sparse()?;
+        let answer = match route {
+            Route::Newton => self.timed(&Newton { sparse: &sparse }),
+            Route::Qp => self.timed(&Programs { sparse: &sparse }),
+            Route::Pgs => self.timed(&Sweeps { sparse: &sparse }),
+            Route::Alm if Strips::are_in(model) => {
+                self.timed(&Strips { model, system, sparse: &sparse })
+            }
+            Route::Alm => self.timed(&Multipliers { sparse: &sparse }),
+            _ => {
+                let start = self.before.map(|state| sparse.state((model, system), state));
+                self.timed(&Interior { sparse: &sparse, start: start.as_ref() })
+            }
+        };
+        let mut answer = answer?;
+        if let Some(Decision { statics: Statics::Impossible(_), .. }) = &self.decision
+            && answer.info.status == Status::Cancelled
+        {
+            let SolveInfo { status, attempts, iterations, .. } = &mut answer.info;
+            *status = Status::Stalled;
+            *attempts = vec![format!(
+                "{}: left after {iterations} steps, since no forces inside friction balance the loads",
+                route.name()
+            )];
+        }
+        let state = self.recovered(&sparse, &answer);
+        self.sparse = Some(sparse);
+        Ok(self.concluded(answer, state))
+    }
+
+    /// The state that an answer on the sparse problem is.
+    fn recovered(&mut self, sparse: &Sparse, answer: &Answer) -> Option<State> {
+        let Self { model, system, with_stresses, .. } = *self;
+        let (rows, u) = answer.rows.as_ref().zip(answer.displacements.as_deref())?;
+        let (parts, tolerance) = ((model, system, sparse), self.request.tolerance);
+        Some(self.clock.time("recovery", self.observer, || {
+            recover::from_displacements(parts, (rows, u), tolerance, with_stresses)
+        }))
+    }
+
+    /// The sparse problem, built once; who takes it gives it back.
+    fn sparse(&mut self) -> Result<Sparse, lcp::Error> {
+        let system = self.system;
+        match self.sparse.take() {
+            Some(sparse) => Ok(sparse),
+            None => self.clock.time("sparse form", self.observer, || Sparse::new(system)),
+        }
+    }
+
+    fn timed(&mut self, method: &dyn Method) -> Result<Answer, SolveError> {
+        let (parts, observer) = ((self.model, self.system), &mut *self.observer);
+        let _ = observer(Event::Phase("solve"));
+        let began = Instant::now();
+        let (mut may_be_cut, decision) = (self.may_be_cut, &mut self.decision);
+        let answer = method.solve(&self.request, &mut |step| {
+            let event = match step {
+                Step::Pivots(progress) => Event::Pivots(progress),
+                Step::Iteration { number, residual } => {
+                    if may_be_cut && number >= auto::STEPS_BEFORE_PROOF {
+                        may_be_cut = false;
+                        let found = statics::decide(parts, &mut |_| {
+                            observer(Event::Iteration { number, residual })
+                        });
+                        *decision = found.ok();
+                        let found = decision.as_ref().map(|decision| &decision.statics);
+                        if let Some(Statics::Impossible(_)) = found {
+                            return ControlFlow::Break(());
+                        }
+                    }
+                    Event::Iteration { number, residual }
+                }
+            };
+            observer(event)
+        });
+        self.clock.add("solve", began);
+        Ok(answer?)
+    }
+
+    fn concluded(&self, answer: Answer, state: Option<State>) -> Attempt {
+        let checks = state.as_ref().map(|state| Checks::of(self.model, state));
+        let mut info = answer.info;
+        // The complementarity problem may be solved to its tolerance and the structure not: forces and
+        // displacements of very different size meet in one vector.
+        if checks.as_ref().is_some_and(|checks| !checks.hold(self.request.tolerance)) {
+            info.status = Status::AlmostSolved;
+        }
+        let motion = answer.motion.as_ref();
+        let mechanism = motion.and_then(|motion| {
+            recover::mechanism(self.model, self.system, self.sparse.as_ref(), motion)
+        });
+        Attempt { info, state, checks, mechanism, basis: answer.basis, statics: None }
+    }
+}

@@ -1,0 +1,380 @@
+//! A scene on its way through the steps of its load history, of which there is often only one.
+
+use std::ops::ControlFlow;
+
+use lcp::Status;
+use nalgebra::Vector2;
+
+use super::chain::{Attempt, Chain};
+use super::{Clock, Event, SolveError, check_size};
+use crate::analysis::checkpoint::{Checkpoint, CheckpointError};
+use crate::analysis::outcome::Outcome;
+use crate::history::energy::{self, Snapshot};
+use crate::history::{self, History, Step, StepRecord};
+use crate::method::Request;
+use crate::method::forms::{Sparse, Start};
+use crate::method::info::SolveInfo;
+use crate::method::sparse::UNKNOWN;
+use crate::method::statics::Statics;
+use crate::model::Model;
+use crate::plan::Plan;
+use crate::recover;
+use crate::scene::{Scene, Solver};
+use crate::state::{ContactStatus, State};
+use crate::system::System;
+use crate::verify::checks::Checks;
+use crate::verify::verdict::{self, Judgement, Known};
+
+/// A scene that is solved step by step.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use masonry::scene::{Block, Joint, Load, Material, Movement, Scene, Stage, Support};
+/// use masonry::analysis::solve::Run;
+/// use masonry::units::Units;
+///
+/// // A block on a floor that is drawn away below it.
+/// let scene = Scene::new("Floor drawn away", Units::SI)
+///     .thickness(1.0)
+///     .gravity([0.0, -10.0])
+///     .material("stone", Material::rigid().density(1000.0))
+///     .joint("floor", Joint::mu(0.5))
+///     .joint("stop", Joint::mu(0.0))
+///     .block(Block::new("block", "stone", [[0.0, 0.0], [1.0, 0.0], [1.0, 0.2], [0.0, 0.2]]))
+///     .support(Support::new("ground", [-1.0, 0.0], [2.0, 0.0], "floor"))
+///     .support(Support::new("stop", [1.0, 0.0], [1.0, 0.2], "stop"))
+///     .stage(Stage::new("weight"))
+///     .stage(Stage::new("draw").steps(2).moves("ground", Movement::by(0.1, 0.0)));
+/// let mut run = Run::new(&scene, &mut |_| ControlFlow::Continue(()))?;
+/// while run.advance(&mut |_| ControlFlow::Continue(()))? {}
+/// let history = run.finish().history.unwrap();
+/// // The friction of half the weight, 1 kN, over 0.1 m.
+/// assert!((history.dissipation() - 100.0).abs() < 1e-6);
+/// # Ok::<(), masonry::analysis::solve::SolveError>(())
+/// ```
+#[derive(Debug)]
+pub struct Run {
+    title: String,
+    /// The model under the only step; where there are several, with all loads in full and all supports in
+    /// their places.
+    model: Model,
+    plan: Plan,
+    system: System,
+    steps: Vec<Step>,
+    loads: Vec<String>,
+    /// What a checkpoint must have been made of; empty for one step, which has none.
+    origin: String,
+    request: Request,
+    with_stresses: bool,
+    /// How many steps were solved.
+    solved: usize,
+    /// What they came to; empty for one step.
+    records: Vec<StepRecord>,
+    reached: Option<Reached>,
+    last: Option<Last>,
+    /// Where the pivots of the next step start.
+    basis: Option<Start>,
+    clock: Clock,
+}
+
+/// What the last step that was solved has come to.
+#[derive(Debug)]
+struct Reached {
+    state: State,
+    checks: Option<Checks>,
+    /// The step as the next one needs it; `None` where there is only one.
+    in_history: Option<InHistory>,
+}
+
+/// The model of a step, and what tells the work to the next one.
+#[derive(Debug)]
+struct InHistory {
+    model: Model,
+    snapshot: Snapshot,
+}
+
+/// How the last step that was tried ended.
+#[derive(Debug)]
+struct Last {
+    info: SolveInfo,
+    statics: Option<Statics>,
+    mechanism: Option<Vec<[Vector2<f64>; 4]>>,
+}
+
+impl Run {
+    /// Builds what all steps have in common.
+    ///
+    /// # Errors
+    /// [`SolveError`] when the scene is wrong or too large.
+    pub fn new(
+        scene: &Scene,
+        observer: &mut dyn FnMut(Event) -> ControlFlow<()>,
+    ) -> Result<Self, SolveError> {
+        let mut clock = Clock::default();
+        let mut model = clock.time("model", observer, || Model::from_scene(scene))?;
+        let plan = Plan::of(scene, &model);
+        check_size(&plan)?;
+        let mut steps = history::steps(scene);
+        steps.drain(..steps.len() - plan.steps);
+        let origin = if let [only] = steps.as_slice() {
+            model.act(&only.actions);
+            String::new()
+        } else {
+            Checkpoint::origin_of(scene)?
+        };
+        let build = if plan.dense_numbers() > 0 { System::new } else { System::without_factors };
+        let system = clock.time("system", observer, || build(&model))?;
+        let Solver { tolerance, form, max_pivots, soft, .. } = scene.solver;
+        let max_pivots = max_pivots.map(|limit| limit as usize);
+        Ok(Self {
+            title: scene.title.clone(),
+            model,
+            plan,
+            system,
+            steps,
+            loads: scene.loads.iter().map(|load| load.name.clone()).collect(),
+            origin,
+            request: Request { tolerance, form, max_pivots, soft, time_limit: None },
+            with_stresses: scene.output.stresses,
+            solved: 0,
+            records: Vec::new(),
+            reached: None,
+            last: None,
+            basis: None,
+            clock,
+        })
+    }
+
+    /// Goes on from the last step of a checkpoint.
+    ///
+    /// Route, tolerance, output, and stages that are still to come may differ from those of the run that
+    /// wrote it.
+    ///
+    /// # Errors
+    /// [`CheckpointError`] when it belongs to another scene, to steps that are not those of this one, when a state
+    /// in it does not hold, and for scenes of one step.
+    pub fn resume(mut self, checkpoint: &Checkpoint) -> Result<Self, SolveError> {
+        if !self.has_history() {
+            return Err(CheckpointError::OneStep.into());
+        }
+        let Checkpoint { origin, records, .. } = checkpoint;
+        if *origin != self.origin {
+            return Err(CheckpointError::OtherScene.into());
+        }
+        let planned = self.steps.iter().map(Some).chain(std::iter::repeat(None));
+        if let Some(position) =
+            records.iter().zip(planned).position(|(record, step)| Some(&record.step) != step)
+        {
+            let StepRecord { step: Step { stage, number, .. }, .. } = &records[position];
+            return Err(CheckpointError::OtherSteps { stage: stage.clone(), step: *number }.into());
+        }
+        let Some(record) = records.last() else { return Ok(self) };
+        let slips = vec![0.0; self.model.contacts.len()];
+        let model = self.model.under(&record.step.actions, &slips);
+        let state = checkpoint.state(&model, self.with_stresses)?;
+        self.system.reload(&model);
+        let snapshot = Snapshot::of(&model, &self.system, &state);
+        let info = SolveInfo {
+            route: record.route,
+            because: "of the run that wrote the checkpoint".to_owned(),
+            ..SolveInfo::new(Status::Solved, record.residuals)
+        };
+        let checks = Checks::of(&model, &state);
+        if !checks.hold(self.request.tolerance.max(record.residuals.worst())) {
+            return Err(CheckpointError::NoEquilibrium.into());
+        }
+        let in_history = Some(InHistory { model, snapshot });
+        self.reached = Some(Reached { state, checks: Some(checks), in_history });
+        self.last = Some(Last { info, statics: None, mechanism: None });
+        self.solved = records.len();
+        self.records.clone_from(records);
+        self.basis = checkpoint.basis(self.system.rows.len() + self.system.friction.len());
+        Ok(self)
+    }
+
+    /// Solves the next step; false when there is none, or the last one failed.
+    ///
+    /// # Errors
+    /// As [`solve`](super::solve). Steps that were solved before are kept.
+    pub fn advance(
+        &mut self,
+        observer: &mut dyn FnMut(Event) -> ControlFlow<()>,
+    ) -> Result<bool, SolveError> {
+        let is_over = self.last.as_ref().is_some_and(|last| last.info.status != Status::Solved);
+        let Some(step) = self.steps.get(self.solved).filter(|_| !is_over).cloned() else {
+            return Ok(false);
+        };
+        let stepped = self.has_history().then(|| {
+            let slips = self.slips();
+            (self.model.under(&step.actions, &slips), slips)
+        });
+        if let Some((model, _)) = &stepped {
+            let (number, of) = (self.solved + 1, self.steps.len());
+            let _ = observer(Event::Step { number, of });
+            self.system.reload(model);
+        }
+        let model = stepped.as_ref().map_or(&self.model, |(model, _)| model);
+        let wanted = (self.request, self.with_stresses);
+        let parts = (model, &self.system);
+        let before = self.reached.as_ref().map(|reached| &reached.state);
+        let start = (self.basis.take(), before);
+        let found = Chain::new(parts, wanted, start, &mut self.clock, observer);
+        match found.run(&self.plan.routes) {
+            Ok(found) => self.take(step, stepped, found),
+            Err(error) if self.solved == 0 => return Err(error),
+            Err(error) => {
+                let info = SolveInfo::new(Status::NumericalTrouble, UNKNOWN);
+                self.last = Some(Last { info, statics: None, mechanism: None });
+                let Step { stage, number, .. } = step;
+                let error = Box::new(error);
+                return Err(SolveError::Step { stage, step: number, error });
+            }
+        }
+        Ok(true)
+    }
+
+    /// The slip of every contact point after the last step.
+    fn slips(&self) -> Vec<f64> {
+        match &self.reached {
+            Some(reached) => reached.state.contacts.iter().map(|contact| contact.y_t).collect(),
+            None => vec![0.0; self.model.contacts.len()],
+        }
+    }
+
+    /// Keeps a step that was solved; of one that was not, its state only where there is none before.
+    /// Of the only step there is nothing to remember but its state.
+    fn take(&mut self, step: Step, stepped: Option<(Model, Vec<f64>)>, found: Attempt) {
+        let Attempt { mut info, state, checks, mechanism, basis, statics } = found;
+        self.basis = basis;
+        if let Some(mut state) = state {
+            let dissipation = energy::dissipation(&state.contacts);
+            if !opposes(dissipation, &state, self.request.tolerance) {
+                info.status = Status::AlmostSolved;
+            }
+            let in_history = stepped.map(|(model, slips)| {
+                let steps = model.contacts.iter().zip(&mut state.contacts).zip(slips);
+                let frictional = steps.filter(|((contact, _), _)| contact.mu > 0.0);
+                for ((_, contact), slip) in frictional {
+                    // What is computed for a contact that sticks is an error, and no slip of the steps to come.
+                    let sticks = contact.status == ContactStatus::Stick;
+                    contact.y_t = if sticks { slip } else { slip + contact.y_t };
+                }
+                let snapshot = Snapshot::of(&model, &self.system, &state);
+                InHistory { model, snapshot }
+            });
+            let is_solved = info.status == Status::Solved;
+            if is_solved || self.reached.is_none() {
+                let reached = Reached { state, checks, in_history };
+                if is_solved {
+                    self.solved += 1;
+                    self.records.extend(self.record(step, &info, dissipation, &reached));
+                }
+                self.reached = Some(reached);
+            }
+        }
+        self.last = Some(Last { info, statics, mechanism });
+    }
+
+    /// The record of a step that follows the last one reached; `None` where there is no history.
+    fn record(
+        &self,
+        step: Step,
+        info: &SolveInfo,
+        dissipation: f64,
+        reached: &Reached,
+    ) -> Option<StepRecord> {
+        let Reached { state, checks, in_history } = reached;
+        let InHistory { model, snapshot } = in_history.as_ref()?;
+        let before = self.reached.as_ref().and_then(|it| it.in_history.as_ref());
+        let work = match before {
+            Some(before) => before.snapshot.work_to(snapshot),
+            None => snapshot.at_rest().work_to(snapshot),
+        };
+        let largest = state.displacements.iter().flatten().map(nalgebra::Matrix::amax);
+        Some(StepRecord {
+            step,
+            route: info.route,
+            residuals: info.residuals,
+            work,
+            dissipation: dissipation.max(0.0),
+            strain_energy: state.strain_energy,
+            largest_displacement: largest.fold(0.0, f64::max),
+            contacts: checks.as_ref().map_or([0; 3], |it| [it.open, it.stick, it.slip]),
+            reactions: recover::reactions(model, &state.contacts),
+        })
+    }
+
+    /// Whether there are several steps.
+    pub fn has_history(&self) -> bool {
+        self.steps.len() > 1
+    }
+
+    /// How many steps were solved.
+    pub fn solved_steps(&self) -> usize {
+        self.solved
+    }
+
+    /// Everything that the next step needs; `None` before the first, and for a scene of one step.
+    pub fn checkpoint(&self) -> Option<Checkpoint> {
+        let reached = self.reached.as_ref()?;
+        (!self.records.is_empty()).then(|| {
+            let reached = (&reached.state, self.basis.as_ref());
+            Checkpoint::new(self.origin.clone(), self.records.clone(), reached)
+        })
+    }
+
+    /// The outcome: the state after the last step that was solved.
+    pub fn finish(self) -> Outcome {
+        let failed = self.steps.get(self.solved).cloned();
+        let Last { info, statics, mechanism } = self.last.unwrap_or_else(|| {
+            let info = SolveInfo::new(Status::Cancelled, UNKNOWN);
+            Last { info, statics: None, mechanism: None }
+        });
+        let steps = self.steps.len();
+        let history = History { records: self.records, failed, steps, loads: self.loads };
+        let (model, state, checks) = match self.reached {
+            Some(Reached { state, checks, in_history }) => {
+                (in_history.map_or(self.model, |it| it.model), Some(state), checks)
+            }
+            None => (self.model, None, None),
+        };
+        let contacts = state.as_ref().map(|state| &state.contacts);
+        let reactions =
+            contacts.map_or_else(Vec::new, |contacts| recover::reactions(&model, contacts));
+        let history = (steps > 1).then_some(history);
+        let sparse = state.as_ref().and_then(|_| Sparse::new(&self.system).ok());
+        let circulating = state.as_ref().zip(sparse);
+        let judgement = Judgement::of(&Known {
+            model: &model,
+            info: &info,
+            state: state.as_ref(),
+            statics: statics.as_ref(),
+            history: history.as_ref(),
+            at_rest: self.system.is_at_rest(),
+            circulating: circulating
+                .map_or(0, |(state, sparse)| verdict::circulating(&sparse.problem, state)),
+        });
+        Outcome {
+            title: self.title,
+            model,
+            plan: self.plan,
+            solve: info,
+            state,
+            checks,
+            reactions,
+            history,
+            mechanism,
+            judgement,
+            times: self.clock.times,
+        }
+    }
+}
+
+/// Whether friction dissipates energy, up to rounding: relative to the largest product of a force and a
+/// displacement, and to the energy that is stored.
+fn opposes(dissipation: f64, state: &State, tolerance: f64) -> bool {
+    let force = state.contacts.iter().map(|contact| contact.t_t.abs()).fold(0.0, f64::max);
+    let slip = state.contacts.iter().map(|contact| contact.y_t.abs()).fold(0.0, f64::max);
+    let moved = state.displacements.iter().flatten().map(Vector2::norm).fold(slip, f64::max);
+    dissipation >= -tolerance * (force * moved).max(state.strain_energy)
+}

@@ -1,0 +1,331 @@
+//! What accuracy costs: a scene by several routes, to several tolerances, on several meshes.
+//!
+//! Two errors are kept apart. The *algebraic* error of an answer is its distance from the
+//! [`Reference`] of the same mesh, the most accurate answer there is on it: what the solver left
+//! undone. The error of the *mesh* is the distance of that reference from the one of the finest mesh:
+//! what no solver can mend. A third part tells what the soft springs of the route by quadratic programs
+//! change before they are centred anew.
+//!
+//! ```
+//! use masonry::scene::{Brick, Joint, Load, Material, Route, Scene, Support, Wall};
+//! use masonry::model::Plane;
+//! use masonry::report;
+//! use masonry::analysis::study::{Settings, study};
+//! use masonry::units::Units;
+//!
+//! let brick = Brick { length: 0.2, height: 0.1 };
+//! let scene = Scene::new("Two courses", Units::SI)
+//!     .plane(Plane::Stress)
+//!     .thickness(0.1)
+//!     .material("brick", Material::elastic(1e9, 0.2))
+//!     .joint("bed", Joint::mu(0.6))
+//!     .joint("head", Joint::mu(0.6))
+//!     .wall(Wall::running_bond("wall", "brick", brick, 0.4, 2).mesh([1, 1]))
+//!     .support(Support::new("floor", [0.0, 0.0], [0.4, 0.0], "bed"))
+//!     .load(Load::pressure("top", [0.0, 0.2], [0.4, 0.2], 1e4));
+//! let settings = Settings {
+//!     routes: vec![Route::Lemke, Route::Alm],
+//!     tolerances: vec![1e-4, 1e-8],
+//!     meshes: vec![1, 2],
+//!     springs: Vec::new(),
+//!     ..Settings::default()
+//! };
+//! let study = study(&scene, &settings, &mut |_| {})?;
+//! assert_eq!(study.records.len(), 8);
+//! let [exact, iterated] = [&study.records[1], &study.records[3]];
+//! assert!(exact.errors.unwrap().worst() < iterated.errors.unwrap().worst());
+//! println!("{}", report::study::table(&study));
+//! # Ok::<(), masonry::analysis::study::StudyError>(())
+//! ```
+
+mod figures;
+mod machine;
+mod mesh;
+mod reference;
+mod refining;
+mod runs;
+mod springs;
+mod verified;
+
+use std::time::Duration;
+
+use lcp::Status;
+use serde::Serialize;
+
+pub use figures::Errors;
+pub use machine::machine;
+pub use mesh::{Mesh, MeshErrors, Values};
+pub use reference::{Confirmation, Reference};
+pub use refining::Refining;
+pub use springs::Springs;
+pub use verified::Verified;
+
+use crate::model::Model;
+use crate::scene::{Route, Scene, SceneError};
+use crate::units::Units;
+use figures::Figures;
+use runs::Runner;
+
+/// What is varied, and how long a solve may take.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// The routes; those that do not treat the scene say so in their records.
+    pub routes: Vec<Route>,
+    /// The tolerances \[-\], between 0 and 1.
+    pub tolerances: Vec<f64>,
+    /// Factors by which the numbers of elements of all walls and blocks are multiplied, per direction. A
+    /// scene of rigid blocks has no elements, and then is studied as it is.
+    pub meshes: Vec<u32>,
+    /// What reports call the meshes, in their order; those that are missing are called after their factors.
+    pub mesh_names: Vec<String>,
+    /// Stiffnesses of springs on all displacements, relative to that of the blocks \[-\].
+    pub springs: Vec<f64>,
+    /// Wall-clock time that one solve may take. It is looked at by the observer, so that one
+    /// factorisation or program is never interrupted: [`Record::overrun`] tells where one took longer.
+    pub time_limit: Duration,
+    /// How often a solve of less than a second is run; its time is the median.
+    pub repeats: usize,
+    /// Where, and perhaps when, times are measured, for reports: [`machine`], for instance.
+    pub machine: Option<String>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            routes: vec![
+                Route::Lemke,
+                Route::Interior,
+                Route::Newton,
+                Route::Qp,
+                Route::Pgs,
+                Route::Alm,
+            ],
+            tolerances: vec![1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12],
+            meshes: vec![1, 2, 4],
+            mesh_names: Vec::new(),
+            springs: vec![1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2],
+            time_limit: Duration::from_secs(20),
+            repeats: 3,
+            machine: None,
+        }
+    }
+}
+
+impl Settings {
+    fn validate(&self) -> Result<(), StudyError> {
+        let lists = [
+            ("route", self.routes.is_empty()),
+            ("tolerance", self.tolerances.is_empty()),
+            ("mesh factor", self.meshes.is_empty()),
+        ];
+        if let Some((what, _)) = lists.into_iter().find(|(_, is_empty)| *is_empty) {
+            return Err(StudyError::Empty { what });
+        }
+        let out_of_range = |value: &&f64| !(**value > 0.0 && **value < 1.0);
+        let ranges = [("tolerance", &self.tolerances), ("stiffness of springs", &self.springs)];
+        for (what, values) in ranges {
+            if let Some(&value) = values.iter().find(out_of_range) {
+                return Err(StudyError::Range { what, value });
+            }
+        }
+        if self.meshes.contains(&0) { Err(StudyError::NoElements) } else { Ok(()) }
+    }
+
+    /// "mesh 4 (4 times as fine)", unless it has another name.
+    fn mesh_name(&self, factor: u32) -> String {
+        let position = self.meshes.iter().position(|it| *it == factor);
+        match position.and_then(|position| self.mesh_names.get(position)) {
+            Some(name) => name.clone(),
+            None if factor == 1 => "mesh 1 (that of the scene)".to_owned(),
+            None => format!("mesh {factor} ({factor} times as fine)"),
+        }
+    }
+}
+
+/// Why there is no study.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// The scene is wrong.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// Nothing to vary.
+    #[error("a study needs at least one {what}: name one, or leave the list out")]
+    Empty {
+        /// What there is none of.
+        what: &'static str,
+    },
+    /// A number out of its range.
+    #[error("a {what} lies between 0 and 1, and {value} does not: correct it")]
+    Range {
+        /// What it is.
+        what: &'static str,
+        /// The number.
+        value: f64,
+    },
+    /// A mesh without elements.
+    #[error("a mesh factor is at least 1, and 0 leaves no elements: correct it")]
+    NoElements,
+}
+
+/// How a solve ended.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum End {
+    /// With this status; [`Status::TimeLimit`] by [`Settings::time_limit`].
+    Ended(Status),
+    /// The route does not treat the scene, and this is why.
+    Refused(String),
+    /// It was not tried, and this is why.
+    Skipped(String),
+}
+
+impl End {
+    /// Whether there is an answer.
+    pub fn is_solved(&self) -> bool {
+        *self == Self::Ended(Status::Solved)
+    }
+
+    /// One word.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Ended(status) => status.to_string(),
+            Self::Refused(_) => "Refused".to_owned(),
+            Self::Skipped(_) => "Skipped".to_owned(),
+        }
+    }
+
+    /// Why there was no solve.
+    pub fn reason(&self) -> Option<&str> {
+        match self {
+            Self::Ended(_) => None,
+            Self::Refused(reason) | Self::Skipped(reason) => Some(reason),
+        }
+    }
+}
+
+/// One route, one tolerance, one mesh.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Record {
+    /// The route.
+    pub route: Route,
+    /// The residual asked for \[-\].
+    pub tolerance: f64,
+    /// The factor of the mesh.
+    pub mesh: u32,
+    /// How it ended.
+    pub end: End,
+    /// The residual reached \[-\], recomputed from the original data; of the last step of a load history.
+    pub residual: Option<f64>,
+    /// Wall-clock time from the scene to the checked answer, or to giving up \[s\].
+    pub seconds: Option<f64>,
+    /// Whether that is more than the limit: one factorisation, reduction or program was not interrupted.
+    pub overrun: bool,
+    /// Pivots by [`Route::Lemke`], iterations by the others; of the last step of a load history.
+    pub iterations: Option<usize>,
+    /// Algebraic errors: against the reference of the same mesh.
+    pub errors: Option<Errors>,
+}
+
+/// All that was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Study {
+    /// Title of the scene.
+    pub title: String,
+    /// Units of the scene, for reports; all values here are in SI units.
+    pub units: Units,
+    /// Wall-clock time that one solve was given.
+    pub time_limit: Duration,
+    /// Where times were measured, if that was told.
+    pub machine: Option<String>,
+    /// By mesh, route and tolerance, in the order of the settings.
+    pub records: Vec<Record>,
+    /// The meshes, in the order of the settings.
+    pub meshes: Vec<Mesh>,
+    /// Soft springs, on the first mesh, by [`Route::Qp`], from soft to stiff.
+    pub springs: Vec<Springs>,
+}
+
+impl Study {
+    /// Whether any route solved the scene on the first mesh.
+    pub fn is_solved(&self) -> bool {
+        self.on_first_mesh().any(|record| record.end.is_solved())
+    }
+
+    /// The records of the first mesh.
+    pub fn on_first_mesh(&self) -> impl Iterator<Item = &Record> {
+        let first = self.meshes.first().map(|mesh| mesh.factor);
+        self.records.iter().filter(move |record| Some(record.mesh) == first)
+    }
+
+    /// The routes, each once, in their order.
+    pub fn routes(&self) -> Vec<Route> {
+        let mut routes: Vec<Route> = Vec::new();
+        for record in &self.records {
+            if !routes.contains(&record.route) {
+                routes.push(record.route);
+            }
+        }
+        routes
+    }
+}
+
+/// What is being solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// The factor of the mesh.
+    pub mesh: u32,
+    /// The route.
+    pub route: Route,
+    /// The tolerance \[-\].
+    pub tolerance: f64,
+}
+
+/// Studies a scene and tells the observer what is being solved.
+///
+/// Form and limit of pivots of the scene are kept for [`Route::Lemke`]; its route, tolerance and springs
+/// are replaced.
+///
+/// # Errors
+/// [`StudyError`] for a scene that is wrong and for settings out of range. A route or a mesh that fails is
+/// no error but a record.
+pub fn study(
+    scene: &Scene,
+    settings: &Settings,
+    observer: &mut dyn FnMut(Progress),
+) -> Result<Study, StudyError> {
+    settings.validate()?;
+    let model = Model::from_scene(scene)?;
+    let is_elastic = model.blocks.iter().any(|block| block.elasticity.is_some());
+    let factors: &[u32] = if is_elastic { &settings.meshes } else { &[1] };
+    let mut runner = Runner::new(settings, observer);
+    let (mut records, mut meshes, mut springs) = (Vec::new(), Vec::new(), Vec::new());
+    for (position, &factor) in factors.iter().enumerate() {
+        let refined = mesh::refined(scene, factor);
+        let (mesh, figures) = mesh::studied(&refined, factor, &mut runner);
+        for &route in &settings.routes {
+            for &tolerance in &settings.tolerances {
+                records.push(runner.record(&refined, (factor, route, tolerance), figures.as_ref()));
+            }
+        }
+        if position == 0 {
+            springs = springs::studied(
+                &refined,
+                factor,
+                &settings.springs,
+                &mut runner,
+                figures.as_ref(),
+            );
+        }
+        meshes.push(mesh);
+    }
+    Ok(Study {
+        title: scene.title.clone(),
+        units: scene.units,
+        time_limit: settings.time_limit,
+        machine: settings.machine.clone(),
+        records,
+        meshes: mesh::compared(meshes),
+        springs,
+    })
+}

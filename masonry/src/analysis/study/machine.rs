@@ -1,0 +1,24 @@
+//! Where times were measured.
+
+use std::thread::available_parallelism;
+
+/// The processor and the number of its threads that there are, for tables and pictures; where the system does
+/// not tell its model, what kind it is.
+///
+/// ```
+/// assert!(masonry::analysis::study::machine().contains("thread"));
+/// ```
+pub fn machine() -> String {
+    let processor = model().unwrap_or_else(|| std::env::consts::ARCH.to_owned());
+    match available_parallelism().map_or(1, std::num::NonZero::get) {
+        1 => format!("{processor}, 1 thread"),
+        threads => format!("{processor}, {threads} threads"),
+    }
+}
+
+fn model() -> Option<String> {
+    let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("model name"))?;
+    let name = line.split_once(':')?.1.split_whitespace().collect::<Vec<_>>().join(" ");
+    (!name.is_empty()).then_some(name)
+}

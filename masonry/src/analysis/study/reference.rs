@@ -1,0 +1,138 @@
+//! The most accurate answer on a mesh, and what confirms it.
+
+use lcp::Status;
+use serde::Serialize;
+
+use super::runs::{Ran, Runner, on_route};
+use super::verified::{Exact, Verified};
+use super::{End, Errors, Figures};
+use crate::analysis::outcome::Outcome;
+use crate::scene::{Route, Scene};
+use crate::verify::checks::Checks;
+
+/// Routes that end on a basis, and so at rounding; and one that does not, for what is too large for the
+/// others. The first two that have an answer are compared.
+const ROUTES: [Route; 5] = [Route::Interior, Route::Lemke, Route::Newton, Route::Alm, Route::Qp];
+/// Tolerances of a reference: the first that is reached.
+const TOLERANCES: [f64; 4] = [1e-13, 1e-12, 1e-11, 1e-10];
+/// That of a route that converges to a residual: enough to tell the states of the contacts.
+const CONVERGED: [f64; 1] = [1e-10];
+
+/// The most accurate answer that can be had.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Reference {
+    /// The route.
+    pub route: Route,
+    /// The tightest tolerance that it reached \[-\].
+    pub tolerance: f64,
+    /// The residual, recomputed from the original data \[-\].
+    pub residual: f64,
+    /// The worst of the balances of forces and moments, the violation of the friction cones and the
+    /// penetration \[-\], which use nothing of the method.
+    pub balance: f64,
+    /// Wall-clock time \[s\].
+    pub seconds: f64,
+    /// What numbers of twice the digits say of it. Errors are measured against the answer so refined where
+    /// that [is better](Verified::is_better).
+    pub verified: Option<Verified>,
+    /// Another route that went another way; `None` where no other has an answer.
+    pub confirmed: Option<Confirmation>,
+}
+
+/// How far an independent answer is from a reference.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Confirmation {
+    /// The other route.
+    pub route: Route,
+    /// Its distance from the reference. With friction there may be several equilibria, and then it may be large.
+    pub errors: Errors,
+    /// The distance of both, each refined from the states of its own contacts, in the forces on the nodes \[-\].
+    pub refined: Option<f64>,
+}
+
+/// A reference with what is compared with it.
+pub(super) struct Found {
+    pub(super) reference: Reference,
+    pub(super) outcome: Outcome,
+    pub(super) figures: Figures,
+    /// The refined answer, where it is better.
+    pub(super) exact: Option<Exact>,
+}
+
+/// The reference of a scene.
+pub(super) fn find(scene: &Scene, mesh: u32, runner: &mut Runner) -> Option<Found> {
+    let mut found: Vec<Candidate> = Vec::new();
+    for route in ROUTES {
+        if found.len() < 2 {
+            found.extend(tightest(scene, (mesh, route), runner));
+        }
+    }
+    found.sort_by(|a, b| a.rank().0.cmp(&b.rank().0).then(a.rank().1.total_cmp(&b.rank().1)));
+    let mut found = found.into_iter();
+    let mut best = found.next()?;
+    let figures = best.figures()?;
+    best.reference.confirmed = found.next().and_then(|other| {
+        let errors = other.ran.figures()?.errors(&figures);
+        let refined = best.exact.as_ref().zip(other.exact.as_ref());
+        let refined = refined.and_then(|(exact, other)| exact.distance(other));
+        Some(Confirmation { route: other.reference.route, errors, refined })
+    });
+    let outcome = best.ran.outcome?;
+    let exact = best.exact.filter(|exact| exact.verified.is_better());
+    Some(Found { reference: best.reference, outcome, figures, exact })
+}
+
+struct Candidate {
+    reference: Reference,
+    ran: Ran,
+    exact: Option<Exact>,
+}
+
+impl Candidate {
+    /// Verified answers come first, then those of small residuals.
+    fn rank(&self) -> (bool, f64) {
+        (self.better().is_none(), self.reference.residual)
+    }
+
+    fn better(&self) -> Option<&Exact> {
+        self.exact.as_ref().filter(|exact| exact.verified.is_better())
+    }
+
+    fn figures(&self) -> Option<Figures> {
+        match (self.better(), self.ran.solved()) {
+            (Some(exact), Some(outcome)) => Some(exact.figures(&outcome.model)),
+            _ => self.ran.figures(),
+        }
+    }
+}
+
+fn tightest(scene: &Scene, (mesh, route): (u32, Route), runner: &mut Runner) -> Option<Candidate> {
+    let tolerances = if route == Route::Alm { &CONVERGED[..] } else { &TOLERANCES[..] };
+    for &tolerance in tolerances {
+        let ran = runner.run(&on_route(scene, route, tolerance), mesh);
+        if let (Some(outcome), Some(seconds)) = (ran.solved(), ran.seconds) {
+            let exact = Exact::of(outcome);
+            let reference = Reference {
+                route,
+                tolerance,
+                residual: outcome.solve.residuals.worst(),
+                balance: outcome.checks.as_ref().map_or(0.0, worst),
+                seconds,
+                verified: exact.as_ref().map(|exact| exact.verified.clone()),
+                confirmed: None,
+            };
+            return Some(Candidate { reference, ran, exact });
+        }
+        // A looser tolerance helps where the residual was too large, and nowhere else.
+        let End::Ended(status) = ran.end else { return None };
+        if !matches!(status, Status::AlmostSolved | Status::Stalled | Status::IterationLimit) {
+            return None;
+        }
+    }
+    None
+}
+
+fn worst(checks: &Checks) -> f64 {
+    let Checks { force_balance, moment_balance, cone_violation, penetration, .. } = *checks;
+    force_balance.max(moment_balance).max(cone_violation).max(penetration)
+}

@@ -1,0 +1,225 @@
+//! Solves of a scene within a limit of time, each measured.
+
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use lcp::Status;
+
+use super::{End, Figures, Progress, Record, Settings};
+use crate::analysis::outcome::Outcome;
+use crate::analysis::solve::solve_observed;
+use crate::model::Model;
+use crate::plan::Plan;
+use crate::scene::{Form, Route, Scene};
+use crate::verify::checks::Checks;
+
+/// Solves that take longer are not repeated.
+const SHORT: Duration = Duration::from_secs(1);
+
+/// A limit counts as kept up to this factor.
+const OVERRUN: f64 = 1.1;
+
+/// Dense matrices of larger orders are not built: reduction and factors take minutes that no observer
+/// can cut short.
+const LARGEST_DENSE: usize = 4000;
+
+/// What one solve came to.
+pub(super) struct Ran {
+    pub(super) end: End,
+    pub(super) seconds: Option<f64>,
+    /// The outcome, unless it was refused or skipped.
+    pub(super) outcome: Option<Outcome>,
+}
+
+impl Ran {
+    pub(super) fn skipped(reason: String) -> Self {
+        Self { end: End::Skipped(reason), seconds: None, outcome: None }
+    }
+
+    pub(super) fn is_too_long(&self) -> bool {
+        self.end == End::Ended(Status::TimeLimit)
+    }
+
+    /// Why it would end no better to a tighter tolerance.
+    fn is_beyond(&self) -> Option<Beyond> {
+        match self.end {
+            End::Ended(Status::TimeLimit) => Some(Beyond::Time),
+            End::Ended(Status::IterationLimit) => Some(Beyond::Iterations),
+            _ => None,
+        }
+    }
+
+    /// The outcome, when solved.
+    pub(super) fn solved(&self) -> Option<&Outcome> {
+        self.outcome.as_ref().filter(|_| self.end.is_solved())
+    }
+
+    /// The residual reached, if there is one.
+    pub(super) fn residual(&self) -> Option<f64> {
+        let residual = self.outcome.as_ref().map(|it| it.solve.residuals.worst());
+        residual.filter(|residual| residual.is_finite())
+    }
+
+    /// Forces, stresses and energy, when solved.
+    pub(super) fn figures(&self) -> Option<Figures> {
+        let outcome = self.solved()?;
+        outcome.state.as_ref().map(|state| Figures::of(&outcome.model, state))
+    }
+}
+
+/// What was not enough.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Beyond {
+    /// Nor will it be on finer meshes.
+    Time,
+    Iterations,
+}
+
+/// Solves scenes, and remembers for which time or iterations were not enough.
+pub(super) struct Runner<'a> {
+    settings: &'a Settings,
+    observer: &'a mut dyn FnMut(Progress),
+    beyond: Vec<(Beyond, u32, Route, f64)>,
+    /// The last record by pivots, with its balances.
+    pivots: Option<(Record, Checks)>,
+}
+
+impl<'a> Runner<'a> {
+    pub(super) fn new(settings: &'a Settings, observer: &'a mut dyn FnMut(Progress)) -> Self {
+        Self { settings, observer, beyond: Vec::new(), pivots: None }
+    }
+
+    /// What reports call a mesh.
+    pub(super) fn mesh_name(&self, factor: u32) -> String {
+        self.settings.mesh_name(factor)
+    }
+
+    /// How often what is short is measured.
+    pub(super) fn repeats(&self) -> usize {
+        self.settings.repeats
+    }
+
+    /// One record.
+    pub(super) fn record(
+        &mut self,
+        scene: &Scene,
+        (mesh, route, tolerance): (u32, Route, f64),
+        reference: Option<&Figures>,
+    ) -> Record {
+        if let Some(same) = self.same_pivots((mesh, route, tolerance)) {
+            return same;
+        }
+        let ran = self.run(&on_route(scene, route, tolerance), mesh);
+        let count = |outcome: &Outcome| match route {
+            Route::Lemke => outcome.solve.pivots,
+            _ => outcome.solve.iterations,
+        };
+        let errors = ran.figures().zip(reference).map(|(found, it)| found.errors(it));
+        let checks = ran.solved().and_then(|outcome| outcome.checks.clone());
+        let record = Record {
+            route,
+            tolerance,
+            mesh,
+            residual: ran.residual(),
+            seconds: ran.seconds,
+            overrun: ran
+                .seconds
+                .is_some_and(|it| it > OVERRUN * self.settings.time_limit.as_secs_f64()),
+            iterations: ran.outcome.as_ref().map(count),
+            errors,
+            end: ran.end,
+        };
+        if route == Route::Lemke {
+            self.pivots = checks.map(|checks| (record.clone(), checks));
+        }
+        record
+    }
+
+    /// Pivots are the same to every tolerance that their residual is below: only what is called solved
+    /// depends on it.
+    fn same_pivots(&self, (mesh, route, tolerance): (u32, Route, f64)) -> Option<Record> {
+        let (last, checks) = self.pivots.as_ref()?;
+        let is_same = route == Route::Lemke && last.mesh == mesh && tolerance <= last.tolerance;
+        let is_reached = last.residual.is_some_and(|residual| residual <= tolerance);
+        (is_same && is_reached && checks.hold(tolerance))
+            .then(|| Record { tolerance, ..last.clone() })
+    }
+
+    /// Solves a scene, several times if that is quick. Where the time ran out to a looser tolerance, or on
+    /// a coarser mesh, it is not tried; nor where iterations did to a looser tolerance.
+    pub(super) fn run(&mut self, scene: &Scene, mesh: u32) -> Ran {
+        let (route, tolerance) = (scene.solver.route, scene.solver.tolerance);
+        let is_easier = |(beyond, other, by, looser): &&(Beyond, u32, Route, f64)| {
+            let on_mesh = *other == mesh || *beyond == Beyond::Time && *other <= mesh;
+            *by == route && on_mesh && *looser >= tolerance
+        };
+        if let Some((beyond, mesh, _, tolerance)) = self.beyond.iter().find(is_easier) {
+            let what = match beyond {
+                Beyond::Time => "the time",
+                Beyond::Iterations => "the number of iterations",
+            };
+            let mesh = self.settings.mesh_name(*mesh);
+            return Ran::skipped(format!("{what} ran out to {tolerance:e} on {mesh}"));
+        }
+        (self.observer)(Progress { mesh, route, tolerance });
+        if let Some(order) = dense_order(scene).filter(|order| *order > LARGEST_DENSE) {
+            return Ran::skipped(format!(
+                "it may build dense matrices of order {order}, and those above {LARGEST_DENSE} take long"
+            ));
+        }
+        let mut ran = self.once(scene);
+        // With springs other rules hold.
+        if let Some(beyond) = ran.is_beyond().filter(|_| scene.solver.soft.is_none()) {
+            self.beyond.push((beyond, mesh, route, tolerance));
+        }
+        let mut times: Vec<f64> = ran.seconds.into_iter().collect();
+        let is_short = times.iter().all(|time| *time < SHORT.as_secs_f64());
+        if is_short && ran.solved().is_some() {
+            times.extend((1..self.settings.repeats).filter_map(|_| self.once(scene).seconds));
+        }
+        times.sort_by(f64::total_cmp);
+        ran.seconds = times.get(times.len() / 2).copied();
+        ran
+    }
+
+    fn once(&self, scene: &Scene) -> Ran {
+        let began = Instant::now();
+        let result = solve_observed(scene, &mut |_| {
+            if began.elapsed() < self.settings.time_limit {
+                ControlFlow::Continue(())
+            } else {
+                ControlFlow::Break(())
+            }
+        });
+        let seconds = Some(began.elapsed().as_secs_f64());
+        match result {
+            Ok(outcome) => {
+                // Nobody but this observer cancels.
+                let status = match outcome.solve.status {
+                    Status::Cancelled => Status::TimeLimit,
+                    status => status,
+                };
+                Ran { end: End::Ended(status), seconds, outcome: Some(outcome) }
+            }
+            Err(error) => Ran { end: End::Refused(error.to_string()), seconds, outcome: None },
+        }
+    }
+}
+
+/// The scene by a route to a tolerance, with the stresses that are compared.
+pub(super) fn on_route(scene: &Scene, route: Route, tolerance: f64) -> Scene {
+    let mut scene = scene.clone().route(route).tolerance(tolerance).stresses(true);
+    scene.solver.soft = None;
+    if route != Route::Lemke {
+        scene.solver.form = Form::Auto;
+        scene.solver.max_pivots = None;
+    }
+    scene
+}
+
+/// The order of the largest matrix of the route by pivots.
+fn dense_order(scene: &Scene) -> Option<usize> {
+    let model = Model::from_scene(scene).ok().filter(|_| scene.solver.route == Route::Lemke)?;
+    let plan = Plan::of(scene, &model);
+    Some(plan.largest_order.max(plan.largest_block))
+}

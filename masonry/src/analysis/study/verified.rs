@@ -1,0 +1,131 @@
+//! The reference to twice the usual digits: the equations of its contacts' states, solved anew.
+
+use lcp::ContactState;
+use lcp::refine::{ContactStatus, Extended, Refined, Refinement};
+use serde::Serialize;
+
+use super::Figures;
+use crate::analysis::outcome::Outcome;
+use crate::method::forms::Sparse;
+use crate::model::Model;
+use crate::recover;
+use crate::state::State;
+use crate::system::System;
+
+/// What numbers of twice the digits say of an answer: see [`lcp::Contact2d::verify`]. Of a load history it is the
+/// last step, with the slips that those before it left.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Verified {
+    /// The largest lack of an equation of the refined answer, relative to the terms of its row \[-\].
+    pub residual: f64,
+    /// By how much the data contradict themselves, which redundant contacts show, relative to the terms of a row
+    /// \[-\]: rounding errors of coordinates and stiffnesses, or zero.
+    pub shift: f64,
+    /// The least that an inequality of the contact law leaves, of gaps, slips, forces and distances from the
+    /// edge of the cone, relative to the largest displacement or force \[-\]; `None` without contacts.
+    pub margin: Option<f64>,
+    /// Whether all of them hold, but for what rounds a number of the usual digits.
+    pub holds: bool,
+    /// Decimal digits of the refined answer that are certain.
+    pub digits: f64,
+    /// Distance of the answer of the route from it: the largest difference of the forces on the nodes,
+    /// relative to the largest \[-\].
+    pub distance: Option<f64>,
+    /// Solves with one factorisation.
+    pub passes: usize,
+    /// Wall-clock time of the factorisation and of these \[s\].
+    pub seconds: f64,
+}
+
+/// Residuals up to this are those of answers that are exact to the usual digits.
+const EXACT: f64 = f64::EPSILON;
+/// Inequalities violated by less are rounded.
+const ROUNDED: f64 = 4.0 * f64::EPSILON;
+
+impl Verified {
+    /// Whether the refined answer is better than any of the usual digits, and a solution.
+    pub fn is_better(&self) -> bool {
+        self.holds && self.residual < EXACT
+    }
+}
+
+/// A sparse problem with an answer and the refined one.
+pub(super) struct Exact {
+    pub(super) verified: Verified,
+    sparse: Sparse,
+    statuses: Vec<ContactStatus>,
+    refined: Refined,
+    state: State,
+}
+
+impl Exact {
+    /// Of an outcome with a state; `None` where memory does not suffice.
+    pub(super) fn of(outcome: &Outcome) -> Option<Self> {
+        let (model, state) = (&outcome.model, outcome.state.as_ref()?);
+        let system = System::new(model).ok()?;
+        let sparse = Sparse::new(&system).ok()?;
+        let given = sparse.state((model, &system), state);
+        let lcp::refine::Verified { statuses, refined } = sparse.problem.verify(&given).ok()?;
+        let plain = refined.rounded(&sparse.problem);
+        let verified = judged(&sparse, &given, &refined);
+        let state = exact_state((model, &system, &sparse), &plain);
+        Some(Self { verified, sparse, statuses, refined, state })
+    }
+
+    /// What is compared.
+    pub(super) fn figures(&self, model: &Model) -> Figures {
+        Figures::of(model, &self.state)
+    }
+
+    /// The state of the structure, rounded to the usual digits.
+    pub(super) fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The distance of another answer to the same problem, both refined.
+    pub(super) fn distance(&self, other: &Self) -> Option<f64> {
+        self.refined.distance(&other.refined.on_bodies)
+    }
+
+    /// The answer once more from nothing but the states of its contacts.
+    pub(super) fn solved_anew(&self, refinement: Refinement) -> Option<Refined> {
+        let problem = &self.sparse.problem;
+        let zero = |len: usize| vec![0.0; len];
+        let (n, m) = (problem.displacements(), problem.points());
+        let rest = problem.state(zero(n), zero(m), zero(m));
+        problem.refine(&rest, &self.statuses, refinement).ok()
+    }
+
+    /// The distance of such an answer.
+    pub(super) fn error(&self, of: &Refined) -> Option<f64> {
+        self.refined.distance(&of.on_bodies)
+    }
+}
+
+fn judged(sparse: &Sparse, given: &ContactState, refined: &Refined) -> Verified {
+    let Refined { residual, shift, correction, passes, seconds, .. } = *refined;
+    let least = refined.margin.least;
+    let uncertain = residual.max(shift).max(correction).max(f64::EPSILON * f64::EPSILON);
+    Verified {
+        residual,
+        shift,
+        margin: refined.margin.contact.map(|_| least),
+        holds: least >= -ROUNDED,
+        digits: (-uncertain.log10()).max(0.0).floor(),
+        distance: distance(sparse, given, refined),
+        passes,
+        seconds,
+    }
+}
+
+/// The distance of a plain answer in the forces on the displacements.
+fn distance(sparse: &Sparse, given: &ContactState, refined: &Refined) -> Option<f64> {
+    let [t_n, t_t] = [&given.t_n, &given.t_t]
+        .map(|forces| forces.iter().map(|force| Extended::from(*force)).collect::<Vec<_>>());
+    refined.distance(&sparse.problem.forces_on_bodies(&t_n, &t_t))
+}
+
+fn exact_state((model, system, sparse): (&Model, &System, &Sparse), exact: &ContactState) -> State {
+    let rows = sparse.rows(exact);
+    recover::from_displacements((model, system, sparse), (&rows, &exact.u), EXACT, true)
+}

@@ -1,0 +1,161 @@
+//! What `auto` does: which routes a scene is given and in which order, how long each may take, and when an answer is
+//! final. [`Plan::routes`](crate::plan::Plan::routes) has the list with its reasons, and `masonry plan` prints it.
+//!
+//! The cheapest method that can decide goes first, and a slower one is asked only for what it alone can say:
+//!
+//! 1. Rigid blocks without gaps and films: the program of admissible forces ([`statics`](crate::method::statics)) decides
+//!    either way.
+//! 2. All other walls: interior points, at every size. Where they have no answer after
+//!    [`STEPS_BEFORE_PROOF`], that program is asked whether any forces balance the loads at all, and if it proves that none
+//!    do, that is the answer.
+//! 3. Pivots, for a second opinion, where their dense matrices take about a second.
+//! 4. Quadratic programs, for [`LAST_RESORT`].
+//!
+//! The last is not asked where springs keep their load in spite of friction, since it has no proof to give then.
+//!
+//! An answer is final when the judge says so: an equilibrium, or a proof that there is none. With friction a secondary ray
+//! of the pivots and springs that keep their load are no proof, and the next route follows, as it does after a route that
+//! refuses the scene.
+
+use std::time::Duration;
+
+use lcp::Status;
+
+use crate::method::info::SolveInfo;
+use crate::scene::{Form, Route, Solver};
+
+/// Pivots on dense matrices of this order take about a second; the time grows with the cube.
+const FEW: usize = 2000;
+/// Most walls are solved in so many steps of the interior points.
+pub(crate) const STEPS_BEFORE_PROOF: usize = 40;
+/// How long the last route may take, which seldom has an answer where the others have none.
+const LAST_RESORT: Duration = Duration::from_secs(10);
+
+/// What decides between the routes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Facts {
+    /// All blocks are rigid, nothing has a film, and all gaps are closed before supports move.
+    pub(crate) at_rest: bool,
+    /// Order of the largest dense matrix that pivots would turn to.
+    pub(crate) largest_dense: usize,
+}
+
+/// The routes of a scene in the order in which they are tried, each with the reason for its place.
+pub(crate) fn routes(solver: &Solver, facts: Facts) -> Vec<(Route, String)> {
+    let given = |route: Route| format!("solver.route = \"{}\"", route.name());
+    match solver.route {
+        Route::Auto if solver.form != Form::Auto => {
+            vec![(Route::Lemke, "solver.form is given, which is a form of this route".to_owned())]
+        }
+        Route::Auto if solver.max_pivots.is_some() => {
+            vec![(Route::Lemke, "solver.max_pivots is given, which limits this route".to_owned())]
+        }
+        Route::Auto => chosen(facts),
+        Route::Pgs if solver.soft.is_none() => vec![(
+            Route::Pgs,
+            format!(
+                "{}; blocks float, so springs hold them, solver.soft = {}",
+                given(Route::Pgs),
+                crate::method::pgs::SOFT
+            ),
+        )],
+        route => vec![(route, given(route))],
+    }
+}
+
+fn chosen(facts: Facts) -> Vec<(Route, String)> {
+    let Facts { at_rest, largest_dense } = facts;
+    let mut list = if at_rest {
+        vec![
+            (
+                Route::Forces,
+                "blocks are rigid and nothing has a gap: any forces inside friction that balance the loads are \
+                 an equilibrium, and one convex program finds them or proves that there are none"
+                    .to_owned(),
+            ),
+            (Route::Interior, "where that leaves it open, or supports move".to_owned()),
+        ]
+    } else {
+        vec![
+            (
+                Route::Interior,
+                "the sparse problem with all displacements takes tens of factorisations".to_owned(),
+            ),
+            (
+                Route::Forces,
+                format!(
+                    "after {STEPS_BEFORE_PROOF} steps without an answer: whether any forces inside friction \
+                     balance the loads, or none, which is a proof that the wall falls"
+                ),
+            ),
+        ]
+    };
+    if largest_dense <= FEW {
+        list.push((
+            Route::Lemke,
+            format!(
+                "for a second opinion: pivots take about a second on dense matrices of order up to {FEW}, and \
+                 the largest is of order {largest_dense}"
+            ),
+        ));
+    }
+    list.push((
+        Route::Qp,
+        format!("where all others fail, for at most {} s", LAST_RESORT.as_secs()),
+    ));
+    list
+}
+
+/// Pivots of one attempt, in multiples of the order: two to three are usual.
+const PIVOTS: usize = 5;
+
+/// How many pivots an attempt on a problem of this order may take, where other routes follow.
+pub(crate) fn max_pivots(route: Route, order: usize, routes: usize) -> Option<usize> {
+    (route == Route::Lemke && routes > 1).then_some(PIVOTS * order)
+}
+
+/// How long a route may take, of which there are so many.
+pub(crate) fn time_limit(route: Route, routes: usize) -> Option<Duration> {
+    (route == Route::Qp && routes > 1).then_some(LAST_RESORT)
+}
+
+/// Whether a route may say more than is known.
+pub(crate) fn is_asked(route: Route, known: Rank, has_friction: bool) -> bool {
+    route != Route::Qp || !has_friction || known > Rank::Springs
+}
+
+/// How much an attempt says; what comes first says more.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Rank {
+    Solved,
+    /// There is none, with a proof, or with springs or a ray that show how it falls.
+    Proved,
+    Springs,
+    Mechanism,
+    /// Something was found that does not hold.
+    Almost,
+    Open,
+}
+
+impl Rank {
+    pub(crate) fn of(info: &SolveInfo, has_mechanism: bool) -> Self {
+        match info.status {
+            Status::Solved => Self::Solved,
+            Status::Infeasible if info.proved => Self::Proved,
+            Status::NoEquilibrium if info.springs.is_some() => Self::Springs,
+            _ if has_mechanism => Self::Mechanism,
+            Status::AlmostSolved => Self::Almost,
+            _ => Self::Open,
+        }
+    }
+
+    /// Whether no other route has more to say. Without friction a ray is as good as a proof, which may still follow what
+    /// springs show.
+    pub(crate) fn is_final(self, has_friction: bool) -> bool {
+        match self {
+            Self::Solved | Self::Proved => true,
+            Self::Mechanism => !has_friction,
+            Self::Springs | Self::Almost | Self::Open => false,
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! The route by statically admissible forces: one convex program, which knows neither stiffness nor gaps.
+//!
+//! Rigid blocks without gaps and films are at rest under any such forces, which are the answer. Of all other scenes it says no
+//! more than whether there are such forces; if there are none, that is proved.
+
+use lcp::{ContactState, Residuals, Status};
+
+use super::{Answer, sparse};
+use crate::method::forms::Sparse;
+use crate::method::info::SolveInfo;
+use crate::method::statics::{Decision, Statics};
+use crate::scene::Route;
+use crate::system::System;
+
+/// The name of the problem in reports.
+const FORM: &str = "admissible forces";
+
+/// The answer that a decision is, to this tolerance.
+pub fn answer((system, sparse): (&System, &Sparse), decision: &Decision, tolerance: f64) -> Answer {
+    let problem = &sparse.problem;
+    let (status, at_rest, line) = match &decision.statics {
+        Statics::Admissible(forces) if system.is_at_rest() => {
+            let (state, residuals) = rested((system, sparse), forces, tolerance);
+            let solved = residuals.worst() <= tolerance;
+            let status = if solved { Status::Solved } else { Status::AlmostSolved };
+            let line =
+                if solved { "balance the loads of blocks at rest" } else { "are not exact enough" };
+            (status, Some((state, residuals)), line)
+        }
+        Statics::Admissible(_) => (
+            Status::Stalled,
+            None,
+            "balance the loads; whether displacements fit them, they do not say",
+        ),
+        Statics::Impossible(_) => {
+            (Status::Infeasible, None, "that balance the loads do not exist, proved by a motion")
+        }
+        Statics::Open => (Status::Stalled, None, "were neither found nor proved not to exist"),
+    };
+    let residuals = at_rest.as_ref().map_or(sparse::UNKNOWN, |(_, residuals)| *residuals);
+    let info = SolveInfo {
+        route: Route::Forces,
+        form: FORM.to_owned(),
+        order: 3 * system.bodies.len() + system.points() + system.friction.len(),
+        attempts: vec![format!("forces: {line}, after {} factorisations", decision.steps)],
+        iterations: decision.steps,
+        factorisations: decision.steps,
+        proved: status == Status::Infeasible,
+        ..SolveInfo::new(status, residuals)
+    };
+    let state = at_rest.map(|(state, _)| state).filter(|_| status == Status::Solved);
+    Answer {
+        info,
+        rows: state.as_ref().map(|state| sparse.rows(state)),
+        displacements: state.map(|_| vec![0.0; problem.displacements()]),
+        motion: None,
+        basis: None,
+    }
+}
+
+/// The state at rest under forces of all rows; brought to the last digit where that is needed.
+fn rested(
+    (system, sparse): (&System, &Sparse),
+    forces: &[f64],
+    tolerance: f64,
+) -> (ContactState, Residuals) {
+    let problem = &sparse.problem;
+    let (normal, friction) = forces.split_at(system.points());
+    let mut tangential = vec![0.0; system.points()];
+    for ((contact, _), force) in system.friction.iter().zip(friction) {
+        tangential[contact.index()] = *force;
+    }
+    let state = problem.state(vec![0.0; problem.displacements()], normal.to_vec(), tangential);
+    let residuals = problem.residuals(&state);
+    if residuals.worst() <= tolerance {
+        return (state, residuals);
+    }
+    sparse.refined(&state, tolerance).unwrap_or((state, residuals))
+}

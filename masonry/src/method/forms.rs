@@ -1,0 +1,304 @@
+//! Forms of the contact problem as a linear complementarity problem `A t + B y = c`.
+//!
+//! Every form has pairs `(t_i, y_i)` of nonnegative, complementary variables: forces on the `t` side and
+//! displacements on the `y` side, except where a form says otherwise. All are dimensionless: forces are
+//! divided by [`Scale::force`] and displacements by [`Scale::length`], so that the coefficients of `A`
+//! are of order one whatever the units and moduli. [`Form::rows`] leads back to forces and
+//! relative displacements in SI units.
+//!
+//! The pairs of a problem of `m` points, `m_f` of them with friction, come in groups: first
+//! `(t_n, y_n)` of all points, then, group by group, those of the points with friction.
+
+use faer::Mat;
+use lcp::HorizontalLcp;
+
+use crate::method::reduction::Reduction;
+use crate::rounding::{cleared, largest};
+use crate::system::System;
+
+mod coulomb;
+mod mixed;
+mod reduced;
+mod sparse;
+mod stewart_trinkle;
+
+pub use sparse::Sparse;
+
+/// Which variables are used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FormKind {
+    /// The paper's (3.27), order `m + 2 m_f`: pairs `(t_n, y_n)`, `(p+, y+)`, `(p-, y-)`, where
+    /// `p+ = mu t_n + t_t`, `p- = mu t_n - t_t`, `y_t = y+ - y-`. Not copositive: a solver may end on
+    /// a ray although there is a solution.
+    Coulomb,
+    /// Friction forces split in two, order `m + 3 m_f`: pairs `(t_n, y_n)`, `(b+, s+)`, `(b-, s-)`,
+    /// `(lambda, w)`, where `t_t = b+ - b-`, `s+ = lambda + y_t`, `s- = lambda - y_t` and
+    /// `w = mu t_n - b+ - b-` (a force, while `lambda` is a displacement).
+    StewartTrinkle,
+    /// The same with the rigid amplitudes `alpha = alpha+ - alpha-` as unknowns and equilibrium
+    /// as complementary rows, and with the forces of the `s` bars of mortar strips, order
+    /// `m + 3 m_f + 6 r + 2 s` for `r` blocks: a standard problem, `B = 1`,
+    /// with a copositive `-A`. A ray of it is a motion of the blocks that no contact stops and on
+    /// which the loads do work.
+    Mixed,
+}
+
+/// Units of the dimensionless variables of a form.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
+    /// Force of one \[N\].
+    pub force: f64,
+    /// Displacement of one \[m\].
+    pub length: f64,
+}
+
+/// A complementary basis from which pivoting may start.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Start {
+    /// A name for reports.
+    pub name: &'static str,
+    /// For every pair, whether its `t` variable is basic (else its `y` variable).
+    pub t_basic: Vec<bool>,
+}
+
+impl Start {
+    /// The name of the basis at which a similar problem ended.
+    pub const LAST: &'static str = "last basis";
+
+    /// The basis at which a similar problem ended.
+    pub fn last(t_basic: Vec<bool>) -> Self {
+        Self { name: Self::LAST, t_basic }
+    }
+}
+
+/// Forces and relative displacements of all rows of a [`System`], in SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RowState {
+    /// Contact forces \[N\].
+    pub t: Vec<f64>,
+    /// Relative displacements \[m\].
+    pub y: Vec<f64>,
+}
+
+/// A contact problem `A t + B y = c`, `t >= 0`, `y >= 0`, `t.y = 0`, dimensionless.
+#[derive(Debug, Clone)]
+pub struct Form {
+    /// The variables used.
+    pub kind: FormKind,
+    /// `A`, `B` and `c`.
+    pub problem: HorizontalLcp,
+    /// What one unit of force and of displacement is.
+    pub scale: Scale,
+    /// Bases from which pivoting may start, the most promising first; empty where `y` itself is
+    /// the natural start. Any of them may turn out singular for a certain `mu`.
+    pub starts: Vec<Start>,
+    layout: Layout,
+}
+
+/// The equations of a form while they are written.
+struct Equations {
+    a: Mat<f64>,
+    b: Mat<f64>,
+    c: Vec<f64>,
+    scale: Scale,
+    layout: Layout,
+}
+
+impl Equations {
+    /// The form, with zeros for the coefficients and right-hand sides that are only rounding errors: to who sees no
+    /// more than the equations, they are couplings and loads.
+    fn into_form(self, kind: FormKind, starts: Vec<Start>) -> Result<Form, lcp::Error> {
+        let Self { mut a, mut b, mut c, scale, layout } = self;
+        let rows: Vec<f64> =
+            (0..c.len()).map(|i| largest(a.row(i).iter().chain(b.row(i).iter()))).collect();
+        for matrix in [&mut a, &mut b] {
+            for column in matrix.as_mut().col_iter_mut() {
+                let of_column = largest(column.as_ref().iter());
+                let entries = column.iter_mut().zip(&rows);
+                entries.for_each(|(v, of_row)| *v = cleared(*v, of_column.min(*of_row)));
+            }
+        }
+        let load = largest(&c);
+        for v in &mut c {
+            *v = cleared(*v, load);
+        }
+        Ok(Form { kind, problem: HorizontalLcp::new(a, b, c)?, scale, starts, layout })
+    }
+}
+
+impl Form {
+    /// Sets up the problem in the given variables.
+    ///
+    /// # Errors
+    /// [`lcp::Error::NotFinite`] when the data of the scene overflow.
+    pub fn new(kind: FormKind, system: &System, reduction: &Reduction) -> Result<Self, lcp::Error> {
+        match kind {
+            FormKind::Coulomb => coulomb::build(system, reduction),
+            FormKind::StewartTrinkle => stewart_trinkle::build(system, reduction),
+            FormKind::Mixed => mixed::build(system, reduction),
+        }
+    }
+
+    /// Number of complementary pairs.
+    pub fn order(&self) -> usize {
+        self.problem.order()
+    }
+
+    /// Number of contact points: of pairs `(t_n, y_n)`, which come first.
+    pub fn points(&self) -> usize {
+        self.layout.points
+    }
+
+    /// The rigid amplitudes \[m\], three per block, among the variables `t` of the mixed form;
+    /// `None` for the forms that have eliminated them.
+    pub fn amplitudes(&self, t: &[f64]) -> Option<Vec<f64>> {
+        if self.kind != FormKind::Mixed {
+            return None;
+        }
+        let end = t.len() - 2 * self.layout.bars;
+        let alpha = &t[self.layout.points + 3 * self.layout.friction.len()..end];
+        let (plus, minus) = alpha.split_at(alpha.len() / 2);
+        Some(
+            plus.iter()
+                .zip(minus)
+                .map(|(plus, minus)| (plus - minus) * self.scale.length)
+                .collect(),
+        )
+    }
+
+    /// Forces and relative displacements of all rows from the dimensionless variables.
+    ///
+    /// # Panics
+    /// If `t` or `y` is shorter than [`Form::order`].
+    pub fn rows(&self, t: &[f64], y: &[f64]) -> RowState {
+        let (t_weight, y_weight) = self.kind.tangential_weights();
+        let Scale { force, length } = self.scale;
+        RowState {
+            t: self.layout.row_values(t, t_weight * force, force),
+            y: self.layout.row_values(y, y_weight * length, length),
+        }
+    }
+
+    /// The dimensionless variables `(t, y)` of given forces and relative displacements of all rows, and
+    /// the rigid amplitudes \[m\] and forces of bars \[N\] that go with them (only the mixed form looks at
+    /// these).
+    ///
+    /// # Panics
+    /// If there are fewer values than rows.
+    pub fn pairs(&self, rows: &RowState, amplitudes: &[f64], bars: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let Layout { points, friction, .. } = &self.layout;
+        let (force, length) = (self.scale.force, self.scale.length);
+        let t_n = rows.t[..*points].iter().map(|t| t / force);
+        let y_n = rows.y[..*points].iter().map(|y| y / length);
+        let (mut t, mut y): (Vec<f64>, Vec<f64>) = (t_n.collect(), y_n.collect());
+        let tangential = |k: usize| (rows.t[points + k] / force, rows.y[points + k] / length);
+        for sign in [1.0, -1.0] {
+            for (k, (point, mu)) in friction.iter().enumerate() {
+                let (t_t, y_t) = tangential(k);
+                if self.kind == FormKind::Coulomb {
+                    t.push(mu * t[*point] + sign * t_t);
+                    y.push((sign * y_t).max(0.0));
+                } else {
+                    t.push((sign * t_t).max(0.0));
+                    y.push(y_t.abs() + sign * y_t);
+                }
+            }
+        }
+        if self.kind != FormKind::Coulomb {
+            for (k, (point, mu)) in friction.iter().enumerate() {
+                let (t_t, y_t) = tangential(k);
+                t.push(y_t.abs());
+                y.push(mu * t[*point] - t_t.abs());
+            }
+        }
+        if self.kind == FormKind::Mixed {
+            for (free, unit) in [(amplitudes, length), (bars, force)] {
+                for sign in [1.0, -1.0] {
+                    t.extend(free.iter().map(|value| (sign * value / unit).max(0.0)));
+                    y.extend(free.iter().map(|_| 0.0));
+                }
+            }
+        }
+        (t, y)
+    }
+}
+
+impl FormKind {
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Coulomb => "coulomb",
+            Self::StewartTrinkle => "stewart-trinkle",
+            Self::Mixed => "mixed",
+        }
+    }
+
+    /// The factors in `t_t = factor (t+ - t-)` and `y_t = factor (y+ - y-)`, where `t+`, `y+` are the
+    /// variables of the second group of pairs and `t-`, `y-` those of the third.
+    fn tangential_weights(self) -> (f64, f64) {
+        match self {
+            Self::Coulomb => (0.5, 1.0),
+            Self::StewartTrinkle | Self::Mixed => (1.0, 0.5),
+        }
+    }
+}
+
+/// Where the variables of points and rows are among the pairs.
+#[derive(Debug, Clone)]
+struct Layout {
+    /// Number of contact points.
+    points: usize,
+    /// Points with friction and their coefficients.
+    friction: Vec<(usize, f64)>,
+    /// Number of bars of mortar strips, which are unknowns of the mixed form.
+    bars: usize,
+}
+
+impl Layout {
+    fn of(system: &System) -> Self {
+        let friction = system.friction.iter().map(|(id, mu)| (id.index(), *mu)).collect();
+        Self { points: system.points(), friction, bars: system.stretches.len() }
+    }
+
+    /// The pair of frictional point `k` in a group, counted from 1 after the normal pairs.
+    fn pair(&self, group: usize, k: usize) -> usize {
+        self.points + (group - 1) * self.friction.len() + k
+    }
+
+    /// Rows of the system.
+    fn rows(&self) -> usize {
+        self.points + self.friction.len()
+    }
+
+    /// The value of a row as a combination of pair variables; `weight` belongs to tangential rows.
+    fn terms(&self, row: usize, weight: f64) -> Vec<(usize, f64)> {
+        match row.checked_sub(self.points) {
+            None => vec![(row, 1.0)],
+            Some(k) => vec![(self.pair(1, k), weight), (self.pair(2, k), -weight)],
+        }
+    }
+
+    fn row_values(&self, pairs: &[f64], tangential: f64, normal: f64) -> Vec<f64> {
+        let normals = pairs[..self.points].iter().map(|value| normal * value);
+        let tangents = (0..self.friction.len())
+            .map(|k| tangential * (pairs[self.pair(1, k)] - pairs[self.pair(2, k)]));
+        normals.chain(tangents).collect()
+    }
+}
+
+impl Scale {
+    /// Units in which the mean of the diagonal of `A` is one and the loads are at most one.
+    fn of(reduction: &Reduction) -> Self {
+        let largest = |v: &[f64]| v.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let or_one = |x: f64| if x > 0.0 { x } else { 1.0 };
+        let n = reduction.a.nrows();
+        let compliance = (0..n).map(|i| reduction.a[(i, i)]).sum::<f64>() / or_one(n as f64);
+        let (force, length) = (largest(&reduction.t0), largest(&reduction.c));
+        if compliance > 0.0 {
+            let force = or_one(force.max(length / compliance));
+            Self { force, length: force * compliance }
+        } else {
+            Self { force: or_one(force), length: or_one(length) }
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! What routes tell of their work: plain data.
+
+use serde::Serialize;
+
+use crate::scene::Route;
+
+/// How the complementarity problem was solved.
+#[derive(Debug, Clone, Serialize)]
+pub struct SolveInfo {
+    /// `Solved`, or why not.
+    pub status: lcp::Status,
+    /// The route that gave the answer.
+    pub route: Route,
+    /// Why it was its turn.
+    pub because: String,
+    /// All routes that were tried, in order.
+    pub routes: Vec<RouteEnd>,
+    /// The form that was solved: `coulomb`, `stewart-trinkle` or `mixed`
+    /// ([`FormKind`](crate::method::forms::FormKind)) of the pivoting route, `contact` of the others.
+    pub form: String,
+    /// Order of the complementarity problem; of the augmented Lagrangian method, of its linear systems.
+    pub order: usize,
+    /// One line for each attempt of any route: form, covering vector, start basis, outcome.
+    pub attempts: Vec<String>,
+    /// Pivots over all attempts.
+    pub pivots: usize,
+    /// Steps of the interior-point or Newton's method, programs, times that springs were centred, or iterations of
+    /// the augmented Lagrangian method.
+    pub iterations: usize,
+    /// Every iteration of the augmented Lagrangian method; empty on the other routes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub convergence: Vec<Iteration>,
+    /// Matrices factorised.
+    pub factorisations: usize,
+    /// The evidence, where springs say that there is no equilibrium.
+    pub springs: Option<SpringShares>,
+    /// Whether the status `Infeasible` is proved, by a vector that was checked in the data.
+    pub proved: bool,
+    /// What the springs of the scene did.
+    pub soft: Option<SoftReport>,
+    /// Dimensionless residuals recomputed from the original data.
+    pub residuals: lcp::Residuals,
+    /// Residuals of the same answer in the paper's form (3.27), where another form found it.
+    pub coulomb_residuals: Option<lcp::Residuals>,
+}
+
+impl SolveInfo {
+    /// Nothing but a status and residuals.
+    pub fn new(status: lcp::Status, residuals: lcp::Residuals) -> Self {
+        Self {
+            status,
+            route: Route::Auto,
+            because: String::new(),
+            routes: Vec::new(),
+            form: String::new(),
+            order: 0,
+            attempts: Vec::new(),
+            pivots: 0,
+            iterations: 0,
+            convergence: Vec::new(),
+            factorisations: 0,
+            springs: None,
+            proved: false,
+            soft: None,
+            residuals,
+            coulomb_residuals: None,
+        }
+    }
+}
+
+/// One iteration of the augmented Lagrangian method.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Iteration {
+    /// The attempt, from 1.
+    pub attempt: usize,
+    /// Largest unbalanced force after the projection, relative to the largest load \[-\].
+    pub unbalance: f64,
+    /// Estimate of the distance from the solution, of displacements and of the forces in the blocks, relative
+    /// to the largest of them or what the loads alone would make \[-\]; infinite until the iteration contracts.
+    pub distance: f64,
+    /// Contacts that changed their state.
+    pub changes: usize,
+}
+
+/// How a route ended.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RouteEnd {
+    /// The route.
+    pub route: Route,
+    /// Why it was its turn.
+    pub because: String,
+    /// Its status, and what became of it; or why it refused.
+    pub end: String,
+    /// Wall-clock time \[s\].
+    pub seconds: f64,
+}
+
+/// Springs on all displacements that are made softer and softer, and what they carry: a share that does not
+/// tend to zero says that nothing else carries it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SpringShares {
+    /// The stiffnesses, relative to that of the blocks \[-\].
+    pub stiffness: Vec<f64>,
+    /// The share of the load that the springs of each stiffness carry \[-\].
+    pub shares: Vec<f64>,
+}
+
+/// Springs that hold the blocks while a scene is solved, and what they changed before they were
+/// centred anew; the answer itself is without them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SoftReport {
+    /// The stiffness, relative to that of the blocks \[-\].
+    pub stiffness: f64,
+    /// How often the springs were centred.
+    pub rounds: usize,
+    /// The share of the load that they carried at first \[-\].
+    pub share: f64,
+    /// The error of the displacements that they caused at first, relative to these \[-\]; `None` where it
+    /// is not known, as where nothing moves.
+    pub displacement_error: Option<f64>,
+}
+
+/// Wall-clock time of one phase \[s\].
+#[derive(Debug, Clone, Serialize)]
+pub struct PhaseTime {
+    /// Name of the phase.
+    pub phase: String,
+    /// Seconds.
+    pub seconds: f64,
+}

@@ -1,0 +1,206 @@
+//! The pivoting route: Lemke's method on the forms of the contact problem.
+//!
+//! The paper's form (3.27) comes first. It is not copositive, and for large friction the method may
+//! end on a ray although there is equilibrium; so a ray is followed by other start bases and
+//! covering vectors, and then by the copositive mixed form. Its ray is a motion of the blocks that
+//! no contact stops. Even this is no proof that there is no equilibrium: a rigid block that just
+//! fits between two walls may fall, and may be jammed. The answer of the mixed form is measured
+//! against the paper's form too.
+
+use lcp::lemke::{Attempt, AttemptCovering, AttemptEnd, AttemptStart, Perturbation};
+use lcp::{Basis, Covering, Lemke, LemkeSettings, Residuals, Side, Status, WarmStart};
+
+use super::{Answer, Method, Motion, Observer, Request, RouteError, Step};
+use crate::method::forms::{Form, FormKind, RowState, Start};
+use crate::method::info::SolveInfo;
+use crate::method::reduction::Reduction;
+use crate::scene;
+use crate::system::System;
+
+/// Start bases of a reduced form that are tried.
+const STARTS: usize = 2;
+/// Attempts from every one of them: with the covering vector of [`covering`], then a random one.
+const ATTEMPTS_PER_START: usize = 2;
+/// Attempts on the mixed form.
+const MIXED_ATTEMPTS: usize = 3;
+/// How far the covering vector opens the friction cone, in units of force.
+const COHESION: f64 = 100.0;
+
+/// Displacements below this, in the dimensionless units of a form, are rounding errors.
+const ROUNDING: f64 = 1e-14;
+
+/// The route on a reduced system.
+#[derive(Debug, Clone, Copy)]
+pub struct Pivots<'a> {
+    /// The system.
+    pub system: &'a System,
+    /// Its reduction.
+    pub reduction: &'a Reduction,
+    /// The last basis of a similar problem in the paper's form, which is tried first.
+    pub start: Option<&'a Start>,
+}
+
+impl Method for Pivots<'_> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
+        let Self { system, reduction, start } = *self;
+        let kinds: &[FormKind] = match request.form {
+            scene::Form::Auto => &[FormKind::Coulomb, FormKind::Mixed],
+            scene::Form::Coulomb => &[FormKind::Coulomb],
+            scene::Form::StewartTrinkle => &[FormKind::StewartTrinkle],
+            scene::Form::Mixed => &[FormKind::Mixed],
+        };
+        let mut search = Search {
+            request,
+            start,
+            attempts: Vec::new(),
+            pivots: 0,
+            factorisations: 0,
+            coulomb: None,
+        };
+        let mut answer = None;
+        for &kind in kinds {
+            let form = Form::new(kind, system, reduction)?;
+            let found = search.run(form, observer)?;
+            let done = found.rows.is_some() || found.info.status == Status::Cancelled;
+            answer = Some(found);
+            if done {
+                break;
+            }
+        }
+        Ok(answer.unwrap_or_else(|| unreachable!("every choice of a form names at least one")))
+    }
+}
+
+/// What the forms tried so far have left.
+struct Search<'a> {
+    request: &'a Request,
+    start: Option<&'a Start>,
+    attempts: Vec<String>,
+    pivots: usize,
+    factorisations: usize,
+    /// The paper's form, once it was tried: any answer is measured against it.
+    coulomb: Option<Form>,
+}
+
+impl Search<'_> {
+    fn run(&mut self, form: Form, observer: Observer<'_>) -> Result<Answer, RouteError> {
+        let mut last = None;
+        for (settings, start) in self.settings(&form) {
+            let solution = Lemke::new(settings)
+                .solve_with_progress(&form.problem, &mut |at| observer(Step::Pivots(*at)))?;
+            self.pivots += solution.info.pivots;
+            self.factorisations += solution.info.factorisations;
+            let attempts = solution.info.attempts.iter();
+            self.attempts.extend(attempts.map(|it| describe(form.kind, start, it)));
+            // A singular start was replaced by one that the solver found; so would the next be.
+            let is_own = start.is_some_and(|name| name != Start::LAST);
+            let replaced = is_own && !solution.info.attempts.iter().any(is_given);
+            let stop = replaced || matches!(solution.status, Status::Solved | Status::Cancelled);
+            last = Some(solution);
+            if stop {
+                break;
+            }
+        }
+        let solution = last.unwrap_or_else(|| unreachable!("there is at least one start"));
+        let rows = solution.is_solved().then(|| form.rows(&solution.t, &solution.y));
+        let info = SolveInfo {
+            route: scene::Route::Lemke,
+            form: form.kind.name().to_owned(),
+            order: form.order(),
+            attempts: self.attempts.clone(),
+            pivots: self.pivots,
+            factorisations: self.factorisations,
+            coulomb_residuals: rows.as_ref().and_then(|rows| self.against_coulomb(&form, rows)),
+            ..SolveInfo::new(solution.status, solution.residuals)
+        };
+        let ray = solution.ray().filter(|_| form.kind == FormKind::Mixed).cloned();
+        let ray = ray.and_then(|ray| form.amplitudes(&ray.dt));
+        let kind = form.kind;
+        if form.kind == FormKind::Coulomb {
+            self.coulomb = Some(form);
+        }
+        let basis = solution.basis.filter(|_| rows.is_some() && kind == FormKind::Coulomb);
+        let is_t = |side: &Side| *side == Side::T;
+        let basis = basis.map(|it| Start::last(it.sides().iter().map(is_t).collect()));
+        Ok(Answer { info, rows, displacements: None, motion: ray.map(Motion::Rigid), basis })
+    }
+
+    /// Settings of every run on a form, and the name of the start basis that they give.
+    fn settings(&self, form: &Form) -> Vec<(LemkeSettings, Option<&'static str>)> {
+        let common = LemkeSettings {
+            tolerance: self.request.tolerance,
+            max_pivots: self.request.max_pivots,
+            max_attempts: MIXED_ATTEMPTS,
+            prove_infeasible: false,
+            ..LemkeSettings::default()
+        };
+        if form.starts.is_empty() {
+            return vec![(common, None)];
+        }
+        let from_start = |start: &Start| {
+            let settings = LemkeSettings {
+                start: WarmStart::Basis(basis(start)),
+                covering: Covering::Given(covering(form, start)),
+                max_attempts: ATTEMPTS_PER_START,
+                ..common.clone()
+            };
+            (settings, Some(start.name))
+        };
+        let last = self.start.filter(|_| form.kind == FormKind::Coulomb);
+        last.into_iter().chain(form.starts.iter().take(STARTS)).map(from_start).collect()
+    }
+
+    fn against_coulomb(&self, form: &Form, rows: &RowState) -> Option<Residuals> {
+        let coulomb = self.coulomb.as_ref().filter(|_| form.kind != FormKind::Coulomb)?;
+        let (t, mut y) = coulomb.pairs(rows, &[], &[]);
+        // Where nothing moves, rounding errors must not be measured against each other.
+        y.iter_mut().filter(|y| y.abs() <= ROUNDING).for_each(|y| *y = 0.0);
+        Some(coulomb.problem.residuals(&t, &y))
+    }
+}
+
+fn basis(start: &Start) -> Basis {
+    let side = |&t_basic: &bool| if t_basic { Side::T } else { Side::Y };
+    Basis::new(start.t_basic.iter().map(side).collect())
+}
+
+/// A covering vector with a meaning: the artificial variable prestresses the isostatic contacts,
+/// opens the others, and, much more, gives cohesion, which opens the friction cone. With ones the
+/// paper's form nearly always ends on a ray after a few pivots when `mu` is large.
+fn covering(form: &Form, start: &Start) -> Vec<f64> {
+    let cone = |pair: usize| start.t_basic[pair] && pair >= form.points();
+    (0..form.order()).map(|pair| if cone(pair) { COHESION } else { 1.0 }).collect()
+}
+
+fn is_given(attempt: &Attempt) -> bool {
+    attempt.start == AttemptStart::Given
+}
+
+fn describe(kind: FormKind, given: Option<&str>, attempt: &Attempt) -> String {
+    let end = match attempt.end {
+        AttemptEnd::Complementary => "complementary basis",
+        AttemptEnd::Ray => "ray",
+        AttemptEnd::PivotLimit => "pivot limit",
+        AttemptEnd::Cycle => "cycle",
+        AttemptEnd::Singular => "singular basis",
+        AttemptEnd::Cancelled => "cancelled",
+        _ => "ended",
+    };
+    let start = match given {
+        Some(name) if is_given(attempt) => name.to_owned(),
+        _ => attempt.start.to_string(),
+    };
+    let covering = match attempt.covering {
+        AttemptCovering::Given => "cohesive".to_owned(),
+        covering => covering.to_string(),
+    };
+    let (kind, pivots) = (kind.name(), attempt.pivots);
+    let residual = attempt.residual.map_or(String::new(), |it| format!(", residual {it:.1e}"));
+    let perturbed = match attempt.perturbation {
+        Perturbation::None => String::new(),
+        perturbation => format!(", {perturbation}"),
+    };
+    format!(
+        "{kind}: start {start}, covering {covering}{perturbed}: {end} after {pivots} pivots{residual}"
+    )
+}

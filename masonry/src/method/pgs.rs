@@ -1,0 +1,231 @@
+//! The route by projected Gauss-Seidel sweeps over the contacts of blocks on springs.
+//!
+//! Sweeps need a definite stiffness, and blocks that only touch have none. So springs hold all
+//! displacements, and are centred anew at the last solution, round after round (proximal steps,
+//! Rockafellar 1976), until forces and displacements solve the problem without them. Every round starts from
+//! the forces of the one before and is solved only a little better than the rounds have come so far. Where they come
+//! no further, the equations of the states of the contacts are solved once, which is exact if these are right.
+
+use std::ops::ControlFlow;
+
+use lcp::{
+    Bedding, Contact2d, ContactState, ProjectedGaussSeidel, ProjectedGaussSeidelSettings,
+    Residuals, Solver, Status, WarmStart,
+};
+
+use super::sparse::Found;
+use super::{Answer, Method, Observer, Request, RouteError, Step, sparse};
+use crate::method::forms::Sparse;
+use crate::method::info::SoftReport;
+use crate::scene::Route;
+
+/// Stiffness of the springs where the scene gives none: soft ones need fewer rounds, and more sweeps in
+/// each of them.
+pub const SOFT: f64 = 1e-3;
+
+/// Rounds at most.
+const MAX_ROUNDS: usize = 2000;
+/// Sweeps of one round at most.
+const SWEEPS: usize = 2000;
+/// How much better than the last round the sweeps of the next one have to be; after a round that was not,
+/// by this factor more, and never more than by the least.
+const BETTER: f64 = 0.1;
+const LEAST: f64 = 1e-6;
+/// How accurate the sweeps are at first, and at most: relative to the tolerance, since the springs' forces may be
+/// much larger than the loads, and as far as rounding allows.
+const FIRST: f64 = 0.1;
+const LAST: f64 = 1e-4;
+const ROUNDING: f64 = 1e-14;
+/// Rounds converge by a factor, and what is left of the displacements may be several times the last residual: so
+/// they go on to this part of the tolerance, unless they have come to rest below it, for so many rounds.
+const NEARER: f64 = 0.1;
+const SETTLED: usize = 3;
+/// Rounds in which the residual must fall by a tenth.
+const PATIENCE: usize = 200;
+/// After so many that did not, the states of the contacts may be those of a solution.
+const IDLE: usize = 20;
+
+/// The route on a sparse problem.
+#[derive(Debug, Clone, Copy)]
+pub struct Sweeps<'a> {
+    /// The problem.
+    pub sparse: &'a Sparse,
+}
+
+impl Method for Sweeps<'_> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
+        let stiffness = request.soft.unwrap_or(SOFT);
+        let bedding = Bedding::new(&self.sparse.problem, stiffness)?;
+        let mut rounds = Rounds::new(self.sparse, &bedding, request.tolerance);
+        let status = loop {
+            if let Some(status) = rounds.stop(observer) {
+                break status;
+            }
+            if rounds.next(observer)?.is_break() {
+                break Status::Cancelled;
+            }
+            if rounds.idle == IDLE && rounds.finish() {
+                break Status::Solved;
+            }
+        };
+        let report = rounds.report(stiffness);
+        Ok(sparse::answer(Route::Pgs, self.sparse, rounds.into_found(status), report))
+    }
+}
+
+/// Rounds of springs that are centred anew.
+struct Rounds<'a> {
+    sparse: &'a Sparse,
+    problem: &'a Contact2d,
+    bedding: &'a Bedding,
+    tolerance: f64,
+    state: ContactState,
+    residuals: Residuals,
+    /// Displacements of the first round, and the share of the load that its springs carried.
+    first: Option<(Vec<f64>, f64)>,
+    /// Of the load, carried by the springs of the last round.
+    share: f64,
+    done: usize,
+    factorisations: usize,
+    better: f64,
+    least: f64,
+    idle: usize,
+}
+
+impl<'a> Rounds<'a> {
+    fn new(sparse: &'a Sparse, bedding: &'a Bedding, tolerance: f64) -> Self {
+        let problem = &sparse.problem;
+        let (n, m) = (problem.displacements(), problem.points());
+        let state = problem.state(vec![0.0; n], vec![0.0; m], vec![0.0; m]);
+        let residuals = problem.residuals(&state);
+        Self {
+            sparse,
+            problem,
+            bedding,
+            tolerance,
+            state,
+            residuals,
+            first: None,
+            share: 0.0,
+            done: 0,
+            factorisations: 0,
+            better: BETTER,
+            least: f64::INFINITY,
+            idle: 0,
+        }
+    }
+
+    fn step(&self) -> Step {
+        Step::Iteration { number: self.done, residual: self.residual() }
+    }
+
+    /// The worst residual, or what the springs still carry.
+    fn residual(&self) -> f64 {
+        self.residuals.worst().max(self.share)
+    }
+
+    /// How far the rounds have come, or what the springs still carry.
+    fn lack(&self) -> f64 {
+        self.residuals.merit().max(self.share)
+    }
+
+    /// Takes the same forces with all bodies at rest, if that is nearer to a solution: where nothing is
+    /// elastic, motions are rounding errors, which residuals would compare with each other.
+    fn rest(&mut self) {
+        let ContactState { u, t_n, t_t, .. } = &self.state;
+        let rest = self.problem.state(vec![0.0; u.len()], t_n.clone(), t_t.clone());
+        let residuals = self.problem.residuals(&rest);
+        if residuals.worst() < self.residuals.worst() {
+            (self.state, self.residuals) = (rest, residuals);
+        }
+    }
+
+    fn stop(&self, observer: &mut dyn FnMut(Step) -> ControlFlow<()>) -> Option<Status> {
+        let is_cancelled = observer(self.step()).is_break();
+        let residual = self.residual();
+        let is_settled = self.idle >= SETTLED || self.done >= MAX_ROUNDS;
+        if residual <= NEARER * self.tolerance || (residual <= self.tolerance && is_settled) {
+            Some(Status::Solved)
+        } else if is_cancelled {
+            Some(Status::Cancelled)
+        } else if self.done >= MAX_ROUNDS {
+            Some(Status::IterationLimit)
+        } else {
+            (self.idle > PATIENCE).then_some(Status::Stalled)
+        }
+    }
+
+    fn next(
+        &mut self,
+        observer: &mut dyn FnMut(Step) -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, lcp::Error> {
+        let centre = &self.state.u;
+        let sprung = self.bedding.attached(self.problem, centre)?;
+        let (t, y) = self.problem.to_pairs(&self.state);
+        let settings = ProjectedGaussSeidelSettings {
+            tolerance: (self.better * self.lack())
+                .clamp((LAST * self.tolerance).max(ROUNDING), FIRST),
+            max_iterations: SWEEPS,
+            start: WarmStart::Point { t, y },
+            ..Default::default()
+        };
+        let step = self.step();
+        let solution =
+            ProjectedGaussSeidel::new(settings).solve_observed(&sprung, &mut |_| observer(step))?;
+        self.factorisations += solution.info.factorisations;
+        if solution.status == Status::Cancelled {
+            return Ok(ControlFlow::Break(()));
+        }
+        let recovered = || self.problem.recover(&solution.t, &solution.y);
+        let state = solution.contact.unwrap_or_else(recovered);
+        let forces = self.bedding.forces(&state.u, centre);
+        self.share = self.bedding.share(self.problem, &forces);
+        self.first.get_or_insert_with(|| (state.u.clone(), self.share));
+        self.residuals = self.problem.residuals(&state);
+        self.state = state;
+        self.rest();
+        self.done += 1;
+        let lack = self.lack();
+        if lack >= self.least {
+            self.better = (BETTER * self.better).max(LEAST);
+        }
+        self.idle = if lack < 0.9 * self.least { 0 } else { self.idle + 1 };
+        self.least = self.least.min(lack);
+        Ok(ControlFlow::Continue(()))
+    }
+
+    /// Solves the equations of the states that the contacts have come to, and takes the answer if it is a solution.
+    fn finish(&mut self) -> bool {
+        let refined = self.sparse.refined(&self.state, self.tolerance);
+        let is_solved = refined.is_some();
+        if let Some(refined) = refined {
+            (self.state, self.residuals) = refined;
+        }
+        is_solved
+    }
+
+    fn report(&self, stiffness: f64) -> Option<SoftReport> {
+        let (u, share) = self.first.as_ref()?;
+        let moved: Vec<f64> = self.state.u.iter().zip(u).map(|(a, b)| a - b).collect();
+        let size = self.bedding.size(&self.state.u);
+        let change = self.bedding.size(&moved);
+        Some(SoftReport {
+            stiffness,
+            rounds: self.done,
+            share: *share,
+            displacement_error: (size > 0.0).then(|| change / size),
+        })
+    }
+
+    fn into_found(self, status: Status) -> Found {
+        Found {
+            status,
+            state: self.state,
+            residuals: self.residuals,
+            iterations: self.done,
+            factorisations: self.factorisations,
+            springs: None,
+            proof: None,
+        }
+    }
+}

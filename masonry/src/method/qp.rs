@@ -1,0 +1,58 @@
+//! The route by convex quadratic programs, for friction the fixed point of programs with frozen bounds of
+//! the friction forces (Tresca).
+//!
+//! On request soft springs hold the blocks and are centred anew at the last solution until they carry nothing.
+//! What they change before the first time is reported as their bias.
+
+use std::ops::ControlFlow;
+
+use lcp::qp::SoftConstraints;
+use lcp::{QuadraticProgram, QuadraticProgramSettings, Solver, Status};
+
+use super::sparse::Found;
+use super::{Answer, Method, Observer, Request, RouteError, sparse};
+use crate::method::forms::Sparse;
+use crate::method::info::SoftReport;
+use crate::scene::Route;
+
+/// The route on a sparse problem.
+#[derive(Debug, Clone, Copy)]
+pub struct Programs<'a> {
+    /// The problem.
+    pub sparse: &'a Sparse,
+}
+
+impl Method for Programs<'_> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
+        let problem = &self.sparse.problem;
+        let soft = request.soft.map(|epsilon| SoftConstraints { epsilon, ..Default::default() });
+        let settings = QuadraticProgramSettings {
+            tolerance: request.tolerance,
+            time_limit: request.time_limit,
+            soft,
+            ..Default::default()
+        };
+        let program = QuadraticProgram::new(settings);
+        let mut is_cancelled = false;
+        let solution = program.solve_observed(problem, &mut |at| {
+            let next = observer(at.into());
+            is_cancelled = next == ControlFlow::Break(());
+            next
+        })?;
+        let is_over = is_cancelled || solution.status == Status::Cancelled;
+        let report = match request.soft {
+            Some(epsilon) if !is_over => {
+                let biased = program.solve_soft(problem, epsilon)?;
+                Some(SoftReport {
+                    stiffness: epsilon,
+                    rounds: solution.info.iterations,
+                    share: biased.spring_share,
+                    displacement_error: Some(biased.displacement_error)
+                        .filter(|error| error.is_finite()),
+                })
+            }
+            _ => None,
+        };
+        Ok(sparse::answer(Route::Qp, self.sparse, Found::of(self.sparse, solution), report))
+    }
+}

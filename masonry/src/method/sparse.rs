@@ -1,0 +1,118 @@
+//! What the routes on the sparse problem have in common: answers in the shape of all routes.
+
+use lcp::{Certificate, ContactState, Residuals, SoftSprings, Solution, Status};
+
+use super::{Answer, Motion};
+use crate::method::forms::Sparse;
+use crate::method::info::{SoftReport, SolveInfo, SpringShares};
+use crate::scene::Route;
+
+/// The name of the problem in reports, in the place of a form.
+const FORM: &str = "contact";
+
+/// Residuals of what was never tried.
+pub(crate) const UNKNOWN: Residuals = Residuals {
+    equation: f64::INFINITY,
+    feasibility: f64::INFINITY,
+    complementarity: f64::INFINITY,
+    natural: f64::INFINITY,
+    loads: f64::INFINITY,
+};
+
+/// What a method found on the sparse problem.
+pub(crate) struct Found {
+    pub(crate) status: Status,
+    pub(crate) state: ContactState,
+    pub(crate) residuals: Residuals,
+    pub(crate) iterations: usize,
+    pub(crate) factorisations: usize,
+    pub(crate) springs: Option<SoftSprings>,
+    /// Farkas' vector, in the rows of the general problem.
+    pub(crate) proof: Option<Vec<f64>>,
+}
+
+impl Found {
+    pub(crate) fn of(sparse: &Sparse, solution: Solution) -> Self {
+        let (springs, proof) = match solution.certificate {
+            Some(Certificate::Springs(springs)) => (Some(springs), None),
+            Some(Certificate::Farkas { pi }) => (None, Some(pi)),
+            _ => (None, None),
+        };
+        Self {
+            springs,
+            proof,
+            status: solution.status,
+            state: solution
+                .contact
+                .unwrap_or_else(|| sparse.problem.recover(&solution.t, &solution.y)),
+            residuals: solution.residuals,
+            iterations: solution.info.iterations,
+            factorisations: solution.info.factorisations,
+        }
+    }
+}
+
+/// The answer of a route.
+pub(crate) fn answer(
+    route: Route,
+    sparse: &Sparse,
+    found: Found,
+    soft: Option<SoftReport>,
+) -> Answer {
+    let problem = &sparse.problem;
+    let info = SolveInfo {
+        route,
+        form: FORM.to_owned(),
+        order: problem.order(),
+        attempts: vec![describe(route, &found)],
+        iterations: found.iterations,
+        factorisations: found.factorisations,
+        springs: found.springs.as_ref().map(|springs| SpringShares {
+            stiffness: springs.stiffness.clone(),
+            shares: springs.shares.clone(),
+        }),
+        proved: found.proof.is_some(),
+        soft,
+        ..SolveInfo::new(found.status, found.residuals)
+    };
+    let motion = match (found.springs, found.proof) {
+        (Some(springs), _) => Some(springs.motion),
+        // In the rows of the displacements a proof is a motion on which the loads do more work than
+        // the contacts can take.
+        (None, Some(mut proof)) => {
+            proof.truncate(problem.displacements());
+            Some(proof)
+        }
+        (None, None) => None,
+    };
+    let state = (found.status == Status::Solved).then_some(found.state);
+    Answer {
+        info,
+        rows: state.as_ref().map(|state| sparse.rows(state)),
+        displacements: state.map(|state| state.u),
+        motion: motion.map(Motion::Displacements),
+        basis: None,
+    }
+}
+
+fn describe(route: Route, found: &Found) -> String {
+    let end = match found.status {
+        Status::Solved => "solved".to_owned(),
+        Status::NoEquilibrium => "springs keep their share of the load".to_owned(),
+        Status::Infeasible => "proved to have no solution".to_owned(),
+        status => status.to_string(),
+    };
+    let counted = match route {
+        Route::Qp => "programs",
+        Route::Pgs => "rounds",
+        Route::Alm => "iterations",
+        _ => "steps",
+    };
+    format!(
+        "{}: {end} after {} {counted} and {} factorisations, residual {:.1e}",
+        route.name(),
+        found.iterations,
+        found.factorisations,
+        found.residuals.worst()
+    )
+}

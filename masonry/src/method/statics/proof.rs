@@ -1,0 +1,112 @@
+//! The proof that a wall falls, checked in its geometry.
+//!
+//! A motion of rigid blocks on which the loads do work, and no contact force can do negative work: every contact
+//! opens by at least `mu` times what it slides. Forces that balance the loads would do the opposite of their work, so there
+//! are none: whatever the blocks are made of, since none of them is deformed, and whatever the gaps are.
+
+use nalgebra::{Point2, Vector2};
+
+use crate::geometry;
+use crate::ids::BlockId;
+use crate::model::{Anchor, ContactPoint, Model};
+use crate::system::rigid::Modes;
+
+/// What rounding makes of a velocity, relative to the largest.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+/// Forces that would balance the loads in spite of the rounding errors of the motion are this much larger than all
+/// loads together.
+const CLEAR: f64 = 1e6;
+
+/// A motion that was checked to be a proof.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Proof {
+    /// Displacement rates of the corners of every block, scaled to a largest component of one.
+    pub rates: Vec<[Vector2<f64>; 4]>,
+    /// Work of the loads on them, relative to the sum of all loads \[-\].
+    pub work: f64,
+    /// The largest work that a contact force of one could do against it, relative to the force \[-\]: rounding errors.
+    pub error: f64,
+}
+
+impl Proof {
+    /// Checks a motion, three amplitudes for every block ([`Modes`]); `None` where it proves nothing.
+    pub fn of(model: &Model, amplitudes: &[f64]) -> Option<Self> {
+        let is_number = amplitudes.iter().all(|it| it.is_finite());
+        if !is_number || amplitudes.len() != 3 * model.blocks.len() {
+            return None;
+        }
+        let largest = |rates: &[[Vector2<f64>; 4]]| {
+            rates.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max)
+        };
+        let fastest = largest(&Motion::new(model, amplitudes).rates(model));
+        if fastest <= 0.0 {
+            return None;
+        }
+        let scaled: Vec<f64> = amplitudes.iter().map(|it| it / fastest).collect();
+        [0.0, 1e-15, 1e-14, 1e-13, 1e-12].into_iter().find_map(|noise| {
+            // What hardly moves is at rest: rounding errors would contradict each other.
+            let kept = scaled.iter().map(|it| if it.abs() <= noise { 0.0 } else { *it });
+            Self::checked(model, &kept.collect::<Vec<f64>>())
+        })
+    }
+
+    fn checked(model: &Model, amplitudes: &[f64]) -> Option<Self> {
+        let motion = Motion::new(model, amplitudes);
+        let (work, total) = motion.work(model);
+        let error = model
+            .contacts
+            .iter()
+            .map(|contact| motion.against(model, contact))
+            .fold(ROUNDING, f64::max);
+        (total > 0.0 && work > CLEAR * error * total).then(|| {
+            let rates = motion.rates(model);
+            Self { rates, work: work / total, error }
+        })
+    }
+}
+
+/// A motion of rigid blocks.
+struct Motion<'a> {
+    blocks: Vec<(Modes, &'a [f64])>,
+}
+
+impl<'a> Motion<'a> {
+    fn new(model: &Model, amplitudes: &'a [f64]) -> Self {
+        let modes = model.blocks.iter().map(|block| Modes::of(&block.corners));
+        Self { blocks: modes.zip(amplitudes.chunks(3)).collect() }
+    }
+
+    fn at(&self, block: BlockId, place: Point2<f64>) -> Vector2<f64> {
+        let (modes, amplitudes) = &self.blocks[block.index()];
+        modes.displacement(place, amplitudes)
+    }
+
+    fn rates(&self, model: &Model) -> Vec<[Vector2<f64>; 4]> {
+        let blocks = model.blocks.iter().enumerate();
+        blocks.map(|(b, block)| block.corners.map(|p| self.at(BlockId::new(b), p))).collect()
+    }
+
+    /// The work of all loads, and the sum of their sizes.
+    fn work(&self, model: &Model) -> (f64, f64) {
+        let of_block = |(b, block)| {
+            let loads = model.forces_on(block).into_iter();
+            loads.map(move |(place, force)| (force.dot(&self.at(BlockId::new(b), place)), force))
+        };
+        let loads = model.blocks.iter().enumerate().flat_map(of_block);
+        loads.fold((0.0, 0.0), |(work, total), (of, force)| (work + of, total + force.norm()))
+    }
+
+    /// The most that a force of one along an edge of the cone of a contact can do against the motion.
+    fn against(&self, model: &Model, contact: &ContactPoint) -> f64 {
+        let joint = &model.joints[contact.joint.index()];
+        let side = |Anchor { block, edge, at }: Anchor| {
+            // Both faces of a film feel its force in the middle between them.
+            let face = || geometry::on_edge(&model.blocks[block.index()].corners, edge, at);
+            let place = contact.film.map_or_else(face, |_| contact.position);
+            self.at(block, place)
+        };
+        let apart = side(contact.b) - contact.a.map_or_else(Vector2::zeros, side);
+        let (opens, slides) = (apart.dot(&joint.normal), apart.dot(&joint.tangent()).abs());
+        (contact.mu * slides - opens) / contact.mu.hypot(1.0)
+    }
+}

@@ -1,0 +1,135 @@
+//! The augmented Lagrangian route (3.10)-(3.17), the paper's competitor of pivoting.
+//!
+//! Every iteration solves one linear system for the present contact forces, the multipliers, and projects the
+//! forces that come out on the friction cone:
+//!
+//! ```text
+//! ( K + delta D + sum rho_i C_i^T C_i ) u = f + delta D u_old + C^T (t - rho x),     D = diag K
+//! t_n <- [t_n - rho_n y_n]+ ,     t_t <- projection of t_t - rho_t y_t on [-mu t_n, mu t_n]
+//! ```
+//!
+//! The sum goes over the contacts that are closed, along the tangent over those that stick; it holds
+//! blocks that float, so that the matrix changes with the states of the contacts only. Blocks without any
+//! closed contact are held by the proximal term `delta`, without which they would fly off and come back
+//! with huge forces; it vanishes with the steps. The penalties `rho` follow from the stiffness that the contact sees,
+//! and are made smaller where the iteration diverges or comes to rest.
+//!
+//! The unbalanced force is what the last step left over, and convergence is linear: the solution may be many such
+//! steps away. So an answer is called solved when, besides, the rate at which the steps shrink says that displacements
+//! and forces are near.
+//!
+//! Whole films of mortar are no contact: see [`MortaredWall`], and, for films updated as the paper prints it,
+//! [`Updates`].
+
+mod contraction;
+mod films;
+mod matrices;
+mod mortared;
+mod printed;
+mod route;
+mod run;
+mod strips;
+mod structure;
+
+use std::ops::ControlFlow;
+
+pub use crate::method::info::Iteration;
+pub use films::{AttachError, Segment};
+use lcp::{Contact2d, ContactState, Residuals, Status};
+pub use mortared::{MortaredError, MortaredState, MortaredWall};
+pub use printed::{Parts, Updated, Updates};
+pub use route::Multipliers;
+pub use strips::Strips;
+use structure::Structure;
+
+/// What the route is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Largest unbalanced force, relative to the loads, largest residual, and largest estimated error of
+    /// displacements and forces, relative to the largest of them, of an answer called solved \[-\].
+    pub tolerance: f64,
+    /// Iterations of all attempts.
+    pub max_iterations: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { tolerance: 1e-8, max_iterations: 2000 }
+    }
+}
+
+/// What the route found.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Answer {
+    /// `Solved`, `IterationLimit`, `Stalled` where every attempt diverged or came to rest, or `Cancelled`.
+    pub status: Status,
+    /// Displacements and contact forces of the best iteration.
+    pub state: ContactState,
+    /// Its residuals, from the data.
+    pub residuals: Residuals,
+    /// Every iteration.
+    pub convergence: Vec<Iteration>,
+    /// Numeric factorisations; the symbolic one is done once.
+    pub factorisations: usize,
+}
+
+/// Why the route cannot treat a problem.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AlmError {
+    /// Some displacement meets no stiffness.
+    #[error(
+        "displacement {displacement} meets no stiffness, as those of rigid blocks, and penalties follow from \
+         it: give the block an elastic modulus or take another route"
+    )]
+    NoStiffness {
+        /// The displacement, from 0.
+        displacement: usize,
+    },
+    /// A setting outside its range.
+    #[error("tolerance is {tolerance}, but must be between 0 and 1")]
+    Tolerance {
+        /// The value.
+        tolerance: f64,
+    },
+    /// Parts of films move by a share of their way that is none.
+    #[error("relaxation is {relaxation}, but must be above 0 and at most 1")]
+    Relaxation {
+        /// The value.
+        relaxation: f64,
+    },
+    /// The data of a problem overflow.
+    #[error(transparent)]
+    Data(#[from] lcp::Error),
+    /// The sparse factors do not fit into memory, or `K` has a negative mode.
+    #[error("the stiffness cannot be factorised: {0}")]
+    Factorisation(String),
+}
+
+/// Solves a contact problem; the observer is told every iteration, and `Break` cancels.
+///
+/// ```
+/// use faer::mat;
+/// use lcp::Contact2d;
+/// use masonry::paper::alm::{self, Settings};
+/// // A body of weight 2 on springs, pressed on a plane (mu = 0.5) and pushed by 1.4: it slides
+/// let contact = Contact2d::new(
+///     mat![[4.0, 0.0], [0.0, 4.0]], vec![1.4, -2.0],
+///     mat![[0.0, 1.0]], mat![[1.0, 0.0]], vec![0.0], vec![0.0], vec![0.5],
+/// )?;
+/// let answer = alm::solve(&contact, &Settings::default(), &mut |_| std::ops::ControlFlow::Continue(()))?;
+/// assert_eq!(answer.status, lcp::Status::Solved);
+/// assert!((answer.state.t_t[0] + 1.0).abs() < 1e-7);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`AlmError`] for a tolerance out of range and for structures with rigid blocks.
+pub fn solve(
+    problem: &Contact2d,
+    settings: &Settings,
+    observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+) -> Result<Answer, AlmError> {
+    run::solve(&Structure::new(problem, &[])?, settings, observer)
+}

@@ -1,0 +1,172 @@
+//! Walls with whole films: the displacements of the blocks are the only unknowns, as in the paper.
+//!
+//! Nothing of a film is a contact point here: the films are strips with the [law](crate::paper::film::law) at their
+//! Gauss points, attached to the nodes of both blocks, and their stiffness is brought up to date with what is in
+//! contact in every iteration ((3.10) with `K_p`). Dry joints have multipliers as before.
+
+use std::ops::ControlFlow;
+
+use lcp::Contact2d;
+use nalgebra::Vector2;
+
+use super::films::{AttachError, Segment, attached};
+use super::structure::Structure;
+use super::{AlmError, Answer, Iteration, Settings, run};
+use crate::method::forms::Sparse;
+use crate::model::{Body, Model};
+use crate::paper::film::pointwise::FilmResponse;
+use crate::recover;
+use crate::state::{Reaction, State};
+use crate::system::{System, SystemError};
+
+/// Why a wall could not be set up.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MortaredError {
+    /// A film could not be attached to the blocks.
+    #[error(transparent)]
+    Attach(#[from] AttachError),
+    /// A block cannot be assembled.
+    #[error(transparent)]
+    System(#[from] SystemError),
+    /// The data of the model overflow.
+    #[error(transparent)]
+    Data(#[from] lcp::Error),
+}
+
+/// Blocks, the dry joints between them, and whole films in all other joints.
+///
+/// Where the model has contact points at the Gauss points of strips, films start from their gaps and slips;
+/// else nothing has slipped before, and the answer is that of the static law: one step from rest.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use masonry::model::{Model, Plane};
+/// use masonry::paper::alm::{MortaredWall, Settings};
+/// use masonry::scene::{Block, Joint, Load, Material, Scene, Support};
+/// use masonry::units::Units;
+///
+/// // A block of 0.4 m on a bed of 1 cm, pressed by 1 MPa.
+/// let corners = [[0.0, 0.01], [0.4, 0.01], [0.4, 0.31], [0.0, 0.31]];
+/// let scene = Scene::new("Bed", Units::SI)
+///     .plane(Plane::Stress)
+///     .thickness(0.2)
+///     .material("brick", Material::elastic(5e9, 0.0))
+///     .material("mortar", Material::elastic(1e9, 0.0))
+///     .joint("bed", Joint::mu(0.6).mortar(0.01, "mortar"))
+///     .block(Block::new("block", "brick", corners).mesh([2, 2]))
+///     .support(Support::new("ground", [0.0, 0.0], [0.4, 0.0], "bed"))
+///     .load(Load::pressure("top", [0.0, 0.31], [0.4, 0.31], 1e6));
+/// let wall = MortaredWall::new(&Model::from_scene(&scene)?)?;
+/// let answer = wall.solve(&Settings::default(), &mut |_| ControlFlow::Continue(()))?;
+/// let state = wall.state(&answer);
+/// assert!((state.reactions[0].fy - 0.4 * 0.2 * 1e6).abs() < 1e-2);
+/// let top = state.state.displacements[0][8];
+/// assert!((top.y + 1e6 * (0.01 / 1e9 + 0.3 / 5e9)).abs() < 1e-11);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct MortaredWall {
+    /// With the contact points of the dry joints only.
+    dry: Model,
+    system: System,
+    sparse: Sparse,
+    films: Vec<Segment>,
+}
+
+/// What a wall does under its loads.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct MortaredState {
+    /// Displacements, dry contact points, stresses in the blocks, and the energy of blocks and films.
+    pub state: State,
+    /// The answer of every segment of a film, in its own axes.
+    pub films: Vec<FilmResponse>,
+    /// Of the strain energy, that of the films \[J\].
+    pub film_energy: f64,
+    /// Energy dissipated by slip in films \[J\].
+    pub film_dissipation: f64,
+    /// Energy dissipated by slip in dry joints \[J\].
+    pub contact_dissipation: f64,
+    /// `f . u` \[J\]: in one step from rest, without gaps and without supports that move, twice the strain energy
+    /// and the dissipation.
+    pub work: f64,
+    /// The reactions of all supports.
+    pub reactions: Vec<Reaction>,
+}
+
+impl MortaredWall {
+    /// A wall of a model. How the model places contact points in films does not matter.
+    ///
+    /// # Errors
+    /// [`MortaredError`], for rigid blocks among others.
+    pub fn new(model: &Model) -> Result<Self, MortaredError> {
+        let mut dry = model.clone();
+        dry.contacts.retain(|contact| contact.film.is_none());
+        let system = System::without_factors(&dry)?;
+        let sparse = Sparse::new(&system)?;
+        let films = attached(model, sparse.starts())?;
+        Ok(Self { dry, system, sparse, films })
+    }
+
+    /// Blocks and dry joints alone.
+    pub fn without_films(&self) -> &Contact2d {
+        &self.sparse.problem
+    }
+
+    /// The films, divided where nodes of the blocks lie on them.
+    pub fn films(&self) -> &[Segment] {
+        &self.films
+    }
+
+    /// Looks for a state of equilibrium; the observer is told every iteration, and `Break` cancels.
+    ///
+    /// # Errors
+    /// As [`solve`](super::solve).
+    pub fn solve(
+        &self,
+        settings: &Settings,
+        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Answer, AlmError> {
+        run::solve(&Structure::new(&self.sparse.problem, &self.films)?, settings, observer)
+    }
+
+    /// The state that belongs to an answer.
+    pub fn state(&self, answer: &Answer) -> MortaredState {
+        let (u, found) = (&answer.state.u, &answer.state);
+        let rows = self.sparse.rows(found);
+        let parts = (&self.dry, &self.system, &self.sparse);
+        let mut state = recover::from_displacements(parts, (&rows, u), 0.0, true);
+        let films: Vec<FilmResponse> = self.films.iter().map(|film| film.respond(u)).collect();
+        let film_energy = self.films.iter().map(|film| film.energy(u)).sum();
+        state.strain_energy += film_energy;
+        let slipped = found.t_t.iter().zip(&found.slip);
+        MortaredState {
+            reactions: self.reactions(&state, &films),
+            state,
+            film_energy,
+            film_dissipation: films.iter().map(|film| film.dissipation).sum(),
+            contact_dissipation: slipped.map(|(t_t, slip)| -t_t * slip).sum(),
+            work: u.iter().zip(self.sparse.problem.loads()).map(|(u, f)| u * f).sum(),
+            films,
+        }
+    }
+
+    /// Of the dry joints, and of the films on supports.
+    fn reactions(&self, state: &State, films: &[FilmResponse]) -> Vec<Reaction> {
+        let mut list = recover::reactions(&self.dry, &state.contacts);
+        for (film, response) in self.films.iter().zip(films) {
+            let joint = &self.dry.joints[film.joint];
+            let Body::Support(support) = joint.a else { continue };
+            // What the support does to the lower ends of the film.
+            for (place, force) in film.lower_forces(joint, response) {
+                let reaction = &mut list[support.index()];
+                let force: Vector2<f64> = force;
+                reaction.fx += force.x;
+                reaction.fy += force.y;
+                reaction.m += place.x * force.y - place.y * force.x;
+            }
+        }
+        list
+    }
+}

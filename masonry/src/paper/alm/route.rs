@@ -1,0 +1,53 @@
+//! The augmented Lagrangian method as a route of scenes.
+
+use lcp::Error;
+
+use super::{AlmError, Settings, solve};
+use crate::method::forms::Sparse;
+use crate::method::sparse::{self, Found};
+use crate::method::{Answer, Method, Observer, Request, RouteError, Step};
+use crate::scene::Route;
+
+/// The route on a sparse problem.
+#[derive(Debug, Clone, Copy)]
+pub struct Multipliers<'a> {
+    /// The problem.
+    pub sparse: &'a Sparse,
+}
+
+impl Method for Multipliers<'_> {
+    fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
+        let problem = &self.sparse.problem;
+        let settings = Settings { tolerance: request.tolerance, ..Settings::default() };
+        let mut number = 0;
+        let answer = solve(problem, &settings, &mut |at| {
+            number += 1;
+            observer(Step::Iteration { number, residual: at.unbalance })
+        })?;
+        let found = Found {
+            status: answer.status,
+            state: answer.state,
+            residuals: answer.residuals,
+            iterations: answer.convergence.len(),
+            factorisations: answer.factorisations,
+            springs: None,
+            proof: None,
+        };
+        let mut report = sparse::answer(Route::Alm, self.sparse, found, None);
+        report.info.order = problem.displacements();
+        report.info.convergence = answer.convergence;
+        Ok(report)
+    }
+}
+
+impl From<AlmError> for RouteError {
+    fn from(error: AlmError) -> Self {
+        match error {
+            AlmError::Tolerance { tolerance } => {
+                Error::Setting { name: "tolerance", value: tolerance, range: "in (0, 1)" }.into()
+            }
+            AlmError::Data(error) => error.into(),
+            other => Self::NotTreated { route: Route::Alm, reason: other.to_string() },
+        }
+    }
+}

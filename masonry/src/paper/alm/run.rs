@@ -1,0 +1,203 @@
+//! The iterations, and what ends them.
+
+use std::ops::ControlFlow;
+
+use lcp::{Contact2d, ContactState, Status};
+
+use super::contraction::Contraction;
+use super::matrices::{Contact, Matrices};
+use super::structure::{Structure, Taken};
+use super::{AlmError, Answer, Iteration, Settings};
+use crate::paper::film::law::PointContact;
+
+/// Penalty of a contact, relative to the stiffness that it sees.
+const PENALTY: f64 = 0.3;
+/// The proximal term, relative to the stiffness.
+const PROXIMAL: f64 = 1e-2;
+/// Where unbalanced force or residual grow by this factor over their smallest, the iteration diverges.
+const DIVERGED: f64 = 1e3;
+/// So many iterations without a reduction of it by a tenth are no progress.
+const PATIENCE: usize = 300;
+/// After that penalty and proximal term change by this factor, so many times.
+const SOFTER: f64 = 3.0;
+const ATTEMPTS: usize = 4;
+/// Steps in which blocks are brought to where contacts begin, each by a hundredth of the rest.
+const BROUGHT: usize = 6;
+/// Steps that leave more unbalanced are halved so often at most.
+const HALVINGS: usize = 8;
+
+/// Iterates until the answer is near enough, or to the last attempt.
+pub(super) fn solve(
+    structure: &Structure<'_>,
+    settings: &Settings,
+    observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+) -> Result<Answer, AlmError> {
+    let tolerance = settings.tolerance;
+    if !(tolerance > 0.0 && tolerance < 1.0) {
+        return Err(AlmError::Tolerance { tolerance });
+    }
+    let mut run = Run {
+        structure,
+        settings,
+        convergence: Vec::new(),
+        factorisations: 0,
+        best: Best::rest(structure.problem),
+    };
+    let mut status = Status::Stalled;
+    for attempt in 1..=ATTEMPTS {
+        let softer = SOFTER.powi(i32::try_from(attempt).unwrap_or(i32::MAX) - 1);
+        let matrices = Matrices::new(structure, PENALTY / softer, PROXIMAL * softer)?;
+        status = run.attempt(attempt, &matrices, observer)?;
+        if status != Status::Stalled {
+            break;
+        }
+    }
+    let Run { convergence, factorisations, best: Best { state, .. }, .. } = run;
+    let residuals = structure.residuals(&state, &structure.taken(&state.u))?;
+    Ok(Answer { status, state, residuals, convergence, factorisations })
+}
+
+/// The iteration with the smallest measure.
+struct Best {
+    state: ContactState,
+    measure: f64,
+}
+
+impl Best {
+    fn rest(problem: &Contact2d) -> Self {
+        let (n, m) = (problem.displacements(), problem.points());
+        let state = problem.state(vec![0.0; n], vec![0.0; m], vec![0.0; m]);
+        Self { state, measure: f64::INFINITY }
+    }
+}
+
+/// A solve in progress.
+struct Run<'a> {
+    structure: &'a Structure<'a>,
+    settings: &'a Settings,
+    convergence: Vec<Iteration>,
+    factorisations: usize,
+    best: Best,
+}
+
+impl Run<'_> {
+    /// Iterates from all contacts closed.
+    fn attempt(
+        &mut self,
+        attempt: usize,
+        matrices: &Matrices<'_>,
+        observer: &mut dyn FnMut(&Iteration) -> ControlFlow<()>,
+    ) -> Result<Status, AlmError> {
+        let Self { structure, settings, .. } = *self;
+        let problem = structure.problem;
+        let mut at = self.start(matrices)?;
+        let mut taken = structure.taken(&at.u);
+        let mut contacts = vec![Contact::Stick; problem.points()];
+        let mut factors = None;
+        // Of the measure and of the distance that is left.
+        let (mut least, mut since) = ([f64::INFINITY; 2], 0);
+        let [mut motion, mut pull] = structure.units().map(Contraction::new);
+        while self.convergence.len() < settings.max_iterations {
+            let states = (&contacts[..], &taken.films[..]);
+            let present = if let Some(present) = factors.take() {
+                present
+            } else {
+                self.factorisations += 1;
+                matrices.factorised(states)?
+            };
+            let u = matrices.displacements(&present, states, &at);
+            let u = self.shortened(matrices, &at, u);
+            let trial = problem.state(u, at.t_n, at.t_t);
+            let (t_n, t_t, next) = matrices.projected(&trial);
+            let moved = structure.taken(&trial.u);
+            let changes = contacts.iter().zip(&next).filter(|(a, b)| a != b).count()
+                + changed_points(&taken, &moved);
+            if changes == 0 {
+                factors = Some(present);
+            }
+            motion.record(&at.u, &trial.u);
+            pull.record(&taken.blocks, &moved.blocks);
+            (contacts, taken) = (next, moved);
+            at = problem.state(trial.u, t_n, t_t);
+
+            let unbalance = structure.unbalance(&at, &taken);
+            let distance = motion.remaining().max(pull.remaining());
+            let iteration = Iteration { attempt, unbalance, distance, changes };
+            self.convergence.push(iteration);
+            let measure = unbalance.max(structure.slack(&at, &taken));
+            let is_solved = measure.max(distance) <= settings.tolerance
+                && structure.residuals(&at, &taken)?.worst() <= settings.tolerance;
+            if is_solved || measure < self.best.measure {
+                self.best = Best { state: at.clone(), measure };
+            }
+            let is_cancelled = observer(&iteration).is_break();
+            if is_solved {
+                return Ok(Status::Solved);
+            }
+            if is_cancelled {
+                return Ok(Status::Cancelled);
+            }
+            since += 1;
+            for (least, value) in least.iter_mut().zip([measure, distance]) {
+                if value < 0.9 * *least {
+                    (*least, since) = (value, 0);
+                }
+            }
+            if measure > DIVERGED * least[0] || !measure.is_finite() || since > PATIENCE {
+                return Ok(Status::Stalled);
+            }
+        }
+        Ok(Status::IterationLimit)
+    }
+
+    /// Rest; and where gaps or slips begin elsewhere, as after a support has moved, what the blocks come to when all
+    /// contacts hold them. From rest they would fall there in the small steps of the proximal term.
+    fn start(&mut self, matrices: &Matrices<'_>) -> Result<ContactState, AlmError> {
+        let problem = self.structure.problem;
+        let mut at = Best::rest(problem).state;
+        let mut offsets = problem.initial_gaps().iter().chain(problem.initial_slips());
+        if offsets.all(|offset| offset.abs() <= 0.0) {
+            return Ok(at);
+        }
+        let all = vec![Contact::Stick; problem.points()];
+        for _ in 0..BROUGHT {
+            let taken = self.structure.taken(&at.u);
+            let states = (&all[..], &taken.films[..]);
+            self.factorisations += 1;
+            let u = matrices.displacements(&matrices.factorised(states)?, states, &at);
+            at = problem.state(u, at.t_n, at.t_t);
+        }
+        Ok(at)
+    }
+
+    /// The step to `u`, or a part of it: with films full steps go to and fro between the states of their points.
+    fn shortened(&self, matrices: &Matrices<'_>, at: &ContactState, u: Vec<f64>) -> Vec<f64> {
+        if self.structure.films.is_empty() {
+            return u;
+        }
+        let before = matrices.lack(at, &at.u);
+        let (mut least, mut best) = (matrices.lack(at, &u), u.clone());
+        let mut share = 1.0;
+        for _ in 0..HALVINGS {
+            if least < before {
+                break;
+            }
+            share *= 0.5;
+            let way = at.u.iter().zip(&u);
+            let part: Vec<f64> = way.map(|(from, to)| from + share * (to - from)).collect();
+            let lack = matrices.lack(at, &part);
+            if lack < least {
+                (least, best) = (lack, part);
+            }
+        }
+        best
+    }
+}
+
+/// Points of films that are in other states.
+fn changed_points(one: &Taken, other: &Taken) -> usize {
+    let states = |taken: &Taken| -> Vec<PointContact> {
+        taken.films.iter().flat_map(|film| &film.points).map(|point| point.contact).collect()
+    };
+    states(one).iter().zip(states(other)).filter(|(a, b)| **a != *b).count()
+}

@@ -1,0 +1,162 @@
+//! What stays the same through all iterations: loads, rows of the contacts, films, and measures by them.
+
+use faer::sparse::SparseColMat;
+use lcp::{Contact2d, ContactState, Residuals};
+
+use super::AlmError;
+use super::films::Segment;
+use crate::paper::film::pointwise::FilmResponse;
+use crate::rounding::{cleared, largest};
+
+/// What blocks and films do for displacements of the blocks.
+pub(super) struct Taken {
+    /// The forces of the blocks, `K u`.
+    pub(super) blocks: Vec<f64>,
+    /// The answers of all films.
+    pub(super) films: Vec<FilmResponse>,
+    /// The forces of both.
+    all: Vec<f64>,
+}
+
+/// Rounding errors of a gap, relative to its largest term.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// A problem with its films.
+pub(super) struct Structure<'a> {
+    pub(super) problem: &'a Contact2d,
+    pub(super) films: &'a [Segment],
+    pub(super) diagonal: Vec<f64>,
+    pub(super) normal: Vec<Vec<(usize, f64)>>,
+    pub(super) tangent: Vec<Vec<(usize, f64)>>,
+    /// The largest load.
+    load: f64,
+    /// The largest displacement that the loads would make, as if `K` were diagonal.
+    way: f64,
+}
+
+impl<'a> Structure<'a> {
+    pub(super) fn new(problem: &'a Contact2d, films: &'a [Segment]) -> Result<Self, AlmError> {
+        let k = problem.stiffness();
+        let diagonal: Vec<f64> =
+            (0..problem.displacements()).map(|j| k.get(j, j).copied().unwrap_or(0.0)).collect();
+        if let Some(displacement) = diagonal.iter().position(|k| *k <= 0.0) {
+            return Err(AlmError::NoStiffness { displacement });
+        }
+        let rows = |matrix: &SparseColMat<usize, f64>| {
+            let mut rows = vec![Vec::new(); problem.points()];
+            matrix.triplet_iter().for_each(|entry| rows[entry.row].push((entry.col, *entry.val)));
+            rows
+        };
+        let mut tangent = rows(problem.tangent());
+        let without = problem.mu().iter().enumerate().filter(|(_, mu)| **mu == 0.0);
+        without.for_each(|(i, _)| tangent[i].clear());
+        let load = largest(problem.loads());
+        let ways = problem.loads().iter().zip(&diagonal).map(|(f, k)| f / k);
+        let way = largest(&ways.collect::<Vec<_>>());
+        let normal = rows(problem.normal());
+        Ok(Self { problem, films, diagonal, normal, tangent, load, way })
+    }
+
+    /// Natural units of displacements and forces.
+    pub(super) fn units(&self) -> [f64; 2] {
+        [self.way, self.load]
+    }
+
+    /// The stiffness that a row sees, as if `K` were diagonal.
+    pub(super) fn seen(&self, row: &[(usize, f64)]) -> f64 {
+        let compliance: f64 = row.iter().map(|&(j, v)| v * v / self.diagonal[j]).sum();
+        if compliance > 0.0 { 1.0 / compliance } else { 0.0 }
+    }
+
+    /// What blocks and films take of the loads.
+    pub(super) fn taken(&self, u: &[f64]) -> Taken {
+        let mut blocks = vec![0.0; u.len()];
+        for entry in self.problem.stiffness().triplet_iter() {
+            blocks[entry.row] += entry.val * u[entry.col];
+        }
+        let films: Vec<FilmResponse> = self.films.iter().map(|film| film.respond(u)).collect();
+        let mut all = blocks.clone();
+        for (film, response) in self.films.iter().zip(&films) {
+            film.add_force(&response.force, &mut all);
+        }
+        Taken { blocks, films, all }
+    }
+
+    /// What loads and contact forces leave over, `f + C^T t - K u` without films.
+    pub(super) fn rest(&self, t_n: &[f64], t_t: &[f64], taken: &Taken) -> Vec<f64> {
+        let loads = self.problem.loads().iter();
+        let mut rest: Vec<f64> = loads.zip(&taken.all).map(|(f, taken)| f - taken).collect();
+        for (i, (t_n, t_t)) in t_n.iter().zip(t_t).enumerate() {
+            self.normal[i].iter().for_each(|&(j, v)| rest[j] += v * t_n);
+            self.tangent[i].iter().for_each(|&(j, v)| rest[j] += v * t_t);
+        }
+        rest
+    }
+
+    /// The largest force left over, relative to the loads.
+    pub(super) fn unbalance(&self, state: &ContactState, taken: &Taken) -> f64 {
+        let rest = self.rest(&state.t_n, &state.t_t, taken);
+        if rest.iter().any(|v| !v.is_finite()) {
+            return f64::INFINITY;
+        }
+        ratio(largest(&rest), if self.load > 0.0 { self.load } else { largest(&state.t_n) })
+    }
+
+    /// Residuals of a state, from the data. The law of films holds by its evaluation, and what they take is no
+    /// load of the contact problem any more.
+    ///
+    /// # Errors
+    /// [`lcp::Error::NotFinite`] where the forces of films overflow.
+    pub(super) fn residuals(
+        &self,
+        state: &ContactState,
+        taken: &Taken,
+    ) -> Result<Residuals, lcp::Error> {
+        if self.films.is_empty() {
+            return Ok(self.problem.residuals(state));
+        }
+        let of_films: Vec<f64> = taken.all.iter().zip(&taken.blocks).map(|(a, b)| a - b).collect();
+        let size = largest(&of_films);
+        let loads = self.problem.loads().iter().zip(&of_films);
+        let left = loads.map(|(f, film)| f - cleared(*film, size)).collect();
+        Ok(self.problem.with_loads(left)?.residuals(state))
+    }
+
+    /// Largest of `min(force, gap or slip)` over the pairs of the contact law, and of what is negative in them, with
+    /// forces in units of the largest one, and gaps and slips in units of what the bodies are deformed by, or would be
+    /// by the loads: a body that slid far makes all gaps small against its displacements, also those that should carry
+    /// no force.
+    pub(super) fn slack(&self, state: &ContactState, taken: &Taken) -> f64 {
+        let ContactState { u, t_n, t_t, gap, slip, .. } = state;
+        let deformed = taken.blocks.iter().zip(&self.diagonal).map(|(force, k)| force / k);
+        let length = deformed.fold(self.way, |max, d| max.max(d.abs()));
+        let force = largest(t_n);
+        // What rounding leaves of a gap between bodies that moved far is no gap.
+        let rounding = |row: &[(usize, f64)], first: f64| {
+            let terms = row.iter().map(|&(j, v)| (v * u[j]).abs());
+            ROUNDING * terms.fold(first.abs(), f64::max)
+        };
+        let mut worst = 0.0_f64;
+        for (i, mu) in self.problem.mu().iter().enumerate() {
+            let in_normal = rounding(&self.normal[i], self.problem.initial_gaps()[i]);
+            let in_tangent = rounding(&self.tangent[i], self.problem.initial_slips()[i]);
+            let bound = mu * t_n[i];
+            let pairs = [
+                (t_n[i], gap[i] - in_normal),
+                (bound + t_t[i], slip[i] - in_tangent),
+                (bound - t_t[i], -slip[i] - in_tangent),
+            ];
+            for (t, y) in pairs.into_iter().take(if *mu > 0.0 { 3 } else { 1 }) {
+                worst = worst.max(ratio(t.max(0.0), force).min(ratio(y.max(0.0), length)));
+                worst = worst.max(ratio(-t, force));
+            }
+            worst = worst.max(ratio(-gap[i] - in_normal, length));
+        }
+        worst
+    }
+}
+
+/// Nothing is a small part of anything, and everything a large part of nothing.
+fn ratio(value: f64, unit: f64) -> f64 {
+    if value <= 0.0 { 0.0 } else { value / unit }
+}

@@ -1,0 +1,142 @@
+//! The law at one point of a film: elastic mortar in series with a unilateral interface with friction.
+//!
+//! The faces move by the deformation of the mortar and by opening and sliding of an interface. With the
+//! slip `s` reached so far, and the elastic matrix `C`:
+//!
+//! ```text
+//!  sigma_y* = C_yx eps_x + C_yy eps_y,      tau* = G (gamma - s / t_y)
+//!
+//!  open    sigma_y* > 0                     sigma_y = tau = 0,  sigma_x = (C_xx - C_xy^2 / C_yy) eps_x
+//!  stick   |tau*| <= -mu sigma_y*           sigma = C eps with tau = tau*
+//!  slip    otherwise                        tau = sign(tau*) mu |sigma_y|,  the rest as in stick
+//! ```
+//!
+//! The stress is continuous in the strain. `s` becomes `t_y (gamma - tau / G)` in every state, so the
+//! dissipation `tau ds` is zero unless the point slips, and then positive.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::{FilmError, FilmMaterial, positive};
+
+/// What one point of a film remembers.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct FilmState {
+    /// Slip of the upper face along `x` against the lower, beyond the shear of the mortar \[m\].
+    pub slip: f64,
+}
+
+/// What a point of a film does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PointContact {
+    /// The faces have parted.
+    Open,
+    /// The faces press and do not slide.
+    Stick,
+    /// The faces press and slide.
+    Slip,
+}
+
+/// The answer of one point of a film to its strains.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointResponse {
+    /// `(sigma_x, sigma_y, tau)` \[Pa\].
+    pub stress: Vector3<f64>,
+    /// Derivative of the stress by the strain \[Pa\]; not symmetric where the point slips.
+    pub tangent: Matrix3<f64>,
+    /// What the point does.
+    pub contact: PointContact,
+    /// The state after this step.
+    pub state: FilmState,
+    /// Opening of the interface \[m\]; zero unless it is open.
+    pub opening: f64,
+    /// Energy dissipated in this step per area of the joint \[J/m^2\], never negative.
+    pub dissipation: f64,
+}
+
+/// The law of one mortar, thickness and friction coefficient.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FilmLaw {
+    matrix: Matrix3<f64>,
+    thickness: f64,
+    mu: f64,
+}
+
+impl FilmLaw {
+    /// The law of a film of `thickness` `t_y` \[m\] with friction coefficient `mu`.
+    ///
+    /// # Errors
+    /// [`FilmError`] if the thickness is not positive, the material not elastic, or `mu` negative.
+    ///
+    /// ```
+    /// use masonry::paper::film::{FilmMaterial, law::{FilmLaw, FilmState, PointContact}};
+    /// use masonry::model::{Elasticity, Plane};
+    /// use nalgebra::Vector3;
+    ///
+    /// let elasticity = Elasticity { young: 2e9, poisson: 0.0 };
+    /// let law = FilmLaw::new(&FilmMaterial { elasticity, plane: Plane::Stress }, 0.01, 0.5)?;
+    /// let answer = law.respond(Vector3::new(0.0, -1e-4, 3e-4), FilmState::default());
+    /// assert_eq!(answer.contact, PointContact::Slip);
+    /// assert!((answer.stress.z - 0.5 * 2e5).abs() < 1e-6);
+    /// assert!((answer.state.slip - 2e-6).abs() < 1e-15);
+    /// # Ok::<(), masonry::paper::film::FilmError>(())
+    /// ```
+    pub fn new(material: &FilmMaterial, thickness: f64, mu: f64) -> Result<Self, FilmError> {
+        if !(mu >= 0.0 && mu.is_finite()) {
+            return Err(FilmError::Friction { mu });
+        }
+        let thickness = positive("thickness", thickness)?;
+        Ok(Self { matrix: material.matrix()?, thickness, mu })
+    }
+
+    /// The stress for strains `(eps_x, eps_y, gamma)` from the state before the step.
+    pub fn respond(&self, strain: Vector3<f64>, before: FilmState) -> PointResponse {
+        let elastic = Vector3::new(strain.x, strain.y, strain.z - before.slip / self.thickness);
+        let trial = self.matrix * elastic;
+        if trial.y > 0.0 {
+            self.open(strain, trial)
+        } else if trial.z.abs() <= -self.mu * trial.y && self.mu > 0.0 {
+            PointResponse {
+                stress: trial,
+                tangent: self.matrix,
+                contact: PointContact::Stick,
+                state: before,
+                opening: 0.0,
+                dissipation: 0.0,
+            }
+        } else {
+            self.slipping(trial, before)
+        }
+    }
+
+    fn open(&self, strain: Vector3<f64>, trial: Vector3<f64>) -> PointResponse {
+        let c = &self.matrix;
+        // The mortar is free to contract across the joint.
+        let along = c[(0, 0)] - c[(0, 1)] * c[(1, 0)] / c[(1, 1)];
+        let mut tangent = Matrix3::zeros();
+        tangent[(0, 0)] = along;
+        PointResponse {
+            stress: Vector3::new(along * strain.x, 0.0, 0.0),
+            tangent,
+            contact: PointContact::Open,
+            state: FilmState { slip: self.thickness * strain.z },
+            opening: self.thickness * trial.y / c[(1, 1)],
+            dissipation: 0.0,
+        }
+    }
+
+    fn slipping(&self, trial: Vector3<f64>, before: FilmState) -> PointResponse {
+        let slope = -self.mu * trial.z.signum();
+        let tau = slope * trial.y;
+        let advance = self.thickness * (trial.z - tau) / self.matrix[(2, 2)];
+        let mut tangent = self.matrix;
+        tangent.set_row(2, &(self.matrix.row(1) * slope));
+        PointResponse {
+            stress: Vector3::new(trial.x, trial.y, tau),
+            tangent,
+            contact: PointContact::Slip,
+            state: FilmState { slip: before.slip + advance },
+            opening: 0.0,
+            dissipation: tau * advance,
+        }
+    }
+}

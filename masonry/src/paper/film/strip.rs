@@ -1,0 +1,157 @@
+//! The strip: shape functions, strains, stiffness and stress of a film in its local axes.
+//!
+//! Displacements are linear along each face. The strains are means over the two faces, because
+//! the film is thin; `phi- = 1/2 - x/l` and `phi+ = 1/2 + x/l` are the shape functions of a face:
+//!
+//! ```text
+//!  eps_x = (u_2 - u_1 + u_4 - u_3) / 2l
+//!  eps_y = (phi- (v_3 - v_1) + phi+ (v_4 - v_2)) / t_y
+//!  gamma = (phi- (u_3 - u_1) + phi+ (u_4 - u_2)) / t_y + (v_2 - v_1 + v_4 - v_3) / 2l
+//! ```
+//!
+//! Every motion of the whole strip as a rigid body is free of strain. That takes faces at their
+//! real distance `t_y`: between faces drawn on one line a rotation would strain the strip.
+
+use nalgebra::{Matrix3, Vector2, Vector3};
+
+use super::{FilmError, FilmMaterial, Matrix8, Vector8, positive};
+use crate::element::quad4::StrainMatrix;
+use crate::element::quadrature::GAUSS_2;
+
+/// A strip of mortar between two straight faces.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Strip {
+    length: f64,
+    thickness: f64,
+    wall: f64,
+    material: FilmMaterial,
+    matrix: Matrix3<f64>,
+}
+
+impl Strip {
+    /// A strip of length `l`, thickness `t_y` between its faces, and thickness `t_z` out of the
+    /// plane (that of the wall) \[m\].
+    ///
+    /// # Errors
+    /// [`FilmError`] if a length is not positive or the material is not elastic.
+    pub fn new(
+        length: f64,
+        thickness: f64,
+        wall: f64,
+        material: &FilmMaterial,
+    ) -> Result<Self, FilmError> {
+        Ok(Self {
+            length: positive("length", length)?,
+            thickness: positive("thickness", thickness)?,
+            wall: positive("thickness out of the plane", wall)?,
+            material: *material,
+            matrix: material.matrix()?,
+        })
+    }
+
+    /// Length `l` along the joint \[m\].
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// Thickness `t_y` between the faces \[m\].
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
+    /// Thickness `t_z` out of the plane \[m\].
+    pub fn wall(&self) -> f64 {
+        self.wall
+    }
+
+    /// The mortar.
+    pub fn material(&self) -> &FilmMaterial {
+        &self.material
+    }
+
+    /// The matrix that maps `eps_x, eps_y, gamma` to `sigma_x, sigma_y, tau` \[Pa\].
+    pub fn elasticity(&self) -> &Matrix3<f64> {
+        &self.matrix
+    }
+
+    /// The ends of the strip, `-l/2` and `l/2` \[m\].
+    pub fn ends(&self) -> [f64; 2] {
+        [-0.5 * self.length, 0.5 * self.length]
+    }
+
+    /// The shape functions `phi-` and `phi+` of a face at `x` \[m\].
+    pub fn shape(&self, x: f64) -> [f64; 2] {
+        [0.5 - x / self.length, 0.5 + x / self.length]
+    }
+
+    /// The matrix `B(x)` (3.38): `(eps_x, eps_y, gamma) = B u`.
+    pub fn strain_matrix(&self, x: f64) -> StrainMatrix {
+        across(self.shape(x), self.thickness) + along() / self.length
+    }
+
+    /// Stress `(sigma_x, sigma_y, tau)` \[Pa\] at `x` of the bonded strip, which also carries tension.
+    pub fn stress(&self, x: f64, displacements: &Vector8) -> Vector3<f64> {
+        self.matrix * self.strain_matrix(x) * displacements
+    }
+
+    /// Stiffness \[N/m\] of the strip when it is bonded on `[x_i, x_f]` \[m\] and carries nothing
+    /// elsewhere; zero when the part is empty (`x_f <= x_i`).
+    ///
+    /// Exact: the integrand is quadratic in `x`.
+    pub fn stiffness(&self, [from, to]: [f64; 2]) -> Matrix8 {
+        let half = 0.5 * (to - from).max(0.0);
+        let volume = half * self.thickness * self.wall;
+        GAUSS_2
+            .map(|xi| {
+                let b = self.strain_matrix(0.5 * (from + to) + half * xi);
+                b.transpose() * self.matrix * b * volume
+            })
+            .iter()
+            .sum()
+    }
+}
+
+/// The strains by which the faces move against each other, for shape functions of a face \[1/m\].
+pub(super) fn across([minus, plus]: [f64; 2], thickness: f64) -> StrainMatrix {
+    let mut b = StrainMatrix::zeros();
+    for (node, weight) in [-minus, -plus, minus, plus].into_iter().enumerate() {
+        b[(1, 2 * node + 1)] = weight / thickness;
+        b[(2, 2 * node)] = weight / thickness;
+    }
+    b
+}
+
+/// `l` times the strains by which the faces stretch and turn, mean of both faces \[-\].
+pub(super) fn along() -> StrainMatrix {
+    let mut b = StrainMatrix::zeros();
+    for (node, weight) in [-0.5, 0.5, -0.5, 0.5].into_iter().enumerate() {
+        b[(0, 2 * node)] = weight;
+        b[(2, 2 * node + 1)] = weight;
+    }
+    b
+}
+
+/// The matrix `Q` that turns global nodal displacements into local ones, `u = Q u_global`, for the
+/// unit tangent of an inclined joint in global axes.
+///
+/// Forces come back as `Q^T f`, stiffnesses as `Q^T K Q`.
+///
+/// ```
+/// use masonry::paper::film::{Vector8, strip::local_axes};
+/// use nalgebra::Vector2;
+/// // A head joint with the normal to the right has its tangent downwards.
+/// let q = local_axes(Vector2::new(0.0, -1.0));
+/// let to_the_right = Vector8::from([1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0]);
+/// let across = Vector8::from([0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0]);
+/// assert_eq!(q * to_the_right, across);
+/// ```
+pub fn local_axes(tangent: Vector2<f64>) -> Matrix8 {
+    let mut q = Matrix8::zeros();
+    for k in (0..8).step_by(2) {
+        q[(k, k)] = tangent.x;
+        q[(k, k + 1)] = tangent.y;
+        q[(k + 1, k)] = -tangent.y;
+        q[(k + 1, k + 1)] = tangent.x;
+    }
+    q
+}

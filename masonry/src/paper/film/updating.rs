@@ -1,0 +1,128 @@
+//! Which part of a film is in contact, by the law or as the paper prints it, and whether it settles.
+//!
+//! As printed, the film is bonded on a part `[x_i, x_f]`, the structure is solved with the
+//! [stiffness](super::strip::Strip::stiffness) of that part, and the part is updated from the displacements: it is dropped where the faces
+//! draw apart. There is no sliding. A point that is dropped may carry `sigma_x` and `tau`, so
+//! forces jump at zero opening, and the update may go back and forth for ever. [`UpdateHistory`] notices.
+//! The [law](super::law) has no such jump.
+
+use super::Vector8;
+use super::strip::Strip;
+
+/// How the part of a film in contact follows from the displacements of its nodes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Updating {
+    /// By the law: contact where the elastic `sigma_y` is a pressure.
+    #[default]
+    Pointwise,
+    /// As printed: contact where the faces do not draw apart, `eps_y <= 0`.
+    Printed,
+}
+
+impl Updating {
+    /// The part `[x_i, x_f]` \[m\] in contact for displacements of the nodes in local axes; `None` when
+    /// the film is open everywhere.
+    ///
+    /// What decides is linear in `x`, so the part is exact, and one part. A film at rest is in contact.
+    ///
+    /// ```
+    /// use masonry::paper::film::{FilmMaterial, Vector8, strip::Strip, updating::Updating};
+    /// use masonry::model::{Elasticity, Plane};
+    ///
+    /// let elasticity = Elasticity { young: 1e9, poisson: 0.2 };
+    /// let strip = Strip::new(2.0, 0.01, 0.1, &FilmMaterial { elasticity, plane: Plane::Stress })?;
+    /// // The upper face goes down at the left and up, three times as far, at the right.
+    /// let u = Vector8::from([0.0, 0.0, 0.0, 0.0, 0.0, -1e-6, 0.0, 3e-6]);
+    /// assert_eq!(Updating::Printed.contact_part(&strip, &u), Some([-1.0, -0.5]));
+    /// # Ok::<(), masonry::paper::film::FilmError>(())
+    /// ```
+    pub fn contact_part(self, strip: &Strip, displacements: &Vector8) -> Option<[f64; 2]> {
+        let [left, right] = strip.ends();
+        let parting = |x: f64| match self {
+            Self::Pointwise => strip.stress(x, displacements).y,
+            Self::Printed => (strip.strain_matrix(x) * displacements).y,
+        };
+        let [at_left, at_right] = [parting(left), parting(right)];
+        let change = || left + (right - left) * (at_left / (at_left - at_right));
+        let part = match (at_left > 0.0, at_right > 0.0) {
+            (false, false) => return Some([left, right]),
+            (true, true) => return None,
+            (false, true) => [left, change()],
+            (true, false) => [change(), right],
+        };
+        (part[0] < part[1]).then_some(part)
+    }
+}
+
+/// The longest cycle that is looked for.
+pub const LONGEST_CYCLE: usize = 8;
+
+/// What a sequence of updates does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Settling {
+    /// The last update changed the parts, and led to none of the parts before.
+    Moving,
+    /// The last update changed nothing.
+    Settled,
+    /// The parts are those of `period` updates before, at least two, and not those of the last.
+    Cycle {
+        /// Number of updates after which everything repeats.
+        period: usize,
+    },
+}
+
+/// The parts in contact of several films, update by update.
+///
+/// The update depends on the parts alone, so parts that were met before will be met again: the first
+/// return tells a cycle. A sequence that oscillates and converges is told from it by `tolerance`
+/// only, which should therefore be small.
+///
+/// ```
+/// use masonry::paper::film::updating::{Settling, UpdateHistory};
+/// let mut history = UpdateHistory::new(vec![2.0], 1e-9);
+/// assert_eq!(history.record(&[Some([-1.0, 1.0])]), Settling::Moving);
+/// assert_eq!(history.record(&[None]), Settling::Moving);
+/// assert_eq!(history.record(&[Some([-1.0, 1.0])]), Settling::Cycle { period: 2 });
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct UpdateHistory {
+    lengths: Vec<f64>,
+    tolerance: f64,
+    /// At most [`LONGEST_CYCLE`] records, the last one first.
+    past: Vec<Vec<Option<[f64; 2]>>>,
+}
+
+impl UpdateHistory {
+    /// No records yet, for films of these lengths \[m\]. Ends closer than `tolerance` times the length
+    /// of their film count as equal.
+    pub fn new(lengths: Vec<f64>, tolerance: f64) -> Self {
+        Self { lengths, tolerance, past: Vec::new() }
+    }
+
+    /// Records the parts \[m\] of all films after an update.
+    ///
+    /// # Panics
+    /// If there is not one part per film.
+    pub fn record(&mut self, parts: &[Option<[f64; 2]>]) -> Settling {
+        assert_eq!(parts.len(), self.lengths.len(), "one part per film");
+        let settling = match self.past.iter().position(|known| self.same(known, parts)) {
+            None => Settling::Moving,
+            Some(0) => Settling::Settled,
+            Some(before) => Settling::Cycle { period: before + 1 },
+        };
+        self.past.truncate(LONGEST_CYCLE - 1);
+        self.past.insert(0, parts.to_vec());
+        settling
+    }
+
+    fn same(&self, known: &[Option<[f64; 2]>], parts: &[Option<[f64; 2]>]) -> bool {
+        self.lengths.iter().zip(known.iter().zip(parts)).all(|(length, pair)| {
+            let near = self.tolerance * length;
+            match pair {
+                (Some(p), Some(q)) => (p[0] - q[0]).abs() <= near && (p[1] - q[1]).abs() <= near,
+                (Some(p), None) | (None, Some(p)) => p[1] - p[0] <= near,
+                (None, None) => true,
+            }
+        })
+    }
+}

@@ -1,0 +1,178 @@
+//! Reports: text, pictures, tables and meshes of a scene that was solved, or was not.
+//!
+//! Every result is in the units of the scene, named in titles, columns and legends. The functions
+//! of the modules return the contents of files; [`write_all`] writes them.
+
+pub mod csv;
+mod format;
+pub mod json;
+pub mod study;
+pub mod summary;
+pub mod svg;
+pub mod table;
+pub mod vtu;
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::analysis::outcome::Outcome;
+use crate::files::write_atomically;
+use svg::ReferenceLines;
+
+/// A kind of file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Format {
+    /// `scene.svg` always; `principal_stresses.svg` where stresses were recovered and `deformed.svg`
+    /// when solved; `mechanism.svg` when a mechanism is known.
+    Svg,
+    /// `panel.vtu`.
+    Vtu,
+    /// `contacts.csv`, when solved; `history.csv` where there is a load history.
+    Csv,
+    /// `report.txt`.
+    Text,
+    /// `result.json`.
+    Json,
+}
+
+impl Format {
+    /// All formats.
+    pub const ALL: [Self; 5] = [Self::Svg, Self::Vtu, Self::Csv, Self::Text, Self::Json];
+}
+
+/// What [`write_all`] writes. By default everything.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// The formats wanted.
+    pub formats: Vec<Format>,
+    /// Lines to compare the principal stresses with.
+    pub reference: Option<ReferenceLines>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { formats: Format::ALL.to_vec(), reference: None }
+    }
+}
+
+/// Why files could not be written.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum OutputError {
+    /// The directory could not be made.
+    #[error("cannot create the directory {}: {source}; choose another one", path.display())]
+    Directory {
+        /// The directory.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// Some files could not be written; all others were.
+    #[error("cannot write {}; the other {} files were written", listed(failed), written.len())]
+    Files {
+        /// The files that were written.
+        written: Vec<PathBuf>,
+        /// The files that were not, and what the system said.
+        failed: Vec<(PathBuf, io::Error)>,
+    },
+}
+
+/// Writes the files of `options` into `dir`, which is created, and returns their paths.
+///
+/// Each file appears whole or not at all: it is written under a temporary name and renamed. One
+/// that fails does not keep the others from being written. `result.json` comes last and lists the
+/// files of this call; files of earlier calls stay.
+///
+/// # Errors
+/// [`OutputError::Directory`] when the directory cannot be made, [`OutputError::Files`] when at
+/// least one file could not be written.
+pub fn write_all(
+    outcome: &Outcome,
+    dir: &Path,
+    options: &Options,
+) -> Result<Vec<PathBuf>, OutputError> {
+    fs::create_dir_all(dir)
+        .map_err(|source| OutputError::Directory { path: dir.to_owned(), source })?;
+    let mut written = Vec::new();
+    let mut failed = Vec::new();
+    let mut write = |name: &str, contents: io::Result<Vec<u8>>| {
+        let path = dir.join(name);
+        match contents.and_then(|bytes| write_atomically(&path, &bytes)) {
+            Ok(()) => {
+                written.push(path);
+                true
+            }
+            Err(error) => {
+                failed.push((path, error));
+                false
+            }
+        }
+    };
+    let mut names = Vec::new();
+    for (name, contents) in contents(outcome, options) {
+        if write(name, Ok(contents)) {
+            names.push(name.to_owned());
+        }
+    }
+    if options.formats.contains(&Format::Json) {
+        names.push("result.json".to_owned());
+        let text = json::result(outcome, &names);
+        write("result.json", text.map(String::into_bytes).map_err(io::Error::from));
+    }
+    if failed.is_empty() { Ok(written) } else { Err(OutputError::Files { written, failed }) }
+}
+
+/// Names and contents of all files but `result.json`.
+fn contents(outcome: &Outcome, options: &Options) -> Vec<(&'static str, Vec<u8>)> {
+    let (model, state) = (&outcome.model, outcome.state.as_ref());
+    let title = &titled(outcome);
+    let mut files = Vec::new();
+    if options.formats.contains(&Format::Svg) {
+        files.push(("scene.svg", svg::scene(title, model).into_bytes()));
+        if let Some(state) = state {
+            if !state.stresses.is_empty() {
+                let reference = options.reference.as_ref();
+                let picture = svg::principal_stresses(title, model, state, reference);
+                files.push(("principal_stresses.svg", picture.into_bytes()));
+            }
+            files.push(("deformed.svg", svg::deformed(title, model, state).into_bytes()));
+        }
+        if let Some(rates) = &outcome.mechanism {
+            files.push(("mechanism.svg", svg::mechanism(title, model, rates).into_bytes()));
+        }
+    }
+    if options.formats.contains(&Format::Vtu) {
+        files.push(("panel.vtu", vtu::vtu(model, state)));
+    }
+    if let (true, Some(state)) = (options.formats.contains(&Format::Csv), state) {
+        files.push(("contacts.csv", csv::contacts(model, state).into_bytes()));
+    }
+    if let (true, Some(history)) = (options.formats.contains(&Format::Csv), &outcome.history) {
+        files.push(("history.csv", csv::history(model, history).into_bytes()));
+    }
+    if options.formats.contains(&Format::Text) {
+        files.push(("report.txt", table::report(outcome).into_bytes()));
+    }
+    files
+}
+
+/// The title of the pictures: the verdict, and of what.
+fn titled(outcome: &Outcome) -> String {
+    let verdict = outcome.judgement.verdict;
+    if outcome.title.is_empty() {
+        verdict.to_string()
+    } else {
+        format!("{verdict}: {}", outcome.title)
+    }
+}
+
+fn listed(failed: &[(PathBuf, io::Error)]) -> String {
+    let texts: Vec<String> =
+        failed.iter().map(|(path, error)| format!("{} ({error})", path.display())).collect();
+    texts.join(", ")
+}

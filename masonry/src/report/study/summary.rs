@@ -1,0 +1,287 @@
+//! What a study comes to, in sentences.
+
+use crate::analysis::study::{End, Mesh, Record, Refining, Study, Verified};
+use crate::report::format::significant;
+use crate::scene::Route;
+
+/// Tolerances that are compared: the nearest ones of the study.
+const COMPARED: [f64; 2] = [1e-4, 1e-8];
+/// The largest algebraic error of an answer that the fastest route is named for.
+const ACCURATE: f64 = 1e-6;
+/// Answers this far from the reference at the tightest tolerance are others.
+const ELSEWHERE: f64 = 1e-3;
+/// Algebraic errors below this part of that of the mesh do not matter.
+const NEGLIGIBLE: f64 = 0.1;
+/// Times that grow by less are the same, as far as can be measured; so are those that fall.
+const NOISE: f64 = 1.2;
+
+/// What a study comes to, in sentences: what a tight tolerance costs, which route gets there first, and whether the
+/// mesh is worth it; and what that rests on.
+pub fn summary(study: &Study) -> Vec<String> {
+    let mut sentences: Vec<String> =
+        [cost(study), fastest(study), mesh(study)].into_iter().flatten().collect();
+    sentences.extend(gave_up(study));
+    sentences.extend(elsewhere(study));
+    sentences.extend(reference(study));
+    sentences.extend(last_digits(study));
+    sentences.extend(springs(study));
+    sentences
+}
+
+/// The one sentence that a user needs: the fastest way to an accurate answer, and what the mesh makes of it.
+pub fn in_short(study: &Study) -> Option<String> {
+    let (record, seconds) = fastest_record(study)?;
+    let mesh = study.meshes.first()?;
+    let error = mesh_error(mesh);
+    let error = error.map_or(String::new(), |error| {
+        format!("; the mesh errs by {error}, whatever the tolerance")
+    });
+    Some(format!(
+        "On {}, {} at a tolerance of {:e} takes {} s to an algebraic error below {ACCURATE:e}{error}.",
+        mesh.name,
+        record.route.name(),
+        record.tolerance,
+        significant(seconds, 2)
+    ))
+}
+
+/// "Beside 1e-4, 1e-8 costs no more (within 20 %) by lemke, 9 x the time by pgs; alm (Stalled) does not reach it."
+fn cost(study: &Study) -> Option<String> {
+    let nearest = |wanted: f64| {
+        let tolerances = study.on_first_mesh().map(|record| record.tolerance);
+        tolerances.min_by(|a, b| (a / wanted).ln().abs().total_cmp(&(b / wanted).ln().abs()))
+    };
+    let [loose, tight] = COMPARED.map(nearest);
+    let (loose, tight) = (loose?, tight?);
+    let seconds = |route: Route, tolerance: f64| {
+        let same = |record: &&Record| {
+            record.route == route && record.tolerance.total_cmp(&tolerance).is_eq()
+        };
+        let record = study.on_first_mesh().find(same).filter(|record| record.end.is_solved())?;
+        record.seconds
+    };
+    let ratio = |route: Route| Some((route, seconds(route, tight)? / seconds(route, loose)?));
+    let ratios = study.routes().into_iter().filter_map(ratio);
+    let (same, more): (Vec<_>, Vec<_>) = ratios.partition(|(_, ratio)| *ratio <= NOISE);
+    if tight >= loose || same.is_empty() && more.is_empty() {
+        return None;
+    }
+    let same: Vec<&str> = same.iter().map(|(route, _)| route.name()).collect();
+    let more = more.iter().enumerate().map(|(position, (route, ratio))| {
+        let its = if position == 0 { " the time" } else { "" };
+        format!("{} x{its} by {}", significant(*ratio, 2), route.name())
+    });
+    let costs = (!same.is_empty()).then(|| format!("no more (within 20 %) by {}", same.join(", ")));
+    let costs: Vec<String> = costs.into_iter().chain(more).collect();
+    Some(format!(
+        "Beside {loose:e}, {tight:e} costs {}{}.",
+        costs.join(", "),
+        without(study, tight)
+    ))
+}
+
+/// The routes that have no answer to a tolerance, each with how it ended at the loosest that it does not reach.
+fn without(study: &Study, tolerance: f64) -> String {
+    let failed = study.routes().into_iter().filter_map(|route| {
+        let here = |it: &&Record| it.route == route && it.tolerance.total_cmp(&tolerance).is_eq();
+        study.on_first_mesh().find(here).filter(|it| !it.end.is_solved())?;
+        let end = loosest_failure(study, route)?.end.name();
+        Some(format!("{} ({end})", route.name()))
+    });
+    let failed: Vec<String> = failed.collect();
+    match failed.len() {
+        0 => String::new(),
+        1 => format!("; {} does not reach it", failed[0]),
+        _ => format!("; {} do not reach it", failed.join(", ")),
+    }
+}
+
+fn fastest(study: &Study) -> Option<String> {
+    let (record, seconds) = fastest_record(study)?;
+    Some(format!(
+        "Forces, stresses and energy to {ACCURATE:e} are had in the least time by {} at a tolerance of \
+         {:e}: {} s.",
+        record.route.name(),
+        record.tolerance,
+        significant(seconds, 2)
+    ))
+}
+
+fn fastest_record(study: &Study) -> Option<(&Record, f64)> {
+    let is_accurate = |record: &&Record| {
+        let error = record.errors.and_then(|errors| errors.worst());
+        record.end.is_solved() && error.is_some_and(|error| error <= ACCURATE)
+    };
+    let timed = study.on_first_mesh().filter(is_accurate).filter_map(|it| Some((it, it.seconds?)));
+    timed.min_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// The loosest tolerance that each route does not reach.
+fn gave_up(study: &Study) -> Vec<String> {
+    let sentence = |record: &Record| {
+        let name = record.route.name();
+        match &record.end {
+            End::Ended(status) => format!(
+                "{name} does not reach {:e}: {status} after {} s{}.",
+                record.tolerance,
+                record.seconds.map_or("-".to_owned(), |time| significant(time, 2)),
+                record.residual.map_or(String::new(), |it| format!(", residual {it:.1e}")),
+            ),
+            End::Refused(reason) => format!("{name} refuses the scene: {reason}."),
+            End::Skipped(reason) => {
+                format!("{name} was not tried at {:e}: {reason}.", record.tolerance)
+            }
+        }
+    };
+    let routes = study.routes().into_iter();
+    routes.filter_map(|route| loosest_failure(study, route)).map(sentence).collect()
+}
+
+fn loosest_failure(study: &Study, route: Route) -> Option<&Record> {
+    let failed = study.on_first_mesh().filter(|it| it.route == route && !it.end.is_solved());
+    failed.max_by(|a, b| a.tolerance.total_cmp(&b.tolerance))
+}
+
+fn elsewhere(study: &Study) -> Vec<String> {
+    let tightest = |route: Route| {
+        let solved = study.on_first_mesh().filter(|it| it.route == route && it.end.is_solved());
+        let record = solved.min_by(|a, b| a.tolerance.total_cmp(&b.tolerance))?;
+        let error = record.errors?.worst().filter(|error| *error > ELSEWHERE)?;
+        Some(format!(
+            "{} ends {} from the reference at its tightest tolerance, {:e}: another equilibrium, of \
+             which there may be several with friction, or a tolerance that says little here.",
+            route.name(),
+            significant(error, 2),
+            record.tolerance
+        ))
+    };
+    study.routes().into_iter().filter_map(tightest).collect()
+}
+
+fn reference(study: &Study) -> Option<String> {
+    let Some(reference) = study.meshes.first()?.reference.as_ref() else {
+        return Some(
+            "There is no reference, since none of interior, lemke, newton, alm and qp has an answer: no \
+             errors are known."
+                .to_owned(),
+        );
+    };
+    let confirmed = match &reference.confirmed {
+        Some(other) => format!(
+            "{} found the same to {}",
+            other.route.name(),
+            other.refined.or(other.errors.worst()).map_or("-".to_owned(), |it| significant(it, 2))
+        ),
+        None => "no other route confirms it".to_owned(),
+    };
+    Some(format!(
+        "The reference is by {} to {:e}, residual {:.1e}; its forces and moments balance to {:.1e}{}; {confirmed}.",
+        reference.route.name(),
+        reference.tolerance,
+        reference.residual,
+        reference.balance,
+        refined(reference.verified.as_ref())
+    ))
+}
+
+fn refined(verified: Option<&Verified>) -> String {
+    let Some(it) = verified else { return String::new() };
+    let margin = it.margin.map_or(String::new(), |margin| {
+        format!(" (the inequalities of the contact law leave {margin:.1e})")
+    });
+    if it.is_better() {
+        format!(
+            "; refined to a residual of {:.1e}{margin} it moved by {}",
+            it.residual,
+            it.distance.map_or("-".to_owned(), |it| significant(it, 2)),
+        )
+    } else {
+        format!(
+            ", which refinement to a residual of {:.1e}{margin} does not confirm: errors are against it as it is",
+            it.residual
+        )
+    }
+}
+
+/// What the last digits cost, beside the route of the reference itself.
+fn last_digits(study: &Study) -> Option<String> {
+    let mesh = study.meshes.first()?;
+    let [plain, single, extended] = &mesh.refinings[..] else { return None };
+    let error = |it: &Refining| it.error.map(|error| significant(error, 2));
+    let reference = mesh.reference.as_ref()?;
+    let itself = reference.verified.as_ref().and_then(|it| it.distance);
+    let time = |seconds: f64| significant(seconds, 2);
+    Some(format!(
+        "From the states of all contacts alone, one solve takes {} s and errs by {}, since its factors have springs in \
+         the place of hard contacts; one refinement brings that to {} in {} s, and compensated refinement to {} in {} s \
+         ({} solves). All of a solve by {}, which finds the states and refines by itself, takes {} s and errs by {}.",
+        time(plain.seconds),
+        error(plain)?,
+        error(single)?,
+        time(single.seconds),
+        error(extended)?,
+        time(extended.seconds),
+        extended.passes,
+        reference.route.name(),
+        time(reference.seconds),
+        significant(itself?, 2),
+    ))
+}
+
+/// The error of the scene's own mesh, and the loosest tolerance that adds nothing to it.
+fn mesh(study: &Study) -> Option<String> {
+    let first = study.meshes.first()?;
+    let finest = study.meshes.iter().filter(|it| it.values.is_some()).max_by_key(|it| it.factor)?;
+    let error = first.errors?.worst()?;
+    let is_enough = |tolerance: f64| {
+        let at = |record: &&Record| {
+            record.tolerance <= tolerance && record.end.is_solved() && record.errors.is_some()
+        };
+        let errors = study.on_first_mesh().filter(at).filter_map(|it| it.errors?.worst());
+        errors.fold(0.0, f64::max) <= NEGLIGIBLE * error
+    };
+    let tolerances = study.on_first_mesh().map(|record| record.tolerance);
+    let loosest = tolerances.filter(|it| is_enough(*it)).reduce(f64::max);
+    let enough = loosest.map_or(String::new(), |tolerance| {
+        format!("; beside that, what solvers leave undone at {tolerance:e} does not count")
+    });
+    Some(format!(
+        "The error of {} is {}, the worst of strain energy, thrust and displacement against {}{enough}.",
+        first.name,
+        mesh_error(first)?,
+        finest.name
+    ))
+}
+
+/// "0.023 (extrapolated: 0.036)"
+fn mesh_error(mesh: &Mesh) -> Option<String> {
+    let error = mesh.errors?.worst()?;
+    let extrapolated = mesh.extrapolated.and_then(|it| it.worst()).filter(|it| *it > error);
+    let extrapolated =
+        extrapolated.map_or(String::new(), |it| format!(" (extrapolated: {})", significant(it, 2)));
+    Some(significant(error, 2) + &extrapolated)
+}
+
+/// What the softest and the stiffest springs change, and take.
+fn springs(study: &Study) -> Option<String> {
+    let solved = study.springs.iter().filter(|it| it.end.is_solved());
+    let mut told = solved.filter_map(|it| {
+        let rounds = match it.rounds? {
+            1 => "one round".to_owned(),
+            rounds => format!("{rounds} rounds"),
+        };
+        Some(format!(
+            "Springs of {:e} of the blocks' stiffness change displacements by {} before they are \
+             centred anew; {rounds} to {:e} in {} s",
+            it.stiffness,
+            significant(it.bias?, 2),
+            it.tolerance,
+            significant(it.seconds?, 2)
+        ))
+    });
+    let first = told.next()?;
+    Some(match told.next_back() {
+        Some(last) => format!("{first}. {last}."),
+        None => first + ".",
+    })
+}

@@ -1,0 +1,309 @@
+//! The report as text, at most 100 columns wide.
+
+mod history;
+
+use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle, presets};
+
+use super::format::{InUnits, aligned, block_name, significant};
+use super::summary::{
+    CornerSum, ExtremeStress, Resultant, applied_load, corner_sums, edge_loads,
+    extreme_film_stresses, extreme_stresses, largest_displacement, reason, total_reaction, weight,
+};
+use crate::analysis::outcome::Outcome;
+use crate::method::info::{SoftReport, SpringShares};
+use crate::plan::Plan;
+use crate::scene::Route;
+use crate::state::{FilmStress, State};
+
+const WIDTH: u16 = 100;
+
+/// The whole report: verdict, plan, solution, checks, reactions, state, times; or what was tried and what
+/// it means when there is no solution.
+pub fn report(outcome: &Outcome) -> String {
+    let title = if outcome.title.is_empty() { "Untitled scene" } else { &outcome.title };
+    let rule: String = title.chars().map(|_| '=').collect();
+    let judgement = &outcome.judgement;
+    let warnings = judgement.warnings.iter().map(|warning| head(&format!("Warning: {warning}")));
+    let verdict = head(&judgement.sentence) + &warnings.collect::<String>();
+    let mut text = format!("{verdict}\n{title}\n{rule}\n\n{}", plan(&outcome.plan));
+    if let Some(reason) = reason(outcome) {
+        text += &section("No equilibrium found");
+        text += &paragraph(&reason);
+    }
+    text += &section("Solution");
+    text += &pairs(&solution(outcome));
+    if let Some(history) = &outcome.history {
+        text += &section("Load history");
+        text += &history::history(history, InUnits(outcome.model.units));
+    }
+    if let Some(state) = &outcome.state {
+        text += &section("Reactions on the structure");
+        text += &reactions(outcome);
+        text += &section("State");
+        text += &pairs(&state_figures(outcome, state));
+    }
+    text += &section("Time");
+    text += &pairs(&times(outcome));
+    text
+}
+
+/// The plan: effects with their reasons, sizes, and the solver.
+pub fn plan(plan: &Plan) -> String {
+    let mut table = table(&["effect", "", "unknowns", "because", "expected cost"], &[2]);
+    for effect in &plan.effects {
+        table.add_row(vec![
+            effect.name.to_owned(),
+            if effect.on { "on" } else { "off" }.to_owned(),
+            effect.unknowns.to_string(),
+            effect.because.clone(),
+            effect.cost.clone(),
+        ]);
+    }
+    let sizes = format!(
+        "{} blocks, {} nodes, {} joints, {} contact points ({} with friction), {} rigid amplitudes",
+        plan.blocks,
+        plan.nodes,
+        plan.joints,
+        plan.contact_points,
+        plan.frictional_points,
+        plan.rigid_modes
+    );
+    let mut lines = vec![
+        ("sizes", sizes),
+        ("order", plan.order.to_string()),
+        ("memory", format!("about {} MB", memory(plan.memory_bytes()))),
+        ("solver", format!("{}: {}", plan.solver, plan.because)),
+    ];
+    for (index, choice) in plan.routes.iter().enumerate() {
+        let head = if index == 0 { "route" } else { "" };
+        lines.push((head, format!("{}: {}", choice.route.name(), choice.because)));
+    }
+    let lines = pairs(&lines);
+    format!("{}\n\n{lines}", table.trim_fmt())
+}
+
+fn residuals(it: &lcp::Residuals) -> String {
+    listed(&[
+        ("equation", it.equation),
+        ("feasibility", it.feasibility),
+        ("complementarity", it.complementarity),
+        ("natural", it.natural),
+        ("loads", it.loads),
+    ])
+}
+
+/// In units of 10^6 bytes, which are few for the smallest scenes.
+fn memory(bytes: usize) -> String {
+    significant(bytes as f64 / 1e6, 2)
+}
+
+fn solution(outcome: &Outcome) -> Vec<(&'static str, String)> {
+    let solve = &outcome.solve;
+    let mut rows = vec![
+        ("status", format!("{:?}", solve.status)),
+        ("route", format!("{}: {}", solve.route.name(), solve.because)),
+        ("form", format!("{}, order {}", solve.form, solve.order)),
+    ];
+    if solve.route == Route::Lemke {
+        rows.push(("pivots", solve.pivots.to_string()));
+    } else {
+        rows.push(("iterations", solve.iterations.to_string()));
+    }
+    rows.push(("factorisations", solve.factorisations.to_string()));
+    for (index, attempt) in solve.attempts.iter().enumerate() {
+        rows.push((if index == 0 { "attempts" } else { "" }, attempt.clone()));
+    }
+    if let Some(springs) = &solve.springs {
+        rows.push(("springs", shares(springs)));
+    }
+    if let Some(soft) = &solve.soft {
+        rows.push(("soft springs", bias(soft)));
+    }
+    if outcome.state.is_some() {
+        rows.push(("residuals", residuals(&solve.residuals)));
+    }
+    if let Some(paper) = &solve.coulomb_residuals {
+        rows.push(("(3.27)", format!("{}, of the same answer in this form", residuals(paper))));
+    }
+    rows
+}
+
+/// Of the stiffest and of the softest springs.
+fn shares(springs: &SpringShares) -> String {
+    let pairs: Vec<(f64, f64)> =
+        springs.stiffness.iter().copied().zip(springs.shares.iter().copied()).collect();
+    let text = |(stiffness, share): &(f64, f64)| {
+        format!("of stiffness {stiffness:.0e} carry {} of the load", significant(*share, 3))
+    };
+    let ends = [pairs.first(), pairs.last()];
+    ends.into_iter().flatten().map(text).collect::<Vec<_>>().join(", ")
+}
+
+fn bias(soft: &SoftReport) -> String {
+    let share = significant(soft.share, 3);
+    let error = soft.displacement_error.map_or_else(String::new, |error| {
+        format!(" and changed the displacements by {} of them", significant(error, 3))
+    });
+    format!(
+        "of stiffness {:.0e}, centred {} times; at first they carried {share} of the load{error}",
+        soft.stiffness, soft.rounds
+    )
+}
+
+fn reactions(outcome: &Outcome) -> String {
+    let units = InUnits(outcome.model.units);
+    let force = units.0.force_name();
+    let energy = units.0.energy_name();
+    let heads =
+        ["support", &format!("fx [{force}]"), &format!("fy [{force}]"), &format!("m [{energy}]")];
+    let mut table = table(&heads, &[1, 2, 3]);
+    let (sum, load) = (total_reaction(outcome), applied_load(&outcome.model));
+    let rest = Resultant { force: sum.force + load.force, moment: sum.moment + load.moment };
+    let parts = |it: Resultant| [it.force.x, it.force.y, it.moment];
+    let single = outcome.reactions.iter().map(|it| (it.support.clone(), [it.fx, it.fy, it.m]));
+    let mut rows: Vec<(String, [f64; 3])> = single.collect();
+    let mut totals = vec![("sum of reactions", sum)];
+    let (weight, loads) = (weight(&outcome.model), edge_loads(&outcome.model));
+    if weight != Resultant::default() && loads != Resultant::default() {
+        totals.extend([("self weight", weight), ("loads", loads)]);
+    }
+    totals.extend([("applied load", load), ("unbalanced", rest)]);
+    let corners = corner_sums(outcome);
+    let together = |it: &CornerSum| (it.supports.join(" + "), parts(it.sum));
+    rows.extend(corners.iter().map(together));
+    rows.extend(totals.into_iter().map(|(name, it)| (name.to_owned(), parts(it))));
+    let forces: Vec<f64> =
+        rows.iter().flat_map(|(_, [fx, fy, _])| [*fx, *fy]).map(|it| units.force(it)).collect();
+    let moments: Vec<f64> = rows.iter().map(|(_, [_, _, m])| units.energy(*m)).collect();
+    let (forces, moments) = (aligned(&forces, 6), aligned(&moments, 6));
+    for (index, (name, _)) in rows.iter().enumerate() {
+        if index == outcome.reactions.len() {
+            table.add_row(vec![""]);
+        }
+        let (fx, fy) = (&forces[2 * index], &forces[2 * index + 1]);
+        table.add_row(vec![name.as_str(), fx, fy, &moments[index]]);
+    }
+    let mut text = table.trim_fmt() + "\n Moments are about the origin.\n";
+    if !corners.is_empty() {
+        text += " Of supports that meet in a corner only the sum (+) is unique.\n";
+    }
+    text
+}
+
+fn state_figures(outcome: &Outcome, state: &State) -> Vec<(&'static str, String)> {
+    let model = &outcome.model;
+    let units = InUnits(model.units);
+    let length = units.0.length_name();
+    let place = |x: f64, y: f64| {
+        let [x, y] = [x, y].map(|metres| significant(units.length(metres), 4));
+        format!("({x}, {y}) {length}")
+    };
+    let mut rows = Vec::new();
+    if let Some(checks) = &outcome.checks {
+        let errors = [
+            ("force", checks.force_balance),
+            ("moment", checks.moment_balance),
+            ("uncarried load", checks.uncarried),
+            ("cone violation", checks.cone_violation),
+            ("penetration", checks.penetration),
+        ];
+        rows.push(("balance", listed(&errors)));
+        let counts = [("open", checks.open), ("stick", checks.stick), ("slip", checks.slip)];
+        let counts = counts.map(|(name, count)| format!("{count} {name}"));
+        rows.push(("contact points", counts.join(", ")));
+    }
+    if let Some(it) = largest_displacement(model, state) {
+        let value = significant(units.length(it.value), 6);
+        let (block, at) = (block_name(model, it.block), place(it.position.x, it.position.y));
+        let text = format!("u_{} = {value} {length} in block {block} at {at}", it.component);
+        rows.push(("largest displacement", text));
+    }
+    let energy =
+        format!("{} {}", significant(units.energy(state.strain_energy), 6), units.0.energy_name());
+    rows.push(("strain energy", energy));
+    let stress = |it: Option<ExtremeStress>| {
+        it.map_or("none".to_owned(), |it| {
+            let value = significant(units.stress(it.value.abs()), 6);
+            let (block, at) = (block_name(model, it.block), place(it.position.x, it.position.y));
+            format!("{value} {} in block {block} at {at}", units.0.stress_name())
+        })
+    };
+    if !state.stresses.is_empty() {
+        let (compression, tension) = extreme_stresses(state);
+        rows.push(("largest compression", stress(compression)));
+        rows.push(("largest tension", stress(tension)));
+    }
+    if let Some(films) = extreme_film_stresses(state) {
+        let text = |film: FilmStress, value: f64| {
+            let at = model.contacts[film.contact.index()].position;
+            let (value, at) = (significant(units.stress(value), 6), place(at.x, at.y));
+            format!("{value} {} at {at}", units.0.stress_name())
+        };
+        let compression = text(films.compression, 0.0 - films.compression.sigma_y);
+        rows.push(("film compression", compression));
+        rows.push(("film shear", text(films.shear, films.shear.tau.abs())));
+        if let Some(sigma_x) = films.along.sigma_x {
+            let name = if sigma_x > 0.0 { "tension along films" } else { "pressure along films" };
+            rows.push((name, text(films.along, sigma_x.abs())));
+        }
+    }
+    rows
+}
+
+fn times(outcome: &Outcome) -> Vec<(&str, String)> {
+    let seconds = |value: f64| format!("{:>9.3} ms", 1e3 * value);
+    let mut rows: Vec<(&str, String)> = Vec::new();
+    for time in &outcome.times {
+        rows.push((&time.phase, seconds(time.seconds)));
+    }
+    rows.push(("total", seconds(outcome.times.iter().map(|time| time.seconds).sum())));
+    rows
+}
+
+fn listed(values: &[(&str, f64)]) -> String {
+    let texts: Vec<String> =
+        values.iter().map(|(name, value)| format!("{name} {}", significant(*value, 3))).collect();
+    texts.join(", ")
+}
+
+pub(super) fn section(title: &str) -> String {
+    let rule: String = title.chars().map(|_| '-').collect();
+    format!("\n{title}\n{rule}\n")
+}
+
+pub(super) fn paragraph(text: &str) -> String {
+    let mut table = Table::new();
+    table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic);
+    table.set_width(WIDTH).add_row(vec![text]);
+    table.trim_fmt() + "\n"
+}
+
+/// A paragraph of the head of the report.
+fn head(text: &str) -> String {
+    paragraph(text).lines().map(|line| line.trim_start().to_owned() + "\n").collect()
+}
+
+/// Names and values in two columns.
+fn pairs(rows: &[(&str, String)]) -> String {
+    let mut table = Table::new();
+    table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic);
+    table.set_width(WIDTH);
+    for (name, value) in rows {
+        table.add_row(vec![*name, value]);
+    }
+    table.trim_fmt() + "\n"
+}
+
+pub(super) fn table(heads: &[&str], right: &[usize]) -> Table {
+    let mut table = Table::new();
+    let rule = LineStyle::none().fill('-').junction('-');
+    table.load_style(TableStyle::new().header_separator(rule));
+    table.set_content_arrangement(ContentArrangement::Dynamic).set_width(WIDTH);
+    table.set_header(heads.to_vec());
+    for index in right {
+        if let Some(column) = table.column_mut(*index) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    table
+}

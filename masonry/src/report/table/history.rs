@@ -1,0 +1,75 @@
+//! The load history as a table.
+
+use super::{pairs, table};
+use crate::history::{History, Step, StepRecord};
+use crate::report::format::{InUnits, aligned};
+
+/// Longer histories are told by the ends of their stages.
+const MOST_ROWS: usize = 24;
+
+/// One row for every step that was solved, or for every stage of a long history.
+pub(super) fn history(history: &History, units: InUnits) -> String {
+    let records = &history.records;
+    let shown: Vec<&StepRecord> = if records.len() > MOST_ROWS {
+        let ends = records.iter().enumerate();
+        let is_end = |(k, record): &(usize, &StepRecord)| {
+            record.step.number == record.step.of || *k + 1 == records.len()
+        };
+        ends.filter(is_end).map(|(_, record)| record).collect()
+    } else {
+        records.iter().collect()
+    };
+    let (energy, length) = (units.0.energy_name(), units.0.length_name());
+    let heads = [
+        "stage",
+        "step",
+        &format!("W [{energy}]"),
+        &format!("D [{energy}]"),
+        &format!("U [{energy}]"),
+        &format!("W-U-D [{energy}]"),
+        &format!("moved [{length}]"),
+        "open",
+        "stick",
+        "slip",
+    ];
+    let mut table = table(&heads, &[2, 3, 4, 5, 6, 7, 8, 9]);
+    let total = |of: fn(&StepRecord) -> f64| {
+        shown.iter().map(move |last| {
+            let until = records.iter().take_while(|record| record.step != last.step);
+            units.energy(until.map(of).sum::<f64>() + of(last))
+        })
+    };
+    let work: Vec<f64> = total(|record| record.work).collect();
+    let dissipated: Vec<f64> = total(|record| record.dissipation).collect();
+    let stored: Vec<f64> = shown.iter().map(|record| units.energy(record.strain_energy)).collect();
+    let left = (0..shown.len()).map(|k| work[k] - stored[k] - dissipated[k]);
+    let left: Vec<f64> = left.collect();
+    let energies = [work, dissipated, stored, left].concat();
+    let energies = aligned(&energies, 4);
+    let moved: Vec<f64> =
+        shown.iter().map(|record| units.length(record.largest_displacement)).collect();
+    let moved = aligned(&moved, 4);
+    for (k, record) in shown.iter().enumerate() {
+        let [work, dissipated, stored, left] =
+            [0, 1, 2, 3].map(|column| &energies[column * shown.len() + k]);
+        let counts = record.contacts.map(|count| count.to_string());
+        let [open, stick, slip] = &counts;
+        let step = place(&record.step);
+        let stage = &record.step.stage;
+        table.add_row(vec![
+            stage, &step, work, dissipated, stored, left, &moved[k], open, stick, slip,
+        ]);
+    }
+    let mut text = table.trim_fmt()
+        + "\n W: work, D: dissipated energy, both from the beginning; U: strain energy. W-U-D is what steps that\n \
+           are too long make of the balance. moved: the largest displacement.\n";
+    if let Some(failed) = &history.failed {
+        let step = format!("{} of stage \"{}\"", place(failed), failed.stage);
+        text += &pairs(&[("not solved", step)]);
+    }
+    text
+}
+
+fn place(step: &Step) -> String {
+    format!("{}/{}", step.number, step.of)
+}

@@ -1,0 +1,177 @@
+//! The bricks of a wall: running bond, or courses given brick by brick.
+
+use crate::scene::{Courses, Joint, Scene, Wall};
+
+/// Parts of a brick shorter than this fraction of it are rounding errors, not bricks.
+const SLIVER: f64 = 1e-9;
+
+/// Thicknesses \[length\] of the joints between the bricks of a wall; zero for dry joints.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct JointThickness {
+    /// Of the beds: the pitch of courses is the height of a brick and this.
+    pub bed: f64,
+    /// Of the heads: the pitch of bricks is the length of a brick and this.
+    pub head: f64,
+}
+
+impl JointThickness {
+    /// Those of the classes `bed` and `head` of a scene, to which all joints between blocks belong.
+    pub fn of(scene: &Scene) -> Self {
+        let of = |class: &str| scene.joints.get(class).map_or(0.0, Joint::mortar_thickness);
+        Self { bed: of(super::BED), head: of(super::HEAD) }
+    }
+}
+
+/// A brick in its place, in the units of the scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlacedBrick {
+    /// The course, from 1 at the bottom.
+    pub course: usize,
+    /// The place in the course, from 1 at the left; openings are not counted.
+    pub place: usize,
+    /// Lower left corner \[length\].
+    pub low: [f64; 2],
+    /// Upper right corner \[length\].
+    pub high: [f64; 2],
+    /// Length in units of one brick \[-\], without mortar.
+    pub fraction: f64,
+}
+
+impl PlacedBrick {
+    /// The name of the brick, `wall/course/place`.
+    pub fn name(&self, wall: &Wall) -> String {
+        format!("{}/{}/{}", wall.name, self.course, self.place)
+    }
+
+    /// The corners, counter-clockwise from the lower left \[length\].
+    pub fn corners(&self) -> [[f64; 2]; 4] {
+        let ([x0, y0], [x1, y1]) = (self.low, self.high);
+        [[x0, y0], [x1, y0], [x1, y1], [x0, y1]]
+    }
+
+    /// The mesh of this brick when a whole one has `mesh`: a cut brick gets its share of the
+    /// elements along its length, rounded up.
+    pub fn mesh(&self, mesh: [u32; 2]) -> [usize; 2] {
+        let [whole, high] = mesh;
+        let share = f64::from(whole) * (self.fraction - SLIVER);
+        let mut along = 1;
+        while (along as f64) < share {
+            along += 1;
+        }
+        [along, high as usize]
+    }
+}
+
+/// The bricks of a dry wall, course by course from the bottom, each from left to right.
+///
+/// Ends of bricks that meet, in one course or one above another, have the same coordinates bit by
+/// bit wherever the lengths are halves of a brick.
+pub fn bricks(wall: &Wall) -> Vec<PlacedBrick> {
+    bricks_in_mortar(wall, JointThickness::default())
+}
+
+/// The bricks of a wall with mortar between them, in the order of [`bricks`].
+///
+/// Every brick is laid with a head joint at its right end, so that lengths in courses count brick and
+/// joint: whole bricks have their length `l`, half bricks `(l - t_y) / 2`. The wall ends with a brick:
+/// one of `n` whole bricks is `n (l + t_y) - t_y` wide, one of `n` courses `n (h + t_y) - t_y` high.
+///
+/// ```
+/// use masonry::scene::bond::{JointThickness, bricks_in_mortar};
+/// use masonry::scene::{Brick, Wall};
+///
+/// let brick = Brick { length: 0.2, height: 0.1 };
+/// let wall = Wall::running_bond("wall", "brick", brick, 1.3, 2);
+/// let laid = bricks_in_mortar(&wall, JointThickness { bed: 0.02, head: 0.02 });
+/// let half = &laid[6];
+/// assert!((half.high[0] - half.low[0] - 0.09).abs() < 1e-15);
+/// assert!((laid[12].high[0] - 1.3).abs() < 1e-15 && (laid[12].low[1] - 0.12).abs() < 1e-15);
+/// ```
+pub fn bricks_in_mortar(wall: &Wall, joints: JointThickness) -> Vec<PlacedBrick> {
+    courses(wall, joints)
+        .enumerate()
+        .flat_map(|(course, stretches)| lay(wall, joints, course, &stretches))
+        .collect()
+}
+
+/// The first course and place in it, from 0 and with openings counted, at which the head joint
+/// leaves nothing of a brick.
+pub(crate) fn first_without_length(wall: &Wall, joints: JointThickness) -> Option<[usize; 2]> {
+    let gone = |&[start, end]: &Stretch| left_of(end - start, wall, joints) <= SLIVER;
+    // Two courses show all there is of a running bond.
+    let repeated = if matches!(wall.courses, Courses::RunningBond(_)) { 2 } else { usize::MAX };
+    let mut places = courses(wall, joints).take(repeated).enumerate();
+    places.find_map(|(course, stretches)| {
+        let brick = stretches.iter().position(gone)?;
+        let Courses::List(lists) = &wall.courses else { return Some([course, brick]) };
+        let bricks = lists[course].iter().enumerate().filter(|(_, length)| **length > 0.0);
+        bricks.map(|(place, _)| [course, place]).nth(brick)
+    })
+}
+
+/// The stretches of all courses in units of one brick and its head joint.
+fn courses(wall: &Wall, joints: JointThickness) -> Box<dyn Iterator<Item = Vec<Stretch>> + '_> {
+    match &wall.courses {
+        Courses::RunningBond(count) => {
+            let width = wall.width.unwrap_or(wall.brick.length);
+            let width = snap((width + joints.head) / (wall.brick.length + joints.head));
+            Box::new((0..*count as usize).map(move |course| running_bond(course, width)))
+        }
+        Courses::List(lists) => Box::new(lists.iter().map(|lengths| given(lengths))),
+    }
+}
+
+/// Length in units of one brick of what stands on a stretch besides the head joint.
+fn left_of(stretch: f64, wall: &Wall, joints: JointThickness) -> f64 {
+    stretch + joints.head / wall.brick.length * (stretch - 1.0)
+}
+
+/// A number of half bricks where it is one but for rounding.
+fn snap(bricks: f64) -> f64 {
+    let halves = 0.5 * (2.0 * bricks).round();
+    if (bricks - halves).abs() < SLIVER { halves } else { bricks }
+}
+
+/// A stretch of a course in units of one brick and its head joint, from its start to its end.
+type Stretch = [f64; 2];
+
+/// A course of a wall `width` bricks wide; every other one begins with a half brick.
+fn running_bond(course: usize, width: f64) -> Vec<Stretch> {
+    let first = if course.is_multiple_of(2) { 1.0 } else { 0.5 };
+    let inner = (0..).map(|k| first + f64::from(k)).take_while(|end| *end < width - SLIVER);
+    let ends: Vec<f64> = std::iter::once(0.0).chain(inner).chain(std::iter::once(width)).collect();
+    ends.windows(2).map(|pair| [pair[0], pair[1]]).collect()
+}
+
+/// The bricks of a course given as a list of lengths, without the openings.
+fn given(lengths: &[f64]) -> Vec<Stretch> {
+    let mut end = 0.0;
+    let mut stretches = Vec::with_capacity(lengths.len());
+    for length in lengths {
+        let start = end;
+        end += length.abs();
+        if *length > 0.0 {
+            stretches.push([start, end]);
+        }
+    }
+    stretches
+}
+
+fn lay(
+    wall: &Wall,
+    joints: JointThickness,
+    course: usize,
+    stretches: &[Stretch],
+) -> Vec<PlacedBrick> {
+    let pitch = [wall.brick.length + joints.head, wall.brick.height + joints.bed];
+    let x = |bricks: f64| wall.origin[0] + bricks * pitch[0];
+    let y = |course: usize| wall.origin[1] + course as f64 * pitch[1];
+    let laid = stretches.iter().enumerate().map(|(place, [start, end])| PlacedBrick {
+        course: course + 1,
+        place: place + 1,
+        low: [x(*start), y(course)],
+        high: [x(*end) - joints.head, y(course + 1) - joints.bed],
+        fraction: left_of(end - start, wall, joints),
+    });
+    laid.collect()
+}

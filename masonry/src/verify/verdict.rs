@@ -1,0 +1,190 @@
+//! The verdict: whether a wall stands, falls, or that is not decided; with its evidence, a sentence for people, and
+//! what they should know beside it. Nothing else in the crate decides that.
+//!
+//! * **Stands**: an equilibrium was found and verified. Of rigid blocks at rest any forces inside friction that balance the
+//!   loads are one, so that it is the upper end of what friction allows.
+//! * **Falls**: no contact forces inside friction balance the loads. The [proof](crate::method::statics::Proof) was checked in the
+//!   geometry.
+//! * **Undecided**: all else. Neither a secondary ray nor springs that keep their load say that a wall falls.
+
+mod sentence;
+mod unique;
+
+use nalgebra::Vector2;
+use serde::Serialize;
+
+use crate::geometry;
+use crate::history::History;
+use crate::ids::BlockId;
+use crate::method::info::SolveInfo;
+use crate::method::statics::Statics;
+use crate::model::{Body, ContactPoint, Model};
+use crate::recover;
+use crate::state::State;
+use crate::system::displaced_nodes;
+use crate::system::rigid::Modes;
+
+pub(crate) use unique::circulating;
+
+/// Whether a wall stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// It does.
+    Stands,
+    /// It does not.
+    Falls,
+    /// Neither is known.
+    Undecided,
+}
+
+impl std::fmt::Display for Verdict {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        std::fmt::Debug::fmt(self, f)
+    }
+}
+
+/// What a verdict rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[non_exhaustive]
+pub enum Evidence {
+    /// An equilibrium, verified by its residuals and the balance of every block.
+    #[serde(rename = "equilibrium")]
+    Equilibrium,
+    /// Forces inside friction that balance the loads: enough for rigid blocks at rest, and for no others.
+    #[serde(rename = "admissible forces")]
+    AdmissibleForces,
+    /// There are no such forces, with a checked proof.
+    #[serde(rename = "no admissible forces")]
+    NoAdmissibleForces,
+    /// Nothing.
+    #[serde(rename = "none")]
+    None,
+}
+
+/// A verdict and all that belongs to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judgement {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// What it rests on.
+    pub evidence: Evidence,
+    /// Both in the words of an engineer; of a load history how far it went, too.
+    pub sentence: String,
+    /// What limits the meaning of the answer.
+    pub warnings: Vec<String>,
+}
+
+/// What is known at the end of a solve.
+#[derive(Clone, Copy)]
+pub(crate) struct Known<'a> {
+    pub(crate) model: &'a Model,
+    pub(crate) info: &'a SolveInfo,
+    pub(crate) state: Option<&'a State>,
+    pub(crate) statics: Option<&'a Statics>,
+    /// With several steps only.
+    pub(crate) history: Option<&'a History>,
+    /// The blocks are at rest whatever the forces are.
+    pub(crate) at_rest: bool,
+    /// Contact points whose forces are not unique.
+    pub(crate) circulating: usize,
+}
+
+impl Judgement {
+    pub(crate) fn of(known: &Known<'_>) -> Self {
+        let movement = known.state.map(|state| Movement::of(known.model, state));
+        let is_solved = known.info.status == lcp::Status::Solved;
+        let (verdict, evidence) = match known.statics {
+            Some(Statics::Impossible(_)) => (Verdict::Falls, Evidence::NoAdmissibleForces),
+            _ if is_solved && !movement.is_some_and(Movement::is_too_large) => {
+                let evidence =
+                    if known.at_rest { Evidence::AdmissibleForces } else { Evidence::Equilibrium };
+                (Verdict::Stands, evidence)
+            }
+            Some(Statics::Admissible(_)) => (Verdict::Undecided, Evidence::AdmissibleForces),
+            Some(Statics::Open) | None => (Verdict::Undecided, Evidence::None),
+        };
+        let sentence = sentence::of(known, (verdict, evidence), movement);
+        Self { verdict, evidence, sentence, warnings: warnings(known, movement) }
+    }
+}
+
+fn warnings(known: &Known<'_>, movement: Option<Movement>) -> Vec<String> {
+    let mut list = Vec::new();
+    if let Some(movement) = movement.filter(|movement| movement.is_large()) {
+        list.push(format!(
+            "Displacements exceed what small-displacement theory allows: {}. Places where blocks meet and lever \
+             arms of the forces are still those of the undeformed wall.",
+            sentence::of_movement(movement)
+        ));
+    }
+    if known.circulating > 0 && known.state.is_some() {
+        let blocks = "Displacements, stresses and the resultants of joints that do not meet in a corner are \
+                      not affected.";
+        let rigid = "One of many sets of forces that balance the loads is shown.";
+        list.push(format!(
+            "Forces at {} of {} contact points are not unique. {}",
+            known.circulating,
+            known.model.contacts.len(),
+            if known.at_rest { rigid } else { blocks }
+        ));
+    }
+    list
+}
+
+/// How far blocks have moved against each other, relative to their size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Movement {
+    /// The largest displacement of one side of a contact against the other, relative to the smaller of the blocks there;
+    /// or of a node against the rigid motion of its block.
+    pub(crate) share: f64,
+    /// The largest rotation of a block \[rad\].
+    pub(crate) turned: f64,
+}
+
+/// Of sizes of blocks, and of a radian: where the geometry has changed visibly,
+const LARGE: f64 = 0.1;
+/// and where the contacts of the scene are no longer those of the wall.
+const TOO_LARGE: [f64; 2] = [1.0, 0.5];
+
+impl Movement {
+    pub(crate) fn of(model: &Model, state: &State) -> Self {
+        let mut movement = Self { share: 0.0, turned: 0.0 };
+        for contact in &model.contacts {
+            let apart = apart(model, state, contact);
+            let anchors = [Some(contact.b), contact.a].into_iter().flatten();
+            let sizes = anchors.map(|it| geometry::size(&model.blocks[it.block.index()].corners));
+            movement.share = movement.share.max(apart / sizes.fold(f64::INFINITY, f64::min));
+        }
+        for (b, (block, moved)) in model.blocks.iter().zip(&state.displacements).enumerate() {
+            let modes = Modes::of(&block.corners);
+            let places = displaced_nodes(model, BlockId::new(b));
+            let amplitudes = modes.amplitudes(places, moved);
+            movement.turned = movement.turned.max((amplitudes[2] / modes.length).abs());
+            for (place, u) in places.iter().zip(moved) {
+                let deformed = (u - modes.displacement(*place, &amplitudes)).norm();
+                movement.share = movement.share.max(deformed / modes.length);
+            }
+        }
+        movement
+    }
+
+    /// Beyond small displacements.
+    pub(crate) fn is_large(self) -> bool {
+        self.share > LARGE || self.turned > LARGE
+    }
+
+    /// So far that the answer says nothing.
+    pub(crate) fn is_too_large(self) -> bool {
+        self.share > TOO_LARGE[0] || self.turned > TOO_LARGE[1]
+    }
+}
+
+/// How far the sides of a contact have moved against each other \[m\], beyond what a support was moved.
+fn apart(model: &Model, state: &State, contact: &ContactPoint) -> f64 {
+    let moved = match model.joints[contact.joint.index()].a {
+        Body::Support(id) => model.supports[id.index()].displacement_at(contact.position),
+        Body::Block(_) => Vector2::zeros(),
+    };
+    (recover::relative_displacement(model, &state.displacements, contact) - moved).norm()
+}
