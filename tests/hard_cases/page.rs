@@ -21,7 +21,7 @@ HARD_CASES=write cargo test --test hard_cases
 What is called solved has passed the [checks](theory.md#10-residuals-and-balances), which use nothing of the methods: balance of
 every block, friction cone, gaps and sliding from the displacements, forces at all nodes from the elements, and the energy
 `f.u + t.y = 2 U + t.x` (loads, forces on gaps and slips, strain energy, initial gaps). Forces are compared with those on the same
-block, so that a light one is not excused by a heavy neighbour. The test repeats them on the answer, and the balances in
+block, so that a light one is not excused by a heavy neighbour; what is a rounding error of the neighbour counts as 1e-9 at most. The test repeats them on the answer, and the balances in
 numbers of twice the digits; and it compares what is known. Asked for are residuals of 1e-10, of `alm` 1e-8.
 
 After every case come its parameters and what is known about the answer. Unless said otherwise:
