@@ -8,9 +8,10 @@ use common::reference::{Told, by_displacements, by_reduction, difference};
 use common::{block, model, model_with, rectangle, running_bond, support, traction};
 use faer::Side;
 use masonry::analysis::outcome::State;
+use masonry::ids::BlockId;
 use masonry::method::reduction::Reduction;
-use masonry::model::Model;
 use masonry::model::joints::{Options, PointRule};
+use masonry::model::{ContactPoint, Model};
 use masonry::recover::{reactions, recover};
 use masonry::system::System;
 use masonry::system::rigid::{FreeMotion, RigidError};
@@ -162,6 +163,17 @@ fn every_block_balances() {
     }
 }
 
+/// The sum of the sizes of all forces on a block.
+fn forces_on(model: &Model, state: &State, block: BlockId) -> f64 {
+    let touches = |contact: &ContactPoint| {
+        contact.b.block == block || contact.a.is_some_and(|a| a.block == block)
+    };
+    let both = model.contacts.iter().zip(&state.contacts);
+    let contacts = both.filter(|(contact, _)| touches(contact)).map(|(_, it)| it.t_n.hypot(it.t_t));
+    let loads = model.forces_on(&model.blocks[block.index()]).into_iter();
+    contacts.sum::<f64>() + loads.map(|(_, force)| force.norm()).sum::<f64>()
+}
+
 /// A wrong force or an extra load must be seen by the checks.
 #[test]
 fn checks_notice_what_is_wrong() {
@@ -172,7 +184,16 @@ fn checks_notice_what_is_wrong() {
     wrong.contacts[3].t_n += 0.01 * largest;
     assert!(Checks::of(&model, &wrong).force_balance > 1e-3);
     wrong.contacts[3].t_n = -2.0 * largest;
-    assert!(Checks::of(&model, &wrong).cone_violation > 0.5);
+    // Relative to all forces on the lighter block: what pulls is beyond the law by itself, or by its friction.
+    let (point, it) = (&model.contacts[3], &wrong.contacts[3]);
+    let beyond = point.law.violation(it.t_n, it.t_t) / point.law.mu.max(1.0);
+    let blocks = [Some(point.b), point.a].into_iter().flatten();
+    let lightest =
+        blocks.map(|anchor| forces_on(&model, &wrong, anchor.block)).fold(f64::MAX, f64::min);
+    let expected = beyond.max(2.0 * largest) / lightest;
+    let found = Checks::of(&model, &wrong).cone_violation;
+    assert!((found / expected - 1.0).abs() < 1e-12, "{found} instead of {expected}");
+    assert!(expected > 0.1, "{expected}");
     wrong.contacts[3].t_n = f64::NAN;
     assert!(Checks::of(&model, &wrong).force_balance.is_infinite());
     let mut sunk = state;
