@@ -10,12 +10,14 @@
 //! * `t_n` \[N\] acts on `b` along `+n`: compression is positive, and without tensile strength nothing else is possible;
 //! * `t_t` \[N\] acts on `b` along `+t`.
 
+mod classes;
 mod edge_loads;
 mod from_scene;
 pub mod joints;
 mod loads;
 pub mod mesh;
 mod placement;
+mod unusual;
 
 pub use loads::PlacedForce;
 use nalgebra::{Point2, Vector2};
@@ -26,7 +28,7 @@ pub use crate::material::Elasticity;
 use crate::material::constitutive;
 use crate::model::mesh::BlockMesh;
 use crate::paper::film::FilmMaterial;
-pub use crate::scene::{Movement, Plane};
+pub use crate::scene::{Movement, Plane, PointRule};
 use crate::units::Units;
 
 /// Everything that the mechanics needs of a scene, in SI units (m, N, Pa, kg/m^3).
@@ -114,6 +116,8 @@ pub struct JointClass {
     pub name: String,
     /// What resists sliding and opening.
     pub law: JointLaw,
+    /// Where on its joints the law is enforced; `None` as everywhere.
+    pub points: Option<PointRule>,
     /// The mortar that fills its joints; `None` for dry joints.
     pub mortar: Option<Mortar>,
 }

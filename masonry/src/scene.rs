@@ -37,11 +37,12 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 pub(crate) use self::error::Fault;
-pub use self::error::{ContactError, SceneError, SceneErrorKind};
+pub use self::error::{ContactError, Known, SceneError, SceneErrorKind};
 pub use self::key_path::KeyPath;
 pub use self::solver::{Form, Route, Solver};
 use self::source::Source;
 pub use self::stages::{Movement, Stage};
+use crate::material::Elasticity;
 pub use crate::material::Plane;
 use crate::units::Units;
 
@@ -90,6 +91,10 @@ pub struct Scene {
         deserialize_with = "strict::named_tables"
     )]
     pub joints: BTreeMap<String, Joint>,
+    /// Classes of the joints between certain blocks, where they differ from `bed` and `head`; of several that fit, the
+    /// last counts.
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
+    pub between: Vec<Between>,
     /// Walls of bricks in courses.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub walls: Vec<Wall>,
@@ -134,6 +139,14 @@ pub struct Material {
     pub density: Option<f64>,
 }
 
+impl Material {
+    /// The elastic constants in SI units; `None` of a rigid material.
+    pub(crate) fn elasticity(&self, units: Units) -> Option<Elasticity> {
+        let young = self.young? * units.stress_to_si();
+        Some(Elasticity { young, poisson: self.poisson? })
+    }
+}
+
 /// A class of joints: what resists sliding, exactly one of `mu` and `phi_deg`, and, where there are, cohesion, tensile
 /// strength and mortar. The law is that of [`law`](crate::law).
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -151,6 +164,9 @@ pub struct Joint {
     /// Tensile strength \[force/length^2\], at most the cohesion divided by the coefficient of friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tension: Option<f64>,
+    /// Where on the joints of the class the law is enforced, if not as [`Contact::points`] says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub points: Option<PointRule>,
     /// Thickness of the mortar \[length\]; without it, or with zero, the joint is dry.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f64>,
@@ -168,6 +184,36 @@ impl Joint {
     /// Thickness of the mortar \[length\]; zero for a dry joint.
     pub fn mortar_thickness(&self) -> f64 {
         self.thickness.unwrap_or(0.0)
+    }
+}
+
+/// Two bodies, each the name of a block or of a wall, and the class of all joints between them.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Between {
+    /// The two names; twice the same wall for the joints within it.
+    #[serde(deserialize_with = "strict::pair")]
+    pub blocks: [String; 2],
+    /// The class of their joints.
+    pub joint: String,
+}
+
+/// The classes of the joints between the bricks of a wall.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WallJoints {
+    /// Of its beds, instead of the class `bed`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bed: Option<String>,
+    /// Of its heads, instead of the class `head`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub head: Option<String>,
+}
+
+impl WallJoints {
+    /// The names of the classes of beds and heads.
+    pub fn names(&self) -> [&str; 2] {
+        [(&self.bed, BED), (&self.head, HEAD)].map(|(name, usual)| name.as_deref().unwrap_or(usual))
     }
 }
 
@@ -190,6 +236,9 @@ pub struct Wall {
     pub width: Option<f64>,
     /// The courses, bottom to top.
     pub courses: Courses,
+    /// The classes of its joints, where they are not `bed` and `head`.
+    #[serde(default, deserialize_with = "strict::table", skip_serializing_if = "is_usual")]
+    pub joints: WallJoints,
     /// Elements along the length and height of a whole brick; required when the material is
     /// elastic. A cut brick gets its share of the first, rounded up.
     #[serde(
@@ -340,6 +389,10 @@ impl Default for Output {
     fn default() -> Self {
         Self { stresses: default_stresses() }
     }
+}
+
+fn is_usual(joints: &WallJoints) -> bool {
+    *joints == WallJoints::default()
 }
 
 fn default_stresses() -> bool {

@@ -38,6 +38,8 @@ fn every_effect_has_a_test() {
     let tested = [
         "contact",
         "friction",
+        "cohesion",
+        "tension",
         "mortar films",
         "longitudinal film terms",
         "deformation",
@@ -66,6 +68,19 @@ fn friction_that_is_not_needed() {
     assert_neutral("friction", &even(Joint::mu(0.0)), &even(Joint::mu(0.6)));
     let pressed = |mu| boxed(elastic(), Joint::mu(mu));
     assert_neutral("friction", &pressed(0.0), &pressed(1e-12));
+}
+
+/// Where every joint is pressed and nothing rubs, strength is not needed.
+#[test]
+fn strength_that_is_not_needed() {
+    let even = |joint| {
+        let mut scene = boxed(Material::elastic(1e6, 0.0), joint).gravity([0.0, 0.0]);
+        scene.loads[0].pressure = Some(100.0);
+        scene
+    };
+    let plain = even(Joint::mu(0.6));
+    assert_neutral("cohesion", &plain, &even(Joint::mu(0.6).cohesion(60.0)));
+    assert_neutral("tension", &plain, &even(Joint::mu(0.6).cohesion(60.0).tension(50.0)));
 }
 
 /// A film gives way by its thickness, against that of the bricks, and so does what it changes. Programs come to

@@ -68,10 +68,11 @@ pub fn model_with(
         .map(|(name, mu)| JointClass {
             name: (*name).into(),
             law: JointLaw::friction(mu),
+            points: None,
             mortar: None,
         })
         .collect();
-    let class_of = |kind| match kind {
+    let class_of = |kind, _, _| match kind {
         JointKind::Bed => 0,
         JointKind::Head => 1,
         JointKind::Support(_) => 2,

@@ -172,6 +172,7 @@ pub(crate) fn model(wall: Wall) -> Model {
             .map(|name| JointClass {
                 name: name.to_owned(),
                 law: JointLaw::friction(1.0),
+                points: None,
                 mortar: None,
             })
             .to_vec(),

@@ -1,7 +1,6 @@
 //! Checks of the load history.
 
 use super::{Check, finite, too_many, unique, unknown, unwanted, value};
-use crate::scene::error::Known;
 use crate::scene::{KeyPath, Scene, Stage};
 
 /// Rotation of a support \[rad\] at which its joints' normals are off by a tenth.
@@ -60,5 +59,5 @@ fn there_is<'a>(
     if known.iter().any(|known| known == name) {
         return Ok(());
     }
-    Err(unknown(at.clone(), what, name, Known(known), table))
+    Err(unknown(at.clone(), what, name, known, table))
 }
