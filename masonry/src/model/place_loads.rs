@@ -62,17 +62,15 @@ fn point([x, y]: [f64; 2], units: Units) -> Point2<f64> {
 
 /// The block of a name.
 fn named<'a>(blocks: &'a mut [Block], name: &str) -> Result<&'a mut Block, LoadError> {
-    match blocks.iter().position(|block| block.name == name) {
-        Some(k) => Ok(&mut blocks[k]),
-        None => {
-            let mut near: Vec<&str> = blocks.iter().map(|block| block.name.as_str()).collect();
-            // The sort keeps the order of the scene among names that are equally near.
-            near.sort_by_cached_key(|other| changes(name, other));
-            near.truncate(NAMES);
-            let near = near.into_iter().map(str::to_owned).collect();
-            Err(LoadError::NoBlock { name: name.to_owned(), near })
-        }
+    if let Some(k) = blocks.iter().position(|block| block.name == name) {
+        return Ok(&mut blocks[k]);
     }
+    let mut near: Vec<&str> = blocks.iter().map(|block| block.name.as_str()).collect();
+    // The sort keeps the order of the scene among names that are equally near.
+    near.sort_by_cached_key(|other| changes(name, other));
+    near.truncate(NAMES);
+    let near = near.into_iter().map(str::to_owned).collect();
+    Err(LoadError::NoBlock { name: name.to_owned(), near })
 }
 
 /// How many characters must be changed, added or left out to make one name of another (Levenshtein 1966).

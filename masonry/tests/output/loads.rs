@@ -16,7 +16,8 @@ fn wall(loads: &[Load]) -> Model {
         .joint("head", Joint::mu(0.6))
         .wall(Wall::running_bond("wall", "stone", brick, 1.0, 4))
         .support(Support::new("floor", [0.0, 0.0], [1.0, 0.0], "bed"));
-    Model::from_scene(&loads.iter().cloned().fold(scene, Scene::load)).unwrap()
+    let scene = loads.iter().cloned().fold(scene, Scene::load);
+    Model::from_scene(&scene).expect("a good scene")
 }
 
 /// An arrow is a line and a head; a force has a dot at its place besides, and each label a rim of its own.

@@ -30,7 +30,7 @@ pub(super) struct Loads {
 #[derive(Debug)]
 struct Force {
     at: Point2<f64>,
-    force: Vector2<f64>,
+    value: Vector2<f64>,
     /// Where the arrow lies seen from the place: one that pulls at an edge begins there, all others end there.
     outwards: Vector2<f64>,
     /// Size relative to the largest force of the model.
@@ -44,7 +44,7 @@ impl Force {
     }
 
     fn pulls(&self) -> bool {
-        self.outwards.dot(&self.force) > 0.0
+        self.outwards.dot(&self.value) > 0.0
     }
 }
 
@@ -167,7 +167,7 @@ impl Loads {
         let tractions = self.edges.iter().map(|it| it.traction.norm());
         let number = |value| significant(units.stress(value), 4);
         entry(sheet, "edge load", tractions, number, |value| units.stress_text(value));
-        let forces = self.points.iter().map(|it| it.force.norm());
+        let forces = self.points.iter().map(|it| it.value.norm());
         let number = |value| significant(units.force(value), 4);
         entry(sheet, "point load", forces, number, |value| units.force_text(value));
         let accelerations = self.accelerations.iter().map(|it| it.value.norm());
@@ -260,12 +260,12 @@ fn forces(model: &Model, units: InUnits) -> Vec<Force> {
                 });
             let outwards = if pulls { force.normalize() } else { -force.normalize() };
             let label = units.force_text(force.norm());
-            forces.push(Force { at, force, outwards, part: 1.0, label });
+            forces.push(Force { at, value: force, outwards, part: 1.0, label });
         }
     }
-    let largest = forces.iter().map(|it| it.force.norm()).fold(0.0, f64::max);
+    let largest = forces.iter().map(|it| it.value.norm()).fold(0.0, f64::max);
     for it in &mut forces {
-        it.part = it.force.norm() / largest;
+        it.part = it.value.norm() / largest;
     }
     forces
 }
