@@ -26,6 +26,7 @@ mod check;
 mod courses;
 mod error;
 mod key_path;
+mod load;
 mod solver;
 mod source;
 mod stages;
@@ -39,6 +40,7 @@ use serde::{Deserialize, Serialize};
 pub(crate) use self::error::Fault;
 pub use self::error::{ContactError, Known, SceneError, SceneErrorKind};
 pub use self::key_path::KeyPath;
+pub use self::load::{EdgeStress, Load, LoadError, LoadKind};
 pub use self::solver::{Form, Route, Solver};
 use self::source::Source;
 pub use self::stages::{Movement, Stage};
@@ -104,7 +106,7 @@ pub struct Scene {
     /// Rigid supports.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub supports: Vec<Support>,
-    /// Loads on edges.
+    /// Loads on edges, at places in blocks, and on all mass.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub loads: Vec<Load>,
     /// The load history; without stages all loads act at once.
@@ -306,31 +308,6 @@ pub struct Support {
     pub to: [f64; 2],
     /// The class of its joints.
     pub joint: String,
-}
-
-/// A uniform load on the free edges of blocks that lie on a segment: exactly one of `pressure` and
-/// `traction`. An edge that the segment covers in part is loaded in part.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Load {
-    /// Name of the load.
-    pub name: String,
-    /// One end of the segment \[length\].
-    #[serde(deserialize_with = "strict::pair")]
-    pub from: [f64; 2],
-    /// The other end \[length\].
-    #[serde(deserialize_with = "strict::pair")]
-    pub to: [f64; 2],
-    /// Force per area against the outward normal of the edge \[force/length^2\].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub pressure: Option<f64>,
-    /// Force per area in global axes \[force/length^2\].
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "strict::some_pair"
-    )]
-    pub traction: Option<[f64; 2]>,
 }
 
 /// How contact is looked for and enforced.

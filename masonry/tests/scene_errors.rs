@@ -1,4 +1,6 @@
 //! Mistakes in scenes: each is found, shown at its line and column, and told how to mend.
+#[path = "scene_errors/loads.rs"]
+mod loads;
 #[path = "scene_errors/mortar.rs"]
 mod mortar;
 #[path = "scene_errors/places.rs"]

@@ -8,7 +8,7 @@ use super::scenes::{boxed, column, elastic, in_mortar, piers, stack};
 use super::{built, effect};
 use masonry::analysis::outcome::Outcome;
 use masonry::report::summary::total_reaction;
-use masonry::scene::{Films, Joint, Material, Movement, Route, Scene, Stage};
+use masonry::scene::{Films, Joint, Load, Material, Movement, Route, Scene, Stage};
 
 /// What is unique: of a corner between two supports any part of the force may be shifted from one to the other.
 fn figures(outcome: &Outcome) -> [Vec<f64>; 4] {
@@ -45,6 +45,8 @@ fn every_effect_has_a_test() {
         "deformation",
         "self weight",
         "edge loads",
+        "point loads",
+        "body acceleration",
         "stresses",
         "dense matrices",
         "load history",
@@ -140,6 +142,16 @@ fn loads_of_factor_zero() {
         let (plan, ..) = built(&heavy, route);
         assert!(effect(&plan, "edge loads").on && effect(&plan, "edge loads").unknowns == 0);
     }
+}
+
+/// A force at a place of a block, and an acceleration of all mass, of the factor zero.
+#[test]
+fn forces_and_accelerations_of_factor_zero() {
+    let plain = stack(elastic().density(1800.0), Joint::mu(0.6));
+    let beam = Load::force("beam", "upper", [0.07, 0.24], [3.0, -20.0]).factor(0.0);
+    assert_neutral("point loads", &plain, &plain.clone().load(beam));
+    let quake = Load::acceleration("quake", [1.0, 2.0]).factor(0.0);
+    assert_neutral("body acceleration", &plain, &plain.clone().load(quake));
 }
 
 /// Loads that grow together from nothing, in a structure without gaps, slide only on: every step is the same

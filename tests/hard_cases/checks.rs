@@ -170,7 +170,7 @@ fn edge_forces(model: &Model, block: &Block) -> Vec<(Place, Vector2<f64>)> {
         let area = (end - start).norm() * (load.to - load.from) * model.thickness;
         ((load.edge, 0.5 * (load.from + load.to)), load.traction * area)
     };
-    block.edge_loads.iter().map(of).collect()
+    block.edge_loads().map(of).collect()
 }
 
 fn on_edge(block: &Block, (edge, at): Place) -> [Double; 2] {

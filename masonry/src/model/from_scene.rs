@@ -4,7 +4,7 @@ use nalgebra::{Point2, Vector2};
 
 use super::classes::Classes;
 use super::{
-    Block, ContactPoint, Joint, JointClass, Model, Movement, Plane, Support, edge_loads, placement,
+    Block, ContactPoint, Joint, JointClass, Model, Movement, Plane, Support, place_loads, placement,
 };
 use crate::geometry::{self, QuadError};
 use crate::model::joints::{self, ContactError, Options};
@@ -21,7 +21,7 @@ impl Model {
     ///
     /// # Errors
     /// What [`Scene::check`] finds, and what only the whole shows: overlapping blocks, a support
-    /// that runs through a block or meets none, a load on no free edge, a block that meets nothing,
+    /// that runs through a block or meets none, a load on no free edge or outside of its block, a block that meets nothing,
     /// a joint whose class is not given. With line and column when the scene was read from text.
     pub fn from_scene(scene: &Scene) -> Result<Self, SceneError> {
         scene.check()?;
@@ -40,7 +40,8 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
 
     let found = find_joints(scene, &blocks, &supports, thickness)?;
     placement::check_touching(&blocks, &keys, &supports, &found.joints)?;
-    edge_loads::place(scene, &mut blocks, &found.joints, &found.contacts)?;
+    let (loads, accelerations) =
+        place_loads::place(scene, &mut blocks, &found.joints, &found.contacts)?;
 
     Ok(Model {
         blocks,
@@ -52,6 +53,8 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
         plane: scene.plane.unwrap_or(Plane::Stress),
         thickness,
         gravity: scene.gravity.map_or_else(Vector2::zeros, Vector2::from),
+        accelerations,
+        loads,
         units,
     })
 }
@@ -95,7 +98,7 @@ fn block(
         elasticity,
         density: material.density,
         mesh: mesh.map(|[nx, ny]| BlockMesh::new(&corners, nx, ny)),
-        edge_loads: Vec::new(),
+        loads: Vec::new(),
     }
 }
 

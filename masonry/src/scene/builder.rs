@@ -310,15 +310,3 @@ impl Support {
         Self { name: name.to_owned(), from, to, joint: joint.to_owned() }
     }
 }
-
-impl Load {
-    /// A pressure \[force/length^2\] against the outward normal of the edges on a segment.
-    pub fn pressure(name: &str, from: [f64; 2], to: [f64; 2], pressure: f64) -> Self {
-        Self { name: name.to_owned(), from, to, pressure: Some(pressure), traction: None }
-    }
-
-    /// A traction \[force/length^2\] in global axes on the edges on a segment.
-    pub fn traction(name: &str, from: [f64; 2], to: [f64; 2], traction: [f64; 2]) -> Self {
-        Self { name: name.to_owned(), from, to, pressure: None, traction: Some(traction) }
-    }
-}

@@ -5,12 +5,13 @@ use std::collections::BTreeMap;
 use nalgebra::Point2;
 
 use super::{
-    Between, Block, Courses, Fault, Form, Joint, KeyPath, Known, Load, Material, Route, Scene,
+    Between, Block, Courses, Fault, Form, Joint, KeyPath, Known, Material, Route, Scene,
     SceneError, SceneErrorKind, Solver, Support, Wall,
 };
 use crate::geometry::{self, QuadError};
 use crate::scene::bond::JointThickness;
 
+mod loads;
 mod mortar;
 mod stages;
 
@@ -67,9 +68,7 @@ impl Scene {
         for (k, support) in self.supports.iter().enumerate() {
             self.check_support(&KeyPath::of("supports").item(k), support)?;
         }
-        for (k, load) in self.loads.iter().enumerate() {
-            check_load(&KeyPath::of("loads").item(k), load)?;
-        }
+        self.check_loads()?;
         self.check_stages()?;
         self.check_options()
     }
@@ -304,14 +303,6 @@ fn check_mesh(at: &KeyPath, mesh: Option<[u32; 2]>, material: &Material) -> Chec
     Ok(())
 }
 
-fn check_load(at: &KeyPath, load: &Load) -> Check {
-    segment(at, load.from, load.to)?;
-    match exactly_one(at, ("pressure", load.pressure), ("traction", load.traction))? {
-        One::First(pressure) => finite(at.key("pressure"), pressure),
-        One::Second(traction) => point(&at.key("traction"), traction),
-    }
-}
-
 fn segment(at: &KeyPath, from: [f64; 2], to: [f64; 2]) -> Check {
     point(&at.key("from"), from)?;
     point(&at.key("to"), to)?;
@@ -410,7 +401,7 @@ fn unknown(
     table: &'static str,
 ) -> Fault {
     let missing = match what {
-        "load" | "support" => format!("it under [[{table}]]"),
+        "load" | "load or group" | "support" => format!("it under [[{table}]]"),
         _ => format!("[{table}.{name}]"),
     };
     Fault::new(

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 pub use contact::ContactError;
 
+use super::load::LoadError;
 use super::source::{Place, Source};
 use super::{KeyPath, Scene};
 
@@ -209,7 +210,7 @@ pub enum SceneErrorKind {
         "there is no {what} \"{name}\" in the scene; {known}: correct the name or add {missing}"
     )]
     Unknown {
-        /// `material`, `joint class`, `load` or `support`.
+        /// `material`, `joint class`, `load`, `load or group` or `support`.
         what: &'static str,
         /// The name.
         name: String,
@@ -352,6 +353,9 @@ pub enum SceneErrorKind {
         /// Name of the other.
         second: String,
     },
+    /// What is wrong with a load.
+    #[error("{0}")]
+    Load(#[from] LoadError),
     /// Contact points could not be placed.
     #[error("{0}")]
     Contact(#[from] ContactError),

@@ -46,7 +46,7 @@ pub(crate) fn largest_tilt(model: &Model) -> Limit {
         let weight = mass(model, block) * GRAVITY;
         add(b, None, centroid(block), Vector2::new(0.0, -weight));
         add(b, Some(0), centroid(block), Vector2::new(weight / unit, 0.0));
-        for load in &block.edge_loads {
+        for load in block.edge_loads() {
             let [start, end] = [load.from, load.to].map(|at| on_edge(block, load.edge, at));
             let force = load.traction * ((end - start).norm() * model.thickness);
             add(b, None, nalgebra::center(&start, &end), force);

@@ -31,11 +31,7 @@ impl Scene {
             }
             finite(at.key("gravity"), factor)?;
         }
-        for (name, factor) in &stage.loads {
-            let at = at.key("loads").key(name);
-            there_is(("load", "loads"), name, self.loads.iter().map(|load| &load.name), &at)?;
-            finite(at, *factor)?;
-        }
+        self.check_stage_loads(&at.key("loads"), stage)?;
         for (name, to) in &stage.moves {
             let at = at.key("moves").key(name);
             there_is(("support", "supports"), name, self.supports.iter().map(|it| &it.name), &at)?;
