@@ -17,7 +17,7 @@ const WIDTH: u32 = 900;
 const ROW: usize = 36;
 /// Room for the title of a route, and for the labels below its bars.
 const ROOM: usize = 92;
-const RATIOS: Range<f64> = 0.5..40.0;
+const RATIOS: Range<f64> = 0.5..100.0;
 /// Colours that differ also for those who see few of them (Okabe and Ito).
 const KINDS: [(&str, RGBColor); 2] = [
     ("time of a solve", RGBColor(0x00, 0x72, 0xb2)),
@@ -48,10 +48,6 @@ fn draw(area: &DrawingArea<SVGBackend, Shift>, route: &str, bars: &[Bars]) -> Dr
         .build_cartesian_2d(RATIOS.log_scale(), bars.len() as f64..0.0)?;
     let mut mesh = chart.configure_mesh();
     mesh.disable_y_mesh().disable_y_axis().label_style(FONT).light_line_style(TRANSPARENT);
-    // Those between would stand too close.
-    let is_marked = |label: &String| label.starts_with(['1', '2', '5']);
-    let marked = |it: &f64| Some(format!("{it:.0}")).filter(is_marked).unwrap_or_default();
-    mesh.x_label_formatter(&marked);
     mesh.x_desc("with the effect / without it [-]").draw()?;
     let rows = || (0..).map(f64::from).zip(bars);
     chart.draw_series(rows().map(|(row, (effect, _))| {

@@ -19,7 +19,7 @@ const NOISE: f64 = 1.2;
 /// mesh is worth it; and what that rests on.
 pub fn summary(study: &Study) -> Vec<String> {
     let mut sentences: Vec<String> =
-        [cost(study), fastest(study), mesh(study)].into_iter().flatten().collect();
+        [cost(study), in_short(study), mesh(study)].into_iter().flatten().collect();
     sentences.extend(gave_up(study));
     sentences.extend(elsewhere(study));
     sentences.extend(reference(study));
@@ -91,17 +91,6 @@ fn without(study: &Study, tolerance: f64) -> String {
         1 => format!("; {} does not reach it", failed[0]),
         _ => format!("; {} do not reach it", failed.join(", ")),
     }
-}
-
-fn fastest(study: &Study) -> Option<String> {
-    let (record, seconds) = fastest_record(study)?;
-    Some(format!(
-        "Forces, stresses and energy to {ACCURATE:e} are had in the least time by {} at a tolerance of \
-         {:e}: {} s.",
-        record.route.name(),
-        record.tolerance,
-        significant(seconds, 2)
-    ))
 }
 
 fn fastest_record(study: &Study) -> Option<(&Record, f64)> {
