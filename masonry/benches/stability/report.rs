@@ -73,7 +73,8 @@ pub(crate) fn write(docs: &Path, themes: &[Theme], problems: &[problems::Sweep])
     text += OF_PROBLEMS;
     write_problems(&mut text, problems).unwrap();
     let diagrams: Vec<Diagram> = problems.iter().map(of_problem).collect();
-    let drawn = picture("Problems of lcp", &diagrams, &[HOW_TO_READ.to_owned()]).unwrap();
+    let notes = [HOW_TO_READ.replace(", by alm a hundred times that", "")];
+    let drawn = picture("Problems of lcp", &diagrams, &notes).unwrap();
     std::fs::write(docs.join("pictures/stability_problems.svg"), drawn).unwrap();
     std::fs::write(docs.join("stability.md"), text).unwrap();
 }
