@@ -44,8 +44,7 @@ fn assert_trustworthy(outcome: &Outcome) {
     let paper = outcome.solve.coulomb_residuals.unwrap_or(residuals);
     assert!(paper.worst() <= 1e-10, "in the paper's form: {paper:?}");
     let checks = outcome.checks.as_ref().unwrap();
-    assert!(checks.force_balance <= 1e-9 && checks.moment_balance <= 1e-9, "{checks:?}");
-    assert!(checks.cone_violation <= 1e-9 && checks.penetration <= 1e-9, "{checks:?}");
+    assert!(checks.hold(1e-9), "{checks:?}");
 }
 
 fn counts(outcome: &Outcome) -> [usize; 3] {

@@ -10,8 +10,6 @@
 
 #[path = "../../tests/hard_cases/case.rs"]
 mod case;
-#[path = "../../tests/hard_cases/checks.rs"]
-mod checks;
 #[path = "../../tests/common/mod.rs"]
 mod common;
 #[path = "../../tests/hard_cases/double.rs"]

@@ -156,7 +156,17 @@ fn a_solved_scene_is_one_object_and_code_zero() {
     for key in ["equation", "feasibility", "complementarity"] {
         assert!(result["residuals"][key].as_f64().unwrap() <= 1e-10, "{key}");
     }
-    for key in ["force", "moment", "uncarried_load", "cone_violation", "penetration"] {
+    for key in [
+        "force",
+        "moment",
+        "uncarried_load",
+        "nodal",
+        "cone_violation",
+        "penetration",
+        "complementarity",
+        "energy",
+        "deformation",
+    ] {
         assert!(result["balance"][key].as_f64().unwrap() <= 1e-9, "{key}");
     }
     // 0.2 m2 of 2000 kg/m3 in a field of 10 m/s2, centred at (0.1, 0.5).

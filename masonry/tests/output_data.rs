@@ -128,7 +128,17 @@ fn the_json_of_a_solution_has_every_key() {
     for key in ["equation", "feasibility", "complementarity", "natural"] {
         assert!(value["residuals"][key].is_number(), "{key}");
     }
-    for key in ["force", "moment", "uncarried_load", "cone_violation", "penetration"] {
+    for key in [
+        "force",
+        "moment",
+        "uncarried_load",
+        "nodal",
+        "cone_violation",
+        "penetration",
+        "complementarity",
+        "energy",
+        "deformation",
+    ] {
         assert!(value["balance"][key].is_number(), "{key}");
     }
     let wall = &value["reactions"]["left <wall>"];

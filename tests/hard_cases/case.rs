@@ -4,9 +4,10 @@ use lcp::Status;
 use masonry::analysis::outcome::Outcome;
 use masonry::analysis::solve::solve;
 use masonry::scene::{Route, Scene};
+use masonry::verify::checks::Checks;
 
-use super::checks::Errors;
 use super::common::routes::ROUTES;
+use super::common::state;
 
 /// What is known about the answer.
 pub enum Truth {
@@ -26,7 +27,7 @@ pub struct Case {
     pub expected: String,
     pub scene: Scene,
     pub truth: Truth,
-    /// How much larger the errors of a known answer and of the energy are than the residuals that cause them.
+    /// How much larger the errors of a known answer are than the residuals that cause them.
     pub amplified: f64,
     /// Routes that would take minutes.
     pub slow: Vec<Route>,
@@ -47,7 +48,7 @@ pub struct Tried {
 /// What one route gave.
 pub enum End {
     /// What it calls solved.
-    Solved { outcome: Box<Outcome>, errors: Errors },
+    Solved { outcome: Box<Outcome>, checks: Checks },
     /// It says that it found nothing.
     GaveUp { outcome: Box<Outcome> },
     /// It does not treat such scenes.
@@ -118,7 +119,9 @@ impl Case {
         }
         match solve(&self.scene.clone().route(route).tolerance(asked(route))) {
             Ok(outcome) if outcome.solve.status == Status::Solved => {
-                End::Solved { errors: Errors::of(&outcome), outcome: Box::new(outcome) }
+                // Anew: a history ends in a state that is not the one of its last solution.
+                let checks = Checks::of(&outcome.model, state(&outcome));
+                End::Solved { checks, outcome: Box::new(outcome) }
             }
             Ok(outcome) => End::GaveUp { outcome: Box::new(outcome) },
             Err(error) if error.is_refusal() => End::Refused,
@@ -128,23 +131,22 @@ impl Case {
 }
 
 impl Tried {
-    /// What is wrong with what is called solved, a line for each route. `bound` is how large its errors may be.
-    pub fn wrong(&self, bound: fn(Route, &Errors) -> f64) -> Vec<String> {
+    /// What is wrong with what is called solved, a line for each route. `bound` is how far a known answer may be off.
+    pub fn wrong(&self, bound: fn(Route, &Checks) -> f64) -> Vec<String> {
         let mut list = Vec::new();
         let name = &self.case.name;
         for (route, end) in ROUTES.into_iter().zip(&self.ends) {
-            let End::Solved { outcome, errors } = end else { continue };
-            let bound = bound(route, errors);
-            let of_displacements = bound * self.case.amplified;
-            if errors.of_equations() > bound || errors.energy > of_displacements {
-                list.push(format!("{name} by {route:?}: {errors:?} above {bound:e}"));
+            let End::Solved { outcome, checks } = end else { continue };
+            let bound = bound(route, checks) * self.case.amplified;
+            if !checks.hold(asked(route)) {
+                list.push(format!("{name} by {route:?}: {checks:?}"));
             }
             match &self.case.truth {
                 Truth::Known(error) => {
                     let error = error(outcome);
-                    if error.is_nan() || error > of_displacements {
+                    if error.is_nan() || error > bound {
                         list.push(format!(
-                            "{name} by {route:?}: off by {error:e}, above {of_displacements:e}"
+                            "{name} by {route:?}: off by {error:e}, above {bound:e}"
                         ));
                     }
                 }
@@ -172,14 +174,14 @@ fn asked(route: Route) -> f64 {
     if route == Route::Alm { 1e-8 } else { 1e-10 }
 }
 
-/// The largest error of an answer of the catalogue. The routes are asked for residuals relative to the
-/// largest forces and displacements; single blocks may have a hundred times as much.
-pub fn strict(route: Route, _: &Errors) -> f64 {
+/// How far answers of the catalogue may be off. The routes are asked for residuals relative to the
+/// largest forces and displacements; single numbers may have a hundred times as much.
+pub fn strict(route: Route, _: &Checks) -> f64 {
     100.0 * asked(route)
 }
 
-/// The largest error that is promised, whatever the parameters: residuals are relative to the largest forces,
+/// How far answers may be off, whatever the parameters: residuals are relative to the largest forces,
 /// and on the block with the least ones they are as much larger. But every block carries its load to a thousandth.
-pub fn promised(route: Route, errors: &Errors) -> f64 {
-    strict(route, errors).max((10.0 * asked(route) * errors.spread).min(1e-3))
+pub fn promised(route: Route, checks: &Checks) -> f64 {
+    strict(route, checks).max((10.0 * asked(route) * checks.spread).min(1e-3))
 }

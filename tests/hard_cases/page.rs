@@ -18,10 +18,11 @@ The list is `tests/hard_cases/`, and so is what writes this page:
 HARD_CASES=write cargo test --test hard_cases
 ```
 
-The same test holds what is called solved against checks that use nothing of the methods but elements: balance of every block in
-numbers of twice the digits, friction cone, gaps and sliding from the displacements, forces at all nodes, and the energy
-`f.u = 2 U + D + t.x` (loads, strain energy, dissipation, initial gaps). Forces are compared with those on the same block,
-so that a light one is not excused by a heavy neighbour. Asked for are residuals of 1e-10, of `alm` 1e-8.
+What is called solved has passed the [checks](theory.md#10-residuals-and-balances), which use nothing of the methods: balance of
+every block, friction cone, gaps and sliding from the displacements, forces at all nodes from the elements, and the energy
+`f.u + t.y = 2 U + t.x` (loads, forces on gaps and slips, strain energy, initial gaps). Forces are compared with those on the same
+block, so that a light one is not excused by a heavy neighbour. The test repeats them on the answer, and the balances in
+numbers of twice the digits; and it compares what is known. Asked for are residuals of 1e-10, of `alm` 1e-8.
 
 After every case come its parameters and what is known about the answer. Unless said otherwise:
 
@@ -88,9 +89,9 @@ fn write_theme(text: &mut String, theme: &Theme) -> fmt::Result {
 fn cell(end: &End) -> String {
     let cost = |outcome: &Outcome| outcome.solve.pivots + outcome.solve.iterations;
     match end {
-        End::Solved { errors, outcome } => {
+        End::Solved { checks, outcome } => {
             let residual = outcome.solve.residuals.worst();
-            format!("{}, {} ({})", power(errors.worst()), power(residual), cost(outcome))
+            format!("{}, {} ({})", power(checks.worst()), power(residual), cost(outcome))
         }
         End::GaveUp { outcome } => {
             let info = &outcome.solve;

@@ -73,8 +73,8 @@ impl Sweep {
             .into_iter()
             .map(|line| format!("{}, {} = {value:e}: {line}", self.title, self.parameter));
         let reached = |end: &End| match end {
-            End::Solved { errors, .. } => {
-                Reached::Solved { error: errors.worst(), backward: errors.backward }
+            End::Solved { checks, .. } => {
+                Reached::Solved { error: checks.worst(), backward: checks.backward }
             }
             End::GaveUp { outcome } => {
                 let info = &outcome.solve;
@@ -103,7 +103,7 @@ fn expected(truth: &Truth) -> Expected {
 
 fn largest_promise(tried: &Tried) -> f64 {
     let of_end = |(route, end): (Route, &End)| match end {
-        End::Solved { errors, .. } if route != Route::Alm => promised(route, errors),
+        End::Solved { checks, .. } if route != Route::Alm => promised(route, checks),
         _ => 0.0,
     };
     let largest = ROUTES.into_iter().zip(&tried.ends).map(of_end).fold(0.0, f64::max);

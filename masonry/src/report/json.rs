@@ -121,8 +121,12 @@ struct Balance {
     force: f64,
     moment: f64,
     uncarried_load: f64,
+    nodal: f64,
     cone_violation: f64,
     penetration: f64,
+    complementarity: f64,
+    energy: f64,
+    deformation: f64,
 }
 
 /// A reaction: force on the structure, and moment about the origin.
@@ -260,8 +264,12 @@ impl<'a> Report<'a> {
                 force: checks.force_balance,
                 moment: checks.moment_balance,
                 uncarried_load: checks.uncarried,
+                nodal: checks.nodal_balance,
                 cone_violation: checks.cone_violation,
                 penetration: checks.penetration,
+                complementarity: checks.complementarity,
+                energy: checks.energy,
+                deformation: checks.deformation,
             }),
             reactions: state.map(|_| {
                 ByName(outcome.reactions.iter().map(|it| named_force(it, units)).collect())

@@ -209,8 +209,11 @@ fn state_figures(outcome: &Outcome, state: &State) -> Vec<(&'static str, String)
             ("force", checks.force_balance),
             ("moment", checks.moment_balance),
             ("uncarried load", checks.uncarried),
+            ("nodes", checks.nodal_balance),
             ("cone violation", checks.cone_violation),
             ("penetration", checks.penetration),
+            ("complementarity", checks.complementarity),
+            ("energy", checks.energy),
         ];
         rows.push(("balance", listed(&errors)));
         let counts = [("open", checks.open), ("stick", checks.stick), ("slip", checks.slip)];

@@ -1,30 +1,79 @@
-//! Checks of a state that use nothing of the method that found it.
+//! The judge of states: what one misses of equilibrium and of the laws of its joints, from displacements, forces and
+//! data alone. Nothing of the method that found it is used: no matrix but those of single elements, no row, no residual.
+//!
+//! # What errors are compared with
+//! A force is compared with the sum of the sizes of all on the same block: loads, contact forces, and the tensile
+//! strengths of its points, beyond which forces are computed. So a light block is not excused by a heavy one beside it.
+//! A length is compared with the displacements of the blocks that meet, and with the gap and slip at first.
+//!
+//! Both end where the digits do. Blocks that touch share forces and displacements, and an equation of them is
+//! known to the rounding errors of its largest term: `eps` times the number of terms times
+//!
+//! * of a force on a block, the largest sum of forces on it or on a block that it touches, and of an
+//!   elastic one, stiffness times displacement at a node of its own;
+//! * of a length, the largest displacement of all.
+//!
+//! An error that is no more than this counts as 1e-9 at most, since no digits are left to do better. It can hide that a
+//! block is light only where another one is about 1e13 times as heavy, and then [`Checks::uncarried`] tells.
+//!
+//! | module | content |
+//! |---|---|
+//! | `bodies` | forces on blocks |
+//! | `elements` | forces at nodes |
+//! | `lengths` | displacements of blocks |
+//! | `contact` | gaps, slips and forces of points against the law |
+//! | `energy` | work and what becomes of it; shapes of rigid blocks |
 
-use nalgebra::Vector2;
 use serde::Serialize;
 
-use crate::geometry;
-use crate::model::{Anchor, Block, ContactPoint, Model, PlacedForce};
-use crate::recover;
-use crate::state::{ContactState, ContactStatus, State};
+use crate::model::Model;
+use crate::state::{ContactStatus, State};
 
-/// Balances and violations, dimensionless, recomputed from the contact forces and the loads.
+mod bodies;
+mod contact;
+mod elements;
+mod energy;
+mod lengths;
+
+use bodies::Bodies;
+use contact::Pair;
+use lengths::Lengths;
+
+/// Balances and violations, dimensionless. What each is relative to is said [above](self).
 #[derive(Debug, Clone, Serialize)]
 pub struct Checks {
-    /// Largest unbalanced force of a block, relative to ten times the sum of the forces on it. This counts as
-    /// at least a hundredth of the largest of the total load and the largest contact force, and at most as that.
+    /// Largest unbalanced force of a block, relative to the forces on it.
     pub force_balance: f64,
-    /// Largest unbalanced moment of a block about its centroid, relative to the same sum times the
-    /// block's size.
+    /// Largest unbalanced moment of a block about its centroid, divided by the block's size, relative to the
+    /// same forces.
     pub moment_balance: f64,
     /// Largest part of a load that nothing carries: the unbalanced force of a block relative to the loads on
     /// that block, unless it is below 1e-9 of all forces on it; and relative to all loads. It tells a light block
-    /// that hovers beside heavy ones, and forces so large that the loads are lost among their digits.
+    /// whose forces are lost among the digits of those around it, and forces so large that the loads are lost
+    /// among their digits.
     pub uncarried: f64,
-    /// Largest violation of the [law](crate::law) of a joint by a force, relative to the largest contact force.
+    /// Largest force left over at a node of an elastic block, where its elements meet loads and contact forces;
+    /// relative to the largest of these at its nodes, or the forces on the block spread over all of them if that is more.
+    pub nodal_balance: f64,
+    /// Largest violation of the [law](crate::law) of a joint by a force, relative to the forces on the lighter of the
+    /// blocks that meet. Where friction `mu` is above one its bound has the errors of the normal force `mu` times:
+    /// it counts one `mu`-th.
     pub cone_violation: f64,
-    /// Deepest interpenetration, relative to the largest displacement or initial gap.
+    /// Deepest interpenetration, relative to the displacements of the blocks that meet.
     pub penetration: f64,
+    /// Forces where there should be none: across a gap, or, where a point slides in the step, other than the bound
+    /// against it. The smaller one of the gap or slip, as a length, and of the force that is too much or lacks.
+    pub complementarity: f64,
+    /// What is missing in `f.u + t.y = 2 U + t.x`: work of the loads and of forces on gaps and slips, strain energy,
+    /// work on initial gaps and slips. And the work of friction where it is positive. Relative to the sum of the sizes of all.
+    pub energy: f64,
+    /// Largest change of the shape of a rigid block, relative to its displacements.
+    pub deformation: f64,
+    /// The smallest change of loads, stiffness and contact forces, relative to them, with which the forces at
+    /// all nodes are in equilibrium; of rigid blocks that of loads and contact forces. No error by itself.
+    pub backward: f64,
+    /// Forces on the block with the most relative to those on the one with the least. No error either.
+    pub spread: f64,
     /// Number of open contact points.
     pub open: usize,
     /// Number of sticking contact points.
@@ -33,29 +82,39 @@ pub struct Checks {
     pub slip: usize,
 }
 
-/// Balances and violations up to this are rounding.
+/// The least tolerance, and what rounding errors count as at most: a well posed problem is solved to some digits more, and an ill posed
+/// one need not be.
 const LARGEST_ERROR: f64 = 1e-9;
 /// Loads that nothing carries are parts of this size, and more.
 const LARGEST_UNCARRIED: f64 = 1e-3;
-/// Iterations converge to a part of the largest forces. So those on a single block count as so many times
-/// what they are,
-const SINGLE_BLOCK: f64 = 10.0;
-/// and as at least this part of the largest.
-const SMALLEST_PART: f64 = 0.01;
 
 impl Checks {
-    /// Whether every block balances, no friction cone is left and nothing penetrates, to
-    /// 1e-9 or to the tolerance that was asked for, whichever is larger; and all loads are carried, to a
-    /// thousandth or that tolerance.
+    /// Whether a state is an equilibrium: every error at most the tolerance that was asked for, or 1e-9 if that is larger;
+    /// and all loads carried, to a thousandth or that tolerance.
+    ///
+    /// A thousandth is weaker, and has to be: where blocks differ by more than the digits of a number, or forces exceed the
+    /// loads by that, a load cannot be told from rounding errors any better.
     pub fn hold(&self, tolerance: f64) -> bool {
-        let errors =
-            [self.force_balance, self.moment_balance, self.cone_violation, self.penetration];
-        errors.iter().all(|&error| error <= tolerance.max(LARGEST_ERROR))
+        self.worst() <= tolerance.max(LARGEST_ERROR)
             && self.uncarried <= tolerance.max(LARGEST_UNCARRIED)
     }
 
-    /// Recomputes everything from the contact forces, the displacements and the loads of the model:
-    /// resultants of the geometry, no matrix of the method.
+    /// The largest error.
+    pub fn worst(&self) -> f64 {
+        let errors = [
+            self.force_balance,
+            self.moment_balance,
+            self.nodal_balance,
+            self.cone_violation,
+            self.penetration,
+            self.complementarity,
+            self.energy,
+            self.deformation,
+        ];
+        errors.into_iter().fold(0.0, larger)
+    }
+
+    /// Of a state of the model, which has the slips that the step started from ([`Model::under`]).
     ///
     /// ```
     /// # use masonry::{Model, State, verify::checks::Checks};
@@ -65,28 +124,29 @@ impl Checks {
     /// }
     /// ```
     pub fn of(model: &Model, state: &State) -> Self {
-        // A force is computed as what it has beyond the tensile strength, with the rounding errors of that.
-        let contact_force = |(contact, s): (&ContactPoint, &ContactState)| {
-            s.t_n.hypot(s.t_t).max(contact.law.tension)
-        };
-        let both = model.contacts.iter().zip(&state.contacts);
-        let largest_contact = largest(both.map(contact_force));
-        let total = total_load(model);
-        let balances = unbalanced(model, state, [largest_contact, total]);
-        let violation =
-            |(contact, s): (&ContactPoint, &ContactState)| contact.law.violation(s.t_n, s.t_t);
+        let nodes = elements::nodes(model, state);
+        let bodies = Bodies::of(model, state, &nodes);
+        let lengths = Lengths::of(model, state);
         let contacts = model.contacts.iter().zip(&state.contacts);
-        let both = model.contacts.iter().zip(&state.contacts);
-        let depth = both.map(|(contact, s)| -gap(model, state, contact, s));
-        let displacement = largest(state.displacements.iter().flatten().map(Vector2::norm))
-            .max(largest(model.contacts.iter().map(|contact| contact.gap.abs())));
+        let pairs: Vec<Pair> = contacts.map(|both| Pair::of(model, state, both)).collect();
+        let of_pairs = |error: &dyn Fn(&Pair) -> f64| pairs.iter().map(error).fold(0.0, larger);
+        let elastic = || nodes.iter().zip(bodies.sizes());
+        let at_nodes = elastic().filter_map(|(it, size)| Some(it.as_ref()?.error(size)));
+        let backward = nodes.iter().flatten().map(elements::Nodes::backward);
+        let (force_balance, moment_balance) = (bodies.force_balance(), bodies.moment_balance());
         let count = |status| state.contacts.iter().filter(|s| s.status == status).count();
         Self {
-            force_balance: largest(balances.iter().map(|b| b.force)),
-            moment_balance: largest(balances.iter().map(|b| b.moment)),
-            uncarried: largest(balances.iter().map(|b| b.uncarried)),
-            cone_violation: relative(largest(contacts.map(violation)), largest_contact),
-            penetration: relative(largest(depth), displacement),
+            force_balance,
+            moment_balance,
+            uncarried: bodies.uncarried(LARGEST_ERROR),
+            nodal_balance: at_nodes.fold(0.0, larger),
+            cone_violation: of_pairs(&|pair| pair.outside_cone(&bodies)),
+            penetration: of_pairs(&|pair| pair.inside(&lengths)),
+            complementarity: of_pairs(&|pair| pair.against_law(&bodies, &lengths)),
+            energy: energy::error(model, state, &pairs),
+            deformation: energy::deformation(model, state),
+            backward: backward.fold(larger(force_balance, moment_balance), larger),
+            spread: bodies.spread(),
             open: count(ContactStatus::Open),
             stick: count(ContactStatus::Stick),
             slip: count(ContactStatus::Slip),
@@ -94,85 +154,24 @@ impl Checks {
     }
 }
 
-/// What is left over on one block, relative to the forces on it and, of the moment, to its size.
-struct Unbalanced {
-    force: f64,
-    moment: f64,
-    uncarried: f64,
+/// The larger one; what is no number is larger than all.
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.max(b) }
 }
 
-/// Of every block, where the largest contact force and all loads are `[contact, total]` \[N\].
-fn unbalanced(model: &Model, state: &State, [contact, total]: [f64; 2]) -> Vec<Unbalanced> {
-    let most = contact.max(total);
-    let magnitude = |forces: &[PlacedForce]| forces.iter().map(|(_, f)| f.norm()).sum::<f64>();
-    let mut forces: Vec<Vec<PlacedForce>> =
-        model.blocks.iter().map(|block| model.forces_on(block)).collect();
-    let loads: Vec<f64> = forces.iter().map(|forces| magnitude(forces)).collect();
-    let mut strength = vec![0.0; forces.len()];
-    for (contact, s) in model.contacts.iter().zip(&state.contacts) {
-        let normal = model.joints[contact.joint.index()].normal;
-        let on_b = normal * s.t_n + Vector2::new(normal.y, -normal.x) * s.t_t;
-        for (anchor, force) in [(Some(contact.b), on_b), (contact.a, -on_b)] {
-            let Some(Anchor { block, edge, at }) = anchor else { continue };
-            // The faces of a film feel its force in the middle between them.
-            let place = match contact.film {
-                Some(_) => contact.position,
-                None => geometry::on_edge(&model.blocks[block.index()].corners, edge, at),
-            };
-            forces[block.index()].push((place, force));
-            strength[block.index()] += contact.law.tension;
-        }
-    }
-    let resultant =
-        |(((block, forces), load), strength): (((&Block, &Vec<PlacedForce>), &f64), &f64)| {
-            let centroid = geometry::centroid(&block.corners);
-            let force: Vector2<f64> = forces.iter().map(|(_, f)| f).sum();
-            let moment: f64 = forces.iter().map(|(p, f)| geometry::cross(p - centroid, *f)).sum();
-            let sum = magnitude(forces) + strength;
-            // A light block must not be excused by a heavy one elsewhere.
-            let reference = (SINGLE_BLOCK * sum).max(SMALLEST_PART * most).min(most);
-            let arm = geometry::size(&block.corners);
-            let left = force.norm();
-            let of_its_own = if left > LARGEST_ERROR * sum { relative(left, *load) } else { 0.0 };
-            Unbalanced {
-                force: relative(left, reference),
-                moment: relative(moment.abs() / arm, reference),
-                uncarried: of_its_own.max(relative(left, total)),
-            }
-        };
-    model.blocks.iter().zip(&forces).zip(&loads).zip(&strength).map(resultant).collect()
+/// A part of a whole that is known to a rounding error.
+fn known(part: f64, whole: f64, rounding: f64) -> f64 {
+    let error = relative(part, whole);
+    if part <= rounding { error.min(LARGEST_ERROR) } else { error }
 }
 
-/// Sum of the magnitudes of all loads \[N\].
-fn total_load(model: &Model) -> f64 {
-    model
-        .blocks
-        .iter()
-        .flat_map(|block| model.forces_on(block))
-        .map(|(_, force)| force.norm())
-        .sum()
-}
-
-/// The normal gap \[m\] at a contact point, from the displacements and the compression of its film.
-fn gap(model: &Model, state: &State, contact: &ContactPoint, s: &ContactState) -> f64 {
-    let normal = model.joints[contact.joint.index()].normal;
-    let relative = recover::relative_displacement(model, &state.displacements, contact);
-    let compressed = contact.film.map_or(0.0, |film| film.compliance[0] * s.t_n);
-    relative.dot(&normal) + contact.gap + compressed
-}
-
-/// The largest value, at least zero; one that is not a number counts as infinite.
-fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |m: f64, x| if x.is_nan() { f64::INFINITY } else { m.max(x) })
-}
-
-/// Zero when there is nothing to compare with: then the value itself is zero too.
-fn relative(value: f64, reference: f64) -> f64 {
-    if !value.is_finite() {
-        f64::INFINITY
-    } else if reference > 0.0 {
-        value / reference
-    } else {
+/// A part of a whole, zero where it is not positive; infinite where one of them is no number, or there is no whole.
+fn relative(part: f64, whole: f64) -> f64 {
+    if part <= 0.0 {
         0.0
+    } else if part.is_finite() && whole.is_finite() {
+        part / whole
+    } else {
+        f64::INFINITY
     }
 }

@@ -183,7 +183,10 @@ impl Run {
             because: "of the run that wrote the checkpoint".to_owned(),
             ..SolveInfo::new(Status::Solved, record.residuals)
         };
-        let checks = Checks::of(&model, &state);
+        // What slid in the last step is not in the file: what has slid in all is taken for where it started.
+        let slips: Vec<f64> = state.contacts.iter().map(|contact| contact.y_t).collect();
+        let judged = self.model.under(&record.step.actions, &slips);
+        let checks = Checks::of(&judged, &state);
         if !checks.hold(self.request.tolerance.max(record.residuals.worst())) {
             return Err(CheckpointError::NoEquilibrium.into());
         }
@@ -248,13 +251,10 @@ impl Run {
     /// Keeps a step that was solved; of one that was not, its state only where there is none before.
     /// Of the only step there is nothing to remember but its state.
     fn take(&mut self, step: Step, stepped: Option<(Model, Vec<f64>)>, found: Attempt) {
-        let Attempt { mut info, state, checks, mechanism, basis, statics } = found;
+        let Attempt { info, state, checks, mechanism, basis, statics } = found;
         self.basis = basis;
         if let Some(mut state) = state {
             let dissipation = energy::dissipation(&state.contacts);
-            if !opposes(dissipation, &state, self.request.tolerance) {
-                info.status = Status::AlmostSolved;
-            }
             let in_history = stepped.map(|(model, slips)| {
                 let steps = model.contacts.iter().zip(&mut state.contacts).zip(slips);
                 let frictional = steps.filter(|((contact, _), _)| contact.law.resists_sliding());
@@ -376,13 +376,4 @@ impl Run {
             times: self.clock.times,
         }
     }
-}
-
-/// Whether friction dissipates energy, up to rounding: relative to the largest product of a force and a
-/// displacement, and to the energy that is stored.
-fn opposes(dissipation: f64, state: &State, tolerance: f64) -> bool {
-    let force = state.contacts.iter().map(|contact| contact.t_t.abs()).fold(0.0, f64::max);
-    let slip = state.contacts.iter().map(|contact| contact.y_t.abs()).fold(0.0, f64::max);
-    let moved = state.displacements.iter().flatten().map(Vector2::norm).fold(slip, f64::max);
-    dissipation >= -tolerance * (force * moved).max(state.strain_energy)
 }

@@ -27,8 +27,7 @@ pub struct Reference {
     pub tolerance: f64,
     /// The residual, recomputed from the original data \[-\].
     pub residual: f64,
-    /// The worst of the balances of forces and moments, the violation of the friction cones and the
-    /// penetration \[-\], which use nothing of the method.
+    /// The worst of the [checks](Checks) \[-\], which use nothing of the method.
     pub balance: f64,
     /// Wall-clock time \[s\].
     pub seconds: f64,
@@ -116,7 +115,7 @@ fn tightest(scene: &Scene, (mesh, route): (u32, Route), runner: &mut Runner) -> 
                 route,
                 tolerance,
                 residual: outcome.solve.residuals.worst(),
-                balance: outcome.checks.as_ref().map_or(0.0, worst),
+                balance: outcome.checks.as_ref().map_or(0.0, Checks::worst),
                 seconds,
                 verified: exact.as_ref().map(|exact| exact.verified.clone()),
                 confirmed: None,
@@ -130,9 +129,4 @@ fn tightest(scene: &Scene, (mesh, route): (u32, Route), runner: &mut Runner) -> 
         }
     }
     None
-}
-
-fn worst(checks: &Checks) -> f64 {
-    let Checks { force_balance, moment_balance, cone_violation, penetration, .. } = *checks;
-    force_balance.max(moment_balance).max(cone_violation).max(penetration)
 }

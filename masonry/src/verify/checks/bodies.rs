@@ -1,0 +1,137 @@
+//! The forces on every block: what they leave over, and how large they are.
+
+use nalgebra::{Point2, Vector2};
+
+use super::elements::Nodes;
+use super::{known, larger, relative};
+use crate::geometry;
+use crate::model::{Anchor, Block, Model};
+use crate::recover;
+use crate::state::State;
+
+/// The forces on all blocks.
+pub(super) struct Bodies(Vec<Body>);
+
+/// The forces on a block.
+struct Body {
+    force: Vector2<f64>,
+    /// About the centroid, divided by the size of the block \[N\].
+    moment: f64,
+    /// The sum of the sizes of its loads \[N\].
+    load: f64,
+    /// That of all forces on it and of the tensile strengths of its contact points \[N\].
+    size: f64,
+    /// How many these are.
+    count: usize,
+    /// What rounding errors of the forces around it may leave of those on it \[N\].
+    rounding: f64,
+}
+
+impl Body {
+    fn of_loads(model: &Model, block: &Block) -> Self {
+        let mut body = Self {
+            force: Vector2::zeros(),
+            moment: 0.0,
+            load: 0.0,
+            size: 0.0,
+            count: 0,
+            rounding: 0.0,
+        };
+        for (place, force) in model.forces_on(block) {
+            body.add(block, place, force);
+        }
+        body.load = body.size;
+        body
+    }
+
+    fn add(&mut self, block: &Block, place: Point2<f64>, force: Vector2<f64>) {
+        let arm = (place - geometry::centroid(&block.corners)) / geometry::size(&block.corners);
+        self.force += force;
+        self.moment += geometry::cross(arm, force);
+        self.size += force.norm();
+        self.count += 1;
+    }
+
+    /// A force relative to all on the block.
+    fn share(&self, part: f64) -> f64 {
+        known(part, self.size, self.rounding)
+    }
+}
+
+impl Bodies {
+    pub(super) fn of(model: &Model, state: &State, nodes: &[Option<Nodes>]) -> Self {
+        let mut list: Vec<Body> =
+            model.blocks.iter().map(|block| Body::of_loads(model, block)).collect();
+        for (contact, it) in model.contacts.iter().zip(&state.contacts) {
+            let on_b = recover::contact_force(model, contact, it);
+            for (anchor, force) in [(Some(contact.b), on_b), (contact.a, -on_b)] {
+                let Some(Anchor { block, edge, at }) = anchor else { continue };
+                let (body, block) = (&mut list[block.index()], &model.blocks[block.index()]);
+                // The faces of a film feel its force in the middle between them.
+                let place = match contact.film {
+                    Some(_) => contact.position,
+                    None => geometry::on_edge(&block.corners, edge, at),
+                };
+                body.add(block, place, force);
+                // A force is computed as what it has beyond the tensile strength.
+                body.size += contact.law.tension;
+            }
+        }
+        let sizes: Vec<(f64, usize)> = list.iter().map(|body| (body.size, body.count)).collect();
+        let mut around = sizes.clone();
+        for contact in &model.contacts {
+            let Some(a) = contact.a else { continue };
+            let [a, b] = [a, contact.b].map(|anchor| anchor.block.index());
+            for (one, other) in [(a, b), (b, a)] {
+                let (size, count) = sizes[other];
+                around[one] = (around[one].0.max(size), around[one].1.max(count));
+            }
+        }
+        for ((body, nodes), (around, count)) in list.iter_mut().zip(nodes).zip(around) {
+            let terms = nodes.as_ref().map_or(0.0, |nodes| nodes.inside);
+            let own = nodes.as_ref().map_or(0, |nodes| nodes.count);
+            body.rounding = f64::EPSILON * (count + own) as f64 * around.max(terms);
+        }
+        Self(list)
+    }
+
+    /// The sums of the sizes of the forces on them \[N\].
+    pub(super) fn sizes(&self) -> impl Iterator<Item = f64> {
+        self.0.iter().map(|body| body.size)
+    }
+
+    /// The largest unbalanced force.
+    pub(super) fn force_balance(&self) -> f64 {
+        self.0.iter().map(|body| body.share(body.force.norm())).fold(0.0, larger)
+    }
+
+    /// The largest unbalanced moment.
+    pub(super) fn moment_balance(&self) -> f64 {
+        self.0.iter().map(|body| body.share(body.moment.abs())).fold(0.0, larger)
+    }
+
+    /// The largest part of a load that nothing carries, where unbalanced forces below this part of all on a block are none.
+    pub(super) fn uncarried(&self, none: f64) -> f64 {
+        let total: f64 = self.0.iter().map(|body| body.load).sum();
+        let of_body = |body: &Body| {
+            let left = body.force.norm();
+            let is_known = left > none * body.size && body.load > 0.0;
+            let of_its_own = if is_known { relative(left, body.load) } else { 0.0 };
+            let of_all = if total > 0.0 { relative(left, total) } else { 0.0 };
+            larger(of_its_own, of_all)
+        };
+        self.0.iter().map(of_body).fold(0.0, larger)
+    }
+
+    /// A force between some blocks, relative to those on the lightest of them.
+    pub(super) fn share(&self, blocks: &[usize], part: f64) -> f64 {
+        blocks.iter().map(|block| self.0[*block].share(part)).fold(0.0, larger)
+    }
+
+    /// The forces on the block with the most relative to those on the one with the least.
+    pub(super) fn spread(&self) -> f64 {
+        let loaded = || self.sizes().filter(|size| *size > 0.0);
+        let least = loaded().fold(f64::INFINITY, f64::min);
+        if least.is_finite() { loaded().fold(0.0, larger) / least } else { 1.0 }
+    }
+}

@@ -1,0 +1,138 @@
+//! Gap, slip and force of a contact point, against the law of its joint.
+
+use nalgebra::Vector2;
+
+use super::bodies::Bodies;
+use super::{Lengths, larger};
+use crate::law::PointLaw;
+use crate::model::mesh::BlockMesh;
+use crate::model::{Anchor, Block, ContactPoint, FilmPoint, Model};
+use crate::state::{ContactState, State};
+
+/// How the displacement of a place enters gap and slip of a contact point, and so how its forces act there.
+pub(super) struct Term {
+    pub(super) anchor: Anchor,
+    pub(super) normal: Vector2<f64>,
+    pub(super) tangent: Vector2<f64>,
+}
+
+/// All places that move a contact point.
+pub(super) fn terms(model: &Model, contact: &ContactPoint) -> Vec<Term> {
+    let joint = &model.joints[contact.joint.index()];
+    let (n, t) = (joint.normal, joint.tangent());
+    let mut list = vec![Term { anchor: contact.b, normal: n, tangent: t }];
+    list.extend(contact.a.map(|anchor| Term { anchor, normal: -n, tangent: -t }));
+    if let Some(film) = &contact.film {
+        // The rotation of both faces shears a film, too.
+        let turn = n * (film.half / film.length);
+        for [start, end] in film.faces().into_iter().flatten() {
+            let none = Vector2::zeros();
+            list.push(Term { anchor: end, normal: none, tangent: turn });
+            list.push(Term { anchor: start, normal: none, tangent: -turn });
+        }
+        let opened = film.gap_per_elongation();
+        list.extend(stretched(model, contact).into_iter().map(|(anchor, along)| Term {
+            anchor,
+            normal: along * opened,
+            tangent: Vector2::zeros(),
+        }));
+    }
+    list
+}
+
+/// How displacements of the ends of a part of a film enter its elongation, the mean of both faces.
+pub(super) fn stretched(model: &Model, contact: &ContactPoint) -> Vec<(Anchor, Vector2<f64>)> {
+    let Some(film) = contact.film.filter(|film| film.stretch.is_some()) else { return Vec::new() };
+    let half = model.joints[contact.joint.index()].tangent() * 0.5;
+    let is_elastic = |face: &[Anchor; 2]| model.blocks[face[0].block.index()].elasticity.is_some();
+    let faces = film.faces().into_iter().flatten().filter(is_elastic);
+    faces.flat_map(|[start, end]| [(start, -half), (end, half)]).collect()
+}
+
+/// The displacement of a place on an edge.
+pub(super) fn displaced(model: &Model, state: &State, anchor: Anchor) -> Vector2<f64> {
+    let block = anchor.block.index();
+    let shares = shares(&model.blocks[block], anchor);
+    shares.iter().map(|(node, part)| state.displacements[block][*node] * *part).sum()
+}
+
+/// The displacement of a place on an edge as a sum over nodes.
+pub(super) fn shares(block: &Block, Anchor { edge, at, .. }: Anchor) -> [(usize, f64); 2] {
+    let on_mesh = |mesh: &BlockMesh| mesh.interpolate(edge, at);
+    block.mesh.as_ref().map_or([(edge, 1.0 - at), ((edge + 1) % 4, at)], on_mesh)
+}
+
+/// A contact point as displacements and forces have it, and what both are compared with.
+pub(super) struct Pair {
+    /// From the displacements \[m\].
+    pub(super) gap: f64,
+    /// In the step, from the displacements \[m\].
+    pub(super) slip: f64,
+    pub(super) t_n: f64,
+    pub(super) t_t: f64,
+    /// `x_0` and `s_0` \[m\].
+    pub(super) initial: [f64; 2],
+    law: PointLaw,
+    /// The blocks that meet.
+    blocks: Vec<usize>,
+}
+
+impl Pair {
+    pub(super) fn of(
+        model: &Model,
+        state: &State,
+        (contact, it): (&ContactPoint, &ContactState),
+    ) -> Self {
+        let gives = |film: FilmPoint| film.compliance;
+        let [c_n, c_t] = contact.film.map_or([0.0; 2], gives);
+        let mut gap = contact.gap + c_n * it.t_n;
+        let mut slip = contact.slip + c_t * it.t_t;
+        for term in terms(model, contact) {
+            let u = displaced(model, state, term.anchor);
+            gap += u.dot(&term.normal);
+            slip += u.dot(&term.tangent);
+        }
+        let blocks = [Some(contact.b), contact.a].into_iter().flatten();
+        Self {
+            gap,
+            slip,
+            t_n: it.t_n,
+            t_t: it.t_t,
+            initial: [contact.gap, contact.slip],
+            law: contact.law,
+            blocks: blocks.map(|anchor| anchor.block.index()).collect(),
+        }
+    }
+
+    /// Pull beyond the tensile strength, and force along the joint beyond its bound.
+    pub(super) fn outside_cone(&self, bodies: &Bodies) -> f64 {
+        let pull = bodies.share(&self.blocks, -self.law.tension - self.t_n);
+        let violation = self.law.violation(self.t_n, self.t_t);
+        larger(pull, bodies.share(&self.blocks, violation / self.sensitivity()))
+    }
+
+    /// How deep the sides are in one another.
+    pub(super) fn inside(&self, lengths: &Lengths) -> f64 {
+        lengths.share(&self.blocks, self.initial, -self.gap)
+    }
+
+    /// Force across a gap, and sliding at another force than the bound against it.
+    pub(super) fn against_law(&self, bodies: &Bodies, lengths: &Lengths) -> f64 {
+        let length = |part: f64| lengths.share(&self.blocks, self.initial, part);
+        let force = |part: f64| bodies.share(&self.blocks, part);
+        let across = smaller(length(self.gap), force(self.t_n + self.law.tension));
+        let wanted = -self.law.bound(self.t_n) * self.slip.signum();
+        let lacks = (self.t_t - wanted).abs() / self.sensitivity();
+        larger(across, smaller(length(self.slip.abs()), force(lacks)))
+    }
+
+    /// Of huge friction: its bound has the errors of the normal force so many times.
+    fn sensitivity(&self) -> f64 {
+        self.law.mu.max(1.0)
+    }
+}
+
+/// The smaller one; no number counts as wrong.
+fn smaller(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::INFINITY } else { a.min(b) }
+}

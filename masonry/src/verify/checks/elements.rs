@@ -1,0 +1,133 @@
+//! Equilibrium of the nodes of elastic blocks, from their elements.
+
+use nalgebra::Vector2;
+
+use super::contact::{displaced, shares, stretched, terms};
+use super::{known, larger, relative};
+use crate::element::quad4;
+use crate::material::constitutive;
+use crate::model::{Anchor, Block, ContactPoint, Model};
+use crate::state::State;
+use crate::system::nodal_loads;
+
+/// The terms at a node: eight of each of four elements.
+const TERMS: f64 = 32.0;
+
+/// The force at a node, and the sum of the sizes of its terms, which may circulate \[N\].
+#[derive(Clone)]
+pub(super) struct Nodal {
+    force: Vector2<f64>,
+    size: f64,
+}
+
+impl Nodal {
+    fn of(force: Vector2<f64>) -> Self {
+        Self { force, size: force.norm() }
+    }
+
+    fn add(&mut self, force: Vector2<f64>) {
+        self.force += force;
+        self.size += force.norm();
+    }
+}
+
+/// The nodal forces of an elastic block.
+pub(super) struct Nodes {
+    /// The largest that is left over \[N\].
+    left: f64,
+    /// The largest sum of loads and contact forces at a node \[N\].
+    outside: f64,
+    /// The largest sum of terms of the elements at a node: stiffness times displacement \[N\].
+    pub(super) inside: f64,
+    /// How many nodes there are.
+    pub(super) count: usize,
+}
+
+impl Nodes {
+    /// What is left over relative to all terms.
+    pub(super) fn backward(&self) -> f64 {
+        relative(self.left, self.inside.max(self.outside))
+    }
+
+    /// What is left over at a node, relative to the forces from outside, where all of these on the block add up
+    /// to `size`. It has the rounding errors of the terms of the elements.
+    pub(super) fn error(&self, size: f64) -> f64 {
+        // Forces on a block that act elsewhere spread over its nodes.
+        let outside = self.outside.max(size / self.count as f64);
+        let rounding = f64::EPSILON * TERMS * self.inside;
+        known(self.left, outside, rounding)
+    }
+}
+
+/// Of every block; `None` of rigid ones.
+pub(super) fn nodes(model: &Model, state: &State) -> Vec<Option<Nodes>> {
+    let outside = outside(model, state);
+    let blocks = model.blocks.iter().zip(&state.displacements).zip(&outside);
+    let of_block = |((block, u), outside): ((&Block, &Vec<Vector2<f64>>), &Vec<Nodal>)| {
+        let inside = inside(model, block, u)?;
+        let rest = inside.iter().zip(outside).map(|(a, b)| (a.force - b.force).norm());
+        let largest = |list: &[Nodal]| list.iter().map(|it| it.size).fold(0.0, larger);
+        Some(Nodes {
+            left: rest.fold(0.0, larger),
+            outside: largest(outside),
+            inside: largest(&inside),
+            count: inside.len(),
+        })
+    };
+    blocks.map(of_block).collect()
+}
+
+/// Loads and contact forces at the nodes, and the bars of strips of mortar; empty of rigid blocks.
+fn outside(model: &Model, state: &State) -> Vec<Vec<Nodal>> {
+    let loads = |block: &Block| -> Vec<Nodal> {
+        let mesh = block.mesh.as_ref();
+        let loads = mesh.map_or_else(Vec::new, |mesh| nodal_loads(model, block, mesh));
+        loads.chunks(2).map(|f| Nodal::of(Vector2::new(f[0], f[1]))).collect()
+    };
+    let mut list: Vec<Vec<Nodal>> = model.blocks.iter().map(loads).collect();
+    let mut add = |anchor: Anchor, force: Vector2<f64>| {
+        let block = anchor.block.index();
+        for (node, part) in shares(&model.blocks[block], anchor) {
+            if let Some(nodal) = list[block].get_mut(node) {
+                nodal.add(force * part);
+            }
+        }
+    };
+    for (contact, it) in model.contacts.iter().zip(&state.contacts) {
+        for term in terms(model, contact) {
+            add(term.anchor, term.normal * it.t_n + term.tangent * it.t_t);
+        }
+        let pull = bar(model, state, contact);
+        for (anchor, along) in stretched(model, contact) {
+            add(anchor, along * -pull);
+        }
+    }
+    list
+}
+
+/// The force of the bar that a part of a strip is, which always acts \[N\].
+fn bar(model: &Model, state: &State, contact: &ContactPoint) -> f64 {
+    let Some(stretch) = contact.film.and_then(|film| film.stretch) else { return 0.0 };
+    let ends = stretched(model, contact).into_iter();
+    let elongation: f64 =
+        ends.map(|(anchor, along)| displaced(model, state, anchor).dot(&along)).sum();
+    stretch.stiffness * elongation
+}
+
+/// The forces of the elements on the nodes of a block.
+fn inside(model: &Model, block: &Block, u: &[Vector2<f64>]) -> Option<Vec<Nodal>> {
+    let (mesh, elasticity) = (block.mesh.as_ref()?, block.elasticity?);
+    let d = constitutive(elasticity, model.plane);
+    let mut list = vec![Nodal::of(Vector2::zeros()); u.len()];
+    for element in &mesh.elements {
+        let nodes = element.map(|n| mesh.nodes[n]);
+        // Folded elements were refused when the stiffness was built.
+        let Some(stiffness) = quad4::stiffness(&nodes, &d, model.thickness) else { continue };
+        for (i, node) in element.iter().enumerate() {
+            for (j, other) in element.iter().enumerate() {
+                list[*node].add(stiffness.fixed_view::<2, 2>(2 * i, 2 * j) * u[*other]);
+            }
+        }
+    }
+    Some(list)
+}

@@ -1,0 +1,79 @@
+//! What loads do, against what is stored and dissipated; and whether rigid blocks are rigid.
+
+use nalgebra::{Point2, Vector2};
+
+use super::contact::{Pair, displaced};
+use super::{larger, relative};
+use crate::geometry;
+use crate::model::{Block, Model};
+use crate::state::State;
+use crate::system::nodal_loads;
+
+/// `f.u + t.y = 2 U + t.x`, and friction that does work, relative to all terms.
+pub(super) fn error(model: &Model, state: &State, pairs: &[Pair]) -> f64 {
+    let (mut work, mut size) = (0.0, 0.0);
+    for (block, u) in model.blocks.iter().zip(&state.displacements) {
+        for [force, u] in loads(model, block, u) {
+            work += force.dot(&u);
+            size += force.norm() * u.norm();
+        }
+    }
+    // The work of contact forces on both sides cancels, but not its rounding errors.
+    for (contact, it) in model.contacts.iter().zip(&state.contacts) {
+        let sides = [Some(contact.b), contact.a].into_iter().flatten();
+        let moved: f64 = sides.map(|anchor| displaced(model, state, anchor).norm()).sum();
+        size += it.t_n.hypot(it.t_t) * moved;
+    }
+    let (mut rest, mut dissipated) = (work - 2.0 * state.strain_energy, 0.0);
+    size += 2.0 * state.strain_energy.abs();
+    for Pair { gap, slip, t_n, t_t, initial: [gap_0, slip_0], .. } in pairs {
+        let terms = [t_n * gap, t_t * slip, -t_n * gap_0, -t_t * slip_0];
+        rest += terms.iter().sum::<f64>();
+        size += terms.iter().map(|term| term.abs()).sum::<f64>();
+        dissipated -= t_t * slip;
+    }
+    larger(relative(rest.abs(), size), relative(-dissipated, size))
+}
+
+/// The loads of a block, and how far they move: at its nodes, or of a rigid one where they act.
+fn loads(model: &Model, block: &Block, u: &[Vector2<f64>]) -> Vec<[Vector2<f64>; 2]> {
+    if let Some(mesh) = &block.mesh {
+        let loads = nodal_loads(model, block, mesh);
+        return loads.chunks(2).zip(u).map(|(f, u)| [Vector2::new(f[0], f[1]), *u]).collect();
+    }
+    let motion = Motion::of(block, u);
+    let forces = model.forces_on(block).into_iter();
+    forces.map(|(place, force)| [force, motion.at(block, place)]).collect()
+}
+
+/// The rigid motion of a block that its first and third corner make.
+struct Motion {
+    shift: Vector2<f64>,
+    turn: f64,
+}
+
+impl Motion {
+    fn of(block: &Block, u: &[Vector2<f64>]) -> Self {
+        let [from, _, to, _] = block.corners;
+        let turn = geometry::cross(to - from, u[2] - u[0]) / (to - from).norm_squared();
+        Self { shift: u[0], turn }
+    }
+
+    fn at(&self, block: &Block, place: Point2<f64>) -> Vector2<f64> {
+        let arm = place - block.corners[0];
+        self.shift + Vector2::new(-arm.y, arm.x) * self.turn
+    }
+}
+
+/// How much rigid blocks change their shape, relative to their largest displacement.
+pub(super) fn deformation(model: &Model, state: &State) -> f64 {
+    let blocks = model.blocks.iter().zip(&state.displacements);
+    let rigid = blocks.filter(|(block, _)| block.mesh.is_none());
+    let of_block = |(block, u): (&Block, &Vec<Vector2<f64>>)| {
+        let motion = Motion::of(block, u);
+        let places = block.corners.iter().zip(u);
+        let off = places.map(|(place, u)| (u - motion.at(block, *place)).norm());
+        relative(off.fold(0.0, larger), u.iter().map(Vector2::norm).fold(0.0, larger))
+    };
+    rigid.map(of_block).fold(0.0, larger)
+}
