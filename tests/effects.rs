@@ -93,7 +93,7 @@ fn joints_without_friction_have_no_tangential_rows() {
             // Where one class alone has friction, its points alone have the rows.
             let mixed = boxed(material, Joint::mu(0.0)).joint("floor", Joint::mu(0.5));
             let (plan, model, system) = built(&mixed, route);
-            let rough = model.contacts.iter().filter(|point| point.mu > 0.0).count();
+            let rough = model.contacts.iter().filter(|point| point.law.mu > 0.0).count();
             assert!(rough > 0 && rough < points);
             assert_eq!((plan.frictional_points, system.friction.len()), (rough, rough));
             let unknowns = if route == Route::Alm { 0 } else { 2 * rough };

@@ -149,7 +149,7 @@ impl Model {
     pub fn under(&self, actions: &Actions, slips: &[f64]) -> Self {
         let mut model = self.clone();
         for (contact, slip) in model.contacts.iter_mut().zip(slips) {
-            if contact.mu > 0.0 {
+            if contact.law.resists_sliding() {
                 contact.slip -= slip;
             }
         }
@@ -193,7 +193,8 @@ pub struct StepRecord {
     pub residuals: lcp::Residuals,
     /// Work of loads and of moving supports in this step \[J\], by the trapezoidal rule.
     pub work: f64,
-    /// Energy that sliding dissipated in this step \[J\], `-t_t . (increment of y_t)`, never negative.
+    /// Energy that sliding dissipated in this step \[J\], `-t_t . (increment of y_t)`, never negative; and what
+    /// opening took of joints with tensile strength, which they give back when they close.
     pub dissipation: f64,
     /// Strain energy of blocks and films after the step \[J\].
     pub strain_energy: f64,

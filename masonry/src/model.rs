@@ -7,7 +7,7 @@
 //! from `a` to `b`, and `t` is `n` turned by -90 degrees, `t = (n_y, -n_x)`. Then
 //! * normal gap `y_n = (u_b - u_a).n + x_0` \[m\], never negative;
 //! * slip `y_t = (u_b - u_a).t + s_0` \[m\];
-//! * `t_n >= 0` \[N\] acts on `b` along `+n`: compression is positive;
+//! * `t_n` \[N\] acts on `b` along `+n`: compression is positive, and without tensile strength nothing else is possible;
 //! * `t_t` \[N\] acts on `b` along `+t`.
 
 mod forces;
@@ -23,6 +23,7 @@ pub use loads::{Acceleration, BlockLoad, EdgeLoad, Load, PlacedForce, PointLoad}
 use nalgebra::{Point2, Vector2};
 
 use crate::ids::{BlockId, FilmId, JointId, SupportId};
+use crate::law::{JointLaw, PointLaw};
 pub use crate::material::Elasticity;
 use crate::material::constitutive;
 use crate::model::mesh::BlockMesh;
@@ -114,8 +115,8 @@ impl Support {
 pub struct JointClass {
     /// The name in the scene: `bed`, `head`, or that of a support's joint.
     pub name: String,
-    /// Coefficient of Coulomb friction \[-\]. Zero gives the joint no tangential unknowns.
-    pub mu: f64,
+    /// What resists sliding and opening.
+    pub law: JointLaw,
     /// The mortar that fills its joints; `None` for dry joints.
     pub mortar: Option<Mortar>,
 }
@@ -248,8 +249,8 @@ pub struct ContactPoint {
     pub gap: f64,
     /// Initial slip `s_0` \[m\]: what the slip of a step starts from, and the movement of a support.
     pub slip: f64,
-    /// Friction coefficient of its joint's class.
-    pub mu: f64,
+    /// The law of its joint's class, for the area that it stands for.
+    pub law: PointLaw,
     /// What else a point of a film needs; `None` in a dry joint.
     pub film: Option<FilmPoint>,
 }

@@ -11,7 +11,7 @@ use crate::model::{Anchor, Body, ContactPoint, Model};
 use crate::state::{
     ContactState, ContactStatus, ElementStress, FilmStress, Principal, Reaction, State,
 };
-use crate::system::{BodySystem, System, displaced_nodes};
+use crate::system::{BodySystem, Direction, System, displaced_nodes};
 
 /// Gaps and slips below this fraction of the largest displacement or film compression count as zero when points are called
 /// open, sticking or sliding.
@@ -50,7 +50,7 @@ pub fn recover(
         displacements.push(moved.collect());
     }
     let contacts = contact_states(model, system, rows, &displacements);
-    strain_energy += films_energy(model, system, rows, &displacements);
+    strain_energy += films_energy(model, system, &contacts, &displacements);
     let (stresses, films) = wanted_stresses(model, &displacements, &contacts, with_stresses);
     State { displacements, contacts, films, stresses, strain_energy }
 }
@@ -111,7 +111,7 @@ fn of_blocks(
         });
     }
     let contacts = contact_states(model, system, rows, &displacements);
-    strain_energy += films_energy(model, system, rows, &displacements);
+    strain_energy += films_energy(model, system, &contacts, &displacements);
     let (stresses, films) = wanted_stresses(model, &displacements, &contacts, with_stresses);
     State { displacements, contacts, films, stresses, strain_energy }
 }
@@ -125,10 +125,14 @@ fn energy(system: &System, body: &BodySystem, u: &[f64]) -> f64 {
 fn films_energy(
     model: &Model,
     system: &System,
-    rows: &RowState,
+    contacts: &[ContactState],
     displacements: &[Vec<Vector2<f64>>],
 ) -> f64 {
-    let across = system.rows.iter().zip(&rows.t).map(|(row, t)| 0.5 * row.compliance * t * t);
+    let across = system.rows.iter().map(|row| {
+        let ContactState { t_n, t_t, .. } = contacts[row.contact.index()];
+        let force = if row.direction == Direction::Normal { t_n } else { t_t };
+        0.5 * row.compliance * force * force
+    });
     let along = system.stretches.iter().map(|stretch| {
         let contact = &model.contacts[stretch.contact.index()];
         let elongation = film_elongation(model, displacements, contact);
@@ -224,13 +228,13 @@ fn contact_states(
             let tangent = model.joints[contact.joint.index()].tangent();
             let y_t =
                 relative_displacement(model, displacements, contact).dot(&tangent) + contact.slip;
-            let (t_n, y_n) = (rows.t[k], rows.y[k]);
+            let (t_n, y_n) = (rows.t[k] - system.rows[k].tension, rows.y[k]);
             ContactState { t_n, t_t: 0.0, y_n, y_t, status: ContactStatus::Open }
         })
         .collect();
-    for (k, (contact, _)) in system.friction.iter().enumerate() {
-        states[contact.index()].t_t = rows.t[points + k];
-        states[contact.index()].y_t = rows.y[points + k];
+    for (k, friction) in system.friction.iter().enumerate() {
+        let state = &mut states[friction.contact.index()];
+        (state.t_t, state.y_t) = (rows.t[points + k], rows.y[points + k]);
     }
     let relative = states.iter().map(|s| s.y_n.abs().max(s.y_t.abs())).fold(0.0, f64::max);
     let absolute = displacements.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max);

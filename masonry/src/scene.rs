@@ -136,7 +136,8 @@ pub struct Material {
     pub density: Option<f64>,
 }
 
-/// A class of joints: what resists sliding, exactly one of `mu` and `phi_deg`, and the mortar.
+/// A class of joints: what resists sliding, exactly one of `mu` and `phi_deg`, and, where there are, cohesion, tensile
+/// strength and mortar. The law is that of [`law`](crate::law).
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
@@ -146,6 +147,12 @@ pub struct Joint {
     /// Angle of friction \[degrees\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub phi_deg: Option<f64>,
+    /// Cohesion \[force/length^2\]: what resists sliding without a normal force.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cohesion: Option<f64>,
+    /// Tensile strength \[force/length^2\], at most the cohesion divided by the coefficient of friction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tension: Option<f64>,
     /// Thickness of the mortar \[length\]; without it, or with zero, the joint is dry.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f64>,
@@ -155,6 +162,11 @@ pub struct Joint {
 }
 
 impl Joint {
+    /// The coefficient of friction \[-\]; zero where neither `mu` nor `phi_deg` is given.
+    pub fn friction(&self) -> f64 {
+        self.mu.or(self.phi_deg.map(|phi| phi.to_radians().tan())).unwrap_or(0.0)
+    }
+
     /// Thickness of the mortar \[length\]; zero for a dry joint.
     pub fn mortar_thickness(&self) -> f64 {
         self.thickness.unwrap_or(0.0)

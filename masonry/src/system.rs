@@ -17,6 +17,7 @@ use nalgebra::{Point2, Vector2};
 
 use crate::geometry;
 use crate::ids::{BlockId, ContactId};
+use crate::law::Friction;
 use crate::model::mesh::BlockMesh;
 use crate::model::{Block, Elasticity, FilmPoint, Joint, Model};
 use crate::rounding::cleared;
@@ -53,10 +54,25 @@ pub struct Row {
     pub contact: ContactId,
     /// The direction.
     pub direction: Direction,
-    /// Initial gap `x_0` or initial slip `s_0` \[m\].
+    /// Initial gap `x_0` or initial slip `s_0` \[m\]; of a film with tensile strength less its stretching by that.
     pub offset: f64,
     /// Compression or shear of the film under a unit of force \[m/N\]; zero in a dry joint.
     pub compliance: f64,
+    /// What the unknown has beyond the force \[N\]: the tensile strength `T` of the point in a normal row,
+    /// and zero in the others. On both sides it is among the loads.
+    pub tension: f64,
+}
+
+impl Row {
+    fn of(model: &Model, contact: ContactId, direction: Direction) -> Self {
+        let point = &model.contacts[contact.index()];
+        let compliance = point.film.map_or([0.0; 2], |film| film.compliance);
+        let (offset, compliance, tension) = match direction {
+            Direction::Normal => (point.gap, compliance[0], point.law.tension),
+            Direction::Tangent => (point.slip, compliance[1], 0.0),
+        };
+        Self { contact, direction, offset: offset - compliance * tension, compliance, tension }
+    }
 }
 
 /// Stiffness, loads and contact rows of a whole model.
@@ -64,8 +80,8 @@ pub struct Row {
 pub struct System {
     /// The contact rows: normals of all points, then tangents of the points with friction.
     pub rows: Vec<Row>,
-    /// The points with friction and their coefficients, in the order of the tangential rows.
-    pub friction: Vec<(ContactId, f64)>,
+    /// The points that resist sliding and their bounds, in the order of the tangential rows.
+    pub friction: Vec<Friction>,
     /// The blocks, in the order of the model.
     pub bodies: Vec<BodySystem>,
     /// The elongations of strips that act on elastic blocks; none where films are compliances.
@@ -93,26 +109,15 @@ impl System {
     }
 
     fn build(model: &Model, parts: Parts) -> Result<Self, SystemError> {
-        let friction: Vec<(ContactId, f64)> = model
-            .contacts
-            .iter()
-            .enumerate()
-            .filter(|(_, contact)| contact.mu > 0.0)
-            .map(|(k, contact)| (ContactId::new(k), contact.mu))
+        let points = model.contacts.iter().enumerate();
+        let friction: Vec<Friction> =
+            points.filter_map(|(k, contact)| contact.law.sliding(ContactId::new(k))).collect();
+        let normals = (0..model.contacts.len()).map(|k| (ContactId::new(k), Direction::Normal));
+        let tangents = friction.iter().map(|friction| (friction.contact, Direction::Tangent));
+        let rows: Vec<Row> = normals
+            .chain(tangents)
+            .map(|(contact, direction)| Row::of(model, contact, direction))
             .collect();
-        let normals = model.contacts.iter().enumerate().map(|(k, contact)| Row {
-            contact: ContactId::new(k),
-            direction: Direction::Normal,
-            offset: contact.gap,
-            compliance: contact.film.map_or(0.0, |film| film.compliance[0]),
-        });
-        let tangents = friction.iter().map(|(contact, _)| Row {
-            contact: *contact,
-            direction: Direction::Tangent,
-            offset: model.contacts[contact.index()].slip,
-            compliance: model.contacts[contact.index()].film.map_or(0.0, |film| film.compliance[1]),
-        });
-        let rows: Vec<Row> = normals.chain(tangents).collect();
 
         let mut shared = stiffness::Shared::new(parts);
         let mut bodies = Vec::with_capacity(model.blocks.len());
@@ -134,7 +139,10 @@ impl System {
             add_row(model, &mut bodies, k, row);
         }
         let stretches = stretch::add_rows(model, &mut bodies);
-        Ok(Self { rows, friction, bodies, stretches, stiffnesses: shared.into_list() })
+        let stiffnesses = shared.into_list();
+        let mut system = Self { rows, friction, bodies, stretches, stiffnesses };
+        system.pull();
+        Ok(system)
     }
 
     /// Takes loads, gaps and slips from another state of the same model ([`Model::under`]); stiffness and
@@ -147,12 +155,43 @@ impl System {
             body.resultant = resultant(model, block);
         }
         for row in &mut self.rows {
-            let contact = &model.contacts[row.contact.index()];
-            row.offset = match row.direction {
-                Direction::Normal => contact.gap,
-                Direction::Tangent => contact.slip,
-            };
+            *row = Row::of(model, row.contact, row.direction);
         }
+        self.pull();
+    }
+
+    /// Adds to the loads what the normal unknowns have beyond the forces ([`Row::tension`]).
+    fn pull(&mut self) {
+        if self.rows.iter().all(|row| row.tension <= 0.0) {
+            return;
+        }
+        for body in &mut self.bodies {
+            for row in &body.rows {
+                let force = -self.rows[row.row].tension;
+                row.entries.iter().for_each(|(dof, c)| body.load[*dof] += c * force);
+                body.resultant.iter_mut().zip(row.modes).for_each(|(r, mode)| *r += mode * force);
+            }
+        }
+    }
+
+    /// The nodal loads \[N\] of a block without what is there for tensile strength ([`Row::tension`]).
+    pub(crate) fn external_load(&self, body: &BodySystem) -> Vec<f64> {
+        let mut load = body.load.clone();
+        for row in &body.rows {
+            let tension = self.rows[row.row].tension;
+            row.entries.iter().for_each(|(dof, c)| load[*dof] += c * tension);
+        }
+        load
+    }
+
+    /// The work of these loads in the rigid motions \[N\].
+    pub(crate) fn external_resultant(&self, body: &BodySystem) -> [f64; 3] {
+        let mut resultant = body.resultant;
+        for row in &body.rows {
+            let tension = self.rows[row.row].tension;
+            resultant.iter_mut().zip(row.modes).for_each(|(r, mode)| *r += mode * tension);
+        }
+        resultant
     }
 
     /// Number of contact points, and of normal rows.

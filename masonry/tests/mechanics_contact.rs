@@ -7,6 +7,7 @@ mod common;
 
 use common::{block, model, model_with, panel, rectangle, support};
 use masonry::geometry::{self, QuadError};
+use masonry::law::JointLaw;
 use masonry::model::joints::{ContactError, Options, PointRule};
 use masonry::model::mesh::BlockMesh;
 use masonry::model::{Body, Model};
@@ -109,7 +110,11 @@ fn nodal_pairs_need_matching_nodes() {
         rectangle("upper", [0.5, 1.5], [1.0, 2.0], Some([1, 1])),
     ];
     let options = Options { points: PointRule::NodalPairs, ..Options::default() };
-    let classes = [masonry::model::JointClass { name: "bed".into(), mu: 0.5, mortar: None }];
+    let classes = [masonry::model::JointClass {
+        name: "bed".into(),
+        law: JointLaw::friction(0.5),
+        mortar: None,
+    }];
     let found = masonry::model::joints::find(&blocks, &[], &classes, |_| 0, 1.0, &options);
     let (a, b) = ("lower".to_string(), "upper".to_string());
     assert_eq!(found.unwrap_err(), ContactError::NoNodalPair { a, b });

@@ -243,7 +243,7 @@ fn units_do_not_matter() {
             support.from *= length;
             support.to *= length;
         }
-        let mu = model.joint_classes[0].mu;
+        let mu = model.joint_classes[0].law.mu;
         let mut scaled = common::model(blocks, supports, mu);
         scaled.thickness = length;
         for told in variants(&model) {
@@ -265,7 +265,7 @@ fn the_order_of_blocks_does_not_matter() {
     for model in assemblies() {
         let mut blocks = model.blocks.clone();
         blocks.reverse();
-        let mu = model.joint_classes[0].mu;
+        let mu = model.joint_classes[0].law.mu;
         let reversed = common::model(blocks, model.supports.clone(), mu);
         let told = vec![Told::Stick; model.contacts.len()];
         let (a, b) = (state_told(&model, &told, None), state_told(&reversed, &told, None));

@@ -83,7 +83,7 @@ fn contacts_read_back_exactly() {
             force.t_t / contact.weight / 1e3,
             force.y_n,
             force.y_t,
-            contact.mu,
+            contact.law.mu,
         ];
         for (number, expected) in numbers.iter().zip(expected) {
             assert_eq!(number.to_bits(), (expected + 0.0).to_bits(), "{number} {expected}");

@@ -167,7 +167,7 @@ impl Part {
         let mortar = joint.film.unwrap().mortar;
         let strip =
             Strip::new(self.length, mortar.thickness, model.thickness, &mortar.material).unwrap();
-        let film = PointwiseFilm::new(strip, model.joint_classes[joint.class].mu, 1).unwrap();
+        let film = PointwiseFilm::new(strip, model.joint_classes[joint.class].law.mu, 1).unwrap();
         let before: Vec<_> = before.iter().map(|slip| FilmState { slip: *slip }).collect();
         let at_nodes = Vector8::from_fn(|i, _| self.nodes[i / 2].map_or(0.0, |n| u[n + i % 2]));
         let ends = self.change().displacements(&(self.q * at_nodes));

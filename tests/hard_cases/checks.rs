@@ -280,7 +280,7 @@ impl Pair {
             slip,
             t_n,
             t_t,
-            mu: contact.mu,
+            mu: contact.law.mu,
             size: sizes.fold(f64::MAX, f64::min),
             other_work,
         }

@@ -33,10 +33,10 @@ impl Snapshot {
         let (mut loads, mut displacements) = (Vec::new(), Vec::new());
         for (b, (body, moved)) in system.bodies.iter().zip(&state.displacements).enumerate() {
             if body.stiffness.is_some() {
-                loads.extend(&body.load);
+                loads.extend(system.external_load(body));
                 displacements.extend(moved.iter().flat_map(|u| [u.x, u.y]));
             } else {
-                loads.extend(body.resultant);
+                loads.extend(system.external_resultant(body));
                 let places = displaced_nodes(model, BlockId::new(b));
                 displacements.extend(body.modes.amplitudes(places, moved));
             }
@@ -92,4 +92,11 @@ impl Snapshot {
 /// Energy \[J\] that sliding dissipates in a step, where `y_t` of the contacts is their slip in the step.
 pub(crate) fn dissipation(contacts: &[ContactState]) -> f64 {
     contacts.iter().map(|contact| -contact.t_t * contact.y_t).sum()
+}
+
+/// Energy \[J\] that the tensile strength of open joints holds, `T y_n`: what opening them took, and what they give
+/// back when they close.
+pub(crate) fn held(model: &Model, contacts: &[ContactState]) -> f64 {
+    let points = model.contacts.iter().zip(contacts);
+    points.map(|(point, contact)| point.law.tension * contact.y_n.max(0.0)).sum()
 }

@@ -66,11 +66,8 @@ fn rested(
 ) -> (ContactState, Residuals) {
     let problem = &sparse.problem;
     let (normal, friction) = forces.split_at(system.points());
-    let mut tangential = vec![0.0; system.points()];
-    for ((contact, _), force) in system.friction.iter().zip(friction) {
-        tangential[contact.index()] = *force;
-    }
-    let state = problem.state(vec![0.0; problem.displacements()], normal.to_vec(), tangential);
+    let rest = vec![0.0; problem.displacements()];
+    let state = sparse.with_forces(system, rest, (normal, friction));
     let residuals = problem.residuals(&state);
     if residuals.worst() <= tolerance {
         return (state, residuals);

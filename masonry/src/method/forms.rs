@@ -12,6 +12,7 @@
 use faer::Mat;
 use lcp::HorizontalLcp;
 
+use crate::law::Friction;
 use crate::method::reduction::Reduction;
 use crate::rounding::{cleared, largest};
 use crate::system::System;
@@ -193,10 +194,10 @@ impl Form {
         let (mut t, mut y): (Vec<f64>, Vec<f64>) = (t_n.collect(), y_n.collect());
         let tangential = |k: usize| (rows.t[points + k] / force, rows.y[points + k] / length);
         for sign in [1.0, -1.0] {
-            for (k, (point, mu)) in friction.iter().enumerate() {
+            for (k, friction) in friction.iter().enumerate() {
                 let (t_t, y_t) = tangential(k);
                 if self.kind == FormKind::Coulomb {
-                    t.push(mu * t[*point] + sign * t_t);
+                    t.push(friction.mu * t[friction.contact.index()] + friction.base + sign * t_t);
                     y.push((sign * y_t).max(0.0));
                 } else {
                     t.push((sign * t_t).max(0.0));
@@ -205,10 +206,10 @@ impl Form {
             }
         }
         if self.kind != FormKind::Coulomb {
-            for (k, (point, mu)) in friction.iter().enumerate() {
+            for (k, friction) in friction.iter().enumerate() {
                 let (t_t, y_t) = tangential(k);
                 t.push(y_t.abs());
-                y.push(mu * t[*point] - t_t.abs());
+                y.push(friction.mu * t[friction.contact.index()] + friction.base - t_t.abs());
             }
         }
         if self.kind == FormKind::Mixed {
@@ -248,15 +249,16 @@ impl FormKind {
 struct Layout {
     /// Number of contact points.
     points: usize,
-    /// Points with friction and their coefficients.
-    friction: Vec<(usize, f64)>,
+    /// The points that resist sliding, with their bounds in units of force.
+    friction: Vec<Friction>,
     /// Number of bars of mortar strips, which are unknowns of the mixed form.
     bars: usize,
 }
 
 impl Layout {
-    fn of(system: &System) -> Self {
-        let friction = system.friction.iter().map(|(id, mu)| (id.index(), *mu)).collect();
+    fn of(system: &System, scale: Scale) -> Self {
+        let in_units = |it: &Friction| Friction { base: it.base / scale.force, ..*it };
+        let friction = system.friction.iter().map(in_units).collect();
         Self { points: system.points(), friction, bars: system.stretches.len() }
     }
 

@@ -7,6 +7,7 @@ use super::{
     Support, place_loads, placement,
 };
 use crate::geometry::{self, QuadError};
+use crate::law::JointLaw;
 use crate::model::joints::{self, ContactError, JointKind, Options};
 use crate::model::mesh::BlockMesh;
 use crate::paper::film::FilmMaterial;
@@ -152,7 +153,11 @@ fn find_joints(
     // A class that is not given stands at the end, to be refused when a joint turns out to need it.
     let mut index = |name: &str| {
         classes.iter().position(|class| class.name == name).unwrap_or_else(|| {
-            classes.push(JointClass { name: name.to_owned(), mu: 0.0, mortar: None });
+            classes.push(JointClass {
+                name: name.to_owned(),
+                law: JointLaw::default(),
+                mortar: None,
+            });
             classes.len() - 1
         })
     };
@@ -189,9 +194,13 @@ fn find_joints(
 }
 
 fn joint_class(scene: &Scene, (name, joint): (&String, &scene::Joint)) -> JointClass {
-    let of_angle = |phi: f64| phi.to_radians().tan();
-    let mu = joint.mu.or(joint.phi_deg.map(of_angle)).unwrap_or(0.0);
-    JointClass { name: name.clone(), mu, mortar: mortar(scene, joint) }
+    let strength = |value: Option<f64>| value.unwrap_or(0.0) * scene.units.stress_to_si();
+    let law = JointLaw {
+        mu: joint.friction(),
+        cohesion: strength(joint.cohesion),
+        tension: strength(joint.tension),
+    };
+    JointClass { name: name.clone(), law, mortar: mortar(scene, joint) }
 }
 
 fn mortar(scene: &Scene, joint: &scene::Joint) -> Option<Mortar> {

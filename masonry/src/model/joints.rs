@@ -16,6 +16,7 @@ use nalgebra::{Point2, Vector2};
 pub(crate) use self::search::near_pairs;
 use crate::geometry::{self, SegmentOverlap};
 use crate::ids::{BlockId, FilmId, JointId, SupportId};
+use crate::law::JointLaw;
 use crate::model::{
     Anchor, Block, Body, ContactPoint, Film, FilmPoint, Joint, JointClass, Mortar, Support,
 };
@@ -114,10 +115,10 @@ pub fn find(
         let joint = JointId::new(joints.len());
         let film = mortar.map(|mortar| Film { id: FilmId::new(films), mortar });
         films += usize::from(film.is_some());
-        let mu = classes[class].mu;
+        let law = classes[class].law;
         let filling = mortar.map(|mortar| (mortar, options.films));
         contacts.extend(
-            points.iter().map(|p| meeting.contact(blocks, p, (joint, filling), mu, thickness)),
+            points.iter().map(|p| meeting.contact(blocks, p, (joint, filling), law, thickness)),
         );
         joints.push(meeting.joint(blocks, class, film));
         Ok(())
@@ -289,7 +290,7 @@ impl Meeting {
         blocks: &[Block],
         place: &points::Place,
         (joint, filling): (JointId, Option<(Mortar, Films)>),
-        mu: f64,
+        law: JointLaw,
         thickness: f64,
     ) -> ContactPoint {
         let on_a = |at| match self.a {
@@ -316,7 +317,7 @@ impl Meeting {
             b: on_b(place.on_b),
             gap: gap_from + (gap_to - gap_from) * place.along,
             slip: 0.0,
-            mu,
+            law: law.at(weight),
             film,
         }
     }

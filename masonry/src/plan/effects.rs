@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::choice::Choice;
 use super::effect::Effect;
 use super::sizes::Sizes;
+use crate::law::JointLaw;
 use crate::model::{Block, Model};
 use crate::scene::{Films, Form, LoadKind, Route, Scene};
 
@@ -14,6 +15,8 @@ pub(super) fn of(scene: &Scene, model: &Model, sizes: &Sizes, first: &Choice) ->
     vec![
         contact(scene, model, sizes, &route),
         friction(model, sizes, &route),
+        cohesion(model, sizes, &route),
+        tension(model),
         mortar_films(scene, model, sizes, &route),
         longitudinal_terms(scene, model, sizes, &route),
         deformation(scene, sizes, &route),
@@ -81,18 +84,46 @@ fn contact(scene: &Scene, model: &Model, sizes: &Sizes, route: &FirstRoute) -> E
 }
 
 fn friction(model: &Model, sizes: &Sizes, route: &FirstRoute) -> Effect {
-    let used: BTreeSet<&str> = model
-        .joints
-        .iter()
-        .map(|joint| &model.joint_classes[joint.class])
-        .filter(|class| class.mu > 0.0)
-        .map(|class| class.name.as_str())
-        .collect();
+    let used = classes_in_use(model, JointLaw::resists_sliding);
     if sizes.frictional == 0 {
         return Effect::off("friction", "mu = 0 in all joints".to_owned());
     }
-    let because = format!("mu > 0 in {}", names(used.into_iter()));
+    let coulomb = classes_in_use(model, |law| law.mu > 0.0);
+    let because = if coulomb.is_empty() {
+        format!("cohesion in {}", names(used.into_iter()))
+    } else {
+        format!("mu > 0 in {}", names(coulomb.into_iter()))
+    };
     route.on("friction", because, &sizes.without_friction())
+}
+
+/// A constant on the right-hand side by pivots; on the sparse routes a point and a displacement more.
+fn cohesion(model: &Model, sizes: &Sizes, route: &FirstRoute) -> Effect {
+    let used = classes_in_use(model, |law| law.cohesion > 0.0);
+    if used.is_empty() {
+        return Effect::off("cohesion", "no joint has cohesion".to_owned());
+    }
+    let because = format!("cohesion given for {}", names(used.into_iter()));
+    let effect = route.on("cohesion", because, &sizes.without_cohesion());
+    if effect.unknowns == 0 {
+        return Effect { cost: RIGHT_HAND_SIDE.to_owned(), ..effect };
+    }
+    effect
+}
+
+fn tension(model: &Model) -> Effect {
+    let used = classes_in_use(model, |law| law.tension > 0.0);
+    if used.is_empty() {
+        return Effect::off("tension", "no joint has tensile strength".to_owned());
+    }
+    let because = format!("tension given for {}", names(used.into_iter()));
+    Effect::on("tension", because, RIGHT_HAND_SIDE.to_owned())
+}
+
+/// The names of the classes of the joints whose law has something.
+fn classes_in_use(model: &Model, has: impl Fn(&JointLaw) -> bool) -> BTreeSet<&str> {
+    let used = model.joints.iter().map(|joint| &model.joint_classes[joint.class]);
+    used.filter(|class| has(&class.law)).map(|class| class.name.as_str()).collect()
 }
 
 /// Each point of a film has a compliance across and, with friction, one along the joint. By pivots they

@@ -49,7 +49,7 @@ pub(super) fn effects(scene: &Scene, model: &Model) -> [Effect; 3] {
 }
 
 fn has_friction(model: &Model) -> bool {
-    model.contacts.iter().any(|point| point.mu > 0.0)
+    model.contacts.iter().any(|point| point.law.resists_sliding())
 }
 
 /// The steps of all stages.

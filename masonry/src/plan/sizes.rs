@@ -15,7 +15,12 @@ pub(super) struct Sizes {
     /// Displacements of the elastic block with the finest mesh.
     pub(super) largest_block: usize,
     pub(super) points: usize,
+    /// Points that resist sliding.
     pub(super) frictional: usize,
+    /// Those that do so by the normal force,
+    coulomb: usize,
+    /// and those that do so without one.
+    cohesive: usize,
     /// Points of mortar films; each gives way across its joint.
     film_points: usize,
     /// Those with friction, which give way along it too.
@@ -35,7 +40,7 @@ impl Sizes {
         let of_blocks: Vec<Option<usize>> = model.blocks.iter().map(nodal).collect();
         let elastic = of_blocks.iter().flatten();
         let points = model.contacts.iter();
-        let frictional = points.clone().filter(|point| point.mu > 0.0);
+        let frictional = points.clone().filter(|point| point.law.resists_sliding());
         Self {
             blocks: of_blocks.len(),
             rigid_blocks: of_blocks.len() - elastic.clone().count(),
@@ -43,6 +48,8 @@ impl Sizes {
             largest_block: elastic.copied().max().unwrap_or(0),
             points: points.len(),
             frictional: frictional.clone().count(),
+            coulomb: frictional.clone().filter(|point| point.law.mu > 0.0).count(),
+            cohesive: frictional.clone().filter(|point| point.law.base() > 0.0).count(),
             film_points: points.filter(|point| point.film.is_some()).count(),
             sheared_films: frictional.filter(|point| point.film.is_some()).count(),
             bars: stretching_points(model),
@@ -70,7 +77,12 @@ impl Sizes {
     }
 
     pub(super) fn without_friction(self) -> Self {
-        Self { frictional: 0, sheared_films: 0, ..self }
+        Self { frictional: 0, coulomb: 0, cohesive: 0, sheared_films: 0, ..self }
+    }
+
+    /// With the films of points that only cohesion keeps from sliding.
+    pub(super) fn without_cohesion(self) -> Self {
+        Self { frictional: self.coulomb, cohesive: 0, ..self }
     }
 
     pub(super) fn without_films(self) -> Self {
@@ -88,7 +100,8 @@ impl Sizes {
 
     pub(super) fn choice(&self, route: Route, form: Form) -> Choice {
         let displacements = self.displacements();
-        let order = displacements + self.points + 2 * self.frictional;
+        // A point of its own for cohesion, with a displacement and three pairs.
+        let order = displacements + self.points + 2 * self.coulomb + 4 * self.cohesive;
         let sparse = Choice {
             route,
             because: String::new(),
@@ -100,9 +113,10 @@ impl Sizes {
         match route {
             Route::Auto | Route::Lemke => self.lemke(form),
             Route::Interior | Route::Newton => sparse,
-            // An edge of the cone for every normal force, and one more with friction.
+            // An edge of the cone for every normal force, and one more with friction; a force between two bounds for
+            // cohesion.
             Route::Forces => {
-                let order = self.rigid_modes() + self.points + self.frictional;
+                let order = self.rigid_modes() + self.points + self.coulomb + 2 * self.cohesive;
                 Choice { order, largest_order: order, ..sparse }
             }
             // Contact forces are no unknowns of its linear systems, and neither is what strips do.

@@ -46,7 +46,7 @@ pub fn contacts(model: &Model, state: &State) -> String {
             shortest(traction(force.t_t)).into(),
             shortest(units.length(force.y_n)).into(),
             shortest(units.length(force.y_t)).into(),
-            shortest(contact.mu).into(),
+            shortest(contact.law.mu).into(),
             Cow::Borrowed(status_name(force.status)),
         ];
         let film = films.next_if(|film| film.contact.index() == index);

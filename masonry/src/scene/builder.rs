@@ -197,6 +197,20 @@ impl Joint {
         Self { phi_deg: Some(phi_deg), ..Self::default() }
     }
 
+    /// Sets the cohesion \[force/length^2\].
+    #[must_use]
+    pub fn cohesion(mut self, cohesion: f64) -> Self {
+        self.cohesion = Some(cohesion);
+        self
+    }
+
+    /// Sets the tensile strength \[force/length^2\], at most cohesion / mu.
+    #[must_use]
+    pub fn tension(mut self, tension: f64) -> Self {
+        self.tension = Some(tension);
+        self
+    }
+
     /// Fills the joints of the class with mortar of a thickness \[length\] and an elastic material.
     #[must_use]
     pub fn mortar(mut self, thickness: f64, material: &str) -> Self {

@@ -23,6 +23,9 @@ const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 /// Elements of one block along one edge, at most.
 const MOST_ELEMENTS: u32 = 1_000;
 
+/// A tensile strength that was computed from the cohesion may exceed its limit by this part.
+const ROUNDING: f64 = 1e-12;
+
 type Check = Result<(), Fault>;
 
 impl Scene {
@@ -210,12 +213,22 @@ impl Scene {
 
 fn check_joint(at: &KeyPath, joint: &Joint) -> Check {
     match exactly_one(at, ("mu", joint.mu), ("phi_deg", joint.phi_deg))? {
-        One::First(mu) => not_negative(at.key("mu"), mu),
+        One::First(mu) => not_negative(at.key("mu"), mu)?,
         One::Second(phi) => {
             let wanted = "the angle of friction is at least 0 and less than 90 degrees";
-            value(at.key("phi_deg"), phi, (0.0..90.0).contains(&phi), wanted)
+            value(at.key("phi_deg"), phi, (0.0..90.0).contains(&phi), wanted)?;
         }
     }
+    let cohesion = joint.cohesion.unwrap_or(0.0);
+    not_negative(at.key("cohesion"), cohesion)?;
+    let Some(tension) = joint.tension else { return Ok(()) };
+    not_negative(at.key("tension"), tension)?;
+    let largest = cohesion / joint.friction();
+    if joint.friction() * tension > cohesion * (1.0 + ROUNDING) {
+        let kind = SceneErrorKind::TooMuchTension { tension, largest };
+        return Err(Fault::new(at.key("tension"), kind));
+    }
+    Ok(())
 }
 
 /// Checks the keys of a wall in running bond; an upper bound of the number of its bricks.

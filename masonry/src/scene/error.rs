@@ -273,6 +273,17 @@ pub enum SceneErrorKind {
         /// The corner, from 1.
         corner: usize,
     },
+    /// The tensile strength lies beyond the tip of the friction cone.
+    #[error(
+        "the tensile strength {tension} is larger than cohesion / mu = {largest}, where the friction cone ends: give \
+         at most that, or more `cohesion`"
+    )]
+    TooMuchTension {
+        /// The tensile strength, in units of the scene.
+        tension: f64,
+        /// The largest possible.
+        largest: f64,
+    },
     /// Two blocks occupy the same place.
     #[error(
         "blocks \"{first}\" and \"{second}\" overlap by an area of {area} {unit}2: move one of them"

@@ -21,7 +21,7 @@ pub struct Checks {
     /// that block, unless it is below 1e-9 of all forces on it; and relative to all loads. It tells a light block
     /// that hovers beside heavy ones, and forces so large that the loads are lost among their digits.
     pub uncarried: f64,
-    /// Largest violation of `|t_t| <= mu t_n`, `t_n >= 0`, relative to the largest contact force.
+    /// Largest violation of the [law](crate::law) of a joint by a force, relative to the largest contact force.
     pub cone_violation: f64,
     /// Deepest interpenetration, relative to the largest displacement or initial gap.
     pub penetration: f64,
@@ -65,13 +65,16 @@ impl Checks {
     /// }
     /// ```
     pub fn of(model: &Model, state: &State) -> Self {
-        let contact_force = |s: &ContactState| s.t_n.hypot(s.t_t);
-        let largest_contact = largest(state.contacts.iter().map(contact_force));
+        // A force is computed as what it has beyond the tensile strength, with the rounding errors of that.
+        let contact_force = |(contact, s): (&ContactPoint, &ContactState)| {
+            s.t_n.hypot(s.t_t).max(contact.law.tension)
+        };
+        let both = model.contacts.iter().zip(&state.contacts);
+        let largest_contact = largest(both.map(contact_force));
         let total = total_load(model);
         let balances = unbalanced(model, state, [largest_contact, total]);
-        let violation = |(contact, s): (&ContactPoint, &ContactState)| {
-            (-s.t_n).max(s.t_t.abs() - contact.mu * s.t_n)
-        };
+        let violation =
+            |(contact, s): (&ContactPoint, &ContactState)| contact.law.violation(s.t_n, s.t_t);
         let contacts = model.contacts.iter().zip(&state.contacts);
         let both = model.contacts.iter().zip(&state.contacts);
         let depth = both.map(|(contact, s)| -gap(model, state, contact, s));
@@ -105,6 +108,7 @@ fn unbalanced(model: &Model, state: &State, [contact, total]: [f64; 2]) -> Vec<U
     let mut forces: Vec<Vec<PlacedForce>> =
         model.blocks.iter().map(|block| model.forces_on(block)).collect();
     let loads: Vec<f64> = forces.iter().map(|forces| magnitude(forces)).collect();
+    let mut strength = vec![0.0; forces.len()];
     for (contact, s) in model.contacts.iter().zip(&state.contacts) {
         let normal = model.joints[contact.joint.index()].normal;
         let on_b = normal * s.t_n + Vector2::new(normal.y, -normal.x) * s.t_t;
@@ -116,25 +120,27 @@ fn unbalanced(model: &Model, state: &State, [contact, total]: [f64; 2]) -> Vec<U
                 None => geometry::on_edge(&model.blocks[block.index()].corners, edge, at),
             };
             forces[block.index()].push((place, force));
+            strength[block.index()] += contact.law.tension;
         }
     }
-    let resultant = |((block, forces), load): ((&Block, &Vec<PlacedForce>), &f64)| {
-        let centroid = geometry::centroid(&block.corners);
-        let force: Vector2<f64> = forces.iter().map(|(_, f)| f).sum();
-        let moment: f64 = forces.iter().map(|(p, f)| geometry::cross(p - centroid, *f)).sum();
-        let sum = magnitude(forces);
-        // A light block must not be excused by a heavy one elsewhere.
-        let reference = (SINGLE_BLOCK * sum).max(SMALLEST_PART * most).min(most);
-        let arm = geometry::size(&block.corners);
-        let left = force.norm();
-        let of_its_own = if left > LARGEST_ERROR * sum { relative(left, *load) } else { 0.0 };
-        Unbalanced {
-            force: relative(left, reference),
-            moment: relative(moment.abs() / arm, reference),
-            uncarried: of_its_own.max(relative(left, total)),
-        }
-    };
-    model.blocks.iter().zip(&forces).zip(&loads).map(resultant).collect()
+    let resultant =
+        |(((block, forces), load), strength): (((&Block, &Vec<PlacedForce>), &f64), &f64)| {
+            let centroid = geometry::centroid(&block.corners);
+            let force: Vector2<f64> = forces.iter().map(|(_, f)| f).sum();
+            let moment: f64 = forces.iter().map(|(p, f)| geometry::cross(p - centroid, *f)).sum();
+            let sum = magnitude(forces) + strength;
+            // A light block must not be excused by a heavy one elsewhere.
+            let reference = (SINGLE_BLOCK * sum).max(SMALLEST_PART * most).min(most);
+            let arm = geometry::size(&block.corners);
+            let left = force.norm();
+            let of_its_own = if left > LARGEST_ERROR * sum { relative(left, *load) } else { 0.0 };
+            Unbalanced {
+                force: relative(left, reference),
+                moment: relative(moment.abs() / arm, reference),
+                uncarried: of_its_own.max(relative(left, total)),
+            }
+        };
+    model.blocks.iter().zip(&forces).zip(&loads).zip(&strength).map(resultant).collect()
 }
 
 /// Sum of the magnitudes of all loads \[N\].

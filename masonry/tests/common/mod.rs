@@ -7,6 +7,7 @@ pub mod enumerate;
 pub mod reference;
 
 use masonry::ids::LoadId;
+use masonry::law::JointLaw;
 use masonry::model::joints::{self, JointKind, Options};
 use masonry::model::mesh::BlockMesh;
 use masonry::model::{
@@ -71,7 +72,11 @@ pub fn model_with(
     let joint_classes: Vec<JointClass> = ["bed", "head", "support"]
         .iter()
         .zip(mu)
-        .map(|(name, mu)| JointClass { name: (*name).into(), mu, mortar: None })
+        .map(|(name, mu)| JointClass {
+            name: (*name).into(),
+            law: JointLaw::friction(mu),
+            mortar: None,
+        })
         .collect();
     let class_of = |kind| match kind {
         JointKind::Bed => 0,

@@ -5,6 +5,7 @@ use masonry::analysis::outcome::{
     SolveInfo, State,
 };
 use masonry::ids::{BlockId, JointId, LoadId, SupportId};
+use masonry::law::JointLaw;
 use masonry::model::mesh::BlockMesh;
 use masonry::model::{
     Anchor, Block, Body, ContactPoint, EdgeLoad, Elasticity, Joint, JointClass, Load, Model,
@@ -163,7 +164,11 @@ pub(crate) fn model(wall: Wall) -> Model {
         joints: Vec::new(),
         contacts: Vec::new(),
         joint_classes: ["bed", "head", "support, dry"]
-            .map(|name| JointClass { name: name.to_owned(), mu: 1.0, mortar: None })
+            .map(|name| JointClass {
+                name: name.to_owned(),
+                law: JointLaw::friction(1.0),
+                mortar: None,
+            })
             .to_vec(),
         plane: Plane::Stress,
         thickness: 1.0,
@@ -265,7 +270,7 @@ fn add_joint(model: &mut Model, (a, b, class): (Body, BlockId, usize), ends: [[f
             b: anchor(b),
             gap: 0.0,
             slip: 0.0,
-            mu: model.joint_classes[class].mu,
+            law: model.joint_classes[class].law.at(1.0),
             film: None,
         });
     }

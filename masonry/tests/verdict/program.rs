@@ -68,7 +68,7 @@ pub(crate) fn largest_tilt(model: &Model) -> Limit {
         let first = equations + 3 * c;
         rows[first][1 + 2 * c] = -1.0;
         for (row, sign) in [(first + 1, 1.0), (first + 2, -1.0)] {
-            rows[row][1 + 2 * c] = -contact.mu;
+            rows[row][1 + 2 * c] = -contact.law.mu;
             rows[row][2 + 2 * c] = sign;
         }
     }

@@ -253,7 +253,7 @@ impl Run {
             }
             let in_history = stepped.map(|(model, slips)| {
                 let steps = model.contacts.iter().zip(&mut state.contacts).zip(slips);
-                let frictional = steps.filter(|((contact, _), _)| contact.mu > 0.0);
+                let frictional = steps.filter(|((contact, _), _)| contact.law.resists_sliding());
                 for ((_, contact), slip) in frictional {
                     // What is computed for a contact that sticks is an error, and no slip of the steps to come.
                     let sticks = contact.status == ContactStatus::Stick;
@@ -290,13 +290,16 @@ impl Run {
             Some(before) => before.snapshot.work_to(snapshot),
             None => snapshot.at_rest().work_to(snapshot),
         };
+        let held_before =
+            self.reached.as_ref().map_or(0.0, |before| energy::held(model, &before.state.contacts));
+        let held = energy::held(model, &state.contacts) - held_before;
         let largest = state.displacements.iter().flatten().map(nalgebra::Matrix::amax);
         Some(StepRecord {
             step,
             route: info.route,
             residuals: info.residuals,
             work,
-            dissipation: dissipation.max(0.0),
+            dissipation: dissipation.max(0.0) + held,
             strain_energy: state.strain_energy,
             largest_displacement: largest.fold(0.0, f64::max),
             contacts: checks.as_ref().map_or([0; 3], |it| [it.open, it.stick, it.slip]),
@@ -352,7 +355,7 @@ impl Run {
             history: history.as_ref(),
             at_rest: self.system.is_at_rest(),
             circulating: circulating
-                .map_or(0, |(state, sparse)| verdict::circulating(&sparse.problem, state)),
+                .map_or(0, |(state, sparse)| verdict::circulating(&model, &sparse.problem, state)),
         });
         Outcome {
             title: self.title,

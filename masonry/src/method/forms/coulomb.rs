@@ -7,11 +7,12 @@ use crate::system::System;
 
 pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp::Error> {
     let mut form = reduced::build(FormKind::Coulomb, system, reduction, 2);
-    // The definition of the cone, p+ + p- = 2 mu t_n (3.24).
-    for (k, (point, mu)) in form.layout.friction.iter().enumerate() {
+    // The definition of the cone, p+ + p- = 2 (mu t_n + C_0) (3.24).
+    for (k, friction) in form.layout.friction.iter().enumerate() {
         let (plus, minus) = (form.layout.pair(1, k), form.layout.pair(2, k));
         let row = form.layout.rows() + k;
-        form.a[(row, *point)] = -2.0 * mu;
+        form.a[(row, friction.contact.index())] = -2.0 * friction.mu;
+        form.c[row] = 2.0 * friction.base;
         form.a[(row, plus)] = 1.0;
         form.a[(row, minus)] = 1.0;
     }

@@ -1,7 +1,7 @@
 //! The standard problem `w = M z + q` with the rigid amplitudes as unknowns.
 //!
 //! `z = (t_n, b+, b-, lambda, alpha+, alpha-)`,
-//! `w = (y_n, lambda + y_t, lambda - y_t, mu t_n - b+ - b-, e, -e)`, where
+//! `w = (y_n, lambda + y_t, lambda - y_t, mu t_n + C_0 - b+ - b-, e, -e)`, where
 //! `y = F t + G alpha + C K^+ f + x` and `e = -(G^T t + N^T f)` is what equilibrium lacks. `F` is positive
 //! semidefinite, `G` enters skew, and of the friction rows only `mu lambda t_n` is left in `z.M z`: `M` is
 //! copositive.
@@ -17,8 +17,8 @@ use crate::method::reduction::Reduction;
 use crate::system::System;
 
 pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp::Error> {
-    let layout = Layout::of(system);
     let scale = Scale::of(reduction);
+    let layout = Layout::of(system, scale);
     let (m_f, rows) = (layout.friction.len(), layout.rows());
     let g = system.rigid_rows();
     let rigid = g.ncols();
@@ -74,13 +74,14 @@ pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp:
             }
         }
     }
-    for (k, (point, mu)) in layout.friction.iter().enumerate() {
+    for (k, friction) in layout.friction.iter().enumerate() {
         let [plus, minus, lambda] = [1, 2, 3].map(|group| layout.pair(group, k));
         m[(plus, lambda)] = 1.0;
         m[(minus, lambda)] = 1.0;
         m[(lambda, plus)] = -1.0;
         m[(lambda, minus)] = -1.0;
-        m[(lambda, *point)] = *mu;
+        m[(lambda, friction.contact.index())] = friction.mu;
+        q[lambda] = friction.base;
     }
     let a = -m;
     let b = Mat::identity(order, order);

@@ -17,8 +17,8 @@ pub(super) fn build(
     reduction: &Reduction,
     groups: usize,
 ) -> Equations {
-    let layout = Layout::of(system);
     let scale = Scale::of(reduction);
+    let layout = Layout::of(system, scale);
     let order = layout.points + groups * layout.friction.len();
     let (mut a, mut b) = (Mat::zeros(order, order), Mat::zeros(order, order));
     let mut c = vec![0.0; order];

@@ -17,10 +17,34 @@ pub struct Sparse {
     /// block; of a rigid block the amplitudes of its three motions. Then, row by row, how far each
     /// film gives way at its points: displacements of its free face against the block, held by the
     /// film's own stiffness `1 / c`, which see the contact force alone, `u = c t`. Strips of mortar
-    /// couple their blocks by `L^T D L` in `K`.
+    /// couple their blocks by `L^T D L` in `K`. Cohesion comes last, in points and displacements of its own.
     pub problem: Contact2d,
     /// The first displacement of every block, and one past the last.
     starts: Vec<usize>,
+    /// Who carries the forces of the tangential rows of the system.
+    carriers: Vec<Carriers>,
+}
+
+/// The points of the problem that share a tangential force: `|t_t| <= mu t_n + C_0` is the sum of a part that friction
+/// carries and of one that does not depend on the normal force.
+///
+/// The second is the friction, with a coefficient of one, of a point of its own with the same slip, which a force `C_0` presses:
+/// the load of a displacement that only this point knows and that it holds at zero.
+#[derive(Debug, Clone, Copy)]
+struct Carriers {
+    friction: Option<usize>,
+    constant: Option<usize>,
+}
+
+impl Carriers {
+    fn points(self) -> impl Iterator<Item = usize> {
+        self.friction.into_iter().chain(self.constant)
+    }
+
+    /// The sum over both of what each point has.
+    fn sum(self, of: &[f64]) -> f64 {
+        self.points().map(|point| of[point]).sum()
+    }
 }
 
 impl Sparse {
@@ -36,10 +60,22 @@ impl Sparse {
         let films: Vec<usize> =
             (0..system.rows.len()).filter(|row| system.rows[*row].compliance > 0.0).collect();
         let blocks_end = starts[starts.len() - 1];
-        let (n, m) = (blocks_end + films.len(), system.points());
-        let point_of = |row: usize| match row.checked_sub(m) {
-            None => row,
-            Some(position) => system.friction[position].0.index(),
+        let films_end = blocks_end + films.len();
+        let m = system.points();
+        let mut constant = Vec::new();
+        let mut carriers = Vec::with_capacity(system.friction.len());
+        for friction in &system.friction {
+            let has_base = friction.base > 0.0;
+            carriers.push(Carriers {
+                friction: (friction.mu > 0.0).then_some(friction.contact.index()),
+                constant: has_base.then_some(m + constant.len()),
+            });
+            constant.extend(has_base.then_some(friction.base));
+        }
+        let (n, all_points) = (films_end + constant.len(), m + constant.len());
+        let points_of = |row: usize| match row.checked_sub(m) {
+            None => Carriers { friction: Some(row), constant: None },
+            Some(position) => carriers[position],
         };
         let (mut k, mut f) = (Vec::new(), Vec::with_capacity(n));
         let (mut c_n, mut c_t) = (Vec::new(), Vec::new());
@@ -62,14 +98,14 @@ impl Sparse {
             }
             for row in &body.rows {
                 let rows = if row.row < m { &mut c_n } else { &mut c_t };
-                let point = point_of(row.row);
-                if body.stiffness.is_some() {
-                    rows.extend(
-                        row.entries.iter().map(|&(j, v)| Triplet::new(point, start + j, v)),
-                    );
-                } else {
-                    let modes = row.modes.iter().enumerate();
-                    rows.extend(modes.map(|(j, &v)| Triplet::new(point, start + j, v)));
+                for point in points_of(row.row).points() {
+                    if body.stiffness.is_some() {
+                        let entries = row.entries.iter();
+                        rows.extend(entries.map(|&(j, v)| Triplet::new(point, start + j, v)));
+                    } else {
+                        let modes = row.modes.iter().enumerate();
+                        rows.extend(modes.map(|(j, &v)| Triplet::new(point, start + j, v)));
+                    }
                 }
             }
         }
@@ -83,26 +119,33 @@ impl Sparse {
             k.push(Triplet::new(gives, gives, 1.0 / system.rows[row].compliance));
             f.push(0.0);
             let rows = if row < m { &mut c_n } else { &mut c_t };
-            rows.push(Triplet::new(point_of(row), gives, 1.0));
+            rows.extend(points_of(row).points().map(|point| Triplet::new(point, gives, 1.0)));
         }
-        let (mut s_0, mut mu) = (vec![0.0; m], vec![0.0; m]);
-        for ((point, value), row) in system.friction.iter().zip(&system.rows[m..]) {
-            mu[point.index()] = *value;
-            s_0[point.index()] = row.offset;
+        k.extend(pressing(&k, &c_t, (m, films_end)));
+        c_n.extend((0..constant.len()).map(|i| Triplet::new(m + i, films_end + i, 1.0)));
+        f.extend(constant.iter().map(|base| -base));
+        let (mut s_0, mut mu) = (vec![0.0; all_points], vec![0.0; all_points]);
+        for ((friction, row), carriers) in
+            system.friction.iter().zip(&system.rows[m..]).zip(&carriers)
+        {
+            carriers.points().for_each(|point| s_0[point] = row.offset);
+            mu[friction.contact.index()] = friction.mu;
         }
-        let x_0 = system.rows[..m].iter().map(|row| row.offset).collect();
-        let [k, c_n, c_t] = [(n, k), (m, c_n), (m, c_t)].map(|(rows, entries)| {
-            let built = SparseColMat::try_new_from_triplets(rows, n, &entries);
-            built.unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}"))
-        });
+        mu[m..].fill(1.0);
+        let mut x_0: Vec<f64> = system.rows[..m].iter().map(|row| row.offset).collect();
+        x_0.resize(all_points, 0.0);
+        let [k, c_n, c_t] =
+            [(n, k), (all_points, c_n), (all_points, c_t)].map(|(rows, entries)| {
+                let built = SparseColMat::try_new_from_triplets(rows, n, &entries);
+                built.unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}"))
+            });
         let problem = Contact2d::new(k, f, c_n, c_t, x_0, s_0, mu)?;
-        Ok(Self { problem, starts })
+        Ok(Self { problem, starts, carriers })
     }
 
     /// Forces and relative displacements of all rows of the system; relative displacements that are rounding errors of
     /// those of the two sides are zero, as those of contacts that are closed or stick.
     pub fn rows(&self, state: &ContactState) -> RowState {
-        let friction = self.problem.frictional();
         let cleared_by = |matrix: &SparseColMat<usize, f64>, values: &[f64]| -> Vec<f64> {
             let mut sizes = vec![0.0_f64; values.len()];
             for entry in matrix.triplet_iter() {
@@ -113,10 +156,14 @@ impl Sparse {
         };
         let gap = cleared_by(self.problem.normal(), &state.gap);
         let slip = cleared_by(self.problem.tangent(), &state.slip);
-        let rows = |normal: &[f64], tangential: &[f64]| {
-            normal.iter().copied().chain(friction.iter().map(|&i| tangential[i])).collect()
-        };
-        RowState { t: rows(&state.t_n, &state.t_t), y: rows(&gap, &slip) }
+        let points = self.points();
+        let friction = self.carriers.iter();
+        let tangential = friction.clone().map(|carriers| carriers.sum(&state.t_t));
+        let t = state.t_n[..points].iter().copied().chain(tangential).collect();
+        // All points of a row have one slip.
+        let slips = friction.filter_map(|carriers| carriers.points().next().map(|i| slip[i]));
+        let y = gap[..points].iter().copied().chain(slips).collect();
+        RowState { t, y }
     }
 
     /// Displacements and forces of the problem from those of the structure, the way back of
@@ -133,13 +180,52 @@ impl Sparse {
                 u.extend(body.modes.amplitudes(displaced_nodes(model, BlockId::new(b)), moved));
             }
         }
-        let t_n: Vec<f64> = state.contacts.iter().map(|contact| contact.t_n).collect();
-        let t_t: Vec<f64> = state.contacts.iter().map(|contact| contact.t_t).collect();
-        let tangential = system.friction.iter().map(|(id, _)| t_t[id.index()]);
-        let forces = t_n.iter().copied().chain(tangential);
-        let films = system.rows.iter().zip(forces).filter(|(row, _)| row.compliance > 0.0);
-        u.extend(films.map(|(row, t)| row.compliance * t));
+        let (normal, tangential) = system.rows.split_at(system.points());
+        let contacts = &state.contacts;
+        let normal: Vec<f64> =
+            normal.iter().map(|row| contacts[row.contact.index()].t_n + row.tension).collect();
+        let tangential: Vec<f64> =
+            tangential.iter().map(|row| contacts[row.contact.index()].t_t).collect();
+        self.with_forces(system, u, (&normal, &tangential))
+    }
+
+    /// The state with these displacements of the blocks, or of everything, and with the forces of the normal and of the
+    /// tangential rows of the system.
+    pub(crate) fn with_forces(
+        &self,
+        system: &System,
+        mut u: Vec<f64>,
+        (normal, tangential): (&[f64], &[f64]),
+    ) -> ContactState {
+        let (n, m) = (self.problem.displacements(), self.problem.points());
+        if u.len() < n {
+            let forces = system.rows.iter().zip(normal.iter().chain(tangential));
+            let films = forces.filter(|(row, _)| row.compliance > 0.0);
+            u.extend(films.map(|(row, t)| row.compliance * t));
+            u.resize(n, 0.0);
+        }
+        let (mut t_n, mut t_t) = (normal.to_vec(), vec![0.0; m]);
+        t_n.resize(m, 0.0);
+        for ((friction, force), carriers) in
+            system.friction.iter().zip(tangential).zip(&self.carriers)
+        {
+            let point = friction.contact.index();
+            let [by_friction, constant] = friction.shares(normal[point], *force);
+            match carriers.constant {
+                Some(other) => (t_n[other], t_t[other]) = (friction.base, constant),
+                None => t_t[point] = *force,
+            }
+            if carriers.friction.is_some() && carriers.constant.is_some() {
+                t_t[point] = by_friction;
+            }
+        }
         self.problem.state(u, t_n, t_t)
+    }
+
+    /// The contact points of the structure; those of cohesion follow them in the problem.
+    fn points(&self) -> usize {
+        let of_cohesion = self.carriers.iter().filter(|it| it.constant.is_some()).count();
+        self.problem.points() - of_cohesion
     }
 
     /// The state on the statuses of the contacts of another one, solved anew with twice the digits; `None` where
@@ -167,6 +253,26 @@ impl Sparse {
     pub fn of_block<'a>(&self, block: usize, u: &'a [f64]) -> &'a [f64] {
         &u[self.starts[block]..self.starts[block + 1]]
     }
+}
+
+/// The stiffnesses of the displacements of cohesion, from the first of its points and displacements on. Held at zero they
+/// need none, but methods that begin with open contacts do: as stiff as what slides there.
+fn pressing(
+    k: &[Triplet<usize, usize, f64>],
+    c_t: &[Triplet<usize, usize, f64>],
+    (point, displacement): (usize, usize),
+) -> Vec<Triplet<usize, usize, f64>> {
+    let mut diagonal = vec![0.0; displacement];
+    for entry in k.iter().filter(|entry| entry.row == entry.col) {
+        diagonal[entry.row] += entry.val;
+    }
+    let mut stiffness: std::collections::BTreeMap<usize, f64> = std::collections::BTreeMap::new();
+    for entry in c_t.iter().filter(|entry| entry.row >= point) {
+        let largest = stiffness.entry(entry.row - point).or_default();
+        *largest = largest.max(diagonal[entry.col]);
+    }
+    let stiff = stiffness.into_iter().filter(|(_, k)| *k > 0.0);
+    stiff.map(|(i, k)| Triplet::new(displacement + i, displacement + i, k)).collect()
 }
 
 fn unknowns(body: &BodySystem) -> usize {

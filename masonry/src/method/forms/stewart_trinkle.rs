@@ -8,17 +8,18 @@ use crate::system::System;
 pub(super) fn build(system: &System, reduction: &Reduction) -> Result<Form, lcp::Error> {
     let mut form = reduced::build(FormKind::StewartTrinkle, system, reduction, 3);
     let layout = &form.layout;
-    for (k, (point, mu)) in layout.friction.iter().enumerate() {
+    for (k, friction) in layout.friction.iter().enumerate() {
         let [plus, minus, lambda] = [1, 2, 3].map(|group| layout.pair(group, k));
         // s+ + s- = 2 lambda
         let row = layout.rows() + k;
         form.b[(row, plus)] = 1.0;
         form.b[(row, minus)] = 1.0;
         form.a[(row, lambda)] = -2.0;
-        // w = mu t_n - b+ - b-
+        // w = mu t_n + C_0 - b+ - b-
         let row = row + layout.friction.len();
         form.b[(row, lambda)] = 1.0;
-        form.a[(row, *point)] = -mu;
+        form.a[(row, friction.contact.index())] = -friction.mu;
+        form.c[row] = friction.base;
         form.a[(row, plus)] = 1.0;
         form.a[(row, minus)] = 1.0;
     }

@@ -2,7 +2,7 @@
 //!
 //! A motion of rigid blocks on which the loads do work, and no contact force can do negative work: every contact
 //! opens by at least `mu` times what it slides. Forces that balance the loads would do the opposite of their work, so there
-//! are none: whatever the blocks are made of, since none of them is deformed, and whatever the gaps are.
+//! are none; with cohesion and tensile strength, if the loads do more work than these take: whatever the blocks are made of, since none of them is deformed, and whatever the gaps are.
 
 use nalgebra::{Point2, Vector2};
 
@@ -22,7 +22,8 @@ const CLEAR: f64 = 1e6;
 pub struct Proof {
     /// Displacement rates of the corners of every block, scaled to a largest component of one.
     pub rates: Vec<[Vector2<f64>; 4]>,
-    /// Work of the loads on them, relative to the sum of all loads \[-\].
+    /// Work of the loads on them, less what cohesion and tensile strength take, relative to the sum of all of these
+    /// forces \[-\].
     pub work: f64,
     /// The largest work that a contact force of one could do against it, relative to the force \[-\]: rounding errors.
     pub error: f64,
@@ -52,12 +53,14 @@ impl Proof {
 
     fn checked(model: &Model, amplitudes: &[f64]) -> Option<Self> {
         let motion = Motion::new(model, amplitudes);
-        let (work, total) = motion.work(model);
-        let error = model
-            .contacts
-            .iter()
-            .map(|contact| motion.against(model, contact))
-            .fold(ROUNDING, f64::max);
+        let (mut work, mut total) = motion.work(model);
+        let mut error = ROUNDING;
+        for contact in &model.contacts {
+            let [opens, slides] = motion.apart(model, contact);
+            error = error.max(contact.law.against(opens, slides));
+            work -= contact.law.strength(opens, slides);
+            total += contact.law.cohesion + contact.law.tension;
+        }
         (total > 0.0 && work > CLEAR * error * total).then(|| {
             let rates = motion.rates(model);
             Self { rates, work: work / total, error }
@@ -96,8 +99,8 @@ impl<'a> Motion<'a> {
         loads.fold((0.0, 0.0), |(work, total), (of, force)| (work + of, total + force.norm()))
     }
 
-    /// The most that a force of one along an edge of the cone of a contact can do against the motion.
-    fn against(&self, model: &Model, contact: &ContactPoint) -> f64 {
+    /// By how much a contact opens and slides.
+    fn apart(&self, model: &Model, contact: &ContactPoint) -> [f64; 2] {
         let joint = &model.joints[contact.joint.index()];
         let side = |Anchor { block, edge, at }: Anchor| {
             // Both faces of a film feel its force in the middle between them.
@@ -106,7 +109,6 @@ impl<'a> Motion<'a> {
             self.at(block, place)
         };
         let apart = side(contact.b) - contact.a.map_or_else(Vector2::zeros, side);
-        let (opens, slides) = (apart.dot(&joint.normal), apart.dot(&joint.tangent()).abs());
-        (contact.mu * slides - opens) / contact.mu.hypot(1.0)
+        [apart.dot(&joint.normal), apart.dot(&joint.tangent())]
     }
 }

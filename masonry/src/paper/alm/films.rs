@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use nalgebra::{Matrix2, Point2, RowVector3, Vector2};
 
+use crate::law::JointLaw;
 use crate::model::{Anchor, ContactPoint, Joint, Model};
 use crate::paper::film::change::{ChangeError, NodalChange};
 use crate::paper::film::law::{FilmState, PointContact};
@@ -50,6 +51,14 @@ pub enum AttachError {
     Rigid {
         /// Its name.
         block: String,
+    },
+    /// The law of the film has friction only.
+    #[error(
+        "the joint class \"{class}\" has cohesion or tensile strength, which films as strips do not have"
+    )]
+    Strength {
+        /// Its name.
+        class: String,
     },
     /// Contact points and segments of films were divided in different ways.
     #[error(
@@ -116,7 +125,11 @@ fn of_joint(
     ends.extend([first, last]);
     ends.sort_by(f64::total_cmp);
     ends.dedup_by(|b, a| *b - *a < near);
-    let mu = model.joint_classes[joint.class].mu;
+    let class = &model.joint_classes[joint.class];
+    if class.law != JointLaw::friction(class.law.mu) {
+        return Err(AttachError::Strength { class: class.name.clone() });
+    }
+    let mu = class.law.mu;
     for pair in ends.windows(2) {
         let (middle, length) = (0.5 * (pair[0] + pair[1]), pair[1] - pair[0]);
         let mut faces = [[-0.5 * length, 0.5 * length]; 2];

@@ -1,7 +1,7 @@
 //! Scenes whose films are whole strips: the contact points in films take no part in the iterations, and have the
 //! answers of the films afterwards.
 
-use lcp::{Contact2d, ContactState, Status};
+use lcp::{ContactState, Status};
 
 use super::{MortaredError, MortaredWall, Settings};
 use crate::method::forms::Sparse;
@@ -34,7 +34,6 @@ impl Strips<'_> {
 
     /// Displacements and forces of the problem with contact points in the films.
     fn with_points(&self, wall: &MortaredWall, found: &ContactState) -> ContactState {
-        let problem: &Contact2d = &self.sparse.problem;
         let films = wall.films().iter().flat_map(|film| film.respond(&found.u).points);
         let (mut films, mut dry) = (films, found.t_n.iter().zip(&found.t_t));
         let forces = self.model.contacts.iter().map(|contact| match contact.film {
@@ -45,13 +44,9 @@ impl Strips<'_> {
             None => dry.next().map_or([0.0; 2], |(t_n, t_t)| [*t_n, *t_t]),
         });
         let (t_n, t_t): (Vec<f64>, Vec<f64>) = forces.map(|[t_n, t_t]| (t_n, t_t)).unzip();
-        // How far the films give way stands behind the displacements of the blocks.
-        let mut u = found.u.clone();
-        let normal = t_n.iter();
-        let tangential = self.system.friction.iter().map(|(point, _)| &t_t[point.index()]);
-        let rows = self.system.rows.iter().zip(normal.chain(tangential));
-        u.extend(rows.filter(|(row, _)| row.compliance > 0.0).map(|(row, t)| row.compliance * t));
-        problem.state(u, t_n, t_t)
+        let friction = self.system.friction.iter();
+        let tangential: Vec<f64> = friction.map(|it| t_t[it.contact.index()]).collect();
+        self.sparse.with_forces(self.system, found.u.clone(), (&t_n, &tangential))
     }
 }
 

@@ -7,6 +7,7 @@ use super::loads::Loads;
 use super::marks::{self, BRICK, OUTLINE};
 use super::sheet::Sheet;
 use crate::geometry;
+use crate::law::JointLaw;
 use crate::model::Model;
 use crate::report::format::{InUnits, acceleration_text, significant};
 
@@ -58,7 +59,7 @@ fn draw_joints(sheet: &mut Sheet, model: &Model, brick: f64) {
             }
         });
         if used {
-            let text = format!("{} joints, μ\u{a0}=\u{a0}{}", class.name, significant(class.mu, 4));
+            let text = format!("{} joints, {}", class.name, law(&class.law, InUnits(model.units)));
             sheet.entry(&text, |symbol| {
                 let style = format!("stroke=\"{colour}\" stroke-width=\"1.8\"");
                 symbol.line(Pixel::new(-22.0, 0.0), Pixel::new(22.0, 0.0), &style);
@@ -68,6 +69,17 @@ fn draw_joints(sheet: &mut Sheet, model: &Model, brick: f64) {
             });
         }
     }
+}
+
+/// The law of a class: friction, and what strength it has.
+fn law(law: &JointLaw, units: InUnits) -> String {
+    let mut text = format!("μ\u{a0}=\u{a0}{}", significant(law.mu, 4));
+    for (name, value) in [("c", law.cohesion), ("f_t", law.tension)] {
+        if value > 0.0 {
+            text += &format!(", {name}\u{a0}=\u{a0}{}", units.stress_text(value));
+        }
+    }
+    text
 }
 
 /// Names in the middle of the blocks, in one size that fits all, or not at all.

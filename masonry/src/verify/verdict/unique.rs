@@ -6,6 +6,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{Col, Side};
 use lcp::Contact2d;
 
+use crate::model::{ContactPoint, Model};
 use crate::state::{ContactState, State};
 
 /// Normal forces below this part of the largest are none, and forces this near to an edge of the cone are on it.
@@ -20,8 +21,8 @@ const CIRCULATES: f64 = 1e-3;
 /// A force may change along both directions inside its cone, along the edge where it slides, and not where it is zero. Of
 /// a set of such changes `d` of order one, `d - B^T (B B^T)^-1 B d` is what the blocks do not feel, where `B` makes
 /// forces on the displacements of them.
-pub(crate) fn circulating(problem: &Contact2d, state: &State) -> usize {
-    let changes = changes(problem, state);
+pub(crate) fn circulating(model: &Model, problem: &Contact2d, state: &State) -> usize {
+    let changes = changes(model, problem, state);
     let Some(unfelt) = unfelt(problem.displacements(), &changes) else { return 0 };
     let mut points: Vec<usize> = changes
         .iter()
@@ -40,27 +41,30 @@ struct Change {
     effect: Vec<(usize, f64)>,
 }
 
-fn changes(problem: &Contact2d, state: &State) -> Vec<Change> {
-    let largest = state.contacts.iter().map(|contact| contact.t_n).fold(0.0, f64::max);
+fn changes(model: &Model, problem: &Contact2d, state: &State) -> Vec<Change> {
+    let contacts = || model.contacts.iter().zip(&state.contacts);
+    // How far a force is from opening the joint.
+    let pressed = |(point, force): (&ContactPoint, &ContactState)| force.t_n + point.law.tension;
+    let largest = contacts().map(pressed).fold(0.0, f64::max);
     let normals = rows(problem.normal());
     let tangents = rows(problem.tangent());
     let mut list = Vec::new();
-    for (point, force) in state.contacts.iter().enumerate() {
+    for (point, (contact, force)) in contacts().enumerate() {
         let ContactState { t_n, t_t, .. } = *force;
-        let mu = problem.mu()[point];
-        if t_n <= NONE * largest {
+        let law = contact.law;
+        if pressed((contact, force)) <= NONE * largest {
             continue;
         }
         let along = |t: f64| {
             let tangent = tangents[point].iter().map(|(j, v)| (*j, t * v));
             normals[point].iter().copied().chain(tangent).collect::<Vec<_>>()
         };
-        let is_inside = t_t.abs() < (1.0 - NONE) * mu * t_n;
+        let is_inside = t_t.abs() < (1.0 - NONE) * law.bound(t_n);
         if is_inside {
             list.push(Change { point, effect: normals[point].clone() });
             list.push(Change { point, effect: tangents[point].clone() });
         } else {
-            let edge = if mu > 0.0 { mu.copysign(t_t) } else { 0.0 };
+            let edge = if law.mu > 0.0 { law.mu.copysign(t_t) } else { 0.0 };
             list.push(Change { point, effect: along(edge) });
         }
     }

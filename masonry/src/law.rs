@@ -1,0 +1,143 @@
+//! The law of a joint: unilateral contact with Coulomb friction, cohesion, and tension up to a limit.
+//!
+//! With the contact force `(t_n, t_t)` of a point, compression positive, the gap `y_n` and the slip `y_t`:
+//!
+//! ```text
+//!   t_n >= -T,   y_n >= 0,   (t_n + T) y_n = 0
+//!   |t_t| <= mu t_n + C,     slip only where |t_t| is at this bound, and against it
+//! ```
+//!
+//! `C = c A` and `T = f_t A` are the cohesion and the tensile strength of the area `A` of the point. The strength is
+//! not lost where a joint has slid or opened: the law is ideally plastic. It needs `mu T <= C`, so that
+//! the force `-T` lies inside the cone.
+//!
+//! A change of the unknown makes it the law of a joint without tension. With `t_n' = t_n + T`,
+//!
+//! ```text
+//!   t_n' >= 0,   |t_t| <= mu t_n' + C_0,   C_0 = C - mu T
+//! ```
+//!
+//! and `-T` along the normal is a load on both sides. So [`System`](crate::system::System) and everything built on
+//! it have `t_n'`, and only [`Friction::base`] is new there; [`State`](crate::state::State) has `t_n` again. Nothing else in
+//! the crate knows the bound.
+
+use crate::ids::ContactId;
+
+/// What resists sliding and opening in a class of joints.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct JointLaw {
+    /// Coefficient of Coulomb friction \[-\].
+    pub mu: f64,
+    /// Cohesion `c` \[Pa\].
+    pub cohesion: f64,
+    /// Tensile strength `f_t` \[Pa\], at most `c / mu`.
+    pub tension: f64,
+}
+
+impl JointLaw {
+    /// Friction and nothing else.
+    pub fn friction(mu: f64) -> Self {
+        Self { mu, ..Self::default() }
+    }
+
+    /// Whether joints resist sliding: only these have tangential unknowns.
+    pub fn resists_sliding(&self) -> bool {
+        self.mu > 0.0 || self.cohesion > 0.0
+    }
+
+    /// The law of a point that stands for an area \[m^2\].
+    pub fn at(&self, area: f64) -> PointLaw {
+        PointLaw { mu: self.mu, cohesion: self.cohesion * area, tension: self.tension * area }
+    }
+}
+
+/// The law of one contact point.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PointLaw {
+    /// Coefficient of Coulomb friction \[-\].
+    pub mu: f64,
+    /// Cohesion `C` \[N\].
+    pub cohesion: f64,
+    /// Tensile strength `T` \[N\].
+    pub tension: f64,
+}
+
+impl PointLaw {
+    /// Friction and nothing else.
+    pub fn friction(mu: f64) -> Self {
+        Self { mu, ..Self::default() }
+    }
+
+    /// Whether the point resists sliding: only then it has a tangential unknown.
+    pub fn resists_sliding(&self) -> bool {
+        self.mu > 0.0 || self.cohesion > 0.0
+    }
+
+    /// `C_0 = C - mu T` \[N\]: what resists sliding where the joint is about to open.
+    pub fn base(&self) -> f64 {
+        (self.cohesion - self.mu * self.tension).max(0.0)
+    }
+
+    /// The largest tangential force \[N\] at a normal force.
+    ///
+    /// ```
+    /// use masonry::law::PointLaw;
+    /// let law = PointLaw { mu: 0.5, cohesion: 3.0, tension: 2.0 };
+    /// assert_eq!((law.bound(4.0), law.bound(-2.0), law.base()), (5.0, 2.0, 2.0));
+    /// ```
+    pub fn bound(&self, t_n: f64) -> f64 {
+        self.base() + (self.mu * (t_n + self.tension)).max(0.0)
+    }
+
+    /// By how much a force \[N\] violates the law; at most zero where it does not.
+    pub fn violation(&self, t_n: f64, t_t: f64) -> f64 {
+        (-self.tension - t_n).max(t_t.abs() - self.mu * t_n - self.cohesion)
+    }
+
+    /// The most work \[J\] that forces of size one along the edges of the cone do against a motion in which the joint opens
+    /// and slides by these lengths \[m\]; positive only where it slides faster than it opens by friction.
+    pub fn against(&self, opens: f64, slides: f64) -> f64 {
+        (self.mu * slides.abs() - opens) / self.mu.hypot(1.0)
+    }
+
+    /// The work \[J\] that cohesion and tensile strength take in a motion in which no force of the cone does work against it.
+    pub fn strength(&self, opens: f64, slides: f64) -> f64 {
+        self.tension * opens + self.base() * slides.abs()
+    }
+
+    /// The tangential unknown of a point, if it has one.
+    pub(crate) fn sliding(&self, contact: ContactId) -> Option<Friction> {
+        self.resists_sliding().then(|| Friction { contact, mu: self.mu, base: self.base() })
+    }
+}
+
+/// The bound of one tangential force in a [`System`](crate::system::System): `|t_t| <= mu t_n' + base`, where `t_n' = t_n + T` is the
+/// normal unknown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Friction {
+    /// The contact point.
+    pub contact: ContactId,
+    /// Coefficient of Coulomb friction \[-\].
+    pub mu: f64,
+    /// `C_0` \[N\].
+    pub base: f64,
+}
+
+impl Friction {
+    /// The largest tangential force \[N\].
+    pub fn bound(&self, normal: f64) -> f64 {
+        self.mu * normal.max(0.0) + self.base
+    }
+
+    /// The distances to the two edges of the cone, `p+ = mu t_n' + base + t_t` and `p- = mu t_n' + base - t_t` (3.24).
+    pub fn distances(&self, normal: f64, tangential: f64) -> [f64; 2] {
+        [1.0, -1.0].map(|sign| self.mu * normal + self.base + sign * tangential)
+    }
+
+    /// What of a tangential force friction carries, and what the constant part.
+    pub(crate) fn shares(&self, normal: f64, tangential: f64) -> [f64; 2] {
+        let bound = self.mu * normal.max(0.0);
+        let friction = tangential.clamp(-bound, bound);
+        [friction, tangential - friction]
+    }
+}

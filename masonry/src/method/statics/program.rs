@@ -1,0 +1,183 @@
+//! The convex programs of admissible forces as complementarity problems.
+
+use lcp::MixedLcp;
+
+use crate::law::Friction;
+use crate::system::{BodySystem, System};
+
+/// What is left of the balance of a block, relative to the largest load, in forces that are called admissible.
+const BALANCED: f64 = 1e-9;
+
+/// The forces that contacts may have, and the balance of the blocks.
+pub(super) struct Program<'a> {
+    system: &'a System,
+    /// Of every contact point the first of its edges, and one past the last.
+    first: Vec<usize>,
+    /// The frictional points with a constant part of friction, and `C_0` of each in units of the largest load.
+    constant: Vec<(usize, f64)>,
+    /// `E` as rows, columns and values: edges, then the forces of constant friction.
+    entries: Vec<(usize, usize, f64)>,
+    /// `r`, in units of the largest load.
+    loads: Vec<f64>,
+    /// The largest load \[N\].
+    unit: f64,
+}
+
+impl<'a> Program<'a> {
+    pub(super) fn of(system: &'a System) -> Self {
+        let mut edges = vec![1; system.points()];
+        for friction in system.friction.iter().filter(|friction| friction.mu > 0.0) {
+            edges[friction.contact.index()] = 2;
+        }
+        let mut first = vec![0];
+        first.extend(edges.iter().scan(0, |sum, edges| {
+            *sum += edges;
+            Some(*sum)
+        }));
+        let resultants = system.resultants();
+        let largest = resultants.iter().fold(0.0, |unit: f64, f| unit.max(f.abs()));
+        let unit = if largest > 0.0 { largest } else { 1.0 };
+        let loads = resultants.iter().map(|f| f / unit).collect();
+        let with_base = system.friction.iter().enumerate().filter(|(_, it)| it.base > 0.0);
+        let constant = with_base.map(|(k, it)| (k, it.base / unit)).collect();
+        let mut program = Self { system, first, constant, entries: Vec::new(), loads, unit };
+        for (b, body) in system.bodies.iter().enumerate() {
+            program.add(b, body);
+        }
+        program
+    }
+
+    fn add(&mut self, b: usize, body: &BodySystem) {
+        let points = self.system.points();
+        for row in &body.rows {
+            let modes = || row.modes.iter().enumerate().filter(|(_, value)| **value != 0.0);
+            // The normal force of one along both edges, the friction along each in its own direction.
+            let (point, factors) = match row.row.checked_sub(points) {
+                None => (row.row, [self.parts(row.row)[0]; 2]),
+                Some(k) => {
+                    if let Ok(place) = self.constant.binary_search_by_key(&k, |it| it.0) {
+                        let column = self.edges() + place;
+                        self.entries.extend(modes().map(|(j, value)| (3 * b + j, column, *value)));
+                    }
+                    let Friction { contact, mu, .. } = self.system.friction[k];
+                    if mu <= 0.0 {
+                        continue;
+                    }
+                    let [_, friction] = self.parts(contact.index());
+                    (contact.index(), [friction, -friction])
+                }
+            };
+            for (edge, factor) in (self.first[point]..self.first[point + 1]).zip(factors) {
+                self.entries.extend(modes().map(|(j, value)| (3 * b + j, edge, factor * value)));
+            }
+        }
+    }
+
+    /// The normal and the tangential part of a force of one along an edge of the cone of a point.
+    fn parts(&self, point: usize) -> [f64; 2] {
+        let found = self.system.friction.binary_search_by_key(&point, |it| it.contact.index());
+        let mu = found.map_or(0.0, |k| self.system.friction[k].mu);
+        let length = mu.hypot(1.0);
+        [1.0 / length, mu / length]
+    }
+
+    /// No load acts.
+    pub(super) fn is_unloaded(&self) -> bool {
+        self.loads.iter().all(|load| load.abs() <= 0.0)
+    }
+
+    /// Rigid amplitudes of all blocks.
+    pub(super) fn unknowns(&self) -> usize {
+        self.loads.len()
+    }
+
+    fn edges(&self) -> usize {
+        self.first[self.first.len() - 1]
+    }
+
+    /// Of `E`.
+    pub(super) fn columns(&self) -> usize {
+        self.edges() + self.constant.len()
+    }
+
+    pub(super) fn entries(&self) -> &[(usize, usize, f64)] {
+        &self.entries
+    }
+
+    /// `E p + r = 0` and `0 <= p _|_ p + E^T x >= 0`.
+    pub(super) fn least_forces(&self) -> Result<MixedLcp, lcp::Error> {
+        let n = self.unknowns();
+        self.mixed(n..n + self.columns())
+    }
+
+    /// `v = r + E p` and `0 <= p _|_ E^T v >= 0`.
+    pub(super) fn least_rest(&self) -> Result<MixedLcp, lcp::Error> {
+        self.mixed(0..self.unknowns())
+    }
+
+    /// With ones on this part of the diagonal.
+    ///
+    /// A force of constant friction is `q = q' - C_0` with `q' >= 0`, and a multiplier `l >= 0` of `2 C_0 - q' >= 0`.
+    fn mixed(&self, diagonal: std::ops::Range<usize>) -> Result<MixedLcp, lcp::Error> {
+        let (n, limited) = (self.unknowns(), self.unknowns() + self.edges());
+        let held = n + self.columns();
+        let order = held + self.constant.len();
+        let mut q: Vec<f64> = self.loads.iter().map(|r| -r).collect();
+        q.resize(order, 0.0);
+        let mut skew: Vec<(usize, usize, f64)> =
+            self.entries.iter().flat_map(|&(i, k, v)| [(i, n + k, -v), (n + k, i, v)]).collect();
+        for (k, (_, base)) in self.constant.iter().enumerate() {
+            skew.extend([(limited + k, held + k, 1.0), (held + k, limited + k, -1.0)]);
+            q[held + k] = 2.0 * base;
+            if diagonal.contains(&(limited + k)) {
+                q[limited + k] = -base;
+            }
+        }
+        for &(i, k, v) in self.entries.iter().filter(|(_, k, _)| *k >= self.edges()) {
+            q[i] += v * self.constant[k - self.edges()].1;
+        }
+        let ones = diagonal.map(|i| (i, i, 1.0));
+        let triplets: Vec<_> = skew
+            .into_iter()
+            .chain(ones)
+            .map(|(i, j, v)| faer::sparse::Triplet::new(i, j, v))
+            .collect();
+        let m = faer::sparse::SparseColMat::try_new_from_triplets(order, order, &triplets)
+            .unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}"));
+        MixedLcp::new(m, q, (0..order).map(|j| j < n).collect())
+    }
+
+    /// The forces of all rows \[N\], if those in `z` balance the loads.
+    pub(super) fn admissible(&self, z: &[f64]) -> Option<Vec<f64>> {
+        let mut p: Vec<f64> = z[self.unknowns()..][..self.columns()].to_vec();
+        let (along_edges, constant) = p.split_at_mut(self.edges());
+        along_edges.iter_mut().for_each(|p| *p = p.max(0.0));
+        for (q, (_, base)) in constant.iter_mut().zip(&self.constant) {
+            *q = (*q - base).clamp(-base, *base);
+        }
+        let mut rest = self.loads.clone();
+        self.entries.iter().for_each(|&(i, k, v)| rest[i] += v * p[k]);
+        let is_balanced = rest.iter().all(|rest| rest.abs() <= BALANCED);
+        is_balanced.then(|| self.forces(&p))
+    }
+
+    fn forces(&self, p: &[f64]) -> Vec<f64> {
+        let points = self.system.points();
+        let mut forces = vec![0.0; self.system.rows.len()];
+        for point in 0..points {
+            let along: f64 = p[self.first[point]..self.first[point + 1]].iter().sum();
+            forces[point] = self.unit * along * self.parts(point)[0];
+        }
+        for (k, friction) in self.system.friction.iter().enumerate() {
+            let point = friction.contact.index();
+            if friction.mu > 0.0 {
+                let edge = self.first[point];
+                forces[points + k] = self.unit * self.parts(point)[1] * (p[edge] - p[edge + 1]);
+            }
+        }
+        for ((k, _), q) in self.constant.iter().zip(&p[self.edges()..]) {
+            forces[points + k] += self.unit * q;
+        }
+        forces
+    }
+}
