@@ -25,9 +25,9 @@ fn assert_neutral(name: &str, without: &Scene, with: &Scene) {
         let [off, on] = [without, with].map(|scene| built(scene, route).0);
         assert!(!effect(&off, name).on && effect(&on, name).on, "{name}");
         let Some((a, b)) = answer_by(without, route).zip(answer_by(with, route)) else { continue };
-        for (a, b) in figures(&a).iter().zip(figures(&b)) {
+        for (k, (a, b)) in figures(&a).iter().zip(figures(&b)).enumerate() {
             let apart = difference(a, &b);
-            assert!(apart <= rounding(route), "{name}, {route:?}: {apart:e}");
+            assert!(apart <= rounding(route), "{name}, {route:?}, figure {k}: {apart:e}");
         }
     }
 }
@@ -75,14 +75,10 @@ fn friction_that_is_not_needed() {
 /// Where every joint is pressed and nothing rubs, strength is not needed.
 #[test]
 fn strength_that_is_not_needed() {
-    let even = |joint| {
-        let mut scene = boxed(Material::elastic(1e6, 0.0), joint).gravity([0.0, 0.0]);
-        scene.loads[0].pressure = Some(100.0);
-        scene
-    };
-    let plain = even(Joint::mu(0.6));
-    assert_neutral("cohesion", &plain, &even(Joint::mu(0.6).cohesion(60.0)));
-    assert_neutral("tension", &plain, &even(Joint::mu(0.6).cohesion(60.0).tension(50.0)));
+    let pressed = |joint| column(Material::elastic(1e6, 0.0), joint, 0.0);
+    let plain = pressed(Joint::mu(0.6));
+    assert_neutral("cohesion", &plain, &pressed(Joint::mu(0.6).cohesion(60.0)));
+    assert_neutral("tension", &plain, &pressed(Joint::mu(0.6).cohesion(60.0).tension(50.0)));
 }
 
 /// A film gives way by its thickness, against that of the bricks, and so does what it changes. Programs come to

@@ -109,9 +109,13 @@ fn mass(model: &Model, block: &Block) -> f64 {
     block.density.unwrap_or(0.0) * model.thickness * 0.5 * cross(r - p, s - q)
 }
 
-/// Of the rectangles that walls here are made of.
+/// The mean of the centroids of two triangles, by their areas.
 fn centroid(block: &Block) -> Point2<f64> {
-    nalgebra::center(&block.corners[0], &block.corners[2])
+    let [p, q, r, s] = block.corners;
+    let cross = |a: Vector2<f64>, b: Vector2<f64>| a.x * b.y - a.y * b.x;
+    let (first, second) = (cross(q - p, r - p), cross(r - p, s - p));
+    let third = |a: Point2<f64>, b: Point2<f64>| ((a - p) + (b - p)) / 3.0;
+    p + (third(q, r) * first + third(r, s) * second) / (first + second)
 }
 
 fn on_edge(block: &Block, edge: usize, at: f64) -> Point2<f64> {
