@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::routes::{routes_for, solved_by};
+use common::routes::{answer_by, routes_for, solved_by};
 use common::{GRAVITY, M_KN, block_named, rectangle, solved, state};
 use masonry::analysis::outcome::{Outcome, State};
 use masonry::model::Plane;
@@ -243,6 +243,24 @@ fn answers_of_all_routes_hold() {
     for scene in [wall(elastic(), Joint::mu(0.5)), wall(Material::rigid(), Joint::mu(0.5))] {
         for route in routes_for(&scene) {
             assert_forces_are_judged(&solved_by(&scene, route));
+        }
+    }
+}
+
+/// A rigid block at rest beside one that drops: where it is, is known to parts of the drop.
+#[test]
+fn a_block_at_rest_beside_one_that_drops() {
+    for material in [Material::rigid(), elastic()] {
+        let mut scene = scene(0.5)
+            .material("stone", material.density(2000.0))
+            .block(rectangle("rests", "stone", [0.0, 1.0], [0.0, 0.5]).mesh([2, 1]))
+            .block(rectangle("drops", "stone", [1.0, 2.0], [1e-3, 0.5]).mesh([2, 1]))
+            .support(Support::new("floor", [0.0, 0.0], [2.0, 0.0], "bed"));
+        scene.contact.gap_limit = 2e-3;
+        for route in routes_for(&scene) {
+            if let Some(outcome) = answer_by(&scene, route) {
+                assert_forces_are_judged(&outcome);
+            }
         }
     }
 }

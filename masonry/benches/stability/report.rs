@@ -27,14 +27,14 @@ The [hard cases](hard_cases.md) with their parameters varied, from harmless to h
 an answer becomes less accurate, and where a route says that it has none. What is called solved is held against checks that use
 nothing of the methods; asked for were residuals of 1e-10, of `alm` 1e-8.
 
-* **Error**: the worst of balance, friction cone, gaps, sliding, nodal forces and energy. Forces are compared with those on the
-  same block, but with a millionth of the largest ones at least.
+* **Error**: the worst of the [checks](theory.md#10-residuals-and-balances): balance, friction cone, gaps, sliding, nodal forces and energy. Forces are
+  compared with those on the same block; rounding errors of larger ones around it count as 1e-9 at most.
 * **Backward error**: by how much loads, stiffness and contact forces would have to change, relative to them, for equilibrium alone;
   gaps and friction are not in it. Where it is near rounding and all routes have the same larger error, the scene itself is sensitive.
-* **Promised** is that residuals are below what was asked for relative to the largest forces and displacements. On single blocks errors may be a
-  hundred times that, and more where forces on blocks differ by more than ten, in proportion, but at most 1e-3: a block carries
+* **Promised** is that errors are at most 1e-9, of `alm` 1e-8: nothing else is called solved. What is known of an answer may be off by a
+  hundred times the residual that was asked for, and more where forces on blocks differ by more than ten, in proportion, but at most 1e-3: a block carries
   its own loads to a thousandth. Where displacements are as much less certain as a scene says (slender bricks: by 1e-8 of the square of the ratio; wedges: by one over the sine
-  of the angle) the same holds of energy and known displacements. The grey lines have all of that.
+  of the angle) the same holds of known displacements. The grey lines have all of that.
 * **Expected** is what is known: an answer, none (a load above its limit), or neither (open). Nearer to its limit than what is
   asked for, a scene above it is one below it to these numbers, and may be called solved: up to twenty times that, since the load is
   not all that the equations have.

@@ -4,14 +4,15 @@
 //! # What errors are compared with
 //! A force is compared with the sum of the sizes of all on the same block: loads, contact forces, and the tensile
 //! strengths of its points, beyond which forces are computed. So a light block is not excused by a heavy one beside it.
-//! A length is compared with the displacements of the blocks that meet, and with the gap and slip at first.
+//! A length is compared with the displacements of the blocks that meet, and with gaps and slips at first and compressions of
+//! films at their points; where one of them is rigid, with the largest of all, since a rigid block has no length of its own.
 //!
 //! Both end where the digits do. Blocks that touch share forces and displacements, and an equation of them is
 //! known to the rounding errors of its largest term: `eps` times the number of terms times
 //!
 //! * of a force on a block, the largest sum of forces on it or on a block that it touches, and of an
 //!   elastic one, stiffness times displacement at a node of its own;
-//! * of a length, the largest displacement of all.
+//! * of a length, the largest of all.
 //!
 //! An error that is no more than this counts as 1e-9 at most, since no digits are left to do better. It can hide that a
 //! block is light only where another one is about 1e13 times as heavy, and then [`Checks::uncarried`] tells.
@@ -59,7 +60,7 @@ pub struct Checks {
     /// blocks that meet. Where friction `mu` is above one its bound has the errors of the normal force `mu` times:
     /// it counts one `mu`-th.
     pub cone_violation: f64,
-    /// Deepest interpenetration, relative to the displacements of the blocks that meet.
+    /// Deepest interpenetration, relative to the lengths of the blocks that meet.
     pub penetration: f64,
     /// Forces where there should be none: across a gap, or, where a point slides in the step, other than the bound
     /// against it. The smaller one of the gap or slip, as a length, and of the force that is too much or lacks.

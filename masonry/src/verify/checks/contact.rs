@@ -113,12 +113,12 @@ impl Pair {
 
     /// How deep the sides are in one another.
     pub(super) fn inside(&self, lengths: &Lengths) -> f64 {
-        lengths.share(&self.blocks, self.initial, -self.gap)
+        lengths.share(&self.blocks, -self.gap)
     }
 
     /// Force across a gap, and sliding at another force than the bound against it.
     pub(super) fn against_law(&self, bodies: &Bodies, lengths: &Lengths) -> f64 {
-        let length = |part: f64| lengths.share(&self.blocks, self.initial, part);
+        let length = |part: f64| lengths.share(&self.blocks, part);
         let force = |part: f64| bodies.share(&self.blocks, part);
         let across = smaller(length(self.gap), force(self.t_n + self.law.tension));
         let wanted = -self.law.bound(self.t_n) * self.slip.signum();

@@ -3,33 +3,48 @@
 use nalgebra::Vector2;
 
 use super::{known, larger};
-use crate::model::Model;
-use crate::state::State;
+use crate::model::{ContactPoint, Model};
+use crate::state::{ContactState, State};
 
-/// The largest displacements \[m\].
+/// The largest lengths \[m\].
 pub(super) struct Lengths {
+    /// Of every block: displacements, and gaps and slips at first and compressions of films at its points. A block
+    /// may be at rest between films and supports that are not. Of rigid ones the largest of all: nothing but others
+    /// tells how far they move, and many do not.
     blocks: Vec<f64>,
-    /// What rounding errors of the largest of all and of the initial gaps may be.
+    /// What rounding errors of the largest of all may be.
     rounding: f64,
 }
 
 impl Lengths {
     pub(super) fn of(model: &Model, state: &State) -> Self {
-        let blocks: Vec<f64> = state
-            .displacements
-            .iter()
-            .map(|u| u.iter().map(Vector2::norm).fold(0.0, larger))
-            .collect();
-        let gaps = model.contacts.iter().map(|contact| contact.gap.abs());
-        let largest = blocks.iter().copied().chain(gaps).fold(0.0, larger);
+        let moved = |u: &Vec<Vector2<f64>>| u.iter().map(Vector2::norm).fold(0.0, larger);
+        let mut blocks: Vec<f64> = state.displacements.iter().map(moved).collect();
+        for (contact, it) in model.contacts.iter().zip(&state.contacts) {
+            let at_point = lengths(contact, it).into_iter().fold(0.0, larger);
+            for anchor in [Some(contact.b), contact.a].into_iter().flatten() {
+                let of_block = &mut blocks[anchor.block.index()];
+                *of_block = larger(*of_block, at_point);
+            }
+        }
+        let largest = blocks.iter().copied().fold(0.0, larger);
+        for (own, block) in blocks.iter_mut().zip(&model.blocks) {
+            if block.elasticity.is_none() {
+                *own = largest;
+            }
+        }
         let count = state.displacements.iter().map(Vec::len).sum::<usize>();
         Self { blocks, rounding: f64::EPSILON * count as f64 * largest }
     }
 
-    /// A length at a contact point of some blocks, relative to their displacements and to what it was at first.
-    pub(super) fn share(&self, blocks: &[usize], initial: [f64; 2], part: f64) -> f64 {
-        let moved = blocks.iter().map(|block| self.blocks[*block]);
-        let own = moved.chain(initial.map(f64::abs)).fold(0.0, larger);
+    /// A length at a contact point of some blocks, relative to the largest of theirs.
+    pub(super) fn share(&self, blocks: &[usize], part: f64) -> f64 {
+        let own = blocks.iter().map(|block| self.blocks[*block]).fold(0.0, larger);
         known(part, own, self.rounding)
     }
+}
+
+fn lengths(contact: &ContactPoint, it: &ContactState) -> [f64; 4] {
+    let [c_n, c_t] = contact.film.map_or([0.0; 2], |film| film.compliance);
+    [contact.gap, contact.slip, c_n * it.t_n, c_t * it.t_t].map(f64::abs)
 }
