@@ -14,7 +14,7 @@
 //! | module | content |
 //! |---|---|
 //! | `energy` | work of loads and supports, dissipation |
-//! | [`checkpoint`] | everything that the next step needs, as a file |
+//! | [`checkpoint`](crate::analysis::checkpoint) | everything that the next step needs, as a file |
 
 use std::collections::BTreeSet;
 

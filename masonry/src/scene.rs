@@ -219,7 +219,7 @@ impl WallJoints {
     }
 }
 
-/// A wall of bricks in courses, built by [`bond`](crate::scene::bond).
+/// A wall of bricks in courses, built by [`bond`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wall {

@@ -119,9 +119,11 @@ fn arch(random: &mut Random, scene: Scene, floor: f64) -> Scene {
         };
         Support::new(name, end(0.9 * inner), end(1.1 * outer), "bed")
     };
-    let scene = scene
-        .support(springer("left springer", 0, -1.0))
-        .support(springer("right springer", count, 1.0));
+    let scene = scene.support(springer("left springer", 0, -1.0)).support(springer(
+        "right springer",
+        count,
+        1.0,
+    ));
     (0..count).fold(scene, |scene, k| {
         let corners = [at(inner, k), at(inner, k + 1), at(outer, k + 1), at(outer, k)];
         scene.block(Block::new(&format!("{k}"), "stone", corners).mesh([2, 2]))

@@ -76,7 +76,7 @@ fn law(law: &JointLaw, units: InUnits) -> String {
     let mut text = format!("μ\u{a0}=\u{a0}{}", significant(law.mu, 4));
     for (name, value) in [("c", law.cohesion), ("f_t", law.tension)] {
         if value > 0.0 {
-            text += &format!(", {name}\u{a0}=\u{a0}{}", units.stress_text(value));
+            text = format!("{text}, {name}\u{a0}=\u{a0}{}", units.stress_text(value));
         }
     }
     text
