@@ -1,10 +1,17 @@
 //! What the benches share.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Whether this is `cargo bench`: `cargo test --benches` runs the same programs without the flag.
 pub(crate) fn is_bench() -> bool {
     std::env::args().any(|argument| argument == "--bench")
+}
+
+/// The folder of the repository, whichever crate the bench is of.
+pub(crate) fn root() -> PathBuf {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = crates.ancestors().find(|it| it.join("docs").is_dir());
+    root.expect("the documents are in the repository").to_owned()
 }
 
 /// With `-- --write`, puts the table between the marks of the bench in a file of the repository.
@@ -12,7 +19,7 @@ pub(crate) fn write_if_asked(file: &str, bench: &str, table: &str) {
     if !std::env::args().any(|argument| argument == "--write") {
         return;
     }
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    let path = root().join(file);
     let marks =
         [format!("<!-- begin: bench {bench} -->\n"), format!("<!-- end: bench {bench} -->")];
     let text = std::fs::read_to_string(&path).expect("the file is part of the repository");

@@ -64,25 +64,27 @@ impl Factors {
     fn balance_logarithms(&mut self, columns: &[Column<'_>], noise: f64) {
         const SWEEPS: usize = 6;
         const SETTLED: f64 = 0.25;
-        let mut row = vec![0.0; self.row.len()];
         let mut col = vec![0.0; self.col.len()];
-        for sweep in 0..=SWEEPS {
-            let is_last = sweep == SWEEPS;
+        let mut sums = Sums::new(self.row.len());
+        for ((column, mean), factor) in columns.iter().zip(&mut col).zip(&self.col) {
+            *mean = negative_mean(sums.add(*column, &self.row, (*factor, 0.0), noise));
+        }
+        let is_full = sums.counts.iter().all(|count| *count >= columns.len() as f64);
+        let mut row = sums.negative_means();
+        let mean_of_all = row.iter().sum::<f64>() / row.len().max(1) as f64;
+        for col in &mut col {
+            *col -= mean_of_all;
+        }
+        // Without zeros the first means are the answer.
+        for _ in 0..if is_full { 0 } else { SWEEPS } {
             let mut sums = Sums::new(row.len());
             // Each column is read once: its own mean, then its share of the sums along rows.
             for ((column, log_col), factor) in columns.iter().zip(&mut col).zip(&self.col) {
-                if sweep > 0 {
-                    *log_col = negative_column_mean(*column, (&self.row, &row), *factor, noise);
-                }
-                if !is_last {
-                    sums.add(*column, &self.row, (*factor, *log_col), noise);
-                }
-            }
-            if is_last {
-                break;
+                *log_col = negative_column_mean(*column, (&self.row, &row), *factor, noise);
+                sums.add(*column, &self.row, (*factor, *log_col), noise);
             }
             let before = std::mem::replace(&mut row, sums.negative_means());
-            if sweep > 0 && row.iter().zip(&before).all(|(a, b)| (a - b).abs() <= SETTLED) {
+            if row.iter().zip(&before).all(|(a, b)| (a - b).abs() <= SETTLED) {
                 break;
             }
         }
@@ -131,24 +133,44 @@ impl Sums {
         Self { sums: vec![0.0; rows], counts: vec![0.0; rows] }
     }
 
-    /// Adds the logarithms of the scaled entries of a column, each with its present correction.
-    fn add(&mut self, column: Column<'_>, row: &[f64], col: (f64, f64), noise: f64) {
-        let (col, correction) = col;
+    /// Adds the logarithms of the scaled entries of a column, each with its present correction; gives their sum,
+    /// and how many they are.
+    fn add(
+        &mut self,
+        column: Column<'_>,
+        row: &[f64],
+        (col, correction): (f64, f64),
+        noise: f64,
+    ) -> (f64, f64) {
+        let (mut sums, mut counts) = ([0.0; LANES], [0.0; LANES]);
+        let mut add = |lane: usize, v: f64, sum: &mut f64, count: &mut f64| {
+            let (log, kept) = logarithm(v * col, noise);
+            let term = kept * (log + correction);
+            *sum += term;
+            *count += kept;
+            sums[lane] += term;
+            counts[lane] += kept;
+        };
         match column {
             Column::Dense(values) => {
-                let sums = self.sums.iter_mut().zip(&mut self.counts);
-                for ((v, row), (sum, count)) in values.iter().zip(row).zip(sums) {
-                    let (log, kept) = logarithm(v * row * col, noise);
-                    *sum += kept * (log + correction);
-                    *count += kept;
+                let (values, row) = (lanes_of(values), lanes_of(row));
+                let of_rows = (lanes_of_mut(&mut self.sums), lanes_of_mut(&mut self.counts));
+                let chunks = of_rows.0.0.iter_mut().zip(of_rows.1.0);
+                for ((v, row), (sum, count)) in values.0.iter().zip(row.0).zip(chunks) {
+                    for k in 0..LANES {
+                        add(k, v[k] * row[k], &mut sum[k], &mut count[k]);
+                    }
+                }
+                let rest = of_rows.0.1.iter_mut().zip(of_rows.1.1);
+                for ((v, row), (sum, count)) in values.1.iter().zip(row.1).zip(rest) {
+                    add(0, v * row, sum, count);
                 }
             }
             Column::Sparse { .. } => column.for_each(|i, v| {
-                let (log, kept) = logarithm(v * row[i] * col, noise);
-                self.sums[i] += kept * (log + correction);
-                self.counts[i] += kept;
+                add(0, v * row[i], &mut self.sums[i], &mut self.counts[i]);
             }),
         }
+        (sums.iter().sum(), counts.iter().sum())
     }
 
     fn negative_means(self) -> Vec<f64> {

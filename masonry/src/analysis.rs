@@ -3,4 +3,5 @@
 pub mod checkpoint;
 pub mod outcome;
 pub mod solve;
+#[cfg(feature = "study")]
 pub mod study;

@@ -97,6 +97,44 @@ pub fn on_edge(quad: &Quad, k: usize, at: f64) -> Point2<f64> {
     p + (q - p) * at
 }
 
+/// The coordinates `[r, s]` of a point of a strictly convex quadrilateral: the place to which the bilinear map takes
+/// them, `r` along edge 0 and `s` along edge 3 from its end, both in 0..=1 for a point inside.
+pub fn reference(quad: &Quad, point: Point2<f64>) -> [f64; 2] {
+    // With h = e r + f s + g r s the cross product of h - f s and e + g s is zero: a quadratic equation in s. The map
+    // keeps its orientation inside, where the left side increases with s, so that the root is the larger one.
+    let [e, f, h] = [quad[1] - quad[0], quad[3] - quad[0], point - quad[0]];
+    let g = (quad[2] - quad[3]) - e;
+    let (square, linear, constant) = (cross(g, f), cross(e, f) + cross(h, g), cross(h, e));
+    let root = (linear * linear - 4.0 * constant * square).max(0.0).sqrt();
+    // Of two forms of the root the one without a difference of like numbers.
+    let s = if linear >= 0.0 {
+        -2.0 * constant / (linear + root)
+    } else {
+        (root - linear) / (2.0 * square)
+    };
+    let along = e + g * s;
+    [(h - f * s).dot(&along) / along.norm_squared(), s]
+}
+
+/// The point of the boundary of a quadrilateral that is nearest to a point.
+pub fn nearest_on_boundary(quad: &Quad, point: Point2<f64>) -> Point2<f64> {
+    let nearest_on = |k: usize| {
+        let [p, q] = edge(quad, k);
+        let along = q - p;
+        p + along * ((point - p).dot(&along) / along.norm_squared()).clamp(0.0, 1.0)
+    };
+    let near = |a: &Point2<f64>, b: &Point2<f64>| (a - point).norm().total_cmp(&(b - point).norm());
+    (0..4).map(nearest_on).min_by(near).unwrap_or(point)
+}
+
+/// How far a point lies outside of a convex quadrilateral, across the edge beyond which it is farthest; negative
+/// inside \[m\].
+pub fn outside(quad: &Quad, point: Point2<f64>) -> f64 {
+    (0..4)
+        .map(|k| (point - quad[k]).dot(&outward_normal(quad, k)))
+        .fold(f64::NEG_INFINITY, f64::max)
+}
+
 /// Unit outward normal of edge `k`.
 ///
 /// # Panics

@@ -14,14 +14,14 @@
 //! | module | content |
 //! |---|---|
 //! | `energy` | work of loads and supports, dissipation |
-//! | [`checkpoint`] | everything that the next step needs, as a file |
+//! | [`checkpoint`](crate::analysis::checkpoint) | everything that the next step needs, as a file |
 
 use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
 use crate::model::{Body, Model};
-use crate::scene::{Movement, Route, Scene, Stage};
+use crate::scene::{Load, Movement, Route, Scene, Stage};
 use crate::state::Reaction;
 
 pub(crate) mod energy;
@@ -31,7 +31,7 @@ pub(crate) mod energy;
 pub struct Actions {
     /// Factor of gravity \[-\].
     pub gravity: f64,
-    /// Factors of the loads \[-\], in the order of the scene.
+    /// Factors of the loads \[-\] beside their own, in the order of the scene.
     pub loads: Vec<f64>,
     /// Where the supports are, in the order of the scene; lengths in metres.
     pub movements: Vec<Movement>,
@@ -55,7 +55,7 @@ impl Actions {
             actions.gravity = 0.0;
         }
         for (load, factor) in scene.loads.iter().zip(&mut actions.loads) {
-            if named(&|stage| stage.loads.contains_key(&load.name)) {
+            if named(&|stage| factor_of(stage, load).is_some()) {
                 *factor = 0.0;
             }
         }
@@ -67,7 +67,7 @@ impl Actions {
         let mut actions = self.clone();
         actions.gravity = stage.gravity.unwrap_or(self.gravity);
         for (load, factor) in scene.loads.iter().zip(&mut actions.loads) {
-            *factor = stage.loads.get(&load.name).copied().unwrap_or(*factor);
+            *factor = factor_of(stage, load).unwrap_or(*factor);
         }
         for (support, place) in scene.supports.iter().zip(&mut actions.movements) {
             let end = stage.moves.get(&support.name);
@@ -85,6 +85,11 @@ impl Actions {
             movements: moves.map(|(from, to)| from.towards(*to, fraction)).collect(),
         }
     }
+}
+
+/// What a stage takes a load to; `None` where it names neither the load nor its group.
+fn factor_of(stage: &Stage, load: &Load) -> Option<f64> {
+    stage.loads.iter().find(|(name, _)| load.is_called(name)).map(|(_, factor)| *factor)
 }
 
 /// One step of the load history.
@@ -137,7 +142,7 @@ pub fn steps(scene: &Scene) -> Vec<Step> {
 impl Model {
     /// This model with the actions of a step, after slips \[m\] at its contact points, one for each.
     ///
-    /// Gravity and tractions are multiplied by their factors. A support's movement `u_s` takes
+    /// Gravity and loads are multiplied by their factors. A support's movement `u_s` takes
     /// `u_s.n` from the gaps and `u_s.t` from the slips of its joints; slips reached before are
     /// taken away at points with friction.
     #[must_use]
@@ -155,8 +160,14 @@ impl Model {
     /// Puts the actions of the only step on a model that has none yet.
     pub(crate) fn act(&mut self, actions: &Actions) {
         self.gravity *= actions.gravity;
-        for load in self.blocks.iter_mut().flat_map(|block| &mut block.edge_loads) {
-            load.traction *= actions.loads[load.load.index()];
+        for load in self.blocks.iter_mut().flat_map(|block| &mut block.loads) {
+            load.scale(actions.loads[load.load().index()]);
+        }
+        for acceleration in &mut self.accelerations {
+            acceleration.value *= actions.loads[acceleration.load.index()];
+        }
+        for (load, factor) in self.loads.iter_mut().zip(&actions.loads) {
+            load.factor *= factor;
         }
         for (support, movement) in self.supports.iter_mut().zip(&actions.movements) {
             support.movement = *movement;

@@ -8,7 +8,7 @@
 //! | [`newton`] | [`Sparse`](crate::method::forms::Sparse) | active sets: the states of the contacts, exchanged until none contradicts |
 //! | [`qp`] | [`Sparse`](crate::method::forms::Sparse) | convex quadratic programs, with proofs where nothing stands |
 //! | [`pgs`] | [`Sparse`](crate::method::forms::Sparse) | sweeps over the contacts of blocks on springs |
-//! | [`alm`] | [`Sparse`](crate::method::forms::Sparse), or whole films | the augmented Lagrangian method of the paper |
+//! | [`alm`](crate::paper::alm) | [`Sparse`](crate::method::forms::Sparse), or whole films | the augmented Lagrangian method of the paper |
 //!
 //! All of them give an [`Answer`] to a [`Request`]. Which ones a scene is given is in its
 //! [`Plan`](crate::plan::Plan).

@@ -10,23 +10,27 @@
 //! * `t_n` \[N\] acts on `b` along `+n`: compression is positive, and without tensile strength nothing else is possible;
 //! * `t_t` \[N\] acts on `b` along `+t`.
 
-mod edge_loads;
+mod classes;
+mod forces;
 mod from_scene;
 pub mod joints;
-mod loads;
+pub mod loads;
 pub mod mesh;
+mod place_loads;
 mod placement;
+mod unusual;
 
-pub use loads::PlacedForce;
+pub use forces::Cause;
+pub use loads::{Acceleration, BlockLoad, EdgeLoad, Load, PlacedForce, PointLoad};
 use nalgebra::{Point2, Vector2};
 
-use crate::ids::{BlockId, FilmId, JointId, LoadId, SupportId};
+use crate::ids::{BlockId, FilmId, JointId, SupportId};
 use crate::law::{JointLaw, PointLaw};
 pub use crate::material::Elasticity;
 use crate::material::constitutive;
 use crate::model::mesh::BlockMesh;
 use crate::paper::film::FilmMaterial;
-pub use crate::scene::{Movement, Plane};
+pub use crate::scene::{Movement, Plane, PointRule};
 use crate::units::Units;
 
 /// Everything that the mechanics needs of a scene, in SI units (m, N, Pa, kg/m^3).
@@ -48,6 +52,10 @@ pub struct Model {
     pub thickness: f64,
     /// Gravity as an acceleration \[m/s^2\]; zero when the scene has none.
     pub gravity: Vector2<f64>,
+    /// Accelerations among the loads, which act on mass beside gravity.
+    pub accelerations: Vec<Acceleration>,
+    /// What the loads are called and how much of them acts, in the order of the scene.
+    pub loads: Vec<Load>,
     /// The units of the scene, in which results are reported.
     pub units: Units,
 }
@@ -65,23 +73,20 @@ pub struct Block {
     pub density: Option<f64>,
     /// The Q4 mesh; `None` for a rigid block.
     pub mesh: Option<BlockMesh>,
-    /// Loads on the edges.
-    pub edge_loads: Vec<EdgeLoad>,
+    /// Loads on its edges and at places in it.
+    pub loads: Vec<BlockLoad>,
 }
 
-/// A uniform traction on a part of a block's edge.
-#[derive(Debug, Clone, Copy)]
-pub struct EdgeLoad {
-    /// The edge, 0..4.
-    pub edge: usize,
-    /// Start of the loaded part as a fraction of the edge, from its first corner.
-    pub from: f64,
-    /// End of the loaded part as a fraction of the edge.
-    pub to: f64,
-    /// Traction on the block \[Pa\] in global axes.
-    pub traction: Vector2<f64>,
-    /// The load of the scene that it is a part of.
-    pub load: LoadId,
+impl Block {
+    /// The loads on its edges.
+    pub fn edge_loads(&self) -> impl Iterator<Item = &EdgeLoad> {
+        self.loads.iter().filter_map(BlockLoad::as_edge)
+    }
+
+    /// The forces at places in it.
+    pub fn point_loads(&self) -> impl Iterator<Item = &PointLoad> {
+        self.loads.iter().filter_map(BlockLoad::as_point)
+    }
 }
 
 /// A rigid straight support.
@@ -114,6 +119,8 @@ pub struct JointClass {
     pub name: String,
     /// What resists sliding and opening.
     pub law: JointLaw,
+    /// Where on its joints the law is enforced; `None` as everywhere.
+    pub points: Option<PointRule>,
     /// The mortar that fills its joints; `None` for dry joints.
     pub mortar: Option<Mortar>,
 }

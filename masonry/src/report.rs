@@ -6,6 +6,7 @@
 pub mod csv;
 mod format;
 pub mod json;
+#[cfg(feature = "study")]
 pub mod study;
 pub mod summary;
 pub mod svg;

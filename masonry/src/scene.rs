@@ -26,6 +26,7 @@ mod check;
 mod courses;
 mod error;
 mod key_path;
+mod load;
 mod solver;
 mod source;
 mod stages;
@@ -37,11 +38,13 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 pub(crate) use self::error::Fault;
-pub use self::error::{ContactError, SceneError, SceneErrorKind};
+pub use self::error::{ContactError, Known, SceneError, SceneErrorKind};
 pub use self::key_path::KeyPath;
+pub use self::load::{EdgeStress, Load, LoadError, LoadKind};
 pub use self::solver::{Form, Route, Solver};
 use self::source::Source;
 pub use self::stages::{Movement, Stage};
+use crate::material::Elasticity;
 pub use crate::material::Plane;
 use crate::units::Units;
 
@@ -90,6 +93,10 @@ pub struct Scene {
         deserialize_with = "strict::named_tables"
     )]
     pub joints: BTreeMap<String, Joint>,
+    /// Classes of the joints between certain blocks, where they differ from `bed` and `head`; of several that fit, the
+    /// last counts.
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
+    pub between: Vec<Between>,
     /// Walls of bricks in courses.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub walls: Vec<Wall>,
@@ -99,7 +106,7 @@ pub struct Scene {
     /// Rigid supports.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub supports: Vec<Support>,
-    /// Loads on edges.
+    /// Loads on edges, at places in blocks, and on all mass.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub loads: Vec<Load>,
     /// The load history; without stages all loads act at once.
@@ -134,6 +141,14 @@ pub struct Material {
     pub density: Option<f64>,
 }
 
+impl Material {
+    /// The elastic constants in SI units; `None` of a rigid material.
+    pub(crate) fn elasticity(&self, units: Units) -> Option<Elasticity> {
+        let young = self.young? * units.stress_to_si();
+        Some(Elasticity { young, poisson: self.poisson? })
+    }
+}
+
 /// A class of joints: what resists sliding, exactly one of `mu` and `phi_deg`, and, where there are, cohesion, tensile
 /// strength and mortar. The law is that of [`law`](crate::law).
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -151,6 +166,9 @@ pub struct Joint {
     /// Tensile strength \[force/length^2\], at most the cohesion divided by the coefficient of friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tension: Option<f64>,
+    /// Where on the joints of the class the law is enforced, if not as [`Contact::points`] says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub points: Option<PointRule>,
     /// Thickness of the mortar \[length\]; without it, or with zero, the joint is dry.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f64>,
@@ -171,7 +189,37 @@ impl Joint {
     }
 }
 
-/// A wall of bricks in courses, built by [`bond`](crate::scene::bond).
+/// Two bodies, each the name of a block or of a wall, and the class of all joints between them.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Between {
+    /// The two names; twice the same wall for the joints within it.
+    #[serde(deserialize_with = "strict::pair")]
+    pub blocks: [String; 2],
+    /// The class of their joints.
+    pub joint: String,
+}
+
+/// The classes of the joints between the bricks of a wall.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WallJoints {
+    /// Of its beds, instead of the class `bed`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bed: Option<String>,
+    /// Of its heads, instead of the class `head`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub head: Option<String>,
+}
+
+impl WallJoints {
+    /// The names of the classes of beds and heads.
+    pub fn names(&self) -> [&str; 2] {
+        [(&self.bed, BED), (&self.head, HEAD)].map(|(name, usual)| name.as_deref().unwrap_or(usual))
+    }
+}
+
+/// A wall of bricks in courses, built by [`bond`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wall {
@@ -190,6 +238,9 @@ pub struct Wall {
     pub width: Option<f64>,
     /// The courses, bottom to top.
     pub courses: Courses,
+    /// The classes of its joints, where they are not `bed` and `head`.
+    #[serde(default, deserialize_with = "strict::table", skip_serializing_if = "is_usual")]
+    pub joints: WallJoints,
     /// Elements along the length and height of a whole brick; required when the material is
     /// elastic. A cut brick gets its share of the first, rounded up.
     #[serde(
@@ -259,31 +310,6 @@ pub struct Support {
     pub joint: String,
 }
 
-/// A uniform load on the free edges of blocks that lie on a segment: exactly one of `pressure` and
-/// `traction`. An edge that the segment covers in part is loaded in part.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Load {
-    /// Name of the load.
-    pub name: String,
-    /// One end of the segment \[length\].
-    #[serde(deserialize_with = "strict::pair")]
-    pub from: [f64; 2],
-    /// The other end \[length\].
-    #[serde(deserialize_with = "strict::pair")]
-    pub to: [f64; 2],
-    /// Force per area against the outward normal of the edge \[force/length^2\].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub pressure: Option<f64>,
-    /// Force per area in global axes \[force/length^2\].
-    #[serde(
-        default,
-        skip_serializing_if = "Option::is_none",
-        deserialize_with = "strict::some_pair"
-    )]
-    pub traction: Option<[f64; 2]>,
-}
-
 /// How contact is looked for and enforced.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -340,6 +366,10 @@ impl Default for Output {
     fn default() -> Self {
         Self { stresses: default_stresses() }
     }
+}
+
+fn is_usual(joints: &WallJoints) -> bool {
+    *joints == WallJoints::default()
 }
 
 fn default_stresses() -> bool {

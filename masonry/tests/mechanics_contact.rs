@@ -113,9 +113,10 @@ fn nodal_pairs_need_matching_nodes() {
     let classes = [masonry::model::JointClass {
         name: "bed".into(),
         law: JointLaw::friction(0.5),
+        points: None,
         mortar: None,
     }];
-    let found = masonry::model::joints::find(&blocks, &[], &classes, |_| 0, 1.0, &options);
+    let found = masonry::model::joints::find(&blocks, &[], &classes, |_, _, _| 0, 1.0, &options);
     let (a, b) = ("lower".to_string(), "upper".to_string());
     assert_eq!(found.unwrap_err(), ContactError::NoNodalPair { a, b });
 }

@@ -4,13 +4,15 @@
 
 mod common;
 
-use common::{YOUNG, block, model, rectangle, traction};
+use common::{YOUNG, block, model, rectangle, traction_on};
 use faer::Side;
 use masonry::analysis::outcome::Principal;
 use masonry::element::quad4;
+use masonry::geometry;
+use masonry::ids::LoadId;
 use masonry::material::constitutive;
 use masonry::model::mesh::BlockMesh;
-use masonry::model::{Elasticity, Plane};
+use masonry::model::{Acceleration, Elasticity, Plane, PointLoad};
 use masonry::system::rigid::Modes;
 use masonry::system::{System, SystemError, nodal_loads, resultant};
 use nalgebra::{Matrix2, Matrix3, Point2, SVector, Vector2, Vector3};
@@ -119,13 +121,18 @@ fn equal_blocks_share_a_stiffness() {
 fn nodal_loads_have_the_geometric_resultant() {
     let mut loaded = block("skew", skew(), Some([3, 2]));
     loaded.density = Some(2000.0);
-    loaded.edge_loads = (0..4).map(|edge| traction(edge, 1e3, -3e3)).collect();
-    loaded.edge_loads[1].from = 0.3;
-    loaded.edge_loads[1].to = 0.45;
-    loaded.edge_loads[2].from = 0.1;
-    loaded.edge_loads[2].to = 0.9;
+    let parts = [[0.0, 1.0], [0.3, 0.45], [0.1, 0.9], [0.0, 1.0]];
+    let traction = |(edge, part)| traction_on(edge, part, [1e3, -3e3]);
+    loaded.loads = parts.into_iter().enumerate().map(traction).collect();
+    let at = |at: Point2<f64>, force: [f64; 2]| {
+        let place = geometry::reference(&skew(), at);
+        PointLoad { at, place, force: force.into(), load: LoadId(0) }.into()
+    };
+    loaded.loads.push(at(geometry::centroid(&skew()), [2e3, 1e3]));
+    loaded.loads.push(at(geometry::on_edge(&skew(), 1, 0.4), [-1e3, 5e2]));
     let mut model = model(vec![loaded.clone()], vec![], 0.5);
     model.gravity = Vector2::new(1.5, -9.81);
+    model.accelerations = vec![Acceleration { value: Vector2::new(0.7, 0.4), load: LoadId(0) }];
     model.thickness = 0.3;
     let mesh = loaded.mesh.as_ref().unwrap();
     let load = nodal_loads(&model, &loaded, mesh);
@@ -139,6 +146,51 @@ fn nodal_loads_have_the_geometric_resultant() {
     let expected = resultant(&model, &loaded);
     let size = expected.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     work.iter().zip(expected).for_each(|(w, e)| assert!((w - e).abs() < 1e-14 * size));
+}
+
+/// Shape functions at a place are those of the element that holds it: they add up to one, give the place back, and
+/// on an edge are those of the edge.
+#[test]
+fn places_of_a_block_and_their_shape_functions() {
+    // A parallelogram, a trapezium that widens fourfold, one that narrows, and thin and flat ones far from the origin.
+    let trapezium = [[0.0, 0.0], [1.0, 0.0], [2.5, 1.0], [-1.5, 1.0]];
+    let narrows = [[0.0, 0.0], [4.0, 0.0], [2.5, 1.0], [1.5, 1.0]];
+    let thin = [[1e3, 1e3], [1e3 + 50.0, 1e3], [1e3 + 50.0, 1e3 + 0.01], [1e3, 1e3 + 0.02]];
+    let slanted = [[0.0, 0.0], [2.0, 1.0], [1.5, 2.5], [-0.5, 1.5]];
+    let quads = [trapezium, narrows, thin, slanted].map(|quad| quad.map(Point2::from));
+    for corners in quads.into_iter().chain([skew()]) {
+        let mesh = BlockMesh::new(&corners, 3, 4);
+        let size = geometry::size(&corners);
+        let places = (0..=8).flat_map(|i| (0..=8).map(move |j| [i, j].map(|k| f64::from(k) / 8.0)));
+        for [r, s] in places {
+            let [a, b, c, d] = corners.map(|p| p.coords);
+            let place =
+                Point2::from((a * (1.0 - r) + b * r) * (1.0 - s) + (d * (1.0 - r) + c * r) * s);
+            let found = geometry::reference(&corners, place);
+            // What rounding makes of the place is a part of the shortest edge.
+            assert!(
+                (found[0] - r).abs() < 1e-10 && (found[1] - s).abs() < 1e-10,
+                "{found:?} for {r}, {s}"
+            );
+            assert!(geometry::outside(&corners, place) < 1e-13 * (size + place.coords.norm()));
+            let shares = mesh.interpolate_inside([r, s]);
+            let sum: f64 = shares.iter().map(|(_, share)| share).sum();
+            let back: Vector2<f64> =
+                shares.iter().map(|(node, share)| mesh.nodes[*node].coords * *share).sum();
+            assert!(
+                (sum - 1.0).abs() < 1e-15
+                    && (back - place.coords).norm() < 1e-15 * back.norm().max(4.0 * size)
+            );
+        }
+        for (edge, place) in [(0, [0.3, 0.0]), (1, [1.0, 0.3]), (2, [0.7, 1.0]), (3, [0.0, 0.7])] {
+            let on_edge = mesh.interpolate(edge, 0.3);
+            for (node, share) in mesh.interpolate_inside(place) {
+                let expected: f64 =
+                    on_edge.iter().filter(|(of, _)| *of == node).map(|(_, share)| share).sum();
+                assert!((share - expected).abs() < 1e-15, "edge {edge}, node {node}");
+            }
+        }
+    }
 }
 
 #[test]

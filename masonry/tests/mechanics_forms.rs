@@ -19,7 +19,7 @@ const FORMS: [FormKind; 3] = [FormKind::Coulomb, FormKind::StewartTrinkle, FormK
 
 fn one_block(mesh: Option<[usize; 2]>, shear: f64, mu: f64) -> Model {
     let mut block = rectangle("block", [0.0, 1.0], [0.0, 1.0], mesh);
-    block.edge_loads = vec![traction(2, shear, -1000.0)];
+    block.loads = vec![traction(2, shear, -1000.0)];
     model(vec![block], vec![support("floor", [-1.0, 0.0], [2.0, 0.0])], mu)
 }
 
@@ -177,7 +177,7 @@ fn start_bases_are_nonsingular() {
             rectangle("lower", [0.0, 1.0], [0.0, 0.5], mesh),
             rectangle("upper", [0.2, 1.2], [0.5, 1.0], Some([1, 1])),
         ];
-        blocks[1].edge_loads.push(traction(2, 50.0, -1000.0));
+        blocks[1].loads.push(traction(2, 50.0, -1000.0));
         blocks
     };
     for mesh in [None, Some([2, 2])] {

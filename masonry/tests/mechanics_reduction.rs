@@ -26,8 +26,8 @@ fn column() -> Model {
             rectangle(&format!("b{k}"), [0.0, 0.5], y, Some([2, 1]))
         })
         .collect();
-    blocks[2].edge_loads.push(traction(2, 700.0, -5000.0));
-    blocks[1].edge_loads.push(traction(1, -300.0, 0.0));
+    blocks[2].loads.push(traction(2, 700.0, -5000.0));
+    blocks[1].loads.push(traction(1, -300.0, 0.0));
     model(blocks, vec![support("floor", [-1.0, 0.0], [1.0, 0.0])], 0.7)
 }
 
@@ -43,10 +43,10 @@ fn mixed() -> Model {
         block("right", right, Some([3, 2])),
         rectangle("beside", [1.0, 1.7], [0.0, 0.9], None),
     ];
-    blocks[1].edge_loads.push(traction(2, 100.0, -4000.0));
-    blocks[2].edge_loads.push(traction(2, -500.0, -3000.0));
-    blocks[3].edge_loads.push(traction(2, 0.0, -1000.0));
-    blocks[3].edge_loads.push(traction(1, -800.0, 0.0));
+    blocks[1].loads.push(traction(2, 100.0, -4000.0));
+    blocks[2].loads.push(traction(2, -500.0, -3000.0));
+    blocks[3].loads.push(traction(2, 0.0, -1000.0));
+    blocks[3].loads.push(traction(1, -800.0, 0.0));
     let floor = support("floor", [-1.0, 0.0], [3.0, 0.0]);
     model(blocks, vec![floor], 0.6)
 }
@@ -54,8 +54,8 @@ fn mixed() -> Model {
 fn wall() -> Model {
     let mut blocks = running_bond(2, 3, 2, 0.1);
     let top = blocks.len() - 2;
-    blocks[top].edge_loads.push(traction(2, 200.0, -8000.0));
-    blocks[top + 1].edge_loads.push(traction(2, -100.0, -2000.0));
+    blocks[top].loads.push(traction(2, 200.0, -8000.0));
+    blocks[top + 1].loads.push(traction(2, -100.0, -2000.0));
     let floor = support("floor", [0.0, 0.0], [0.4, 0.0]);
     let left = support("left", [0.0, 0.0], [0.0, 0.3]);
     model(blocks, vec![floor, left], 0.5)
@@ -257,7 +257,7 @@ fn units_do_not_matter() {
             if let Some(e) = &mut block.elasticity {
                 e.young *= stress;
             }
-            block.edge_loads.iter_mut().for_each(|load| load.traction *= stress);
+            block.loads.iter_mut().for_each(|load| load.scale(stress));
         }
         let mut supports = model.supports.clone();
         for support in &mut supports {
@@ -308,7 +308,7 @@ fn contact_patch_test() {
         for e in blocks.iter_mut().flat_map(|b| b.elasticity.iter_mut()) {
             (e.young, e.poisson) = (2e6, 0.0);
         }
-        blocks[1].edge_loads.push(traction(2, 0.0, -1e5));
+        blocks[1].loads.push(traction(2, 0.0, -1e5));
         let supports =
             vec![support("floor", [0.0, 0.0], [1.5, 0.0]), support("left", [0.0, 0.0], [0.0, 2.0])];
         let options = Options { points, ..Options::default() };

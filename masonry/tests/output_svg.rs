@@ -1,5 +1,7 @@
 //! Pictures: well-formed, complete, finite, in ordinary and in degenerate cases.
 
+#[path = "output/loads.rs"]
+mod loads;
 #[path = "output/synthetic.rs"]
 mod synthetic;
 
@@ -294,18 +296,13 @@ fn arch() -> Model {
             elasticity: None,
             density: Some(2000.0),
             mesh: None,
-            edge_loads: Vec::new(),
+            loads: Vec::new(),
         })
         .collect();
     let mut load = |block: usize, edge: usize, x: f64, y: f64| {
         let traction = Vector2::new(x, y);
-        model.blocks[block].edge_loads.push(EdgeLoad {
-            edge,
-            from: 0.1,
-            to: 0.9,
-            traction,
-            load: LoadId(0),
-        });
+        let load = EdgeLoad { edge, from: 0.1, to: 0.9, traction, load: LoadId(0) };
+        model.blocks[block].loads.push(load.into());
     };
     load(4, 1, 0.0, -12e3);
     load(0, 1, 5e3, 0.0);

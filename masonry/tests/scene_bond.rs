@@ -1,7 +1,7 @@
 //! Bonds, units and arbitrary input: what holds for every wall and every text.
 
 use masonry::geometry;
-use masonry::model::{Block, Model, Plane};
+use masonry::model::{Block, BlockLoad, Model, Plane};
 use masonry::scene::bond::{self, PlacedBrick};
 use masonry::scene::{Brick, Joint, Load, Material, Scene, SceneErrorKind, Support, Wall};
 use masonry::units::{ForceUnit, LengthUnit, Units};
@@ -135,8 +135,8 @@ fn units_do_not_change_the_model() {
         let (ea, eb) = (a.elasticity.unwrap(), b.elasticity.unwrap());
         assert!(near(ea.young, 1e9) && near(eb.young, 1e9) && near(ea.poisson, eb.poisson));
         assert_eq!((a.density, &a.name), (b.density, &b.name));
-        assert_eq!(a.edge_loads.len(), b.edge_loads.len());
-        for (a, b) in a.edge_loads.iter().zip(&b.edge_loads) {
+        assert_eq!(a.loads.len(), b.loads.len());
+        for (a, b) in a.edge_loads().zip(b.edge_loads()) {
             assert!(near(a.from, b.from) && near(a.to, b.to) && a.edge == b.edge);
             assert!(near(a.traction.x, b.traction.x) && near(a.traction.y, b.traction.y));
         }
@@ -145,7 +145,7 @@ fn units_do_not_change_the_model() {
         assert!(near(a.weight, b.weight) && near(a.gap, b.gap) && a.law == b.law);
     }
     // The load reaches five bricks of the top course, the first in part.
-    let loads = || a.blocks.iter().flat_map(|block| &block.edge_loads);
+    let loads = || a.blocks.iter().flat_map(Block::edge_loads);
     let on_top: Vec<_> = loads().filter(|load| load.edge == 2).collect();
     assert!(on_top.len() == 5 && on_top.iter().all(|load| near(load.traction.y, -12e3)));
     let floor = a.contacts.iter().filter(|point| point.a.is_none());
@@ -159,8 +159,8 @@ fn a_load_covers_parts_of_edges_and_free_ones_only() {
     let wall = Wall::from_courses("w", "stone", brick, vec![vec![1.0], vec![0.5]]);
     let scene = on_floor(wall, 2.0).load(Load::pressure("step", [1.75, 1.0], [-1.0, 1.0], 2.0));
     let model = Model::from_scene(&scene).unwrap();
-    assert!(model.blocks[1].edge_loads.is_empty());
-    let [load] = model.blocks[0].edge_loads[..] else { panic!("one load") };
+    assert!(model.blocks[1].loads.is_empty());
+    let [BlockLoad::Edge(load)] = model.blocks[0].loads[..] else { panic!("one load") };
     assert_eq!(load.edge, 2);
     // Edge 2 runs from right to left.
     assert!((load.from - 0.125).abs() < 1e-15 && (load.to - 0.5).abs() < 1e-15);

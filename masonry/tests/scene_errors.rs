@@ -1,4 +1,6 @@
 //! Mistakes in scenes: each is found, shown at its line and column, and told how to mend.
+#[path = "scene_errors/loads.rs"]
+mod loads;
 #[path = "scene_errors/mortar.rs"]
 mod mortar;
 #[path = "scene_errors/places.rs"]
@@ -131,6 +133,9 @@ fn text_that_does_not_fit_the_format() {
     for (piece, replacement, marked, words) in [
         ("nu = 0.2", "mu = 0.2", "mu", "unknown field `mu`, expected one of `E`, `nu`, `density`"),
         ("plane = \"strain\"", "plane = \"stain\"", "\"stain\"", "expected `stress` or `strain`"),
+        ("plane = \"strain\"", "plane = \"stain\"", "\"stain\"", "did you mean `strain`?"),
+        ("mu = 0.6", "mu = 0.6\ncohesoin = 1.0", "cohesoin", "did you mean `cohesion`?"),
+        ("[[supports]]", "[[suports]]", "suports", "did you mean `supports`?"),
         ("thickness = 0.5", "thickness = \"a\"", "\"a\"", "expected f64"),
         ("thickness = 0.5", "thickness = ", "\n", "string values must be quoted"),
         ("courses = 3", "courses = \"3\"", "\"3\"", "a number of courses, or a list of courses"),
@@ -180,7 +185,11 @@ fn names_that_refer_to_nothing() {
         "material = \"stome\"",
         "\"stome\"",
         "blocks[0].material",
-        &["no material \"stome\"", "there is \"brick\", \"stone\"", "[materials.stome]"],
+        &[
+            "no material \"stome\"",
+            "did you mean \"stone\"? there is \"brick\", \"stone\"",
+            "[materials.stome]",
+        ],
     );
     assert_error(
         "joint = \"bed\"",
@@ -225,6 +234,8 @@ fn numbers_out_of_their_range() {
         ("density = 1800.0", "materials.brick.density", vec!["0", "-5", "nan"]),
         ("thickness = 0.5", "thickness", vec!["0.0", "-0.5", "nan", "inf", "1e-320"]),
         ("mu = 0.6", "joints.bed.mu", vec!["-0.1", "nan", "inf"]),
+        ("mu = 0.6\ncohesion", "joints.bed.cohesion", vec!["-0.1", "nan", "inf"]),
+        ("mu = 0.6\ntension", "joints.bed.tension", vec!["-0.1", "nan", "inf"]),
         ("phi_deg = 30.0", "joints.head.phi_deg", vec!["-1", "90.0", "nan"]),
         ("width = 1.0", "walls[0].width", vec!["0", "-1.0", "nan", "inf"]),
         ("courses = 3", "walls[0].courses", vec!["0", "4000000000"]),
@@ -235,6 +246,11 @@ fn numbers_out_of_their_range() {
         let name = piece.split(" = ").next().unwrap();
         for value in bad {
             let replacement = format!("{name} = {value}");
+            let replacement = match piece.split_once('\n') {
+                Some((first, new)) => format!("{first}\n{new} = {value}"),
+                None => replacement,
+            };
+            let piece = piece.split('\n').next().unwrap();
             assert_error(piece, &replacement, value, key, &[]);
         }
     }

@@ -13,8 +13,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use lcp::Status;
-use lcp::refine::Refinement;
-use masonry::analysis::study::{End, MeshErrors, Record, Settings, Study, StudyError, study};
+use masonry::analysis::study::{End, Record, Settings, Study, StudyError, study};
 use masonry::model::Plane;
 use masonry::report::study as output;
 use masonry::scene::{
@@ -55,7 +54,6 @@ fn settings() -> Settings {
         routes: ROUTES.to_vec(),
         tolerances: vec![1e-3, 1e-6, 1e-12],
         meshes: vec![1, 2, 4],
-        springs: vec![1e-2, 1e-4, 1e-6],
         ..Settings::default()
     }
 }
@@ -141,27 +139,6 @@ fn the_reference_is_refined_and_verified() {
     }
 }
 
-#[test]
-fn the_last_digits_come_with_refinement() {
-    let study = studied(&wall(), &settings());
-    for mesh in &study.meshes {
-        let [plain, single, extended] = &mesh.refinings[..] else { panic!("three ways: {mesh:?}") };
-        let kinds = [plain, single, extended].map(|it| it.refinement);
-        assert_eq!(kinds, [Refinement::Plain, Refinement::Single, Refinement::Extended]);
-        assert_eq!([plain.passes, single.passes], [1, 2]);
-        assert!(extended.passes > 2);
-        let [plain, single, extended] = [plain, single, extended].map(|it| it.error.unwrap());
-        assert!(
-            plain < 1e-3 && single < 1e-3 * plain && extended <= single,
-            "{:?}",
-            mesh.refinings
-        );
-        assert!(extended < 1e-14);
-    }
-    let sentences = output::summary(&study);
-    assert!(sentences.iter().any(|it| it.contains("compensated refinement")), "{sentences:?}");
-}
-
 /// Of rigid blocks everything is known in fractions of the weight.
 #[test]
 fn the_refined_reference_of_a_closed_form_is_exact() {
@@ -204,11 +181,12 @@ fn a_load_history_is_studied_at_its_end() {
         .support(Support::new("right", [0.2, 0.0], [0.4, 0.0], "bed"))
         .stage(Stage::new("weight"))
         .stage(Stage::new("settlement").steps(2).moves("right", moved));
-    let study = studied(&scene, &Settings { springs: Vec::new(), ..settings() });
+    let study = studied(&scene, &settings());
     for mesh in &study.meshes {
         let reference = mesh.reference.as_ref().unwrap();
         assert!(reference.verified.as_ref().unwrap().is_better(), "{reference:?}");
-        assert!(mesh.values.unwrap().displacement > 5e-5);
+        let [x, y] = mesh.values.unwrap().displacement;
+        assert!(x.hypot(y) > 5e-5);
     }
     for route in [Route::Lemke, Route::Interior] {
         for record in by(&study, route, 1) {
@@ -230,13 +208,6 @@ fn finer_meshes_come_nearer_to_the_finest() {
         assert!(fine.unwrap() > 0.0 && fine < coarse, "{fine:?} {coarse:?}");
     }
     assert!(fine.worst() < coarse.worst());
-    // Extrapolated errors are larger, and the finest mesh has one too.
-    let limits: Vec<_> = study.meshes.iter().map(|mesh| mesh.extrapolated.unwrap()).collect();
-    for of in [|it: &MeshErrors| it.energy.unwrap(), |it: &MeshErrors| it.displacement.unwrap()] {
-        let [first, second, last] = [&limits[0], &limits[1], &limits[2]].map(of);
-        assert!(first > second && second > last && last > 0.0, "{limits:?}");
-        assert!(second > of(&fine), "{limits:?}, {fine:?}");
-    }
 }
 
 #[test]
@@ -249,20 +220,6 @@ fn the_thrust_is_that_of_the_closed_form() {
     let values = study.meshes[0].values.unwrap();
     let expected = weight / (2.0 * angle.tan());
     assert!((values.thrust - expected).abs() <= 1e-10 * expected, "{values:?}, not {expected}");
-}
-
-#[test]
-fn the_bias_of_springs_grows_with_their_stiffness_and_goes() {
-    let study = studied(&wall(), &Settings { meshes: vec![1], ..settings() });
-    let stiffnesses: Vec<f64> = study.springs.iter().map(|it| it.stiffness).collect();
-    assert!(stiffnesses.is_sorted() && stiffnesses.len() == 3);
-    let bias: Vec<f64> = study.springs.iter().map(|it| it.bias.unwrap()).collect();
-    assert!(bias.is_sorted() && bias[0] > 0.0 && bias[2] > 100.0 * bias[0], "{bias:?}");
-    for springs in &study.springs {
-        assert!(springs.end.is_solved() && springs.rounds.unwrap() > 0);
-        let after = springs.errors.unwrap().worst().unwrap();
-        assert!(after <= 1e3 * springs.tolerance, "{springs:?}");
-    }
 }
 
 #[test]
@@ -285,12 +242,7 @@ fn a_route_that_does_not_treat_the_scene_is_recorded() {
 
 #[test]
 fn a_mesh_that_cannot_be_made_is_recorded() {
-    let settings = Settings {
-        routes: vec![Route::Interior],
-        meshes: vec![1, 2000],
-        springs: Vec::new(),
-        ..settings()
-    };
+    let settings = Settings { routes: vec![Route::Interior], meshes: vec![1, 2000], ..settings() };
     let study = studied(&wall(), &settings);
     let [mesh, impossible] = &study.meshes[..] else { panic!("two meshes") };
     assert!(mesh.refusal.is_none() && mesh.reference.is_some() && mesh.errors.is_none());
@@ -331,10 +283,8 @@ fn settings_out_of_range_are_refused() {
     assert!(matches!(empty, StudyError::Empty { what: "route" }));
     for tolerances in [vec![1e-4, 0.0], vec![1.0], vec![f64::NAN]] {
         let error = refused(Settings { tolerances, ..settings() });
-        assert!(matches!(error, StudyError::Range { what: "tolerance", .. }), "{error}");
+        assert!(matches!(error, StudyError::Tolerance(_)), "{error}");
     }
-    let error = refused(Settings { springs: vec![-1.0], ..settings() });
-    assert!(matches!(error, StudyError::Range { what: "stiffness of springs", .. }));
     assert!(matches!(
         refused(Settings { meshes: vec![1, 0], ..settings() }),
         StudyError::NoElements

@@ -128,8 +128,7 @@ pub fn assert_admissible(outcome: &Outcome) {
 /// The power of the loads of a block whose corners move at these rates.
 fn power(model: &Model, block: &masonry::model::Block, corners: &[Vector2<f64>; 4]) -> f64 {
     let edges: f64 = block
-        .edge_loads
-        .iter()
+        .edge_loads()
         .map(|load| {
             let [start, end] = [load.edge, (load.edge + 1) % 4];
             let area = (block.corners[end] - block.corners[start]).norm() * model.thickness;

@@ -8,7 +8,7 @@ use super::scenes::{boxed, column, elastic, in_mortar, piers, stack};
 use super::{built, effect};
 use masonry::analysis::outcome::Outcome;
 use masonry::report::summary::total_reaction;
-use masonry::scene::{Films, Joint, Material, Movement, Route, Scene, Stage};
+use masonry::scene::{Films, Joint, Load, Material, Movement, Route, Scene, Stage};
 
 /// What is unique: of a corner between two supports any part of the force may be shifted from one to the other.
 fn figures(outcome: &Outcome) -> [Vec<f64>; 4] {
@@ -25,9 +25,9 @@ fn assert_neutral(name: &str, without: &Scene, with: &Scene) {
         let [off, on] = [without, with].map(|scene| built(scene, route).0);
         assert!(!effect(&off, name).on && effect(&on, name).on, "{name}");
         let Some((a, b)) = answer_by(without, route).zip(answer_by(with, route)) else { continue };
-        for (a, b) in figures(&a).iter().zip(figures(&b)) {
+        for (k, (a, b)) in figures(&a).iter().zip(figures(&b)).enumerate() {
             let apart = difference(a, &b);
-            assert!(apart <= rounding(route), "{name}, {route:?}: {apart:e}");
+            assert!(apart <= rounding(route), "{name}, {route:?}, figure {k}: {apart:e}");
         }
     }
 }
@@ -38,11 +38,15 @@ fn every_effect_has_a_test() {
     let tested = [
         "contact",
         "friction",
+        "cohesion",
+        "tension",
         "mortar films",
         "longitudinal film terms",
         "deformation",
         "self weight",
         "edge loads",
+        "point loads",
+        "body acceleration",
         "stresses",
         "dense matrices",
         "load history",
@@ -66,6 +70,15 @@ fn friction_that_is_not_needed() {
     assert_neutral("friction", &even(Joint::mu(0.0)), &even(Joint::mu(0.6)));
     let pressed = |mu| boxed(elastic(), Joint::mu(mu));
     assert_neutral("friction", &pressed(0.0), &pressed(1e-12));
+}
+
+/// Where every joint is pressed and nothing rubs, strength is not needed.
+#[test]
+fn strength_that_is_not_needed() {
+    let pressed = |joint| column(Material::elastic(1e6, 0.0), joint, 0.0);
+    let plain = pressed(Joint::mu(0.6));
+    assert_neutral("cohesion", &plain, &pressed(Joint::mu(0.6).cohesion(60.0)));
+    assert_neutral("tension", &plain, &pressed(Joint::mu(0.6).cohesion(60.0).tension(50.0)));
 }
 
 /// A film gives way by its thickness, against that of the bricks, and so does what it changes. Programs come to
@@ -125,6 +138,16 @@ fn loads_of_factor_zero() {
         let (plan, ..) = built(&heavy, route);
         assert!(effect(&plan, "edge loads").on && effect(&plan, "edge loads").unknowns == 0);
     }
+}
+
+/// A force at a place of a block, and an acceleration of all mass, of the factor zero.
+#[test]
+fn forces_and_accelerations_of_factor_zero() {
+    let plain = stack(elastic().density(1800.0), Joint::mu(0.6));
+    let beam = Load::force("beam", "upper", [0.07, 0.24], [3.0, -20.0]).factor(0.0);
+    assert_neutral("point loads", &plain, &plain.clone().load(beam));
+    let quake = Load::acceleration("quake", [1.0, 2.0]).factor(0.0);
+    assert_neutral("body acceleration", &plain, &plain.clone().load(quake));
 }
 
 /// Loads that grow together from nothing, in a structure without gaps, slide only on: every step is the same

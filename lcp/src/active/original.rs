@@ -1,27 +1,34 @@
 //! The problems that the method treats, as contact problems, and back.
 
+use std::borrow::Cow;
+
 use super::constants::EXACT;
 use crate::certify::{BoxedJudge, ContactJudge, Precision, StateOf};
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
-use crate::refine::{Exact, planned, refined_states};
+use crate::refine::{ALL_DIGITS, Exact, ROUNDED, planned, refined_states};
 use crate::states::{Condensed, Point, Scaled, nearest};
 use crate::{Basis, Contact2d, ContactState, MixedLcp, Residuals, Side};
 
+/// A scaled point with its residuals.
+pub(crate) struct Judged<'a> {
+    pub(crate) u: Cow<'a, [f64]>,
+    pub(crate) forces: Cow<'a, [(f64, f64)]>,
+    pub(crate) residuals: Residuals,
+}
+
+impl Judged<'_> {
+    pub(crate) fn worst(&self) -> f64 {
+        self.residuals.worst()
+    }
+}
+
 /// A point of the general form of a problem.
-#[derive(Debug, Clone)]
-pub(crate) struct Judged {
+pub(crate) struct Answer {
     pub(crate) t: Vec<f64>,
     pub(crate) y: Vec<f64>,
     /// The state that it is, of a contact problem.
     pub(crate) contact: Option<ContactState>,
-    pub(crate) residuals: Residuals,
-}
-
-impl Judged {
-    pub(crate) fn worst(&self) -> f64 {
-        self.residuals.worst()
-    }
 }
 
 /// Displacements and forces of a contact problem in its own units.
@@ -29,10 +36,25 @@ pub(crate) type At<'a> = (&'a [f64], &'a [(f64, f64)]);
 
 /// The judge of points of a scaled problem, in the data as given.
 pub(crate) trait Judge {
-    fn judged(&self, scaled: &Scaled, at: At<'_>, precision: Precision) -> Judged;
+    /// Residuals of the [`answer`](Self::answer) that a point is.
+    fn residuals(&self, scaled: &Scaled, at: At<'_>, precision: Precision) -> Residuals;
 
     /// Residuals of displacements in units of the data and scaled forces, of twice the digits.
     fn residuals_of(&self, scaled: &Scaled, at: &Exact) -> Residuals;
+
+    /// What is given back of a point.
+    fn answer(&self, scaled: &Scaled, at: At<'_>) -> Answer;
+}
+
+/// A point as it stands, with its residuals.
+pub(crate) fn judged<'a>(
+    judge: &dyn Judge,
+    scaled: &Scaled,
+    (u, forces): At<'a>,
+    precision: Precision,
+) -> Judged<'a> {
+    let residuals = judge.residuals(scaled, (u, forces), precision);
+    Judged { u: u.into(), forces: forces.into(), residuals }
 }
 
 /// The verdict on a point about to be called solved: with all digits, and, where large terms hide what is left of the
@@ -41,41 +63,42 @@ pub(crate) trait Judge {
 /// From rest these lead to the nearest point, which may not be far out; that is taken in place of the given one if
 /// it is a solution. From the given point they lead to one whose rounding this is, if the problem is sound: then the
 /// loads are measured there. Of a problem without a solution no refinement brings them down.
-pub(crate) fn confirmed(
+pub(crate) fn confirmed<'a>(
     (judge, scaled, condensed): (&dyn Judge, &Scaled, &mut Condensed),
-    at: At<'_>,
+    at: At<'a>,
     contacts: &[ContactStatus],
     tolerance: f64,
-) -> Judged {
-    let judged = judge.judged(scaled, at, Precision::Exact);
-    let Residuals { equation, natural, .. } = judged.residuals;
-    if judged.worst() <= tolerance || equation.max(natural) > tolerance {
-        return judged;
+) -> Judged<'a> {
+    let given = judged(judge, scaled, at, Precision::Exact);
+    let Residuals { equation, natural, .. } = given.residuals;
+    if given.worst() <= tolerance || equation.max(natural) > tolerance {
+        return given;
     }
     let rest = (vec![0.0; at.0.len()], vec![(0.0, 0.0); at.1.len()]);
-    for exact in refined_states(scaled, condensed, (&rest.0, &rest.1), contacts) {
+    for exact in refined_states(scaled, condensed, (&rest.0, &rest.1), contacts, ALL_DIGITS) {
         let near = rounded(judge, scaled, &exact, Precision::Exact);
         if near.worst() <= tolerance {
             return near;
         }
     }
-    let is_sound = refined_states(scaled, condensed, at, contacts)
+    let is_sound = refined_states(scaled, condensed, at, contacts, ALL_DIGITS)
         .any(|exact| judge.residuals_of(scaled, &exact).worst() <= tolerance);
-    if is_sound { judge.judged(scaled, at, Precision::Rounded) } else { judged }
+    if is_sound { judged(judge, scaled, at, Precision::Rounded) } else { given }
 }
 
 /// The point that the states of contacts lead to without rounding errors, where it is better than a given one: what is
 /// small inherits the rounding errors of what is large until it is refined by itself.
-pub(crate) fn brought_right(
+pub(crate) fn brought_right<'a>(
     (judge, scaled, condensed): (&dyn Judge, &Scaled, &mut Condensed),
-    (at, mut best): (At<'_>, Judged),
+    (at, mut best): (At<'_>, Judged<'a>),
     contacts: &[ContactStatus],
     tolerance: f64,
-) -> Judged {
+) -> Judged<'a> {
     if best.worst() <= EXACT {
         return best;
     }
-    for exact in refined_states(scaled, condensed, at, contacts) {
+    let enough = if best.worst() <= tolerance { ROUNDED } else { ALL_DIGITS };
+    for exact in refined_states(scaled, condensed, at, contacts, enough) {
         let mut near = rounded(judge, scaled, &exact, Precision::Exact);
         let Residuals { equation, natural, loads, .. } = near.residuals;
         if loads > EXACT
@@ -97,12 +120,13 @@ fn rounded(
     scaled: &Scaled,
     (u, forces): &Exact,
     precision: Precision,
-) -> Judged {
+) -> Judged<'static> {
     let u: Vec<f64> = u.iter().map(|u| u.rounded()).collect();
     let mut u = scaled.of_displacements(&u);
     let mut forces: Vec<_> = forces.iter().map(|[n, t]| (n.rounded(), t.rounded())).collect();
     scaled.settle(&mut u, &mut forces);
-    judge.judged(scaled, (&u, &forces), precision)
+    let residuals = judge.residuals(scaled, (&u, &forces), precision);
+    Judged { u: u.into(), forces: forces.into(), residuals }
 }
 
 /// The state of a contact problem that the given one leads to by the states of its contacts, where it is better.
@@ -116,9 +140,10 @@ pub(crate) fn state_brought_right(
     scaled.settle(&mut u, &mut forces);
     let (contacts, judge) = (nearest(&scaled, &u, &forces), Original::judge(problem));
     let at = (&u[..], &forces[..]);
-    let given = judge.judged(&scaled, at, Precision::Exact);
+    let given = judged(judge.as_ref(), &scaled, at, Precision::Exact);
     let with = (judge.as_ref(), &scaled, &mut planned(&scaled).ok()?);
-    let Judged { contact, residuals, .. } = brought_right(with, (at, given), &contacts, tolerance);
+    let Judged { u, forces, residuals } = brought_right(with, (at, given), &contacts, tolerance);
+    let Answer { contact, .. } = judge.answer(&scaled, (&u, &forces));
     contact.map(|state| (state, residuals))
 }
 
@@ -140,29 +165,29 @@ pub(crate) trait Original {
 
     /// The complementary basis of these states of the contacts; free variables are on the side of their
     /// sign.
-    fn basis(&self, contacts: &[ContactStatus], judged: &Judged, slips: &[f64]) -> Basis;
+    fn basis(&self, contacts: &[ContactStatus], y: &[f64], slips: &[f64]) -> Basis;
 
     /// The states of the contacts that belong to a basis.
     fn contacts(&self, basis: &Basis) -> Vec<ContactStatus>;
 }
 
+/// The state of a scaled point. What is given back are forces inside their cones: where these are large, what was cut
+/// off may be more than the loads.
+fn state(problem: &Contact2d, scaled: &Scaled, (u, forces): At<'_>) -> ContactState {
+    let inside = forces.iter().zip(problem.mu()).map(|((t_n, t_t), mu)| {
+        let t_n = t_n.max(0.0);
+        // Forces may have overflowed.
+        let bound = if *mu > 0.0 { mu * t_n } else { 0.0 };
+        (t_n, t_t.clamp(-bound, bound))
+    });
+    let (normal, tangential) =
+        inside.map(|(t_n, t_t)| (t_n * scaled.force(), t_t * scaled.force())).unzip();
+    problem.state(scaled.displacements(u), normal, tangential)
+}
+
 impl Judge for (&Contact2d, ContactJudge<'_>) {
-    fn judged(&self, scaled: &Scaled, (u, forces): At<'_>, precision: Precision) -> Judged {
-        let (problem, judge) = self;
-        // What is given back are forces inside their cones: where these are large, what was cut off may be
-        // more than the loads.
-        let inside = forces.iter().zip(problem.mu()).map(|((t_n, t_t), mu)| {
-            let t_n = t_n.max(0.0);
-            // Forces may have overflowed.
-            let bound = if *mu > 0.0 { mu * t_n } else { 0.0 };
-            (t_n, t_t.clamp(-bound, bound))
-        });
-        let (normal, tangential) =
-            inside.map(|(t_n, t_t)| (t_n * scaled.force(), t_t * scaled.force())).unzip();
-        let state = problem.state(scaled.displacements(u), normal, tangential);
-        let (t, y) = problem.to_pairs(&state);
-        let residuals = judge.residuals(&state, precision);
-        Judged { t, y, contact: Some(state), residuals }
+    fn residuals(&self, scaled: &Scaled, at: At<'_>, precision: Precision) -> Residuals {
+        self.1.residuals(&state(self.0, scaled, at), precision)
     }
 
     fn residuals_of(&self, scaled: &Scaled, (u, forces): &Exact) -> Residuals {
@@ -170,22 +195,29 @@ impl Judge for (&Contact2d, ContactJudge<'_>) {
         let [t_n, t_t] = [0, 1].map(|k| part(k).collect::<Vec<_>>());
         self.1.residuals_of(StateOf { u, t_n: &t_n, t_t: &t_t, openings: None })
     }
+
+    fn answer(&self, scaled: &Scaled, at: At<'_>) -> Answer {
+        let state = state(self.0, scaled, at);
+        let (t, y) = self.0.to_pairs(&state);
+        Answer { t, y, contact: Some(state) }
+    }
+}
+
+/// The `(z, w)` of a scaled point. As for contact, what is judged is what is given back.
+fn variables(scaled: &Scaled, (u, forces): At<'_>) -> (Vec<f64>, Vec<f64>) {
+    let (mut u, mut w) = (u.to_vec(), vec![0.0; u.len()]);
+    for (point, (t_n, _)) in scaled.points.iter().zip(forces) {
+        let j = point.columns[0];
+        u[j] = u[j].max(0.0);
+        w[j] = t_n.max(0.0) * scaled.force_of(j);
+    }
+    (scaled.displacements(&u), w)
 }
 
 impl Judge for (&MixedLcp, BoxedJudge<'_>) {
-    fn judged(&self, scaled: &Scaled, (u, forces): At<'_>, precision: Precision) -> Judged {
-        let (problem, judge) = self;
-        // As for contact, what is judged is what is given back.
-        let (mut u, mut w) = (u.to_vec(), vec![0.0; u.len()]);
-        for (point, (t_n, _)) in scaled.points.iter().zip(forces) {
-            let j = point.columns[0];
-            u[j] = u[j].max(0.0);
-            w[j] = t_n.max(0.0) * scaled.force_of(j);
-        }
-        let z = scaled.displacements(&u);
-        let residuals = judge.residuals(&z, &w, precision);
-        let (t, y) = problem.to_pairs(&z, &w);
-        Judged { t, y, contact: None, residuals }
+    fn residuals(&self, scaled: &Scaled, at: At<'_>, precision: Precision) -> Residuals {
+        let (z, w) = variables(scaled, at);
+        self.1.residuals(&z, &w, precision)
     }
 
     fn residuals_of(&self, scaled: &Scaled, (u, forces): &Exact) -> Residuals {
@@ -195,6 +227,12 @@ impl Judge for (&MixedLcp, BoxedJudge<'_>) {
             w[j] = force.scaled(scaled.force_of(j));
         }
         self.1.residuals_of(u, &w)
+    }
+
+    fn answer(&self, scaled: &Scaled, at: At<'_>) -> Answer {
+        let (z, w) = variables(scaled, at);
+        let (t, y) = self.0.to_pairs(&z, &w);
+        Answer { t, y, contact: None }
     }
 }
 
@@ -219,10 +257,10 @@ impl Original for Contact2d {
         scaled.of_state(&self.recover(t, y))
     }
 
-    fn basis(&self, contacts: &[ContactStatus], judged: &Judged, slips: &[f64]) -> Basis {
+    fn basis(&self, contacts: &[ContactStatus], y: &[f64], slips: &[f64]) -> Basis {
         let n = self.displacements();
         let mut sides: Vec<Side> =
-            (0..n).map(|j| if judged.y[j] > 0.0 { Side::Y } else { Side::T }).collect();
+            (0..n).map(|j| if y[j] > 0.0 { Side::Y } else { Side::T }).collect();
         sides.extend(
             contacts.iter().map(|c| if *c == ContactStatus::Open { Side::Y } else { Side::T }),
         );
@@ -289,11 +327,11 @@ impl Original for MixedLcp {
         (scaled.of_displacements(&z), scaled.points.iter().map(force).collect())
     }
 
-    fn basis(&self, contacts: &[ContactStatus], judged: &Judged, _: &[f64]) -> Basis {
+    fn basis(&self, contacts: &[ContactStatus], y: &[f64], _: &[f64]) -> Basis {
         let mut contacts = contacts.iter();
         let side = |(j, free): (usize, &bool)| {
             let is_y = if *free {
-                judged.y[j] > 0.0
+                y[j] > 0.0
             } else {
                 // A closed contact has a force, w, and no gap, z.
                 contacts.next().is_some_and(|contact| *contact != ContactStatus::Open)

@@ -1,12 +1,14 @@
 //! The points that a method comes to, of which the best one is kept.
 
 use super::crossover::{Effort, Vertex, cross_over};
-use super::original::{At, Judge, Judged, Original, brought_right, confirmed};
+use super::original::{
+    Answer, At, Judge, Judged, Original, brought_right, confirmed, judged as judged_by,
+};
 use crate::certify::Precision;
 use crate::problem::ContactStatus;
 use crate::solve::Monitor;
 use crate::states::{Condensed, Scaled, nearest};
-use crate::{Error, Method, Solution, Status, WarmStart};
+use crate::{Error, Method, Residuals, Solution, Status, WarmStart};
 
 /// A problem with the best point so far.
 pub(crate) struct Search<'a> {
@@ -16,8 +18,17 @@ pub(crate) struct Search<'a> {
     tolerance: f64,
     pub(crate) scaled: Scaled,
     pub(crate) condensed: Condensed,
-    /// With its states if it is exact.
-    best: Option<(Judged, Option<Vertex>)>,
+    best: Option<Best>,
+}
+
+/// The best point so far.
+struct Best {
+    u: Vec<f64>,
+    forces: Vec<(f64, f64)>,
+    residuals: Residuals,
+    /// Its states if it is exact, and whether the rounding errors of what is large have been taken out of what is
+    /// small.
+    exact: Option<(Vec<ContactStatus>, bool)>,
 }
 
 impl<'a> Search<'a> {
@@ -91,19 +102,40 @@ impl<'a> Search<'a> {
         effort: &Effort,
     ) -> bool {
         let Self { judge, tolerance, scaled, condensed, best, .. } = self;
-        cross_over(scaled, condensed, at, contacts, effort, |condensed, vertex, is_consistent| {
+        let is_solution = |condensed: &mut Condensed, vertex: &Vertex, is_consistent: bool| {
             let point = (&vertex.u[..], &vertex.forces[..]);
             let contacts = || vertex.contacts.clone();
             let with = (judge.as_ref(), &*scaled, &mut *condensed);
             let mut judged = judged(with, point, *tolerance, contacts);
-            if is_consistent || judged.worst() <= *tolerance {
+            if is_consistent {
                 let with = (judge.as_ref(), &*scaled, condensed);
                 judged = brought_right(with, (point, judged), &vertex.contacts, *tolerance);
             }
             let is_solution = judged.worst() <= *tolerance;
-            keep_better(best, judged, is_solution.then_some(vertex), *tolerance);
+            let contacts = is_solution.then_some((&vertex.contacts[..], is_consistent));
+            keep_better(best, judged, contacts, *tolerance);
             is_solution
-        })
+        };
+        let is_found = cross_over(scaled, condensed, at, contacts, effort, is_solution);
+        if is_found {
+            self.bring_right();
+        }
+        is_found
+    }
+
+    /// The best point, if it is exact, to its last digits.
+    fn bring_right(&mut self) {
+        let Self { judge, tolerance, scaled, condensed, best, .. } = self;
+        if let Some(Best { u, forces, residuals, exact: Some((contacts, is_right)) }) = best
+            && !*is_right
+        {
+            let at = (&u[..], &forces[..]);
+            let given = Judged { u: at.0.into(), forces: at.1.into(), residuals: *residuals };
+            let with = (judge.as_ref(), &*scaled, condensed);
+            let right = brought_right(with, (at, given), contacts, *tolerance);
+            let right = (right.u.into_owned(), right.forces.into_owned(), right.residuals);
+            (*u, *forces, *residuals, *is_right) = (right.0, right.1, right.2, true);
+        }
     }
 
     /// The worst residual of a point, which is kept if none was better.
@@ -121,23 +153,30 @@ impl<'a> Search<'a> {
 
     /// The worst residual of the best point.
     pub(crate) fn residual(&self) -> f64 {
-        self.best.as_ref().map_or(f64::INFINITY, |(judged, _)| judged.worst())
+        self.best.as_ref().map_or(f64::INFINITY, |best| best.residuals.worst())
     }
 
     /// The best point, with this status unless it is a solution.
     pub(crate) fn finish(self, otherwise: Status, monitor: Monitor<'_>) -> Solution {
-        let Some((judged, vertex)) = self.best else {
+        let Self { judge, tolerance, scaled, best, .. } = self;
+        let Some(Best { u, forces, mut residuals, exact }) = best else {
             unreachable!("every solve judges a point");
         };
-        let basis = vertex.map(|vertex| {
-            let points = self.scaled.points.iter();
-            let slips: Vec<f64> = points.map(|point| point.slip(&vertex.u)).collect();
-            self.problem.basis(&vertex.contacts, &judged, &slips)
+        let at = (&u[..], &forces[..]);
+        if residuals.worst() > tolerance {
+            // On the way rows that matter to no load counted too. A point refused with all digits stays refused.
+            let quick = Precision::Quick { tolerance: f64::INFINITY };
+            let in_full = judge.residuals(&scaled, at, quick);
+            residuals = if in_full.worst() > tolerance { in_full } else { residuals };
+        }
+        let Answer { t, y, contact } = judge.answer(&scaled, at);
+        let basis = exact.map(|(contacts, _)| {
+            let slips: Vec<f64> = scaled.points.iter().map(|point| point.slip(&u)).collect();
+            self.problem.basis(&contacts, &y, &slips)
         });
-        let Judged { t, y, contact, residuals } = judged;
         // Steps may end with a point that is solved and another that the iteration gave up.
         let otherwise = if otherwise == Status::Solved { Status::Stalled } else { otherwise };
-        let mut solution = Solution::judged((t, y), residuals, self.tolerance, otherwise);
+        let mut solution = Solution::judged((t, y), residuals, tolerance, otherwise);
         solution.contact = contact;
         solution.basis = basis;
         solution.info = monitor.info(self.method);
@@ -147,13 +186,13 @@ impl<'a> Search<'a> {
 }
 
 /// Quickly, and with all digits where the point may be a solution.
-fn judged(
+fn judged<'a>(
     (judge, scaled, condensed): (&dyn Judge, &Scaled, &mut Condensed),
-    at: At<'_>,
+    at: At<'a>,
     tolerance: f64,
     contacts: impl FnOnce() -> Vec<ContactStatus>,
-) -> Judged {
-    let quick = judge.judged(scaled, at, Precision::Quick);
+) -> Judged<'a> {
+    let quick = judged_by(judge, scaled, at, Precision::Quick { tolerance });
     if quick.worst() > tolerance {
         return quick;
     }
@@ -162,17 +201,19 @@ fn judged(
 
 /// An exact solution is better than a point inside, whose residuals may be smaller.
 fn keep_better(
-    best: &mut Option<(Judged, Option<Vertex>)>,
-    judged: Judged,
-    vertex: Option<&Vertex>,
+    best: &mut Option<Best>,
+    Judged { u, forces, residuals }: Judged<'_>,
+    exact: Option<(&[ContactStatus], bool)>,
     tolerance: f64,
 ) {
-    let is_better = best.as_ref().is_none_or(|(other, exact)| match (vertex, exact) {
+    let is_better = best.as_ref().is_none_or(|other| match (exact, &other.exact) {
         (Some(_), None) => true,
         (None, Some(_)) => false,
-        _ => judged.residuals.is_better_than(&other.residuals, tolerance),
+        _ => residuals.is_better_than(&other.residuals, tolerance),
     });
     if is_better {
-        *best = Some((judged, vertex.cloned()));
+        let exact = exact.map(|(contacts, is_right)| (contacts.to_vec(), is_right));
+        let (u, forces) = (u.into_owned(), forces.into_owned());
+        *best = Some(Best { u, forces, residuals, exact });
     }
 }

@@ -1,7 +1,7 @@
 //! Points `(z, w)` of standard, mixed and boxed problems.
 
 use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
-use super::significance::{Term, add_terms};
+use super::significance::{Term, terms_of};
 use super::{Residuals, weights};
 use crate::extended::{Extended, extended};
 use crate::matrix::Column;
@@ -136,16 +136,14 @@ impl<X: Digits> Point for At<'_, X> {
         ledger::in_full(&self.judge.loads)
     }
 
-    fn terms(&self) -> Vec<Term> {
+    fn for_each_term(&self, visit: &mut dyn FnMut(&Term)) {
         let n = self.z.len();
-        let of_w = self.w.iter().enumerate().filter(|(_, w)| w.rounded() != 0.0);
-        let of_w = of_w.map(|(i, w)| Term { row: i, variable: n + i, value: w.rounded() });
-        let mut terms: Vec<Term> = of_w.collect();
-        for (variable, z) in self.z.iter().enumerate().filter(|(_, z)| z.rounded() != 0.0) {
-            let column = self.judge.m.slice(variable);
-            add_terms(&mut terms, (variable, z.rounded()), column);
+        for (i, w) in self.w.iter().enumerate().filter(|(_, w)| w.rounded() != 0.0) {
+            visit(&Term { row: i, variable: n + i, value: w.rounded() });
         }
-        terms
+        for (variable, z) in self.z.iter().enumerate() {
+            terms_of(visit, (variable, z.rounded()), self.judge.m.slice(variable));
+        }
     }
 
     fn conditions(&self, ledger: &mut Ledger<'_>) {

@@ -186,13 +186,12 @@ impl<X: Digits> Point for At<'_, X> {
         all.map(|(v, weight)| (v.abs() * weight).min(1.0)).collect()
     }
 
-    fn terms(&self) -> Vec<Term> {
+    fn for_each_term(&self, visit: &mut dyn FnMut(&Term)) {
         let problem = self.judge.problem;
         let (n, m) = (problem.displacements(), problem.points());
-        let mut terms = Vec::new();
         let mut add = |row: usize, variable: usize, value: f64| {
             if value != 0.0 {
-                terms.push(Term { row, variable, value });
+                visit(&Term { row, variable, value });
             }
         };
         let StateOf { u, t_n, t_t, .. } = self.state;
@@ -209,7 +208,6 @@ impl<X: Digits> Point for At<'_, X> {
         }
         let openings = self.openings.iter().enumerate();
         openings.for_each(|(i, v)| add(n + i, n + 2 * m + i, *v));
-        terms
     }
 
     fn conditions(&self, ledger: &mut Ledger<'_>) {

@@ -1,7 +1,7 @@
 //! Forces of a contact problem that is reduced to the contacts.
 
 use super::ledger::{self, Entry, Ledger, Point, Precision, Rows};
-use super::significance::{Term, add_terms};
+use super::significance::{Term, terms_of};
 use super::{Residuals, weights};
 use crate::extended::Extended;
 use crate::matrix::Column;
@@ -67,15 +67,14 @@ impl Point for At<'_> {
         ledger::in_full(self.problem.q())
     }
 
-    fn terms(&self) -> Vec<Term> {
+    fn for_each_term(&self, visit: &mut dyn FnMut(&Term)) {
         let rows = self.terms.len();
-        let nonzero = self.velocities.iter().enumerate().filter(|(_, v)| **v != 0.0);
-        let own = nonzero.map(|(row, v)| Term { row, variable: rows + row, value: *v });
-        let mut terms: Vec<Term> = own.collect();
-        for (variable, (column, force)) in self.columns.iter().zip(&self.forces).enumerate() {
-            add_terms(&mut terms, (variable, *force), *column);
+        for (row, v) in self.velocities.iter().enumerate().filter(|(_, v)| **v != 0.0) {
+            visit(&Term { row, variable: rows + row, value: *v });
         }
-        terms
+        for (variable, (column, force)) in self.columns.iter().zip(&self.forces).enumerate() {
+            terms_of(visit, (variable, *force), *column);
+        }
     }
 
     fn conditions(&self, ledger: &mut Ledger<'_>) {

@@ -1,7 +1,7 @@
 //! Points of the general form.
 
 use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
-use super::significance::{Term, add_terms};
+use super::significance::{Term, terms_of};
 use super::{Residuals, weights};
 use crate::extended::{Extended, extended};
 use crate::matrix::Column;
@@ -126,12 +126,10 @@ impl<X: Digits> Point for At<'_, X> {
         ledger::in_full(&loads)
     }
 
-    fn terms(&self) -> Vec<Term> {
-        let mut terms = Vec::new();
+    fn for_each_term(&self, visit: &mut dyn FnMut(&Term)) {
         for (variable, x, column) in self.variables() {
-            add_terms(&mut terms, (variable, x.rounded()), column);
+            terms_of(visit, (variable, x.rounded()), column);
         }
-        terms
     }
 
     fn conditions(&self, ledger: &mut Ledger<'_>) {

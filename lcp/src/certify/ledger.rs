@@ -46,15 +46,30 @@ impl Digits for Extended {
 }
 
 /// How exactly the rows of a point are computed, and what of the loads rounding may excuse.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Precision {
-    /// In `f64`, less the rounding errors that the sums may have: of points on the way.
-    Quick,
+    /// In `f64`, less the rounding errors that the sums may have: of points on the way. Where what is left of the
+    /// loads is beyond the tolerance already, rows that matter to no load count like all others.
+    Quick {
+        /// What a solution may miss.
+        tolerance: f64,
+    },
     /// With twice the digits where that may matter, less the rounding error of a point that is exact but for the
     /// last digit of its numbers: of answers.
     Rounded,
     /// With twice the digits: of points about to be called solved, and of those that have these digits.
     Exact,
+}
+
+impl Precision {
+    fn is_quick(self) -> bool {
+        matches!(self, Self::Quick { .. })
+    }
+
+    /// Whether a point with what is left of the loads is none, whatever else may be wrong.
+    fn is_refused(self, loads: f64) -> bool {
+        matches!(self, Self::Quick { tolerance } if loads > tolerance)
+    }
 }
 
 /// Rows at a point.
@@ -103,8 +118,8 @@ pub(super) trait Point {
     /// What the right-hand side of every row makes it count, between zero and one.
     fn sources(&self) -> Vec<f64>;
 
-    /// All terms with a variable that is not zero.
-    fn terms(&self) -> Vec<Term>;
+    /// Shows all terms that are not zero, always in the same order.
+    fn for_each_term(&self, visit: &mut dyn FnMut(&Term));
 
     /// Goes through the conditions on the variables.
     fn conditions(&self, ledger: &mut Ledger<'_>);
@@ -121,7 +136,7 @@ pub(super) fn residuals_or_refined(
     let rows = point.rows();
     let mut sizes = rows.1.iter().zip(weights);
     let is_hidden = |(terms, weight)| length * f64::EPSILON * terms * weight > SMALL;
-    if precision != Precision::Quick && sizes.any(is_hidden) {
+    if !precision.is_quick() && sizes.any(is_hidden) {
         return refined();
     }
     residuals_of_rows(point, rows, (weights, length), precision)
@@ -148,10 +163,11 @@ fn residuals_of_rows(
     let strict = ledger.finished(length, precision);
     let Residuals { equation, natural, loads, .. } = strict;
     let apparent = equation.max(natural);
-    if apparent <= SMALL || loads > MINOR * apparent {
+    if apparent <= SMALL || loads > MINOR * apparent || precision.is_refused(loads) {
         return strict;
     }
-    let significance = significance(&ledger.terms, &point.sources(), weights, &point.terms());
+    let terms = |visit: &mut dyn FnMut(&Term)| point.for_each_term(visit);
+    let significance = significance(&ledger.terms, &point.sources(), weights, &terms);
     let Ledger { rest, terms, .. } = ledger;
     let mut ledger = Ledger { significance, ..Ledger::new(rest, terms, weights) };
     ledger.count_rows();
@@ -251,13 +267,13 @@ impl<'a> Ledger<'a> {
         let Self { rest, terms, weights, changes, .. } = self;
         let mut residuals = self.residuals;
         let noise = match precision {
-            Precision::Quick => length * f64::EPSILON,
+            Precision::Quick { .. } => length * f64::EPSILON,
             Precision::Rounded => ROUNDING,
             Precision::Exact => 0.0,
         };
         for (i, (rest, weight)) in rest.iter().zip(*weights).enumerate() {
             let rounding = match precision {
-                Precision::Quick => noise * terms[i] * weight,
+                Precision::Quick { .. } => noise * terms[i] * weight,
                 _ => (noise * terms[i] * weight).min(LARGEST_ROUNDING),
             };
             let left = (rest.abs() * weight - rounding).max(0.0);

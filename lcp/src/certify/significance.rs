@@ -18,32 +18,35 @@ pub(super) struct Term {
     pub(super) value: f64,
 }
 
-/// Adds the terms of a variable with its column.
-pub(super) fn add_terms(terms: &mut Vec<Term>, (variable, x): (usize, f64), column: Column<'_>) {
-    column.for_each(|row, v| {
-        if v * x != 0.0 {
-            terms.push(Term { row, variable, value: v * x });
-        }
-    });
+/// Shows the terms of a point that are not zero, always in the same order.
+pub(super) type Terms<'a> = dyn Fn(&mut dyn FnMut(&Term)) + 'a;
+
+/// The terms of a variable with its column.
+pub(super) fn terms_of(
+    visit: &mut dyn FnMut(&Term),
+    (variable, x): (usize, f64),
+    column: Column<'_>,
+) {
+    if x != 0.0 {
+        column.for_each(|row, v| {
+            if v * x != 0.0 {
+                visit(&Term { row, variable, value: v * x });
+            }
+        });
+    }
 }
 
 /// For every row a factor between zero and one. `sources` are what rows count by their right-hand sides, and `felt`
 /// is one over the loads that a row feels, zero where there are none.
-pub(super) fn significance(terms: &[f64], sources: &[f64], felt: &[f64], all: &[Term]) -> Vec<f64> {
+pub(super) fn significance(
+    terms: &[f64],
+    sources: &[f64],
+    felt: &[f64],
+    all: &Terms<'_>,
+) -> Vec<f64> {
     let rows = terms.len();
-    let variables = all.iter().map(|term| term.variable + 1).max().unwrap_or(0);
-    let mut largest = vec![0.0_f64; rows];
-    for term in all {
-        largest[term.row] = largest[term.row].max(term.value.abs());
-    }
-    let links = Links::new(
-        rows + variables,
-        all.iter().map(|term| {
-            let share = term.value.abs() / largest[term.row];
-            (term.row, rows + term.variable, [share, (share / SPEAKS).min(1.0)])
-        }),
-    );
-    let mut worth = vec![0.0; rows + variables];
+    let links = Links::new(rows, all);
+    let mut worth = vec![0.0; links.nodes()];
     let loaded: Vec<_> = (0..rows).filter(|i| sources[*i] > 0.0).map(|i| (i, sources[i])).collect();
     links.spread(&loaded, &mut worth);
     // What no load reaches is measured by the loads around it, if there are any.
@@ -55,31 +58,45 @@ pub(super) fn significance(terms: &[f64], sources: &[f64], felt: &[f64], all: &[
     worth.into_iter().map(|worth| (worth / IN_FULL).min(1.0)).collect()
 }
 
-/// Links between rows and variables, each with the shares from the row to the variable and back.
+/// Links between rows and, numbered behind them, variables, each with the share that the end makes of what the
+/// beginning is worth.
 struct Links {
     starts: Vec<usize>,
-    ends: Vec<(usize, f64)>,
+    ends: Vec<u32>,
+    shares: Vec<f64>,
 }
 
 impl Links {
-    fn new(nodes: usize, links: impl Iterator<Item = (usize, usize, [f64; 2])> + Clone) -> Self {
-        let mut starts = vec![0; nodes + 1];
-        for (row, variable, _) in links.clone() {
+    fn new(rows: usize, all: &Terms<'_>) -> Self {
+        let mut largest = vec![0.0_f64; rows];
+        let mut starts = vec![0; rows + 1];
+        all(&mut |Term { row, variable, value }| {
+            largest[*row] = largest[*row].max(value.abs());
+            let last = rows + variable + 1;
+            starts.resize(starts.len().max(last + 1), 0);
             starts[row + 1] += 1;
-            starts[variable + 1] += 1;
-        }
-        for i in 0..nodes {
-            starts[i + 1] += starts[i];
+            starts[last] += 1;
+        });
+        for i in 1..starts.len() {
+            starts[i] += starts[i - 1];
         }
         let mut next = starts.clone();
-        let mut ends = vec![(0, 0.0); starts[nodes]];
-        for (row, variable, [there, back]) in links {
-            for (from, to, share) in [(row, variable, there), (variable, row, back)] {
-                ends[next[from]] = (to, share);
+        let count = starts.last().copied().unwrap_or(0);
+        let (mut ends, mut shares) = (vec![0; count], vec![0.0; count]);
+        all(&mut |Term { row, variable, value }| {
+            let (row, variable, share) = (*row, rows + variable, value.abs() / largest[*row]);
+            for (from, to, share) in
+                [(row, variable, share), (variable, row, (share / SPEAKS).min(1.0))]
+            {
+                (ends[next[from]], shares[next[from]]) = (index(to), share);
                 next[from] += 1;
             }
-        }
-        Self { starts, ends }
+        });
+        Self { starts, ends, shares }
+    }
+
+    fn nodes(&self) -> usize {
+        self.starts.len() - 1
     }
 
     /// Raises what rows and variables are worth to the largest products of shares along chains from the sources: octave
@@ -112,14 +129,19 @@ impl Links {
     /// Raises the neighbours of a node.
     fn raise(&self, node: usize, worth: &mut [f64], raised: &mut impl FnMut(usize, f64)) {
         let value = worth[node];
-        for &(to, share) in &self.ends[self.starts[node]..self.starts[node + 1]] {
-            let by = value * share;
+        let range = self.starts[node]..self.starts[node + 1];
+        for (to, share) in self.ends[range.clone()].iter().zip(&self.shares[range]) {
+            let (to, by) = (*to as usize, value * share);
             if by > worth[to] {
                 worth[to] = by;
                 raised(to, by);
             }
         }
     }
+}
+
+fn index(i: usize) -> u32 {
+    u32::try_from(i).unwrap_or_else(|_| unreachable!("2^32 rows do not fit in memory"))
 }
 
 /// Octaves of values that are told apart; the last has all that is smaller.

@@ -36,6 +36,8 @@ pub(super) const PASSES: usize = 60;
 /// Passes without a residual that falls, after which what is left is taken for an error of the data. Chosen.
 pub(super) const PATIENCE: usize = 2;
 /// Residuals that are rounding errors of numbers of twice the digits. Rounding: the square of eps.
-pub(super) const ENOUGH: f64 = f64::EPSILON * f64::EPSILON;
+pub(crate) const ALL_DIGITS: f64 = f64::EPSILON * f64::EPSILON;
+/// Residuals that are lost where the answer is rounded. Rounding: below half of eps.
+pub(crate) const ROUNDED: f64 = f64::EPSILON / 4.0;
 /// The most, relative to the terms of a row, that may be a rounding error of the data. Rounding: some thousand eps.
 pub(super) const CONTRADICTION: f64 = 1e-12;

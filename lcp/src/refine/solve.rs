@@ -4,7 +4,9 @@ use std::time::Instant;
 
 use super::answer::{Refined, Refinement};
 use super::at::At;
-use super::constants::{CONTRADICTION, DOUBT, ENOUGH, FALLEN, PASSES, PATIENCE, WEIGHTS, Weights};
+use super::constants::{
+    ALL_DIGITS, CONTRADICTION, DOUBT, FALLEN, PASSES, PATIENCE, WEIGHTS, Weights,
+};
 use super::lack::{self, Lack, Shifts};
 use super::law::{self, Margin};
 use crate::certify::ratio;
@@ -43,17 +45,19 @@ pub(super) fn solved(
 /// Displacements in units of the data, and forces in those of the scaled problem.
 pub(crate) type Exact = (Vec<Extended>, Vec<[Extended; 2]>);
 
-/// Where the equations of the states lead to from a scaled point, without rounding errors, as far as one does.
+/// Where the equations of the states lead to from a scaled point, as far as one does: to a residual that is enough, be
+/// it [`ALL_DIGITS`](super::ALL_DIGITS) or [`ROUNDED`](super::ROUNDED).
 pub(crate) fn refined_states(
     scaled: &Scaled,
     condensed: &mut Condensed,
     (u, forces): (&[f64], &[(f64, f64)]),
     statuses: &[ContactStatus],
+    enough: f64,
 ) -> impl Iterator<Item = Exact> {
     let at = At::of(u, forces);
     WEIGHTS.into_iter().map(move |weights| {
         let mut solve = Solve::new(scaled, &mut *condensed, at.clone(), statuses, weights);
-        solve.refine();
+        solve.refine(enough);
         (solve.at.displacements(scaled), solve.at.forces)
     })
 }
@@ -113,7 +117,7 @@ impl<'a> Solve<'a> {
         match refinement {
             Refinement::Plain => self.repeat(1),
             Refinement::Single => self.repeat(2),
-            Refinement::Extended => self.refine(),
+            Refinement::Extended => self.refine(ALL_DIGITS),
         }
     }
 
@@ -126,10 +130,10 @@ impl<'a> Solve<'a> {
         }
     }
 
-    fn refine(&mut self) {
+    fn refine(&mut self, enough: f64) {
         let given = self.at.clone();
         let (mut lack, mut since) = (self.lack(), 0);
-        while self.passes < PASSES && lack.residual.is_finite() && lack.residual > ENOUGH {
+        while self.passes < PASSES && lack.residual.is_finite() && lack.residual > enough {
             let residual = lack.residual;
             let before = (self.at.clone(), self.correction);
             self.pass(&lack);

@@ -3,8 +3,7 @@
 //! Two errors are kept apart. The *algebraic* error of an answer is its distance from the
 //! [`Reference`] of the same mesh, the most accurate answer there is on it: what the solver left
 //! undone. The error of the *mesh* is the distance of that reference from the one of the finest mesh:
-//! what no solver can mend. A third part tells what the soft springs of the route by quadratic programs
-//! change before they are centred anew.
+//! what no solver can mend.
 //!
 //! ```
 //! use masonry::scene::{Brick, Joint, Load, Material, Route, Scene, Support, Wall};
@@ -27,7 +26,6 @@
 //!     routes: vec![Route::Lemke, Route::Alm],
 //!     tolerances: vec![1e-4, 1e-8],
 //!     meshes: vec![1, 2],
-//!     springs: Vec::new(),
 //!     ..Settings::default()
 //! };
 //! let study = study(&scene, &settings, &mut |_| {})?;
@@ -42,9 +40,7 @@ mod figures;
 mod machine;
 mod mesh;
 mod reference;
-mod refining;
 mod runs;
-mod springs;
 mod verified;
 
 use std::time::Duration;
@@ -54,11 +50,9 @@ use serde::Serialize;
 
 pub use figures::Errors;
 pub use machine::machine;
-pub use mesh::{Mesh, MeshErrors, Values};
+pub use mesh::{Mesh, MeshErrors, Values, refined};
 pub use reference::{Confirmation, Reference};
-pub use refining::Refining;
-pub use springs::Springs;
-pub use verified::Verified;
+pub use verified::{Exact, Verified};
 
 use crate::model::Model;
 use crate::scene::{Route, Scene, SceneError};
@@ -78,8 +72,6 @@ pub struct Settings {
     pub meshes: Vec<u32>,
     /// What reports call the meshes, in their order; those that are missing are called after their factors.
     pub mesh_names: Vec<String>,
-    /// Stiffnesses of springs on all displacements, relative to that of the blocks \[-\].
-    pub springs: Vec<f64>,
     /// Wall-clock time that one solve may take. It is looked at by the observer, so that one
     /// factorisation or program is never interrupted: [`Record::overrun`] tells where one took longer.
     pub time_limit: Duration,
@@ -103,7 +95,6 @@ impl Default for Settings {
             tolerances: vec![1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12],
             meshes: vec![1, 2, 4],
             mesh_names: Vec::new(),
-            springs: vec![1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2],
             time_limit: Duration::from_secs(20),
             repeats: 3,
             machine: None,
@@ -122,11 +113,8 @@ impl Settings {
             return Err(StudyError::Empty { what });
         }
         let out_of_range = |value: &&f64| !(**value > 0.0 && **value < 1.0);
-        let ranges = [("tolerance", &self.tolerances), ("stiffness of springs", &self.springs)];
-        for (what, values) in ranges {
-            if let Some(&value) = values.iter().find(out_of_range) {
-                return Err(StudyError::Range { what, value });
-            }
+        if let Some(&tolerance) = self.tolerances.iter().find(out_of_range) {
+            return Err(StudyError::Tolerance(tolerance));
         }
         if self.meshes.contains(&0) { Err(StudyError::NoElements) } else { Ok(()) }
     }
@@ -155,14 +143,9 @@ pub enum StudyError {
         /// What there is none of.
         what: &'static str,
     },
-    /// A number out of its range.
-    #[error("a {what} lies between 0 and 1, and {value} does not: correct it")]
-    Range {
-        /// What it is.
-        what: &'static str,
-        /// The number.
-        value: f64,
-    },
+    /// A tolerance out of its range.
+    #[error("a tolerance lies between 0 and 1, and {0} does not: correct it")]
+    Tolerance(f64),
     /// A mesh without elements.
     #[error("a mesh factor is at least 1, and 0 leaves no elements: correct it")]
     NoElements,
@@ -242,8 +225,6 @@ pub struct Study {
     pub records: Vec<Record>,
     /// The meshes, in the order of the settings.
     pub meshes: Vec<Mesh>,
-    /// Soft springs, on the first mesh, by [`Route::Qp`], from soft to stiff.
-    pub springs: Vec<Springs>,
 }
 
 impl Study {
@@ -299,23 +280,14 @@ pub fn study(
     let is_elastic = model.blocks.iter().any(|block| block.elasticity.is_some());
     let factors: &[u32] = if is_elastic { &settings.meshes } else { &[1] };
     let mut runner = Runner::new(settings, observer);
-    let (mut records, mut meshes, mut springs) = (Vec::new(), Vec::new(), Vec::new());
-    for (position, &factor) in factors.iter().enumerate() {
-        let refined = mesh::refined(scene, factor);
-        let (mesh, figures) = mesh::studied(&refined, factor, &mut runner);
+    let (mut records, mut meshes) = (Vec::new(), Vec::new());
+    for &factor in factors {
+        let finer = refined(scene, factor);
+        let (mesh, figures) = mesh::studied(&finer, factor, &mut runner);
         for &route in &settings.routes {
             for &tolerance in &settings.tolerances {
-                records.push(runner.record(&refined, (factor, route, tolerance), figures.as_ref()));
+                records.push(runner.record(&finer, (factor, route, tolerance), figures.as_ref()));
             }
-        }
-        if position == 0 {
-            springs = springs::studied(
-                &refined,
-                factor,
-                &settings.springs,
-                &mut runner,
-                figures.as_ref(),
-            );
         }
         meshes.push(mesh);
     }
@@ -326,6 +298,5 @@ pub fn study(
         machine: settings.machine.clone(),
         records,
         meshes: mesh::compared(meshes),
-        springs,
     })
 }

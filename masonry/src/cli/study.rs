@@ -27,9 +27,6 @@ pub(super) struct StudyArgs {
     /// Factors of the numbers of elements per direction, separated by commas.
     #[arg(long, value_delimiter = ',')]
     meshes: Option<Vec<u32>>,
-    /// Stiffnesses of soft springs, separated by commas.
-    #[arg(long, value_delimiter = ',')]
-    springs: Option<Vec<f64>>,
     /// Wall-clock time that one solve may take, in seconds.
     #[arg(long, default_value_t = 20.0)]
     time_limit: f64,
@@ -74,7 +71,6 @@ fn settings(args: &StudyArgs) -> Result<Settings, Failure> {
         tolerances: args.tolerances.clone().unwrap_or(default.tolerances),
         meshes: args.meshes.clone().unwrap_or(default.meshes),
         mesh_names: default.mesh_names,
-        springs: args.springs.clone().unwrap_or(default.springs),
         time_limit,
         repeats: default.repeats,
         machine: Some(machine()),

@@ -2,17 +2,15 @@
 
 use nalgebra::{Point2, Vector2};
 
+use super::classes::Classes;
 use super::{
-    Block, Body, ContactPoint, Elasticity, Joint, JointClass, Model, Mortar, Movement, Plane,
-    Support, edge_loads, placement,
+    Block, ContactPoint, Joint, JointClass, Model, Movement, Plane, Support, place_loads, placement,
 };
 use crate::geometry::{self, QuadError};
-use crate::law::JointLaw;
-use crate::model::joints::{self, ContactError, JointKind, Options};
+use crate::model::joints::{self, ContactError, Options};
 use crate::model::mesh::BlockMesh;
-use crate::paper::film::FilmMaterial;
 use crate::scene::bond::{self, JointThickness};
-use crate::scene::{self, BED, Fault, HEAD, KeyPath, Scene, SceneError, SceneErrorKind};
+use crate::scene::{self, Fault, KeyPath, Scene, SceneError, SceneErrorKind};
 use crate::units::Units;
 
 impl Model {
@@ -23,7 +21,7 @@ impl Model {
     ///
     /// # Errors
     /// What [`Scene::check`] finds, and what only the whole shows: overlapping blocks, a support
-    /// that runs through a block or meets none, a load on no free edge, a block that meets nothing,
+    /// that runs through a block or meets none, a load on no free edge or outside of its block, a block that meets nothing,
     /// a joint whose class is not given. With line and column when the scene was read from text.
     pub fn from_scene(scene: &Scene) -> Result<Self, SceneError> {
         scene.check()?;
@@ -42,7 +40,8 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
 
     let found = find_joints(scene, &blocks, &supports, thickness)?;
     placement::check_touching(&blocks, &keys, &supports, &found.joints)?;
-    edge_loads::place(scene, &mut blocks, &found.joints, &found.contacts)?;
+    let (loads, accelerations) =
+        place_loads::place(scene, &mut blocks, &found.joints, &found.contacts)?;
 
     Ok(Model {
         blocks,
@@ -54,6 +53,8 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
         plane: scene.plane.unwrap_or(Plane::Stress),
         thickness,
         gravity: scene.gravity.map_or_else(Vector2::zeros, Vector2::from),
+        accelerations,
+        loads,
         units,
     })
 }
@@ -63,7 +64,7 @@ fn lay_blocks(scene: &Scene) -> Result<(Vec<Block>, Vec<KeyPath>), Fault> {
     let mut blocks = Vec::new();
     let mut keys = Vec::new();
     for (k, wall) in scene.walls.iter().enumerate() {
-        for brick in bond::bricks_in_mortar(wall, JointThickness::of(scene)) {
+        for brick in bond::bricks_in_mortar(wall, JointThickness::of(scene, wall)) {
             let mesh = wall.mesh.map(|whole| brick.mesh(whole));
             blocks.push(block(scene, brick.name(wall), &wall.material, brick.corners(), mesh));
             keys.push(KeyPath::of("walls").item(k).key("courses"));
@@ -89,7 +90,7 @@ fn block(
     let units = scene.units;
     let corners = corners.map(|corner| point(corner, units));
     let material = scene.materials.get(material).copied().unwrap_or_default();
-    let elasticity = elasticity(&material, units);
+    let elasticity = material.elasticity(units);
     let mesh = mesh.filter(|_| elasticity.is_some());
     Block {
         name,
@@ -97,13 +98,8 @@ fn block(
         elasticity,
         density: material.density,
         mesh: mesh.map(|[nx, ny]| BlockMesh::new(&corners, nx, ny)),
-        edge_loads: Vec::new(),
+        loads: Vec::new(),
     }
-}
-
-fn elasticity(material: &scene::Material, units: Units) -> Option<Elasticity> {
-    let constants = material.young.zip(material.poisson);
-    constants.map(|(young, poisson)| Elasticity { young: young * units.stress_to_si(), poisson })
 }
 
 /// A brick cut to next to nothing is no block.
@@ -144,78 +140,26 @@ fn find_joints(
     supports: &[Support],
     thickness: f64,
 ) -> Result<Found, Fault> {
-    let mut classes: Vec<JointClass> =
-        scene.joints.iter().map(|joint| joint_class(scene, joint)).collect();
-    let given = classes.len();
-    // A class that is not given stands at the end, to be refused when a joint turns out to need it.
-    let mut index = |name: &str| {
-        classes.iter().position(|class| class.name == name).unwrap_or_else(|| {
-            classes.push(JointClass {
-                name: name.to_owned(),
-                law: JointLaw::default(),
-                mortar: None,
-            });
-            classes.len() - 1
-        })
-    };
-    let (bed, head) = (index(BED), index(HEAD));
-    let of_supports: Vec<usize> = scene.supports.iter().map(|s| index(&s.joint)).collect();
-    let class_of = |kind| match kind {
-        JointKind::Bed => bed,
-        JointKind::Head => head,
-        JointKind::Support(id) => of_supports[id.index()],
-    };
+    let classes = Classes::of(scene, blocks)?;
+    let class_of = |kind, a, b| classes.class_of(kind, a, b);
     let options = Options {
         points: scene.contact.points,
         gap_limit: scene.contact.gap_limit * scene.units.length_to_si(),
         films: scene.contact.films,
         ..Options::default()
     };
-    let (joints, contacts) = joints::find(
-        blocks, supports, &classes, class_of, thickness, &options,
-    )
-    .map_err(|error| {
-        let key = match &error {
-            ContactError::NoRoomForFilm { class, .. } => {
-                KeyPath::of("joints").key(class).key("thickness")
-            }
-            ContactError::NoNodalPair { .. } => KeyPath::of("contact").key("points"),
-        };
-        Fault::new(key, SceneErrorKind::Contact(error))
-    })?;
-    if let Some(joint) = joints.iter().find(|joint| joint.class >= given) {
-        return Err(missing_class(blocks, joint, joint.class == bed));
-    }
-    classes.truncate(given);
+    let (joints, contacts) =
+        joints::find(blocks, supports, classes.list(), class_of, thickness, &options).map_err(
+            |error| {
+                let key = match &error {
+                    ContactError::NoRoomForFilm { class, .. } => {
+                        KeyPath::of("joints").key(class).key("thickness")
+                    }
+                    ContactError::NoNodalPair { .. } => KeyPath::of("contact").key("points"),
+                };
+                Fault::new(key, SceneErrorKind::Contact(error))
+            },
+        )?;
+    let classes = classes.of_joints(blocks, &joints)?;
     Ok(Found { joints, contacts, classes })
-}
-
-fn joint_class(scene: &Scene, (name, joint): (&String, &scene::Joint)) -> JointClass {
-    let strength = |value: Option<f64>| value.unwrap_or(0.0) * scene.units.stress_to_si();
-    let law = JointLaw {
-        mu: joint.friction(),
-        cohesion: strength(joint.cohesion),
-        tension: strength(joint.tension),
-    };
-    JointClass { name: name.clone(), law, mortar: mortar(scene, joint) }
-}
-
-fn mortar(scene: &Scene, joint: &scene::Joint) -> Option<Mortar> {
-    let thickness = joint.mortar_thickness() * scene.units.length_to_si();
-    let material = scene.materials.get(joint.material.as_ref()?)?;
-    let elasticity = elasticity(material, scene.units)?;
-    // The plane is given wherever a material is elastic.
-    let material = FilmMaterial { elasticity, plane: scene.plane.unwrap_or(Plane::Stress) };
-    (thickness > 0.0).then_some(Mortar { thickness, material })
-}
-
-fn missing_class(blocks: &[Block], joint: &Joint, is_bed: bool) -> Fault {
-    let name = |body| match body {
-        Body::Block(id) => blocks[id.index()].name.clone(),
-        // Supports have classes of their own, which were looked up before.
-        Body::Support(_) => String::new(),
-    };
-    let class = if is_bed { BED } else { HEAD };
-    let (first, second) = (name(joint.a), name(Body::Block(joint.b)));
-    Fault::new(KeyPath::of("joints"), SceneErrorKind::MissingClass { class, first, second })
 }

@@ -62,7 +62,7 @@ impl Default for Options {
 
 /// Finds all joints and places their contact points.
 ///
-/// `class_of` maps the kind of a joint to an index into `classes`, `thickness` \[m\] turns lengths
+/// `class_of` maps the kind of a joint and its two sides to an index into `classes`, `thickness` \[m\] turns lengths
 /// into the areas that points stand for. Joints come in the order of their blocks, those with supports
 /// after those between blocks; points come joint by joint, along the joint's tangent. Blocks that
 /// only touch at a corner make no joint.
@@ -77,7 +77,7 @@ pub fn find(
     blocks: &[Block],
     supports: &[Support],
     classes: &[JointClass],
-    class_of: impl Fn(JointKind) -> usize,
+    class_of: impl Fn(JointKind, Body, BlockId) -> usize,
     thickness: f64,
     options: &Options,
 ) -> Result<(Vec<Joint>, Vec<ContactPoint>), ContactError> {
@@ -89,7 +89,7 @@ pub fn find(
         Body::Support(id) => supports[id.index()].name.clone(),
     };
     let mut add = |candidate: &Candidate| {
-        let class = class_of(candidate.kind);
+        let class = class_of(candidate.kind, candidate.a, candidate.b);
         let mortar = classes[class].mortar;
         let meeting = match candidate.meet(mortar, options) {
             Ok(Some(meeting)) => meeting,
@@ -105,7 +105,8 @@ pub fn find(
                 });
             }
         };
-        let points = meeting.points(blocks, options);
+        let rule = classes[class].points.unwrap_or(options.points);
+        let points = meeting.points(blocks, rule, options.tolerance);
         if points.is_empty() {
             return Err(ContactError::NoNodalPair {
                 a: name(meeting.a),
@@ -265,7 +266,7 @@ impl Meeting {
         geometry::on_edge(&blocks[self.b.index()].corners, self.b_edge, at)
     }
 
-    fn points(&self, blocks: &[Block], options: &Options) -> Vec<points::Place> {
+    fn points(&self, blocks: &[Block], rule: PointRule, tolerance: f64) -> Vec<points::Place> {
         let b = &blocks[self.b.index()];
         let [b_start, b_end] = geometry::edge(&b.corners, self.b_edge);
         let b_side = points::Side {
@@ -281,8 +282,8 @@ impl Meeting {
         };
         let length =
             (b_end - b_start).norm() * (self.overlap.on_second[0] - self.overlap.on_second[1]);
-        let slack = options.tolerance * geometry::size(&b.corners) / length;
-        points::place(options.points, a_side.as_ref(), &b_side, length, slack)
+        let slack = tolerance * geometry::size(&b.corners) / length;
+        points::place(rule, a_side.as_ref(), &b_side, length, slack)
     }
 
     fn contact(

@@ -63,11 +63,19 @@ impl BlockMesh {
     /// # Panics
     /// If `edge > 3`.
     pub fn interpolate(&self, edge: usize, at: f64) -> [(usize, f64); 2] {
-        let n = self.edge_elements(edge);
-        let place = at.clamp(0.0, 1.0) * n as f64;
-        let first = (1..n).take_while(|k| *k as f64 <= place).count();
-        let s = place - first as f64;
+        let (first, s) = within(self.edge_elements(edge), at);
         [(self.edge_node(edge, first), 1.0 - s), (self.edge_node(edge, first + 1), s)]
+    }
+
+    /// The four nodes of the element in which a place of the block lies, each with its shape function there.
+    ///
+    /// `r` and `s` are the coordinates of the place in the block ([`reference`](crate::geometry::reference)), clamped
+    /// to 0..=1. The map of an element is that of the block on its part of the unit square, so that the place in the
+    /// element needs no search.
+    pub fn interpolate_inside(&self, [r, s]: [f64; 2]) -> [(usize, f64); 4] {
+        let ((i, r), (j, s)) = (within(self.nx, r), within(self.ny, s));
+        let [a, b, c, d] = self.elements[j * self.nx + i];
+        [(a, (1.0 - r) * (1.0 - s)), (b, r * (1.0 - s)), (c, r * s), (d, (1.0 - r) * s)]
     }
 
     /// The node at position `k` of an edge, counted from the edge's first corner.
@@ -81,6 +89,13 @@ impl BlockMesh {
             _ => panic!("a block has the edges 0 to 3, not {edge}"),
         }
     }
+}
+
+/// Which of `n` equal parts of an edge a fraction of it lies in, and where in this part.
+fn within(n: usize, at: f64) -> (usize, f64) {
+    let place = at.clamp(0.0, 1.0) * n as f64;
+    let first = (1..n).take_while(|k| *k as f64 <= place).count();
+    (first, place - first as f64)
 }
 
 /// The place with coordinates `r` (along edge 0) and `s` (along edge 3, reversed) in 0..=1.

@@ -99,7 +99,7 @@ pub(super) fn check_supports(
 }
 
 /// A number to six digits: messages tell sizes of mistakes, not their rounding errors.
-fn rounded(number: f64) -> f64 {
+pub(super) fn rounded(number: f64) -> f64 {
     format!("{number:.5e}").parse().unwrap_or(number)
 }
 

@@ -7,7 +7,7 @@ use super::effect::Effect;
 use super::sizes::Sizes;
 use crate::law::JointLaw;
 use crate::model::{Block, Model};
-use crate::scene::{Films, Form, Route, Scene};
+use crate::scene::{Films, Form, LoadKind, Route, Scene};
 
 /// All effects that a scene can call for in a single step, for the route that is tried first.
 pub(super) fn of(scene: &Scene, model: &Model, sizes: &Sizes, first: &Choice) -> Vec<Effect> {
@@ -22,6 +22,8 @@ pub(super) fn of(scene: &Scene, model: &Model, sizes: &Sizes, first: &Choice) ->
         deformation(scene, sizes, &route),
         self_weight(scene, model),
         edge_loads(scene, model),
+        point_loads(scene),
+        body_acceleration(scene, model),
         stresses(scene, model),
         dense_matrices(&route),
     ]
@@ -221,13 +223,51 @@ fn self_weight(scene: &Scene, model: &Model) -> Effect {
 }
 
 fn edge_loads(scene: &Scene, model: &Model) -> Effect {
-    let edges: usize = model.blocks.iter().map(|block| block.edge_loads.len()).sum();
-    if edges == 0 {
-        return Effect::off("edge loads", "the scene gives no loads".to_owned());
+    let edges: usize = model.blocks.iter().map(|block| block.edge_loads().count()).sum();
+    let called = called(scene, |kind| matches!(kind, LoadKind::Edge { .. }));
+    loads("edge loads", scene, called, "acts on an edge", |loads| {
+        format!("{loads} on {}", count(edges, "edge"))
+    })
+}
+
+fn point_loads(scene: &Scene) -> Effect {
+    let called = called(scene, |kind| matches!(kind, LoadKind::Force { .. }));
+    loads("point loads", scene, called, "is a force on a block", |loads| {
+        format!("{loads} at places of blocks")
+    })
+}
+
+fn body_acceleration(scene: &Scene, model: &Model) -> Effect {
+    let heavy = model.blocks.iter().filter(|block| block.density.is_some()).count();
+    let called = called(scene, |kind| matches!(kind, LoadKind::Acceleration(_)));
+    loads("body acceleration", scene, called, "is an acceleration", |loads| {
+        format!("{loads} on {}", count(heavy, "block"))
+    })
+}
+
+/// The names of the loads of a kind.
+fn called(scene: &Scene, is_kind: impl Fn(LoadKind<'_>) -> bool) -> String {
+    let of_kind = scene.loads.iter().filter(|load| load.kind().is_some_and(&is_kind));
+    names(of_kind.map(|load| load.name.as_str()))
+}
+
+/// The effect of the loads of a kind, which are named, or none.
+fn loads(
+    name: &'static str,
+    scene: &Scene,
+    called: String,
+    kind: &str,
+    because: impl FnOnce(String) -> String,
+) -> Effect {
+    if !called.is_empty() {
+        return Effect::on(name, because(called), RIGHT_HAND_SIDE.to_owned());
     }
-    let loads = names(scene.loads.iter().map(|load| load.name.as_str()));
-    let because = format!("{loads} on {}", count(edges, "edge"));
-    Effect::on("edge loads", because, RIGHT_HAND_SIDE.to_owned())
+    let missing = if scene.loads.is_empty() {
+        "the scene gives no loads".to_owned()
+    } else {
+        format!("no load of the scene {kind}")
+    };
+    Effect::off(name, missing)
 }
 
 fn stresses(scene: &Scene, model: &Model) -> Effect {

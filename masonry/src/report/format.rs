@@ -39,11 +39,21 @@ impl InUnits {
         format!("{}\u{a0}{}", significant(self.length(metres), 4), self.0.length_name())
     }
 
+    /// A force for people, with its unit after a space that does not break.
+    pub(super) fn force_text(self, newtons: f64) -> String {
+        format!("{}\u{a0}{}", significant(self.force(newtons), 4), self.0.force_name())
+    }
+
     /// A stress for people, with its unit and a raised 2, after a space that does not break.
     pub(super) fn stress_text(self, pascals: f64) -> String {
         let unit = format!("{}/{}²", self.0.force_name(), self.0.length_name());
         format!("{}\u{a0}{unit}", significant(self.stress(pascals), 4))
     }
+}
+
+/// An acceleration \[m/s^2\] for people, with its unit after a space that does not break.
+pub(super) fn acceleration_text(acceleration: f64) -> String {
+    format!("{}\u{a0}m/s²", significant(acceleration, 4))
 }
 
 /// The shortest decimal text that reads back as the same number.

@@ -6,11 +6,12 @@ use serde::{Serialize, Serializer};
 
 use super::format::{InUnits, block_name};
 use super::summary::{
-    CornerSum, Resultant, corner_sums, edge_loads, extreme_film_stresses, extreme_stresses,
-    largest_displacement, reason, weight,
+    self, CornerSum, LoadGroup, Resultant, corner_sums, extreme_film_stresses, extreme_stresses,
+    largest_displacement, load_groups, reason, weight,
 };
 use crate::analysis::outcome::Outcome;
 use crate::method::info::{RouteEnd, SoftReport, SpringShares};
+use crate::model;
 use crate::paper::alm::Iteration;
 use crate::plan::Plan;
 use crate::scene::Route;
@@ -69,6 +70,7 @@ struct Report<'a> {
     corners: Option<Vec<Corner>>,
     weight: Force,
     loads: Force,
+    load_groups: ByName<'a, Group<'a>>,
     contacts: Option<Contacts>,
     strain_energy: Option<f64>,
     max_displacement: Option<Displacement<'a>>,
@@ -151,6 +153,35 @@ impl Force {
     }
 }
 
+/// The loads of a group and their sum.
+#[derive(Serialize)]
+struct Group<'a> {
+    #[serde(flatten)]
+    sum: Force,
+    loads: ByName<'a, Load>,
+}
+
+/// A load: its factor, times that of the step, and its resultant.
+#[derive(Serialize)]
+struct Load {
+    factor: f64,
+    #[serde(flatten)]
+    resultant: Force,
+}
+
+impl<'a> Group<'a> {
+    fn of(group: &LoadGroup<'a>, units: InUnits) -> Self {
+        let load = |(load, resultant): &(&'a model::Load, Resultant)| {
+            let resultant = Force::of(*resultant, units);
+            (load.name.as_str(), Load { factor: load.factor, resultant })
+        };
+        Self {
+            sum: Force::of(group.sum, units),
+            loads: ByName(group.loads.iter().map(load).collect()),
+        }
+    }
+}
+
 #[derive(Serialize)]
 struct Contacts {
     open: usize,
@@ -200,7 +231,7 @@ impl<'a> Report<'a> {
         let checks = outcome.checks.as_ref();
         let state = outcome.state.as_ref();
         let (compression, tension) = state.map_or((None, None), extreme_stresses);
-        let stress = |it: super::summary::ExtremeStress| Stress {
+        let stress = |it: summary::ExtremeStress| Stress {
             value: units.stress(it.value),
             block: block_name(model, it.block),
             x: units.length(it.position.x),
@@ -249,7 +280,10 @@ impl<'a> Report<'a> {
                 corner_sums(outcome).into_iter().map(of).collect()
             }),
             weight: Force::of(weight(model), units),
-            loads: Force::of(edge_loads(model), units),
+            loads: Force::of(summary::loads(model), units),
+            load_groups: ByName(
+                load_groups(model).iter().map(|it| (it.name, Group::of(it, units))).collect(),
+            ),
             contacts: checks.map(|checks| Contacts {
                 open: checks.open,
                 stick: checks.stick,

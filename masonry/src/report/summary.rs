@@ -6,7 +6,7 @@ use crate::analysis::outcome::Outcome;
 use crate::geometry;
 use crate::history::Step;
 use crate::ids::BlockId;
-use crate::model::{Block, Body, EdgeLoad, Model};
+use crate::model::{Block, Body, Cause, EdgeLoad, Load, Model};
 use crate::state::{FilmStress, State};
 use crate::verify::verdict::Verdict;
 
@@ -119,36 +119,64 @@ pub fn extreme_film_stresses(state: &State) -> Option<FilmExtremes> {
     }))
 }
 
-/// The resultant of all edge loads and self weights.
+/// The resultant of all loads and self weights.
 pub fn applied_load(model: &Model) -> Resultant {
-    let (loads, weight) = (edge_loads(model), weight(model));
+    let (loads, weight) = (loads(model), weight(model));
     Resultant { force: loads.force + weight.force, moment: loads.moment + weight.moment }
 }
 
-/// The resultant of all edge loads.
-pub fn edge_loads(model: &Model) -> Resultant {
-    let mut total = Resultant::default();
-    for block in &model.blocks {
-        for load in &block.edge_loads {
-            let (from, to) = loaded_part(block, load);
-            let area = (to - from).norm() * model.thickness;
-            total.add(load.traction * area, nalgebra::center(&from, &to));
-        }
-    }
-    total
+/// The resultant of all loads, without self weights.
+pub fn loads(model: &Model) -> Resultant {
+    resultant(model, |cause| cause != Cause::Weight)
 }
 
 /// The resultant of all self weights.
 pub fn weight(model: &Model) -> Resultant {
+    resultant(model, |cause| cause == Cause::Weight)
+}
+
+fn resultant(model: &Model, counts: impl Fn(Cause) -> bool) -> Resultant {
     let mut total = Resultant::default();
-    for block in &model.blocks {
-        if let Some(density) = block.density {
-            let (area, centroid) =
-                (geometry::area(&block.corners), geometry::centroid(&block.corners));
-            total.add(model.gravity * (density * area * model.thickness), centroid);
+    for (cause, (at, force)) in model.blocks.iter().flat_map(|block| model.causes_on(block)) {
+        if counts(cause) {
+            total.add(force, at);
         }
     }
     total
+}
+
+/// The loads of a group.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadGroup<'a> {
+    /// Name of the group.
+    pub name: &'a str,
+    /// Its loads, in the order of the scene, each with its resultant.
+    pub loads: Vec<(&'a Load, Resultant)>,
+    /// The resultant of all of them.
+    pub sum: Resultant,
+}
+
+/// The groups of loads, in the order of their first loads.
+pub fn load_groups(model: &Model) -> Vec<LoadGroup<'_>> {
+    let mut sums = vec![Resultant::default(); model.loads.len()];
+    for (cause, (at, force)) in model.blocks.iter().flat_map(|block| model.causes_on(block)) {
+        if let Cause::Load(id) = cause
+            && let Some(sum) = sums.get_mut(id.index())
+        {
+            sum.add(force, at);
+        }
+    }
+    let mut groups: Vec<LoadGroup<'_>> = Vec::new();
+    for (load, sum) in model.loads.iter().zip(sums) {
+        if let Some(group) = groups.iter_mut().find(|group| group.name == load.group) {
+            group.loads.push((load, sum));
+            group.sum.force += sum.force;
+            group.sum.moment += sum.moment;
+        } else {
+            groups.push(LoadGroup { name: &load.group, loads: vec![(load, sum)], sum });
+        }
+    }
+    groups
 }
 
 /// The sum of all support reactions.

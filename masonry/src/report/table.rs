@@ -1,13 +1,14 @@
 //! The report as text, at most 100 columns wide.
 
 mod history;
+mod loads;
 
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle, presets};
 
 use super::format::{InUnits, aligned, block_name, significant};
 use super::summary::{
-    CornerSum, ExtremeStress, Resultant, applied_load, corner_sums, edge_loads,
-    extreme_film_stresses, extreme_stresses, largest_displacement, reason, total_reaction, weight,
+    self, CornerSum, ExtremeStress, Resultant, applied_load, corner_sums, extreme_film_stresses,
+    extreme_stresses, largest_displacement, reason, total_reaction, weight,
 };
 use crate::analysis::outcome::Outcome;
 use crate::method::info::{SoftReport, SpringShares};
@@ -35,6 +36,10 @@ pub fn report(outcome: &Outcome) -> String {
     if let Some(history) = &outcome.history {
         text += &section("Load history");
         text += &history::history(history, InUnits(outcome.model.units));
+    }
+    if !outcome.model.loads.is_empty() {
+        text += &section("Loads");
+        text += &loads::loads(&outcome.model);
     }
     if let Some(state) = &outcome.state {
         text += &section("Reactions on the structure");
@@ -163,7 +168,7 @@ fn reactions(outcome: &Outcome) -> String {
     let single = outcome.reactions.iter().map(|it| (it.support.clone(), [it.fx, it.fy, it.m]));
     let mut rows: Vec<(String, [f64; 3])> = single.collect();
     let mut totals = vec![("sum of reactions", sum)];
-    let (weight, loads) = (weight(&outcome.model), edge_loads(&outcome.model));
+    let (weight, loads) = (weight(&outcome.model), summary::loads(&outcome.model));
     if weight != Resultant::default() && loads != Resultant::default() {
         totals.extend([("self weight", weight), ("loads", loads)]);
     }

@@ -15,10 +15,11 @@ pub struct JointThickness {
 }
 
 impl JointThickness {
-    /// Those of the classes `bed` and `head` of a scene, to which all joints between blocks belong.
-    pub fn of(scene: &Scene) -> Self {
+    /// Those of the classes to which the joints of a wall belong.
+    pub fn of(scene: &Scene, wall: &Wall) -> Self {
         let of = |class: &str| scene.joints.get(class).map_or(0.0, Joint::mortar_thickness);
-        Self { bed: of(super::BED), head: of(super::HEAD) }
+        let [bed, head] = wall.joints.names().map(of);
+        Self { bed, head }
     }
 }
 

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::source::Source;
 use super::{
-    Block, Brick, Contact, Courses, Films, Form, Joint, Load, Material, Output, Plane, PointRule,
-    Route, Scene, Solver, Stage, Support, Wall,
+    Between, Block, Brick, Contact, Courses, Films, Form, Joint, Load, Material, Output, Plane,
+    PointRule, Route, Scene, Solver, Stage, Support, Wall, WallJoints,
 };
 use crate::units::Units;
 
@@ -20,6 +20,7 @@ impl Scene {
             units,
             materials: BTreeMap::new(),
             joints: BTreeMap::new(),
+            between: Vec::new(),
             walls: Vec::new(),
             blocks: Vec::new(),
             supports: Vec::new(),
@@ -64,6 +65,14 @@ impl Scene {
     #[must_use]
     pub fn joint(mut self, name: &str, joint: Joint) -> Self {
         self.joints.insert(name.to_owned(), joint);
+        self
+    }
+
+    /// Gives the joints between two bodies, each the name of a block or of a wall, a class of their own.
+    #[must_use]
+    pub fn between(mut self, first: &str, second: &str, joint: &str) -> Self {
+        let blocks = [first, second].map(str::to_owned);
+        self.between.push(Between { blocks, joint: joint.to_owned() });
         self
     }
 
@@ -211,6 +220,13 @@ impl Joint {
         self
     }
 
+    /// Sets where on the joints of the class the law is enforced.
+    #[must_use]
+    pub fn points(mut self, points: PointRule) -> Self {
+        self.points = Some(points);
+        self
+    }
+
     /// Fills the joints of the class with mortar of a thickness \[length\] and an elastic material.
     #[must_use]
     pub fn mortar(mut self, thickness: f64, material: &str) -> Self {
@@ -239,6 +255,13 @@ impl Wall {
         Self::new(name, material, brick, Courses::List(courses))
     }
 
+    /// Sets the classes of the beds and heads within the wall.
+    #[must_use]
+    pub fn joints(mut self, bed: &str, head: &str) -> Self {
+        self.joints = WallJoints { bed: Some(bed.to_owned()), head: Some(head.to_owned()) };
+        self
+    }
+
     /// Puts the lower left corner of the wall at `origin` \[length\] instead of `[0, 0]`.
     #[must_use]
     pub fn origin(mut self, origin: [f64; 2]) -> Self {
@@ -261,6 +284,7 @@ impl Wall {
             brick,
             width: None,
             courses,
+            joints: WallJoints::default(),
             mesh: None,
         }
     }
@@ -284,17 +308,5 @@ impl Support {
     /// A support between two points \[length\], with the class of its joints.
     pub fn new(name: &str, from: [f64; 2], to: [f64; 2], joint: &str) -> Self {
         Self { name: name.to_owned(), from, to, joint: joint.to_owned() }
-    }
-}
-
-impl Load {
-    /// A pressure \[force/length^2\] against the outward normal of the edges on a segment.
-    pub fn pressure(name: &str, from: [f64; 2], to: [f64; 2], pressure: f64) -> Self {
-        Self { name: name.to_owned(), from, to, pressure: Some(pressure), traction: None }
-    }
-
-    /// A traction \[force/length^2\] in global axes on the edges on a segment.
-    pub fn traction(name: &str, from: [f64; 2], to: [f64; 2], traction: [f64; 2]) -> Self {
-        Self { name: name.to_owned(), from, to, pressure: None, traction: Some(traction) }
     }
 }

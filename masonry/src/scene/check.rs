@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use nalgebra::Point2;
 
-use super::error::Known;
 use super::{
-    Block, Courses, Fault, Form, Joint, KeyPath, Load, Material, Route, Scene, SceneError,
-    SceneErrorKind, Solver, Support, Wall,
+    Between, Block, Courses, Fault, Form, Joint, KeyPath, Known, Material, Route, Scene,
+    SceneError, SceneErrorKind, Solver, Support, Wall,
 };
 use crate::geometry::{self, QuadError};
 use crate::scene::bond::JointThickness;
 
+mod loads;
 mod mortar;
 mod stages;
 
@@ -62,12 +62,13 @@ impl Scene {
         if self.supports.is_empty() {
             return Err(Fault::new(KeyPath::default(), SceneErrorKind::NoSupport));
         }
+        for (k, between) in self.between.iter().enumerate() {
+            self.check_between(&KeyPath::of("between").item(k), between)?;
+        }
         for (k, support) in self.supports.iter().enumerate() {
             self.check_support(&KeyPath::of("supports").item(k), support)?;
         }
-        for (k, load) in self.loads.iter().enumerate() {
-            check_load(&KeyPath::of("loads").item(k), load)?;
-        }
+        self.check_loads()?;
         self.check_stages()?;
         self.check_options()
     }
@@ -126,7 +127,11 @@ impl Scene {
         if count > f64::from(MOST_BLOCKS) {
             return Err(too_many(at.key("courses"), "bricks", count, MOST_BLOCKS));
         }
-        mortar::check_room(at, wall, JointThickness::of(self))?;
+        for (key, class) in [("bed", &wall.joints.bed), ("head", &wall.joints.head)] {
+            let Some(class) = class else { continue };
+            self.check_class(at.key("joints").key(key), class)?;
+        }
+        mortar::check_room(at, wall, JointThickness::of(self, wall))?;
         check_mesh(at, wall.mesh, material)
     }
 
@@ -158,11 +163,20 @@ impl Scene {
 
     fn check_support(&self, at: &KeyPath, support: &Support) -> Check {
         segment(at, support.from, support.to)?;
-        if self.joints.contains_key(&support.joint) {
+        self.check_class(at.key("joint"), &support.joint)
+    }
+
+    /// The class; whether the blocks exist is known with the model.
+    fn check_between(&self, at: &KeyPath, between: &Between) -> Check {
+        self.check_class(at.key("joint"), &between.joint)
+    }
+
+    fn check_class(&self, at: KeyPath, class: &str) -> Check {
+        if self.joints.contains_key(class) {
             return Ok(());
         }
-        let known = Known(self.joints.keys().cloned().collect());
-        Err(unknown(at.key("joint"), "joint class", &support.joint, known, "joints"))
+        let known = self.joints.keys().cloned().collect();
+        Err(unknown(at, "joint class", class, known, "joints"))
     }
 
     fn check_options(&self) -> Check {
@@ -206,7 +220,7 @@ impl Scene {
 
     fn material_of(&self, at: &KeyPath, name: &str) -> Result<&Material, Fault> {
         self.materials.get(name).ok_or_else(|| {
-            let known = Known(self.materials.keys().cloned().collect());
+            let known = self.materials.keys().cloned().collect();
             unknown(at.key("material"), "material", name, known, "materials")
         })
     }
@@ -287,14 +301,6 @@ fn check_mesh(at: &KeyPath, mesh: Option<[u32; 2]>, material: &Material) -> Chec
         value(at, f64::from(count), count > 0, "a block has at least one element along each edge")?;
     }
     Ok(())
-}
-
-fn check_load(at: &KeyPath, load: &Load) -> Check {
-    segment(at, load.from, load.to)?;
-    match exactly_one(at, ("pressure", load.pressure), ("traction", load.traction))? {
-        One::First(pressure) => finite(at.key("pressure"), pressure),
-        One::Second(traction) => point(&at.key("traction"), traction),
-    }
 }
 
 fn segment(at: &KeyPath, from: [f64; 2], to: [f64; 2]) -> Check {
@@ -391,12 +397,20 @@ fn unknown(
     at: KeyPath,
     what: &'static str,
     name: &str,
-    known: Known,
+    known: Vec<String>,
     table: &'static str,
 ) -> Fault {
     let missing = match what {
-        "load" | "support" => format!("it under [[{table}]]"),
+        "load" | "load or group" | "support" => format!("it under [[{table}]]"),
         _ => format!("[{table}.{name}]"),
     };
-    Fault::new(at, SceneErrorKind::Unknown { what, name: name.to_owned(), known, missing })
+    Fault::new(
+        at,
+        SceneErrorKind::Unknown {
+            what,
+            name: name.to_owned(),
+            known: Known::near(name, known),
+            missing,
+        },
+    )
 }

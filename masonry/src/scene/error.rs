@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 pub use contact::ContactError;
 
+use super::load::LoadError;
 use super::source::{Place, Source};
 use super::{KeyPath, Scene};
 
@@ -54,7 +55,7 @@ impl SceneError {
     pub(super) fn syntax(source: &Source, error: &toml::de::Error) -> Self {
         // An error without a place, such as a missing key of the whole scene, is shown at the top.
         let place = source.place(error.span().unwrap_or(0..0));
-        let kind = SceneErrorKind::Syntax { message: error.message().to_owned() };
+        let kind = SceneErrorKind::Syntax { message: with_nearest(error.message()) };
         Self::new(kind, KeyPath::default(), place, source.path().map(Path::to_owned))
     }
 
@@ -209,7 +210,7 @@ pub enum SceneErrorKind {
         "there is no {what} \"{name}\" in the scene; {known}: correct the name or add {missing}"
     )]
     Unknown {
-        /// `material`, `joint class`, `load` or `support`.
+        /// `material`, `joint class`, `load`, `load or group` or `support`.
         what: &'static str,
         /// The name.
         name: String,
@@ -341,17 +342,20 @@ pub enum SceneErrorKind {
     },
     /// Two blocks meet in a joint whose class is not given.
     #[error(
-        "blocks \"{first}\" and \"{second}\" meet in a {class} joint, but joint class \"{class}\" is \
+        "blocks \"{first}\" and \"{second}\" meet in a joint of class \"{class}\", which is \
          not given: add [joints.{class}] with `mu` or `phi_deg`"
     )]
     MissingClass {
-        /// `bed` or `head`.
-        class: &'static str,
+        /// The class.
+        class: String,
         /// Name of one block.
         first: String,
         /// Name of the other.
         second: String,
     },
+    /// What is wrong with a load.
+    #[error("{0}")]
+    Load(#[from] LoadError),
     /// Contact points could not be placed.
     #[error("{0}")]
     Contact(#[from] ContactError),
@@ -359,14 +363,58 @@ pub enum SceneErrorKind {
 
 /// The names of a kind that a scene has.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Known(pub Vec<String>);
+pub struct Known {
+    /// All of them.
+    pub names: Vec<String>,
+    /// The one that was probably meant.
+    pub nearest: Option<String>,
+}
+
+impl Known {
+    /// The names that there are where another one was given.
+    pub(crate) fn near(given: &str, names: Vec<String>) -> Self {
+        let nearest = nearest(given, names.iter().map(String::as_str)).map(str::to_owned);
+        Self { names, nearest }
+    }
+}
 
 impl fmt::Display for Known {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.0.is_empty() {
+        if self.names.is_empty() {
             return f.write_str("none is given");
         }
-        let names: Vec<String> = self.0.iter().map(|name| format!("\"{name}\"")).collect();
-        write!(f, "there is {}", names.join(", "))
+        if let Some(nearest) = &self.nearest {
+            write!(f, "did you mean \"{nearest}\"? ")?;
+        }
+        let (first, more) = self.names.split_at(self.names.len().min(MOST_NAMES));
+        let names: Vec<String> = first.iter().map(|name| format!("\"{name}\"")).collect();
+        write!(f, "there is {}", names.join(", "))?;
+        if more.is_empty() { Ok(()) } else { write!(f, " and {} more", more.len()) }
+    }
+}
+
+/// So many names are listed.
+const MOST_NAMES: usize = 12;
+/// Names that differ by more than this part of their letters are different names.
+const SIMILAR: f64 = 0.7;
+
+/// The name that is most like another one, if one is like it at all.
+fn nearest<'a>(given: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let likeness = |name: &str| strsim::normalized_damerau_levenshtein(given, name);
+    let like =
+        names.map(|name| (likeness(name), name)).filter(|(likeness, _)| *likeness >= SIMILAR);
+    like.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, name)| name)
+}
+
+/// The message of the reader, with the key that was probably meant.
+fn with_nearest(message: &str) -> String {
+    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    let hint = message.starts_with("unknown ").then_some(&quoted[..]);
+    match hint.and_then(<[&str]>::split_first) {
+        Some((given, known)) => match nearest(given, known.iter().copied()) {
+            Some(name) => format!("{message}; did you mean `{name}`?"),
+            None => message.to_owned(),
+        },
+        None => message.to_owned(),
     }
 }

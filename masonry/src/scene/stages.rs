@@ -29,7 +29,7 @@ pub struct Stage {
     /// Factor of gravity at the end of the stage \[-\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity: Option<f64>,
-    /// Factors of loads at the end of the stage \[-\], by the name of the load.
+    /// Factors of loads at the end of the stage \[-\] beside their own, by the name of the load or of its group.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub loads: BTreeMap<String, f64>,
     /// Where supports are at the end of the stage, by the name of the support.
@@ -83,7 +83,7 @@ impl Stage {
         self
     }
 
-    /// Takes a load to a factor of what the scene gives \[-\].
+    /// Takes a load, or all of a group, to a factor of what the scene gives \[-\].
     #[must_use]
     pub fn load(mut self, name: &str, factor: f64) -> Self {
         self.loads.insert(name.to_owned(), factor);

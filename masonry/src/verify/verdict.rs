@@ -84,6 +84,8 @@ pub(crate) struct Known<'a> {
     pub(crate) statics: Option<&'a Statics>,
     /// With several steps only.
     pub(crate) history: Option<&'a History>,
+    /// What is unusual about the magnitudes of the scene.
+    pub(crate) unusual: &'a [String],
     /// The blocks are at rest whatever the forces are.
     pub(crate) at_rest: bool,
     /// Contact points whose forces are not unique.
@@ -110,7 +112,7 @@ impl Judgement {
 }
 
 fn warnings(known: &Known<'_>, movement: Option<Movement>) -> Vec<String> {
-    let mut list = Vec::new();
+    let mut list = known.unusual.to_vec();
     if let Some(movement) = movement.filter(|movement| movement.is_large()) {
         list.push(format!(
             "Displacements exceed what small-displacement theory allows: {}. Places where blocks meet and lever \

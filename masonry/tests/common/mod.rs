@@ -10,7 +10,9 @@ use masonry::ids::LoadId;
 use masonry::law::JointLaw;
 use masonry::model::joints::{self, JointKind, Options};
 use masonry::model::mesh::BlockMesh;
-use masonry::model::{Block, EdgeLoad, Elasticity, JointClass, Model, Movement, Plane, Support};
+use masonry::model::{
+    Block, BlockLoad, EdgeLoad, Elasticity, JointClass, Model, Movement, Plane, Support,
+};
 use masonry::units::Units;
 use nalgebra::{Point2, Vector2};
 
@@ -36,13 +38,18 @@ pub fn block(name: &str, corners: [Point2<f64>; 4], mesh: Option<[usize; 2]>) ->
         elasticity: mesh.map(|_| Elasticity { young: YOUNG, poisson: 0.15 }),
         density: None,
         mesh: mesh.map(|[nx, ny]| BlockMesh::new(&corners, nx, ny)),
-        edge_loads: Vec::new(),
+        loads: Vec::new(),
     }
 }
 
 /// A uniform traction on a whole edge.
-pub fn traction(edge: usize, x: f64, y: f64) -> EdgeLoad {
-    EdgeLoad { edge, from: 0.0, to: 1.0, traction: Vector2::new(x, y), load: LoadId(0) }
+pub fn traction(edge: usize, x: f64, y: f64) -> BlockLoad {
+    traction_on(edge, [0.0, 1.0], [x, y])
+}
+
+/// A uniform traction on a part of an edge.
+pub fn traction_on(edge: usize, [from, to]: [f64; 2], [x, y]: [f64; 2]) -> BlockLoad {
+    EdgeLoad { edge, from, to, traction: Vector2::new(x, y), load: LoadId(0) }.into()
 }
 
 /// A straight support.
@@ -68,10 +75,11 @@ pub fn model_with(
         .map(|(name, mu)| JointClass {
             name: (*name).into(),
             law: JointLaw::friction(mu),
+            points: None,
             mortar: None,
         })
         .collect();
-    let class_of = |kind| match kind {
+    let class_of = |kind, _, _| match kind {
         JointKind::Bed => 0,
         JointKind::Head => 1,
         JointKind::Support(_) => 2,
@@ -88,6 +96,8 @@ pub fn model_with(
         plane: Plane::Stress,
         thickness: 1.0,
         gravity: Vector2::new(0.0, -9.81),
+        accelerations: Vec::new(),
+        loads: Vec::new(),
         units: Units::SI,
     }
 }
@@ -120,7 +130,7 @@ pub fn panel(aspect: usize, floors: &[[f64; 2]]) -> Model {
     let mut blocks = running_bond(10 / aspect, 10, aspect, 0.1);
     for block in &mut blocks {
         if block.corners[2].y > 0.95 {
-            block.edge_loads.push(traction(2, 0.0, -10e3));
+            block.loads.push(traction(2, 0.0, -10e3));
         }
     }
     let mut supports =

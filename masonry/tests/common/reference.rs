@@ -121,7 +121,7 @@ fn stiffness_and_loads(
             rhs[first + dof] += n.dot(&f) / force;
         }
     };
-    for load in &block.edge_loads {
+    for load in block.edge_loads() {
         let pieces = block.mesh.as_ref().map_or(1, |m| m.edge_elements(load.edge));
         // Gauss points of every element edge: exact for the linear shape functions.
         for piece in 0..pieces {

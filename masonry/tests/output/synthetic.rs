@@ -8,8 +8,8 @@ use masonry::ids::{BlockId, JointId, LoadId, SupportId};
 use masonry::law::JointLaw;
 use masonry::model::mesh::BlockMesh;
 use masonry::model::{
-    Anchor, Block, Body, ContactPoint, EdgeLoad, Elasticity, Joint, JointClass, Model, Movement,
-    Plane, Support,
+    Anchor, Block, Body, ContactPoint, EdgeLoad, Elasticity, Joint, JointClass, Load, Model,
+    Movement, Plane, Support,
 };
 use masonry::plan::{Choice, Effect, Plan};
 use masonry::scene::Route;
@@ -146,13 +146,8 @@ pub(crate) fn model(wall: Wall) -> Model {
             block.name = format!("{}.{}", course + 1, index + 1);
             if course + 1 == wall.courses {
                 let traction = Vector2::new(0.0, -10e3);
-                block.edge_loads.push(EdgeLoad {
-                    edge: 2,
-                    from: 0.0,
-                    to: 1.0,
-                    traction,
-                    load: LoadId(0),
-                });
+                let load = EdgeLoad { edge: 2, from: 0.0, to: 1.0, traction, load: LoadId(0) };
+                block.loads.push(load.into());
             }
             blocks.push(block);
         }
@@ -178,12 +173,15 @@ pub(crate) fn model(wall: Wall) -> Model {
             .map(|name| JointClass {
                 name: name.to_owned(),
                 law: JointLaw::friction(1.0),
+                points: None,
                 mortar: None,
             })
             .to_vec(),
         plane: Plane::Stress,
         thickness: 1.0,
         gravity: Vector2::new(0.0, -9.81),
+        accelerations: Vec::new(),
+        loads: vec![Load { name: "top".to_owned(), group: "top".to_owned(), factor: 1.0 }],
         units: Units { length: LengthUnit::M, force: ForceUnit::Kn },
     };
     add_joints(&mut model, wall, &courses);
@@ -220,7 +218,7 @@ fn brick(x: [f64; 2], y: [f64; 2], wall: Wall) -> Block {
         elasticity: (!wall.rigid).then_some(Elasticity { young: 1e8, poisson: 0.15 }),
         density: None,
         mesh: (!wall.rigid).then_some(BlockMesh { nx, ny, nodes, elements }),
-        edge_loads: Vec::new(),
+        loads: Vec::new(),
     }
 }
 

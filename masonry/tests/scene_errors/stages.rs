@@ -15,7 +15,7 @@ fn stages_that_refer_to_nothing() {
     let words = ["no load \"side\"", "there is \"top\"", "correct the name"];
     assert_stage_error(load, "1.0", "stages[0].loads.side", &words);
     let support = "name = \"sink\"\nmoves = { flor = { y = -0.01 } }";
-    let words = ["no support \"flor\"", "there is \"floor\""];
+    let words = ["no support \"flor\"", "did you mean \"floor\"? there is \"floor\""];
     assert_stage_error(support, "{ y", "stages[0].moves.flor", &words);
 }
 

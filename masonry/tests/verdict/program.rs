@@ -46,7 +46,7 @@ pub(crate) fn largest_tilt(model: &Model) -> Limit {
         let weight = mass(model, block) * GRAVITY;
         add(b, None, centroid(block), Vector2::new(0.0, -weight));
         add(b, Some(0), centroid(block), Vector2::new(weight / unit, 0.0));
-        for load in &block.edge_loads {
+        for load in block.edge_loads() {
             let [start, end] = [load.from, load.to].map(|at| on_edge(block, load.edge, at));
             let force = load.traction * ((end - start).norm() * model.thickness);
             add(b, None, nalgebra::center(&start, &end), force);
@@ -109,9 +109,13 @@ fn mass(model: &Model, block: &Block) -> f64 {
     block.density.unwrap_or(0.0) * model.thickness * 0.5 * cross(r - p, s - q)
 }
 
-/// Of the rectangles that walls here are made of.
+/// The mean of the centroids of two triangles, by their areas.
 fn centroid(block: &Block) -> Point2<f64> {
-    nalgebra::center(&block.corners[0], &block.corners[2])
+    let [p, q, r, s] = block.corners;
+    let cross = |a: Vector2<f64>, b: Vector2<f64>| a.x * b.y - a.y * b.x;
+    let (first, second) = (cross(q - p, r - p), cross(r - p, s - p));
+    let third = |a: Point2<f64>, b: Point2<f64>| ((a - p) + (b - p)) / 3.0;
+    p + (third(q, r) * first + third(r, s) * second) / (first + second)
 }
 
 fn on_edge(block: &Block, edge: usize, at: f64) -> Point2<f64> {

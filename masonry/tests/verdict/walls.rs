@@ -1,4 +1,4 @@
-//! Random walls and stacks.
+//! Random walls, stacks and arches.
 
 use masonry::model::{Model, Plane};
 use masonry::scene::{Block, Brick, Joint, Load, Material, Scene, Support, Wall};
@@ -73,10 +73,11 @@ pub(crate) fn any(random: &mut Random) -> Tiltable {
         .material("stone", material.density(2000.0))
         .joint("bed", Joint::mu(mu))
         .joint("head", Joint::mu(if random.next() < 0.7 { mu } else { 0.5 * mu }));
-    let (what, mut scene) = match random.one_of(&[0, 1, 2, 3]) {
+    let (what, mut scene) = match random.one_of(&[0, 1, 2, 3, 4]) {
         0 => ("stack", stack(random, scene, floor)),
         1 => ("wall on feet", wall(random, scene, floor, true)),
         2 => ("wall with a door", door(random, scene, floor)),
+        3 => ("arch", arch(random, scene, floor)),
         _ => ("wall", wall(random, scene, floor, false)),
     };
     if kind == Kind::Gap {
@@ -97,6 +98,34 @@ fn stack(random: &mut Random, scene: Scene, floor: f64) -> Scene {
         let (low, high) = (k * height, (k + 1.0) * height);
         let right = left + width;
         let corners = [[left, low], [right, low], [right, high], [left, high]];
+        scene.block(Block::new(&format!("{k}"), "stone", corners).mesh([2, 2]))
+    })
+}
+
+/// Voussoirs of one thickness on two springers, from flat segments to half a circle.
+fn arch(random: &mut Random, scene: Scene, floor: f64) -> Scene {
+    let count = random.one_of(&[3_u32, 5, 7, 11, 15]);
+    let (inner, outer) = (1.0, 1.0 + random.between(0.08, 0.35));
+    let half = random.between(0.25, 0.5) * std::f64::consts::PI;
+    // The angle from the vertical at the end of voussoir `k`, from the left.
+    let angle = |k: u32| (2.0 * f64::from(k) / f64::from(count) - 1.0) * half;
+    let at = |radius: f64, k: u32| [radius * angle(k).sin(), radius * angle(k).cos()];
+    let springer = |name: &str, k: u32, side: f64| {
+        // Down along the arch, by the depth of the gap.
+        let away = [side * angle(k).cos() * -floor, -side * angle(k).sin() * -floor];
+        let end = |radius: f64| {
+            let [x, y] = at(radius, k);
+            [x + away[0], y + away[1]]
+        };
+        Support::new(name, end(0.9 * inner), end(1.1 * outer), "bed")
+    };
+    let scene = scene.support(springer("left springer", 0, -1.0)).support(springer(
+        "right springer",
+        count,
+        1.0,
+    ));
+    (0..count).fold(scene, |scene, k| {
+        let corners = [at(inner, k), at(inner, k + 1), at(outer, k + 1), at(outer, k)];
         scene.block(Block::new(&format!("{k}"), "stone", corners).mesh([2, 2]))
     })
 }

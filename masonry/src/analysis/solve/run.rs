@@ -62,6 +62,8 @@ pub struct Run {
     system: System,
     steps: Vec<Step>,
     loads: Vec<String>,
+    /// What is unusual about the scene.
+    unusual: Vec<String>,
     /// What a checkpoint must have been made of; empty for one step, which has none.
     origin: String,
     request: Request,
@@ -112,6 +114,7 @@ impl Run {
     ) -> Result<Self, SolveError> {
         let mut clock = Clock::default();
         let mut model = clock.time("model", observer, || Model::from_scene(scene))?;
+        let unusual = model.unusual();
         let plan = Plan::of(scene, &model);
         check_size(&plan)?;
         let mut steps = history::steps(scene);
@@ -132,6 +135,7 @@ impl Run {
             plan,
             system,
             steps,
+            unusual,
             loads: scene.loads.iter().map(|load| load.name.clone()).collect(),
             origin,
             request: Request { tolerance, form, max_pivots, soft, time_limit: None },
@@ -354,6 +358,7 @@ impl Run {
             statics: statics.as_ref(),
             history: history.as_ref(),
             at_rest: self.system.is_at_rest(),
+            unusual: &self.unusual,
             circulating: circulating
                 .map_or(0, |(state, sparse)| verdict::circulating(&model, &sparse.problem, state)),
         });

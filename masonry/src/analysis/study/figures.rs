@@ -22,6 +22,11 @@ pub struct Errors {
 }
 
 impl Errors {
+    /// The errors of an answer against another one of the same model.
+    pub fn of(model: &Model, state: &State, reference: &State) -> Self {
+        Figures::of(model, state).errors(&Figures::of(model, reference))
+    }
+
     /// The largest of the errors.
     pub fn worst(&self) -> Option<f64> {
         [self.force, self.stress, self.energy].into_iter().flatten().reduce(f64::max)

@@ -1,15 +1,11 @@
 //! Finer meshes of a scene, and what they change.
 
-mod extrapolated;
-
 use nalgebra::Vector2;
 use serde::Serialize;
 
 use super::figures::{Figures, relative};
 use super::reference::{self, Found, Reference};
-use super::refining::{self, Refining};
 use super::runs::Runner;
-use super::verified::Exact;
 use crate::model::{Block, Body, Model};
 use crate::recover;
 use crate::scene::Scene;
@@ -32,16 +28,11 @@ pub struct Mesh {
     pub refusal: Option<String>,
     /// The most accurate answer; `None` where no route gave one within the time.
     pub reference: Option<Reference>,
-    /// What the last digits of it cost; empty where it is not verified.
-    pub refinings: Vec<Refining>,
     /// What it says.
     pub values: Option<Values>,
     /// Errors of the mesh: of its values against those of the finest mesh with a reference, which itself
     /// has none.
     pub errors: Option<MeshErrors>,
-    /// Its errors against what the three finest meshes converge to, as far as that can be extrapolated: larger than
-    /// those against the finest mesh, which has an error too.
-    pub extrapolated: Option<MeshErrors>,
     /// Where the corners of blocks have gone, of those that carry load.
     #[serde(skip)]
     corners: Vec<Option<[Vector2<f64>; 4]>>,
@@ -55,7 +46,7 @@ pub struct Values {
     /// Horizontal force \[N\] of all supports left of the middle on the structure.
     pub thrust: f64,
     /// Displacement \[m\] of that corner of a loaded block that moves most on the finest mesh.
-    pub displacement: f64,
+    pub displacement: [f64; 2],
 }
 
 /// Relative errors of a mesh \[-\]; `None` where there is nothing to compare with.
@@ -80,7 +71,7 @@ impl MeshErrors {
 const NO_THRUST: f64 = 1e-9;
 
 /// The scene with so many times the elements in every direction.
-pub(super) fn refined(scene: &Scene, factor: u32) -> Scene {
+pub fn refined(scene: &Scene, factor: u32) -> Scene {
     let mut scene = scene.clone();
     let meshes = scene.walls.iter_mut().map(|wall| &mut wall.mesh);
     let meshes = meshes.chain(scene.blocks.iter_mut().map(|block| &mut block.mesh));
@@ -100,10 +91,8 @@ pub(super) fn studied(scene: &Scene, factor: u32, runner: &mut Runner) -> (Mesh,
         contact_points: 0,
         refusal: None,
         reference: None,
-        refinings: Vec::new(),
         values: None,
         errors: None,
-        extrapolated: None,
         corners: Vec::new(),
     };
     match Model::from_scene(scene) {
@@ -122,17 +111,15 @@ pub(super) fn studied(scene: &Scene, factor: u32, runner: &mut Runner) -> (Mesh,
     else {
         return (mesh, None);
     };
-    let state = exact.as_ref().map(Exact::state).or(outcome.state.as_ref());
+    let state = exact.as_ref().map(|it| &it.state).or(outcome.state.as_ref());
     let Some(state) = state else { return (mesh, None) };
     mesh.reference = Some(reference);
     mesh.values = Some(Values {
         strain_energy: state.strain_energy,
         thrust: thrust(&outcome.model, state),
-        displacement: 0.0,
+        displacement: [0.0; 2],
     });
     mesh.corners = corners(&outcome.model, state, &figures);
-    mesh.refinings =
-        exact.map_or_else(Vec::new, |exact| refining::measured(&exact, runner.repeats()));
     (mesh, Some(figures))
 }
 
@@ -149,7 +136,7 @@ pub(super) fn compared(mut meshes: Vec<Mesh>) -> Vec<Mesh> {
     for mesh in &mut meshes {
         let displacement = moved(mesh);
         let Some(values) = &mut mesh.values else { continue };
-        values.displacement = displacement.map_or(0.0, |moved| moved.norm());
+        values.displacement = displacement.map_or([0.0; 2], Into::into);
         let (values, Some(exact)) = (*values, finest.values) else { continue };
         if mesh.factor == finest.factor {
             continue;
@@ -163,8 +150,6 @@ pub(super) fn compared(mut meshes: Vec<Mesh>) -> Vec<Mesh> {
                 .filter(|error| error.is_finite()),
         });
     }
-    let moved: Vec<_> = meshes.iter().map(moved).collect();
-    extrapolated::add(&mut meshes, &moved);
     meshes
 }
 

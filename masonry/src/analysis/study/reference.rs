@@ -73,7 +73,7 @@ pub(super) fn find(scene: &Scene, mesh: u32, runner: &mut Runner) -> Option<Foun
     best.reference.confirmed = found.next().and_then(|other| {
         let errors = other.ran.figures()?.errors(&figures);
         let refined = best.exact.as_ref().zip(other.exact.as_ref());
-        let refined = refined.and_then(|(exact, other)| exact.distance(other));
+        let refined = refined.and_then(|(it, other)| it.refined.distance(&other.refined.on_bodies));
         Some(Confirmation { route: other.reference.route, errors, refined })
     });
     let outcome = best.ran.outcome?;
@@ -99,7 +99,7 @@ impl Candidate {
 
     fn figures(&self) -> Option<Figures> {
         match (self.better(), self.ran.solved()) {
-            (Some(exact), Some(outcome)) => Some(exact.figures(&outcome.model)),
+            (Some(exact), Some(outcome)) => Some(Figures::of(&outcome.model, &exact.state)),
             _ => self.ran.figures(),
         }
     }

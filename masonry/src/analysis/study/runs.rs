@@ -36,10 +36,6 @@ impl Ran {
         Self { end: End::Skipped(reason), seconds: None, outcome: None }
     }
 
-    pub(super) fn is_too_long(&self) -> bool {
-        self.end == End::Ended(Status::TimeLimit)
-    }
-
     /// Why it would end no better to a tighter tolerance.
     fn is_beyond(&self) -> Option<Beyond> {
         match self.end {
@@ -92,11 +88,6 @@ impl<'a> Runner<'a> {
     /// What reports call a mesh.
     pub(super) fn mesh_name(&self, factor: u32) -> String {
         self.settings.mesh_name(factor)
-    }
-
-    /// How often what is short is measured.
-    pub(super) fn repeats(&self) -> usize {
-        self.settings.repeats
     }
 
     /// One record.
@@ -168,8 +159,7 @@ impl<'a> Runner<'a> {
             ));
         }
         let mut ran = self.once(scene);
-        // With springs other rules hold.
-        if let Some(beyond) = ran.is_beyond().filter(|_| scene.solver.soft.is_none()) {
+        if let Some(beyond) = ran.is_beyond() {
             self.beyond.push((beyond, mesh, route, tolerance));
         }
         let mut times: Vec<f64> = ran.seconds.into_iter().collect();

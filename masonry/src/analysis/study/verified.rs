@@ -1,10 +1,9 @@
 //! The reference to twice the usual digits: the equations of its contacts' states, solved anew.
 
 use lcp::ContactState;
-use lcp::refine::{ContactStatus, Extended, Refined, Refinement};
+use lcp::refine::{ContactStatus, Extended, Refined};
 use serde::Serialize;
 
-use super::Figures;
 use crate::analysis::outcome::Outcome;
 use crate::method::forms::Sparse;
 use crate::model::Model;
@@ -49,18 +48,24 @@ impl Verified {
     }
 }
 
-/// A sparse problem with an answer and the refined one.
-pub(super) struct Exact {
-    pub(super) verified: Verified,
-    sparse: Sparse,
-    statuses: Vec<ContactStatus>,
-    refined: Refined,
-    state: State,
+/// An answer, refined to twice the usual digits.
+#[derive(Debug, Clone)]
+pub struct Exact {
+    /// What that says of the answer.
+    pub verified: Verified,
+    /// The problem.
+    pub sparse: Sparse,
+    /// The states of all contacts.
+    pub statuses: Vec<ContactStatus>,
+    /// The answer to the equations of these states.
+    pub refined: Refined,
+    /// It, rounded to the usual digits.
+    pub state: State,
 }
 
 impl Exact {
     /// Of an outcome with a state; `None` where memory does not suffice.
-    pub(super) fn of(outcome: &Outcome) -> Option<Self> {
+    pub fn of(outcome: &Outcome) -> Option<Self> {
         let (model, state) = (&outcome.model, outcome.state.as_ref()?);
         let system = System::new(model).ok()?;
         let sparse = Sparse::new(&system).ok()?;
@@ -70,35 +75,6 @@ impl Exact {
         let verified = judged(&sparse, &given, &refined);
         let state = exact_state((model, &system, &sparse), &plain);
         Some(Self { verified, sparse, statuses, refined, state })
-    }
-
-    /// What is compared.
-    pub(super) fn figures(&self, model: &Model) -> Figures {
-        Figures::of(model, &self.state)
-    }
-
-    /// The state of the structure, rounded to the usual digits.
-    pub(super) fn state(&self) -> &State {
-        &self.state
-    }
-
-    /// The distance of another answer to the same problem, both refined.
-    pub(super) fn distance(&self, other: &Self) -> Option<f64> {
-        self.refined.distance(&other.refined.on_bodies)
-    }
-
-    /// The answer once more from nothing but the states of its contacts.
-    pub(super) fn solved_anew(&self, refinement: Refinement) -> Option<Refined> {
-        let problem = &self.sparse.problem;
-        let zero = |len: usize| vec![0.0; len];
-        let (n, m) = (problem.displacements(), problem.points());
-        let rest = problem.state(zero(n), zero(m), zero(m));
-        problem.refine(&rest, &self.statuses, refinement).ok()
-    }
-
-    /// The distance of such an answer.
-    pub(super) fn error(&self, of: &Refined) -> Option<f64> {
-        self.refined.distance(&of.on_bodies)
     }
 }
 

@@ -151,7 +151,9 @@ impl<'a> Program<'a> {
     pub(super) fn admissible(&self, z: &[f64]) -> Option<Vec<f64>> {
         let mut p: Vec<f64> = z[self.unknowns()..][..self.columns()].to_vec();
         let (along_edges, constant) = p.split_at_mut(self.edges());
-        along_edges.iter_mut().for_each(|p| *p = p.max(0.0));
+        for p in along_edges {
+            *p = p.max(0.0);
+        }
         for (q, (_, base)) in constant.iter_mut().zip(&self.constant) {
             *q = (*q - base).clamp(-base, *base);
         }

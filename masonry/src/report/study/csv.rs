@@ -1,12 +1,8 @@
-//! The records of a study, what the last digits cost, and soft springs, as comma-separated values.
+//! The records of a study as comma-separated values.
 
-use lcp::refine::Refinement;
-
-use crate::analysis::study::{End, Record, Refining, Springs, Study};
+use crate::analysis::study::{Record, Study};
 use crate::report::csv::quoted;
 use crate::report::format::shortest;
-
-const END: &str = "\r\n";
 
 /// The text of `study.csv`: one row for each mesh, route and tolerance.
 ///
@@ -20,7 +16,7 @@ pub fn csv(study: &Study) -> String {
         .to_owned();
     for record in &study.records {
         text += &row(record).join(",");
-        text += END;
+        text += "\r\n";
     }
     text
 }
@@ -39,64 +35,8 @@ fn row(record: &Record) -> [String; 12] {
         number(errors.and_then(|it| it.force)),
         number(errors.and_then(|it| it.stress)),
         number(errors.and_then(|it| it.energy)),
-        reason(&record.end),
+        record.end.reason().map_or_else(String::new, |it| quoted(it).into_owned()),
     ]
-}
-
-fn reason(end: &End) -> String {
-    end.reason().map_or_else(String::new, |it| quoted(it).into_owned())
-}
-
-/// The text of `refinement.csv`: one row for each mesh with a verified reference and each way to solve the
-/// equations of its states; `None` where there is none.
-///
-/// Columns: `mesh` (factor), `refinement` (`plain`, `single`, `extended`), `solves`, `time_s`, `residual`,
-/// `error`. Numbers read back exactly, and lines end with CR LF.
-pub fn refinement_csv(study: &Study) -> Option<String> {
-    let row = |factor: u32, it: &Refining| {
-        let name = match it.refinement {
-            Refinement::Plain => "plain",
-            Refinement::Single => "single",
-            Refinement::Extended => "extended",
-        };
-        let numbers = [Some(it.seconds), Some(it.residual), it.error];
-        let [seconds, residual, error] = numbers.map(number);
-        format!("{factor},{name},{},{seconds},{residual},{error}{END}", it.passes)
-    };
-    let meshes = study.meshes.iter();
-    let rows: String =
-        meshes.flat_map(|mesh| mesh.refinings.iter().map(|it| row(mesh.factor, it))).collect();
-    (!rows.is_empty()).then(|| format!("mesh,refinement,solves,time_s,residual,error{END}{rows}"))
-}
-
-/// The text of `springs.csv`: one row for each stiffness; `None` where there is none.
-///
-/// Columns: `stiffness`, `tolerance` (of the answer), `status`, `time_s`, `rounds`, `share`, `bias`, the relative errors of the answer
-/// `error_force`, `error_stress`, `error_energy`, and the `reason` why it was refused or skipped. What is not known is
-/// empty. Numbers read back exactly, and lines end with CR LF.
-pub fn springs_csv(study: &Study) -> Option<String> {
-    let row = |it: &Springs| {
-        let fields = [
-            shortest(it.stiffness),
-            shortest(it.tolerance),
-            it.end.name(),
-            number(it.seconds),
-            it.rounds.map_or_else(String::new, |rounds| rounds.to_string()),
-            number(it.share),
-            number(it.bias),
-            number(it.errors.and_then(|it| it.force)),
-            number(it.errors.and_then(|it| it.stress)),
-            number(it.errors.and_then(|it| it.energy)),
-            reason(&it.end),
-        ];
-        fields.join(",") + END
-    };
-    let rows: String = study.springs.iter().map(row).collect();
-    (!rows.is_empty()).then(|| {
-        format!(
-            "stiffness,tolerance,status,time_s,rounds,share,bias,error_force,error_stress,error_energy,reason{END}{rows}"
-        )
-    })
 }
 
 fn number(value: Option<f64>) -> String {

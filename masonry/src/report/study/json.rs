@@ -3,12 +3,12 @@
 use serde::Serialize;
 
 use super::summary;
-use crate::analysis::study::{Mesh, Record, Springs, Study, Values};
+use crate::analysis::study::{Mesh, Record, Study, Values};
 use crate::report::format::InUnits;
 
 /// The object of `study.json` and of `masonry study --json`, pretty-printed: `title`, `units`,
-/// `time_limit_s`, `machine`, `records`, `meshes`, `springs`, `summary`, `files`. Times are in seconds, errors,
-/// residuals and stiffnesses without dimension, and the values of meshes in the units of the scene, which
+/// `time_limit_s`, `machine`, `records`, `meshes`, `summary`, `files`. Times are in seconds, errors and
+/// residuals without dimension, and the values of meshes in the units of the scene, which
 /// `units` names.
 ///
 /// # Errors
@@ -27,7 +27,6 @@ pub fn json(study: &Study, files: &[&str]) -> Result<String, serde_json::Error> 
         machine: study.machine.as_deref(),
         records: &study.records,
         meshes: study.meshes.iter().map(|mesh| in_units(mesh, units)).collect(),
-        springs: &study.springs,
         summary: summary(study),
         files,
     };
@@ -42,7 +41,6 @@ struct Report<'a> {
     machine: Option<&'a str>,
     records: &'a [Record],
     meshes: Vec<Mesh>,
-    springs: &'a [Springs],
     summary: Vec<String>,
     files: &'a [&'a str],
 }
@@ -59,7 +57,7 @@ fn in_units(mesh: &Mesh, units: InUnits) -> Mesh {
     let converted = |values: Values| Values {
         strain_energy: units.energy(values.strain_energy),
         thrust: units.force(values.thrust),
-        displacement: units.length(values.displacement),
+        displacement: values.displacement.map(|it| units.length(it)),
     };
     let mut mesh = mesh.clone();
     mesh.values = mesh.values.map(converted);

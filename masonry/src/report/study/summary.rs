@@ -1,6 +1,6 @@
 //! What a study comes to, in sentences.
 
-use crate::analysis::study::{End, Mesh, Record, Refining, Study, Verified};
+use crate::analysis::study::{End, Record, Study, Verified};
 use crate::report::format::significant;
 use crate::scene::Route;
 
@@ -19,12 +19,10 @@ const NOISE: f64 = 1.2;
 /// mesh is worth it; and what that rests on.
 pub fn summary(study: &Study) -> Vec<String> {
     let mut sentences: Vec<String> =
-        [cost(study), fastest(study), mesh(study)].into_iter().flatten().collect();
+        [cost(study), in_short(study), mesh(study)].into_iter().flatten().collect();
     sentences.extend(gave_up(study));
     sentences.extend(elsewhere(study));
     sentences.extend(reference(study));
-    sentences.extend(last_digits(study));
-    sentences.extend(springs(study));
     sentences
 }
 
@@ -32,9 +30,8 @@ pub fn summary(study: &Study) -> Vec<String> {
 pub fn in_short(study: &Study) -> Option<String> {
     let (record, seconds) = fastest_record(study)?;
     let mesh = study.meshes.first()?;
-    let error = mesh_error(mesh);
-    let error = error.map_or(String::new(), |error| {
-        format!("; the mesh errs by {error}, whatever the tolerance")
+    let error = mesh.errors.and_then(|it| it.worst()).map_or(String::new(), |error| {
+        format!("; the mesh errs by {}, whatever the tolerance", significant(error, 2))
     });
     Some(format!(
         "On {}, {} at a tolerance of {:e} takes {} s to an algebraic error below {ACCURATE:e}{error}.",
@@ -94,17 +91,6 @@ fn without(study: &Study, tolerance: f64) -> String {
         1 => format!("; {} does not reach it", failed[0]),
         _ => format!("; {} do not reach it", failed.join(", ")),
     }
-}
-
-fn fastest(study: &Study) -> Option<String> {
-    let (record, seconds) = fastest_record(study)?;
-    Some(format!(
-        "Forces, stresses and energy to {ACCURATE:e} are had in the least time by {} at a tolerance of \
-         {:e}: {} s.",
-        record.route.name(),
-        record.tolerance,
-        significant(seconds, 2)
-    ))
 }
 
 fn fastest_record(study: &Study) -> Option<(&Record, f64)> {
@@ -203,31 +189,6 @@ fn refined(verified: Option<&Verified>) -> String {
     }
 }
 
-/// What the last digits cost, beside the route of the reference itself.
-fn last_digits(study: &Study) -> Option<String> {
-    let mesh = study.meshes.first()?;
-    let [plain, single, extended] = &mesh.refinings[..] else { return None };
-    let error = |it: &Refining| it.error.map(|error| significant(error, 2));
-    let reference = mesh.reference.as_ref()?;
-    let itself = reference.verified.as_ref().and_then(|it| it.distance);
-    let time = |seconds: f64| significant(seconds, 2);
-    Some(format!(
-        "From the states of all contacts alone, one solve takes {} s and errs by {}, since its factors have springs in \
-         the place of hard contacts; one refinement brings that to {} in {} s, and compensated refinement to {} in {} s \
-         ({} solves). All of a solve by {}, which finds the states and refines by itself, takes {} s and errs by {}.",
-        time(plain.seconds),
-        error(plain)?,
-        error(single)?,
-        time(single.seconds),
-        error(extended)?,
-        time(extended.seconds),
-        extended.passes,
-        reference.route.name(),
-        time(reference.seconds),
-        significant(itself?, 2),
-    ))
-}
-
 /// The error of the scene's own mesh, and the loosest tolerance that adds nothing to it.
 fn mesh(study: &Study) -> Option<String> {
     let first = study.meshes.first()?;
@@ -248,40 +209,7 @@ fn mesh(study: &Study) -> Option<String> {
     Some(format!(
         "The error of {} is {}, the worst of strain energy, thrust and displacement against {}{enough}.",
         first.name,
-        mesh_error(first)?,
+        significant(error, 2),
         finest.name
     ))
-}
-
-/// "0.023 (extrapolated: 0.036)"
-fn mesh_error(mesh: &Mesh) -> Option<String> {
-    let error = mesh.errors?.worst()?;
-    let extrapolated = mesh.extrapolated.and_then(|it| it.worst()).filter(|it| *it > error);
-    let extrapolated =
-        extrapolated.map_or(String::new(), |it| format!(" (extrapolated: {})", significant(it, 2)));
-    Some(significant(error, 2) + &extrapolated)
-}
-
-/// What the softest and the stiffest springs change, and take.
-fn springs(study: &Study) -> Option<String> {
-    let solved = study.springs.iter().filter(|it| it.end.is_solved());
-    let mut told = solved.filter_map(|it| {
-        let rounds = match it.rounds? {
-            1 => "one round".to_owned(),
-            rounds => format!("{rounds} rounds"),
-        };
-        Some(format!(
-            "Springs of {:e} of the blocks' stiffness change displacements by {} before they are \
-             centred anew; {rounds} to {:e} in {} s",
-            it.stiffness,
-            significant(it.bias?, 2),
-            it.tolerance,
-            significant(it.seconds?, 2)
-        ))
-    });
-    let first = told.next()?;
-    Some(match told.next_back() {
-        Some(last) => format!("{first}. {last}."),
-        None => first + ".",
-    })
 }

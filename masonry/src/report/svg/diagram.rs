@@ -1,259 +1,294 @@
-//! Diagrams with two logarithmic axes: lines with markers, and a legend beside them.
+//! Diagrams with logarithmic axes, one or many in a picture, drawn by `plotters`.
 
-use super::canvas::{Anchor, Canvas, Pixel, escape, fixed, text_width, wrapped};
+use std::io;
+use std::ops::Range;
 
-const WIDTH: f64 = 900.0;
-const HEIGHT: f64 = 520.0;
-const EDGE: f64 = 18.0;
-const LEFT: f64 = 84.0;
-const BOTTOM: f64 = 62.0;
-const LEGEND: f64 = 240.0;
-const TITLE_SIZE: f64 = 17.0;
-const TITLE_LINE: f64 = 22.0;
-const TEXT_SIZE: f64 = 13.0;
-const TEXT_LINE: f64 = 17.0;
-const GRID: &str = "#dddddd";
-const FAINT: &str = "#f0f0f0";
-const DARK: &str = "#222222";
-/// More decades than these are not all labelled.
-const MOST_LABELS: i32 = 10;
-/// Axes of so few decades have lines at 2 and 5 too.
-const FEW_DECADES: i32 = 3;
-/// Axes within so many decades of one have no exponents.
-const PLAIN_DECADES: i32 = 4;
-const MARKER: f64 = 4.5;
+use plotters::coord::Shift;
+use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, ValueFormatter};
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::canvas::{text_width, wrapped};
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Drawn = Result<(), DrawingAreaErrorKind<io::Error>>;
+
+const FONT: &str = "DejaVu Sans, Helvetica, Arial, sans-serif";
+/// Sizes of letters, which `plotters` divides by [`SCALE`] where it writes them down.
+const TITLE: i32 = 21;
+const TEXT: i32 = 16;
+const SCALE: f64 = 1.24;
+/// Height of a line of text.
+const LINE: i32 = 19;
+const EDGE: i32 = 16;
+/// A diagram alone, and one of several, which stand in two columns.
+const SIZES: [[i32; 2]; 2] = [[868, 430], [560, 340]];
+const GRID: RGBColor = RGBColor(0xdd, 0xdd, 0xdd);
+const GREY: RGBColor = RGBColor(0xaa, 0xaa, 0xaa);
 /// Colours that differ also for those who see few of them (Okabe and Ito), each with its own marker.
-const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56b4e9"];
+const COLOURS: [RGBColor; 7] = [
+    RGBColor(0x00, 0x72, 0xb2),
+    RGBColor(0xd5, 0x5e, 0x00),
+    RGBColor(0x00, 0x9e, 0x73),
+    RGBColor(0xcc, 0x79, 0xa7),
+    RGBColor(0xb8, 0x86, 0x0b),
+    RGBColor(0x56, 0xb4, 0xe9),
+    RGBColor(0x4d, 0x4d, 0x4d),
+];
+/// Corners of markers, in pixels.
+const MARKERS: [&[[i32; 2]]; 7] = [
+    &[[-1, -4], [2, -4], [4, -1], [4, 2], [2, 4], [-1, 4], [-4, 2], [-4, -1]],
+    &[[-4, -4], [4, -4], [4, 4], [-4, 4]],
+    &[[0, -5], [5, 4], [-5, 4]],
+    &[[0, -6], [6, 0], [0, 6], [-6, 0]],
+    &[[0, 5], [5, -4], [-5, -4]],
+    &[[-3, 0], [0, -7], [3, 0], [0, 7]],
+    &[[-6, 0], [0, -3], [6, 0], [0, 3]],
+];
+/// Axes of fewer decades have lines at 2 and 5 too.
+const FEW: f64 = 3.0;
+const MOST_LABELS: f64 = 9.0;
+/// Axes within these have no exponents.
+const PLAIN: Range<f64> = 0.9e-4..1.1e4;
 
-/// A line through points, in their order.
-#[derive(Debug, Clone)]
-pub(super) struct Line {
+/// How a series is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Look {
+    /// A line with markers.
+    Full,
+    /// A line with the outlines of markers.
+    Hollow,
+    /// Dots alone.
+    Dots,
+    /// A grey line alone, with which others are compared.
+    Bound,
+}
+
+/// Points that belong together, in their order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
     /// In the legend, unless it is empty.
-    pub(super) name: String,
+    pub name: String,
     /// Which colour and marker it has.
-    pub(super) style: usize,
-    /// Whether it is broken.
-    pub(super) dashed: bool,
+    pub style: usize,
+    /// How it is drawn.
+    pub look: Look,
     /// Positive coordinates; others are left out.
-    pub(super) points: Vec<[f64; 2]>,
+    pub points: Vec<[f64; 2]>,
 }
 
-/// Titles of a diagram, with units.
-#[derive(Debug, Clone)]
-pub(super) struct Titles<'a> {
-    pub(super) title: &'a str,
-    pub(super) x: &'a str,
-    pub(super) y: &'a str,
+impl Series {
+    fn colour(&self) -> RGBColor {
+        if self.look == Look::Bound { GREY } else { COLOURS[self.style % COLOURS.len()] }
+    }
+
+    fn drawn(&self) -> impl Iterator<Item = (f64, f64)> + Clone {
+        let is_drawn = |point: &&[f64; 2]| point.iter().all(|it| it.is_finite() && *it > 0.0);
+        self.points.iter().filter(is_drawn).map(|[x, y]| (*x, *y))
+    }
 }
 
-/// The text of the file; `None` where no line has a point.
-pub(super) fn diagram(titles: &Titles, lines: &[Line], notes: &[String]) -> Option<String> {
-    let is_drawn = |point: &[f64; 2]| point.iter().all(|it| it.is_finite() && *it > 0.0);
-    let lines: Vec<Line> = lines
-        .iter()
-        .map(|line| Line {
-            points: line.points.iter().copied().filter(is_drawn).collect(),
-            ..line.clone()
-        })
-        .collect();
-    let of = |axis: usize| lines.iter().flat_map(move |it| it.points.iter().map(move |p| p[axis]));
-    let title = wrapped(titles.title, TITLE_SIZE, WIDTH - 2.0 * EDGE);
-    let top = EDGE + TITLE_LINE * title.len() as f64 + 8.0;
-    let right = WIDTH - EDGE - LEGEND;
-    let plot = Plot {
-        x: Axis::around(of(0), [LEFT, right])?,
-        y: Axis::around(of(1), [HEIGHT - BOTTOM, top])?,
+/// Two axes and what stands between them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagram {
+    /// Above it, where it is one of several.
+    pub title: String,
+    /// What is drawn across and up, with units.
+    pub axes: [String; 2],
+    /// What the vertical axis has at least, whatever the points are.
+    pub least: Option<[f64; 2]>,
+    /// Later ones are drawn over earlier ones.
+    pub series: Vec<Series>,
+}
+
+/// The text of an SVG file; `None` where no series has a point. The legend above all is that of the first diagram.
+pub fn picture(title: &str, diagrams: &[Diagram], notes: &[String]) -> Option<String> {
+    diagrams.iter().flat_map(|it| &it.series).find_map(|it| it.drawn().next())?;
+    let columns = diagrams.len().min(SIZES.len());
+    let rows = diagrams.len().div_ceil(columns);
+    let [width, height] = [columns, rows].map(|it| i32::try_from(it).unwrap_or(1));
+    let [width, height] = [width * SIZES[columns - 1][0], height * SIZES[columns - 1][1]];
+    let head = Head::of(title, &diagrams[0].series, notes, width);
+    let size = [width + 2 * EDGE, head.height + height + EDGE].map(i32::unsigned_abs);
+    let mut text = String::new();
+    let area = SVGBackend::with_string(&mut text, size.into()).into_drawing_area();
+    let draw = || -> Drawn {
+        area.fill(&WHITE)?;
+        head.draw(&area)?;
+        let below = area.margin(head.height, EDGE, EDGE, EDGE);
+        for (diagram, part) in diagrams.iter().zip(below.split_evenly((rows, columns))) {
+            diagram.draw(&area, &part)?;
+        }
+        area.present()
     };
-
-    let mut canvas = Canvas::default();
-    for (k, line) in title.iter().enumerate() {
-        let at = Pixel::new(EDGE, EDGE + TITLE_LINE * (k as f64 + 1.0) - 6.0);
-        canvas.text(at, Anchor::Start, TITLE_SIZE, line);
-    }
-    plot.draw_grid(&mut canvas, titles);
-    for line in lines.iter().filter(|line| !line.points.is_empty()) {
-        plot.draw_line(&mut canvas, line);
-    }
-    let bottom = legend(&mut canvas, &lines, notes, Pixel::new(right + 22.0, top + 8.0));
-    Some(page(titles.title, HEIGHT.max(bottom + EDGE), &canvas))
+    draw().ok()?;
+    drop(area);
+    Some(text)
 }
 
-fn page(title: &str, height: f64, canvas: &Canvas) -> String {
-    let (width, height) = (fixed(WIDTH), fixed(height));
-    format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {width} {height}\" \
-         font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" fill=\"{DARK}\">\n\
-         <title>{}</title>\n\
-         <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{}</svg>\n",
-        escape(title),
-        canvas.as_str()
-    )
+/// Title, legend and notes.
+struct Head<'a> {
+    texts: Vec<(i32, i32, String)>,
+    names: Vec<([i32; 2], &'a Series)>,
+    height: i32,
 }
 
-/// Whole decades, and the pixels of both ends.
+impl<'a> Head<'a> {
+    /// In as many lines as they take.
+    fn of(title: &str, series: &'a [Series], notes: &[String], width: i32) -> Self {
+        let mut head = Self { texts: Vec::new(), names: Vec::new(), height: EDGE };
+        head.add(title, TITLE, width);
+        let (mut x, gap) = (0, 40);
+        for series in series.iter().filter(|it| !it.name.is_empty()) {
+            #[allow(clippy::cast_possible_truncation)]
+            let wide = text_width(&series.name, f64::from(TEXT) / SCALE) as i32 + gap;
+            if x > 0 && x + wide > width {
+                (x, head.height) = (0, head.height + LINE);
+            }
+            head.names.push(([EDGE + x, head.height], series));
+            x += wide;
+        }
+        head.height += LINE + LINE / 3;
+        for note in notes {
+            head.add(note, TEXT, width);
+        }
+        head.height += LINE / 2;
+        head
+    }
+
+    fn add(&mut self, text: &str, size: i32, width: i32) {
+        for line in wrapped(text, f64::from(size) / SCALE, f64::from(width)) {
+            self.texts.push((self.height, size, line));
+            self.height += LINE;
+        }
+        self.height += LINE / 3;
+    }
+
+    fn draw(&self, area: &Area) -> Drawn {
+        for (y, size, text) in &self.texts {
+            area.draw(&Text::new(text.as_str(), (EDGE, *y), font(*size)))?;
+        }
+        let left = Pos::new(HPos::Left, VPos::Center);
+        for ([x, y], series) in &self.names {
+            let middle = y + LINE / 2;
+            join(area, &[(*x, middle), (x + 22, middle)], &[(x + 11, middle)], series)?;
+            area.draw(&Text::new(series.name.as_str(), (x + 28, middle), font(TEXT).pos(left)))?;
+        }
+        Ok(())
+    }
+}
+
+impl Diagram {
+    fn draw(&self, whole: &Area, part: &Area) -> Drawn {
+        let all = || self.series.iter().flat_map(Series::drawn);
+        let least = self.least.into_iter().flatten();
+        let [x, y] =
+            [Axis::around(all().map(|it| it.0)), Axis::around(all().map(|it| it.1).chain(least))];
+        let (Some(x), Some(y)) = (x, y) else { return Ok(()) };
+        let mut builder = ChartBuilder::on(part);
+        builder.x_label_area_size(46).y_label_area_size(76).margin_right(14).margin_bottom(4);
+        if !self.title.is_empty() {
+            builder.caption(&self.title, font(TEXT));
+        }
+        let mut chart = builder.build_cartesian_2d(x, y)?;
+        chart
+            .configure_mesh()
+            .bold_line_style(GRID)
+            .light_line_style(TRANSPARENT)
+            .label_style(font(TEXT))
+            .x_desc(&self.axes[0])
+            .y_desc(&self.axes[1])
+            .draw()?;
+        for series in &self.series {
+            let pixels: Vec<_> = series.drawn().map(|it| chart.backend_coord(&it)).collect();
+            join(whole, &pixels, &pixels, series)?;
+        }
+        Ok(())
+    }
+}
+
+fn font(size: i32) -> TextStyle<'static> {
+    (FONT, size).into_text_style(&(1, 1))
+}
+
+/// What joins points, with what stands at them.
+fn join(area: &Area, pixels: &[(i32, i32)], marked: &[(i32, i32)], it: &Series) -> Drawn {
+    let colour = it.colour();
+    if it.look != Look::Dots {
+        area.draw(&PathElement::new(pixels, colour.stroke_width(2)))?;
+    }
+    for (x, y) in marked {
+        let corners = MARKERS[it.style % MARKERS.len()].iter().map(|[dx, dy]| (x + dx, y + dy));
+        let corners: Vec<_> = corners.collect();
+        let outline = PathElement::new([&corners[..], &corners[..1]].concat(), colour);
+        match it.look {
+            Look::Full => area.draw(&Polygon::new(corners, colour))?,
+            Look::Hollow => area.draw(&Polygon::new(corners, WHITE))?,
+            Look::Dots => area.draw(&Circle::new((*x, *y), 2, colour.filled()))?,
+            Look::Bound => {}
+        }
+        if matches!(it.look, Look::Full | Look::Hollow) {
+            area.draw(&outline)?;
+        }
+    }
+    Ok(())
+}
+
+/// A logarithmic axis. That of `plotters` has no lines below the distance of neighbouring numbers at one.
 struct Axis {
-    decades: [i32; 2],
-    pixels: [f64; 2],
+    /// Decimal logarithms.
+    ends: [f64; 2],
+    /// Where lines are: at decades and, where these are few, at their second and fifth multiples.
+    lines: Vec<f64>,
 }
 
 impl Axis {
     /// The axis on which all values have their place; `None` without values.
-    fn around(values: impl Iterator<Item = f64> + Clone, pixels: [f64; 2]) -> Option<Self> {
-        let least = values.clone().reduce(f64::min)?.log10().floor();
-        let most = values.reduce(f64::max)?.log10().ceil().max(least + 1.0);
-        // Decades of doubles are within 400 of zero.
+    fn around(values: impl Iterator<Item = f64> + Clone) -> Option<Self> {
+        let [low, high] = [values.clone().reduce(f64::min)?, values.reduce(f64::max)?];
+        let [low, high] = [low, high].map(f64::log10);
+        let room = (0.03 * (high - low)).max(0.1);
+        let ends = [low - room, high + room];
+        let span = ends[1] - ends[0];
+        let step = (span / MOST_LABELS).ceil();
+        let multiples: &[f64] = if span < FEW { &[1.0, 2.0, 5.0] } else { &[1.0] };
+        let decades = (0..).map(|k| (ends[0] / step).floor() * step + step * f64::from(k));
+        let decades = decades.take_while(|decade| *decade <= ends[1]);
+        let lines = decades.flat_map(|decade| multiples.iter().map(move |it| decade + it.log10()));
+        let lines = lines.filter(|it| (ends[0]..=ends[1]).contains(it));
+        Some(Self { ends, lines: lines.map(|it| 10_f64.powf(it)).collect() })
+    }
+}
+
+impl Ranged for Axis {
+    type FormatOption = NoDefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        let share = (value.log10() - self.ends[0]) / (self.ends[1] - self.ends[0]);
         #[allow(clippy::cast_possible_truncation)]
-        let decades = [least as i32, most as i32];
-        Some(Self { decades, pixels })
+        let pixels = (share * f64::from(limit.1 - limit.0)).round() as i32;
+        limit.0 + pixels
     }
 
-    fn at(&self, value: f64) -> f64 {
-        let [low, high] = self.decades.map(f64::from);
-        let [from, to] = self.pixels;
-        from + (to - from) * (value.log10() - low) / (high - low)
+    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
+        if hint.weight().allow_light_points() { Vec::new() } else { self.lines.clone() }
     }
 
-    fn span(&self) -> i32 {
-        self.decades[1] - self.decades[0]
+    fn range(&self) -> Range<f64> {
+        10_f64.powf(self.ends[0])..10_f64.powf(self.ends[1])
     }
+}
 
-    /// Values of the lines of the grid, each with its label if it has one.
-    fn ticks(&self) -> Vec<(f64, Option<String>)> {
-        let [low, high] = self.decades;
-        let step = (self.span() + MOST_LABELS - 1) / MOST_LABELS;
-        let mut ticks = Vec::new();
-        for decade in low..=high {
-            let value = 10_f64.powi(decade);
-            let is_labelled = decade % step == 0;
-            ticks.push((value, is_labelled.then(|| self.label(value, decade))));
-            if self.span() <= FEW_DECADES && decade < high {
-                for minor in [2.0 * value, 5.0 * value] {
-                    ticks.push((minor, Some(self.label(minor, decade))));
-                }
-            }
-        }
-        ticks
-    }
-
-    /// All labels of an axis are alike: with exponents, or none with.
-    fn label(&self, value: f64, decade: i32) -> String {
-        let [low, high] = self.decades;
-        if low < -PLAIN_DECADES || high > PLAIN_DECADES {
+impl ValueFormatter<f64> for Axis {
+    /// Labels of an axis are alike: with exponents, or none with.
+    fn format_ext(&self, value: &f64) -> String {
+        if self.lines.iter().any(|it| !PLAIN.contains(it)) {
             return format!("{value:.0e}");
         }
-        let decimals = usize::try_from(-decade).unwrap_or(0);
+        let decimals = (-value.log10() - 1e-9).ceil().max(0.0);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let decimals = decimals as usize;
         format!("{value:.decimals$}")
     }
-}
-
-struct Plot {
-    x: Axis,
-    y: Axis,
-}
-
-impl Plot {
-    fn draw_grid(&self, canvas: &mut Canvas, titles: &Titles) {
-        let ([left, right], [bottom, top]) = (self.x.pixels, self.y.pixels);
-        for (value, label) in self.x.ticks() {
-            let x = self.x.at(value);
-            canvas.line(Pixel::new(x, bottom), Pixel::new(x, top), &grid(label.is_some()));
-            if let Some(label) = label {
-                canvas.text(Pixel::new(x, bottom + 18.0), Anchor::Middle, TEXT_SIZE, &label);
-            }
-        }
-        for (value, label) in self.y.ticks() {
-            let y = self.y.at(value);
-            canvas.line(Pixel::new(left, y), Pixel::new(right, y), &grid(label.is_some()));
-            if let Some(label) = label {
-                canvas.text(Pixel::new(left - 8.0, y + 4.5), Anchor::End, TEXT_SIZE, &label);
-            }
-        }
-        let frame = format!("fill=\"none\" stroke=\"{DARK}\" stroke-width=\"1\"");
-        canvas.rectangle(Pixel::new(left, top), right - left, bottom - top, &frame);
-        let middle = Pixel::new(0.5 * (left + right), HEIGHT - EDGE);
-        canvas.text(middle, Anchor::Middle, TEXT_SIZE, titles.x);
-        let at = Pixel::new(EDGE + 10.0, 0.5 * (bottom + top));
-        let turned = format!("transform=\"rotate(-90 {} {})\"", fixed(at.x), fixed(at.y));
-        canvas.text_with(at, Anchor::Middle, TEXT_SIZE, &turned, titles.y);
-    }
-
-    fn draw_line(&self, canvas: &mut Canvas, line: &Line) {
-        let colour = COLOURS[line.style % COLOURS.len()];
-        let points: Vec<Pixel> =
-            line.points.iter().map(|[x, y]| Pixel::new(self.x.at(*x), self.y.at(*y))).collect();
-        let dashes = dashes(line);
-        let style = format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.8\"{dashes}");
-        canvas.group(&style, |canvas| canvas.polyline(&points));
-        for point in points {
-            marker(canvas, point, line.style);
-        }
-    }
-}
-
-fn grid(is_labelled: bool) -> String {
-    format!("stroke=\"{}\" stroke-width=\"1\"", if is_labelled { GRID } else { FAINT })
-}
-
-fn dashes(line: &Line) -> &'static str {
-    if line.dashed { " stroke-dasharray=\"6 4\"" } else { "" }
-}
-
-fn marker(canvas: &mut Canvas, at: Pixel, style: usize) {
-    let colour = COLOURS[style % COLOURS.len()];
-    let attributes = format!("fill=\"{colour}\" stroke=\"#ffffff\" stroke-width=\"0.8\"");
-    let shifted = |dx: f64, dy: f64| Pixel::new(at.x + dx * MARKER, at.y + dy * MARKER);
-    match style % COLOURS.len() {
-        0 => canvas.circle(at, MARKER, &attributes),
-        1 => canvas.rectangle(shifted(-0.9, -0.9), 1.8 * MARKER, 1.8 * MARKER, &attributes),
-        2 => {
-            let corners = [shifted(0.0, -1.3), shifted(1.2, 0.9), shifted(-1.2, 0.9)];
-            canvas.polygon(&corners, &attributes);
-        }
-        3 => {
-            let corners =
-                [shifted(0.0, -1.4), shifted(1.4, 0.0), shifted(0.0, 1.4), shifted(-1.4, 0.0)];
-            canvas.polygon(&corners, &attributes);
-        }
-        4 => {
-            let corners = [shifted(0.0, 1.3), shifted(1.2, -0.9), shifted(-1.2, -0.9)];
-            canvas.polygon(&corners, &attributes);
-        }
-        _ => {
-            let corners =
-                [shifted(0.0, -1.7), shifted(0.7, 0.0), shifted(0.0, 1.7), shifted(-0.7, 0.0)];
-            canvas.polygon(&corners, &attributes);
-        }
-    }
-}
-
-/// Draws names and notes; gives where they end.
-fn legend(canvas: &mut Canvas, lines: &[Line], notes: &[String], at: Pixel) -> f64 {
-    let mut y = at.y;
-    for line in lines.iter().filter(|line| !line.name.is_empty()) {
-        let colour = COLOURS[line.style % COLOURS.len()];
-        if !line.points.is_empty() {
-            let stroke = format!("stroke=\"{colour}\" stroke-width=\"1.8\"{}", dashes(line));
-            canvas.line(Pixel::new(at.x, y), Pixel::new(at.x + 28.0, y), &stroke);
-        }
-        marker(canvas, Pixel::new(at.x + 14.0, y), line.style);
-        y = text(canvas, &line.name, Pixel::new(at.x + 38.0, y + 4.5)) + 6.0;
-    }
-    y += 8.0;
-    for note in notes {
-        y = text(canvas, note, Pixel::new(at.x, y + 4.5)) + 6.0;
-    }
-    y
-}
-
-/// Draws a text in as many lines as it takes up to the right edge; gives the middle of the next line.
-fn text(canvas: &mut Canvas, words: &str, at: Pixel) -> f64 {
-    let room = (WIDTH - EDGE - at.x).max(text_width("m", TEXT_SIZE));
-    let mut y = at.y;
-    for line in wrapped(words, TEXT_SIZE, room) {
-        canvas.text(Pixel::new(at.x, y), Anchor::Start, TEXT_SIZE, &line);
-        y += TEXT_LINE;
-    }
-    y - 4.5
 }

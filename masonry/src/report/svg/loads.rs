@@ -1,12 +1,13 @@
-//! Edge loads as arrows with their values.
+//! Loads as arrows with their values: on edges, at places of blocks, and of all mass beside the structure.
 
 use nalgebra::{Point2, Vector2};
 
 use super::canvas::{Anchor, Canvas, Pixel, text_width};
 use super::marks;
 use super::sheet::{Bounds, Frame, Margins, Sheet, label_room};
+use crate::geometry;
 use crate::model::Model;
-use crate::report::format::{InUnits, significant};
+use crate::report::format::{InUnits, acceleration_text, significant};
 use crate::report::summary::loaded_part;
 
 const COLOUR: &str = "#a02020";
@@ -14,6 +15,57 @@ const LONGEST: f64 = 32.0;
 const SHORTEST: f64 = 12.0;
 const SPACING: f64 = 24.0;
 const LABEL_SIZE: f64 = 13.0;
+/// Height that an acceleration takes beside the structure: its arrow, its label and room between.
+const ACCELERATION_ROOM: f64 = LONGEST + 2.0 * LABEL_SIZE;
+
+/// Everything that acts and is not zero.
+#[derive(Debug)]
+pub(super) struct Loads {
+    edges: Vec<Group>,
+    points: Vec<Force>,
+    accelerations: Vec<Acceleration>,
+}
+
+/// A force at a place of a block.
+#[derive(Debug)]
+struct Force {
+    at: Point2<f64>,
+    value: Vector2<f64>,
+    /// Where the arrow lies seen from the place: one that pulls at an edge begins there, all others end there.
+    outwards: Vector2<f64>,
+    /// Size relative to the largest force of the model.
+    part: f64,
+    label: String,
+}
+
+impl Force {
+    fn length(&self) -> f64 {
+        SHORTEST + (LONGEST - SHORTEST) * self.part
+    }
+
+    fn pulls(&self) -> bool {
+        self.outwards.dot(&self.value) > 0.0
+    }
+}
+
+/// An acceleration of all mass.
+#[derive(Debug)]
+struct Acceleration {
+    value: Vector2<f64>,
+    label: String,
+}
+
+impl Acceleration {
+    /// Whether it stands right of the structure: one to the left pushes from there.
+    fn is_right(&self) -> bool {
+        self.value.x < -0.5 * self.value.norm()
+    }
+
+    /// Room beside the structure.
+    fn width(&self) -> f64 {
+        label_room(&self.label).max(LONGEST) + 8.0
+    }
+}
 
 /// Loads of one traction on edges in one line: they share a label.
 #[derive(Debug)]
@@ -38,12 +90,135 @@ impl Group {
     }
 }
 
+impl Loads {
+    pub(super) fn of(model: &Model, units: InUnits) -> Self {
+        let accelerations = model.accelerations.iter().filter(|it| it.value.norm() > 0.0);
+        let acceleration = |value: Vector2<f64>| {
+            let label = acceleration_text(value.norm());
+            Acceleration { value, label }
+        };
+        Self {
+            edges: groups(model, units),
+            points: forces(model, units),
+            accelerations: accelerations.map(|it| acceleration(it.value)).collect(),
+        }
+    }
+
+    /// Room that arrows and labels need around the structure.
+    pub(super) fn margins(&self) -> Margins {
+        let mut margins = self.margins_of_forces();
+        for it in &self.accelerations {
+            let [left, right] = self.beside(it.is_right());
+            margins.left = margins.left.max(left);
+            margins.right = margins.right.max(right);
+        }
+        margins
+    }
+
+    /// Room beside the structure with accelerations on one side.
+    fn beside(&self, is_right: bool) -> [f64; 2] {
+        let on_side = self.accelerations.iter().filter(|it| it.is_right() == is_right);
+        let width = on_side.map(Acceleration::width).fold(0.0, f64::max);
+        let Margins { left, right, .. } = self.margins_of_forces();
+        if is_right { [left, right + width] } else { [left + width, right] }
+    }
+
+    fn margins_of_forces(&self) -> Margins {
+        let mut margins = Margins::HATCH;
+        let edges = self.edges.iter().map(|it| (it.normal, it.length(), &it.label));
+        let points = self.points.iter().map(|it| (it.outwards, it.length(), &it.label));
+        for (n, length, label) in edges.chain(points) {
+            let reach = length + 12.0;
+            let (beside, above) = (reach + label_room(label), reach + LABEL_SIZE + 6.0);
+            if n.x > 0.5 {
+                margins.right = margins.right.max(beside);
+            } else if n.x < -0.5 {
+                margins.left = margins.left.max(beside);
+            }
+            if n.y > 0.5 {
+                margins.top = margins.top.max(above);
+            } else if n.y < -0.5 {
+                margins.bottom = margins.bottom.max(above);
+            }
+        }
+        margins
+    }
+
+    /// Draws arrows, labels where they do not collide, and legend entries.
+    pub(super) fn draw(&self, sheet: &mut Sheet, model: &Model) {
+        let frame = sheet.frame;
+        sheet.canvas.group("class=\"loads\"", |canvas| {
+            for group in &self.edges {
+                for &(from, to) in &group.pieces {
+                    draw_piece(canvas, group, frame.at(from), frame.at(to));
+                }
+            }
+            for force in &self.points {
+                draw_force(canvas, force, frame.at(force.at));
+            }
+            self.draw_labels(canvas, &frame);
+        });
+        if !self.accelerations.is_empty() {
+            sheet.canvas.group("class=\"accelerations\"", |canvas| {
+                self.draw_accelerations(canvas, &frame, marks::bounds(model));
+            });
+        }
+        let units = InUnits(model.units);
+        let tractions = self.edges.iter().map(|it| it.traction.norm());
+        let number = |value| significant(units.stress(value), 4);
+        entry(sheet, "edge load", tractions, number, |value| units.stress_text(value));
+        let forces = self.points.iter().map(|it| it.value.norm());
+        let number = |value| significant(units.force(value), 4);
+        entry(sheet, "point load", forces, number, |value| units.force_text(value));
+        let accelerations = self.accelerations.iter().map(|it| it.value.norm());
+        let number = |value| significant(value, 4);
+        entry(sheet, "body acceleration", accelerations, number, acceleration_text);
+    }
+
+    fn draw_labels(&self, canvas: &mut Canvas, frame: &Frame) {
+        let mut taken: Vec<[f64; 4]> = Vec::new();
+        for group in &self.edges {
+            let extent = Bounds::of(group.pieces.iter().flat_map(|&(from, to)| [from, to]));
+            let middle = frame.at(nalgebra::center(&extent.low, &extent.high));
+            let (n, t) = (group.normal, group.traction.normalize());
+            let reach = if group.tangential() { 12.0 } else { group.length() * t.dot(&n).abs() };
+            draw_label(canvas, &mut taken, middle.shifted(n.x, -n.y, reach + 8.0), n, &group.label);
+        }
+        for force in &self.points {
+            let n = force.outwards;
+            let at = frame.at(force.at).shifted(n.x, -n.y, force.length() + 8.0);
+            draw_label(canvas, &mut taken, at, n, &force.label);
+        }
+    }
+
+    /// One below the other at half the height of the structure.
+    fn draw_accelerations(&self, canvas: &mut Canvas, frame: &Frame, bounds: Bounds) {
+        let Margins { left, right, .. } = self.margins_of_forces();
+        let (low, high) = (frame.at(bounds.low), frame.at(bounds.high));
+        for is_right in [false, true] {
+            let on_side = || self.accelerations.iter().filter(move |it| it.is_right() == is_right);
+            let rooms: f64 = on_side().map(|_| ACCELERATION_ROOM).sum();
+            let mut y = 0.5 * (low.y + high.y - rooms) + 0.5 * LONGEST;
+            for it in on_side() {
+                let half = 0.5 * it.width();
+                let x = if is_right { high.x + right + half } else { low.x - left - half };
+                let (middle, a) = (Pixel::new(x, y), it.value);
+                let tail = middle.shifted(-a.x, a.y, 0.5 * LONGEST);
+                canvas.arrow(tail, middle.shifted(a.x, -a.y, 0.5 * LONGEST), COLOUR);
+                let base = y + 0.5 * LONGEST + LABEL_SIZE;
+                canvas.rimmed_text(Pixel::new(x, base), Anchor::Middle, LABEL_SIZE, &it.label);
+                y += ACCELERATION_ROOM;
+            }
+        }
+    }
+}
+
 /// All edge loads that are not zero, grouped.
-pub(super) fn groups(model: &Model, units: InUnits) -> Vec<Group> {
+fn groups(model: &Model, units: InUnits) -> Vec<Group> {
     let near = 1e-9 * marks::bounds(model).diagonal();
     let mut groups: Vec<Group> = Vec::new();
     for block in &model.blocks {
-        for load in &block.edge_loads {
+        for load in block.edge_loads() {
             let (from, to) = loaded_part(block, load);
             let along = to - from;
             if load.traction.norm() == 0.0 || along.norm() == 0.0 {
@@ -71,48 +246,47 @@ pub(super) fn groups(model: &Model, units: InUnits) -> Vec<Group> {
     groups
 }
 
-/// Room that arrows and labels need around the structure.
-pub(super) fn margins(groups: &[Group]) -> Margins {
-    let mut margins = Margins::HATCH;
-    for group in groups {
-        let (n, reach) = (group.normal, group.length() + 12.0);
-        let (beside, above) = (reach + label_room(&group.label), reach + LABEL_SIZE + 6.0);
-        if n.x > 0.5 {
-            margins.right = margins.right.max(beside);
-        } else if n.x < -0.5 {
-            margins.left = margins.left.max(beside);
-        }
-        if n.y > 0.5 {
-            margins.top = margins.top.max(above);
-        } else if n.y < -0.5 {
-            margins.bottom = margins.bottom.max(above);
+/// All forces at places of blocks that are not zero.
+fn forces(model: &Model, units: InUnits) -> Vec<Force> {
+    let mut forces: Vec<Force> = Vec::new();
+    for block in &model.blocks {
+        for load in block.point_loads().filter(|load| load.force.norm() > 0.0) {
+            let (at, force) = (load.at, load.force);
+            let near = 1e-9 * geometry::size(&block.corners);
+            let pulls = (0..4)
+                .map(|k| (block.corners[k], geometry::outward_normal(&block.corners, k)))
+                .any(|(corner, normal)| {
+                    (at - corner).dot(&normal) > -near && force.dot(&normal) > 0.0
+                });
+            let outwards = if pulls { force.normalize() } else { -force.normalize() };
+            let label = units.force_text(force.norm());
+            forces.push(Force { at, value: force, outwards, part: 1.0, label });
         }
     }
-    margins
+    let largest = forces.iter().map(|it| it.value.norm()).fold(0.0, f64::max);
+    for it in &mut forces {
+        it.part = it.value.norm() / largest;
+    }
+    forces
 }
 
-/// Draws arrows, labels where they do not collide, and the legend entry.
-pub(super) fn draw(sheet: &mut Sheet, model: &Model, groups: &[Group]) {
-    let frame = sheet.frame;
-    sheet.canvas.group("class=\"loads\"", |canvas| {
-        for group in groups {
-            for &(from, to) in &group.pieces {
-                draw_piece(canvas, group, frame.at(from), frame.at(to));
-            }
-        }
-        draw_labels(canvas, &frame, groups);
-    });
-    let sizes = || groups.iter().map(|group| group.traction.norm());
-    let (least, most) = (sizes().fold(f64::INFINITY, f64::min), sizes().fold(0.0, f64::max));
-    if groups.is_empty() {
+/// The legend entry of loads of these sizes, if there are any.
+fn entry(
+    sheet: &mut Sheet,
+    name: &str,
+    sizes: impl Iterator<Item = f64> + Clone,
+    number: impl Fn(f64) -> String,
+    with_unit: impl Fn(f64) -> String,
+) {
+    let most = sizes.clone().fold(0.0, f64::max);
+    let least = sizes.fold(f64::INFINITY, f64::min);
+    if most <= 0.0 {
         return;
     }
-    let units = InUnits(model.units);
     let text = if least < most {
-        let least = significant(units.stress(least), 4);
-        format!("edge loads, {least} to {}", units.stress_text(most))
+        format!("{name}s, {} to {}", number(least), with_unit(most))
     } else {
-        format!("edge load, {}", units.stress_text(most))
+        format!("{name}, {}", with_unit(most))
     };
     sheet.entry(&text, |symbol| {
         symbol.arrow(Pixel::new(0.0, -10.0), Pixel::new(0.0, 10.0), COLOUR);
@@ -147,28 +321,35 @@ fn draw_piece(canvas: &mut Canvas, group: &Group, from: Pixel, to: Pixel) {
     }
 }
 
-fn draw_labels(canvas: &mut Canvas, frame: &Frame, groups: &[Group]) {
-    let mut taken: Vec<[f64; 4]> = Vec::new();
-    for group in groups {
-        let extent = Bounds::of(group.pieces.iter().flat_map(|&(from, to)| [from, to]));
-        let middle = frame.at(nalgebra::center(&extent.low, &extent.high));
-        let (n, t) = (group.normal, group.traction.normalize());
-        let reach = if group.tangential() { 12.0 } else { group.length() * t.dot(&n).abs() };
-        let at = middle.shifted(n.x, -n.y, reach + 8.0);
-        let width = text_width(&group.label, LABEL_SIZE);
-        let (anchor, left) = if n.x > 0.5 {
-            (Anchor::Start, at.x)
-        } else if n.x < -0.5 {
-            (Anchor::End, at.x - width)
-        } else {
-            (Anchor::Middle, at.x - 0.5 * width)
-        };
-        let base = at.y + 0.36 * LABEL_SIZE - n.y * 0.36 * LABEL_SIZE;
-        let rectangle = [left, base - LABEL_SIZE, left + width, base];
-        if !taken.iter().any(|other| overlap(&rectangle, other)) {
-            canvas.rimmed_text(Pixel::new(at.x, base), anchor, LABEL_SIZE, &group.label);
-            taken.push(rectangle);
-        }
+fn draw_force(canvas: &mut Canvas, force: &Force, at: Pixel) {
+    let n = force.outwards;
+    let far = at.shifted(n.x, -n.y, force.length());
+    let (tail, tip) = if force.pulls() { (at, far) } else { (far, at) };
+    canvas.arrow(tail, tip, COLOUR);
+    canvas.circle(at, 2.2, &format!("fill=\"{COLOUR}\""));
+}
+
+/// Draws a label on the side `n` of a place, unless another one is there.
+fn draw_label(
+    canvas: &mut Canvas,
+    taken: &mut Vec<[f64; 4]>,
+    at: Pixel,
+    n: Vector2<f64>,
+    label: &str,
+) {
+    let width = text_width(label, LABEL_SIZE);
+    let (anchor, left) = if n.x > 0.5 {
+        (Anchor::Start, at.x)
+    } else if n.x < -0.5 {
+        (Anchor::End, at.x - width)
+    } else {
+        (Anchor::Middle, at.x - 0.5 * width)
+    };
+    let base = at.y + 0.36 * LABEL_SIZE - n.y * 0.36 * LABEL_SIZE;
+    let rectangle = [left, base - LABEL_SIZE, left + width, base];
+    if !taken.iter().any(|other| overlap(&rectangle, other)) {
+        canvas.rimmed_text(Pixel::new(at.x, base), anchor, LABEL_SIZE, label);
+        taken.push(rectangle);
     }
 }
 

@@ -3,13 +3,13 @@
 use nalgebra::Point2;
 
 use super::canvas::{Anchor, Pixel, fixed, text_width};
-use super::loads;
+use super::loads::Loads;
 use super::marks::{self, BRICK, OUTLINE};
 use super::sheet::Sheet;
 use crate::geometry;
 use crate::law::JointLaw;
 use crate::model::Model;
-use crate::report::format::{InUnits, significant};
+use crate::report::format::{InUnits, acceleration_text, significant};
 
 /// Colours of joint classes, told apart by the colour-blind too (Okabe and Ito).
 const CLASSES: [&str; 5] = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9"];
@@ -19,8 +19,8 @@ const NAMED_BLOCKS: usize = 120;
 /// joints in the colour of their class, contact points, and loads with values and units.
 pub fn scene(title: &str, model: &Model) -> String {
     let units = InUnits(model.units);
-    let groups = loads::groups(model, units);
-    let mut sheet = Sheet::new(title, marks::bounds(model), loads::margins(&groups));
+    let loads = Loads::of(model, units);
+    let mut sheet = Sheet::new(title, marks::bounds(model), loads.margins());
     let brick = marks::brick_size(model, &sheet.frame);
     let width = fixed(marks::outline_width(brick));
     let style = format!(
@@ -30,7 +30,7 @@ pub fn scene(title: &str, model: &Model) -> String {
     marks::blocks(&mut sheet, model, &style);
     marks::supports(&mut sheet, model);
     draw_joints(&mut sheet, model, brick);
-    loads::draw(&mut sheet, model, &groups);
+    loads.draw(&mut sheet, model);
     draw_names(&mut sheet, model);
     draw_gravity(&mut sheet, model);
     sheet.length_bar(units);
@@ -76,7 +76,7 @@ fn law(law: &JointLaw, units: InUnits) -> String {
     let mut text = format!("μ\u{a0}=\u{a0}{}", significant(law.mu, 4));
     for (name, value) in [("c", law.cohesion), ("f_t", law.tension)] {
         if value > 0.0 {
-            text += &format!(", {name}\u{a0}=\u{a0}{}", units.stress_text(value));
+            text = format!("{text}, {name}\u{a0}=\u{a0}{}", units.stress_text(value));
         }
     }
     text
@@ -127,7 +127,7 @@ fn room(corners: &[Point2<f64>; 4]) -> (f64, f64) {
 fn draw_gravity(sheet: &mut Sheet, model: &Model) {
     let pull = model.gravity;
     if pull.norm() > 0.0 && model.blocks.iter().any(|block| block.density.is_some()) {
-        let text = format!("self weight, {}\u{a0}m/s²", significant(pull.norm(), 4));
+        let text = format!("self weight, {}", acceleration_text(pull.norm()));
         sheet.entry(&text, |symbol| {
             let (tail, tip) = (Pixel::new(0.0, 0.0), Pixel::new(0.0, 0.0));
             let tail = tail.shifted(-pull.x, pull.y, 9.0);

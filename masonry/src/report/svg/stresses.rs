@@ -49,7 +49,7 @@ impl ReferenceLines {
         }
         let metres = scene.units.length_to_si();
         let origins = [left, right].map(|x| Point2::new(x, foot) * metres);
-        let joints = JointThickness::of(scene);
+        let joints = JointThickness::of(scene, wall);
         let (length, height) = (wall.brick.length + joints.head, wall.brick.height + joints.bed);
         let dry = joints == JointThickness::default();
         let label = if dry { "arctan(l / 2h)" } else { "arctan((l + t) / 2(h + t))" };

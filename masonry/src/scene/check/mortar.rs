@@ -2,7 +2,6 @@
 
 use super::{Check, missing, not_negative, positive, unknown, unwanted, value};
 use crate::scene::bond::{self, JointThickness};
-use crate::scene::error::Known;
 use crate::scene::{Courses, Films, Joint, KeyPath, PointRule, Scene, Wall};
 
 impl Scene {
@@ -31,7 +30,7 @@ impl Scene {
             };
         };
         let Some(material) = self.materials.get(name) else {
-            let known = Known(self.materials.keys().cloned().collect());
+            let known = self.materials.keys().cloned().collect();
             return Err(unknown(at.key("material"), "material", name, known, "materials"));
         };
         if thickness > 0.0 && material.young.is_none() {
@@ -46,7 +45,9 @@ impl Scene {
         if self.contact.films != Films::Strips {
             return Ok(());
         }
-        if self.contact.points != PointRule::Gauss {
+        let filled = self.joints.values().filter(|joint| joint.mortar_thickness() > 0.0);
+        let mut rules = filled.map(|joint| joint.points.unwrap_or(self.contact.points));
+        if self.contact.points != PointRule::Gauss || rules.any(|rule| rule != PointRule::Gauss) {
             let because = "asks for strips, which are integrated at Gauss points only";
             return Err(unwanted(at, "films", because, ", or set points = \"gauss\""));
         }

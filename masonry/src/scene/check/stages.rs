@@ -1,7 +1,6 @@
 //! Checks of the load history.
 
 use super::{Check, finite, too_many, unique, unknown, unwanted, value};
-use crate::scene::error::Known;
 use crate::scene::{KeyPath, Scene, Stage};
 
 /// Rotation of a support \[rad\] at which its joints' normals are off by a tenth.
@@ -32,11 +31,7 @@ impl Scene {
             }
             finite(at.key("gravity"), factor)?;
         }
-        for (name, factor) in &stage.loads {
-            let at = at.key("loads").key(name);
-            there_is(("load", "loads"), name, self.loads.iter().map(|load| &load.name), &at)?;
-            finite(at, *factor)?;
-        }
+        self.check_stage_loads(&at.key("loads"), stage)?;
         for (name, to) in &stage.moves {
             let at = at.key("moves").key(name);
             there_is(("support", "supports"), name, self.supports.iter().map(|it| &it.name), &at)?;
@@ -60,5 +55,5 @@ fn there_is<'a>(
     if known.iter().any(|known| known == name) {
         return Ok(());
     }
-    Err(unknown(at.clone(), what, name, Known(known), table))
+    Err(unknown(at.clone(), what, name, known, table))
 }

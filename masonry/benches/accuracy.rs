@@ -4,21 +4,33 @@
 //! pictures, the same numbers as CSV, and the section of the README. Every solve is a whole one, from the scene to the
 //! checked answer, on one thread; of short ones the median of three.
 
+#[path = "../../benches/common/mod.rs"]
 mod common;
-#[path = "common/machine.rs"]
+#[path = "accuracy/data.rs"]
+mod data;
+#[path = "accuracy/digits.rs"]
+mod digits;
+#[path = "accuracy/extrapolated.rs"]
+mod extrapolated;
+#[path = "../../benches/common/machine.rs"]
 mod machine;
 #[path = "accuracy/page.rs"]
 mod page;
+#[path = "accuracy/pictures.rs"]
+mod pictures;
+#[path = "accuracy/springs.rs"]
+mod springs;
 #[path = "accuracy/tables.rs"]
 mod tables;
 
-use std::path::Path;
 use std::time::Duration;
 
-use masonry::analysis::study::{Settings, Study, study};
+use digits::Refining;
+use masonry::analysis::study::{Exact, MeshErrors, Settings, Study, refined, study};
 use masonry::report;
 use masonry::scene::{Brick, Joint, Load, Material, Plane, Scene, Support, Wall};
 use masonry::units::Units;
+use springs::Springs;
 
 /// Elements of a square in each direction; the first are those of the scenes.
 const MESHES: [u32; 4] = [2, 1, 4, 8];
@@ -29,20 +41,32 @@ const WALLS: [u32; 4] = [5, 10, 20, 40];
 /// Of the walls.
 const TOLERANCES: [f64; 2] = [1e-4, 1e-8];
 
+/// A panel with what is more than a study of it.
+struct Panel {
+    name: &'static str,
+    study: Study,
+    /// For every mesh what the last digits of its reference cost.
+    refinings: Vec<Vec<Refining>>,
+    /// For every mesh its errors against the limit of the finest.
+    extrapolated: Vec<MeshErrors>,
+    /// On the first mesh.
+    springs: Vec<Springs>,
+}
+
 fn main() {
     if !common::is_bench() {
         return;
     }
-    let panels = ["panel_rectangular", "panel_square"].map(|name| (name, panel(name)));
+    let panels = ["panel_rectangular", "panel_square"].map(panel);
     let walls = WALLS.map(wall);
     if std::env::args().any(|argument| argument == "--write") {
-        page::write(Path::new(env!("CARGO_MANIFEST_DIR")), &panels, &walls);
+        page::write(&common::root(), &panels, &walls);
     }
 }
 
 /// A panel of the paper, from one element a square on.
-fn panel(name: &str) -> Study {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{name}.toml"));
+fn panel(name: &'static str) -> Panel {
+    let path = common::root().join(format!("scenes/{name}.toml"));
     let mut scene = Scene::read(&path).expect("the scene is part of the repository");
     for wall in &mut scene.walls {
         // Rectangular bricks are two squares long.
@@ -54,7 +78,20 @@ fn panel(name: &str) -> Study {
         if position == 0 { format!("the mesh of the scene ({elements})") } else { elements }
     });
     let mesh_names = mesh_names.collect();
-    told(&scene, Settings { meshes: MESHES.into(), mesh_names, ..Settings::default() })
+    let settings = Settings { meshes: MESHES.into(), mesh_names, ..Settings::default() };
+    let study = told(&scene, settings);
+    let references = digits::references(&scene, &study);
+    let of = |exact: &Option<Exact>| exact.as_ref().map(digits::refinings).unwrap_or_default();
+    let first = references[0].as_ref().map(|exact| &exact.state);
+    let panel = Panel {
+        name,
+        refinings: references.iter().map(of).collect(),
+        extrapolated: extrapolated::errors(&study.meshes),
+        springs: springs::springs(&refined(&scene, MESHES[0]), LIMIT, first),
+        study,
+    };
+    println!("{}\n{}", tables::refinings(&panel), tables::springs(&panel));
+    panel
 }
 
 /// A square wall of elastic bricks with friction on a full floor, under its weight and a load that leans.
@@ -75,7 +112,6 @@ fn wall(bricks: u32) -> Study {
         tolerances: TOLERANCES.into(),
         meshes: vec![1],
         mesh_names: vec!["this mesh".to_owned()],
-        springs: Vec::new(),
         ..Settings::default()
     };
     told(&scene, settings)

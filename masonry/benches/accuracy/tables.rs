@@ -5,6 +5,8 @@ use std::fmt::Write as _;
 use lcp::refine::Refinement;
 use masonry::analysis::study::{End, Mesh, MeshErrors, Record, Study};
 
+use super::Panel;
+
 /// Time and algebraic error: a line for each route, a column for each tolerance.
 pub(crate) fn by_tolerance(panel: &Study, mesh: u32) -> String {
     let on_mesh = || panel.records.iter().filter(move |it| it.mesh == mesh);
@@ -75,17 +77,19 @@ pub(crate) fn not_tried(study: &Study) -> String {
 }
 
 /// Errors of the meshes.
-pub(crate) fn meshes(panel: &Study) -> String {
+pub(crate) fn meshes(panel: &Panel) -> String {
     let mut text = String::from(
         "| elements a square | elements | contact points | error of the energy | extrapolated | of the thrust | extrapolated | of the displacement | extrapolated |\n\
          |--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
     );
     let all: [fn(&MeshErrors) -> Option<f64>; 3] =
         [|it| it.energy, |it| it.thrust, |it| it.displacement];
-    for mesh in by_factor(panel) {
+    let meshes = panel.study.meshes.iter().zip(&panel.extrapolated);
+    let mut meshes: Vec<(&Mesh, &MeshErrors)> = meshes.collect();
+    meshes.sort_by_key(|(mesh, _)| mesh.factor);
+    for (mesh, extrapolated) in meshes {
         let cells = all.map(|of| {
-            let [error, limit] =
-                [&mesh.errors, &mesh.extrapolated].map(|it| it.as_ref().and_then(of));
+            let [error, limit] = [mesh.errors.as_ref().and_then(of), of(extrapolated)];
             format!("{} | {}", power(error), limit.map_or_else(String::new, |it| power(Some(it))))
         });
         let _ = writeln!(
@@ -121,7 +125,7 @@ pub(crate) fn accident(panel: &Study) -> String {
 }
 
 /// Soft springs.
-pub(crate) fn springs(panel: &Study) -> String {
+pub(crate) fn springs(panel: &Panel) -> String {
     let mut text = String::from(
         "| stiffness | ended | rounds | share of the load | bias | error after | time |\n|--:|---|--:|--:|--:|--:|--:|\n",
     );
@@ -175,12 +179,15 @@ pub(crate) fn references(panel: &Study) -> String {
 }
 
 /// What the last digits cost.
-pub(crate) fn refinings(panel: &Study) -> String {
+pub(crate) fn refinings(panel: &Panel) -> String {
     let mut text = String::from(
         "| elements a square | route, all of a solve in `f64` | error | states known: one solve | error | and one refinement | error | and compensated refinement | error |\n\
          |--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
     );
-    for mesh in by_factor(panel).into_iter().filter(|mesh| !mesh.refinings.is_empty()) {
+    let meshes = panel.study.meshes.iter().zip(&panel.refinings).filter(|(_, it)| !it.is_empty());
+    let mut meshes: Vec<_> = meshes.collect();
+    meshes.sort_by_key(|(mesh, _)| mesh.factor);
+    for (mesh, refinings) in meshes {
         let _ = write!(text, "| {0} x {0} |", mesh.factor);
         if let Some(it) = &mesh.reference {
             let distance = it.verified.as_ref().and_then(|it| it.distance);
@@ -192,7 +199,7 @@ pub(crate) fn refinings(panel: &Study) -> String {
                 power(distance)
             );
         }
-        for it in &mesh.refinings {
+        for it in refinings {
             let solves = match it.refinement {
                 Refinement::Extended => format!(" ({} solves)", it.passes),
                 _ => String::new(),
@@ -204,7 +211,8 @@ pub(crate) fn refinings(panel: &Study) -> String {
     text
 }
 
-fn by_factor(panel: &Study) -> Vec<&Mesh> {
+/// From coarse to fine.
+pub(crate) fn by_factor(panel: &Study) -> Vec<&Mesh> {
     let mut meshes: Vec<&Mesh> = panel.meshes.iter().collect();
     meshes.sort_by_key(|mesh| mesh.factor);
     meshes

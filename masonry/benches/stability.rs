@@ -8,34 +8,32 @@
 #![allow(clippy::unwrap_used, reason = "a bench that cannot go on should stop")]
 #![allow(dead_code, unreachable_pub, reason = "its modules are those of a test")]
 
-#[path = "../tests/hard_cases/case.rs"]
+#[path = "../../tests/hard_cases/case.rs"]
 mod case;
-#[path = "../tests/common/mod.rs"]
+#[path = "../../tests/common/mod.rs"]
 mod common;
-#[path = "../tests/hard_cases/double.rs"]
+#[path = "../../tests/hard_cases/double.rs"]
 mod double;
-#[path = "../tests/hard_cases/friction.rs"]
+#[path = "../../tests/hard_cases/friction.rs"]
 mod friction;
-#[path = "../tests/hard_cases/geometry.rs"]
+#[path = "../../tests/hard_cases/geometry.rs"]
 mod geometry;
-#[path = "../tests/hard_cases/limits.rs"]
+#[path = "../../tests/hard_cases/limits.rs"]
 mod limits;
-#[path = "../tests/hard_cases/page.rs"]
+#[path = "../../tests/hard_cases/page.rs"]
 mod page;
-#[path = "stability/picture.rs"]
-mod picture;
 #[allow(unused_imports, reason = "its tests are not here")]
-#[path = "../tests/hard_cases/problems.rs"]
+#[path = "../../tests/hard_cases/problems.rs"]
 mod problems;
 #[path = "stability/report.rs"]
 mod report;
-#[path = "../tests/hard_cases/scenes.rs"]
+#[path = "../../tests/hard_cases/scenes.rs"]
 mod scenes;
-#[path = "../tests/hard_cases/stiffness.rs"]
+#[path = "../../tests/hard_cases/stiffness.rs"]
 mod stiffness;
-#[path = "../tests/hard_cases/sweep.rs"]
+#[path = "../../tests/hard_cases/sweep.rs"]
 mod sweep;
-#[path = "../tests/hard_cases/walls.rs"]
+#[path = "../../tests/hard_cases/walls.rs"]
 mod walls;
 
 use std::path::Path;
@@ -79,7 +77,7 @@ fn main() {
     }
     assert!(wrong.is_empty(), "{} answers are worse than what is promised", wrong.len());
     if arguments.iter().any(|it| it == "--write") && wanted.is_none() {
-        let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+        let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
         report::write(&docs, &swept, &of_problems);
     }
 }

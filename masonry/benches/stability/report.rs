@@ -4,10 +4,11 @@ use std::fmt::{self, Write};
 use std::path::Path;
 
 use lcp::Status;
+use masonry::report::study::style;
+use masonry::report::svg::diagram::{Diagram, Look, Series, picture};
 use masonry::scene::Route;
 
 use super::common::routes::ROUTES;
-use super::picture::{Line, Mark, Panel, picture};
 use super::problems::{self, Method};
 use super::sweep::{Expected, Point, Reached, Sweep};
 
@@ -42,6 +43,11 @@ Written by `cargo bench --bench stability -- --write`, which fails if an answer 
 solved that cannot stand. A few values of sweeps are tested by `cargo test --test hard_cases`.
 ";
 
+const HOW_TO_READ: &str = "full: called solved, at the worst of its checks; hollow: gave up, at the residual it reports; \
+                           dots: backward error; grey: promised, by alm a hundred times that; drawn at 1e-17: all below";
+/// The ends of the vertical axis, at which what is beyond is drawn: rounding and less at the bottom.
+const ERRORS: [f64; 2] = [1e-17, 1.0];
+
 const OF_PROBLEMS: &str = "
 ## Problems of `lcp`
 
@@ -60,13 +66,15 @@ pub(crate) fn write(docs: &Path, themes: &[Theme], problems: &[problems::Sweep])
     write_counts(&mut text, themes).unwrap();
     for theme in themes {
         write_theme(&mut text, theme).unwrap();
-        let drawn = picture(theme.title, &theme.sweeps.iter().map(panel).collect::<Vec<_>>());
+        let diagrams: Vec<Diagram> = theme.sweeps.iter().map(diagram).collect();
+        let drawn = picture(theme.title, &diagrams, &[HOW_TO_READ.to_owned()]).unwrap();
         std::fs::write(docs.join(format!("pictures/stability_{}.svg", theme.file)), drawn).unwrap();
     }
     text += OF_PROBLEMS;
     write_problems(&mut text, problems).unwrap();
-    let panels: Vec<Panel> = problems.iter().map(problem_panel).collect();
-    let drawn = picture("Problems of lcp", &panels);
+    let diagrams: Vec<Diagram> = problems.iter().map(of_problem).collect();
+    let notes = [HOW_TO_READ.replace(", by alm a hundred times that", "")];
+    let drawn = picture("Problems of lcp", &diagrams, &notes).unwrap();
     std::fs::write(docs.join("pictures/stability_problems.svg"), drawn).unwrap();
     std::fs::write(docs.join("stability.md"), text).unwrap();
 }
@@ -158,14 +166,7 @@ fn write_problems(text: &mut String, sweeps: &[problems::Sweep]) -> fmt::Result 
             sweep.values.len()
         )?;
         for (_, found) in &sweep.methods {
-            let reached = |found: &Option<problems::Found>| match *found {
-                None => Reached::Nothing,
-                Some(it) if it.status == Status::Solved => {
-                    Reached::Solved { error: it.residual, backward: it.backward }
-                }
-                Some(it) => Reached::GaveUp { status: it.status, residual: it.residual },
-            };
-            write!(text, " {} |", cell(found.iter().map(reached)))?;
+            write!(text, " {} |", cell(found.iter().map(|it| reached(it.as_ref()))))?;
         }
         writeln!(text)?;
     }
@@ -202,47 +203,64 @@ fn number(value: f64) -> String {
     if (1e-3..1e4).contains(&value) { value.to_string() } else { format!("{value:.0e}") }
 }
 
-fn panel((sweep, points): &(Sweep, Vec<Point>)) -> Panel {
-    let lines = ROUTES.iter().enumerate().map(|(k, route)| {
-        let mark = |point: &Point| match point.ends[k] {
-            Reached::Solved { error, backward } => {
-                Some(Mark::Answer { x: point.value, error, backward })
-            }
-            Reached::GaveUp { residual, .. } => Some(Mark::GaveUp { x: point.value, residual }),
-            Reached::Nothing => None,
-        };
-        let points = points.iter().filter_map(mark).collect();
-        Line { name: route.name().to_owned(), style: style(*route), points }
-    });
-    Panel {
-        title: sweep.title.clone(),
-        x: sweep.parameter.to_owned(),
-        promised: points.iter().map(|it| [it.value, it.promised.max(1e-8)]).collect(),
-        lines: lines.collect(),
+/// How a method of `lcp` ended, as routes do.
+fn reached(found: Option<&problems::Found>) -> Reached {
+    match found {
+        None => Reached::Nothing,
+        Some(it) if it.status == Status::Solved => {
+            Reached::Solved { error: it.residual, backward: it.backward }
+        }
+        Some(it) => Reached::GaveUp { status: it.status, residual: it.residual },
     }
 }
 
-fn problem_panel(sweep: &problems::Sweep) -> Panel {
-    let lines = sweep.methods.iter().map(|(method, found)| {
-        let style = style_of_method(*method);
-        let at = sweep.values.iter().zip(found).filter(|(value, _)| **value > 0.0);
-        let mark = |(&x, found): (&f64, &Option<problems::Found>)| {
-            let problems::Found { status, residual, backward } = (*found)?;
-            let is_answer = status == Status::Solved;
-            Some(if is_answer {
-                Mark::Answer { x, error: residual, backward }
-            } else {
-                Mark::GaveUp { x, residual }
-            })
-        };
-        Line { name: method.name().to_owned(), style, points: at.filter_map(mark).collect() }
-    });
-    Panel {
-        title: sweep.name.to_owned(),
-        x: format!("{} [-]", sweep.parameter),
-        promised: sweep.values.iter().filter(|it| **it > 0.0).map(|it| [*it, 1e-10]).collect(),
-        lines: lines.collect(),
+fn diagram((sweep, points): &(Sweep, Vec<Point>)) -> Diagram {
+    let promised = points.iter().map(|it| [it.value, it.promised.max(1e-8)]);
+    let mut series = vec![bound(promised.collect())];
+    for (k, route) in ROUTES.iter().enumerate() {
+        let ends = points.iter().map(|it| (it.value, it.ends[k]));
+        series.extend(line(route.name(), style(*route), &ends.collect::<Vec<_>>()));
     }
+    let axes = [sweep.parameter, "error [-]"].map(str::to_owned);
+    Diagram { title: sweep.title.clone(), axes, least: Some(ERRORS), series }
+}
+
+fn of_problem(sweep: &problems::Sweep) -> Diagram {
+    let mut series = vec![bound(sweep.values.iter().map(|it| [*it, 1e-10]).collect())];
+    for (method, found) in &sweep.methods {
+        let ends = sweep.values.iter().copied().zip(found.iter().map(|it| reached(it.as_ref())));
+        series.extend(line(method.name(), style_of_method(*method), &ends.collect::<Vec<_>>()));
+    }
+    let axes = [format!("{} [-]", sweep.parameter), "error [-]".to_owned()];
+    Diagram { title: sweep.name.to_owned(), axes, least: Some(ERRORS), series }
+}
+
+fn bound(points: Vec<[f64; 2]>) -> Series {
+    Series { name: String::new(), style: 0, look: Look::Bound, points }
+}
+
+/// The answers of a route, what it reports where it gave up, and backward errors.
+fn line(name: &str, style: usize, ends: &[(f64, Reached)]) -> Vec<Series> {
+    let of = |look, points| Series { name: String::new(), style, look, points };
+    let mut series = vec![Series { name: name.to_owned(), ..of(Look::Full, Vec::new()) }];
+    let [low, high] = ERRORS;
+    let is_answer = |end: &Reached| matches!(end, Reached::Solved { .. });
+    // Errors of answers and residuals of none are different numbers.
+    for run in ends.chunk_by(|a, b| is_answer(&a.1) == is_answer(&b.1)) {
+        let point = |(x, end): &(f64, Reached)| match *end {
+            Reached::Solved { error, .. } => Some([*x, error.clamp(low, high)]),
+            Reached::GaveUp { residual, .. } => Some([*x, residual.clamp(low, high)]),
+            Reached::Nothing => None,
+        };
+        let look = if is_answer(&run[0].1) { Look::Full } else { Look::Hollow };
+        series.push(of(look, run.iter().filter_map(point).collect()));
+    }
+    let backward = ends.iter().filter_map(|(x, end)| match *end {
+        Reached::Solved { backward, .. } => Some([*x, backward.clamp(low, high)]),
+        _ => None,
+    });
+    series.push(of(Look::Dots, backward.collect()));
+    series
 }
 
 /// The colours of the routes that run the same method; the others have those that are left.
@@ -256,10 +274,4 @@ fn style_of_method(method: Method) -> usize {
         Method::LemkeSparse => style(Route::Alm),
         Method::Auto => 6,
     }
-}
-
-/// The colours of the pictures of studies.
-fn style(route: Route) -> usize {
-    let order = [Route::Lemke, Route::Interior, Route::Qp, Route::Pgs, Route::Alm, Route::Newton];
-    order.iter().position(|it| *it == route).unwrap_or(order.len())
 }

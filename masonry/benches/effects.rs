@@ -4,8 +4,9 @@
 //! `docs/effects.md`, and the picture of the ratios beside it. Times are medians of whole solves on one thread, memory
 //! is what was allocated at the peak of one more; the allocator counts in all of them, which costs next to nothing.
 
+#[path = "../../benches/common/mod.rs"]
 mod common;
-#[path = "common/machine.rs"]
+#[path = "../../benches/common/machine.rs"]
 mod machine;
 #[path = "effects/picture.rs"]
 mod picture;
@@ -13,7 +14,6 @@ mod picture;
 mod wall;
 
 use std::fmt::Write as _;
-use std::path::Path;
 use std::time::Instant;
 
 use allocation_counter::measure;
@@ -55,6 +55,10 @@ impl Row {
     fn ratio(&self, of: fn(&Taken) -> f64) -> f64 {
         of(&self.taken[1]) / of(&self.taken[0])
     }
+
+    fn ratios(&self) -> picture::Bars {
+        (self.effect, [self.ratio(|it| it.seconds), self.ratio(|it| it.bytes as f64)])
+    }
 }
 
 fn main() {
@@ -71,13 +75,13 @@ fn main() {
         routes.push((wall.title(route), rows));
     }
     common::write_if_asked("docs/effects.md", "effects", &page);
-    let of_route = |(title, rows): &(String, Vec<Row>)| {
-        (title.replace('`', ""), rows.iter().map(bar).collect())
-    };
-    let ratios: Vec<(String, Vec<picture::Bar>)> = routes.iter().map(of_route).collect();
     if std::env::args().any(|argument| argument == "--write") {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures/effects.svg");
-        std::fs::write(path, picture::bars(&ratios)).expect("the file can be written");
+        let of_route = |(title, rows): &(String, Vec<Row>)| {
+            (title.replace('`', ""), rows.iter().map(Row::ratios).collect())
+        };
+        let ratios: Vec<(String, Vec<picture::Bars>)> = routes.iter().map(of_route).collect();
+        let path = common::root().join("docs/pictures/effects.svg");
+        picture::write(&path, &ratios).expect("the picture can be written");
     }
 }
 
@@ -203,9 +207,4 @@ fn table(rows: &[Row]) -> String {
 
 fn listed(unknowns: [usize; 3]) -> String {
     unknowns.map(|number| number.to_string()).join(" + ")
-}
-
-fn bar(row: &Row) -> picture::Bar {
-    let [time, memory] = [row.ratio(|it| it.seconds), row.ratio(|it| it.bytes as f64)];
-    picture::Bar { effect: row.effect, time, memory }
 }

@@ -1,15 +1,15 @@
-//! `docs/accuracy.md` with its pictures and CSV, and the section of the README.
+//! `docs/accuracy.md` with its pictures and tables, and the section of the README.
 
 use std::fmt::Write as _;
 use std::path::Path;
 
 use lcp::Status;
-use masonry::analysis::study::{End, Record, Study};
-use masonry::report::{study, svg};
+use masonry::analysis::study::{End, MeshErrors, Record, Study};
+use masonry::report::study;
 use masonry::scene::Route;
 
 use super::tables::{self, seconds};
-use super::{TOLERANCES, common, machine};
+use super::{Panel, TOLERANCES, common, data, machine, pictures, springs};
 
 const HEAD: &str = "\
 # What accuracy costs
@@ -51,53 +51,52 @@ const NO_BIAS: &str =
     "There is no picture of these: where there is an answer, no bias is known.\n\n";
 
 /// Writes all files.
-pub(crate) fn write(root: &Path, panels: &[(&str, Study)], walls: &[Study]) {
+pub(crate) fn write(root: &Path, panels: &[Panel], walls: &[Study]) {
     let machine = machine::machine();
     let mut text = format!("{HEAD}\n{machine}\n## In short\n\n");
-    for (_, panel) in panels {
-        let short = study::in_short(panel).unwrap_or_else(|| "No route has an answer.".to_owned());
-        let _ = writeln!(text, "* **{}.** {short}", panel.title);
+    for panel in panels {
+        let short = study::in_short(&panel.study);
+        let short = short.unwrap_or_else(|| "No route has an answer.".to_owned());
+        let _ = writeln!(text, "* **{}.** {short}{}", panel.study.title, in_the_limit(panel));
     }
     text += HOW_TO_READ;
-    for (name, panel) in panels {
-        text += &of_panel(name, panel, &machine);
+    for panel in panels {
+        let springs = pictures::springs(panel);
+        text += &of_panel(panel, springs.is_some(), &machine);
         let pictures = [
-            ("routes", svg::accuracy(panel)),
-            ("mesh", svg::mesh(panel)),
-            ("digits", svg::digits(panel)),
-            ("springs", svg::springs(panel)),
+            ("routes", study::accuracy(&panel.study)),
+            ("mesh", pictures::mesh(&panel.study)),
+            ("digits", pictures::digits(panel)),
+            ("springs", springs),
         ];
         for (what, picture) in pictures {
-            let file = format!("docs/pictures/accuracy_{name}_{what}.svg");
+            let file = format!("docs/pictures/accuracy_{}_{what}.svg", panel.name);
             match picture {
                 Some(picture) => save(root, &file, &picture),
                 // That of an earlier run, if there is one, is no longer true.
                 None => drop(std::fs::remove_file(root.join(file))),
             }
         }
-        for (file, table) in data(name, panel) {
+        for (file, table) in data::files(panel) {
             save(root, &format!("docs/data/{file}"), &table);
         }
     }
     text += &of_walls(walls, &machine);
     let title = "Square walls, one element a brick: time and size";
-    let sizes = svg::sizes(title, walls, TOLERANCES).expect("something was solved");
+    let sizes = pictures::sizes(title, walls, TOLERANCES).expect("something was solved");
     save(root, "docs/pictures/accuracy_sizes.svg", &sizes);
     save(root, "docs/accuracy.md", &text);
-    common::write_if_asked("README.md", "accuracy", &short(&panels[0].1, walls, &machine));
+    common::write_if_asked("README.md", "accuracy", &short(&panels[0].study, walls, &machine));
 }
 
-/// Files of comma-separated values.
-fn data(name: &str, panel: &Study) -> Vec<(String, String)> {
-    let mut files = vec![(format!("accuracy_{name}.csv"), study::csv(panel))];
-    let others =
-        [("refinement", study::refinement_csv(panel)), ("springs", study::springs_csv(panel))];
-    files.extend(
-        others
-            .into_iter()
-            .filter_map(|(what, table)| Some((format!("accuracy_{name}_{what}.csv"), table?))),
-    );
-    files
+/// What the error of the scene's own mesh comes to when the finest is not taken for exact.
+fn in_the_limit(panel: &Panel) -> String {
+    let error = panel.study.meshes.first().and_then(|mesh| mesh.errors?.worst());
+    let limit =
+        panel.extrapolated.first().and_then(MeshErrors::worst).filter(|it| Some(*it) > error);
+    limit.map_or_else(String::new, |it| {
+        format!(" Against what meshes converge to, it errs by {it:.1e}.")
+    })
 }
 
 fn save(root: &Path, file: &str, text: &str) {
@@ -116,10 +115,11 @@ fn picture(file: &str, what: &str, machine: &str) -> String {
     format!("\n![{what}](pictures/{file})\n\n*{what}. {}*\n\n", machine.trim())
 }
 
-fn of_panel(name: &str, panel: &Study, machine: &str) -> String {
-    let first = panel.meshes.first().map_or("", |mesh| &mesh.name);
-    let mut text = format!("## {}\n\n", panel.title);
-    text += &list(&study::summary(panel));
+fn of_panel(panel: &Panel, has_bias: bool, machine: &str) -> String {
+    let (name, study) = (panel.name, &panel.study);
+    let first = study.meshes.first().map_or("", |mesh| &mesh.name);
+    let mut text = format!("## {}\n\n", study.title);
+    text += &list(&study::summary(study));
     text += &picture(
         &format!("accuracy_{name}_routes.svg"),
         &format!(
@@ -127,7 +127,7 @@ fn of_panel(name: &str, panel: &Study, machine: &str) -> String {
         ),
         machine,
     );
-    let mut meshes: Vec<_> = panel.meshes.iter().collect();
+    let mut meshes: Vec<_> = study.meshes.iter().collect();
     meshes.sort_by_key(|mesh| mesh.factor);
     for mesh in meshes {
         let _ = writeln!(
@@ -135,18 +135,18 @@ fn of_panel(name: &str, panel: &Study, machine: &str) -> String {
             "**{0} x {0} elements a square, {1} contact points**: time, and algebraic error where it is solved\n",
             mesh.factor, mesh.contact_points
         );
-        text += &tables::by_tolerance(panel, mesh.factor);
+        text += &tables::by_tolerance(study, mesh.factor);
     }
-    text += &tables::not_tried(panel);
+    text += &tables::not_tried(study);
     text += &picture(
         &format!("accuracy_{name}_mesh.svg"),
         "Error of the mesh, the worst of energy, thrust and displacement, against time, from coarse to fine",
         machine,
     );
     text += &tables::meshes(panel);
-    text += &tables::accident(panel);
+    text += &tables::accident(study);
     text += "\nThe references, refined with numbers of twice the digits:\n\n";
-    text += &tables::references(panel);
+    text += &tables::references(study);
     text += "\nWhat the last digits cost, beside all of a solve in `f64`:\n\n";
     text += &tables::refinings(panel);
     text += &picture(
@@ -155,26 +155,22 @@ fn of_panel(name: &str, panel: &Study, machine: &str) -> String {
          and by whole solves in `f64`",
         machine,
     );
-    text += &of_springs(name, panel, machine);
-    let files = data(name, panel);
+    text += &of_springs(panel, has_bias, machine);
+    let files = data::files(panel);
     let files: Vec<String> =
         files.iter().map(|(file, _)| format!("[{file}](data/{file})")).collect();
     let _ = writeln!(text, "All numbers: {}.\n", files.join(", "));
     text
 }
 
-fn of_springs(name: &str, panel: &Study, machine: &str) -> String {
-    let Some(first) = panel.springs.first() else { return String::new() };
-    let mut text = format!("Soft springs, asked for a residual of {:e}:\n\n", first.tolerance);
+fn of_springs(panel: &Panel, has_bias: bool, machine: &str) -> String {
+    let mut text = format!("Soft springs, asked for a residual of {:e}:\n\n", springs::TOLERANCE);
     text += &tables::springs(panel);
-    text += &match svg::springs(panel) {
-        Some(_) => {
-            let what = "What soft springs change before they are centred anew, against their stiffness; stiffnesses that are not drawn have no answer";
-            picture(&format!("accuracy_{name}_springs.svg"), what, machine)
-        }
-        None => NO_BIAS.to_owned(),
-    };
-    text
+    if !has_bias {
+        return text + NO_BIAS;
+    }
+    let what = "What soft springs change before they are centred anew, against their stiffness; stiffnesses that are not drawn have no answer";
+    text + &picture(&format!("accuracy_{}_springs.svg", panel.name), what, machine)
 }
 
 fn of_walls(walls: &[Study], machine: &str) -> String {

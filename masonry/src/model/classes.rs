@@ -1,0 +1,158 @@
+//! The classes of joints: of a support, of a wall, of a pair of blocks, or `bed` and `head`.
+
+use super::joints::JointKind;
+use super::{Block, Body, Joint, JointClass, Mortar, Plane};
+use crate::ids::BlockId;
+use crate::law::JointLaw;
+use crate::material::FilmMaterial;
+use crate::scene::bond::{self, JointThickness};
+use crate::scene::{self, BED, Fault, HEAD, KeyPath, Known, Scene, SceneErrorKind};
+
+/// Which class a joint belongs to.
+pub(super) struct Classes {
+    /// Those of the scene, and after them those that are named and not given, which are refused when a joint needs them.
+    list: Vec<JointClass>,
+    given: usize,
+    /// Of beds and heads.
+    usual: [usize; 2],
+    of_walls: Vec<[usize; 2]>,
+    of_supports: Vec<usize>,
+    of_pairs: Vec<([Group; 2], usize)>,
+    /// Of every brick the wall that it belongs to; single blocks come after all bricks.
+    walls: Vec<usize>,
+}
+
+/// The blocks of a name.
+enum Group {
+    Wall(usize),
+    Block(BlockId),
+}
+
+impl Classes {
+    pub(super) fn of(scene: &Scene, blocks: &[Block]) -> Result<Self, Fault> {
+        let mut list: Vec<JointClass> =
+            scene.joints.iter().map(|joint| joint_class(scene, joint)).collect();
+        let given = list.len();
+        let mut index = |name: &str| {
+            list.iter().position(|class| class.name == name).unwrap_or_else(|| {
+                let law = JointLaw::default();
+                list.push(JointClass { name: name.to_owned(), law, points: None, mortar: None });
+                list.len() - 1
+            })
+        };
+        let usual = [BED, HEAD].map(&mut index);
+        let of_walls = scene.walls.iter().map(|wall| wall.joints.names().map(&mut index)).collect();
+        let of_supports = scene.supports.iter().map(|support| index(&support.joint)).collect();
+        let mut of_pairs = Vec::new();
+        for (k, between) in scene.between.iter().enumerate() {
+            let at = KeyPath::of("between").item(k).key("blocks");
+            let [first, second] = &between.blocks;
+            let first = Group::of(scene, blocks, (first, at.item(0)))?;
+            let second = Group::of(scene, blocks, (second, at.item(1)))?;
+            of_pairs.push(([first, second], index(&between.joint)));
+        }
+        let bricks = scene.walls.iter().enumerate().flat_map(|(k, wall)| {
+            let bricks = bond::bricks_in_mortar(wall, JointThickness::of(scene, wall));
+            std::iter::repeat_n(k, bricks.len())
+        });
+        let walls = bricks.collect();
+        Ok(Self { list, given, usual, of_walls, of_supports, of_pairs, walls })
+    }
+
+    pub(super) fn list(&self) -> &[JointClass] {
+        &self.list
+    }
+
+    /// The class of a joint, an index into the [`list`](Self::list).
+    pub(super) fn class_of(&self, kind: JointKind, a: Body, b: BlockId) -> usize {
+        if let JointKind::Support(id) = kind {
+            return self.of_supports[id.index()];
+        }
+        let Body::Block(a) = a else { unreachable!("joints of supports are of their own kind") };
+        if let Some(class) = self.of_pair(a, b) {
+            return class;
+        }
+        let wall = self.wall_of(a).filter(|wall| self.wall_of(b) == Some(*wall));
+        let [bed, head] = wall.map_or(self.usual, |wall| self.of_walls[wall]);
+        if kind == JointKind::Bed { bed } else { head }
+    }
+
+    fn of_pair(&self, a: BlockId, b: BlockId) -> Option<usize> {
+        let is_in = |group: &Group, block: BlockId| match *group {
+            Group::Wall(wall) => self.wall_of(block) == Some(wall),
+            Group::Block(other) => other == block,
+        };
+        let fits = |[first, second]: &[Group; 2]| {
+            is_in(first, a) && is_in(second, b) || is_in(first, b) && is_in(second, a)
+        };
+        let pairs = self.of_pairs.iter().rev();
+        pairs.filter(|(groups, _)| fits(groups)).map(|(_, class)| *class).next()
+    }
+
+    fn wall_of(&self, block: BlockId) -> Option<usize> {
+        self.walls.get(block.index()).copied()
+    }
+
+    /// The classes of a model with these joints.
+    pub(super) fn of_joints(
+        mut self,
+        blocks: &[Block],
+        joints: &[Joint],
+    ) -> Result<Vec<JointClass>, Fault> {
+        if let Some(joint) = joints.iter().find(|joint| joint.class >= self.given) {
+            return Err(missing_class(blocks, joint, &self.list[joint.class].name));
+        }
+        self.list.truncate(self.given);
+        Ok(self.list)
+    }
+}
+
+impl Group {
+    fn of(scene: &Scene, blocks: &[Block], (name, at): (&str, KeyPath)) -> Result<Self, Fault> {
+        if let Some(wall) = scene.walls.iter().position(|wall| wall.name == name) {
+            return Ok(Self::Wall(wall));
+        }
+        if let Some(block) = blocks.iter().position(|block| block.name == name) {
+            return Ok(Self::Block(BlockId::new(block)));
+        }
+        let walls = scene.walls.iter().map(|wall| &wall.name);
+        let known = walls.chain(scene.blocks.iter().map(|block| &block.name)).cloned();
+        let kind = SceneErrorKind::Unknown {
+            what: "block or wall",
+            name: name.to_owned(),
+            known: Known::near(name, known.collect()),
+            missing: "it as a block or a wall".to_owned(),
+        };
+        Err(Fault::new(at, kind))
+    }
+}
+
+fn joint_class(scene: &Scene, (name, joint): (&String, &scene::Joint)) -> JointClass {
+    let strength = |value: Option<f64>| value.unwrap_or(0.0) * scene.units.stress_to_si();
+    let law = JointLaw {
+        mu: joint.friction(),
+        cohesion: strength(joint.cohesion),
+        tension: strength(joint.tension),
+    };
+    JointClass { name: name.clone(), law, points: joint.points, mortar: mortar(scene, joint) }
+}
+
+fn mortar(scene: &Scene, joint: &scene::Joint) -> Option<Mortar> {
+    let thickness = joint.mortar_thickness() * scene.units.length_to_si();
+    let material = scene.materials.get(joint.material.as_ref()?)?;
+    let elasticity = material.elasticity(scene.units)?;
+    // The plane is given wherever a material is elastic.
+    let material = FilmMaterial { elasticity, plane: scene.plane.unwrap_or(Plane::Stress) };
+    (thickness > 0.0).then_some(Mortar { thickness, material })
+}
+
+fn missing_class(blocks: &[Block], joint: &Joint, class: &str) -> Fault {
+    let name = |body| match body {
+        Body::Block(id) => blocks[id.index()].name.clone(),
+        // Supports have classes of their own, which were looked up before.
+        Body::Support(_) => String::new(),
+    };
+    let class = class.to_owned();
+    let (first, second) = (name(joint.a), name(Body::Block(joint.b)));
+    Fault::new(KeyPath::of("joints"), SceneErrorKind::MissingClass { class, first, second })
+}

@@ -1,0 +1,47 @@
+//! The forces that act on a block, apart from those of its contacts.
+
+use nalgebra::Vector2;
+
+use super::{Block, BlockLoad, Model, PlacedForce};
+use crate::geometry;
+use crate::ids::LoadId;
+
+/// Where a force comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cause {
+    /// The weight of the block.
+    Weight,
+    /// A load of the scene.
+    Load(LoadId),
+}
+
+impl Model {
+    /// The acceleration of all mass \[m/s^2\]: gravity and those among the loads.
+    pub fn acceleration(&self) -> Vector2<f64> {
+        // From gravity on: added to zero, -0 would become 0.
+        self.accelerations.iter().fold(self.gravity, |sum, it| sum + it.value)
+    }
+
+    /// The resultant of everything that acts on a block, and where it comes from: its weight, each acceleration of
+    /// its mass, and each load on it.
+    pub fn causes_on(&self, block: &Block) -> Vec<(Cause, PlacedForce)> {
+        let mut forces = Vec::with_capacity(1 + self.accelerations.len() + block.loads.len());
+        if let Some(density) = block.density {
+            let mass = density * geometry::area(&block.corners) * self.thickness;
+            let centroid = geometry::centroid(&block.corners);
+            forces.push((Cause::Weight, (centroid, self.gravity * mass)));
+            let inertia = self.accelerations.iter();
+            forces.extend(inertia.map(|it| (Cause::Load(it.load), (centroid, it.value * mass))));
+        }
+        let resultant = |load: &BlockLoad| {
+            (Cause::Load(load.load()), load.resultant(&block.corners, self.thickness))
+        };
+        forces.extend(block.loads.iter().map(resultant));
+        forces
+    }
+
+    /// The forces of [`causes_on`](Self::causes_on) alone.
+    pub fn forces_on(&self, block: &Block) -> Vec<PlacedForce> {
+        self.causes_on(block).into_iter().map(|(_, force)| force).collect()
+    }
+}

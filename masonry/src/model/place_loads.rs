@@ -1,0 +1,219 @@
+//! The loads of a scene on its blocks: edges on a segment, places in a block, and all mass.
+
+use nalgebra::{Point2, Vector2};
+
+use super::placement::rounded;
+use super::{Acceleration, Block, ContactPoint, EdgeLoad, Joint, Load, PointLoad};
+use crate::geometry;
+use crate::ids::LoadId;
+use crate::scene::{self, EdgeStress, Fault, KeyPath, LoadError, LoadKind, Scene, SceneErrorKind};
+use crate::units::Units;
+
+/// Distances below this fraction of a block's size count as zero.
+const TOLERANCE: f64 = 1e-9;
+/// Names that a message tells where one is not there.
+const NAMES: usize = 3;
+
+/// A part of an edge, as fractions of it.
+type Part = [f64; 2];
+
+/// Puts the loads of a scene on its blocks; their names, and those that act on all mass.
+pub(super) fn place(
+    scene: &Scene,
+    blocks: &mut [Block],
+    joints: &[Joint],
+    contacts: &[ContactPoint],
+) -> Result<(Vec<Load>, Vec<Acceleration>), Fault> {
+    let joined = joined_parts(blocks, joints, contacts);
+    let (mut loads, mut accelerations) = (Vec::new(), Vec::new());
+    for (k, load) in scene.loads.iter().enumerate() {
+        let (at, id) = (KeyPath::of("loads").item(k), LoadId::new(k));
+        match load.kind() {
+            Some(LoadKind::Edge { from, to, stress }) => {
+                let ends = [from, to].map(|end| point(end, scene.units));
+                let on_edge = OnEdges { load, id, ends, stress, units: scene.units };
+                on_edge.place(blocks, &joined).map_err(|kind| Fault::new(at, kind))?;
+            }
+            Some(LoadKind::Force { block, at: place, force }) => {
+                let block = named(blocks, block)
+                    .map_err(|error| Fault::new(at.key("block"), error.into()))?;
+                let place = place_in(block, point(place, scene.units), scene.units)
+                    .map_err(|error| Fault::new(at.key("at"), error.into()))?;
+                let force = Vector2::from(force) * scene.units.force_to_si() * load.factor;
+                let (at, place) = place;
+                block.loads.push(PointLoad { at, place, force, load: id }.into());
+            }
+            Some(LoadKind::Acceleration(value)) => {
+                let value = Vector2::from(value) * load.factor;
+                accelerations.push(Acceleration { value, load: id });
+            }
+            // A load of no kind was refused before.
+            None => {}
+        }
+        let (name, group) = (load.name.clone(), load.group_name().to_owned());
+        loads.push(Load { name, group, factor: load.factor });
+    }
+    Ok((loads, accelerations))
+}
+
+fn point([x, y]: [f64; 2], units: Units) -> Point2<f64> {
+    Point2::new(x, y) * units.length_to_si()
+}
+
+/// The block of a name.
+fn named<'a>(blocks: &'a mut [Block], name: &str) -> Result<&'a mut Block, LoadError> {
+    if let Some(k) = blocks.iter().position(|block| block.name == name) {
+        return Ok(&mut blocks[k]);
+    }
+    let mut near: Vec<&str> = blocks.iter().map(|block| block.name.as_str()).collect();
+    // The sort keeps the order of the scene among names that are equally near.
+    near.sort_by_cached_key(|other| strsim::levenshtein(name, other));
+    near.truncate(NAMES);
+    let near = near.into_iter().map(str::to_owned).collect();
+    Err(LoadError::NoBlock { name: name.to_owned(), near })
+}
+
+/// A place on a block, and the same in the coordinates of the block. One that rounding has put outside is moved to
+/// the edge.
+fn place_in(
+    block: &Block,
+    at: Point2<f64>,
+    units: Units,
+) -> Result<(Point2<f64>, [f64; 2]), LoadError> {
+    let corners = &block.corners;
+    let distance = geometry::outside(corners, at);
+    if distance > TOLERANCE * geometry::size(corners) {
+        let nearest = geometry::nearest_on_boundary(corners, at);
+        let in_scene = |metres: f64| rounded(metres / units.length_to_si());
+        return Err(LoadError::Outside {
+            block: block.name.clone(),
+            place: [at.x, at.y].map(in_scene),
+            nearest: [nearest.x, nearest.y].map(in_scene),
+            distance: in_scene((at - nearest).norm()),
+            unit: units.length_name(),
+        });
+    }
+    let at = if distance > 0.0 { geometry::nearest_on_boundary(corners, at) } else { at };
+    Ok((at, geometry::reference(corners, at).map(|it| snap(it.clamp(0.0, 1.0)))))
+}
+
+/// A load on all free parts of edges that lie on a segment.
+struct OnEdges<'a> {
+    load: &'a scene::Load,
+    id: LoadId,
+    ends: [Point2<f64>; 2],
+    stress: EdgeStress,
+    units: Units,
+}
+
+impl OnEdges<'_> {
+    /// Parts of edges that make joints are not free and carry no load, so that a load cannot act inside a joint.
+    fn place(&self, blocks: &mut [Block], joined: &[[Vec<Part>; 4]]) -> Result<(), SceneErrorKind> {
+        let [from, to] = self.ends;
+        let mut acts = false;
+        for (block, joined) in blocks.iter_mut().zip(joined) {
+            for (edge, joined) in joined.iter().enumerate() {
+                let Some(covered) = covered_part(&block.corners, edge, from, to) else { continue };
+                let traction = self.traction(&block.corners, edge);
+                for [from, to] in free_parts(covered, joined) {
+                    block.loads.push(EdgeLoad { edge, from, to, traction, load: self.id }.into());
+                    acts = true;
+                }
+            }
+        }
+        if acts { Ok(()) } else { Err(SceneErrorKind::IdleLoad { load: self.load.name.clone() }) }
+    }
+
+    /// Traction on the block \[Pa\].
+    fn traction(&self, corners: &geometry::Quad, edge: usize) -> Vector2<f64> {
+        let in_scene = match self.stress {
+            EdgeStress::Traction(traction) => Vector2::from(traction),
+            EdgeStress::Pressure(pressure) => -geometry::outward_normal(corners, edge) * pressure,
+        };
+        in_scene * self.units.stress_to_si() * self.load.factor
+    }
+}
+
+/// The part of an edge that lies on a segment; `None` when they share no length.
+fn covered_part(
+    corners: &geometry::Quad,
+    edge: usize,
+    from: Point2<f64>,
+    to: Point2<f64>,
+) -> Option<Part> {
+    let [start, end] = geometry::edge(corners, edge);
+    let length = (end - start).norm();
+    let slack = TOLERANCE * geometry::size(corners);
+    let (normal, along) = (geometry::outward_normal(corners, edge), (end - start) / length);
+    let place = |p: Point2<f64>| (p - start).dot(&along);
+    let (a, b) = (place(from), place(to));
+    if (b - a).abs() <= slack {
+        return None;
+    }
+    let (low, high) = (a.min(b).max(0.0), a.max(b).min(length));
+    if high - low <= slack {
+        return None;
+    }
+    // Only where the segment runs along the edge must it lie on it: far away it may be off by
+    // rounding.
+    let distance = |s: f64| (from + (to - from) * ((s - a) / (b - a)) - start).dot(&normal);
+    if distance(low).abs() > slack || distance(high).abs() > slack {
+        return None;
+    }
+    Some([low, high].map(|s| snap(s / length)))
+}
+
+/// The ends of an edge exactly, where rounding misses them.
+fn snap(fraction: f64) -> f64 {
+    if fraction < TOLERANCE {
+        0.0
+    } else if fraction > 1.0 - TOLERANCE {
+        1.0
+    } else {
+        fraction
+    }
+}
+
+/// What is left of a part when the joined parts are taken out.
+fn free_parts(covered: Part, joined: &[Part]) -> Vec<Part> {
+    let mut free = vec![covered];
+    for [from, to] in joined {
+        free = free
+            .into_iter()
+            .flat_map(|[a, b]| [[a, b.min(*from)], [a.max(*to), b]])
+            .filter(|[a, b]| b - a > TOLERANCE)
+            .collect();
+    }
+    free
+}
+
+/// For every block and edge, the parts that make joints.
+fn joined_parts(
+    blocks: &[Block],
+    joints: &[Joint],
+    contacts: &[ContactPoint],
+) -> Vec<[Vec<Part>; 4]> {
+    let mut joined = vec![<[Vec<Part>; 4]>::default(); blocks.len()];
+    // All points of a joint sit on the same two edges: the first tells which.
+    let mut last = None;
+    for contact in contacts {
+        if last.replace(contact.joint) == Some(contact.joint) {
+            continue;
+        }
+        let joint = &joints[contact.joint.index()];
+        for anchor in contact.a.into_iter().chain([contact.b]) {
+            let block = anchor.block.index();
+            let part = projected(&blocks[block].corners, anchor.edge, joint);
+            joined[block][anchor.edge].push(part);
+        }
+    }
+    joined
+}
+
+/// The part of an edge in front of a joint.
+fn projected(corners: &geometry::Quad, edge: usize, joint: &Joint) -> Part {
+    let [start, end] = geometry::edge(corners, edge);
+    let along = (end - start) / (end - start).norm_squared();
+    let [a, b] = [joint.from, joint.to].map(|p| snap((p - start).dot(&along)));
+    [a.min(b), a.max(b)]
+}

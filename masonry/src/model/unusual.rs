@@ -1,0 +1,93 @@
+//! Magnitudes that no wall has, which are mistakes of units more often than not.
+
+use std::ops::RangeInclusive;
+
+use super::Model;
+
+/// Of stone, brick, and mortar from fresh to hard \[Pa\].
+const YOUNG: RangeInclusive<f64> = 1e6..=1e12;
+/// From light concrete to lead \[kg/m^3\].
+const DENSITY: RangeInclusive<f64> = 100.0..=20_000.0;
+/// Up to several times that of the earth \[m/s^2\].
+const GRAVITY: RangeInclusive<f64> = 0.1..=100.0;
+/// Loads of less than this \[N\] on a structure that is larger than this \[m\].
+const LITTLE: f64 = 10.0;
+const LARGE: f64 = 0.5;
+
+impl Model {
+    /// What is unusual about the magnitudes of a scene, in sentences; empty where nothing is.
+    pub fn unusual(&self) -> Vec<String> {
+        let lists = [self.elasticities(), self.weights(), self.totals()];
+        lists.concat()
+    }
+
+    fn elasticities(&self) -> Vec<String> {
+        let of_blocks = self.blocks.iter().filter_map(|block| block.elasticity);
+        let of_mortar = self.joint_classes.iter().filter_map(|class| class.mortar);
+        let all = of_blocks.chain(of_mortar.map(|mortar| mortar.material.elasticity));
+        let mut odd: Vec<f64> =
+            all.map(|it| it.young).filter(|young| !YOUNG.contains(young)).collect();
+        odd.sort_by(f64::total_cmp);
+        odd.dedup();
+        let units = self.units;
+        let sentence = |young: f64| {
+            format!(
+                "E = {:e} {}/{}2 is {young:.0e} Pa, which is unusual: masonry has 1e8 to 1e11 Pa. Is it given in \
+                 the units of the scene?",
+                young / units.stress_to_si(),
+                units.force_name(),
+                units.length_name()
+            )
+        };
+        odd.into_iter().map(sentence).collect()
+    }
+
+    fn weights(&self) -> Vec<String> {
+        let mut list = Vec::new();
+        let gravity = self.gravity.norm();
+        let densities = || self.blocks.iter().filter_map(|block| block.density);
+        if gravity > 0.0 && !GRAVITY.contains(&gravity) {
+            list.push(format!(
+                "Gravity is {gravity:e} m/s2, which is unusual. It is in m/s2 whatever the units of the scene."
+            ));
+        }
+        if gravity > 0.0 && densities().next().is_none() {
+            list.push("Gravity acts on nothing: no block has a density.".to_owned());
+        }
+        if gravity <= 0.0 && densities().next().is_some() {
+            list.push("Blocks have a density and no weight: the scene has no gravity.".to_owned());
+        }
+        let odd = densities().find(|density| !DENSITY.contains(density));
+        list.extend(odd.map(|density| {
+            format!(
+                "A density of {density:e} kg/m3 is unusual. It is in kg/m3 whatever the units of the scene."
+            )
+        }));
+        list
+    }
+
+    fn totals(&self) -> Vec<String> {
+        let loads = self.blocks.iter().flat_map(|block| self.forces_on(block));
+        let total: f64 = loads.map(|(_, force)| force.norm()).sum();
+        if total > 0.0 && total < LITTLE && self.extent() > LARGE {
+            return vec![format!(
+                "All loads together are {total:.2e} N on a structure of {:.2} m: are the units right?",
+                self.extent()
+            )];
+        }
+        Vec::new()
+    }
+
+    /// The larger side of the rectangle around all blocks \[m\].
+    fn extent(&self) -> f64 {
+        let corners = || self.blocks.iter().flat_map(|block| &block.corners);
+        let side = |of: fn(&nalgebra::Point2<f64>) -> f64| {
+            let (low, high) =
+                corners().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                    (low.min(x), high.max(x))
+                });
+            high - low
+        };
+        side(|p| p.x).max(side(|p| p.y))
+    }
+}

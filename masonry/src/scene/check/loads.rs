@@ -1,0 +1,131 @@
+//! Checks of loads, and of the names by which stages call them.
+
+use super::{Check, One, exactly_one, finite, missing, point, segment, unknown};
+use crate::scene::load::{EDGE, POINT};
+use crate::scene::{Fault, KeyPath, Load, LoadError, Scene, SceneErrorKind, Stage};
+
+impl Scene {
+    /// Loads of exactly one kind, whose numbers are in their range.
+    pub(super) fn check_loads(&self) -> Check {
+        for (k, load) in self.loads.iter().enumerate() {
+            self.check_load(&KeyPath::of("loads").item(k), load)?;
+        }
+        Ok(())
+    }
+
+    fn check_load(&self, at: &KeyPath, load: &Load) -> Check {
+        if load.group.as_ref().is_some_and(|group| group.trim().is_empty()) {
+            return Err(Fault::new(at.key("group"), SceneErrorKind::EmptyName));
+        }
+        finite(at.key("factor"), load.factor)?;
+        match load.given().as_slice() {
+            [(EDGE, _)] => check_edge(at, load),
+            [(POINT, key)] => check_force(at, load, key),
+            [_] => self.check_acceleration(at, load),
+            [(one, first), (other, second), ..] => {
+                let error = LoadError::TwoKinds { first, one, second, other };
+                Err(Fault::new(at.key(second), error.into()))
+            }
+            [] => Err(Fault::new(at.clone(), LoadError::NoKind { load: load.name.clone() }.into())),
+        }
+    }
+
+    fn check_acceleration(&self, at: &KeyPath, load: &Load) -> Check {
+        let at = at.key("acceleration");
+        if let Some(acceleration) = load.acceleration {
+            point(&at, acceleration)?;
+        }
+        let of_walls = self.walls.iter().map(|wall| &wall.material);
+        let used = of_walls.chain(self.blocks.iter().map(|block| &block.material));
+        let densities = used.filter_map(|name| self.materials.get(name)?.density);
+        if densities.count() > 0 {
+            return Ok(());
+        }
+        Err(Fault::new(at, LoadError::NoMass { load: load.name.clone() }.into()))
+    }
+
+    /// The loads of a stage: names that mean one load or one group, no load twice, factors in their range.
+    pub(super) fn check_stage_loads(&self, at: &KeyPath, stage: &Stage) -> Check {
+        for (name, factor) in &stage.loads {
+            let at = at.key(name);
+            self.check_load_name(&at, name)?;
+            finite(at, *factor)?;
+        }
+        for load in &self.loads {
+            let mut names = stage.loads.keys().filter(|name| load.is_called(name));
+            if let (Some(first), Some(second)) = (names.next(), names.next()) {
+                let (load, first) = (load.name.clone(), first.clone());
+                let error = LoadError::Twice { load, first, second: second.clone() };
+                return Err(Fault::new(at.key(second), error.into()));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_load_name(&self, at: &KeyPath, name: &str) -> Check {
+        let names = |of: &dyn Fn(&&Load) -> bool| -> Vec<String> {
+            self.loads.iter().filter(of).map(|load| load.name.clone()).collect()
+        };
+        let (loads, groups) = (names(&|_| true), self.groups());
+        let single = names(&|load| load.name == name);
+        let members = names(&|load| load.group_name() == name);
+        if single.is_empty() && members.is_empty() {
+            let others = groups.into_iter().filter(|group| !loads.contains(group));
+            let others: Vec<String> = others.collect();
+            let what = if others.is_empty() { "load" } else { "load or group" };
+            let known = loads.iter().cloned().chain(others).collect();
+            return Err(unknown(at.clone(), what, name, known, "loads"));
+        }
+        if single.is_empty() || members.is_empty() || single == members {
+            return Ok(());
+        }
+        let error = LoadError::Ambiguous { name: name.to_owned(), members, loads, groups };
+        Err(Fault::new(at.clone(), error.into()))
+    }
+
+    /// The names of all groups, in the order of their first loads.
+    fn groups(&self) -> Vec<String> {
+        let mut groups: Vec<String> = Vec::new();
+        for load in &self.loads {
+            if !groups.iter().any(|group| group == load.group_name()) {
+                groups.push(load.group_name().to_owned());
+            }
+        }
+        groups
+    }
+}
+
+fn check_edge(at: &KeyPath, load: &Load) -> Check {
+    let because = "for the segment on which a load acts";
+    let Some(from) = load.from else {
+        return Err(missing(at, "from", because, "from = [0.0, 0.0]"));
+    };
+    let Some(to) = load.to else {
+        return Err(missing(at, "to", because, "to = [1.0, 0.0]"));
+    };
+    segment(at, from, to)?;
+    match exactly_one(at, ("pressure", load.pressure), ("traction", load.traction))? {
+        One::First(pressure) => finite(at.key("pressure"), pressure),
+        One::Second(traction) => point(&at.key("traction"), traction),
+    }
+}
+
+/// That the block exists and has the place in it is checked where blocks are laid.
+fn check_force(at: &KeyPath, load: &Load, given: &'static str) -> Check {
+    let because = match given {
+        "block" => "with `block`",
+        "at" => "with `at`",
+        _ => "with `force`",
+    };
+    if load.block.is_none() {
+        return Err(missing(at, "block", because, "block = \"wall/1/1\""));
+    }
+    let Some(place) = load.at else {
+        return Err(missing(at, "at", because, "at = [0.0, 0.0]"));
+    };
+    let Some(force) = load.force else {
+        return Err(missing(at, "force", because, "force = [0.0, -1.0]"));
+    };
+    point(&at.key("at"), place)?;
+    point(&at.key("force"), force)
+}

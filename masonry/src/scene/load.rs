@@ -1,0 +1,336 @@
+//! Loads: what acts on edges, at places in blocks and on all mass, and what can be wrong with it.
+
+use serde::{Deserialize, Serialize};
+
+use super::strict;
+
+/// A load of exactly one kind: [`LoadKind`] says of which keys each consists.
+///
+/// ```
+/// use masonry::scene::Load;
+/// let wind = Load::traction("wind", [0.0, 0.0], [0.0, 3.0], [400.0, 0.0]);
+/// let beam = Load::force("beam", "wall/3/2", [0.5, 0.3], [0.0, -2e3]).group("roof").factor(1.35);
+/// let quake = Load::acceleration("quake", [0.98, 0.0]);
+/// assert_eq!([&wind, &beam, &quake].map(Load::group_name), ["wind", "roof", "quake"]);
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    /// Name of the load.
+    pub name: String,
+    /// The group that it belongs to; without it the load is a group of its own, of its own name.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub group: Option<String>,
+    /// What it is multiplied by \[-\].
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    pub factor: f64,
+    /// One end of a segment \[length\].
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::some_pair"
+    )]
+    pub from: Option<[f64; 2]>,
+    /// The other end \[length\].
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::some_pair"
+    )]
+    pub to: Option<[f64; 2]>,
+    /// Force per area against the outward normal of the edge \[force/length^2\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pressure: Option<f64>,
+    /// Force per area in global axes \[force/length^2\].
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::some_pair"
+    )]
+    pub traction: Option<[f64; 2]>,
+    /// Name of a block.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub block: Option<String>,
+    /// A place inside or on the edge of that block \[length\].
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::some_pair"
+    )]
+    pub at: Option<[f64; 2]>,
+    /// The force over the whole thickness in global axes \[force\].
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::some_pair"
+    )]
+    pub force: Option<[f64; 2]>,
+    /// An acceleration that acts on mass like gravity \[m/s^2\]: to the right, it pushes to the right.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::some_pair"
+    )]
+    pub acceleration: Option<[f64; 2]>,
+}
+
+/// The kinds of loads.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LoadKind<'a> {
+    /// A uniform load on the free edges of blocks that lie on a segment: `from`, `to`, and exactly one of `pressure`
+    /// and `traction`. An edge that the segment covers in part is loaded in part.
+    Edge {
+        /// One end of the segment \[length\].
+        from: [f64; 2],
+        /// The other end \[length\].
+        to: [f64; 2],
+        /// What acts there.
+        stress: EdgeStress,
+    },
+    /// A force at a place of a block: `block`, `at` and `force`.
+    Force {
+        /// Name of the block.
+        block: &'a str,
+        /// The place \[length\].
+        at: [f64; 2],
+        /// The force \[force\].
+        force: [f64; 2],
+    },
+    /// An acceleration of all mass \[m/s^2\]: `acceleration`.
+    Acceleration([f64; 2]),
+}
+
+/// A force per area on an edge \[force/length^2\].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum EdgeStress {
+    /// Against the outward normal.
+    Pressure(f64),
+    /// In global axes.
+    Traction([f64; 2]),
+}
+
+impl Load {
+    /// A pressure \[force/length^2\] against the outward normal of the edges on a segment.
+    pub fn pressure(name: &str, from: [f64; 2], to: [f64; 2], pressure: f64) -> Self {
+        let (from, to) = (Some(from), Some(to));
+        Self { from, to, pressure: Some(pressure), ..Self::named(name) }
+    }
+
+    /// A traction \[force/length^2\] in global axes on the edges on a segment.
+    pub fn traction(name: &str, from: [f64; 2], to: [f64; 2], traction: [f64; 2]) -> Self {
+        let (from, to) = (Some(from), Some(to));
+        Self { from, to, traction: Some(traction), ..Self::named(name) }
+    }
+
+    /// A force \[force\] over the whole thickness at a place \[length\] inside or on the edge of a block.
+    pub fn force(name: &str, block: &str, at: [f64; 2], force: [f64; 2]) -> Self {
+        let (block, at) = (Some(block.to_owned()), Some(at));
+        Self { block, at, force: Some(force), ..Self::named(name) }
+    }
+
+    /// An acceleration \[m/s^2\] that acts on all mass like gravity.
+    pub fn acceleration(name: &str, acceleration: [f64; 2]) -> Self {
+        Self { acceleration: Some(acceleration), ..Self::named(name) }
+    }
+
+    /// Puts the load into a group.
+    #[must_use]
+    pub fn group(mut self, group: &str) -> Self {
+        self.group = Some(group.to_owned());
+        self
+    }
+
+    /// Multiplies the load by a factor \[-\], instead of one.
+    #[must_use]
+    pub fn factor(mut self, factor: f64) -> Self {
+        self.factor = factor;
+        self
+    }
+
+    /// The name of its group.
+    pub fn group_name(&self) -> &str {
+        self.group.as_deref().unwrap_or(&self.name)
+    }
+
+    /// Whether a stage means it by a name: its own or that of its group.
+    pub fn is_called(&self, name: &str) -> bool {
+        self.name == name || self.group_name() == name
+    }
+
+    /// What it is; `None` where its keys are not those of exactly one kind, which [`Scene::check`](super::Scene::check)
+    /// refuses.
+    pub fn kind(&self) -> Option<LoadKind<'_>> {
+        let stress = match (self.pressure, self.traction) {
+            (Some(pressure), None) => Some(EdgeStress::Pressure(pressure)),
+            (None, Some(traction)) => Some(EdgeStress::Traction(traction)),
+            _ => None,
+        };
+        let edge = || Some(LoadKind::Edge { from: self.from?, to: self.to?, stress: stress? });
+        let force = || {
+            Some(LoadKind::Force {
+                block: self.block.as_deref()?,
+                at: self.at?,
+                force: self.force?,
+            })
+        };
+        match self.given().as_slice() {
+            [(EDGE, ..)] => edge(),
+            [(POINT, ..)] => force(),
+            [(MASS, ..)] => self.acceleration.map(LoadKind::Acceleration),
+            _ => None,
+        }
+    }
+
+    /// The kinds of which keys are given, each with the first of these keys.
+    pub(super) fn given(&self) -> Vec<(&'static str, &'static str)> {
+        let keys = [
+            (EDGE, "from", self.from.is_some()),
+            (EDGE, "to", self.to.is_some()),
+            (EDGE, "pressure", self.pressure.is_some()),
+            (EDGE, "traction", self.traction.is_some()),
+            (POINT, "block", self.block.is_some()),
+            (POINT, "at", self.at.is_some()),
+            (POINT, "force", self.force.is_some()),
+            (MASS, "acceleration", self.acceleration.is_some()),
+        ];
+        let mut kinds: Vec<_> = keys
+            .into_iter()
+            .filter(|(.., given)| *given)
+            .map(|(kind, key, _)| (kind, key))
+            .collect();
+        kinds.dedup_by_key(|(kind, _)| *kind);
+        kinds
+    }
+
+    fn named(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            group: None,
+            factor: 1.0,
+            from: None,
+            to: None,
+            pressure: None,
+            traction: None,
+            block: None,
+            at: None,
+            force: None,
+            acceleration: None,
+        }
+    }
+}
+
+/// Where a load acts, in messages.
+pub(super) const EDGE: &str = "on edges";
+pub(super) const POINT: &str = "at a place of a block";
+pub(super) const MASS: &str = "on all mass";
+
+/// What is wrong with a load.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LoadError {
+    /// No key says what acts.
+    #[error(
+        "load \"{load}\" does not say what acts: add `from`, `to` and `pressure` or `traction` (on edges), or \
+         `block`, `at` and `force` (at a place of a block), or `acceleration` (on all mass)"
+    )]
+    NoKind {
+        /// Name of the load.
+        load: String,
+    },
+    /// Keys of two kinds are given.
+    #[error(
+        "`{first}` is for a load {one} and `{second}` for one {other}: keep the keys of one kind, or make two loads"
+    )]
+    TwoKinds {
+        /// A key of one kind.
+        first: &'static str,
+        /// Where a load of this kind acts.
+        one: &'static str,
+        /// A key of another kind.
+        second: &'static str,
+        /// Where a load of that kind acts.
+        other: &'static str,
+    },
+    /// A force on a block that does not exist.
+    #[error(
+        "there is no block \"{name}\" in the scene; names near to it are {}: correct the name; bricks are called \
+         WALL/COURSE/PLACE, counted from 1",
+        listed(.near)
+    )]
+    NoBlock {
+        /// The name.
+        name: String,
+        /// The names of blocks that are nearest to it.
+        near: Vec<String>,
+    },
+    /// A force outside of its block.
+    #[error(
+        "the place [{}, {}] lies {distance} {unit} outside of block \"{block}\": move it to [{}, {}], or farther \
+         into the block",
+        .place[0], .place[1], .nearest[0], .nearest[1]
+    )]
+    Outside {
+        /// Name of the block.
+        block: String,
+        /// The place in units of the scene.
+        place: [f64; 2],
+        /// The nearest place of the block in units of the scene.
+        nearest: [f64; 2],
+        /// How far they are apart in units of the scene.
+        distance: f64,
+        /// Unit of length.
+        unit: &'static str,
+    },
+    /// An acceleration where nothing has mass.
+    #[error(
+        "load \"{load}\" accelerates nothing, for no material of a block has a density: add `density` to a \
+         material, or remove the load"
+    )]
+    NoMass {
+        /// Name of the load.
+        load: String,
+    },
+    /// A stage names what is a load and a group of others.
+    #[error(
+        "\"{name}\" is the name of a load, and of the group of {}: give one of them another name; there are the \
+         loads {} and the groups {}",
+        listed(.members), listed(.loads), listed(.groups)
+    )]
+    Ambiguous {
+        /// The name.
+        name: String,
+        /// The loads of the group.
+        members: Vec<String>,
+        /// All loads.
+        loads: Vec<String>,
+        /// All groups.
+        groups: Vec<String>,
+    },
+    /// A stage names a load twice.
+    #[error(
+        "load \"{load}\" is named twice in this stage, as \"{first}\" and as \"{second}\": keep one of them"
+    )]
+    Twice {
+        /// Name of the load.
+        load: String,
+        /// One name.
+        first: String,
+        /// The other.
+        second: String,
+    },
+}
+
+fn listed(names: &[String]) -> String {
+    let names: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
+    names.join(", ")
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
+fn is_one(factor: &f64) -> bool {
+    // The bits: what differs in any of them is written.
+    factor.to_bits() == 1_f64.to_bits()
+}
