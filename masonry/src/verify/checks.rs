@@ -127,12 +127,14 @@ impl Checks {
     pub fn of(model: &Model, state: &State) -> Self {
         let nodes = elements::nodes(model, state);
         let bodies = Bodies::of(model, state, &nodes);
-        let lengths = Lengths::of(model, state);
+        let lengths = Lengths::of(model, state, (&nodes, &bodies));
         let contacts = model.contacts.iter().zip(&state.contacts);
         let pairs: Vec<Pair> = contacts.map(|both| Pair::of(model, state, both)).collect();
         let of_pairs = |error: &dyn Fn(&Pair) -> f64| pairs.iter().map(error).fold(0.0, larger);
-        let elastic = || nodes.iter().zip(bodies.sizes());
-        let at_nodes = elastic().filter_map(|(it, size)| Some(it.as_ref()?.error(size)));
+        let of_bodies = bodies.sizes().zip(bodies.roundings());
+        let elastic = nodes.iter().zip(of_bodies);
+        let at_nodes =
+            elastic.filter_map(|(it, (size, around))| Some(it.as_ref()?.error(size, around)));
         let backward = nodes.iter().flatten().map(elements::Nodes::backward);
         let (force_balance, moment_balance) = (bodies.force_balance(), bodies.moment_balance());
         let count = |status| state.contacts.iter().filter(|s| s.status == status).count();

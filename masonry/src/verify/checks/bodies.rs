@@ -3,7 +3,7 @@
 use nalgebra::{Point2, Vector2};
 
 use super::elements::Nodes;
-use super::{known, larger, relative};
+use super::{LARGEST_ERROR, known, larger, relative};
 use crate::geometry;
 use crate::model::{Anchor, Block, Model};
 use crate::recover;
@@ -23,7 +23,7 @@ struct Body {
     size: f64,
     /// How many these are.
     count: usize,
-    /// What rounding errors of the forces around it may leave of those on it \[N\].
+    /// What errors of the forces around it may leave of those on it \[N\].
     rounding: f64,
 }
 
@@ -91,8 +91,17 @@ impl Bodies {
             let terms = nodes.as_ref().map_or(0.0, |nodes| nodes.inside);
             let own = nodes.as_ref().map_or(0, |nodes| nodes.count);
             body.rounding = f64::EPSILON * (count + own) as f64 * around.max(terms);
+            // What has no load of its own gets all its forces from those around it, with their errors.
+            if body.load <= 0.0 {
+                body.rounding = body.rounding.max(LARGEST_ERROR * around);
+            }
         }
         Self(list)
+    }
+
+    /// What errors of the forces around them may leave of those on them \[N\].
+    pub(super) fn roundings(&self) -> impl Iterator<Item = f64> {
+        self.0.iter().map(|body| body.rounding)
     }
 
     /// The sums of the sizes of the forces on them \[N\].

@@ -50,11 +50,11 @@ impl Nodes {
     }
 
     /// What is left over at a node, relative to the forces from outside, where all of these on the block add up
-    /// to `size`. It has the rounding errors of the terms of the elements.
-    pub(super) fn error(&self, size: f64) -> f64 {
+    /// to `size`. It has the rounding errors of the terms of the elements, and those of the forces around the block.
+    pub(super) fn error(&self, size: f64, around: f64) -> f64 {
         // Forces on a block that act elsewhere spread over its nodes.
         let outside = self.outside.max(size / self.count as f64);
-        let rounding = f64::EPSILON * TERMS * self.inside;
+        let rounding = around.max(f64::EPSILON * TERMS * self.inside);
         known(self.left, outside, rounding)
     }
 }

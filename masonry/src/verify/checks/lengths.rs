@@ -2,6 +2,8 @@
 
 use nalgebra::Vector2;
 
+use super::bodies::Bodies;
+use super::elements::Nodes;
 use super::{known, larger};
 use crate::model::{ContactPoint, Model};
 use crate::state::{ContactState, State};
@@ -12,14 +14,25 @@ pub(super) struct Lengths {
     /// may be at rest between films and supports that are not. Of rigid ones the largest of all: nothing but others
     /// tells how far they move, and many do not.
     blocks: Vec<f64>,
-    /// What rounding errors of the largest of all may be.
-    rounding: f64,
+    /// What rounding errors of the largest of all may be, and on elastic blocks what forces do that are rounding errors of
+    /// those around it: a block that carries nothing is deformed by these alone.
+    roundings: Vec<f64>,
 }
 
 impl Lengths {
-    pub(super) fn of(model: &Model, state: &State) -> Self {
+    pub(super) fn of(
+        model: &Model,
+        state: &State,
+        (nodes, bodies): (&[Option<Nodes>], &Bodies),
+    ) -> Self {
         let moved = |u: &Vec<Vector2<f64>>| u.iter().map(Vector2::norm).fold(0.0, larger);
         let mut blocks: Vec<f64> = state.displacements.iter().map(moved).collect();
+        let by_forces = |((nodes, own), force): ((&Option<Nodes>, &f64), f64)| {
+            let inside = nodes.as_ref().map_or(0.0, |nodes| nodes.inside);
+            if inside > 0.0 { own * force / inside } else { 0.0 }
+        };
+        let by_forces = nodes.iter().zip(&blocks).zip(bodies.roundings()).map(by_forces);
+        let mut roundings: Vec<f64> = by_forces.collect();
         for (contact, it) in model.contacts.iter().zip(&state.contacts) {
             let at_point = lengths(contact, it).into_iter().fold(0.0, larger);
             for anchor in [Some(contact.b), contact.a].into_iter().flatten() {
@@ -34,13 +47,15 @@ impl Lengths {
             }
         }
         let count = state.displacements.iter().map(Vec::len).sum::<usize>();
-        Self { blocks, rounding: f64::EPSILON * count as f64 * largest }
+        let least = f64::EPSILON * count as f64 * largest;
+        roundings.iter_mut().for_each(|rounding| *rounding = rounding.max(least));
+        Self { blocks, roundings }
     }
 
     /// A length at a contact point of some blocks, relative to the largest of theirs.
     pub(super) fn share(&self, blocks: &[usize], part: f64) -> f64 {
-        let own = blocks.iter().map(|block| self.blocks[*block]).fold(0.0, larger);
-        known(part, own, self.rounding)
+        let largest = |of: &[f64]| blocks.iter().map(|block| of[*block]).fold(0.0, larger);
+        known(part, largest(&self.blocks), largest(&self.roundings))
     }
 }
 
