@@ -48,7 +48,9 @@ impl Lengths {
         }
         let count = state.displacements.iter().map(Vec::len).sum::<usize>();
         let least = f64::EPSILON * count as f64 * largest;
-        roundings.iter_mut().for_each(|rounding| *rounding = rounding.max(least));
+        for rounding in &mut roundings {
+            *rounding = rounding.max(least);
+        }
         Self { blocks, roundings }
     }
 
