@@ -145,3 +145,43 @@ fn options_of_one_method_are_not_for_another() {
     let report = Run::of(&args[..6]).out;
     assert!(report.contains("--max-iterations allows more"), "{report}");
 }
+
+/// By every method, in whatever form it treats a problem: a boxed one becomes the general form, of which bounds that are
+/// far away hide the right-hand side.
+#[test]
+fn what_is_called_solved_passes_the_check() {
+    let folder = Folder::new("checked");
+    let identity = |bound: f64| {
+        format!(
+            r#"{{"kind": "boxed", "m": [[1, 0], [0, 1]], "q": [-5, -3], "lower": [-{bound:e}, -{bound:e}],
+                "upper": [{bound:e}, {bound:e}]}}"#
+        )
+    };
+    let coupled = |bound: f64| {
+        format!(
+            r#"{{"kind": "boxed", "m": [[2, 1], [1, 2]], "q": [-5, -6], "lower": [-1, 0],
+                "upper": [{bound:e}, {bound:e}]}}"#
+        )
+    };
+    let mixed = r#"{"kind": "mixed", "m": [[0, 1], [-1, 1]], "q": [-1, 1], "free": [true, false]}"#;
+    let friction = r#"{"kind": "friction", "w": [[2, 0], [0, 1]], "q": [-2, 0.5], "mu": [0.5]}"#;
+    let horizontal = r#"{"kind": "horizontal", "a": [[2]], "b": [[-1]], "c": [1]}"#;
+    let mut problems = vec![TEXT.to_owned(), mixed.into(), friction.into(), horizontal.into()];
+    problems.extend([1e2, 1e8, 1e16, 1e20].into_iter().flat_map(|it| [identity(it), coupled(it)]));
+    let mut solved = 0;
+    for (number, problem) in problems.iter().enumerate() {
+        let file = folder.file(&format!("{number}.json"), problem);
+        for method in lcp::Method::ALL {
+            let run =
+                Run::of(&["solve", &file, "--json", "--tol", "1e-8", "--solver", method.name()]);
+            if run.code != 0 {
+                continue;
+            }
+            let answer = folder.file("answer.json", &run.out);
+            let check = Run::of(&["check", "--tol", "1e-8", &file, &answer]);
+            assert_eq!(check.code, 0, "{method}: {problem}\n{}\n{}", run.out, check.out);
+            solved += 1;
+        }
+    }
+    assert!(solved >= 4 * problems.len(), "{solved}");
+}

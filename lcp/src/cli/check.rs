@@ -8,7 +8,6 @@ use super::args::CheckArgs;
 use super::input::Point;
 use super::output::{Failure, NOT_SOLVED, SOLVED, print, print_json, residual_lines};
 use crate::Residuals;
-use crate::io::Problem;
 
 /// What `--json` prints.
 #[derive(Debug, Serialize)]
@@ -28,14 +27,7 @@ pub(super) fn run(
         return Err(format!("--tol is {}, but must be between 0 and 1", args.tol).into());
     }
     let problem = args.input.read(input)?.problem;
-    let residuals = match (Point::read(&args.solution, &problem)?, &problem) {
-        (Point::State(state), Problem::Contact(problem)) => problem.residuals(&state),
-        (point, _) => {
-            let (t, y) = point.to_pairs(&problem);
-            let (z, w) = problem.recover(&t, &y);
-            problem.residuals(&z, &w)
-        }
-    };
+    let residuals = Point::read(&args.solution, &problem)?.residuals(&problem);
     let solves = residuals.worst() <= args.tol;
     if args.input.json {
         print_json(out, &Verdict { solves, n: problem.order(), tolerance: args.tol, residuals })?;

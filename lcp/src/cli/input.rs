@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use super::output::{Failure, in_file};
 use crate::io::{Format, Problem, ProblemFile, ReadError, market, read, read_file};
-use crate::{Contact2d, ContactState, HorizontalLcp, Lcp};
+use crate::{Contact2d, ContactState, HorizontalLcp, Lcp, Residuals};
 
 #[derive(Debug, Args)]
 pub(super) struct InputArgs {
@@ -140,6 +140,15 @@ impl Point {
         };
         check("w", &w, n).map_err(|error| in_file(path, &error))?;
         Ok(Self::Variables { z, w })
+    }
+
+    /// Residuals in the variables of the problem.
+    pub(super) fn residuals(&self, problem: &Problem) -> Residuals {
+        match (self, problem) {
+            (Self::State(state), Problem::Contact(problem)) => problem.residuals(state),
+            (Self::Variables { z, w }, _) => problem.residuals(z, w),
+            (Self::State(_), _) => unreachable!("only contact problems have states"),
+        }
     }
 
     /// The pairs of the general problem.

@@ -10,6 +10,7 @@ use super::input::Point;
 use super::output::Failure;
 use crate::auto::{Enumeration, Smoothing, memory};
 use crate::io::Problem;
+use crate::lower::judged_by;
 use crate::{
     Auto, AutoSettings, Basis, BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp,
     InteriorPoint, InteriorPointSettings, Lcp, Lemke, LemkeSettings, Method, MixedLcp,
@@ -18,13 +19,19 @@ use crate::{
 };
 
 /// By a method in the forms that it treats, of friction in the standard form where it treats only that, and in the
-/// general form of the others.
+/// general form of the others. The problem of the file judges the answer to another form.
 macro_rules! in_a_form {
     ($solver:expr, $problem:expr, $($own:ident)|+ $(, standard of $standard:ident)?) => {
         match $problem {
             $(Problem::$own(problem) => $solver.solve(problem),)+
-            $(Problem::$standard(problem) => $solver.solve(problem.standard()),)?
-            other => $solver.solve(&other.to_general()),
+            $(Problem::$standard(problem) => {
+                let solution = $solver.solve(problem.standard());
+                solution.map(|it| judged_by(problem, it, $solver.settings().tolerance))
+            })?
+            other => {
+                let solution = $solver.solve(&other.to_general());
+                solution.map(|it| judged_by(other, it, $solver.settings().tolerance))
+            }
         }
     };
 }
@@ -107,7 +114,7 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
                 ..defaults
             };
             let solver = InteriorPoint::new(settings);
-            in_a_form!(solver, problem, Lcp | Mixed | Friction | Contact)
+            in_a_form!(solver, problem, Lcp | Mixed | Boxed | Friction | Contact)
         }
     };
     Ok(solution?)

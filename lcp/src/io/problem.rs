@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use super::{Position, ReadError};
+use crate::lower::General;
 use crate::{
     BoxedLcp, Contact2d, ContactState, Friction2d, HorizontalLcp, Lcp, Matrix, MixedLcp, Residuals,
     Solution,
@@ -137,7 +138,7 @@ impl Problem {
         }
     }
 
-    /// Residuals of a point, those of its pairs in the general problem.
+    /// Residuals of a point in the variables of the problem.
     ///
     /// # Panics
     /// If `z` or `w` does not have one entry for every variable.
@@ -201,6 +202,18 @@ impl Problem {
         at: Position,
     ) -> Result<Self, ReadError> {
         refused(Friction2d::new(w, q, mu), at).map(Self::Friction)
+    }
+}
+
+/// Of the kind that the file holds.
+impl General for Problem {
+    fn general(&self) -> Cow<'_, HorizontalLcp> {
+        Cow::Owned(self.to_general())
+    }
+
+    fn residuals_of_pairs(&self, t: &[f64], y: &[f64]) -> Residuals {
+        let (z, w) = self.recover(t, y);
+        self.residuals(&z, &w)
     }
 }
 
