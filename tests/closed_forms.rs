@@ -55,7 +55,7 @@ fn pushed(scene: Scene, alpha: f64) -> Scene {
 
 /// The mechanism on which pivots end for a scene that falls; that it does is proved by another one, on which joints
 /// that slide open as well.
-fn mechanism(scene: &Scene) -> (Vec<[Vector2<f64>; 4]>, Outcome) {
+fn mechanism(scene: &Scene) -> (Vec<Vec<Vector2<f64>>>, Outcome) {
     let proved = solve(scene).unwrap();
     assert_eq!(proved.judgement.verdict, Verdict::Falls, "{:#?}", proved.solve.attempts);
     assert_admissible(&proved);
@@ -70,7 +70,7 @@ fn mechanism(scene: &Scene) -> (Vec<[Vector2<f64>; 4]>, Outcome) {
 /// All blocks turn together about `toe`, to the right, the largest rate one.
 fn assert_tips(scene: &Scene, toe: Point2<f64>) {
     let (rates, outcome) = mechanism(scene);
-    let corners = outcome.model.blocks.iter().flat_map(|block| block.corners);
+    let corners = outcome.model.blocks.iter().flat_map(|block| &block.corners);
     let turned = corners.map(|corner| corner - toe).map(|arm| Vector2::new(arm.y, -arm.x));
     let turned: Vec<Vector2<f64>> = turned.collect();
     let largest = turned.iter().fold(0.0, |m: f64, v| m.max(v.amax()));

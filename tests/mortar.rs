@@ -286,7 +286,7 @@ fn panels_have_the_bricks_and_films_of_the_paper() {
             (bricks, films, films + 24)
         );
         assert!(filled.iter().enumerate().all(|(k, film)| film.id == FilmId::new(k)));
-        let corners = || model.blocks.iter().flat_map(|block| block.corners);
+        let corners = || model.blocks.iter().flat_map(|block| &block.corners);
         let size = corners().fold([0.0, 0.0], |[x, y]: [f64; 2], p| [x.max(p.x), y.max(p.y)]);
         assert!((size[0] - 1.3).abs() < 1e-14 && (size[1] - 1.3).abs() < 1e-14);
         for joint in &model.joints {

@@ -1,7 +1,9 @@
-//! Quadrilaterals and segments: area, centroid, shape checks, overlaps.
+//! Convex polygons and segments: area, centroid, shape checks, overlaps.
 //!
-//! A quadrilateral is given by its four corners, counter-clockwise; edge `k` runs from corner `k`
-//! to corner `k + 1`. Tolerances are relative to the sizes of the shapes involved.
+//! A polygon is given by its corners, counter-clockwise; edge `k` runs from corner `k` to the next one, and the last
+//! edge back to corner 0. Tolerances are relative to the sizes of the shapes involved.
+
+use std::f64::consts::PI;
 
 use nalgebra::{Point2, Vector2};
 
@@ -12,10 +14,16 @@ pub use overlap::{SegmentOverlap, facing_normal, facing_overlap, overlap_area};
 /// Corners of a quadrilateral, counter-clockwise.
 pub type Quad = [Point2<f64>; 4];
 
-/// Why four corners are not those of a convex quadrilateral in counter-clockwise order.
+/// Why corners are not those of a convex polygon in counter-clockwise order.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum QuadError {
+pub enum PolygonError {
+    /// Two corners or less.
+    #[error("{count} corners make no polygon: give at least three")]
+    TooFew {
+        /// How many there are.
+        count: usize,
+    },
     /// A coordinate is not a finite number.
     #[error("a corner has a coordinate that is not finite")]
     NotFinite,
@@ -27,73 +35,98 @@ pub enum QuadError {
     },
     /// The interior angle at a corner is 180 degrees or more, or two corners coincide.
     #[error(
-        "the quadrilateral is not strictly convex at corner {corner}: \
+        "the polygon is not strictly convex at corner {corner}: \
          move it outwards or split the block"
     )]
     NotConvex {
-        /// The first corner that fails, 0..4.
+        /// The first corner that fails, from 0.
         corner: usize,
     },
+    /// The edges go around more than once, as those of a star do.
+    #[error("the edges cross: list the corners in the order in which they follow each other")]
+    Crossing,
 }
 
 /// Signed area, positive when the corners run counter-clockwise \[m^2\].
-pub fn area(quad: &Quad) -> f64 {
-    0.5 * cross(quad[2] - quad[0], quad[3] - quad[1])
+pub fn area(polygon: &[Point2<f64>]) -> f64 {
+    fan(polygon).map(|[a, b]| 0.5 * cross(a, b)).sum()
 }
 
-/// Centroid of the area of a quadrilateral.
-pub fn centroid(quad: &Quad) -> Point2<f64> {
-    // Coordinates relative to corner 0: a small block far from the origin loses no digits.
-    let [d1, d2, d3] = [quad[1] - quad[0], quad[2] - quad[0], quad[3] - quad[0]];
-    let (w1, w2) = (cross(d1, d2), cross(d2, d3));
-    quad[0] + ((d1 + d2) * w1 + (d2 + d3) * w2) / (3.0 * (w1 + w2))
+/// Centroid of the area of a polygon.
+///
+/// # Panics
+/// If there is no corner.
+pub fn centroid(polygon: &[Point2<f64>]) -> Point2<f64> {
+    let (moment, twice) = fan(polygon).fold((Vector2::zeros(), 0.0), |(moment, twice), [a, b]| {
+        let w = cross(a, b);
+        (moment + (a + b) * w, twice + w)
+    });
+    polygon[0] + moment / (3.0 * twice)
 }
 
-/// Size of a quadrilateral: its longest diagonal \[m\].
-pub fn size(quad: &Quad) -> f64 {
-    (quad[2] - quad[0]).norm().max((quad[3] - quad[1]).norm())
+/// The sides of the triangles that corner 0 makes with the edges. Relative to it a small block far from the origin loses
+/// no digits.
+fn fan(polygon: &[Point2<f64>]) -> impl Iterator<Item = [Vector2<f64>; 2]> {
+    let pairs = polygon.get(1..).unwrap_or_default().windows(2);
+    pairs.map(|pair| [pair[0] - polygon[0], pair[1] - polygon[0]])
 }
 
-/// Checks that the corners are finite, run counter-clockwise and span a strictly convex shape.
+/// Size of a polygon: the largest distance between two corners \[m\].
+pub fn size(polygon: &[Point2<f64>]) -> f64 {
+    let pairs =
+        polygon.iter().enumerate().flat_map(|(k, p)| polygon[..k].iter().map(move |q| p - q));
+    pairs.map(|apart| apart.norm()).fold(0.0, f64::max)
+}
+
+/// Checks that the corners are finite, run counter-clockwise once and span a strictly convex shape.
 ///
 /// A corner counts as convex when twice the area of its triangle exceeds `1e-9` times the square of
-/// the quadrilateral's size.
+/// the polygon's size.
 ///
 /// # Errors
-/// [`QuadError`] tells what is wrong with which corner.
-pub fn check_convex(quad: &Quad) -> Result<(), QuadError> {
-    if quad.iter().any(|p| !(p.x.is_finite() && p.y.is_finite())) {
-        return Err(QuadError::NotFinite);
+/// [`PolygonError`] tells what is wrong with which corner.
+pub fn check_convex(polygon: &[Point2<f64>]) -> Result<(), PolygonError> {
+    let count = polygon.len();
+    if polygon.iter().any(|p| !(p.x.is_finite() && p.y.is_finite())) {
+        return Err(PolygonError::NotFinite);
     }
-    let area = area(quad);
+    if count < 3 {
+        return Err(PolygonError::TooFew { count });
+    }
+    let area = area(polygon);
     if area < 0.0 {
-        return Err(QuadError::Clockwise { area });
+        return Err(PolygonError::Clockwise { area });
     }
-    let least = 1e-9 * size(quad).powi(2);
-    let convex = |k: &usize| {
-        let (before, here, after) = (quad[(k + 3) % 4], quad[*k], quad[(k + 1) % 4]);
-        cross(here - before, after - here) > least
+    let least = 1e-9 * size(polygon).powi(2);
+    let sides = |k: usize| {
+        let (before, here) = (polygon[(k + count - 1) % count], polygon[k]);
+        (here - before, polygon[(k + 1) % count] - here)
     };
-    match (0..4).find(|k| !convex(k)) {
-        Some(corner) => Err(QuadError::NotConvex { corner }),
-        None => Ok(()),
+    let mut turned = 0.0;
+    for corner in 0..count {
+        let (before, after) = sides(corner);
+        if cross(before, after) <= least {
+            return Err(PolygonError::NotConvex { corner });
+        }
+        turned += cross(before, after).atan2(before.dot(&after));
     }
+    if turned < 3.0 * PI { Ok(()) } else { Err(PolygonError::Crossing) }
 }
 
 /// The two ends of edge `k`.
 ///
 /// # Panics
-/// If `k > 3`.
-pub fn edge(quad: &Quad, k: usize) -> [Point2<f64>; 2] {
-    [quad[k], quad[(k + 1) % 4]]
+/// If there is no such edge.
+pub fn edge(polygon: &[Point2<f64>], k: usize) -> [Point2<f64>; 2] {
+    [polygon[k], polygon[(k + 1) % polygon.len()]]
 }
 
 /// The place at a fraction of edge `k`, from its first corner.
 ///
 /// # Panics
-/// If `k > 3`.
-pub fn on_edge(quad: &Quad, k: usize, at: f64) -> Point2<f64> {
-    let [p, q] = edge(quad, k);
+/// If there is no such edge.
+pub fn on_edge(polygon: &[Point2<f64>], k: usize, at: f64) -> Point2<f64> {
+    let [p, q] = edge(polygon, k);
     p + (q - p) * at
 }
 
@@ -116,31 +149,31 @@ pub fn reference(quad: &Quad, point: Point2<f64>) -> [f64; 2] {
     [(h - f * s).dot(&along) / along.norm_squared(), s]
 }
 
-/// The point of the boundary of a quadrilateral that is nearest to a point.
-pub fn nearest_on_boundary(quad: &Quad, point: Point2<f64>) -> Point2<f64> {
+/// The point of the boundary of a polygon that is nearest to a point.
+pub fn nearest_on_boundary(polygon: &[Point2<f64>], point: Point2<f64>) -> Point2<f64> {
     let nearest_on = |k: usize| {
-        let [p, q] = edge(quad, k);
+        let [p, q] = edge(polygon, k);
         let along = q - p;
         p + along * ((point - p).dot(&along) / along.norm_squared()).clamp(0.0, 1.0)
     };
     let near = |a: &Point2<f64>, b: &Point2<f64>| (a - point).norm().total_cmp(&(b - point).norm());
-    (0..4).map(nearest_on).min_by(near).unwrap_or(point)
+    (0..polygon.len()).map(nearest_on).min_by(near).unwrap_or(point)
 }
 
-/// How far a point lies outside of a convex quadrilateral, across the edge beyond which it is farthest; negative
+/// How far a point lies outside of a convex polygon, across the edge beyond which it is farthest; negative
 /// inside \[m\].
-pub fn outside(quad: &Quad, point: Point2<f64>) -> f64 {
-    (0..4)
-        .map(|k| (point - quad[k]).dot(&outward_normal(quad, k)))
+pub fn outside(polygon: &[Point2<f64>], point: Point2<f64>) -> f64 {
+    (0..polygon.len())
+        .map(|k| (point - polygon[k]).dot(&outward_normal(polygon, k)))
         .fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Unit outward normal of edge `k`.
 ///
 /// # Panics
-/// If `k > 3`.
-pub fn outward_normal(quad: &Quad, k: usize) -> Vector2<f64> {
-    let [p, q] = edge(quad, k);
+/// If there is no such edge.
+pub fn outward_normal(polygon: &[Point2<f64>], k: usize) -> Vector2<f64> {
+    let [p, q] = edge(polygon, k);
     turn_right((q - p).normalize())
 }
 

@@ -24,6 +24,7 @@ pub use forces::Cause;
 pub use loads::{Acceleration, BlockLoad, EdgeLoad, Load, PlacedForce, PointLoad};
 use nalgebra::{Point2, Vector2};
 
+use crate::geometry::Quad;
 use crate::ids::{BlockId, FilmId, JointId, SupportId};
 use crate::law::{JointLaw, PointLaw};
 pub use crate::material::Elasticity;
@@ -60,13 +61,13 @@ pub struct Model {
     pub units: Units,
 }
 
-/// A block (brick, voussoir): a convex quadrilateral.
+/// A block (brick, voussoir): a convex polygon, of an elastic material a quadrilateral.
 #[derive(Debug, Clone)]
 pub struct Block {
     /// The name by which messages and files refer to it.
     pub name: String,
-    /// The corners, counter-clockwise \[m\]. Edge `k` runs from corner `k` to corner `k + 1`.
-    pub corners: [Point2<f64>; 4],
+    /// The corners, counter-clockwise \[m\]. Edge `k` runs from corner `k` to the next.
+    pub corners: Vec<Point2<f64>>,
     /// Elastic constants; `None` is a rigid block, for which no mesh and no stiffness is built.
     pub elasticity: Option<Elasticity>,
     /// Mass density \[kg/m^3\]; `None` carries no self weight.
@@ -78,6 +79,11 @@ pub struct Block {
 }
 
 impl Block {
+    /// Its corners, if there are four.
+    pub fn quad(&self) -> Option<Quad> {
+        self.corners.as_slice().try_into().ok()
+    }
+
     /// The loads on its edges.
     pub fn edge_loads(&self) -> impl Iterator<Item = &EdgeLoad> {
         self.loads.iter().filter_map(BlockLoad::as_edge)
@@ -229,7 +235,7 @@ impl Joint {
 pub struct Anchor {
     /// The block.
     pub block: BlockId,
-    /// The edge, 0..4.
+    /// The edge, from 0.
     pub edge: usize,
     /// Fraction of the edge from its first corner, 0..=1.
     pub at: f64,

@@ -174,7 +174,7 @@ pub fn displacement_at(
         (Some(mesh), Some(_)) => {
             mesh.interpolate(anchor.edge, anchor.at).iter().map(|(n, share)| u[*n] * *share).sum()
         }
-        _ => u[anchor.edge] * (1.0 - anchor.at) + u[(anchor.edge + 1) % 4] * anchor.at,
+        _ => u[anchor.edge] * (1.0 - anchor.at) + u[(anchor.edge + 1) % u.len()] * anchor.at,
     }
 }
 

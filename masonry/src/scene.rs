@@ -273,7 +273,7 @@ pub enum Courses {
     List(Vec<Vec<f64>>),
 }
 
-/// A single block: a convex quadrilateral.
+/// A single block: a convex polygon, of an elastic material a quadrilateral.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Block {
@@ -283,7 +283,7 @@ pub struct Block {
     pub material: String,
     /// Corners, counter-clockwise \[length\].
     #[serde(deserialize_with = "strict::corners")]
-    pub corners: [[f64; 2]; 4],
+    pub corners: Vec<[f64; 2]>,
     /// Elements along edges 0 and 2, and along edges 1 and 3; required when the material is
     /// elastic.
     #[serde(

@@ -9,7 +9,7 @@ use crate::ids::{BlockId, ContactId, FilmId};
 #[derive(Debug, Clone)]
 pub struct State {
     /// Displacements \[m\] of the nodes of every block, in the order of the block's mesh; of the
-    /// four corners for a rigid block.
+    /// corners for a rigid block.
     pub displacements: Vec<Vec<Vector2<f64>>>,
     /// Force, gap and slip at every contact point.
     pub contacts: Vec<ContactState>,

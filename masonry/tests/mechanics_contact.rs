@@ -6,7 +6,7 @@
 mod common;
 
 use common::{block, model, model_with, panel, rectangle, support};
-use masonry::geometry::{self, QuadError};
+use masonry::geometry::{self, PolygonError};
 use masonry::law::JointLaw;
 use masonry::model::joints::{ContactError, Options, PointRule};
 use masonry::model::mesh::BlockMesh;
@@ -29,18 +29,60 @@ fn area_and_centroid_of_a_trapezium() {
 }
 
 #[test]
-fn bad_quadrilaterals_are_refused() {
+fn bad_polygons_are_refused() {
     let good = square(0.0, 0.0, 1.0);
     assert_eq!(geometry::check_convex(&good), Ok(()));
     let [a, b, c, d] = good;
-    assert!(matches!(geometry::check_convex(&[d, c, b, a]), Err(QuadError::Clockwise { .. })));
+    assert!(matches!(geometry::check_convex(&[d, c, b, a]), Err(PolygonError::Clockwise { .. })));
     let dent = Point2::new(0.4, 0.4);
-    assert_eq!(geometry::check_convex(&[a, b, dent, d]), Err(QuadError::NotConvex { corner: 2 }));
+    assert_eq!(
+        geometry::check_convex(&[a, b, dent, d]),
+        Err(PolygonError::NotConvex { corner: 2 })
+    );
     let middle = Point2::new(0.5, 0.0);
-    assert_eq!(geometry::check_convex(&[a, middle, b, d]), Err(QuadError::NotConvex { corner: 1 }));
+    assert_eq!(
+        geometry::check_convex(&[a, middle, b, d]),
+        Err(PolygonError::NotConvex { corner: 1 })
+    );
     assert!(geometry::check_convex(&[a, a, c, d]).is_err());
     let nan = Point2::new(f64::NAN, 0.0);
-    assert_eq!(geometry::check_convex(&[nan, b, c, d]), Err(QuadError::NotFinite));
+    assert_eq!(geometry::check_convex(&[nan, b, c, d]), Err(PolygonError::NotFinite));
+    assert_eq!(geometry::check_convex(&[a, b]), Err(PolygonError::TooFew { count: 2 }));
+    assert_eq!(geometry::check_convex(&[a, b, c]), Ok(()));
+    // Every corner of a star turns to the left, and its edges go around twice.
+    let star = [0, 2, 4, 1, 3].map(|k| regular(5)[k]);
+    assert_eq!(geometry::check_convex(&star), Err(PolygonError::Crossing));
+    assert_eq!(geometry::check_convex(&regular(5)), Ok(()));
+}
+
+/// On the unit circle.
+fn regular(corners: usize) -> Vec<Point2<f64>> {
+    let angle = |k| 2.0 * std::f64::consts::PI * k as f64 / corners as f64;
+    (0..corners).map(|k| Point2::new(angle(k).cos(), angle(k).sin())).collect()
+}
+
+/// The area of a regular polygon is `n/2 sin(2 pi / n)`, its size the diameter or, of an odd number of corners, a little
+/// less, and a place is as far outside as it is beyond the middle of an edge.
+#[test]
+fn polygons_have_the_measures_of_the_textbook() {
+    for n in 3..13 {
+        let (polygon, step) = (regular(n), std::f64::consts::PI / n as f64);
+        let area = 0.5 * n as f64 * (2.0 * step).sin();
+        assert!((geometry::area(&polygon) - area).abs() < 1e-14);
+        assert!(geometry::centroid(&polygon).coords.norm() < 1e-14);
+        let size = if n % 2 == 0 { 2.0 } else { 2.0 * (0.5 * step).cos() };
+        assert!((geometry::size(&polygon) - size).abs() < 1e-14);
+        for k in 0..n {
+            let normal = geometry::outward_normal(&polygon, k);
+            let outside = geometry::outside(&polygon, Point2::from(normal * 2.0));
+            assert!((outside - (2.0 - step.cos())).abs() < 1e-14);
+        }
+        let half = [[0.0, -3.0], [3.0, -3.0], [3.0, 3.0], [0.0, 3.0]].map(Point2::from);
+        let overlap = geometry::overlap_area(&polygon, &half);
+        // The polygon is symmetric about the horizontal axis, and about the vertical one where n is even.
+        assert!(n % 2 == 1 || (overlap - 0.5 * area).abs() < 1e-14);
+        assert!((overlap - geometry::overlap_area(&half, &polygon)).abs() < 1e-14);
+    }
 }
 
 #[test]
@@ -200,7 +242,7 @@ proptest! {
     ) {
         let turn = Rotation2::new(angle);
         let make = |name: &str, x: [f64; 2], y: [f64; 2], n: usize| {
-            let flat = rectangle(name, x, y, None).corners;
+            let flat = rectangle(name, x, y, None).quad().unwrap();
             block(name, flat.map(|p| turn * p), Some([n, 1]))
         };
         let blocks = vec![

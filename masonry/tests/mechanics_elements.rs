@@ -59,7 +59,7 @@ fn linear_displacements_pass_the_patch_test() {
 
 #[test]
 fn rectangle_stretched_uniformly_stores_the_exact_energy() {
-    let nodes = rectangle("r", [0.0, 3.0], [0.0, 2.0], None).corners;
+    let nodes = rectangle("r", [0.0, 3.0], [0.0, 2.0], None).quad().unwrap();
     let d = constitutive(Elasticity { young: 200.0, poisson: 0.0 }, Plane::Stress);
     let u = SVector::<f64, 8>::from_fn(|i, _| if i % 2 == 0 { 0.01 * nodes[i / 2].x } else { 0.0 });
     let k = quad4::stiffness(&nodes, &d, 0.5).unwrap();
@@ -125,7 +125,7 @@ fn nodal_loads_have_the_geometric_resultant() {
     let traction = |(edge, part)| traction_on(edge, part, [1e3, -3e3]);
     loaded.loads = parts.into_iter().enumerate().map(traction).collect();
     let at = |at: Point2<f64>, force: [f64; 2]| {
-        let place = geometry::reference(&skew(), at);
+        let place = Some(geometry::reference(&skew(), at));
         PointLoad { at, place, force: force.into(), load: LoadId(0) }.into()
     };
     loaded.loads.push(at(geometry::centroid(&skew()), [2e3, 1e3]));

@@ -250,7 +250,7 @@ fn units_do_not_matter() {
     for model in assemblies() {
         let mut blocks = model.blocks.clone();
         for block in &mut blocks {
-            block.corners = block.corners.map(|p| p * length);
+            block.corners.iter_mut().for_each(|p| *p *= length);
             for node in block.mesh.iter_mut().flat_map(|mesh| mesh.nodes.iter_mut()) {
                 *node *= length;
             }

@@ -226,7 +226,7 @@ fn nothing_that_moves_and_no_stress_is_drawn_as_such() {
     assert!(texts(&checked(&deformed(&outcome))).contains("no displacement"));
     let picture = stresses(&outcome, None);
     assert!(texts(&checked(&picture)).contains("no stress"));
-    let still = vec![[Vector2::zeros(); 4]; outcome.model.blocks.len()];
+    let still = vec![vec![Vector2::zeros(); 4]; outcome.model.blocks.len()];
     checked(&svg::mechanism("", &outcome.model, &still));
 }
 
@@ -292,7 +292,7 @@ fn arch() -> Model {
     model.blocks = (0..9)
         .map(|k| Block {
             name: format!("V{}", k + 1),
-            corners: [at(1.0, k + 1), at(1.25, k + 1), at(1.25, k), at(1.0, k)],
+            corners: vec![at(1.0, k + 1), at(1.25, k + 1), at(1.25, k), at(1.0, k)],
             elasticity: None,
             density: Some(2000.0),
             mesh: None,

@@ -144,12 +144,6 @@ fn text_that_does_not_fit_the_format() {
         ("material = \"stone\"\n", "", "[[blocks]]", "missing field `material`"),
         ("mesh = [4, 2]", "mesh = [4, 2, 1]", "[4", "length 3, expected a list of exactly 2 items"),
         ("origin = [2.0, 0.0]", "origin = [2.0]", "[2", "length 1, expected a list of exactly 2"),
-        (
-            CORNERS,
-            "[[0.0, 0.3], [1.0, 0.3], [1.0, 0.5], [0.0, 0.5], [0, 0.4]]",
-            "[[",
-            "length 5, expected a list of exactly 4",
-        ),
         ("[0.0, 0.5]]", "[0.0, 0.5, 0.0]]", "[0.0", "length 3, expected a list of exactly 2"),
         (
             "origin = [2.0, 0.0]\nbrick = {",

@@ -112,8 +112,9 @@ pub fn assert_admissible(outcome: &Outcome) {
     let largest = rates.iter().flatten().fold(0.0, |m: f64, rate| m.max(rate.amax()));
     assert_close(largest, 1.0, 1e-12);
     let at = |anchor: Anchor| {
-        let corners = rates[anchor.block.index()];
-        corners[anchor.edge] * (1.0 - anchor.at) + corners[(anchor.edge + 1) % 4] * anchor.at
+        let corners = &rates[anchor.block.index()];
+        let next = (anchor.edge + 1) % corners.len();
+        corners[anchor.edge] * (1.0 - anchor.at) + corners[next] * anchor.at
     };
     for contact in &model.contacts {
         let relative = at(contact.b) - contact.a.map_or_else(Vector2::zeros, at);
@@ -126,11 +127,11 @@ pub fn assert_admissible(outcome: &Outcome) {
 }
 
 /// The power of the loads of a block whose corners move at these rates.
-fn power(model: &Model, block: &masonry::model::Block, corners: &[Vector2<f64>; 4]) -> f64 {
+fn power(model: &Model, block: &masonry::model::Block, corners: &[Vector2<f64>]) -> f64 {
     let edges: f64 = block
         .edge_loads()
         .map(|load| {
-            let [start, end] = [load.edge, (load.edge + 1) % 4];
+            let [start, end] = [load.edge, (load.edge + 1) % corners.len()];
             let area = (block.corners[end] - block.corners[start]).norm() * model.thickness;
             let middle = 0.5 * (load.from + load.to);
             let rate = corners[start] * (1.0 - middle) + corners[end] * middle;
@@ -138,14 +139,14 @@ fn power(model: &Model, block: &masonry::model::Block, corners: &[Vector2<f64>; 
         })
         .sum();
     // Good for parallelograms, whose centroid is the mean of their corners.
-    let centre = corners.iter().sum::<Vector2<f64>>() / 4.0;
+    let centre = corners.iter().sum::<Vector2<f64>>() / corners.len() as f64;
     let mass = block.density.unwrap_or(0.0) * area(&block.corners) * model.thickness;
     edges + mass * model.gravity.dot(&centre)
 }
 
-fn area(corners: &[Point2<f64>; 4]) -> f64 {
-    let twice = |k: usize| corners[k].coords.perp(&corners[(k + 1) % 4].coords);
-    0.5 * (0..4).map(twice).sum::<f64>()
+fn area(corners: &[Point2<f64>]) -> f64 {
+    let twice = |k: usize| corners[k].coords.perp(&corners[(k + 1) % corners.len()].coords);
+    0.5 * (0..corners.len()).map(twice).sum::<f64>()
 }
 
 /// The largest difference of two lists, relative to the largest entry of the first.

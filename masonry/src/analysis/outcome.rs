@@ -36,7 +36,7 @@ pub struct Outcome {
     pub history: Option<History>,
     /// The mechanism, when there is no solution and the method found one, along a secondary ray, on soft
     /// springs or by a proof: displacement rates of the corners of every block, scaled to a largest component of one.
-    pub mechanism: Option<Vec<[Vector2<f64>; 4]>>,
+    pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
     /// Whether the wall stands.
     pub judgement: Judgement,
     /// Time of every phase.

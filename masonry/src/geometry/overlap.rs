@@ -1,22 +1,22 @@
-//! Intersection of two convex quadrilaterals, and the overlap of two facing segments.
+//! Intersection of two convex polygons, and the overlap of two facing segments.
 
 use nalgebra::{Point2, Vector2};
 
-use super::{Quad, cross, turn_right};
+use super::{area, cross, edge, turn_right};
 
 /// Rounding error of a distance, relative to the coordinates of its ends.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// Area of the intersection of two convex, counter-clockwise quadrilaterals \[m^2\].
+/// Area of the intersection of two convex, counter-clockwise polygons \[m^2\].
 ///
-/// The first is clipped by the four half planes of the second (Sutherland and Hodgman).
-pub fn overlap_area(a: &Quad, b: &Quad) -> f64 {
+/// The first is clipped by the half planes of the second (Sutherland and Hodgman).
+pub fn overlap_area(a: &[Point2<f64>], b: &[Point2<f64>]) -> f64 {
     let mut polygon = a.to_vec();
-    for k in 0..4 {
-        let (p, d) = (b[k], b[(k + 1) % 4] - b[k]);
-        polygon = clip(&polygon, |x| cross(d, x - p));
+    for k in 0..b.len() {
+        let [p, q] = edge(b, k);
+        polygon = clip(&polygon, |x| cross(q - p, x - p));
     }
-    polygon_area(&polygon).max(0.0)
+    area(&polygon).max(0.0)
 }
 
 /// The part of a polygon on which the linear function `inside` is not negative.
@@ -33,11 +33,6 @@ fn clip(polygon: &[Point2<f64>], inside: impl Fn(Point2<f64>) -> f64) -> Vec<Poi
         }
     }
     kept
-}
-
-fn polygon_area(polygon: &[Point2<f64>]) -> f64 {
-    let Some((&first, rest)) = polygon.split_first() else { return 0.0 };
-    rest.windows(2).map(|pair| 0.5 * cross(pair[0] - first, pair[1] - first)).sum()
 }
 
 /// Where two facing segments overlap, as places on both of them.

@@ -6,7 +6,7 @@ use super::classes::Classes;
 use super::{
     Block, ContactPoint, Joint, JointClass, Model, Movement, Plane, Support, place_loads, placement,
 };
-use crate::geometry::{self, QuadError};
+use crate::geometry::{self, PolygonError};
 use crate::model::joints::{self, ContactError, Options};
 use crate::model::mesh::BlockMesh;
 use crate::scene::bond::{self, JointThickness};
@@ -66,13 +66,13 @@ fn lay_blocks(scene: &Scene) -> Result<(Vec<Block>, Vec<KeyPath>), Fault> {
     for (k, wall) in scene.walls.iter().enumerate() {
         for brick in bond::bricks_in_mortar(wall, JointThickness::of(scene, wall)) {
             let mesh = wall.mesh.map(|whole| brick.mesh(whole));
-            blocks.push(block(scene, brick.name(wall), &wall.material, brick.corners(), mesh));
+            blocks.push(block(scene, brick.name(wall), &wall.material, &brick.corners(), mesh));
             keys.push(KeyPath::of("walls").item(k).key("courses"));
         }
     }
     for (k, single) in scene.blocks.iter().enumerate() {
         let mesh = single.mesh.map(|counts| counts.map(|n| n as usize));
-        blocks.push(block(scene, single.name.clone(), &single.material, single.corners, mesh));
+        blocks.push(block(scene, single.name.clone(), &single.material, &single.corners, mesh));
         keys.push(KeyPath::of("blocks").item(k).key("corners"));
     }
     check_shapes(&blocks, &keys)?;
@@ -84,29 +84,26 @@ fn block(
     scene: &Scene,
     name: String,
     material: &str,
-    corners: [[f64; 2]; 4],
+    corners: &[[f64; 2]],
     mesh: Option<[usize; 2]>,
 ) -> Block {
     let units = scene.units;
-    let corners = corners.map(|corner| point(corner, units));
+    let corners: Vec<_> = corners.iter().map(|corner| point(*corner, units)).collect();
     let material = scene.materials.get(material).copied().unwrap_or_default();
     let elasticity = material.elasticity(units);
     let mesh = mesh.filter(|_| elasticity.is_some());
-    Block {
-        name,
-        corners,
-        elasticity,
-        density: material.density,
-        mesh: mesh.map(|[nx, ny]| BlockMesh::new(&corners, nx, ny)),
-        loads: Vec::new(),
-    }
+    let density = material.density;
+    let mut block = Block { name, corners, elasticity, density, mesh: None, loads: Vec::new() };
+    block.mesh = mesh.zip(block.quad()).map(|([nx, ny], quad)| BlockMesh::new(&quad, nx, ny));
+    block
 }
 
 /// A brick cut to next to nothing is no block.
 fn check_shapes(blocks: &[Block], keys: &[KeyPath]) -> Result<(), Fault> {
     for (block, key) in blocks.iter().zip(keys) {
         geometry::check_convex(&block.corners).map_err(|error| {
-            let corner = if let QuadError::NotConvex { corner } = error { corner + 1 } else { 1 };
+            let corner =
+                if let PolygonError::NotConvex { corner } = error { corner + 1 } else { 1 };
             let kind = SceneErrorKind::NotConvex { block: block.name.clone(), corner };
             Fault::new(key.clone(), kind)
         })?;

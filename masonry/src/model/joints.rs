@@ -176,8 +176,8 @@ fn between_blocks(
     let size = geometry::size(corners(first)).min(geometry::size(corners(second)));
     let slack = options.tolerance * size;
     let mut candidates = Vec::new();
-    for k1 in 0..4 {
-        for k2 in 0..4 {
+    for k1 in 0..corners(first).len() {
+        for k2 in 0..corners(second).len() {
             let edges = [geometry::edge(corners(first), k1), geometry::edge(corners(second), k2)];
             let Some(normal) = geometry::facing_normal(edges[0], edges[1]) else { continue };
             let (kind, forward) = classify(normal, options.tolerance);
@@ -213,7 +213,7 @@ fn on_support(
 ) -> Vec<Candidate> {
     let slack = options.tolerance * geometry::size(&block.corners);
     let lines = [[support.from, support.to], [support.to, support.from]];
-    let edges = (0..4).flat_map(|k| lines.map(|line| (k, line)));
+    let edges = (0..block.corners.len()).flat_map(|k| lines.map(|line| (k, line)));
     edges
         .map(|(b_edge, line)| Candidate {
             kind: JointKind::Support(id),

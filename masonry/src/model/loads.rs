@@ -2,7 +2,7 @@
 
 use nalgebra::{Point2, Vector2};
 
-use crate::geometry::{self, Quad};
+use crate::geometry;
 use crate::ids::LoadId;
 use crate::model::mesh::BlockMesh;
 
@@ -32,7 +32,7 @@ pub enum BlockLoad {
 /// A uniform traction on a part of a block's edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EdgeLoad {
-    /// The edge, 0..4.
+    /// The edge, from 0.
     pub edge: usize,
     /// Start of the loaded part as a fraction of the edge, from its first corner.
     pub from: f64,
@@ -49,8 +49,8 @@ pub struct EdgeLoad {
 pub struct PointLoad {
     /// The place \[m\].
     pub at: Point2<f64>,
-    /// The same place in the coordinates of the block ([`geometry::reference`]), both in 0..=1.
-    pub place: [f64; 2],
+    /// The same place in the coordinates of a block with a mesh ([`geometry::reference`]), both in 0..=1.
+    pub place: Option<[f64; 2]>,
     /// The force on the block over its whole thickness \[N\] in global axes.
     pub force: Vector2<f64>,
     /// The load of the scene that it is.
@@ -86,7 +86,7 @@ impl BlockLoad {
     }
 
     /// Its resultant on a block with these corners in a wall of a thickness \[m\].
-    pub fn resultant(&self, corners: &Quad, thickness: f64) -> PlacedForce {
+    pub fn resultant(&self, corners: &[Point2<f64>], thickness: f64) -> PlacedForce {
         match self {
             Self::Edge(load) => {
                 let [start, end] = geometry::edge(corners, load.edge);
@@ -101,7 +101,7 @@ impl BlockLoad {
     /// The forces \[N\] at nodes that do the same work on all displacements of the mesh; a node may come twice.
     pub fn nodal_forces(
         &self,
-        corners: &Quad,
+        corners: &[Point2<f64>],
         mesh: &BlockMesh,
         thickness: f64,
     ) -> Vec<(usize, Vector2<f64>)> {
@@ -110,7 +110,10 @@ impl BlockLoad {
                 let [start, end] = geometry::edge(corners, load.edge);
                 (edge_shares(mesh, load), load.traction * ((end - start).norm() * thickness))
             }
-            Self::Point(load) => (mesh.interpolate_inside(load.place).to_vec(), load.force),
+            Self::Point(load) => {
+                let place = load.place.map(|place| mesh.interpolate_inside(place));
+                (place.into_iter().flatten().collect(), load.force)
+            }
         };
         shares.into_iter().map(|(node, share)| (node, force * share)).collect()
     }

@@ -73,13 +73,13 @@ fn named<'a>(blocks: &'a mut [Block], name: &str) -> Result<&'a mut Block, LoadE
     Err(LoadError::NoBlock { name: name.to_owned(), near })
 }
 
-/// A place on a block, and the same in the coordinates of the block. One that rounding has put outside is moved to
+/// A place on a block, and the same in the coordinates of one with a mesh. One that rounding has put outside is moved to
 /// the edge.
 fn place_in(
     block: &Block,
     at: Point2<f64>,
     units: Units,
-) -> Result<(Point2<f64>, [f64; 2]), LoadError> {
+) -> Result<(Point2<f64>, Option<[f64; 2]>), LoadError> {
     let corners = &block.corners;
     let distance = geometry::outside(corners, at);
     if distance > TOLERANCE * geometry::size(corners) {
@@ -94,7 +94,9 @@ fn place_in(
         });
     }
     let at = if distance > 0.0 { geometry::nearest_on_boundary(corners, at) } else { at };
-    Ok((at, geometry::reference(corners, at).map(|it| snap(it.clamp(0.0, 1.0)))))
+    let meshed = block.mesh.as_ref().and_then(|_| block.quad());
+    let place = meshed.map(|quad| geometry::reference(&quad, at));
+    Ok((at, place.map(|place| place.map(|it| snap(it.clamp(0.0, 1.0))))))
 }
 
 /// A load on all free parts of edges that lie on a segment.
@@ -108,7 +110,7 @@ struct OnEdges<'a> {
 
 impl OnEdges<'_> {
     /// Parts of edges that make joints are not free and carry no load, so that a load cannot act inside a joint.
-    fn place(&self, blocks: &mut [Block], joined: &[[Vec<Part>; 4]]) -> Result<(), SceneErrorKind> {
+    fn place(&self, blocks: &mut [Block], joined: &[Vec<Vec<Part>>]) -> Result<(), SceneErrorKind> {
         let [from, to] = self.ends;
         let mut acts = false;
         for (block, joined) in blocks.iter_mut().zip(joined) {
@@ -125,7 +127,7 @@ impl OnEdges<'_> {
     }
 
     /// Traction on the block \[Pa\].
-    fn traction(&self, corners: &geometry::Quad, edge: usize) -> Vector2<f64> {
+    fn traction(&self, corners: &[Point2<f64>], edge: usize) -> Vector2<f64> {
         let in_scene = match self.stress {
             EdgeStress::Traction(traction) => Vector2::from(traction),
             EdgeStress::Pressure(pressure) => -geometry::outward_normal(corners, edge) * pressure,
@@ -136,7 +138,7 @@ impl OnEdges<'_> {
 
 /// The part of an edge that lies on a segment; `None` when they share no length.
 fn covered_part(
-    corners: &geometry::Quad,
+    corners: &[Point2<f64>],
     edge: usize,
     from: Point2<f64>,
     to: Point2<f64>,
@@ -192,8 +194,9 @@ fn joined_parts(
     blocks: &[Block],
     joints: &[Joint],
     contacts: &[ContactPoint],
-) -> Vec<[Vec<Part>; 4]> {
-    let mut joined = vec![<[Vec<Part>; 4]>::default(); blocks.len()];
+) -> Vec<Vec<Vec<Part>>> {
+    let mut joined: Vec<_> =
+        blocks.iter().map(|block| vec![Vec::new(); block.corners.len()]).collect();
     // All points of a joint sit on the same two edges: the first tells which.
     let mut last = None;
     for contact in contacts {
@@ -211,7 +214,7 @@ fn joined_parts(
 }
 
 /// The part of an edge in front of a joint.
-fn projected(corners: &geometry::Quad, edge: usize, joint: &Joint) -> Part {
+fn projected(corners: &[Point2<f64>], edge: usize, joint: &Joint) -> Part {
     let [start, end] = geometry::edge(corners, edge);
     let along = (end - start) / (end - start).norm_squared();
     let [a, b] = [joint.from, joint.to].map(|p| snap((p - start).dot(&along)));

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nalgebra::Point2;
 
 use super::{Block, Body, Joint, Support};
-use crate::geometry::{self, Quad};
+use crate::geometry;
 use crate::model::joints::{Options, near_pairs};
 use crate::scene::{Fault, KeyPath, Scene, SceneErrorKind};
 use crate::units::Units;
@@ -52,7 +52,7 @@ pub(super) fn check_overlaps(
 /// Refuses supports that move farther than the blocks reach: displacements are small, and farther away nothing of
 /// the deformation would be left of the digits.
 pub(super) fn check_movements(scene: &Scene, blocks: &[Block]) -> Result<(), Fault> {
-    let corners = || blocks.iter().flat_map(|block| block.corners);
+    let corners = || blocks.iter().flat_map(|block| &block.corners);
     let across = |along: fn(&Point2<f64>) -> f64| {
         let [low, high] = corners().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
             [low.min(along(&p)), high.max(along(&p))]
@@ -104,13 +104,13 @@ pub(super) fn rounded(number: f64) -> f64 {
 }
 
 /// Length of the part of a segment that is deeper in a block than rounding errors.
-fn length_inside(from: Point2<f64>, to: Point2<f64>, quad: &Quad) -> f64 {
-    let depth = TOLERANCE * geometry::size(quad);
+fn length_inside(from: Point2<f64>, to: Point2<f64>, corners: &[Point2<f64>]) -> f64 {
+    let depth = TOLERANCE * geometry::size(corners);
     let along = to - from;
     let (mut start, mut end) = (0.0_f64, 1.0_f64);
-    for k in 0..4 {
-        let inwards = -geometry::outward_normal(quad, k);
-        let at_start = (from - quad[k]).dot(&inwards) - depth;
+    for k in 0..corners.len() {
+        let inwards = -geometry::outward_normal(corners, k);
+        let at_start = (from - corners[k]).dot(&inwards) - depth;
         let slope = along.dot(&inwards);
         if slope > 0.0 {
             start = start.max(-at_start / slope);

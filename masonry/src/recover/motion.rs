@@ -13,7 +13,7 @@ const MECHANISM_TOLERANCE: f64 = 1e-8;
 /// Blocks that are deformed by more than this fraction of the largest displacement are no mechanism.
 const LARGEST_DEFORMATION: f64 = 1e-2;
 
-/// The mechanism of a motion: rates of the four corners of every block, scaled to a largest component
+/// The mechanism of a motion: rates of the corners of every block, scaled to a largest component
 /// of one. Of displacements the rigid part of every block counts; `sparse` is the problem that they
 /// belong to.
 ///
@@ -23,7 +23,7 @@ pub fn mechanism(
     system: &System,
     sparse: Option<&Sparse>,
     motion: &Motion,
-) -> Option<Vec<[Vector2<f64>; 4]>> {
+) -> Option<Vec<Vec<Vector2<f64>>>> {
     match (motion, sparse) {
         (Motion::Rigid(amplitudes), _) => of_amplitudes(model, system, amplitudes, 0.0),
         (Motion::Displacements(u), Some(sparse)) => {
@@ -40,17 +40,19 @@ fn of_amplitudes(
     system: &System,
     amplitudes: &[f64],
     deformation: f64,
-) -> Option<Vec<[Vector2<f64>; 4]>> {
+) -> Option<Vec<Vec<Vector2<f64>>>> {
     let power: f64 = system.resultants().iter().zip(amplitudes).map(|(f, rate)| f * rate).sum();
     if power <= 0.0 || !power.is_finite() {
         return None;
     }
-    let mut rates: Vec<[Vector2<f64>; 4]> = model
+    let mut rates: Vec<Vec<Vector2<f64>>> = model
         .blocks
         .iter()
         .zip(&system.bodies)
         .zip(amplitudes.chunks(3))
-        .map(|((block, body), alpha)| block.corners.map(|p| body.modes.displacement(p, alpha)))
+        .map(|((block, body), alpha)| {
+            block.corners.iter().map(|p| body.modes.displacement(*p, alpha)).collect()
+        })
         .collect();
     let largest = rates.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max);
     if deformation > LARGEST_DEFORMATION * largest {

@@ -83,7 +83,7 @@ struct Report<'a> {
     soft: Option<SoftReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
     history: Option<history::Report<'a>>,
-    mechanism: Option<ByName<'a, [[f64; 2]; 4]>>,
+    mechanism: Option<ByName<'a, Vec<[f64; 2]>>>,
     time_s: ByName<'a, f64>,
     files: &'a [String],
 }
@@ -315,7 +315,15 @@ impl<'a> Report<'a> {
                 .map(|history| history::Report::of(history, &model.supports, units)),
             mechanism: outcome.mechanism.as_ref().map(|rates| {
                 let names = model.blocks.iter().map(|block| block.name.as_str());
-                ByName(names.zip(rates.iter().map(|corners| corners.map(Into::into))).collect())
+                ByName(
+                    names
+                        .zip(
+                            rates
+                                .iter()
+                                .map(|corners| corners.iter().map(|it| (*it).into()).collect()),
+                        )
+                        .collect(),
+                )
             }),
             time_s: ByName(
                 outcome.times.iter().map(|time| (time.phase.as_str(), time.seconds)).collect(),

@@ -10,8 +10,10 @@ use crate::model::Model;
 use crate::state::{ElementStress, State};
 
 const QUAD: u8 = 9;
+const POLYGON: u8 = 7;
 
-/// The bytes of `panel.vtu`: every element, and every rigid block, as one quadrilateral.
+/// The bytes of `panel.vtu`: every element as a quadrilateral, and every rigid block as one
+/// polygon.
 ///
 /// Blocks share no points, so that joints can open. Point data: `displacement_m` (3 components).
 /// Cell data: `block` (position in the model), `deformable` (0 for rigid blocks, whose stresses are
@@ -41,9 +43,9 @@ pub fn vtu(model: &Model, state: Option<&State>) -> Vec<u8> {
     let points = file.floats(&format!("position_{length}"), 3, &positions);
     let mut cells = file.integers("connectivity", &grid.connectivity);
     let count = grid.blocks.len();
-    let ends: Vec<i64> = (1..=count).map(|cell| signed(4 * cell)).collect();
+    let ends: Vec<i64> = grid.ends.iter().map(|end| signed(*end)).collect();
     cells += &file.integers("offsets", &ends);
-    cells += &file.bytes("types", &vec![QUAD; count]);
+    cells += &file.bytes("types", &grid.types);
 
     let mut bytes = format!(
         "<?xml version=\"1.0\"?>\n\
@@ -71,12 +73,15 @@ const STRESSES: [(&str, Component); 5] = [
     ("sigma_2", |stress| stress.principal.sigma_2),
 ];
 
-/// All blocks as one list of points and quadrilaterals.
+/// All blocks as one list of points and cells.
 #[derive(Debug, Default)]
 struct Grid {
     /// Three coordinates a point \[m\].
     points: Vec<f64>,
     connectivity: Vec<i64>,
+    /// Where each cell ends in it.
+    ends: Vec<usize>,
+    types: Vec<u8>,
     blocks: Vec<i64>,
     deformable: Vec<u8>,
     /// First cell of every block.
@@ -92,12 +97,19 @@ impl Grid {
             for node in nodes(block) {
                 grid.points.extend([node.x, node.y, 0.0]);
             }
-            let one = [[0, 1, 2, 3]];
-            let elements = block.mesh.as_ref().map_or(&one[..], |mesh| &mesh.elements);
-            for element in elements {
-                grid.connectivity.extend(element.map(|node| signed(first_point + node)));
+            let mut cell = |nodes: &mut dyn Iterator<Item = usize>, is_elastic: bool| {
+                grid.connectivity.extend(nodes.map(|node| signed(first_point + node)));
+                let count = grid.connectivity.len() - grid.ends.last().copied().unwrap_or(0);
+                grid.ends.push(grid.connectivity.len());
+                grid.types.push(if count == 4 { QUAD } else { POLYGON });
                 grid.blocks.push(signed(index));
-                grid.deformable.push(u8::from(block.mesh.is_some()));
+                grid.deformable.push(u8::from(is_elastic));
+            };
+            match &block.mesh {
+                Some(mesh) => {
+                    mesh.elements.iter().for_each(|it| cell(&mut it.iter().copied(), true));
+                }
+                None => cell(&mut (0..block.corners.len()), false),
             }
         }
         grid

@@ -292,8 +292,9 @@ impl Wall {
 
 impl Block {
     /// A block with corners \[length\] in counter-clockwise order.
-    pub fn new(name: &str, material: &str, corners: [[f64; 2]; 4]) -> Self {
-        Self { name: name.to_owned(), material: material.to_owned(), corners, mesh: None }
+    pub fn new(name: &str, material: &str, corners: impl Into<Vec<[f64; 2]>>) -> Self {
+        let (name, material) = (name.to_owned(), material.to_owned());
+        Self { name, material, corners: corners.into(), mesh: None }
     }
 
     /// Sets the elements along edges 0 and 2, and along edges 1 and 3.

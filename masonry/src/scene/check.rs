@@ -8,7 +8,7 @@ use super::{
     Between, Block, Courses, Fault, Form, Joint, KeyPath, Known, Material, Route, Scene,
     SceneError, SceneErrorKind, Solver, Support, Wall,
 };
-use crate::geometry::{self, QuadError};
+use crate::geometry::{self, PolygonError};
 use crate::scene::bond::JointThickness;
 
 mod loads;
@@ -141,23 +141,34 @@ impl Scene {
             point(&at.key("corners").item(k), *corner)?;
         }
         self.check_shape(at.key("corners"), block)?;
+        let count = block.corners.len();
+        if material.young.is_some() && count != 4 {
+            let kind = SceneErrorKind::NoQuadrilateral { block: block.name.clone(), count };
+            return Err(Fault::new(at.key("corners"), kind));
+        }
         check_mesh(at, block.mesh, material)
     }
 
     fn check_shape(&self, at: KeyPath, block: &Block) -> Check {
-        let corners = block.corners.map(|[x, y]| Point2::new(x, y));
+        let corners: Vec<_> = block.corners.iter().map(|[x, y]| Point2::new(*x, *y)).collect();
         let name = block.name.clone();
         match geometry::check_convex(&corners) {
             Ok(()) => Ok(()),
-            Err(QuadError::Clockwise { area }) => {
+            Err(PolygonError::Clockwise { area }) => {
                 let unit = self.units.length_name();
                 Err(Fault::new(at, SceneErrorKind::Clockwise { block: name, area, unit }))
             }
-            Err(QuadError::NotConvex { corner }) => {
+            Err(PolygonError::NotConvex { corner }) => {
                 let kind = SceneErrorKind::NotConvex { block: name, corner: corner + 1 };
                 Err(Fault::new(at.item(corner), kind))
             }
-            Err(QuadError::NotFinite) => finite(at, f64::INFINITY),
+            Err(PolygonError::TooFew { count }) => {
+                Err(Fault::new(at, SceneErrorKind::TooFewCorners { block: name, count }))
+            }
+            Err(PolygonError::Crossing) => {
+                Err(Fault::new(at, SceneErrorKind::CrossingEdges { block: name }))
+            }
+            Err(PolygonError::NotFinite) => finite(at, f64::INFINITY),
         }
     }
 

@@ -262,6 +262,34 @@ pub enum SceneErrorKind {
         /// Unit of length.
         unit: &'static str,
     },
+    /// A block with less than three corners.
+    #[error("block \"{block}\" has {count} corners: give at least three")]
+    TooFewCorners {
+        /// Name of the block.
+        block: String,
+        /// How many there are.
+        count: usize,
+    },
+    /// The edges of a block go around more than once.
+    #[error(
+        "the edges of block \"{block}\" cross: list its corners in the order in which they follow each other, \
+         counter-clockwise"
+    )]
+    CrossingEdges {
+        /// Name of the block.
+        block: String,
+    },
+    /// A block of an elastic material that is no quadrilateral.
+    #[error(
+        "block \"{block}\" has {count} corners, but only blocks with four can be elastic: give it a rigid material \
+         (one without E), or divide it into quadrilaterals"
+    )]
+    NoQuadrilateral {
+        /// Name of the block.
+        block: String,
+        /// How many corners it has.
+        count: usize,
+    },
     /// A block is not strictly convex.
     #[error(
         "block \"{block}\" is not strictly convex at corner {corner}: move the corner outwards, or \

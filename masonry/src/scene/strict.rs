@@ -1,6 +1,6 @@
 //! Arrays and tables that refuse what serde would let pass.
 //!
-//! Serde's own arrays stop reading when they are full, so that a fifth corner or a third coordinate
+//! Serde's own arrays stop reading when they are full, so that a third coordinate
 //! would be dropped without a word; its structs also read a list as their fields in order.
 
 use std::collections::BTreeMap;
@@ -24,9 +24,9 @@ pub(super) fn some_pair<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
 
 pub(super) fn corners<'de, D: Deserializer<'de>>(
     deserializer: D,
-) -> Result<[[f64; 2]; 4], D::Error> {
-    Exact::<Exact<f64, 2>, 4>::deserialize(deserializer)
-        .map(|Exact(corners)| corners.map(|Exact(corner)| corner))
+) -> Result<Vec<[f64; 2]>, D::Error> {
+    let corners = Vec::<Exact<f64, 2>>::deserialize(deserializer)?;
+    Ok(corners.into_iter().map(|Exact(corner)| corner).collect())
 }
 
 struct Exact<T, const N: usize>([T; N]);

@@ -3,7 +3,7 @@
 use faer::Mat;
 use nalgebra::{Matrix3, Point2, Vector2, Vector3};
 
-use crate::geometry::{self, Quad};
+use crate::geometry;
 
 mod isostatic;
 
@@ -23,7 +23,7 @@ pub struct Modes {
 
 impl Modes {
     /// The motions of a block with these corners.
-    pub fn of(corners: &Quad) -> Self {
+    pub fn of(corners: &[Point2<f64>]) -> Self {
         let centre = geometry::centroid(corners);
         let length = corners.iter().map(|p| (p - centre).norm()).fold(0.0, f64::max);
         Self { centre, length }

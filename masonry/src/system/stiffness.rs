@@ -152,7 +152,8 @@ pub(super) struct Shared {
 }
 
 struct Key {
-    sides: [Vector2<f64>; 3],
+    /// From the first corner to the others.
+    sides: Vec<Vector2<f64>>,
     divisions: [usize; 2],
     elasticity: Elasticity,
 }
@@ -170,8 +171,7 @@ impl Shared {
         mesh: &BlockMesh,
         elasticity: Elasticity,
     ) -> Result<usize, SystemError> {
-        let [origin, p, q, r] = block.corners;
-        let sides = [p - origin, q - origin, r - origin];
+        let sides = block.corners[1..].iter().map(|corner| corner - block.corners[0]).collect();
         let key = Key { sides, divisions: [mesh.nx, mesh.ny], elasticity };
         if let Some(known) = self.keys.iter().position(|known| known.same(&key)) {
             return Ok(known);

@@ -34,7 +34,7 @@ pub fn rectangle(name: &str, x: [f64; 2], y: [f64; 2], mesh: Option<[usize; 2]>)
 pub fn block(name: &str, corners: [Point2<f64>; 4], mesh: Option<[usize; 2]>) -> Block {
     Block {
         name: name.into(),
-        corners,
+        corners: corners.into(),
         elasticity: mesh.map(|_| Elasticity { young: YOUNG, poisson: 0.15 }),
         density: None,
         mesh: mesh.map(|[nx, ny]| BlockMesh::new(&corners, nx, ny)),

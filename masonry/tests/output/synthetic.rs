@@ -125,7 +125,7 @@ pub(crate) fn unsolved(wall: Wall) -> Outcome {
     outcome.reactions.clear();
     let rates = outcome.model.blocks.iter().map(|block| {
         let middle = nalgebra::center(&block.corners[0], &block.corners[2]);
-        [Vector2::new(0.0, if hangs(middle, wall) { -1.0 } else { 0.0 }); 4]
+        vec![Vector2::new(0.0, if hangs(middle, wall) { -1.0 } else { 0.0 }); 4]
     });
     outcome.mechanism = Some(rates.collect());
     outcome.judgement.verdict = Verdict::Undecided;
@@ -214,7 +214,7 @@ fn brick(x: [f64; 2], y: [f64; 2], wall: Wall) -> Block {
         .collect();
     Block {
         name: String::new(),
-        corners: [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]].map(Point2::from),
+        corners: [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]].map(Point2::from).into(),
         elasticity: (!wall.rigid).then_some(Elasticity { young: 1e8, poisson: 0.15 }),
         density: None,
         mesh: (!wall.rigid).then_some(BlockMesh { nx, ny, nodes, elements }),
@@ -261,7 +261,7 @@ fn add_joints(model: &mut Model, wall: Wall, courses: &[Vec<f64>]) {
 fn add_joint(model: &mut Model, (a, b, class): (Body, BlockId, usize), ends: [[f64; 2]; 2]) {
     let [from, to] = ends.map(Point2::from);
     let middle = nalgebra::center(&from, &to);
-    let corners = model.blocks[b.index()].corners;
+    let corners = &model.blocks[b.index()].corners;
     let inward = nalgebra::center(&corners[0], &corners[2]) - middle;
     let along = (to - from).normalize();
     let normal = (inward - along * inward.dot(&along)).normalize();

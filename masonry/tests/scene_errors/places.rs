@@ -22,6 +22,30 @@ fn blocks_of_a_wrong_shape() {
         "blocks[0].corners[2]",
         &["not strictly convex at corner 3"],
     );
+    let line = "[[0.0, 0.3], [1.0, 0.3]]";
+    assert_error(CORNERS, line, "[[", "blocks[0].corners", &["2 corners: give at least three"]);
+    let star = "[[0.5, 0.3], [0.8, 1.2], [0.0, 0.7], [1.0, 0.7], [0.2, 1.2]]";
+    assert_error(
+        CORNERS,
+        star,
+        "[[",
+        "blocks[0].corners",
+        &["the edges of block \"lintel\" cross", "in which they follow each other"],
+    );
+}
+
+/// Only quadrilaterals have a mesh.
+#[test]
+fn elastic_blocks_have_four_corners() {
+    let house = "[[0.0, 0.3], [1.0, 0.3], [1.0, 0.5], [0.5, 0.6], [0.0, 0.5]]";
+    let brick = format!("material = \"brick\"\ncorners = {house}\nmesh = [1, 1]");
+    assert_error(
+        &format!("material = \"stone\"\ncorners = {CORNERS}"),
+        &brick,
+        "[[0.0, 0.3]",
+        "blocks[0].corners",
+        &["\"lintel\" has 5 corners", "give it a rigid material"],
+    );
 }
 
 #[test]

@@ -104,21 +104,30 @@ pub(crate) fn largest_tilt(model: &Model) -> Limit {
 }
 
 fn mass(model: &Model, block: &Block) -> f64 {
-    let [p, q, r, s] = block.corners;
-    let cross = |a: Vector2<f64>, b: Vector2<f64>| a.x * b.y - a.y * b.x;
-    block.density.unwrap_or(0.0) * model.thickness * 0.5 * cross(r - p, s - q)
+    let area: f64 = triangles(block).map(|(area, _)| area).sum();
+    block.density.unwrap_or(0.0) * model.thickness * area
 }
 
-/// The mean of the centroids of two triangles, by their areas.
+/// The mean of the centroids of triangles, by their areas.
 fn centroid(block: &Block) -> Point2<f64> {
-    let [p, q, r, s] = block.corners;
-    let cross = |a: Vector2<f64>, b: Vector2<f64>| a.x * b.y - a.y * b.x;
-    let (first, second) = (cross(q - p, r - p), cross(r - p, s - p));
-    let third = |a: Point2<f64>, b: Point2<f64>| ((a - p) + (b - p)) / 3.0;
-    p + (third(q, r) * first + third(r, s) * second) / (first + second)
+    let (mut moment, mut whole) = (Vector2::zeros(), 0.0);
+    for (area, centroid) in triangles(block) {
+        moment += (centroid - block.corners[0]) * area;
+        whole += area;
+    }
+    block.corners[0] + moment / whole
+}
+
+/// Areas and centroids of the triangles into which the diagonals from the first corner cut a block.
+fn triangles(block: &Block) -> impl Iterator<Item = (f64, Point2<f64>)> {
+    let p = block.corners[0];
+    block.corners[1..].windows(2).map(move |pair| {
+        let (a, b) = (pair[0] - p, pair[1] - p);
+        (0.5 * (a.x * b.y - a.y * b.x), p + (a + b) / 3.0)
+    })
 }
 
 fn on_edge(block: &Block, edge: usize, at: f64) -> Point2<f64> {
-    let (from, to) = (block.corners[edge], block.corners[(edge + 1) % 4]);
+    let (from, to) = (block.corners[edge], block.corners[(edge + 1) % block.corners.len()]);
     from + (to - from) * at
 }

@@ -1,4 +1,4 @@
-//! Random walls, stacks and arches.
+//! Random walls, stacks, arches and honeycombs.
 
 use masonry::model::{Model, Plane};
 use masonry::scene::{Block, Brick, Joint, Load, Material, Scene, Support, Wall};
@@ -43,6 +43,11 @@ pub(crate) struct Tiltable {
 }
 
 impl Tiltable {
+    fn new((what, mut scene): (&str, Scene), kind: Kind, mu: f64) -> Self {
+        scene.title = format!("{kind:?} {what}, mu = {mu}");
+        Self { scene, kind }
+    }
+
     pub(crate) fn model(&self) -> Model {
         Model::from_scene(&self.tilted(0.0)).unwrap()
     }
@@ -59,6 +64,31 @@ impl Tiltable {
 
 pub(crate) fn any(random: &mut Random) -> Tiltable {
     let kind = random.one_of(&[Kind::Rigid, Kind::Rigid, Kind::Elastic, Kind::Gap]);
+    let (scene, mu, floor) = bare(random, kind);
+    let (what, scene) = match random.one_of(&[0, 1, 2, 3, 4]) {
+        0 => ("stack", stack(random, scene, floor)),
+        1 => ("wall on feet", wall(random, scene, floor, true)),
+        2 => ("wall with a door", door(random, scene, floor)),
+        3 => ("arch", arch(random, scene, floor)),
+        _ => ("wall", wall(random, scene, floor, false)),
+    };
+    Tiltable::new((what, scene), kind, mu)
+}
+
+/// Blocks that are no quadrilaterals.
+pub(crate) fn polygons(random: &mut Random) -> Tiltable {
+    let kind = random.one_of(&[Kind::Rigid, Kind::Rigid, Kind::Gap]);
+    let (scene, mu, floor) = bare(random, kind);
+    let built = if random.next() < 0.5 {
+        ("honeycomb", honeycomb(random, scene, floor))
+    } else {
+        ("stack of octagons", octagons(random, scene, floor))
+    };
+    Tiltable::new(built, kind, mu)
+}
+
+/// A scene without blocks, its friction, and how high the floor is.
+fn bare(random: &mut Random, kind: Kind) -> (Scene, f64, f64) {
     // Some that are tangents of the geometry.
     let mu = random.one_of(&[0.0, 0.1, 0.3, 0.5, 0.65, 1.0, 1.5, 3.0]);
     let mu = if random.next() < 0.5 { mu } else { random.between(0.05, 3.0) };
@@ -67,24 +97,61 @@ pub(crate) fn any(random: &mut Random) -> Tiltable {
         Kind::Rigid | Kind::Gap => Material::rigid(),
     };
     let floor = if kind == Kind::Gap { -1e-3 } else { 0.0 };
-    let scene = Scene::new("", Units::SI)
+    let mut scene = Scene::new("", Units::SI)
         .plane(Plane::Stress)
         .thickness(0.2)
         .material("stone", material.density(2000.0))
         .joint("bed", Joint::mu(mu))
         .joint("head", Joint::mu(if random.next() < 0.7 { mu } else { 0.5 * mu }));
-    let (what, mut scene) = match random.one_of(&[0, 1, 2, 3, 4]) {
-        0 => ("stack", stack(random, scene, floor)),
-        1 => ("wall on feet", wall(random, scene, floor, true)),
-        2 => ("wall with a door", door(random, scene, floor)),
-        3 => ("arch", arch(random, scene, floor)),
-        _ => ("wall", wall(random, scene, floor, false)),
-    };
     if kind == Kind::Gap {
         scene.contact.gap_limit = 2e-3;
     }
-    scene.title = format!("{kind:?} {what}, mu = {mu}");
-    Tiltable { scene, kind }
+    (scene, mu, floor)
+}
+
+/// Columns of regular hexagons on their sides: every other column starts half a hexagon higher and wedges its neighbours
+/// apart.
+fn honeycomb(random: &mut Random, scene: Scene, floor: f64) -> Scene {
+    let (columns, rows) = (random.one_of(&[1_u32, 3, 5]), random.one_of(&[1_u32, 2, 3]));
+    let half = 0.75_f64.sqrt();
+    let scene = scene.support(Support::new("floor", [-2.0, floor], [10.0, floor], "bed"));
+    (0..columns).fold(scene, |scene, column| {
+        let raised = column % 2;
+        (raised..rows).fold(scene, |scene, row| {
+            let [x, y] = [1.5 * f64::from(column), half * f64::from(2 * row + 1 - raised)];
+            let corners =
+                [[1.0, 0.0], [0.5, half], [-0.5, half], [-1.0, 0.0], [-0.5, -half], [0.5, -half]];
+            let corners = corners.map(|[dx, dy]| [x + dx, y + dy]);
+            scene.block(Block::new(&format!("{column}/{row}"), "stone", corners))
+        })
+    })
+}
+
+/// Squares without their corners on top of each other, and a triangle on them.
+fn octagons(random: &mut Random, scene: Scene, floor: f64) -> Scene {
+    let count = random.one_of(&[1_u32, 2, 4]);
+    let cut = random.between(0.05, 0.3);
+    let scene = scene.support(Support::new("floor", [-5.0, floor], [5.0, floor], "bed"));
+    let mut left = 0.0;
+    let scene = (0..count).map(f64::from).fold(scene, |scene, low| {
+        left += random.between(-0.1, 0.15);
+        let (near, far) = (cut, 1.0 - cut);
+        let corners = [
+            [near, 0.0],
+            [far, 0.0],
+            [1.0, near],
+            [1.0, far],
+            [far, 1.0],
+            [near, 1.0],
+            [0.0, far],
+            [0.0, near],
+        ];
+        let corners = corners.map(|[x, y]| [left + x, low + y]);
+        scene.block(Block::new(&format!("{low}"), "stone", corners))
+    });
+    let top = f64::from(count);
+    let corners = [[left + cut, top], [left + 1.0 - cut, top], [left + 0.5, top + 0.7]];
+    scene.block(Block::new("roof", "stone", corners))
 }
 
 /// Blocks on top of each other, each a little beside the one below.

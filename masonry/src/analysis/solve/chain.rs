@@ -34,7 +34,7 @@ pub(super) struct Attempt {
     pub(super) info: SolveInfo,
     pub(super) state: Option<State>,
     pub(super) checks: Option<Checks>,
-    pub(super) mechanism: Option<Vec<[Vector2<f64>; 4]>>,
+    pub(super) mechanism: Option<Vec<Vec<Vector2<f64>>>>,
     pub(super) basis: Option<Start>,
     /// What is known of admissible forces, where it was asked.
     pub(super) statics: Option<Statics>,

@@ -100,7 +100,7 @@ struct InHistory {
 struct Last {
     info: SolveInfo,
     statics: Option<Statics>,
-    mechanism: Option<Vec<[Vector2<f64>; 4]>>,
+    mechanism: Option<Vec<Vec<Vector2<f64>>>>,
 }
 
 impl Run {

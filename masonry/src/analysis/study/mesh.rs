@@ -35,7 +35,7 @@ pub struct Mesh {
     pub errors: Option<MeshErrors>,
     /// Where the corners of blocks have gone, of those that carry load.
     #[serde(skip)]
-    corners: Vec<Option<[Vector2<f64>; 4]>>,
+    corners: Vec<Option<Vec<Vector2<f64>>>>,
 }
 
 /// Numbers of an answer that mean the same on every mesh.
@@ -130,7 +130,7 @@ pub(super) fn compared(mut meshes: Vec<Mesh>) -> Vec<Mesh> {
     let place = most_moved(&finest.corners);
     let moved = |mesh: &Mesh| {
         let (block, corner) = place?;
-        mesh.corners.get(block).copied().flatten().map(|corners| corners[corner])
+        mesh.corners.get(block)?.as_ref().map(|corners| corners[corner])
     };
     let expected = moved(&finest);
     for mesh in &mut meshes {
@@ -172,10 +172,10 @@ fn thrust(model: &Model, state: &State) -> f64 {
     if thrust.abs() > NO_THRUST * all { thrust } else { 0.0 }
 }
 
-fn corners(model: &Model, state: &State, figures: &Figures) -> Vec<Option<[Vector2<f64>; 4]>> {
+fn corners(model: &Model, state: &State, figures: &Figures) -> Vec<Option<Vec<Vector2<f64>>>> {
     let of_block = |(block, moves): (&Block, &Vec<Vector2<f64>>)| match &block.mesh {
-        Some(mesh) => [0, 1, 2, 3].map(|edge| moves[mesh.edge_nodes(edge)[0]]),
-        None => [0, 1, 2, 3].map(|corner| moves[corner]),
+        Some(mesh) => (0..4).map(|edge| moves[mesh.edge_nodes(edge)[0]]).collect(),
+        None => moves.clone(),
     };
     let corners = model.blocks.iter().zip(&state.displacements).map(of_block);
     let loaded = figures.loaded_blocks();
@@ -183,11 +183,11 @@ fn corners(model: &Model, state: &State, figures: &Figures) -> Vec<Option<[Vecto
 }
 
 /// Block and corner.
-fn most_moved(corners: &[Option<[Vector2<f64>; 4]>]) -> Option<(usize, usize)> {
+fn most_moved(corners: &[Option<Vec<Vector2<f64>>>]) -> Option<(usize, usize)> {
     let places =
-        corners.iter().enumerate().filter_map(|(block, corners)| Some((block, (*corners)?)));
+        corners.iter().enumerate().filter_map(|(block, corners)| Some((block, corners.as_ref()?)));
     let all = places.flat_map(|(block, corners)| {
-        (0..4).map(move |corner| ((block, corner), corners[corner].norm()))
+        corners.iter().enumerate().map(move |(corner, u)| ((block, corner), u.norm()))
     });
     all.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(place, _)| place)
 }

@@ -8,7 +8,7 @@ use nalgebra::{Point2, Vector2};
 
 use crate::geometry;
 use crate::ids::BlockId;
-use crate::model::{Anchor, ContactPoint, Model};
+use crate::model::{Anchor, Block, ContactPoint, Model};
 use crate::system::rigid::Modes;
 
 /// What rounding makes of a velocity, relative to the largest.
@@ -21,7 +21,7 @@ const CLEAR: f64 = 1e6;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Proof {
     /// Displacement rates of the corners of every block, scaled to a largest component of one.
-    pub rates: Vec<[Vector2<f64>; 4]>,
+    pub rates: Vec<Vec<Vector2<f64>>>,
     /// Work of the loads on them, less what cohesion and tensile strength take, relative to the sum of all of these
     /// forces \[-\].
     pub work: f64,
@@ -36,7 +36,7 @@ impl Proof {
         if !is_number || amplitudes.len() != 3 * model.blocks.len() {
             return None;
         }
-        let largest = |rates: &[[Vector2<f64>; 4]]| {
+        let largest = |rates: &[Vec<Vector2<f64>>]| {
             rates.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max)
         };
         let fastest = largest(&Motion::new(model, amplitudes).rates(model));
@@ -84,9 +84,12 @@ impl<'a> Motion<'a> {
         modes.displacement(place, amplitudes)
     }
 
-    fn rates(&self, model: &Model) -> Vec<[Vector2<f64>; 4]> {
+    fn rates(&self, model: &Model) -> Vec<Vec<Vector2<f64>>> {
         let blocks = model.blocks.iter().enumerate();
-        blocks.map(|(b, block)| block.corners.map(|p| self.at(BlockId::new(b), p))).collect()
+        let of_block = |(b, block): (usize, &Block)| {
+            block.corners.iter().map(|p| self.at(BlockId::new(b), *p)).collect()
+        };
+        blocks.map(of_block).collect()
     }
 
     /// The work of all loads, and the sum of their sizes.

@@ -42,12 +42,10 @@ struct Bounds {
 }
 
 impl Bounds {
-    fn of(points: &[Point2<f64>; 4]) -> Self {
-        let fold = |f: fn(f64, f64) -> f64| {
-            let [a, b, c, d] = points;
-            Point2::new(f(f(a.x, b.x), f(c.x, d.x)), f(f(a.y, b.y), f(c.y, d.y)))
-        };
-        Self { low: fold(f64::min), high: fold(f64::max) }
+    fn of(points: &[Point2<f64>]) -> Self {
+        let inf = Point2::new(f64::INFINITY, f64::INFINITY);
+        let of_none = Self { low: inf, high: -inf };
+        points.iter().fold(of_none, |all, p| all.union(Self { low: *p, high: *p }))
     }
 
     fn grown(mut self, by: f64) -> Self {

@@ -253,7 +253,7 @@ fn forces(model: &Model, units: InUnits) -> Vec<Force> {
         for load in block.point_loads().filter(|load| load.force.norm() > 0.0) {
             let (at, force) = (load.at, load.force);
             let near = 1e-9 * geometry::size(&block.corners);
-            let pulls = (0..4)
+            let pulls = (0..block.corners.len())
                 .map(|k| (block.corners[k], geometry::outward_normal(&block.corners, k)))
                 .any(|(corner, normal)| {
                     (at - corner).dot(&normal) > -near && force.dot(&normal) > 0.0

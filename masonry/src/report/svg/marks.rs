@@ -26,7 +26,7 @@ const SLIDING: &str = "#cc3399";
 
 /// The box around all blocks and supports.
 pub(super) fn bounds(model: &Model) -> Bounds {
-    let corners = model.blocks.iter().flat_map(|block| block.corners);
+    let corners = model.blocks.iter().flat_map(|block| block.corners.iter().copied());
     let ends = model.supports.iter().flat_map(|support| [support.from, support.to]);
     Bounds::of(corners.chain(ends))
 }
@@ -49,14 +49,15 @@ pub(super) fn blocks(sheet: &mut Sheet, model: &Model, style: &str) {
     let frame = sheet.frame;
     sheet.canvas.group(style, |canvas| {
         for block in &model.blocks {
-            canvas.polygon(&block.corners.map(|corner| frame.at(corner)), "");
+            let corners: Vec<_> = block.corners.iter().map(|corner| frame.at(*corner)).collect();
+            canvas.polygon(&corners, "");
         }
     });
 }
 
 /// The nodes around a block, as positions in the list of its nodes.
 pub(super) fn rim(block: &Block) -> Vec<usize> {
-    let Some(mesh) = &block.mesh else { return (0..4).collect() };
+    let Some(mesh) = &block.mesh else { return (0..block.corners.len()).collect() };
     let row = mesh.nx + 1;
     let bottom = 0..mesh.nx;
     let right = (0..mesh.ny).map(|j| j * row + mesh.nx);
@@ -150,7 +151,8 @@ fn side_of_structure(model: &Model, id: SupportId, support: &Support) -> Vector2
     if let Some(joint) = model.joints.iter().find(|joint| joint.a == Body::Support(id)) {
         return joint.normal;
     }
-    let box_of_blocks = Bounds::of(model.blocks.iter().flat_map(|block| block.corners));
+    let box_of_blocks =
+        Bounds::of(model.blocks.iter().flat_map(|block| block.corners.iter().copied()));
     let centre: Point2<f64> = nalgebra::center(&box_of_blocks.low, &box_of_blocks.high);
     centre - nalgebra::center(&support.from, &support.to)
 }

@@ -17,15 +17,17 @@ const AT_REST: f64 = 1e-6;
 /// The structure displaced along `rates`, the displacement rates of the corners of every block,
 /// over its outline. Only ratios between rates mean something: the picture has no displacement
 /// scale.
-pub fn mechanism(title: &str, model: &Model, rates: &[[Vector2<f64>; 4]]) -> String {
-    let fastest = rates.iter().map(speed).fold(0.0, f64::max);
+pub fn mechanism(title: &str, model: &Model, rates: &[Vec<Vector2<f64>>]) -> String {
+    let fastest = rates.iter().map(|rate| speed(rate)).fold(0.0, f64::max);
     let still = marks::bounds(model);
     let factor = magnification(&still, fastest);
-    let moved: Vec<[Point2<f64>; 4]> = model
+    let moved: Vec<Vec<Point2<f64>>> = model
         .blocks
         .iter()
         .zip(rates)
-        .map(|(block, rate)| std::array::from_fn(|k| block.corners[k] + rate[k] * factor))
+        .map(|(block, rate)| {
+            block.corners.iter().zip(rate).map(|(corner, rate)| corner + rate * factor).collect()
+        })
         .collect();
     let bounds = Bounds::of(moved.iter().flatten().copied().chain([still.low, still.high]));
 
@@ -49,7 +51,8 @@ pub fn mechanism(title: &str, model: &Model, rates: &[[Vector2<f64>; 4]]) -> Str
             } else {
                 format!("class=\"still\" fill=\"{BRICK}\"")
             };
-            canvas.polygon(&corners.map(|corner| frame.at(corner)), &style);
+            let corners: Vec<_> = corners.iter().map(|corner| frame.at(*corner)).collect();
+            canvas.polygon(&corners, &style);
         }
     });
     marks::supports(&mut sheet, model);
@@ -72,10 +75,11 @@ pub fn mechanism(title: &str, model: &Model, rates: &[[Vector2<f64>; 4]]) -> Str
 }
 
 /// Whether joints open just so far that no force inside their friction cones does work.
-fn dilates(model: &Model, rates: &[[Vector2<f64>; 4]]) -> bool {
+fn dilates(model: &Model, rates: &[Vec<Vector2<f64>>]) -> bool {
     let at = |anchor: Anchor| {
         let corners = &rates[anchor.block.index()];
-        corners[anchor.edge] * (1.0 - anchor.at) + corners[(anchor.edge + 1) % 4] * anchor.at
+        corners[anchor.edge] * (1.0 - anchor.at)
+            + corners[(anchor.edge + 1) % corners.len()] * anchor.at
     };
     model.contacts.iter().any(|contact| {
         let joint = &model.joints[contact.joint.index()];
@@ -86,6 +90,6 @@ fn dilates(model: &Model, rates: &[[Vector2<f64>; 4]]) -> bool {
     })
 }
 
-fn speed(rate: &[Vector2<f64>; 4]) -> f64 {
+fn speed(rate: &[Vector2<f64>]) -> f64 {
     rate.iter().map(Vector2::norm).fold(0.0, f64::max)
 }

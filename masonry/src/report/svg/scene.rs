@@ -108,11 +108,11 @@ fn draw_names(sheet: &mut Sheet, model: &Model) {
 }
 
 /// Lengths of the horizontal and of the vertical line through the centroid of a block \[m\].
-fn room(corners: &[Point2<f64>; 4]) -> (f64, f64) {
+fn room(corners: &[Point2<f64>]) -> (f64, f64) {
     let centre = geometry::centroid(corners);
     let chord = |along: usize, across: usize| {
-        let crossings = (0..4).filter_map(|k| {
-            let (p, q) = (corners[k], corners[(k + 1) % 4]);
+        let crossings = (0..corners.len()).filter_map(|k| {
+            let [p, q] = geometry::edge(corners, k);
             let at = (centre[across] - p[across]) / (q[across] - p[across]);
             (0.0..=1.0).contains(&at).then(|| p[along] + (q[along] - p[along]) * at)
         });

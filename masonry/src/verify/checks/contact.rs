@@ -59,7 +59,8 @@ pub(super) fn displaced(model: &Model, state: &State, anchor: Anchor) -> Vector2
 /// The displacement of a place on an edge as a sum over nodes.
 pub(super) fn shares(block: &Block, Anchor { edge, at, .. }: Anchor) -> [(usize, f64); 2] {
     let on_mesh = |mesh: &BlockMesh| mesh.interpolate(edge, at);
-    block.mesh.as_ref().map_or([(edge, 1.0 - at), ((edge + 1) % 4, at)], on_mesh)
+    let next = (edge + 1) % block.corners.len();
+    block.mesh.as_ref().map_or([(edge, 1.0 - at), (next, at)], on_mesh)
 }
 
 /// A contact point as displacements and forces have it, and what both are compared with.

@@ -54,8 +54,8 @@ struct Motion {
 
 impl Motion {
     fn of(block: &Block, u: &[Vector2<f64>]) -> Self {
-        let [from, _, to, _] = block.corners;
-        let turn = geometry::cross(to - from, u[2] - u[0]) / (to - from).norm_squared();
+        let to = block.corners[2] - block.corners[0];
+        let turn = geometry::cross(to, u[2] - u[0]) / to.norm_squared();
         Self { shift: u[0], turn }
     }
 
