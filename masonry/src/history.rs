@@ -184,6 +184,7 @@ impl Model {
 
 /// What a step came to, in SI units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct StepRecord {
     /// The step.
     pub step: Step,
@@ -208,6 +209,7 @@ pub struct StepRecord {
 
 /// The steps of a scene whose answer depends on the way.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct History {
     /// The steps that were solved.
     pub records: Vec<StepRecord>,

@@ -74,8 +74,11 @@ pub(crate) fn wanted_stresses(
 /// Where all blocks are rigid and nothing has an initial gap or a film, no displacement has a natural
 /// size, and rounding errors around zero are taken for zero.
 pub fn from_displacements(
-    (model, system, sparse): (&Model, &System, &Sparse),
-    (rows, u): (&RowState, &[f64]),
+    model: &Model,
+    system: &System,
+    sparse: &Sparse,
+    rows: &RowState,
+    u: &[f64],
     tolerance: f64,
     with_stresses: bool,
 ) -> State {

@@ -17,6 +17,7 @@ use crate::verify::verdict::Judgement;
 /// `state` and `checks` are `None` when no solution was found; all else is kept. Where a step of the load
 /// history could not be solved, they are those of the step before, and `solve` tells how the step failed.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Outcome {
     /// Title of the scene.
     pub title: String,

@@ -16,7 +16,7 @@ use crate::system::System;
 const FORM: &str = "admissible forces";
 
 /// The answer that a decision is, to this tolerance.
-pub fn answer((system, sparse): (&System, &Sparse), decision: &Decision, tolerance: f64) -> Answer {
+pub fn answer(system: &System, sparse: &Sparse, decision: &Decision, tolerance: f64) -> Answer {
     let problem = &sparse.problem;
     let (status, at_rest, line) = match &decision.statics {
         Statics::Admissible(forces) if system.is_at_rest() => {

@@ -6,6 +6,7 @@ use crate::scene::Route;
 
 /// How the complementarity problem was solved.
 #[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
 pub struct SolveInfo {
     /// `Solved`, or why not.
     pub status: lcp::Status,
@@ -85,6 +86,7 @@ pub struct Iteration {
 
 /// How a route ended.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct RouteEnd {
     /// The route.
     pub route: Route,
@@ -99,6 +101,7 @@ pub struct RouteEnd {
 /// Springs on all displacements that are made softer and softer, and what they carry: a share that does not
 /// tend to zero says that nothing else carries it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SpringShares {
     /// The stiffnesses, relative to that of the blocks \[-\].
     pub stiffness: Vec<f64>,
@@ -109,6 +112,7 @@ pub struct SpringShares {
 /// Springs that hold the blocks while a scene is solved, and what they changed before they were
 /// centred anew; the answer itself is without them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SoftReport {
     /// The stiffness, relative to that of the blocks \[-\].
     pub stiffness: f64,

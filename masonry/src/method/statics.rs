@@ -60,7 +60,8 @@ pub struct Decision {
 /// # Errors
 /// [`lcp::Error::NotFinite`] when the data of the scene overflow.
 pub fn decide(
-    (model, system): (&Model, &System),
+    model: &Model,
+    system: &System,
     observer: &mut Observer<'_>,
 ) -> Result<Decision, lcp::Error> {
     let program = Program::of(system);

@@ -55,7 +55,7 @@ pub(super) fn check_movements(scene: &Scene, blocks: &[Block]) -> Result<(), Fau
     let corners = || blocks.iter().flat_map(|block| &block.corners);
     let across = |along: fn(&Point2<f64>) -> f64| {
         let [low, high] = corners().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
-            [low.min(along(&p)), high.max(along(&p))]
+            [low.min(along(p)), high.max(along(p))]
         });
         high - low
     };

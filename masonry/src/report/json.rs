@@ -2,6 +2,7 @@
 
 mod history;
 
+use nalgebra::Vector2;
 use serde::{Serialize, Serializer};
 
 use super::format::{InUnits, block_name};
@@ -313,18 +314,7 @@ impl<'a> Report<'a> {
                 .history
                 .as_ref()
                 .map(|history| history::Report::of(history, &model.supports, units)),
-            mechanism: outcome.mechanism.as_ref().map(|rates| {
-                let names = model.blocks.iter().map(|block| block.name.as_str());
-                ByName(
-                    names
-                        .zip(
-                            rates
-                                .iter()
-                                .map(|corners| corners.iter().map(|it| (*it).into()).collect()),
-                        )
-                        .collect(),
-                )
-            }),
+            mechanism: outcome.mechanism.as_ref().map(|rates| rates_by_name(model, rates)),
             time_s: ByName(
                 outcome.times.iter().map(|time| (time.phase.as_str(), time.seconds)).collect(),
             ),
@@ -357,6 +347,15 @@ impl UnitNames {
             time_s: "s",
         }
     }
+}
+
+fn rates_by_name<'a>(
+    model: &'a model::Model,
+    rates: &[Vec<Vector2<f64>>],
+) -> ByName<'a, Vec<[f64; 2]>> {
+    let names = model.blocks.iter().map(|block| block.name.as_str());
+    let rates = rates.iter().map(|corners| corners.iter().map(|rate| (*rate).into()).collect());
+    ByName(names.zip(rates).collect())
 }
 
 fn named_force(reaction: &Reaction, units: InUnits) -> (&str, Force) {

@@ -42,6 +42,7 @@ use lengths::Lengths;
 
 /// Balances and violations, dimensionless. What each is relative to is said [above](self).
 #[derive(Debug, Clone, Serialize)]
+#[non_exhaustive]
 pub struct Checks {
     /// Largest unbalanced force of a block, relative to the forces on it.
     pub force_balance: f64,

@@ -64,6 +64,7 @@ pub enum Evidence {
 
 /// A verdict and all that belongs to it.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Judgement {
     /// The verdict.
     pub verdict: Verdict,

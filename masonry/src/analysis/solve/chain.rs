@@ -163,10 +163,10 @@ impl<'a> Chain<'a> {
     /// Whether there are admissible forces.
     fn statics(&mut self) -> Result<&Decision, lcp::Error> {
         if self.decision.is_none() {
-            let (parts, observer) = ((self.model, self.system), &mut *self.observer);
+            let (model, system, observer) = (self.model, self.system, &mut *self.observer);
             let _ = observer(Event::Phase("solve"));
             let began = Instant::now();
-            let decision = statics::decide(parts, &mut |at| {
+            let decision = statics::decide(model, system, &mut |at| {
                 observer(Event::Iteration { number: at.iteration, residual: at.residual })
             })?;
             self.clock.add("solve", began);
@@ -187,7 +187,7 @@ impl<'a> Chain<'a> {
         let sparse = self.sparse()?;
         let (system, tolerance) = (self.system, self.request.tolerance);
         let decision = self.statics()?;
-        let answer = forces::answer((system, &sparse), decision, tolerance);
+        let answer = forces::answer(system, &sparse, decision, tolerance);
         let state = self.recovered(&sparse, &answer);
         self.sparse = Some(sparse);
         Ok(self.concluded(answer, state))
@@ -222,14 +222,18 @@ impl<'a> Chain<'a> {
         let Self { model, system, .. } = *self;
         let Some(state) = &attempt.state else { return Ok(attempt) };
         let sparse = self.sparse()?;
-        let given = sparse.state((model, system), state);
+        let given = sparse.state(model, system, state);
         let tolerance = self.request.tolerance;
         let refined =
             self.clock.time("refinement", self.observer, || sparse.refined(&given, tolerance));
         if let Some((refined, residuals)) = refined {
+            let rows = sparse.rows(&refined);
             let state = recover::from_displacements(
-                (model, system, &sparse),
-                (&sparse.rows(&refined), &refined.u),
+                model,
+                system,
+                &sparse,
+                &rows,
+                &refined.u,
                 tolerance,
                 self.with_stresses,
             );
@@ -260,7 +264,7 @@ impl<'a> Chain<'a> {
             }
             Route::Alm => self.timed(&Multipliers { sparse: &sparse }),
             _ => {
-                let start = self.before.map(|state| sparse.state((model, system), state));
+                let start = self.before.map(|state| sparse.state(model, system, state));
                 self.timed(&Interior { sparse: &sparse, start: start.as_ref() })
             }
         };
@@ -284,9 +288,9 @@ impl<'a> Chain<'a> {
     fn recovered(&mut self, sparse: &Sparse, answer: &Answer) -> Option<State> {
         let Self { model, system, with_stresses, .. } = *self;
         let (rows, u) = answer.rows.as_ref().zip(answer.displacements.as_deref())?;
-        let (parts, tolerance) = ((model, system, sparse), self.request.tolerance);
+        let tolerance = self.request.tolerance;
         Some(self.clock.time("recovery", self.observer, || {
-            recover::from_displacements(parts, (rows, u), tolerance, with_stresses)
+            recover::from_displacements(model, system, sparse, rows, u, tolerance, with_stresses)
         }))
     }
 
@@ -300,7 +304,7 @@ impl<'a> Chain<'a> {
     }
 
     fn timed(&mut self, method: &dyn Method) -> Result<Answer, SolveError> {
-        let (parts, observer) = ((self.model, self.system), &mut *self.observer);
+        let (model, system, observer) = (self.model, self.system, &mut *self.observer);
         let _ = observer(Event::Phase("solve"));
         let began = Instant::now();
         let (mut may_be_cut, decision) = (self.may_be_cut, &mut self.decision);
@@ -310,7 +314,7 @@ impl<'a> Chain<'a> {
                 Step::Iteration { number, residual } => {
                     if may_be_cut && number >= auto::STEPS_BEFORE_PROOF {
                         may_be_cut = false;
-                        let found = statics::decide(parts, &mut |_| {
+                        let found = statics::decide(model, system, &mut |_| {
                             observer(Event::Iteration { number, residual })
                         });
                         *decision = found.ok();

@@ -69,7 +69,7 @@ impl Exact {
         let (model, state) = (&outcome.model, outcome.state.as_ref()?);
         let system = System::new(model).ok()?;
         let sparse = Sparse::new(&system).ok()?;
-        let given = sparse.state((model, &system), state);
+        let given = sparse.state(model, &system, state);
         let lcp::refine::Verified { statuses, refined } = sparse.problem.verify(&given).ok()?;
         let plain = refined.rounded(&sparse.problem);
         let verified = judged(&sparse, &given, &refined);
@@ -103,5 +103,5 @@ fn distance(sparse: &Sparse, given: &ContactState, refined: &Refined) -> Option<
 
 fn exact_state((model, system, sparse): (&Model, &System, &Sparse), exact: &ContactState) -> State {
     let rows = sparse.rows(exact);
-    recover::from_displacements((model, system, sparse), (&rows, &exact.u), EXACT, true)
+    recover::from_displacements(model, system, sparse, &rows, &exact.u, EXACT, true)
 }

@@ -171,7 +171,7 @@ impl Sparse {
     ///
     /// # Panics
     /// If the state is that of another model.
-    pub fn state(&self, (model, system): (&Model, &System), state: &State) -> ContactState {
+    pub fn state(&self, model: &Model, system: &System, state: &State) -> ContactState {
         let mut u = Vec::with_capacity(self.problem.displacements());
         for (b, (body, moved)) in system.bodies.iter().zip(&state.displacements).enumerate() {
             if body.stiffness.is_some() {

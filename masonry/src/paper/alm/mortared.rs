@@ -135,8 +135,8 @@ impl MortaredWall {
     pub fn state(&self, answer: &Answer) -> MortaredState {
         let (u, found) = (&answer.state.u, &answer.state);
         let rows = self.sparse.rows(found);
-        let parts = (&self.dry, &self.system, &self.sparse);
-        let mut state = recover::from_displacements(parts, (&rows, u), 0.0, true);
+        let Self { dry, system, sparse, .. } = self;
+        let mut state = recover::from_displacements(dry, system, sparse, &rows, u, 0.0, true);
         let films: Vec<FilmResponse> = self.films.iter().map(|film| film.respond(u)).collect();
         let film_energy = self.films.iter().map(|film| film.energy(u)).sum();
         state.strain_energy += film_energy;
