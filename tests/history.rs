@@ -13,7 +13,8 @@ use masonry::analysis::solve::{Run, SolveError, solve};
 use masonry::scene::{
     Block, Brick, Joint, Load, Material, Movement, Plane, Route, Scene, Stage, Support, Wall,
 };
-use masonry::units::Units;
+use masonry::units::{ForceUnit, LengthUnit, Units};
+use masonry::verify::verdict::Verdict;
 
 const ROUTES: [Route; 5] = [Route::Lemke, Route::Interior, Route::Newton, Route::Qp, Route::Pgs];
 const WIDTH: f64 = 1.0;
@@ -244,6 +245,37 @@ fn a_settlement_moves_bricks_far() {
         assert!(residuals.natural < 1e-11, "{:?}: {residuals:?}", record.step);
         assert!(record.dissipation >= 0.0);
         assert_close(*carried_now, carried[0], 1e-9);
+    }
+}
+
+/// A part of the foundation sinks and tilts under a wall of which most forces are not unique, whose states leave motions
+/// free when they are guessed a little wrong: every step has an equilibrium, in which the supports carry the weight.
+#[test]
+fn a_settlement_that_tilts_stands_throughout() {
+    let brick = Brick { length: 0.25, height: 0.125 };
+    let (width, height) = (2.5, 1.25);
+    let sinks = Movement { x: 0.0, y: -0.004, turn: -0.004 };
+    let scene = Scene::new("settlement", Units { force: ForceUnit::Kn, length: LengthUnit::M })
+        .plane(Plane::Stress)
+        .thickness(0.25)
+        .gravity([0.0, -9.81])
+        .material("brick", Material::elastic(5e6, 0.15).density(1800.0))
+        .joint("bed", Joint::mu(0.6))
+        .joint("head", Joint::mu(0.6))
+        .wall(Wall::running_bond("wall", "brick", brick, width, 10).mesh([1, 1]))
+        .support(Support::new("left", [0.0, 0.0], [1.5, 0.0], "bed"))
+        .support(Support::new("right", [1.5, 0.0], [width, 0.0], "bed"))
+        .stage(Stage::new("weight"))
+        .stage(Stage::new("settlement").steps(5).moves("right", sinks));
+    let outcome = solve(&scene).unwrap();
+    assert_eq!(outcome.judgement.verdict, Verdict::Stands, "{}", outcome.judgement.sentence);
+    let history = outcome.history.as_ref().unwrap();
+    assert_eq!(history.records.len(), 6);
+    let weight = width * height * 0.25 * 1800.0 * 9.81;
+    for record in &history.records {
+        assert!(record.residuals.worst() <= 1e-10, "{:?}: {:?}", record.step, record.residuals);
+        assert_close(record.reactions.iter().map(|it| it.fy).sum(), weight, 1e-9);
+        assert!(record.dissipation >= 0.0);
     }
 }
 

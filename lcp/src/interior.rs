@@ -15,7 +15,7 @@ use std::ops::ControlFlow;
 pub use settings::InteriorPointSettings;
 
 use balance::{Balance, balance};
-use constants::{BALANCE_TOLERANCE, MORE, NEAR, NEARER, NO_STEP, PATIENCE, WIDTHS};
+use constants::{BALANCE_TOLERANCE, HELD, MORE, NEAR, NEARER, NO_STEP, PATIENCE, SURE, WIDTHS};
 use continuation::End;
 use iterate::{Defect, Iterate};
 use path::advance;
@@ -223,7 +223,12 @@ impl Run<'_, '_> {
                 tried = near;
                 let contacts = at.contacts(&self.search.scaled);
                 let effort = if is_solved { Effort::THOROUGH } else { Effort::QUICK };
-                if self.search.cross_over((&at.u, &forces), contacts, &effort) {
+                let is_sure = near <= SURE;
+                let held = HELD.into_iter().filter(|_| is_sure).map(Effort::held);
+                let is_exact = std::iter::once(effort).chain(held).any(|effort| {
+                    self.search.cross_over((&at.u, &forces), contacts.clone(), &effort)
+                });
+                if is_exact {
                     return Status::Solved;
                 }
             }

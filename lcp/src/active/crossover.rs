@@ -18,17 +18,25 @@ pub(crate) struct Effort {
     /// Whether every round starts from the given point, not from the one before: what the states leave free
     /// stays where it was.
     pub(crate) anchored: bool,
+    /// The proximal term with which the equations of the states are solved. States that are a little wrong may leave a
+    /// motion free, which a small one lets go anywhere.
+    pub(crate) proximal: f64,
 }
 
 impl Effort {
     /// While the iteration comes nearer, when few contacts are left to exchange.
-    pub(crate) const QUICK: Self = Self { rounds: 8, patience: 2, points: 400, anchored: false };
+    pub(crate) const QUICK: Self = Self { rounds: 8, patience: 2, points: 400, ..Self::THOROUGH };
     /// Where it does not come any nearer.
     pub(crate) const THOROUGH: Self =
-        Self { rounds: 60, patience: 10, points: 20, anchored: false };
+        Self { rounds: 60, patience: 10, points: 20, anchored: false, proximal: PROXIMAL };
     /// From a point amid all solutions of a convex problem.
     #[cfg(feature = "clarabel")]
     pub(crate) const ANCHORED: Self = Self { anchored: true, ..Self::THOROUGH };
+
+    /// From a point that is near to the last digits: what the states leave free is held there.
+    pub(crate) const fn held(proximal: f64) -> Self {
+        Self { rounds: 3, anchored: true, proximal, ..Self::THOROUGH }
+    }
 
     /// Contradictions with which it makes sense to begin.
     fn most(&self, points: usize) -> usize {
@@ -62,7 +70,7 @@ pub(crate) fn cross_over(
         if effort.anchored {
             (vertex.u, vertex.forces) = (u.to_vec(), forces.to_vec());
         }
-        if vertex.solve(problem, condensed).is_none() {
+        if vertex.solve(problem, condensed, effort.proximal).is_none() {
             break;
         }
         problem.settle(&mut vertex.u, &mut vertex.forces);
@@ -87,10 +95,10 @@ pub(crate) fn cross_over(
 
 impl Vertex {
     /// Solves the equations of the states; `None` where they have no solution.
-    fn solve(&mut self, problem: &Scaled, condensed: &mut Condensed) -> Option<()> {
+    fn solve(&mut self, problem: &Scaled, condensed: &mut Condensed, proximal: f64) -> Option<()> {
         let springs: Vec<Springs> =
             problem.points.iter().zip(&self.contacts).map(|(p, c)| c.springs(p, STIFF)).collect();
-        condensed.factorise(problem, &springs, PROXIMAL);
+        condensed.factorise(problem, &springs, proximal);
         for ((point, contact), (t_n, t_t)) in
             problem.points.iter().zip(&self.contacts).zip(&mut self.forces)
         {

@@ -64,4 +64,4 @@ pub(super) const EXACT: f64 = 1e-13;
 pub(super) const MORE: usize = 3;
 /// Exchanges of states after a round: as long as there are fewer contradictions every time, or nearly. Chosen.
 pub(super) const EXCHANGES: Effort =
-    Effort { rounds: 20, patience: 1, points: 50, anchored: false };
+    Effort { rounds: 20, patience: 1, points: 50, ..Effort::THOROUGH };
