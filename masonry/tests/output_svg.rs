@@ -12,6 +12,7 @@ use masonry::analysis::outcome::{ContactStatus, Outcome};
 use masonry::ids::LoadId;
 use masonry::model::{Block, EdgeLoad, Model, Movement, Support};
 use masonry::report::svg::{self, ReferenceLines};
+use masonry::scene::{Brick, Scene, Support as SceneSupport, Wall as SceneWall};
 use masonry::units::{ForceUnit, LengthUnit, Units};
 use nalgebra::{Point2, Vector2};
 use roxmltree::{Document, Node};
@@ -228,6 +229,25 @@ fn nothing_that_moves_and_no_stress_is_drawn_as_such() {
     assert!(texts(&checked(&picture)).contains("no stress"));
     let still = vec![vec![Vector2::zeros(); 4]; outcome.model.blocks.len()];
     checked(&svg::mechanism("", &outcome.model, &still));
+}
+
+/// The lines are drawn where the bond carries them, and not into a doorway.
+#[test]
+fn the_lines_of_the_bond_stay_in_the_wall() {
+    let brick = Brick { length: 0.25, height: 0.125 };
+    let scene = |courses: Vec<Vec<f64>>| {
+        Scene::new("", Units::SI)
+            .wall(SceneWall::from_courses("wall", "brick", brick, courses))
+            .support(SceneSupport::new("left", [0.0, 0.0], [0.5, 0.0], "bed"))
+            .support(SceneSupport::new("right", [1.0, 0.0], [1.5, 0.0], "bed"))
+    };
+    let whole = |k: usize| {
+        if k.is_multiple_of(2) { vec![1.0; 6] } else { vec![0.5, 1.0, 1.0, 1.0, 1.0, 1.0, 0.5] }
+    };
+    let lines = ReferenceLines::of(&scene((0..8).map(whole).collect())).unwrap();
+    assert_eq!(lines.origins, [Point2::new(0.5, 0.0), Point2::new(1.0, 0.0)]);
+    let door = |k: usize| if k < 4 { vec![1.0, 1.0, -2.0, 1.0, 1.0] } else { whole(k) };
+    assert!(ReferenceLines::of(&scene((0..8).map(door).collect())).is_none());
 }
 
 #[test]

@@ -9,8 +9,8 @@ use crate::geometry;
 use crate::model::Model;
 use crate::report::format::{InUnits, round_down};
 use crate::report::summary::extreme_stresses;
-use crate::scene::Scene;
-use crate::scene::bond::JointThickness;
+use crate::scene::bond::{self, JointThickness};
+use crate::scene::{Scene, Wall};
 use crate::state::{ElementStress, State};
 
 const REFERENCE: &str = "#009e73";
@@ -31,7 +31,8 @@ impl ReferenceLines {
     /// The running-bond lines to compare the principal stresses with: from the inner ends of the
     /// lowest supports at both corners of the first wall, half a brick and half a head joint sideways
     /// for every course and its bed joint.
-    /// `None` for a scene without such a wall or with a support all along its foot.
+    /// `None` for a scene without such a wall, with a support all along its foot, or with an opening where a line would
+    /// run.
     pub fn of(scene: &Scene) -> Option<Self> {
         let wall = scene.walls.first()?;
         let [_, foot] = wall.origin;
@@ -51,10 +52,32 @@ impl ReferenceLines {
         let origins = [left, right].map(|x| Point2::new(x, foot) * metres);
         let joints = JointThickness::of(scene, wall);
         let (length, height) = (wall.brick.length + joints.head, wall.brick.height + joints.bed);
+        if !is_filled(wall, joints, [left, right]) {
+            return None;
+        }
         let dry = joints == JointThickness::default();
         let label = if dry { "arctan(l / 2h)" } else { "arctan((l + t) / 2(h + t))" };
         Some(Self { origins, angle: (length / (2.0 * height)).atan(), label: label.to_owned() })
     }
+}
+
+/// Whether there are bricks all along the lines that rise from these places at the foot of a wall until they meet.
+fn is_filled(wall: &Wall, joints: JointThickness, [left, right]: [f64; 2]) -> bool {
+    let [length, height] = [wall.brick.length + joints.head, wall.brick.height + joints.bed];
+    let bricks = bond::bricks_in_mortar(wall, joints);
+    let top = bricks.iter().fold(f64::NEG_INFINITY, |top, brick| top.max(brick.high[1]));
+    let is_brick = |x: f64, y: f64| {
+        bricks.iter().any(|brick| {
+            (brick.low[0] - joints.head..=brick.high[0] + joints.head).contains(&x)
+                && (brick.low[1] - joints.bed..=brick.high[1] + joints.bed).contains(&y)
+        })
+    };
+    // The middle of every course on the way.
+    let middles = (0_u32..).map(|course| f64::from(course) + 0.5);
+    let mut ways = middles
+        .map(|courses| [0.5 * courses * length, wall.origin[1] + courses * height])
+        .take_while(|[along, y]| 2.0 * along < right - left && *y < top);
+    ways.all(|[along, y]| is_brick(left + along, y) && is_brick(right - along, y))
 }
 
 /// Principal stresses of every element as crosses whose strokes are proportional to the stresses,
