@@ -34,6 +34,7 @@ mod bodies;
 mod contact;
 mod elements;
 mod energy;
+mod kinematics;
 mod lengths;
 
 use bodies::Bodies;

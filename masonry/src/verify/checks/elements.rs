@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use super::contact::{displaced, shares, stretched, terms};
+use super::kinematics::{displaced, shares, stretched, terms};
 use super::{known, larger, relative};
 use crate::element::quad4;
 use crate::material::constitutive;

@@ -2,7 +2,8 @@
 
 use nalgebra::{Point2, Vector2};
 
-use super::contact::{Pair, displaced};
+use super::contact::Pair;
+use super::kinematics::displaced;
 use super::{larger, relative};
 use crate::geometry;
 use crate::model::{Block, Model};
