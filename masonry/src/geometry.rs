@@ -11,6 +11,9 @@ mod overlap;
 
 pub use overlap::{SegmentOverlap, facing_normal, facing_overlap, overlap_area};
 
+/// The part of an edge below which rounding hides where a point is.
+const END: f64 = 1e-9;
+
 /// Corners of a quadrilateral, counter-clockwise.
 pub type Quad = [Point2<f64>; 4];
 
@@ -128,6 +131,17 @@ pub fn edge(polygon: &[Point2<f64>], k: usize) -> [Point2<f64>; 2] {
 pub fn on_edge(polygon: &[Point2<f64>], k: usize, at: f64) -> Point2<f64> {
     let [p, q] = edge(polygon, k);
     p + (q - p) * at
+}
+
+/// A fraction of an edge, 0 or 1 exactly where rounding misses these.
+pub(crate) fn snap(fraction: f64) -> f64 {
+    if fraction < END {
+        0.0
+    } else if fraction > 1.0 - END {
+        1.0
+    } else {
+        fraction
+    }
 }
 
 /// The coordinates `[r, s]` of a point of a strictly convex quadrilateral: the place to which the bilinear map takes

@@ -125,8 +125,7 @@ fn nodal_loads_have_the_geometric_resultant() {
     let traction = |(edge, part)| traction_on(edge, part, [1e3, -3e3]);
     loaded.loads = parts.into_iter().enumerate().map(traction).collect();
     let at = |at: Point2<f64>, force: [f64; 2]| {
-        let place = Some(geometry::reference(&skew(), at));
-        PointLoad { at, place, force: force.into(), load: LoadId(0) }.into()
+        PointLoad { at, force: force.into(), load: LoadId(0) }.into()
     };
     loaded.loads.push(at(geometry::centroid(&skew()), [2e3, 1e3]));
     loaded.loads.push(at(geometry::on_edge(&skew(), 1, 0.4), [-1e3, 5e2]));

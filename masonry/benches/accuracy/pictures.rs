@@ -98,10 +98,11 @@ pub(crate) fn digits(panel: &Panel) -> Option<String> {
     )
 }
 
-/// What soft springs change before they are centred anew, against their stiffness. `None` where no bias is known.
+/// What soft springs change before they are centred anew, against their stiffness. `None` where fewer than two biases
+/// are known.
 pub(crate) fn springs(panel: &Panel) -> Option<String> {
     let solved = || panel.springs.iter().filter(|it| it.end.is_solved());
-    solved().find(|it| it.bias.is_some())?;
+    solved().filter(|it| it.bias.is_some()).nth(1)?;
     let of = |name: &str, style, of: fn(&Springs) -> Option<f64>| {
         let points = solved().filter_map(|it| Some([it.stiffness, of(it)?.max(ROUNDING)]));
         line(name, style, points.collect())

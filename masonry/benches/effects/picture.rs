@@ -70,7 +70,7 @@ fn draw(area: &DrawingArea<SVGBackend, Shift>, route: &str, bars: &[Bars]) -> Dr
     }
     chart
         .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
+        .position(SeriesLabelPosition::LowerRight)
         .label_font(FONT)
         .draw()
 }

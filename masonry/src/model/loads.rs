@@ -49,8 +49,6 @@ pub struct EdgeLoad {
 pub struct PointLoad {
     /// The place \[m\].
     pub at: Point2<f64>,
-    /// The same place in the coordinates of a block with a mesh ([`geometry::reference`]), both in 0..=1.
-    pub place: Option<[f64; 2]>,
     /// The force on the block over its whole thickness \[N\] in global axes.
     pub force: Vector2<f64>,
     /// The load of the scene that it is.
@@ -111,8 +109,7 @@ impl BlockLoad {
                 (edge_shares(mesh, load), load.traction * ((end - start).norm() * thickness))
             }
             Self::Point(load) => {
-                let place = load.place.map(|place| mesh.interpolate_inside(place));
-                (place.into_iter().flatten().collect(), load.force)
+                (mesh.interpolate_inside(mesh.reference(load.at)).to_vec(), load.force)
             }
         };
         shares.into_iter().map(|(node, share)| (node, force * share)).collect()

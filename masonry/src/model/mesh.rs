@@ -2,6 +2,8 @@
 
 use nalgebra::Point2;
 
+use crate::geometry::{self, Quad};
+
 /// A structured mesh of `nx` by `ny` four-node quadrilaterals in one block.
 ///
 /// Nodes are numbered row by row from corner 0: node `(i, j)` is `j * (nx + 1) + i`, with `i` along
@@ -23,7 +25,7 @@ impl BlockMesh {
     ///
     /// # Panics
     /// If `nx` or `ny` is zero.
-    pub fn new(corners: &[Point2<f64>; 4], nx: usize, ny: usize) -> Self {
+    pub fn new(corners: &Quad, nx: usize, ny: usize) -> Self {
         assert!(nx > 0 && ny > 0, "a mesh has at least one element in each direction");
         let nodes = (0..=ny)
             .flat_map(|j| (0..=nx).map(move |i| (i as f64 / nx as f64, j as f64 / ny as f64)))
@@ -35,6 +37,11 @@ impl BlockMesh {
             .map(|n| [n, n + 1, n + row + 1, n + row])
             .collect();
         Self { nx, ny, nodes, elements }
+    }
+
+    /// The corners of the block.
+    pub fn corners(&self) -> Quad {
+        [0, 1, 2, 3].map(|edge| self.nodes[self.edge_node(edge, 0)])
     }
 
     /// Number of elements along an edge, 0..4.
@@ -67,11 +74,16 @@ impl BlockMesh {
         [(self.edge_node(edge, first), 1.0 - s), (self.edge_node(edge, first + 1), s)]
     }
 
+    /// The coordinates of a point \[m\] in the block ([`geometry::reference`]), 0 or 1 exactly where rounding misses
+    /// these.
+    pub fn reference(&self, point: Point2<f64>) -> [f64; 2] {
+        geometry::reference(&self.corners(), point).map(geometry::snap)
+    }
+
     /// The four nodes of the element in which a place of the block lies, each with its shape function there.
     ///
-    /// `r` and `s` are the coordinates of the place in the block ([`reference`](crate::geometry::reference)), clamped
-    /// to 0..=1. The map of an element is that of the block on its part of the unit square, so that the place in the
-    /// element needs no search.
+    /// `r` and `s` are the coordinates of the place in the block ([`Self::reference`]), clamped to 0..=1. The map of an
+    /// element is that of the block on its part of the unit square, so that the place in the element needs no search.
     pub fn interpolate_inside(&self, [r, s]: [f64; 2]) -> [(usize, f64); 4] {
         let ((i, r), (j, s)) = (within(self.nx, r), within(self.ny, s));
         let [a, b, c, d] = self.elements[j * self.nx + i];
@@ -99,7 +111,7 @@ fn within(n: usize, at: f64) -> (usize, f64) {
 }
 
 /// The place with coordinates `r` (along edge 0) and `s` (along edge 3, reversed) in 0..=1.
-fn bilinear(corners: &[Point2<f64>; 4], r: f64, s: f64) -> Point2<f64> {
+fn bilinear(corners: &Quad, r: f64, s: f64) -> Point2<f64> {
     let [a, b, c, d] = corners.map(|p| p.coords);
     Point2::from((a * (1.0 - r) + b * r) * (1.0 - s) + (d * (1.0 - r) + c * r) * s)
 }

@@ -37,11 +37,10 @@ pub(super) fn place(
             Some(LoadKind::Force { block, at: place, force }) => {
                 let block = named(blocks, block)
                     .map_err(|error| Fault::new(at.key("block"), error.into()))?;
-                let place = place_in(block, point(place, scene.units), scene.units)
+                let at = place_in(block, point(place, scene.units), scene.units)
                     .map_err(|error| Fault::new(at.key("at"), error.into()))?;
                 let force = Vector2::from(force) * scene.units.force_to_si() * load.factor;
-                let (at, place) = place;
-                block.loads.push(PointLoad { at, place, force, load: id }.into());
+                block.loads.push(PointLoad { at, force, load: id }.into());
             }
             Some(LoadKind::Acceleration(value)) => {
                 let value = Vector2::from(value) * load.factor;
@@ -73,13 +72,8 @@ fn named<'a>(blocks: &'a mut [Block], name: &str) -> Result<&'a mut Block, LoadE
     Err(LoadError::NoBlock { name: name.to_owned(), near })
 }
 
-/// A place on a block, and the same in the coordinates of one with a mesh. One that rounding has put outside is moved to
-/// the edge.
-fn place_in(
-    block: &Block,
-    at: Point2<f64>,
-    units: Units,
-) -> Result<(Point2<f64>, Option<[f64; 2]>), LoadError> {
+/// A place on a block. One that rounding has put outside is moved to the edge.
+fn place_in(block: &Block, at: Point2<f64>, units: Units) -> Result<Point2<f64>, LoadError> {
     let corners = &block.corners;
     let distance = geometry::outside(corners, at);
     if distance > TOLERANCE * geometry::size(corners) {
@@ -93,10 +87,7 @@ fn place_in(
             unit: units.length_name(),
         });
     }
-    let at = if distance > 0.0 { geometry::nearest_on_boundary(corners, at) } else { at };
-    let meshed = block.mesh.as_ref().and_then(|_| block.quad());
-    let place = meshed.map(|quad| geometry::reference(&quad, at));
-    Ok((at, place.map(|place| place.map(|it| snap(it.clamp(0.0, 1.0))))))
+    Ok(if distance > 0.0 { geometry::nearest_on_boundary(corners, at) } else { at })
 }
 
 /// A load on all free parts of edges that lie on a segment.
@@ -162,18 +153,7 @@ fn covered_part(
     if distance(low).abs() > slack || distance(high).abs() > slack {
         return None;
     }
-    Some([low, high].map(|s| snap(s / length)))
-}
-
-/// The ends of an edge exactly, where rounding misses them.
-fn snap(fraction: f64) -> f64 {
-    if fraction < TOLERANCE {
-        0.0
-    } else if fraction > 1.0 - TOLERANCE {
-        1.0
-    } else {
-        fraction
-    }
+    Some([low, high].map(|s| geometry::snap(s / length)))
 }
 
 /// What is left of a part when the joined parts are taken out.
@@ -217,6 +197,6 @@ fn joined_parts(
 fn projected(corners: &[Point2<f64>], edge: usize, joint: &Joint) -> Part {
     let [start, end] = geometry::edge(corners, edge);
     let along = (end - start) / (end - start).norm_squared();
-    let [a, b] = [joint.from, joint.to].map(|p| snap((p - start).dot(&along)));
+    let [a, b] = [joint.from, joint.to].map(|p| geometry::snap((p - start).dot(&along)));
     [a.min(b), a.max(b)]
 }

@@ -9,7 +9,7 @@ use crate::geometry;
 use crate::model::Model;
 use crate::report::format::{InUnits, round_down};
 use crate::report::summary::extreme_stresses;
-use crate::scene::bond::{self, JointThickness};
+use crate::scene::bond::{self, JointThickness, PlacedBrick};
 use crate::scene::{Scene, Wall};
 use crate::state::{ElementStress, State};
 
@@ -63,21 +63,23 @@ impl ReferenceLines {
 
 /// Whether there are bricks all along the lines that rise from these places at the foot of a wall until they meet.
 fn is_filled(wall: &Wall, joints: JointThickness, [left, right]: [f64; 2]) -> bool {
-    let [length, height] = [wall.brick.length + joints.head, wall.brick.height + joints.bed];
+    let length = wall.brick.length + joints.head;
     let bricks = bond::bricks_in_mortar(wall, joints);
-    let top = bricks.iter().fold(f64::NEG_INFINITY, |top, brick| top.max(brick.high[1]));
-    let is_brick = |x: f64, y: f64| {
-        bricks.iter().any(|brick| {
-            (brick.low[0] - joints.head..=brick.high[0] + joints.head).contains(&x)
-                && (brick.low[1] - joints.bed..=brick.high[1] + joints.bed).contains(&y)
+    let courses = bricks.chunk_by(|a, b| a.course == b.course);
+    courses
+        .map_while(|course| {
+            // In the middle of the height.
+            let along = (course[0].course as f64 - 0.5) * 0.5 * length;
+            (2.0 * along < right - left).then_some((course, along))
         })
-    };
-    // The middle of every course on the way.
-    let middles = (0_u32..).map(|course| f64::from(course) + 0.5);
-    let mut ways = middles
-        .map(|courses| [0.5 * courses * length, wall.origin[1] + courses * height])
-        .take_while(|[along, y]| 2.0 * along < right - left && *y < top);
-    ways.all(|[along, y]| is_brick(left + along, y) && is_brick(right - along, y))
+        .all(|(course, along)| {
+            let has_brick = |x: f64| {
+                let reach =
+                    |brick: &PlacedBrick| brick.low[0] - joints.head..=brick.high[0] + joints.head;
+                course.iter().any(|brick| reach(brick).contains(&x))
+            };
+            has_brick(left + along) && has_brick(right - along)
+        })
 }
 
 /// Principal stresses of every element as crosses whose strokes are proportional to the stresses,
