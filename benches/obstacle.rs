@@ -5,6 +5,7 @@
 //! time of the solve is that of all grids together, with their matrices and starts, on one thread.
 
 mod common;
+#[allow(dead_code, reason = "other benches have contact problems")]
 #[path = "common/sparse.rs"]
 mod sparse;
 

@@ -14,8 +14,7 @@ mod walls;
 
 use std::fmt::Write as _;
 
-use faer::sparse::{SparseColMat, Triplet};
-use lcp::{Contact2d, InteriorPoint, InteriorPointSettings, Solver};
+use lcp::{InteriorPoint, InteriorPointSettings, Solver};
 use walls::wall;
 
 /// Length of the walls in metres, and courses.
@@ -47,7 +46,7 @@ fn main() {
 
 fn line(width: f64, courses: u32, mu: f64) -> String {
     let (blocks, problem) = wall(width, courses, mu);
-    let matrix = condensed(&problem);
+    let matrix = sparse::condensed(&problem);
     let (symbolic, numeric) =
         sparse::fastest(3, |(s, n): &(f64, f64)| s + n, || sparse::cholesky(&matrix));
     drop(matrix);
@@ -69,24 +68,4 @@ fn line(width: f64, courses: u32, mu: f64) -> String {
         solution.info.factorisations,
         solution.residuals.worst(),
     )
-}
-
-/// `K + k C^T C` with the mean diagonal entry of `K` for `k`.
-fn condensed(problem: &Contact2d) -> SparseColMat<usize, f64> {
-    let n = problem.displacements();
-    let k = problem.stiffness();
-    let mean = (0..n).map(|j| k.get(j, j).copied().unwrap_or(0.0)).sum::<f64>() / n as f64;
-    let mut entries: Vec<Triplet<usize, usize, f64>> = Vec::new();
-    for rows in [problem.normal(), problem.tangent()] {
-        let transposed = rows.as_ref().transpose().to_col_major().expect("memory suffices");
-        for i in 0..problem.points() {
-            let columns = transposed.row_idx_of_col_raw(i).iter().zip(transposed.val_of_col(i));
-            let columns: Vec<(usize, f64)> = columns.map(|(j, v)| (*j, *v)).collect();
-            for &(i, v) in &columns {
-                entries.extend(columns.iter().map(|&(j, w)| Triplet::new(i, j, mean * v * w)));
-            }
-        }
-    }
-    entries.extend(k.triplet_iter().map(|entry| Triplet::new(entry.row, entry.col, *entry.val)));
-    SparseColMat::try_new_from_triplets(n, n, &entries).expect("memory suffices")
 }

@@ -3,11 +3,12 @@
 use std::time::Instant;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::SparseColMat;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymmetricOrdering, factorize_symbolic_cholesky,
 };
+use faer::sparse::{SparseColMat, Triplet};
 use faer::{Par, Side};
+use lcp::Contact2d;
 
 /// The fastest of several runs.
 pub(crate) fn fastest<T>(runs: usize, seconds: impl Fn(&T) -> f64, run: impl Fn() -> T) -> T {
@@ -39,6 +40,27 @@ pub(crate) fn cholesky(m: &SparseColMat<usize, f64>) -> (f64, f64) {
         )
         .expect("positive definite");
     (seconds, began.elapsed().as_secs_f64())
+}
+
+/// `K + k C^T C` with the mean diagonal entry of `K` for `k`, or one where bodies are rigid.
+pub(crate) fn condensed(problem: &Contact2d) -> SparseColMat<usize, f64> {
+    let n = problem.displacements();
+    let k = problem.stiffness();
+    let mean: f64 = (0..n).map(|j| k.get(j, j).copied().unwrap_or(0.0)).sum::<f64>() / n as f64;
+    let mean = if mean > 0.0 { mean } else { 1.0 };
+    let mut entries: Vec<Triplet<usize, usize, f64>> = Vec::new();
+    for rows in [problem.normal(), problem.tangent()] {
+        let transposed = rows.as_ref().transpose().to_col_major().expect("memory suffices");
+        for i in 0..problem.points() {
+            let columns = transposed.row_idx_of_col_raw(i).iter().zip(transposed.val_of_col(i));
+            let columns: Vec<(usize, f64)> = columns.map(|(j, v)| (*j, *v)).collect();
+            for &(i, v) in &columns {
+                entries.extend(columns.iter().map(|&(j, w)| Triplet::new(i, j, mean * v * w)));
+            }
+        }
+    }
+    entries.extend(k.triplet_iter().map(|entry| Triplet::new(entry.row, entry.col, *entry.val)));
+    SparseColMat::try_new_from_triplets(n, n, &entries).expect("memory suffices")
 }
 
 /// Largest resident memory since the last [`forget_peak`], where the system tells it.

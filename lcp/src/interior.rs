@@ -3,15 +3,18 @@
 mod balance;
 mod constants;
 mod continuation;
+mod evolution;
 mod iterate;
 mod path;
 mod problems;
+mod rest;
 mod settings;
 mod start;
 mod turn;
 
 use std::ops::ControlFlow;
 
+pub use evolution::{Evolution, EvolutionSettings, Evolved, Way};
 pub use settings::InteriorPointSettings;
 
 use balance::{Balance, balance};

@@ -170,7 +170,9 @@ pub use auto::{Auto, AutoSettings, Choice};
 pub use basis::{Basis, Side};
 pub use certify::{Certificate, Leaf, Ray, Residuals, SoftSprings};
 pub use error::Error;
-pub use interior::{InteriorPoint, InteriorPointSettings};
+pub use interior::{
+    Evolution, EvolutionSettings, Evolved, InteriorPoint, InteriorPointSettings, Way,
+};
 #[doc(inline)]
 pub use lemke::Lemke;
 pub use matrix::Matrix;

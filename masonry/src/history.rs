@@ -147,13 +147,20 @@ impl Model {
     /// taken away at points with friction.
     #[must_use]
     pub fn under(&self, actions: &Actions, slips: &[f64]) -> Self {
+        let mut model = self.slid(slips);
+        model.act(actions);
+        model
+    }
+
+    /// This model after slips \[m\] at its contact points, one for each.
+    #[must_use]
+    pub fn slid(&self, slips: &[f64]) -> Self {
         let mut model = self.clone();
         for (contact, slip) in model.contacts.iter_mut().zip(slips) {
             if contact.law.resists_sliding() {
                 contact.slip -= slip;
             }
         }
-        model.act(actions);
         model
     }
 
@@ -190,6 +197,10 @@ pub struct StepRecord {
     pub step: Step,
     /// The route that solved it.
     pub route: Route,
+    /// How the blocks came to rest, and so which law of friction the step obeys.
+    pub way: lcp::Way,
+    /// Matrices that were factorised for it.
+    pub factorisations: usize,
     /// Its residuals.
     pub residuals: lcp::Residuals,
     /// Work of loads and of moving supports in this step \[J\], by the trapezoidal rule.

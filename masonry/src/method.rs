@@ -72,6 +72,9 @@ pub struct Answer {
     pub basis: Option<Start>,
     /// A motion that nothing seems to stop, when not solved.
     pub motion: Option<Motion>,
+    /// What the points with friction have slid \[m\] before the slips of `rows` were measured, and what that took, of an
+    /// answer that a motion led to.
+    pub moved: Option<Moved>,
 }
 
 /// A motion of all blocks.
@@ -81,6 +84,15 @@ pub enum Motion {
     Rigid(Vec<f64>),
     /// Displacements of the sparse problem, which are a rigid motion of every block and a little more.
     Displacements(Vec<f64>),
+}
+
+/// What a motion in a step of a load history did before its end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Moved {
+    /// By point with friction, in the order of the system, how far it slid \[m\].
+    pub slips: Vec<f64>,
+    /// The energy that friction and viscosity took \[J\].
+    pub dissipation: f64,
 }
 
 /// How far a route has come.

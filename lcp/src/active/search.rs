@@ -1,5 +1,7 @@
 //! The points that a method comes to, of which the best one is kept.
 
+use std::ops::ControlFlow;
+
 use super::crossover::{Effort, Vertex, cross_over};
 use super::original::{
     Answer, At, Judge, Judged, Original, brought_right, confirmed, judged as judged_by,
@@ -8,7 +10,7 @@ use crate::certify::Precision;
 use crate::problem::ContactStatus;
 use crate::solve::Monitor;
 use crate::states::{Condensed, Scaled, nearest};
-use crate::{Error, Method, Residuals, Solution, Status, WarmStart};
+use crate::{Error, Iteration, Method, Residuals, Solution, Status, WarmStart};
 
 /// A problem with the best point so far.
 pub(crate) struct Search<'a> {
@@ -154,6 +156,13 @@ impl<'a> Search<'a> {
     /// The worst residual of the best point.
     pub(crate) fn residual(&self) -> f64 {
         self.best.as_ref().map_or(f64::INFINITY, |best| best.residuals.worst())
+    }
+
+    /// The best point, if it is a solution.
+    pub(crate) fn found(self) -> Option<Solution> {
+        let observer = &mut |_: &Iteration| ControlFlow::Continue(());
+        let solution = self.finish(Status::Stalled, Monitor::new(0, None, observer));
+        solution.is_solved().then_some(solution)
     }
 
     /// The best point, with this status unless it is a solution.

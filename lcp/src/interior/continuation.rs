@@ -1,8 +1,8 @@
 //! Where there may be no equilibrium: soft springs that are reduced step by step.
 
 use super::constants::{
-    ACCURACY, CONSTANT, FIRST_SPRING, IN_SEQUENCE, LAST_SPRING, LIFT, NOTHING, RESISTANCE,
-    ROUNDING, SOFT, SOFTER, STEPS, WIDTHS,
+    ACCURACY, CONSTANT, FIRST_SPRING, IN_SEQUENCE, LAST_SPRING, LEAST_STEP, LIFT, NOTHING,
+    RESISTANCE, ROUNDING, SMOOTH_WIDTH, SOFT, SOFTER, STEPS, WIDTHS,
 };
 use super::iterate::{Defect, Iterate};
 use super::path::advance;
@@ -34,7 +34,7 @@ pub(super) fn follow(
     let mut constant = 0;
     while spring >= LAST_SPRING {
         let before = at.u.clone();
-        let Some(next) = solve(problem, condensed, at, spring, &mut go_on) else {
+        let Some(next) = centred(problem, condensed, at, (spring, ACCURACY), |_| go_on()) else {
             return End::Open;
         };
         at = next;
@@ -98,24 +98,28 @@ fn bodies(problem: &Scaled) -> Vec<usize> {
     (0..problem.order()).map(|j| root(&first, j)).collect()
 }
 
-fn solve(
+/// The point with springs of a stiffness, to this accuracy relative to the largest force; `None` where the steps get
+/// nowhere. `go_on` is asked before every step, with the residual.
+pub(super) fn centred(
     problem: &Scaled,
     condensed: &mut Condensed,
     mut at: Iterate,
-    spring: f64,
-    go_on: &mut impl FnMut() -> bool,
+    (spring, accuracy): (f64, f64),
+    mut go_on: impl FnMut(f64) -> bool,
 ) -> Option<Iterate> {
+    let width = if at.is_smooth() { SMOOTH_WIDTH } else { WIDTHS[0] };
     for _ in 0..STEPS {
         let size = at.points.iter().fold(1.0_f64, |max, pairs| max.max(pairs.t_n));
         let lack = Defect::of(problem, &at, spring).size();
-        if at.natural(problem, (1.0, 1.0)).max(lack) <= ACCURACY * size {
+        let residual = at.natural(problem, (1.0, 1.0)).max(lack) / size;
+        if residual <= accuracy {
             return Some(at);
         }
-        if !go_on() {
+        if !go_on(residual) {
             return None;
         }
-        let (next, alpha) = advance(problem, condensed, &at, (spring, WIDTHS[0]));
-        if !next.is_finite() || alpha < 1e-6 {
+        let (next, alpha) = advance(problem, condensed, &at, (spring, width));
+        if !next.is_finite() || alpha < LEAST_STEP {
             return None;
         }
         at = next;

@@ -10,6 +10,9 @@ use crate::vector::max_abs;
 pub(super) struct Iterate {
     pub(super) u: Vec<f64>,
     pub(super) points: Vec<Pairs>,
+    /// The slip over which friction turns, in units of the scaled problem: products of friction are not driven below this
+    /// times `mu t_n`. Zero for Coulomb's law itself.
+    pub(super) smooth: f64,
 }
 
 /// The variables of a contact point. Those of friction are zero where there is none.
@@ -28,6 +31,12 @@ impl Pairs {
         let (plus, minus) = (mu * self.t_n + self.t_t, mu * self.t_n - self.t_t);
         let all = [(self.t_n, self.gap), (plus, self.slip_plus), (minus, self.slip_minus)];
         all.into_iter().take(if mu > 0.0 { 3 } else { 1 })
+    }
+
+    /// What the products of the pairs should be where those of the gaps are `tau`.
+    pub(super) fn aims(&self, mu: f64, tau: f64, smooth: f64) -> [f64; 3] {
+        let friction = tau.max(smooth * mu * self.t_n);
+        [tau, friction, friction]
     }
 
     fn plus(&self, step: &Self, alpha: f64) -> Self {
@@ -137,7 +146,18 @@ impl<'a> Tangent<'a> {
             self.at.points[i].change(point.mu, (t_n, t_t), opened, &targets[i])
         });
         let points = points.collect();
-        Iterate { u, points }
+        Iterate { u, points, smooth: 0.0 }
+    }
+}
+
+impl Pairs {
+    /// The stiffness of friction against slip, as Newton's method has it at a gap that does not change.
+    pub(super) fn resistance(&self, mu: f64) -> f64 {
+        if mu == 0.0 {
+            return 0.0;
+        }
+        let (plus, minus) = self.ratios(mu);
+        1.0 / (plus + minus + COMPLIANCE)
     }
 }
 
@@ -148,7 +168,7 @@ fn springs(point: &Point, pairs: &Pairs) -> Springs {
         return Springs { nn, ..Springs::default() };
     }
     let (plus, minus) = pairs.ratios(point.mu);
-    let tt = 1.0 / (plus + minus + COMPLIANCE);
+    let tt = pairs.resistance(point.mu);
     Springs { nn, tn: -point.mu * (plus - minus) * tt * nn, tt }
 }
 
@@ -206,20 +226,30 @@ impl Iterate {
         problem.points.iter().zip(&self.points).map(contact).collect()
     }
 
-    /// The mean of the products of the pairs.
+    /// The mean of the products of the pairs; of those of the gaps alone where friction is smooth.
     pub(super) fn gap(&self, problem: &Scaled) -> f64 {
         let products = problem.points.iter().zip(&self.points);
         let (sum, count) = products
-            .flat_map(|(point, pairs)| pairs.pairs(point.mu))
+            .flat_map(|(point, pairs)| pairs.pairs(point.mu).take(self.sharp()))
             .fold((0.0, 0_usize), |(sum, count), (t, y)| (sum + t * y, count + 1));
         sum / count.max(1) as f64
+    }
+
+    /// Whether friction turns over a slip.
+    pub(super) fn is_smooth(&self) -> bool {
+        self.smooth > 0.0
+    }
+
+    /// How many pairs of a point are to be complementary in the end.
+    fn sharp(&self) -> usize {
+        if self.is_smooth() { 1 } else { 3 }
     }
 
     /// Largest `|min(t, y)|` over the pairs, in these units of force and length.
     pub(super) fn natural(&self, problem: &Scaled, (force, length): (f64, f64)) -> f64 {
         let pairs = problem.points.iter().zip(&self.points);
         pairs
-            .flat_map(|(point, pairs)| pairs.pairs(point.mu))
+            .flat_map(|(point, pairs)| pairs.pairs(point.mu).take(self.sharp()))
             .fold(0.0, |max, (t, y)| max.max((t / force).min(y / length).abs()))
     }
 
@@ -286,23 +316,32 @@ impl Iterate {
         }
     }
 
-    /// The smallest product of a pair, relative to the mean.
+    /// The smallest product of a pair, relative to what it should be.
     pub(super) fn centrality(&self, problem: &Scaled) -> f64 {
-        let points = problem.points.iter().zip(&self.points);
-        let products = points.flat_map(|(point, pairs)| pairs.pairs(point.mu)).map(|(t, y)| t * y);
-        products.fold(f64::INFINITY, f64::min) / self.gap(problem)
+        let mean = self.gap(problem);
+        self.products(problem, mean)
+            .map(|(product, aim)| product / aim)
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// The products of all pairs, each with what it should be where those of the gaps are `tau`.
+    pub(super) fn products(&self, problem: &Scaled, tau: f64) -> impl Iterator<Item = (f64, f64)> {
+        problem.points.iter().zip(&self.points).flat_map(move |(point, pairs)| {
+            let aims = pairs.aims(point.mu, tau, self.smooth);
+            pairs.pairs(point.mu).zip(aims).map(|((t, y), aim)| (t * y, aim))
+        })
     }
 
     pub(super) fn moved(&self, step: &Iterate, alpha: f64) -> Self {
         let u = self.u.iter().zip(&step.u).map(|(u, du)| u + alpha * du).collect();
         let points = self.points.iter().zip(&step.points).map(|(p, d)| p.plus(d, alpha)).collect();
-        Self { u, points }
+        Self { u, points, smooth: self.smooth }
     }
 
     /// `(1 - share) self + share other`.
     pub(super) fn mixed(&self, other: &Iterate, share: f64) -> Self {
-        let zero =
-            Self { u: vec![0.0; self.u.len()], points: vec![Pairs::default(); self.points.len()] };
+        let points = vec![Pairs::default(); self.points.len()];
+        let zero = Self { u: vec![0.0; self.u.len()], points, smooth: 0.0 };
         zero.moved(self, 1.0 - share).moved(other, share)
     }
 }

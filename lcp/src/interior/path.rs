@@ -45,7 +45,7 @@ impl<'a> Ahead<'a> {
     /// The step of [`advance`].
     pub(super) fn advance(&self, problem: &Scaled, at: &Iterate, width: f64) -> (Iterate, f64) {
         let Self { tangent, defect, predictor } = self;
-        let (step, alpha) = if tangent.is_backwards() {
+        let (step, alpha) = if tangent.is_backwards() && !at.is_smooth() {
             turn(problem, tangent, at, predictor)
         } else {
             forwards(problem, tangent, at, defect, predictor)
@@ -84,7 +84,10 @@ fn forwards(
         let centring = tangent.step(defect, &targets(problem, at, gap, None));
         (step, alpha) = mixture(problem, at, predictor, &centring);
     }
-    if alpha < SHORT { turn(problem, tangent, at, predictor) } else { (step, alpha) }
+    if alpha < SHORT && !at.is_smooth() {
+        return turn(problem, tangent, at, predictor);
+    }
+    (step, alpha)
 }
 
 /// The longest part of a step that keeps the products near their mean.
@@ -122,18 +125,18 @@ fn mixture(
 }
 
 fn is_central(problem: &Scaled, at: &Iterate) -> bool {
-    let gap = at.gap(problem);
-    let mut products = problem.points.iter().zip(&at.points).flat_map(|(p, at)| at.pairs(p.mu));
-    products.all(|(t, y)| (IS_CENTRAL.0 * gap..=IS_CENTRAL.1 * gap).contains(&(t * y)))
+    let mut products = at.products(problem, at.gap(problem));
+    products.all(|(it, aim)| (IS_CENTRAL.0 * aim..=IS_CENTRAL.1 * aim).contains(&it))
 }
 
-/// What the products of the pairs lack of `aim`, less the second-order term of the predictor.
-fn targets(problem: &Scaled, at: &Iterate, aim: f64, predictor: Option<&Iterate>) -> Vec<[f64; 3]> {
+/// What the products of the pairs lack where those of the gaps are to be `tau`, less the second-order term of the
+/// predictor.
+fn targets(problem: &Scaled, at: &Iterate, tau: f64, predictor: Option<&Iterate>) -> Vec<[f64; 3]> {
     let target = |i: usize| {
         let mu = problem.points[i].mu;
-        let mut targets = [0.0; 3];
+        let mut targets = at.points[i].aims(mu, tau, at.smooth);
         for (target, (t, y)) in targets.iter_mut().zip(at.points[i].pairs(mu)) {
-            *target = aim - t * y;
+            *target -= t * y;
         }
         if let Some(predictor) = predictor {
             for (target, (dt, dy)) in targets.iter_mut().zip(predictor.points[i].pairs(mu)) {
@@ -146,12 +149,13 @@ fn targets(problem: &Scaled, at: &Iterate, aim: f64, predictor: Option<&Iterate>
 }
 
 /// What brings the products of a trial point back among those that are central.
-fn corrections(problem: &Scaled, trial: &Iterate, aim: f64) -> Vec<[f64; 3]> {
-    let (low, high) = (CENTRAL.0 * aim, CENTRAL.1 * aim);
+fn corrections(problem: &Scaled, trial: &Iterate, tau: f64) -> Vec<[f64; 3]> {
     let correction = |i: usize| {
         let mut targets = [0.0; 3];
         let pairs = trial.points[i].pairs(problem.points[i].mu);
-        for (target, (t, y)) in targets.iter_mut().zip(pairs) {
+        let aims = trial.points[i].aims(problem.points[i].mu, tau, trial.smooth);
+        for ((target, (t, y)), aim) in targets.iter_mut().zip(pairs).zip(aims) {
+            let (low, high) = (CENTRAL.0 * aim, CENTRAL.1 * aim);
             // Two negative values are as far outside as one.
             let product = if t < 0.0 && y < 0.0 { -t * y } else { t * y };
             *target = if product < low {

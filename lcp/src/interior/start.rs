@@ -36,7 +36,7 @@ pub(super) fn start(problem: &Scaled, condensed: &mut Condensed, spring: f64) ->
             ..pairs
         }
     });
-    Iterate { points: points.collect(), u }
+    Iterate { points: points.collect(), u, smooth: 0.0 }
 }
 
 /// A start for one more attempt, where those before went as far as `reached` in gaps and slips.

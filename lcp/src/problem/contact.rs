@@ -112,6 +112,20 @@ impl Contact2d {
         Ok(Self { f, ..self.clone() })
     }
 
+    /// The same problem with slips that are measured from displacements `u`: that of bodies which have moved there.
+    ///
+    /// # Errors
+    /// [`Error::Length`] or [`Error::NotFinite`] as [`new`](Self::new).
+    pub fn after(&self, u: &[f64]) -> Result<Self, Error> {
+        check_length("u", u.len(), self.f.len())?;
+        check_vector("u", u)?;
+        let mut s_0 = vec![0.0; self.points()];
+        for (j, u) in u.iter().enumerate() {
+            column_of(&self.c_t, j).for_each(|(i, v)| s_0[i] -= v * u);
+        }
+        Ok(Self { s_0, ..self.clone() })
+    }
+
     /// Number of displacements.
     pub fn displacements(&self) -> usize {
         self.f.len()

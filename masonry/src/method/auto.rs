@@ -28,6 +28,8 @@ use crate::scene::{Form, Route, Solver};
 const FEW: usize = 2000;
 /// Most walls are solved in so many steps of the interior points.
 pub(crate) const STEPS_BEFORE_PROOF: usize = 40;
+/// With friction a motion follows after so many steps of the interior points.
+pub(crate) const STEPS_BEFORE_MOTION: usize = 45;
 /// How long the last route may take, which seldom has an answer where the others have none.
 const LAST_RESORT: Duration = Duration::from_secs(10);
 

@@ -55,6 +55,7 @@ pub fn answer(system: &System, sparse: &Sparse, decision: &Decision, tolerance: 
         displacements: state.map(|_| vec![0.0; problem.displacements()]),
         motion: None,
         basis: None,
+        moved: None,
     }
 }
 

@@ -39,6 +39,8 @@ pub struct SolveInfo {
     pub proved: bool,
     /// What the springs of the scene did.
     pub soft: Option<SoftReport>,
+    /// How the blocks came to where they are, and so which law of friction the answer obeys.
+    pub way: lcp::Way,
     /// Dimensionless residuals recomputed from the original data.
     pub residuals: lcp::Residuals,
     /// Residuals of the same answer in the paper's form (3.27), where another form found it.
@@ -63,6 +65,7 @@ impl SolveInfo {
             springs: None,
             proved: false,
             soft: None,
+            way: lcp::Way::Law,
             residuals,
             coulomb_residuals: None,
         }

@@ -3,12 +3,19 @@
 //! Where there seems to be no equilibrium, springs that carry their share of the load however soft they
 //! are say so, and how blocks on the softest springs move is the mechanism. That is evidence, and with friction no
 //! proof.
+//!
+//! Where friction keeps the path from an answer, the blocks evolve: friction turns over a short slip, or they move against
+//! viscosity from the state before until they rest or flow ([`Evolution`]).
 
-use lcp::{ContactState, InteriorPoint, InteriorPointSettings, Solver, WarmStart};
+use lcp::{
+    ContactState, Evolution, EvolutionSettings, Evolved, Info, InteriorPoint,
+    InteriorPointSettings, Solution, Solver, Status, WarmStart, Way,
+};
 
 use super::sparse::Found;
-use super::{Answer, Method, Observer, Request, RouteError, sparse};
+use super::{Answer, Method, Moved, Observer, Request, RouteError, auto, sparse};
 use crate::method::forms::Sparse;
+use crate::method::info::SolveInfo;
 use crate::scene::Route;
 
 /// The route on a sparse problem.
@@ -18,18 +25,139 @@ pub struct Interior<'a> {
     pub sparse: &'a Sparse,
     /// The state of a similar problem, whose contacts are tried before anything else.
     pub start: Option<&'a ContactState>,
+    /// How that state was found.
+    pub way: Way,
 }
 
 impl Method for Interior<'_> {
     fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
+        let problem = &self.sparse.problem;
         let start = self.start.map_or(WarmStart::None, |state| {
-            let (t, y) = self.sparse.problem.to_pairs(state);
+            let (t, y) = problem.to_pairs(state);
             WarmStart::Point { t, y }
         });
-        let settings =
+        let mut settings =
             InteriorPointSettings { tolerance: request.tolerance, start, ..Default::default() };
-        let solution = InteriorPoint::new(settings)
-            .solve_observed(&self.sparse.problem, &mut |at| observer(at.into()))?;
-        Ok(sparse::answer(Route::Interior, self.sparse, Found::of(self.sparse, solution), None))
+        let may_move = !problem.frictional().is_empty();
+        let is_rigid = problem.stiffness().val().iter().all(|k| k.abs() <= 0.0);
+        if may_move && (is_rigid || self.way == Way::Motion) {
+            return self.by_motion(None, request, observer);
+        }
+        let thorough = settings.clone();
+        if may_move {
+            settings.max_iterations = auto::STEPS_BEFORE_MOTION;
+            settings.continuation = false;
+        }
+        let answer = self.by_path(settings, observer)?;
+        if !may_move || is_over(&answer) {
+            return Ok(answer);
+        }
+        let moved = self.by_motion(Some(answer), request, observer)?;
+        if is_over(&moved) {
+            return Ok(moved);
+        }
+        // The path that did not get far in a few steps may still get there.
+        let answer = self.by_path(thorough, observer)?;
+        let says_more = answer.info.status == Status::Solved || moved.info.way != Way::Motion;
+        Ok(if says_more { after(&moved.info, answer) } else { moved })
     }
+}
+
+impl Interior<'_> {
+    fn by_path(
+        &self,
+        settings: InteriorPointSettings,
+        observer: Observer<'_>,
+    ) -> Result<Answer, RouteError> {
+        let solver = InteriorPoint::new(settings);
+        let solution =
+            solver.solve_observed(&self.sparse.problem, &mut |at| observer(at.into()))?;
+        Ok(self.answer(solution))
+    }
+
+    fn answer(&self, solution: Solution) -> Answer {
+        sparse::answer(Route::Interior, self.sparse, Found::of(self.sparse, solution), None)
+    }
+
+    /// The answer that a motion leads to, or the `given` one where it says no more.
+    fn by_motion(
+        &self,
+        given: Option<Answer>,
+        request: &Request,
+        observer: Observer<'_>,
+    ) -> Result<Answer, RouteError> {
+        let problem = &self.sparse.problem;
+        let rest = vec![0.0; problem.displacements()];
+        let from = self.start.map_or(&rest, |state| &state.u);
+        let settings = EvolutionSettings {
+            tolerance: request.tolerance,
+            at_once: self.way != Way::Motion,
+            ..EvolutionSettings::default()
+        };
+        let evolved = Evolution::new(settings)
+            .advance_observed(problem, from, &mut |at| observer(at.into()))?;
+        let line = described(&evolved);
+        let says_more = evolved.rests() || evolved.solution.status == Status::NoEquilibrium;
+        let Info { iterations, factorisations, .. } = evolved.solution.info;
+        Ok(match given {
+            Some(mut given) if !says_more => {
+                given.info.iterations += iterations;
+                given.info.factorisations += factorisations;
+                given.info.attempts.push(line);
+                given
+            }
+            given => {
+                let dissipation = evolved.dissipation;
+                let moved = evolved.from.map(|from| Moved { slips: self.slips(from), dissipation });
+                let mut answer = Answer { moved, ..self.answer(evolved.solution) };
+                (answer.info.way, answer.info.attempts) = (evolved.way, vec![line]);
+                match given {
+                    Some(given) => after(&given.info, answer),
+                    None => answer,
+                }
+            }
+        })
+    }
+
+    /// The slips of the points with friction at displacements, as the problem measures them.
+    fn slips(&self, u: Vec<f64>) -> Vec<f64> {
+        let problem = &self.sparse.problem;
+        let none = vec![0.0; problem.points()];
+        let state = problem.state(u, none.clone(), none);
+        self.sparse.rows(&state).y.split_off(self.sparse.points())
+    }
+}
+
+/// Whether nothing is left to try.
+fn is_over(answer: &Answer) -> bool {
+    let status = answer.info.status;
+    matches!(status, Status::Solved | Status::Cancelled | Status::Infeasible)
+}
+
+/// An answer with what was done before it.
+fn after(before: &SolveInfo, mut answer: Answer) -> Answer {
+    answer.info.iterations += before.iterations;
+    answer.info.factorisations += before.factorisations;
+    answer.info.attempts.splice(0..0, before.attempts.iter().cloned());
+    answer
+}
+
+fn described(evolved: &Evolved) -> String {
+    let Info { factorisations, .. } = evolved.solution.info;
+    let way = match (evolved.way, evolved.solution.status) {
+        (Way::Law, _) => "solved after a start with smooth friction".to_owned(),
+        (Way::SmoothFriction, _) => "at rest with friction that turns over a short slip".to_owned(),
+        (_, Status::Solved) => {
+            format!(
+                "moved against viscosity and came to rest in {} motions",
+                evolved.motions.shares.len()
+            )
+        }
+        (_, Status::NoEquilibrium) => format!(
+            "flows: a share of {:.1e} of the loads is left to viscosity, however small that is",
+            evolved.motions.shares.last().copied().unwrap_or(1.0)
+        ),
+        (_, status) => format!("moved against viscosity, {status}"),
+    };
+    format!("interior: {way}, after {factorisations} factorisations")
 }

@@ -92,6 +92,7 @@ pub(crate) fn answer(
         displacements: state.map(|state| state.u),
         motion: motion.map(Motion::Displacements),
         basis: None,
+        moved: None,
     }
 }
 

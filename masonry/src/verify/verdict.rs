@@ -44,6 +44,50 @@ impl std::fmt::Display for Verdict {
     }
 }
 
+/// Whether the blocks move against viscosity without coming to rest.
+fn flows(info: &SolveInfo) -> bool {
+    info.status == lcp::Status::NoEquilibrium && info.way == lcp::Way::Motion
+}
+
+/// Whether displacements are too large for the state to mean anything. One that only a motion leads to may be at the end of
+/// a fall.
+fn is_too_far(known: &Known<'_>, movement: Movement) -> bool {
+    movement.is_too_large() || (known.info.way == lcp::Way::Motion && movement.is_large())
+}
+
+/// Which law of friction the state obeys, where it is not that of the problem.
+fn law(known: &Known<'_>) -> Option<String> {
+    let mut ways: Vec<lcp::Way> = known
+        .history
+        .map_or_else(Vec::new, |history| history.records.iter().map(|record| record.way).collect());
+    if known.history.is_none() && known.state.is_some() {
+        ways.push(known.info.way);
+    }
+    let count = |way| ways.iter().filter(|it| **it == way).count();
+    let [smooth, moved] = [lcp::Way::SmoothFriction, lcp::Way::Motion].map(count);
+    let steps = |count: usize| {
+        if known.history.is_some() {
+            format!(" in {count} of {} steps", ways.len())
+        } else {
+            String::new()
+        }
+    };
+    let how = match (smooth, moved) {
+        (0, 0) => return None,
+        (_, 0) => format!("with friction that turns over a short slip{}", steps(smooth)),
+        (0, _) => format!("by a slow motion against viscosity{}", steps(moved)),
+        _ => format!(
+            "with friction that turns over a short slip{} and by a slow motion against viscosity{}",
+            steps(smooth),
+            steps(moved)
+        ),
+    };
+    Some(format!(
+        "The blocks came to rest {how}. Forces balance and are within friction, but other states of rest exist, \
+         and more than two digits of displacements mean little."
+    ))
+}
+
 /// What a verdict rests on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[non_exhaustive]
@@ -57,6 +101,10 @@ pub enum Evidence {
     /// There are no such forces, with a checked proof.
     #[serde(rename = "no admissible forces")]
     NoAdmissibleForces,
+    /// A motion against viscosity that does not come to rest, however small that is. Where forces inside friction that
+    /// balance the loads exist, this is no proof that the wall falls in every way of loading it.
+    #[serde(rename = "motion")]
+    Motion,
     /// Nothing.
     #[serde(rename = "none")]
     None,
@@ -99,11 +147,13 @@ impl Judgement {
         let is_solved = known.info.status == lcp::Status::Solved;
         let (verdict, evidence) = match known.statics {
             Some(Statics::Impossible(_)) => (Verdict::Falls, Evidence::NoAdmissibleForces),
-            _ if is_solved && !movement.is_some_and(Movement::is_too_large) => {
+            _ if is_solved && !movement.is_some_and(|movement| is_too_far(known, movement)) => {
                 let evidence =
                     if known.at_rest { Evidence::AdmissibleForces } else { Evidence::Equilibrium };
                 (Verdict::Stands, evidence)
             }
+            // Without a history the blocks might have come to rest with forces that no motion from rest leads to.
+            _ if known.history.is_some() && flows(known.info) => (Verdict::Falls, Evidence::Motion),
             Some(Statics::Admissible(_)) => (Verdict::Undecided, Evidence::AdmissibleForces),
             Some(Statics::Open) | None => (Verdict::Undecided, Evidence::None),
         };
@@ -114,6 +164,7 @@ impl Judgement {
 
 fn warnings(known: &Known<'_>, movement: Option<Movement>) -> Vec<String> {
     let mut list = known.unusual.to_vec();
+    list.extend(law(known));
     if let Some(movement) = movement.filter(|movement| movement.is_large()) {
         list.push(format!(
             "Displacements exceed what small-displacement theory allows: {}. Places where blocks meet and lever \

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use lcp::Status;
+use lcp::{Status, Way};
 use nalgebra::Vector2;
 
 use super::{Clock, Event, SolveError, named};
@@ -18,7 +18,7 @@ use crate::method::pgs::Sweeps;
 use crate::method::qp::Programs;
 use crate::method::reduction::Reduction;
 use crate::method::statics::{self, Decision, Statics};
-use crate::method::{Answer, Method, Request, Step};
+use crate::method::{Answer, Method, Moved, Request, Step};
 use crate::model::Model;
 use crate::paper::alm::{Multipliers, Strips};
 use crate::plan::Choice;
@@ -38,6 +38,8 @@ pub(super) struct Attempt {
     pub(super) basis: Option<Start>,
     /// What is known of admissible forces, where it was asked.
     pub(super) statics: Option<Statics>,
+    /// What a motion did before the slips of the state, by contact point.
+    pub(super) moved: Option<Moved>,
 }
 
 impl Attempt {
@@ -57,6 +59,8 @@ pub(super) struct Chain<'a> {
     /// The basis of the step before, and its state.
     start: Option<Start>,
     before: Option<&'a State>,
+    /// How that was found.
+    way: Way,
     sparse: Option<Sparse>,
     /// Whether there are admissible forces; asked at most once.
     decision: Option<Decision>,
@@ -68,7 +72,7 @@ impl<'a> Chain<'a> {
     pub(super) fn new(
         (model, system): (&'a Model, &'a System),
         (request, with_stresses): (Request, bool),
-        (start, before): (Option<Start>, Option<&'a State>),
+        (start, before, way): (Option<Start>, Option<&'a State>, Way),
         clock: &'a mut Clock,
         observer: &'a mut dyn FnMut(Event) -> ControlFlow<()>,
     ) -> Self {
@@ -81,6 +85,7 @@ impl<'a> Chain<'a> {
             observer,
             start,
             before,
+            way,
             sparse: None,
             decision: None,
             may_be_cut: false,
@@ -188,9 +193,9 @@ impl<'a> Chain<'a> {
         let (system, tolerance) = (self.system, self.request.tolerance);
         let decision = self.statics()?;
         let answer = forces::answer(system, &sparse, decision, tolerance);
-        let state = self.recovered(&sparse, &answer);
+        let state = self.recovered((self.model, &sparse), &answer);
         self.sparse = Some(sparse);
-        Ok(self.concluded(answer, state))
+        Ok(self.concluded(self.model, answer, state))
     }
 
     fn by_pivots(&mut self) -> Result<Attempt, SolveError> {
@@ -208,7 +213,7 @@ impl<'a> Chain<'a> {
                 recover::recover(model, system, &reduction, rows, with_stresses)
             })
         });
-        let attempt = self.concluded(answer, state);
+        let attempt = self.concluded(model, answer, state);
         if attempt.info.status == Status::AlmostSolved {
             self.refined(attempt)
         } else {
@@ -265,7 +270,8 @@ impl<'a> Chain<'a> {
             Route::Alm => self.timed(&Multipliers { sparse: &sparse }),
             _ => {
                 let start = self.before.map(|state| sparse.state(model, system, state));
-                self.timed(&Interior { sparse: &sparse, start: start.as_ref() })
+                let way = self.way;
+                self.timed(&Interior { sparse: &sparse, start: start.as_ref(), way })
             }
         };
         let mut answer = answer?;
@@ -279,14 +285,26 @@ impl<'a> Chain<'a> {
                 route.name()
             )];
         }
-        let state = self.recovered(&sparse, &answer);
+        let moved = answer.moved.take().map(|moved| self.by_contact(moved));
+        let after = moved.as_ref().map(|moved| model.slid(&moved.slips));
+        let model = after.as_ref().unwrap_or(model);
+        let state = self.recovered((model, &sparse), &answer);
         self.sparse = Some(sparse);
-        Ok(self.concluded(answer, state))
+        Ok(Attempt { moved, ..self.concluded(model, answer, state) })
+    }
+
+    /// With a slip for every contact point, zero without friction.
+    fn by_contact(&self, moved: Moved) -> Moved {
+        let mut slips = vec![0.0; self.model.contacts.len()];
+        for (friction, slip) in self.system.friction.iter().zip(moved.slips) {
+            slips[friction.contact.index()] = slip;
+        }
+        Moved { slips, ..moved }
     }
 
     /// The state that an answer on the sparse problem is.
-    fn recovered(&mut self, sparse: &Sparse, answer: &Answer) -> Option<State> {
-        let Self { model, system, with_stresses, .. } = *self;
+    fn recovered(&mut self, (model, sparse): (&Model, &Sparse), answer: &Answer) -> Option<State> {
+        let Self { system, with_stresses, .. } = *self;
         let (rows, u) = answer.rows.as_ref().zip(answer.displacements.as_deref())?;
         let tolerance = self.request.tolerance;
         Some(self.clock.time("recovery", self.observer, || {
@@ -332,8 +350,8 @@ impl<'a> Chain<'a> {
         Ok(answer?)
     }
 
-    fn concluded(&self, answer: Answer, state: Option<State>) -> Attempt {
-        let checks = state.as_ref().map(|state| Checks::of(self.model, state));
+    fn concluded(&self, model: &Model, answer: Answer, state: Option<State>) -> Attempt {
+        let checks = state.as_ref().map(|state| Checks::of(model, state));
         let mut info = answer.info;
         // The complementarity problem may be solved to its tolerance and the structure not: forces and
         // displacements of very different size meet in one vector.
@@ -344,6 +362,6 @@ impl<'a> Chain<'a> {
         let mechanism = motion.and_then(|motion| {
             recover::mechanism(self.model, self.system, self.sparse.as_ref(), motion)
         });
-        Attempt { info, state, checks, mechanism, basis: answer.basis, statics: None }
+        Attempt { info, state, checks, mechanism, basis: answer.basis, statics: None, moved: None }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use lcp::Status;
+use lcp::{Status, Way};
 use nalgebra::Vector2;
 
 use super::chain::{Attempt, Chain};
@@ -224,7 +224,8 @@ impl Run {
         let wanted = (self.request, self.with_stresses);
         let parts = (model, &self.system);
         let before = self.reached.as_ref().map(|reached| &reached.state);
-        let start = (self.basis.take(), before);
+        let way = self.records.last().map_or(Way::Law, |record| record.way);
+        let start = (self.basis.take(), before, way);
         let found = Chain::new(parts, wanted, start, &mut self.clock, observer);
         match found.run(&self.plan.routes) {
             Ok(found) => self.take(step, stepped, found),
@@ -251,11 +252,20 @@ impl Run {
     /// Keeps a step that was solved; of one that was not, its state only where there is none before.
     /// Of the only step there is nothing to remember but its state.
     fn take(&mut self, step: Step, stepped: Option<(Model, Vec<f64>)>, found: Attempt) {
-        let Attempt { info, state, checks, mechanism, basis, statics } = found;
+        let Attempt { info, state, checks, mechanism, basis, statics, moved } = found;
         self.basis = basis;
+        if let (Some(moved), None) = (&moved, &stepped) {
+            // The state is judged with slips from where the blocks came to.
+            self.model = self.model.slid(&moved.slips);
+        }
         if let Some(mut state) = state {
-            let dissipation = energy::dissipation(&state.contacts);
-            let in_history = stepped.map(|(model, slips)| {
+            let mut dissipation = energy::dissipation(&state.contacts);
+            let in_history = stepped.map(|(mut model, mut slips)| {
+                if let Some(moved) = &moved {
+                    model = model.slid(&moved.slips);
+                    slips.iter_mut().zip(&moved.slips).for_each(|(slip, moved)| *slip += moved);
+                    dissipation += moved.dissipation;
+                }
                 let steps = model.contacts.iter().zip(&mut state.contacts).zip(slips);
                 let frictional = steps.filter(|((contact, _), _)| contact.law.resists_sliding());
                 for ((_, contact), slip) in frictional {
@@ -301,6 +311,8 @@ impl Run {
         Some(StepRecord {
             step,
             route: info.route,
+            way: info.way,
+            factorisations: info.factorisations,
             residuals: info.residuals,
             work,
             dissipation: dissipation.max(0.0) + held,

@@ -223,7 +223,7 @@ impl Sparse {
     }
 
     /// The contact points of the structure; those of cohesion follow them in the problem.
-    fn points(&self) -> usize {
+    pub(crate) fn points(&self) -> usize {
         let of_cohesion = self.carriers.iter().filter(|it| it.constant.is_some()).count();
         self.problem.points() - of_cohesion
     }

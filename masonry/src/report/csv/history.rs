@@ -13,7 +13,8 @@ use crate::report::format::{InUnits, shortest};
 /// factor `gravity`, a factor `load NAME` for each load, `SUPPORT x_m`, `SUPPORT y_m`, `SUPPORT
 /// turn_rad` for each support, of this step `work_kJ` and `dissipation_kJ`, after it `strain_energy_kJ`
 /// and `max_displacement_m`, the numbers `open`, `stick`, `slip` of contact points, `SUPPORT fx_kN`,
-/// `SUPPORT fy_kN` and `SUPPORT m_kNm` (about the origin) for each support, and the `residual`.
+/// `SUPPORT fy_kN` and `SUPPORT m_kNm` (about the origin) for each support, the `residual`, the `way` in which the step was found
+/// (`law`, `smooth-friction` or `motion`), and its `factorisations`.
 pub fn history(model: &Model, history: &History) -> String {
     let units = InUnits(model.units);
     let mut text = header(model, history, units);
@@ -39,6 +40,7 @@ pub fn history(model: &Model, history: &History) -> String {
             .chain(counts)
             .chain(reactions)
             .chain([shortest(record.residuals.worst())])
+            .chain([record.way.name().to_owned(), record.factorisations.to_string()])
             .collect();
         text += &fields.join(",");
         text += "\r\n";
@@ -61,7 +63,7 @@ fn header(model: &Model, history: &History, units: InUnits) -> String {
     heads.extend(["open", "stick", "slip"].map(str::to_owned));
     let forces = [format!("fx_{force}"), format!("fy_{force}"), format!("m_{energy}")];
     heads.extend(supports().flat_map(|name| forces.each_ref().map(|it| format!("{name} {it}"))));
-    heads.push("residual".to_owned());
+    heads.extend(["residual", "way", "factorisations"].map(str::to_owned));
     let heads: Vec<Cow<'_, str>> = heads.iter().map(|head| quoted(head)).collect();
     heads.join(",") + "\r\n"
 }

@@ -1,5 +1,7 @@
 //! The load history as a table.
 
+use lcp::Way;
+
 use super::{pairs, table};
 use crate::history::{History, Step, StepRecord};
 use crate::report::format::{InUnits, aligned};
@@ -31,8 +33,10 @@ pub(super) fn history(history: &History, units: InUnits) -> String {
         "open",
         "stick",
         "slip",
+        "found by",
+        "factorisations",
     ];
-    let mut table = table(&heads, &[2, 3, 4, 5, 6, 7, 8, 9]);
+    let mut table = table(&heads, &[2, 3, 4, 5, 6, 7, 8, 9, 11]);
     let total = |of: fn(&StepRecord) -> f64| {
         shown.iter().map(move |last| {
             let until = records.iter().take_while(|record| record.step != last.step);
@@ -57,7 +61,18 @@ pub(super) fn history(history: &History, units: InUnits) -> String {
         let step = place(&record.step);
         let stage = &record.step.stage;
         table.add_row(vec![
-            stage, &step, work, dissipated, stored, left, &moved[k], open, stick, slip,
+            stage,
+            &step,
+            work,
+            dissipated,
+            stored,
+            left,
+            &moved[k],
+            open,
+            stick,
+            slip,
+            found_by(record.way),
+            &record.factorisations.to_string(),
         ]);
     }
     let mut text = table.trim_fmt()
@@ -68,6 +83,14 @@ pub(super) fn history(history: &History, units: InUnits) -> String {
         text += &pairs(&[("not solved", step)]);
     }
     text
+}
+
+fn found_by(way: Way) -> &'static str {
+    match way {
+        Way::Law => "law",
+        Way::SmoothFriction => "smooth friction",
+        _ => "motion",
+    }
 }
 
 fn place(step: &Step) -> String {

@@ -4,6 +4,7 @@ use lcp::Status;
 
 use super::{Evidence, Known, Movement, Verdict};
 use crate::history::{History, Step};
+use crate::method::statics::Statics;
 use crate::model::Model;
 use crate::scene::Movement as Place;
 
@@ -28,6 +29,16 @@ pub(super) fn of(
             ),
             None => "The wall stands: equilibrium found and verified.".to_owned(),
         },
+        (Verdict::Falls, Evidence::Motion) => format!(
+            "The wall falls{at}: blocks keep moving and friction does not stop them, however small the \
+             viscosity is that slows them down{}.",
+            match known.statics {
+                Some(Statics::Admissible(_)) => {
+                    ". Contact forces that balance the loads exist, but this loading does not lead to them"
+                }
+                _ => "",
+            }
+        ),
         (Verdict::Falls, _) => format!(
             "The wall falls{at}: no contact forces within friction balance the loads (proof checked)."
         ),

@@ -1,0 +1,94 @@
+//! The walls of the bench: bricks 2 : 1 in running bond, loaded and supported in the ways that are hardest to decide.
+
+use std::fmt;
+
+use masonry::scene::{
+    Brick, Joint, Load, Material, Movement, Plane, Scene, Stage, Support, Wall as Bond,
+};
+use masonry::units::{ForceUnit, LengthUnit, Units};
+
+const BRICK: Brick = Brick { length: 0.25, height: 0.125 };
+const GRAVITY: f64 = 9.81;
+
+/// What a wall has to bear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Case {
+    /// Its weight and a load on top that leans by a tenth, on a full floor.
+    Lean,
+    /// Its weight, with the middle of its foot free.
+    OpenBase,
+    /// Its weight, on a floor that is tilted by this part of the tangent beyond which no forces hold it.
+    Tilt(f64),
+    /// The settlement and the turn of a part of its floor, in so many steps.
+    Settlement(u32),
+}
+
+impl fmt::Display for Case {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Lean => write!(f, "lean"),
+            Self::OpenBase => write!(f, "open base"),
+            Self::Tilt(share) => write!(f, "tilt {share}"),
+            Self::Settlement(1) => write!(f, "settlement, 1 step"),
+            Self::Settlement(steps) => write!(f, "settlement, {steps} steps"),
+        }
+    }
+}
+
+/// A wall of the bench.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Wall {
+    /// Bricks in a course, and courses.
+    pub(crate) courses: u32,
+    pub(crate) mu: f64,
+    /// Elements of a brick; `None` for rigid ones.
+    pub(crate) mesh: Option<[u32; 2]>,
+}
+
+impl Wall {
+    /// The scene of a case; `limit` is the tangent of the tilt beyond which no forces hold the wall.
+    pub(crate) fn scene(&self, case: Case, limit: f64) -> Scene {
+        let width = BRICK.length * f64::from(self.courses);
+        let height = BRICK.height * f64::from(self.courses);
+        let tilt = if let Case::Tilt(share) = case { (share * limit).atan() } else { 0.0 };
+        let material = match self.mesh {
+            Some(_) => Material::elastic(5e6, 0.15),
+            None => Material::rigid(),
+        };
+        let bond = Bond::running_bond("wall", "brick", BRICK, width, self.courses);
+        let units = Units { length: LengthUnit::M, force: ForceUnit::Kn };
+        let scene = Scene::new(&case.to_string(), units)
+            .plane(Plane::Stress)
+            .thickness(0.25)
+            .gravity([GRAVITY * tilt.sin(), -GRAVITY * tilt.cos()])
+            .material("brick", material.density(1800.0))
+            .joint("bed", Joint::mu(self.mu))
+            .joint("head", Joint::mu(self.mu))
+            .wall(match self.mesh {
+                Some(mesh) => bond.mesh(mesh),
+                None => bond,
+            });
+        let floor = |name: &str, from: f64, to: f64| {
+            Support::new(name, [from * width, 0.0], [to * width, 0.0], "bed")
+        };
+        match case {
+            Case::Lean => {
+                let top = Load::traction("top", [0.0, height], [width, height], [1.0, -10.0]);
+                scene.support(floor("floor", 0.0, 1.0)).load(top)
+            }
+            Case::OpenBase => {
+                scene.support(floor("left", 0.0, 0.32)).support(floor("right", 0.68, 1.0))
+            }
+            Case::Tilt(_) => scene.support(floor("floor", 0.0, 1.0)),
+            Case::Settlement(steps) => scene
+                .support(floor("left", 0.0, 0.6))
+                .support(floor("right", 0.6, 1.0))
+                .stage(Stage::new("weight"))
+                .stage(
+                    Stage::new("settlement")
+                        .steps(steps)
+                        .moves("right", Movement { x: 0.0, y: -0.004, turn: -0.004 }),
+                ),
+        }
+    }
+}

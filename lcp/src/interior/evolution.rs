@@ -1,0 +1,390 @@
+//! Contact that evolves: motions against viscosity, until the bodies rest or flow.
+
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+use super::constants::{
+    FIRST_VISCOSITY, FLOWING, LEAST_VISCOSITY, LESS_VISCOUS, MORE_VISCOUS, MOST_VISCOSITY, MOVED,
+    RESTING, SAME_SHARE, SETTLING, SMOOTH, TRIES,
+};
+use super::continuation::centred;
+use super::iterate::Iterate;
+use super::rest::settled;
+use super::start::start;
+use crate::active::{Effort, Search};
+use crate::lower::judged_point;
+use crate::settings::check_tolerance;
+use crate::solve::Monitor;
+use crate::states::{PROXIMAL, Point};
+use crate::vector::{check_length, check_vector, max_abs};
+use crate::{
+    Certificate, Contact2d, ContactState, Error, Method, Observer, SoftSprings, Solution, Status,
+};
+
+/// Settings of [`Evolution`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct EvolutionSettings {
+    /// Largest residual, dimensionless, of the state at rest. In `(0, 1)`.
+    pub tolerance: f64,
+    /// Steps of interior points in all motions together, each with one factorisation.
+    pub max_iterations: usize,
+    /// Wall-clock time, looked at before every step; `None` is no limit.
+    pub time_limit: Option<Duration>,
+    /// Whether rest is looked for without a motion first. Where supports move far it is seldom found so.
+    pub at_once: bool,
+}
+
+impl Default for EvolutionSettings {
+    fn default() -> Self {
+        Self { tolerance: 1e-10, max_iterations: 1000, time_limit: None, at_once: true }
+    }
+}
+
+/// From one state of bodies in contact to the next.
+///
+/// Under loads or gaps that have changed, a contact problem with friction may have several solutions, or none that a
+/// method finds, since its law relates total slips. Bodies do not solve it: they move, and friction opposes the velocity
+/// at every moment. Three ways lead to a state at rest, one after the other ([`Way`]):
+///
+/// 1. **Smooth friction.** Gaps and normal forces are complementary as always, but friction turns over a short slip `e`, a
+///    thousandth of the displacements: `(mu t_n + t_t) s_+ = (mu t_n - t_t) s_- = e mu t_n`. These equations have a smooth path
+///    of interior points, and forces inside the friction cones.
+/// 2. **The law itself**, from the states of the contacts that this leads to, as in
+///    [`InteriorPoint`](crate::InteriorPoint).
+/// 3. **Motion.** The bodies move against a viscosity `eta`, with smooth friction, from displacements `u_k` to
+///
+///    ```text
+///    K u + eta V (u - u_k) = f + C_n^T t_n + C_t^T t_t,    slip measured from u_k,
+///    ```
+///
+///    with the unit `V` of the equilibrated problem, again and again with less viscosity. Where the viscous share of the
+///    loads, `eta |V (u - u_k)|_1 / |f|_1`, vanishes, the bodies come to rest. Where it stays the same however small `eta`
+///    is, they flow.
+///
+/// The first motion measures slips as the problem does, so that supports which are moved drag along what rests on them.
+///
+/// At rest means: the forces balance the loads, are inside the friction cones, and are zero where a gap is open, at
+/// displacements `u` where no body moves any further. Slips of that state are measured from `u` itself, so that they
+/// are zero, and the solution is one of [`problem.after(&u)`](Contact2d::after), judged like every other.
+///
+/// # Failure
+/// [`Status::NoEquilibrium`] where the bodies flow, with the velocities in [`Certificate::Springs`]: evidence, and no
+/// proof. [`Status::Stalled`] where a motion cannot be computed, and the statuses of limits.
+///
+/// ```
+/// use lcp::{Contact2d, ContactPoint, Evolution};
+/// // A body of weight 2 on a plane (mu = 0.5) with a spring of stiffness 4 behind it.
+/// let pushed = |push: f64| {
+///     let mut builder = Contact2d::builder([[4.0, 0.0], [0.0, 0.0]], vec![push, -2.0]);
+///     builder.add_point(ContactPoint {
+///         normal: &[(1, 1.0)], tangent: &[(0, 1.0)], gap: 0.0, slip: 0.0, mu: 0.5,
+///     });
+///     builder.build()
+/// };
+/// let there = Evolution::default().advance(&pushed(1.4)?, &[0.0, 0.0])?;
+/// assert!(there.rests());
+/// let u = there.state().u.clone();
+/// assert!((u[0] - 0.1).abs() < 1e-3);
+/// // Without the push friction holds the spring, which has 0.4 of the 1 that friction can.
+/// let back = Evolution::default().advance(&pushed(0.0)?.after(&u)?, &u)?;
+/// assert!((back.state().u[0] - u[0]).abs() < 1e-3 && (back.state().t_t[0] - 0.4).abs() < 1e-2);
+/// # Ok::<(), lcp::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Evolution {
+    settings: EvolutionSettings,
+}
+
+/// How bodies came to where they are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "kebab-case")
+)]
+#[non_exhaustive]
+pub enum Way {
+    /// The state solves the problem as given: Coulomb's law for the slips of the whole step.
+    Law,
+    /// Coulomb's law with friction that turns over a short slip.
+    SmoothFriction,
+    /// Motions against viscosity.
+    Motion,
+}
+
+impl Way {
+    /// A name for files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Law => "law",
+            Self::SmoothFriction => "smooth-friction",
+            Self::Motion => "motion",
+        }
+    }
+}
+
+/// Where the bodies are after an [`Evolution`].
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Evolved {
+    /// How they came there.
+    pub way: Way,
+    /// The displacements from which the slips of the solution are measured; `None` where they are those of the problem.
+    pub from: Option<Vec<f64>>,
+    /// The solution of the problem [after](Contact2d::after) `from`, where the bodies rest.
+    pub solution: Solution,
+    /// By motion the viscosity, in units of the equilibrated problem, and its share of the loads.
+    pub motions: SoftSprings,
+    /// The energy that friction and viscosity took on the way to `from`.
+    pub dissipation: f64,
+}
+
+impl Evolved {
+    /// The displacements, forces, gaps and slips where the bodies are.
+    pub fn state(&self) -> &ContactState {
+        self.solution.contact.as_ref().unwrap_or_else(|| unreachable!("a contact problem has one"))
+    }
+
+    /// Whether the bodies have come to rest.
+    pub fn rests(&self) -> bool {
+        self.solution.is_solved()
+    }
+}
+
+impl Evolution {
+    /// With these settings.
+    pub fn new(settings: EvolutionSettings) -> Self {
+        Self { settings }
+    }
+
+    /// The settings.
+    pub fn settings(&self) -> &EvolutionSettings {
+        &self.settings
+    }
+
+    /// Moves the bodies from displacements `from` until they rest or flow.
+    ///
+    /// # Errors
+    /// [`Error::Length`] or [`Error::NotFinite`] for `from`, [`Error::Setting`] for the tolerance, and
+    /// [`Error::NotTreated`] where memory does not suffice.
+    pub fn advance(&self, problem: &Contact2d, from: &[f64]) -> Result<Evolved, Error> {
+        self.advance_observed(problem, from, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// The same, calling the observer before every step; `Break` stops with [`Status::Cancelled`].
+    ///
+    /// # Errors
+    /// As for [`advance`](Self::advance).
+    pub fn advance_observed(
+        &self,
+        problem: &Contact2d,
+        from: &[f64],
+        observer: &mut Observer<'_>,
+    ) -> Result<Evolved, Error> {
+        let EvolutionSettings { tolerance, max_iterations, time_limit, at_once } = self.settings;
+        check_tolerance(tolerance)?;
+        check_length("from", from.len(), problem.displacements())?;
+        check_vector("from", from)?;
+        let search = Search::new(Method::Interior, problem, tolerance)?;
+        let (loads, at) = (search.scaled.f.clone(), search.scaled.of_displacements(from));
+        let monitor = Monitor::new(max_iterations, time_limit, observer);
+        let moving = Moving {
+            problem,
+            tolerance,
+            search,
+            monitor,
+            loads,
+            at,
+            limit: None,
+            dissipation: 0.0,
+        };
+        moving.until_rest(at_once)
+    }
+}
+
+/// What the end of a settlement is.
+enum Found {
+    /// The best point of the search solves the problem itself.
+    Law,
+    /// Displacements from which slips are measured, and the solution there.
+    Rest(Vec<f64>, Box<Solution>),
+}
+
+/// Bodies on their way.
+struct Moving<'a, 'b> {
+    problem: &'a Contact2d,
+    tolerance: f64,
+    /// Of the motion at hand, with the forces of its viscosity among the loads.
+    search: Search<'a>,
+    monitor: Monitor<'b>,
+    /// Those of the problem.
+    loads: Vec<f64>,
+    /// Where the motion at hand began.
+    at: Vec<f64>,
+    /// What has stopped it.
+    limit: Option<Status>,
+    /// In units of the scaled problem.
+    dissipation: f64,
+}
+
+impl Moving<'_, '_> {
+    fn until_rest(mut self, at_once: bool) -> Result<Evolved, Error> {
+        let mut motions = SoftSprings::default();
+        match at_once.then(|| self.smooth_rest()).flatten() {
+            Some(Found::Law) => return Ok(self.by_law(motions)),
+            Some(Found::Rest(from, solution)) => {
+                return Ok(self.concluded((Way::SmoothFriction, from, *solution), motions));
+            }
+            None => {}
+        }
+        let load: f64 = self.loads.iter().map(|f| f.abs()).sum();
+        let (mut viscosity, mut same, mut tries) = (FIRST_VISCOSITY, 0, 0);
+        let mut forces = vec![(0.0, 0.0); self.problem.points()];
+        let status = loop {
+            if let Some(limit) = self.limit {
+                break limit;
+            }
+            let Some(moved) = self.motion(viscosity) else {
+                viscosity *= MORE_VISCOUS;
+                if viscosity > MOST_VISCOSITY {
+                    break self.limit.unwrap_or(Status::Stalled);
+                }
+                continue;
+            };
+            let velocity = self.follow(&moved, viscosity);
+            let path: f64 = velocity.iter().map(|v| v.abs()).sum();
+            let share = if load > 0.0 { viscosity * path / load } else { path };
+            let is_same = motions.shares.last().is_some_and(|last| share > SAME_SHARE * last);
+            same = if is_same { same + 1 } else { 0 };
+            motions.stiffness.push(viscosity);
+            motions.shares.push(share);
+            motions.motion = self.search.scaled.displacements(&velocity);
+            forces = moved.forces();
+            if share <= RESTING && tries < TRIES {
+                tries += 1;
+                self.search.scaled.f.clone_from(&self.loads);
+                if let Some(Found::Rest(from, solution)) = self.settle(moved, false) {
+                    return Ok(self.concluded((Way::Motion, from, *solution), motions));
+                }
+            }
+            if same >= FLOWING {
+                break Status::NoEquilibrium;
+            }
+            if viscosity <= LEAST_VISCOSITY {
+                break self.limit.unwrap_or(Status::Stalled);
+            }
+            viscosity /= LESS_VISCOUS;
+        };
+        self.given_up(&forces, motions, status)
+    }
+
+    /// Rest without a motion, by smooth friction.
+    fn smooth_rest(&mut self) -> Option<Found> {
+        let Search { scaled, condensed, .. } = &mut self.search;
+        let begin = smooth(start(scaled, condensed, PROXIMAL));
+        self.settle(begin, true)
+    }
+
+    /// The state at rest that a point leads to, with slips from there, if the judge agrees; or the solution of the problem
+    /// itself next to it, where that is asked for.
+    fn settle(&mut self, at: Iterate, by_law: bool) -> Option<Found> {
+        let Self { problem, tolerance, search, monitor, limit, dissipation, .. } = self;
+        let mut left = SETTLING;
+        let go_on = |residual| {
+            left -= 1;
+            *limit = monitor.stop(residual);
+            limit.is_none() && left > 0
+        };
+        let Search { scaled, condensed, .. } = search;
+        let mut states = None;
+        let found = settled(scaled, condensed, at, go_on, |condensed, at, (u, forces)| {
+            let from = scaled.displacements(&u);
+            let there = problem.after(&from).ok()?;
+            let mut other = Search::new(Method::Interior, &there, *tolerance).ok()?;
+            other.try_point((&u, &forces), Some(&Effort::held(PROXIMAL)));
+            condensed.factorisations += other.condensed.factorisations;
+            let solution = other.found()?;
+            let slid = |(point, (_, t_t)): (&Point, &(f64, f64))| -t_t * point.slip(&u);
+            let slid: f64 = scaled.points.iter().zip(&forces).map(slid).sum();
+            states = Some((at.u.clone(), at.forces(), at.contacts(scaled)));
+            Some((from, solution, slid))
+        });
+        if let Some((u, forces, contacts)) = states.filter(|_| by_law)
+            && search.cross_over((&u, &forces), contacts, &Effort::QUICK)
+        {
+            return Some(Found::Law);
+        }
+        let (from, solution, slid) = found?;
+        *dissipation += slid;
+        Some(Found::Rest(from, Box::new(solution)))
+    }
+
+    /// One motion; `None` where it cannot be computed, or a limit is reached.
+    fn motion(&mut self, viscosity: f64) -> Option<Iterate> {
+        let Self { search: Search { scaled, condensed, .. }, monitor, loads, at, limit, .. } = self;
+        for ((f, load), at) in scaled.f.iter_mut().zip(loads.iter()).zip(at.iter()) {
+            *f = load + viscosity * at;
+        }
+        let begin = smooth(start(scaled, condensed, viscosity));
+        centred(scaled, condensed, begin, (viscosity, MOVED), |residual| {
+            *limit = monitor.stop(residual);
+            limit.is_none()
+        })
+    }
+
+    /// Takes the bodies to the end of a motion, from which slips are measured then, and gives its displacements.
+    fn follow(&mut self, moved: &Iterate, viscosity: f64) -> Vec<f64> {
+        let velocity: Vec<f64> = moved.u.iter().zip(&self.at).map(|(u, at)| u - at).collect();
+        self.dissipation += viscosity * velocity.iter().map(|v| v * v).sum::<f64>();
+        for (point, pairs) in self.search.scaled.points.iter_mut().zip(&moved.points) {
+            self.dissipation -= pairs.t_t * point.slip(&moved.u);
+            point.s_0 = -point.moved(&moved.u).1;
+        }
+        self.at.clone_from(&moved.u);
+        velocity
+    }
+
+    /// Where the bodies were when the last motion ended.
+    fn given_up(
+        self,
+        forces: &[(f64, f64)],
+        motions: SoftSprings,
+        status: Status,
+    ) -> Result<Evolved, Error> {
+        let scaled = &self.search.scaled;
+        let from = scaled.displacements(&self.at);
+        let problem = self.problem.after(&from)?;
+        let (t_n, t_t) =
+            forces.iter().map(|(n, t)| (n * scaled.force(), t * scaled.force())).unzip();
+        let pairs = problem.to_pairs(&problem.state(from.clone(), t_n, t_t));
+        let mut solution = judged_point(&problem, pairs, self.tolerance, status);
+        if solution.status == Status::NoEquilibrium {
+            solution.certificate = Some(Certificate::Springs(motions.clone()));
+        }
+        Ok(self.concluded((Way::Motion, from, solution), motions))
+    }
+
+    fn by_law(self, motions: SoftSprings) -> Evolved {
+        let solution = self.search.finish(Status::Stalled, self.monitor);
+        Evolved { way: Way::Law, from: None, solution, motions, dissipation: 0.0 }
+    }
+
+    fn concluded(
+        self,
+        (way, from, mut solution): (Way, Vec<f64>, Solution),
+        motions: SoftSprings,
+    ) -> Evolved {
+        let Search { scaled, condensed, .. } = &self.search;
+        let dissipation = self.dissipation * scaled.energy();
+        let factorisations = condensed.factorisations;
+        solution.info = self.monitor.info(Method::Interior);
+        solution.info.factorisations = factorisations;
+        Evolved { way, from: Some(from), solution, motions, dissipation }
+    }
+}
+
+/// A start with friction that turns over a small part of the displacements.
+fn smooth(mut at: Iterate) -> Iterate {
+    at.smooth = SMOOTH * max_abs(&at.u);
+    at
+}

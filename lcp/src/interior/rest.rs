@@ -1,0 +1,84 @@
+//! Bodies at rest: gaps and normal forces exactly complementary, and friction that turns over a short slip.
+
+use super::constants::{ADMISSIBLE, SETTLED, STIFF_CLOSED};
+use super::continuation::centred;
+use super::iterate::{Iterate, Pairs};
+use crate::states::{Condensed, PROXIMAL, Point, Scaled, Springs};
+use crate::vector::max_abs;
+
+/// Refinements of the equations of closed and open contacts. Chosen: each reduces what is left by some powers of ten.
+const REFINEMENTS: usize = 10;
+
+/// Displacements and forces, scaled.
+pub(super) type Rest = (Vec<f64>, Vec<(f64, f64)>);
+
+/// The states at rest on the way to the point with smooth friction at which all gaps and normal forces are complementary,
+/// until one is `accepted`. `go_on` is asked before every step, with the residual.
+pub(super) fn settled<T>(
+    problem: &Scaled,
+    condensed: &mut Condensed,
+    mut at: Iterate,
+    mut go_on: impl FnMut(f64) -> bool,
+    mut accepted: impl FnMut(&mut Condensed, &Iterate, Rest) -> Option<T>,
+) -> Option<T> {
+    for accuracy in SETTLED {
+        at = centred(problem, condensed, at, (PROXIMAL, accuracy), &mut go_on)?;
+        let rest = polished(problem, condensed, &at);
+        if is_admissible(problem, &at, &rest)
+            && let Some(found) = accepted(condensed, &at, rest)
+        {
+            return Some(found);
+        }
+    }
+    None
+}
+
+/// Whether forces are inside their cones and gaps open, nearly: what is far outside needs no judge.
+fn is_admissible(problem: &Scaled, at: &Iterate, (u, forces): &Rest) -> bool {
+    let (force, length) = at.sizes();
+    let points = problem.points.iter().zip(forces);
+    points.into_iter().all(|(point, (t_n, t_t))| {
+        let friction = if point.mu > 0.0 { t_t.abs() - point.mu * t_n } else { 0.0 };
+        t_n.min(-friction) >= -ADMISSIBLE * force && point.gap(u) >= -ADMISSIBLE * length
+    })
+}
+
+/// A point to the last digit: closed contacts have no gap, open ones no force, and friction changes as it does at the
+/// point.
+fn polished(problem: &Scaled, condensed: &mut Condensed, at: &Iterate) -> Rest {
+    let (mut u, mut forces) = (at.u.clone(), at.forces());
+    let points = || problem.points.iter().zip(&at.points);
+    let springs: Vec<Springs> = points().map(|(point, pairs)| held(point, pairs)).collect();
+    let is_open = |springs: &Springs| springs.nn <= 0.0;
+    let open = forces.iter_mut().zip(&springs).filter(|(_, springs)| is_open(springs));
+    open.for_each(|(force, _)| *force = (0.0, 0.0));
+    condensed.factorise(problem, &springs, PROXIMAL);
+    let mut last = f64::INFINITY;
+    for _ in 0..REFINEMENTS {
+        let rest = problem.unbalanced(&u, forces.iter().copied());
+        let gap = |(point, springs): (&Point, &Springs)| {
+            (if is_open(springs) { 0.0 } else { point.gap(&u) }, 0.0)
+        };
+        let gaps: Vec<(f64, f64)> = problem.points.iter().zip(&springs).map(gap).collect();
+        let size = gaps.iter().fold(max_abs(&rest), |max, (gap, _)| max.max(gap.abs()));
+        if size.is_nan() || size >= 0.5 * last {
+            break;
+        }
+        last = size;
+        let (du, changes) = condensed.step(problem, &springs, rest, gaps.into_iter());
+        for ((t_n, t_t), change) in forces.iter_mut().zip(changes) {
+            *t_n += change.0;
+            *t_t += change.1;
+        }
+        u.iter_mut().zip(&du).for_each(|(u, du)| *u += du);
+    }
+    problem.settle(&mut u, &mut forces);
+    (u, forces)
+}
+
+fn held(point: &Point, pairs: &Pairs) -> Springs {
+    if pairs.gap > pairs.t_n {
+        return Springs::default();
+    }
+    Springs { nn: STIFF_CLOSED, tn: 0.0, tt: pairs.resistance(point.mu) }
+}
