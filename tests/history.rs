@@ -279,6 +279,44 @@ fn a_settlement_that_tilts_stands_throughout() {
     }
 }
 
+/// Rigid bricks on a floor of which a part sinks and tilts: Coulomb's law for the slips of a whole step leads nowhere, and
+/// the bricks evolve. In every step all loads come down at the supports, and friction takes energy.
+#[test]
+fn rigid_bricks_evolve_where_a_part_of_the_floor_sinks() {
+    let brick = Brick { length: 0.25, height: 0.125 };
+    let (width, height) = (2.5, 1.25);
+    let sinks = Movement { x: 0.0, y: -0.004, turn: -0.004 };
+    let scene = Scene::new("settlement", Units { force: ForceUnit::Kn, length: LengthUnit::M })
+        .thickness(0.25)
+        .gravity([0.0, -9.81])
+        .material("brick", Material::rigid().density(1800.0))
+        .joint("bed", Joint::mu(0.6))
+        .joint("head", Joint::mu(0.6))
+        .wall(Wall::running_bond("wall", "brick", brick, width, 10))
+        .support(Support::new("left", [0.0, 0.0], [1.5, 0.0], "bed"))
+        .support(Support::new("right", [1.5, 0.0], [width, 0.0], "bed"))
+        .stage(Stage::new("weight"))
+        .stage(Stage::new("settlement").steps(5).moves("right", sinks));
+    let outcome = solve(&scene).unwrap();
+    assert_eq!(outcome.judgement.verdict, Verdict::Stands, "{}", outcome.judgement.sentence);
+    assert!(outcome.judgement.warnings.iter().any(|it| it.contains("came to rest")));
+    let history = outcome.history.as_ref().unwrap();
+    assert_eq!(history.records.len(), 6);
+    assert_eq!(history.records[0].way, lcp::Way::Law);
+    let weight = width * height * 0.25 * 1800.0 * 9.81;
+    for record in &history.records {
+        assert!(record.residuals.worst() <= 1e-10, "{:?}: {:?}", record.step, record.residuals);
+        assert_close(record.reactions.iter().map(|it| it.fy).sum(), weight, 1e-9);
+    }
+    let settled = &history.records[1..];
+    assert!(settled.iter().all(|it| it.way != lcp::Way::Law && it.factorisations > 0));
+    // The wall is lowered, and what its weight does goes into friction.
+    assert!(settled.iter().all(|it| it.dissipation > 0.0) && history.work() > 0.0);
+    let sunk = 0.004 + 0.004 * 0.5 * (width - 1.5);
+    let largest = history.records[5].largest_displacement;
+    assert!(largest > 0.5 * sunk && largest < 2.0 * sunk, "{largest}");
+}
+
 /// A block between two frictional walls that are pressed together carries `2 mu H` and no more: the last
 /// step that holds is kept.
 #[test]

@@ -89,6 +89,7 @@
 //! | [`Lemke`] | complementary pivoting | all; proves infeasibility |
 //! | [`SemismoothNewton`] | active sets | obstacle problems, M- and P-matrices, contact |
 //! | `QuadraticProgram` | convex programs, with friction a sequence of them (feature `clarabel`, on by default) | symmetric positive semidefinite matrices, contact, soft constraints |
+//! | [`Evolution`] | motions from one state of contact to the next | supports that move, load histories with friction |
 //! | [`InteriorPoint`] | interior points on the sparse form | large contact problems, mixed problems |
 //! | [`ProjectedGaussSeidel`] | sweeps, also over rows without a matrix ([`pgs::Rows`]) | large easy problems, rough answers |
 //! | [`lemke::Parametric`] | the solutions along a line of right-hand sides | all |
