@@ -92,6 +92,7 @@ impl Interior<'_> {
         let settings = EvolutionSettings {
             tolerance: request.tolerance,
             at_once: self.way != Way::Motion,
+            max_iterations: auto::STEPS_OF_MOTION,
             ..EvolutionSettings::default()
         };
         let evolved = Evolution::new(settings)
