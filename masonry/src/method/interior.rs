@@ -40,25 +40,26 @@ impl Method for Interior<'_> {
             InteriorPointSettings { tolerance: request.tolerance, start, ..Default::default() };
         let may_move = !problem.frictional().is_empty();
         let is_rigid = problem.stiffness().val().iter().all(|k| k.abs() <= 0.0);
-        if may_move && (is_rigid || self.way == Way::Motion) {
-            return self.by_motion(None, request, observer);
-        }
         let thorough = settings.clone();
         if may_move {
             settings.max_iterations = auto::STEPS_BEFORE_MOTION;
             settings.continuation = false;
         }
-        let answer = self.by_path(settings, observer)?;
-        if !may_move || is_over(&answer) {
-            return Ok(answer);
-        }
-        let moved = self.by_motion(Some(answer), request, observer)?;
+        // Between steps rigid bodies have no path, and where the step before moved this one will.
+        let is_hopeless = may_move && self.start.is_some() && (is_rigid || self.way == Way::Motion);
+        let path = if is_hopeless { None } else { Some(self.by_path(settings, observer)?) };
+        let path = match path {
+            Some(answer) if !may_move || is_over(&answer) => return Ok(answer),
+            path => path,
+        };
+        let moved = self.by_motion(path, request, observer)?;
         if is_over(&moved) {
             return Ok(moved);
         }
         // The path that did not get far in a few steps may still get there.
         let answer = self.by_path(thorough, observer)?;
-        let says_more = answer.info.status == Status::Solved || moved.info.way != Way::Motion;
+        let says_more =
+            answer.info.status == Status::Solved || moved.info.status != Status::NoEquilibrium;
         Ok(if says_more { after(&moved.info, answer) } else { moved })
     }
 }
@@ -98,7 +99,9 @@ impl Interior<'_> {
         let evolved = Evolution::new(settings)
             .advance_observed(problem, from, &mut |at| observer(at.into()))?;
         let line = described(&evolved);
-        let says_more = evolved.rests() || evolved.solution.status == Status::NoEquilibrium;
+        let is_over = evolved.rests() || evolved.solution.status == Status::NoEquilibrium;
+        // From rest a motion may end far away, held by forces that no loading leads to.
+        let says_more = is_over && (self.start.is_some() || evolved.way != Way::Motion);
         let Info { iterations, factorisations, .. } = evolved.solution.info;
         Ok(match given {
             Some(mut given) if !says_more => {
