@@ -202,7 +202,7 @@ impl Evolution {
     }
 }
 
-/// What the end of a settlement is.
+/// Where bodies rest.
 enum Found {
     /// The best point of the search solves the problem itself.
     Law,

@@ -44,50 +44,6 @@ impl std::fmt::Display for Verdict {
     }
 }
 
-/// Whether the blocks move against viscosity without coming to rest.
-fn flows(info: &SolveInfo) -> bool {
-    info.status == lcp::Status::NoEquilibrium && info.way == lcp::Way::Motion
-}
-
-/// Whether displacements are too large for the state to mean anything. One that only a motion leads to may be at the end of
-/// a fall.
-fn is_too_far(known: &Known<'_>, movement: Movement) -> bool {
-    movement.is_too_large() || (known.info.way == lcp::Way::Motion && movement.is_large())
-}
-
-/// Which law of friction the state obeys, where it is not that of the problem.
-fn law(known: &Known<'_>) -> Option<String> {
-    let mut ways: Vec<lcp::Way> = known
-        .history
-        .map_or_else(Vec::new, |history| history.records.iter().map(|record| record.way).collect());
-    if known.history.is_none() && known.state.is_some() {
-        ways.push(known.info.way);
-    }
-    let count = |way| ways.iter().filter(|it| **it == way).count();
-    let [smooth, moved] = [lcp::Way::SmoothFriction, lcp::Way::Motion].map(count);
-    let steps = |count: usize| {
-        if known.history.is_some() {
-            format!(" in {count} of {} steps", ways.len())
-        } else {
-            String::new()
-        }
-    };
-    let how = match (smooth, moved) {
-        (0, 0) => return None,
-        (_, 0) => format!("with friction that turns over a short slip{}", steps(smooth)),
-        (0, _) => format!("by a slow motion against viscosity{}", steps(moved)),
-        _ => format!(
-            "with friction that turns over a short slip{} and by a slow motion against viscosity{}",
-            steps(smooth),
-            steps(moved)
-        ),
-    };
-    Some(format!(
-        "The blocks came to rest {how}. Forces balance and are within friction, but other states of rest exist, \
-         and more than two digits of displacements mean little."
-    ))
-}
-
 /// What a verdict rests on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[non_exhaustive]
@@ -160,6 +116,51 @@ impl Judgement {
         let sentence = sentence::of(known, (verdict, evidence), movement);
         Self { verdict, evidence, sentence, warnings: warnings(known, movement) }
     }
+}
+
+/// Whether the blocks move against viscosity without coming to rest.
+fn flows(info: &SolveInfo) -> bool {
+    info.status == lcp::Status::NoEquilibrium && info.way == lcp::Way::Motion
+}
+
+/// Whether displacements are too large for the state to mean anything. One that only a motion leads to may be at the end of
+/// a fall.
+fn is_too_far(known: &Known<'_>, movement: Movement) -> bool {
+    movement.is_too_large() || (known.info.way == lcp::Way::Motion && movement.is_large())
+}
+
+/// Which law of friction the state obeys, where it is not that of the problem.
+fn law(known: &Known<'_>) -> Option<String> {
+    let mut ways: Vec<lcp::Way> = known
+        .history
+        .map_or_else(Vec::new, |history| history.records.iter().map(|record| record.way).collect());
+    if known.history.is_none() && known.state.is_some() {
+        ways.push(known.info.way);
+    }
+    let count = |way| ways.iter().filter(|it| **it == way).count();
+    let [smooth, moved] = [lcp::Way::SmoothFriction, lcp::Way::Motion].map(count);
+    let steps = |count: usize| {
+        if known.history.is_some() {
+            format!(" in {count} of {} steps", ways.len())
+        } else {
+            String::new()
+        }
+    };
+    let how = match (smooth, moved) {
+        (0, 0) => return None,
+        (_, 0) => format!("with friction that turns over a short slip{}", steps(smooth)),
+        (0, _) => format!("by a slow motion against viscosity{}", steps(moved)),
+        _ => format!(
+            "with friction that turns over a short slip{} and by a slow motion against viscosity{}",
+            steps(smooth),
+            steps(moved)
+        ),
+    };
+    let slips = if known.history.is_none() { " Slips are measured from there." } else { "" };
+    Some(format!(
+        "The blocks came to rest {how}. Forces balance and are within friction, but other states of rest exist, \
+         and more than two digits of displacements mean little.{slips}"
+    ))
 }
 
 fn warnings(known: &Known<'_>, movement: Option<Movement>) -> Vec<String> {

@@ -1,7 +1,5 @@
 //! The load history as a table.
 
-use lcp::Way;
-
 use super::{pairs, table};
 use crate::history::{History, Step, StepRecord};
 use crate::report::format::{InUnits, aligned};
@@ -71,7 +69,7 @@ pub(super) fn history(history: &History, units: InUnits) -> String {
             open,
             stick,
             slip,
-            found_by(record.way),
+            record.way.name(),
             &record.factorisations.to_string(),
         ]);
     }
@@ -83,14 +81,6 @@ pub(super) fn history(history: &History, units: InUnits) -> String {
         text += &pairs(&[("not solved", step)]);
     }
     text
-}
-
-fn found_by(way: Way) -> &'static str {
-    match way {
-        Way::Law => "law",
-        Way::SmoothFriction => "smooth friction",
-        _ => "motion",
-    }
 }
 
 fn place(step: &Step) -> String {
