@@ -30,8 +30,8 @@ const FEW: usize = 2000;
 pub(crate) const STEPS_BEFORE_PROOF: usize = 40;
 /// With friction a motion follows after so many steps of the interior points.
 pub(crate) const STEPS_BEFORE_MOTION: usize = 45;
-/// Steps of such a motion. Measured: walls of 1000 bricks that come to rest take 60 to 150.
-pub(crate) const STEPS_OF_MOTION: usize = 250;
+/// Steps of such a motion. Measured: walls of 1000 bricks that come to rest take 60 to 200, those that flow 200 to 500.
+pub(crate) const STEPS_OF_MOTION: usize = 600;
 /// How long the last route may take, which seldom has an answer where the others have none.
 const LAST_RESORT: Duration = Duration::from_secs(10);
 

@@ -108,8 +108,7 @@ impl Judgement {
                     if known.at_rest { Evidence::AdmissibleForces } else { Evidence::Equilibrium };
                 (Verdict::Stands, evidence)
             }
-            // Without a history the blocks might have come to rest with forces that no motion from rest leads to.
-            _ if known.history.is_some() && flows(known.info) => (Verdict::Falls, Evidence::Motion),
+            _ if flows(known.info) => (Verdict::Falls, Evidence::Motion),
             Some(Statics::Admissible(_)) => (Verdict::Undecided, Evidence::AdmissibleForces),
             Some(Statics::Open) | None => (Verdict::Undecided, Evidence::None),
         };
