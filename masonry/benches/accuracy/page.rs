@@ -211,7 +211,7 @@ fn short(panel: &Study, walls: &[Study], machine: &str) -> String {
         let _ = writeln!(text, "| `{}` | {} |", route.name(), cells.join(" | "));
     }
     let meaning = format!(
-        "> {}: stopped by the limit of the bench; too large: it would build dense matrices of too large an order, and was not tried; not reached: it ended without an answer.",
+        "> {}: stopped by the limit of the bench; too large: not tried, since its dense matrices would be too large; not reached: it ended without a solution.",
         seconds(panel.time_limit.as_secs_f64())
     );
     // An escaped mark is no quotation.
