@@ -105,20 +105,9 @@ impl<'a> Program<'a> {
     }
 
     /// `E p + r = 0` and `0 <= p _|_ p + E^T x >= 0`.
-    pub(super) fn least_forces(&self) -> Result<MixedLcp, lcp::Error> {
-        let n = self.unknowns();
-        self.mixed(n..n + self.columns())
-    }
-
-    /// `v = r + E p` and `0 <= p _|_ E^T v >= 0`.
-    pub(super) fn least_rest(&self) -> Result<MixedLcp, lcp::Error> {
-        self.mixed(0..self.unknowns())
-    }
-
-    /// With ones on this part of the diagonal.
     ///
     /// A force of constant friction is `q = q' - C_0` with `q' >= 0`, and a multiplier `l >= 0` of `2 C_0 - q' >= 0`.
-    fn mixed(&self, diagonal: std::ops::Range<usize>) -> Result<MixedLcp, lcp::Error> {
+    pub(super) fn least_forces(&self) -> Result<MixedLcp, lcp::Error> {
         let (n, limited) = (self.unknowns(), self.unknowns() + self.edges());
         let held = n + self.columns();
         let order = held + self.constant.len();
@@ -129,14 +118,12 @@ impl<'a> Program<'a> {
         for (k, (_, base)) in self.constant.iter().enumerate() {
             skew.extend([(limited + k, held + k, 1.0), (held + k, limited + k, -1.0)]);
             q[held + k] = 2.0 * base;
-            if diagonal.contains(&(limited + k)) {
-                q[limited + k] = -base;
-            }
+            q[limited + k] = -base;
         }
         for &(i, k, v) in self.entries.iter().filter(|(_, k, _)| *k >= self.edges()) {
             q[i] += v * self.constant[k - self.edges()].1;
         }
-        let ones = diagonal.map(|i| (i, i, 1.0));
+        let ones = (n..held).map(|i| (i, i, 1.0));
         let triplets: Vec<_> = skew
             .into_iter()
             .chain(ones)
