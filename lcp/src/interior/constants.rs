@@ -133,8 +133,6 @@ pub(super) const LEAST_VISCOSITY: f64 = 1e-12;
 /// The accuracy of a motion, relative to the largest force. Measured: with 1e-6 a motion takes 20 to 35 steps, with
 /// 1e-3 ten to twenty, and the bodies come to rest just as well.
 pub(super) const MOVED: f64 = 1e-3;
-/// That of the last two of bodies that flow, whose motion is the mechanism. Chosen.
-pub(super) const FLOWED: f64 = 1e-6;
 /// A motion that is so much longer than the one before, with more viscosity, may be that of bodies that flow. Measured on
 /// tilted walls of 1000 bricks: those that stand stay below 1.5, those that fall come to 2.7 and more.
 pub(super) const LONGER_MOTION: f64 = 2.0;

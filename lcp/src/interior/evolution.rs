@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use super::constants::{FLOWED, LEAST_VISCOSITY, MOST_VISCOSITY, MOVED, SETTLING, SMOOTH, TRIES};
+use super::constants::{LEAST_VISCOSITY, MOST_VISCOSITY, SETTLING, SMOOTH, TRIES};
 use super::motion::{Motions, Moved, Viscosity};
 use super::rest::settled;
 use super::start::start;
@@ -234,7 +234,7 @@ impl Moving<'_, '_> {
             if let Some(limit) = self.limit {
                 break limit;
             }
-            let Some(moved) = self.motion(&mut motions, (viscosity.value, MOVED)) else {
+            let Some(moved) = self.motion(&mut motions, viscosity.value) else {
                 viscosity.increase();
                 if viscosity.value > MOST_VISCOSITY {
                     break self.limit.unwrap_or(Status::Stalled);
@@ -249,14 +249,7 @@ impl Moving<'_, '_> {
             path.shares.push(if load > 0.0 { viscosity.value * length / load } else { length });
             path.motion = self.search.scaled.displacements(&velocity);
             if viscosity.flows() {
-                // The first of these closes the gaps that the motions before have left open by their errors.
-                for _ in 0..2 {
-                    if let Some(moved) = self.motion(&mut motions, (viscosity.value, FLOWED)) {
-                        let velocity = self.follow(&moved, viscosity.value);
-                        path.motion = self.search.scaled.displacements(&velocity);
-                    }
-                }
-                break self.limit.unwrap_or(Status::NoEquilibrium);
+                break Status::NoEquilibrium;
             }
             if viscosity.may_rest() {
                 tries += 1;
@@ -311,10 +304,10 @@ impl Moving<'_, '_> {
         Some(Found::Rest(from, Box::new(solution)))
     }
 
-    /// One motion with a viscosity, to an accuracy; `None` where it cannot be computed, or a limit is reached.
-    fn motion(&mut self, motions: &mut Motions, with: (f64, f64)) -> Option<Moved> {
+    /// One motion; `None` where it cannot be computed, or a limit is reached.
+    fn motion(&mut self, motions: &mut Motions, viscosity: f64) -> Option<Moved> {
         let Self { search, monitor, at, limit, .. } = self;
-        motions.advance(&search.scaled, at, with, |residual| {
+        motions.advance(&search.scaled, at, viscosity, |residual| {
             *limit = monitor.stop(residual);
             limit.is_none()
         })

@@ -3,7 +3,7 @@
 use faer::sparse::FaerError;
 
 use super::constants::{
-    FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS, SAME_LENGTH, SLOWER,
+    FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS, MOVED, SAME_LENGTH, SLOWER,
 };
 use super::continuation::centred;
 use super::start::start;
@@ -37,13 +37,13 @@ impl Motions {
         self.condensed.factorisations
     }
 
-    /// One motion from displacements, with slips as the problem measures them, to an accuracy relative to the largest
-    /// force; `None` where it cannot be computed, or `go_on` says no, which is asked before every step, with the residual.
+    /// One motion from displacements, with slips as the problem measures them; `None` where it cannot be computed, or
+    /// `go_on` says no, which is asked before every step, with the residual.
     pub(super) fn advance(
         &mut self,
         problem: &Scaled,
         from: &[f64],
-        (viscosity, accuracy): (f64, f64),
+        viscosity: f64,
         go_on: impl FnMut(f64) -> bool,
     ) -> Option<Moved> {
         let Self { edges, condensed } = self;
@@ -54,7 +54,7 @@ impl Motions {
             edge.x_0 = point.x_0 + mu * point.s_0;
         }
         let begin = start(edges, condensed, viscosity);
-        let moved = centred(edges, condensed, begin, (viscosity, accuracy), go_on)?;
+        let moved = centred(edges, condensed, begin, (viscosity, MOVED), go_on)?;
         let forces = problem.of_edges(moved.points.iter().map(|pairs| pairs.t_n));
         Some(Moved { forces, u: moved.u })
     }

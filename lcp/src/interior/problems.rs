@@ -47,9 +47,11 @@ impl Solver<MixedLcp> for InteriorPoint {
         self.settings.validate(problem.order())?;
         let mut monitor = Monitor::new(max_iterations, time_limit, observer);
         let mut condensed = saddle.planned().map_err(|error| unplanned(Method::Interior, error))?;
-        let general = problem.general();
+        let mut general = None;
         let (z, w, status, certificate) =
-            saddle.solved(&mut condensed, tolerance, &mut monitor, |z| is_proof(&general, z));
+            saddle.solved(&mut condensed, tolerance, &mut monitor, |z| {
+                is_proof(general.get_or_insert_with(|| problem.general()), z)
+            });
         let pairs = problem.to_pairs(&z, &w);
         let mut solution = judged_point(problem, pairs, tolerance, status);
         solution.certificate = certificate;
