@@ -1,5 +1,6 @@
 //! The convex programs of admissible forces as complementarity problems.
 
+use faer::sparse::{SparseColMat, Triplet};
 use lcp::MixedLcp;
 
 use crate::law::Friction;
@@ -15,9 +16,10 @@ pub(super) struct Program<'a> {
     first: Vec<usize>,
     /// The frictional points with a constant part of friction, and `C_0` of each in units of the largest load.
     constant: Vec<(usize, f64)>,
-    /// `E` as rows, columns and values: edges, then the forces of constant friction.
+    /// `E` as rows, columns and values: edges, then for every force `q` of constant friction `q' = C_0 + q` and
+    /// `q'' = C_0 - q`, with `q' + q'' = 2 C_0` below the balance of the blocks.
     entries: Vec<(usize, usize, f64)>,
-    /// `r`, in units of the largest load.
+    /// `r`, in units of the largest load; where there is constant friction, with `-C_0` along it.
     loads: Vec<f64>,
     /// The largest load \[N\].
     unit: f64,
@@ -44,6 +46,11 @@ impl<'a> Program<'a> {
         for (b, body) in system.bodies.iter().enumerate() {
             program.add(b, body);
         }
+        for (place, (_, base)) in program.constant.iter().enumerate() {
+            let (row, column) = (program.loads.len(), program.edges() + 2 * place);
+            program.entries.extend([(row, column, 1.0), (row, column + 1, 1.0)]);
+            program.loads.push(-2.0 * base);
+        }
         program
     }
 
@@ -56,8 +63,11 @@ impl<'a> Program<'a> {
                 None => (row.row, [self.parts(row.row)[0]; 2]),
                 Some(k) => {
                     if let Ok(place) = self.constant.binary_search_by_key(&k, |it| it.0) {
-                        let column = self.edges() + place;
-                        self.entries.extend(modes().map(|(j, value)| (3 * b + j, column, *value)));
+                        let (column, base) = (self.edges() + 2 * place, self.constant[place].1);
+                        for (j, value) in modes() {
+                            self.entries.push((3 * b + j, column, *value));
+                            self.loads[3 * b + j] -= base * value;
+                        }
                     }
                     let Friction { contact, mu, .. } = self.system.friction[k];
                     if mu <= 0.0 {
@@ -83,10 +93,10 @@ impl<'a> Program<'a> {
 
     /// No load acts.
     pub(super) fn is_unloaded(&self) -> bool {
-        self.loads.iter().all(|load| load.abs() <= 0.0)
+        self.loads[..3 * self.system.bodies.len()].iter().all(|load| load.abs() <= 0.0)
     }
 
-    /// Rigid amplitudes of all blocks.
+    /// Rigid amplitudes of all blocks, and a multiplier of every bound of constant friction.
     pub(super) fn unknowns(&self) -> usize {
         self.loads.len()
     }
@@ -97,7 +107,7 @@ impl<'a> Program<'a> {
 
     /// Of `E`.
     pub(super) fn columns(&self) -> usize {
-        self.edges() + self.constant.len()
+        self.edges() + 2 * self.constant.len()
     }
 
     pub(super) fn entries(&self) -> &[(usize, usize, f64)] {
@@ -105,45 +115,25 @@ impl<'a> Program<'a> {
     }
 
     /// `E p + r = 0` and `0 <= p _|_ p + E^T x >= 0`.
-    ///
-    /// A force of constant friction is `q = q' - C_0` with `q' >= 0`, and a multiplier `l >= 0` of `2 C_0 - q' >= 0`.
     pub(super) fn least_forces(&self) -> Result<MixedLcp, lcp::Error> {
-        let (n, limited) = (self.unknowns(), self.unknowns() + self.edges());
-        let held = n + self.columns();
-        let order = held + self.constant.len();
+        let n = self.unknowns();
+        let order = n + self.columns();
         let mut q: Vec<f64> = self.loads.iter().map(|r| -r).collect();
         q.resize(order, 0.0);
-        let mut skew: Vec<(usize, usize, f64)> =
-            self.entries.iter().flat_map(|&(i, k, v)| [(i, n + k, -v), (n + k, i, v)]).collect();
-        for (k, (_, base)) in self.constant.iter().enumerate() {
-            skew.extend([(limited + k, held + k, 1.0), (held + k, limited + k, -1.0)]);
-            q[held + k] = 2.0 * base;
-            q[limited + k] = -base;
-        }
-        for &(i, k, v) in self.entries.iter().filter(|(_, k, _)| *k >= self.edges()) {
-            q[i] += v * self.constant[k - self.edges()].1;
-        }
-        let ones = (n..held).map(|i| (i, i, 1.0));
-        let triplets: Vec<_> = skew
-            .into_iter()
-            .chain(ones)
-            .map(|(i, j, v)| faer::sparse::Triplet::new(i, j, v))
-            .collect();
-        let m = faer::sparse::SparseColMat::try_new_from_triplets(order, order, &triplets)
+        let skew = self
+            .entries
+            .iter()
+            .flat_map(|&(i, k, v)| [Triplet::new(i, n + k, -v), Triplet::new(n + k, i, v)]);
+        let ones = (n..order).map(|i| Triplet::new(i, i, 1.0));
+        let triplets: Vec<_> = skew.chain(ones).collect();
+        let m = SparseColMat::try_new_from_triplets(order, order, &triplets)
             .unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}"));
         MixedLcp::new(m, q, (0..order).map(|j| j < n).collect())
     }
 
     /// The forces of all rows \[N\], if those in `z` balance the loads.
     pub(super) fn admissible(&self, z: &[f64]) -> Option<Vec<f64>> {
-        let mut p: Vec<f64> = z[self.unknowns()..][..self.columns()].to_vec();
-        let (along_edges, constant) = p.split_at_mut(self.edges());
-        for p in along_edges {
-            *p = p.max(0.0);
-        }
-        for (q, (_, base)) in constant.iter_mut().zip(&self.constant) {
-            *q = (*q - base).clamp(-base, *base);
-        }
+        let p: Vec<f64> = z[self.unknowns()..].iter().map(|p| p.max(0.0)).collect();
         let mut rest = self.loads.clone();
         self.entries.iter().for_each(|&(i, k, v)| rest[i] += v * p[k]);
         let is_balanced = rest.iter().all(|rest| rest.abs() <= BALANCED);
@@ -164,8 +154,8 @@ impl<'a> Program<'a> {
                 forces[points + k] = self.unit * self.parts(point)[1] * (p[edge] - p[edge + 1]);
             }
         }
-        for ((k, _), q) in self.constant.iter().zip(&p[self.edges()..]) {
-            forces[points + k] += self.unit * q;
+        for ((k, base), q) in self.constant.iter().zip(p[self.edges()..].chunks_exact(2)) {
+            forces[points + k] += self.unit * (q[0] - base).clamp(-base, *base);
         }
         forces
     }
