@@ -7,6 +7,7 @@ mod evolution;
 mod homogeneous;
 mod iterate;
 mod motion;
+mod moving;
 mod path;
 mod problems;
 mod rest;
