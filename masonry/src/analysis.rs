@@ -1,6 +1,7 @@
-//! What is asked of a scene: one solution, a load history step by step, a study of what accuracy costs.
+//! What is asked of a scene: one solution, a load history step by step, a limit load, a study of what accuracy costs.
 
 pub mod checkpoint;
+pub mod limit;
 pub mod outcome;
 pub mod solve;
 #[cfg(feature = "study")]

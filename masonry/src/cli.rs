@@ -4,6 +4,7 @@
 //! go to standard error. The exit code is 0 when solved, 1 when not solved, 2 for bad input.
 
 mod end;
+mod limit;
 mod progress;
 mod study;
 
@@ -37,6 +38,8 @@ enum Command {
     Plan(PlanArgs),
     /// Solve a scene and write pictures, tables and a mesh.
     Solve(SolveArgs),
+    /// Say at which factor of a group of loads the structure fails.
+    Limit(limit::LimitArgs),
     /// Say what accuracy costs: routes, tolerances and meshes against the most accurate answer.
     Study(study::StudyArgs),
     /// Draw a scene: blocks, supports, loads and contact points.
@@ -87,6 +90,7 @@ pub fn run() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Plan(args) => plan(&args),
         Command::Solve(args) => solve(&args),
+        Command::Limit(args) => limit::run(&args),
         Command::Study(args) => study::run(&args),
         Command::Draw(args) => draw(&args),
     };

@@ -305,6 +305,24 @@ impl Principal {
     }
 }
 
+/// The states of the contact points of blocks at rest under forces \[N\] of all rows of the [`System`].
+pub fn forces_at_rest(model: &Model, rows: &[f64]) -> Vec<ContactState> {
+    let (normals, mut tangents) =
+        (&rows[..model.contacts.len()], rows[model.contacts.len()..].iter());
+    let states = model.contacts.iter().zip(normals).map(|(contact, normal)| ContactState {
+        t_n: normal - contact.law.tension,
+        t_t: if contact.law.resists_sliding() {
+            tangents.next().copied().unwrap_or(0.0)
+        } else {
+            0.0
+        },
+        y_n: 0.0,
+        y_t: 0.0,
+        status: ContactStatus::Stick,
+    });
+    states.collect()
+}
+
 /// The force \[N\] that a contact point exerts on the block in front.
 pub fn contact_force(model: &Model, contact: &ContactPoint, state: &ContactState) -> Vector2<f64> {
     let joint = &model.joints[contact.joint.index()];

@@ -112,6 +112,9 @@ pub struct Scene {
     /// The load history; without stages all loads act at once.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub stages: Vec<Stage>,
+    /// What a limit load is asked of.
+    #[serde(default, deserialize_with = "strict::table", skip_serializing_if = "is_empty")]
+    pub limit: Limit,
     /// How contact is looked for and enforced.
     #[serde(default, deserialize_with = "strict::table")]
     pub contact: Contact,
@@ -310,6 +313,15 @@ pub struct Support {
     pub joint: String,
 }
 
+/// What a [limit load](crate::analysis::limit) is asked of.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Limit {
+    /// The load, or the group of loads, whose factor grows; without it the only group, or the only one with a factor.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub group: Option<String>,
+}
+
 /// How contact is looked for and enforced.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -370,6 +382,10 @@ impl Default for Output {
 
 fn is_usual(joints: &WallJoints) -> bool {
     *joints == WallJoints::default()
+}
+
+fn is_empty(limit: &Limit) -> bool {
+    *limit == Limit::default()
 }
 
 fn default_stresses() -> bool {

@@ -15,23 +15,21 @@
 //! Rigid blocks without gaps stand on such forces: at rest every gap and every slip is zero. For all other walls
 //! they are necessary and not sufficient.
 
-use lcp::{
-    InteriorPoint, InteriorPointSettings, Iteration, MixedLcp, Observer, QuadraticProgram,
-    QuadraticProgramSettings, Solution, Solver,
-};
+use lcp::{MixedLcp, Observer, Solution};
 
 use crate::model::Model;
 use crate::system::System;
+use engine::Engine;
 use program::Program;
 
+mod engine;
+pub mod limit;
 mod program;
 pub mod proof;
 mod sharpen;
 
 pub use proof::Proof;
 
-/// Residual of the programs that decide.
-const TOLERANCE: f64 = 1e-12;
 /// Steps of each: forces take ten to forty where there are any, proofs near the limit more.
 const MAX_STEPS: [usize; 2] = [60, 150];
 
@@ -89,8 +87,8 @@ impl Search<'_, '_> {
         let nearest = self.program.least_rest()?;
         // The first of them takes a quarter of the time, and most walls stand. What interior points leave open the
         // convex programs of another library decide.
-        for by_clarabel in [false, true] {
-            let solution = self.solved(&least, MAX_STEPS[0], by_clarabel)?;
+        for engine in [Engine::Interior, Engine::Clarabel] {
+            let solution = self.solved(&least, MAX_STEPS[0], engine)?;
             let (z, _) = least.recover(&solution.t, &solution.y);
             if let Some(forces) = self.program.admissible(&z) {
                 return Ok(Statics::Admissible(forces));
@@ -99,7 +97,7 @@ impl Search<'_, '_> {
             if let Some(proof) = self.proof(&z) {
                 return Ok(Statics::Impossible(proof));
             }
-            let solution = self.solved(&nearest, MAX_STEPS[1], by_clarabel)?;
+            let solution = self.solved(&nearest, MAX_STEPS[1], engine)?;
             let (z, _) = nearest.recover(&solution.t, &solution.y);
             if let Some(proof) = self.proof(&z) {
                 return Ok(Statics::Impossible(proof));
@@ -123,25 +121,9 @@ impl Search<'_, '_> {
         &mut self,
         program: &MixedLcp,
         max_iterations: usize,
-        by_clarabel: bool,
+        engine: Engine,
     ) -> Result<Solution, lcp::Error> {
-        let observer = &mut |at: &Iteration| (self.observer)(at);
-        let solution = if by_clarabel {
-            let settings = QuadraticProgramSettings {
-                tolerance: TOLERANCE,
-                max_iterations,
-                ..Default::default()
-            };
-            QuadraticProgram::new(settings).solve_observed(program, observer)?
-        } else {
-            let settings = InteriorPointSettings {
-                tolerance: TOLERANCE,
-                max_iterations,
-                continuation: false,
-                ..Default::default()
-            };
-            InteriorPoint::new(settings).solve_observed(program, observer)?
-        };
+        let solution = engine.solve(program, max_iterations, self.observer)?;
         *self.steps += solution.info.factorisations;
         Ok(solution)
     }

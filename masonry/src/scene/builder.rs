@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::source::Source;
 use super::{
-    Between, Block, Brick, Contact, Courses, Films, Form, Joint, Load, Material, Output, Plane,
-    PointRule, Route, Scene, Solver, Stage, Support, Wall, WallJoints,
+    Between, Block, Brick, Contact, Courses, Films, Form, Joint, Limit, Load, Material, Output,
+    Plane, PointRule, Route, Scene, Solver, Stage, Support, Wall, WallJoints,
 };
 use crate::units::Units;
 
@@ -26,6 +26,7 @@ impl Scene {
             supports: Vec::new(),
             loads: Vec::new(),
             stages: Vec::new(),
+            limit: Limit::default(),
             contact: Contact::default(),
             solver: Solver::default(),
             output: Output::default(),
@@ -108,6 +109,13 @@ impl Scene {
     #[must_use]
     pub fn stage(mut self, stage: Stage) -> Self {
         self.stages.push(stage);
+        self
+    }
+
+    /// Names the load or group of loads of which the limit load is asked.
+    #[must_use]
+    pub fn limit_group(mut self, name: &str) -> Self {
+        self.limit.group = Some(name.to_owned());
         self
     }
 

@@ -70,6 +70,7 @@ impl Scene {
         }
         self.check_loads()?;
         self.check_stages()?;
+        self.check_limit()?;
         self.check_options()
     }
 

@@ -290,6 +290,15 @@ pub enum LoadError {
         /// Name of the load.
         load: String,
     },
+    /// A limit load is asked of a support.
+    #[error(
+        "\"{name}\" is a support: its movement is no load, and rigid blocks follow any of it without a limit; name a load \
+         or a group of loads"
+    )]
+    Support {
+        /// Name of the support.
+        name: String,
+    },
     /// A stage names what is a load and a group of others.
     #[error(
         "\"{name}\" is the name of a load, and of the group of {}: give one of them another name; there are the \
