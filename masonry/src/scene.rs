@@ -20,6 +20,7 @@
 //! # Ok::<(), masonry::scene::SceneError>(())
 //! ```
 
+pub(crate) mod arch;
 pub mod bond;
 mod builder;
 mod check;
@@ -27,6 +28,7 @@ mod courses;
 mod error;
 mod key_path;
 mod load;
+mod rules;
 mod solver;
 mod source;
 mod stages;
@@ -37,6 +39,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+pub use self::arch::{Arch, ArchError, Line, Piers, Shape};
 pub(crate) use self::error::Fault;
 pub use self::error::{ContactError, Known, SceneError, SceneErrorKind};
 pub use self::key_path::KeyPath;
@@ -100,6 +103,9 @@ pub struct Scene {
     /// Walls of bricks in courses.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub walls: Vec<Wall>,
+    /// Arches of voussoirs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
+    pub arches: Vec<Arch>,
     /// Single blocks.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub blocks: Vec<Block>,

@@ -27,12 +27,14 @@ mod associative;
 mod error;
 mod range;
 mod sentence;
+mod thickness;
 
 use std::time::Instant;
 
 pub use associative::{Answer, Associative};
 pub use error::LimitError;
 pub use range::{Extremes, Range, ranges};
+pub use thickness::{Thickness, least_thickness};
 
 use crate::history::Actions;
 use crate::method::info::PhaseTime;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::end::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
-use crate::analysis::limit::{Answer, limit, ranges};
+use crate::analysis::limit::{Answer, least_thickness, limit, ranges};
 use crate::report::limit as output;
 use crate::scene::Scene;
 
@@ -29,6 +29,9 @@ pub(super) struct LimitArgs {
     /// Ask for the least and the largest reactions under the loads of the scene instead.
     #[arg(long)]
     range: bool,
+    /// Ask for the least thickness of an arch under the loads of the scene instead.
+    #[arg(long, value_name = "ARCH", conflicts_with_all = ["range", "group"])]
+    thickness: Option<String>,
     /// The directory to write pictures into, if any; created when missing.
     #[arg(long, conflicts_with = "range")]
     out: Option<PathBuf>,
@@ -41,6 +44,9 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
     let mut scene = Scene::read(&args.scene)?;
     if args.range {
         return range(&scene, args.json);
+    }
+    if let Some(arch) = &args.thickness {
+        return thickness(&scene, arch, args);
     }
     if let Some(group) = &args.group {
         scene = scene.limit_group(group);
@@ -68,4 +74,20 @@ fn range(scene: &Scene, json: bool) -> Result<u8, Failure> {
     let text = if json { output::range_json(&range)? } else { output::range_table(&range) };
     print(&text)?;
     Ok(if range.supports.is_some() { SOLVED } else { NOT_SOLVED })
+}
+
+fn thickness(scene: &Scene, arch: &str, args: &LimitArgs) -> Result<u8, Failure> {
+    let found = least_thickness(scene, arch)?;
+    let written = match &args.out {
+        Some(out) => output::write_thickness(&found, out),
+        None => Ok(Vec::new()),
+    };
+    let files = written.as_deref().unwrap_or_default();
+    if args.json {
+        print(&output::thickness_json(&found, &names(files))?)?;
+    } else {
+        print(&format!("{}\n{}", output::thickness_table(&found), listing(files)))?;
+    }
+    written?;
+    Ok(if found.proved { SOLVED } else { NOT_SOLVED })
 }

@@ -6,11 +6,15 @@ mod table;
 use std::io;
 use std::path::{Path, PathBuf};
 
-pub use json::{json, range_json};
-pub use table::{range_table, table};
+use nalgebra::Vector2;
+
+pub use json::{json, range_json, thickness_json};
+pub use table::{range_table, table, thickness_table};
 
 use super::{OutputError, svg, write_files};
-use crate::analysis::limit::Limit;
+use crate::analysis::limit::{Limit, Thickness};
+use crate::model::Model;
+use crate::state::ContactState;
 
 /// Writes `forces.svg` and `mechanism.svg`, where there are forces and a mechanism, and `limit.json`, which lists them, into
 /// `dir`, which is created.
@@ -18,15 +22,45 @@ use crate::analysis::limit::Limit;
 /// # Errors
 /// [`OutputError`] for a directory that cannot be made, and for files that cannot be written.
 pub fn write(limit: &Limit, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
-    let (title, model, found) = (&limit.title, &limit.model, &limit.associative);
-    let forces = found.forces.as_ref().map(|forces| svg::forces(title, model, forces));
-    let rates = found.mechanism.as_ref();
-    let mechanism = rates.map(|rates| svg::mechanism(title, model, rates));
-    let mut files = Vec::new();
-    files.extend(forces.map(|text| ("forces.svg", Ok(text))));
-    files.extend(mechanism.map(|text| ("mechanism.svg", Ok(text))));
-    let names = files.iter().map(|(name, _)| *name).chain(["limit.json"]);
+    let found = &limit.associative;
+    let both = (found.forces.as_deref(), found.mechanism.as_deref());
+    write_with(dir, pictures(&limit.title, &limit.model, both), |names| json(limit, names))
+}
+
+/// The same of the least thickness of an arch: the forces at the thickness that stands, and the mechanism of the one that
+/// falls.
+///
+/// # Errors
+/// As [`write`].
+pub fn write_thickness(thickness: &Thickness, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
+    let both = (thickness.forces.as_deref(), thickness.mechanism.as_deref());
+    let pictures = pictures(&thickness.title, &thickness.model, both);
+    write_with(dir, pictures, |names| thickness_json(thickness, names))
+}
+
+/// Rates of the corners of one block.
+type Rates = Vec<Vector2<f64>>;
+/// Pictures by name.
+type Pictures = Vec<(&'static str, String)>;
+
+fn pictures(
+    title: &str,
+    model: &Model,
+    (forces, rates): (Option<&[ContactState]>, Option<&[Rates]>),
+) -> Pictures {
+    let forces = forces.map(|forces| ("forces.svg", svg::forces(title, model, forces)));
+    let mechanism = rates.map(|rates| ("mechanism.svg", svg::mechanism(title, model, rates)));
+    forces.into_iter().chain(mechanism).collect()
+}
+
+fn write_with(
+    dir: &Path,
+    pictures: Pictures,
+    json: impl FnOnce(&[String]) -> Result<String, serde_json::Error>,
+) -> Result<Vec<PathBuf>, OutputError> {
+    let names = pictures.iter().map(|(name, _)| *name).chain(["limit.json"]);
     let names: Vec<String> = names.map(str::to_owned).collect();
-    files.push(("limit.json", json(limit, &names).map_err(io::Error::from)));
+    let mut files: Vec<_> = pictures.into_iter().map(|(name, text)| (name, Ok(text))).collect();
+    files.push(("limit.json", json(&names).map_err(io::Error::from)));
     write_files(dir, files)
 }

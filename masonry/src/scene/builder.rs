@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::source::Source;
 use super::{
-    Between, Block, Brick, Contact, Courses, Films, Form, Joint, Limit, Load, Material, Output,
-    Plane, PointRule, Route, Scene, Solver, Stage, Support, Wall, WallJoints,
+    Arch, Between, Block, Brick, Contact, Courses, Films, Form, Joint, Limit, Load, Material,
+    Output, Plane, PointRule, Route, Scene, Solver, Stage, Support, Wall, WallJoints,
 };
 use crate::units::Units;
 
@@ -22,6 +22,7 @@ impl Scene {
             joints: BTreeMap::new(),
             between: Vec::new(),
             walls: Vec::new(),
+            arches: Vec::new(),
             blocks: Vec::new(),
             supports: Vec::new(),
             loads: Vec::new(),
@@ -81,6 +82,13 @@ impl Scene {
     #[must_use]
     pub fn wall(mut self, wall: Wall) -> Self {
         self.walls.push(wall);
+        self
+    }
+
+    /// Adds an arch.
+    #[must_use]
+    pub fn arch(mut self, arch: Arch) -> Self {
+        self.arches.push(arch);
         self
     }
 

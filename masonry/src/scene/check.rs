@@ -4,6 +4,10 @@ use std::collections::BTreeMap;
 
 use nalgebra::Point2;
 
+use super::rules::{
+    Check, MAGNITUDES, One, exactly_one, finite, missing, not_negative, point, positive, too_many,
+    unwanted, value,
+};
 use super::{
     Between, Block, Courses, Fault, Form, Joint, KeyPath, Known, Material, Route, Scene,
     SceneError, SceneErrorKind, Solver, Support, Wall,
@@ -11,21 +15,18 @@ use super::{
 use crate::geometry::{self, PolygonError};
 use crate::scene::bond::JointThickness;
 
+mod arches;
 mod loads;
 mod mortar;
 mod stages;
 
 /// Bricks and blocks of one scene, at most.
 const MOST_BLOCKS: u32 = 1_000_000;
-/// Magnitudes beyond these are no lengths, moduli or loads of anything, and would overflow.
-const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 /// Elements of one block along one edge, at most.
 const MOST_ELEMENTS: u32 = 1_000;
 
 /// A tensile strength that was computed from the cohesion may exceed its limit by this part.
 const ROUNDING: f64 = 1e-12;
-
-type Check = Result<(), Fault>;
 
 impl Scene {
     /// Checks all data: names that refer to nothing, numbers out of their range, missing keys.
@@ -49,7 +50,7 @@ impl Scene {
             check_joint(&at, joint)?;
             self.check_mortar(&at, joint)?;
         }
-        if self.walls.is_empty() && self.blocks.is_empty() {
+        if self.walls.is_empty() && self.blocks.is_empty() && self.arches.is_empty() {
             return Err(Fault::new(KeyPath::default(), SceneErrorKind::Empty));
         }
         self.check_names()?;
@@ -59,7 +60,8 @@ impl Scene {
         for (k, block) in self.blocks.iter().enumerate() {
             self.check_block(&KeyPath::of("blocks").item(k), block)?;
         }
-        if self.supports.is_empty() {
+        self.check_arches()?;
+        if self.all_supports().is_empty() {
             return Err(Fault::new(KeyPath::default(), SceneErrorKind::NoSupport));
         }
         for (k, between) in self.between.iter().enumerate() {
@@ -111,6 +113,7 @@ impl Scene {
     /// Names of walls, blocks, supports and loads: given, and each once among its like.
     fn check_names(&self) -> Check {
         unique("wall", "walls", self.walls.iter().map(|wall| &wall.name))?;
+        unique("arch", "arches", self.arches.iter().map(|arch| &arch.name))?;
         unique("block", "blocks", self.blocks.iter().map(|block| &block.name))?;
         unique("support", "supports", self.supports.iter().map(|support| &support.name))?;
         unique("load", "loads", self.loads.iter().map(|load| &load.name))
@@ -343,66 +346,6 @@ fn unique<'a>(
         }
     }
     Ok(())
-}
-
-enum One<A, B> {
-    First(A),
-    Second(B),
-}
-
-fn exactly_one<A, B>(
-    at: &KeyPath,
-    (first, a): (&'static str, Option<A>),
-    (second, b): (&'static str, Option<B>),
-) -> Result<One<A, B>, Fault> {
-    match (a, b) {
-        (Some(a), None) => Ok(One::First(a)),
-        (None, Some(b)) => Ok(One::Second(b)),
-        (Some(_), Some(_)) => {
-            Err(Fault::new(at.key(second), SceneErrorKind::Both { first, second }))
-        }
-        (None, None) => Err(Fault::new(at.clone(), SceneErrorKind::Neither { first, second })),
-    }
-}
-
-fn point(at: &KeyPath, coordinates: [f64; 2]) -> Check {
-    coordinates.into_iter().enumerate().try_for_each(|(k, x)| finite(at.item(k), x))
-}
-
-fn finite(at: KeyPath, number: f64) -> Check {
-    let allowed = number.abs() <= *MAGNITUDES.end();
-    value(at, number, allowed, "give a finite number (of magnitude at most 1e100)")
-}
-
-fn positive(at: KeyPath, number: f64) -> Check {
-    let wanted = "give a finite number greater than zero (between 1e-100 and 1e100)";
-    value(at, number, MAGNITUDES.contains(&number), wanted)
-}
-
-fn not_negative(at: KeyPath, number: f64) -> Check {
-    let allowed = (0.0..=*MAGNITUDES.end()).contains(&number);
-    value(at, number, allowed, "give zero or a finite positive number (at most 1e100)")
-}
-
-fn value(at: KeyPath, value: f64, allowed: bool, wanted: &'static str) -> Check {
-    if allowed { Ok(()) } else { Err(Fault::new(at, SceneErrorKind::Value { value, wanted })) }
-}
-
-fn missing(at: &KeyPath, key: &'static str, because: &'static str, remedy: &'static str) -> Fault {
-    Fault::new(at.clone(), SceneErrorKind::Missing { key, because, remedy })
-}
-
-fn unwanted(
-    at: &KeyPath,
-    key: &'static str,
-    because: &'static str,
-    otherwise: &'static str,
-) -> Fault {
-    Fault::new(at.key(key), SceneErrorKind::Unwanted { key, because, otherwise })
-}
-
-fn too_many(at: KeyPath, what: &'static str, count: f64, limit: u32) -> Fault {
-    Fault::new(at, SceneErrorKind::TooMany { what, count, limit })
 }
 
 fn unknown(

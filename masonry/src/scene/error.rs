@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 pub use contact::ContactError;
 
+use super::arch::ArchError;
 use super::load::LoadError;
 use super::source::{Place, Source};
 use super::{KeyPath, Scene};
@@ -220,7 +221,7 @@ pub enum SceneErrorKind {
         missing: String,
     },
     /// Nothing to analyse.
-    #[error("the scene has no blocks: add [[walls]] or [[blocks]]")]
+    #[error("the scene has no blocks: add [[walls]], [[arches]] or [[blocks]]")]
     Empty,
     /// A list has no items.
     #[error("the list is empty: {remedy}")]
@@ -229,7 +230,9 @@ pub enum SceneErrorKind {
         remedy: &'static str,
     },
     /// Nothing holds the structure.
-    #[error("the scene has no support, so that nothing holds it: add [[supports]]")]
+    #[error(
+        "the scene has no support, so that nothing holds it: add [[supports]], or `springing` to an arch"
+    )]
     NoSupport,
     /// The two ends of a segment coincide.
     #[error("the segment has no length: `from` and `to` are both [{x}, {y}]")]
@@ -381,6 +384,9 @@ pub enum SceneErrorKind {
         /// Name of the other.
         second: String,
     },
+    /// What is impossible about an arch.
+    #[error("{0}")]
+    Arch(#[from] ArchError),
     /// What is wrong with a load.
     #[error("{0}")]
     Load(#[from] LoadError),

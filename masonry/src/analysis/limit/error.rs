@@ -1,6 +1,6 @@
 //! Why a limit load cannot be asked for.
 
-use crate::scene::SceneError;
+use crate::scene::{Known, SceneError};
 use crate::system::SystemError;
 
 /// Why a limit load cannot be asked for.
@@ -27,6 +27,24 @@ pub enum LimitError {
     WhichGroup {
         /// Their names.
         groups: Vec<String>,
+    },
+    /// An arch that is not there.
+    #[error(
+        "there is no arch \"{name}\" in the scene; {known}: correct the name or add it under [[arches]]"
+    )]
+    NoArch {
+        /// The name.
+        name: String,
+        /// The names that there are.
+        known: Known,
+    },
+    /// An arch whose joints are given.
+    #[error(
+        "the joints of arch \"{name}\" are given, so that it has no `thickness`: choose another `shape`"
+    )]
+    NoThickness {
+        /// Name of the arch.
+        name: String,
     },
     /// A group of loads that are zero.
     #[error(

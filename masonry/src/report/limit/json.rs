@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::analysis::limit::{Answer, Extremes, Limit, Range};
+use crate::analysis::limit::{Answer, Extremes, Limit, Range, Thickness};
 use crate::method::statics::limit::Extreme;
 use crate::report::format::InUnits;
 use crate::report::json::{ByName, Force, named_force, rates_by_name};
@@ -59,6 +59,41 @@ pub fn range_json(range: &Range) -> Result<String, serde_json::Error> {
         }),
     };
     Ok(serde_json::to_string_pretty(&report)? + "\n")
+}
+
+/// The object of `masonry limit --thickness ARCH --json`, pretty-printed: the largest thickness that `falls` and the smallest that
+/// `stands`, and whether they are `proved` to be one number.
+///
+/// # Errors
+/// As [`json`].
+pub fn thickness_json(it: &Thickness, files: &[String]) -> Result<String, serde_json::Error> {
+    let units = InUnits(it.model.units);
+    let length = |metres: Option<f64>| metres.map(|metres| units.length(metres));
+    let report = ThicknessReport {
+        sentence: &it.sentence,
+        title: &it.title,
+        arch: &it.arch,
+        length: units.0.length_name(),
+        falls: length(it.falls),
+        stands: length(it.stands),
+        proved: it.proved,
+        mechanism: it.mechanism.as_ref().map(|rates| rates_by_name(&it.model, rates)),
+        files,
+    };
+    Ok(serde_json::to_string_pretty(&report)? + "\n")
+}
+
+#[derive(Serialize)]
+struct ThicknessReport<'a> {
+    sentence: &'a str,
+    title: &'a str,
+    arch: &'a str,
+    length: &'a str,
+    falls: Option<f64>,
+    stands: Option<f64>,
+    proved: bool,
+    mechanism: Option<ByName<'a, Vec<[f64; 2]>>>,
+    files: &'a [String],
 }
 
 #[derive(Serialize)]

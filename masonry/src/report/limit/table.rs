@@ -1,6 +1,6 @@
 //! A limit load, or the ranges of reactions, as text.
 
-use crate::analysis::limit::{Limit, Range};
+use crate::analysis::limit::{Limit, Range, Thickness};
 use crate::method::statics::limit::Extreme;
 use crate::report::format::{InUnits, aligned, significant};
 use crate::report::table::{head, pairs, section, table as columns};
@@ -84,4 +84,21 @@ pub fn range_table(range: &Range) -> String {
         }
     }
     text + &list.trim_fmt() + "\n"
+}
+
+/// The report of a least thickness: the sentence, and both thicknesses.
+pub fn thickness_table(it: &Thickness) -> String {
+    let units = InUnits(it.model.units);
+    let length = |metres: Option<f64>| match metres {
+        Some(metres) => {
+            format!("{} {}", significant(units.length(metres), 8), units.0.length_name())
+        }
+        None => "none".to_owned(),
+    };
+    let rows = [
+        ("stands at", length(it.stands)),
+        ("falls at", length(it.falls)),
+        ("proved", if it.proved { "yes" } else { "no" }.to_owned()),
+    ];
+    head(&it.sentence) + &section(&format!("Least thickness of \"{}\"", it.arch)) + &pairs(&rows)
 }

@@ -35,9 +35,7 @@ impl Scene {
         if let Some(acceleration) = load.acceleration {
             point(&at, acceleration)?;
         }
-        let of_walls = self.walls.iter().map(|wall| &wall.material);
-        let used = of_walls.chain(self.blocks.iter().map(|block| &block.material));
-        let densities = used.filter_map(|name| self.materials.get(name)?.density);
+        let densities = self.used_materials().filter_map(|name| self.materials.get(name)?.density);
         if densities.count() > 0 {
             return Ok(());
         }
@@ -66,7 +64,7 @@ impl Scene {
     pub(super) fn check_limit(&self) -> Check {
         let Some(name) = &self.limit.group else { return Ok(()) };
         let at = KeyPath::of("limit").key("group");
-        if self.supports.iter().any(|support| support.name == *name)
+        if self.all_supports().iter().any(|support| support.name == *name)
             && !self.loads.iter().any(|load| load.is_called(name))
         {
             return Err(Fault::new(at, LoadError::Support { name: name.clone() }.into()));
