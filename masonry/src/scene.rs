@@ -28,6 +28,7 @@ mod courses;
 mod error;
 mod key_path;
 mod load;
+mod opening;
 mod rules;
 mod solver;
 mod source;
@@ -44,6 +45,7 @@ pub(crate) use self::error::Fault;
 pub use self::error::{ContactError, Known, SceneError, SceneErrorKind};
 pub use self::key_path::KeyPath;
 pub use self::load::{EdgeStress, Load, LoadError, LoadKind};
+pub use self::opening::{Bond, Opening, OpeningError};
 pub use self::solver::{Form, Route, Solver};
 use self::source::Source;
 pub use self::stages::{Movement, Stage};
@@ -247,6 +249,12 @@ pub struct Wall {
     pub width: Option<f64>,
     /// The courses, bottom to top.
     pub courses: Courses,
+    /// How they are laid, if not in running bond; only where `courses` is a number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bond: Option<Bond>,
+    /// Its openings; only where `courses` is a number.
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
+    pub openings: Vec<Opening>,
     /// The classes of its joints, where they are not `bed` and `head`.
     #[serde(default, deserialize_with = "strict::table", skip_serializing_if = "is_usual")]
     pub joints: WallJoints,
@@ -270,10 +278,10 @@ pub struct Brick {
     pub height: f64,
 }
 
-/// The courses of a wall: how many in running bond, or each brick by brick.
+/// The courses of a wall: how many in a bond, or each brick by brick.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Courses {
-    /// So many courses in running bond: the second, fourth and so on begin with a half brick, and
+    /// So many courses in running bond, or in that of the wall: the second, fourth and so on begin with a half brick, and
     /// the last brick of a course is cut to the width.
     RunningBond(u32),
     /// Bottom to top, each a list of brick lengths in units of one brick from left to right; a

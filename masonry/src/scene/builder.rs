@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::source::Source;
 use super::{
-    Arch, Between, Block, Brick, Contact, Courses, Films, Form, Joint, Limit, Load, Material,
-    Output, Plane, PointRule, Route, Scene, Solver, Stage, Support, Wall, WallJoints,
+    Arch, Between, Block, Bond, Brick, Contact, Courses, Films, Form, Joint, Limit, Load, Material,
+    Opening, Output, Plane, PointRule, Route, Scene, Solver, Stage, Support, Wall, WallJoints,
 };
 use crate::units::Units;
 
@@ -271,6 +271,20 @@ impl Wall {
         Self::new(name, material, brick, Courses::List(courses))
     }
 
+    /// Sets how the bricks are laid.
+    #[must_use]
+    pub fn bond(mut self, bond: Bond) -> Self {
+        self.bond = Some(bond);
+        self
+    }
+
+    /// Adds an opening.
+    #[must_use]
+    pub fn opening(mut self, opening: Opening) -> Self {
+        self.openings.push(opening);
+        self
+    }
+
     /// Sets the classes of the beds and heads within the wall.
     #[must_use]
     pub fn joints(mut self, bed: &str, head: &str) -> Self {
@@ -300,6 +314,8 @@ impl Wall {
             brick,
             width: None,
             courses,
+            bond: None,
+            openings: Vec::new(),
             joints: WallJoints::default(),
             mesh: None,
         }

@@ -18,6 +18,7 @@ use crate::scene::bond::JointThickness;
 mod arches;
 mod loads;
 mod mortar;
+mod openings;
 mod stages;
 
 /// Bricks and blocks of one scene, at most.
@@ -125,7 +126,9 @@ impl Scene {
         positive(at.key("brick").key("length"), wall.brick.length)?;
         positive(at.key("brick").key("height"), wall.brick.height)?;
         let count = match &wall.courses {
-            Courses::RunningBond(count) => check_running_bond(at, wall, *count)?,
+            Courses::RunningBond(count) => {
+                check_running_bond(at, wall, *count, JointThickness::of(self, wall))?
+            }
             Courses::List(courses) => check_courses(at, wall, courses)?,
         };
         if count > f64::from(MOST_BLOCKS) {
@@ -261,14 +264,22 @@ fn check_joint(at: &KeyPath, joint: &Joint) -> Check {
     Ok(())
 }
 
-/// Checks the keys of a wall in running bond; an upper bound of the number of its bricks.
-fn check_running_bond(at: &KeyPath, wall: &Wall, count: u32) -> Result<f64, Fault> {
+/// Checks the keys of a wall in a bond; an upper bound of the number of its bricks.
+fn check_running_bond(
+    at: &KeyPath,
+    wall: &Wall,
+    count: u32,
+    joints: JointThickness,
+) -> Result<f64, Fault> {
     value(at.key("courses"), f64::from(count), count > 0, "a wall has at least one course")?;
     let Some(width) = wall.width else {
         return Err(missing(at, "width", "where `courses` is a number", "width = 1.0"));
     };
     positive(at.key("width"), width)?;
-    Ok(f64::from(count) * (width / wall.brick.length + 1.0).floor())
+    openings::check(at, wall, joints, (width, count))?;
+    // An English bond has two headers a brick, and an opening divides two bricks.
+    let in_course = 2.0 * width / wall.brick.length + 3.0 + 2.0 * wall.openings.len() as f64;
+    Ok(f64::from(count) * in_course.floor())
 }
 
 /// Checks a list of courses; the number of its bricks.
@@ -276,6 +287,12 @@ fn check_courses(at: &KeyPath, wall: &Wall, courses: &[Vec<f64>]) -> Result<f64,
     if wall.width.is_some() {
         let because = "has no meaning where `courses` is a list";
         return Err(unwanted(at, "width", because, ", or give the number of courses"));
+    }
+    for (key, given) in [("bond", wall.bond.is_some()), ("openings", !wall.openings.is_empty())] {
+        if given {
+            let because = "is for walls whose `courses` is a number";
+            return Err(unwanted(at, key, because, ", or give the number of courses"));
+        }
     }
     let list = at.key("courses");
     if courses.is_empty() {

@@ -9,6 +9,7 @@ pub use contact::ContactError;
 
 use super::arch::ArchError;
 use super::load::LoadError;
+use super::opening::OpeningError;
 use super::source::{Place, Source};
 use super::{KeyPath, Scene};
 
@@ -387,6 +388,9 @@ pub enum SceneErrorKind {
     /// What is impossible about an arch.
     #[error("{0}")]
     Arch(#[from] ArchError),
+    /// What is impossible about an opening.
+    #[error("{0}")]
+    Opening(#[from] OpeningError),
     /// What is wrong with a load.
     #[error("{0}")]
     Load(#[from] LoadError),

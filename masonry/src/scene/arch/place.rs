@@ -1,6 +1,7 @@
 //! The blocks and supports of an arch.
 
 use super::{Arch, ArchError, Line, Piers, lines};
+use crate::rounding::rounded;
 use crate::scene::rules::{positive, value};
 use crate::scene::{Fault, KeyPath, Scene, Support};
 
@@ -90,7 +91,7 @@ fn pier(
     }
     let is_level = rises <= level;
     if width < reach - level || (!is_level && width <= reach + level) {
-        let error = ArchError::NarrowPier { width, least: reach };
+        let error = ArchError::NarrowPier { width, least: rounded(reach) };
         return Err(Fault::new(at.key("width"), error.into()));
     }
     let far = inner[0] + sign * width;
