@@ -5,6 +5,7 @@
 
 mod end;
 mod limit;
+mod new;
 mod progress;
 mod study;
 
@@ -42,6 +43,10 @@ enum Command {
     Limit(limit::LimitArgs),
     /// Say what accuracy costs: routes, tolerances and meshes against the most accurate answer.
     Study(study::StudyArgs),
+    /// Print or write a commented scene to begin with.
+    New(new::NewArgs),
+    /// Print the JSON schema of scene files, by which editors complete and check them.
+    Schema,
     /// Draw a scene: blocks, supports, loads and contact points.
     Draw(DrawArgs),
 }
@@ -92,6 +97,8 @@ pub fn run() -> ExitCode {
         Command::Solve(args) => solve(&args),
         Command::Limit(args) => limit::run(&args),
         Command::Study(args) => study::run(&args),
+        Command::New(args) => new::run(&args),
+        Command::Schema => print(&Scene::schema()).map(|()| SOLVED),
         Command::Draw(args) => draw(&args),
     };
     ExitCode::from(result.unwrap_or_else(|failure| {

@@ -30,6 +30,8 @@ mod key_path;
 mod load;
 mod opening;
 mod rules;
+#[cfg(feature = "schema")]
+mod schema;
 mod solver;
 mod source;
 mod stages;
@@ -63,6 +65,7 @@ pub(crate) const HEAD: &str = "head";
 /// The fields are the keys of the TOML file. Unknown keys are errors. What a key leaves out is
 /// never guessed where it is physics: see [`Scene::check`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// Title of reports and pictures.
@@ -139,6 +142,7 @@ pub struct Scene {
 
 /// A material: rigid without `E`, elastic with `E` and `nu`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// Young's modulus \[force/length^2\]; blocks of a material without it are rigid.
@@ -163,6 +167,7 @@ impl Material {
 /// A class of joints: what resists sliding, exactly one of `mu` and `phi_deg`, and, where there are, cohesion, tensile
 /// strength and mortar. The law is that of [`law`](crate::law).
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
     /// Coefficient of Coulomb friction \[-\]; zero is a frictionless joint.
@@ -202,6 +207,7 @@ impl Joint {
 
 /// Two bodies, each the name of a block or of a wall, and the class of all joints between them.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Between {
     /// The two names; twice the same wall for the joints within it.
@@ -213,6 +219,7 @@ pub struct Between {
 
 /// The classes of the joints between the bricks of a wall.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct WallJoints {
     /// Of its beds, instead of the class `bed`.
@@ -232,6 +239,7 @@ impl WallJoints {
 
 /// A wall of bricks in courses, built by [`bond`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Wall {
     /// Name of the wall; its bricks are `name/course/place`, both counted from 1.
@@ -270,6 +278,7 @@ pub struct Wall {
 
 /// Size of a whole brick.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Brick {
     /// Length along the course, without mortar \[length\].
@@ -292,6 +301,7 @@ pub enum Courses {
 
 /// A single block: a convex polygon, of an elastic material a quadrilateral.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Block {
     /// Name of the block.
@@ -313,6 +323,7 @@ pub struct Block {
 
 /// A rigid straight support, which moves only where a [`Stage`] moves it. It has no inner side: blocks may lie on either.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Support {
     /// Name of the support.
@@ -329,6 +340,7 @@ pub struct Support {
 
 /// What a [limit load](crate::analysis::limit) is asked of.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Limit {
     /// The load, or the group of loads, whose factor grows; without it the only group, or the only one with a factor.
@@ -338,6 +350,7 @@ pub struct Limit {
 
 /// How contact is looked for and enforced.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     /// Where on a joint the contact law is enforced.
@@ -353,6 +366,7 @@ pub struct Contact {
 
 /// Where on a joint the contact law is enforced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum PointRule {
     /// At both ends of every part of the overlap on which the shape functions of both sides are
@@ -368,6 +382,7 @@ pub enum PointRule {
 
 /// Which terms of mortar films are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Films {
     /// What acts across the joint: a compliance in series with each contact point, without strain
@@ -381,6 +396,7 @@ pub enum Films {
 
 /// What is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Output {
     /// Whether stresses are recovered and written.
