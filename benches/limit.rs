@@ -1,0 +1,58 @@
+//! Limit loads of rigid walls: wall 3 of Ferris and Tin-Loi, and a wall of a thousand bricks with six windows, both with
+//! associated flow.
+//!
+//! `cargo bench --bench limit` prints a table. All is on one thread.
+
+mod common;
+
+use std::path::Path;
+use std::time::Instant;
+
+use masonry::analysis::limit::limit;
+use masonry::scene::{Brick, Joint, Load, Material, Opening, Scene, Support, Wall};
+use masonry::units::Units;
+
+fn main() {
+    if !common::is_bench() {
+        return;
+    }
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/ferris_wall_3.toml");
+    let ferris = Scene::read(&path).expect("a scene of the repository");
+    println!("| wall | bricks | contact points | load factor | gap | time [s] |");
+    println!("|:--|--:|--:|--:|--:|--:|");
+    for (name, scene) in [("Ferris and Tin-Loi, wall 3", ferris), ("six windows", windows())] {
+        let began = Instant::now();
+        let found = limit(&scene).expect("a scene with one load");
+        let seconds = began.elapsed().as_secs_f64();
+        let (factor, bound) = (found.associative.load_factor, found.associative.bound);
+        let gap = bound.zip(factor).map_or(f64::NAN, |(bound, factor)| bound - factor);
+        println!(
+            "| {name} | {} | {} | {:.6} | {gap:.0e} | {seconds:.3} |",
+            found.model.blocks.len(),
+            found.model.contacts.len(),
+            factor.unwrap_or(f64::NAN),
+        );
+    }
+}
+
+/// 34 courses of 36 bricks, less six windows in two rows.
+fn windows() -> Scene {
+    let brick = Brick { length: 0.25, height: 0.125 };
+    let (width, courses) = (36.0 * brick.length, 34);
+    let wall = Wall::running_bond("wall", "brick", brick, width, courses);
+    let wall = [5, 20].into_iter().fold(wall, |wall, course| {
+        [1.5, 4.0, 6.5].into_iter().fold(wall, |wall, x| {
+            let bearing = Some(brick.length);
+            wall.opening(Opening { x, width: 1.0, course, courses: 9, bearing })
+        })
+    });
+    Scene::new("Wall with six windows", Units::SI)
+        .thickness(0.25)
+        .gravity([0.0, -9.81])
+        .material("brick", Material::rigid().density(1800.0))
+        .joint("bed", Joint::mu(0.65))
+        .joint("head", Joint::mu(0.65))
+        .wall(wall)
+        .support(Support::new("floor", [0.0, 0.0], [width, 0.0], "bed"))
+        .load(Load::acceleration("sideways", [9.81, 0.0]))
+}
