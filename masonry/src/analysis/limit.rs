@@ -25,6 +25,7 @@
 
 mod associative;
 mod error;
+mod path;
 mod range;
 mod sentence;
 mod thickness;
@@ -33,6 +34,7 @@ use std::time::Instant;
 
 pub use associative::{Answer, Associative};
 pub use error::LimitError;
+pub use path::{Change, Event, Path, Stand};
 pub use range::{Extremes, Range, ranges};
 pub use thickness::{Thickness, least_thickness};
 

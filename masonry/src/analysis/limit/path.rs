@@ -1,0 +1,178 @@
+//! The limit load of Coulomb's friction along a path: the factor grows step by step, and the blocks rest or flow.
+
+mod events;
+mod springs;
+mod steps;
+
+use nalgebra::Vector2;
+
+pub use events::{Change, Event};
+use steps::{End, Rest, Steps};
+
+use super::{Associative, LimitError, Structure};
+use crate::method::Motion;
+use crate::method::forms::Sparse;
+use crate::model::Model;
+use crate::recover;
+use crate::state::{ContactState, Reaction};
+use crate::system::System;
+
+/// Steps up to the bound of associated flow. Measured on the walls of Ferris and Tin-Loi: four times as many change the
+/// limit by less than 2e-3.
+const STEPS: f64 = 16.0;
+/// Where the factors that stand and fall differ by less than this part, the search ends.
+const NEAR: f64 = 5e-4;
+/// Steps of a structure that never falls; each is twice as long as the one before. Chosen.
+const DOUBLED: usize = 10;
+/// Largest residual of a state at rest. Chosen: that of scenes without a tolerance.
+const TOLERANCE: f64 = 1e-10;
+
+/// The limit load of Coulomb's friction, in which joints do not open when they slide.
+///
+/// The factor grows from zero in steps. In each the blocks come to rest, or flow; the limit is found by bisection. With
+/// friction other paths may end elsewhere. Rigid blocks have springs in their joints, which say how forces are shared.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Path {
+    /// The largest factor \[-\] at which the blocks rest; `None` where they do not even without the group.
+    pub load_factor: Option<f64>,
+    /// The least factor \[-\] that was tried at which they flow, or that no forces carry.
+    pub falls: Option<f64>,
+    /// Whether both are one number, nearly, or every factor that was tried stands.
+    pub decided: bool,
+    /// The structure under [`load_factor`](Self::load_factor), with the springs.
+    pub model: Model,
+    /// The last state at rest, point by point; slips are those of its step.
+    pub contacts: Option<Vec<ContactState>>,
+    /// Its reactions.
+    pub reactions: Vec<Reaction>,
+    /// How the blocks move above: displacement rates of their corners, scaled to a largest component of one.
+    pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
+    /// Joints that opened or slid on the way, for the first time.
+    pub events: Vec<Event>,
+    /// The states at rest, by growing factor.
+    pub curve: Vec<Stand>,
+    /// Joints between rigid bodies, into which springs were put.
+    pub springs: usize,
+}
+
+/// A state at rest on the path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stand {
+    /// The load factor \[-\].
+    pub load_factor: f64,
+    /// The largest displacement \[m\] from where the factor is zero; of rigid blocks that of the springs, which has no
+    /// meaning by itself.
+    pub displacement: f64,
+    /// Contact points that are open, stick and slide.
+    pub contacts: [usize; 3],
+}
+
+/// Follows the path; `model` has blocks as they are, elastic or rigid.
+pub(super) fn of(
+    structure: &Structure<'_>,
+    associative: &Associative,
+) -> Result<Path, LimitError> {
+    let mut stays = structure.under(1.0, 0.0);
+    let load: f64 = stays.blocks.iter().map(|block| size(&stays, block)).sum();
+    let springs = springs::put_into(&mut stays, load);
+    let mut grown = structure.under(1.0, 1.0);
+    springs::put_into(&mut grown, load);
+    let [system, with_growth] = [&stays, &grown].map(System::without_factors);
+    let (system, with_growth) = (system?, with_growth?);
+    let sparse = Sparse::new(&system)?;
+    let with_growth = Sparse::new(&with_growth)?;
+    let loads = with_growth.problem.loads().iter().zip(sparse.problem.loads());
+    let growth: Vec<f64> = loads.map(|(grown, stays)| grown - stays).collect();
+    let steps = Steps { sparse: &sparse, growth: &growth, tolerance: TOLERANCE };
+    let mut climb = Climb { steps, rests: Vec::new(), falls: associative.bound, motion: None, is_open: false };
+    climb.run()?;
+    let Climb { rests, falls, motion, is_open, .. } = climb;
+    let motion = motion.map(Motion::Displacements);
+    let mechanism =
+        motion.and_then(|motion| recover::mechanism(&stays, &system, Some(&sparse), &motion));
+    let load_factor = rests.last().map(|(factor, _)| *factor);
+    let mut model = structure.under(1.0, load_factor.unwrap_or(0.0));
+    springs::put_into(&mut model, load);
+    let contacts = rests.last().map(|(_, rest)| {
+        let rows = sparse.rows(&rest.state);
+        recover::from_displacements(&model, &system, &sparse, &rows, &rest.u, TOLERANCE, false).contacts
+    });
+    let reactions = contacts.as_ref().map_or_else(Vec::new, |it| recover::reactions(&model, it));
+    let (events, curve) = events::along(&model, &system, &sparse, &rests);
+    Ok(Path {
+        load_factor,
+        falls,
+        decided: !is_open,
+        model,
+        contacts,
+        reactions,
+        mechanism,
+        events,
+        curve,
+        springs,
+    })
+}
+
+fn size(model: &Model, block: &crate::model::Block) -> f64 {
+    let [x, y, _] = crate::system::resultant(model, block);
+    x.hypot(y)
+}
+
+/// The way up.
+struct Climb<'a> {
+    steps: Steps<'a>,
+    rests: Vec<(f64, Rest)>,
+    falls: Option<f64>,
+    motion: Option<Vec<f64>>,
+    /// Whether the last step that did not end at rest did not end in a flow either.
+    is_open: bool,
+}
+
+impl Climb<'_> {
+    fn run(&mut self) -> Result<(), LimitError> {
+        if !self.tried(0.0)? {
+            return Ok(());
+        }
+        let mut step = self.falls.map_or(1.0, |falls| falls / STEPS);
+        let mut doubled = 0;
+        loop {
+            let at = self.rests.last().map_or(0.0, |(factor, _)| *factor);
+            let next = at + step;
+            let next = match self.falls {
+                Some(falls) if falls - at <= NEAR * falls => return Ok(()),
+                Some(falls) if next >= falls => 0.5 * (at + falls),
+                _ => next,
+            };
+            let rests = self.tried(next)?;
+            if self.falls.is_none() {
+                doubled += 1;
+                step *= 2.0;
+                if doubled == DOUBLED {
+                    return Ok(());
+                }
+            } else if !rests {
+                step = step.min(0.5 * (next - at));
+            }
+        }
+    }
+
+    /// Whether the blocks rest at a factor.
+    fn tried(&mut self, factor: f64) -> Result<bool, LimitError> {
+        let from = self.rests.last().map(|(_, rest)| rest);
+        eprintln!("{factor}");
+        match self.steps.advance(from, factor)? {
+            End::Rests(rest) => {
+                self.rests.push((factor, rest));
+                return Ok(true);
+            }
+            End::Flows(motion) => {
+                self.is_open = false;
+                self.motion = Some(motion);
+            }
+            End::Open(_) => self.is_open = true,
+        }
+        self.falls = Some(factor);
+        Ok(false)
+    }
+}
