@@ -17,11 +17,11 @@ use crate::recover;
 use crate::state::{ContactState, Reaction};
 use crate::system::System;
 
-/// Steps up to the bound of associated flow. Measured on the walls of Ferris and Tin-Loi: four times as many change the
-/// limit by less than 2e-3.
+/// Steps up to the bound of associated flow. Measured on the walls of Ferris and Tin-Loi, whose published limits are met to
+/// 2e-3.
 const STEPS: f64 = 16.0;
 /// Where the factors that stand and fall differ by less than this part, the search ends.
-const NEAR: f64 = 5e-4;
+const NEAR: f64 = 1e-4;
 /// Steps of a structure that never falls; each is twice as long as the one before. Chosen.
 const DOUBLED: usize = 10;
 /// Largest residual of a state at rest. Chosen: that of scenes without a tolerance.
@@ -36,9 +36,10 @@ const TOLERANCE: f64 = 1e-10;
 pub struct Path {
     /// The largest factor \[-\] at which the blocks rest; `None` where they do not even without the group.
     pub load_factor: Option<f64>,
-    /// The least factor \[-\] that was tried at which they flow, or that no forces carry.
+    /// The least factor \[-\] at which they were found to flow, or which it is proved that no forces carry.
     pub falls: Option<f64>,
-    /// Whether both are one number, nearly, or every factor that was tried stands.
+    /// Whether both are one number, nearly, or every factor that was tried stands. Where not, at factors between them neither
+    /// rest nor flow was found.
     pub decided: bool,
     /// The structure under [`load_factor`](Self::load_factor), with the springs.
     pub model: Model,
@@ -54,6 +55,17 @@ pub struct Path {
     pub curve: Vec<Stand>,
     /// Joints between rigid bodies, into which springs were put.
     pub springs: usize,
+}
+
+impl Path {
+    /// What limits the meaning of the answer.
+    pub(super) fn warning(&self) -> String {
+        let springs = match self.springs {
+            0 => "",
+            _ => " Joints between rigid bodies have springs, which say how forces are shared.",
+        };
+        format!("With friction other paths may end at other factors.{springs}")
+    }
 }
 
 /// A state at rest on the path.
@@ -85,9 +97,10 @@ pub(super) fn of(
     let loads = with_growth.problem.loads().iter().zip(sparse.problem.loads());
     let growth: Vec<f64> = loads.map(|(grown, stays)| grown - stays).collect();
     let steps = Steps { sparse: &sparse, growth: &growth, tolerance: TOLERANCE };
-    let mut climb = Climb { steps, rests: Vec::new(), falls: associative.bound, motion: None, is_open: false };
+    let falls = associative.bound;
+    let mut climb = Climb { steps, rests: Vec::new(), end: falls, falls, motion: None };
     climb.run()?;
-    let Climb { rests, falls, motion, is_open, .. } = climb;
+    let Climb { rests, end, falls, motion, .. } = climb;
     let motion = motion.map(Motion::Displacements);
     let mechanism =
         motion.and_then(|motion| recover::mechanism(&stays, &system, Some(&sparse), &motion));
@@ -103,7 +116,7 @@ pub(super) fn of(
     Ok(Path {
         load_factor,
         falls,
-        decided: !is_open,
+        decided: end == falls,
         model,
         contacts,
         reactions,
@@ -123,10 +136,10 @@ fn size(model: &Model, block: &crate::model::Block) -> f64 {
 struct Climb<'a> {
     steps: Steps<'a>,
     rests: Vec<(f64, Rest)>,
+    /// The least factor at which no rest was found, and the least at which it is known that there is none.
+    end: Option<f64>,
     falls: Option<f64>,
     motion: Option<Vec<f64>>,
-    /// Whether the last step that did not end at rest did not end in a flow either.
-    is_open: bool,
 }
 
 impl Climb<'_> {
@@ -134,18 +147,18 @@ impl Climb<'_> {
         if !self.tried(0.0)? {
             return Ok(());
         }
-        let mut step = self.falls.map_or(1.0, |falls| falls / STEPS);
+        let mut step = self.end.map_or(1.0, |end| end / STEPS);
         let mut doubled = 0;
         loop {
             let at = self.rests.last().map_or(0.0, |(factor, _)| *factor);
             let next = at + step;
-            let next = match self.falls {
-                Some(falls) if falls - at <= NEAR * falls => return Ok(()),
-                Some(falls) if next >= falls => 0.5 * (at + falls),
+            let next = match self.end {
+                Some(end) if end - at <= NEAR * end => return Ok(()),
+                Some(end) if end - next <= NEAR * end => 0.5 * (at + end),
                 _ => next,
             };
             let rests = self.tried(next)?;
-            if self.falls.is_none() {
+            if self.end.is_none() {
                 doubled += 1;
                 step *= 2.0;
                 if doubled == DOUBLED {
@@ -160,19 +173,18 @@ impl Climb<'_> {
     /// Whether the blocks rest at a factor.
     fn tried(&mut self, factor: f64) -> Result<bool, LimitError> {
         let from = self.rests.last().map(|(_, rest)| rest);
-        eprintln!("{factor}");
         match self.steps.advance(from, factor)? {
             End::Rests(rest) => {
                 self.rests.push((factor, rest));
                 return Ok(true);
             }
             End::Flows(motion) => {
-                self.is_open = false;
+                self.falls = Some(factor);
                 self.motion = Some(motion);
             }
-            End::Open(_) => self.is_open = true,
+            End::Open => {}
         }
-        self.falls = Some(factor);
+        self.end = Some(factor);
         Ok(false)
     }
 }
