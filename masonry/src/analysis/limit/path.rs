@@ -9,7 +9,7 @@ use nalgebra::Vector2;
 pub use events::{Change, Event};
 use steps::{End, Rest, Steps};
 
-use super::{Associative, LimitError, Structure};
+use super::{Answer, Associative, LimitError, Structure};
 use crate::method::Motion;
 use crate::method::forms::Sparse;
 use crate::model::Model;
@@ -97,7 +97,7 @@ pub(super) fn of(
     let loads = with_growth.problem.loads().iter().zip(sparse.problem.loads());
     let growth: Vec<f64> = loads.map(|(grown, stays)| grown - stays).collect();
     let steps = Steps { sparse: &sparse, growth: &growth, tolerance: TOLERANCE };
-    let falls = associative.bound;
+    let falls = if associative.answer == Answer::Falls { Some(0.0) } else { associative.bound };
     let mut climb = Climb { steps, rests: Vec::new(), end: falls, falls, motion: None };
     climb.run()?;
     let Climb { rests, end, falls, motion, .. } = climb;
@@ -144,16 +144,18 @@ struct Climb<'a> {
 
 impl Climb<'_> {
     fn run(&mut self) -> Result<(), LimitError> {
-        if !self.tried(0.0)? {
+        if self.end.is_some_and(|end| end <= 0.0) || !self.tried(0.0)? {
             return Ok(());
         }
         let mut step = self.end.map_or(1.0, |end| end / STEPS);
+        // A structure that no factor leaves at rest has an end too.
+        let least = NEAR * NEAR * self.end.unwrap_or(1.0);
         let mut doubled = 0;
         loop {
             let at = self.rests.last().map_or(0.0, |(factor, _)| *factor);
             let next = at + step;
             let next = match self.end {
-                Some(end) if end - at <= NEAR * end => return Ok(()),
+                Some(end) if end - at <= least.max(NEAR * end) => return Ok(()),
                 Some(end) if end - next <= NEAR * end => 0.5 * (at + end),
                 _ => next,
             };
