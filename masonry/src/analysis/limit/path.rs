@@ -10,7 +10,6 @@ pub use events::{Change, Event};
 use steps::{End, Rest, Steps};
 
 use super::{Answer, Associative, LimitError, Structure};
-use crate::method::Motion;
 use crate::method::forms::Sparse;
 use crate::model::Model;
 use crate::recover;
@@ -22,6 +21,9 @@ use crate::system::System;
 const STEPS: f64 = 16.0;
 /// Where the factors that stand and fall differ by less than this part, the search ends.
 const NEAR: f64 = 1e-4;
+/// Where they differ by less than this part, they are one number. Chosen: ten times as much, since near the limit a step
+/// may end neither at rest nor in a flow.
+const ONE_NUMBER: f64 = 1e-3;
 /// Steps of a structure that never falls; each is twice as long as the one before. Chosen.
 const DOUBLED: usize = 10;
 /// Largest residual of a state at rest. Chosen: that of scenes without a tolerance.
@@ -81,10 +83,7 @@ pub struct Stand {
 }
 
 /// Follows the path; `model` has blocks as they are, elastic or rigid.
-pub(super) fn of(
-    structure: &Structure<'_>,
-    associative: &Associative,
-) -> Result<Path, LimitError> {
+pub(super) fn of(structure: &Structure<'_>, associative: &Associative) -> Result<Path, LimitError> {
     let mut stays = structure.under(1.0, 0.0);
     let load: f64 = stays.blocks.iter().map(|block| size(&stays, block)).sum();
     let springs = springs::put_into(&mut stays, load);
@@ -101,22 +100,25 @@ pub(super) fn of(
     let mut climb = Climb { steps, rests: Vec::new(), end: falls, falls, motion: None };
     climb.run()?;
     let Climb { rests, end, falls, motion, .. } = climb;
-    let motion = motion.map(Motion::Displacements);
-    let mechanism =
-        motion.and_then(|motion| recover::mechanism(&stays, &system, Some(&sparse), &motion));
+    let flows = motion.and_then(|motion| recover::flow(&stays, &system, &sparse, &motion));
+    // At the bound of associated flow its motion is one that nothing stops.
+    let is_bound = falls.is_some() && falls == associative.bound;
+    let proved = associative.mechanism.as_ref().filter(|_| is_bound);
+    let mechanism = flows.or_else(|| proved.cloned());
     let load_factor = rests.last().map(|(factor, _)| *factor);
     let mut model = structure.under(1.0, load_factor.unwrap_or(0.0));
     springs::put_into(&mut model, load);
     let contacts = rests.last().map(|(_, rest)| {
         let rows = sparse.rows(&rest.state);
-        recover::from_displacements(&model, &system, &sparse, &rows, &rest.u, TOLERANCE, false).contacts
+        recover::from_displacements(&model, &system, &sparse, &rows, &rest.u, TOLERANCE, false)
+            .contacts
     });
     let reactions = contacts.as_ref().map_or_else(Vec::new, |it| recover::reactions(&model, it));
     let (events, curve) = events::along(&model, &system, &sparse, &rests);
     Ok(Path {
         load_factor,
         falls,
-        decided: end == falls,
+        decided: is_near(end, load_factor) && is_near(falls, load_factor),
         model,
         contacts,
         reactions,
@@ -125,6 +127,15 @@ pub(super) fn of(
         curve,
         springs,
     })
+}
+
+/// Whether a factor that falls is hardly larger than one that stands; or there is none.
+fn is_near(falls: Option<f64>, stands: Option<f64>) -> bool {
+    match (falls, stands) {
+        (Some(falls), Some(stands)) => falls - stands <= ONE_NUMBER * falls,
+        (Some(falls), None) => falls <= 0.0,
+        (None, stands) => stands.is_some(),
+    }
 }
 
 fn size(model: &Model, block: &crate::model::Block) -> f64 {

@@ -24,7 +24,8 @@ pub fn table(limit: &Limit) -> String {
         text += &of_reactions(title, &found.reactions, units);
     }
     if let Some(path) = &limit.path {
-        text += &section(&format!("Limit load of \"{}\", path with Coulomb's friction", limit.group));
+        text +=
+            &section(&format!("Limit load of \"{}\", path with Coulomb's friction", limit.group));
         text += &of_path(path, units);
         text += &of_reactions("Reactions in the last state at rest", &path.reactions, units);
         text += &of_events(path);
@@ -92,7 +93,10 @@ fn of_events(path: &Path) -> String {
         0 => String::new(),
         more => format!(" and {more} more\n"),
     };
-    section("Joints that open and slide, between two load factors") + &list.trim_fmt() + "\n" + &more
+    section("Joints that open and slide, between two load factors")
+        + &list.trim_fmt()
+        + "\n"
+        + &more
 }
 
 fn of_reactions(title: &str, reactions: &[Reaction], units: InUnits) -> String {

@@ -56,7 +56,8 @@ fn compliance(model: &Model, contact: &ContactPoint, young: f64) -> Option<f64> 
     if contact.film.is_some() || is_elastic(joint.b.index()) || behind.is_some_and(is_elastic) {
         return None;
     }
-    let depth = depth(model, joint.b.index(), joint) + behind.map_or(0.0, |it| depth(model, it, joint));
+    let depth =
+        depth(model, joint.b.index(), joint) + behind.map_or(0.0, |it| depth(model, it, joint));
     Some(0.5 * depth / (young * contact.weight))
 }
 
