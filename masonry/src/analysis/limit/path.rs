@@ -21,9 +21,13 @@ use crate::system::System;
 const STEPS: f64 = 16.0;
 /// Where the factors that stand and fall differ by less than this part, the search ends.
 const NEAR: f64 = 1e-4;
-/// Where they differ by less than this part, they are one number. Chosen: ten times as much, since near the limit a step
-/// may end neither at rest nor in a flow.
-const ONE_NUMBER: f64 = 1e-3;
+/// Where they differ by less than this part, they are one number. Chosen: far below what another path may change.
+const ONE_NUMBER: f64 = 5e-3;
+/// Just above the limit blocks flow so slowly that a step may end neither at rest nor in a flow. Then it is tried with
+/// factors that are larger by these parts. Chosen.
+const ABOVE: [f64; 3] = [1e-3, 2e-3, 4e-3];
+/// How often the search goes on where blocks rest there after all. Chosen.
+const AGAIN: usize = 3;
 /// Steps of a structure that never falls; each is twice as long as the one before. Chosen.
 const DOUBLED: usize = 10;
 /// Largest residual of a state at rest. Chosen: that of scenes without a tolerance.
@@ -99,7 +103,13 @@ pub(super) fn of(structure: &Structure<'_>, associative: &Associative) -> Result
     let falls = if associative.answer == Answer::Falls { Some(0.0) } else { associative.bound };
     let mut climb = Climb { steps, rests: Vec::new(), end: falls, falls, motion: None };
     climb.run()?;
-    let Climb { rests, end, falls, motion, .. } = climb;
+    for _ in 0..AGAIN {
+        if !climb.goes_on()? {
+            break;
+        }
+        climb.run()?;
+    }
+    let Climb { rests, falls, motion, .. } = climb;
     let flows = motion.and_then(|motion| recover::flow(&stays, &system, &sparse, &motion));
     // At the bound of associated flow its motion is one that nothing stops.
     let is_bound = falls.is_some() && falls == associative.bound;
@@ -118,7 +128,7 @@ pub(super) fn of(structure: &Structure<'_>, associative: &Associative) -> Result
     Ok(Path {
         load_factor,
         falls,
-        decided: is_near(end, load_factor) && is_near(falls, load_factor),
+        decided: is_near(falls, load_factor),
         model,
         contacts,
         reactions,
@@ -155,7 +165,8 @@ struct Climb<'a> {
 
 impl Climb<'_> {
     fn run(&mut self) -> Result<(), LimitError> {
-        if self.end.is_some_and(|end| end <= 0.0) || !self.tried(0.0)? {
+        let is_below = self.end.is_some_and(|end| end <= 0.0);
+        if is_below || self.rests.is_empty() && !self.tried(0.0)? {
             return Ok(());
         }
         let mut step = self.end.map_or(1.0, |end| end / STEPS);
@@ -181,6 +192,24 @@ impl Climb<'_> {
                 step = step.min(0.5 * (next - at));
             }
         }
+    }
+
+    /// Whether blocks rest a little above where neither came out; if they do not, whether they flow is known better.
+    fn goes_on(&mut self) -> Result<bool, LimitError> {
+        let at = self.rests.last().map(|(factor, _)| *factor);
+        let (Some(at), Some(falls)) = (at, self.falls) else { return Ok(false) };
+        for part in ABOVE {
+            let factor = at + part * falls;
+            if is_near(self.falls, Some(at)) || factor >= falls {
+                return Ok(false);
+            }
+            let rests = self.tried(factor)?;
+            if rests {
+                self.end = self.falls;
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// Whether the blocks rest at a factor.
