@@ -1,11 +1,11 @@
 //! Limit loads of rigid walls: wall 3 of Ferris and Tin-Loi by both laws, and a wall of a thousand bricks with six windows
 //! with associated flow.
 //!
-//! `cargo bench --bench limit` prints a table. All is on one thread.
+//! `cargo bench --bench limit` prints a table; with `-- --write` it goes into the guide. All is on one thread.
 
 mod common;
 
-use std::path::Path;
+use std::fmt::Write;
 use std::time::Instant;
 
 use masonry::analysis::limit::{Laws, limit_by};
@@ -16,10 +16,11 @@ fn main() {
     if !common::is_bench() {
         return;
     }
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/ferris_wall_3.toml");
+    let path = common::root().join("scenes/ferris_wall_3.toml");
     let ferris = Scene::read(&path).expect("a scene of the repository");
-    println!("| wall | bricks | contact points | bound | gap | path | time [s] |");
-    println!("|:--|--:|--:|--:|--:|--:|--:|");
+    let mut table =
+        String::from("| wall | bricks | contact points | bound | gap | path | time \\[s\\] |\n");
+    table += "|:--|--:|--:|--:|--:|--:|--:|\n";
     let walls = [
         ("Ferris and Tin-Loi, wall 3", ferris, Laws::Both),
         ("six windows", windows(), Laws::Associative),
@@ -33,12 +34,15 @@ fn main() {
         let gap = bound - factor;
         let path = found.path.and_then(|path| path.load_factor);
         let path = path.map_or("-".to_owned(), |factor| format!("{factor:.4}"));
-        println!(
+        let _ = writeln!(
+            table,
             "| {name} | {} | {} | {bound:.6} | {gap:.0e} | {path} | {seconds:.3} |",
             found.model.blocks.len(),
             found.model.contacts.len(),
         );
     }
+    println!("{table}");
+    common::write_if_asked("docs/guide.md", "limit", &table);
 }
 
 /// 34 courses of 36 bricks, less six windows in two rows.
