@@ -295,6 +295,12 @@ fn ranges_of_reactions() {
     let value = |end: &Value| end["value"].as_f64().unwrap();
     assert!((value(&wall_fx["min"]) + 3.0).abs() < 1e-5 && value(&wall_fx["max"]).abs() < 1e-5);
     assert!((value(&single["range"]["floor"]["fy"]["max"]) - 10.0).abs() < 1e-5 && code == 0);
+    // Cohesion of 3 kN/m2 adds 3 kN to the friction.
+    let glued = scene.replace("joints.bed.mu = 0.3", "joints.bed = { mu = 0.3, cohesion = 3.0 }");
+    let (glued, _) = object(&written("range_glued", &glued), &["--range"]);
+    let least = &glued["range"]["wall"]["fx"]["min"];
+    let bound = least["bound"].as_f64().unwrap();
+    assert!((value(least) + 6.0).abs() < 1e-5 && (bound + 6.0).abs() < 1e-5, "{least}");
     let second = wall
         .lines()
         .take(5)

@@ -3,7 +3,9 @@
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use super::constants::{LEAST_VISCOSITY, MOST_VISCOSITY, SETTLING, SMOOTH, TRIES};
+use super::constants::{
+    LEAST_VISCOSITY, MOST_VISCOSITY, MOVED, SETTLING, SMOOTH, STEADY, STEADY_MOTIONS, TRIES,
+};
 use super::motion::{Motions, Moved, Viscosity};
 use super::rest::settled;
 use super::start::start;
@@ -234,7 +236,7 @@ impl Moving<'_, '_> {
             if let Some(limit) = self.limit {
                 break limit;
             }
-            let Some(moved) = self.motion(&mut motions, viscosity.value) else {
+            let Some(moved) = self.motion(&mut motions, (viscosity.value, MOVED)) else {
                 viscosity.increase();
                 if viscosity.value > MOST_VISCOSITY {
                     break self.limit.unwrap_or(Status::Stalled);
@@ -249,7 +251,26 @@ impl Moving<'_, '_> {
             path.shares.push(if load > 0.0 { viscosity.value * length / load } else { length });
             path.motion = self.search.scaled.displacements(&velocity);
             if viscosity.flows() {
-                break Status::NoEquilibrium;
+                // The mechanism is the motion that does not change any more.
+                let mut last = velocity;
+                for _ in 0..STEADY_MOTIONS {
+                    let Some(moved) = self.motion(&mut motions, (viscosity.value, STEADY)) else {
+                        break;
+                    };
+                    let velocity = self.follow(&moved, viscosity.value);
+                    let change = velocity.iter().zip(&last).map(|(v, last)| v - last);
+                    let change = max_abs(&change.collect::<Vec<_>>());
+                    path.motion = self.search.scaled.displacements(&velocity);
+                    let is_steady = change <= STEADY * max_abs(&velocity);
+                    last = velocity;
+                    if is_steady {
+                        break;
+                    }
+                }
+                break match self.limit {
+                    Some(limit) if limit != Status::IterationLimit => limit,
+                    _ => Status::NoEquilibrium,
+                };
             }
             if viscosity.may_rest() {
                 tries += 1;
@@ -305,11 +326,11 @@ impl Moving<'_, '_> {
     }
 
     /// One motion; `None` where it cannot be computed, or a limit is reached.
-    fn motion(&mut self, motions: &mut Motions, viscosity: f64) -> Option<Moved> {
+    fn motion(&mut self, motions: &mut Motions, with: (f64, f64)) -> Option<Moved> {
         let Self { search, monitor, at, limit, .. } = self;
-        motions.advance(&search.scaled, at, viscosity, |residual| {
+        motions.advance(&search.scaled, at, with, |residual| {
             *limit = monitor.stop(residual);
-            limit.is_none()
+            *limit
         })
     }
 
