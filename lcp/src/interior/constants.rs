@@ -144,9 +144,9 @@ pub(super) const SAME_LENGTH: f64 = 0.9;
 /// How many times. Chosen.
 pub(super) const FLOWING: usize = 4;
 /// The accuracy of the motions after that, and the relative change of the last one, which is the mechanism. Chosen.
-pub(super) const STEADY: f64 = 1e-6;
+pub(super) const STEADY: f64 = 1e-9;
 /// No more of them. Theory: the change decreases by `mu^2 / (1 + mu^2)` in each where a block slides.
-pub(super) const STEADY_MOTIONS: usize = 20;
+pub(super) const STEADY_MOTIONS: usize = 12;
 /// How often rest is tried after motions. Chosen: walls that come to rest do at the first or the second.
 pub(super) const TRIES: usize = 4;
 
