@@ -4,8 +4,10 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use super::constants::{
-    LEAST_VISCOSITY, MOST_VISCOSITY, MOVED, SETTLING, SMOOTH, STEADY, STEADY_MOTIONS, TRIES,
+    LEAST_VISCOSITY, MOST_VISCOSITY, MOVED, SETTLING, SMOOTH, STEADIER, STEADY, STEADY_MOTIONS,
+    TRIES,
 };
+use super::continuation::is_free;
 use super::motion::{Motions, Moved, Viscosity};
 use super::rest::settled;
 use super::start::start;
@@ -251,26 +253,9 @@ impl Moving<'_, '_> {
             path.shares.push(if load > 0.0 { viscosity.value * length / load } else { length });
             path.motion = self.search.scaled.displacements(&velocity);
             if viscosity.flows() {
-                // The mechanism is the motion that does not change any more.
-                let mut last = velocity;
-                for _ in 0..STEADY_MOTIONS {
-                    let Some(moved) = self.motion(&mut motions, (viscosity.value, STEADY)) else {
-                        break;
-                    };
-                    let velocity = self.follow(&moved, viscosity.value);
-                    let change = velocity.iter().zip(&last).map(|(v, last)| v - last);
-                    let change = max_abs(&change.collect::<Vec<_>>());
-                    path.motion = self.search.scaled.displacements(&velocity);
-                    let is_steady = change <= STEADY * max_abs(&velocity);
-                    last = velocity;
-                    if is_steady {
-                        break;
-                    }
-                }
-                break match self.limit {
-                    Some(limit) if limit != Status::IterationLimit => limit,
-                    _ => Status::NoEquilibrium,
-                };
+                let flows = self.is_steady(&mut motions, viscosity.value, velocity, &mut path);
+                let otherwise = if flows { Status::NoEquilibrium } else { Status::Stalled };
+                break self.limit.filter(|it| *it != Status::IterationLimit).unwrap_or(otherwise);
             }
             if viscosity.may_rest() {
                 tries += 1;
@@ -332,6 +317,32 @@ impl Moving<'_, '_> {
             *limit = monitor.stop(residual);
             *limit
         })
+    }
+
+    /// Moves on until the motion does not change any more, which is the mechanism then. On a soft spring every motion is
+    /// shorter than the one before by the same part.
+    fn is_steady(
+        &mut self,
+        motions: &mut Motions,
+        viscosity: f64,
+        mut last: Vec<f64>,
+        path: &mut SoftSprings,
+    ) -> bool {
+        let mut first = None;
+        let mut change = f64::INFINITY;
+        for _ in 0..STEADY_MOTIONS {
+            let Some(moved) = self.motion(motions, (viscosity, STEADY)) else { break };
+            let velocity = self.follow(&moved, viscosity);
+            let changes: Vec<f64> = velocity.iter().zip(&last).map(|(v, last)| v - last).collect();
+            change = max_abs(&changes) / max_abs(&velocity);
+            path.motion = self.search.scaled.displacements(&velocity);
+            last = velocity;
+            if change <= STEADY {
+                return is_free(&self.search.scaled, &last, viscosity);
+            }
+            first.get_or_insert(change);
+        }
+        first.is_some_and(|first| change <= STEADIER * first)
     }
 
     /// Takes the bodies to the end of a motion, from which slips are measured then, and gives its displacements.
