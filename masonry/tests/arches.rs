@@ -74,6 +74,7 @@ fn a_semicircular_arch_needs_a_tenth_of_its_radius() {
         (15, 0.1061),
         (20, 0.10735),
         (21, 0.1067),
+        (30, 0.1074),
         (40, 0.10743),
         (101, 0.10745),
     ];
@@ -91,9 +92,11 @@ fn friction_below_two_fifths_makes_arches_thicker() {
         (0.5, 0.10743),
         (0.4, 0.10743),
         (0.395, 0.1079),
+        (0.39, 0.1124),
         (0.37, 0.1311),
         (0.35, 0.1521),
         (0.33, 0.1742),
+        (0.31, 0.1976),
     ];
     for (mu, ratio) in ratios {
         let found = least_ratio(&format!("mu_{mu}"), &scene(mu, &semicircular(0.2, 40), ""), 0.9);
@@ -155,6 +158,37 @@ fn thrusts_and_loads_of_a_semicircular_arch() {
             let factor = found["associative"]["load_factor"].as_f64().unwrap();
             assert_near(factor, expected, 1e-3 * expected, &format!("{name} at t = {t}"));
         }
+    }
+}
+
+/// Where supports spread, the thrust is the least that friction allows; where they close, the largest. Rigid voussoirs
+/// show it at the first movement.
+#[test]
+fn the_thrust_is_least_as_supports_spread_and_largest_as_they_close() {
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/arch_on_moving_supports.toml");
+    let text = fs::read_to_string(scene).unwrap();
+    let range = limit("moving_range", &text, &["--range"]);
+    let [least, largest] = ["min", "max"].map(|end| {
+        range["range"]["arch/left"]["fx"][end]["value"].as_f64().unwrap()
+    });
+    let path = written("moving", &text);
+    let command = ["solve", path.to_str().unwrap(), "--json"];
+    let output = Command::new(env!("CARGO_BIN_EXE_masonry")).args(command).output().unwrap();
+    let solved: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(solved["verdict"], "stands");
+    let weight = -solved["weight"]["fy"].as_f64().unwrap();
+    let records = solved["history"]["records"].as_array().unwrap();
+    assert_eq!(records.len(), 7);
+    for record in records {
+        let thrust = record["reactions"]["arch/left"]["fx"].as_f64().unwrap();
+        let moved = record["moves"]["arch/right"]["x"].as_f64().unwrap_or(0.0);
+        let (expected, published) = match moved {
+            moved if moved > 1e-6 => (least, 0.1760),
+            moved if moved < -1e-6 => (largest, 0.2272),
+            _ => continue,
+        };
+        assert_near(thrust / expected, 1.0, 1e-6, "thrust");
+        assert_near(thrust / weight, published, 6e-5, "thrust by weight");
     }
 }
 
