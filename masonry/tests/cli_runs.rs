@@ -143,7 +143,9 @@ fn a_directory_that_cannot_be_written_into_is_refused_before_the_work() {
             let output = masonry(&[command, &scene, "--out", out.to_str().unwrap()]);
             assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
             let message = errors(&output);
-            assert!(message.contains("cannot write into") && message.contains("choose another --out"));
+            assert!(
+                message.contains("cannot write into") && message.contains("choose another --out")
+            );
         }
     }
     // A run that does not come to write leaves no directory.
@@ -209,12 +211,18 @@ mod interrupted {
         let output = interrupt(started(&arguments, &out.join("checkpoint.json")));
         assert_eq!(output.status.code(), Some(1));
         let (result, solved) = (object(&output), solved_steps(&output));
-        assert_eq!((&result["status"], &result["verdict"]), (&"Cancelled".into(), &"undecided".into()));
+        assert_eq!(
+            (&result["status"], &result["verdict"]),
+            (&"Cancelled".into(), &"undecided".into())
+        );
         assert!(solved > 0 && solved < u64::from(STEPS));
         assert!(files(&out).contains(&"deformed.svg".to_owned()), "{:?}", files(&out));
         let message = errors(&output);
         let resume = format!("masonry solve '{scene}' --out '{to}' --resume --json");
-        assert!(message.contains(&format!("interrupted after step {solved} of {}", STEPS + 1)), "{message}");
+        assert!(
+            message.contains(&format!("interrupted after step {solved} of {}", STEPS + 1)),
+            "{message}"
+        );
         assert!(message.contains(&resume), "{message}");
 
         // The command goes on from there.
@@ -259,7 +267,10 @@ mod interrupted {
         let output = interrupt(started(&arguments, &out.join(".masonry.json")));
         assert_eq!(output.status.code(), Some(1));
         let result = object(&output);
-        assert_eq!((&result["status"], &result["verdict"]), (&"Cancelled".into(), &"undecided".into()));
+        assert_eq!(
+            (&result["status"], &result["verdict"]),
+            (&"Cancelled".into(), &"undecided".into())
+        );
         assert!(result["sentence"].as_str().unwrap().contains("cancelled"), "{result}");
         assert!(errors(&output).contains("interrupted") && out.join("scene.svg").exists());
     }

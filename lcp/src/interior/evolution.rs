@@ -192,8 +192,7 @@ impl Evolution {
         let monitor = Monitor::new(max_iterations, time_limit, observer);
         let origin = at.clone();
         let (limit, dissipation) = (None, 0.0);
-        let moving =
-            Moving { problem, tolerance, search, monitor, origin, at, limit, dissipation };
+        let moving = Moving { problem, tolerance, search, monitor, origin, at, limit, dissipation };
         moving.until_rest(at_once)
     }
 }
@@ -332,7 +331,8 @@ impl Moving<'_, '_> {
             let solution = other.found()?;
             let slid = |(point, (_, t_t)): (&Point, &(f64, f64))| -t_t * point.slip(&u);
             let dissipation = scaled.points.iter().zip(&forces).map(slid).sum();
-            let moved = u.iter().zip(&*origin).fold(0.0, |max: f64, (u, at)| max.max((u - at).abs()));
+            let moved =
+                u.iter().zip(&*origin).fold(0.0, |max: f64, (u, at)| max.max((u - at).abs()));
             states = Some((at.u.clone(), at.forces(), at.contacts(scaled)));
             let found = Found::Rest(from, Box::new(solution));
             Some(Settled { found, slip, moved, dissipation })

@@ -94,7 +94,8 @@ impl OutDir {
         // What another command has written before is not its file any more.
         record.values_mut().for_each(|names| names.retain(|name| !self.claimed.contains(name)));
         let (mut left, mut removed) = (Vec::new(), Vec::new());
-        for name in earlier.into_iter().filter(|it| is_file_name(it) && !self.claimed.contains(it)) {
+        for name in earlier.into_iter().filter(|it| is_file_name(it) && !self.claimed.contains(it))
+        {
             let path = self.path.join(&name);
             if path.exists() {
                 let is_removed = !kept && fs::remove_file(path).is_ok();
@@ -103,7 +104,11 @@ impl OutDir {
         }
         for (names, what) in [(&removed, "removed"), (&left, "left")] {
             if !names.is_empty() {
-                eprintln!("{what} in {}, of an earlier run: {}", self.path.display(), names.join(", "));
+                eprintln!(
+                    "{what} in {}, of an earlier run: {}",
+                    self.path.display(),
+                    names.join(", ")
+                );
             }
         }
         record.insert(self.command.to_owned(), self.claimed.iter().cloned().chain(left).collect());
@@ -117,7 +122,9 @@ impl OutDir {
         file.set_len(0)
             .and_then(|()| file.rewind())
             .and_then(|()| file.write_all(text.as_bytes()))
-            .map_err(|error| format!("cannot write {}: {error}", self.path.join(RECORD).display()).into())
+            .map_err(|error| {
+                format!("cannot write {}: {error}", self.path.join(RECORD).display()).into()
+            })
     }
 }
 

@@ -119,11 +119,16 @@ fn say_how_to_go_on(args: &SolveArgs, outcome: &Outcome) {
     let Some(history) = &outcome.history else { return };
     let (solved, steps) = (history.records.len(), history.steps);
     match &args.out {
-        _ if solved == 0 => eprintln!("interrupted in the first of {steps} steps: nothing to go on from"),
-        None => eprintln!("interrupted after step {solved} of {steps}; with --out a run can go on from there"),
+        _ if solved == 0 => {
+            eprintln!("interrupted in the first of {steps} steps: nothing to go on from")
+        }
+        None => eprintln!(
+            "interrupted after step {solved} of {steps}; with --out a run can go on from there"
+        ),
         Some(out) => {
             let [scene, out] = [&args.scene, out].map(|path| quoted(path));
-            let route = args.route.map_or(String::new(), |route| format!(" --route {}", route.name()));
+            let route =
+                args.route.map_or(String::new(), |route| format!(" --route {}", route.name()));
             let json = if args.json { " --json" } else { "" };
             eprintln!(
                 "interrupted after step {solved} of {steps}; this goes on from there:\n  \

@@ -14,7 +14,9 @@
 //! Rigid blocks without gaps stand if there are such forces: at rest every gap and every slip is zero. For all other
 //! walls they are necessary but not sufficient.
 
-use lcp::{InteriorPoint, InteriorPointSettings, Iteration, MixedLcp, Observer, Solution, Solver, Status};
+use lcp::{
+    InteriorPoint, InteriorPointSettings, Iteration, MixedLcp, Observer, Solution, Solver, Status,
+};
 
 use crate::model::Model;
 use crate::system::System;
