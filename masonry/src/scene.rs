@@ -436,7 +436,7 @@ impl Scene {
     /// # Errors
     /// What is wrong with the text or the data, with line and column.
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
-        Self::parse(Source::text(text))
+        Self::parse(&Source::text(text))
     }
 
     /// Reads a scene from a TOML file and [checks](Scene::check) it.
@@ -447,7 +447,7 @@ impl Scene {
     pub fn read(path: &Path) -> Result<Self, SceneError> {
         let text = std::fs::read_to_string(path)
             .map_err(|error| SceneError::unreadable(path, &error.to_string()))?;
-        Self::parse(Source::file(path, &text))
+        Self::parse(&Source::file(path, &text))
     }
 
     /// The scene as TOML text, which reads back as an equal scene.
@@ -462,8 +462,8 @@ impl Scene {
         Self { source: Source::default(), ..self.clone() }
     }
 
-    fn parse(source: Source) -> Result<Self, SceneError> {
-        let mut scene = Self { source: source.clone(), ..Self::of(&source)? };
+    fn parse(source: &Source) -> Result<Self, SceneError> {
+        let mut scene = Self { source: source.clone(), ..Self::of(source)? };
         if let Some(list) = &scene.block_list {
             let source = source.with_list(list).map_err(|error| {
                 let (path, message) = (list.clone(), error.to_string());
@@ -481,7 +481,8 @@ impl Scene {
         let mut scene: Self =
             toml::from_str(source.as_str()).map_err(|error| SceneError::syntax(source, &error))?;
         if let Some(list) = source.list() {
-            let wrong = |(message, place)| SceneError::list(&list.path, message, place);
+            let wrong =
+                |(message, place): (String, _)| SceneError::list(&list.path, &message, place);
             scene.blocks.extend(block_list::blocks(list).map_err(wrong)?);
             scene.block_list = None;
         }

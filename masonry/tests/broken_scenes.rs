@@ -55,10 +55,14 @@ fn block(corners: &str, more: &str) -> String {
 const SQUARE: &str = "[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]";
 
 /// What is wrong, and the scene.
-fn scenes() -> Vec<(&'static str, String)> {
-    let semicircular = "shape = \"semicircular\"\nspan = 4.0";
-    let on_piers = |piers: &str| ring(&format!("{semicircular}\npiers = {{ {piers} }}"));
-    let upright = "[[0.0, 0.0], [0.0, 1.0]]";
+type Broken = Vec<(&'static str, String)>;
+
+fn scenes() -> Broken {
+    [walls(), of_openings(), arches(), voussoirs(), blocks()].concat()
+}
+
+/// Bonds and courses.
+fn walls() -> Broken {
     vec![
         ("a wall without a width", wall("courses = 3")),
         ("a wall without courses", wall("width = 2.0\ncourses = 0")),
@@ -76,6 +80,12 @@ fn scenes() -> Vec<(&'static str, String)> {
                 + &wall("width = 2.0\ncourses = 3")[(TOP.len() + FLOOR.len())..]
                     .replace("name = \"wall\"", "name = \"second\""),
         ),
+    ]
+}
+
+/// Openings and lintels.
+fn of_openings() -> Broken {
+    vec![
         ("an opening wider than the wall", openings("{ x = 0.4, width = 5.0, courses = 4 }")),
         (
             "an opening that reaches beyond the wall",
@@ -122,6 +132,12 @@ fn scenes() -> Vec<(&'static str, String)> {
                 "{ x = 1.0, width = 0.8, courses = 4 }, { x = 1.2, width = 0.4, course = 5, courses = 2 }",
             ),
         ),
+    ]
+}
+
+/// Shapes of arches.
+fn arches() -> Broken {
+    vec![
         ("a rise larger than the radius", ring("shape = \"segmental\"\nspan = 4.0\nrise = 3.0")),
         ("an arc without a rise", ring("shape = \"segmental\"\nspan = 4.0")),
         (
@@ -150,6 +166,15 @@ fn scenes() -> Vec<(&'static str, String)> {
             "a flat arch that does not lean as it should",
             ring("shape = \"flat\"\nspan = 4.0\nskew_deg = -5.0"),
         ),
+    ]
+}
+
+/// Voussoirs, joints and piers.
+fn voussoirs() -> Broken {
+    let semicircular = "shape = \"semicircular\"\nspan = 4.0";
+    let on_piers = |piers: &str| ring(&format!("{semicircular}\npiers = {{ {piers} }}"));
+    let upright = "[[0.0, 0.0], [0.0, 1.0]]";
+    vec![
         (
             "an arch without voussoirs",
             arch(&format!("thickness = 0.5\nvoussoirs = 0\n{semicircular}")),
@@ -197,6 +222,12 @@ fn scenes() -> Vec<(&'static str, String)> {
             lines("[[0.0, 0.0], [0.5, 1.0]], [[2.0, 0.0], [1.5, 1.0]]")
                 .replace("lines", "piers = { width = 1.0, height = 1.0, courses = 2 }\nlines"),
         ),
+    ]
+}
+
+/// Single blocks, and names.
+fn blocks() -> Broken {
+    vec![
         ("corners clockwise", block("[[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]", "")),
         ("a block with a dent", block("[[0.0, 0.0], [1.0, 0.0], [0.2, 0.3], [0.0, 1.0]]", "")),
         (

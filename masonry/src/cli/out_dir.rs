@@ -92,7 +92,9 @@ impl OutDir {
         let mut record = self.record.clone();
         let earlier = record.remove(self.command).unwrap_or_default();
         // What another command has written before is not its file any more.
-        record.values_mut().for_each(|names| names.retain(|name| !self.claimed.contains(name)));
+        for names in record.values_mut() {
+            names.retain(|name| !self.claimed.contains(name));
+        }
         let (mut left, mut removed) = (Vec::new(), Vec::new());
         for name in earlier.into_iter().filter(|it| is_file_name(it) && !self.claimed.contains(it))
         {

@@ -120,7 +120,7 @@ fn say_how_to_go_on(args: &SolveArgs, outcome: &Outcome) {
     let (solved, steps) = (history.records.len(), history.steps);
     match &args.out {
         _ if solved == 0 => {
-            eprintln!("interrupted in the first of {steps} steps: nothing to go on from")
+            eprintln!("interrupted in the first of {steps} steps: nothing to go on from");
         }
         None => eprintln!(
             "interrupted after step {solved} of {steps}; with --out a run can go on from there"

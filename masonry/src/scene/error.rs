@@ -61,8 +61,8 @@ impl SceneError {
         Self::new(kind, KeyPath::default(), place, source.path().map(Path::to_owned))
     }
 
-    pub(super) fn list(path: &Path, message: String, place: Option<Place>) -> Self {
-        let kind = SceneErrorKind::Syntax { message: with_nearest(&message) };
+    pub(super) fn list(path: &Path, message: &str, place: Option<Place>) -> Self {
+        let kind = SceneErrorKind::Syntax { message: with_nearest(message) };
         Self::new(kind, KeyPath::default(), place, Some(path.to_owned()))
     }
 

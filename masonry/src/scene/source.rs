@@ -18,7 +18,7 @@ pub(super) struct Source(Option<Arc<Text>>);
 #[derive(Debug)]
 struct Text {
     file: Option<PathBuf>,
-    text: String,
+    scene: String,
     list: Option<List>,
 }
 
@@ -37,12 +37,12 @@ impl PartialEq for Source {
 
 impl Source {
     pub(super) fn text(text: &str) -> Self {
-        Self(Some(Arc::new(Text { file: None, text: text.to_owned(), list: None })))
+        Self(Some(Arc::new(Text { file: None, scene: text.to_owned(), list: None })))
     }
 
     pub(super) fn file(path: &Path, text: &str) -> Self {
         let file = Some(path.to_owned());
-        Self(Some(Arc::new(Text { file, text: text.to_owned(), list: None })))
+        Self(Some(Arc::new(Text { file, scene: text.to_owned(), list: None })))
     }
 
     /// The same with the list of blocks in a file, whose path is relative to that of the scene.
@@ -53,11 +53,11 @@ impl Source {
         let path = self.path().and_then(Path::parent).map_or(list.to_owned(), |it| it.join(list));
         let text = std::fs::read_to_string(&path)?;
         let (file, scene) = (self.path().map(Path::to_owned), self.as_str().to_owned());
-        Ok(Self(Some(Arc::new(Text { file, text: scene, list: Some(List { path, text }) }))))
+        Ok(Self(Some(Arc::new(Text { file, scene, list: Some(List { path, text }) }))))
     }
 
     pub(super) fn as_str(&self) -> &str {
-        self.0.as_ref().map_or("", |source| &source.text)
+        self.0.as_ref().map_or("", |source| &source.scene)
     }
 
     pub(super) fn path(&self) -> Option<&Path> {
@@ -82,7 +82,7 @@ impl Source {
         let list = self.list()?;
         let [Step::Key(key), Step::Index(index), inner @ ..] = path.steps() else { return None };
         let table = DeTable::parse(self.as_str()).ok()?;
-        let own = match table.get_ref().get("blocks").map(|blocks| blocks.get_ref()) {
+        let own = match table.get_ref().get("blocks").map(toml::Spanned::get_ref) {
             Some(DeValue::Array(blocks)) => blocks.len(),
             _ => 0,
         };
@@ -93,7 +93,7 @@ impl Source {
     }
 
     fn locate_in_scene(&self, path: &KeyPath) -> Option<Place> {
-        let text = &self.0.as_ref()?.text;
+        let text = &self.0.as_ref()?.scene;
         let table = DeTable::parse(text).ok()?;
         let mut span = None;
         let mut value: Option<&DeValue<'_>> = None;
@@ -113,7 +113,7 @@ impl Source {
 
     /// The place of a range of bytes.
     pub(super) fn place(&self, span: Range<usize>) -> Option<Place> {
-        Place::new(&self.0.as_ref()?.text, span)
+        Place::new(&self.0.as_ref()?.scene, span)
     }
 }
 
