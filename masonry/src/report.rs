@@ -6,6 +6,7 @@
 pub mod csv;
 mod format;
 pub mod json;
+pub mod limit;
 #[cfg(feature = "study")]
 pub mod study;
 pub mod summary;
@@ -170,6 +171,24 @@ fn titled(outcome: &Outcome) -> String {
     } else {
         format!("{verdict}: {}", outcome.title)
     }
+}
+
+/// Writes files into a directory, which is created: each whole or not at all, whatever becomes of the others.
+fn write_files(
+    dir: &Path,
+    files: Vec<(&str, io::Result<String>)>,
+) -> Result<Vec<PathBuf>, OutputError> {
+    fs::create_dir_all(dir)
+        .map_err(|source| OutputError::Directory { path: dir.to_owned(), source })?;
+    let (mut written, mut failed) = (Vec::new(), Vec::new());
+    for (name, text) in files {
+        let path = dir.join(name);
+        match text.and_then(|text| write_atomically(&path, text.as_bytes())) {
+            Ok(()) => written.push(path),
+            Err(error) => failed.push((path, error)),
+        }
+    }
+    if failed.is_empty() { Ok(written) } else { Err(OutputError::Files { written, failed }) }
 }
 
 fn listed(failed: &[(PathBuf, io::Error)]) -> String {

@@ -1,4 +1,4 @@
-//! Pictures as SVG: the scene, principal stresses, the deformed structure, a mechanism, diagrams.
+//! Pictures as SVG: the scene, principal stresses, the deformed structure, forces in joints, a mechanism, diagrams.
 //!
 //! Every function returns the text of a whole file, with the legend outside the drawing. Numbers have a fixed count of digits, so that equal input gives equal bytes.
 
@@ -6,6 +6,7 @@ mod canvas;
 mod deformed;
 #[cfg(feature = "study")]
 pub mod diagram;
+mod forces;
 mod loads;
 mod marks;
 mod mechanism;
@@ -14,6 +15,7 @@ mod sheet;
 mod stresses;
 
 pub use deformed::deformed;
+pub use forces::forces;
 pub use mechanism::mechanism;
 pub use scene::scene;
 pub use stresses::{ReferenceLines, principal_stresses};

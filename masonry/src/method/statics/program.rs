@@ -4,6 +4,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use lcp::MixedLcp;
 
 use crate::law::Friction;
+use crate::rounding;
 use crate::system::{BodySystem, System};
 
 /// What is left of the balance of a block, relative to the largest load, in forces that are called admissible.
@@ -23,10 +24,28 @@ pub(super) struct Program<'a> {
     loads: Vec<f64>,
     /// The largest load \[N\].
     unit: f64,
+    /// Whether the last column of `E` is no force but what a factor adds to the loads.
+    grows: bool,
 }
 
 impl<'a> Program<'a> {
+    /// `growth` is what a factor of one adds to the loads, `N^T f` of all blocks \[N\].
+    pub(super) fn growing(system: &'a System, growth: &[f64]) -> Self {
+        let mut program = Self::with_unit(system, growth);
+        let column = program.columns();
+        let unit = program.unit;
+        let nonzero = growth.iter().enumerate().filter(|(_, g)| **g != 0.0);
+        program.entries.extend(nonzero.map(|(i, g)| (i, column, g / unit)));
+        program.grows = true;
+        program
+    }
+
     pub(super) fn of(system: &'a System) -> Self {
+        Self::with_unit(system, &[])
+    }
+
+    /// In units of the largest load, these among them.
+    fn with_unit(system: &'a System, more: &[f64]) -> Self {
         let mut edges = vec![1; system.points()];
         for friction in system.friction.iter().filter(|friction| friction.mu > 0.0) {
             edges[friction.contact.index()] = 2;
@@ -37,12 +56,13 @@ impl<'a> Program<'a> {
             Some(*sum)
         }));
         let resultants = system.resultants();
-        let largest = resultants.iter().fold(0.0, |unit: f64, f| unit.max(f.abs()));
+        let largest = rounding::largest(resultants.iter().chain(more));
         let unit = if largest > 0.0 { largest } else { 1.0 };
         let loads = resultants.iter().map(|f| f / unit).collect();
         let with_base = system.friction.iter().enumerate().filter(|(_, it)| it.base > 0.0);
         let constant = with_base.map(|(k, it)| (k, it.base / unit)).collect();
-        let mut program = Self { system, first, constant, entries: Vec::new(), loads, unit };
+        let entries = Vec::new();
+        let mut program = Self { system, first, constant, entries, loads, unit, grows: false };
         for (b, body) in system.bodies.iter().enumerate() {
             program.add(b, body);
         }
@@ -91,9 +111,72 @@ impl<'a> Program<'a> {
         [1.0 / length, mu / length]
     }
 
+    /// What each force along a column adds to a linear function of the forces of all rows.
+    pub(super) fn gain(&self, of_rows: &[f64]) -> Vec<(usize, f64)> {
+        let (normals, tangents) = of_rows.split_at(self.system.points());
+        let mut gain = Vec::new();
+        for (point, normal) in normals.iter().enumerate() {
+            let [along, _] = self.parts(point);
+            gain.extend((self.first[point]..self.first[point + 1]).map(|k| (k, along * normal)));
+        }
+        for (friction, tangent) in self.system.friction.iter().zip(tangents) {
+            if friction.mu > 0.0 {
+                let point = friction.contact.index();
+                let (edge, [_, across]) = (self.first[point], self.parts(point));
+                gain[edge].1 += across * tangent;
+                gain[edge + 1].1 -= across * tangent;
+            }
+        }
+        let constant = self.constant.iter().enumerate();
+        gain.extend(constant.map(|(place, (k, _))| (self.edges() + 2 * place, tangents[*k])));
+        gain
+    }
+
+    /// What no forces can exceed of a gain, by a motion `x` with `E^T x >= gain` \[N\].
+    pub(super) fn bound(&self, motion: &[f64], gain: &[(usize, f64)]) -> f64 {
+        let (blocks, motion) = self.of_blocks(motion);
+        let mut pushed = vec![0.0; self.forces()];
+        for &(i, k, v) in self.entries.iter().filter(|(i, ..)| *i < blocks) {
+            pushed[k] += v * motion[i];
+        }
+        let mut beyond = pushed.clone();
+        for (k, gain) in gain {
+            beyond[*k] -= gain;
+        }
+        let work: f64 = self.loads.iter().zip(motion).map(|(r, x)| r * x).sum();
+        // The loads have `-C_0` along each force of constant friction.
+        let pairs = self.constant.iter().enumerate();
+        let pairs = pairs.map(|(place, (_, base))| (self.edges() + 2 * place, base));
+        let constant: f64 = pairs.map(|(k, base)| base * (beyond[k].abs() - pushed[k])).sum();
+        self.unit * (constant - work)
+    }
+
+    /// The number of balances of blocks, and of a motion the part that moves these.
+    fn of_blocks<'b>(&self, motion: &'b [f64]) -> (usize, &'b [f64]) {
+        let blocks = 3 * self.system.bodies.len();
+        (blocks, &motion[..blocks])
+    }
+
+    /// The forces along edges that balance one another and gain one: any number of times them can be added to others.
+    pub(super) fn circulating(mut self, gain: &[(usize, f64)]) -> Self {
+        let (edges, row) = (self.edges(), 3 * self.system.bodies.len());
+        self.constant.clear();
+        self.entries.retain(|(_, k, _)| *k < edges);
+        let of_edges = gain.iter().filter(|(k, gain)| *k < edges && *gain != 0.0);
+        self.entries.extend(of_edges.map(|(k, gain)| (row, *k, *gain)));
+        self.loads = vec![0.0; row];
+        self.loads.push(-1.0);
+        self
+    }
+
     /// No load acts.
     pub(super) fn is_unloaded(&self) -> bool {
         self.loads[..3 * self.system.bodies.len()].iter().all(|load| load.abs() <= 0.0)
+    }
+
+    /// The largest load \[N\].
+    pub(super) fn unit(&self) -> f64 {
+        self.unit
     }
 
     /// Rigid amplitudes of all blocks, and a multiplier of every bound of constant friction.
@@ -101,31 +184,66 @@ impl<'a> Program<'a> {
         self.loads.len()
     }
 
-    fn edges(&self) -> usize {
+    /// Columns that are forces along the edges of cones.
+    pub(super) fn edges(&self) -> usize {
         self.first[self.first.len() - 1]
     }
 
-    /// Of `E`.
-    pub(super) fn columns(&self) -> usize {
+    /// Columns of `E` that are forces: along edges, and the pairs of constant friction.
+    pub(super) fn forces(&self) -> usize {
         self.edges() + 2 * self.constant.len()
+    }
+
+    /// Of `E`: the forces, and the factor of the loads that grow.
+    pub(super) fn columns(&self) -> usize {
+        self.forces() + usize::from(self.grows)
     }
 
     pub(super) fn entries(&self) -> &[(usize, usize, f64)] {
         &self.entries
     }
 
+    /// The entries of the first columns.
+    pub(super) fn entries_of(&self, columns: usize) -> Vec<(usize, usize, f64)> {
+        self.entries.iter().filter(|(_, k, _)| *k < columns).copied().collect()
+    }
+
+    /// The factor under which what grows is as large as the loads that stay.
+    pub(super) fn size_of_factor(&self) -> f64 {
+        let growth = self.entries.iter().filter(|(_, k, _)| *k >= self.forces()).map(|(.., g)| g);
+        rounding::largest(&self.system.resultants()) / self.unit / rounding::largest(growth)
+    }
+
     /// `E p + r = 0` and `0 <= p _|_ p + E^T x >= 0`.
     pub(super) fn least_forces(&self) -> Result<MixedLcp, lcp::Error> {
+        let n = self.unknowns();
+        let ones: Vec<_> = (n..n + self.columns()).map(|i| Triplet::new(i, i, 1.0)).collect();
+        self.mixed(&ones, &[])
+    }
+
+    /// `max gain . p` subject to `E p + r = 0`, `p >= 0`: a linear program, whose multipliers are a motion `x` with
+    /// `E^T x >= gain`.
+    pub(super) fn greatest(&self, gain: &[(usize, f64)]) -> Result<MixedLcp, lcp::Error> {
+        self.mixed(&[], gain)
+    }
+
+    fn mixed(
+        &self,
+        symmetric: &[Triplet<usize, usize, f64>],
+        gain: &[(usize, f64)],
+    ) -> Result<MixedLcp, lcp::Error> {
         let n = self.unknowns();
         let order = n + self.columns();
         let mut q: Vec<f64> = self.loads.iter().map(|r| -r).collect();
         q.resize(order, 0.0);
+        for (k, gain) in gain {
+            q[n + k] -= gain;
+        }
         let skew = self
             .entries
             .iter()
             .flat_map(|&(i, k, v)| [Triplet::new(i, n + k, -v), Triplet::new(n + k, i, v)]);
-        let ones = (n..order).map(|i| Triplet::new(i, i, 1.0));
-        let triplets: Vec<_> = skew.chain(ones).collect();
+        let triplets: Vec<_> = skew.chain(symmetric.iter().copied()).collect();
         let m = SparseColMat::try_new_from_triplets(order, order, &triplets)
             .unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}"));
         MixedLcp::new(m, q, (0..order).map(|j| j < n).collect())
@@ -137,10 +255,11 @@ impl<'a> Program<'a> {
         let mut rest = self.loads.clone();
         self.entries.iter().for_each(|&(i, k, v)| rest[i] += v * p[k]);
         let is_balanced = rest.iter().all(|rest| rest.abs() <= BALANCED);
-        is_balanced.then(|| self.forces(&p))
+        is_balanced.then(|| self.of_rows(&p))
     }
 
-    fn forces(&self, p: &[f64]) -> Vec<f64> {
+    /// The forces of all rows \[N\].
+    fn of_rows(&self, p: &[f64]) -> Vec<f64> {
         let points = self.system.points();
         let mut forces = vec![0.0; self.system.rows.len()];
         for point in 0..points {
@@ -154,7 +273,9 @@ impl<'a> Program<'a> {
                 forces[points + k] = self.unit * self.parts(point)[1] * (p[edge] - p[edge + 1]);
             }
         }
-        for ((k, base), q) in self.constant.iter().zip(p[self.edges()..].chunks_exact(2)) {
+        for ((k, base), q) in
+            self.constant.iter().zip(p[self.edges()..self.forces()].chunks_exact(2))
+        {
             forces[points + k] += self.unit * (q[0] - base).clamp(-base, *base);
         }
         forces

@@ -8,8 +8,12 @@ use faer::linalg::solvers::Solve;
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Col, Side};
 
+use crate::rounding;
+
 /// Work of a force of one below these parts of the largest velocity is none, in attempts one after the other.
 const AT_REST: [f64; 4] = [1e-9, 1e-7, 1e-5, 1e-3];
+/// A force, relative to the largest, is large beside its work, likewise, when it is so many times as large.
+const LARGE: [f64; 3] = [1.0, 1e-2, 1e2];
 /// `delta`, relative to the largest diagonal.
 const SHIFT: f64 = 1e-9;
 /// Each makes what is not in the null space a million times smaller, or more.
@@ -37,6 +41,25 @@ pub(super) fn candidates<'a>(
         projected(motion, entries, &is_idle)
     });
     std::iter::once(motion.to_vec()).chain(near)
+}
+
+/// Motions near one that comes with forces, on which the forces that are large beside their work do no work.
+pub(super) fn complementary<'a>(
+    motion: &'a [f64],
+    forces: &'a [f64],
+    entries: &'a [(usize, usize, f64)],
+) -> impl Iterator<Item = Vec<f64>> + 'a {
+    let mut work = vec![0.0; forces.len()];
+    for &(i, k, v) in entries {
+        work[k] += v * motion[i];
+    }
+    let [most, farthest] = [forces, &work[..]].map(rounding::largest);
+    LARGE.into_iter().filter_map(move |large| {
+        let pairs = work.iter().zip(forces);
+        let is_idle: Vec<bool> =
+            pairs.map(|(work, force)| large * work * most <= force * farthest).collect();
+        projected(motion, entries, &is_idle)
+    })
 }
 
 fn projected(
