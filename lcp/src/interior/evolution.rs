@@ -35,9 +35,9 @@ impl Default for EvolutionSettings {
 /// method finds, since its law relates total slips. Bodies do not solve it: they move, and friction opposes the velocity
 /// at every moment. Three ways lead to a state at rest, one after the other ([`Way`]):
 ///
-/// 1. **Smooth friction.** Gaps and normal forces are complementary as always, but friction turns over a short slip `e`, a
-///    thousandth of the displacements: `(mu t_n + t_t) s_+ = (mu t_n - t_t) s_- = e mu t_n`. These equations have a smooth path
-///    of interior points, and forces inside the friction cones.
+/// 1. **Smooth friction.** Gaps and normal forces are complementary as always, but friction turns over a slip `e`, a
+///    thousandth of the displacements, or as long as they are: `(mu t_n + t_t) s_+ = (mu t_n - t_t) s_- = e mu t_n`. These
+///    equations have a smooth path of interior points, and forces inside the friction cones.
 /// 2. **The law itself**, from the states of the contacts that this leads to, as in
 ///    [`InteriorPoint`](crate::InteriorPoint).
 /// 3. **Motion.** The bodies move against a viscosity `eta` from displacements `u_k` to
@@ -50,7 +50,8 @@ impl Default for EvolutionSettings {
 ///    opens the gap by `mu |s|`, which the next motion closes. So every motion is the solution of a convex program, and
 ///    where the bodies come to rest nothing slips and the law is Coulomb's (Anitescu 2006). There is less viscosity from
 ///    motion to motion as long as motions do not become much longer for it. Then rest is looked for by smooth friction.
-///    Motions that go on, with the same viscosity and the same length each, are those of bodies that flow.
+///    Motions that go on, with the same viscosity and the same length each, are those of bodies that flow, if neither bodies
+///    nor closed contacts resist them.
 ///
 /// The first motion measures slips as the problem does, so that supports which are moved drag along what rests on them.
 ///
