@@ -9,4 +9,4 @@ pub(crate) use crossover::Effort;
 #[cfg(feature = "clarabel")]
 pub(crate) use crossover::cross_over;
 pub(crate) use original::{Original, state_brought_right};
-pub(crate) use search::Search;
+pub(crate) use search::{Search, unplanned};

@@ -1,4 +1,4 @@
-//! The method that suits a problem, and the next one where it fails.
+//! A method that suits a problem; if it fails, the next one.
 
 mod chain;
 mod constants;
@@ -23,7 +23,7 @@ pub(crate) use smoothed::Smoothing;
 
 use crate::{Error, Method, Observer, Solution, Solver};
 
-/// A method of a plan, and why it stands there.
+/// A method of a plan, and the reason for it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -31,17 +31,17 @@ pub struct Choice {
     /// The method.
     #[cfg_attr(feature = "serde", serde(rename = "solver"))]
     pub method: Method,
-    /// What speaks for it at this place, with the numbers that it was told from.
+    /// The reason for this method at this place, with the numbers on which it is based.
     pub reason: String,
 }
 
-/// Chooses the methods for a problem by its class and size, and goes from one to the next until an answer
-/// is found, the residuals of which every method checks on the data as given.
+/// Chooses the methods for a problem by its class and size, and runs one after the other until one finds a solution.
+/// Every method checks the residuals in the given data.
 ///
-/// What decides is seen without a factorisation: the order, whether matrices are stored sparse, signs,
-/// symmetry, dominance of the diagonal, friction, the number of contact points. None of it depends on units.
-/// [`plan`](Self::plan) says what is chosen and why, and
-/// [`Info::routes`](crate::Info::routes) what was tried and how it ended.
+/// The choice needs no factorisation. It depends on the order, whether matrices are stored sparse, signs, symmetry,
+/// dominance of the diagonal, friction, and the number of contact points, not on units. [`plan`](Self::plan) gives
+/// the choice and the reasons, and [`Info::routes`](crate::Info::routes) the methods that were tried and how they
+/// ended.
 ///
 /// | problem | chain |
 /// |---|---|
@@ -62,36 +62,34 @@ pub struct Choice {
 /// variables and skew between them; † where the diagonal is positive; ‡ without free variables; § sparse, or dense
 /// up to order 200.
 ///
-/// Problems of up to 12 pairs, apart from free variables, are never left open: after Lemke's method all choices of sides
-/// are gone through by branching, with a solution or a proof for each. All larger ones but [`Contact2d`](crate::Contact2d)
-/// end with Newton's method on smoothed equations, from several starts.
+/// Problems of up to 12 pairs, not counting free variables, are always decided: after Lemke's method all choices of
+/// sides are enumerated by branching, with a solution or a proof for each. All larger ones except
+/// [`Contact2d`](crate::Contact2d) end with Newton's method on smoothed equations, from several starts.
 ///
 /// # Independent parts
-/// Rows and variables that no entry connects are problems by themselves. Each goes through its own chain, so that a
-/// body on its own costs what it costs alone, and few pairs stay few beside others. A part without a solution
-/// proves that the whole has none. A plan and its [`Route`](crate::Route)s have one line for all parts with which they
-/// go alike. More than 256 parts are first tried as one problem.
+/// Rows and variables that no entry connects are independent problems. Each has its own chain, so a body that touches
+/// no other costs the same as alone, and small parts are treated as small problems. A part without a solution proves
+/// that the whole has none. A plan and its [`Route`](crate::Route)s have one line for all parts with the same course.
+/// More than 256 parts are first tried as one problem.
 ///
 /// # When it ends
-/// With [`Solved`](crate::Status::Solved), with [`Infeasible`](crate::Status::Infeasible) or
-/// [`NoSolution`](crate::Status::NoSolution) and a proof, which was checked, and when the time is over. A method that does not treat the problem, or takes more memory than there is,
-/// is passed over. After [`NoEquilibrium`](crate::Status::NoEquilibrium) of more than 500 contact points only
-/// the quadratic program is asked, which may find a proof.
+/// With [`Solved`](crate::Status::Solved); with [`Infeasible`](crate::Status::Infeasible) or
+/// [`NoSolution`](crate::Status::NoSolution) and a checked proof; or at the time limit. A method that does not treat
+/// the problem, or needs more memory than there is, is skipped. After [`NoEquilibrium`](crate::Status::NoEquilibrium)
+/// for more than 500 contact points only the quadratic program follows, which may find a proof.
 ///
-/// Without such an end it gives, in this order: a point with residuals below the root of the tolerance;
-/// the evidence of [`NoEquilibrium`](crate::Status::NoEquilibrium); a ray
-/// ([`RayTermination`](crate::Status::RayTermination)); the point with the smallest residual. Where an answer
-/// comes near a solution and is none, the next method starts from it, unless its residuals are small and it was
-/// refused for being far out.
+/// Otherwise the result is, in this order: a point with residuals below the square root of the tolerance; the
+/// evidence of [`NoEquilibrium`](crate::Status::NoEquilibrium); a ray
+/// ([`RayTermination`](crate::Status::RayTermination)); the point with the smallest residual. If a result is near a
+/// solution, the next method starts from it, unless its residuals are small and it was refused as a distant point.
 ///
 /// # Observer
-/// It goes to the methods in turn, each of which counts its iterations from 0. `Break` ends the chain like the
-/// end of the time: with [`Cancelled`](crate::Status::Cancelled), where the methods before have left neither
-/// evidence nor a ray.
+/// It is passed to each method in turn, which counts its iterations from 0. `Break` ends the chain like the time
+/// limit: with [`Cancelled`](crate::Status::Cancelled), unless a previous method found evidence or a ray.
 ///
 /// # Cost
-/// That of the methods that were tried. A method that fails may take long: set
-/// [`AutoSettings::time_limit`] where that matters.
+/// The cost is that of the methods that were tried. A method that fails may take long: set
+/// [`AutoSettings::time_limit`] if that matters.
 ///
 /// ```
 /// use lcp::{Auto, Method, Solver, families};
@@ -122,7 +120,7 @@ impl Auto {
         &self.settings
     }
 
-    /// The methods for a problem in the order in which they would be asked.
+    /// The methods for a problem, in order.
     pub fn plan<P: Planned>(&self, problem: &P) -> Vec<Choice> {
         let steps = divided::steps(problem).into_iter();
         steps.map(|step| Choice { method: step.method, reason: step.reason }).collect()

@@ -1,26 +1,26 @@
-//! The judge: the only place that says how good a point is, and whether a proof is one.
+//! The only place that decides how good a point is, and whether a proof is valid.
 //!
-//! A point is measured by the rows of the problem as it was given, each against its own terms, so that no
-//! scaling of rows or variables changes the verdict, and no large entry excuses a small one elsewhere:
+//! A point is measured by the rows of the given problem, each relative to its own terms, so the result does not
+//! depend on the scaling of rows or variables, and a large entry in one row does not hide an error in another:
 //!
-//! * **equation**: `|r_i| / terms_i`, where `r_i` is what is left of row `i` and `terms_i` the sum of the sizes
-//!   of its terms. It is the smallest relative change of the data of the row that makes it hold (Oettli and
-//!   Prager 1964).
-//! * **feasibility**: a component that violates its sign is taken to be set to zero, which changes row `i` by
-//!   `a_ij x_j`. It counts by the largest `|a_ij x_j| / terms_i`.
-//! * **complementarity**: of a pair whose variables are both positive the one that counts less is taken to be
-//!   set to zero, and counts likewise.
-//! * **loads**: what is left of a row, with what the two changes above add to it, against the largest right-hand
-//!   side of its connected part, in equilibrated units. Far out, where the terms are large, a row may hold
-//!   to a small part of its terms and not at all compared with the loads: such a point may be near no solution.
+//! * **equation**: `|r_i| / terms_i`, where `r_i` is the residual of row `i` and `terms_i` the sum of the sizes of
+//!   its terms. It is the smallest relative change of the data of the row for which it holds (Oettli and Prager
+//!   1964).
+//! * **feasibility**: setting a component that violates its sign to zero changes row `i` by `a_ij x_j`. It counts by
+//!   the largest `|a_ij x_j| / terms_i`.
+//! * **complementarity**: in a pair whose variables are both positive, the one with the smaller effect counts by the
+//!   effect of setting it to zero.
+//! * **loads**: the residual of a row plus the two changes above, relative to the largest right-hand side of its
+//!   connected part, in equilibrated units. For a distant point, with large terms, a row may hold relative to its
+//!   terms and not at all relative to the loads: such a point need not be near a solution.
 //!
-//! A row that matters to none of the rows that carry loads does not count, see [`significance`].
+//! A row without effect on the rows that carry loads does not count, see [`significance`].
 //!
-//! Rows and pairs are those that the problem is stated in: `(z, w)` of standard, mixed and boxed problems, forces,
-//! gaps and slips of contact. A conversion never decides.
+//! Rows and pairs are those of the problem as stated: `(z, w)` of standard, mixed and boxed problems, forces, gaps
+//! and slips of contact. A conversion does not affect the result.
 //!
-//! Residuals are computed in `f64`, and with twice the digits where rounding errors of the terms are not small
-//! against the loads.
+//! Residuals are computed in `f64`, and in double-double arithmetic where rounding errors of the terms are not small
+//! compared with the loads.
 
 mod boxed;
 mod certificate;
@@ -46,16 +46,16 @@ pub(crate) use ledger::{Precision, ratio};
 
 use crate::Status;
 
-/// How far a point is from a solution: dimensionless, from the data as given, whatever their units. See
+/// The errors of a point: dimensionless, from the given data, independent of units. See
 /// [`HorizontalLcp::residuals`](crate::HorizontalLcp::residuals).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Residuals {
-    /// Largest `|r_i| / terms_i` of what is left of a row and the sum of the sizes of its terms.
+    /// Largest `|r_i| / terms_i`, with the residual of a row and the sum of the sizes of its terms.
     #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub equation: f64,
-    /// The largest effect of a component that violates its sign or its bound: the largest
-    /// `|a_ij x_j| / terms_i` of the change that takes the violation away.
+    /// The largest effect of a component that violates its sign or its bound: the largest `|a_ij x_j| / terms_i` of
+    /// the change that removes the violation.
     #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub feasibility: f64,
     /// The largest effect of the smaller one of a pair whose variables are both positive.
@@ -64,20 +64,20 @@ pub struct Residuals {
     /// Feasibility and complementarity in one number.
     #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub natural: f64,
-    /// What is left of a row, and of the changes that feasibility and complementarity ask for, against the
-    /// largest right-hand side of its connected part in equilibrated units.
+    /// The residual of a row plus the changes of feasibility and complementarity, relative to the largest right-hand
+    /// side of its connected part in equilibrated units.
     #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub loads: f64,
 }
 
 impl Residuals {
-    /// The largest of the residuals: the number that decides.
+    /// The largest of the residuals, which decides the status.
     pub fn worst(&self) -> f64 {
         self.equation.max(self.natural).max(self.loads)
     }
 
-    /// What tells progress on the way to a solution: the geometric mean of what decides and of what is left of the
-    /// loads. Where a contact comes to rest the first falls only at the end, long after the second.
+    /// A measure of progress: the geometric mean of the deciding residual and of that of the loads. If a contact
+    /// comes to rest, the first decreases only at the end, long after the second.
     pub fn merit(&self) -> f64 {
         let worst = self.worst();
         (worst * self.loads.max(f64::EPSILON * worst)).sqrt()

@@ -1,4 +1,4 @@
-//! Misuse: errors name the place and the remedy. What the mathematics decides is a
+//! Errors are mistakes in the input; they name the place and the remedy. A mathematical outcome is a
 //! [`Status`](crate::Status), not an error.
 
 use std::str::FromStr;
@@ -35,7 +35,7 @@ pub enum Error {
         /// The entry.
         value: f64,
     },
-    /// Numbers that add up to more than the largest one.
+    /// Numbers whose sum overflows.
     #[error(
         "the sizes of {what} in row {row} add up to more than the largest number: choose units in which they are \
          smaller"
@@ -113,7 +113,7 @@ pub enum Error {
         /// The mirrored entry.
         mirrored: f64,
     },
-    /// A variable that no value fits.
+    /// A variable without an admissible value.
     #[error(
         "bounds of variable {index} are {lower:?} and {upper:?}: the lower one must not exceed the upper \
          one, their distance must be a finite number, and -inf or inf is for no bound"
@@ -165,7 +165,7 @@ pub enum Error {
     NotTreated {
         /// The method.
         method: Method,
-        /// What is in the way, and which method to take instead.
+        /// The reason, and which method to use instead.
         reason: String,
     },
     /// A name that no method has.

@@ -1,7 +1,7 @@
-//! Exact arithmetic: what is true of a small problem, whatever the rounding (feature `exact`).
+//! Exact arithmetic: exact solutions of small problems (feature `exact`).
 //!
-//! Every `f64` is a rational number, so that a problem has an exact answer. This module finds it,
-//! for tests, for teaching and for disputes with a floating-point solver:
+//! Every `f64` is a rational number, so a problem has an exact solution. This module finds it, for tests, for
+//! teaching, and to check floating-point solvers:
 //!
 //! * [`verify_basis`] solves one complementary basis, say that of a [`Solution`](crate::Solution).
 //! * [`enumerate`] finds all solutions of a small problem: isolated points, segments, polyhedra.

@@ -1,10 +1,9 @@
-//! Problems made to order, with what is known of their answers: for tests, benchmarks and examples.
+//! Generated problems with known solutions: for tests, benchmarks and examples.
 //!
-//! Every generator is a pure function of its arguments, on every machine. Where an answer is
-//! planted, the data are integers small enough that `q = w - M z` has no rounding, so that the
-//! answer is exact.
+//! Every generator is a pure function of its arguments, on every machine. Planted solutions are exact: the data are
+//! integers small enough that `q = w - M z` has no rounding errors.
 //!
-//! | family | class | what the theory says of Lemke's method |
+//! | family | class | Lemke's method in theory |
 //! |---|---|---|
 //! | [`positive_definite`], [`harker_pang`], [`obstacle()`], [`Obstacle`] | positive definite | solves, unique |
 //! | [`p_matrix`], [`murty`], [`fathi`], [`kostreva_1`] | P | solves, unique |
@@ -46,7 +45,7 @@ use faer::Mat;
 use crate::random::SplitMix;
 use crate::{HorizontalLcp, Lcp, Matrix};
 
-/// A problem and what is known of it.
+/// A problem and what is known about it.
 #[derive(Debug, Clone)]
 pub struct Instance<P = HorizontalLcp> {
     /// The problem.
@@ -55,8 +54,7 @@ pub struct Instance<P = HorizontalLcp> {
     pub known: Known,
 }
 
-/// What is known of a problem. In the standard and in the mixed form `t` is `z` and `y`
-/// is `w`.
+/// What is known about a problem. In the standard and in the mixed form `t` is `z` and `y` is `w`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Known {
     /// It has exactly one solution.

@@ -5,6 +5,7 @@ mod constants;
 mod continuation;
 mod evolution;
 mod iterate;
+mod motion;
 mod path;
 mod problems;
 mod rest;

@@ -1,8 +1,7 @@
 //! Problems in files.
 //!
-//! [`read_file`] and [`read`] give the problem and the format in which they found it. The format is
-//! known by the content, or named by the caller; a file that fits two formats, or none, is refused rather
-//! than guessed at. So is a file with more in it than its problem.
+//! [`read_file`] and [`read`] return the problem and its format. The format is recognised by the content, or named by
+//! the caller. A file that fits two formats or none, or that contains more than its problem, is refused.
 //!
 //! # JSON
 //! One object with a `kind` and the fields of that kind, all of them and no others:
@@ -16,19 +15,18 @@
 //! | `"friction"` | `w`, `q`, `mu` | [`Friction2d`] |
 //! | `"contact"` | `k`, `f`, `c_n`, `c_t`, `x_0`, `s_0`, `mu` | [`Contact2d`] |
 //!
-//! A matrix is an array of its rows, or `{"rows": 2, "cols": 2, "triplets": [[0, 1, 2.5]]}` with
-//! indices from 0 and values that add up where they coincide. [`to_json`] writes this form, with
-//! every digit that the numbers have.
+//! A matrix is an array of its rows, or `{"rows": 2, "cols": 2, "triplets": [[0, 1, 2.5]]}` with indices from 0;
+//! values at the same place are added. [`to_json`] writes this form, with all digits.
 //!
 //! # Plain text
 //! `n`, then the `n x n` numbers of `M` by rows, then the `n` numbers of `q`, separated by white
 //! space; `#` begins a comment. The problem is an [`Lcp`].
 //!
 //! # Siconos
-//! The `.dat` files of that library for linear complementarity problems, mixed ones, and contact
-//! with friction in the plane, reduced to the contacts (`FrictionContactProblem`) or with the velocities of the
-//! bodies (`GlobalFrictionContactProblem`, `M v = q + H r`, `u = H^T v + b`: the problem is a [`Contact2d`] of
-//! velocities and impulses); dense, in sparse blocks, or sparse. Words for people may follow the last number, except of contact problems.
+//! The `.dat` files of that library for linear complementarity problems, mixed ones, and plane contact with friction,
+//! reduced to the contacts (`FrictionContactProblem`) or with the velocities of the bodies
+//! (`GlobalFrictionContactProblem`, `M v = q + H r`, `u = H^T v + b`: the problem is a [`Contact2d`] of velocities
+//! and impulses); dense, in sparse blocks, or sparse. Text may follow the last number, except for contact problems.
 //!
 //! # Matrix Market
 //! [`market`] reads the matrices and vectors of a problem one by one.
@@ -88,7 +86,7 @@ pub fn read_file(path: &Path, format: Option<Format>) -> Result<ProblemFile, Rea
 
 /// Reads the content of a file, in that format or in the one that it fits.
 ///
-/// What is allocated is in proportion to the content, whatever sizes the content announces.
+/// Allocations are in proportion to the content, whatever sizes the content announces.
 ///
 /// ```
 /// use lcp::io::{Format, read};

@@ -1,4 +1,4 @@
-//! Lemke's method on the general form: what its pivots tell, and solutions along a line of right-hand sides.
+//! Lemke's method on the general form: records of its pivots, and solutions along a line of right-hand sides.
 
 mod any_kernel;
 mod artificial;
@@ -39,36 +39,33 @@ use search::Search;
 use crate::solve::deadline_of;
 use crate::{Error, HorizontalLcp, LemkeSettings, Method, Solution};
 
-/// Lemke's method (Lemke 1965; Cottle, Pang and Stone, *The Linear Complementarity Problem*,
-/// section 4.4) on the general form `A t + B y = c` as it stands.
+/// Lemke's method (Lemke 1965; Cottle, Pang and Stone, *The Linear Complementarity Problem*, section 4.4), applied
+/// directly to the general form `A t + B y = c`.
 ///
-/// A nonsingular complementary basis, given or found, turns the problem into `w + T z = q`, which
-/// is equilibrated by powers of two. The artificial variable `z0` enters with the covering vector
-/// `d`, and complementary pivots follow until it leaves. Ties go to `z0` first, then to the
-/// lexicographic rule. The tableau is checked against the data in every block of pivots and
-/// rebuilt when it has drifted; the final basis is solved anew from the original matrices,
-/// refined, and called [`Solved`](crate::Status::Solved) only if its residuals, computed from the
-/// original data, are below the tolerance. A free variable (a pair of opposite columns) is basic
-/// from the start and never leaves.
+/// A nonsingular complementary basis, given or found, turns the problem into `w + T z = q`, which is equilibrated by
+/// powers of two. The artificial variable `z0` enters with the covering vector `d`, and complementary pivots follow
+/// until it leaves. In ties `z0` leaves first; otherwise the lexicographic rule decides. The tableau is checked
+/// against the data in every block of pivots and rebuilt if it has drifted. The equations of the final basis are
+/// solved with the original matrices and refined. The status is [`Solved`](crate::Status::Solved) only if the
+/// residuals, computed from the original data, are below the tolerance. A free variable (a pair of opposite columns)
+/// is basic from the start and never leaves.
 ///
 /// # Guarantee
-/// With exact arithmetic a solution, or a proof that there is none, for copositive-plus `M` (which
-/// includes positive semidefinite `M`) in the standard form. For other classes the path may end on
-/// a secondary ray although a solution exists: then other covering vectors, start bases and
-/// proximal perturbations are tried, every attempt is recorded in
-/// [`Info::attempts`](crate::Info::attempts), and after the last one the status is
-/// [`Infeasible`](crate::Status::Infeasible), with a proof, or
-/// [`RayTermination`](crate::Status::RayTermination), which is none.
+/// In exact arithmetic it finds a solution, or a proof that there is none, for copositive-plus `M` (for example
+/// positive semidefinite `M`) in the standard form. For other classes the path may end on a secondary ray although a
+/// solution exists. Then other covering vectors, start bases and proximal perturbations are tried, and every attempt
+/// is recorded in [`Info::attempts`](crate::Info::attempts). After the last one the status is
+/// [`Infeasible`](crate::Status::Infeasible), with a proof, or [`RayTermination`](crate::Status::RayTermination),
+/// which is none.
 ///
 /// # Cost
-/// Memory of about five dense matrices of order `n` at the peak; a pivot costs about `100 n` flops
-/// and its share of a blocked matrix product, `2 n^2` flops.
+/// The memory is about five dense matrices of order `n` at the peak; a pivot costs about `100 n` flops and its share
+/// of a blocked matrix product, `2 n^2` flops.
 ///
-/// Where both matrices are sparse ([`HorizontalLcp::is_sparse`]) nothing dense of order `n` is made:
-/// memory is that of the LU factors of a basis and some vectors, and a pivot costs three solves with
-/// them, more where rows tie, and its share of a factorisation. There is one exception: where no
-/// complementary basis is found otherwise, one is searched with dense matrices up to order 2000;
-/// beyond that a start basis should be given ([`LemkeSettings::start`]).
+/// If both matrices are sparse ([`HorizontalLcp::is_sparse`]), no dense matrix of order `n` is formed. The memory is
+/// that of the LU factors of a basis and some vectors. A pivot costs three solves with them, more if rows tie, and
+/// its share of a factorisation. One exception: if no complementary basis is found otherwise, one is searched with
+/// dense matrices up to order 2000; beyond that a start basis should be given ([`LemkeSettings::start`]).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Lemke {
     settings: LemkeSettings,
@@ -85,11 +82,11 @@ impl Lemke {
         &self.settings
     }
 
-    /// Solves a problem like [`Solver::solve_observed`](crate::Solver::solve_observed), for an observer that
-    /// wants to know the attempt and the order too.
+    /// Solves a problem like [`Solver::solve_observed`](crate::Solver::solve_observed), for an observer that also
+    /// needs the attempt and the order.
     ///
     /// # Errors
-    /// For settings out of range. What the mathematics decides is in [`Solution::status`].
+    /// For settings out of range. Mathematical outcomes are in [`Solution::status`].
     pub fn solve_with_progress(
         &self,
         problem: &HorizontalLcp,

@@ -28,9 +28,9 @@
 //!
 //! # A time step
 //!
-//! With the mass matrix in place of the stiffness the unknowns are velocities and the forces are impulses: within a
-//! step `h` a point may close its gap and no more, `gap / h + v_n >= 0`. A block falls on the floor and slides until
-//! it rests:
+//! With the mass matrix in place of the stiffness the unknowns are velocities and the forces are impulses. Within a
+//! step `h` a point may at most close its gap, `gap / h + v_n >= 0`. A block falls on the floor and slides until it
+//! stops:
 //!
 //! ```
 //! use lcp::{Auto, Contact2d, ContactPoint, Solver};
@@ -61,7 +61,7 @@
 //!
 //! # Problems
 //!
-//! All of them become the general (horizontal) form, in which both matrices may be singular:
+//! All problems are converted to the general (horizontal) form, in which both matrices may be singular:
 //!
 //! ```text
 //! A t + B y = c,   t >= 0,   y >= 0,   t . y = 0
@@ -69,43 +69,42 @@
 //!
 //! | type | problem | `problem.variables(&solution)` |
 //! |---|---|---|
-//! | [`Contact2d`] | contact with friction in the plane, sparse, with all displacements or velocities | [`ContactState`]: displacements, forces, gaps, slips |
+//! | [`Contact2d`] | plane contact with friction, sparse, with all displacements or velocities | [`ContactState`]: displacements, forces, gaps, slips |
 //! | [`Friction2d`] | the same reduced to the contacts | [`ContactForces`] |
 //! | [`Lcp`] | `w = M z + q`, `z >= 0`, `w >= 0`, `z . w = 0` | `(z, w)` |
 //! | [`MixedLcp`] | the same with free variables | `(z, w)` |
 //! | [`BoxedLcp`] | the same with bounds, `lower <= z <= upper` | `(z, w)` |
 //! | [`HorizontalLcp`] | the general form | `t` and `y` of the solution |
 //!
-//! Matrices are arrays, rows, triplets, those of `faer` and, with the feature `nalgebra`, of `nalgebra`: see
-//! [`Matrix`].
+//! Matrices are made from arrays, rows, triplets, matrices of `faer` and, with the feature `nalgebra`, of `nalgebra`:
+//! see [`Matrix`].
 //!
 //! # Methods
 //!
-//! Each has settings of its own; [`Solver`] is implemented for the problems that a method treats.
+//! Each method has its own settings. [`Solver`] is implemented for the problems that a method treats.
 //!
 //! | type | method | for |
 //! |---|---|---|
-//! | [`Auto`] | chooses one by class and size, says why, goes on with another where that fails | all |
-//! | [`Lemke`] | complementary pivoting | all; proves infeasibility |
+//! | [`Auto`] | chooses a method by class and size, gives the reason, and continues with another one if it fails | all |
+//! | [`Lemke`] | Lemke's method (complementary pivoting) | all; proves infeasibility |
 //! | [`SemismoothNewton`] | active sets | obstacle problems, M- and P-matrices, contact |
-//! | `QuadraticProgram` | convex programs, with friction a sequence of them (feature `clarabel`, on by default) | symmetric positive semidefinite matrices, contact, soft constraints |
-//! | [`Evolution`] | motions from one state of contact to the next | supports that move, load histories with friction |
-//! | [`InteriorPoint`] | interior points on the sparse form | large contact problems, mixed problems |
-//! | [`ProjectedGaussSeidel`] | sweeps, also over rows without a matrix ([`pgs::Rows`]) | large easy problems, rough answers |
+//! | `QuadraticProgram` | convex programs; a sequence of them with friction (feature `clarabel`, on by default) | symmetric positive semidefinite matrices, contact, soft constraints |
+//! | [`Evolution`] | motions from one state of contact to the next | moving supports, load histories with friction |
+//! | [`InteriorPoint`] | interior-point method on the sparse form | large contact problems, mixed problems |
+//! | [`ProjectedGaussSeidel`] | projected Gauss-Seidel, also on rows without a matrix ([`pgs::Rows`]) | large easy problems, rough solutions |
 //! | [`lemke::Parametric`] | the solutions along a line of right-hand sides | all |
 //!
 //! # Answers
 //!
-//! A [`Solution`] carries the point, its [`Status`], its [`Residuals`] from the original data, its complementary
-//! [`Basis`] where the method has one, and what it cost ([`Info`]); where there is no solution, the proof, or the
+//! A [`Solution`] has the point, its [`Status`], its [`Residuals`] from the original data, its complementary
+//! [`Basis`] if the method has one, and the cost ([`Info`]). If there is no solution, it has the proof, or the
 //! evidence ([`SoftSprings`]). Any point or basis is a [`WarmStart`] for any method that can use it.
-//! [`Lcp::error_bound`] says how far a point of a monotone problem is from the solution, and [`refine`] gives states
-//! of contacts twice the digits.
+//! [`Lcp::error_bound`] bounds the distance of a point of a monotone problem from the solution, and [`refine`]
+//! computes states of contacts in double-double arithmetic.
 //!
-//! A status says what the mathematics decided; an [`Error`] says that the input was unusable. A
-//! solver says [`Status::Solved`] only after the residuals were computed from the data that it was
-//! given, and all tolerances are relative to that data: units do not matter. The library does not
-//! print.
+//! A status is a mathematical outcome; an [`Error`] means that the input was unusable. The status is
+//! [`Status::Solved`] only after the residuals were computed from the given data. All tolerances are relative to that
+//! data, so units do not matter. The library does not print.
 //!
 //! # Features
 //!
@@ -118,8 +117,8 @@
 //! | `cli` | the command `lcp`: the module `cli` |
 //! | `exact` | all solutions of a small problem in rational arithmetic: the module `exact` |
 //!
-//! The module [`families`] makes problems whose answers are known. The guides `docs/lcp.md` and `docs/methods.md` of
-//! the repository say which method to take when, and how each works.
+//! The module [`families`] makes problems whose solutions are known. The guides `docs/lcp.md` and `docs/methods.md`
+//! of the repository say which method to use when, and how each works.
 
 mod active;
 mod auto;

@@ -13,8 +13,8 @@ pub(crate) const DATA_ROUNDING: f64 = 1e-12;
 
 /// A matrix of a problem, dense or sparse.
 ///
-/// Problems take whatever converts into one: an array of rows, a `Mat` or a `SparseColMat` of `faer`, and, with
-/// the feature `nalgebra`, a `DMatrix`. Lists that may be wrong have constructors that say so:
+/// Problems take anything that converts into a matrix: an array of rows, a `Mat` or a `SparseColMat` of `faer`, and,
+/// with the feature `nalgebra`, a `DMatrix`. Constructors for lists report mistakes:
 /// [`from_triplets`](Self::from_triplets) and [`from_rows`](Self::from_rows).
 ///
 /// ```
@@ -47,8 +47,7 @@ impl Matrix {
         Self::diagonal(n, 1.0)
     }
 
-    /// A sparse matrix from triplets `(row, column, value)`, with indices from 0. Values add up where their
-    /// places coincide.
+    /// A sparse matrix from triplets `(row, column, value)`, with indices from 0. Values at the same place are added.
     ///
     /// ```
     /// use lcp::{Error, Matrix};

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A method of the library. In text and in files it goes by its short name.
+/// A method of the library. In text and files it has a short name.
 ///
 /// ```
 /// use lcp::Method;
@@ -15,7 +15,7 @@ use std::fmt;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Method {
-    /// [`Auto`](crate::Auto): the method that suits the problem, and the next one where it fails.
+    /// [`Auto`](crate::Auto): a method that suits the problem; if it fails, the next one.
     #[default]
     #[cfg_attr(feature = "serde", serde(rename = "auto"))]
     Auto,

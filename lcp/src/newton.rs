@@ -32,17 +32,16 @@ use system::{Point, System};
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct SemismoothNewtonSettings {
-    /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`. The method ends with
-    /// the signs of all variables right to rounding errors, whatever the tolerance; only where they
-    /// cannot be told from rounding errors it is satisfied with the tolerance.
+    /// Largest residual, dimensionless, of a solution with status `Solved`. In `(0, 1)`. The method ends with the
+    /// signs of all variables right up to rounding errors, whatever the tolerance; the tolerance is used only if the
+    /// signs cannot be distinguished from rounding errors.
     pub tolerance: f64,
-    /// Steps: exchanges of pairs between the sets, each followed by a factorisation.
+    /// Limit on steps: exchanges of pairs between the sets, each followed by a factorisation.
     pub max_iterations: usize,
-    /// Wall-clock time, looked at before every step; `None` is no limit.
+    /// Wall-clock time, checked before every step; `None` is no limit.
     pub time_limit: Option<Duration>,
-    /// Which `z` are free at the start: those that are basic. Where the matrix of the free ones is
-    /// singular the method starts from its own. Of contact with friction, states that are tried before the
-    /// first step.
+    /// The `z` that are free at the start: those that are basic. If the matrix of the free ones is singular, the
+    /// method uses its own start. For contact with friction: states that are tried before the first step.
     pub start: WarmStart,
 }
 
@@ -65,44 +64,43 @@ impl SemismoothNewtonSettings {
 
 /// The primal-dual active set method for `w = M z + q`, `z >= 0`, `w >= 0`, `z.w = 0`.
 ///
-/// Of every pair one variable is zero. The method solves `M_FF z_F = -q_F` for the free `z`, computes
-/// the other `w`, and exchanges all pairs whose variable came out negative, until there is none: Newton's
-/// method for `min(z, w) = 0`, which ends with the exact solution after finitely many steps. A
-/// symmetric positive definite `M_FF` is factorised by Cholesky's method, any other one by LU, dense or
-/// sparse as `M` is. The fill-reducing order of a sparse matrix is computed once and restricted to
-/// every free set. Every solve is followed by a step of iterative refinement.
+/// In every pair one variable is zero. The method solves `M_FF z_F = -q_F` for the free `z`, computes the other `w`,
+/// and exchanges all pairs whose variable is negative, until there is none. This is Newton's method for
+/// `min(z, w) = 0`, which ends with the exact solution after finitely many steps. A symmetric positive definite
+/// `M_FF` is factorised by Cholesky's method, any other one by LU, dense or sparse like `M`. The fill-reducing order
+/// of a sparse matrix is computed once and restricted to every free set. Every solve is followed by a step of
+/// iterative refinement.
 ///
-/// Where the number of negative variables has not decreased for some steps, or a free set comes back,
-/// only half as many pairs are exchanged, those with the least index, and so on down to single ones,
-/// until that number is less than ever before (Júdice and Pires 1994, after Murty 1974).
+/// If the number of negative variables has not decreased for some steps, or a free set is repeated, only half as many
+/// pairs are exchanged, those with the least indices, and so on down to single ones, until that number reaches a new
+/// minimum (Júdice and Pires 1994, after Murty 1974).
 ///
-/// * M-matrices (obstacle problems, no entry positive off the diagonal): converges from every start,
-///   and monotonically after the first step (Hintermüller, Ito and Kunisch 2003). From a start that is
-///   off by so many layers of a grid it takes about as many steps;
-///   [`families::Obstacle`](crate::families::Obstacle) gives good ones by nested grids.
-/// * Other matrices without a positive entry off the diagonal: solves whenever the problem is feasible,
-///   if need be anew from the pairs with `q < 0` (Chandrasekaran 1970).
-/// * P-matrices (positive definite ones in particular): the safeguard makes it finite; in the worst
-///   case exponentially many steps.
-/// * Others with a positive diagonal: often solves, without a guarantee. The status is then
-///   [`Cycling`](Status::Cycling), [`Stalled`](Status::Stalled) where every next matrix is singular, or
-///   one of the limits. Friction makes it cycle.
-/// * A diagonal entry that is not positive, and a general problem that is not a standard one in disguise
-///   ([`HorizontalLcp::to_standard`]): refused.
+/// * M-matrices (obstacle problems, no positive off-diagonal entry): converges from every start, monotonically after
+///   the first step (Hintermüller, Ito and Kunisch 2003). From a start that is off by some layers of a grid it takes
+///   about as many steps; [`families::Obstacle`](crate::families::Obstacle) gives good starts by nested grids.
+/// * Other matrices without positive off-diagonal entries: solves whenever the problem is feasible, if necessary by a
+///   restart from the pairs with `q < 0` (Chandrasekaran 1970).
+/// * P-matrices (for example positive definite ones): the safeguard makes it finite; in the worst case exponentially
+///   many steps.
+/// * Others with a positive diagonal: often solves, without a guarantee. Otherwise the status is
+///   [`Cycling`](Status::Cycling), [`Stalled`](Status::Stalled) if every next matrix is singular, or one of the
+///   limits. Friction makes it cycle.
+/// * Refused: a diagonal entry that is not positive, and a general problem that is not a standard one in another form
+///   ([`HorizontalLcp::to_standard`]).
 ///
 /// # Contact with friction
-/// A [`Contact2d`](crate::Contact2d) is solved by its own active sets: which contacts are open, stick and
-/// slide (Alart and Curnier 1991; Hüeber, Stadler and Wohlmuth 2008). Bodies that float and redundant
-/// contacts are held by springs and by a compliance of the contacts, which are centred anew at the last
-/// point, round after round, and so change nothing where that ends; steps are shortened to where the unbalanced
-/// forces do no work on them. Every round is followed by exchanges of states without springs, until the
-/// answer is a complementary basis. Without friction every round ends; with it nothing is proved, and the
-/// status may be [`Stalled`](Status::Stalled), as it is where there is no equilibrium. A step costs what one of
-/// [`InteriorPoint`](crate::InteriorPoint) costs, and where few contacts open or slide there are fewer.
+/// A [`Contact2d`](crate::Contact2d) is solved by its own active sets: the contacts that are open, stick and slide
+/// (Alart and Curnier 1991; Hüeber, Stadler and Wohlmuth 2008). Floating bodies and redundant contacts are held by
+/// springs and by a compliance of the contacts. These are re-centred at the last point, round after round, so they do
+/// not change the final result. Steps are shortened to where the unbalanced forces do no work on them. Every round is
+/// followed by exchanges of states without springs, until the solution is a complementary basis. Without friction
+/// every round ends; with friction nothing is proved, and the status may be [`Stalled`](Status::Stalled), as it is if
+/// there is no equilibrium. A step costs the same as a step of [`InteriorPoint`](crate::InteriorPoint), and fewer are
+/// needed if few contacts open or slide.
 ///
 /// # Cost
-/// A step costs a factorisation of `M_FF`. Without a start the first free set has all pairs where `M`
-/// has no positive entry off its diagonal, else those with `q < 0`.
+/// A step costs one factorisation of `M_FF`. Without a start the first free set has all pairs if `M` has no positive
+/// off-diagonal entry, else those with `q < 0`.
 ///
 /// References: Hintermüller, Ito, Kunisch, SIAM J. Optim. 13 (2003), doi:10.1137/S1052623401383558;
 /// Júdice, Pires, Computers & Operations Research 21 (1994);

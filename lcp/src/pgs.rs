@@ -27,45 +27,42 @@ use crate::{Error, Info, Method, Observer, Residuals, Solution, Solver, Status, 
 /// Projected Gauss-Seidel, with over-relaxation: for `w = M z + q` with bounds on `z`, and for contact
 /// with friction.
 ///
-/// A sweep solves one row after the other for its own variable and cuts that off at its bounds,
-/// `z_i <- mid(lower_i, z_i - omega w_i / M_ii, upper_i)`, where `w_i` has the newest `z`. A contact
-/// with friction takes its normal and its tangential row together and solves its 2 x 2 problem of
-/// Coulomb exactly: open, sticking, or sliding to either side. Where none of them fits, which
-/// takes a coefficient of friction above `W_NN / |W_NT|` or an indefinite block, the normal force is
-/// corrected first, then the tangential one. Over-relaxation divides the diagonal block by `omega`,
-/// so that forces within the cone stay there.
+/// A sweep solves each row in turn for its own variable and projects it onto its bounds,
+/// `z_i <- mid(lower_i, z_i - omega w_i / M_ii, upper_i)`, where `w_i` uses the newest `z`. For a contact with
+/// friction the normal and the tangential row are solved together, as an exact 2 x 2 problem with Coulomb's law:
+/// open, sticking, or sliding to either side. If none of these applies, which requires a coefficient of friction
+/// above `W_NN / |W_NT|` or an indefinite block, the normal force is corrected first, then the tangential one.
+/// Over-relaxation divides the diagonal block by `omega`, so that forces within the cone stay there.
 ///
-/// The end is decided by residuals, computed anew from the data of the user, of the point `z` with
-/// the part of `w` that its bounds allow: the point is always feasible and complementary, and all
-/// that is wrong with it stands in the equation. With [`Contact2d`](crate::Contact2d) it stands in the
-/// gaps and slips of the displacements that follow from the forces. The best point that was met is
-/// returned.
+/// The criterion is the residuals, recomputed from the original data, of the point `z` with the part of `w` that its
+/// bounds allow. The point is always feasible and complementary, so all of the error is in the equation; for
+/// [`Contact2d`](crate::Contact2d) it is in the gaps and slips of the displacements that follow from the forces. The
+/// best point is returned.
 ///
 /// # Problems
 /// [`Lcp`](crate::Lcp); [`BoxedLcp`](crate::BoxedLcp) in the pairs of its general form;
 /// [`HorizontalLcp`](crate::HorizontalLcp) where [`to_standard`](crate::HorizontalLcp::to_standard)
-/// applies; [`Friction2d`](crate::Friction2d) by contacts; [`Contact2d`](crate::Contact2d) where `K` is
-/// positive definite, by contacts, on the matrix `C K^-1 C^T`, which is not formed; and whatever knows
-/// its [`Rows`], by [`solve_rows`](Self::solve_rows). All rows that are relaxed must have positive
-/// diagonal entries, else the answer is [`Error::NotTreated`].
+/// applies; [`Friction2d`](crate::Friction2d) by contacts; [`Contact2d`](crate::Contact2d) with positive definite
+/// `K`, by contacts, on the matrix `C K^-1 C^T`, which is not formed; and any type that has [`Rows`], by
+/// [`solve_rows`](Self::solve_rows). All relaxed rows must have positive diagonal entries, else the result is
+/// [`Error::NotTreated`].
 ///
 /// # Guarantee
-/// With positive diagonals the sweeps converge, like a geometric series, for symmetric positive definite
-/// `M` with `omega` in `(0, 2)`, and for strictly diagonally dominant `M` with `omega` in `(0, 1]`
-/// (Cryer 1971; Cottle, Pang and Stone 1992, section 5.2); for symmetric positive semidefinite `M` they do
-/// so if there is a solution (Luo and Tseng 1991). This holds for contact without friction.
+/// With positive diagonals the method converges linearly for symmetric positive definite `M` with `omega` in
+/// `(0, 2)`, and for strictly diagonally dominant `M` with `omega` in `(0, 1]` (Cryer 1971; Cottle, Pang and Stone
+/// 1992, section 5.2). For symmetric positive semidefinite `M` it converges if there is a solution (Luo and Tseng
+/// 1991). This holds for contact without friction.
 ///
 /// # Failure
-/// There is no guarantee with friction, nor for skew or indefinite parts: the sweeps may go round in
-/// circles or grow, and end as [`Status::Stalled`]. Ill-conditioned problems are slow: long
-/// chains of bodies, large differences of mass or stiffness. Where there is no solution and `z` grows
-/// slowly, the residual, being relative to the terms of the rows, decreases like one over the number
-/// of sweeps.
+/// There is no guarantee with friction, nor for skew or indefinite parts: the iteration may cycle or diverge, and end
+/// as [`Status::Stalled`]. Ill-conditioned problems are slow: long chains of bodies, large differences of mass or
+/// stiffness. If there is no solution and `z` grows slowly, the residual, which is relative to the terms of the rows,
+/// decreases like one over the number of sweeps.
 ///
 /// # Cost
-/// A sweep is one product with the matrix. Their number grows with the condition of `M`, for the five-point
-/// Laplacian with the number of grid points, or its root with the best `omega`; every digit
-/// costs as many as the one before.
+/// A sweep is one product with the matrix. The number of sweeps grows with the condition of `M`; for the five-point
+/// Laplacian it is proportional to the number of grid points, or to its square root with the best `omega`. Every
+/// further digit costs the same number of sweeps.
 ///
 /// # References
 /// * C. W. Cryer, The solution of a quadratic programming problem using systematic overrelaxation, SIAM
@@ -88,7 +85,7 @@ pub struct ProjectedGaussSeidel {
     settings: ProjectedGaussSeidelSettings,
 }
 
-/// A problem that [`ProjectedGaussSeidel`] knows how to sweep.
+/// A problem that [`ProjectedGaussSeidel`] treats.
 pub trait Sweepable {
     /// Solves the problem, calling the observer before every sweep.
     ///
@@ -102,14 +99,14 @@ pub trait Sweepable {
     ) -> Result<Solution, Error>;
 }
 
-/// The answer to a problem that is known by its [`Rows`].
+/// The solution of a problem given by its [`Rows`].
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct RowsSolution {
-    /// What the sweeps came to.
+    /// How the iteration ended.
     pub status: Status,
-    /// The point. It meets the constraints exactly.
+    /// The point. It satisfies the constraints exactly.
     pub z: Vec<f64>,
     /// `M z + q`, computed anew.
     pub w: Vec<f64>,
@@ -132,8 +129,8 @@ impl ProjectedGaussSeidel {
         &self.settings
     }
 
-    /// Solves a problem that is known by the products of its rows, with the constraints on the entries of
-    /// `z`. A point of the settings to start from has `z` as its `t`.
+    /// Solves a problem given by the products of its rows, with constraints on the entries of `z`. If the settings
+    /// have a point to start from, its `t` is `z`.
     ///
     /// # Errors
     /// [`Error::Length`] where `q` or the constraints do not fit, [`Error::Bounds`] or [`Error::Setting`]

@@ -33,37 +33,37 @@ use crate::{Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Observer, So
 /// * [`MixedLcp`] with `M = [P, -G^T; G, S]`, `P` of the free variables, both `P` and `S` symmetric
 ///   positive semidefinite: minimise `u P u / 2 + z S z / 2 + p u` for `G u + S z + r >= 0`.
 /// * [`Contact2d`]: minimise `u K u / 2 - f u` for gaps `C_n u + x_0 >= 0`, or the same in the forces
-///   ([`ContactForm`]). Friction makes it a sequence of such programs: with the bounds `g` of the friction
-///   forces frozen (Tresca) the work `g |C_t u + s_0|` is added, and `g` becomes `mu t_n`, accelerated
-///   after Anderson, until it stays.
+///   ([`ContactForm`]). With friction it is a sequence of such programs: with fixed bounds `g` of the friction forces
+///   (Tresca) the work `g |C_t u + s_0|` is added, and `g` is set to `mu t_n`, with Anderson acceleration, until it
+///   converges.
 ///
-/// Symmetry and semidefiniteness are checked. Units are removed by powers of two, and Clarabel's
-/// interior-point method finds a point near the solution. It is only good to the square root of its tolerance
-/// where both variables of a pair vanish, so the **exchange of states** makes it exact, as for
-/// [`InteriorPoint`](crate::InteriorPoint): of every pair what is larger does not vanish, which leaves a linear
-/// system; where signs of its answer are wrong, pairs change over, as long as these become fewer. The system may
-/// be singular but consistent, as for bodies that float or contacts that share a load: proximal steps solve it. For
-/// friction it is the system of the states open, stick and slip, so that the fixed point need only come near.
+/// Symmetry and semidefiniteness are checked. The problem is scaled by powers of two, and Clarabel's interior-point
+/// method finds a point near the solution. If both variables of a pair vanish, this point is accurate only to the
+/// square root of its tolerance. The **exchange of states** makes it exact, as for
+/// [`InteriorPoint`](crate::InteriorPoint): in every pair the larger variable is taken as nonzero, which gives a
+/// linear system; pairs with wrong signs are exchanged, as long as their number decreases. The system may be singular
+/// but consistent, as for floating bodies or contacts that share a load: proximal steps solve it. With friction it is
+/// the system of the states open, stick and slip, so the fixed-point iteration only needs to come near.
 ///
-/// **Guarantee**: in exact arithmetic a program without friction that has a solution is solved, and one that
-/// has none is [`Infeasible`](crate::Status::Infeasible) with a proof, which is itself found as the solution of a
-/// convex program. In floating-point numbers that holds as long as the stiffnesses of one problem differ by
-/// less than about 1e6; at and beyond that many problems end without an answer and without a proof: see below.
-/// For friction the fixed point contracts where `mu` or the ratio of tangential to normal stiffness is small;
-/// where it does not, the status is [`Stalled`](crate::Status::Stalled). In every case
-/// [`Solved`](crate::Status::Solved) and `Infeasible` are said only after a check in the data as given.
+/// **Guarantee**: in exact arithmetic a program without friction is solved if it has a solution, and is otherwise
+/// [`Infeasible`](crate::Status::Infeasible) with a proof, which is itself the solution of a convex program. In
+/// floating-point arithmetic this holds as long as the stiffnesses of one problem differ by less than about 1e6;
+/// beyond that many problems end without a solution and without a proof, see below. With friction the fixed-point
+/// iteration contracts if `mu` or the ratio of tangential to normal stiffness is small; otherwise the status is
+/// [`Stalled`](crate::Status::Stalled). In every case the statuses [`Solved`](crate::Status::Solved) and `Infeasible`
+/// follow a check in the given data.
 ///
-/// **Failure**: `Stalled` and [`NumericalTrouble`](crate::Status::NumericalTrouble) for data so badly
-/// conditioned that neither point nor proof comes out: where stiffnesses differ by 1e6 the interior point may be
-/// too far off to tell which contacts are closed. Then [`Lemke`](crate::Lemke) and
-/// [`InteriorPoint`](crate::InteriorPoint) are the methods to take, as [`Auto`](crate::Auto) does.
+/// **Failure**: `Stalled` and [`NumericalTrouble`](crate::Status::NumericalTrouble) for data so ill-conditioned that
+/// neither a solution nor a proof is found: if stiffnesses differ by 1e6 the interior point may be too inaccurate to
+/// show which contacts are closed. Then use [`Lemke`](crate::Lemke) or [`InteriorPoint`](crate::InteriorPoint), as
+/// [`Auto`](crate::Auto) does.
 ///
-/// **Cost**: 10 to 20 factorisations of the sparse matrix `[K, C^T; C, -D]` for every program, and one for
-/// every round of exchanges. [`Info::iterations`](crate::Info::iterations) counts programs, and not the
-/// iterations within them, which [`max_iterations`](QuadraticProgramSettings::max_iterations) limits;
-/// [`Info::factorisations`](crate::Info::factorisations) counts all factorisations. The observer is asked before
-/// every program. With [`soft`](QuadraticProgramSettings::soft) both count the times that the springs are
-/// centred.
+/// **Cost**: 10 to 20 factorisations of the sparse matrix `[K, C^T; C, -D]` for every program, and one for every
+/// round of exchanges. [`Info::iterations`](crate::Info::iterations) counts programs, not the iterations within them,
+/// which [`max_iterations`](QuadraticProgramSettings::max_iterations) limits;
+/// [`Info::factorisations`](crate::Info::factorisations) counts all factorisations. The observer is called before
+/// every program. With [`soft`](QuadraticProgramSettings::soft), `iterations` and the observer count re-centrings of
+/// the springs.
 ///
 /// References: P. J. Goulart and Y. Chen, *Clarabel: an interior-point solver for conic programs with
 /// quadratic objectives* (2024), arXiv:2405.12762; J. Haslinger, *Approximation of the

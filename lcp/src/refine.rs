@@ -1,4 +1,4 @@
-//! The equations of given states of all contacts, solved to twice the usual digits.
+//! The equations of given states of all contacts, solved in double-double arithmetic.
 
 mod answer;
 mod at;
@@ -25,9 +25,9 @@ use crate::vector::{check_length, check_vector};
 use crate::{Contact2d, ContactState, Error};
 
 impl Contact2d {
-    /// The states that an answer is nearest to: a contact is open where its gap, in units of the largest
-    /// displacement, is larger than its force, in units of the largest; and slides where its slip is larger than
-    /// what its force lacks to the bound of friction.
+    /// The states nearest to a solution: a contact is open if its gap, relative to the largest displacement, is
+    /// larger than its force, relative to the largest force. It slides if its slip is larger than the difference
+    /// between its friction force and the bound.
     ///
     /// # Panics
     /// If the lengths are not those of the problem.
@@ -37,21 +37,21 @@ impl Contact2d {
         at.nearest(&scaled)
     }
 
-    /// Solves the equations that the states of the contacts leave:
+    /// Solves the equations that follow from the states of the contacts:
     ///
     /// ```text
     /// K u = f + C_n^T t_n + C_t^T t_t,
     /// t = 0 (open),   g = s = 0 (stick),   g = 0, t_t = -mu t_n (forwards) or mu t_n (backwards)
     /// ```
     ///
-    /// by factors in `f64`, and refines displacements and forces with residuals in [`Extended`] (Björck
-    /// 1990), from the given state on. [`Refined::margin`] tells whether the inequalities hold, too: then this
-    /// is a solution of the problem, and its equations are known to hold to [`Refined::residual`].
+    /// with factors in `f64`, and refines displacements and forces with residuals in [`Extended`] (Björck 1990),
+    /// starting from the given state. If the inequalities hold too, which [`Refined::margin`] shows, this is a
+    /// solution of the problem, and its equations hold to [`Refined::residual`].
     ///
-    /// Redundant contacts leave a choice of forces: they stay as near to the given ones as the equations
-    /// allow. Where their gaps contradict each other in the last digits of the data, or bodies move freely,
-    /// the data are changed by what is left ([`Refined::shift`]). Where the states have no solution the residual
-    /// stops falling, and tells.
+    /// The forces of redundant contacts are not unique: they stay as near to the given ones as the equations allow.
+    /// If their gaps contradict each other in the last digits of the data, or bodies move freely, the data are
+    /// changed by the remaining residual ([`Refined::shift`]). If the states have no solution the residual stops
+    /// decreasing.
     ///
     /// # Errors
     /// [`Error::Length`] when the lengths are not those of the problem, [`Error::NotFinite`] for a state with
@@ -86,11 +86,11 @@ impl Contact2d {
         Ok(solved(&scaled, state, statuses, refinement)?.0)
     }
 
-    /// The answer that the given one is nearest to, as exact as it can be had: [`refine`](Self::refine) for
-    /// its [`statuses`](Self::statuses). Bodies without loads that no contact presses float, with all their
-    /// contacts open: where they are nothing says, and they stay there. Contacts whose inequalities are then
-    /// violated by no more than a rounding error of the answer take the status on the other side of it, so
-    /// long as this makes the margin larger.
+    /// The exact solution nearest to the given one: [`refine`](Self::refine) for its [`statuses`](Self::statuses).
+    /// Bodies without loads that no contact presses float, with all their contacts open: their position is not
+    /// determined, and they stay where they are. If the inequality of a contact is then violated by no more than a
+    /// rounding error of the solution, the contact takes the state on the other side, as long as this makes the
+    /// margin larger.
     ///
     /// # Errors
     /// As [`refine`](Self::refine).

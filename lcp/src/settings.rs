@@ -1,4 +1,4 @@
-//! Settings of the pivoting method.
+//! Settings of Lemke's method.
 
 use std::time::Duration;
 
@@ -18,25 +18,24 @@ pub enum Covering {
         /// Seed of the generator.
         seed: u64,
     },
-    /// One positive entry for every pair, in units of the basic variable of the start basis. Where a
-    /// given start basis is singular and replaced, all ones instead.
+    /// One positive entry for every pair, in units of the basic variable of the start basis. If a given start basis
+    /// is singular and replaced, all ones instead.
     Given(Vec<f64>),
 }
 
-/// Where a method starts, in the pairs of the general form of the problem: those of its answers, of which
-/// any may be the start of another method. What is said here of a basis is what [`Lemke`](crate::Lemke) does;
-/// the settings of the other methods say what they make of a start.
+/// Start of a method, in the pairs of the general form of the problem, which are also those of its solutions: any of
+/// these may be the start of another method. The description of a basis here is for [`Lemke`](crate::Lemke); the
+/// settings of the other methods describe their use of a start.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum WarmStart {
     /// The method finds its own.
     #[default]
     None,
-    /// From a complementary basis. Where it is singular, from one that shares as many of its columns
-    /// as the solver can keep.
+    /// From a complementary basis. If it is singular, from one that shares as many of its columns as possible.
     Basis(Basis),
-    /// From a point, for instance the solution of a similar problem: its basis takes from every pair
-    /// the variable that is larger, in units of the largest of its vector.
+    /// From a point, for instance the solution of a similar problem. Its basis has from every pair the larger
+    /// variable, relative to the largest entry of its vector.
     Point {
         /// The first variable of every pair.
         t: Vec<f64>,
@@ -54,26 +53,26 @@ pub enum WarmStart {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct LemkeSettings {
-    /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`.
+    /// Largest residual, dimensionless, of a solution with status `Solved`. In `(0, 1)`.
     pub tolerance: f64,
     /// Pivots of one attempt, not of all together; `None` is `100 n + 1000`.
     pub max_pivots: Option<usize>,
-    /// Wall-clock time of all attempts together, looked at before every pivot; `None` is no limit.
+    /// Wall-clock time of all attempts together, checked before every pivot; `None` is no limit.
     pub time_limit: Option<Duration>,
     /// Attempts, each with another covering vector, start basis or perturbation, before a ray is
     /// reported. At least 1.
     pub max_attempts: usize,
     /// Covering vector of the first attempt.
     pub covering: Covering,
-    /// Where the first attempt starts.
+    /// Start of the first attempt.
     pub start: WarmStart,
-    /// Pivots after which the tableau is rebuilt from the data even if it has not drifted; `None`
-    /// leaves it to the measured drift. For sparse problems the largest number of pivots between two
-    /// factorisations; `None` is a number between 16 and 256 that grows with the fill. At least 1.
+    /// Number of pivots after which the tableau is rebuilt from the data even without drift; with `None` only the
+    /// measured drift decides. For sparse problems the largest number of pivots between two factorisations; `None` is
+    /// a number between 16 and 256 that grows with the fill. At least 1.
     pub refactor_interval: Option<usize>,
-    /// Whether the first ray is followed by a search for a proof that there is no solution, by the
-    /// simplex method. Without it the status is [`Infeasible`](crate::Status::Infeasible) only where
-    /// there is no complementary basis and the right-hand side is outside the span of all columns.
+    /// Whether the first ray is followed by a search for a proof that there is no solution, by the simplex method.
+    /// Without it the status is [`Infeasible`](crate::Status::Infeasible) only if there is no complementary basis and
+    /// the right-hand side is outside the span of all columns.
     pub prove_infeasible: bool,
     /// Whether [`Solution::trace`](crate::Solution::trace) records every pivot.
     pub trace: bool,

@@ -4,7 +4,7 @@ use crate::certify::{Ray, SoftSprings};
 use crate::pivoting::{Attempt, PivotRecord};
 use crate::{Basis, Certificate, ContactState, Method, Residuals, Status};
 
-/// How a method that [`Auto`](crate::Auto) asked ended.
+/// How a method that [`Auto`](crate::Auto) ran ended.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -13,7 +13,7 @@ use crate::{Basis, Certificate, ContactState, Method, Residuals, Status};
 )]
 #[non_exhaustive]
 pub enum RouteEnd {
-    /// With an answer.
+    /// With a status.
     Ended {
         /// Its status.
         status: Status,
@@ -23,7 +23,7 @@ pub enum RouteEnd {
     },
     /// It does not treat the problem.
     Refused {
-        /// What is in the way.
+        /// The reason.
         reason: String,
     },
 }
@@ -37,7 +37,7 @@ impl std::fmt::Display for RouteEnd {
     }
 }
 
-/// A method that [`Auto`](crate::Auto) asked.
+/// A method that [`Auto`](crate::Auto) ran.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -45,7 +45,7 @@ pub struct Route {
     /// The method.
     #[cfg_attr(feature = "serde", serde(rename = "solver"))]
     pub method: Method,
-    /// Why it was its turn.
+    /// Why it was chosen.
     pub reason: String,
     /// How it ended.
     pub end: RouteEnd,
@@ -58,25 +58,24 @@ pub struct Route {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Info {
-    /// The method that the point comes from.
+    /// The method that found the point.
     #[cfg_attr(feature = "serde", serde(rename = "solver"))]
     pub method: Method,
     /// Pivots over all attempts.
     pub pivots: usize,
-    /// Sweeps, steps, or programs of a method that has no pivots. Of `QuadraticProgram` they are programs, or
-    /// times that soft springs were centred, and not the iterations within a program that its
-    /// `max_iterations` limits.
+    /// Sweeps, steps, or programs of a method that has no pivots. For `QuadraticProgram` these are programs, or
+    /// re-centrings of soft springs, not the iterations within a program, which its `max_iterations` limits.
     pub iterations: usize,
-    /// Times that a matrix was factorised numerically, or a tableau rebuilt from the data.
+    /// Numeric factorisations of a matrix, or tableaus rebuilt from the data.
     pub factorisations: usize,
     /// Every attempt of a pivoting method, in order.
     pub attempts: Vec<Attempt>,
-    /// The residual by which an iterative method stops, at its start and after every iteration.
+    /// The residual that controls an iterative method, at its start and after every iteration.
     #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinities"))]
     pub history: Vec<f64>,
-    /// The methods that [`Auto`](crate::Auto) asked, in order; the point comes from one of them, and so do
-    /// the other numbers here but for the time. Of a problem that fell into independent parts they are of all parts,
-    /// the other numbers their sums, and [`method`](Self::method) is that of the largest.
+    /// The methods that [`Auto`](crate::Auto) ran, in order. The point and the other numbers here, except for the
+    /// time, come from one of them. For a problem with independent parts these are the methods of all parts, the
+    /// other numbers are sums, and [`method`](Self::method) is that of the largest part.
     pub routes: Vec<Route>,
     /// Wall-clock time \[s\].
     pub seconds: f64,
@@ -85,7 +84,7 @@ pub struct Info {
     pub pivot_seconds: f64,
 }
 
-/// The answer of a solver: always with the residuals of the point that it carries.
+/// The result of a solver, always with the residuals of its point.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -97,28 +96,28 @@ pub struct Solution {
     /// The second variable of every pair.
     pub y: Vec<f64>,
     /// The point of a [`Contact2d`](crate::Contact2d) by its displacements and forces, with all their digits: the
-    /// residuals are those of this state. The pairs, with `mu t_n + t_t` and `mu t_n - t_t`, lose some where
-    /// `mu` is large.
+    /// residuals are those of this state. The pairs, with `mu t_n + t_t` and `mu t_n - t_t`, lose some digits if `mu`
+    /// is large.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub contact: Option<ContactState>,
-    /// The point of a [`BoxedLcp`](crate::BoxedLcp) by its variables `(z, w)`, where the pairs do not have all their
-    /// digits: with bounds far away the distances to these have none left.
+    /// The point of a [`BoxedLcp`](crate::BoxedLcp) by its variables `(z, w)`, if the pairs do not have all their
+    /// digits: the distances to very distant bounds have no correct digit.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub boxed: Option<(Vec<f64>, Vec<f64>)>,
-    /// The complementary basis of the point, of methods that end on one: of pivots, of active sets, and of
-    /// interior points after a crossover.
+    /// The complementary basis of the point, for methods that end on one: Lemke's method, active sets, and the
+    /// interior-point method after a crossover.
     pub basis: Option<Basis>,
     /// Residuals of `(t, y)`, from the original data.
     pub residuals: Residuals,
     /// With the statuses [`Infeasible`](Status::Infeasible) and [`NoSolution`](Status::NoSolution) the proof, checked
-    /// against the data as given; with [`NoEquilibrium`](Status::NoEquilibrium) the evidence of soft springs; with
-    /// [`RayTermination`](Status::RayTermination) the ray on which the first of the attempts with an artificial
-    /// variable, proximal ones aside, that met one ended. It refers to the general form of the problem, whose
-    /// rows and pairs it has.
+    /// against the given data; with [`NoEquilibrium`](Status::NoEquilibrium) the evidence of soft springs; with
+    /// [`RayTermination`](Status::RayTermination) the ray of the first attempt that ended on one, without proximal
+    /// attempts and those without an artificial variable. It refers to the rows and pairs of the general form of the
+    /// problem.
     pub certificate: Option<Certificate>,
     /// Estimate of the condition number, in the 1-norm, of the equilibrated matrix of the basis.
     pub condition: Option<f64>,
-    /// Every pivot, if the settings asked for it.
+    /// Every pivot, if the settings request it.
     pub trace: Vec<PivotRecord>,
     /// What it cost.
     pub info: Info,

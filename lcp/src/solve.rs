@@ -10,7 +10,7 @@ use crate::{Error, Info, Method, Solution, Status};
 /// The solution carries a point of the general form of the problem: `(z, w)` as `(t, y)` for [`Lcp`](crate::Lcp)
 /// and, of the standard problem, for [`Friction2d`](crate::Friction2d); and the pairs of `to_general` for
 /// [`Contact2d`](crate::Contact2d::to_general), [`MixedLcp`](crate::MixedLcp::to_general) and
-/// [`BoxedLcp`](crate::BoxedLcp::to_general), whose `recover` leads back.
+/// [`BoxedLcp`](crate::BoxedLcp::to_general), whose `recover` converts back.
 ///
 /// ```
 /// use faer::mat;
@@ -35,7 +35,7 @@ pub trait Solver<P> {
     ///
     /// # Errors
     /// [`Error::NotTreated`] for a problem that the method cannot treat, and errors of the settings.
-    /// What the mathematics decides is in [`Solution::status`].
+    /// Mathematical outcomes are in [`Solution::status`].
     fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error>;
 
     /// Solves a problem.
@@ -47,19 +47,20 @@ pub trait Solver<P> {
     }
 }
 
-/// How far a method has come, for an observer.
+/// The progress of a method, for an observer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Iteration {
-    /// Sweeps, steps or programs done; of [`Lemke`](crate::Lemke) the pivots of the attempt, each of which begins at 0.
-    /// With [`Auto`](crate::Auto) every method begins at 0.
+    /// Number of sweeps, steps or programs; for [`Lemke`](crate::Lemke) the pivots of the attempt, each of which
+    /// begins at 0. With [`Auto`](crate::Auto) every method begins at 0.
     pub iteration: usize,
-    /// The residual by which the method stops. [`Lemke`](crate::Lemke) has none on its path: in its place is the artificial
-    /// variable relative to its first value, which a solution makes zero ([`Progress::artificial`](crate::lemke::Progress::artificial)).
+    /// The residual that controls the method. [`Lemke`](crate::Lemke) has none on its path; instead this is the
+    /// artificial variable relative to its first value, which is zero at a solution
+    /// ([`Progress::artificial`](crate::lemke::Progress::artificial)).
     pub residual: f64,
 }
 
-/// What is called while a method is at work, and says whether it goes on.
+/// Called while a method runs; the result tells whether it continues.
 pub type Observer<'a> = dyn FnMut(&Iteration) -> ControlFlow<()> + 'a;
 
 /// When a limit on time is over; a limit beyond all clocks is none.

@@ -1,27 +1,26 @@
 //! How a solve ended.
 
-/// Outcome of a solve. Decided by the mathematics and the limits, never by misuse.
+/// Outcome of a solve: a mathematical result or a limit, never a mistake in the input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Status {
     /// The residuals, recomputed from the original data, are below the tolerance.
     Solved,
-    /// A complementary basis was found, but its residuals, recomputed from the original data, are
-    /// above the tolerance asked for, and below the square root of it, also when the equation is
-    /// measured by the right-hand side alone. Of a problem that was solved in another form: it is solved
-    /// there, but the residuals in the form given are above the tolerance.
+    /// A complementary basis was found, but its residuals, recomputed from the original data, are above the tolerance
+    /// and below its square root, also if the equation is measured by the right-hand side alone. For a problem that
+    /// was solved in another form: it is solved there, but the residuals in the given form are above the tolerance.
     AlmostSolved,
     /// There is no solution: `A t + B y = c` has none with `t >= 0` and `y >= 0`, which
     /// [`Solution::certificate`](crate::Solution::certificate) proves.
     Infeasible,
-    /// There is no solution: the linear conditions can be met, but not with one variable of every pair zero.
+    /// There is no solution: the linear conditions can be met, but not together with complementarity.
     /// [`Solution::certificate`](crate::Solution::certificate) proves it choice by choice.
     NoSolution,
-    /// There is no equilibrium, by the evidence of [`Solution::certificate`](crate::Solution::certificate): soft springs on all
-    /// displacements keep their share of the load, however soft they are. Where a body is rigid, or without
-    /// friction, it was also checked that no forces balance the loads. Of elastic bodies with friction it
-    /// is no proof.
+    /// There is no equilibrium, by the evidence of [`Solution::certificate`](crate::Solution::certificate): soft
+    /// springs on all displacements keep their share of the load, however soft they are. If a body is rigid, or
+    /// without friction, it was also checked that no forces balance the loads. For elastic bodies with friction it is
+    /// no proof.
     NoEquilibrium,
     /// No attempt found a solution, and at least one ended on a secondary ray. This does not prove
     /// that there is none.
@@ -30,22 +29,22 @@ pub enum Status {
     PivotLimit,
     /// The limit on iterations was reached.
     IterationLimit,
-    /// The residuals stopped decreasing above the tolerance, or the method cannot go on from where it
-    /// is. Another method may.
+    /// The residuals stopped decreasing above the tolerance, or the method has no further step. Another method may
+    /// succeed.
     Stalled,
     /// The limit on wall-clock time was reached.
     TimeLimit,
-    /// No attempt found a solution, and in at least one a basis came back; or the single exchanges of an
-    /// active set method did.
+    /// No attempt found a solution, and in at least one a basis was repeated; or the single exchanges of an active
+    /// set method repeated a set.
     Cycling,
-    /// No choice of one column from every pair gives a matrix that is nonsingular to working
-    /// precision, so that there is no complementary basis to start from, and with artificial columns
-    /// no solution was found either. For sparse problems of order above 2000: the solver found no such
-    /// choice, which does not exclude that there is one. Then a start basis should be given.
+    /// No choice of one column from every pair gives a matrix that is nonsingular to working precision, so there is
+    /// no complementary basis to start from, and with artificial columns no solution was found either. For sparse
+    /// problems of order above 2000: the solver found no such choice, but there may be one. Then a start basis should
+    /// be given.
     NoComplementaryBasis,
-    /// Rounding errors could not be brought under control.
+    /// Rounding errors are too large.
     NumericalTrouble,
-    /// The observer asked to stop.
+    /// The observer stopped the solve.
     Cancelled,
 }
 

@@ -1,4 +1,4 @@
-//! What is asked of a scene: one solution, a load history step by step, a limit load, a study of what accuracy costs.
+//! Analyses of a scene: one solution, a load history step by step, a limit load, a study of the cost of accuracy.
 
 pub mod checkpoint;
 pub mod limit;

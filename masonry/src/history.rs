@@ -1,15 +1,15 @@
 //! The load history: the steps of a scene, what acts in each, and the energy that it takes.
 //!
-//! With friction the answer depends on the way to it. A step is the law with the slip of the step before
+//! With friction the solution depends on the load path. In a step the law holds with the slip of the previous step
 //! subtracted,
 //!
 //! ```text
 //! 0 <= p+ _|_ y+ >= 0,   0 <= p- _|_ y- >= 0,   y+ - y- = y_t^k - y_t^(k-1)
 //! ```
 //!
-//! and everything else as in one step: the slip that was reached enters `s_0`, the movement of a
-//! support `x_0` and `s_0` of its joints. So every step is a [`Model`] of its own, the scene's
-//! [under](Model::under) the actions of the step.
+//! and everything else is as in one step: the previous slip enters `s_0`, the movement of a support `x_0` and `s_0`
+//! of its joints. So every step has its own [`Model`], that of the scene [under](Model::under) the actions of the
+//! step.
 //!
 //! | module | content |
 //! |---|---|
@@ -31,7 +31,7 @@ pub(crate) mod energy;
 pub struct Actions {
     /// Factor of gravity \[-\].
     pub gravity: f64,
-    /// Factors of the loads \[-\] beside their own, in the order of the scene.
+    /// Factors of the loads \[-\], in addition to their own, in the order of the scene.
     pub loads: Vec<f64>,
     /// Where the supports are, in the order of the scene; lengths in metres.
     pub movements: Vec<Movement>,
@@ -140,11 +140,10 @@ pub fn steps(scene: &Scene) -> Vec<Step> {
 }
 
 impl Model {
-    /// This model with the actions of a step, after slips \[m\] at its contact points, one for each.
+    /// This model with the actions of a step and previous slips \[m\] at its contact points, one for each.
     ///
-    /// Gravity and loads are multiplied by their factors. A support's movement `u_s` takes
-    /// `u_s.n` from the gaps and `u_s.t` from the slips of its joints; slips reached before are
-    /// taken away at points with friction.
+    /// Gravity and loads are multiplied by their factors. For a movement `u_s` of a support, `u_s.n` is subtracted
+    /// from the gaps and `u_s.t` from the slips of its joints. Previous slips are subtracted at points with friction.
     #[must_use]
     pub fn under(&self, actions: &Actions, slips: &[f64]) -> Self {
         let mut model = self.slid(slips);
@@ -152,7 +151,7 @@ impl Model {
         model
     }
 
-    /// This model after slips \[m\] at its contact points, one for each.
+    /// This model after previous slips \[m\] at its contact points, one for each.
     #[must_use]
     pub fn slid(&self, slips: &[f64]) -> Self {
         let mut model = self.clone();
@@ -189,7 +188,7 @@ impl Model {
     }
 }
 
-/// What a step came to, in SI units.
+/// The result of a step, in SI units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct StepRecord {
@@ -197,16 +196,16 @@ pub struct StepRecord {
     pub step: Step,
     /// The route that solved it.
     pub route: Route,
-    /// How the blocks came to rest, and so which law of friction the step obeys.
+    /// How the state at rest was found, and so which law of friction the step obeys.
     pub way: lcp::Way,
-    /// Matrices that were factorised for it.
+    /// Number of factorised matrices.
     pub factorisations: usize,
     /// Its residuals.
     pub residuals: lcp::Residuals,
     /// Work of loads and of moving supports in this step \[J\], by the trapezoidal rule.
     pub work: f64,
-    /// Energy that sliding dissipated in this step \[J\], `-t_t . (increment of y_t)`, never negative; and what
-    /// opening took of joints with tensile strength, which they give back when they close.
+    /// Energy dissipated by sliding in this step \[J\], `-t_t . (increment of y_t)`, never negative; plus the energy
+    /// of opening joints with tensile strength, which is recovered when they close.
     pub dissipation: f64,
     /// Strain energy of blocks and films after the step \[J\].
     pub strain_energy: f64,
@@ -218,7 +217,7 @@ pub struct StepRecord {
     pub reactions: Vec<Reaction>,
 }
 
-/// The steps of a scene whose answer depends on the way.
+/// The steps of a scene whose solution depends on the load path.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct History {
@@ -226,7 +225,7 @@ pub struct History {
     pub records: Vec<StepRecord>,
     /// The step that could not be solved, if there is one: the state is that of the step before.
     pub failed: Option<Step>,
-    /// How many steps the scene has.
+    /// Number of steps of the scene.
     pub steps: usize,
     /// Names of the loads, in the order of the factors.
     pub loads: Vec<String>,

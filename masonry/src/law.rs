@@ -8,22 +8,22 @@
 //! ```
 //!
 //! `C = c A` and `T = f_t A` are the cohesion and the tensile strength of the area `A` of the point. The strength is
-//! not lost where a joint has slid or opened: the law is ideally plastic. It needs `mu T <= C`, so that
-//! the force `-T` lies inside the cone.
+//! not lost after the joint has slid or opened: the law is ideally plastic. It needs `mu T <= C`, so that the force
+//! `-T` lies inside the cone.
 //!
-//! A change of the unknown makes it the law of a joint without tension. With `t_n' = t_n + T`,
+//! A change of variable gives the law of a joint without tension. With `t_n' = t_n + T`,
 //!
 //! ```text
 //!   t_n' >= 0,   |t_t| <= mu t_n' + C_0,   C_0 = C - mu T
 //! ```
 //!
-//! and `-T` along the normal is a load on both sides. So [`System`](crate::system::System) and everything built on
-//! it have `t_n'`, and only [`Friction::base`] is new there; [`State`](crate::state::State) has `t_n` again. Nothing else in
-//! the crate knows the bound.
+//! and `-T` along the normal is a load on both sides. So [`System`](crate::system::System) and everything built on it
+//! use `t_n'`, and only [`Friction::base`] is new there; [`State`](crate::state::State) has `t_n` again. Nothing else
+//! in the crate depends on the bound.
 
 use crate::ids::ContactId;
 
-/// What resists sliding and opening in a class of joints.
+/// Resistance to sliding and opening of a class of joints.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JointLaw {
     /// Coefficient of Coulomb friction \[-\].
@@ -73,7 +73,7 @@ impl PointLaw {
         self.mu > 0.0 || self.cohesion > 0.0
     }
 
-    /// `C_0 = C - mu T` \[N\]: what resists sliding where the joint is about to open.
+    /// `C_0 = C - mu T` \[N\]: resistance to sliding when the joint is about to open.
     pub fn base(&self) -> f64 {
         (self.cohesion - self.mu * self.tension).max(0.0)
     }
@@ -89,18 +89,20 @@ impl PointLaw {
         self.base() + (self.mu * (t_n + self.tension)).max(0.0)
     }
 
-    /// By how much a force \[N\] violates the law; at most zero where it does not.
+    /// The violation \[N\] of the law by a force; zero or negative if there is none.
     pub fn violation(&self, t_n: f64, t_t: f64) -> f64 {
         (-self.tension - t_n).max(t_t.abs() - self.mu * t_n - self.cohesion)
     }
 
-    /// The most work \[J\] that forces of size one along the edges of the cone do against a motion in which the joint opens
-    /// and slides by these lengths \[m\]; positive only where it slides faster than it opens by friction.
+    /// The largest work \[J\] that forces of size one along the edges of the cone do against a motion in which the
+    /// joint opens and slides by these lengths \[m\]; positive only if `mu` times the slip
+    /// exceeds the opening.
     pub fn against(&self, opens: f64, slides: f64) -> f64 {
         (self.mu * slides.abs() - opens) / self.mu.hypot(1.0)
     }
 
-    /// The work \[J\] that cohesion and tensile strength take in a motion in which no force of the cone does work against it.
+    /// The work \[J\] of cohesion and tensile strength in a motion in which no force of the cone does work against
+    /// it.
     pub fn strength(&self, opens: f64, slides: f64) -> f64 {
         self.tension * opens + self.base() * slides.abs()
     }

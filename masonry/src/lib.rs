@@ -1,8 +1,8 @@
 //! Walls and arches of blocks with unilateral Coulomb contact.
 //!
-//! Blocks, elastic (four-node elements) or rigid, meet in joints that carry no tension and slide by
-//! Coulomb's law. Their displacements are eliminated, and what remains is a linear complementarity
-//! problem in the contact forces, which [`lcp`] solves. [`solve`] does it all:
+//! Blocks, elastic (four-node elements) or rigid, meet in joints that slide by Coulomb's law, with optional cohesion
+//! and tensile strength. The result is a contact problem in displacements and contact forces, or a linear
+//! complementarity problem in the contact forces alone; [`lcp`] solves both. [`solve`] does it all:
 //!
 //! ```
 //! use masonry::scene::{Brick, Joint, Load, Material, Scene, Support, Wall};
@@ -23,23 +23,23 @@
 //! # Ok::<(), masonry::SolveError>(())
 //! ```
 //!
-//! # The way of the data
-//! Every stage is a module and can be used on its own; each imports only modules above it.
+//! # Data flow
+//! Every stage is a module and can be used separately; each imports only modules above it.
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`units`], [`ids`], [`geometry`], [`material`], [`element`] | what all others use |
+//! | [`units`], [`ids`], [`geometry`], [`material`], [`element`] | used by all others |
 //! | [`law`] | the law of a joint: friction, cohesion, tensile strength |
-//! | [`scene`] | what is there, in its own units: text, checks, builders, bonds of bricks |
+//! | [`scene`] | the input in its own units: text, checks, builders, bonds of bricks |
 //! | [`model`] | blocks, joints, contact points and meshes, in SI units |
 //! | [`system`] | stiffness, loads, contact rows (3.2), rigid motions |
 //! | [`state`] | displacements, contact forces, stresses: plain data |
-//! | [`method`] | one file a method, the choice among them (`auto`), the forms of the problem (3.27) and its reduction (3.18), (3.23), admissible forces |
+//! | [`method`] | one file per method, the choice among them (`auto`), the forms of the problem (3.27) and its reduction (3.18), (3.23), admissible forces |
 //! | [`recover`] | from contact forces to displacements, stresses, reactions |
-//! | [`paper`] | what only the paper's own program does: augmented Lagrangian method, films with nodes |
-//! | [`history`] | what acts in every step |
-//! | [`plan`] | what the scene calls for, and why |
-//! | [`verify`] | the judge: balances and the contact law of a state; stands, falls or undecided |
+//! | [`paper`] | parts of the paper's own program: augmented Lagrangian method, films with nodes |
+//! | [`history`] | loads and support positions of every step |
+//! | [`plan`] | the effects that the scene uses, and why |
+//! | [`verify`] | checks of a state: balances and contact law; the verdict: stands, falls or undecided |
 //! | [`analysis`] | one solution, load histories, studies of accuracy |
 //! | [`report`] | text, pictures, tables, meshes |
 //!

@@ -1,17 +1,16 @@
 //! Routes from the equilibrium of the blocks to contact forces and displacements: one file each.
 //!
-//! | route | works on | how |
+//! | route | problem | method |
 //! |---|---|---|
 //! | [`forces`] | [`System`](crate::system::System) | admissible forces, by one convex program, or the proof that there are none |
-//! | [`lemke`] | [`Reduction`](crate::method::reduction::Reduction), dense | complementary pivoting |
-//! | [`interior`] | [`Sparse`](crate::method::forms::Sparse) | interior points, with evidence where nothing stands |
-//! | [`newton`] | [`Sparse`](crate::method::forms::Sparse) | active sets: the states of the contacts, exchanged until none contradicts |
-//! | [`qp`] | [`Sparse`](crate::method::forms::Sparse) | convex quadratic programs, with proofs where nothing stands |
-//! | [`pgs`] | [`Sparse`](crate::method::forms::Sparse) | sweeps over the contacts of blocks on springs |
+//! | [`lemke`] | [`Reduction`](crate::method::reduction::Reduction), dense | Lemke's method |
+//! | [`interior`] | [`Sparse`](crate::method::forms::Sparse) | interior-point method, with evidence if there is no equilibrium |
+//! | [`newton`] | [`Sparse`](crate::method::forms::Sparse) | active sets: the states of the contacts are exchanged until none contradicts |
+//! | [`qp`] | [`Sparse`](crate::method::forms::Sparse) | convex quadratic programs, with proofs if there is no equilibrium |
+//! | [`pgs`] | [`Sparse`](crate::method::forms::Sparse) | projected Gauss-Seidel on the contacts of blocks on springs |
 //! | [`alm`](crate::paper::alm) | [`Sparse`](crate::method::forms::Sparse), or whole films | the augmented Lagrangian method of the paper |
 //!
-//! All of them give an [`Answer`] to a [`Request`]. Which ones a scene is given is in its
-//! [`Plan`](crate::plan::Plan).
+//! All of them give an [`Answer`] to a [`Request`]. The [`Plan`](crate::plan::Plan) says which ones a scene uses.
 
 use std::ops::ControlFlow;
 use std::time::Duration;
@@ -36,10 +35,10 @@ pub mod statics;
 
 pub use error::RouteError;
 
-/// What a route is asked for.
+/// The settings of a route.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Request {
-    /// Largest residual of an answer called solved \[-\].
+    /// Largest residual of a solution with status `Solved` \[-\].
     pub tolerance: f64,
     /// The form of the reduced problem.
     pub form: Form,
@@ -59,21 +58,21 @@ impl Request {
     }
 }
 
-/// What a route found.
+/// The result of a route.
 #[derive(Debug, Clone)]
 pub struct Answer {
     /// How it was found.
     pub info: SolveInfo,
     /// Contact forces and relative displacements, when solved.
     pub rows: Option<RowState>,
-    /// The displacements of the sparse problem, of the routes that have them, when solved.
+    /// The displacements of the sparse problem, for routes that have them, when solved.
     pub displacements: Option<Vec<f64>>,
-    /// The basis of the pivoting route, when solved: a start for the next step of a load history.
+    /// The basis of Lemke's method, when solved: a start for the next step of a load history.
     pub basis: Option<Start>,
     /// A motion that nothing seems to stop, when not solved.
     pub motion: Option<Motion>,
-    /// What the points with friction have slid \[m\] before the slips of `rows` were measured, and what that took, of an
-    /// answer that a motion led to.
+    /// The slips \[m\] of the points with friction before those of `rows`, and the energy that they took, if a motion
+    /// led to the solution.
     pub moved: Option<Moved>,
 }
 
@@ -86,7 +85,7 @@ pub enum Motion {
     Displacements(Vec<f64>),
 }
 
-/// What a motion in a step of a load history did before its end.
+/// The effect of a motion in a step of a load history before its end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moved {
     /// By point with friction, in the order of the system, how far it slid \[m\].
@@ -95,16 +94,16 @@ pub struct Moved {
     pub dissipation: f64,
 }
 
-/// How far a route has come.
+/// Progress of a route.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Step {
-    /// It pivots.
+    /// Pivots.
     Pivots(lcp::lemke::Progress),
-    /// It iterates.
+    /// Iterations.
     Iteration {
-        /// Steps, iterations, programs, or times that springs were centred, done so far.
+        /// Steps, iterations, programs, or re-centrings of springs, done so far.
         number: usize,
-        /// The residual by which the route stops.
+        /// The residual that controls the route.
         residual: f64,
     },
 }

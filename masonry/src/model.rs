@@ -7,7 +7,7 @@
 //! from `a` to `b`, and `t` is `n` turned by -90 degrees, `t = (n_y, -n_x)`. Then
 //! * normal gap `y_n = (u_b - u_a).n + x_0` \[m\], never negative;
 //! * slip `y_t = (u_b - u_a).t + s_0` \[m\];
-//! * `t_n` \[N\] acts on `b` along `+n`: compression is positive, and without tensile strength nothing else is possible;
+//! * `t_n` \[N\] acts on `b` along `+n`: compression is positive; tension needs a tensile strength;
 //! * `t_t` \[N\] acts on `b` along `+t`.
 
 mod classes;
@@ -34,7 +34,7 @@ use crate::paper::film::FilmMaterial;
 pub use crate::scene::{Movement, Plane, PointRule};
 use crate::units::Units;
 
-/// Everything that the mechanics needs of a scene, in SI units (m, N, Pa, kg/m^3).
+/// The data for the mechanics, in SI units (m, N, Pa, kg/m^3).
 #[derive(Debug, Clone)]
 pub struct Model {
     /// The blocks, in the order of the scene.
@@ -53,9 +53,9 @@ pub struct Model {
     pub thickness: f64,
     /// Gravity as an acceleration \[m/s^2\]; zero when the scene has none.
     pub gravity: Vector2<f64>,
-    /// Accelerations among the loads, which act on mass beside gravity.
+    /// Accelerations among the loads, which act on mass in addition to gravity.
     pub accelerations: Vec<Acceleration>,
-    /// What the loads are called and how much of them acts, in the order of the scene.
+    /// Names and factors of the loads, in the order of the scene.
     pub loads: Vec<Load>,
     /// The units of the scene, in which results are reported.
     pub units: Units,
@@ -70,7 +70,7 @@ impl Model {
     }
 }
 
-/// A block (brick, voussoir): a convex polygon, of an elastic material a quadrilateral.
+/// A block (brick, voussoir): a convex polygon; a quadrilateral if it is elastic.
 #[derive(Debug, Clone)]
 pub struct Block {
     /// The name by which messages and files refer to it.
@@ -113,8 +113,7 @@ pub struct Support {
     pub from: Point2<f64>,
     /// The other end \[m\].
     pub to: Point2<f64>,
-    /// How far it has moved from there, lengths in metres; gaps and slips of its contact points have
-    /// it in them.
+    /// Its movement from there, lengths in metres; gaps and slips of its contact points include it.
     pub movement: Movement,
 }
 
@@ -127,14 +126,14 @@ impl Support {
     }
 }
 
-/// What resists sliding in a class of joints.
+/// The law of a class of joints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointClass {
     /// The name in the scene: `bed`, `head`, or that of a support's joint.
     pub name: String,
-    /// What resists sliding and opening.
+    /// Resistance to sliding and opening.
     pub law: JointLaw,
-    /// Where on its joints the law is enforced; `None` as everywhere.
+    /// Position of the contact points on its joints; `None` for the default of the scene.
     pub points: Option<PointRule>,
     /// The mortar that fills its joints; `None` for dry joints.
     pub mortar: Option<Mortar>,
@@ -145,7 +144,7 @@ pub struct JointClass {
 pub struct Mortar {
     /// Thickness `t_y` \[m\].
     pub thickness: f64,
-    /// What it is made of.
+    /// The material.
     pub material: FilmMaterial,
 }
 
@@ -157,7 +156,8 @@ impl Mortar {
         [1, 2].map(|k| self.thickness / (matrix[(k, k)] * area))
     }
 
-    /// What strain along the joint does to a part of a strip of a length, in a wall of a thickness \[m\].
+    /// The effect of strain along the joint on a part of a strip of a given length, in a wall of a given thickness
+    /// \[m\].
     pub fn stretch(&self, length: f64, wall: f64) -> Stretch {
         let matrix = constitutive(self.material.elasticity, self.material.plane);
         let coupling = matrix[(0, 1)] / matrix[(1, 1)];
@@ -179,8 +179,8 @@ impl Mortar {
 pub struct Stretch {
     /// Force of the bar for a unit of elongation, `(C_11 - C_12^2 / C_22) t_y t_z / length` \[N/m\].
     pub stiffness: f64,
-    /// `C_12 / C_22` \[-\]: a film that keeps its thickness while it is stretched opens by
-    /// `t_y (C_12 / C_22) eps_x`, or is pulled.
+    /// `C_12 / C_22` \[-\]: if a film is stretched at constant thickness, it opens by `t_y (C_12 / C_22) eps_x`, or
+    /// is in tension.
     pub coupling: f64,
 }
 
@@ -263,14 +263,14 @@ pub struct ContactPoint {
     pub a: Option<Anchor>,
     /// Where it sits on side `b`.
     pub b: Anchor,
-    /// Initial gap `x_0` \[m\]; across a film, what the distance of the faces exceeds its thickness:
-    /// zero for a film in contact.
+    /// Initial gap `x_0` \[m\]; across a film, the excess of the distance of the faces over its thickness: zero for a
+    /// film in contact.
     pub gap: f64,
-    /// Initial slip `s_0` \[m\]: what the slip of a step starts from, and the movement of a support.
+    /// Initial slip `s_0` \[m\]: from the slip at the start of a step and the movement of a support.
     pub slip: f64,
     /// The law of its joint's class, for the area that it stands for.
     pub law: PointLaw,
-    /// What else a point of a film needs; `None` in a dry joint.
+    /// Additional data of a point of a film; `None` in a dry joint.
     pub film: Option<FilmPoint>,
 }
 
@@ -287,7 +287,7 @@ pub struct FilmPoint {
     pub b: [Anchor; 2],
     /// Compression and shear of this part of the film under a unit of force \[m/N\].
     pub compliance: [f64; 2],
-    /// What it does along the joint; `None` where films act across their joints only.
+    /// Its terms along the joint; `None` where films act across their joints only.
     pub stretch: Option<Stretch>,
 }
 
@@ -297,8 +297,7 @@ impl FilmPoint {
         [self.a, Some(self.b)]
     }
 
-    /// The gap that a unit of elongation makes, `t_y (C_12 / C_22) / length` \[-\]; zero without
-    /// [`stretch`](Self::stretch).
+    /// The gap per unit of elongation, `t_y (C_12 / C_22) / length` \[-\]; zero without [`stretch`](Self::stretch).
     pub fn gap_per_elongation(&self) -> f64 {
         self.stretch.map_or(0.0, |stretch| 2.0 * self.half * stretch.coupling / self.length)
     }

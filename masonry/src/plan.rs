@@ -1,4 +1,4 @@
-//! The plan: which effects a scene calls for, why, and what they cost.
+//! The plan: the effects that a scene uses, the reasons, and the cost.
 
 mod choice;
 mod effect;
@@ -16,7 +16,7 @@ use sizes::Sizes;
 use crate::model::Model;
 use crate::scene::{Form, Route, Scene};
 
-/// What will be built for a scene, known before anything is assembled.
+/// What will be built for a scene, determined before anything is assembled.
 ///
 /// Nothing that is off is built: no mesh and no stiffness without an elastic material, no
 /// tangential unknowns without friction, no films without a thickness of joints, no stresses when no output shows them.
@@ -36,21 +36,21 @@ pub struct Plan {
     pub frictional_points: usize,
     /// Rigid amplitudes: three per block, and as many isostatic rows (3.18).
     pub rigid_modes: usize,
-    /// Order of the complementarity problem of the first route. By pivots: m, and two more per frictional
-    /// point (3m); in the Stewart-Trinkle form three more (4m), in the mixed form also two per rigid
-    /// amplitude and per bar of mortar strips. On the sparse routes: m, two more per frictional point, and all displacements.
+    /// Order of the complementarity problem of the first route. For Lemke's method: m, and two more per frictional
+    /// point (3m); in the Stewart-Trinkle form three more (4m), in the mixed form also two per rigid amplitude and
+    /// per bar of mortar strips. On the sparse routes: m, two more per frictional point, and all displacements.
     pub order: usize,
     /// Order of the largest form that the first route may turn to.
     pub largest_order: usize,
     /// Displacement unknowns of the block with the finest mesh.
     pub largest_block: usize,
-    /// Steps of the load history that are solved: one where the answer does not depend on the way.
+    /// Steps of the load history that are solved: one if the solution does not depend on the load path.
     pub steps: usize,
     /// The solver that will be used.
     pub solver: String,
     /// Why this solver.
     pub because: String,
-    /// The routes in the order in which they are tried, until one has an answer.
+    /// The routes in the order in which they are tried, until one has a result.
     pub routes: Vec<Choice>,
 }
 
@@ -82,12 +82,12 @@ impl Plan {
         }
     }
 
-    /// Numbers in dense matrices, over all routes that may be taken; none where all are sparse.
+    /// Numbers in dense matrices, over all routes that may be used; none if all are sparse.
     pub fn dense_numbers(&self) -> usize {
         self.routes.iter().map(|choice| choice.dense_numbers).max().unwrap_or(0)
     }
 
-    /// Memory \[bytes\] at the peak of the route that takes most.
+    /// Peak memory \[bytes\] of the route that needs most.
     pub fn memory_bytes(&self) -> usize {
         self.routes.iter().map(|choice| choice.memory_bytes).max().unwrap_or(0)
     }

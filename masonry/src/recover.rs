@@ -1,4 +1,4 @@
-//! From contact forces and relative displacements back to the state of the structure.
+//! The state of the structure from contact forces and relative displacements.
 
 use nalgebra::{SVector, Vector2};
 
@@ -198,8 +198,8 @@ pub fn relative_displacement(
     apart + joint.tangent() * (turned * film.half / film.length) + joint.normal * opened
 }
 
-/// How much the part of a film that a contact point stands for becomes longer \[m\]: the mean of its two
-/// faces, of which those on supports and rigid blocks do not stretch. Zero in a dry joint.
+/// Elongation \[m\] of the part of a film that a contact point stands for: the mean of its two faces, of which those
+/// on supports and rigid blocks do not stretch. Zero in a dry joint.
 pub fn film_elongation(
     model: &Model,
     displacements: &[Vec<Vector2<f64>>],

@@ -1,4 +1,5 @@
-//! The mechanical state of a structure: plain data, which imports nothing of the crate but the numbers of its parts.
+//! The mechanical state of a structure: plain data, without dependence on the rest of the crate except numbers of
+//! parts.
 
 use nalgebra::{Point2, Vector2};
 use serde::{Deserialize, Serialize};
@@ -22,7 +23,7 @@ pub struct State {
     pub strain_energy: f64,
 }
 
-/// What happens at one contact point.
+/// The state of one contact point.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ContactState {
     /// Normal contact force \[N\], compression positive.

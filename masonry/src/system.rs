@@ -58,8 +58,8 @@ pub struct Row {
     pub offset: f64,
     /// Compression or shear of the film under a unit of force \[m/N\]; zero in a dry joint.
     pub compliance: f64,
-    /// What the unknown has beyond the force \[N\]: the tensile strength `T` of the point in a normal row,
-    /// and zero in the others. On both sides it is among the loads.
+    /// The difference between the unknown and the force \[N\]: the tensile strength `T` of the point in a normal row,
+    /// and zero in the others. It is among the loads on both sides.
     pub tension: f64,
 }
 
@@ -199,7 +199,7 @@ impl System {
         self.rows.len() - self.friction.len()
     }
 
-    /// Whether contact forces move anything but rigid blocks: there is an elastic block or a film of mortar.
+    /// Whether contact forces deform anything: there is an elastic block or a film of mortar.
     pub fn gives_way(&self) -> bool {
         let is_elastic = |body: &BodySystem| body.stiffness.is_some();
         self.bodies.iter().any(is_elastic) || self.rows.iter().any(|row| row.compliance > 0.0)

@@ -1,4 +1,4 @@
-//! The only judge: what a state misses of equilibrium and of the contact law, and whether a wall stands.
+//! Independent checks: the errors of a state in equilibrium and in the contact law, and whether a wall stands.
 
 pub mod checks;
 pub mod verdict;

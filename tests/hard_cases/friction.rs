@@ -63,13 +63,13 @@ fn pushed(mu: f64) -> Case {
     }
     Case::new(
         &format!("mu = {}, block", number(mu)),
-        "The two edges of the friction cone nearly coincide, or are nearly the whole plane.",
+        "The friction cone is nearly a line, or nearly the half plane.",
         scene,
     )
     .parameters(
         "4 x 1 m on a floor, pushed by min(mu, b / h) / 2 of its weight; for mu = 0 between smooth walls",
     )
-    .known("weight and push come out at the floor, to digits of the weight", move |outcome| {
+    .known("the floor carries weight and push, with an error relative to the weight", move |outcome| {
         let weight = 8000.0 * GRAVITY;
         let reaction = &outcome.reactions[0];
         (reaction.fx / weight + lean).hypot(reaction.fy / weight - 1.0)
@@ -99,7 +99,7 @@ fn rough_wall(mu: f64) -> Case {
         "The problem is not copositive for large friction; without friction, or nearly so, nothing holds bricks sideways.",
         scene,
     )
-    .parameters("three courses of three bricks, weight that leans by 0.1; for mu < 0.1 upright, between smooth walls")
+    .parameters("three courses of three bricks, weight inclined by 0.1; for mu < 0.1 upright, between smooth walls")
     .known("the sum of the reactions is the load", reactions_off)
 }
 
@@ -117,7 +117,7 @@ fn wedge(angle: f64, mu: f64, material: Material) -> Scene {
 fn smooth_wedge(kind: &str, material: Material, angle: f64) -> Case {
     Case::new(
         &format!("smooth wedge, {kind}"),
-        "No normal is vertical: all of them push and carry.",
+        "No normal is vertical: every contact force both carries the wedge and pushes it sideways.",
         wedge(angle, 0.0, material),
     )
     .parameters("key 1 m high, 1 m wide on top and 0.27 m at the foot, faces inclined by 20 degrees from the vertical, in 2 x 3 elements if elastic, mu = 0, own weight")
@@ -139,11 +139,11 @@ fn pulled_wedge(kind: &str, material: Material, mu: f64) -> Case {
         wedge(20.0, mu, material).load(Load::traction("pull", [0.0, 1.0], [1.0, 1.0], pull));
     Case::new(
         &format!("wedge pulled out, {kind}"),
-        "Friction is steeper than the faces: what is jammed cannot be pulled out, and nothing says that it is jammed.",
+        "The friction cone is steeper than the faces: a jammed wedge cannot be pulled out, and the data do not say whether it is jammed.",
         scene,
     )
     .parameters("the same key, mu = 0.6 > tan 20, pulled up by 30 kN against a weight of 12.5 kN")
-    .open("a rigid key stands if it is jammed by any large enough force, an elastic one comes out")
+    .open("a rigid key stands if a large enough force jams it, an elastic one comes out")
 }
 
 fn tight_box(kind: &str, material: Material) -> Case {
@@ -155,7 +155,7 @@ fn tight_box(kind: &str, material: Material) -> Case {
         .support(Support::new("right", [1.0, 0.0], [1.0, 1.0], "head"));
     Case::new(
         &format!("block in a tight box, {kind}"),
-        "It may rest on the floor, hang between the walls, or both; the walls may press with any force.",
+        "The block may rest on the floor, hang between the walls, or both; the walls may press with any force.",
         scene,
     )
     .parameters("1 x 1 m, mu = 1, own weight")
@@ -178,5 +178,5 @@ fn panel(mu: f64) -> Case {
         "`scenes/panel_rectangular.toml` with a mesh of 2 x 1: 55 bricks, E = {:e} kN/m2",
         0.1 * YOUNG
     ))
-    .known("reactions add up to the load, in either solution", reactions_off)
+    .known("the sum of the reactions is the load, in either solution", reactions_off)
 }

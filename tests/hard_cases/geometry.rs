@@ -76,7 +76,7 @@ fn many_supports(count: f64) -> Case {
     );
     Case::new(
         "one rigid block on a hundred points",
-        "Three equations of equilibrium for 200 contact forces: 197 of these are free.",
+        "Three equations of equilibrium for 200 contact forces: 197 of these are undetermined.",
         supported,
     )
     .parameters("1 x 0.5 m, 50 supports side by side, mu = 0.6, pushed by 0.3 of its weight")
@@ -95,7 +95,7 @@ fn flat(ratio: f64) -> Case {
 fn slender(ratio: f64) -> Case {
     column(
         "bricks a thousand times as high as long",
-        "The same, and the base is a thousandth of the height.",
+        "The same; the base is a thousandth of the height.",
         [1.0 / ratio, 1.0],
         [1, 4],
     )
@@ -173,10 +173,10 @@ fn beside_nodes(offset: f64, films: Films) -> Case {
     let load = Load::traction("top", [aside, top], [0.2 + aside, top], [10.0, -100.0]);
     Case::new(
         &format!("a film that ends 1e-6 beside a node, {kind}"),
-        "Parts of the film between a node of one brick and the next one of the other are as short as the offset.",
+        "Parts of the film, from a node of one brick to the nearest node of the other, are as short as the offset.",
         bricks.load(load),
     )
-    .parameters("two bricks 0.2 x 0.1 m in 4 x 2 elements, the upper one 2e-7 m to the right, film of 0.01 m, E_m = E / 10, nu_m = 0.2, contact points of Gauss, mu = 0.5, no weight, 100 kN/m2 that lean by 0.1")
+    .parameters("two bricks 0.2 x 0.1 m in 4 x 2 elements, the upper one 2e-7 m to the right, film of 0.01 m, E_m = E / 10, nu_m = 0.2, contact points of Gauss, mu = 0.5, no weight, 100 kN/m2 inclined by 0.1")
     .known("the sum of the reactions is the load", reactions_off)
 }
 
@@ -191,8 +191,7 @@ fn uneven_supports(kind: &str, material: Material, depth: f64) -> Case {
     });
     Case::new(
         &format!("gaps of 1e-12 under a block, {kind}"),
-        "The gaps are near the rounding errors of the coordinates; of a rigid block they are the only length but its \
-         own.",
+        "The gaps are near the rounding errors of the coordinates; for a rigid block they are the only length besides its size.",
         uneven,
     )
     .parameters("1 x 0.5 m, in 10 x 2 elements if elastic, ten supports 0 to 3e-12 m below it, mu = 0.6, own weight")

@@ -105,8 +105,7 @@ fn structures(kind: &str, material: Material) -> [Structure; 4] {
     ]
 }
 
-const WHY: &str =
-    "What carries is used up but for a millionth, wholly, or is too little by a millionth.";
+const WHY: &str = "The load is a millionth below the limit, at the limit, or a millionth above it.";
 
 impl Structure {
     /// At a load that is so much below the limit.
@@ -116,23 +115,23 @@ impl Structure {
             WHY,
             (self.loaded)(self.limit * (1.0 - by)),
         )
-        .parameters(&format!("{}, less 1e-6 of it", self.parameters))
+        .parameters(&format!("{}, 1e-6 below it", self.parameters))
         .known("the sum of the reactions is the load", reactions_off)
     }
 
     /// At the limit itself, rounded.
     fn at(&self) -> Case {
         Case::new(&format!("{}{ON_EDGE}", self.name), WHY, (self.loaded)(self.limit))
-            .parameters(&format!("{}, all of it", self.parameters))
-            .open("stands, on the edge; rounding decides, and either answer is right")
+            .parameters(&format!("{}, at the limit", self.parameters))
+            .open("stands exactly at the limit; rounding decides, and either result is accepted")
     }
 
     /// At a load that is so much above it.
     fn above(&self, by: f64) -> Case {
         let name = format!("{}, just above", self.name);
         Case::new(&name, WHY, (self.loaded)(self.limit * (1.0 + by)))
-            .parameters(&format!("{}, and 1e-6 of it more", self.parameters))
-            .falls_by(by, "nothing stands")
+            .parameters(&format!("{}, 1e-6 above it", self.parameters))
+            .falls_by(by, "no equilibrium")
     }
 }
 
@@ -158,11 +157,11 @@ fn lifted(kind: &str, material: Material, pull: f64) -> Case {
     let load = Load::traction("pull", [0.0, 1.0], [1.0, 1.0], [0.0, pull]);
     Case::new(
         &format!("block pulled up, {kind}"),
-        "Nothing carries the load, whatever friction is.",
+        "No contact force can carry the load, for any friction.",
         stack(1, [1.0, 1.0], 0.0, material).load(load),
     )
     .parameters("1 x 1 m on a floor, mu = 0.5, 19.62 kN heavy, pulled up by 20 kN")
-    .falls_by(pull / weight - 1.0, "nothing stands")
+    .falls_by(pull / weight - 1.0, "no equilibrium")
 }
 
 /// Number of courses of the panel without a floor, three bricks of 0.1 x 0.1 m in each.
@@ -175,9 +174,7 @@ const COURSES: u32 = 3;
 pub fn hanging(mu: f64) -> Case {
     let case = Case::new(
         "panel without a floor",
-        "Only friction carries, and no condition that is linear says whether it can: it spreads under the load and \
-         presses the walls apart, by little. The topmost course alone is an arch; under it the bricks of the others, \
-         which weigh nothing, may be anywhere.",
+        "Only friction carries the load, and no linear condition decides whether it can: the panel widens slightly under the load and presses against the walls. The topmost course alone is an arch; the weightless bricks below it may be anywhere.",
         between_two_walls(mu, 0..COURSES),
     )
     .parameters(
@@ -195,7 +192,7 @@ pub fn hanging(mu: f64) -> Case {
 pub fn arch(mu: f64) -> Case {
     Case::new(
         "topmost course of that panel",
-        "Friction of 1.199 is used, at one point of either wall.",
+        "The largest ratio of friction to normal force is 1.199, at one point of each wall.",
         between_two_walls(mu, COURSES - 1..COURSES),
     )
     .parameters("the same without the courses below, mu = 1.2")

@@ -10,45 +10,43 @@ use super::common::routes::ROUTES;
 const HEAD: &str = "\
 # Hard cases
 
-Scenes that are hard on purpose, what is known about their answers, and what every route of `masonry` gives for them.
-Problems of `lcp` itself are on a [page of their own](hard_problems.md).
-The list is `tests/hard_cases/`, and so is what writes this page:
+Scenes that are hard on purpose, what is known about their solutions, and the results of every route of `masonry`. Problems of `lcp` itself have
+[their own page](hard_problems.md). The cases are in `tests/hard_cases/`, which also writes this page:
 
 ```text
 HARD_CASES=write cargo test --test hard_cases
 ```
 
-What is called solved has passed the [checks](theory.md#10-residuals-and-balances), which use nothing of the methods: balance of
-every block, friction cone, gaps and sliding from the displacements, forces at all nodes from the elements, and the energy
-`f.u + t.y = 2 U + t.x` (loads, forces on gaps and slips, strain energy, initial gaps). Forces are compared with those on the same
-block, so that a light one is not excused by a heavy neighbour; what is a rounding error of the neighbour counts as 1e-9 at most. The test repeats them on the answer, and the balances in
-numbers of twice the digits; and it compares what is known. Asked for are residuals of 1e-10, of `alm` 1e-8.
+A solved case has passed the [checks](theory.md#10-residuals-and-balances), which are independent of the methods: balance of every block, friction cone, gaps
+and sliding from the displacements, forces at all nodes from the elements, and the energy `f.u + t.y = 2 U + t.x` (loads, forces on gaps and slips, strain
+energy, initial gaps). Forces are relative to those on the same block, so a light block is not excused by a heavy neighbour; rounding errors of the neighbour
+count as 1e-9 at most. The test repeats the checks, with the balances in double-double arithmetic, and compares the solution with what is known. The tolerance
+is 1e-10, for `alm` 1e-8.
 
-After every case come its parameters and what is known about the answer. Unless said otherwise:
+Each case is followed by its parameters and by what is known about the solution. Unless stated otherwise:
 
 * plane stress, thickness 1 m, gravity of 9.81 m/s2 downwards, one `mu` for all joints, contact points at both ends of every part of a
   joint on which displacements are linear;
 * blocks are elastic unless they are called rigid, with E = 1e6 kN/m2 and nu = 0.15, and all have a density of 2000 kg/m3;
 * blocks on their own have 2 x 2 elements; walls are in running bond on a floor, of bricks 0.2 x 0.1 m of one element each;
-* a weight that leans by 0.1, a push of 0.1 of the weight and a limit of that are gravity with that part of it to the right; no other loads act.
+* a weight inclined by 0.1, or a push of 0.1 of the weight, is gravity with that fraction of it to the right; no other loads act.
 
 ## How to read the tables
 
-* `1e-14, 1e-15 (23)`, without a status, is an answer that is called solved: first the worst of these checks; then the
-  residual of the complementarity problem, which the library computed from the data and by which it was called solved; the cost in
-  brackets. The residual is relative to the largest forces: the checks weigh the same error more on a block with smaller ones.
-  Powers of ten are rounded up, and nothing below 1e-15 is told apart.
-* `Stalled 1e-5 (202)` is no answer: the status, and the residual at which the route ended. That may be small far out, where
-  displacements are huge: then other checks refused the point.
-* A dash is a scene that the route does not treat; `not tried`: it would take too long for a test.
-* The cost is pivots, of all attempts, or sweeps, steps, programs or iterations.
+* `1e-14, 1e-15 (23)`, without a status, is a solved case: the worst of these checks, the residual of the complementarity problem (computed by the library from
+  the data, the criterion for `Solved`), and the cost in brackets. The residual is relative to the largest forces, so the checks weight the same error more on a
+  block with smaller ones. Powers of ten are rounded up; values below 1e-15 are shown as 1e-15.
+* `Stalled 1e-5 (202)` is no solution: the status, and the residual at which the route ended. This residual may be small at a distant point, where displacements
+  are huge; then other checks refused the point.
+* A dash means that the route does not treat the scene; `not tried` means that it would take too long for a test.
+* The cost is the number of pivots of all attempts, or of sweeps, steps, programs or iterations.
 
-Only `Infeasible` is a proof that nothing stands. `NoEquilibrium` is [evidence](methods.md#soft-springs-is-there-an-equilibrium-at-all),
-with friction no proof, and it can be wrong: `interior` says it of the panel without a floor (below) also at mu = 1.4, where
-the topmost course carries as an arch. All other [statuses](lcp.md#solving-and-reading-a-solution) prove nothing.
+Only `Infeasible` is a proof that there is no equilibrium. `NoEquilibrium` is [evidence](methods.md#soft-springs-is-there-an-equilibrium-at-all),
+with friction no proof, and it can be wrong: `interior` also reports it for the panel without a floor (below) at mu = 1.4, where
+the topmost course carries the load as an arch. All other [statuses](lcp.md#solving-and-reading-a-solution) prove nothing.
 
-The test lets powers of answers and costs differ, and does not compare how a route gives up: all may hang on the last digits. Nor does it
-compare whether there is an answer at a limit itself, where rounding decides.
+The test does not compare powers of ten, costs, and the status of a failure, since these may depend on the last digits. At the limit itself, where rounding
+decides, it does not compare whether there is a solution.
 ";
 
 /// The end of the names of cases for which either answer is right.

@@ -85,15 +85,14 @@ fn mortared_wall(ratio: f64, words: &str) -> Case {
     let mut filled = pressed(filled, width, height, 10.0);
     "floor".clone_into(&mut filled.supports[0].joint);
     Case::new(&format!("mortar {words} than the bricks by 1e6, wall"), RATIO, filled)
-        .parameters("three courses of three bricks, films of 0.01 m, mu = 0.6, pressed by 10 kN/m2, weight that leans by 0.1")
+        .parameters("three courses of three bricks, films of 0.01 m, mu = 0.6, pressed by 10 kN/m2, weight inclined by 0.1")
         .known("the sum of the reactions is the load", reactions_off)
 }
 
 /// Digits of forces below this part of the largest are rounding errors of these.
 const LIGHTEST: f64 = 1e-6;
 
-const WEIGHT: &str =
-    "What rounding leaves of the forces on the heavy one, the light one would feel.";
+const WEIGHT: &str = "Rounding errors of the forces on the heavy block may be as large as the forces on the light one.";
 
 /// Weight of a block of density 2000 and size 1 \[N\].
 const LIGHT: f64 = 2000.0 * GRAVITY;
@@ -112,7 +111,7 @@ fn heavy(name: &str, times: Vec<f64>) -> Case {
     Case::new(name, WEIGHT, scene)
         .parameters("blocks 1 x 1 m on top of each other on a floor, mu = 0.5, pushed by 0.2 of their weight")
         .known(
-            "every joint carries what is above it, to digits of that or of a millionth of all",
+            "every joint carries the weight above it, with an error relative to that weight or to a millionth of the total",
             move |outcome| {
                 let below = |k: usize| match k.checked_sub(1) {
                     Some(k) => Body::Block(block_named(&outcome.model, &k.to_string())),
@@ -162,11 +161,11 @@ fn in_units(units: Units) -> Case {
     let names = format!("{} and {}", units.length_name(), units.force_name());
     Case::new(
         &format!("one wall in {names}"),
-        "Numbers of a scene differ by up to 1e12; statuses and answers must not.",
+        "The numbers of the scene differ by up to 1e12; statuses and solutions must be the same.",
         converted(scene, units),
     )
     .parameters(
-        "three courses of three bricks, mu = 0.6, pressed by 10 kN/m2, weight that leans by 0.1",
+        "three courses of three bricks, mu = 0.6, pressed by 10 kN/m2, weight inclined by 0.1",
     )
     .known("the sum of the reactions is the load; one answer in all units", reactions_off)
 }

@@ -52,11 +52,11 @@ fn grown([length, courses]: [u32; 2]) -> Case {
     };
     Case::new(
         &format!("wall of {bricks} bricks"),
-        "Forces can circulate around the end of every head joint, and rounding adds up course by course.",
+        "Forces can circulate around the end of every head joint, and rounding errors accumulate from course to course.",
         wall(width, courses, 0.6, elastic()).stresses(false),
     )
     .slow_by(slow)
-    .parameters(&format!("courses x bricks: {courses} x {length}, mu = 0.6, weight that leans by 0.1"))
+    .parameters(&format!("courses x bricks: {courses} x {length}, mu = 0.6, weight inclined by 0.1"))
     .known("the sum of the reactions is the load", reactions_off)
 }
 
@@ -78,7 +78,7 @@ fn settled(sinks: f64) -> Case {
         .stage(Stage::new("settlement").steps(2).moves("right foundation", turned));
     Case::new(
         "wall on a support that settles",
-        "Bricks that lose their support turn far more than any of them is deformed.",
+        "Bricks that lose their support rotate far more than they deform.",
         scene,
     )
     .parameters("six courses of six bricks 0.25 x 0.125 m in 2 x 1 elements, thickness 0.25 m, mu = 0.6, the right half of the base sinks by 4 mm and turns by 0.004 in two steps")

@@ -2,6 +2,8 @@
 
 use std::ops::ControlFlow;
 
+use faer::sparse::FaerError;
+
 use super::crossover::{Effort, Vertex, cross_over};
 use super::original::{
     Answer, At, Judge, Judged, Original, brought_right, confirmed, judged as judged_by,
@@ -41,10 +43,7 @@ impl<'a> Search<'a> {
         tolerance: f64,
     ) -> Result<Self, Error> {
         let scaled = problem.scaled();
-        let condensed = Condensed::new(&scaled).map_err(|error| Error::NotTreated {
-            method,
-            reason: format!("its sparse factors cannot be planned: {error}"),
-        })?;
+        let condensed = Condensed::new(&scaled).map_err(|error| unplanned(method, error))?;
         let judge = problem.judge();
         Ok(Self { method, problem, judge, tolerance, scaled, condensed, best: None })
     }
@@ -192,6 +191,11 @@ impl<'a> Search<'a> {
         solution.info.factorisations = self.condensed.factorisations;
         solution
     }
+}
+
+/// That memory does not suffice for the sparse factors.
+pub(crate) fn unplanned(method: Method, error: FaerError) -> Error {
+    Error::NotTreated { method, reason: format!("its sparse factors cannot be planned: {error}") }
 }
 
 /// Quickly, and with all digits where the point may be a solution.

@@ -1,4 +1,4 @@
-//! What shows that a problem has no solution.
+//! Certificates that a problem has no solution.
 
 use super::constants::RAY_ROUNDING;
 use super::evidence::{Ray, SoftSprings};
@@ -7,28 +7,28 @@ use super::ledger::ratio;
 use crate::matrix::Column;
 use crate::{HorizontalLcp, Side};
 
-/// What shows that there is no solution, or what was met in place of one. See
+/// Shows that there is no solution, or what was found instead of one. See
 /// [`Solution::certificate`](crate::Solution::certificate).
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(tag = "kind", rename_all = "lowercase"))]
 #[non_exhaustive]
 pub enum Certificate {
-    /// A proof that the linear conditions have no solution: a vector `pi` of the rows with `A^T pi <= 0`,
+    /// A proof that the linear conditions have no solution: a vector `pi` with one entry per row, with `A^T pi <= 0`,
     /// `B^T pi <= 0` and `c.pi > 0` (Farkas 1902). Its largest entry is one.
     Farkas {
         /// The vector.
         pi: Vec<f64>,
     },
-    /// A proof that the linear conditions have no complementary solution: for every choice of the variables that
-    /// may be positive, one of a pair, a Farkas vector.
+    /// A proof that the linear conditions have no complementary solution: a Farkas vector for every choice of the
+    /// variables that may be positive, one of each pair.
     Choices {
-        /// One for every part of the choices; together they are all.
+        /// One leaf for every set of choices; together they cover all choices.
         leaves: Vec<Leaf>,
     },
-    /// A secondary ray on which pivots ended. It proves nothing.
+    /// A secondary ray on which Lemke's method ended. It proves nothing.
     Ray(Ray),
-    /// Soft springs that keep their share of the load, however soft they are. Of elastic bodies with friction this
+    /// Soft springs that keep their share of the load, however soft they are. For elastic bodies with friction this
     /// is evidence and no proof.
     Springs(SoftSprings),
 }
@@ -49,9 +49,8 @@ impl Certificate {
         matches!(self, Self::Farkas { .. } | Self::Choices { .. })
     }
 
-    /// Checks what the certificate says against the data of the general form of the problem: products with the
-    /// columns are summed with twice the digits, and may be wrong by what the rounding of the vector makes
-    /// them.
+    /// Checks the certificate against the data of the general form of the problem. Products with the columns are
+    /// summed in double-double arithmetic, with a tolerance for the rounding errors of the vector.
     ///
     /// ```
     /// use faer::mat;

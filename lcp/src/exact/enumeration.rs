@@ -71,13 +71,12 @@ pub struct Face {
 
 /// Finds all solutions of a small problem.
 ///
-/// Each of the `2^n` complementary bases has a polyhedron of solutions: a point or nothing where it
-/// is nonsingular, else perhaps a segment or more. A tree over the pairs shares the elimination
-/// between bases and leaves out a branch as soon as the sign pattern of a row forbids it. Polyhedra
-/// that lie in others are left out.
+/// Each of the `2^n` complementary bases has a polyhedron of solutions: a point or nothing if it is nonsingular, else
+/// perhaps a segment or more. A tree over the pairs shares the elimination between bases and skips a branch as soon
+/// as the sign pattern of a row forbids it. Polyhedra that lie in others are omitted.
 ///
-/// The cost grows with `2^n n`: milliseconds for 10 pairs of small integers, tenths of a second for
-/// 16, and more where many bases are singular.
+/// The cost grows with `2^n n`: milliseconds for 10 pairs of small integers, tenths of a second for 16, and more if
+/// many bases are singular.
 ///
 /// ```
 /// use faer::Mat;

@@ -6,7 +6,7 @@ use super::integers::{Integers, Variable};
 use super::tableau::{Tableau, eliminate};
 use crate::{Basis, HorizontalLcp, Side};
 
-/// What exact arithmetic says of a complementary basis.
+/// The properties of a complementary basis in exact arithmetic.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ExactVerdict {
     /// The columns of the basis are linearly dependent.

@@ -5,19 +5,19 @@ use std::f64::consts::PI;
 use crate::vector::{check_length, check_vector};
 use crate::{Basis, Error, Lcp, Matrix, Side, WarmStart};
 
-/// What the membrane lies on.
+/// The ground under the membrane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Ground {
-    /// Flat ground, which a uniform load presses the membrane onto. The frame is held such that the
-    /// contact region is a disc of this radius, between 0 and 1, and the gap is known:
-    /// `r^2 - a^2 - 2 a^2 ln(r / a)` at the distance `r > a` from the middle.
+    /// Flat ground, onto which a uniform load presses the membrane. The frame is held such that the contact region is
+    /// a disc of this radius, between 0 and 1, and the gap is known: `r^2 - a^2 - 2 a^2 ln(r / a)` at the distance
+    /// `r > a` from the middle.
     Disc {
         /// Radius `a` of the contact region.
         radius: f64,
     },
-    /// Hills below a level frame, so many in both directions; the load presses the membrane onto some
-    /// parts of them.
+    /// Hills below a level frame, this number in each direction; the load presses the membrane onto some parts of
+    /// them.
     Hills {
         /// In both directions.
         count: u32,

@@ -28,7 +28,7 @@ pub(super) fn balance(
     problem: &Scaled,
     solve: impl FnOnce(&MixedLcp) -> Option<Solution>,
 ) -> Balance {
-    let edges = edges(problem);
+    let edges = problem.associated().points;
     let Some(mixed) = nearest(problem, &edges) else { return Balance::Open };
     let Some(solution) = solve(&mixed) else { return Balance::Open };
     let (z, _) = mixed.recover(&solution.t, &solution.y);
@@ -40,37 +40,12 @@ pub(super) fn balance(
         return Balance::Open;
     }
     let parts = &rest[problem.order()..];
-    let mut forces = vec![(0.0, 0.0); problem.points.len()];
-    for ((i, sign), part) in edges.iter().zip(parts) {
-        forces[*i].0 += part;
-        forces[*i].1 += sign * part;
-    }
-    Balance::Possible(forces)
-}
-
-/// The edges of the friction cones: points, and the tangential force for a normal force of one.
-fn edges(problem: &Scaled) -> Vec<(usize, f64)> {
-    let of_point = |(i, point): (usize, &Point)| {
-        let count = if point.mu > 0.0 { 2 } else { 1 };
-        [(i, point.mu), (i, -point.mu)].into_iter().take(count)
-    };
-    problem.points.iter().enumerate().flat_map(of_point).collect()
-}
-
-/// Displacements that an edge force acts on, with its components.
-fn components(
-    problem: &Scaled,
-    (i, tangential): (usize, f64),
-) -> impl Iterator<Item = (usize, f64)> + '_ {
-    let point = &problem.points[i];
-    let parts = point.normal.iter().zip(&point.tangent);
-    let values = parts.map(move |(n, t)| n + tangential * t);
-    point.columns.iter().copied().zip(values)
+    Balance::Possible(problem.of_edges(parts.iter().copied()))
 }
 
 /// The conditions of the least `|f + C^T t - K u|^2 / 2`, with `v`, `u` and then the parts of the forces
 /// along the edges as variables.
-fn nearest(problem: &Scaled, edges: &[(usize, f64)]) -> Option<MixedLcp> {
+fn nearest(problem: &Scaled, edges: &[Point]) -> Option<MixedLcp> {
     let n = problem.order();
     let order = 2 * n + edges.len();
     let mut entries: Vec<(usize, usize, f64)> = (0..n).map(|j| (j, j, 1.0)).collect();
@@ -80,7 +55,7 @@ fn nearest(problem: &Scaled, edges: &[(usize, f64)]) -> Option<MixedLcp> {
         }
     }
     for (k, edge) in edges.iter().enumerate() {
-        for (j, value) in components(problem, *edge) {
+        for (j, value) in components(edge) {
             entries.extend([(j, 2 * n + k, -value), (2 * n + k, j, value)]);
         }
     }
@@ -90,6 +65,11 @@ fn nearest(problem: &Scaled, edges: &[(usize, f64)]) -> Option<MixedLcp> {
     MixedLcp::new(m, q, (0..order).map(|j| j < 2 * n).collect()).ok()
 }
 
+/// Displacements that an edge force acts on, with its components.
+fn components(edge: &Point) -> impl Iterator<Item = (usize, f64)> + '_ {
+    edge.columns.iter().copied().zip(edge.normal.iter().copied())
+}
+
 /// What does not move but for rounding errors is at rest: errors of their own size would contradict a proof.
 fn without_noise(v: &[f64]) -> Vec<f64> {
     let noise = ROW_ROUNDING * max_abs(v);
@@ -97,7 +77,7 @@ fn without_noise(v: &[f64]) -> Vec<f64> {
 }
 
 /// Whether a motion proves that no forces balance the loads.
-fn is_proof(problem: &Scaled, edges: &[(usize, f64)], v: &[f64]) -> bool {
+fn is_proof(problem: &Scaled, edges: &[Point], v: &[f64]) -> bool {
     let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
     let (load, motion) = (size(&problem.f), size(v));
     let work: f64 = problem.f.iter().zip(v).map(|(f, v)| f * v).sum();
@@ -112,7 +92,7 @@ fn is_proof(problem: &Scaled, edges: &[(usize, f64)], v: &[f64]) -> bool {
         sum.abs() <= ROW_ROUNDING * terms
     });
     let opens = edges.iter().all(|edge| {
-        let (sum, terms) = sum(&mut components(problem, *edge));
+        let (sum, terms) = sum(&mut components(edge));
         sum >= -ROW_ROUNDING * terms
     });
     max_abs(v) > 0.0 && work >= LEAST_WORK * load * motion && is_free && opens

@@ -3,15 +3,11 @@
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use super::constants::{
-    FIRST_VISCOSITY, FLOWING, LEAST_VISCOSITY, LESS_VISCOUS, MORE_VISCOUS, MOST_VISCOSITY, MOVED,
-    RESTING, SAME_SHARE, SETTLING, SMOOTH, TRIES,
-};
-use super::continuation::centred;
-use super::iterate::Iterate;
+use super::constants::{LEAST_VISCOSITY, MOST_VISCOSITY, SETTLING, SMOOTH, TRIES};
+use super::motion::{Motions, Moved, Viscosity};
 use super::rest::settled;
 use super::start::start;
-use crate::active::{Effort, Search};
+use crate::active::{Effort, Search, unplanned};
 use crate::lower::judged_point;
 use crate::settings::check_tolerance;
 use crate::solve::Monitor;
@@ -51,15 +47,17 @@ impl Default for EvolutionSettings {
 ///    of interior points, and forces inside the friction cones.
 /// 2. **The law itself**, from the states of the contacts that this leads to, as in
 ///    [`InteriorPoint`](crate::InteriorPoint).
-/// 3. **Motion.** The bodies move against a viscosity `eta`, with smooth friction, from displacements `u_k` to
+/// 3. **Motion.** The bodies move against a viscosity `eta` from displacements `u_k` to
 ///
 ///    ```text
 ///    K u + eta V (u - u_k) = f + C_n^T t_n + C_t^T t_t,    slip measured from u_k,
 ///    ```
 ///
-///    with the unit `V` of the equilibrated problem, again and again with less viscosity. Where the viscous share of the
-///    loads, `eta |V (u - u_k)|_1 / |f|_1`, vanishes, the bodies come to rest. Where it stays the same however small `eta`
-///    is, they flow.
+///    with the unit `V` of the equilibrated problem, again and again. Friction has associated flow in a motion: a slip `s`
+///    opens the gap by `mu |s|`, which the next motion closes. So every motion is the solution of a convex program, and
+///    where the bodies come to rest nothing slips and the law is Coulomb's (Anitescu 2006). There is less viscosity from
+///    motion to motion as long as motions do not become much longer for it. Then rest is looked for by smooth friction.
+///    Motions that go on, with the same viscosity and the same length each, are those of bodies that flow.
 ///
 /// The first motion measures slips as the problem does, so that supports which are moved drag along what rests on them.
 ///
@@ -69,7 +67,7 @@ impl Default for EvolutionSettings {
 ///
 /// # Failure
 /// [`Status::NoEquilibrium`] where the bodies flow, with the velocities in [`Certificate::Springs`]: evidence, and no
-/// proof. [`Status::Stalled`] where a motion cannot be computed, and the statuses of limits.
+/// proof. [`Status::Stalled`] where no rest is found after motions that decrease, and the statuses of limits.
 ///
 /// ```
 /// use lcp::{Contact2d, ContactPoint, Evolution};
@@ -186,18 +184,10 @@ impl Evolution {
         check_length("from", from.len(), problem.displacements())?;
         check_vector("from", from)?;
         let search = Search::new(Method::Interior, problem, tolerance)?;
-        let (loads, at) = (search.scaled.f.clone(), search.scaled.of_displacements(from));
+        let at = search.scaled.of_displacements(from);
         let monitor = Monitor::new(max_iterations, time_limit, observer);
-        let moving = Moving {
-            problem,
-            tolerance,
-            search,
-            monitor,
-            loads,
-            at,
-            limit: None,
-            dissipation: 0.0,
-        };
+        let moving =
+            Moving { problem, tolerance, search, monitor, at, limit: None, dissipation: 0.0 };
         moving.until_rest(at_once)
     }
 }
@@ -214,12 +204,10 @@ enum Found {
 struct Moving<'a, 'b> {
     problem: &'a Contact2d,
     tolerance: f64,
-    /// Of the motion at hand, with the forces of its viscosity among the loads.
+    /// With slips from where the last motion ended.
     search: Search<'a>,
     monitor: Monitor<'b>,
-    /// Those of the problem.
-    loads: Vec<f64>,
-    /// Where the motion at hand began.
+    /// Where the last motion ended.
     at: Vec<f64>,
     /// What has stopped it.
     limit: Option<Status>,
@@ -229,75 +217,72 @@ struct Moving<'a, 'b> {
 
 impl Moving<'_, '_> {
     fn until_rest(mut self, at_once: bool) -> Result<Evolved, Error> {
-        let mut motions = SoftSprings::default();
-        match at_once.then(|| self.smooth_rest()).flatten() {
-            Some(Found::Law) => return Ok(self.by_law(motions)),
+        let mut path = SoftSprings::default();
+        match at_once.then(|| self.rest(true)).flatten() {
+            Some(Found::Law) => return Ok(self.by_law(path)),
             Some(Found::Rest(from, solution)) => {
-                return Ok(self.concluded((Way::SmoothFriction, from, *solution), motions));
+                return Ok(self.concluded((Way::SmoothFriction, from, *solution), path));
             }
             None => {}
         }
-        let load: f64 = self.loads.iter().map(|f| f.abs()).sum();
-        let (mut viscosity, mut same, mut tries) = (FIRST_VISCOSITY, 0, 0);
+        let mut motions =
+            Motions::of(&self.search.scaled).map_err(|it| unplanned(Method::Interior, it))?;
+        let load: f64 = self.search.scaled.f.iter().map(|f| f.abs()).sum();
+        let (mut viscosity, mut tries) = (Viscosity::default(), 0);
         let mut forces = vec![(0.0, 0.0); self.problem.points()];
         let status = loop {
             if let Some(limit) = self.limit {
                 break limit;
             }
-            let Some(moved) = self.motion(viscosity) else {
-                viscosity *= MORE_VISCOUS;
-                if viscosity > MOST_VISCOSITY {
+            let Some(moved) = self.motion(&mut motions, viscosity.value) else {
+                viscosity.increase();
+                if viscosity.value > MOST_VISCOSITY {
                     break self.limit.unwrap_or(Status::Stalled);
                 }
                 continue;
             };
-            let velocity = self.follow(&moved, viscosity);
-            let path: f64 = velocity.iter().map(|v| v.abs()).sum();
-            let share = if load > 0.0 { viscosity * path / load } else { path };
-            let is_same = motions.shares.last().is_some_and(|last| share > SAME_SHARE * last);
-            same = if is_same { same + 1 } else { 0 };
-            motions.stiffness.push(viscosity);
-            motions.shares.push(share);
-            motions.motion = self.search.scaled.displacements(&velocity);
-            forces = moved.forces();
-            if share <= RESTING && tries < TRIES {
-                tries += 1;
-                self.search.scaled.f.clone_from(&self.loads);
-                if let Some(Found::Rest(from, solution)) = self.settle(moved, false) {
-                    return Ok(self.concluded((Way::Motion, from, *solution), motions));
-                }
-            }
-            if same >= FLOWING {
+            let velocity = self.follow(&moved, viscosity.value);
+            forces = moved.forces;
+            let length: f64 = velocity.iter().map(|v| v.abs()).sum();
+            viscosity.follow(length);
+            path.stiffness.push(viscosity.value);
+            path.shares.push(if load > 0.0 { viscosity.value * length / load } else { length });
+            path.motion = self.search.scaled.displacements(&velocity);
+            if viscosity.flows() {
                 break Status::NoEquilibrium;
             }
-            if viscosity <= LEAST_VISCOSITY {
+            if viscosity.may_rest() {
+                tries += 1;
+                if let Some(Found::Rest(from, solution)) = self.rest(false) {
+                    self.search.condensed.factorisations += motions.factorisations();
+                    return Ok(self.concluded((Way::Motion, from, *solution), path));
+                }
+            }
+            if tries == TRIES || viscosity.value <= LEAST_VISCOSITY {
                 break self.limit.unwrap_or(Status::Stalled);
             }
-            viscosity /= LESS_VISCOUS;
+            viscosity.decrease();
         };
-        self.given_up(&forces, motions, status)
+        self.search.condensed.factorisations += motions.factorisations();
+        self.given_up(&forces, path, status)
     }
 
-    /// Rest without a motion, by smooth friction.
-    fn smooth_rest(&mut self) -> Option<Found> {
-        let Search { scaled, condensed, .. } = &mut self.search;
-        let begin = smooth(start(scaled, condensed, PROXIMAL));
-        self.settle(begin, true)
-    }
-
-    /// The state at rest that a point leads to, with slips from there, if the judge agrees; or the solution of the problem
-    /// itself next to it, where that is asked for.
-    fn settle(&mut self, at: Iterate, by_law: bool) -> Option<Found> {
+    /// The state at rest that smooth friction leads to, with slips from there, if the judge agrees; or the solution of the
+    /// problem itself next to it, where that is asked for.
+    fn rest(&mut self, by_law: bool) -> Option<Found> {
         let Self { problem, tolerance, search, monitor, limit, dissipation, .. } = self;
-        let mut left = SETTLING;
+        let (mut best, mut left) = (f64::INFINITY, SETTLING);
         let go_on = |residual| {
-            left -= 1;
+            (best, left) =
+                if residual <= 0.5 * best { (residual, SETTLING) } else { (best, left - 1) };
             *limit = monitor.stop(residual);
             limit.is_none() && left > 0
         };
         let Search { scaled, condensed, .. } = search;
+        let mut begin = start(scaled, condensed, PROXIMAL);
+        begin.smooth = SMOOTH * max_abs(&begin.u);
         let mut states = None;
-        let found = settled(scaled, condensed, at, go_on, |condensed, at, (u, forces)| {
+        let found = settled(scaled, condensed, begin, go_on, |condensed, at, (u, forces)| {
             let from = scaled.displacements(&u);
             let there = problem.after(&from).ok()?;
             let mut other = Search::new(Method::Interior, &there, *tolerance).ok()?;
@@ -320,24 +305,20 @@ impl Moving<'_, '_> {
     }
 
     /// One motion; `None` where it cannot be computed, or a limit is reached.
-    fn motion(&mut self, viscosity: f64) -> Option<Iterate> {
-        let Self { search: Search { scaled, condensed, .. }, monitor, loads, at, limit, .. } = self;
-        for ((f, load), at) in scaled.f.iter_mut().zip(loads.iter()).zip(at.iter()) {
-            *f = load + viscosity * at;
-        }
-        let begin = smooth(start(scaled, condensed, viscosity));
-        centred(scaled, condensed, begin, (viscosity, MOVED), |residual| {
+    fn motion(&mut self, motions: &mut Motions, viscosity: f64) -> Option<Moved> {
+        let Self { search, monitor, at, limit, .. } = self;
+        motions.advance(&search.scaled, at, viscosity, |residual| {
             *limit = monitor.stop(residual);
             limit.is_none()
         })
     }
 
     /// Takes the bodies to the end of a motion, from which slips are measured then, and gives its displacements.
-    fn follow(&mut self, moved: &Iterate, viscosity: f64) -> Vec<f64> {
+    fn follow(&mut self, moved: &Moved, viscosity: f64) -> Vec<f64> {
         let velocity: Vec<f64> = moved.u.iter().zip(&self.at).map(|(u, at)| u - at).collect();
         self.dissipation += viscosity * velocity.iter().map(|v| v * v).sum::<f64>();
-        for (point, pairs) in self.search.scaled.points.iter_mut().zip(&moved.points) {
-            self.dissipation -= pairs.t_t * point.slip(&moved.u);
+        for (point, (_, t_t)) in self.search.scaled.points.iter_mut().zip(&moved.forces) {
+            self.dissipation -= t_t * point.slip(&moved.u);
             point.s_0 = -point.moved(&moved.u).1;
         }
         self.at.clone_from(&moved.u);
@@ -381,10 +362,4 @@ impl Moving<'_, '_> {
         solution.info.factorisations = factorisations;
         Evolved { way, from: Some(from), solution, motions, dissipation }
     }
-}
-
-/// A start with friction that turns over a small part of the displacements.
-fn smooth(mut at: Iterate) -> Iterate {
-    at.smooth = SMOOTH * max_abs(&at.u);
-    at
 }

@@ -1,8 +1,8 @@
 //! The parametric problem, traced from breakpoint to breakpoint.
 //!
-//! It is the path of Lemke's method with the parameter in place of the artificial variable: the basis
-//! at the start solves the problem, the parameter enters, and the complement of whatever left follows.
-//! Between two pivots all variables, and the parameter, are linear in the entering one.
+//! This is the path of Lemke's method with the parameter in place of the artificial variable: the basis at the start
+//! solves the problem, the parameter enters, and then the complement of each leaving variable. Between two pivots all
+//! variables, and the parameter, are linear in the entering one.
 
 mod outcome;
 
@@ -24,7 +24,7 @@ use crate::{Basis, Error, HorizontalLcp, Lemke, LemkeSettings, Solver, Status};
 /// Settings of [`Parametric`].
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ParametricSettings {
-    /// For the solution at the start, and the tolerance of all points.
+    /// Settings of the solve at the start, and the tolerance of all points.
     pub lemke: LemkeSettings,
     /// Largest number of breakpoints; `None` is `100 n + 1000`.
     pub max_breakpoints: Option<usize>,

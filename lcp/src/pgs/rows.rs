@@ -1,12 +1,12 @@
-//! Problems known by the products of their rows.
+//! Problems given by the products of their rows.
 
-/// A square matrix `M` known by the products of its rows with a vector `z`, which may be carried along as
-/// a state instead.
+/// A square matrix `M` given by the products of its rows with a vector `z`, which may be represented by a state
+/// instead.
 ///
-/// The sweeps change one entry of `z` at a time and say so by [`moved`](Self::moved). An implementation
-/// with a state can do with three short functions. In contact between rigid bodies, for instance, the
-/// forces `z` change the velocities of the bodies by `M_b^-1 J^T z`, and a row product is a row of `J`
-/// times these velocities; the matrix `J M_b^-1 J^T` is never formed:
+/// The sweeps change one entry of `z` at a time and report it by [`moved`](Self::moved). An implementation with a
+/// state needs three short functions. In contact between rigid bodies, for instance, the forces `z` change the
+/// velocities of the bodies by `M_b^-1 J^T z`, and a row product is a row of `J` times these velocities; the matrix
+/// `J M_b^-1 J^T` is never formed:
 ///
 /// ```
 /// use lcp::pgs::{Constraint, Rows};
@@ -55,17 +55,16 @@ pub trait Rows {
     /// `(M z)_i`, either from `z` or from the state, which belongs to the same `z`.
     fn product(&self, i: usize, z: &[f64]) -> f64;
 
-    /// `z_i` has been changed by `change`: an implementation with a state carries it along. The state has
-    /// to be linear in the changes. Nothing to do without a state.
+    /// `z_i` was changed by `change`: an implementation with a state updates it. The state must be linear in the
+    /// changes. Without a state there is nothing to do.
     fn moved(&mut self, _i: usize, _change: f64) {}
 
-    /// `z = 0` from here on: an implementation with a state sets it to zero. It is called before every
-    /// evaluation of the residual, after which all of `z` is told again, so that no rounding errors of
-    /// the state get into it.
+    /// Sets `z = 0`: an implementation with a state sets it to zero. This is called before every evaluation of the
+    /// residual, after which all of `z` is reported again, so that no rounding errors accumulate in the state.
     fn clear(&mut self) {}
 
-    /// `sum_j |M_ij z_j|`, against which the residual of the row is measured. What is smaller, as
-    /// `|(M z)_i|` by default, makes the residual larger and harder to meet.
+    /// `sum_j |M_ij z_j|`, relative to which the residual of the row is measured. A smaller value, such as
+    /// `|(M z)_i|` by default, makes the residual larger and harder to reach.
     fn size(&self, i: usize, z: &[f64]) -> f64 {
         self.product(i, z).abs()
     }
@@ -76,8 +75,8 @@ pub trait Rows {
     }
 }
 
-/// What is asked of the entries of `z` that one relaxation changes together. In the order of the rows:
-/// every bound takes one row, and every contact takes two.
+/// The constraint on the entries of `z` that one relaxation changes together, in the order of the rows: every bound
+/// takes one row, and every contact takes two.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Constraint {

@@ -1,4 +1,4 @@
-//! Settings of the sweeps.
+//! Settings of projected Gauss-Seidel.
 
 use std::time::Duration;
 
@@ -13,11 +13,10 @@ pub enum SweepOrder {
     Forward,
     /// Every second sweep from the last to the first.
     Symmetric,
-    /// By colours, so that no two rows of one colour are coupled: red-black for the five-point Laplacian.
-    /// Colours are given greedily, in the order of the rows. A dense matrix has as many colours as rows,
-    /// which is [`Forward`](Self::Forward), and so is a matrix whose
-    /// [`neighbours`](crate::pgs::Rows::neighbours) are not known. The rows of a colour could be
-    /// relaxed at the same time; they are relaxed on one thread.
+    /// By colours, so that no two rows of one colour are coupled: red-black for the five-point Laplacian. Colours are
+    /// assigned greedily, in the order of the rows. A dense matrix has as many colours as rows, which is the same as
+    /// [`Forward`](Self::Forward), and so is a matrix whose [`neighbours`](crate::pgs::Rows::neighbours) are not
+    /// known. The rows of a colour could be relaxed in parallel; they are relaxed on one thread.
     Coloured,
 }
 
@@ -35,30 +34,28 @@ pub enum SweepOrder {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProjectedGaussSeidelSettings {
-    /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`. The default is `1e-8`:
-    /// every further digit costs as many sweeps as the one before.
+    /// Largest residual, dimensionless, of a solution with status `Solved`. In `(0, 1)`. The default is `1e-8`: every
+    /// further digit costs the same number of sweeps.
     pub tolerance: f64,
     /// Sweeps.
     pub max_iterations: usize,
-    /// Wall-clock time, looked at before every sweep; `None` is no limit.
+    /// Wall-clock time, checked before every sweep; `None` is no limit.
     pub time_limit: Option<Duration>,
-    /// Where the sweeps start: from zero, or from a point, of which the `z` counts. A basis is refused,
-    /// since it says nothing about the size of `z`.
+    /// Start: zero, or a point, of which `z` is used. A basis is refused, since it does not give the size of `z`.
     pub start: WarmStart,
     /// The over-relaxation `omega`: the diagonal is divided by it. In `(0, 2)`, outside of which the
     /// sweeps do not converge even for symmetric positive definite matrices.
     pub relaxation: f64,
     /// The order of the rows.
     pub order: SweepOrder,
-    /// Sweeps from one evaluation of the residual to the next, which costs as much as several sweeps. It is
-    /// evaluated earlier where the changes of a sweep are below the tolerance. In between the history
-    /// repeats the last one. At least 1.
+    /// Sweeps between two evaluations of the residual, each of which costs as much as several sweeps. It is evaluated
+    /// earlier if the changes of a sweep are below the tolerance. In between the history repeats the last value. At
+    /// least 1.
     pub residual_interval: usize,
-    /// Sweeps after which the best residual must have decreased by the factor `stall_factor`, else the
-    /// status is [`Stalled`](crate::Status::Stalled). `None` is 2000, or the number of rows where that is
-    /// more. What one row says spreads from row to row, so that the largest residual may stand still for a
-    /// while and decrease then: along a chain of `n` bodies it takes about `n^2` sweeps without
-    /// over-relaxation. At least 1.
+    /// Number of sweeps in which the best residual must decrease by the factor `stall_factor`; otherwise the status
+    /// is [`Stalled`](crate::Status::Stalled). `None` is 2000, or the number of rows if that is more. Information
+    /// spreads from row to row, so the largest residual may be constant for a while and decrease later: along a chain
+    /// of `n` bodies this takes about `n^2` sweeps without over-relaxation. At least 1.
     pub stall_window: Option<usize>,
     /// See `stall_window`. In `(0, 1]`.
     pub stall_factor: f64,

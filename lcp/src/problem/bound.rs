@@ -22,7 +22,7 @@ pub enum Monotonicity {
     None,
 }
 
-/// How wrong a point is. See [`Lcp::error_bound`].
+/// The error of a point. See [`Lcp::error_bound`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -33,8 +33,7 @@ pub struct ErrorBound {
     pub moved: f64,
     /// Euclidean norm of the change of `q` that makes that point an exact solution: its backward error.
     pub perturbation: f64,
-    /// Where the problem is strongly monotone: the solution is within this of `z`, in the Euclidean
-    /// norm.
+    /// If the problem is strongly monotone: the solution is within this distance of `z`, in the Euclidean norm.
     pub distance: Option<f64>,
 }
 
@@ -61,17 +60,15 @@ impl Lcp {
         }
     }
 
-    /// How far `z >= 0` is from solving the problem, and, for a strongly monotone one, from its
-    /// solution.
+    /// Bounds how far `z >= 0` is from solving the problem and, for a strongly monotone one, from its solution.
     ///
-    /// Of every pair the smaller of `z_i max|M e_i|` and `w_i` is set to zero, the first by moving `z` by
-    /// `r`, the second by changing `q` by `v`. So `z - r` solves the problem with another `q`, and,
-    /// since solutions of strongly monotone problems depend on `q` with the constant
-    /// `1 / modulus`, the solution is within `|r| + |v + M r| / modulus` of `z`. The rounding errors of
-    /// computing `w` are included. For a problem that is only monotone every solution `s` satisfies
-    /// `(z - r - s) M (z - r - s) <= perturbation |z - r - s|`.
+    /// In every pair the smaller of `z_i max|M e_i|` and `w_i` is set to zero, the first by moving `z` by `r`, the
+    /// second by changing `q` by `v`. So `z - r` solves the problem with another `q`. Solutions of strongly monotone
+    /// problems depend on `q` with the constant `1 / modulus`, so the solution is within `|r| + |v + M r| / modulus`
+    /// of `z`. The rounding errors of computing `w` are included. For a problem that is only monotone every solution
+    /// `s` satisfies `(z - r - s) M (z - r - s) <= perturbation |z - r - s|`.
     ///
-    /// Costs as much as [`monotonicity`](Self::monotonicity).
+    /// The cost is that of [`monotonicity`](Self::monotonicity).
     ///
     /// ```
     /// use faer::mat;

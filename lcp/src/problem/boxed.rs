@@ -8,9 +8,9 @@ use crate::{Error, Matrix};
 /// The problem `w = M z + q`, `lower <= z <= upper` of order `n`, where `w_i >= 0` if `z_i` is at
 /// its lower bound, `w_i <= 0` if it is at its upper one, and `w_i = 0` in between.
 ///
-/// Bounds may be infinite, and methods that work on the general form try bounds beyond 1e6 times what `q` and `M` make
-/// of a variable as infinite first; the answer is judged by the bounds as given. With `lower = 0` and `upper = inf` it is the standard problem; without
-/// bounds a system of equations.
+/// Bounds may be infinite. Methods that work on the general form first take bounds as infinite that are beyond 1e6
+/// times the size that `q` and `M` give a variable; the solution is judged by the given bounds. With `lower = 0` and
+/// `upper = inf` it is the standard problem; without bounds it is a system of equations.
 ///
 /// ```
 /// use faer::mat;
@@ -107,8 +107,8 @@ impl BoxedLcp {
     }
 
     /// The general problem: `n` pairs, and one more for every variable with two finite, different
-    /// bounds. Row `i` is `w - M z = q` for variable `i`; the further rows are the distances of the
-    /// two bounds.
+    /// bounds. Row `i` is `w - M z = q` for variable `i`; the additional rows are the distances between the two
+    /// bounds.
     pub fn to_general(&self) -> HorizontalLcp {
         let kinds = self.kinds();
         let n = self.order();

@@ -1,4 +1,4 @@
-//! Contact with friction in the plane, sparse, with the displacements as free variables.
+//! Plane contact with friction, sparse, with the displacements as free variables.
 
 mod bedding;
 mod builder;
@@ -27,14 +27,13 @@ use crate::{Error, Matrix};
 /// 0 <= mu t_n + t_t  _|_  s+ >= 0,    0 <= mu t_n - t_t  _|_  s- >= 0,    s = s+ - s-,
 /// ```
 ///
-/// with `n` displacements `u`, or velocities, and `m` contact points: normal forces `t_n`, tangential
-/// forces `t_t`, gaps `g`, slips `s`. `K` is symmetric positive semidefinite; zero modes, as those of
-/// bodies that float, are welcome, and so are rigid bodies, whose `u` are the amplitudes of their motions
-/// and whose `K` is zero (in statics) or their mass. A point with `mu = 0` has no tangential force,
-/// whatever its row of `C_t`.
+/// with `n` displacements `u`, or velocities, and `m` contact points: normal forces `t_n`, tangential forces `t_t`,
+/// gaps `g`, slips `s`. `K` is symmetric positive semidefinite and may have zero modes, as for floating bodies. For a
+/// rigid body `u` are the amplitudes of its motions, and `K` is zero (in statics) or its mass. A point with `mu = 0`
+/// has no tangential force, whatever its row of `C_t`.
 ///
 /// [`Contact2d::builder`] takes the points one by one, [`Contact2d::new`] takes matrices, and
-/// [`Contact2d::variables`] reads an answer.
+/// [`Contact2d::variables`] gives the state of a solution.
 #[derive(Debug, Clone)]
 pub struct Contact2d {
     k: SparseColMat<usize, f64>,
@@ -112,7 +111,7 @@ impl Contact2d {
         Ok(Self { f, ..self.clone() })
     }
 
-    /// The same problem with slips that are measured from displacements `u`: that of bodies which have moved there.
+    /// The same problem with slips measured from the displacements `u`, for bodies that have moved there.
     ///
     /// # Errors
     /// [`Error::Length`] or [`Error::NotFinite`] as [`new`](Self::new).
@@ -218,8 +217,8 @@ impl Contact2d {
 
     /// Displacements and forces from a point of the general problem.
     ///
-    /// Of `mu t_n + t_t` and `mu t_n - t_t` the tangential force keeps no digit below `eps mu t_n`: where `mu` is
-    /// 1e6 or more, take [`Solution::contact`](crate::Solution::contact) of an answer instead.
+    /// From `mu t_n + t_t` and `mu t_n - t_t` the tangential force has no correct digit below `eps mu t_n`: if `mu`
+    /// is 1e6 or more, use [`Solution::contact`](crate::Solution::contact) instead.
     ///
     /// # Panics
     /// If `t` or `y` does not have one entry for every pair.

@@ -1,4 +1,4 @@
-//! General problems that are standard ones in disguise.
+//! General problems that are standard problems in another form.
 
 use super::{HorizontalLcp, Lcp};
 use crate::{Basis, Matrix, Side, WarmStart};
@@ -12,9 +12,9 @@ pub struct StandardForm {
 }
 
 impl HorizontalLcp {
-    /// The same problem in the standard form, where that takes no elimination: of every pair one column
-    /// has a single entry, all of them in different rows. The variable of that column is `w`, the
-    /// other one is `z`. `None` for all other problems.
+    /// The same problem in the standard form, if no elimination is needed: in every pair one column has a single
+    /// entry, all of them in different rows. The variable of that column is `w`, the other one is `z`. `None` for all
+    /// other problems.
     ///
     /// ```
     /// use faer::mat;

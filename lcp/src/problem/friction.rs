@@ -3,15 +3,14 @@
 use crate::vector::{check_length, check_vector};
 use crate::{Error, Lcp, Matrix};
 
-/// Contact with Coulomb's friction in the plane, reduced to the contacts: the relative velocities
-/// `W r + q` of the forces `r`, where every contact has a normal and a tangential component, in this
-/// order.
+/// Plane contact with Coulomb friction, reduced to the contacts: the relative velocities are `W r + q` for forces
+/// `r`. Every contact has a normal and a tangential component, in this order.
 ///
 /// At every contact the normal force and the normal velocity are complementary, and the tangential
 /// force is at most `mu` times the normal one, against the sliding.
 ///
-/// As a standard problem it has the three variables `r_N`, `l = r_T + mu r_N` and the sliding `s >= 0`
-/// for every contact, with
+/// As a standard problem it has the three variables `r_N`, `l = r_T + mu r_N` and the sliding `s >= 0` for every
+/// contact, with
 /// ```text
 /// w1 = (W_NN - W_NT mu) r_N + W_NT l     + q_N
 /// w2 = (W_TN - W_TT mu) r_N + W_TT l + s + q_T

@@ -7,7 +7,7 @@ use crate::{Error, Matrix};
 /// The mixed problem `w = M z + q` of order `n`, where every `z_i` is either free, with `w_i = 0`,
 /// or complementary: `z_i >= 0`, `w_i >= 0`, `z_i w_i = 0`.
 ///
-/// The block of the free variables may be singular: nothing is eliminated with its inverse.
+/// The block of the free variables may be singular: its inverse is not used.
 ///
 /// ```
 /// use faer::mat;

@@ -20,16 +20,15 @@ pub enum ContactForm {
     Dual,
 }
 
-/// Springs that hold the displacements of a contact problem while it is solved, and are taken away
-/// again.
+/// Springs that hold the displacements of a contact problem while it is solved, and are then removed.
 ///
-/// Every displacement has a spring, of the stiffness that [`Bedding`](crate::Bedding) says.
+/// Every displacement has a spring of the stiffness given by [`Bedding`](crate::Bedding).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SoftConstraints {
     /// Stiffness of the springs, relative to that of the bodies. In `(0, 1]`.
     pub epsilon: f64,
-    /// Times that the springs are centred anew at the last solution.
+    /// Largest number of re-centrings of the springs at the last solution.
     pub max_recentrings: usize,
 }
 
@@ -42,21 +41,20 @@ impl Default for SoftConstraints {
 /// Settings of [`QuadraticProgram`](crate::QuadraticProgram).
 #[derive(Debug, Clone, PartialEq)]
 pub struct QuadraticProgramSettings {
-    /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`. The exchange of states usually
-    /// reaches 1e-14, so that it costs nothing to ask for 1e-12.
+    /// Largest residual, dimensionless, of a solution with status `Solved`. In `(0, 1)`. The exchange of states
+    /// usually reaches 1e-14, so a tolerance of 1e-12 costs nothing.
     pub tolerance: f64,
     /// Iterations of one run of Clarabel's interior-point method, that is, within one program. Their number is
     /// not in [`Info::iterations`](crate::Info::iterations), which counts programs, but they are among
     /// [`Info::factorisations`](crate::Info::factorisations). At least 1.
     pub max_iterations: usize,
-    /// Rounds of the fixed point of Coulomb's friction, each of which is a program, as
-    /// [`Info::iterations`](crate::Info::iterations) counts them. At least 1.
+    /// Limit on rounds of the fixed-point iteration for Coulomb friction. Each is a program, as counted by
+    /// [`Info::iterations`](crate::Info::iterations). At least 1.
     pub max_outer: usize,
-    /// Wall-clock time; `None` is no limit. Looked at before every run of the interior-point method and
-    /// in it before every iteration.
+    /// Wall-clock time; `None` is no limit. It is checked before every run of the interior-point method and before
+    /// each of its iterations.
     pub time_limit: Option<Duration>,
-    /// A point or a basis, of the pairs of the general form, whose states are tried before anything
-    /// else.
+    /// A point or a basis, in the pairs of the general form, whose states are tried first.
     pub start: WarmStart,
     /// Which program a contact problem becomes.
     pub form: ContactForm,

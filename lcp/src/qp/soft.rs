@@ -13,7 +13,7 @@ use crate::{
     Bedding, Contact2d, ContactState, Error, Iteration, Observer, Residuals, Solution, Status,
 };
 
-/// A contact problem with soft springs on all displacements, solved, and what the springs changed.
+/// The solution of a contact problem with soft springs on all displacements, and the effect of the springs.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -31,9 +31,9 @@ pub struct SoftSolution {
     /// The share of the load that the springs carry: `|spring forces| / |f|` in the norm
     /// `sqrt(sum f_j^2 / k_j)`, in which units do not matter.
     pub spring_share: f64,
-    /// Estimate of the error of the displacements that the springs cause, relative to the displacements, in
-    /// the norm `sqrt(sum k_j u_j^2)`: what centring the springs at the solution changes. Infinite where
-    /// that problem was not solved.
+    /// Estimate of the error of the displacements that the springs cause, relative to the displacements, in the norm
+    /// `sqrt(sum k_j u_j^2)`: the change by re-centring the springs at the solution. Infinite if that problem was not
+    /// solved.
     #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub displacement_error: f64,
 }

@@ -1,11 +1,11 @@
-//! Answers, and how far they are refined.
+//! Solutions, and the level of their refinement.
 
 use super::law::Margin;
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
 use crate::{Contact2d, ContactState};
 
-/// How far [`Contact2d::refine`] goes.
+/// The level of refinement by [`Contact2d::refine`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(
     feature = "serde",
@@ -15,9 +15,9 @@ use crate::{Contact2d, ContactState};
 pub enum Refinement {
     /// One solve with the factors.
     Plain,
-    /// One more, for a residual in `f64`.
+    /// One more solve, for a residual in `f64`.
     Single,
-    /// Solves for residuals in [`Extended`], as long as these fall.
+    /// Solves for residuals in [`Extended`], as long as these decrease.
     Extended,
 }
 
@@ -33,22 +33,22 @@ pub struct Refined {
     pub t_t: Vec<Extended>,
     /// The forces of all contacts on the displacements, `C^T t`: unique where single forces are not.
     pub on_bodies: Vec<Extended>,
-    /// The largest lack of an equation, relative to the terms of its row, computed in [`Extended`]: of
-    /// equilibrium, and of gap and slip where the states allow none.
+    /// The largest residual of an equation, relative to the terms of its row, computed in [`Extended`]: of
+    /// equilibrium, and of gap and slip where the states require them to be zero.
     pub residual: f64,
-    /// By how much the data were changed, relative to the terms of their row: what redundant contacts
-    /// contradict each other, and what bodies that move freely have of a stiffness against that, by the
-    /// rounding errors of the data. Zero where there is nothing of that sort.
+    /// The change of the data, relative to the terms of their row. It removes the contradiction between redundant
+    /// contacts, and the stiffness due to rounding errors of the data against motions of free bodies. Zero if neither
+    /// occurs.
     pub shift: f64,
-    /// What the last pass changed of `on_bodies`, relative to the largest: the error that is left is smaller.
-    /// Where data were changed, the largest that a pass did just before.
+    /// The change of `on_bodies` by the last pass, relative to the largest: the remaining error is smaller. If the
+    /// data were changed, the largest change by a pass just before.
     pub correction: f64,
     /// How well the inequalities of the contact law hold.
     pub margin: Margin,
     /// Solves with the factors.
     pub passes: usize,
-    /// Displacements of bodies without loads that no contact presses: they stay where they were. Their gaps are
-    /// in the margin only where they are more negative than a rounding error makes them.
+    /// Number of displacements of bodies without loads that no contact presses: they stay where they were. Their gaps
+    /// are in the margin only if they are more negative than rounding errors.
     pub floating: usize,
     /// Wall-clock time of analysis, factorisation and passes \[s\].
     pub seconds: f64,
@@ -62,8 +62,8 @@ impl Refined {
         problem.state(u, t_n, t_t)
     }
 
-    /// How far other forces on the displacements are from these: the largest difference, relative to the
-    /// largest of these; `None` where these are all zero.
+    /// The distance of other forces on the displacements from these: the largest difference, relative to the largest
+    /// of these; `None` if these are all zero.
     ///
     /// # Panics
     /// If the numbers of displacements differ.
@@ -76,10 +76,10 @@ impl Refined {
     }
 }
 
-/// An answer with the states of its contacts, from [`Contact2d::verify`].
+/// A solution with the states of its contacts, from [`Contact2d::verify`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verified {
-    /// What the contacts do.
+    /// The states of the contacts.
     pub statuses: Vec<ContactStatus>,
     /// Displacements and forces.
     pub refined: Refined,

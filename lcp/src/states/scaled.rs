@@ -188,6 +188,46 @@ impl Scaled {
         u.iter().zip(&self.column).map(|(u, d)| u / d / self.length).collect()
     }
 
+    /// The same bodies with associated flow: every friction cone by its edges, each a point without friction along
+    /// `n + mu t` or `n - mu t`, so that slips open gaps by `mu` times their size.
+    pub(crate) fn associated(&self) -> Self {
+        let edge = |(point, mu): (&Point, f64)| Point {
+            columns: point.columns.clone(),
+            normal: point.normal.iter().zip(&point.tangent).map(|(n, t)| n + mu * t).collect(),
+            tangent: vec![0.0; point.columns.len()],
+            x_0: point.x_0 + mu * point.s_0,
+            s_0: 0.0,
+            mu: 0.0,
+        };
+        Self {
+            k: self.k.clone(),
+            f: self.f.clone(),
+            points: self.edges().map(edge).collect(),
+            column: self.column.clone(),
+            force: self.force,
+            length: self.length,
+            idle: None,
+        }
+    }
+
+    /// Normal and tangential forces of the points from those along the edges of their cones.
+    pub(crate) fn of_edges(&self, mut parts: impl Iterator<Item = f64>) -> Vec<(f64, f64)> {
+        let mut part = || parts.next().unwrap_or(0.0);
+        let force = |point: &Point| {
+            let (plus, minus) = (part(), if point.mu > 0.0 { part() } else { 0.0 });
+            (plus + minus, point.mu * (plus - minus))
+        };
+        self.points.iter().map(force).collect()
+    }
+
+    /// The edges of the friction cones: their points, and the tangential force for a normal force of one.
+    pub(crate) fn edges(&self) -> impl Iterator<Item = (&Point, f64)> {
+        self.points.iter().flat_map(|point| {
+            let count = if point.mu > 0.0 { 2 } else { 1 };
+            [(point, point.mu), (point, -point.mu)].into_iter().take(count)
+        })
+    }
+
     /// Displacements and forces in the units of this problem.
     pub(crate) fn of_state(&self, state: &ContactState) -> (Vec<f64>, Vec<(f64, f64)>) {
         let forces =

@@ -14,41 +14,30 @@ use super::{Panel, TOLERANCES, common, data, machine, pictures, springs};
 const HEAD: &str = "\
 # What accuracy costs
 
-Every route to the solution takes one number, the largest residual of an answer that is called solved. Two errors are kept apart here:
+Every route takes a tolerance, the largest residual of a solution with status `Solved`. Two errors are distinguished:
 
-* The **algebraic error** is what a solver leaves undone: the distance of its contact forces, stresses and strain energy from the reference on the
-  same mesh, the largest of the three, each relative to the largest one. The reference is refined with numbers of twice the digits, and its
-  inequalities are checked in them.
-* The **error of the mesh** is what no solver can mend: the distance of the reference from that on the finest mesh. The finest has an error too, so that
-  the true error is larger: for one that falls with the order `p` in the size of the elements, `1 / (1 - 2^-p)` times what is given of a mesh half as fine, and
-  `1 / (1 - 4^-p)` times of one a quarter as fine: 2 and 1.3 times for `p = 1`, 3.4 and 2 times for `p = 1/2`. What is extrapolated takes that into account.
+* The **algebraic error** is the error of the solver: the distance of its contact forces, stresses and strain energy from the reference on the same mesh, the
+  largest of the three, each relative to its largest value. The reference is refined in double-double arithmetic, in which its inequalities are checked too.
+* The **error of the mesh** cannot be reduced by a solver: it is the distance of the reference from that on the finest mesh. The true error is larger, since the
+  finest mesh has an error too. If the error is of order `p` in the element size, it is `1 / (1 - 2^-p)` times the given value for a mesh half as fine as the
+  finest, and `1 / (1 - 4^-p)` times for one a quarter as fine: 2 and 1.3 times for `p = 1`, 3.4 and 2 times for `p = 1/2`. Extrapolated values take this into
+  account.
 
-All times are those of whole solves, from the scene to the checked answer. The same for any scene: `masonry study SCENE --out DIR`. This page is written by
-`cargo bench --bench accuracy -- --write`.
+All times are those of whole solves, from the scene to the checked solution. `masonry study SCENE --out DIR` makes such a study of any scene. This page is
+written by `cargo bench --bench accuracy -- --write`.
 ";
 
 const HOW_TO_READ: &str = "
 ## How to read the tables
 
-* **Meshes.** Errors are relative to the finest mesh; those extrapolated, to what the three finest converge to by Richardson's rule, `v_3 + (v_3 - v_2)^2 / ((v_2 - v_1) - (v_3 - v_2))`. \
-Their cells are empty where differences do not fall, or not at a rate between the orders 0.5 and 2.5: there nothing but finer meshes tells. \
-A single value may come near that of the finest mesh by accident: pictures and sentences have the worst of the three.
-* **References.** The margin is what the inequalities of the contact law leave at the contact nearest to another state, relative to the largest force or displacement: but for rounding, \
-a solution has none below zero, and a small one tells how near another state of the contacts is. \
-Certain are the digits that rounding errors of the data leave: redundant contacts, whose gaps contradict each other in the last digits, take some. \
-The distances, in the forces on the nodes, are those of the route's answer in `f64` from its refinement, and of another route's answer, refined as well, from that.
-* **The last digits.** A route in `f64` has to find the states of all contacts, and refines by itself. With these states and nothing else, there is one factorisation, and solves with it. \
-One solve errs by so much because its factors have springs in the place of hard contacts, 1e8 times as stiff as the bodies, without which redundant contacts would make them singular: \
-what the springs leave open the next solve closes, in `f64` down to its rounding errors, and compensated, with residuals of twice the digits, beyond. \
-Redundant contacts take more solves: where their gaps contradict each other in the last digits of the data the residual stops falling, what is left is taken for an error of the data, \
-and the solves begin anew, at last with softer springs. Errors are distances in the forces on the nodes from the reference; those beyond its certain digits are not known any better than these.
-* **Soft springs** on all displacements, which quadratic programs may be given, change the answer until they are centred anew. Share and bias are those before: of the load that they carry, \
-and of the displacements that they change. Both are measured by solves more, about the place of rest; where no time is left for these, or they have no answer, neither is known.
+* **Meshes.** Errors are relative to the finest mesh. Extrapolated errors are relative to the limit of the three finest meshes by Richardson's rule, `v_3 + (v_3 - v_2)^2 / ((v_2 - v_1) - (v_3 - v_2))`. Their cells are empty if the differences do not decrease at a rate between the orders 0.5 and 2.5; only finer meshes would help there. A single value may be near that of the finest mesh by accident, so pictures and sentences use the largest of the three.
+* **References.** The margin is the smallest margin of the inequalities of the contact law, relative to the largest force or displacement. Except for rounding it is not negative for a solution; if it is small, another state of a contact is near. Certain digits are those not affected by rounding errors of the data; redundant contacts, whose gaps contradict each other in the last digits, reduce their number. The distances, in the forces on the nodes, are those of the route's solution in `f64` from its refinement, and of the refined solution of another route from that refinement.
+* **The last digits.** A route in `f64` must find the states of all contacts, and includes its own refinement. If only the states are known, one factorisation is needed, and solves with it. The error of one solve is large because its factors have springs in place of rigid contacts, 1e8 times as stiff as the bodies; without them redundant contacts would make the matrix singular. Further solves remove the effect of the springs: in `f64` down to its rounding errors, and with compensated refinement (residuals in double-double arithmetic) further. Redundant contacts need more solves: if their gaps contradict each other in the last digits of the data, the residual stops decreasing, is attributed to the data, and the solves start again, finally with softer springs. Errors are distances from the reference in the forces on the nodes; they are known only to its certain digits.
+* **Soft springs** on all displacements, an option of quadratic programs, change the solution until they are re-centred. The columns give the share of the load that they carry before that, and their bias, the change of the displacements. Both are measured by additional solves with springs at rest in the initial position; they are missing if no time is left for these solves, or if they fail.
 
 ";
 
-const NO_BIAS: &str =
-    "There is no picture of these: where there is an answer, no bias is known.\n\n";
+const NO_BIAS: &str = "There is no picture of these: for the solved ones no bias is known.\n\n";
 
 /// Writes all files.
 pub(crate) fn write(root: &Path, panels: &[Panel], walls: &[Study]) {
@@ -56,7 +45,7 @@ pub(crate) fn write(root: &Path, panels: &[Panel], walls: &[Study]) {
     let mut text = format!("{HEAD}\n{machine}\n## In short\n\n");
     for panel in panels {
         let short = study::in_short(&panel.study);
-        let short = short.unwrap_or_else(|| "No route has an answer.".to_owned());
+        let short = short.unwrap_or_else(|| "No route has a solution.".to_owned());
         let _ = writeln!(text, "* **{}.** {short}{}", panel.study.title, in_the_limit(panel));
     }
     text += HOW_TO_READ;
@@ -95,7 +84,7 @@ fn in_the_limit(panel: &Panel) -> String {
     let limit =
         panel.extrapolated.first().and_then(MeshErrors::worst).filter(|it| Some(*it) > error);
     limit.map_or_else(String::new, |it| {
-        format!(" Against what meshes converge to, it errs by {it:.1e}.")
+        format!(" Relative to the extrapolated limit of the meshes it is {it:.1e}.")
     })
 }
 
@@ -132,7 +121,7 @@ fn of_panel(panel: &Panel, has_bias: bool, machine: &str) -> String {
     for mesh in meshes {
         let _ = writeln!(
             text,
-            "**{0} x {0} elements a square, {1} contact points**: time, and algebraic error where it is solved\n",
+            "**{0} x {0} elements a square, {1} contact points**: time, and algebraic error if solved\n",
             mesh.factor, mesh.contact_points
         );
         text += &tables::by_tolerance(study, mesh.factor);
@@ -140,14 +129,14 @@ fn of_panel(panel: &Panel, has_bias: bool, machine: &str) -> String {
     text += &tables::not_tried(study);
     text += &picture(
         &format!("accuracy_{name}_mesh.svg"),
-        "Error of the mesh, the worst of energy, thrust and displacement, against time, from coarse to fine",
+        "Error of the mesh, the largest of energy, thrust and displacement, against time, from coarse to fine",
         machine,
     );
     text += &tables::meshes(panel);
     text += &tables::accident(study);
-    text += "\nThe references, refined with numbers of twice the digits:\n\n";
+    text += "\nThe references, refined in double-double arithmetic:\n\n";
     text += &tables::references(study);
-    text += "\nWhat the last digits cost, beside all of a solve in `f64`:\n\n";
+    text += "\nCost of the last digits, compared with a whole solve in `f64`:\n\n";
     text += &tables::refinings(panel);
     text += &picture(
         &format!("accuracy_{name}_digits.svg"),
@@ -164,20 +153,19 @@ fn of_panel(panel: &Panel, has_bias: bool, machine: &str) -> String {
 }
 
 fn of_springs(panel: &Panel, has_bias: bool, machine: &str) -> String {
-    let mut text = format!("Soft springs, asked for a residual of {:e}:\n\n", springs::TOLERANCE);
+    let mut text = format!("Soft springs, with a tolerance of {:e}:\n\n", springs::TOLERANCE);
     text += &tables::springs(panel);
     if !has_bias {
         return text + NO_BIAS;
     }
-    let what = "What soft springs change before they are centred anew, against their stiffness; stiffnesses that are not drawn have no answer";
+    let what = "Change by soft springs before they are re-centred, against their stiffness; stiffnesses that are not drawn have no solution";
     text + &picture(&format!("accuracy_{}_springs.svg", panel.name), what, machine)
 }
 
 fn of_walls(walls: &[Study], machine: &str) -> String {
     let [loose, tight] = TOLERANCES;
     let mut text = format!(
-        "## Size\n\nSquare walls in running bond on a full floor, one element a brick, `mu = 0.6`, under their weight and a load on top that leans by a tenth: \
-         time to {loose:e} and to {tight:e}, and the algebraic error of both.\n"
+        "## Size\n\nSquare walls in running bond on a full floor, one element a brick, `mu = 0.6`, under their weight and a load on top inclined by a tenth: time to {loose:e} and to {tight:e}, and the algebraic error of both.\n"
     );
     let what = "Time against the number of bricks, one line for each route and tolerance";
     text += &picture("accuracy_sizes.svg", what, machine);
@@ -223,7 +211,7 @@ fn short(panel: &Study, walls: &[Study], machine: &str) -> String {
         let _ = writeln!(text, "| `{}` | {} |", route.name(), cells.join(" | "));
     }
     let meaning = format!(
-        "> {}: stopped by the limit of the bench; too large: it would build dense matrices of too large an order, and was not tried; not reached: it ended without an answer.",
+        "> {}: stopped by the limit of the bench; too large: not tried, since its dense matrices would be too large; not reached: it ended without a solution.",
         seconds(panel.time_limit.as_secs_f64())
     );
     // An escaped mark is no quotation.

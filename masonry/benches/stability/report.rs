@@ -21,26 +21,25 @@ pub(crate) struct Theme {
 }
 
 const HEAD: &str = "\
-# How far answers can be trusted
+# Stability: accuracy under varied parameters
 
-The [hard cases](hard_cases.md) with their parameters varied, from harmless to hopeless, by every route. The pictures show where
-an answer becomes less accurate, and where a route says that it has none. What is called solved is held against checks that use
-nothing of the methods; asked for were residuals of 1e-10, of `alm` 1e-8.
+The [hard cases](hard_cases.md) with varied parameters, from harmless to hopeless, by every route. The pictures show where the accuracy of a solution decreases,
+and where a route finds none. Solutions are compared with checks that are independent of the methods. The tolerance was 1e-10, for `alm` 1e-8.
 
-* **Error**: the worst of the [checks](theory.md#10-residuals-and-balances): balance, friction cone, gaps, sliding, nodal forces and energy. Forces are
-  compared with those on the same block; rounding errors of larger ones around it count as 1e-9 at most.
-* **Backward error**: by how much loads, stiffness and contact forces would have to change, relative to them, for equilibrium alone;
-  gaps and friction are not in it. Where it is near rounding and all routes have the same larger error, the scene itself is sensitive.
-* **Promised** is that errors are at most 1e-9, of `alm` 1e-8: nothing else is called solved. What is known of an answer may be off by a
-  hundred times the residual that was asked for, and more where forces on blocks differ by more than ten, in proportion, but at most 1e-3: a block carries
-  its own loads to a thousandth. Where displacements are as much less certain as a scene says (slender bricks: by 1e-8 of the square of the ratio; wedges: by one over the sine
-  of the angle) the same holds of known displacements. The grey lines have all of that.
-* **Expected** is what is known: an answer, none (a load above its limit), or neither (open). Nearer to its limit than what is
-  asked for, a scene above it is one below it to these numbers, and may be called solved: up to twenty times that, since the load is
-  not all that the equations have.
+* **Error**: the worst of the [checks](theory.md#10-residuals-and-balances): balance, friction cone, gaps, sliding, nodal forces and energy. Forces are relative
+  to those on the same block; rounding errors of larger forces on its neighbours count as 1e-9 at most.
+* **Backward error**: the relative change of loads, stiffness and contact forces with which equilibrium alone holds exactly; gaps and friction are not included.
+  If it is near rounding and all routes have the same larger error, the scene itself is sensitive.
+* **Promised**: errors are at most 1e-9, for `alm` 1e-8; nothing else is called solved. A known value of a solution may be off by a hundred times the tolerance,
+  and by more, in proportion, if forces on blocks differ by a factor of more than ten, but by at most 1e-3: the forces on a block carry its loads to a
+  thousandth. If displacements are less certain by a factor that depends on the scene (slender bricks: 1e-8 of the square of the ratio; wedges: one over the
+  sine of the angle), the same factor holds for known displacements. The grey lines include all of this.
+* **Expected**: what is known: a solution exists (*an answer*), none exists (a load above its limit), or this is unknown (*open*). If a load is above its limit
+  by less than the tolerance, the scene cannot be distinguished from one below it, and may be called solved. This holds up to twenty times the tolerance, since
+  the load is only one of the terms of the equations.
 
-Written by `cargo bench --bench stability -- --write`, which fails if an answer is worse than what is promised, or if something is called
-solved that cannot stand. A few values of sweeps are tested by `cargo test --test hard_cases`.
+Written by `cargo bench --bench stability -- --write`, which fails if a solution is worse than promised, or if a scene is called solved that cannot stand. Some
+values of the sweeps are tested by `cargo test --test hard_cases`.
 ";
 
 const HOW_TO_READ: &str = "full: called solved, at the worst of its checks; hollow: gave up, at the residual it reports; \
@@ -51,12 +50,11 @@ const ERRORS: [f64; 2] = [1e-17, 1.0];
 const OF_PROBLEMS: &str = "
 ## Problems of `lcp`
 
-Families of [hard problems](hard_problems.md), by every method of `lcp`, asked for 1e-10. The error is the residual, recomputed from the data in numbers of
-twice the digits; the backward error is relative to the largest terms of all equations.
+Families of [hard problems](hard_problems.md), by every method of `lcp`, with a tolerance of 1e-10. The error is the residual, recomputed from the data in double-double arithmetic; the backward error is relative to the largest terms of all equations.
 
 ![Problems of lcp: residuals over parameters](pictures/stability_problems.svg)
 
-How many values were solved, and the largest residual of these:
+Number of solved values, and their largest residual:
 
 ";
 
@@ -98,20 +96,20 @@ fn write_counts(text: &mut String, themes: &[Theme]) -> fmt::Result {
     writeln!(text, "|---|{}", "--:|".repeat(ROUTES.len()))?;
     row(text, "solved", &|_, end| matches!(end, Reached::Solved { .. }))?;
     for (words, expected) in [
-        ("no answer, where there is one", Expected::Answer),
-        ("no answer, where it is not known whether there is one", Expected::Open),
-        ("no answer, where there is none", Expected::None),
+        ("no solution found, although one exists", Expected::Answer),
+        ("no solution found, existence unknown", Expected::Open),
+        ("no solution found, none exists", Expected::None),
     ] {
         row(text, words, &|it, end| it == expected && matches!(end, Reached::GaveUp { .. }))?;
     }
-    row(text, "not treated, or too large to try", &|_, end| matches!(end, Reached::Nothing))?;
+    row(text, "not treated, or too large", &|_, end| matches!(end, Reached::Nothing))?;
     let points = || themes.iter().flat_map(|theme| &theme.sweeps).flat_map(|(_, points)| points);
     let worse = ROUTES.map(|route| {
         let words = format!(" by {route:?}: ");
         points().flat_map(|it| &it.wrong).filter(|line| line.contains(&words)).count()
     });
     let cells = worse.map(|it| it.to_string());
-    writeln!(text, "| called solved, and worse than promised | {} |", cells.join(" | "))
+    writeln!(text, "| called solved, but worse than promised | {} |", cells.join(" | "))
 }
 
 fn write_theme(text: &mut String, theme: &Theme) -> fmt::Result {
@@ -121,7 +119,7 @@ fn write_theme(text: &mut String, theme: &Theme) -> fmt::Result {
         "![{}: errors over parameters](pictures/stability_{}.svg)\n",
         theme.title, theme.file
     )?;
-    writeln!(text, "How many values were solved, and the worst error of these:\n")?;
+    writeln!(text, "Number of solved values, and their worst error:\n")?;
     writeln!(
         text,
         "| sweep | parameter | expected | values | {} |",

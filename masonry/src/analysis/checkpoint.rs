@@ -1,4 +1,4 @@
-//! The state after a step, as a file from which a run can go on.
+//! The state after a step, as a file from which a run can continue.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -95,14 +95,14 @@ pub enum CheckpointError {
     },
 }
 
-/// Everything that the next step needs, and all that was recorded before.
+/// The data for the next step, and all previous records.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Checkpoint {
     version: u32,
     /// The scene without stages, solver and output.
     pub(crate) origin: String,
-    /// What the steps came to.
+    /// The results of the steps.
     pub records: Vec<StepRecord>,
     displacements: Vec<Vec<[f64; 2]>>,
     contacts: Vec<ContactState>,

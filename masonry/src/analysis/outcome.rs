@@ -1,4 +1,4 @@
-//! What a solved scene consists of: displacements, contact forces, stresses, checks, times.
+//! The result of a scene: displacements, contact forces, stresses, checks, times.
 
 use nalgebra::Vector2;
 
@@ -14,8 +14,8 @@ use crate::verify::verdict::Judgement;
 
 /// Everything known about a scene after an attempt to solve it.
 ///
-/// `state` and `checks` are `None` when no solution was found; all else is kept. Where a step of the load
-/// history could not be solved, they are those of the step before, and `solve` tells how the step failed.
+/// `state` and `checks` are `None` if no solution was found; all else is kept. If a step of the load history could
+/// not be solved, they are those of the previous step, and `solve` tells how the step failed.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Outcome {
@@ -33,9 +33,9 @@ pub struct Outcome {
     pub checks: Option<Checks>,
     /// The reaction of every support, when solved.
     pub reactions: Vec<Reaction>,
-    /// The steps of the load history, where the answer depends on the way.
+    /// The steps of the load history, if the solution depends on the load path.
     pub history: Option<History>,
-    /// The mechanism, when there is no solution and the method found one, along a secondary ray, on soft
+    /// The collapse mechanism, if there is no solution and a mechanism was found along a secondary ray, on soft
     /// springs or by a proof: displacement rates of the corners of every block, scaled to a largest component of one.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
     /// Whether the wall stands.

@@ -1,9 +1,8 @@
-//! What accuracy costs: a scene by several routes, to several tolerances, on several meshes.
+//! The cost of accuracy: a scene by several routes, to several tolerances, on several meshes.
 //!
-//! Two errors are kept apart. The *algebraic* error of an answer is its distance from the
-//! [`Reference`] of the same mesh, the most accurate answer there is on it: what the solver left
-//! undone. The error of the *mesh* is the distance of that reference from the one of the finest mesh:
-//! what no solver can mend.
+//! Two errors are distinguished. The *algebraic* error of a solution is the error of the solver: its distance from
+//! the [`Reference`] of the same mesh, the most accurate solution on it. The error of the *mesh*, which no solver can
+//! reduce, is the distance of that reference from the one of the finest mesh.
 //!
 //! ```
 //! use masonry::scene::{Brick, Joint, Load, Material, Route, Scene, Support, Wall};
@@ -60,7 +59,7 @@ use crate::units::Units;
 use figures::Figures;
 use runs::Runner;
 
-/// What is varied, and how long a solve may take.
+/// What is varied, and the time limit of a solve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     /// The routes; those that do not treat the scene say so in their records.
@@ -70,12 +69,12 @@ pub struct Settings {
     /// Factors by which the numbers of elements of all walls and blocks are multiplied, per direction. A
     /// scene of rigid blocks has no elements, and then is studied as it is.
     pub meshes: Vec<u32>,
-    /// What reports call the meshes, in their order; those that are missing are called after their factors.
+    /// Names of the meshes in reports, in their order; missing ones are named by their factors.
     pub mesh_names: Vec<String>,
-    /// Wall-clock time that one solve may take. It is looked at by the observer, so that one
-    /// factorisation or program is never interrupted: [`Record::overrun`] tells where one took longer.
+    /// Wall-clock time of one solve. It is checked by the observer, so a single factorisation or program is never
+    /// interrupted: [`Record::overrun`] shows where one took longer.
     pub time_limit: Duration,
-    /// How often a solve of less than a second is run; its time is the median.
+    /// Number of runs of a solve of less than a second; its time is the median.
     pub repeats: usize,
     /// Where, and perhaps when, times are measured, for reports: [`machine`], for instance.
     pub machine: Option<String>,
@@ -157,14 +156,14 @@ pub enum StudyError {
 pub enum End {
     /// With this status; [`Status::TimeLimit`] by [`Settings::time_limit`].
     Ended(Status),
-    /// The route does not treat the scene, and this is why.
+    /// The route does not treat the scene, for this reason.
     Refused(String),
-    /// It was not tried, and this is why.
+    /// It was not tried, for this reason.
     Skipped(String),
 }
 
 impl End {
-    /// Whether there is an answer.
+    /// Whether there is a solution.
     pub fn is_solved(&self) -> bool {
         *self == Self::Ended(Status::Solved)
     }
@@ -192,7 +191,7 @@ impl End {
 pub struct Record {
     /// The route.
     pub route: Route,
-    /// The residual asked for \[-\].
+    /// The tolerance \[-\].
     pub tolerance: f64,
     /// The factor of the mesh.
     pub mesh: u32,
@@ -200,24 +199,24 @@ pub struct Record {
     pub end: End,
     /// The residual reached \[-\], recomputed from the original data; of the last step of a load history.
     pub residual: Option<f64>,
-    /// Wall-clock time from the scene to the checked answer, or to giving up \[s\].
+    /// Wall-clock time from the scene to the checked solution, or to the failure \[s\].
     pub seconds: Option<f64>,
     /// Whether that is more than the limit: one factorisation, reduction or program was not interrupted.
     pub overrun: bool,
     /// Pivots by [`Route::Lemke`], iterations by the others; of the last step of a load history.
     pub iterations: Option<usize>,
-    /// Algebraic errors: against the reference of the same mesh.
+    /// Algebraic errors: relative to the reference of the same mesh.
     pub errors: Option<Errors>,
 }
 
-/// All that was found.
+/// The results of a study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Study {
     /// Title of the scene.
     pub title: String,
     /// Units of the scene, for reports; all values here are in SI units.
     pub units: Units,
-    /// Wall-clock time that one solve was given.
+    /// Time limit of one solve.
     pub time_limit: Duration,
     /// Where times were measured, if that was told.
     pub machine: Option<String>,
@@ -262,7 +261,7 @@ pub struct Progress {
     pub tolerance: f64,
 }
 
-/// Studies a scene and tells the observer what is being solved.
+/// Studies a scene and reports to the observer what is being solved.
 ///
 /// Form and limit of pivots of the scene are kept for [`Route::Lemke`]; its route, tolerance and springs
 /// are replaced.

@@ -1,21 +1,20 @@
-//! What `auto` does: which routes a scene is given and in which order, how long each may take, and when an answer is
+//! The rules of `auto`: which routes a scene uses and in which order, how long each may take, and when a result is
 //! final. [`Plan::routes`](crate::plan::Plan::routes) has the list with its reasons, and `masonry plan` prints it.
 //!
-//! The cheapest method that can decide goes first, and a slower one is asked only for what it alone can say:
+//! The cheapest method that can decide runs first; slower ones follow only for what they alone can decide:
 //!
 //! 1. Rigid blocks without gaps and films: the program of admissible forces ([`statics`](crate::method::statics)) decides
 //!    either way.
-//! 2. All other walls: interior points, at every size. Where they have no answer after
-//!    [`STEPS_BEFORE_PROOF`], that program is asked whether any forces balance the loads at all, and if it proves that none
-//!    do, that is the answer.
-//! 3. Pivots, for a second opinion, where their dense matrices take about a second.
+//! 2. All other walls: the interior-point method, at every size. If it has no solution after [`STEPS_BEFORE_PROOF`],
+//!    that program checks whether any forces balance the loads at all; if it proves that none do, this is the result.
+//! 3. Lemke's method, for a second opinion, if its dense matrices take about a second.
 //! 4. Quadratic programs, for [`LAST_RESORT`].
 //!
-//! The last is not asked where springs keep their load in spite of friction, since it has no proof to give then.
+//! The last is skipped if springs keep their load in spite of friction, since it has no proof to give then.
 //!
-//! An answer is final when the judge says so: an equilibrium, or a proof that there is none. With friction a secondary ray
-//! of the pivots and springs that keep their load are no proof, and the next route follows, as it does after a route that
-//! refuses the scene.
+//! A result is final if it is a checked equilibrium, or a proof that there is none. With friction a secondary ray of
+//! Lemke's method and springs that keep their load are no proof, and the next route follows, as it does after a route
+//! that refuses the scene.
 
 use std::time::Duration;
 
@@ -30,8 +29,8 @@ const FEW: usize = 2000;
 pub(crate) const STEPS_BEFORE_PROOF: usize = 40;
 /// With friction a motion follows after so many steps of the interior points.
 pub(crate) const STEPS_BEFORE_MOTION: usize = 45;
-/// Steps of such a motion. Measured: walls of 1000 bricks that come to rest take 60 to 150.
-pub(crate) const STEPS_OF_MOTION: usize = 250;
+/// Steps of such a motion. Measured: walls of 1000 bricks that come to rest take 60 to 200, those that flow 200 to 500.
+pub(crate) const STEPS_OF_MOTION: usize = 600;
 /// How long the last route may take, which seldom has an answer where the others have none.
 const LAST_RESORT: Duration = Duration::from_secs(10);
 

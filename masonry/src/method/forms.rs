@@ -53,7 +53,7 @@ pub struct Scale {
     pub length: f64,
 }
 
-/// A complementary basis from which pivoting may start.
+/// A complementary basis from which Lemke's method may start.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Start {
     /// A name for reports.
@@ -90,8 +90,8 @@ pub struct Form {
     pub problem: HorizontalLcp,
     /// What one unit of force and of displacement is.
     pub scale: Scale,
-    /// Bases from which pivoting may start, the most promising first; empty where `y` itself is
-    /// the natural start. Any of them may turn out singular for a certain `mu`.
+    /// Start bases for Lemke's method, the most promising first; empty if `y` itself is the natural start. Any of
+    /// them may be singular for a certain `mu`.
     pub starts: Vec<Start>,
     layout: Layout,
 }

@@ -1,4 +1,4 @@
-//! What routes tell of their work: plain data.
+//! Records of the work of routes: plain data.
 
 use serde::Serialize;
 
@@ -10,7 +10,7 @@ use crate::scene::Route;
 pub struct SolveInfo {
     /// `Solved`, or why not.
     pub status: lcp::Status,
-    /// The route that gave the answer.
+    /// The route whose result is reported.
     pub route: Route,
     /// Why it was its turn.
     pub because: String,
@@ -25,30 +25,30 @@ pub struct SolveInfo {
     pub attempts: Vec<String>,
     /// Pivots over all attempts.
     pub pivots: usize,
-    /// Steps of the interior-point or Newton's method, programs, times that springs were centred, or iterations of
-    /// the augmented Lagrangian method.
+    /// Steps of the interior-point or Newton's method, programs, re-centrings of springs, or iterations of the
+    /// augmented Lagrangian method.
     pub iterations: usize,
     /// Every iteration of the augmented Lagrangian method; empty on the other routes.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub convergence: Vec<Iteration>,
     /// Matrices factorised.
     pub factorisations: usize,
-    /// The evidence, where springs say that there is no equilibrium.
+    /// The evidence, if springs show that there is no equilibrium.
     pub springs: Option<SpringShares>,
     /// Whether the status `Infeasible` is proved, by a vector that was checked in the data.
     pub proved: bool,
-    /// What the springs of the scene did.
+    /// The effect of the springs of the scene.
     pub soft: Option<SoftReport>,
-    /// How the blocks came to where they are, and so which law of friction the answer obeys.
+    /// How the state was found, and so which law of friction it obeys.
     pub way: lcp::Way,
     /// Dimensionless residuals recomputed from the original data.
     pub residuals: lcp::Residuals,
-    /// Residuals of the same answer in the paper's form (3.27), where another form found it.
+    /// Residuals of the same solution in the paper's form (3.27), if another form was solved.
     pub coulomb_residuals: Option<lcp::Residuals>,
 }
 
 impl SolveInfo {
-    /// Nothing but a status and residuals.
+    /// A status and residuals only.
     pub fn new(status: lcp::Status, residuals: lcp::Residuals) -> Self {
         Self {
             status,
@@ -95,14 +95,14 @@ pub struct RouteEnd {
     pub route: Route,
     /// Why it was its turn.
     pub because: String,
-    /// Its status, and what became of it; or why it refused.
+    /// Its status and result; or the reason of a refusal.
     pub end: String,
     /// Wall-clock time \[s\].
     pub seconds: f64,
 }
 
-/// Springs on all displacements that are made softer and softer, and what they carry: a share that does not
-/// tend to zero says that nothing else carries it.
+/// Springs on all displacements that are made softer and softer, and the share of the load that they carry. If the
+/// share does not tend to zero, nothing else carries it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SpringShares {
@@ -112,14 +112,14 @@ pub struct SpringShares {
     pub shares: Vec<f64>,
 }
 
-/// Springs that hold the blocks while a scene is solved, and what they changed before they were
-/// centred anew; the answer itself is without them.
+/// Springs that hold the blocks while a scene is solved, and their effect before they were re-centred; the final
+/// result is without them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SoftReport {
     /// The stiffness, relative to that of the blocks \[-\].
     pub stiffness: f64,
-    /// How often the springs were centred.
+    /// Number of re-centrings.
     pub rounds: usize,
     /// The share of the load that they carried at first \[-\].
     pub share: f64,

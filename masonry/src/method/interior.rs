@@ -40,7 +40,7 @@ impl Method for Interior<'_> {
             InteriorPointSettings { tolerance: request.tolerance, start, ..Default::default() };
         let may_move = !problem.frictional().is_empty();
         let is_rigid = problem.stiffness().val().iter().all(|k| k.abs() <= 0.0);
-        let thorough = settings.clone();
+        let mut thorough = settings.clone();
         if may_move {
             settings.max_iterations = auto::STEPS_BEFORE_MOTION;
             settings.continuation = false;
@@ -56,7 +56,8 @@ impl Method for Interior<'_> {
         if is_over(&moved) {
             return Ok(moved);
         }
-        // The path that did not get far in a few steps may still get there.
+        // The path that did not get far in a few steps may still get there. How bodies fall is known where they flow.
+        thorough.continuation = moved.info.status != Status::NoEquilibrium;
         let answer = self.by_path(thorough, observer)?;
         let says_more =
             answer.info.status == Status::Solved || moved.info.status != Status::NoEquilibrium;
@@ -99,9 +100,7 @@ impl Interior<'_> {
         let evolved = Evolution::new(settings)
             .advance_observed(problem, from, &mut |at| observer(at.into()))?;
         let line = described(&evolved);
-        let is_over = evolved.rests() || evolved.solution.status == Status::NoEquilibrium;
-        // From rest a motion may end far away, held by forces that no loading leads to.
-        let says_more = is_over && (self.start.is_some() || evolved.way != Way::Motion);
+        let says_more = evolved.rests() || evolved.solution.status == Status::NoEquilibrium;
         let Info { iterations, factorisations, .. } = evolved.solution.info;
         Ok(match given {
             Some(mut given) if !says_more => {
@@ -158,8 +157,8 @@ fn described(evolved: &Evolved) -> String {
             )
         }
         (_, Status::NoEquilibrium) => format!(
-            "flows: a share of {:.1e} of the loads is left to viscosity, however small that is",
-            evolved.motions.shares.last().copied().unwrap_or(1.0)
+            "flows: {} motions, the last ones of the same length",
+            evolved.motions.shares.len()
         ),
         (_, status) => format!("moved against viscosity, {status}"),
     };

@@ -1,11 +1,10 @@
-//! The pivoting route: Lemke's method on the forms of the contact problem.
+//! The route `lemke`: Lemke's method on the forms of the contact problem.
 //!
-//! The paper's form (3.27) comes first. It is not copositive, and for large friction the method may
-//! end on a ray although there is equilibrium; so a ray is followed by other start bases and
-//! covering vectors, and then by the copositive mixed form. Its ray is a motion of the blocks that
-//! no contact stops. Even this is no proof that there is no equilibrium: a rigid block that just
-//! fits between two walls may fall, and may be jammed. The answer of the mixed form is measured
-//! against the paper's form too.
+//! The paper's form (3.27) comes first. It is not copositive, and for large friction the method may end on a ray
+//! although there is an equilibrium. So a ray is followed by other start bases and covering vectors, and then by the
+//! copositive mixed form. The ray of that form is a motion of the blocks that no contact stops. Even this is no proof
+//! that there is no equilibrium: a rigid block that just fits between two walls may fall, or may be jammed. A
+//! solution of the mixed form is also measured in the paper's form.
 
 use lcp::lemke::{Attempt, AttemptCovering, AttemptEnd, AttemptStart, Perturbation};
 use lcp::{Basis, Covering, Lemke, LemkeSettings, Residuals, Side, Status, WarmStart};

@@ -1,10 +1,10 @@
-//! The route by projected Gauss-Seidel sweeps over the contacts of blocks on springs.
+//! The route by projected Gauss-Seidel on the contacts of blocks on springs.
 //!
-//! Sweeps need a definite stiffness, and blocks that only touch have none. So springs hold all
-//! displacements, and are centred anew at the last solution, round after round (proximal steps,
-//! Rockafellar 1976), until forces and displacements solve the problem without them. Every round starts from
-//! the forces of the one before and is solved only a little better than the rounds have come so far. Where they come
-//! no further, the equations of the states of the contacts are solved once, which is exact if these are right.
+//! The method needs a definite stiffness, and blocks that only touch have none. So springs hold all displacements,
+//! and are re-centred at the last solution, round after round (proximal steps, Rockafellar 1976), until forces and
+//! displacements solve the problem without them. Every round starts from the forces of the previous one and is solved
+//! only slightly more accurately than the rounds have converged. When they stop converging, the equations of the
+//! states of the contacts are solved once, which is exact if these are right.
 
 use std::ops::ControlFlow;
 
@@ -19,8 +19,7 @@ use crate::method::forms::Sparse;
 use crate::method::info::SoftReport;
 use crate::scene::Route;
 
-/// Stiffness of the springs where the scene gives none: soft ones need fewer rounds, and more sweeps in
-/// each of them.
+/// Stiffness of the springs if the scene gives none: soft springs need fewer rounds, and more sweeps in each.
 pub const SOFT: f64 = 1e-3;
 
 /// Rounds at most.

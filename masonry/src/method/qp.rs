@@ -1,8 +1,8 @@
-//! The route by convex quadratic programs, for friction the fixed point of programs with frozen bounds of
-//! the friction forces (Tresca).
+//! The route by convex quadratic programs; with friction a fixed-point iteration of programs with fixed bounds of the
+//! friction forces (Tresca).
 //!
-//! On request soft springs hold the blocks and are centred anew at the last solution until they carry nothing.
-//! What they change before the first time is reported as their bias.
+//! On request soft springs hold the blocks and are re-centred at the last solution until they carry nothing. Their
+//! effect before the first re-centring is reported as their bias.
 
 use std::ops::ControlFlow;
 

@@ -28,8 +28,8 @@ pub struct Reduction {
     pub r: Mat<f64>,
     /// `t_0` of (3.18): forces of the isostatic rows that balance the loads \[N\].
     pub t0: Vec<f64>,
-    /// `A = W^T F W` \[m/N\], symmetric and positive semidefinite; empty where nothing gives way: rigid
-    /// blocks in dry joints have `R` alone.
+    /// `A = W^T F W` \[m/N\], symmetric and positive semidefinite; empty if nothing deforms: rigid blocks in dry
+    /// joints only have `R`.
     pub a: Mat<f64>,
     /// `c` of (3.23) \[m\].
     pub c: Vec<f64>,
@@ -41,7 +41,7 @@ pub struct Reduction {
     g_isostatic: Mat<f64>,
 }
 
-/// The compliance that one block gives to its contact rows.
+/// The compliance of one block at its contact rows.
 #[derive(Debug, Clone)]
 pub struct Compliance {
     /// The block's contact rows, increasing.
@@ -55,11 +55,11 @@ pub struct Compliance {
 impl Reduction {
     /// Reduces a system.
     ///
-    /// `weights`, one positive number per row, favour rows for the isostatic part; they change `R`,
-    /// `A` and `c` but not the state that is recovered.
+    /// `weights`, one positive number per row, give preference to rows for the isostatic part; they change `R`, `A`
+    /// and `c` but not the recovered state.
     ///
     /// # Errors
-    /// [`RigidError::Free`] when some block can move without any contact noticing.
+    /// [`RigidError::Free`] if some block can move without any resistance at its contacts.
     ///
     /// # Panics
     /// If there are fewer weights than rows.

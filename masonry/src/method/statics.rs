@@ -1,5 +1,5 @@
-//! Statically admissible forces: contact forces inside their friction cones that balance the loads of every
-//! block, whatever the blocks are made of and wherever they are.
+//! Statically admissible forces: contact forces inside their friction cones that balance the loads of every block,
+//! for any material and any position of the blocks.
 //!
 //! With one nonnegative force `p` along each edge of each cone, and the sparse matrix `E` of the resultants of
 //! these on the blocks, they are the solutions of `E p + r = 0`, `p >= 0`, with the resultants `r` of the loads. Where a
@@ -7,13 +7,14 @@
 //! top. Two convex programs decide whether there are any:
 //!
 //! * the forces of least size, `min |p|^2 / 2`: joints as springs that are sheared and opened by the same law
-//!   (associated flow). It has one solution if there are any;
-//! * the least that is left over, `min |v|^2 / 2` with `v = r + E p`. If there are none, `v` is not zero and proves it:
-//!   `E^T v >= 0` and `r.v = |v|^2 > 0`, a motion of rigid blocks on which every contact force does work that is not
-//!   negative, and the loads do work too, more than cohesion and tensile strength take (Farkas 1902, Moreau 1962). The [`proof`] checks it in the geometry.
+//!   (associated flow). It has one solution if there are any admissible forces;
+//! * the smallest unbalanced force, `min |v|^2 / 2` with `v = r + E p`. If there are no admissible forces, `v` is not
+//!   zero and proves it: `E^T v >= 0` and `r.v = |v|^2 > 0`. This is a motion of rigid blocks on which every contact
+//!   force does nonnegative work, and the loads do more work than cohesion and tensile strength take (Farkas 1902,
+//!   Moreau 1962). The [`proof`] checks it in the geometry.
 //!
-//! Rigid blocks without gaps stand on such forces: at rest every gap and every slip is zero. For all other walls
-//! they are necessary and not sufficient.
+//! Rigid blocks without gaps stand if there are such forces: at rest every gap and every slip is zero. For all other
+//! walls they are necessary but not sufficient.
 
 use lcp::{MixedLcp, Observer, Solution};
 
@@ -33,14 +34,14 @@ pub use proof::Proof;
 /// Steps of each: forces take ten to forty where there are any, proofs near the limit more.
 const MAX_STEPS: [usize; 2] = [60, 150];
 
-/// What is known of forces that balance the loads.
+/// What is known about forces that balance the loads.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Statics {
     /// These do: of all rows of the [`System`] \[N\].
     Admissible(Vec<f64>),
     /// There are none.
     Impossible(Proof),
-    /// Neither came out.
+    /// Undecided.
     Open,
 }
 

@@ -4,8 +4,8 @@
 //! edges, in general between nodes: the relative displacement is interpolated on each side by
 //! that side's own shape functions, so that meshes need not match.
 //!
-//! In a joint class with mortar the two edges stand apart by the thickness of the mortar, and the joint
-//! is a film between them: a gap is what their distance has beyond that.
+//! In a joint class with mortar the two edges are apart by the thickness of the mortar, and the joint is a film
+//! between them: a gap is the excess of their distance over that thickness.
 //!
 //! # Orientation
 //! Normals of joints between blocks point upwards in beds (within 45 degrees of the vertical) and to

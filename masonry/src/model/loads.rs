@@ -1,4 +1,4 @@
-//! What acts on blocks, kind by kind: the resultant of each load and what it comes to at the nodes of a mesh.
+//! Loads on blocks by kind: the resultant of each load and its nodal forces on a mesh.
 
 use nalgebra::{Point2, Vector2};
 
@@ -9,14 +9,14 @@ use crate::model::mesh::BlockMesh;
 /// A force \[N\] and where it acts \[m\].
 pub type PlacedForce = (Point2<f64>, Vector2<f64>);
 
-/// A load of the scene: what it is called, and how much of it acts.
+/// A load of the scene: its name and its factor.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Load {
     /// Its name.
     pub name: String,
-    /// The group that it belongs to: one of its own, of its own name, where the scene gives none.
+    /// Its group; if the scene gives none, a group of its own with its own name.
     pub group: String,
-    /// Its factor \[-\], times that of the step; what acts on blocks has it in it.
+    /// Its factor \[-\], times that of the step; loads on blocks include it.
     pub factor: f64,
 }
 

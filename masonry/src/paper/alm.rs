@@ -1,24 +1,24 @@
-//! The augmented Lagrangian route (3.10)-(3.17), the paper's competitor of pivoting.
+//! The augmented Lagrangian route (3.10)-(3.17), the paper's alternative to the complementarity problem.
 //!
 //! Every iteration solves one linear system for the present contact forces, the multipliers, and projects the
-//! forces that come out on the friction cone:
+//! resulting forces onto the friction cones:
 //!
 //! ```text
 //! ( K + delta D + sum rho_i C_i^T C_i ) u = f + delta D u_old + C^T (t - rho x),     D = diag K
 //! t_n <- [t_n - rho_n y_n]+ ,     t_t <- projection of t_t - rho_t y_t on [-mu t_n, mu t_n]
 //! ```
 //!
-//! The sum goes over the contacts that are closed, along the tangent over those that stick; it holds
-//! blocks that float, so that the matrix changes with the states of the contacts only. Blocks without any
-//! closed contact are held by the proximal term `delta`, without which they would fly off and come back
-//! with huge forces; it vanishes with the steps. The penalties `rho` follow from the stiffness that the contact sees,
-//! and are made smaller where the iteration diverges or comes to rest.
+//! The sum is over the closed contacts, along the tangent over those that stick. It holds floating blocks, so the
+//! matrix changes only with the states of the contacts. Blocks without any closed contact are held by the proximal
+//! term `delta`; without it they would move far away and return with huge forces. The term vanishes with the steps.
+//! The penalties `rho` follow from the stiffness at the contact, and are made smaller if the iteration diverges or
+//! stops converging.
 //!
-//! The unbalanced force is what the last step left over, and convergence is linear: the solution may be many such
-//! steps away. So an answer is called solved when, besides, the rate at which the steps shrink says that displacements
-//! and forces are near.
+//! The unbalanced force is the error of the last step, and convergence is linear: the solution may be many such steps
+//! away. So the status is `Solved` only if the rate at which the steps decrease also shows that displacements and
+//! forces are near.
 //!
-//! Whole films of mortar are no contact: see [`MortaredWall`], and, for films updated as the paper prints it,
+//! Whole films of mortar are not contacts: see [`MortaredWall`], and, for films updated as printed in the paper,
 //! [`Updates`].
 
 mod contraction;
@@ -42,11 +42,11 @@ pub use route::Multipliers;
 pub use strips::Strips;
 use structure::Structure;
 
-/// What the route is asked for.
+/// The settings of the route.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// Largest unbalanced force, relative to the loads, largest residual, and largest estimated error of
-    /// displacements and forces, relative to the largest of them, of an answer called solved \[-\].
+    /// displacements and forces, relative to the largest of them, of a solution with status `Solved` \[-\].
     pub tolerance: f64,
     /// Iterations of all attempts.
     pub max_iterations: usize,
@@ -58,11 +58,11 @@ impl Default for Settings {
     }
 }
 
-/// What the route found.
+/// The result of the route.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Answer {
-    /// `Solved`, `IterationLimit`, `Stalled` where every attempt diverged or came to rest, or `Cancelled`.
+    /// `Solved`, `IterationLimit`, `Stalled` if every attempt diverged or stopped converging, or `Cancelled`.
     pub status: Status,
     /// Displacements and contact forces of the best iteration.
     pub state: ContactState,

@@ -1,9 +1,10 @@
 //! Mortar films: thin elastic strips between two faces that press, slide and part, (3.28)-(3.39),
 //! and the change of their nodes to those of the blocks, (3.40)-(3.53).
 //!
-//! This is the strip with nodes of its own, for use from Rust. The films of a scene
-//! ([`model::Film`](crate::model::Film)) act at contact points, as compliances and, as [`system`](crate::system)
-//! says, also as bars: with [`Films::Strips`](crate::scene::Films::Strips) their answer is that of [`pointwise`].
+//! This is the strip with its own nodes, for use from Rust. The films of a scene
+//! ([`model::Film`](crate::model::Film)) act at contact points, as compliances and, as described in
+//! [`system`](crate::system), also as bars: with [`Films::Strips`](crate::scene::Films::Strips) their solution is
+//! that of [`pointwise`].
 //!
 //! A film is a strip of mortar of length `l` and thickness `t_y` between two straight faces. It has
 //! its own local axes: `x` along the joint, from `-l/2` to `l/2`, and `y` across it. With the signs of

@@ -1,21 +1,23 @@
-//! The judge of states: what one misses of equilibrium and of the laws of its joints, from displacements, forces and
-//! data alone. Nothing of the method that found it is used: no matrix but those of single elements, no row, no residual.
+//! Checks of states: errors in equilibrium and in the laws of the joints, from displacements, forces and data only.
+//! They do not depend on the method that found the state: they use only matrices of single elements, no rows and no
+//! residuals.
 //!
-//! # What errors are compared with
-//! A force is compared with the sum of the sizes of all on the same block: loads, contact forces, and the tensile
-//! strengths of its points, beyond which forces are computed. So a light block is not excused by a heavy one beside it.
-//! A length is compared with the displacements of the blocks that meet, and with gaps and slips at first and compressions of
-//! films at their points; where one of them is rigid, with the largest of all, since a rigid block has no length of its own.
+//! # What errors are relative to
+//! A force is relative to the sum of the sizes of all forces on the same block: loads, contact forces, and the tensile
+//! strengths of its points, since contact forces are computed relative to these. So a light block is not excused by a
+//! heavy neighbour. A length is relative to the displacements of the blocks that meet, and to initial gaps and slips and
+//! compressions of films at their points. If one of the blocks is rigid, it is relative to the largest length of all,
+//! since a rigid block has no displacement scale of its own.
 //!
-//! Both end where the digits do. Blocks that touch share forces and displacements, and an equation of them is
-//! known to the rounding errors of its largest term: `eps` times the number of terms times
+//! Rounding errors limit both. Blocks that touch share forces and displacements, and an equation of them is known up
+//! to the rounding errors of its largest term: `eps` times the number of terms times
 //!
-//! * of a force on a block, the largest sum of forces on it or on a block that it touches, and of an
-//!   elastic one, stiffness times displacement at a node of its own;
-//! * of a length, the largest of all.
+//! * for a force on a block, the largest sum of forces on it or on a block that it touches, and for an elastic block
+//!   also stiffness times displacement at one of its nodes;
+//! * for a length, the largest of all.
 //!
-//! An error that is no more than this counts as 1e-9 at most, since no digits are left to do better. It can hide that a
-//! block is light only where another one is about 1e13 times as heavy, and then [`Checks::uncarried`] tells.
+//! An error that is no larger than this counts as 1e-9 at most, since it cannot be reduced. It can hide an error on a
+//! light block only if another one is about 1e13 times as heavy; [`Checks::uncarried`] detects that case.
 //!
 //! | module | content |
 //! |---|---|
@@ -41,7 +43,7 @@ use bodies::Bodies;
 use contact::Pair;
 use lengths::Lengths;
 
-/// Balances and violations, dimensionless. What each is relative to is said [above](self).
+/// Balances and violations, dimensionless. What each is relative to is described [above](self).
 #[derive(Debug, Clone, Serialize)]
 #[non_exhaustive]
 pub struct Checks {
@@ -50,32 +52,35 @@ pub struct Checks {
     /// Largest unbalanced moment of a block about its centroid, divided by the block's size, relative to the
     /// same forces.
     pub moment_balance: f64,
-    /// Largest part of a load that nothing carries: the unbalanced force of a block relative to the loads on
-    /// that block, unless it is below 1e-9 of all forces on it; and relative to all loads. It tells a light block
-    /// whose forces are lost among the digits of those around it, and forces so large that the loads are lost
-    /// among their digits.
+    /// Largest part of a load that is not carried: the unbalanced force of a block relative to the loads on that
+    /// block, unless it is below 1e-9 of all forces on it; and relative to all loads. It detects a light block whose
+    /// forces are lost among the digits of its neighbours, and forces so large that the loads are lost among their
+    /// digits.
     pub uncarried: f64,
-    /// Largest force left over at a node of an elastic block, where its elements meet loads and contact forces;
-    /// relative to the largest of these at its nodes, or the forces on the block spread over all of them if that is more.
+    /// Largest unbalanced force at a node of an elastic block, between its elements, loads and contact forces;
+    /// relative to the largest of these at its nodes, or to the forces on the block spread over all nodes if that is
+    /// more.
     pub nodal_balance: f64,
     /// Largest violation of the [law](crate::law) of a joint by a force, relative to the forces on the lighter of the
-    /// blocks that meet. Where friction `mu` is above one its bound has the errors of the normal force `mu` times:
-    /// it counts one `mu`-th.
+    /// blocks that meet. If friction `mu` is above one, the bound has `mu` times the error of the normal force, so
+    /// the violation is divided by `mu`.
     pub cone_violation: f64,
     /// Deepest interpenetration, relative to the lengths of the blocks that meet.
     pub penetration: f64,
     /// Forces where there should be none: across a gap, or, where a point slides in the step, other than the bound
-    /// against it. The smaller one of the gap or slip, as a length, and of the force that is too much or lacks.
+    /// against the sliding. The smaller of the gap or slip, as a length, and of the error of the force.
     pub complementarity: f64,
-    /// What is missing in `f.u + t.y = 2 U + t.x`: work of the loads and of forces on gaps and slips, strain energy,
-    /// work on initial gaps and slips. And the work of friction where it is positive. Relative to the sum of the sizes of all.
+    /// The error of `f.u + t.y = 2 U + t.x`: work of the loads and of forces on gaps and slips, strain energy, work
+    /// on initial gaps and slips. And the work of friction if it is positive. Relative to the sum of the sizes of all
+    /// terms.
     pub energy: f64,
     /// Largest change of the shape of a rigid block, relative to its displacements.
     pub deformation: f64,
-    /// The smallest change of loads, stiffness and contact forces, relative to them, with which the forces at
-    /// all nodes are in equilibrium; of rigid blocks that of loads and contact forces. No error by itself.
+    /// The smallest relative change of loads, stiffness and contact forces for which the forces at all nodes are in
+    /// equilibrium; for rigid blocks, of loads and contact forces. This is no error by itself.
     pub backward: f64,
-    /// Forces on the block with the most relative to those on the one with the least. No error either.
+    /// Ratio of the forces on the block with the largest to those on the block with the smallest forces. No error
+    /// either.
     pub spread: f64,
     /// Number of open contact points.
     pub open: usize,
@@ -92,11 +97,11 @@ const LARGEST_ERROR: f64 = 1e-9;
 const LARGEST_UNCARRIED: f64 = 1e-3;
 
 impl Checks {
-    /// Whether a state is an equilibrium: every error at most the tolerance that was asked for, or 1e-9 if that is larger;
-    /// and all loads carried, to a thousandth or that tolerance.
+    /// Whether a state is an equilibrium: every error is at most the tolerance, or 1e-9 if that is larger; and all
+    /// loads are carried, to a thousandth or the tolerance.
     ///
-    /// A thousandth is weaker, and has to be: where blocks differ by more than the digits of a number, or forces exceed the
-    /// loads by that, a load cannot be told from rounding errors any better.
+    /// A thousandth is weaker, and must be: if forces on blocks differ by more than the digits of a number, or exceed
+    /// the loads by that, loads cannot be distinguished from rounding errors more accurately.
     pub fn hold(&self, tolerance: f64) -> bool {
         self.worst() <= tolerance.max(LARGEST_ERROR)
             && self.uncarried <= tolerance.max(LARGEST_UNCARRIED)
@@ -117,7 +122,7 @@ impl Checks {
         errors.into_iter().fold(0.0, larger)
     }
 
-    /// Of a state of the model, which has the slips that the step started from ([`Model::under`]).
+    /// Checks a state of the model, which has the slips at the start of the step ([`Model::under`]).
     ///
     /// ```
     /// # use masonry::{Model, State, verify::checks::Checks};

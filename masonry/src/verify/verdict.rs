@@ -1,11 +1,12 @@
-//! The verdict: whether a wall stands, falls, or that is not decided; with its evidence, a sentence for people, and
-//! what they should know beside it. Nothing else in the crate decides that.
+//! The verdict: whether a wall stands, falls, or this is undecided; with the evidence, a sentence for people, and
+//! warnings. Nothing else in the crate decides this.
 //!
-//! * **Stands**: an equilibrium was found and verified. Of rigid blocks at rest any forces inside friction that balance the
-//!   loads are one, so that it is the upper end of what friction allows.
-//! * **Falls**: no contact forces inside friction balance the loads. The [proof](crate::method::statics::Proof) was checked in the
-//!   geometry.
-//! * **Undecided**: all else. Neither a secondary ray nor springs that keep their load say that a wall falls.
+//! * **Stands**: an equilibrium was found and verified. For rigid blocks at rest any forces within friction that
+//!   balance the loads are an equilibrium, so this is an upper bound of what friction can hold.
+//! * **Falls**: no contact forces within friction balance the loads. The [proof](crate::method::statics::Proof) was
+//!   checked in the geometry.
+//! * **Undecided**: all other cases. Neither a secondary ray nor springs that keep their load prove that a wall
+//!   falls.
 
 mod sentence;
 mod unique;
@@ -44,21 +45,21 @@ impl std::fmt::Display for Verdict {
     }
 }
 
-/// What a verdict rests on.
+/// The evidence of a verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[non_exhaustive]
 pub enum Evidence {
     /// An equilibrium, verified by its residuals and the balance of every block.
     #[serde(rename = "equilibrium")]
     Equilibrium,
-    /// Forces inside friction that balance the loads: enough for rigid blocks at rest, and for no others.
+    /// Forces within friction that balance the loads: sufficient for rigid blocks at rest only.
     #[serde(rename = "admissible forces")]
     AdmissibleForces,
     /// There are no such forces, with a checked proof.
     #[serde(rename = "no admissible forces")]
     NoAdmissibleForces,
-    /// A motion against viscosity that does not come to rest, however small that is. Where forces inside friction that
-    /// balance the loads exist, this is no proof that the wall falls in every way of loading it.
+    /// A motion against viscosity that does not come to rest, however small the viscosity is. If forces within
+    /// friction balance the loads, this is no proof that the wall falls under every order of loading.
     #[serde(rename = "motion")]
     Motion,
     /// Nothing.
@@ -66,17 +67,17 @@ pub enum Evidence {
     None,
 }
 
-/// A verdict and all that belongs to it.
+/// A verdict with its evidence and explanation.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Judgement {
     /// The verdict.
     pub verdict: Verdict,
-    /// What it rests on.
+    /// The evidence.
     pub evidence: Evidence,
-    /// Both in the words of an engineer; of a load history how far it went, too.
+    /// Both in one sentence; for a load history also how far it went.
     pub sentence: String,
-    /// What limits the meaning of the answer.
+    /// Limitations of the result.
     pub warnings: Vec<String>,
 }
 
@@ -108,8 +109,7 @@ impl Judgement {
                     if known.at_rest { Evidence::AdmissibleForces } else { Evidence::Equilibrium };
                 (Verdict::Stands, evidence)
             }
-            // Without a history the blocks might have come to rest with forces that no motion from rest leads to.
-            _ if known.history.is_some() && flows(known.info) => (Verdict::Falls, Evidence::Motion),
+            _ if flows(known.info) => (Verdict::Falls, Evidence::Motion),
             Some(Statics::Admissible(_)) => (Verdict::Undecided, Evidence::AdmissibleForces),
             Some(Statics::Open) | None => (Verdict::Undecided, Evidence::None),
         };

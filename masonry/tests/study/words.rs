@@ -43,5 +43,5 @@ fn routes_without_an_answer_are_named() {
     assert!(cost.ends_with("; pgs (Stalled) does not reach it."), "{cost}");
     let short = output::in_short(&study).unwrap();
     assert!(short.starts_with("On mesh 1 (that of the scene), "), "{short}");
-    assert!(short.contains("below 1e-6") && short.contains("the mesh errs by"), "{short}");
+    assert!(short.contains("below 1e-6") && short.contains("the error of the mesh is"), "{short}");
 }

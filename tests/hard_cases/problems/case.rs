@@ -94,7 +94,7 @@ impl Case {
                 let point = pairs(t, y);
                 case.planted(point)
             }
-            Known::Infeasible { .. } => case.unsolvable("no solution, by a proof that was planted"),
+            Known::Infeasible { .. } => case.unsolvable("no solution, with a planted proof"),
             Known::Solvable => case,
         }
     }
@@ -149,7 +149,9 @@ impl Case {
         let points = all.faces.iter().filter(|face| face.dimension == 0).count();
         let wider = all.faces.len() - points;
         self.expected = match (points, wider) {
-            (0, 0) if all.is_feasible() => "no solution, but without complementarity".to_owned(),
+            (0, 0) if all.is_feasible() => {
+                "no solution, only points without complementarity".to_owned()
+            }
             (0, 0) => "no solution, even without complementarity".to_owned(),
             (1, 0) => "one solution".to_owned(),
             (_, 0) => format!("{points} solutions"),

@@ -9,7 +9,7 @@ pub const TITLE: &str = "Condition";
 
 pub fn cases() -> Vec<Case> {
     let mut list = Vec::new();
-    let why = "The answer hangs on digits that elimination loses; data and answer are integers, without a rounding error.";
+    let why = "The solution depends on digits that elimination loses; data and solution are integers, without rounding errors.";
     for (n, condition) in [(6, 1e7), (10, 1e13), (14, 1e18)] {
         let point = strict(n);
         list.push(
@@ -26,7 +26,7 @@ pub fn cases() -> Vec<Case> {
             .parameters("`L D L^T`, n = 12: `L` has ones on the diagonal and in its first column, and `s_ij` elsewhere below; `d_k = 2^-r`, `r` the integer next to `40 k / 11`")
             .unique(point, 1e14),
     );
-    let why = "A P-matrix, but some principal minors are hardly positive.";
+    let why = "A P-matrix with very small principal minors.";
     for (bits, minor, condition) in [(20, "1e-6", 1e14), (43, "1e-13", 1e20)] {
         let point = of_minors();
         list.push(

@@ -7,11 +7,11 @@ use super::case::Case;
 use super::data::{dominant, standard};
 use super::problem::Problem;
 
-pub const TITLE: &str = "Nothing, one, and zeros";
+pub const TITLE: &str = "Empty problems, order one, and zeros";
 
 pub fn cases() -> Vec<Case> {
-    let small = "Every method has a place where it takes for granted that there is something.";
-    let zero = "All entries that a method could divide by vanish.";
+    let small = "Some step of every method assumes that the problem is not empty.";
+    let zero = "All entries that a method could divide by are zero.";
     let zeros = |n: usize| Mat::<f64>::zeros(n, n);
     let mut list = vec![
         Case::new("order 0", small, standard(Mat::new(), Vec::new()))

@@ -10,7 +10,7 @@ use super::problem::Problem;
 pub const TITLE: &str = "Contact and friction";
 
 pub fn cases() -> Vec<Case> {
-    let wedge = "Friction is steeper than the faces: what is jammed cannot be pulled out, and nothing says that it is jammed.";
+    let wedge = "The friction cone is steeper than the faces: a jammed wedge cannot be pulled out, and the data do not say whether it is jammed.";
     let paradox =
         "Friction turns a push away from the wall into a push against it (Painleve 1895).";
     let faces = [[4.0, 3.0], [-4.0, 3.0]];
@@ -47,7 +47,7 @@ pub fn cases() -> Vec<Case> {
 
 /// A rigid body on a floor and against a slope.
 pub(super) fn leaning(mu: f64) -> Case {
-    let why = "The two edges of the friction cone coincide, or are nearly the whole plane.";
+    let why = "The friction cone is nearly a line, or nearly the half plane.";
     let push = mu.min(1.0) / 2.0;
     let problem = body([0.0; 2], [push, -1.0], &[[0.0, 1.0], [3.0, 4.0]], mu);
     Case::new(&format!("mu = {mu:e}, rigid"), why, problem)
@@ -80,7 +80,7 @@ pub(super) fn chain(bits: i32) -> Case {
         Contact2d::new(k, load, one, Mat::zeros(N, N), none.clone(), none.clone(), none).unwrap();
     let (u, t_n): (Vec<f64>, Vec<f64>) = (0..N).map(|i| (at(i), force(i))).unzip();
     let (t, y) = problem.to_pairs(&problem.state(u, t_n, vec![0.0; N]));
-    let why = "Displacements hang on differences of large forces, and contact forces are no larger than what is allowed to lack of these: another answer may have no larger residuals.";
+    let why = "Displacements depend on differences of large forces, and contact forces are no larger than the residual that is allowed for these: another point may have residuals as small.";
     Case::new(&format!("springs that differ by 2^{bits}"), why, Problem::Contact(problem))
         .parameters(
             "eight bodies in a row, each over a floor, between springs of stiffness 1 and that by turns, without friction; displacements (1, 1, 0, 0, 2, 2, 3, 0) are planted",

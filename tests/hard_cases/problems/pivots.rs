@@ -35,7 +35,7 @@ pub(super) fn family(name: &str, why: &'static str, instance: Instance<Lcp>) -> 
 /// Murty's matrix with rows and columns in other units, so that no tableau has integers alone.
 fn long() -> Case {
     const N: usize = 16;
-    let why = "Rounding errors of 1e4 pivots in a row come together in the basis.";
+    let why = "Rounding errors of 1e4 successive pivots accumulate in the basis.";
     let unit = |i: usize| 1.0 + i as f64 / 7.0;
     let m = families::murty(N).problem.m().to_dense();
     let m = Mat::from_fn(N, N, |i, j| unit(i) * m[(i, j)] * unit(j));

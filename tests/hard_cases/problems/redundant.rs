@@ -10,8 +10,7 @@ use super::problem::Problem;
 pub const TITLE: &str = "Redundant contacts and singular matrices";
 
 pub fn cases() -> Vec<Case> {
-    let hyperstatic =
-        "Rigid bodies have no stiffness, and equilibrium leaves most forces open: `A` is singular.";
+    let hyperstatic = "Rigid bodies have no stiffness, and equilibrium leaves most forces undetermined: `A` is singular.";
     let singular = "Columns of `A` and of `B` depend on one another.";
     let on_twelve = on_supports(12);
     let general = on_twelve.to_general();

@@ -7,8 +7,8 @@ pub const TITLE: &str = "Units and ranges";
 
 pub fn cases() -> Vec<Case> {
     let n = 10;
-    let units = "Every row and every unknown has a unit of its own.";
-    let ranges = "Products of data leave the range of numbers, above or below.";
+    let units = "Every row and every unknown has its own unit.";
+    let ranges = "Products of data overflow or underflow.";
     let rows = exponents(n, 40.0);
     let columns: Vec<f64> = rows.iter().rev().copied().collect();
     let none = vec![0.0; n];

@@ -10,9 +10,9 @@ use super::problem::Problem;
 pub const TITLE: &str = "Several solutions";
 
 pub fn cases() -> Vec<Case> {
-    let several = "Any of the solutions is right, and nothing between them.";
+    let several = "Each of the solutions is right, but no point between them.";
     let copositive =
-        "Copositive, but not semidefinite: theory promises an end to Lemke's method alone.";
+        "Copositive, but not semidefinite: only Lemke's method is guaranteed to succeed.";
     let minus = Mat::from_fn(6, 6, |i, j| if i == j { -1.0 } else { 0.0 });
     let indefinite = mat![[1.0, 3.0, 0.0], [3.0, 1.0, 2.0], [0.0, 2.0, -1.0]];
     let of =

@@ -10,10 +10,8 @@ use super::problem::Problem;
 pub const TITLE: &str = "Ties and cycles";
 
 pub fn cases() -> Vec<Case> {
-    let ties =
-        "Ratios tie all the way, and a path without a rule for ties can come back to where it was.";
-    let vanish =
-        "Both variables of many pairs vanish: no gap and no force, and rounding decides the sign.";
+    let ties = "Ratios tie at every pivot, and without a rule for ties the path can cycle.";
+    let vanish = "Both variables of many pairs are zero (no gap and no force), and rounding decides their signs.";
     vec![
         Case::of("Kostreva", ties, families::kostreva_1(), (Problem::Standard, 10.0))
             .parameters("`families::kostreva_1()`: P-matrix, n = 3, `q = -1`, cycles under the plain ratio test")
@@ -88,7 +86,7 @@ fn assignment(why: &'static str) -> Case {
     let q = (0..n).map(|i| if i < pairs { cost(i) } else { -1.0 }).collect();
     Case::new("assignment", why, standard(m, q))
         .parameters("six workers and six tasks, costs `1 + (i j mod 5)`: a linear program, n = 48")
-        .solvable("several solutions, as a linear program has them")
+        .solvable("several solutions, the optima of a linear program")
 }
 
 fn planted(name: &str, why: &'static str, n: usize, tenths: usize) -> Case {

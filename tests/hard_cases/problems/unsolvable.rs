@@ -11,9 +11,9 @@ pub const TITLE: &str = "No solution";
 
 pub fn cases() -> Vec<Case> {
     let proved = "There is no solution, and that has to be proved.";
-    let near = "A hair apart, one has a solution and the other has none.";
+    let near = "Of two problems with nearly equal data, one has a solution and the other has none.";
     let open =
-        "The linear conditions can be met, but not with complementarity: no vector proves it.";
+        "The linear conditions can be met, but not with complementarity: no Farkas vector exists.";
     let [hair, fine, finer] = [-18, -28, -30].map(|power| 2_f64.powi(power));
     let push = |force: f64| body([0.0, 0.0], [force, -8.0], &[[0.0, 1.0]], 0.5);
     let words = "rigid, on one plane, weight 8, mu = 0.5, pushed by";

@@ -1,4 +1,4 @@
-//! What a trace gives.
+//! The result of a trace.
 
 use crate::{Basis, Status};
 
@@ -9,20 +9,19 @@ use crate::{Basis, Status};
 pub enum ParametricEnd {
     /// The parameter has reached its last value.
     Reached,
-    /// From the last breakpoint on nothing blocks: along [`ParametricPath::ray`] the solution goes on
-    /// for ever.
+    /// From the last breakpoint on nothing blocks: the solution continues along [`ParametricPath::ray`] without end.
     Ray,
     /// The path has turned back to the first value of the parameter.
     TurnedBack,
-    /// There is no solution to start from: the solve at the first value ended so.
+    /// There is no solution to start from: the status of the solve at the first value.
     NoStart(Status),
     /// The limit on breakpoints was reached.
     BreakpointLimit,
     /// The limit on wall-clock time was reached.
     TimeLimit,
-    /// A basis came back.
+    /// A basis was repeated.
     Cycle,
-    /// Rounding errors could not be brought under control.
+    /// Rounding errors are too large.
     NumericalTrouble,
 }
 
@@ -38,7 +37,7 @@ pub struct Breakpoint {
     pub y: Vec<f64>,
 }
 
-/// The direction of a path that goes on for ever.
+/// The direction of an unbounded path.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ParametricRay {
@@ -50,22 +49,21 @@ pub struct ParametricRay {
     pub dy: Vec<f64>,
 }
 
-/// A piecewise linear path of solutions: between two breakpoints that follow each other every point
-/// on the straight line solves the problem for the parameter on that line.
+/// A piecewise linear path of solutions: between two consecutive breakpoints every point on the straight line solves
+/// the problem for the parameter on that line.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ParametricPath {
     /// How the trace ended.
     pub end: ParametricEnd,
-    /// The breakpoints, from the first value of the parameter on. The parameter need not grow from one
-    /// to the next: the path turns where the problem is not monotone, and stands still where solutions
+    /// The breakpoints, from the first value of the parameter on. The parameter need not increase from one to the
+    /// next: the path can turn back if the problem is not monotone, and the parameter is constant where the solutions
     /// for one value form a segment.
     pub breakpoints: Vec<Breakpoint>,
-    /// The complementary basis between every two breakpoints, and after the last one where the path
-    /// ends on a ray.
+    /// The complementary basis between consecutive breakpoints, and after the last one if the path ends on a ray.
     pub bases: Vec<Basis>,
-    /// Where the path goes on for ever.
+    /// The direction of the path if it is unbounded.
     pub ray: Option<ParametricRay>,
     /// The worst residual of all breakpoints, from the original data.
     #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
@@ -73,8 +71,8 @@ pub struct ParametricPath {
 }
 
 impl ParametricPath {
-    /// Every solution that the path passes for a value of the parameter, in order: none outside the
-    /// traced values, several where the path turns.
+    /// Every solution on the path for a value of the parameter, in order: none outside the traced values, several
+    /// where the path turns back.
     pub fn solutions_at(&self, lambda: f64) -> Vec<Breakpoint> {
         let mut found: Vec<Breakpoint> = Vec::new();
         for pair in self.breakpoints.windows(2) {

@@ -6,12 +6,11 @@ use crate::{Error, Matrix};
 
 /// Soft springs that hold all displacements of a [`Contact2d`].
 ///
-/// Every displacement has a spring of the stiffness `epsilon k_j`, with `k_j = K_jj` where that is not
-/// zero. Where `K` has no stiffness, as for rigid bodies, `k_j = k c_j^2` with the norm `c_j` of
-/// the column `j` of `[C_n; C_t]` and for `k` the geometric mean of `K_jj / c_j^2` over the other
-/// displacements, or, where all of `K` is zero, the largest `|f_j| / c_j` over the largest initial gap or
-/// slip (over one, without any: then the stiffness only sets the unit of the displacements). In this way
-/// units do not matter.
+/// Every displacement has a spring of the stiffness `epsilon k_j`, with `k_j = K_jj` if that is not zero. Where `K`
+/// has no stiffness, as for rigid bodies, `k_j = k c_j^2`. Here `c_j` is the norm of the column `j` of `[C_n; C_t]`,
+/// and `k` is the geometric mean of `K_jj / c_j^2` over the other displacements. If all of `K` is zero, `k` is the
+/// largest `|f_j| / c_j` over the largest initial gap or slip (over one, if there are none: then the stiffness only
+/// sets the unit of the displacements). So units do not matter.
 ///
 /// ```
 /// use faer::mat;

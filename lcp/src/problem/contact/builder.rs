@@ -3,8 +3,8 @@
 use super::Contact2d;
 use crate::{Error, Matrix};
 
-/// A contact point with the displacements that open it and move it along. A row is a list of pairs
-/// `(displacement, coefficient)`; coefficients of the same displacement add up.
+/// A contact point with the displacements that open it and make it slip. A row is a list of pairs
+/// `(displacement, coefficient)`; coefficients of the same displacement are added.
 ///
 /// Without `tangent`, `gap`, `slip` and `mu` it is a closed point without friction:
 ///
@@ -15,9 +15,9 @@ use crate::{Error, Matrix};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContactPoint<'a> {
-    /// The row of `C_n`: by how much the gap grows for unit displacements.
+    /// The row of `C_n`: the change of the gap for unit displacements.
     pub normal: &'a [(usize, f64)],
-    /// The row of `C_t`: by how much the slip grows for unit displacements.
+    /// The row of `C_t`: the change of the slip for unit displacements.
     pub tangent: &'a [(usize, f64)],
     /// The gap without displacements; negative where the bodies overlap.
     pub gap: f64,
@@ -27,7 +27,7 @@ pub struct ContactPoint<'a> {
     pub mu: f64,
 }
 
-/// Puts a [`Contact2d`] together point by point: see [`Contact2d::builder`].
+/// Builds a [`Contact2d`] point by point: see [`Contact2d::builder`].
 #[derive(Debug, Clone)]
 pub struct Contact2dBuilder {
     k: Matrix,
@@ -75,7 +75,7 @@ impl Contact2d {
 }
 
 impl Contact2dBuilder {
-    /// Adds a contact point and gives its number, by which the answer names it.
+    /// Adds a contact point and returns its number, which is its index in the solution.
     pub fn add_point(&mut self, point: ContactPoint<'_>) -> usize {
         let number = self.mu.len();
         let ContactPoint { normal, tangent, gap, slip, mu } = point;

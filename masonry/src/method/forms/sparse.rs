@@ -13,11 +13,11 @@ use crate::system::{BodySystem, System, displaced_nodes};
 /// A [`System`] as a sparse contact problem in SI units, and back.
 #[derive(Debug, Clone)]
 pub struct Sparse {
-    /// `K u = f + C^T t` (3.2) with the contact law. The displacements are those of the nodes, block by
-    /// block; of a rigid block the amplitudes of its three motions. Then, row by row, how far each
-    /// film gives way at its points: displacements of its free face against the block, held by the
-    /// film's own stiffness `1 / c`, which see the contact force alone, `u = c t`. Strips of mortar
-    /// couple their blocks by `L^T D L` in `K`. Cohesion comes last, in points and displacements of its own.
+    /// `K u = f + C^T t` (3.2) with the contact law. The displacements are those of the nodes, block by block; for a
+    /// rigid block the amplitudes of its three motions. Then follow, row by row, the deformations of each film at its
+    /// points: displacements of its free face relative to the block, with the stiffness `1 / c` of the film and
+    /// loaded by the contact force only, `u = c t`. Strips of mortar couple their blocks by `L^T D L` in `K`.
+    /// Cohesion comes last, with its own points and displacements.
     pub problem: Contact2d,
     /// The first displacement of every block, and one past the last.
     starts: Vec<usize>,

@@ -18,14 +18,14 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::{FilmError, FilmMaterial, positive};
 
-/// What one point of a film remembers.
+/// The memory of one point of a film.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct FilmState {
     /// Slip of the upper face along `x` against the lower, beyond the shear of the mortar \[m\].
     pub slip: f64,
 }
 
-/// What a point of a film does.
+/// The state of a point of a film.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PointContact {
     /// The faces have parted.
@@ -36,14 +36,14 @@ pub enum PointContact {
     Slip,
 }
 
-/// The answer of one point of a film to its strains.
+/// The response of one point of a film to its strains.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointResponse {
     /// `(sigma_x, sigma_y, tau)` \[Pa\].
     pub stress: Vector3<f64>,
     /// Derivative of the stress by the strain \[Pa\]; not symmetric where the point slips.
     pub tangent: Matrix3<f64>,
-    /// What the point does.
+    /// The state of the point.
     pub contact: PointContact,
     /// The state after this step.
     pub state: FilmState,

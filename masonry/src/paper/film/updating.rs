@@ -1,10 +1,10 @@
-//! Which part of a film is in contact, by the law or as the paper prints it, and whether it settles.
+//! The part of a film in contact, by the law or as printed in the paper, and whether the updates converge.
 //!
 //! As printed, the film is bonded on a part `[x_i, x_f]`, the structure is solved with the
-//! [stiffness](super::strip::Strip::stiffness) of that part, and the part is updated from the displacements: it is dropped where the faces
-//! draw apart. There is no sliding. A point that is dropped may carry `sigma_x` and `tau`, so
-//! forces jump at zero opening, and the update may go back and forth for ever. [`UpdateHistory`] notices.
-//! The [law](super::law) has no such jump.
+//! [stiffness](super::strip::Strip::stiffness) of that part, and the part is updated from the displacements: it is
+//! removed where the faces separate. There is no sliding. A removed point may carry `sigma_x` and `tau`, so forces
+//! jump at zero opening, and the updates may cycle. [`UpdateHistory`] detects this. The [law](super::law) has no such
+//! jump.
 
 use super::Vector8;
 use super::strip::Strip;
@@ -54,10 +54,10 @@ impl Updating {
     }
 }
 
-/// The longest cycle that is looked for.
+/// The longest cycle that is detected.
 pub const LONGEST_CYCLE: usize = 8;
 
-/// What a sequence of updates does.
+/// The behaviour of a sequence of updates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Settling {
     /// The last update changed the parts, and led to none of the parts before.
@@ -73,9 +73,9 @@ pub enum Settling {
 
 /// The parts in contact of several films, update by update.
 ///
-/// The update depends on the parts alone, so parts that were met before will be met again: the first
-/// return tells a cycle. A sequence that oscillates and converges is told from it by `tolerance`
-/// only, which should therefore be small.
+/// The update depends on the parts alone, so if parts are repeated, the sequence cycles: the first repetition is
+/// detected. A converging sequence that oscillates is distinguished from a cycle only by `tolerance`, which should
+/// therefore be small.
 ///
 /// ```
 /// use masonry::paper::film::updating::{Settling, UpdateHistory};

@@ -31,7 +31,7 @@ pub fn in_short(study: &Study) -> Option<String> {
     let (record, seconds) = fastest_record(study)?;
     let mesh = study.meshes.first()?;
     let error = mesh.errors.and_then(|it| it.worst()).map_or(String::new(), |error| {
-        format!("; the mesh errs by {}, whatever the tolerance", significant(error, 2))
+        format!("; the error of the mesh is {}", significant(error, 2))
     });
     Some(format!(
         "On {}, {} at a tolerance of {:e} takes {} s to an algebraic error below {ACCURATE:e}{error}.",
@@ -42,7 +42,7 @@ pub fn in_short(study: &Study) -> Option<String> {
     ))
 }
 
-/// "Beside 1e-4, 1e-8 costs no more (within 20 %) by lemke, 9 x the time by pgs; alm (Stalled) does not reach it."
+/// "Compared with 1e-4, 1e-8 costs no more (within 20 %) by lemke, 9 x the time by pgs; alm (Stalled) does not reach it."
 fn cost(study: &Study) -> Option<String> {
     let nearest = |wanted: f64| {
         let tolerances = study.on_first_mesh().map(|record| record.tolerance);
@@ -71,7 +71,7 @@ fn cost(study: &Study) -> Option<String> {
     let costs = (!same.is_empty()).then(|| format!("no more (within 20 %) by {}", same.join(", ")));
     let costs: Vec<String> = costs.into_iter().chain(more).collect();
     Some(format!(
-        "Beside {loose:e}, {tight:e} costs {}{}.",
+        "Compared with {loose:e}, {tight:e} costs {}{}.",
         costs.join(", "),
         without(study, tight)
     ))
@@ -134,8 +134,8 @@ fn elsewhere(study: &Study) -> Vec<String> {
         let record = solved.min_by(|a, b| a.tolerance.total_cmp(&b.tolerance))?;
         let error = record.errors?.worst().filter(|error| *error > ELSEWHERE)?;
         Some(format!(
-            "{} ends {} from the reference at its tightest tolerance, {:e}: another equilibrium, of \
-             which there may be several with friction, or a tolerance that says little here.",
+            "{} ends {} from the reference at its tightest tolerance, {:e}: another equilibrium \
+             (with friction there may be several), or a tolerance that does not bound the error.",
             route.name(),
             significant(error, 2),
             record.tolerance
@@ -147,21 +147,21 @@ fn elsewhere(study: &Study) -> Vec<String> {
 fn reference(study: &Study) -> Option<String> {
     let Some(reference) = study.meshes.first()?.reference.as_ref() else {
         return Some(
-            "There is no reference, since none of interior, lemke, newton, alm and qp has an answer: no \
+            "There is no reference, since none of interior, lemke, newton, alm and qp has a solution: no \
              errors are known."
                 .to_owned(),
         );
     };
     let confirmed = match &reference.confirmed {
         Some(other) => format!(
-            "{} found the same to {}",
+            "{} agrees to {}",
             other.route.name(),
             other.refined.or(other.errors.worst()).map_or("-".to_owned(), |it| significant(it, 2))
         ),
         None => "no other route confirms it".to_owned(),
     };
     Some(format!(
-        "The reference is by {} to {:e}, residual {:.1e}; its forces and moments balance to {:.1e}{}; {confirmed}.",
+        "The reference is the solution by {} at a tolerance of {:e}, residual {:.1e}; its forces and moments balance to {:.1e}{}; {confirmed}.",
         reference.route.name(),
         reference.tolerance,
         reference.residual,
@@ -172,12 +172,12 @@ fn reference(study: &Study) -> Option<String> {
 
 fn refined(verified: Option<&Verified>) -> String {
     let Some(it) = verified else { return String::new() };
-    let margin = it.margin.map_or(String::new(), |margin| {
-        format!(" (the inequalities of the contact law leave {margin:.1e})")
-    });
+    let margin = it
+        .margin
+        .map_or(String::new(), |margin| format!(" (margin of the inequalities {margin:.1e})"));
     if it.is_better() {
         format!(
-            "; refined to a residual of {:.1e}{margin} it moved by {}",
+            "; refined to a residual of {:.1e}{margin} it changed by {}",
             it.residual,
             it.distance.map_or("-".to_owned(), |it| significant(it, 2)),
         )
@@ -204,10 +204,10 @@ fn mesh(study: &Study) -> Option<String> {
     let tolerances = study.on_first_mesh().map(|record| record.tolerance);
     let loosest = tolerances.filter(|it| is_enough(*it)).reduce(f64::max);
     let enough = loosest.map_or(String::new(), |tolerance| {
-        format!("; beside that, what solvers leave undone at {tolerance:e} does not count")
+        format!("; algebraic errors at {tolerance:e} are negligible compared with it")
     });
     Some(format!(
-        "The error of {} is {}, the worst of strain energy, thrust and displacement against {}{enough}.",
+        "The error of {} is {}, the largest of those of strain energy, thrust and displacement, relative to {}{enough}.",
         first.name,
         significant(error, 2),
         finest.name

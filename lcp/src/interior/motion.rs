@@ -1,0 +1,115 @@
+//! Motions against viscosity, each the solution of a convex program, and how viscous they are.
+
+use faer::sparse::FaerError;
+
+use super::constants::{
+    FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS, MOVED, SAME_LENGTH, SLOWER,
+};
+use super::continuation::centred;
+use super::start::start;
+use crate::states::{Condensed, Scaled};
+
+/// Bodies that move with associated flow.
+///
+/// Slips open gaps by `mu` times their size then, and forces are the solution of a convex program, which interior points
+/// always find. The next motion has the gaps as they are and slips from zero, so that bodies fall back on each other;
+/// where they come to rest nothing slips, and forces and gaps are those of Coulomb's law (Anitescu 2006).
+pub(super) struct Motions {
+    edges: Scaled,
+    condensed: Condensed,
+}
+
+/// Where bodies are after a motion, and the forces on the way, by contact point.
+pub(super) struct Moved {
+    pub(super) u: Vec<f64>,
+    pub(super) forces: Vec<(f64, f64)>,
+}
+
+impl Motions {
+    pub(super) fn of(problem: &Scaled) -> Result<Self, FaerError> {
+        let edges = problem.associated();
+        let condensed = Condensed::new(&edges)?;
+        Ok(Self { edges, condensed })
+    }
+
+    /// The factorisations of all motions.
+    pub(super) fn factorisations(&self) -> usize {
+        self.condensed.factorisations
+    }
+
+    /// One motion from displacements, with slips as the problem measures them; `None` where it cannot be computed, or
+    /// `go_on` says no, which is asked before every step, with the residual.
+    pub(super) fn advance(
+        &mut self,
+        problem: &Scaled,
+        from: &[f64],
+        viscosity: f64,
+        go_on: impl FnMut(f64) -> bool,
+    ) -> Option<Moved> {
+        let Self { edges, condensed } = self;
+        for (f, (load, from)) in edges.f.iter_mut().zip(problem.f.iter().zip(from)) {
+            *f = load + viscosity * from;
+        }
+        for (edge, (point, mu)) in edges.points.iter_mut().zip(problem.edges()) {
+            edge.x_0 = point.x_0 + mu * point.s_0;
+        }
+        let begin = start(edges, condensed, viscosity);
+        let moved = centred(edges, condensed, begin, (viscosity, MOVED), go_on)?;
+        let forces = problem.of_edges(moved.points.iter().map(|pairs| pairs.t_n));
+        Some(Moved { forces, u: moved.u })
+    }
+}
+
+/// How viscous motions are: less and less, and as before while they become longer for it, until they are as short as
+/// before or go on for ever.
+pub(super) struct Viscosity {
+    pub(super) value: f64,
+    /// The length of the last motion.
+    last: f64,
+    /// The length of the first motion with this viscosity, where it stays as it is.
+    held: Option<f64>,
+    /// How many motions in sequence have been as long as the one before.
+    same: usize,
+}
+
+impl Default for Viscosity {
+    fn default() -> Self {
+        Self { value: FIRST_VISCOSITY, last: f64::INFINITY, held: None, same: 0 }
+    }
+}
+
+impl Viscosity {
+    /// Takes note of the length of a motion.
+    pub(super) fn follow(&mut self, length: f64) {
+        let before = std::mem::replace(&mut self.last, length);
+        self.held = match self.held {
+            None if length > LONGER_MOTION * before => Some(length),
+            Some(first) if length > SLOWER * first => Some(first),
+            _ => None,
+        };
+        let is_same = self.held.is_some() && length > SAME_LENGTH * before;
+        self.same = if is_same { self.same + 1 } else { 0 };
+    }
+
+    /// Whether bodies may be at rest.
+    pub(super) fn may_rest(&self) -> bool {
+        self.held.is_none() && self.value < FIRST_VISCOSITY
+    }
+
+    /// Whether bodies move on as fast as before.
+    pub(super) fn flows(&self) -> bool {
+        self.same > FLOWING
+    }
+
+    /// For the next motion.
+    pub(super) fn decrease(&mut self) {
+        if self.held.is_none() {
+            self.value /= LESS_VISCOUS;
+        }
+    }
+
+    /// For a motion that cannot be computed otherwise.
+    pub(super) fn increase(&mut self) {
+        self.value *= MORE_VISCOUS;
+    }
+}
