@@ -5,6 +5,7 @@
 
 pub mod csv;
 mod format;
+pub mod joints;
 pub mod json;
 pub mod limit;
 #[cfg(feature = "study")]
@@ -29,8 +30,8 @@ use svg::ReferenceLines;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Format {
-    /// `scene.svg` always; `principal_stresses.svg` where stresses were recovered and `deformed.svg`
-    /// when solved; `mechanism.svg` when a mechanism is known.
+    /// `scene.svg` always; `principal_stresses.svg` where stresses were recovered, `deformed.svg` and `forces.svg`
+    /// when solved, with `cracks.svg` where joints have opened or slid; `mechanism.svg` when a mechanism is known.
     Svg,
     /// `panel.vtu`.
     Vtu,
@@ -143,6 +144,10 @@ fn contents(outcome: &Outcome, options: &Options) -> Vec<(&'static str, Vec<u8>)
                 files.push(("principal_stresses.svg", picture.into_bytes()));
             }
             files.push(("deformed.svg", svg::deformed(title, model, state).into_bytes()));
+            files.push(("forces.svg", svg::forces(title, model, &state.contacts).into_bytes()));
+            if let Some(picture) = svg::cracks(title, model, &state.contacts) {
+                files.push(("cracks.svg", picture.into_bytes()));
+            }
         }
         if let Some(rates) = &outcome.mechanism {
             files.push(("mechanism.svg", svg::mechanism(title, model, rates).into_bytes()));

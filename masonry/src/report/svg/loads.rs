@@ -2,7 +2,8 @@
 
 use nalgebra::{Point2, Vector2};
 
-use super::canvas::{Anchor, Canvas, Pixel, text_width};
+use super::canvas::{Anchor, Canvas, Pixel};
+use super::labels::Labels;
 use super::marks;
 use super::sheet::{Bounds, Frame, Margins, Sheet, label_room};
 use crate::geometry;
@@ -145,7 +146,7 @@ impl Loads {
     }
 
     /// Draws arrows, labels where they do not collide, and legend entries.
-    pub(super) fn draw(&self, sheet: &mut Sheet, model: &Model) {
+    pub(super) fn draw(&self, sheet: &mut Sheet, model: &Model, labels: &mut Labels) {
         let frame = sheet.frame;
         sheet.canvas.group("class=\"loads\"", |canvas| {
             for group in &self.edges {
@@ -156,7 +157,7 @@ impl Loads {
             for force in &self.points {
                 draw_force(canvas, force, frame.at(force.at));
             }
-            self.draw_labels(canvas, &frame);
+            self.draw_labels(canvas, &frame, labels);
         });
         if !self.accelerations.is_empty() {
             sheet.canvas.group("class=\"accelerations\"", |canvas| {
@@ -175,19 +176,19 @@ impl Loads {
         entry(sheet, "body acceleration", accelerations, number, acceleration_text);
     }
 
-    fn draw_labels(&self, canvas: &mut Canvas, frame: &Frame) {
-        let mut taken: Vec<[f64; 4]> = Vec::new();
+    fn draw_labels(&self, canvas: &mut Canvas, frame: &Frame, labels: &mut Labels) {
         for group in &self.edges {
             let extent = Bounds::of(group.pieces.iter().flat_map(|&(from, to)| [from, to]));
             let middle = frame.at(nalgebra::center(&extent.low, &extent.high));
             let (n, t) = (group.normal, group.traction.normalize());
             let reach = if group.tangential() { 12.0 } else { group.length() * t.dot(&n).abs() };
-            draw_label(canvas, &mut taken, middle.shifted(n.x, -n.y, reach + 8.0), n, &group.label);
+            let at = middle.shifted(n.x, -n.y, reach + 8.0);
+            labels.draw(canvas, at, n, LABEL_SIZE, &group.label);
         }
         for force in &self.points {
             let n = force.outwards;
             let at = frame.at(force.at).shifted(n.x, -n.y, force.length() + 8.0);
-            draw_label(canvas, &mut taken, at, n, &force.label);
+            labels.draw(canvas, at, n, LABEL_SIZE, &force.label);
         }
     }
 
@@ -329,30 +330,3 @@ fn draw_force(canvas: &mut Canvas, force: &Force, at: Pixel) {
     canvas.circle(at, 2.2, &format!("fill=\"{COLOUR}\""));
 }
 
-/// Draws a label on the side `n` of a place, unless another one is there.
-fn draw_label(
-    canvas: &mut Canvas,
-    taken: &mut Vec<[f64; 4]>,
-    at: Pixel,
-    n: Vector2<f64>,
-    label: &str,
-) {
-    let width = text_width(label, LABEL_SIZE);
-    let (anchor, left) = if n.x > 0.5 {
-        (Anchor::Start, at.x)
-    } else if n.x < -0.5 {
-        (Anchor::End, at.x - width)
-    } else {
-        (Anchor::Middle, at.x - 0.5 * width)
-    };
-    let base = at.y + 0.36 * LABEL_SIZE - n.y * 0.36 * LABEL_SIZE;
-    let rectangle = [left, base - LABEL_SIZE, left + width, base];
-    if !taken.iter().any(|other| overlap(&rectangle, other)) {
-        canvas.rimmed_text(Pixel::new(at.x, base), anchor, LABEL_SIZE, label);
-        taken.push(rectangle);
-    }
-}
-
-fn overlap(one: &[f64; 4], other: &[f64; 4]) -> bool {
-    one[0] < other[2] && other[0] < one[2] && one[1] < other[3] && other[1] < one[3]
-}

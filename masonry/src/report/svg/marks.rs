@@ -106,8 +106,8 @@ pub(super) fn contact_marks(sheet: &mut Sheet, model: &Model, states: &[ContactS
             }
         });
         if count > 0 {
-            let points = if count == 1 { "point" } else { "points" };
-            sheet.entry(&format!("{name}: {count} contact {points}"), |symbol| {
+            let text = format!("{name}: {}", counted(count, "contact point"));
+            sheet.entry(&text, |symbol| {
                 symbol.group(&mark_style(status, 3.6), |symbol| {
                     draw_mark(symbol, Pixel::new(0.0, 0.0), 3.6, status);
                 });
@@ -178,4 +178,9 @@ fn hatched(canvas: &mut Canvas, from: Pixel, to: Pixel, inward: Vector2<f64>) {
         canvas.line(foot, end, "");
         index += 1.0;
     }
+}
+
+/// A number of things: `1 joint`, `2 joints`.
+pub(super) fn counted(count: usize, name: &str) -> String {
+    if count == 1 { format!("1 {name}") } else { format!("{count} {name}s") }
 }

@@ -3,6 +3,7 @@
 use nalgebra::Point2;
 
 use super::canvas::{Anchor, Pixel, fixed, text_width};
+use super::labels::Labels;
 use super::loads::Loads;
 use super::marks::{self, BRICK, OUTLINE};
 use super::sheet::Sheet;
@@ -30,7 +31,7 @@ pub fn scene(title: &str, model: &Model) -> String {
     marks::blocks(&mut sheet, model, &style);
     marks::supports(&mut sheet, model);
     draw_joints(&mut sheet, model, brick);
-    loads.draw(&mut sheet, model);
+    loads.draw(&mut sheet, model, &mut Labels::default());
     draw_names(&mut sheet, model);
     draw_gravity(&mut sheet, model);
     sheet.length_bar(units);

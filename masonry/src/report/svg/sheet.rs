@@ -55,6 +55,16 @@ pub(super) struct Margins {
 
 impl Margins {
     pub(super) const HATCH: Self = Self { left: 14.0, right: 14.0, top: 14.0, bottom: 14.0 };
+
+    /// Room for both.
+    pub(super) fn and(self, other: Self) -> Self {
+        Self {
+            left: self.left.max(other.left),
+            right: self.right.max(other.right),
+            top: self.top.max(other.top),
+            bottom: self.bottom.max(other.bottom),
+        }
+    }
 }
 
 /// The map from metres to pixels.
