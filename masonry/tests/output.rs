@@ -43,7 +43,9 @@ fn a_solved_scene_gives_every_file_and_no_other() {
     let written = write_all(&outcome, &dir, &options).unwrap();
     let expected = [
         "contacts.csv",
+        "cracks.svg",
         "deformed.svg",
+        "forces.svg",
         "panel.vtu",
         "principal_stresses.svg",
         "report.txt",

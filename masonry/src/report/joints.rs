@@ -12,6 +12,9 @@ const NO_FORCE: f64 = 1e-9;
 /// Openings and slips below this part of the size of the structure are rounding errors.
 const NO_WIDTH: f64 = 1e-9;
 
+/// So far beyond the ends of a support, in its lengths, its reaction is still on it.
+const BESIDE: f64 = 1e-6;
+
 /// The resultant of the contact forces of a joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointForce {
@@ -80,7 +83,7 @@ pub struct SupportForce {
     pub force: Vector2<f64>,
 }
 
-/// The reactions of all supports that press or pull.
+/// The reactions of all supports that press or pull, but those whose line passes beside the support.
 pub fn reactions(model: &Model, forces: &[JointForce]) -> Vec<SupportForce> {
     let of = |index: usize| {
         let support = SupportId::new(index);
@@ -89,7 +92,11 @@ pub fn reactions(model: &Model, forces: &[JointForce]) -> Vec<SupportForce> {
         let normal: f64 = own.iter().map(|it| it.normal).sum();
         let moment: Vector2<f64> = own.iter().map(|it| it.at.coords * it.normal).sum();
         let force: Vector2<f64> = own.iter().map(|it| it.force).sum();
-        (normal != 0.0).then(|| SupportForce { support, at: Point2::from(moment / normal), force })
+        let at = (normal != 0.0).then(|| Point2::from(moment / normal))?;
+        let [from, to] = [model.supports[index].from, model.supports[index].to];
+        let is_on = (at - from).dot(&(to - from)) >= -BESIDE * (to - from).norm_squared()
+            && (at - to).dot(&(from - to)) >= -BESIDE * (to - from).norm_squared();
+        is_on.then_some(SupportForce { support, at, force })
     };
     (0..model.supports.len()).filter_map(of).collect()
 }

@@ -28,8 +28,7 @@ pub fn cracks(title: &str, model: &Model, contacts: &[ContactState]) -> Option<S
     if openings.is_empty() {
         return None;
     }
-    let mut sheet =
-        Sheet::new(&format!("{title}: cracks"), marks::bounds(model), Margins::HATCH);
+    let mut sheet = Sheet::new(&format!("{title}: cracks"), marks::bounds(model), Margins::HATCH);
     let frame = sheet.frame;
     let brick = marks::brick_size(model, &frame);
     let outline = fixed(marks::outline_width(brick));
@@ -55,14 +54,21 @@ fn millimetres(metres: f64) -> String {
 fn draw_widths(sheet: &mut Sheet, model: &Model, openings: &[Opening], widest: f64, width: f64) {
     let frame = sheet.frame;
     let round = round_down(1e3 * widest) * 1e-3;
-    let class_of = |value: f64| CLASSES.iter().rposition(|least| value >= least * round * (1.0 - 1e-9));
+    let class_of =
+        |value: f64| CLASSES.iter().rposition(|least| value >= least * round * (1.0 - 1e-9));
     let mut pieces: Vec<Vec<(Pixel, Pixel)>> = vec![Vec::new(); 1 + CLASSES.len()];
     for opening in openings.iter().filter(|it| it.widest > 0.0) {
         let joint = &model.joints[opening.joint.index()];
-        for (from, to, value) in pieces_of(opening, joint, &frame) {
-            if value > 0.0 {
-                pieces[class_of(value).map_or(0, |class| class + 1)].push((from, to));
+        let open = pieces_of(opening, joint, &frame).into_iter().filter(|(.., it)| *it > 0.0);
+        let mut last = None;
+        for (from, to, value) in open {
+            let class = class_of(value).map_or(0, |class| class + 1);
+            match pieces[class].last_mut() {
+                // One stroke as long as the class and the joint stay the same.
+                Some(piece) if last == Some((class, from)) => piece.1 = to,
+                _ => pieces[class].push((from, to)),
             }
+            last = Some((class, to));
         }
     }
     for (index, pieces) in pieces.iter().enumerate() {

@@ -33,6 +33,8 @@ const USES: [(f64, &str, &str); 3] = [
 ];
 /// Half the middle third, in lengths of a joint, with room for rounding errors.
 const MIDDLE_THIRD: f64 = 1.0 / 6.0 + 1e-9;
+/// Half a joint, with room for rounding errors.
+const ENDS: f64 = 0.5 + 1e-6;
 
 /// The structure with the resultant of every joint as a stroke in its direction, through the place where it crosses the
 /// joint; the length goes with the force.
@@ -57,8 +59,11 @@ pub fn forces(title: &str, model: &Model, contacts: &[ContactState]) -> String {
     marks::supports(&mut sheet, model);
     let largest = all.iter().map(|it| it.force.norm()).fold(0.0, f64::max);
     let least = if all.len() > MANY { LEAST_OF_MANY } else { LEAST };
-    let drawn: Vec<&JointForce> =
+    let large: Vec<&JointForce> =
         all.iter().filter(|it| it.force.norm() > least * largest).collect();
+    // With tensile strength a joint can carry a moment whose resultant passes beside it.
+    let drawn: Vec<&JointForce> =
+        large.iter().copied().filter(|it| it.eccentricity.abs() <= ENDS).collect();
     draw_paths(&mut sheet, model, &drawn, largest, brick);
     draw_uses(&mut sheet, model, &drawn, brick);
     draw_resultants(&mut sheet, &drawn, largest, brick, units);
@@ -68,9 +73,14 @@ pub fn forces(title: &str, model: &Model, contacts: &[ContactState]) -> String {
     if drawn.len() <= FEW {
         draw_values(&mut sheet, &drawn, units, &mut labels);
     }
-    if all.len() > drawn.len() {
-        let rest = all.len() - drawn.len();
-        sheet.entry(&format!("{rest} joints with less than 1 % of the largest force are left out"), |_| {});
+    let (small, beside) = (all.len() - large.len(), large.len() - drawn.len());
+    if all.len() > MANY && small > 0 {
+        let count = marks::counted(small, "joint");
+        sheet.entry(&format!("left out: {count} with less than 1 % of the largest force"), |_| {});
+    }
+    if beside > 0 {
+        let count = marks::counted(beside, "joint");
+        sheet.entry(&format!("left out: {count} whose resultant passes beside them"), |_| {});
     }
     sheet.entry("one of many sets of forces where they are not unique", |_| {});
     sheet.length_bar(units);
@@ -78,13 +88,7 @@ pub fn forces(title: &str, model: &Model, contacts: &[ContactState]) -> String {
 }
 
 /// Lines from every joint of a block to the middle of its forces: of a block with two joints one straight line.
-fn draw_paths(
-    sheet: &mut Sheet,
-    model: &Model,
-    drawn: &[&JointForce],
-    largest: f64,
-    brick: f64,
-) {
+fn draw_paths(sheet: &mut Sheet, model: &Model, drawn: &[&JointForce], largest: f64, brick: f64) {
     let mut of_blocks: Vec<Vec<(Point2<f64>, f64)>> = vec![Vec::new(); model.blocks.len()];
     for it in drawn.iter().filter(|it| it.normal > 0.0) {
         let joint = &model.joints[it.joint.index()];
@@ -120,14 +124,14 @@ fn draw_uses(sheet: &mut Sheet, model: &Model, drawn: &[&JointForce], brick: f64
     let width = (0.05 * brick).clamp(0.8, 3.2);
     let mut below = f64::INFINITY;
     for (least, colour, name) in USES {
-        let within = |it: &&&JointForce| it.utilisation.is_some_and(|use_| use_ >= least && use_ < below);
+        let within =
+            |it: &&&JointForce| it.utilisation.is_some_and(|use_| use_ >= least && use_ < below);
         let found: Vec<_> = drawn.iter().filter(within).collect();
         below = least;
         if found.is_empty() {
             continue;
         }
-        let style =
-            format!("class=\"used\" stroke=\"{colour}\" stroke-width=\"{}\"", fixed(width));
+        let style = format!("class=\"used\" stroke=\"{colour}\" stroke-width=\"{}\"", fixed(width));
         sheet.canvas.group(&style, |canvas| {
             for it in &found {
                 let joint = &model.joints[it.joint.index()];

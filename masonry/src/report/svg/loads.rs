@@ -329,4 +329,3 @@ fn draw_force(canvas: &mut Canvas, force: &Force, at: Pixel) {
     canvas.arrow(tail, tip, COLOUR);
     canvas.circle(at, 2.2, &format!("fill=\"{COLOUR}\""));
 }
-
