@@ -4,11 +4,13 @@ mod balance;
 mod constants;
 mod continuation;
 mod evolution;
+mod homogeneous;
 mod iterate;
 mod motion;
 mod path;
 mod problems;
 mod rest;
+mod saddle;
 mod settings;
 mod start;
 mod turn;
@@ -75,6 +77,8 @@ use crate::{Certificate, Error, Iteration, Method, Observer, Solution, Status};
 /// * J. Gondzio, Multiple centrality corrections in a primal-dual method for linear programming,
 ///   Computational Optimization and Applications 6 (1996),
 ///   [doi:10.1007/BF00249643](https://doi.org/10.1007/BF00249643)
+/// * E. D. Andersen, Y. Ye, On a homogeneous algorithm for the monotone complementarity problem, Mathematical
+///   Programming 84 (1999), [doi:10.1007/s101070050027](https://doi.org/10.1007/s101070050027)
 /// * I. S. Duff, J. K. Reid, The multifrontal solution of indefinite sparse symmetric linear equations, ACM
 ///   Transactions on Mathematical Software 9 (1983),
 ///   [doi:10.1145/356044.356047](https://doi.org/10.1145/356044.356047)

@@ -112,8 +112,10 @@ pub(crate) fn factorise_block(
 ) -> usize {
     const PANEL: usize = 32;
     let n = block.nrows();
+    // Most blocks are small: the norm of a library would cost more than the elimination.
+    let largest = |max: f64, v: &f64| max.max(v.abs());
     let least: Vec<f64> =
-        block.rb().col_iter().map(|column| vanishing * column.norm_max()).collect();
+        block.rb().col_iter().map(|column| vanishing * column.iter().fold(0.0, largest)).collect();
     let mut replaced = 0;
     rows.iter_mut().enumerate().for_each(|(i, row)| *row = i);
     for start in (0..n).step_by(PANEL) {

@@ -2,7 +2,8 @@
 //! contact points alone, and solved by another library.
 //!
 //! Every wall is tilted around the largest tilt for which that program has a solution. Rigid walls without gaps stand
-//! below it and fall above; elastic ones and those with gaps fall above it too, and nothing ever falls below.
+//! below it and fall above, and elastic ones and those with gaps fall above it too. These may also fall a little below it,
+//! since friction does not open joints: then a motion says so, never a proof.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
@@ -19,6 +20,10 @@ use walls::{Kind, Random, Tiltable};
 
 /// Of the largest tilt.
 const AROUND: [f64; 5] = [0.5, 1.0 - 1e-3, 1.0 - 1e-5, 1.0 + 1e-5, 1.0 + 1e-3];
+
+/// Part of the largest tilt below which no wall of these falls. Of published walls the limits without dilatancy are 0.88
+/// of those with it, and more (Ferris and Tin-Loi 2001).
+const NEAR: f64 = 0.85;
 
 #[test]
 fn verdicts_agree_with_a_linear_program() {
@@ -63,8 +68,15 @@ fn compared(walls: impl Iterator<Item = Tiltable>) -> (usize, Vec<String>) {
                 assert_eq!(evidence, Evidence::NoAdmissibleForces, "{name}");
                 continue;
             }
-            assert_ne!(verdict, Verdict::Falls, "{name}: {:#?}", outcome.solve.attempts);
-            if wall.kind == Kind::Rigid {
+            if verdict == Verdict::Falls {
+                assert_eq!(evidence, Evidence::Motion, "{name}");
+                let is_near = matches!(limit, Limit::Tilt(limit) if tilt > NEAR * limit);
+                assert!(
+                    is_near && wall.kind != Kind::Rigid,
+                    "{name}: {:#?}",
+                    outcome.solve.attempts
+                );
+            } else if wall.kind == Kind::Rigid {
                 assert_eq!(verdict, Verdict::Stands, "{name}: {:#?}", outcome.solve.attempts);
                 assert_eq!(evidence, Evidence::AdmissibleForces, "{name}");
             } else if verdict == Verdict::Undecided {

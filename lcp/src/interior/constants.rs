@@ -152,3 +152,9 @@ pub(super) const ROW_ROUNDING: f64 = 1e-13;
 pub(super) const LEAST_WORK: f64 = 1e-9;
 /// Residual of the problem that decides whether any forces balance the loads. Chosen: below all other tolerances.
 pub(super) const BALANCE_TOLERANCE: f64 = 1e-12;
+
+/// Error of a proof, relative to what it shows, at which it is tried. Chosen.
+pub(super) const PROVED: f64 = 1e-6;
+/// The error must have decreased by this factor before it is tried again. Chosen: every trial costs a pass in twice the
+/// digits.
+pub(super) const STRICTER: f64 = 0.03;

@@ -131,7 +131,12 @@ fn is_central(problem: &Scaled, at: &Iterate) -> bool {
 
 /// What the products of the pairs lack where those of the gaps are to be `tau`, less the second-order term of the
 /// predictor.
-fn targets(problem: &Scaled, at: &Iterate, tau: f64, predictor: Option<&Iterate>) -> Vec<[f64; 3]> {
+pub(super) fn targets(
+    problem: &Scaled,
+    at: &Iterate,
+    tau: f64,
+    predictor: Option<&Iterate>,
+) -> Vec<[f64; 3]> {
     let target = |i: usize| {
         let mu = problem.points[i].mu;
         let mut targets = at.points[i].aims(mu, tau, at.smooth);
@@ -149,7 +154,7 @@ fn targets(problem: &Scaled, at: &Iterate, tau: f64, predictor: Option<&Iterate>
 }
 
 /// What brings the products of a trial point back among those that are central.
-fn corrections(problem: &Scaled, trial: &Iterate, tau: f64) -> Vec<[f64; 3]> {
+pub(super) fn corrections(problem: &Scaled, trial: &Iterate, tau: f64) -> Vec<[f64; 3]> {
     let correction = |i: usize| {
         let mut targets = [0.0; 3];
         let pairs = trial.points[i].pairs(problem.points[i].mu);

@@ -1,7 +1,11 @@
 //! The interior-point method on every kind of problem.
 
+use super::saddle::Saddle;
 use super::{InteriorPoint, InteriorPointSettings};
-use crate::lower::{judged_by, solve_disguised, solve_lowered};
+use crate::active::unplanned;
+use crate::certify::is_proof;
+use crate::lower::{General, judged_by, judged_point, solve_disguised, solve_lowered};
+use crate::solve::Monitor;
 use crate::{
     BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Method, MixedLcp, Observer,
     Solution, Solver, WarmStart,
@@ -22,6 +26,10 @@ impl Solver<Contact2d> for InteriorPoint {
 }
 
 /// The solution is that of [`MixedLcp::to_general`].
+///
+/// Convex programs have steps of their own, if the crossover is switched off and the bounded variables act on the free ones
+/// only, as forces do on bodies: a step factorises a matrix with the order of the free ones, and a homogeneous problem ends
+/// at a solution or at a Farkas vector, [`Status::Infeasible`](crate::Status::Infeasible) (Andersen and Ye 1999).
 impl Solver<MixedLcp> for InteriorPoint {
     fn method(&self) -> Method {
         Method::Interior
@@ -32,7 +40,24 @@ impl Solver<MixedLcp> for InteriorPoint {
         problem: &MixedLcp,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        self.run(problem, observer)
+        let InteriorPointSettings { tolerance, crossover, max_iterations, time_limit, .. } =
+            self.settings;
+        let saddle = if crossover { None } else { Saddle::of(problem) };
+        let Some(saddle) = saddle else { return self.run(problem, observer) };
+        self.settings.validate(problem.order())?;
+        let mut monitor = Monitor::new(max_iterations, time_limit, observer);
+        let mut condensed = saddle.planned().map_err(|error| unplanned(Method::Interior, error))?;
+        let mut general = None;
+        let (z, w, status, certificate) =
+            saddle.solved(&mut condensed, tolerance, &mut monitor, |z| {
+                is_proof(general.get_or_insert_with(|| problem.general()), z)
+            });
+        let pairs = problem.to_pairs(&z, &w);
+        let mut solution = judged_point(problem, pairs, tolerance, status);
+        solution.certificate = certificate;
+        solution.info = monitor.info(Method::Interior);
+        solution.info.factorisations = condensed.factorisations;
+        Ok(solution)
     }
 }
 

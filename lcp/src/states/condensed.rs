@@ -47,9 +47,15 @@ impl Condensed {
                 pairs.extend([Pair::new(i, j), Pair::new(j, i)]);
             }
         }
-        for point in &problem.points {
-            for &j in &point.columns {
-                pairs.extend(point.columns.iter().map(|&i| Pair::new(i, j)));
+        // The edges of a cone, one after the other, move the same bodies.
+        let mut before: &[usize] = &[];
+        for point in problem.points.iter().filter(|it| !it.columns.is_empty()) {
+            if point.columns == before {
+                continue;
+            }
+            before = &point.columns;
+            for &j in before {
+                pairs.extend(before.iter().map(|&i| Pair::new(i, j)));
             }
         }
         let (pattern, _) = SymbolicSparseColMat::try_new_from_indices(n, n, &pairs)

@@ -4,23 +4,20 @@
 //! With one nonnegative force `p` along each edge of each cone, and the sparse matrix `E` of the resultants of
 //! these on the blocks, they are the solutions of `E p + r = 0`, `p >= 0`, with the resultants `r` of the loads. Where a
 //! joint has a constant part `C_0` of friction ([`law`](crate::law)), a force `q` along it with `|q| <= C_0` comes on
-//! top. Two convex programs decide whether there are any:
-//!
-//! * the forces of least size, `min |p|^2 / 2`: joints as springs that are sheared and opened by the same law
-//!   (associated flow). It has one solution if there are any admissible forces;
-//! * the smallest unbalanced force, `min |v|^2 / 2` with `v = r + E p`. If there are no admissible forces, `v` is not
-//!   zero and proves it: `E^T v >= 0` and `r.v = |v|^2 > 0`. This is a motion of rigid blocks on which every contact
-//!   force does nonnegative work, and the loads do more work than cohesion and tensile strength take (Farkas 1902,
-//!   Moreau 1962). The [`proof`] checks it in the geometry.
+//! top. One convex program decides whether there are any: the forces of least size, `min |p|^2 / 2`, which are those of
+//! joints as springs that are sheared and opened by the same law (associated flow). It has one solution if there are any
+//! admissible forces. If there are none, the multipliers `v` of the balance prove it: `E^T v >= 0` and `r.v > 0`. This is
+//! a motion of rigid blocks on which every contact force does nonnegative work, and the loads do more work than cohesion
+//! and tensile strength take (Farkas 1902, Moreau 1962). The interior points find either, since they solve a homogeneous
+//! problem that contains both (Andersen and Ye 1999). The [`proof`] is checked in the geometry.
 //!
 //! Rigid blocks without gaps stand if there are such forces: at rest every gap and every slip is zero. For all other
 //! walls they are necessary but not sufficient.
 
-use lcp::{MixedLcp, Observer, Solution};
+use lcp::{InteriorPoint, InteriorPointSettings, Iteration, MixedLcp, Observer, Solution, Solver};
 
 use crate::model::Model;
 use crate::system::System;
-use engine::Engine;
 use program::Program;
 
 mod engine;
@@ -31,8 +28,10 @@ mod sharpen;
 
 pub use proof::Proof;
 
-/// Steps of each: forces take ten to forty where there are any, proofs near the limit more.
-const MAX_STEPS: [usize; 2] = [60, 150];
+/// Residual of the program that decides.
+const TOLERANCE: f64 = 1e-12;
+/// Forces and proofs take ten to forty steps. Chosen: far more.
+const MAX_STEPS: usize = 150;
 
 /// What is known about forces that balance the loads.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,7 +73,7 @@ pub fn decide(
     Ok(Decision { statics, steps })
 }
 
-/// The programs of a decision, one after the other until one of them decides.
+/// The program of a decision.
 struct Search<'a, 'b> {
     model: &'a Model,
     program: &'a Program<'a>,
@@ -85,29 +84,13 @@ struct Search<'a, 'b> {
 impl Search<'_, '_> {
     fn run(&mut self) -> Result<Statics, lcp::Error> {
         let least = self.program.least_forces()?;
-        let nearest = self.program.least_rest()?;
-        // The first of them takes a quarter of the time, and most walls stand. What interior points leave open the
-        // convex programs of another library decide.
-        for engine in [Engine::Interior, Engine::Clarabel] {
-            let solution = self.solved(&least, MAX_STEPS[0], engine)?;
-            let (z, _) = least.recover(&solution.t, &solution.y);
-            if let Some(forces) = self.program.admissible(&z) {
-                return Ok(Statics::Admissible(forces));
-            }
-            // Where there are none, its multipliers grow along a proof.
-            if let Some(proof) = self.proof(&z) {
-                return Ok(Statics::Impossible(proof));
-            }
-            let solution = self.solved(&nearest, MAX_STEPS[1], engine)?;
-            let (z, _) = nearest.recover(&solution.t, &solution.y);
-            if let Some(proof) = self.proof(&z) {
-                return Ok(Statics::Impossible(proof));
-            }
-            if let Some(forces) = self.program.admissible(&z) {
-                return Ok(Statics::Admissible(forces));
-            }
+        let solution = self.solved(&least)?;
+        let (z, _) = least.recover(&solution.t, &solution.y);
+        if let Some(forces) = self.program.admissible(&z) {
+            return Ok(Statics::Admissible(forces));
         }
-        Ok(Statics::Open)
+        // Where there are none, the multipliers of the balance are a motion that proves it.
+        Ok(self.proof(&z).map_or(Statics::Open, Statics::Impossible))
     }
 
     /// The proof that the motion at the beginning of `z` leads to.
@@ -118,13 +101,16 @@ impl Search<'_, '_> {
             .find_map(|motion| Proof::of(self.model, &motion))
     }
 
-    fn solved(
-        &mut self,
-        program: &MixedLcp,
-        max_iterations: usize,
-        engine: Engine,
-    ) -> Result<Solution, lcp::Error> {
-        let solution = engine.solve(program, max_iterations, self.observer)?;
+    fn solved(&mut self, program: &MixedLcp) -> Result<Solution, lcp::Error> {
+        let settings = InteriorPointSettings {
+            tolerance: TOLERANCE,
+            max_iterations: MAX_STEPS,
+            continuation: false,
+            crossover: false,
+            ..Default::default()
+        };
+        let observer = &mut |at: &Iteration| (self.observer)(at);
+        let solution = InteriorPoint::new(settings).solve_observed(program, observer)?;
         *self.steps += solution.info.factorisations;
         Ok(solution)
     }

@@ -197,11 +197,6 @@ impl<'a> Program<'a> {
         self.mixed(n..n + self.columns(), &[])
     }
 
-    /// `v = r + E p` and `0 <= p _|_ E^T v >= 0`.
-    pub(super) fn least_rest(&self) -> Result<MixedLcp, lcp::Error> {
-        self.mixed(0..self.unknowns(), &[])
-    }
-
     /// `max gain . p` subject to `E p + r = 0`, `p >= 0`: a linear program, whose multipliers are a motion `x` with
     /// `E^T x >= gain`.
     pub(super) fn greatest(&self, gain: &[(usize, f64)]) -> Result<MixedLcp, lcp::Error> {
