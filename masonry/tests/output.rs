@@ -86,7 +86,7 @@ fn a_file_that_fails_is_named_and_the_others_are_written() {
     let OutputError::Files { written, failed } = &error else { panic!("{error}") };
     assert_eq!(failed.len(), 1);
     assert_eq!(failed[0].0, dir.join("deformed.svg"));
-    assert_eq!(written.len(), 6);
+    assert_eq!(written.len(), 8);
     assert!(error.to_string().contains("deformed.svg"), "{error}");
     assert!(names(&dir).iter().all(|name| !name.contains("tmp")), "{:?}", names(&dir));
 

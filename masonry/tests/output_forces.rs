@@ -76,3 +76,15 @@ fn cracks_are_told_in_millimetres_from_the_widest_down() {
     }
     assert!(!texts.contains("slid"), "{texts}");
 }
+
+#[test]
+fn rounding_errors_beside_a_slip_are_no_cracks() {
+    let outcome = block();
+    let mut contacts = outcome.state.as_ref().unwrap().contacts.clone();
+    contacts[0].y_n = 7e-30;
+    assert!(joints::openings(&outcome.model, &contacts).is_empty());
+    contacts[1].y_t = -2e-3;
+    let picture = svg::cracks("Block", &outcome.model, &contacts).unwrap();
+    let texts = texts(&picture);
+    assert!(texts.contains("1 joint slid, up to 2 mm") && !texts.contains("crack of"), "{texts}");
+}

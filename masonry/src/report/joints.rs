@@ -129,11 +129,13 @@ pub fn openings(model: &Model, contacts: &[ContactState]) -> Vec<Opening> {
         let joint = &model.joints[contact.joint.index()];
         let opening = &mut openings[contact.joint.index()];
         let along = (contact.position - joint.from).dot(&(joint.to - joint.from).normalize());
-        opening.widths.push([along, state.y_n.max(0.0)]);
-        opening.widest = opening.widest.max(state.y_n);
-        opening.slip = opening.slip.max(state.y_t.abs());
+        // What is zero but for rounding is zero.
+        let [width, slip] = [state.y_n, state.y_t.abs()].map(|it| if it > none { it } else { 0.0 });
+        opening.widths.push([along, width]);
+        opening.widest = opening.widest.max(width);
+        opening.slip = opening.slip.max(slip);
     }
-    openings.retain(|it| it.widest > none || it.slip > none);
+    openings.retain(|it| it.widest > 0.0 || it.slip > 0.0);
     for opening in &mut openings {
         opening.widths.sort_by(|a, b| a[0].total_cmp(&b[0]));
     }

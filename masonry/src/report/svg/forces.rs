@@ -71,7 +71,7 @@ pub fn forces(title: &str, model: &Model, contacts: &[ContactState]) -> String {
     loads.draw(&mut sheet, model, &mut labels);
     reactions.draw(&mut sheet, &mut labels);
     if drawn.len() <= FEW {
-        draw_values(&mut sheet, &drawn, units, &mut labels);
+        draw_values(&mut sheet, model, &drawn, units, &mut labels);
     }
     let (small, beside) = (all.len() - large.len(), large.len() - drawn.len());
     if all.len() > MANY && small > 0 {
@@ -97,6 +97,9 @@ fn draw_paths(sheet: &mut Sheet, model: &Model, drawn: &[&JointForce], largest: 
         if let Body::Block(a) = joint.a {
             of_blocks[a.index()].push(end);
         }
+    }
+    if of_blocks.iter().all(|ends| ends.len() < 2) {
+        return;
     }
     let (frame, widest) = (sheet.frame, (0.16 * brick).clamp(1.5, 9.0));
     let style = format!("class=\"paths\" stroke=\"{PATH}\" stroke-linecap=\"round\"");
@@ -208,11 +211,19 @@ fn draw_stroke(canvas: &mut Canvas, frame: &Frame, it: &JointForce, half: f64) {
     canvas.stroke(ends[0], ends[1]);
 }
 
-/// The value of every resultant beside it, where there is room.
-fn draw_values(sheet: &mut Sheet, drawn: &[&JointForce], units: InUnits, labels: &mut Labels) {
+/// The value of every resultant between blocks beside it, where there is room; supports have their reactions.
+fn draw_values(
+    sheet: &mut Sheet,
+    model: &Model,
+    drawn: &[&JointForce],
+    units: InUnits,
+    labels: &mut Labels,
+) {
+    let is_between_blocks =
+        |it: &&&JointForce| matches!(model.joints[it.joint.index()].a, Body::Block(_));
     let frame = sheet.frame;
     sheet.canvas.group(&format!("class=\"values\" fill=\"{COMPRESSION}\""), |canvas| {
-        for it in drawn {
+        for it in drawn.iter().filter(is_between_blocks) {
             let mut side = Vector2::new(it.force.y, -it.force.x).normalize();
             if side.x < 0.0 || (side.x < 1e-9 && side.y < 0.0) {
                 side = -side;
