@@ -31,7 +31,7 @@ pub fn write(limit: &Limit, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
 /// falls.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn write_thickness(thickness: &Thickness, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
     let both = (thickness.forces.as_deref(), thickness.mechanism.as_deref());
     let pictures = pictures(&thickness.title, &thickness.model, both);
