@@ -22,6 +22,7 @@ const REST: f64 = 1e-9;
 
 mod motion;
 
+pub(crate) use motion::flow;
 pub use motion::mechanism;
 
 /// The state that belongs to the contact forces and relative displacements `rows`: rigid amplitudes

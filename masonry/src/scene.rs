@@ -21,6 +21,7 @@
 //! ```
 
 pub(crate) mod arch;
+mod arch_error;
 pub mod bond;
 mod builder;
 mod check;
@@ -42,7 +43,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-pub use self::arch::{Arch, ArchError, Line, Piers, Shape};
+pub use self::arch::{Arch, Line, Piers, Shape};
+pub use self::arch_error::ArchError;
 pub(crate) use self::error::Fault;
 pub use self::error::{ContactError, Known, SceneError, SceneErrorKind};
 pub use self::key_path::KeyPath;

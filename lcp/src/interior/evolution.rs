@@ -3,7 +3,11 @@
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use super::constants::{LEAST_VISCOSITY, MOST_VISCOSITY, SETTLING, SMOOTH, TRIES};
+use super::constants::{
+    LEAST_VISCOSITY, MOST_VISCOSITY, MOVED, SETTLING, SMOOTH, STEADIER, STEADY, STEADY_MOTIONS,
+    TRIES,
+};
+use super::continuation::is_free;
 use super::motion::{Motions, Moved, Viscosity};
 use super::rest::settled;
 use super::start::start;
@@ -234,7 +238,7 @@ impl Moving<'_, '_> {
             if let Some(limit) = self.limit {
                 break limit;
             }
-            let Some(moved) = self.motion(&mut motions, viscosity.value) else {
+            let Some(moved) = self.motion(&mut motions, (viscosity.value, MOVED)) else {
                 viscosity.increase();
                 if viscosity.value > MOST_VISCOSITY {
                     break self.limit.unwrap_or(Status::Stalled);
@@ -249,7 +253,9 @@ impl Moving<'_, '_> {
             path.shares.push(if load > 0.0 { viscosity.value * length / load } else { length });
             path.motion = self.search.scaled.displacements(&velocity);
             if viscosity.flows() {
-                break Status::NoEquilibrium;
+                let flows = self.is_steady(&mut motions, viscosity.value, velocity, &mut path);
+                let otherwise = if flows { Status::NoEquilibrium } else { Status::Stalled };
+                break self.limit.filter(|it| *it != Status::IterationLimit).unwrap_or(otherwise);
             }
             if viscosity.may_rest() {
                 tries += 1;
@@ -305,12 +311,38 @@ impl Moving<'_, '_> {
     }
 
     /// One motion; `None` where it cannot be computed, or a limit is reached.
-    fn motion(&mut self, motions: &mut Motions, viscosity: f64) -> Option<Moved> {
+    fn motion(&mut self, motions: &mut Motions, with: (f64, f64)) -> Option<Moved> {
         let Self { search, monitor, at, limit, .. } = self;
-        motions.advance(&search.scaled, at, viscosity, |residual| {
+        motions.advance(&search.scaled, at, with, |residual| {
             *limit = monitor.stop(residual);
-            limit.is_none()
+            *limit
         })
+    }
+
+    /// Moves on until the motion does not change any more, which is the mechanism then. On a soft spring every motion is
+    /// shorter than the one before by the same part.
+    fn is_steady(
+        &mut self,
+        motions: &mut Motions,
+        viscosity: f64,
+        mut last: Vec<f64>,
+        path: &mut SoftSprings,
+    ) -> bool {
+        let mut first = None;
+        let mut change = f64::INFINITY;
+        for _ in 0..STEADY_MOTIONS {
+            let Some(moved) = self.motion(motions, (viscosity, STEADY)) else { break };
+            let velocity = self.follow(&moved, viscosity);
+            let changes: Vec<f64> = velocity.iter().zip(&last).map(|(v, last)| v - last).collect();
+            change = max_abs(&changes) / max_abs(&velocity);
+            path.motion = self.search.scaled.displacements(&velocity);
+            last = velocity;
+            if change <= STEADY {
+                return is_free(&self.search.scaled, &last, viscosity);
+            }
+            first.get_or_insert(change);
+        }
+        first.is_some_and(|first| change <= STEADIER * first)
     }
 
     /// Takes the bodies to the end of a motion, from which slips are measured then, and gives its displacements.

@@ -9,7 +9,6 @@ use super::path::{corrections, targets};
 use super::start::start;
 use crate::Status;
 use crate::problem::column_of;
-use crate::solve::Monitor;
 use crate::states::{Condensed, PROXIMAL, Point, Scaled};
 use crate::vector::max_abs;
 
@@ -24,6 +23,8 @@ use crate::vector::max_abs;
 /// is none.
 struct Homogeneous<'a> {
     problem: &'a Scaled,
+    /// A stiffness that comes on top of `K` on every displacement.
+    spring: f64,
     at: Iterate,
     tau: f64,
     kappa: f64,
@@ -36,18 +37,19 @@ struct Step {
     kappa: f64,
 }
 
-/// The solution of a problem without friction, to a tolerance; or `u` and `t` that may prove that there is none, with
-/// [`Status::Infeasible`] if `is_proof` says so, which is asked wherever they are near.
+/// The solution of a problem without friction, with a spring on every displacement, to a tolerance; or `u` and `t` that may
+/// prove that there is none, with [`Status::Infeasible`] if `is_proof` says so, which is asked wherever they are near.
+/// `stop` is asked before every step, with the residual.
 pub(super) fn solved(
     problem: &Scaled,
     condensed: &mut Condensed,
-    tolerance: f64,
-    monitor: &mut Monitor<'_>,
+    (spring, tolerance): (f64, f64),
+    mut stop: impl FnMut(f64) -> Option<Status>,
     mut is_proof: impl FnMut(&Iterate) -> bool,
 ) -> (Iterate, Status) {
-    let at = start(problem, condensed, PROXIMAL);
+    let at = start(problem, condensed, spring.max(PROXIMAL));
     let kappa = at.gap(problem);
-    let mut now = Homogeneous { problem, at, tau: 1.0, kappa };
+    let mut now = Homogeneous { problem, spring, at, tau: 1.0, kappa };
     let (mut least, mut since, mut provable) = (f64::INFINITY, 0, PROVED);
     loop {
         let (residual, error) = (now.residual(), now.error_of_proof());
@@ -64,7 +66,7 @@ pub(super) fn solved(
             }
         }
         let merit = residual.min(error);
-        if let Some(status) = monitor.stop(merit) {
+        if let Some(status) = stop(merit) {
             return (now.solution(), status);
         }
         since = if merit < 0.9 * least { 0 } else { since + 1 };
@@ -85,7 +87,7 @@ impl Homogeneous<'_> {
     fn residual(&self) -> f64 {
         let (force, length) = self.at.sizes();
         let units = (force.max(self.tau), length.max(self.tau));
-        let defect = Defect::of_multiple(self.problem, &self.at, self.tau).relative(units);
+        let defect = self.defect().relative(units);
         self.at.natural(self.problem, units).max(defect)
     }
 
@@ -101,6 +103,10 @@ impl Homogeneous<'_> {
         against.fold(max_abs(&self.strained()), f64::max) / work
     }
 
+    fn defect(&self) -> Defect {
+        Defect::of_multiple(self.problem, &self.at, (self.spring, self.tau))
+    }
+
     fn points(&self) -> impl Iterator<Item = (&Point, f64)> {
         self.problem.points.iter().zip(self.at.points.iter().map(|pairs| pairs.t_n))
     }
@@ -113,7 +119,7 @@ impl Homogeneous<'_> {
 
     /// `K u`
     fn strained(&self) -> Vec<f64> {
-        let mut strained = vec![0.0; self.problem.order()];
+        let mut strained: Vec<f64> = self.at.u.iter().map(|u| self.spring * u).collect();
         for (j, u) in self.at.u.iter().enumerate() {
             column_of(&self.problem.k, j).for_each(|(i, v)| strained[i] += v * u);
         }
@@ -193,9 +199,9 @@ struct Newton<'a> {
 
 impl<'a> Newton<'a> {
     fn of(now: &'a Homogeneous<'a>, condensed: &'a mut Condensed) -> Self {
-        let Homogeneous { problem, at, tau, kappa } = now;
+        let Homogeneous { problem, spring, at, tau, kappa } = now;
         let strained = now.strained();
-        let tangent = Tangent::new(problem, condensed, at, PROXIMAL);
+        let tangent = Tangent::new(problem, condensed, at, spring.max(PROXIMAL));
         let none = vec![[0.0; 3]; problem.points.len()];
         let of_tau = tangent.step(&Defect::of_data(problem), &none);
         let by_u = problem.f.iter().zip(&strained).map(|(f, k)| f - 2.0 * k / tau).collect();
@@ -206,7 +212,7 @@ impl<'a> Newton<'a> {
         let mut newton = Self {
             now,
             tangent,
-            defect: Defect::of_multiple(problem, at, *tau),
+            defect: now.defect(),
             of_tau,
             border: (by_u, by_t),
             rest: now.work() - energy - kappa,
@@ -226,7 +232,7 @@ impl<'a> Newton<'a> {
     /// The step that reduces what is left of all equations by a part, with products of an aim in the end, less the
     /// second-order term of a predictor.
     fn step(&self, (part, aim): (f64, f64), predictor: Option<&Step>) -> Step {
-        let Homogeneous { problem, at, tau, kappa } = self.now;
+        let Homogeneous { problem, at, tau, kappa, .. } = self.now;
         let targets = targets(problem, at, aim, predictor.map(|it| &it.at));
         let second = predictor.map_or(0.0, |it| it.tau * it.kappa);
         let rest = (part * self.rest, aim - tau * kappa - second);

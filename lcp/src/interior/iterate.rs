@@ -76,8 +76,8 @@ impl Defect {
     }
 
     /// Of points without friction under `scale` times all loads and initial gaps.
-    pub(super) fn of_multiple(problem: &Scaled, at: &Iterate, scale: f64) -> Self {
-        let mut defect = Self::of(problem, at, 0.0);
+    pub(super) fn of_multiple(problem: &Scaled, at: &Iterate, (spring, scale): (f64, f64)) -> Self {
+        let mut defect = Self::of(problem, at, spring);
         let more = scale - 1.0;
         defect.balance.iter_mut().zip(&problem.f).for_each(|(b, f)| *b += more * f);
         defect.gaps.iter_mut().zip(&problem.points).for_each(|(gap, it)| gap.0 += more * it.x_0);

@@ -3,10 +3,10 @@
 use faer::sparse::FaerError;
 
 use super::constants::{
-    FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS, MOVED, SAME_LENGTH, SLOWER,
+    FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS, SAME_LENGTH, SLOWER,
 };
-use super::continuation::centred;
-use super::start::start;
+use super::homogeneous::solved;
+use crate::Status;
 use crate::states::{Condensed, Scaled};
 
 /// Bodies that move with associated flow.
@@ -38,13 +38,13 @@ impl Motions {
     }
 
     /// One motion from displacements, with slips as the problem measures them; `None` where it cannot be computed, or
-    /// `go_on` says no, which is asked before every step, with the residual.
+    /// `stop` says so, which is asked before every step, with the residual.
     pub(super) fn advance(
         &mut self,
         problem: &Scaled,
         from: &[f64],
-        viscosity: f64,
-        go_on: impl FnMut(f64) -> bool,
+        (viscosity, accuracy): (f64, f64),
+        stop: impl FnMut(f64) -> Option<Status>,
     ) -> Option<Moved> {
         let Self { edges, condensed } = self;
         for (f, (load, from)) in edges.f.iter_mut().zip(problem.f.iter().zip(from)) {
@@ -53,10 +53,9 @@ impl Motions {
         for (edge, (point, mu)) in edges.points.iter_mut().zip(problem.edges()) {
             edge.x_0 = point.x_0 + mu * point.s_0;
         }
-        let begin = start(edges, condensed, viscosity);
-        let moved = centred(edges, condensed, begin, (viscosity, MOVED), go_on)?;
+        let (moved, status) = solved(edges, condensed, (viscosity, accuracy), stop, |_| false);
         let forces = problem.of_edges(moved.points.iter().map(|pairs| pairs.t_n));
-        Some(Moved { forces, u: moved.u })
+        (status == Status::Solved).then_some(Moved { forces, u: moved.u })
     }
 }
 

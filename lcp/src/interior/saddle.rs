@@ -82,7 +82,8 @@ impl Saddle {
         mut is_proof: impl FnMut(&[f64]) -> bool,
     ) -> (Vec<f64>, Vec<f64>, Status, Option<Certificate>) {
         let is_proof = |at: &Iterate| is_proof(&self.proof(at));
-        let (at, status) = solved(&self.scaled, condensed, tolerance, monitor, is_proof);
+        let stop = |residual| monitor.stop(residual);
+        let (at, status) = solved(&self.scaled, condensed, (0.0, tolerance), stop, is_proof);
         let (z, w) = self.variables(&at);
         (
             z,

@@ -1,7 +1,9 @@
 //! Limit analysis: the factor of a group of loads at which a structure fails.
 //!
-//! Loads that are not of the group act in full, and the stages of the scene are not looked at. Blocks are rigid, which
-//! changes no limit load of associated flow, and gaps are taken for closed.
+//! Loads that are not of the group act in full, and the stages of the scene are not looked at. There are two laws of
+//! friction. With associated flow blocks are rigid, which changes no limit load, and gaps are taken for closed; the answer is
+//! proved, and an upper bound for Coulomb's friction. With Coulomb's friction a path of states at rest is followed
+//! ([`Path`]), on blocks and gaps as they are.
 //!
 //! ```
 //! use masonry::analysis::limit::{Answer, limit};
@@ -18,13 +20,16 @@
 //!     .support(Support::new("ground", [-1.0, 0.0], [1.0, 0.0], "floor"))
 //!     .load(Load::acceleration("quake", [10.0, 0.0]));
 //! let limit = limit(&scene)?;
-//! assert_eq!(limit.associative.answer, Answer::Fails);
-//! assert!((limit.associative.load_factor.unwrap() - 0.2).abs() < 1e-6);
+//! let associative = limit.associative.unwrap();
+//! assert_eq!(associative.answer, Answer::Fails);
+//! assert!((associative.load_factor.unwrap() - 0.2).abs() < 1e-6);
+//! assert!((limit.path.unwrap().load_factor.unwrap() - 0.2).abs() < 1e-4);
 //! # Ok::<(), masonry::analysis::limit::LimitError>(())
 //! ```
 
 mod associative;
 mod error;
+mod path;
 mod range;
 mod sentence;
 mod thickness;
@@ -33,6 +38,7 @@ use std::time::Instant;
 
 pub use associative::{Answer, Associative};
 pub use error::LimitError;
+pub use path::{Change, Event, Path, Stand};
 pub use range::{Extremes, Range, ranges};
 pub use thickness::{Thickness, least_thickness};
 
@@ -41,6 +47,18 @@ use crate::method::info::PhaseTime;
 use crate::model::Model;
 use crate::scene::{Load, Scene};
 use crate::system::{self, System};
+
+/// The laws of friction of which a limit load is asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Laws {
+    /// Joints that open by `mu` times their slip: one linear program, with a proof.
+    Associative,
+    /// Coulomb's friction, in which joints slide without opening: a path of states at rest.
+    Path,
+    /// Both.
+    #[default]
+    Both,
+}
 
 /// What is known of the limit load of a scene.
 #[derive(Debug, Clone)]
@@ -52,8 +70,10 @@ pub struct Limit {
     pub model: Model,
     /// The load or the group of loads that grows.
     pub group: String,
-    /// The limit load of associated flow.
-    pub associative: Associative,
+    /// The limit load of associated flow, if it was asked for.
+    pub associative: Option<Associative>,
+    /// The limit load of Coulomb's friction along a path, if it was asked for.
+    pub path: Option<Path>,
     /// The answer in the words of an engineer.
     pub sentence: String,
     /// What limits the meaning of the answer.
@@ -62,34 +82,73 @@ pub struct Limit {
     pub times: Vec<PhaseTime>,
 }
 
-/// The limit load of the group that the scene names, or of its only one.
+/// The limit load of the group that the scene names, or of its only one, by both laws.
 ///
 /// # Errors
 /// [`LimitError`] when the scene is wrong or has no such group.
 pub fn limit(scene: &Scene) -> Result<Limit, LimitError> {
-    let began = Instant::now();
+    limit_by(scene, Laws::Both)
+}
+
+/// The same by the laws that are asked for.
+///
+/// # Errors
+/// As [`limit`].
+pub fn limit_by(scene: &Scene, laws: Laws) -> Result<Limit, LimitError> {
+    let mut clock = Clock::new();
     let group = group(scene)?;
-    let model = rigid(Model::from_scene(scene)?);
+    let given = Model::from_scene(scene)?;
+    let model = rigid(given.clone());
     let loads: Vec<bool> = scene.loads.iter().map(|load| load.is_called(&group)).collect();
     let structure = Structure { model: &model, grows: &loads };
     let growth = structure.growth();
     if growth.iter().all(|force| force.abs() <= 0.0) {
         return Err(LimitError::NoForce { group });
     }
-    let modelled = began.elapsed().as_secs_f64();
-    let began = Instant::now();
+    clock.lap("model");
+    // Its bound ends the path.
     let associative = associative::of(&structure, &growth)?;
-    let times = [("model", modelled), ("associative", began.elapsed().as_secs_f64())];
-    let times = times.map(|(phase, seconds)| PhaseTime { phase: phase.to_owned(), seconds });
+    clock.lap("associative");
+    let path = if laws == Laws::Associative {
+        None
+    } else {
+        let path = path::of(&Structure { model: &given, grows: &loads }, &associative)?;
+        clock.lap("path");
+        Some(path)
+    };
+    let mut warnings = warnings(&model, laws);
+    warnings.extend(path.as_ref().map(Path::warning));
+    let carried = associative.load_factor.unwrap_or(1.0);
+    let associative = (laws != Laws::Path).then_some(associative);
     Ok(Limit {
         title: scene.title.clone(),
-        sentence: sentence::of(&group, &associative),
-        warnings: warnings(&model),
-        model: structure.under(1.0, associative.load_factor.unwrap_or(1.0)),
+        sentence: sentence::of(&group, associative.as_ref(), path.as_ref()),
+        warnings,
+        model: structure.under(1.0, carried),
         group,
         associative,
-        times: times.into(),
+        path,
+        times: clock.times,
     })
+}
+
+/// Times of phases, one after the other.
+struct Clock {
+    began: Instant,
+    times: Vec<PhaseTime>,
+}
+
+impl Clock {
+    fn new() -> Self {
+        Self { began: Instant::now(), times: Vec::new() }
+    }
+
+    /// Ends a phase.
+    fn lap(&mut self, phase: &str) {
+        let seconds = self.began.elapsed().as_secs_f64();
+        self.times.push(PhaseTime { phase: phase.to_owned(), seconds });
+        self.began = Instant::now();
+    }
 }
 
 /// The group that grows: that which the scene names, else its only one, else the only one with a factor.
@@ -150,10 +209,10 @@ fn rigid(mut model: Model) -> Model {
     model
 }
 
-fn warnings(model: &Model) -> Vec<String> {
+fn warnings(model: &Model, laws: Laws) -> Vec<String> {
     let mut list = model.unusual();
     let gaps = model.contacts.iter().filter(|contact| contact.gap > 0.0).count();
-    if gaps > 0 {
+    if gaps > 0 && laws != Laws::Path {
         list.push(format!(
             "{gaps} of {} contact points are apart and were taken for closed: the structure may fail earlier, but not \
              carry more.",

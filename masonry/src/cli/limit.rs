@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::end::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
-use crate::analysis::limit::{Answer, least_thickness, limit, ranges};
+use crate::analysis::limit::{Answer, Associative, Laws, Path, least_thickness, limit_by, ranges};
 use crate::report::limit as output;
 use crate::scene::Scene;
 
@@ -14,6 +14,20 @@ use crate::scene::Scene;
 enum Law {
     /// Joints that slide open by mu times the slip: a linear program, and an upper bound for Coulomb's friction.
     Associative,
+    /// Coulomb's friction: the factor grows step by step until the blocks no longer come to rest.
+    Path,
+    /// One after the other.
+    Both,
+}
+
+impl From<Law> for Laws {
+    fn from(law: Law) -> Self {
+        match law {
+            Law::Associative => Self::Associative,
+            Law::Path => Self::Path,
+            Law::Both => Self::Both,
+        }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -21,7 +35,7 @@ pub(super) struct LimitArgs {
     /// The scene file (TOML).
     scene: PathBuf,
     /// The law of friction.
-    #[arg(long, value_enum, default_value_t = Law::Associative)]
+    #[arg(long, value_enum, default_value_t = Law::Both)]
     law: Law,
     /// The load or group of loads that grows, instead of that of the scene.
     #[arg(long, conflicts_with = "range")]
@@ -51,8 +65,7 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
     if let Some(group) = &args.group {
         scene = scene.limit_group(group);
     }
-    let Law::Associative = args.law;
-    let limit = limit(&scene)?;
+    let limit = limit_by(&scene, args.law.into())?;
     let written = match &args.out {
         Some(out) => output::write(&limit, out),
         None => Ok(Vec::new()),
@@ -65,7 +78,10 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
         print(&format!("{}\n{}", output::table(&limit), listing(files)))?;
     }
     written?;
-    let solved = matches!(limit.associative.answer, Answer::Fails | Answer::Unlimited);
+    let is_known = |it: &Associative| matches!(it.answer, Answer::Fails | Answer::Unlimited);
+    let by_path = |path: &Path| path.decided && path.load_factor.is_some();
+    let solved =
+        limit.associative.as_ref().is_none_or(is_known) && limit.path.as_ref().is_none_or(by_path);
     Ok(if solved { SOLVED } else { NOT_SOLVED })
 }
 

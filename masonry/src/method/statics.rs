@@ -98,7 +98,7 @@ impl Search<'_, '_> {
         let entries = self.program.entries();
         let motion = &z[..self.program.unknowns()];
         sharpen::candidates(motion, entries, self.program.columns())
-            .find_map(|motion| Proof::of(self.model, &motion))
+            .find_map(|motion| Proof::of(self.model, &motion[..3 * self.model.blocks.len()]))
     }
 
     fn solved(&mut self, program: &MixedLcp) -> Result<Solution, lcp::Error> {

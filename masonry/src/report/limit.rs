@@ -22,9 +22,19 @@ use crate::state::ContactState;
 /// # Errors
 /// [`OutputError`] for a directory that cannot be made, and for files that cannot be written.
 pub fn write(limit: &Limit, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
-    let found = &limit.associative;
-    let both = (found.forces.as_deref(), found.mechanism.as_deref());
-    write_with(dir, pictures(&limit.title, &limit.model, both), |names| json(limit, names))
+    let mut list = Pictures::new();
+    if let Some(found) = &limit.associative {
+        let both = (found.forces.as_deref(), found.mechanism.as_deref());
+        list = pictures(&limit.title, &limit.model, both);
+    }
+    if let Some(path) = &limit.path {
+        let title = format!("{}, path", limit.title);
+        let forces = path.contacts.as_deref().map(|it| svg::forces(&title, &path.model, it));
+        let rates = path.mechanism.as_deref().map(|it| svg::mechanism(&title, &path.model, it));
+        list.extend(forces.map(|picture| ("path_forces.svg", picture)));
+        list.extend(rates.map(|picture| ("path_mechanism.svg", picture)));
+    }
+    write_with(dir, list, |names| json(limit, names))
 }
 
 /// The same of the least thickness of an arch: the forces at the thickness that stands, and the mechanism of the one that

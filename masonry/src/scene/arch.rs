@@ -1,12 +1,10 @@
 //! Arches: voussoirs between joints, by shape, with springings or piers.
 
-mod error;
 mod lines;
 mod place;
 
 use serde::{Deserialize, Serialize};
 
-pub use error::ArchError;
 pub(crate) use lines::lines;
 pub(crate) use place::{blocks, supports};
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 pub use contact::ContactError;
 
-use super::arch::ArchError;
+use super::arch_error::ArchError;
 use super::load::LoadError;
 use super::opening::OpeningError;
 use super::source::{Place, Source};

@@ -165,7 +165,7 @@ impl Growing<'_> {
                 if bounds.above.as_ref().is_some_and(|(above, _)| above <= factor) {
                     break;
                 }
-                if let Some(proof) = Proof::of(model, &motion) {
+                if let Some(proof) = Proof::of(model, &motion[..3 * model.blocks.len()]) {
                     bounds.above = Some((*factor, proof));
                 }
             }

@@ -1,5 +1,6 @@
 //! The convex programs of admissible forces as complementarity problems.
 
+use faer::sparse::{SparseColMat, Triplet};
 use lcp::MixedLcp;
 
 use crate::law::Friction;
@@ -16,9 +17,10 @@ pub(super) struct Program<'a> {
     first: Vec<usize>,
     /// The frictional points with a constant part of friction, and `C_0` of each in units of the largest load.
     constant: Vec<(usize, f64)>,
-    /// `E` as rows, columns and values: edges, then the forces of constant friction.
+    /// `E` as rows, columns and values: edges, then for every force `q` of constant friction `q' = C_0 + q` and
+    /// `q'' = C_0 - q`, with `q' + q'' = 2 C_0` below the balance of the blocks.
     entries: Vec<(usize, usize, f64)>,
-    /// `r`, in units of the largest load.
+    /// `r`, in units of the largest load; where there is constant friction, with `-C_0` along it.
     loads: Vec<f64>,
     /// The largest load \[N\].
     unit: f64,
@@ -64,6 +66,11 @@ impl<'a> Program<'a> {
         for (b, body) in system.bodies.iter().enumerate() {
             program.add(b, body);
         }
+        for (place, (_, base)) in program.constant.iter().enumerate() {
+            let (row, column) = (program.loads.len(), program.edges() + 2 * place);
+            program.entries.extend([(row, column, 1.0), (row, column + 1, 1.0)]);
+            program.loads.push(-2.0 * base);
+        }
         program
     }
 
@@ -76,8 +83,11 @@ impl<'a> Program<'a> {
                 None => (row.row, [self.parts(row.row)[0]; 2]),
                 Some(k) => {
                     if let Ok(place) = self.constant.binary_search_by_key(&k, |it| it.0) {
-                        let column = self.edges() + place;
-                        self.entries.extend(modes().map(|(j, value)| (3 * b + j, column, *value)));
+                        let (column, base) = (self.edges() + 2 * place, self.constant[place].1);
+                        for (j, value) in modes() {
+                            self.entries.push((3 * b + j, column, *value));
+                            self.loads[3 * b + j] -= base * value;
+                        }
                     }
                     let Friction { contact, mu, .. } = self.system.friction[k];
                     if mu <= 0.0 {
@@ -118,37 +128,50 @@ impl<'a> Program<'a> {
             }
         }
         let constant = self.constant.iter().enumerate();
-        gain.extend(constant.map(|(place, (k, _))| (self.edges() + place, tangents[*k])));
+        gain.extend(constant.map(|(place, (k, _))| (self.edges() + 2 * place, tangents[*k])));
         gain
     }
 
     /// What no forces can exceed of a gain, by a motion `x` with `E^T x >= gain` \[N\].
     pub(super) fn bound(&self, motion: &[f64], gain: &[(usize, f64)]) -> f64 {
-        let mut beyond = vec![0.0; self.forces()];
+        let (blocks, motion) = self.of_blocks(motion);
+        let mut pushed = vec![0.0; self.forces()];
+        for &(i, k, v) in self.entries.iter().filter(|(i, ..)| *i < blocks) {
+            pushed[k] += v * motion[i];
+        }
+        let mut beyond = pushed.clone();
         for (k, gain) in gain {
             beyond[*k] -= gain;
         }
-        self.entries.iter().for_each(|&(i, k, v)| beyond[k] += v * motion[i]);
         let work: f64 = self.loads.iter().zip(motion).map(|(r, x)| r * x).sum();
-        let constant = self.constant.iter().zip(&beyond[self.edges()..]);
-        self.unit * (constant.map(|((_, base), beyond)| base * beyond.abs()).sum::<f64>() - work)
+        // The loads have `-C_0` along each force of constant friction.
+        let pairs = self.constant.iter().enumerate();
+        let pairs = pairs.map(|(place, (_, base))| (self.edges() + 2 * place, base));
+        let constant: f64 = pairs.map(|(k, base)| base * (beyond[k].abs() - pushed[k])).sum();
+        self.unit * (constant - work)
+    }
+
+    /// The number of balances of blocks, and of a motion the part that moves these.
+    fn of_blocks<'b>(&self, motion: &'b [f64]) -> (usize, &'b [f64]) {
+        let blocks = 3 * self.system.bodies.len();
+        (blocks, &motion[..blocks])
     }
 
     /// The forces along edges that balance one another and gain one: any number of times them can be added to others.
     pub(super) fn circulating(mut self, gain: &[(usize, f64)]) -> Self {
-        let (edges, row) = (self.edges(), self.unknowns());
+        let (edges, row) = (self.edges(), 3 * self.system.bodies.len());
         self.constant.clear();
         self.entries.retain(|(_, k, _)| *k < edges);
         let of_edges = gain.iter().filter(|(k, gain)| *k < edges && *gain != 0.0);
         self.entries.extend(of_edges.map(|(k, gain)| (row, *k, *gain)));
-        self.loads.fill(0.0);
+        self.loads = vec![0.0; row];
         self.loads.push(-1.0);
         self
     }
 
     /// No load acts.
     pub(super) fn is_unloaded(&self) -> bool {
-        self.loads.iter().all(|load| load.abs() <= 0.0)
+        self.loads[..3 * self.system.bodies.len()].iter().all(|load| load.abs() <= 0.0)
     }
 
     /// The largest load \[N\].
@@ -156,7 +179,7 @@ impl<'a> Program<'a> {
         self.unit
     }
 
-    /// Rigid amplitudes of all blocks.
+    /// Rigid amplitudes of all blocks, and a multiplier of every bound of constant friction.
     pub(super) fn unknowns(&self) -> usize {
         self.loads.len()
     }
@@ -166,9 +189,9 @@ impl<'a> Program<'a> {
         self.first[self.first.len() - 1]
     }
 
-    /// Columns of `E` that are forces: along edges, and of constant friction.
+    /// Columns of `E` that are forces: along edges, and the pairs of constant friction.
     pub(super) fn forces(&self) -> usize {
-        self.edges() + self.constant.len()
+        self.edges() + 2 * self.constant.len()
     }
 
     /// Of `E`: the forces, and the factor of the loads that grow.
@@ -188,72 +211,47 @@ impl<'a> Program<'a> {
     /// The factor under which what grows is as large as the loads that stay.
     pub(super) fn size_of_factor(&self) -> f64 {
         let growth = self.entries.iter().filter(|(_, k, _)| *k >= self.forces()).map(|(.., g)| g);
-        rounding::largest(&self.loads) / rounding::largest(growth)
+        rounding::largest(&self.system.resultants()) / self.unit / rounding::largest(growth)
     }
 
     /// `E p + r = 0` and `0 <= p _|_ p + E^T x >= 0`.
     pub(super) fn least_forces(&self) -> Result<MixedLcp, lcp::Error> {
         let n = self.unknowns();
-        self.mixed(n..n + self.columns(), &[])
+        let ones: Vec<_> = (n..n + self.columns()).map(|i| Triplet::new(i, i, 1.0)).collect();
+        self.mixed(&ones, &[])
     }
 
     /// `max gain . p` subject to `E p + r = 0`, `p >= 0`: a linear program, whose multipliers are a motion `x` with
     /// `E^T x >= gain`.
     pub(super) fn greatest(&self, gain: &[(usize, f64)]) -> Result<MixedLcp, lcp::Error> {
-        self.mixed(0..0, gain)
+        self.mixed(&[], gain)
     }
 
-    /// With ones on this part of the diagonal.
-    ///
-    /// A force of constant friction is `q = q' - C_0` with `q' >= 0`, and a multiplier `l >= 0` of `2 C_0 - q' >= 0`.
     fn mixed(
         &self,
-        diagonal: std::ops::Range<usize>,
+        symmetric: &[Triplet<usize, usize, f64>],
         gain: &[(usize, f64)],
     ) -> Result<MixedLcp, lcp::Error> {
-        let (n, limited) = (self.unknowns(), self.unknowns() + self.edges());
-        let held = n + self.columns();
-        let order = held + self.constant.len();
+        let n = self.unknowns();
+        let order = n + self.columns();
         let mut q: Vec<f64> = self.loads.iter().map(|r| -r).collect();
         q.resize(order, 0.0);
         for (k, gain) in gain {
             q[n + k] -= gain;
         }
-        let mut skew: Vec<(usize, usize, f64)> =
-            self.entries.iter().flat_map(|&(i, k, v)| [(i, n + k, -v), (n + k, i, v)]).collect();
-        for (k, (_, base)) in self.constant.iter().enumerate() {
-            skew.extend([(limited + k, held + k, 1.0), (held + k, limited + k, -1.0)]);
-            q[held + k] = 2.0 * base;
-            if diagonal.contains(&(limited + k)) {
-                q[limited + k] = -base;
-            }
-        }
-        let forces = self.edges()..self.forces();
-        for &(i, k, v) in self.entries.iter().filter(|(_, k, _)| forces.contains(k)) {
-            q[i] += v * self.constant[k - self.edges()].1;
-        }
-        let ones = diagonal.map(|i| (i, i, 1.0));
-        let triplets: Vec<_> = skew
-            .into_iter()
-            .chain(ones)
-            .map(|(i, j, v)| faer::sparse::Triplet::new(i, j, v))
-            .collect();
-        let m = faer::sparse::SparseColMat::try_new_from_triplets(order, order, &triplets)
+        let skew = self
+            .entries
+            .iter()
+            .flat_map(|&(i, k, v)| [Triplet::new(i, n + k, -v), Triplet::new(n + k, i, v)]);
+        let triplets: Vec<_> = skew.chain(symmetric.iter().copied()).collect();
+        let m = SparseColMat::try_new_from_triplets(order, order, &triplets)
             .unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}"));
         MixedLcp::new(m, q, (0..order).map(|j| j < n).collect())
     }
 
     /// The forces of all rows \[N\], if those in `z` balance the loads.
     pub(super) fn admissible(&self, z: &[f64]) -> Option<Vec<f64>> {
-        let mut p: Vec<f64> = z[self.unknowns()..][..self.columns()].to_vec();
-        let (along_edges, more) = p.split_at_mut(self.edges());
-        let (constant, growth) = more.split_at_mut(self.constant.len());
-        for p in along_edges.iter_mut().chain(growth) {
-            *p = p.max(0.0);
-        }
-        for (q, (_, base)) in constant.iter_mut().zip(&self.constant) {
-            *q = (*q - base).clamp(-base, *base);
-        }
+        let p: Vec<f64> = z[self.unknowns()..].iter().map(|p| p.max(0.0)).collect();
         let mut rest = self.loads.clone();
         self.entries.iter().for_each(|&(i, k, v)| rest[i] += v * p[k]);
         let is_balanced = rest.iter().all(|rest| rest.abs() <= BALANCED);
@@ -275,8 +273,10 @@ impl<'a> Program<'a> {
                 forces[points + k] = self.unit * self.parts(point)[1] * (p[edge] - p[edge + 1]);
             }
         }
-        for ((k, _), q) in self.constant.iter().zip(&p[self.edges()..self.forces()]) {
-            forces[points + k] += self.unit * q;
+        for ((k, base), q) in
+            self.constant.iter().zip(p[self.edges()..self.forces()].chunks_exact(2))
+        {
+            forces[points + k] += self.unit * (q[0] - base).clamp(-base, *base);
         }
         forces
     }

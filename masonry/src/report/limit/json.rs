@@ -7,17 +7,20 @@ use crate::method::statics::limit::Extreme;
 use crate::report::format::InUnits;
 use crate::report::json::{ByName, Force, named_force, rates_by_name};
 
+pub(super) mod path;
+
 /// The object of `limit.json` and of `masonry limit --json`, pretty-printed.
 ///
 /// `associative` has the `answer`, the `load_factor` that forces carry, the `bound` above which it is proved that none do, the
 /// `gap` between them, whether the answer is `proved`, the `reactions` under the load factor, and the `mechanism`: rates of the
-/// corners of every block, the largest component one. What is not known is null, and so is `path`, a law of friction that was not
-/// asked for. `units` names the units.
+/// corners of every block, the largest component one. `path` has the `load_factor` up to which blocks rest, the factor at which
+/// it `falls`, whether that is `decided`, the `last_stable` state, the `mechanism` after it, the `events` on the way and the
+/// `curve`. What is not known is null, and so is a law of friction that was not asked for. `units` names the units.
 ///
 /// # Errors
 /// None that this data can cause; the signature is that of the serialiser.
 pub fn json(limit: &Limit, files: &[String]) -> Result<String, serde_json::Error> {
-    let (model, found) = (&limit.model, &limit.associative);
+    let model = &limit.model;
     let units = InUnits(model.units);
     let report = Report {
         sentence: &limit.sentence,
@@ -25,7 +28,7 @@ pub fn json(limit: &Limit, files: &[String]) -> Result<String, serde_json::Error
         title: &limit.title,
         group: &limit.group,
         units: Names::of(units),
-        associative: Associative {
+        associative: limit.associative.as_ref().map(|found| Associative {
             answer: found.answer,
             load_factor: found.load_factor,
             bound: found.bound,
@@ -33,8 +36,8 @@ pub fn json(limit: &Limit, files: &[String]) -> Result<String, serde_json::Error
             proved: found.proved,
             reactions: ByName(found.reactions.iter().map(|it| named_force(it, units)).collect()),
             mechanism: found.mechanism.as_ref().map(|rates| rates_by_name(model, rates)),
-        },
-        path: None,
+        }),
+        path: limit.path.as_ref().map(|it| path::of(it, units)),
         time_s: ByName(limit.times.iter().map(|it| (it.phase.as_str(), it.seconds)).collect()),
         files,
     };
@@ -103,8 +106,8 @@ struct Report<'a> {
     title: &'a str,
     group: &'a str,
     units: Names,
-    associative: Associative<'a>,
-    path: Option<()>,
+    associative: Option<Associative<'a>>,
+    path: Option<path::Path<'a>>,
     time_s: ByName<'a, f64>,
     files: &'a [String],
 }
@@ -123,6 +126,7 @@ struct Associative<'a> {
 #[derive(Serialize)]
 struct Names {
     load_factor: &'static str,
+    length: &'static str,
     force: &'static str,
     moment: String,
     time_s: &'static str,
@@ -131,7 +135,7 @@ struct Names {
 impl Names {
     fn of(units: InUnits) -> Self {
         let (force, moment) = (units.0.force_name(), units.0.energy_name());
-        Self { load_factor: "1", force, moment, time_s: "s" }
+        Self { load_factor: "1", length: units.0.length_name(), force, moment, time_s: "s" }
     }
 }
 

@@ -1,8 +1,8 @@
 //! The joints of an arch.
 
-use super::{Arch, ArchError, Line, Shape};
+use super::{Arch, Line, Shape};
 use crate::scene::rules::{missing, positive, unwanted, value};
-use crate::scene::{Fault, KeyPath, SceneErrorKind};
+use crate::scene::{ArchError, Fault, KeyPath, SceneErrorKind};
 
 /// The joints from the left springing to the right, each from the intrados to the extrados \[length\].
 pub(crate) fn lines(arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {

@@ -1,9 +1,9 @@
 //! The blocks and supports of an arch.
 
-use super::{Arch, ArchError, Line, Piers, lines};
+use super::{Arch, Line, Piers, lines};
 use crate::rounding::rounded;
 use crate::scene::rules::{positive, value};
-use crate::scene::{Fault, KeyPath, Scene, Support};
+use crate::scene::{ArchError, Fault, KeyPath, Scene, Support};
 
 /// A springing that rises by less than this part of its length is level.
 const LEVEL: f64 = 1e-9;
