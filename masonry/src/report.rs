@@ -5,6 +5,7 @@
 
 pub mod csv;
 mod format;
+pub mod hinges;
 pub mod joints;
 pub mod json;
 pub mod limit;

@@ -60,7 +60,7 @@ fn number(node: Node<'_, '_>, name: &str) -> f64 {
 }
 
 fn groups<'a>(document: &'a Document<'a>, class: &str) -> Vec<Node<'a, 'a>> {
-    let drawing = document.descendants().find(|node| node.attribute("id") == Some("drawing"));
+    let drawing = document.descendants().find(|node| node.attribute("class") == Some("drawing"));
     let all = drawing.expect("every sheet has a drawing").descendants();
     all.filter(|node| node.attribute("class") == Some(class)).collect()
 }

@@ -67,7 +67,14 @@ pub fn forces(title: &str, model: &Model, contacts: &[ContactState]) -> String {
     draw_paths(&mut sheet, model, &drawn, largest, brick);
     draw_uses(&mut sheet, model, &drawn, brick);
     draw_resultants(&mut sheet, &drawn, largest, brick, units);
-    let mut labels = Labels::default();
+    let mut labels = Labels::within(sheet.room());
+    marks::avoid_supports(&sheet.frame, model, &mut labels);
+    loads.mark(&sheet.frame, &mut labels);
+    reactions.mark(&sheet.frame, &mut labels);
+    for it in &drawn {
+        let [from, to] = stroke(&sheet.frame, it, largest, brick);
+        labels.avoid(from, to);
+    }
     loads.draw(&mut sheet, model, &mut labels);
     reactions.draw(&mut sheet, &mut labels);
     if drawn.len() <= FEW {
@@ -157,7 +164,6 @@ fn draw_resultants(
     units: InUnits,
 ) {
     let frame = sheet.frame;
-    let longest = 0.9 * brick;
     let (width, radius) = ((0.03 * brick).clamp(0.6, 2.0), (0.035 * brick).clamp(0.8, 2.8));
     let dot = |canvas: &mut Canvas, at: Pixel, radius: f64, colour: &str, inside: bool| {
         let fill = if inside { colour } else { "#ffffff" };
@@ -178,8 +184,8 @@ fn draw_resultants(
             format!("class=\"{name}\" stroke=\"{colour}\" stroke-width=\"{}\"", fixed(width));
         sheet.canvas.group(&style, |canvas| {
             for it in of_kind() {
-                let half = 0.5 * longest * it.force.norm() / largest;
-                draw_stroke(canvas, &frame, it, half);
+                let [from, to] = stroke(&frame, it, largest, brick);
+                canvas.stroke(from, to);
             }
         });
         sheet.canvas.group(&format!("class=\"{name} points\""), |canvas| {
@@ -205,10 +211,10 @@ fn is_inside(it: &JointForce) -> bool {
     it.eccentricity.abs() <= MIDDLE_THIRD
 }
 
-fn draw_stroke(canvas: &mut Canvas, frame: &Frame, it: &JointForce, half: f64) {
-    let at = frame.at(it.at);
-    let ends = [-half, half].map(|half| at.shifted(it.force.x, -it.force.y, half));
-    canvas.stroke(ends[0], ends[1]);
+/// The ends of the stroke of a resultant: the largest is nearly as long as a brick.
+fn stroke(frame: &Frame, it: &JointForce, largest: f64, brick: f64) -> [Pixel; 2] {
+    let (at, half) = (frame.at(it.at), 0.45 * brick * it.force.norm() / largest);
+    [-half, half].map(|half| at.shifted(it.force.x, -it.force.y, half))
 }
 
 /// The value of every resultant between blocks beside it, where there is room; supports have their reactions.
@@ -228,7 +234,7 @@ fn draw_values(
             if side.x < 0.0 || (side.x < 1e-9 && side.y < 0.0) {
                 side = -side;
             }
-            let at = frame.at(it.at).shifted(side.x, -side.y, 7.0);
+            let at = frame.at(it.at).shifted(side.x, -side.y, 5.0);
             labels.draw(canvas, at, side, 11.0, &units.force_text(it.force.norm()));
         }
     });

@@ -47,6 +47,13 @@ impl Force {
     fn pulls(&self) -> bool {
         self.outwards.dot(&self.value) > 0.0
     }
+
+    /// Tail and tip.
+    fn arrow(&self, frame: &Frame) -> [Pixel; 2] {
+        let (at, n) = (frame.at(self.at), self.outwards);
+        let far = at.shifted(n.x, -n.y, self.length());
+        if self.pulls() { [at, far] } else { [far, at] }
+    }
 }
 
 /// An acceleration of all mass.
@@ -145,6 +152,23 @@ impl Loads {
         margins
     }
 
+    /// Keeps labels away from all arrows.
+    pub(super) fn mark(&self, frame: &Frame, labels: &mut Labels) {
+        for group in &self.edges {
+            for (from, to) in group.pieces.iter().map(|(from, to)| (frame.at(*from), frame.at(*to)))
+            {
+                let bar = bar(group, from, to);
+                for [from, to] in arrows(group, from, to).into_iter().chain(bar) {
+                    labels.avoid(from, to);
+                }
+            }
+        }
+        for force in &self.points {
+            let [tail, tip] = force.arrow(frame);
+            labels.avoid(tail, tip);
+        }
+    }
+
     /// Draws arrows, labels where they do not collide, and legend entries.
     pub(super) fn draw(&self, sheet: &mut Sheet, model: &Model, labels: &mut Labels) {
         let frame = sheet.frame;
@@ -155,7 +179,9 @@ impl Loads {
                 }
             }
             for force in &self.points {
-                draw_force(canvas, force, frame.at(force.at));
+                let [tail, tip] = force.arrow(&frame);
+                canvas.arrow(tail, tip, COLOUR);
+                canvas.circle(frame.at(force.at), 2.2, &format!("fill=\"{COLOUR}\""));
             }
             self.draw_labels(canvas, &frame, labels);
         });
@@ -182,12 +208,12 @@ impl Loads {
             let middle = frame.at(nalgebra::center(&extent.low, &extent.high));
             let (n, t) = (group.normal, group.traction.normalize());
             let reach = if group.tangential() { 12.0 } else { group.length() * t.dot(&n).abs() };
-            let at = middle.shifted(n.x, -n.y, reach + 8.0);
+            let at = middle.shifted(n.x, -n.y, reach + 5.0);
             labels.draw(canvas, at, n, LABEL_SIZE, &group.label);
         }
         for force in &self.points {
             let n = force.outwards;
-            let at = frame.at(force.at).shifted(n.x, -n.y, force.length() + 8.0);
+            let at = frame.at(force.at).shifted(n.x, -n.y, force.length() + 5.0);
             labels.draw(canvas, at, n, LABEL_SIZE, &force.label);
         }
     }
@@ -295,37 +321,43 @@ fn entry(
 }
 
 fn draw_piece(canvas: &mut Canvas, group: &Group, from: Pixel, to: Pixel) {
+    for [tail, tip] in arrows(group, from, to) {
+        canvas.arrow(tail, tip, COLOUR);
+    }
+    if let Some([from, to]) = bar(group, from, to) {
+        canvas.line(from, to, &format!("stroke=\"{COLOUR}\" stroke-width=\"1\""));
+    }
+}
+
+/// Tails and tips of the arrows on a loaded edge.
+fn arrows(group: &Group, from: Pixel, to: Pixel) -> Vec<[Pixel; 2]> {
     let (t, n) = (group.traction, group.normal);
     let length = group.length();
     let mut count = 1.0;
     while from.distance(to) / (count + 1.0) > SPACING {
         count += 1.0;
     }
+    let mut arrows = Vec::new();
     let mut index = 0.5;
     while index < count {
         let foot = from.between(to, index / count);
-        let (tail, tip) = if group.tangential() {
+        arrows.push(if group.tangential() {
             let middle = foot.shifted(n.x, -n.y, 7.0);
             let half = 0.5 * length.min(0.9 * from.distance(to));
-            (middle.shifted(-t.x, t.y, half), middle.shifted(t.x, -t.y, half))
+            [middle.shifted(-t.x, t.y, half), middle.shifted(t.x, -t.y, half)]
         } else if t.dot(&n) < 0.0 {
-            (foot.shifted(-t.x, t.y, length), foot)
+            [foot.shifted(-t.x, t.y, length), foot]
         } else {
-            (foot, foot.shifted(t.x, -t.y, length))
-        };
-        canvas.arrow(tail, tip, COLOUR);
+            [foot, foot.shifted(t.x, -t.y, length)]
+        });
         index += 1.0;
     }
-    if t.dot(&n) < 0.0 && !group.tangential() {
-        let bar = [from, to].map(|end| end.shifted(-t.x, t.y, length));
-        canvas.line(bar[0], bar[1], &format!("stroke=\"{COLOUR}\" stroke-width=\"1\""));
-    }
+    arrows
 }
 
-fn draw_force(canvas: &mut Canvas, force: &Force, at: Pixel) {
-    let n = force.outwards;
-    let far = at.shifted(n.x, -n.y, force.length());
-    let (tail, tip) = if force.pulls() { (at, far) } else { (far, at) };
-    canvas.arrow(tail, tip, COLOUR);
-    canvas.circle(at, 2.2, &format!("fill=\"{COLOUR}\""));
+/// The line that joins the tails of arrows which press.
+fn bar(group: &Group, from: Pixel, to: Pixel) -> Option<[Pixel; 2]> {
+    let t = group.traction;
+    (t.dot(&group.normal) < 0.0 && !group.tangential())
+        .then(|| [from, to].map(|end| end.shifted(-t.x, t.y, group.length())))
 }

@@ -31,7 +31,9 @@ pub fn scene(title: &str, model: &Model) -> String {
     marks::blocks(&mut sheet, model, &style);
     marks::supports(&mut sheet, model);
     draw_joints(&mut sheet, model, brick);
-    loads.draw(&mut sheet, model, &mut Labels::default());
+    let mut labels = Labels::within(sheet.room());
+    loads.mark(&sheet.frame, &mut labels);
+    loads.draw(&mut sheet, model, &mut labels);
     draw_names(&mut sheet, model);
     draw_gravity(&mut sheet, model);
     sheet.length_bar(units);

@@ -7,7 +7,7 @@ use crate::report::format::InUnits;
 use crate::report::joints::{self, JointForce};
 use crate::report::svg::canvas::Pixel;
 use crate::report::svg::labels::Labels;
-use crate::report::svg::sheet::{Margins, Sheet, label_room};
+use crate::report::svg::sheet::{Frame, Margins, Sheet, label_room};
 
 const COLOUR: &str = "#1b7837";
 const LONGEST: f64 = 36.0;
@@ -27,6 +27,14 @@ struct Reaction {
     outwards: Vector2<f64>,
     length: f64,
     label: String,
+}
+
+impl Reaction {
+    /// Tail and tip.
+    fn arrow(&self, frame: &Frame) -> [Pixel; 2] {
+        let (tip, n) = (frame.at(self.at), self.outwards);
+        [tip.shifted(n.x, -n.y, self.length), tip]
+    }
 }
 
 impl Reactions {
@@ -58,6 +66,13 @@ impl Reactions {
         margins
     }
 
+    /// Keeps labels away from all arrows.
+    pub(super) fn mark(&self, frame: &Frame, labels: &mut Labels) {
+        for [tail, tip] in self.0.iter().map(|it| it.arrow(frame)) {
+            labels.avoid(tail, tip);
+        }
+    }
+
     pub(super) fn draw(&self, sheet: &mut Sheet, labels: &mut Labels) {
         if self.0.is_empty() {
             return;
@@ -65,14 +80,15 @@ impl Reactions {
         let frame = sheet.frame;
         sheet.canvas.group("class=\"reactions\"", |canvas| {
             for it in &self.0 {
-                let (tip, n) = (frame.at(it.at), it.outwards);
-                canvas.arrow(tip.shifted(n.x, -n.y, it.length), tip, COLOUR);
+                let [tail, tip] = it.arrow(&frame);
+                canvas.arrow(tail, tip, COLOUR);
             }
         });
         sheet.canvas.group(&format!("class=\"reactions\" fill=\"{COLOUR}\""), |canvas| {
             for it in &self.0 {
                 let n = it.outwards;
-                let at = frame.at(it.at).shifted(n.x, -n.y, it.length + 7.0);
+                let [tail, _] = it.arrow(&frame);
+                let at = tail.shifted(n.x, -n.y, 4.0);
                 labels.draw(canvas, at, n, LABEL, &it.label);
             }
         });
