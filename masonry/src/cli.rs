@@ -6,6 +6,7 @@
 mod end;
 mod limit;
 mod new;
+mod page;
 mod progress;
 mod study;
 
@@ -15,7 +16,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand};
 
 use crate::analysis::checkpoint::{Checkpoint, CheckpointError};
-use crate::analysis::outcome::Outcome;
+use crate::analysis::outcome::{Frame, Outcome};
 use crate::analysis::solve::Run;
 use crate::model::Model;
 use crate::plan::Plan;
@@ -76,6 +77,9 @@ struct SolveArgs {
     /// Go on from `checkpoint.json` in that directory, which every step of a load history writes.
     #[arg(long)]
     resume: bool,
+    /// Also write the report as one page of HTML, with pictures to choose from; opens without a network.
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
     /// Print one JSON object instead of the report.
     #[arg(long)]
     json: bool,
@@ -121,17 +125,20 @@ fn plan(args: &PlanArgs) -> Result<u8, Failure> {
 
 fn solve(args: &SolveArgs) -> Result<u8, Failure> {
     let scene = on_route(Scene::read(&args.scene)?, args.route);
-    let Ran { outcome, mut files, end } = run_steps(&scene, args)?;
+    let Ran { outcome, frames, mut files, end } = run_steps(&scene, args)?;
     let options = Options { reference: ReferenceLines::of(&scene), ..Options::default() };
     let written = report::write_all(&outcome, &args.out, &options);
     // What was computed is printed even when a file could not be written.
     files.extend_from_slice(written.as_deref().unwrap_or_default());
+    let page = || report::page::solved(&outcome, &frames, options.reference.as_ref());
+    let page = page::write(args.report.as_deref(), page, &mut files);
     if args.json {
         print(&json::result(&outcome, &names(&files))?)?;
     } else {
         print(&format!("{}\n{}", table::report(&outcome), listing(&files)))?;
     }
     written?;
+    page?;
     end?;
     let solved = outcome.solve.status == lcp::Status::Solved;
     Ok(if solved { SOLVED } else { NOT_SOLVED })
@@ -140,6 +147,8 @@ fn solve(args: &SolveArgs) -> Result<u8, Failure> {
 /// What became of all steps.
 struct Ran {
     outcome: Outcome,
+    /// The steps that a page has pictures of, if one is asked for.
+    frames: Vec<Frame>,
     /// The checkpoint, if one was written.
     files: Vec<PathBuf>,
     /// What went wrong after a step that was solved.
@@ -156,7 +165,7 @@ fn run_steps(scene: &Scene, args: &SolveArgs) -> Result<Ran, Failure> {
         }
         run = run.resume(&Checkpoint::read(&path)?)?;
     }
-    let (mut files, mut end) = (Vec::new(), Ok(()));
+    let (mut frames, mut files, mut end) = (Vec::new(), Vec::new(), Ok(()));
     loop {
         match run.advance(&mut |event| progress.show(event)) {
             Ok(true) => {}
@@ -167,6 +176,9 @@ fn run_steps(scene: &Scene, args: &SolveArgs) -> Result<Ran, Failure> {
                 break;
             }
         }
+        let steps = run.steps();
+        let is_shown = |it: &Frame| report::page::is_framed(it.position, steps);
+        frames.extend(args.report.as_ref().and_then(|_| run.frame()).filter(is_shown));
         let Some(checkpoint) = run.checkpoint() else { continue };
         let written = std::fs::create_dir_all(&args.out)
             .map_err(|source| CheckpointError::Write { path: path.clone(), source })
@@ -177,7 +189,7 @@ fn run_steps(scene: &Scene, args: &SolveArgs) -> Result<Ran, Failure> {
         }
     }
     progress.clear();
-    Ok(Ran { outcome: run.finish(), files, end })
+    Ok(Ran { outcome: run.finish(), frames, files, end })
 }
 
 /// The scene with another route, if one is asked for; whether its keys fit is checked with the scene.

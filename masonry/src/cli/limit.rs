@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::end::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
+use super::page;
 use crate::analysis::limit::{Answer, Associative, Laws, Path, least_thickness, limit_by, ranges};
-use crate::report::limit as output;
+use crate::report::{self, limit as output};
 use crate::scene::Scene;
 
 /// The law of friction that a limit load is asked of.
@@ -49,6 +50,9 @@ pub(super) struct LimitArgs {
     /// The directory to write pictures into, if any; created when missing.
     #[arg(long, conflicts_with = "range")]
     out: Option<PathBuf>,
+    /// Also write the report as one page of HTML, with pictures to choose from; opens without a network.
+    #[arg(long, value_name = "FILE", conflicts_with = "range")]
+    report: Option<PathBuf>,
     /// Print one JSON object instead of the report.
     #[arg(long)]
     json: bool,
@@ -71,13 +75,15 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
         None => Ok(Vec::new()),
     };
     // What was computed is printed even when a file could not be written.
-    let files = written.as_deref().unwrap_or_default();
+    let mut files = written.as_deref().unwrap_or_default().to_vec();
+    let page = page::write(args.report.as_deref(), || report::page::limit(&limit), &mut files);
     if args.json {
-        print(&output::json(&limit, &names(files))?)?;
+        print(&output::json(&limit, &names(&files))?)?;
     } else {
-        print(&format!("{}\n{}", output::table(&limit), listing(files)))?;
+        print(&format!("{}\n{}", output::table(&limit), listing(&files)))?;
     }
     written?;
+    page?;
     let is_known = |it: &Associative| matches!(it.answer, Answer::Fails | Answer::Unlimited);
     let by_path = |path: &Path| path.decided && path.load_factor.is_some();
     let solved =
@@ -98,12 +104,14 @@ fn thickness(scene: &Scene, arch: &str, args: &LimitArgs) -> Result<u8, Failure>
         Some(out) => output::write_thickness(&found, out),
         None => Ok(Vec::new()),
     };
-    let files = written.as_deref().unwrap_or_default();
+    let mut files = written.as_deref().unwrap_or_default().to_vec();
+    let page = page::write(args.report.as_deref(), || report::page::thickness(&found), &mut files);
     if args.json {
-        print(&output::thickness_json(&found, &names(files))?)?;
+        print(&output::thickness_json(&found, &names(&files))?)?;
     } else {
-        print(&format!("{}\n{}", output::thickness_table(&found), listing(files)))?;
+        print(&format!("{}\n{}", output::thickness_table(&found), listing(&files)))?;
     }
     written?;
+    page?;
     Ok(if found.proved { SOLVED } else { NOT_SOLVED })
 }

@@ -20,6 +20,11 @@ pub enum Yield {
 }
 
 impl Yield {
+    /// Whether pictures mark it with a number: what comes apart is seen without.
+    pub fn is_marked(self) -> bool {
+        self != Self::Opens
+    }
+
     /// What a reader is told: `hinge`, `slides`, `opens`.
     pub fn name(self) -> &'static str {
         match self {

@@ -162,7 +162,7 @@ pub(super) fn fixed(value: f64) -> String {
 
 /// Text with the characters escaped that mean something in XML; control characters, which XML
 /// forbids, become spaces.
-pub(super) fn escape(text: &str) -> String {
+pub(in crate::report) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
         match character {

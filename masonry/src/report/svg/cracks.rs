@@ -23,11 +23,24 @@ const PIECES: usize = 6;
 /// slid have a line of their own colour. `None` where no joint has opened or slid.
 pub fn cracks(title: &str, model: &Model, contacts: &[ContactState]) -> Option<String> {
     let openings = joints::openings(model, contacts);
+    (!openings.is_empty()).then(|| coloured(title, model, contacts, widest(model, contacts)))
+}
+
+/// The width \[m\] of the widest crack; zero where all joints are closed.
+pub(in crate::report) fn widest(model: &Model, contacts: &[ContactState]) -> f64 {
+    joints::openings(model, contacts).iter().map(|it| it.widest).fold(0.0, f64::max)
+}
+
+/// The same in the colours of a widest crack of all that are compared.
+pub(in crate::report) fn coloured(
+    title: &str,
+    model: &Model,
+    contacts: &[ContactState],
+    widest_of_all: f64,
+) -> String {
+    let openings = joints::openings(model, contacts);
     let widest = openings.iter().map(|it| it.widest).fold(0.0, f64::max);
     let slip = openings.iter().map(|it| it.slip).fold(0.0, f64::max);
-    if openings.is_empty() {
-        return None;
-    }
     let mut sheet = Sheet::new(&format!("{title}: cracks"), marks::bounds(model), Margins::HATCH);
     let frame = sheet.frame;
     let brick = marks::brick_size(model, &frame);
@@ -41,19 +54,28 @@ pub fn cracks(title: &str, model: &Model, contacts: &[ContactState]) -> Option<S
     let width = (0.07 * brick).clamp(1.0, 4.5);
     draw_slips(&mut sheet, model, &openings, slip, width);
     if widest > 0.0 {
-        draw_widths(&mut sheet, model, &openings, widest, width);
+        draw_widths(&mut sheet, model, &openings, [widest, widest_of_all], width);
+    }
+    if openings.is_empty() {
+        sheet.entry("no joint has opened or slid", |_| {});
     }
     sheet.length_bar(InUnits(model.units));
-    Some(sheet.finish())
+    sheet.finish()
 }
 
 fn millimetres(metres: f64) -> String {
     significant(1e3 * metres, 3)
 }
 
-fn draw_widths(sheet: &mut Sheet, model: &Model, openings: &[Opening], widest: f64, width: f64) {
+fn draw_widths(
+    sheet: &mut Sheet,
+    model: &Model,
+    openings: &[Opening],
+    [widest, widest_of_all]: [f64; 2],
+    width: f64,
+) {
     let frame = sheet.frame;
-    let round = round_down(1e3 * widest) * 1e-3;
+    let round = round_down(1e3 * widest_of_all) * 1e-3;
     let class_of =
         |value: f64| CLASSES.iter().rposition(|least| value >= least * round * (1.0 - 1e-9));
     let mut pieces: Vec<Vec<(Pixel, Pixel)>> = vec![Vec::new(); 1 + CLASSES.len()];
@@ -90,12 +112,16 @@ fn draw_widths(sheet: &mut Sheet, model: &Model, openings: &[Opening], widest: f
         let least = millimetres(CLASSES[index] * round);
         let text = match CLASSES.get(index + 1) {
             Some(most) => format!("crack of {least} to {} mm", millimetres(most * round)),
+            None if widest < widest_of_all => format!("crack of {least} mm and more"),
             None => format!("crack of {least} mm and more, widest {}\u{a0}mm", millimetres(widest)),
         };
         sheet.entry(&text, |symbol| {
             let style = format!("stroke=\"{}\" stroke-width=\"4\"", WIDTHS[index]);
             symbol.line(Pixel::new(-22.0, 0.0), Pixel::new(22.0, 0.0), &style);
         });
+    }
+    if widest < widest_of_all {
+        sheet.entry(&format!("widest here {}\u{a0}mm", millimetres(widest)), |_| {});
     }
     if !pieces[0].is_empty() {
         let text = format!("below {} mm", millimetres(CLASSES[0] * round));

@@ -8,7 +8,7 @@ use super::canvas::{Canvas, Pixel, fixed};
 use super::labels::Labels;
 use super::loads::Loads;
 use super::marks::{self, BRICK, COMPRESSION, OUTLINE, TENSION};
-use super::sheet::{Frame, Sheet};
+use super::sheet::{Bounds, Frame, Margins, Sheet};
 use crate::model::{Body, Model};
 use crate::report::format::InUnits;
 use crate::report::joints::{self, JointForce};
@@ -36,6 +36,33 @@ const MIDDLE_THIRD: f64 = 1.0 / 6.0 + 1e-9;
 /// Half a joint, with room for rounding errors.
 const ENDS: f64 = 0.5 + 1e-6;
 
+/// What pictures of forces share, so that those of a load history can be compared.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::report) struct Shared {
+    /// The largest resultant \[N\].
+    largest: f64,
+    bounds: Bounds,
+    /// Room for the arrows and labels of all.
+    margins: Margins,
+}
+
+impl Shared {
+    /// Of structures and their contact forces.
+    pub(in crate::report) fn of(states: &[(&Model, &[ContactState])]) -> Self {
+        let (mut largest, mut margins) = (0.0_f64, Margins::HATCH);
+        for (model, contacts) in states {
+            let units = InUnits(model.units);
+            let all = joints::forces(model, contacts);
+            largest = all.iter().map(|it| it.force.norm()).fold(largest, f64::max);
+            let reactions = Reactions::of(model, &all, units);
+            margins = margins.and(Loads::of(model, units).margins()).and(reactions.margins());
+        }
+        let all = states.iter().map(|(model, _)| marks::bounds(model));
+        let bounds = Bounds::of(all.flat_map(|bounds| [bounds.low, bounds.high]));
+        Self { largest, bounds, margins }
+    }
+}
+
 /// The structure with the resultant of every joint as a stroke in its direction, through the place where it crosses the
 /// joint; the length goes with the force.
 ///
@@ -43,12 +70,21 @@ const ENDS: f64 = 0.5 + 1e-6;
 /// line of thrust. Dots are hollow where the resultant has left the middle third. Joints in colour use much of their
 /// friction. Supports have their reactions. Loads are those of the model.
 pub fn forces(title: &str, model: &Model, contacts: &[ContactState]) -> String {
+    shared(title, model, contacts, &Shared::of(&[(model, contacts)]))
+}
+
+/// The same, as long and as wide as others.
+pub(in crate::report) fn shared(
+    title: &str,
+    model: &Model,
+    contacts: &[ContactState],
+    by: &Shared,
+) -> String {
     let units = InUnits(model.units);
     let loads = Loads::of(model, units);
     let all = joints::forces(model, contacts);
     let reactions = Reactions::of(model, &all, units);
-    let margins = loads.margins().and(reactions.margins());
-    let mut sheet = Sheet::new(&format!("{title}: forces"), marks::bounds(model), margins);
+    let mut sheet = Sheet::new(&format!("{title}: forces"), by.bounds, by.margins);
     let brick = marks::brick_size(model, &sheet.frame);
     let outline = fixed(marks::outline_width(brick));
     let style = format!(
@@ -57,7 +93,7 @@ pub fn forces(title: &str, model: &Model, contacts: &[ContactState]) -> String {
     );
     marks::blocks(&mut sheet, model, &style);
     marks::supports(&mut sheet, model);
-    let largest = all.iter().map(|it| it.force.norm()).fold(0.0, f64::max);
+    let largest = by.largest;
     let least = if all.len() > MANY { LEAST_OF_MANY } else { LEAST };
     let large: Vec<&JointForce> =
         all.iter().filter(|it| it.force.norm() > least * largest).collect();

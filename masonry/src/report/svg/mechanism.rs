@@ -115,7 +115,7 @@ fn draw_yielding(
     let frame = sheet.frame;
     let radius = (0.09 * brick).clamp(1.2, 4.5);
     let marked: Vec<(usize, &YieldingJoint)> =
-        (1..).zip(joints.iter().filter(|it| it.does != Yield::Opens)).collect();
+        (1..).zip(joints.iter().filter(|it| it.does.is_marked())).collect();
     let place = |it: &YieldingJoint| frame.at(it.at + it.rate * factor);
     let mut labels = Labels::within(sheet.room());
     for (_, it) in &marked {

@@ -93,6 +93,16 @@ pub fn principal_stresses(
     state: &State,
     reference: Option<&ReferenceLines>,
 ) -> String {
+    compared(title, model, state, (reference, large(&state.stresses)))
+}
+
+/// The same with strokes as long as those of others: a large stress and the largest one of all.
+pub(in crate::report) fn compared(
+    title: &str,
+    model: &Model,
+    state: &State,
+    (reference, large): (Option<&ReferenceLines>, [f64; 2]),
+) -> String {
     let title = format!("{title}: principal stresses");
     let mut sheet = Sheet::new(&title, marks::bounds(model), Margins::HATCH);
     let units = InUnits(model.units);
@@ -104,7 +114,7 @@ pub fn principal_stresses(
          stroke-linejoin=\"round\""
     );
     marks::blocks(&mut sheet, model, &style);
-    draw_strokes(&mut sheet, model, state, units);
+    draw_strokes(&mut sheet, model, state, (units, large));
     marks::supports(&mut sheet, model);
     if let Some(lines) = reference {
         draw_reference(&mut sheet, model, lines);
@@ -114,11 +124,16 @@ pub fn principal_stresses(
     sheet.finish()
 }
 
-fn draw_strokes(sheet: &mut Sheet, model: &Model, state: &State, units: InUnits) {
+fn draw_strokes(
+    sheet: &mut Sheet,
+    model: &Model,
+    state: &State,
+    (units, large): (InUnits, [f64; 2]),
+) {
     let frame = sheet.frame;
     let element = element_size(model, state) * frame.scale;
     let width = (0.055 * element).clamp(0.3, 1.8);
-    let pixels_per_pascal = stroke_scale(&state.stresses, element);
+    let pixels_per_pascal = stroke_scale(large, element);
     for (name, colour, compressed) in
         [("compression", COMPRESSION, true), ("tension", TENSION, false)]
     {
@@ -175,16 +190,21 @@ fn draw_stroke(canvas: &mut Canvas, frame: &Frame, centre: Point2<f64>, half: f6
 
 /// Pixels per pascal: large stresses fill an element, and the largest overlap the next one or two
 /// where a few are far above the rest.
-fn stroke_scale(stresses: &[ElementStress], element: f64) -> f64 {
+fn stroke_scale([large, largest]: [f64; 2], element: f64) -> f64 {
+    if largest > 0.0 { (element / large).min(2.2 * element / largest) } else { 1.0 }
+}
+
+/// The size that a twentieth of all stresses exceed, and the largest \[Pa\]; zeros where there are none.
+pub(in crate::report) fn large(stresses: &[ElementStress]) -> [f64; 2] {
     let mut sizes: Vec<f64> = stresses
         .iter()
         .map(|it| it.principal.sigma_1.abs().max(it.principal.sigma_2.abs()))
         .filter(|size| *size > 0.0 && size.is_finite())
         .collect();
     sizes.sort_by(f64::total_cmp);
-    match (sizes.last(), sizes.get(sizes.len() * 19 / 20)) {
-        (Some(&largest), Some(&large)) => (element / large).min(2.2 * element / largest),
-        _ => 1.0,
+    match (sizes.get(sizes.len() * 19 / 20), sizes.last()) {
+        (Some(&large), Some(&largest)) => [large, largest],
+        _ => [0.0; 2],
     }
 }
 
