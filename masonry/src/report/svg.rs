@@ -9,11 +9,13 @@ pub(super) mod curve;
 mod deformed;
 #[cfg(feature = "study")]
 pub mod diagram;
+mod dimensions;
 mod forces;
 mod history;
 mod labels;
 mod loads;
 mod marks;
+mod materials;
 mod mechanism;
 pub(super) mod pictures;
 mod scene;

@@ -4,7 +4,7 @@ use super::tables::{self, Cell, Table};
 use super::{Choice, Page, Step};
 use crate::analysis::outcome::{Frame, Outcome};
 use crate::history::History;
-use crate::report::format::{InUnits, block_name, significant};
+use crate::report::format::{InUnits, block_name, significant, stress_text};
 use crate::report::hinges::yielding;
 use crate::report::joints;
 use crate::report::summary::{
@@ -146,11 +146,11 @@ fn figures(outcome: &Outcome) -> Vec<(String, String)> {
 
 fn figures_of_state(outcome: &Outcome, state: &State) -> Vec<(&'static str, String)> {
     let model = &outcome.model;
-    let units = InUnits(model.units);
     let mut list = Vec::new();
     if let Some(it) = largest_displacement(model, state).filter(|it| it.value != 0.0) {
-        let (value, block) = (units.length_text(it.value), block_name(model, it.block));
-        list.push(("largest displacement", format!("u_{} = {value}, {block}", it.component)));
+        let (value, block) = (significant(1e3 * it.value, 4), block_name(model, it.block));
+        let text = format!("u_{} = {value}\u{a0}mm, {block}", it.component);
+        list.push(("largest displacement", text));
     }
     let openings = joints::openings(model, &state.contacts);
     let widest = openings.iter().map(|it| it.widest).fold(0.0, f64::max);
@@ -163,7 +163,7 @@ fn figures_of_state(outcome: &Outcome, state: &State) -> Vec<(&'static str, Stri
     let (compression, tension) = extreme_stresses(state);
     for (name, it) in [("largest compression", compression), ("largest tension", tension)] {
         if let Some(it) = it {
-            let value = units.stress_text(it.value.abs());
+            let value = stress_text(it.value.abs());
             list.push((name, format!("{value}, {}", block_name(model, it.block))));
         }
     }

@@ -151,6 +151,13 @@ pub(super) fn joints(title: &str, model: &Model, contacts: &[ContactState]) -> O
     table.if_any()
 }
 
+/// Rates below this part of the largest are rounding errors.
+const NO_RATE: f64 = 1e-9;
+
+fn rate(it: f64) -> f64 {
+    if it > NO_RATE { it } else { 0.0 }
+}
+
 /// The joints that yield in a mechanism, with the numbers of its picture.
 pub(super) fn yielding(title: &str, model: &Model, joints: &[YieldingJoint]) -> Option<Table> {
     let heads = ["number", "between", "and", "what it does", "opens", "slides"];
@@ -168,8 +175,8 @@ pub(super) fn yielding(title: &str, model: &Model, joints: &[YieldingJoint]) -> 
         row.extend(sides(model, it.joint.index()));
         row.extend([
             Cell::words(it.does.name()),
-            Cell::number(it.opens, 3),
-            Cell::number(it.slides, 3),
+            Cell::number(rate(it.opens), 3),
+            Cell::number(rate(it.slides), 3),
         ]);
         table.row(row);
     }

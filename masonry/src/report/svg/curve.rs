@@ -47,10 +47,13 @@ struct Axis {
     low: f64,
     high: f64,
     pixels: [f64; 2],
+    /// Whether all values are whole numbers.
+    is_count: bool,
 }
 
 impl Axis {
     fn around(values: impl Iterator<Item = f64> + Clone, pixels: [f64; 2]) -> Self {
+        let is_count = values.clone().all(|value| value.fract() == 0.0);
         let low = values.clone().fold(f64::INFINITY, f64::min);
         let high = values.fold(f64::NEG_INFINITY, f64::max);
         // Zero belongs to an axis that would begin or end near it.
@@ -64,7 +67,7 @@ impl Axis {
         let room = if span > 0.0 { 0.04 * span } else { 0.5 * high.abs().max(1.0) };
         let below = if low == 0.0 && span > 0.0 { 0.0 } else { room };
         let above = if high == 0.0 && span > 0.0 { 0.0 } else { room };
-        Self { low: low - below, high: high + above, pixels }
+        Self { low: low - below, high: high + above, pixels, is_count }
     }
 
     fn at(&self, value: f64) -> f64 {
@@ -72,9 +75,10 @@ impl Axis {
         from + (to - from) * (value - self.low) / (self.high - self.low)
     }
 
-    /// Round values with their texts.
+    /// Round values with their texts; of what is counted, whole ones.
     fn ticks(&self) -> Vec<(f64, String)> {
         let least = (self.high - self.low) / TICKS;
+        let least = if self.is_count { least.max(1.0) } else { least };
         let mut step = round_down(least);
         // The next of 1, 2, 5 that is not smaller.
         for larger in [2.0, 2.5, 5.0, 10.0] {
@@ -190,14 +194,17 @@ fn draw(canvas: &mut Canvas, chart: &Chart, top: f64) -> f64 {
 /// Where stages begin, with their names where there is room.
 fn draw_stages(canvas: &mut Canvas, chart: &Chart, x: &Axis, [top, bottom]: [f64; 2]) {
     let style = "stroke=\"#8a8a8a\" stroke-dasharray=\"3 3\"";
-    let mut free = f64::NEG_INFINITY;
+    // Two rows, which are free from here on.
+    let mut free = [f64::NEG_INFINITY; 2];
     for (value, name) in &chart.stages {
         let at = x.at(*value);
         canvas.line(Pixel::new(at, top), Pixel::new(at, bottom), style);
-        let width = text_width(name, TEXT_SIZE);
-        if at + 4.0 > free && at + 4.0 + width < x.pixels[1] {
-            canvas.rimmed_text(Pixel::new(at + 4.0, top + 14.0), Anchor::Start, TEXT_SIZE, name);
-            free = at + 10.0 + width;
+        let end = at + 4.0 + text_width(name, TEXT_SIZE);
+        let rows = free.iter_mut().zip([top + 14.0, top + 14.0 + LINE]);
+        let place = rows.into_iter().find(|(free, _)| at >= **free && end < x.pixels[1]);
+        if let Some((free, y)) = place {
+            canvas.rimmed_text(Pixel::new(at + 4.0, y), Anchor::Start, TEXT_SIZE, name);
+            *free = end + 6.0;
         }
     }
 }
@@ -208,7 +215,8 @@ mod tests {
 
     #[test]
     fn ticks_are_round_few_and_within_the_axis() {
-        for (low, high) in [(0.0, 11.0), (-3.2e-3, 1.7e-3), (0.0, 0.9), (120.0, 180.0), (0.0, 7e5)]
+        for (low, high) in
+            [(0.0, 11.0), (-3.2e-3, 1.7e-3), (0.0, 0.9), (1.0, 4.0), (120.0, 180.5), (0.0, 7e5)]
         {
             let axis = Axis::around([low, high].into_iter(), [0.0, 100.0]);
             let ticks = axis.ticks();

@@ -8,7 +8,7 @@ use super::marks;
 use super::sheet::{Bounds, Frame, Margins, Sheet, label_room};
 use crate::geometry;
 use crate::model::Model;
-use crate::report::format::{InUnits, acceleration_text, significant};
+use crate::report::format::{InUnits, acceleration_text, significant, stress_text};
 use crate::report::summary::loaded_part;
 
 const COLOUR: &str = "#a02020";
@@ -106,7 +106,7 @@ impl Loads {
             Acceleration { value, label }
         };
         Self {
-            edges: groups(model, units),
+            edges: groups(model),
             points: forces(model, units),
             accelerations: accelerations.map(|it| acceleration(it.value)).collect(),
         }
@@ -192,8 +192,7 @@ impl Loads {
         }
         let units = InUnits(model.units);
         let tractions = self.edges.iter().map(|it| it.traction.norm());
-        let number = |value| significant(units.stress(value), 4);
-        entry(sheet, "edge load", tractions, number, |value| units.stress_text(value));
+        entry(sheet, "edge load", tractions, stress_text, stress_text);
         let forces = self.points.iter().map(|it| it.value.norm());
         let number = |value| significant(units.force(value), 4);
         entry(sheet, "point load", forces, number, |value| units.force_text(value));
@@ -241,7 +240,7 @@ impl Loads {
 }
 
 /// All edge loads that are not zero, grouped.
-fn groups(model: &Model, units: InUnits) -> Vec<Group> {
+fn groups(model: &Model) -> Vec<Group> {
     let near = 1e-9 * marks::bounds(model).diagonal();
     let mut groups: Vec<Group> = Vec::new();
     for block in &model.blocks {
@@ -260,7 +259,7 @@ fn groups(model: &Model, units: InUnits) -> Vec<Group> {
             if let Some(group) = same {
                 group.pieces.push((from, to));
             } else {
-                let label = units.stress_text(load.traction.norm());
+                let label = stress_text(load.traction.norm());
                 let traction = load.traction;
                 groups.push(Group { pieces: vec![(from, to)], traction, normal, part: 1.0, label });
             }

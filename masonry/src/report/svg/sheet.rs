@@ -100,7 +100,8 @@ pub(super) struct Sheet {
     legend: Vec<Entry>,
     /// What a page is told about the picture: attributes of the file.
     data: String,
-    /// Where the drawing may be with all its marks: left, top, right and bottom.
+    /// Where the structure is drawn, and where it may be with all its marks: left, top, right and bottom.
+    drawn: [f64; 4],
     room: [f64; 4],
     legend_below: bool,
 }
@@ -135,6 +136,7 @@ impl Sheet {
             title_lines,
             legend: Vec::new(),
             data: String::new(),
+            drawn: [origin.x, origin.y - drawn.y, origin.x + drawn.x, origin.y],
             room: [
                 EDGE,
                 EDGE + titles,
@@ -143,6 +145,11 @@ impl Sheet {
             ],
             legend_below,
         }
+    }
+
+    /// Where everything within the bounds is drawn: left, top, right and bottom.
+    pub(super) fn drawn(&self) -> [f64; 4] {
+        self.drawn
     }
 
     /// Where the drawing may be with all its marks: left, top, right and bottom.

@@ -7,7 +7,7 @@ use super::marks::{self, BRICK, COMPRESSION, OUTLINE, TENSION};
 use super::sheet::{Frame, Margins, Sheet, draw_bar};
 use crate::geometry;
 use crate::model::Model;
-use crate::report::format::{InUnits, round_down};
+use crate::report::format::{InUnits, round_down, stress_text};
 use crate::report::summary::extreme_stresses;
 use crate::scene::bond::{self, JointThickness, PlacedBrick};
 use crate::scene::{Scene, Wall};
@@ -168,15 +168,14 @@ fn draw_strokes(
     for (name, colour, extreme) in
         [("compression", COMPRESSION, compression), ("tension", TENSION, tension)]
     {
-        let most = extreme.map_or("none".to_owned(), |it| {
-            format!("largest {}", units.stress_text(it.value.abs()))
-        });
+        let most = extreme
+            .map_or("none".to_owned(), |it| format!("largest {}", stress_text(it.value.abs())));
         sheet.entry(&format!("{name}, {most}"), |symbol| {
             let style = format!("stroke=\"{colour}\" stroke-width=\"{}\"", fixed(width.max(1.2)));
             symbol.line(Pixel::new(-22.0, 0.0), Pixel::new(22.0, 0.0), &style);
         });
     }
-    sheet.entry(&format!("stroke of {}", units.stress_text(round)), |symbol| {
+    sheet.entry(&format!("stroke of {}", stress_text(round)), |symbol| {
         draw_bar(symbol, 0.5 * round * pixels_per_pascal, "#222222", 1.4);
     });
 }
