@@ -248,6 +248,8 @@ fn the_lines_of_the_bond_stay_in_the_wall() {
     assert_eq!(lines.origins, [Point2::new(0.5, 0.0), Point2::new(1.0, 0.0)]);
     let door = |k: usize| if k < 4 { vec![1.0, 1.0, -2.0, 1.0, 1.0] } else { whole(k) };
     assert!(ReferenceLines::of(&scene((0..8).map(door).collect())).is_none());
+    // Joints above each other.
+    assert!(ReferenceLines::of(&scene(vec![vec![1.0; 6]; 8])).is_none());
 }
 
 #[test]

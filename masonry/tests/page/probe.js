@@ -18,9 +18,11 @@
     one(id).dispatchEvent(new Event("input"));
   };
   const corner = () => {
-    const block = all("figure.now .frame.now .deformed polygon")[0];
-    const first = (list) => list.split(/[ ,]+/).slice(0, 2).map(Number);
-    return { before: first(block.dataset.before), now: first(block.getAttribute("points")) };
+    // At the top, where it moves.
+    const block = all("figure.now .frame.now .deformed polygon").at(-1);
+    const last = (list) => list.split(/[ ,]+/).slice(-2).map(Number);
+    const legend = all("figure.now .frame.now .legend text").map((it) => it.textContent);
+    return { legend, before: last(block.dataset.before), now: last(block.getAttribute("points")) };
   };
   const column = (title, head) => {
     const table = all("section.table").find((it) => it.querySelector("h2").textContent === title);

@@ -59,11 +59,16 @@
         const svg = one("svg", frame);
         const { magnified, amplitude } = svg.dataset;
         if (shown && (magnified || amplitude)) moveTo(svg, seen.scale);
+        const text = magnified
+          ? `magnified ${short(Number(magnified) * seen.scale)} times`
+          : `amplitude ${short(seen.scale)}`;
+        if (shown && magnified) {
+          const legend = all(".legend text", svg).find((it) => it.textContent.startsWith("magnified "));
+          if (legend) legend.textContent = text;
+        }
         if (shown && isNow) {
           one("#scales").hidden = !(magnified || amplitude);
-          one("#scales output").textContent = magnified
-            ? `magnified ${short(Number(magnified) * seen.scale)} times`
-            : `amplitude ${short(seen.scale)}`;
+          one("#scales output").textContent = text;
         }
       }
     }

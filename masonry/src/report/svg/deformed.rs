@@ -148,17 +148,20 @@ fn add_legend(sheet: &mut Sheet, units: InUnits, by: &Magnified, model: &Model, 
         symbol.rectangle(Pixel::new(-16.0, -6.0), 32.0, 12.0, &style);
     });
     let largest = largest_displacement(model, state).map_or(0.0, |it| it.value.abs());
+    let factor = significant(by.factor, 4);
     let text = match (largest > 0.0, by.for_page) {
-        (true, false) => {
-            format!("deformed, displacements magnified {} times", significant(by.factor, 4))
-        }
-        (true, true) => "deformed, displacements magnified".to_owned(),
+        (true, false) => format!("deformed, displacements magnified {factor} times"),
+        (true, true) => "deformed".to_owned(),
         (false, _) => "no displacement".to_owned(),
     };
     sheet.entry(&text, |symbol| {
         let style = format!("fill=\"{FILLED}\" stroke=\"{OUTLINE}\" stroke-width=\"1\"");
         symbol.rectangle(Pixel::new(-16.0, -6.0), 32.0, 12.0, &style);
     });
+    if largest > 0.0 && by.for_page {
+        // A line of its own, which the page changes.
+        sheet.entry(&format!("magnified {factor} times"), |_| {});
+    }
     if largest > 0.0 {
         sheet.entry(&format!("largest component {}", units.length_text(largest)), |_| {});
     }

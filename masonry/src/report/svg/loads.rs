@@ -191,12 +191,12 @@ impl Loads {
             });
         }
         let units = InUnits(model.units);
-        let tractions = self.edges.iter().map(|it| it.traction.norm());
+        let tractions = self.edges.iter().map(|it| it.traction);
         entry(sheet, "edge load", tractions, stress_text, stress_text);
-        let forces = self.points.iter().map(|it| it.value.norm());
+        let forces = self.points.iter().map(|it| it.value);
         let number = |value| significant(units.force(value), 4);
         entry(sheet, "point load", forces, number, |value| units.force_text(value));
-        let accelerations = self.accelerations.iter().map(|it| it.value.norm());
+        let accelerations = self.accelerations.iter().map(|it| it.value);
         let number = |value| significant(value, 4);
         entry(sheet, "body acceleration", accelerations, number, acceleration_text);
     }
@@ -296,26 +296,33 @@ fn forces(model: &Model, units: InUnits) -> Vec<Force> {
     forces
 }
 
-/// The legend entry of loads of these sizes, if there are any.
+/// The legend entry of these loads, if there are any.
 fn entry(
     sheet: &mut Sheet,
     name: &str,
-    sizes: impl Iterator<Item = f64> + Clone,
+    loads: impl Iterator<Item = Vector2<f64>> + Clone,
     number: impl Fn(f64) -> String,
     with_unit: impl Fn(f64) -> String,
 ) {
+    let sizes = loads.clone().map(|it| it.norm());
     let most = sizes.clone().fold(0.0, f64::max);
     let least = sizes.fold(f64::INFINITY, f64::min);
-    if most <= 0.0 {
-        return;
-    }
+    let Some(first) = loads.clone().next().filter(|_| most > 0.0) else { return };
+    // Their direction, if they have one.
+    let is_one = loads.map(|it| it.normalize()).all(|it| it.dot(&first.normalize()) > 1.0 - 1e-9);
+    let way = if is_one { first } else { Vector2::new(0.0, -1.0) };
     let text = if least < most {
         format!("{name}s, {} to {}", number(least), with_unit(most))
     } else {
         format!("{name}, {}", with_unit(most))
     };
     sheet.entry(&text, |symbol| {
-        symbol.arrow(Pixel::new(0.0, -10.0), Pixel::new(0.0, 10.0), COLOUR);
+        let middle = Pixel::new(0.0, 0.0);
+        symbol.arrow(
+            middle.shifted(-way.x, way.y, 10.0),
+            middle.shifted(way.x, -way.y, 10.0),
+            COLOUR,
+        );
     });
 }
 

@@ -61,25 +61,35 @@ impl ReferenceLines {
     }
 }
 
-/// Whether there are bricks all along the lines that rise from these places at the foot of a wall until they meet.
+/// Whether there are bricks all along the lines that rise from these places at the foot of a wall until they meet, and
+/// every whole one lies half over a joint of the course below: the lines are those of running bond.
 fn is_filled(wall: &Wall, joints: JointThickness, [left, right]: [f64; 2]) -> bool {
+    /// In lengths of a brick.
+    const NEAR: f64 = 1e-6;
     let length = wall.brick.length + joints.head;
     let bricks = bond::bricks_in_mortar(wall, joints);
-    let courses = bricks.chunk_by(|a, b| a.course == b.course);
-    courses
-        .map_while(|course| {
-            // In the middle of the height.
-            let along = (course[0].course as f64 - 0.5) * 0.5 * length;
-            (2.0 * along < right - left).then_some((course, along))
-        })
-        .all(|(course, along)| {
-            let has_brick = |x: f64| {
-                let reach =
-                    |brick: &PlacedBrick| brick.low[0] - joints.head..=brick.high[0] + joints.head;
-                course.iter().any(|brick| reach(brick).contains(&x))
-            };
-            has_brick(left + along) && has_brick(right - along)
-        })
+    let courses: Vec<&[PlacedBrick]> = bricks.chunk_by(|a, b| a.course == b.course).collect();
+    let steps = |brick: &PlacedBrick, below: &[PlacedBrick]| {
+        let middle = 0.5 * (brick.low[0] + brick.high[0]);
+        let ends = below.iter().flat_map(|it| [it.low[0] - joints.head, it.high[0] + joints.head]);
+        let mut distances = ends.map(|end| (end - middle).abs() - 0.5 * joints.head);
+        (brick.fraction - 1.0).abs() > NEAR || distances.any(|it| it.abs() <= NEAR * length)
+    };
+    let lines = courses.iter().enumerate().map_while(|(k, course)| {
+        // In the middle of the height.
+        let along = (course[0].course as f64 - 0.5) * 0.5 * length;
+        (2.0 * along < right - left).then_some((k.checked_sub(1), course, along))
+    });
+    lines.into_iter().all(|(below, course, along)| {
+        let is_laid = |x: f64| {
+            let reach =
+                |brick: &PlacedBrick| brick.low[0] - joints.head..=brick.high[0] + joints.head;
+            let mut met = course.iter().filter(|brick| reach(brick).contains(&x)).peekable();
+            met.peek().is_some()
+                && met.all(|brick| below.is_none_or(|below| steps(brick, courses[below])))
+        };
+        is_laid(left + along) && is_laid(right - along)
+    })
 }
 
 /// Principal stresses of every element as crosses whose strokes are proportional to the stresses,
