@@ -121,7 +121,7 @@ fn limit_loads_and_thicknesses_have_pages() {
     {
         assert!(page_.contains(text), "{text}");
     }
-    assert!(page_.contains("Hinges and sliding joints"));
+    assert!(page_.contains("Joints of the mechanism"));
     assert!(page_.contains("load factor along the path"));
 
     let scene = given("arch_semicircular.toml");
@@ -211,8 +211,9 @@ fn switches_sliders_and_tables_work_in_a_browser() {
     };
     let before = corner("deformed", "before");
     let (once, twice) = (corner("deformed", "now"), corner("twice", "now"));
-    assert_eq!(corner("still", "now"), before);
-    assert_ne!(once, before);
+    let distance = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+    assert!(distance(corner("still", "now"), before) < 0.02);
+    assert!(distance(once, before) > 1.0);
     for k in 0..2 {
         assert!((twice[k] - before[k] - 2.0 * (once[k] - before[k])).abs() < 0.02);
     }

@@ -14,7 +14,8 @@ pub use limit::{limit, thickness};
 pub use solved::{is_framed, solved};
 use tables::Table;
 
-use super::svg::escaped;
+use super::svg::{counted, escaped};
+use crate::model::Model;
 
 const STYLE: &str = include_str!("page/page.css");
 const SCRIPT: &str = include_str!("page/page.js");
@@ -67,32 +68,22 @@ impl Page {
     /// The text of the file.
     fn finish(&self) -> String {
         let title = escaped(&self.title);
-        let mut body = format!(
-            "<header class=\"{}\">\n<p class=\"scene\">{title}</p>\n<h1>{}</h1>\n",
-            self.verdict,
-            escaped(&self.sentence)
-        );
-        for warning in &self.warnings {
-            body += &format!("<p class=\"warning\">{}</p>\n", escaped(warning));
-        }
-        body += "</header>\n";
-        if !self.figures.is_empty() {
-            body += "<dl class=\"figures\">\n";
-            for (name, value) in &self.figures {
-                let (name, value) = (escaped(name), escaped(value));
-                body += &format!("<div><dt>{name}</dt><dd>{value}</dd></div>\n");
-            }
-            body += "</dl>\n";
-        }
-        body += &self.pictures();
-        if let Some(curves) = &self.curves {
-            body += &format!("<figure class=\"curves\">\n{curves}</figure>\n");
-        }
-        self.tables.iter().for_each(|table| body += &table.html());
-        body += &format!(
-            "<details>\n<summary>Report as text</summary>\n<pre>{}</pre>\n</details>\n",
-            text_of(&self.text)
-        );
+        let body = [
+            self.header(),
+            self.key_figures(),
+            self.controls(),
+            self.pictures.iter().map(|it| self.figure(it)).collect(),
+            if self.pictures.is_empty() { String::new() } else { "</section>\n".to_owned() },
+            self.curves.as_ref().map_or_else(String::new, |curves| {
+                format!("<figure class=\"curves\">\n{curves}</figure>\n")
+            }),
+            self.tables.iter().map(Table::html).collect(),
+            format!(
+                "<details>\n<summary>Report as text</summary>\n<pre>{}</pre>\n</details>\n",
+                text_of(&self.text)
+            ),
+        ]
+        .concat();
         format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
@@ -103,43 +94,71 @@ impl Page {
         )
     }
 
-    /// The switches and sliders, and the pictures that they choose from.
-    fn pictures(&self) -> String {
+    fn header(&self) -> String {
+        let (verdict, title) = (self.verdict, escaped(&self.title));
+        let sentence = escaped(&self.sentence);
+        let warning = |it: &String| format!("<p class=\"warning\">{}</p>\n", escaped(it));
+        let warnings: String = self.warnings.iter().map(warning).collect();
+        format!(
+            "<header class=\"{verdict}\">\n<p class=\"scene\">{title}</p>\n<h1>{sentence}</h1>\n{warnings}</header>\n"
+        )
+    }
+
+    fn key_figures(&self) -> String {
+        let figure = |(name, value): &(String, String)| {
+            let (name, value) = (escaped(name), escaped(value));
+            format!("<div><dt>{name}</dt><dd>{value}</dd></div>\n")
+        };
+        let figures: String = self.figures.iter().map(figure).collect();
+        format!("<dl class=\"figures\">\n{figures}</dl>\n")
+    }
+
+    /// The switches and sliders at the head of the pictures, if there are any.
+    fn controls(&self) -> String {
         if self.pictures.is_empty() {
             return String::new();
         }
-        let mut text = "<section id=\"pictures\">\n<div class=\"controls\">\n".to_owned();
-        text += "<div id=\"switches\" role=\"group\" aria-label=\"picture\">\n";
-        for Choice { key, name, .. } in &self.pictures {
-            text += &format!("<button type=\"button\" data-picture=\"{key}\">{name}</button>\n");
-        }
-        text += "</div>\n";
-        if self.steps.len() > 1 {
-            let last = self.steps.len() - 1;
-            text += &format!(
-                "<label id=\"steps\">step <input id=\"step\" type=\"range\" min=\"0\" max=\"{last}\" step=\"1\" \
-                 value=\"{last}\"> <output></output></label>\n"
-            );
-        }
-        text += "<label id=\"scales\">displacements <input id=\"scale\" type=\"range\" min=\"0\" max=\"2\" \
-                 step=\"0.01\" value=\"1\"> <output></output></label>\n</div>\n";
-        for Choice { key, name, pictures } in &self.pictures {
-            text += &format!("<figure data-picture=\"{key}\" aria-label=\"{name}\">\n");
-            for (index, picture) in pictures.iter().enumerate() {
-                let step = self.steps.get(index).filter(|_| pictures.len() > 1);
-                let attributes = step.map_or_else(String::new, |step| {
-                    format!(
-                        " data-step=\"{index}\" data-position=\"{}\" data-name=\"{}\"",
-                        step.position,
-                        escaped(&step.name)
-                    )
-                });
-                text += &format!("<div class=\"frame\"{attributes}>\n{picture}</div>\n");
+        let switch = |Choice { key, name, .. }: &Choice| {
+            format!("<button type=\"button\" data-picture=\"{key}\">{name}</button>\n")
+        };
+        let switches: String = self.pictures.iter().map(switch).collect();
+        let steps = match self.steps.len() {
+            0 | 1 => String::new(),
+            steps => {
+                let last = steps - 1;
+                format!(
+                    "<label id=\"steps\">step <input id=\"step\" type=\"range\" min=\"0\" max=\"{last}\" step=\"1\" \
+                     value=\"{last}\"> <output></output></label>\n"
+                )
             }
-            text += "</figure>\n";
-        }
-        text + "</section>\n"
+        };
+        format!(
+            "<section id=\"pictures\">\n<div class=\"controls\">\n\
+             <div id=\"switches\" role=\"group\" aria-label=\"picture\">\n{switches}</div>\n{steps}\
+             <label id=\"scales\">displacements <input id=\"scale\" type=\"range\" min=\"0\" max=\"2\" \
+             step=\"0.01\" value=\"1\"> <output></output></label>\n</div>\n"
+        )
     }
+
+    /// The pictures of one kind.
+    fn figure(&self, Choice { key, name, pictures }: &Choice) -> String {
+        let frame = |(index, picture): (usize, &String)| {
+            let step = self.steps.get(index).filter(|_| pictures.len() > 1);
+            let attributes = step.map_or_else(String::new, |step| {
+                let (position, name) = (step.position, escaped(&step.name));
+                format!(" data-step=\"{index}\" data-position=\"{position}\" data-name=\"{name}\"")
+            });
+            format!("<div class=\"frame\"{attributes}>\n{picture}</div>\n")
+        };
+        let frames: String = pictures.iter().enumerate().map(frame).collect();
+        format!("<figure data-picture=\"{key}\" aria-label=\"{name}\">\n{frames}</figure>\n")
+    }
+}
+
+/// How many blocks and joints there are.
+fn size(model: &Model) -> String {
+    let (blocks, joints) = (model.blocks.len(), model.joints.len());
+    format!("{}, {}", counted(blocks, "block"), counted(joints, "joint"))
 }
 
 /// Text in which lines stay lines.

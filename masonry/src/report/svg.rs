@@ -5,7 +5,7 @@
 
 mod canvas;
 mod cracks;
-pub(super) mod curve;
+mod curve;
 mod deformed;
 #[cfg(feature = "study")]
 pub mod diagram;
@@ -17,6 +17,7 @@ mod loads;
 mod marks;
 mod materials;
 mod mechanism;
+mod path;
 pub(super) mod pictures;
 mod scene;
 mod sheet;
@@ -28,7 +29,9 @@ pub use deformed::deformed;
 pub use forces::forces;
 pub(super) use history::curves;
 pub use history::history;
+pub(super) use marks::counted;
 pub use mechanism::mechanism;
 pub(super) use mechanism::mechanism_on_page;
+pub use path::path;
 pub use scene::scene;
 pub use stresses::{ReferenceLines, principal_stresses};

@@ -3,14 +3,13 @@
 use nalgebra::Vector2;
 
 use super::tables::{self, Cell, Table};
-use super::{Choice, Page};
+use super::{Choice, Page, size};
 use crate::analysis::limit::{Answer, Change, Limit, Path, Thickness};
 use crate::model::Model;
 use crate::report::format::{InUnits, significant};
 use crate::report::hinges::yielding;
 use crate::report::limit::{table, thickness_table};
 use crate::report::svg;
-use crate::report::svg::curve::{Chart, Curve, charts};
 
 /// The page of a limit load.
 pub fn limit(limit: &Limit) -> String {
@@ -49,7 +48,7 @@ pub fn limit(limit: &Limit) -> String {
         if let Some(contacts) = &path.contacts {
             list.extend(tables::joints(&format!("Joints, {of}"), &path.model, contacts));
         }
-        curves = curve(limit, path, units);
+        curves = svg::path(&limit.title, &limit.group, path);
     }
     pictures.push(Choice::one("scene", "Scene", svg::scene(&limit.title, &limit.model)));
     Page {
@@ -109,7 +108,7 @@ fn moving(
 ) {
     let picture = svg::mechanism_on_page(&format!("{title}, {of}"), model, rates);
     pictures.push(Choice::one(key, name, picture));
-    let title = format!("Hinges and sliding joints, {of}");
+    let title = format!("Joints of the mechanism, {of}");
     tables.extend(tables::yielding(&title, model, &yielding(model, rates)));
 }
 
@@ -134,33 +133,10 @@ fn figures(limit: &Limit) -> Vec<(String, String)> {
         list.push(("cannot stand above", number(found.bound)));
         list.push(("proved", yes_or_no(found.proved)));
     }
-    let model = &limit.model;
-    list.push(("size", format!("{} blocks, {} joints", model.blocks.len(), model.joints.len())));
+    list.push(("size", size(&limit.model)));
     let seconds: f64 = limit.times.iter().map(|it| it.seconds).sum();
     list.push(("time", format!("{} s", significant(seconds, 2))));
     list.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
-}
-
-/// The load factor against the displacement along the path, below the bound of associated flow.
-fn curve(limit: &Limit, path: &Path, units: InUnits) -> Option<String> {
-    let at = |it: &crate::analysis::limit::Stand| [units.length(it.displacement), it.load_factor];
-    let points: Vec<[f64; 2]> = path.curve.iter().map(at).collect();
-    let last = points.last()?[0];
-    let mut curves = vec![Curve { name: "states at rest".to_owned(), points }];
-    if let Some(bound) = path.falls {
-        let points = vec![[0.0, bound], [last, bound]];
-        curves.push(Curve { name: "falls".to_owned(), points });
-    }
-    let chart = Chart {
-        axes: [
-            format!("largest displacement [{}]", units.0.length_name()),
-            format!("factor of \"{}\" [-]", limit.group),
-        ],
-        curves,
-        stages: Vec::new(),
-        steps: Vec::new(),
-    };
-    charts(&format!("{}: load factor along the path", limit.title), &[chart])
 }
 
 fn events(path: &Path) -> Option<Table> {

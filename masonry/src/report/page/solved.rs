@@ -1,14 +1,14 @@
 //! The page of a scene that was solved, or was not.
 
 use super::tables::{self, Cell, Table};
-use super::{Choice, Page, Step};
+use super::{Choice, Page, Step, size};
 use crate::analysis::outcome::{Frame, Outcome};
 use crate::history::History;
 use crate::report::format::{InUnits, block_name, significant, stress_text};
 use crate::report::hinges::yielding;
 use crate::report::joints;
 use crate::report::summary::{
-    self, Resultant, applied_load, extreme_stresses, largest_displacement, reason, weight,
+    self, Resultant, extreme_stresses, largest_displacement, reason, weight,
 };
 use crate::report::svg::pictures::{Pictures, Shown, pictures};
 use crate::report::svg::{self, ReferenceLines};
@@ -124,14 +124,13 @@ fn figures(outcome: &Outcome) -> Vec<(String, String)> {
         let [fx, fy] = [it.force.x, it.force.y].map(|it| significant(units.force(it), 4));
         format!("({fx}, {fy}) {}", units.0.force_name())
     };
-    let (load, weight) = (applied_load(model), weight(model));
-    if load != Resultant::default() {
-        list.push(("loads and weight", force(load)));
+    let loads = summary::loads(model);
+    for (name, it) in [("loads", loads), ("self weight", weight(model))] {
+        if it != Resultant::default() {
+            list.push((name, force(it)));
+        }
     }
-    if weight != Resultant::default() && weight != load {
-        list.push(("of it self weight", force(weight)));
-    }
-    list.push(("size", format!("{} blocks, {} joints", model.blocks.len(), model.joints.len())));
+    list.push(("size", size(model)));
     if let Some(history) = &outcome.history {
         list.push(("steps solved", format!("{} of {}", history.records.len(), history.steps)));
     }
@@ -186,7 +185,7 @@ fn tables_of(outcome: &Outcome) -> Vec<Table> {
     list.extend(tables::reactions("Reactions", &outcome.reactions, units));
     list.extend(outcome.history.as_ref().and_then(|history| steps_table(history, units)));
     list.extend(outcome.mechanism.as_ref().and_then(|rates| {
-        tables::yielding("Hinges and sliding joints", model, &yielding(model, rates))
+        tables::yielding("Joints of the mechanism", model, &yielding(model, rates))
     }));
     if let Some(state) = &outcome.state {
         list.extend(tables::joints("Joints", model, &state.contacts));

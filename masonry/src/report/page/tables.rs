@@ -72,20 +72,22 @@ impl Table {
     }
 
     pub(super) fn html(&self) -> String {
-        let mut text = format!("<section class=\"table\">\n<h2>{}</h2>\n", escaped(&self.title));
-        if !self.note.is_empty() {
-            text += &format!("<p>{}</p>\n", escaped(&self.note));
-        }
-        text += "<div class=\"scroll\"><table>\n<thead><tr>";
-        for head in &self.heads {
-            text += &format!("<th scope=\"col\">{}</th>", escaped(head));
-        }
-        text += "</tr></thead>\n<tbody>\n";
-        for row in &self.rows {
-            let cells: String = row.iter().map(Cell::html).collect();
-            text += &format!("<tr>{cells}</tr>\n");
-        }
-        text + "</tbody>\n</table></div>\n</section>\n"
+        let note = match self.note.as_str() {
+            "" => String::new(),
+            note => format!("<p>{}</p>\n", escaped(note)),
+        };
+        let head = |head: &String| format!("<th scope=\"col\">{}</th>", escaped(head));
+        let heads: String = self.heads.iter().map(head).collect();
+        let row = |cells: &Vec<Cell>| {
+            let cells: String = cells.iter().map(Cell::html).collect();
+            format!("<tr>{cells}</tr>\n")
+        };
+        let rows: String = self.rows.iter().map(row).collect();
+        format!(
+            "<section class=\"table\">\n<h2>{}</h2>\n{note}<div class=\"scroll\"><table>\n\
+             <thead><tr>{heads}</tr></thead>\n<tbody>\n{rows}</tbody>\n</table></div>\n</section>\n",
+            escaped(&self.title)
+        )
     }
 }
 

@@ -169,7 +169,9 @@ fn draw(canvas: &mut Canvas, chart: &Chart, top: f64) -> f64 {
         canvas.polyline(&pixels, &style);
         if pixels.len() <= 60 {
             let style = format!("fill=\"{colour}\"");
-            pixels.iter().for_each(|it| canvas.circle(*it, 2.4, &style));
+            for at in pixels {
+                canvas.circle(at, 2.4, &style);
+            }
         }
         let row = top + 12.0 + LINE * 1.15 * index as f64;
         let (from, to) = (Pixel::new(right + 14.0, row), Pixel::new(right + 40.0, row));

@@ -67,7 +67,9 @@ pub(in crate::report) fn curves(
     let reactions = varying(components(&all, model, units), records, step);
     list.push(by_step(reactions, &format!("reactions [{force}]")));
     if !for_page {
-        list.iter_mut().for_each(|chart| chart.steps.clear());
+        for chart in &mut list {
+            chart.steps.clear();
+        }
     }
     charts(&format!("{title}: load history"), &list)
 }

@@ -220,6 +220,6 @@ fn hatch([from, to]: [Pixel; 2], ticks: f64, inward: Vector2<f64>) -> Vec<[Pixel
 }
 
 /// A number of things: `1 joint`, `2 joints`.
-pub(super) fn counted(count: usize, name: &str) -> String {
+pub(in crate::report) fn counted(count: usize, name: &str) -> String {
     if count == 1 { format!("1 {name}") } else { format!("{count} {name}s") }
 }

@@ -159,7 +159,7 @@ impl Sheet {
 
     /// Tells a page something about the picture.
     pub(super) fn tell(&mut self, name: &str, value: &str) {
-        self.data += &format!(" data-{name}=\"{}\"", escape(value));
+        self.data.extend([" data-", name, "=\"", &escape(value), "\""]);
     }
 
     /// Adds a legend entry; `draw` draws its symbol about the origin within 60 by 16 pixels.
