@@ -22,11 +22,13 @@
 
 pub(crate) mod arch;
 mod arch_error;
+mod block_list;
 pub mod bond;
 mod builder;
 mod check;
 mod courses;
 mod error;
+mod json_span;
 mod key_path;
 mod load;
 mod opening;
@@ -39,7 +41,7 @@ mod stages;
 mod strict;
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
@@ -85,6 +87,10 @@ pub struct Scene {
         deserialize_with = "strict::some_pair"
     )]
     pub gravity: Option<[f64; 2]>,
+    /// A JSON file with more blocks, relative to the scene file: a list of objects with `material` and `corners`, and `name`
+    /// and `mesh` as single blocks have them. A scene that was read from text has these blocks after its own, and no list.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub block_list: Option<PathBuf>,
     /// Units of length and force.
     #[serde(deserialize_with = "strict::table")]
     pub units: Units,
@@ -430,7 +436,7 @@ impl Scene {
     /// # Errors
     /// What is wrong with the text or the data, with line and column.
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
-        Self::parse(Source::text(text))
+        Self::parse(&Source::text(text))
     }
 
     /// Reads a scene from a TOML file and [checks](Scene::check) it.
@@ -441,7 +447,7 @@ impl Scene {
     pub fn read(path: &Path) -> Result<Self, SceneError> {
         let text = std::fs::read_to_string(path)
             .map_err(|error| SceneError::unreadable(path, &error.to_string()))?;
-        Self::parse(Source::file(path, &text))
+        Self::parse(&Source::file(path, &text))
     }
 
     /// The scene as TOML text, which reads back as an equal scene.
@@ -456,11 +462,30 @@ impl Scene {
         Self { source: Source::default(), ..self.clone() }
     }
 
-    fn parse(source: Source) -> Result<Self, SceneError> {
-        let mut scene: Self =
-            toml::from_str(source.as_str()).map_err(|error| SceneError::syntax(&source, &error))?;
-        scene.source = source;
+    fn parse(source: &Source) -> Result<Self, SceneError> {
+        let mut scene = Self { source: source.clone(), ..Self::of(source)? };
+        if let Some(list) = &scene.block_list {
+            let source = source.with_list(list).map_err(|error| {
+                let (path, message) = (list.clone(), error.to_string());
+                Fault::new(KeyPath::of("block_list"), SceneErrorKind::BlockList { path, message })
+                    .locate(&scene)
+            })?;
+            scene = Self { source: source.clone(), ..Self::of(&source)? };
+        }
         scene.check()?;
+        Ok(scene)
+    }
+
+    /// What a source says, with the blocks of its list.
+    fn of(source: &Source) -> Result<Self, SceneError> {
+        let mut scene: Self =
+            toml::from_str(source.as_str()).map_err(|error| SceneError::syntax(source, &error))?;
+        if let Some(list) = source.list() {
+            let wrong =
+                |(message, place): (String, _)| SceneError::list(&list.path, &message, place);
+            scene.blocks.extend(block_list::blocks(list).map_err(wrong)?);
+            scene.block_list = None;
+        }
         Ok(scene)
     }
 }

@@ -74,6 +74,7 @@ fn a_semicircular_arch_needs_a_tenth_of_its_radius() {
         (15, 0.1061),
         (20, 0.10735),
         (21, 0.1067),
+        (30, 0.1074),
         (40, 0.10743),
         (101, 0.10745),
     ];
@@ -91,9 +92,11 @@ fn friction_below_two_fifths_makes_arches_thicker() {
         (0.5, 0.10743),
         (0.4, 0.10743),
         (0.395, 0.1079),
+        (0.39, 0.1124),
         (0.37, 0.1311),
         (0.35, 0.1521),
         (0.33, 0.1742),
+        (0.31, 0.1976),
     ];
     for (mu, ratio) in ratios {
         let found = least_ratio(&format!("mu_{mu}"), &scene(mu, &semicircular(0.2, 40), ""), 0.9);
@@ -154,6 +157,54 @@ fn thrusts_and_loads_of_a_semicircular_arch() {
             assert_eq!(found["associative"]["proved"], true);
             let factor = found["associative"]["load_factor"].as_f64().unwrap();
             assert_near(factor, expected, 1e-3 * expected, &format!("{name} at t = {t}"));
+        }
+    }
+}
+
+/// The thrusts of an arch by its weight, as its supports spread and close, and the least and the largest of the program.
+fn thrusts(name: &str, text: &str) -> ([Vec<f64>; 2], [f64; 2]) {
+    let range = limit(name, text, &["--range"]);
+    let path = written(name, text);
+    let command = ["solve", path.to_str().unwrap(), "--json"];
+    let output = Command::new(env!("CARGO_BIN_EXE_masonry")).args(command).output().unwrap();
+    let solved: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(solved["verdict"], "stands");
+    let weight = -solved["weight"]["fy"].as_f64().unwrap();
+    let ends = ["min", "max"]
+        .map(|end| range["range"]["arch/left"]["fx"][end]["value"].as_f64().unwrap() / weight);
+    let mut thrusts = [Vec::new(), Vec::new()];
+    for record in solved["history"]["records"].as_array().unwrap() {
+        let thrust = record["reactions"]["arch/left"]["fx"].as_f64().unwrap() / weight;
+        let moved = record["moves"]["arch/right"]["x"].as_f64().unwrap();
+        if moved.abs() > 1e-6 {
+            thrusts[usize::from(moved < 0.0)].push(thrust);
+        }
+    }
+    (thrusts, ends)
+}
+
+/// Where supports spread, the thrust is the least that friction allows; where they close, the largest. Rigid voussoirs
+/// show it at the first movement, elastic ones where hinges have opened.
+#[test]
+fn the_thrust_is_least_as_supports_spread_and_largest_as_they_close() {
+    let scene =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/arch_on_moving_supports.toml");
+    let rigid = fs::read_to_string(scene).unwrap();
+    let elastic = rigid
+        .replace("density = 2000.0", "density = 2000.0\nE = 1e7\nnu = 0.2")
+        .replace("voussoirs = 40", "voussoirs = 20\nmesh = [2, 3]")
+        .replace("gravity", "plane = \"stress\"\ngravity");
+    for (name, text) in [("moving", &rigid), ("moving_elastic", &elastic)] {
+        let ([spread, close], [least, largest]) = thrusts(name, text);
+        assert_eq!((spread.len(), close.len()), (3, 2), "{name}");
+        for (thrusts, end) in [(&spread, least), (&close, largest)] {
+            for thrust in thrusts {
+                assert_near(thrust / end, 1.0, 1e-6, name);
+            }
+        }
+        if name == "moving" {
+            assert_near(spread[0], 0.1760, 6e-5, name);
+            assert_near(close[0], 0.2272, 6e-5, name);
         }
     }
 }

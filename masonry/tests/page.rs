@@ -62,9 +62,6 @@ fn page(name: &str, command: &str, scene: &Path, more: &[&str]) -> (PathBuf, Str
     let path = directory.join("page.html");
     let mut run = Command::new(env!("CARGO_BIN_EXE_masonry"));
     run.arg(command).arg(scene).arg("--report").arg(&path).arg("--json").args(more);
-    if command == "solve" {
-        run.arg("--out").arg(directory.join("out"));
-    }
     let output = run.output().unwrap();
     let object: Value = serde_json::from_slice(&output.stdout)
         .unwrap_or_else(|_| panic!("{}", String::from_utf8_lossy(&output.stderr)));
@@ -132,20 +129,22 @@ fn limit_loads_and_thicknesses_have_pages() {
 }
 
 #[test]
-fn a_page_that_cannot_be_written_names_the_file() {
-    let scene = given("block_on_floor.toml");
-    let output = Command::new(env!("CARGO_BIN_EXE_masonry"))
-        .arg("solve")
-        .arg(&scene)
-        .arg("--out")
-        .arg(directory("unwritten"))
-        .args(["--report", "/nowhere/page.html"])
-        .output()
-        .unwrap();
-    assert_eq!(output.status.code(), Some(2));
-    let errors = String::from_utf8(output.stderr).unwrap();
-    assert!(errors.contains("cannot write the page /nowhere/page.html"), "{errors}");
-    assert!(String::from_utf8(output.stdout).unwrap().contains("The wall"), "what was computed");
+fn a_page_that_cannot_be_written_is_refused_before_the_work() {
+    for (page, why) in
+        [("/nowhere/page.html", "its directory does not exist"), ("/", "it is a directory")]
+    {
+        for (command, scene) in [("solve", "block_on_floor.toml"), ("limit", "ferris_wall_1.toml")]
+        {
+            let mut run = Command::new(env!("CARGO_BIN_EXE_masonry"));
+            let output =
+                run.arg(command).arg(given(scene)).args(["--report", page]).output().unwrap();
+            assert_eq!(output.status.code(), Some(2));
+            let errors = String::from_utf8(output.stderr).unwrap();
+            let wanted = format!("cannot write the page {page}: {why}; choose another --report");
+            assert!(errors.contains(&wanted), "{errors}");
+            assert!(output.stdout.is_empty(), "nothing was computed");
+        }
+    }
 }
 
 /// The program that renders pages, if there is one.

@@ -4,11 +4,11 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use super::constants::{
-    LEAST_VISCOSITY, MOST_VISCOSITY, MOVED, SETTLING, SMOOTH, STEADIER, STEADY, STEADY_MOTIONS,
-    TRIES,
+    BLUNT, LEAST_VISCOSITY, MOST_VISCOSITY, MOVED, SETTLING, SHARPER, SMOOTH, STEADIER, STEADY,
+    STEADY_MOTIONS, TRIES,
 };
 use super::continuation::is_free;
-use super::motion::{Motions, Moved, Viscosity};
+use super::motion::{Jerks, Motions, Moved, Viscosity};
 use super::rest::settled;
 use super::start::start;
 use crate::active::{Effort, Search, unplanned};
@@ -190,8 +190,9 @@ impl Evolution {
         let search = Search::new(Method::Interior, problem, tolerance)?;
         let at = search.scaled.of_displacements(from);
         let monitor = Monitor::new(max_iterations, time_limit, observer);
-        let moving =
-            Moving { problem, tolerance, search, monitor, at, limit: None, dissipation: 0.0 };
+        let origin = at.clone();
+        let (limit, dissipation) = (None, 0.0);
+        let moving = Moving { problem, tolerance, search, monitor, origin, at, limit, dissipation };
         moving.until_rest(at_once)
     }
 }
@@ -204,6 +205,16 @@ enum Found {
     Rest(Vec<f64>, Box<Solution>),
 }
 
+/// A state at rest with smooth friction, scaled.
+struct Settled {
+    found: Found,
+    /// The slip over which friction turns.
+    slip: f64,
+    /// The largest displacement on the way.
+    moved: f64,
+    dissipation: f64,
+}
+
 /// Bodies on their way.
 struct Moving<'a, 'b> {
     problem: &'a Contact2d,
@@ -211,6 +222,8 @@ struct Moving<'a, 'b> {
     /// With slips from where the last motion ended.
     search: Search<'a>,
     monitor: Monitor<'b>,
+    /// Where they were at the beginning.
+    origin: Vec<f64>,
     /// Where the last motion ended.
     at: Vec<f64>,
     /// What has stopped it.
@@ -274,9 +287,29 @@ impl Moving<'_, '_> {
     }
 
     /// The state at rest that smooth friction leads to, with slips from there, if the judge agrees; or the solution of the
-    /// problem itself next to it, where that is asked for.
+    /// problem itself next to it, where that is asked for. Where bodies move hardly farther than friction needs to turn, it
+    /// turns over a shorter slip; what vanishes with that slip is no movement.
     fn rest(&mut self, by_law: bool) -> Option<Found> {
-        let Self { problem, tolerance, search, monitor, limit, dissipation, .. } = self;
+        let mut slip = None;
+        for _ in 1..SHARPER {
+            let settled = self.settled(by_law, slip)?;
+            if settled.slip <= BLUNT * settled.moved {
+                return Some(self.found(settled));
+            }
+            slip = Some(SMOOTH * settled.moved);
+        }
+        let settled = self.settled(by_law, slip)?;
+        Some(self.found(settled))
+    }
+
+    fn found(&mut self, settled: Settled) -> Found {
+        self.dissipation += settled.dissipation;
+        settled.found
+    }
+
+    /// The same with friction that turns over a slip, by default one that fits the displacements of the start.
+    fn settled(&mut self, by_law: bool, slip: Option<f64>) -> Option<Settled> {
+        let Self { problem, tolerance, search, monitor, limit, origin, .. } = self;
         let (mut best, mut left) = (f64::INFINITY, SETTLING);
         let go_on = |residual| {
             (best, left) =
@@ -286,7 +319,8 @@ impl Moving<'_, '_> {
         };
         let Search { scaled, condensed, .. } = search;
         let mut begin = start(scaled, condensed, PROXIMAL);
-        begin.smooth = SMOOTH * max_abs(&begin.u);
+        let slip = slip.unwrap_or_else(|| SMOOTH * max_abs(&begin.u));
+        begin.smooth = slip;
         let mut states = None;
         let found = settled(scaled, condensed, begin, go_on, |condensed, at, (u, forces)| {
             let from = scaled.displacements(&u);
@@ -296,18 +330,19 @@ impl Moving<'_, '_> {
             condensed.factorisations += other.condensed.factorisations;
             let solution = other.found()?;
             let slid = |(point, (_, t_t)): (&Point, &(f64, f64))| -t_t * point.slip(&u);
-            let slid: f64 = scaled.points.iter().zip(&forces).map(slid).sum();
+            let dissipation = scaled.points.iter().zip(&forces).map(slid).sum();
+            let moved =
+                u.iter().zip(&*origin).fold(0.0, |max: f64, (u, at)| max.max((u - at).abs()));
             states = Some((at.u.clone(), at.forces(), at.contacts(scaled)));
-            Some((from, solution, slid))
+            let found = Found::Rest(from, Box::new(solution));
+            Some(Settled { found, slip, moved, dissipation })
         });
         if let Some((u, forces, contacts)) = states.filter(|_| by_law)
             && search.cross_over((&u, &forces), contacts, &Effort::QUICK)
         {
-            return Some(Found::Law);
+            return Some(Settled { found: Found::Law, slip: 0.0, moved: 0.0, dissipation: 0.0 });
         }
-        let (from, solution, slid) = found?;
-        *dissipation += slid;
-        Some(Found::Rest(from, Box::new(solution)))
+        found
     }
 
     /// One motion; `None` where it cannot be computed, or a limit is reached.
@@ -320,7 +355,8 @@ impl Moving<'_, '_> {
     }
 
     /// Moves on until the motion does not change any more, which is the mechanism then. On a soft spring every motion is
-    /// shorter than the one before by the same part.
+    /// shorter than the one before by the same part. Where contacts close and open in turn, motions change and do not become
+    /// shorter: the mechanism is their mean.
     fn is_steady(
         &mut self,
         motions: &mut Motions,
@@ -330,6 +366,7 @@ impl Moving<'_, '_> {
     ) -> bool {
         let mut first = None;
         let mut change = f64::INFINITY;
+        let (mut jerks, mut all) = (Jerks::default(), last.clone());
         for _ in 0..STEADY_MOTIONS {
             let Some(moved) = self.motion(motions, (viscosity, STEADY)) else { break };
             let velocity = self.follow(&moved, viscosity);
@@ -341,6 +378,12 @@ impl Moving<'_, '_> {
                 return is_free(&self.search.scaled, &last, viscosity);
             }
             first.get_or_insert(change);
+            jerks.follow(&last, change);
+            all.iter_mut().zip(&last).for_each(|(all, v)| *all += v);
+        }
+        if jerks.go_on() {
+            path.motion = self.search.scaled.displacements(&all);
+            return true;
         }
         first.is_some_and(|first| change <= STEADIER * first)
     }

@@ -3,7 +3,8 @@
 use faer::sparse::FaerError;
 
 use super::constants::{
-    FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS, SAME_LENGTH, SLOWER,
+    FIRST_VISCOSITY, FLOWING, JERKS_GO_ON, JERKY, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS,
+    SAME_LENGTH, SLOWER,
 };
 use super::homogeneous::solved;
 use crate::Status;
@@ -110,5 +111,34 @@ impl Viscosity {
     /// For a motion that cannot be computed otherwise.
     pub(super) fn increase(&mut self) {
         self.value *= MORE_VISCOUS;
+    }
+}
+
+/// Motions at the same viscosity that change from one to the next.
+#[derive(Debug)]
+pub(super) struct Jerks {
+    lengths: Vec<f64>,
+    /// What changes of one sense would have left of the first motion.
+    left: f64,
+}
+
+impl Default for Jerks {
+    fn default() -> Self {
+        Self { lengths: Vec::new(), left: 1.0 }
+    }
+}
+
+impl Jerks {
+    /// Takes the next motion, which differs from the one before by this part.
+    pub(super) fn follow(&mut self, motion: &[f64], change: f64) {
+        self.lengths.push(motion.iter().map(|v| v.abs()).sum());
+        self.left *= (1.0 - change).max(0.0);
+    }
+
+    /// Whether motions that change much do not become shorter.
+    pub(super) fn go_on(&self) -> bool {
+        let (early, late) = self.lengths.split_at(self.lengths.len() / 2);
+        let [early, late] = [early, late].map(|half| half.iter().sum::<f64>() / half.len() as f64);
+        self.left <= JERKY && late >= JERKS_GO_ON * early
     }
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::end::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
+use super::out_dir::OutDir;
 use super::page;
 use crate::analysis::limit::{Answer, Associative, Laws, Path, least_thickness, limit_by, ranges};
 use crate::report::{self, limit as output};
@@ -69,19 +70,23 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
     if let Some(group) = &args.group {
         scene = scene.limit_group(group);
     }
+    let out = out_dir(args)?;
+    page::check(args.report.as_deref())?;
     let limit = limit_by(&scene, args.law.into())?;
-    let written = match &args.out {
-        Some(out) => output::write(&limit, out),
+    let written = match &out {
+        Some(out) => output::write(&limit, out.path()),
         None => Ok(Vec::new()),
     };
     // What was computed is printed even when a file could not be written.
-    let mut files = written.as_deref().unwrap_or_default().to_vec();
+    let in_out = written.as_deref().unwrap_or_default();
+    let mut files = in_out.to_vec();
     let page = page::write(args.report.as_deref(), || report::page::limit(&limit), &mut files);
     if args.json {
         print(&output::json(&limit, &names(&files))?)?;
     } else {
         print(&format!("{}\n{}", output::table(&limit), listing(&files)))?;
     }
+    out.map_or(Ok(()), |out| out.finish(in_out, false))?;
     written?;
     page?;
     let is_known = |it: &Associative| matches!(it.answer, Answer::Fails | Answer::Unlimited);
@@ -89,6 +94,10 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
     let solved =
         limit.associative.as_ref().is_none_or(is_known) && limit.path.as_ref().is_none_or(by_path);
     Ok(if solved { SOLVED } else { NOT_SOLVED })
+}
+
+fn out_dir(args: &LimitArgs) -> Result<Option<OutDir>, Failure> {
+    args.out.as_deref().map(|out| OutDir::open(out, "limit")).transpose()
 }
 
 fn range(scene: &Scene, json: bool) -> Result<u8, Failure> {
@@ -99,18 +108,22 @@ fn range(scene: &Scene, json: bool) -> Result<u8, Failure> {
 }
 
 fn thickness(scene: &Scene, arch: &str, args: &LimitArgs) -> Result<u8, Failure> {
+    let out = out_dir(args)?;
+    page::check(args.report.as_deref())?;
     let found = least_thickness(scene, arch)?;
-    let written = match &args.out {
-        Some(out) => output::write_thickness(&found, out),
+    let written = match &out {
+        Some(out) => output::write_thickness(&found, out.path()),
         None => Ok(Vec::new()),
     };
-    let mut files = written.as_deref().unwrap_or_default().to_vec();
+    let in_out = written.as_deref().unwrap_or_default();
+    let mut files = in_out.to_vec();
     let page = page::write(args.report.as_deref(), || report::page::thickness(&found), &mut files);
     if args.json {
         print(&output::thickness_json(&found, &names(&files))?)?;
     } else {
         print(&format!("{}\n{}", output::thickness_table(&found), listing(&files)))?;
     }
+    out.map_or(Ok(()), |out| out.finish(in_out, false))?;
     written?;
     page?;
     Ok(if found.proved { SOLVED } else { NOT_SOLVED })

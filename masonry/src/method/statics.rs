@@ -14,7 +14,9 @@
 //! Rigid blocks without gaps stand if there are such forces: at rest every gap and every slip is zero. For all other
 //! walls they are necessary but not sufficient.
 
-use lcp::{InteriorPoint, InteriorPointSettings, Iteration, MixedLcp, Observer, Solution, Solver};
+use lcp::{
+    InteriorPoint, InteriorPointSettings, Iteration, MixedLcp, Observer, Solution, Solver, Status,
+};
 
 use crate::model::Model;
 use crate::system::System;
@@ -51,6 +53,8 @@ pub struct Decision {
     pub statics: Statics,
     /// Steps of the interior points, each of which factorises one matrix of three unknowns a block.
     pub steps: usize,
+    /// Whether the observer has ended it.
+    pub is_cancelled: bool,
 }
 
 /// Decides whether there are statically admissible forces.
@@ -66,11 +70,13 @@ pub fn decide(
     let mut steps = 0;
     if program.is_unloaded() {
         let statics = Statics::Admissible(vec![0.0; system.rows.len()]);
-        return Ok(Decision { statics, steps });
+        return Ok(Decision { statics, steps, is_cancelled: false });
     }
-    let mut search = Search { model, program: &program, steps: &mut steps, observer };
+    let is_cancelled = false;
+    let mut search = Search { model, program: &program, steps: &mut steps, is_cancelled, observer };
     let statics = search.run()?;
-    Ok(Decision { statics, steps })
+    let is_cancelled = search.is_cancelled;
+    Ok(Decision { statics, steps, is_cancelled })
 }
 
 /// The program of a decision.
@@ -78,6 +84,7 @@ struct Search<'a, 'b> {
     model: &'a Model,
     program: &'a Program<'a>,
     steps: &'a mut usize,
+    is_cancelled: bool,
     observer: &'a mut Observer<'b>,
 }
 
@@ -112,6 +119,7 @@ impl Search<'_, '_> {
         let observer = &mut |at: &Iteration| (self.observer)(at);
         let solution = InteriorPoint::new(settings).solve_observed(program, observer)?;
         *self.steps += solution.info.factorisations;
+        self.is_cancelled |= solution.status == Status::Cancelled;
         Ok(solution)
     }
 }

@@ -36,6 +36,23 @@ pub enum ArchError {
         /// The next even number.
         even: u32,
     },
+    /// A joint whose ends coincide.
+    #[error("the joint has no length, for both of its ends are [{x}, {y}]: move one of them")]
+    NoLength {
+        /// Coordinate of the ends.
+        x: f64,
+        /// Coordinate of the ends.
+        y: f64,
+    },
+    /// Two joints with no voussoir between them.
+    #[error(
+        "this joint and the one before bound no convex voussoir (number {number}): list joints from left to right, each \
+         from the intrados to the extrados, such that no two cross"
+    )]
+    NoVoussoir {
+        /// The voussoir, from 1.
+        number: usize,
+    },
     /// A pier on which the springing has no room.
     #[error("a pier {width} wide does not reach below the springing: give more than {least}")]
     NarrowPier {

@@ -17,6 +17,7 @@ impl Scene {
             plane: None,
             thickness: None,
             gravity: None,
+            block_list: None,
             units,
             materials: BTreeMap::new(),
             joints: BTreeMap::new(),

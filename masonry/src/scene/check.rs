@@ -78,6 +78,11 @@ impl Scene {
     }
 
     fn check_general(&self) -> Check {
+        if let Some(path) = &self.block_list {
+            let message = "only reading a scene file takes it in".to_owned();
+            let kind = SceneErrorKind::BlockList { path: path.clone(), message };
+            return Err(Fault::new(KeyPath::of("block_list"), kind));
+        }
         let Some(thickness) = self.thickness else {
             let because = "to turn tractions into forces";
             return Err(missing(&KeyPath::default(), "thickness", because, "thickness = 1.0"));

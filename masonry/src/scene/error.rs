@@ -61,6 +61,11 @@ impl SceneError {
         Self::new(kind, KeyPath::default(), place, source.path().map(Path::to_owned))
     }
 
+    pub(super) fn list(path: &Path, message: &str, place: Option<Place>) -> Self {
+        let kind = SceneErrorKind::Syntax { message: with_nearest(message) };
+        Self::new(kind, KeyPath::default(), place, Some(path.to_owned()))
+    }
+
     pub(super) fn unreadable(path: &Path, message: &str) -> Self {
         let kind = SceneErrorKind::Read { message: message.to_owned() };
         Self::new(kind, KeyPath::default(), None, Some(path.to_owned()))
@@ -115,13 +120,13 @@ impl Fault {
     /// The error with its place in the text, if the scene still says what the text says.
     pub(crate) fn locate(self, scene: &Scene) -> SceneError {
         let source = &scene.source;
-        let unchanged = toml::from_str::<Scene>(source.as_str()).is_ok_and(|read| {
+        let unchanged = Scene::of(source).is_ok_and(|read| {
             // NaN differs from itself: what was written is compared, not what it is worth.
             format!("{read:?}") == format!("{:?}", scene.without_source())
         });
         if unchanged {
-            let place = source.locate(&self.key);
-            SceneError::new(*self.kind, self.key, place, source.path().map(Path::to_owned))
+            let (file, place) = source.locate(&self.key);
+            SceneError::new(*self.kind, self.key, place, file.map(Path::to_owned))
         } else {
             SceneError::new(*self.kind, self.key, None, None)
         }
@@ -142,6 +147,14 @@ pub enum SceneErrorKind {
     #[error("cannot write the scene as TOML: {message}")]
     Write {
         /// The writer's message.
+        message: String,
+    },
+    /// The list of blocks cannot be read.
+    #[error("cannot read the list of blocks {}: {message}: name a JSON file, relative to the scene", path.display())]
+    BlockList {
+        /// The file, as the scene names it.
+        path: PathBuf,
+        /// The operating system's message.
         message: String,
     },
     /// The text is no TOML, or has unknown, missing or repeated keys, or values of a wrong type.

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::rounding::rounded;
+
 /// How the bricks of a wall are laid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -87,8 +89,8 @@ pub enum OpeningError {
     },
     /// The lintel rests on nothing.
     #[error(
-        "the lintel would rest on {bearing} of wall on its {side}, and there are {room}: give a `bearing` of at most \
-         that, or move the opening"
+        "the lintel would rest on {bearing} of wall on its {side}, and there are {room}: move the opening by at least \
+         {}{}", rounded(bearing - room), shorter(*room)
     )]
     NoBearing {
         /// `left` or `right`.
@@ -100,7 +102,7 @@ pub enum OpeningError {
     },
     /// Two openings, or an opening and a lintel, take the same place.
     #[error(
-        "the opening or its lintel runs into openings[{other}] in course {course}: move one of them apart"
+        "the opening or its lintel runs into openings[{other}] in course {course}: move them apart, or make one smaller"
     )]
     Meets {
         /// The other one, from 0.
@@ -108,6 +110,11 @@ pub enum OpeningError {
         /// The course, from 1.
         course: usize,
     },
+}
+
+/// Another remedy, where there is some wall.
+fn shorter(room: f64) -> String {
+    if room > 0.0 { format!(", or give a `bearing` of at most {room}") } else { String::new() }
 }
 
 fn first() -> u32 {

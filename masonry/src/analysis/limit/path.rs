@@ -20,7 +20,7 @@ use crate::system::System;
 /// 2e-3.
 const STEPS: f64 = 16.0;
 /// Where the factors that stand and fall differ by less than this part, the search ends.
-const NEAR: f64 = 1e-4;
+const NEAR: f64 = 5e-5;
 /// Where they differ by less than this part, they are one number. Chosen: far below what another path may change.
 const ONE_NUMBER: f64 = 5e-3;
 /// Just above the limit blocks flow so slowly that a step may end neither at rest nor in a flow. Then it is tried with

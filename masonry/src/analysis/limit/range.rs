@@ -48,7 +48,7 @@ pub fn ranges(scene: &Scene) -> Result<Range, LimitError> {
     let system = System::without_factors(&model)?;
     let title = scene.title.clone();
     if let Statics::Impossible(_) = statics::decide(&model, &system, on)?.statics {
-        let sentence = "The structure falls: no forces within friction balance the loads (proved).";
+        let sentence = "The structure falls: no forces within friction balance all loads of the scene in full (proved).";
         return Ok(Range { title, model, supports: None, sentence: sentence.to_owned() });
     }
     let mut supports = Vec::with_capacity(model.supports.len());

@@ -199,7 +199,7 @@ impl Run {
         Ok(self)
     }
 
-    /// Solves the next step; false when there is none, or the last one failed.
+    /// Solves the next step; false when there is none, or the last one failed. `Break` cancels the step, which fails then.
     ///
     /// # Errors
     /// As [`solve`](super::solve). Steps that were solved before are kept.
@@ -217,7 +217,11 @@ impl Run {
         });
         if let Some((model, _)) = &stepped {
             let (number, of) = (self.solved + 1, self.steps.len());
-            let _ = observer(Event::Step { number, of });
+            if observer(Event::Step { number, of }).is_break() {
+                let info = SolveInfo::new(Status::Cancelled, UNKNOWN);
+                self.last = Some(Last { info, statics: None, mechanism: None });
+                return Ok(true);
+            }
             self.system.reload(model);
         }
         let model = stepped.as_ref().map_or(&self.model, |(model, _)| model);

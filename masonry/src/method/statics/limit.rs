@@ -21,8 +21,9 @@ pub const NEAR: f64 = 2e-5;
 /// Steps of one program.
 const MAX_STEPS: usize = 200;
 
-/// The methods for linear programs, one after the other.
-const LINEAR: [Engine; 3] = [Engine::Inside, Engine::Clarabel, Engine::Interior];
+/// The methods for linear programs, one after the other. Measured on a wall of 1000 bricks, where the first gives no proof: the second
+/// does, and the third does not.
+const LINEAR: [Engine; 3] = [Engine::Inside, Engine::Interior, Engine::Clarabel];
 
 /// What is known of the largest factor.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -129,6 +129,8 @@ pub fn range_table(range: &Range) -> String {
     let heads = ["support", "", &format!("least [{force}]"), &format!("largest [{force}]"), "gaps"];
     let mut list = columns(&heads, &[2, 3, 4]);
     let value = |it: Extreme| match it {
+        // Less than what is left open is nothing.
+        Extreme::Value { value, bound } if value.abs() <= (bound - value).abs() => "0".to_owned(),
         Extreme::Value { value, .. } => significant(units.force(value), 7),
         Extreme::Unlimited => "unlimited".to_owned(),
         Extreme::Open => "not found".to_owned(),
@@ -149,7 +151,8 @@ pub fn range_table(range: &Range) -> String {
             ]);
         }
     }
-    text + &list.trim_fmt() + "\n"
+    text += &list.trim_fmt();
+    text + "\n\nThe gaps are between the forces of a limit and the motion that proves that none are beyond it.\n"
 }
 
 /// The report of a least thickness: the sentence, and both thicknesses.

@@ -1,6 +1,9 @@
 //! The joints of an arch.
 
+use nalgebra::Point2;
+
 use super::{Arch, Line, Shape};
+use crate::geometry;
 use crate::scene::rules::{missing, positive, unwanted, value};
 use crate::scene::{ArchError, Fault, KeyPath, SceneErrorKind};
 
@@ -8,14 +11,7 @@ use crate::scene::{ArchError, Fault, KeyPath, SceneErrorKind};
 pub(crate) fn lines(arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
     refuse_others(arch, at)?;
     if arch.shape == Shape::Joints {
-        let because = "for `shape = \"joints\"`";
-        let remedy = "lines = [[[0.0, 0.0], [0.0, 0.2]], [[0.5, 0.0], [0.5, 0.2]]]";
-        let lines = arch.lines.clone().ok_or_else(|| missing(at, "lines", because, remedy))?;
-        let wanted = "give at least two joints, between which there is a voussoir";
-        value(at.key("lines"), lines.len() as f64, lines.len() >= 2, wanted)?;
-        let [x, y] = arch.origin.unwrap_or_default();
-        let moved = |[px, py]: [f64; 2]| [x + px, y + py];
-        return Ok(lines.into_iter().map(|line| line.map(moved)).collect());
+        return given(arch, at);
     }
     let size = Size::of(arch, at)?;
     match arch.shape {
@@ -32,6 +28,31 @@ pub(crate) fn lines(arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
         Shape::Pointed => size.pointed(arch, at),
         Shape::Flat | Shape::Joints => size.flat(arch, at),
     }
+}
+
+/// The joints as they are given, where they bound voussoirs.
+fn given(arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
+    let because = "for `shape = \"joints\"`";
+    let remedy = "lines = [[[0.0, 0.0], [0.0, 0.2]], [[0.5, 0.0], [0.5, 0.2]]]";
+    let lines = arch.lines.clone().ok_or_else(|| missing(at, "lines", because, remedy))?;
+    let at = at.key("lines");
+    let wanted = "give at least two joints, between which there is a voussoir";
+    value(at.clone(), lines.len() as f64, lines.len() >= 2, wanted)?;
+    for (k, [from, to]) in lines.iter().enumerate() {
+        let [x, y] = *from;
+        if (x - to[0]).abs().max((y - to[1]).abs()) <= 0.0 {
+            return Err(Fault::new(at.item(k), ArchError::NoLength { x, y }.into()));
+        }
+    }
+    for (k, pair) in lines.windows(2).enumerate() {
+        let corners = [pair[0][0], pair[1][0], pair[1][1], pair[0][1]];
+        if geometry::check_convex(&corners.map(Point2::from)).is_err() {
+            return Err(Fault::new(at.item(k + 1), ArchError::NoVoussoir { number: k + 1 }.into()));
+        }
+    }
+    let [x, y] = arch.origin.unwrap_or_default();
+    let moved = |[px, py]: [f64; 2]| [x + px, y + py];
+    Ok(lines.into_iter().map(|line| line.map(moved)).collect())
 }
 
 /// Keys that belong to other shapes.

@@ -1,6 +1,6 @@
 //! Checks of openings.
 
-use super::{Check, not_negative, positive, value};
+use super::{Check, MAGNITUDES, not_negative, positive, value};
 use crate::rounding::rounded;
 use crate::scene::bond::{JointThickness, taken};
 use crate::scene::{Fault, KeyPath, Opening, OpeningError, Wall};
@@ -58,7 +58,9 @@ fn check_place(at: &KeyPath, wall: &Wall, opening: &Opening, (wide, high): (f64,
         let error = OpeningError::TooHigh { courses, first: course, wall: high, room };
         return Err(Fault::new(at.key("courses"), error.into()));
     }
-    bearing.map_or(Ok(()), |bearing| positive(at.key("bearing"), bearing))
+    let wanted =
+        "a lintel rests on some length of wall on both sides; leave the key out for half a brick";
+    bearing.map_or(Ok(()), |it| value(at.key("bearing"), it, MAGNITUDES.contains(&it), wanted))
 }
 
 /// The wall on both sides of an opening is as wide as its lintel needs: up to the end, or to another opening.
