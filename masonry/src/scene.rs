@@ -483,7 +483,13 @@ impl Scene {
         if let Some(list) = source.list() {
             let wrong =
                 |(message, place): (String, _)| SceneError::list(&list.path, &message, place);
-            scene.blocks.extend(block_list::blocks(list).map_err(wrong)?);
+            let listed = block_list::blocks(list).map_err(wrong)?;
+            scene.blocks.extend(listed.into_iter().map(|(name, it)| Block {
+                name,
+                material: it.material,
+                corners: it.corners,
+                mesh: it.mesh,
+            }));
             scene.block_list = None;
         }
         Ok(scene)

@@ -3,35 +3,34 @@
 use serde::Deserialize;
 
 use super::source::{List, Place};
-use super::{Block, strict};
+use super::strict;
 
 /// A block as the list has it.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Listed {
+pub(super) struct Listed {
     #[serde(default)]
     name: Option<String>,
-    material: String,
+    pub(super) material: String,
     #[serde(deserialize_with = "strict::corners")]
-    corners: Vec<[f64; 2]>,
+    pub(super) corners: Vec<[f64; 2]>,
     #[serde(default, deserialize_with = "strict::some_pair")]
-    mesh: Option<[u32; 2]>,
+    pub(super) mesh: Option<[u32; 2]>,
 }
 
-/// The blocks of a list. Those without a name are called by the name of the file and their number in the list.
+/// The blocks of a list with their names. Those without one are called by the name of the file and their number in the list.
 ///
 /// # Errors
 /// What does not fit the format, and where.
-pub(super) fn blocks(list: &List) -> Result<Vec<Block>, (String, Option<Place>)> {
+pub(super) fn blocks(list: &List) -> Result<Vec<(String, Listed)>, (String, Option<Place>)> {
     let listed: Vec<Listed> = serde_json::from_str(&list.text).map_err(|error| {
         let message = error.to_string();
         let message = message.rsplit_once(" at line ").map_or(&*message, |(what, _)| what);
         (message.to_owned(), Place::at(&list.text, error.line(), error.column()))
     })?;
     let stem = list.path.file_stem().map_or("blocks".into(), |stem| stem.to_string_lossy());
-    let block = |(number, Listed { name, material, corners, mesh }): (usize, Listed)| {
-        let name = name.unwrap_or_else(|| format!("{stem}/{number}"));
-        Block { name, material, corners, mesh }
+    let named = |(number, listed): (usize, Listed)| {
+        (listed.name.clone().unwrap_or_else(|| format!("{stem}/{number}")), listed)
     };
-    Ok((1..).zip(listed).map(block).collect())
+    Ok((1..).zip(listed).map(named).collect())
 }
