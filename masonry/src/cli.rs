@@ -9,6 +9,7 @@ mod interrupt;
 mod limit;
 mod new;
 mod out_dir;
+mod page;
 mod progress;
 mod solve;
 mod study;

@@ -105,9 +105,9 @@ fn mistakes_in_a_list_have_their_place_in_it() {
         "corner",
         "[2.6, 2.4], [0.0, 2.4]",
         "[2.6, 2.4, 0.0], [0.0, 2.4]",
-        "line 5, column 56\n  |\n\
+        "line 5, column 55\n  |\n\
          5 |     \"corners\": [[0.0, 2.0], [2.6, 2.0], [2.6, 2.4, 0.0], [0.0, 2.4]] }\n  \
-         |                                                        ^\n\
+         |                                                       ^\n\
          invalid length 3, expected a list of exactly 2 items",
     );
 }

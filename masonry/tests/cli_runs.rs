@@ -125,6 +125,8 @@ fn what_an_earlier_run_has_left_is_removed_and_named() {
     assert!(errors(&limit).is_empty(), "{}", errors(&limit));
     let mut both = [listed(&stands), listed(&limit)].concat();
     both.sort();
+    // Of a file that both write, the last one stays.
+    both.dedup();
     assert_eq!(files(&out), both);
     let again = run(&["solve"], &block(0.5, ""));
     assert!(errors(&again).is_empty(), "{}", errors(&again));

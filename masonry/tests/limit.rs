@@ -250,10 +250,12 @@ fn pictures_and_the_object_are_written() {
             "mechanism.svg",
             "path_forces.svg",
             "path_mechanism.svg",
+            "path.svg",
             "limit.json"
         ])
     );
-    for name in ["forces.svg", "mechanism.svg", "path_forces.svg", "path_mechanism.svg"] {
+    for name in ["forces.svg", "mechanism.svg", "path_forces.svg", "path_mechanism.svg", "path.svg"]
+    {
         let text = fs::read_to_string(out.join(name)).unwrap();
         roxmltree::Document::parse(&text).unwrap();
     }

@@ -6,8 +6,9 @@ use clap::{Args, ValueEnum};
 
 use super::end::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
 use super::out_dir::OutDir;
+use super::page;
 use crate::analysis::limit::{Answer, Associative, Laws, Path, least_thickness, limit_by, ranges};
-use crate::report::limit as output;
+use crate::report::{self, limit as output};
 use crate::scene::Scene;
 
 /// The law of friction that a limit load is asked of.
@@ -50,6 +51,9 @@ pub(super) struct LimitArgs {
     /// The directory to write pictures into, if any; created when missing.
     #[arg(long, conflicts_with = "range")]
     out: Option<PathBuf>,
+    /// Also write the report as one page of HTML, with pictures to choose from; opens without a network.
+    #[arg(long, value_name = "FILE", conflicts_with = "range")]
+    report: Option<PathBuf>,
     /// Print one JSON object instead of the report.
     #[arg(long)]
     json: bool,
@@ -67,20 +71,24 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
         scene = scene.limit_group(group);
     }
     let out = out_dir(args)?;
+    page::check(args.report.as_deref())?;
     let limit = limit_by(&scene, args.law.into())?;
     let written = match &out {
         Some(out) => output::write(&limit, out.path()),
         None => Ok(Vec::new()),
     };
     // What was computed is printed even when a file could not be written.
-    let files = written.as_deref().unwrap_or_default();
+    let in_out = written.as_deref().unwrap_or_default();
+    let mut files = in_out.to_vec();
+    let page = page::write(args.report.as_deref(), || report::page::limit(&limit), &mut files);
     if args.json {
-        print(&output::json(&limit, &names(files))?)?;
+        print(&output::json(&limit, &names(&files))?)?;
     } else {
-        print(&format!("{}\n{}", output::table(&limit), listing(files)))?;
+        print(&format!("{}\n{}", output::table(&limit), listing(&files)))?;
     }
-    out.map_or(Ok(()), |out| out.finish(files, false))?;
+    out.map_or(Ok(()), |out| out.finish(in_out, false))?;
     written?;
+    page?;
     let is_known = |it: &Associative| matches!(it.answer, Answer::Fails | Answer::Unlimited);
     let by_path = |path: &Path| path.decided && path.load_factor.is_some();
     let solved =
@@ -101,18 +109,22 @@ fn range(scene: &Scene, json: bool) -> Result<u8, Failure> {
 
 fn thickness(scene: &Scene, arch: &str, args: &LimitArgs) -> Result<u8, Failure> {
     let out = out_dir(args)?;
+    page::check(args.report.as_deref())?;
     let found = least_thickness(scene, arch)?;
     let written = match &out {
         Some(out) => output::write_thickness(&found, out.path()),
         None => Ok(Vec::new()),
     };
-    let files = written.as_deref().unwrap_or_default();
+    let in_out = written.as_deref().unwrap_or_default();
+    let mut files = in_out.to_vec();
+    let page = page::write(args.report.as_deref(), || report::page::thickness(&found), &mut files);
     if args.json {
-        print(&output::thickness_json(&found, &names(files))?)?;
+        print(&output::thickness_json(&found, &names(&files))?)?;
     } else {
-        print(&format!("{}\n{}", output::thickness_table(&found), listing(files)))?;
+        print(&format!("{}\n{}", output::thickness_table(&found), listing(&files)))?;
     }
-    out.map_or(Ok(()), |out| out.finish(files, false))?;
+    out.map_or(Ok(()), |out| out.finish(in_out, false))?;
     written?;
+    page?;
     Ok(if found.proved { SOLVED } else { NOT_SOLVED })
 }

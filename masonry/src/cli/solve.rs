@@ -8,9 +8,10 @@ use lcp::Status;
 use super::end::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
 use super::interrupt;
 use super::out_dir::OutDir;
+use super::page;
 use super::progress::Progress;
 use crate::analysis::checkpoint::{Checkpoint, CheckpointError};
-use crate::analysis::outcome::Outcome;
+use crate::analysis::outcome::{Frame, Outcome};
 use crate::analysis::solve::Run;
 use crate::report::svg::ReferenceLines;
 use crate::report::{self, Options, json, table};
@@ -32,6 +33,9 @@ pub(super) struct SolveArgs {
     /// Go on from `checkpoint.json` in that directory, which every step of a load history writes.
     #[arg(long, requires = "out")]
     resume: bool,
+    /// Also write the report as one page of HTML, with pictures to choose from; opens without a network.
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
     /// Print one JSON object instead of the report.
     #[arg(long)]
     json: bool,
@@ -44,25 +48,30 @@ pub(super) fn run(args: &SolveArgs) -> Result<u8, Failure> {
     }
     interrupt::listen();
     let mut out = args.out.as_deref().map(|out| OutDir::open(out, "solve")).transpose()?;
-    let Ran { outcome, mut files, end } = run_steps(&scene, args.resume, out.as_mut())?;
+    page::check(args.report.as_deref())?;
+    let Ran { outcome, frames, files: mut in_out, end } = run_steps(&scene, args, out.as_mut())?;
     let options = Options { reference: ReferenceLines::of(&scene), ..Options::default() };
     let written = match &out {
         Some(out) => report::write_all(&outcome, out.path(), &options),
         None => Ok(Vec::new()),
     };
     // What was computed is printed even when a file could not be written.
-    files.extend_from_slice(written.as_deref().unwrap_or_default());
+    in_out.extend_from_slice(written.as_deref().unwrap_or_default());
+    let mut files = in_out.clone();
+    let page = || report::page::solved(&outcome, &frames, options.reference.as_ref());
+    let page = page::write(args.report.as_deref(), page, &mut files);
     if args.json {
         print(&json::result(&outcome, &names(&files))?)?;
     } else {
         print(&format!("{}\n{}", table::report(&outcome), listing(&files)))?;
     }
     let is_cancelled = outcome.solve.status == Status::Cancelled;
-    out.map_or(Ok(()), |out| out.finish(&files, is_cancelled))?;
+    out.map_or(Ok(()), |out| out.finish(&in_out, is_cancelled))?;
     if is_cancelled {
         say_how_to_go_on(args, &outcome);
     }
     written?;
+    page?;
     end?;
     Ok(if outcome.solve.status == Status::Solved { SOLVED } else { NOT_SOLVED })
 }
@@ -70,24 +79,30 @@ pub(super) fn run(args: &SolveArgs) -> Result<u8, Failure> {
 /// What became of all steps.
 struct Ran {
     outcome: Outcome,
+    /// The steps that a page has pictures of, if one is asked for.
+    frames: Vec<Frame>,
     /// The checkpoint, if one was written.
     files: Vec<PathBuf>,
     /// What went wrong after a step that was solved.
     end: Result<(), Failure>,
 }
 
-fn run_steps(scene: &Scene, resumes: bool, mut out: Option<&mut OutDir>) -> Result<Ran, Failure> {
+fn run_steps(
+    scene: &Scene,
+    args: &SolveArgs,
+    mut out: Option<&mut OutDir>,
+) -> Result<Ran, Failure> {
     let path = out.as_ref().map(|out| out.path().join(CHECKPOINT));
     let mut progress = Progress::new();
     let mut run = Run::new(scene, &mut |event| progress.show(event))?;
-    if let (true, Some(out), Some(path)) = (resumes, &mut out, &path) {
+    if let (true, Some(out), Some(path)) = (args.resume, &mut out, &path) {
         if !run.has_history() {
             return Err(CheckpointError::OneStep.into());
         }
         run = run.resume(&Checkpoint::read(path)?)?;
         out.claim(CHECKPOINT)?;
     }
-    let (mut files, mut end) = (Vec::new(), Ok(()));
+    let (mut frames, mut files, mut end) = (Vec::new(), Vec::new(), Ok(()));
     loop {
         let solved = run.solved_steps();
         match run.advance(&mut |event| progress.show(event)) {
@@ -100,6 +115,10 @@ fn run_steps(scene: &Scene, resumes: bool, mut out: Option<&mut OutDir>) -> Resu
             }
         }
         let is_new = run.solved_steps() > solved;
+        if args.report.is_some() && is_new {
+            let is_shown = |it: &Frame| report::page::is_framed(it.position, run.steps());
+            frames.extend(run.frame().filter(is_shown));
+        }
         let checkpoint = run.checkpoint().filter(|_| is_new);
         let (Some(checkpoint), Some(out), Some(path)) = (checkpoint, &mut out, &path) else {
             continue;
@@ -111,7 +130,7 @@ fn run_steps(scene: &Scene, resumes: bool, mut out: Option<&mut OutDir>) -> Resu
         }
     }
     progress.clear();
-    Ok(Ran { outcome: run.finish(), files, end })
+    Ok(Ran { outcome: run.finish(), frames, files, end })
 }
 
 /// After an interruption: the command that goes on from the last step, on standard error.
@@ -129,10 +148,14 @@ fn say_how_to_go_on(args: &SolveArgs, outcome: &Outcome) {
             let [scene, out] = [&args.scene, out].map(|path| quoted(path));
             let route =
                 args.route.map_or(String::new(), |route| format!(" --route {}", route.name()));
+            let report = args
+                .report
+                .as_ref()
+                .map_or(String::new(), |path| format!(" --report {}", quoted(path)));
             let json = if args.json { " --json" } else { "" };
             eprintln!(
                 "interrupted after step {solved} of {steps}; this goes on from there:\n  \
-                 masonry solve {scene} --out {out} --resume{route}{json}"
+                 masonry solve {scene} --out {out} --resume{route}{report}{json}"
             );
         }
     }

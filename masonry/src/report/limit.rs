@@ -16,8 +16,8 @@ use crate::analysis::limit::{Limit, Thickness};
 use crate::model::Model;
 use crate::state::ContactState;
 
-/// Writes `forces.svg` and `mechanism.svg`, where there are forces and a mechanism, and `limit.json`, which lists them, into
-/// `dir`, which is created.
+/// Writes `forces.svg` and `mechanism.svg`, where there are forces and a mechanism, the same of the path with its curve, and
+/// `limit.json`, which lists them, into `dir`, which is created.
 ///
 /// # Errors
 /// [`OutputError`] for a directory that cannot be made, and for files that cannot be written.
@@ -33,6 +33,8 @@ pub fn write(limit: &Limit, dir: &Path) -> Result<Vec<PathBuf>, OutputError> {
         let rates = path.mechanism.as_deref().map(|it| svg::mechanism(&title, &path.model, it));
         list.extend(forces.map(|picture| ("path_forces.svg", picture)));
         list.extend(rates.map(|picture| ("path_mechanism.svg", picture)));
+        let curve = svg::path(&limit.title, &limit.group, path);
+        list.extend(curve.map(|picture| ("path.svg", picture)));
     }
     write_with(dir, list, |names| json(limit, names))
 }

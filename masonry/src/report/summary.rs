@@ -256,10 +256,14 @@ pub fn reason(outcome: &Outcome) -> Option<String> {
     }
     let history = outcome.history.as_ref().filter(|history| !history.records.is_empty());
     Some(match history.and_then(|history| history.failed.as_ref()) {
-        Some(Step { stage, number, of, .. }) => format!(
-            "Step {number} of {of} of stage \"{stage}\" could not be solved. {why} Load history, reactions and \
-             state are those of the step before, which was solved."
-        ),
+        Some(Step { stage, number, of, .. }) => {
+            let is_cancelled = outcome.solve.status == lcp::Status::Cancelled;
+            let end = if is_cancelled { "was not finished" } else { "could not be solved" };
+            format!(
+                "Step {number} of {of} of stage \"{stage}\" {end}. {why} Load history, reactions and state are those of \
+                 the step before, which was solved."
+            )
+        }
         None => why,
     })
 }
