@@ -287,7 +287,7 @@ impl Moving<'_, '_> {
     }
 
     /// The state at rest that smooth friction leads to, with slips from there, if the judge agrees; or the solution of the
-    /// problem itself next to it, where that is asked for. Where bodies move hardly farther than friction needs to turn, it
+    /// problem itself next to it, where that is wanted. Where bodies move hardly farther than friction needs to turn, it
     /// turns over a shorter slip; what vanishes with that slip is no movement.
     fn rest(&mut self, by_law: bool) -> Option<Found> {
         let mut slip = None;
