@@ -82,7 +82,7 @@ pub(super) const LIFT: f64 = 0.1;
 /// Steps for one spring. Chosen.
 pub(super) const STEPS: usize = 60;
 /// The natural residual up to which the problem with springs is solved, relative to the largest force. Chosen: only
-/// shares are asked for.
+/// shares are wanted.
 pub(super) const ACCURACY: f64 = 1e-5;
 /// Springs that carry less than this share of the load have nothing to say any more. Chosen.
 pub(super) const NOTHING: f64 = 1e-7;

@@ -230,7 +230,7 @@ impl<'a> Newton<'a> {
         u - by_t.iter().zip(&step.points).map(|(v, pairs)| v * pairs.t_n).sum::<f64>()
     }
 
-    /// The step that reduces what is left of all equations by a part, with products of an aim in the end, less the
+    /// The step that reduces the residuals of all equations by a part, with products of an aim in the end, less the
     /// second-order term of a predictor.
     fn step(&self, (part, aim): (f64, f64), predictor: Option<&Step>) -> Step {
         let Homogeneous { problem, at, tau, kappa, .. } = self.now;

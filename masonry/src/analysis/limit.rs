@@ -70,9 +70,9 @@ pub struct Limit {
     pub model: Model,
     /// The load or the group of loads that grows.
     pub group: String,
-    /// The limit load of associated flow, if it was asked for.
+    /// The limit load of associated flow, if it was chosen.
     pub associative: Option<Associative>,
-    /// The limit load of Coulomb's friction along a path, if it was asked for.
+    /// The limit load of Coulomb's friction along a path, if it was chosen.
     pub path: Option<Path>,
     /// The answer in the words of an engineer.
     pub sentence: String,
@@ -90,7 +90,7 @@ pub fn limit(scene: &Scene) -> Result<Limit, LimitError> {
     limit_by(scene, Laws::Both)
 }
 
-/// The same by the laws that are asked for.
+/// The same by the chosen laws.
 ///
 /// # Errors
 /// As [`limit`].

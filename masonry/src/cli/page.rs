@@ -23,7 +23,7 @@ pub(super) fn check(path: Option<&Path>) -> Result<(), Failure> {
     Err(format!("cannot write the page {}: {why}; choose another --report", path.display()).into())
 }
 
-/// Writes the page, if one is asked for, and adds it to the files that were written.
+/// Writes the page, with `--report`, and adds it to the files that were written.
 pub(super) fn write(
     path: Option<&Path>,
     page: impl FnOnce() -> String,

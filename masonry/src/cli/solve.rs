@@ -79,7 +79,7 @@ pub(super) fn run(args: &SolveArgs) -> Result<u8, Failure> {
 /// What became of all steps.
 struct Ran {
     outcome: Outcome,
-    /// The steps that a page has pictures of, if one is asked for.
+    /// The steps that a page has pictures of, with `--report`.
     frames: Vec<Frame>,
     /// The checkpoint, if one was written.
     files: Vec<PathBuf>,

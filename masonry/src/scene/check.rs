@@ -226,11 +226,11 @@ impl Scene {
         let springs = matches!(route, Route::Qp | Route::Pgs);
         let otherwise = ", or set route = \"lemke\"";
         if form != Form::Auto && !pivots {
-            let because = "is the form of the pivoting route, which is not the one asked for";
+            let because = "is used by the routes `auto` and `lemke` only";
             return Err(unwanted(at, "form", because, otherwise));
         }
         if max_pivots.is_some() && !pivots {
-            let because = "limits the pivoting route, which is not the one asked for";
+            let because = "is used by the routes `auto` and `lemke` only";
             return Err(unwanted(at, "max_pivots", because, otherwise));
         }
         if soft.is_some() && !springs {

@@ -1,9 +1,9 @@
-//! Why a limit load cannot be asked for.
+//! Why a limit load cannot be computed.
 
 use crate::scene::{Known, SceneError};
 use crate::system::SystemError;
 
-/// Why a limit load cannot be asked for.
+/// Why a limit load cannot be computed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LimitError {

@@ -15,7 +15,7 @@ pub(super) mod path;
 /// `gap` between them, whether the answer is `proved`, the `reactions` under the load factor, and the `mechanism`: rates of the
 /// corners of every block, the largest component one. `path` has the `load_factor` up to which blocks rest, the factor at which
 /// it `falls`, whether that is `decided`, the `last_stable` state, the `mechanism` after it, the `events` on the way and the
-/// `curve`. What is not known is null, and so is a law of friction that was not asked for. `units` names the units.
+/// `curve`. What is not known is null, and so is a law of friction that was not chosen. `units` names the units.
 ///
 /// # Errors
 /// None that this data can cause; the signature is that of the serialiser.
