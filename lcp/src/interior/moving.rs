@@ -127,7 +127,7 @@ impl<'a, 'b> Moving<'a, 'b> {
     }
 
     /// The state at rest that friction leads to which turns over one of these parts of the displacements of the start, with
-    /// slips from there; or the solution of the problem itself next to it, where that is asked for.
+    /// slips from there; or the solution of the problem itself next to it, where that is wanted.
     ///
     /// Where bodies move hardly farther than friction needs to turn, it turns over a shorter slip: what vanishes with that
     /// slip is no movement.
