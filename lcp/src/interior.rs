@@ -4,6 +4,7 @@ mod balance;
 mod constants;
 mod continuation;
 mod evolution;
+mod evolved;
 mod homogeneous;
 mod iterate;
 mod motion;
@@ -18,7 +19,8 @@ mod turn;
 
 use std::ops::ControlFlow;
 
-pub use evolution::{Evolution, EvolutionSettings, Evolved, Way};
+pub use evolution::{Evolution, EvolutionSettings};
+pub use evolved::{Evolved, Way};
 pub use settings::InteriorPointSettings;
 
 use balance::{Balance, balance};

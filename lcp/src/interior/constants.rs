@@ -10,9 +10,9 @@ pub(super) const NEARER: f64 = 0.03;
 pub(super) const SURE: f64 = 1e-8;
 /// Proximal terms that hold it, one after the other. Measured there: 1e-12 lets it go anywhere, 1e-10 finds the states.
 pub(super) const HELD: [f64; 2] = [1e-10, 1e-8];
-/// Steps without a reduction of the products by a tenth after which the iteration has jammed. Measured on walls of 1000
-/// bricks: those that get out of it do in 14 at most, and the next start takes a tenth to a half off what 30 cost.
-pub(super) const PATIENCE: usize = 16;
+/// Steps without a reduction of the products by a tenth after which the iteration has jammed. Measured on walls: one
+/// that was stuck for some 40 steps was better left; where the path turns back products grow for a while.
+pub(super) const PATIENCE: usize = 30;
 /// Steps from a point that is solved but whose states are not yet those of the exact answer. Chosen.
 pub(super) const MORE: usize = 8;
 /// Steps shorter than this are none. Chosen.

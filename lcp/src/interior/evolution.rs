@@ -3,12 +3,14 @@
 use std::ops::ControlFlow;
 use std::time::Duration;
 
+use super::constants::SMOOTH;
+use super::evolved::Evolved;
 use super::moving::Moving;
 use crate::active::Search;
 use crate::settings::check_tolerance;
 use crate::solve::Monitor;
 use crate::vector::{check_length, check_vector};
-use crate::{Contact2d, ContactState, Error, Method, Observer, SoftSprings, Solution};
+use crate::{Contact2d, Error, Method, Observer};
 
 /// Settings of [`Evolution`].
 #[derive(Debug, Clone, PartialEq)]
@@ -21,11 +23,21 @@ pub struct EvolutionSettings {
     pub time_limit: Option<Duration>,
     /// Whether rest is looked for without a motion first. Where supports move far it is seldom found so.
     pub at_once: bool,
+    /// The slips over which smooth friction turns, as parts of the largest displacement of the start, one after the other. With
+    /// short ones friction is near to Coulomb's; long ones lead to rest nearly always, but to one that forces hold which no
+    /// loading may lead to.
+    pub slips: Vec<f64>,
 }
 
 impl Default for EvolutionSettings {
     fn default() -> Self {
-        Self { tolerance: 1e-10, max_iterations: 1000, time_limit: None, at_once: true }
+        Self {
+            tolerance: 1e-10,
+            max_iterations: 1000,
+            time_limit: None,
+            at_once: true,
+            slips: SMOOTH.to_vec(),
+        }
     }
 }
 
@@ -87,62 +99,6 @@ pub struct Evolution {
     settings: EvolutionSettings,
 }
 
-/// How bodies came to where they are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(rename_all = "kebab-case")
-)]
-#[non_exhaustive]
-pub enum Way {
-    /// The state solves the problem as given: Coulomb's law for the slips of the whole step.
-    Law,
-    /// Coulomb's law with friction that turns over a short slip.
-    SmoothFriction,
-    /// Motions against viscosity.
-    Motion,
-}
-
-impl Way {
-    /// A name for files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Law => "law",
-            Self::SmoothFriction => "smooth-friction",
-            Self::Motion => "motion",
-        }
-    }
-}
-
-/// Where the bodies are after an [`Evolution`].
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Evolved {
-    /// How they came there.
-    pub way: Way,
-    /// The displacements from which the slips of the solution are measured; `None` where they are those of the problem.
-    pub from: Option<Vec<f64>>,
-    /// The solution of the problem [after](Contact2d::after) `from`, where the bodies rest.
-    pub solution: Solution,
-    /// By motion the viscosity, in units of the equilibrated problem, and its share of the loads.
-    pub motions: SoftSprings,
-    /// The energy that friction and viscosity took on the way to `from`.
-    pub dissipation: f64,
-}
-
-impl Evolved {
-    /// The displacements, forces, gaps and slips where the bodies are.
-    pub fn state(&self) -> &ContactState {
-        self.solution.contact.as_ref().unwrap_or_else(|| unreachable!("a contact problem has one"))
-    }
-
-    /// Whether the bodies have come to rest.
-    pub fn rests(&self) -> bool {
-        self.solution.is_solved()
-    }
-}
-
 impl Evolution {
     /// With these settings.
     pub fn new(settings: EvolutionSettings) -> Self {
@@ -173,12 +129,13 @@ impl Evolution {
         from: &[f64],
         observer: &mut Observer<'_>,
     ) -> Result<Evolved, Error> {
-        let EvolutionSettings { tolerance, max_iterations, time_limit, at_once } = self.settings;
+        let EvolutionSettings { tolerance, max_iterations, time_limit, at_once, ref slips } =
+            self.settings;
         check_tolerance(tolerance)?;
         check_length("from", from.len(), problem.displacements())?;
         check_vector("from", from)?;
         let search = Search::new(Method::Interior, problem, tolerance)?;
         let monitor = Monitor::new(max_iterations, time_limit, observer);
-        Moving::new(problem, tolerance, search, monitor, from).until_rest(at_once)
+        Moving::new(problem, tolerance, search, monitor, from).until_rest(slips, at_once)
     }
 }

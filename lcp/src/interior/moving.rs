@@ -4,7 +4,7 @@ use super::constants::{
     BLUNT, FREE, LEAST_VISCOSITY, MOST_VISCOSITY, MOVED, SETTLING, SHARPER, SMOOTH, STEADIER,
     STEADY, STEADY_MOTIONS, TRIES,
 };
-use super::evolution::{Evolved, Way};
+use super::evolved::{Evolved, Way};
 use super::motion::{Motions, Moved, Viscosity, unresisted};
 use super::rest::settled;
 use super::start::{start, start_smooth};
@@ -67,9 +67,9 @@ impl<'a, 'b> Moving<'a, 'b> {
     }
 
     /// Moves the bodies until they rest or flow; rest without a motion is looked for first if that is wanted.
-    pub(super) fn until_rest(mut self, at_once: bool) -> Result<Evolved, Error> {
+    pub(super) fn until_rest(mut self, slips: &[f64], at_once: bool) -> Result<Evolved, Error> {
         let mut path = SoftSprings::default();
-        match at_once.then(|| self.rest(&SMOOTH, true)).flatten() {
+        match at_once.then(|| self.rest(slips, true)).flatten() {
             Some(Found::Law) => return Ok(self.by_law(path)),
             Some(Found::Rest(from, solution)) => {
                 return Ok(self.concluded((Way::SmoothFriction, from, *solution), path));
@@ -108,7 +108,7 @@ impl<'a, 'b> Moving<'a, 'b> {
             }
             if viscosity.may_rest() {
                 tries += 1;
-                let parts = if tries < TRIES { &SMOOTH[..1] } else { &SMOOTH };
+                let parts = if tries < TRIES { &slips[..slips.len().min(1)] } else { slips };
                 if let Some(Found::Rest(from, solution)) = self.rest(parts, false) {
                     self.search.condensed.factorisations += motions.factorisations();
                     return Ok(self.concluded((Way::Motion, from, *solution), path));

@@ -91,12 +91,16 @@ impl Interior<'_> {
         let problem = &self.sparse.problem;
         let rest = vec![0.0; problem.displacements()];
         let from = self.start.map_or(&rest, |state| &state.u);
-        let settings = EvolutionSettings {
+        let mut settings = EvolutionSettings {
             tolerance: request.tolerance,
             at_once: self.way != Way::Motion,
             max_iterations: auto::STEPS_OF_MOTION,
             ..EvolutionSettings::default()
         };
+        // From nowhere, friction that turns over long slips would hold blocks by forces that no loading leads to.
+        if self.start.is_none() {
+            settings.slips.truncate(1);
+        }
         let evolved = Evolution::new(settings)
             .advance_observed(problem, from, &mut |at| observer(at.into()))?;
         let line = described(&evolved);
