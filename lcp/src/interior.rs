@@ -4,11 +4,9 @@ mod balance;
 mod constants;
 mod continuation;
 mod evolution;
-mod evolved;
 mod homogeneous;
 mod iterate;
 mod motion;
-mod moving;
 mod path;
 mod problems;
 mod rest;
@@ -19,8 +17,7 @@ mod turn;
 
 use std::ops::ControlFlow;
 
-pub use evolution::{Evolution, EvolutionSettings};
-pub use evolved::{Evolved, Way};
+pub use evolution::{Evolution, EvolutionSettings, Evolved, Way};
 pub use settings::InteriorPointSettings;
 
 use balance::{Balance, balance};

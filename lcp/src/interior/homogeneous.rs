@@ -39,7 +39,7 @@ struct Step {
 
 /// The solution of a problem without friction, with a spring on every displacement, to a tolerance; or `u` and `t` that may
 /// prove that there is none, with [`Status::Infeasible`] if `is_proof` says so, which is asked wherever they are near.
-/// Springs carry any load, so with them no proof is looked for. `stop` is asked before every step, with the residual.
+/// `stop` is asked before every step, with the residual.
 pub(super) fn solved(
     problem: &Scaled,
     condensed: &mut Condensed,
@@ -52,8 +52,7 @@ pub(super) fn solved(
     let mut now = Homogeneous { problem, spring, at, tau: 1.0, kappa };
     let (mut least, mut since, mut provable) = (f64::INFINITY, 0, PROVED);
     loop {
-        let residual = now.residual();
-        let error = if spring > 0.0 { f64::INFINITY } else { now.error_of_proof() };
+        let (residual, error) = (now.residual(), now.error_of_proof());
         if residual <= tolerance {
             return (now.solution(), Status::Solved);
         }
