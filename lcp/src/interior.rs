@@ -9,6 +9,7 @@ mod iterate;
 mod motion;
 mod path;
 mod problems;
+mod program;
 mod rest;
 mod saddle;
 mod settings;

@@ -192,7 +192,7 @@ pub use solution::{Info, Route, RouteEnd, Solution};
 pub use solve::{Iteration, Observer, Solver};
 /// For the benches of the workspace.
 #[doc(hidden)]
-pub use sparse::Multifrontal;
+pub use sparse::{Gram, Multifrontal};
 pub use status::Status;
 
 /// The programs of the README are compiled and run with the tests.

@@ -46,17 +46,17 @@ impl Solver<MixedLcp> for InteriorPoint {
         let Some(saddle) = saddle else { return self.run(problem, observer) };
         self.settings.validate(problem.order())?;
         let mut monitor = Monitor::new(max_iterations, time_limit, observer);
-        let mut condensed = saddle.planned().map_err(|error| unplanned(Method::Interior, error))?;
+        let mut factors = saddle.planned().map_err(|error| unplanned(Method::Interior, error))?;
         let mut general = None;
         let (z, w, status, certificate) =
-            saddle.solved(&mut condensed, tolerance, &mut monitor, |z| {
+            saddle.solved(&mut factors, tolerance, &mut monitor, |z| {
                 is_proof(general.get_or_insert_with(|| problem.general()), z)
             });
         let pairs = problem.to_pairs(&z, &w);
         let mut solution = judged_point(problem, pairs, tolerance, status);
         solution.certificate = certificate;
         solution.info = monitor.info(Method::Interior);
-        solution.info.factorisations = condensed.factorisations;
+        solution.info.factorisations = factors.factorisations;
         Ok(solution)
     }
 }

@@ -93,9 +93,8 @@ impl Search<'_, '_> {
 
     /// The proof that the motion at the beginning of `z` leads to.
     fn proof(&self, z: &[f64]) -> Option<Proof> {
-        let entries = self.program.entries();
         let motion = &z[..self.program.unknowns()];
-        sharpen::candidates(motion, entries, self.program.columns())
+        sharpen::candidates(motion, self.program.columns())
             .find_map(|motion| Proof::of(self.model, &motion[..3 * self.model.blocks.len()]))
     }
 

@@ -1,10 +1,10 @@
 //! The convex programs of admissible forces as complementarity problems.
 
-use faer::sparse::{SparseColMat, Triplet};
+use faer::sparse::SparseColMat;
 use lcp::MixedLcp;
 
-use crate::law::Friction;
-use crate::system::{BodySystem, System};
+use crate::columns::{Columns, column};
+use crate::system::System;
 
 /// What is left of the balance of a block, relative to the largest load, in forces that are called admissible.
 const BALANCED: f64 = 1e-9;
@@ -16,9 +16,9 @@ pub(super) struct Program<'a> {
     first: Vec<usize>,
     /// The frictional points with a constant part of friction, and `C_0` of each in units of the largest load.
     constant: Vec<(usize, f64)>,
-    /// `E` as rows, columns and values: edges, then for every force `q` of constant friction `q' = C_0 + q` and
-    /// `q'' = C_0 - q`, with `q' + q'' = 2 C_0` below the balance of the blocks.
-    entries: Vec<(usize, usize, f64)>,
+    /// `E`: edges, then for every force `q` of constant friction `q' = C_0 + q` and `q'' = C_0 - q`, with
+    /// `q' + q'' = 2 C_0` below the balance of the blocks.
+    e: SparseColMat<usize, f64>,
     /// `r`, in units of the largest load; where there is constant friction, with `-C_0` along it.
     loads: Vec<f64>,
     /// The largest load \[N\].
@@ -27,68 +27,30 @@ pub(super) struct Program<'a> {
 
 impl<'a> Program<'a> {
     pub(super) fn of(system: &'a System) -> Self {
-        let mut edges = vec![1; system.points()];
+        let mut counts = vec![1; system.points()];
         for friction in system.friction.iter().filter(|friction| friction.mu > 0.0) {
-            edges[friction.contact.index()] = 2;
+            counts[friction.contact.index()] = 2;
         }
         let mut first = vec![0];
-        first.extend(edges.iter().scan(0, |sum, edges| {
-            *sum += edges;
+        first.extend(counts.iter().scan(0, |sum, count| {
+            *sum += count;
             Some(*sum)
         }));
         let resultants = system.resultants();
         let largest = resultants.iter().fold(0.0, |unit: f64, f| unit.max(f.abs()));
         let unit = if largest > 0.0 { largest } else { 1.0 };
-        let loads = resultants.iter().map(|f| f / unit).collect();
+        let mut loads: Vec<f64> = resultants.iter().map(|f| f / unit).collect();
         let with_base = system.friction.iter().enumerate().filter(|(_, it)| it.base > 0.0);
-        let constant = with_base.map(|(k, it)| (k, it.base / unit)).collect();
-        let mut program = Self { system, first, constant, entries: Vec::new(), loads, unit };
-        for (b, body) in system.bodies.iter().enumerate() {
-            program.add(b, body);
-        }
-        for (place, (_, base)) in program.constant.iter().enumerate() {
-            let (row, column) = (program.loads.len(), program.edges() + 2 * place);
-            program.entries.extend([(row, column, 1.0), (row, column + 1, 1.0)]);
-            program.loads.push(-2.0 * base);
-        }
-        program
-    }
-
-    fn add(&mut self, b: usize, body: &BodySystem) {
-        let points = self.system.points();
-        for row in &body.rows {
-            let modes = || row.modes.iter().enumerate().filter(|(_, value)| **value != 0.0);
-            // The normal force of one along both edges, the friction along each in its own direction.
-            let (point, factors) = match row.row.checked_sub(points) {
-                None => (row.row, [self.parts(row.row)[0]; 2]),
-                Some(k) => {
-                    if let Ok(place) = self.constant.binary_search_by_key(&k, |it| it.0) {
-                        let (column, base) = (self.edges() + 2 * place, self.constant[place].1);
-                        for (j, value) in modes() {
-                            self.entries.push((3 * b + j, column, *value));
-                            self.loads[3 * b + j] -= base * value;
-                        }
-                    }
-                    let Friction { contact, mu, .. } = self.system.friction[k];
-                    if mu <= 0.0 {
-                        continue;
-                    }
-                    let [_, friction] = self.parts(contact.index());
-                    (contact.index(), [friction, -friction])
-                }
-            };
-            for (edge, factor) in (self.first[point]..self.first[point + 1]).zip(factors) {
-                self.entries.extend(modes().map(|(j, value)| (3 * b + j, edge, factor * value)));
+        let constant: Vec<(usize, f64)> = with_base.map(|(k, it)| (k, it.base / unit)).collect();
+        let sides = Sides::of(system);
+        for (k, base) in &constant {
+            for (b, modes) in sides.of_row(system.points() + k) {
+                (0..3).for_each(|j| loads[3 * b + j] -= base * modes[j]);
             }
         }
-    }
-
-    /// The normal and the tangential part of a force of one along an edge of the cone of a point.
-    fn parts(&self, point: usize) -> [f64; 2] {
-        let found = self.system.friction.binary_search_by_key(&point, |it| it.contact.index());
-        let mu = found.map_or(0.0, |k| self.system.friction[k].mu);
-        let length = mu.hypot(1.0);
-        [1.0 / length, mu / length]
+        loads.extend(constant.iter().map(|(_, base)| -2.0 * base));
+        let e = edges(system, &constant, &sides).assembled(loads.len());
+        Self { system, first, constant, e, loads, unit }
     }
 
     /// No load acts.
@@ -105,29 +67,18 @@ impl<'a> Program<'a> {
         self.first[self.first.len() - 1]
     }
 
-    /// Of `E`.
-    pub(super) fn columns(&self) -> usize {
-        self.edges() + 2 * self.constant.len()
-    }
-
-    pub(super) fn entries(&self) -> &[(usize, usize, f64)] {
-        &self.entries
+    /// `E`
+    pub(super) fn columns(&self) -> &SparseColMat<usize, f64> {
+        &self.e
     }
 
     /// `E p + r = 0` and `0 <= p _|_ p + E^T x >= 0`.
     pub(super) fn least_forces(&self) -> Result<MixedLcp, lcp::Error> {
         let n = self.unknowns();
-        let order = n + self.columns();
+        let order = n + self.e.ncols();
         let mut q: Vec<f64> = self.loads.iter().map(|r| -r).collect();
         q.resize(order, 0.0);
-        let skew = self
-            .entries
-            .iter()
-            .flat_map(|&(i, k, v)| [Triplet::new(i, n + k, -v), Triplet::new(n + k, i, v)]);
-        let ones = (n..order).map(|i| Triplet::new(i, i, 1.0));
-        let triplets: Vec<_> = skew.chain(ones).collect();
-        let m = SparseColMat::try_new_from_triplets(order, order, &triplets)
-            .unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}"));
+        let m = saddle(&self.e);
         MixedLcp::new(m, q, (0..order).map(|j| j < n).collect())
     }
 
@@ -135,7 +86,9 @@ impl<'a> Program<'a> {
     pub(super) fn admissible(&self, z: &[f64]) -> Option<Vec<f64>> {
         let p: Vec<f64> = z[self.unknowns()..].iter().map(|p| p.max(0.0)).collect();
         let mut rest = self.loads.clone();
-        self.entries.iter().for_each(|&(i, k, v)| rest[i] += v * p[k]);
+        for (k, p) in p.iter().enumerate() {
+            column(&self.e, k).for_each(|(i, v)| rest[i] += v * p);
+        }
         let is_balanced = rest.iter().all(|rest| rest.abs() <= BALANCED);
         is_balanced.then(|| self.forces(&p))
     }
@@ -145,13 +98,14 @@ impl<'a> Program<'a> {
         let mut forces = vec![0.0; self.system.rows.len()];
         for point in 0..points {
             let along: f64 = p[self.first[point]..self.first[point + 1]].iter().sum();
-            forces[point] = self.unit * along * self.parts(point)[0];
+            forces[point] = self.unit * along * parts(self.system, point)[0];
         }
         for (k, friction) in self.system.friction.iter().enumerate() {
             let point = friction.contact.index();
             if friction.mu > 0.0 {
                 let edge = self.first[point];
-                forces[points + k] = self.unit * self.parts(point)[1] * (p[edge] - p[edge + 1]);
+                forces[points + k] =
+                    self.unit * parts(self.system, point)[1] * (p[edge] - p[edge + 1]);
             }
         }
         for ((k, base), q) in self.constant.iter().zip(p[self.edges()..].chunks_exact(2)) {
@@ -159,4 +113,108 @@ impl<'a> Program<'a> {
         }
         forces
     }
+}
+
+/// The normal and the tangential part of a force of one along an edge of the cone of a point.
+fn parts(system: &System, point: usize) -> [f64; 2] {
+    let found = system.friction.binary_search_by_key(&point, |it| it.contact.index());
+    let mu = found.map_or(0.0, |k| system.friction[k].mu);
+    let length = mu.hypot(1.0);
+    [1.0 / length, mu / length]
+}
+
+/// The blocks that every row acts on.
+struct Sides<'a> {
+    starts: Vec<usize>,
+    /// Blocks, increasing, with the work of a force of one in their rigid motions, row by row.
+    list: Vec<(usize, &'a [f64; 3])>,
+}
+
+impl<'a> Sides<'a> {
+    fn of(system: &'a System) -> Self {
+        let mut starts = vec![0; system.rows.len() + 1];
+        let rows = || {
+            system
+                .bodies
+                .iter()
+                .enumerate()
+                .flat_map(|(b, it)| it.rows.iter().map(move |row| (b, row)))
+        };
+        rows().for_each(|(_, row)| starts[row.row + 1] += 1);
+        for row in 0..system.rows.len() {
+            starts[row + 1] += starts[row];
+        }
+        let mut next = starts.clone();
+        let mut list = vec![(0, &[0.0; 3]); starts[system.rows.len()]];
+        for (b, row) in rows() {
+            list[next[row.row]] = (b, &row.modes);
+            next[row.row] += 1;
+        }
+        Self { starts, list }
+    }
+
+    fn of_row(&self, row: usize) -> &[(usize, &'a [f64; 3])] {
+        &self.list[self.starts[row]..self.starts[row + 1]]
+    }
+}
+
+/// The columns of `E`.
+fn edges(system: &System, constant: &[(usize, f64)], sides: &Sides<'_>) -> Columns {
+    let mut columns = Columns::default();
+    let points = system.points();
+    let on_blocks = |(b, modes): (usize, [f64; 3])| {
+        modes.into_iter().enumerate().map(move |(j, value)| (3 * b + j, value))
+    };
+    let mut friction = system.friction.iter().enumerate().peekable();
+    for point in 0..points {
+        let tangent = friction.next_if(|(_, it)| it.contact.index() == point);
+        let normal = sides.of_row(point);
+        let Some((k, _)) = tangent.filter(|(_, it)| it.mu > 0.0) else {
+            columns.push(normal.iter().map(|(b, normal)| (*b, **normal)).flat_map(on_blocks));
+            continue;
+        };
+        // The normal force of one along both edges, the friction along each in its own direction.
+        let [n, t] = parts(system, point);
+        for t in [t, -t] {
+            let both = normal.iter().zip(sides.of_row(points + k));
+            let edge = both.map(|((b, normal), (_, tangent))| {
+                (*b, [0, 1, 2].map(|j| n * normal[j] + t * tangent[j]))
+            });
+            columns.push(edge.flat_map(on_blocks));
+        }
+    }
+    for (place, (k, _)) in constant.iter().enumerate() {
+        let bound = (3 * system.bodies.len() + place, 1.0);
+        let along = sides.of_row(points + k).iter().map(|(b, tangent)| (*b, **tangent));
+        columns.push(along.flat_map(on_blocks).chain([bound]));
+        columns.push([bound]);
+    }
+    columns
+}
+
+/// `[0, -E; E^T, 1]`.
+fn saddle(e: &SparseColMat<usize, f64>) -> SparseColMat<usize, f64> {
+    let (n, m) = (e.nrows(), e.ncols());
+    let mut starts = vec![0; n + 1];
+    e.row_idx().iter().for_each(|&i| starts[i + 1] += 1);
+    for i in 0..n {
+        starts[i + 1] += starts[i];
+    }
+    let mut next = starts[..n].to_vec();
+    let stored = e.row_idx().len();
+    let (mut rows, mut values) = (vec![0; stored], vec![0.0; stored]);
+    rows.reserve_exact(stored + m);
+    values.reserve_exact(stored + m);
+    for k in 0..m {
+        for (i, v) in column(e, k) {
+            (rows[next[i]], values[next[i]]) = (n + k, v);
+            next[i] += 1;
+        }
+    }
+    for k in 0..m {
+        rows.extend(column(e, k).map(|(i, _)| i).chain([n + k]));
+        values.extend(column(e, k).map(|(_, v)| -v).chain([1.0]));
+        starts.push(rows.len());
+    }
+    Columns::new(starts, rows, values).assembled(n + m)
 }

@@ -1,0 +1,52 @@
+//! Sparse matrices by columns.
+
+use faer::sparse::{SparseColMat, SymbolicSparseColMat};
+
+/// A matrix that is put together column by column.
+pub(crate) struct Columns {
+    starts: Vec<usize>,
+    rows: Vec<usize>,
+    values: Vec<f64>,
+}
+
+impl Default for Columns {
+    fn default() -> Self {
+        Self { starts: vec![0], rows: Vec::new(), values: Vec::new() }
+    }
+}
+
+impl Columns {
+    /// Of columns whose entries stand one after the other.
+    pub(crate) fn new(starts: Vec<usize>, rows: Vec<usize>, values: Vec<f64>) -> Self {
+        Self { starts, rows, values }
+    }
+
+    /// Adds a column, with rows increasing.
+    pub(crate) fn push(&mut self, entries: impl IntoIterator<Item = (usize, f64)>) {
+        for (row, value) in entries {
+            self.rows.push(row);
+            self.values.push(value);
+        }
+        self.starts.push(self.rows.len());
+    }
+
+    /// The matrix, with so many rows.
+    ///
+    /// # Panics
+    /// If a row is not below that, or rows of a column do not increase.
+    pub(crate) fn assembled(self, rows: usize) -> SparseColMat<usize, f64> {
+        let columns = self.starts.len() - 1;
+        let pattern =
+            SymbolicSparseColMat::new_checked(rows, columns, self.starts, None, self.rows);
+        SparseColMat::new(pattern, self.values)
+    }
+}
+
+/// The entries `(row, value)` of a column.
+pub(crate) fn column(
+    matrix: &SparseColMat<usize, f64>,
+    k: usize,
+) -> impl Iterator<Item = (usize, f64)> + '_ {
+    let matrix = matrix.as_ref();
+    matrix.row_idx_of_col_raw(k).iter().copied().zip(matrix.val_of_col(k).iter().copied())
+}
