@@ -39,11 +39,7 @@ pub(crate) fn is_proof_of<'a>(
 }
 
 /// The same for columns with a sign.
-fn separates<'a>(
-    columns: impl Iterator<Item = (f64, Column<'a>)>,
-    c: &[f64],
-    pi: &[f64],
-) -> bool {
+fn separates<'a>(columns: impl Iterator<Item = (f64, Column<'a>)>, c: &[f64], pi: &[f64]) -> bool {
     if pi.len() != c.len() || pi.iter().any(|pi| !pi.is_finite()) {
         return false;
     }

@@ -88,7 +88,7 @@ pub(super) fn solved(
     let at = start(program, factors, spring.max(PROXIMAL));
     let kappa = at.mean_product();
     let mut now = Homogeneous::new((program, spring), at, (1.0, kappa));
-    let (mut least, mut since, mut provable) = (f64::INFINITY, 0, PROVED);
+    let (mut least, mut since, mut provable) = ([f64::INFINITY; 3], 0, PROVED);
     loop {
         let defect = now.defect();
         let (residual, error) = (now.residual(&defect), now.error_of_proof());
@@ -104,12 +104,14 @@ pub(super) fn solved(
                 return (now.at, Status::Stalled);
             }
         }
-        let merit = residual.min(error);
-        if let Some(status) = stop(merit) {
+        if let Some(status) = stop(residual.min(error)) {
             return (now.solution(), status);
         }
-        since = if merit < 0.9 * least { 0 } else { since + 1 };
-        least = least.min(merit);
+        // Far from a proof its error may be as small as it will be for long, while the rest goes on.
+        let merits = [residual, error, now.mean()];
+        let is_better = merits.iter().zip(&least).any(|(merit, least)| *merit < 0.9 * least);
+        since = if is_better { 0 } else { since + 1 };
+        least = [0, 1, 2].map(|k| least[k].min(merits[k]));
         let alpha = now.advance(factors, defect);
         if alpha < NO_STEP || since > PATIENCE {
             return (now.solution(), Status::Stalled);
