@@ -6,6 +6,7 @@ mod continuation;
 mod evolution;
 mod homogeneous;
 mod iterate;
+mod least;
 mod motion;
 mod path;
 mod problems;
@@ -19,6 +20,7 @@ mod turn;
 use std::ops::ControlFlow;
 
 pub use evolution::{Evolution, EvolutionSettings, Evolved, Way};
+pub use least::LeastForces;
 pub use settings::InteriorPointSettings;
 
 use balance::{Balance, balance};

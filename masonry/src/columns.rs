@@ -16,11 +16,6 @@ impl Default for Columns {
 }
 
 impl Columns {
-    /// Of columns whose entries stand one after the other.
-    pub(crate) fn new(starts: Vec<usize>, rows: Vec<usize>, values: Vec<f64>) -> Self {
-        Self { starts, rows, values }
-    }
-
     /// Adds a column, with rows increasing.
     pub(crate) fn push(&mut self, entries: impl IntoIterator<Item = (usize, f64)>) {
         for (row, value) in entries {

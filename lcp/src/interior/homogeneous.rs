@@ -39,6 +39,27 @@ impl Factors {
     }
 }
 
+/// How exact a solution has to be.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Accuracy {
+    tolerance: f64,
+    /// What the smaller one of a pair counts beside what the equations lack.
+    pairs: f64,
+}
+
+impl Accuracy {
+    /// Equations and pairs alike, relative to the largest force and gap.
+    pub(super) fn of_all(tolerance: f64) -> Self {
+        Self { tolerance, pairs: 1.0 }
+    }
+
+    /// Equations to the tolerance, and pairs below a tenth of its root: to that, their products are far below the
+    /// tolerance.
+    pub(super) fn of_products(tolerance: f64) -> Self {
+        Self { tolerance, pairs: 10.0 * tolerance.sqrt() }
+    }
+}
+
 /// A point of the homogeneous problem of Andersen and Ye (1999),
 ///
 /// ```text
@@ -75,23 +96,24 @@ struct Defect {
     gaps: Vec<f64>,
 }
 
-/// The solution of a program, with a spring on every displacement, to a tolerance; or `u` and `t` that may
+/// The solution of a program, with a spring on every displacement; or `u` and `t` that may
 /// prove that there is none, with [`Status::Infeasible`] if `is_proof` says so, which is asked wherever they are near.
 /// `stop` is asked before every step, with the residual.
 pub(super) fn solved(
     program: &Program,
     factors: &mut Factors,
-    (spring, tolerance): (f64, f64),
+    (spring, accuracy): (f64, Accuracy),
     mut stop: impl FnMut(f64) -> Option<Status>,
     mut is_proof: impl FnMut(&Variables) -> bool,
 ) -> (Variables, Status) {
+    let Accuracy { tolerance, pairs } = accuracy;
     let at = start(program, factors, spring.max(PROXIMAL));
     let kappa = at.mean_product();
     let mut now = Homogeneous::new((program, spring), at, (1.0, kappa));
     let (mut least, mut since, mut provable) = ([f64::INFINITY; 3], 0, PROVED);
     loop {
         let defect = now.defect();
-        let (residual, error) = (now.residual(&defect), now.error_of_proof());
+        let (residual, error) = (now.residual(&defect, pairs), now.error_of_proof());
         if residual <= tolerance {
             return (now.solution(), Status::Solved);
         }
@@ -185,12 +207,12 @@ impl<'a> Homogeneous<'a> {
         self.at
     }
 
-    fn residual(&self, defect: &Defect) -> f64 {
+    fn residual(&self, defect: &Defect, pairs: f64) -> f64 {
         let (force, length) = (max_abs(&self.at.t), max_abs(&self.at.y));
         let (force, length) = (force.max(self.tau), length.max(self.tau));
         let defect = (max_abs(&defect.balance) / force).max(max_abs(&defect.gaps) / length);
         let natural = self.at.t.iter().zip(&self.at.y).map(|(t, y)| (t / force).min(y / length));
-        natural.fold(defect, |max, v| max.max(v.abs()))
+        natural.fold(defect, |max, v| max.max(pairs * v.abs()))
     }
 
     /// How far the point is from a proof: what has to vanish, relative to the work of loads and gaps, which has to be

@@ -5,7 +5,7 @@ use faer::sparse::FaerError;
 use super::constants::{
     FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS, SAME_LENGTH, SLOWER,
 };
-use super::homogeneous::{Factors, solved};
+use super::homogeneous::{Accuracy, Factors, solved};
 use super::program::{Program, associated};
 use crate::Status;
 use crate::states::Scaled;
@@ -54,6 +54,7 @@ impl Motions {
         for (x_0, (point, mu)) in edges.x_0.iter_mut().zip(problem.edges()) {
             *x_0 = point.x_0 + mu * point.s_0;
         }
+        let accuracy = Accuracy::of_all(accuracy);
         let (moved, status) = solved(edges, factors, (viscosity, accuracy), stop, |_| false);
         let forces = problem.of_edges(moved.t.iter().copied());
         (status == Status::Solved).then_some(Moved { forces, u: moved.u })

@@ -4,7 +4,7 @@
 use faer::sparse::{FaerError, SparseColMat};
 
 use super::constants::ROW_ROUNDING;
-use super::homogeneous::{Factors, Variables, solved};
+use super::homogeneous::{Accuracy, Factors, Variables, solved};
 use super::program::{Program, Units, assembled};
 use crate::problem::column_of;
 use crate::solve::Monitor;
@@ -85,7 +85,8 @@ impl<'a> Saddle<'a> {
     ) -> (Vec<f64>, Vec<f64>, Status, Option<Certificate>) {
         let is_proof = |at: &Variables| is_proof(&self.proof(at));
         let stop = |residual| monitor.stop(residual);
-        let (at, status) = solved(&self.program, factors, (0.0, tolerance), stop, is_proof);
+        let accuracy = (0.0, Accuracy::of_all(tolerance));
+        let (at, status) = solved(&self.program, factors, accuracy, stop, is_proof);
         let (z, w) = self.variables(&at);
         (
             z,

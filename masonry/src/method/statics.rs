@@ -14,7 +14,7 @@
 //! Rigid blocks without gaps stand if there are such forces: at rest every gap and every slip is zero. For all other
 //! walls they are necessary but not sufficient.
 
-use lcp::{InteriorPoint, InteriorPointSettings, Iteration, MixedLcp, Observer, Solution, Solver};
+use lcp::{InteriorPoint, InteriorPointSettings, LeastForces, Observer};
 
 use crate::model::Model;
 use crate::system::System;
@@ -81,34 +81,29 @@ struct Search<'a, 'b> {
 
 impl Search<'_, '_> {
     fn run(&mut self) -> Result<Statics, lcp::Error> {
-        let least = self.program.least_forces()?;
-        let solution = self.solved(&least)?;
-        let (z, _) = least.recover(&solution.t, &solution.y);
-        if let Some(forces) = self.program.admissible(&z) {
+        let LeastForces { t, u, .. } = self.least_forces()?;
+        if let Some(forces) = self.program.admissible(t) {
             return Ok(Statics::Admissible(forces));
         }
         // Where there are none, the multipliers of the balance are a motion that proves it.
-        Ok(self.proof(&z).map_or(Statics::Open, Statics::Impossible))
+        Ok(self.proof(&u).map_or(Statics::Open, Statics::Impossible))
     }
 
-    /// The proof that the motion at the beginning of `z` leads to.
-    fn proof(&self, z: &[f64]) -> Option<Proof> {
-        let motion = &z[..self.program.unknowns()];
+    /// The proof that a motion leads to.
+    fn proof(&self, motion: &[f64]) -> Option<Proof> {
         sharpen::candidates(motion, self.program.columns())
             .find_map(|motion| Proof::of(self.model, &motion[..3 * self.model.blocks.len()]))
     }
 
-    fn solved(&mut self, program: &MixedLcp) -> Result<Solution, lcp::Error> {
+    fn least_forces(&mut self) -> Result<LeastForces, lcp::Error> {
         let settings = InteriorPointSettings {
             tolerance: TOLERANCE,
             max_iterations: MAX_STEPS,
-            continuation: false,
-            crossover: false,
             ..Default::default()
         };
-        let observer = &mut |at: &Iteration| (self.observer)(at);
-        let solution = InteriorPoint::new(settings).solve_observed(program, observer)?;
-        *self.steps += solution.info.factorisations;
-        Ok(solution)
+        let (columns, loads) = (self.program.columns(), self.program.loads());
+        let found = InteriorPoint::new(settings).least_forces(columns, loads, self.observer)?;
+        *self.steps += found.info.factorisations;
+        Ok(found)
     }
 }

@@ -1,7 +1,6 @@
-//! The convex programs of admissible forces as complementarity problems.
+//! The program of admissible forces.
 
 use faer::sparse::SparseColMat;
-use lcp::MixedLcp;
 
 use crate::columns::{Columns, column};
 use crate::system::System;
@@ -58,9 +57,9 @@ impl<'a> Program<'a> {
         self.loads[..3 * self.system.bodies.len()].iter().all(|load| load.abs() <= 0.0)
     }
 
-    /// Rigid amplitudes of all blocks, and a multiplier of every bound of constant friction.
-    pub(super) fn unknowns(&self) -> usize {
-        self.loads.len()
+    /// `r`
+    pub(super) fn loads(&self) -> &[f64] {
+        &self.loads
     }
 
     fn edges(&self) -> usize {
@@ -72,19 +71,9 @@ impl<'a> Program<'a> {
         &self.e
     }
 
-    /// `E p + r = 0` and `0 <= p _|_ p + E^T x >= 0`.
-    pub(super) fn least_forces(&self) -> Result<MixedLcp, lcp::Error> {
-        let n = self.unknowns();
-        let order = n + self.e.ncols();
-        let mut q: Vec<f64> = self.loads.iter().map(|r| -r).collect();
-        q.resize(order, 0.0);
-        let m = saddle(&self.e);
-        MixedLcp::new(m, q, (0..order).map(|j| j < n).collect())
-    }
-
-    /// The forces of all rows \[N\], if those in `z` balance the loads.
-    pub(super) fn admissible(&self, z: &[f64]) -> Option<Vec<f64>> {
-        let p: Vec<f64> = z[self.unknowns()..].iter().map(|p| p.max(0.0)).collect();
+    /// The forces of all rows \[N\], if those along the edges balance the loads.
+    pub(super) fn admissible(&self, mut p: Vec<f64>) -> Option<Vec<f64>> {
+        p.iter_mut().for_each(|p| *p = p.max(0.0));
         let mut rest = self.loads.clone();
         for (k, p) in p.iter().enumerate() {
             column(&self.e, k).for_each(|(i, v)| rest[i] += v * p);
@@ -190,31 +179,4 @@ fn edges(system: &System, constant: &[(usize, f64)], sides: &Sides<'_>) -> Colum
         columns.push([bound]);
     }
     columns
-}
-
-/// `[0, -E; E^T, 1]`.
-fn saddle(e: &SparseColMat<usize, f64>) -> SparseColMat<usize, f64> {
-    let (n, m) = (e.nrows(), e.ncols());
-    let mut starts = vec![0; n + 1];
-    e.row_idx().iter().for_each(|&i| starts[i + 1] += 1);
-    for i in 0..n {
-        starts[i + 1] += starts[i];
-    }
-    let mut next = starts[..n].to_vec();
-    let stored = e.row_idx().len();
-    let (mut rows, mut values) = (vec![0; stored], vec![0.0; stored]);
-    rows.reserve_exact(stored + m);
-    values.reserve_exact(stored + m);
-    for k in 0..m {
-        for (i, v) in column(e, k) {
-            (rows[next[i]], values[next[i]]) = (n + k, v);
-            next[i] += 1;
-        }
-    }
-    for k in 0..m {
-        rows.extend(column(e, k).map(|(i, _)| i).chain([n + k]));
-        values.extend(column(e, k).map(|(_, v)| -v).chain([1.0]));
-        starts.push(rows.len());
-    }
-    Columns::new(starts, rows, values).assembled(n + m)
 }
