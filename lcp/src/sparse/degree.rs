@@ -180,3 +180,35 @@ fn members(leaders: &[u32]) -> (Members, Vec<u32>) {
 fn index(i: usize) -> u32 {
     u32::try_from(i).unwrap_or_else(|_| unreachable!("more than 2^32 rows do not fit in memory"))
 }
+
+#[cfg(test)]
+mod tests {
+    use faer::sparse::{SparseColMat, Triplet};
+
+    use super::*;
+
+    /// Of a star of bodies with three variables each the one in the middle comes last, and all variables of a body follow
+    /// one another.
+    #[test]
+    fn variables_of_a_body_follow_one_another() {
+        let arms = 9;
+        let mut entries = Vec::new();
+        for body in 0..=arms {
+            for other in [0, body] {
+                for (i, j) in (0..9).map(|k| (3 * body + k / 3, 3 * other + k % 3)) {
+                    entries.push(Triplet::new(i.max(j), i.min(j), 1.0));
+                }
+            }
+        }
+        let n = 3 * (arms + 1);
+        let pattern = SparseColMat::<usize, f64>::try_new_from_triplets(n, n, &entries)
+            .expect("entries lie inside");
+        let (order, place) = minimum_degree(pattern.symbolic()).expect("memory");
+        for (at, &j) in order.iter().enumerate() {
+            assert_eq!(place[j], at);
+            assert_eq!(order[at - at % 3] / 3, j / 3);
+        }
+        // With one arm left it does not matter which of the two is the last.
+        assert!(place[0] / 3 >= arms - 1, "{order:?}");
+    }
+}

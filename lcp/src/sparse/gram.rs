@@ -136,7 +136,7 @@ impl Gram {
     /// If the length is no multiple of the order.
     pub fn solve(&self, x: &mut [f64]) {
         let n = self.units.len().max(1);
-        assert!(x.len() % n == 0, "right-hand sides are as long as the matrix");
+        assert!(x.len().is_multiple_of(n), "right-hand sides are as long as the matrix");
         let mut rest = x.to_vec();
         let right = x.to_vec();
         let largest: Vec<f64> = right.chunks_exact(n).map(max_abs).collect();
@@ -248,4 +248,58 @@ fn lower(
 /// The rows of a column of a matrix that may be zero.
 fn column(k: Option<SymbolicSparseColMatRef<'_, usize>>, j: usize) -> &[usize] {
     k.map_or(&[], |k| k.row_idx_of_col_raw(j))
+}
+
+#[cfg(test)]
+mod tests {
+    use faer::sparse::{SparseColMat, Triplet};
+
+    use super::*;
+    use crate::problem::column_of;
+    use crate::random::SplitMix;
+
+    /// A chain of bodies with two variables each, three columns of `A` between neighbours, and `K` on every third variable.
+    fn chain(bodies: usize) -> (SparseColMat<usize, f64>, SparseColMat<usize, f64>) {
+        let mut random = SplitMix::new(7);
+        let n = 2 * bodies;
+        let mut a = Vec::new();
+        for column in 0..3 * (bodies - 1) {
+            let first = 2 * (column / 3);
+            let entries =
+                (first..first + 4).map(|i| Triplet::new(i, column, random.next_f64() - 0.5));
+            a.extend(entries);
+        }
+        let k = (0..n).step_by(3).map(|i| Triplet::new(i, i, 2.0)).collect::<Vec<_>>();
+        let inside = "entries lie inside";
+        let a = SparseColMat::try_new_from_triplets(n, 3 * (bodies - 1), &a).expect(inside);
+        (SparseColMat::try_new_from_triplets(n, n, &k).expect(inside), a)
+    }
+
+    #[test]
+    fn solves_for_several_right_hand_sides_again_and_again() {
+        let (k, a) = chain(40);
+        let n = a.nrows();
+        let mut gram = Gram::new(Some(k.symbolic()), a.symbolic()).expect("memory");
+        for scale in [1.0, 1e6] {
+            let s: Vec<f64> = (0..a.ncols()).map(|j| scale * (1.0 + (j % 5) as f64)).collect();
+            let delta = 1e-3;
+            gram.factorise(Some(k.as_ref()), a.as_ref(), (&s, delta));
+            let exact: Vec<f64> = (0..2 * n).map(|i| (i % 7) as f64 - 3.0).collect();
+            let mut x = Vec::new();
+            for exact in exact.chunks_exact(n) {
+                let mut right: Vec<f64> = exact.iter().map(|x| delta * x).collect();
+                for (j, x) in exact.iter().enumerate() {
+                    column_of(&k, j).for_each(|(i, v)| right[i] += v * x);
+                }
+                for (j, s) in s.iter().enumerate() {
+                    let along: f64 = column_of(&a, j).map(|(i, v)| v * exact[i]).sum();
+                    column_of(&a, j).for_each(|(i, v)| right[i] += v * s * along);
+                }
+                x.extend(right);
+            }
+            gram.solve(&mut x);
+            let error = x.iter().zip(&exact).map(|(x, e)| (x - e).abs()).fold(0.0, f64::max);
+            assert!(error < 1e-6, "{scale}: {error}");
+        }
+    }
 }
