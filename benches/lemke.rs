@@ -1,6 +1,6 @@
 //! What a pivot of Lemke's method costs, against the textbook's pivot in the same run.
 //!
-//! `cargo bench --bench lemke` prints a table; with `-- --write` it also puts it into the README. The
+//! `cargo bench --bench lemke` prints a table; with `-- --write` it also puts it into `docs/performance.md`. The
 //! textbook keeps the condensed tableau, n by n + 1, in memory and changes all of it at every pivot: one
 //! rank-1 update, which is bound by memory. Of the method the table has the time per pivot along the
 //! path, and that of the whole solve, with scaling, start basis and final solve, divided by the pivots.
@@ -42,7 +42,7 @@ fn main() {
         println!("{line}");
         let _ = writeln!(table, "{line}");
     }
-    common::write_if_asked("README.md", "lemke", &table);
+    common::write_if_asked("docs/performance.md", "lemke", &table);
 }
 
 fn line(name: &str, problem: &HorizontalLcp) -> String {

@@ -1,7 +1,7 @@
 //! An obstacle problem on nested grids by the active set method, against one sparse Cholesky factorisation
 //! of its matrix in the same run.
 //!
-//! `cargo bench --bench obstacle` prints a table; with `-- --write` it also puts it into the README. The
+//! `cargo bench --bench obstacle` prints a table; with `-- --write` it also puts it into `docs/performance.md`. The
 //! time of the solve is that of all grids together, with their matrices and starts, on one thread.
 
 mod common;
@@ -35,7 +35,7 @@ fn main() {
             let _ = writeln!(table, "{line}");
         }
     }
-    common::write_if_asked("README.md", "obstacle", &table);
+    common::write_if_asked("docs/performance.md", "obstacle", &table);
 }
 
 fn line(name: &str, ground: Ground, side: usize) -> String {

@@ -1,7 +1,7 @@
 //! Walls of many bricks with friction by the interior-point method, against one sparse factorisation of
 //! the matrix of its steps in the same run.
 //!
-//! `cargo bench --bench wall` prints a table; with `-- --write` it also puts it into the README. All is on
+//! `cargo bench --bench wall` prints a table; with `-- --write` it also puts it into `docs/performance.md`. All is on
 //! one thread. The yardstick is faer's Cholesky factorisation, symbolic and numeric, of
 //! `K + k C^T C`, which has the pattern of the matrices that the method factorises; those are unsymmetric,
 //! which doubles the operations of the numeric part.
@@ -41,7 +41,7 @@ fn main() {
             let _ = writeln!(table, "{line}");
         }
     }
-    common::write_if_asked("README.md", "wall", &table);
+    common::write_if_asked("docs/performance.md", "wall", &table);
 }
 
 fn line(width: f64, courses: u32, mu: f64) -> String {

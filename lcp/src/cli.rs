@@ -33,7 +33,7 @@ pub fn run(
             Err(failure) => (BAD_INPUT, format!("error: {failure}\n")),
         },
         Err(usage) if usage.use_stderr() => (BAD_INPUT, usage.to_string()),
-        // Help and version were asked for.
+        // `--help` and `--version`.
         Err(asked) => match print(out, &asked.to_string()) {
             Ok(()) => return SOLVED,
             Err(failure) => (BAD_INPUT, format!("error: {failure}\n")),

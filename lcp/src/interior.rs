@@ -8,6 +8,7 @@ mod homogeneous;
 mod iterate;
 mod least;
 mod motion;
+mod moving;
 mod path;
 mod problems;
 mod program;
@@ -65,7 +66,7 @@ use crate::{Certificate, Error, Iteration, Method, Observer, Solution, Status};
 /// nowhere; walls of 6e4 contact points took 30 to 70 steps for `mu` from 1/2 to 1.
 ///
 /// # Failure
-/// [`Status::Stalled`] where neither the iteration nor the springs come to an end, and where rigid bodies fall
+/// [`Status::Stalled`] where both the iteration and the springs fail, and where rigid bodies fall
 /// although some forces could hold them. [`Status::NoEquilibrium`] of bodies that all have a stiffness, with
 /// friction, is evidence and no proof where no motion proves it: there may be a solution
 /// nevertheless. It has no Farkas vector.

@@ -1,8 +1,8 @@
 //! What accuracy costs: the panels by all routes to many tolerances on many meshes, and walls of many sizes.
 //!
 //! `cargo bench --bench accuracy` prints the tables; with `-- --write` it also writes `docs/accuracy.md`, its
-//! pictures, the same numbers as CSV, and the section of the README. Every solve is a whole one, from the scene to the
-//! checked answer, on one thread; of short ones the median of three.
+//! pictures, the same numbers as CSV, and a section of `docs/performance.md`. Every solve is a whole one, from the scene
+//! to the checked solution, on one thread; of short ones the median of three.
 
 #[path = "../../benches/common/mod.rs"]
 mod common;

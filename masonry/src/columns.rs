@@ -1,6 +1,6 @@
 //! Sparse matrices by columns.
 
-use faer::sparse::{SparseColMat, SymbolicSparseColMat};
+use faer::sparse::{SparseColMat, SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
 
 /// A matrix that is put together column by column.
 pub(crate) struct Columns {
@@ -39,9 +39,20 @@ impl Columns {
 
 /// The entries `(row, value)` of a column.
 pub(crate) fn column(
-    matrix: &SparseColMat<usize, f64>,
+    matrix: SparseColMatRef<'_, usize, f64>,
     k: usize,
-) -> impl Iterator<Item = (usize, f64)> + '_ {
-    let matrix = matrix.as_ref();
+) -> impl Iterator<Item = (usize, f64)> {
     matrix.row_idx_of_col_raw(k).iter().copied().zip(matrix.val_of_col(k).iter().copied())
+}
+
+/// A matrix without its last columns.
+pub(crate) fn first_columns(
+    matrix: &SparseColMat<usize, f64>,
+    count: usize,
+) -> SparseColMatRef<'_, usize, f64> {
+    let starts = &matrix.col_ptr()[..=count];
+    let entries = ..starts[count];
+    let rows = &matrix.row_idx()[entries];
+    let pattern = SymbolicSparseColMatRef::new_checked(matrix.nrows(), count, starts, None, rows);
+    SparseColMatRef::new(pattern, &matrix.val()[entries])
 }

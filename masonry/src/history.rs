@@ -43,7 +43,7 @@ impl Actions {
         Self {
             gravity: 1.0,
             loads: vec![1.0; scene.loads.len()],
-            movements: vec![Movement::default(); scene.supports.len()],
+            movements: vec![Movement::default(); scene.all_supports().len()],
         }
     }
 
@@ -69,7 +69,7 @@ impl Actions {
         for (load, factor) in scene.loads.iter().zip(&mut actions.loads) {
             *factor = factor_of(stage, load).unwrap_or(*factor);
         }
-        for (support, place) in scene.supports.iter().zip(&mut actions.movements) {
+        for (support, place) in scene.all_supports().iter().zip(&mut actions.movements) {
             let end = stage.moves.get(&support.name);
             *place = end.map_or(*place, |end| end.in_lengths(scene.units.length_to_si()));
         }

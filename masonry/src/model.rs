@@ -61,6 +61,15 @@ pub struct Model {
     pub units: Units,
 }
 
+impl Model {
+    /// Takes cohesion and tensile strength from all joints, and leaves their friction.
+    pub(crate) fn remove_strength(&mut self) {
+        for contact in &mut self.contacts {
+            contact.law = PointLaw::friction(contact.law.mu);
+        }
+    }
+}
+
 /// A block (brick, voussoir): a convex polygon; a quadrilateral if it is elastic.
 #[derive(Debug, Clone)]
 pub struct Block {

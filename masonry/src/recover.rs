@@ -22,6 +22,7 @@ const REST: f64 = 1e-9;
 
 mod motion;
 
+pub(crate) use motion::flow;
 pub use motion::mechanism;
 
 /// The state that belongs to the contact forces and relative displacements `rows`: rigid amplitudes
@@ -303,6 +304,24 @@ impl Principal {
         let theta = 0.5 * (tau + 0.0).atan2(half);
         Self { sigma_1: mean + radius, sigma_2: mean - radius, theta }
     }
+}
+
+/// The states of the contact points of blocks at rest under forces \[N\] of all rows of the [`System`].
+pub fn forces_at_rest(model: &Model, rows: &[f64]) -> Vec<ContactState> {
+    let (normals, mut tangents) =
+        (&rows[..model.contacts.len()], rows[model.contacts.len()..].iter());
+    let states = model.contacts.iter().zip(normals).map(|(contact, normal)| ContactState {
+        t_n: normal - contact.law.tension,
+        t_t: if contact.law.resists_sliding() {
+            tangents.next().copied().unwrap_or(0.0)
+        } else {
+            0.0
+        },
+        y_n: 0.0,
+        y_t: 0.0,
+        status: ContactStatus::Stick,
+    });
+    states.collect()
 }
 
 /// The force \[N\] that a contact point exerts on the block in front.

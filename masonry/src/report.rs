@@ -5,7 +5,11 @@
 
 pub mod csv;
 mod format;
+pub mod hinges;
+pub mod joints;
 pub mod json;
+pub mod limit;
+pub mod page;
 #[cfg(feature = "study")]
 pub mod study;
 pub mod summary;
@@ -23,13 +27,15 @@ use thiserror::Error;
 use crate::analysis::outcome::Outcome;
 use crate::files::write_atomically;
 use svg::ReferenceLines;
+use svg::pictures::{Pictures, Shown, pictures};
 
 /// A kind of file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Format {
-    /// `scene.svg` always; `principal_stresses.svg` where stresses were recovered and `deformed.svg`
-    /// when solved; `mechanism.svg` when a mechanism is known.
+    /// `scene.svg` always; `principal_stresses.svg` where stresses were recovered, `deformed.svg` and `forces.svg`
+    /// when solved, with `cracks.svg` where joints have opened or slid; `mechanism.svg` when a mechanism is known;
+    /// `history.svg` where there is a load history.
     Svg,
     /// `panel.vtu`.
     Vtu,
@@ -136,12 +142,15 @@ fn contents(outcome: &Outcome, options: &Options) -> Vec<(&'static str, Vec<u8>)
     if options.formats.contains(&Format::Svg) {
         files.push(("scene.svg", svg::scene(title, model).into_bytes()));
         if let Some(state) = state {
-            if !state.stresses.is_empty() {
-                let reference = options.reference.as_ref();
-                let picture = svg::principal_stresses(title, model, state, reference);
-                files.push(("principal_stresses.svg", picture.into_bytes()));
+            let shown = [Shown { title, model, state }];
+            for Pictures { file, pictures } in pictures(&shown, options.reference.as_ref(), false) {
+                files.extend(pictures.into_iter().map(|text| (file, text.into_bytes())));
             }
-            files.push(("deformed.svg", svg::deformed(title, model, state).into_bytes()));
+        }
+        if let Some(history) = &outcome.history
+            && let Some(picture) = svg::history(title, model, history)
+        {
+            files.push(("history.svg", picture.into_bytes()));
         }
         if let Some(rates) = &outcome.mechanism {
             files.push(("mechanism.svg", svg::mechanism(title, model, rates).into_bytes()));
@@ -170,6 +179,24 @@ fn titled(outcome: &Outcome) -> String {
     } else {
         format!("{verdict}: {}", outcome.title)
     }
+}
+
+/// Writes files into a directory, which is created: each whole or not at all, whatever becomes of the others.
+fn write_files(
+    dir: &Path,
+    files: Vec<(&str, io::Result<String>)>,
+) -> Result<Vec<PathBuf>, OutputError> {
+    fs::create_dir_all(dir)
+        .map_err(|source| OutputError::Directory { path: dir.to_owned(), source })?;
+    let (mut written, mut failed) = (Vec::new(), Vec::new());
+    for (name, text) in files {
+        let path = dir.join(name);
+        match text.and_then(|text| write_atomically(&path, text.as_bytes())) {
+            Ok(()) => written.push(path),
+            Err(error) => failed.push((path, error)),
+        }
+    }
+    if failed.is_empty() { Ok(written) } else { Err(OutputError::Files { written, failed }) }
 }
 
 fn listed(failed: &[(PathBuf, io::Error)]) -> String {

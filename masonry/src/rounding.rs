@@ -12,3 +12,8 @@ pub(crate) fn cleared(value: f64, size: f64) -> f64 {
 pub(crate) fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
     values.into_iter().fold(0.0, |largest, v| largest.max(v.abs()))
 }
+
+/// A number to six digits: messages tell sizes of mistakes, not their rounding errors.
+pub(crate) fn rounded(number: f64) -> f64 {
+    format!("{number:.5e}").parse().unwrap_or(number)
+}

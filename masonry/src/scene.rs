@@ -20,27 +20,39 @@
 //! # Ok::<(), masonry::scene::SceneError>(())
 //! ```
 
+pub(crate) mod arch;
+mod arch_error;
+mod block_list;
 pub mod bond;
 mod builder;
 mod check;
 mod courses;
 mod error;
+mod json_span;
 mod key_path;
 mod load;
+mod opening;
+mod read;
+mod rules;
+#[cfg(feature = "schema")]
+mod schema;
 mod solver;
 mod source;
 mod stages;
 mod strict;
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+pub use self::arch::{Arch, Line, Piers, Shape};
+pub use self::arch_error::ArchError;
 pub(crate) use self::error::Fault;
 pub use self::error::{ContactError, Known, SceneError, SceneErrorKind};
 pub use self::key_path::KeyPath;
 pub use self::load::{EdgeStress, Load, LoadError, LoadKind};
+pub use self::opening::{Bond, Opening, OpeningError};
 pub use self::solver::{Form, Route, Solver};
 use self::source::Source;
 pub use self::stages::{Movement, Stage};
@@ -58,6 +70,7 @@ pub(crate) const HEAD: &str = "head";
 /// The fields are the keys of the TOML file. Unknown keys are errors. What a key leaves out is
 /// never guessed where it is physics: see [`Scene::check`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// Title of reports and pictures.
@@ -75,6 +88,10 @@ pub struct Scene {
         deserialize_with = "strict::some_pair"
     )]
     pub gravity: Option<[f64; 2]>,
+    /// A JSON file with more blocks, relative to the scene file: a list of objects with `material` and `corners`, and `name`
+    /// and `mesh` as single blocks have them. A scene that was read from text has these blocks after its own, and no list.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub block_list: Option<PathBuf>,
     /// Units of length and force.
     #[serde(deserialize_with = "strict::table")]
     pub units: Units,
@@ -100,6 +117,9 @@ pub struct Scene {
     /// Walls of bricks in courses.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub walls: Vec<Wall>,
+    /// Arches of voussoirs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
+    pub arches: Vec<Arch>,
     /// Single blocks.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub blocks: Vec<Block>,
@@ -112,6 +132,9 @@ pub struct Scene {
     /// The load history; without stages all loads act at once.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub stages: Vec<Stage>,
+    /// What a limit load is asked of.
+    #[serde(default, deserialize_with = "strict::table", skip_serializing_if = "is_empty")]
+    pub limit: Limit,
     /// How contact is looked for and enforced.
     #[serde(default, deserialize_with = "strict::table")]
     pub contact: Contact,
@@ -128,6 +151,7 @@ pub struct Scene {
 
 /// A material: rigid without `E`, elastic with `E` and `nu`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// Young's modulus \[force/length^2\]; blocks of a material without it are rigid.
@@ -152,6 +176,7 @@ impl Material {
 /// A class of joints: what resists sliding, exactly one of `mu` and `phi_deg`, and, where there are, cohesion, tensile
 /// strength and mortar. The law is that of [`law`](crate::law).
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
     /// Coefficient of Coulomb friction \[-\]; zero is a frictionless joint.
@@ -191,6 +216,7 @@ impl Joint {
 
 /// Two bodies, each the name of a block or of a wall, and the class of all joints between them.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Between {
     /// The two names; twice the same wall for the joints within it.
@@ -202,6 +228,7 @@ pub struct Between {
 
 /// The classes of the joints between the bricks of a wall.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct WallJoints {
     /// Of its beds, instead of the class `bed`.
@@ -221,6 +248,7 @@ impl WallJoints {
 
 /// A wall of bricks in courses, built by [`bond`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Wall {
     /// Name of the wall; its bricks are `name/course/place`, both counted from 1.
@@ -238,6 +266,12 @@ pub struct Wall {
     pub width: Option<f64>,
     /// The courses, bottom to top.
     pub courses: Courses,
+    /// How they are laid, if not in running bond; only where `courses` is a number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bond: Option<Bond>,
+    /// Its openings; only where `courses` is a number.
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
+    pub openings: Vec<Opening>,
     /// The classes of its joints, where they are not `bed` and `head`.
     #[serde(default, deserialize_with = "strict::table", skip_serializing_if = "is_usual")]
     pub joints: WallJoints,
@@ -253,6 +287,7 @@ pub struct Wall {
 
 /// Size of a whole brick.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Brick {
     /// Length along the course, without mortar \[length\].
@@ -261,10 +296,10 @@ pub struct Brick {
     pub height: f64,
 }
 
-/// The courses of a wall: how many in running bond, or each brick by brick.
+/// The courses of a wall: how many in a bond, or each brick by brick.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Courses {
-    /// So many courses in running bond: the second, fourth and so on begin with a half brick, and
+    /// So many courses in running bond, or in that of the wall: the second, fourth and so on begin with a half brick, and
     /// the last brick of a course is cut to the width.
     RunningBond(u32),
     /// Bottom to top, each a list of brick lengths in units of one brick from left to right; a
@@ -275,6 +310,7 @@ pub enum Courses {
 
 /// A single block: a convex polygon, of an elastic material a quadrilateral.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Block {
     /// Name of the block.
@@ -296,6 +332,7 @@ pub struct Block {
 
 /// A rigid straight support, which moves only where a [`Stage`] moves it. It has no inner side: blocks may lie on either.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Support {
     /// Name of the support.
@@ -310,8 +347,19 @@ pub struct Support {
     pub joint: String,
 }
 
+/// What a [limit load](crate::analysis::limit) is asked of.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Limit {
+    /// The load, or the group of loads, whose factor grows; without it the only group, or the only one with a factor.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub group: Option<String>,
+}
+
 /// How contact is looked for and enforced.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     /// Where on a joint the contact law is enforced.
@@ -327,6 +375,7 @@ pub struct Contact {
 
 /// Where on a joint the contact law is enforced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum PointRule {
     /// At both ends of every part of the overlap on which the shape functions of both sides are
@@ -342,6 +391,7 @@ pub enum PointRule {
 
 /// Which terms of mortar films are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Films {
     /// What acts across the joint: a compliance in series with each contact point, without strain
@@ -355,6 +405,7 @@ pub enum Films {
 
 /// What is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Output {
     /// Whether stresses are recovered and written.
@@ -372,47 +423,10 @@ fn is_usual(joints: &WallJoints) -> bool {
     *joints == WallJoints::default()
 }
 
-fn default_stresses() -> bool {
-    true
+fn is_empty(limit: &Limit) -> bool {
+    *limit == Limit::default()
 }
 
-impl Scene {
-    /// Reads a scene from TOML text and [checks](Scene::check) it.
-    ///
-    /// # Errors
-    /// What is wrong with the text or the data, with line and column.
-    pub fn from_toml(text: &str) -> Result<Self, SceneError> {
-        Self::parse(Source::text(text))
-    }
-
-    /// Reads a scene from a TOML file and [checks](Scene::check) it.
-    ///
-    /// # Errors
-    /// [`SceneErrorKind::Read`] when the file cannot be read as UTF-8 text, else as
-    /// [`Scene::from_toml`], with the path of the file.
-    pub fn read(path: &Path) -> Result<Self, SceneError> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| SceneError::unreadable(path, &error.to_string()))?;
-        Self::parse(Source::file(path, &text))
-    }
-
-    /// The scene as TOML text, which reads back as an equal scene.
-    ///
-    /// # Errors
-    /// [`SceneErrorKind::Write`] when TOML cannot hold a value.
-    pub fn to_toml(&self) -> Result<String, SceneError> {
-        toml::to_string(self).map_err(|error| SceneError::unwritable(&error.to_string()))
-    }
-
-    fn without_source(&self) -> Self {
-        Self { source: Source::default(), ..self.clone() }
-    }
-
-    fn parse(source: Source) -> Result<Self, SceneError> {
-        let mut scene: Self =
-            toml::from_str(source.as_str()).map_err(|error| SceneError::syntax(&source, &error))?;
-        scene.source = source;
-        scene.check()?;
-        Ok(scene)
-    }
+fn default_stresses() -> bool {
+    true
 }

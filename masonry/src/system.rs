@@ -100,7 +100,7 @@ impl System {
     }
 
     /// The same without the dense factors of the stiffnesses, for [`Sparse`](crate::method::forms::Sparse): it
-    /// can be neither reduced nor asked for [`elastic_displacements`](Self::elastic_displacements).
+    /// can be neither reduced nor used for [`elastic_displacements`](Self::elastic_displacements).
     ///
     /// # Errors
     /// As [`System::new`], but for a stiffness that is not positive definite, which only its factor shows.

@@ -43,7 +43,9 @@ fn a_solved_scene_gives_every_file_and_no_other() {
     let written = write_all(&outcome, &dir, &options).unwrap();
     let expected = [
         "contacts.csv",
+        "cracks.svg",
         "deformed.svg",
+        "forces.svg",
         "panel.vtu",
         "principal_stresses.svg",
         "report.txt",
@@ -84,7 +86,7 @@ fn a_file_that_fails_is_named_and_the_others_are_written() {
     let OutputError::Files { written, failed } = &error else { panic!("{error}") };
     assert_eq!(failed.len(), 1);
     assert_eq!(failed[0].0, dir.join("deformed.svg"));
-    assert_eq!(written.len(), 6);
+    assert_eq!(written.len(), 8);
     assert!(error.to_string().contains("deformed.svg"), "{error}");
     assert!(names(&dir).iter().all(|name| !name.contains("tmp")), "{:?}", names(&dir));
 

@@ -78,7 +78,7 @@ fn a_pair_of_blocks_or_walls_has_a_class_of_its_own() {
     }
     let error = Model::from_scene(&walls().between("lintle", "left", "glue")).unwrap_err();
     assert_eq!(error.key(), "between[0].blocks[0]");
-    assert!(error.to_string().contains("no block or wall \"lintle\""), "{error}");
+    assert!(error.to_string().contains("no block, wall or arch \"lintle\""), "{error}");
     assert!(error.to_string().contains("did you mean \"lintel\"?"), "{error}");
     let error = walls().between("lintel", "left", "gleu").check().unwrap_err();
     assert!(matches!(error.kind(), SceneErrorKind::Unknown { .. }));

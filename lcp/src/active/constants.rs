@@ -6,7 +6,7 @@
 pub(super) const STIFF: f64 = 1e8;
 /// Steps of refinement. Chosen.
 pub(super) const REFINEMENTS: usize = 12;
-/// What a row lacks, relative to its terms, that is nothing but rounding. Rounding: a few eps.
+/// Residual of a row, relative to its terms, that is only rounding. Rounding: a few eps.
 pub(super) const NOISE: f64 = 4.0 * f64::EPSILON;
 /// Contradictions smaller than this part of the largest are left to what its exchange makes of them. Chosen.
 pub(super) const LARGE: f64 = 0.01;

@@ -155,7 +155,7 @@ impl Vertex {
         }
     }
 
-    /// Drops what rows lack by rounding alone, and gives the largest of the rest, relative to the terms of its row.
+    /// Drops residuals that are only rounding, and gives the largest of the others, relative to the terms of its row.
     /// What is noise in a stiff body moves a soft one that bears on it far, and does so again in every refinement.
     fn drop_noise(&self, problem: &Scaled, unbalanced: &mut [f64]) -> f64 {
         let mut largest = 0.0_f64;

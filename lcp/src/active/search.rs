@@ -66,7 +66,7 @@ impl<'a> Search<'a> {
     }
 
     /// Whether nothing moves and no force acts, a point that iterations only come nearer to without end.
-    /// Its states are asked for too, or not.
+    /// Whether its states are wanted too.
     pub(crate) fn try_rest(&mut self, crossover: bool) -> bool {
         let (u, forces) = self.rest();
         if self.judge(&u, &forces) > self.tolerance {

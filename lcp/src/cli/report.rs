@@ -68,20 +68,16 @@ fn meaning(answer: &Answer<'_>) -> Option<&'static str> {
         }
         Status::PivotLimit => "The pivots were used up; --max-pivots allows more.",
         Status::Cycling if !answer.attempts.is_empty() => {
-            "A basis came back in an attempt, and the others found no solution either."
+            "An attempt cycled, and the others found no solution."
         }
         Status::Cycling | Status::Stalled | Status::IterationLimit if is_auto => {
             "No method of the chain found a solution."
         }
         Status::IterationLimit => "The iterations were used up; --max-iterations allows more.",
         Status::TimeLimit => "The time was used up; --time-limit allows more.",
-        Status::Cycling => {
-            "The method came back to where it had been; another --solver may succeed."
-        }
-        Status::Stalled => {
-            "The method cannot go on from where it is; another --solver may succeed."
-        }
-        Status::NumericalTrouble => "Rounding errors could not be brought under control.",
+        Status::Cycling => "The method cycled; another --solver may succeed.",
+        Status::Stalled => "The method makes no more progress; another --solver may succeed.",
+        Status::NumericalTrouble => "Rounding errors are too large.",
         _ => return None,
     })
 }

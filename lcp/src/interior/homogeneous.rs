@@ -96,9 +96,9 @@ struct Defect {
     gaps: Vec<f64>,
 }
 
-/// The solution of a program, with a spring on every displacement; or `u` and `t` that may
-/// prove that there is none, with [`Status::Infeasible`] if `is_proof` says so, which is asked wherever they are near.
-/// `stop` is asked before every step, with the residual.
+/// The solution of a program, with a spring on every displacement; or `u` and `t` that may prove that there is none, with
+/// [`Status::Infeasible`] if `is_proof` says so, which is asked wherever they are near. Springs carry any load, so with them
+/// no proof is looked for. `stop` is asked before every step, with the residual.
 pub(super) fn solved(
     program: &Program,
     factors: &mut Factors,
@@ -113,7 +113,8 @@ pub(super) fn solved(
     let (mut least, mut since, mut provable) = ([f64::INFINITY; 3], 0, PROVED);
     loop {
         let defect = now.defect();
-        let (residual, error) = (now.residual(&defect, pairs), now.error_of_proof());
+        let residual = now.residual(&defect, pairs);
+        let error = if spring > 0.0 { f64::INFINITY } else { now.error_of_proof() };
         if residual <= tolerance {
             return (now.solution(), Status::Solved);
         }
@@ -357,7 +358,7 @@ impl<'a> Newton<'a> {
             part: 1.0,
             targets: at.t.iter().zip(&at.y).map(|(t, y)| -t * y).collect(),
         };
-        let [of_tau, affine] = newton.held([of_data, to_zero]);
+        let [of_tau, affine] = newton.held(&[of_data, to_zero]);
         newton.pivot = newton.across(&of_tau) + (energy + kappa) / tau;
         newton.of_tau = of_tau;
         let affine = newton.bordered(&affine, (newton.rest, -tau * kappa));
@@ -370,7 +371,7 @@ impl<'a> Newton<'a> {
         dot(by_u, &step.u) - dot(by_t, &step.t)
     }
 
-    /// The step that reduces what is left of all equations by a part, with products of an aim in the end, less the
+    /// The step that reduces the residuals of all equations by a part, with products of an aim in the end, less the
     /// second-order term of a predictor.
     fn step(&self, (part, aim): (f64, f64), predictor: &Step) -> Step {
         let Homogeneous { at, tau, kappa, .. } = self.now;
@@ -381,7 +382,7 @@ impl<'a> Newton<'a> {
             part,
             targets: pairs.map(|((t, y), (dt, dy))| aim - t * y - dt * dy).collect(),
         };
-        let [held] = self.held([aims]);
+        let [held] = self.held(&[aims]);
         let second = predictor.tau * predictor.kappa;
         self.bordered(&held, (part * self.rest, aim - tau * kappa - second))
     }
@@ -409,12 +410,12 @@ impl<'a> Newton<'a> {
             part: 0.0,
             targets: t.iter().zip(y).zip(step.t.iter().zip(&step.y)).map(correction).collect(),
         };
-        let [held] = self.held([aims]);
+        let [held] = self.held(&[aims]);
         self.bordered(&held, (0.0, 0.0))
     }
 
     /// Steps at `tau` as it is.
-    fn held<const N: usize>(&self, aims: [Aim<'_>; N]) -> [Variables; N] {
+    fn held<const N: usize>(&self, aims: &[Aim<'_>; N]) -> [Variables; N] {
         let Homogeneous { program, at, .. } = self.now;
         let n = at.u.len();
         let mut all = Vec::with_capacity(N * n);
@@ -431,7 +432,7 @@ impl<'a> Newton<'a> {
             fixed
         });
         self.gram.solve(&mut all);
-        let mut at_once = fixed.into_iter().zip(&aims).enumerate();
+        let mut at_once = fixed.into_iter().zip(aims).enumerate();
         std::array::from_fn(|_| {
             let Some((place, (mut t, aim))) = at_once.next() else {
                 unreachable!("one for every aim")

@@ -50,7 +50,7 @@ impl Pairs {
     }
 }
 
-/// What the equations lack at a point.
+/// The residuals of the equations at a point.
 pub(super) struct Defect {
     /// `f + C^T t - K u`, with the springs of the continuation.
     balance: Vec<f64>,

@@ -129,8 +129,8 @@ fn is_central(problem: &Scaled, at: &Iterate) -> bool {
     products.all(|(it, aim)| (IS_CENTRAL.0 * aim..=IS_CENTRAL.1 * aim).contains(&it))
 }
 
-/// What the products of the pairs lack where those of the gaps are to be `tau`, less the second-order term of the
-/// predictor.
+/// The residuals of the products of the pairs, where those of the gaps are to be `tau`, less the second-order term of
+/// the predictor.
 pub(super) fn targets(
     problem: &Scaled,
     at: &Iterate,

@@ -6,7 +6,7 @@ use super::iterate::{Iterate, Pairs};
 use crate::states::{Condensed, PROXIMAL, Point, Scaled, Springs};
 use crate::vector::max_abs;
 
-/// Refinements of the equations of closed and open contacts. Chosen: each reduces what is left by some powers of ten.
+/// Refinements of the equations of closed and open contacts. Chosen: each reduces the residuals by some powers of ten.
 const REFINEMENTS: usize = 10;
 
 /// Displacements and forces, scaled.

@@ -49,7 +49,7 @@ pub(super) struct Path<'a, K> {
     pub(super) factorisations: usize,
     /// Pivots after which the tableau is rebuilt in any case.
     interval: Option<usize>,
-    /// Every exchange, where that was asked for.
+    /// Every exchange, if the settings record them.
     pub(super) trace: Option<Vec<Exchange>>,
     visited: HashSet<u64>,
     signature: u64,

@@ -219,7 +219,7 @@ impl<'a> Search<'a> {
         (point.residuals.worst() <= self.settings.tolerance).then_some(point)
     }
 
-    /// The covering vector asked for; one that was given refers to the rows of the start basis that
+    /// The covering vector of the settings; one that was given refers to the rows of the start basis that
     /// was given with it, and not to those of another.
     fn first_covering(&self, start: AttemptStart) -> AttemptCovering {
         let was_replaced = self.settings.start != WarmStart::None && start != AttemptStart::Given;

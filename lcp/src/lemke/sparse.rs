@@ -36,7 +36,7 @@ pub(super) struct Sparse<'a> {
     pivots: usize,
     limit: usize,
     interval: Option<usize>,
-    /// The last column asked for in terms of `B0`.
+    /// The last column computed in terms of `B0`.
     last: (Option<Var>, Vec<f64>),
     work: Vec<f64>,
 }

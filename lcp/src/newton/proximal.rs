@@ -26,12 +26,12 @@ pub(super) struct At {
     pub(super) u: Vec<f64>,
     pub(super) contacts: Vec<ContactStatus>,
     pub(super) forces: Vec<(f64, f64)>,
-    /// What equilibrium lacks.
+    /// The unbalanced forces.
     unbalanced: Vec<f64>,
 }
 
 impl At {
-    /// The largest force that equilibrium lacks; not finite where one is not.
+    /// The largest unbalanced force; not finite where one is not.
     pub(super) fn unbalanced(&self) -> f64 {
         let is_finite = self.unbalanced.iter().all(|v| v.is_finite());
         if is_finite { max_abs(&self.unbalanced) } else { f64::INFINITY }

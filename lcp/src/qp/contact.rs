@@ -64,7 +64,7 @@ struct Dual {
 }
 
 impl ContactProgram {
-    /// None where the interior-point method refuses the program, or where the dual one is asked for
+    /// None where the interior-point method refuses the program, or where the dual one is chosen
     /// and `K` is singular.
     pub(super) fn new(form: Form, choice: ContactForm, effort: Effort) -> Option<Self> {
         let (n, rows) = (form.unknowns(), form.rows());

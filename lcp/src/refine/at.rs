@@ -68,10 +68,10 @@ impl At {
         let part = |v: f64, unit: f64| if unit > 0.0 { v / unit } else { 0.0 };
         let of_point = |(point, (t_n, t_t)): (&Point, (f64, f64))| {
             let (gap, slip) = (part(point.gap(&u), length), part(point.slip(&u), length));
-            let lacks = part(point.mu * t_n - t_t.abs(), force);
+            let margin = part(point.mu * t_n - t_t.abs(), force);
             if gap > part(t_n, force).max(CLOSED) {
                 ContactStatus::Open
-            } else if point.mu > 0.0 && slip.abs() > lacks.max(CLOSED) {
+            } else if point.mu > 0.0 && slip.abs() > margin.max(CLOSED) {
                 if slip > 0.0 { ContactStatus::Forwards } else { ContactStatus::Backwards }
             } else {
                 ContactStatus::Stick

@@ -33,7 +33,7 @@ pub(super) const WEIGHTS: [Weights; 2] =
 pub(super) const FALLEN: f64 = 1e-24;
 /// Passes at most. Chosen.
 pub(super) const PASSES: usize = 60;
-/// Passes without a residual that falls, after which what is left is taken for an error of the data. Chosen.
+/// Passes without a residual that falls, after which the residual is taken for an error of the data. Chosen.
 pub(super) const PATIENCE: usize = 2;
 /// Residuals that are rounding errors of numbers of twice the digits. Rounding: the square of eps.
 pub(crate) const ALL_DIGITS: f64 = f64::EPSILON * f64::EPSILON;

@@ -1,4 +1,4 @@
-//! What the equations lack.
+//! Residuals of the equations.
 
 use super::at::At;
 use super::constants::{FLOOR, IDLE};
@@ -9,7 +9,7 @@ use crate::problem::column_of;
 use crate::states::{Point, Scaled};
 use crate::vector::max_abs;
 
-/// What the equations of the states lack.
+/// Residuals of the equations of the states.
 pub(super) struct Lack {
     /// `f + C^T t - K u`.
     pub(super) unbalanced: Vec<Extended>,

@@ -10,7 +10,7 @@ use crate::states::Scaled;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Margin {
     /// The least of all: of gaps of open contacts and slips of sliding ones, in units of the largest
-    /// displacement; of normal forces of closed contacts and what friction lacks to its bound at sticking
+    /// displacement; of normal forces of closed contacts and the distance of friction from its bound at sticking
     /// ones, in units of the largest force. Negative where one is violated; infinite without contacts.
     #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
     pub least: f64,

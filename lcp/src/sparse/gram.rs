@@ -213,7 +213,9 @@ fn lower(
     let group = |g: usize| a.row_idx_of_col_raw(ends[g] - 1);
     let mut of_row = vec![0; n + 1];
     for g in 0..ends.len() {
-        group(g).iter().for_each(|&i| of_row[i + 1] += 1);
+        for &i in group(g) {
+            of_row[i + 1] += 1;
+        }
     }
     for i in 0..n {
         of_row[i + 1] += of_row[i];

@@ -233,7 +233,7 @@ impl Scaled {
         self.f.len()
     }
 
-    /// What equilibrium lacks: `f + C^T t - K u`.
+    /// The unbalanced forces: `f + C^T t - K u`.
     pub(crate) fn unbalanced(
         &self,
         u: &[f64],

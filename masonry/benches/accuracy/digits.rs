@@ -15,7 +15,7 @@ pub(crate) struct Refining {
     pub(crate) seconds: f64,
     /// Solves with the factors.
     pub(crate) passes: usize,
-    /// The largest lack of an equation, relative to the terms of its row \[-\].
+    /// The largest residual of an equation, relative to the terms of its row \[-\].
     pub(crate) residual: f64,
     /// The error of the forces on the nodes against the reference, relative to the largest \[-\].
     pub(crate) error: Option<f64>,

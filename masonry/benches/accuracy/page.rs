@@ -1,4 +1,4 @@
-//! `docs/accuracy.md` with its pictures and tables, and the section of the README.
+//! `docs/accuracy.md` with its pictures and tables, and a section of `docs/performance.md`.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -75,7 +75,11 @@ pub(crate) fn write(root: &Path, panels: &[Panel], walls: &[Study]) {
     let sizes = pictures::sizes(title, walls, TOLERANCES).expect("something was solved");
     save(root, "docs/pictures/accuracy_sizes.svg", &sizes);
     save(root, "docs/accuracy.md", &text);
-    common::write_if_asked("README.md", "accuracy", &short(&panels[0].study, walls, &machine));
+    common::write_if_asked(
+        "docs/performance.md",
+        "accuracy",
+        &short(&panels[0].study, walls, &machine),
+    );
 }
 
 /// What the error of the scene's own mesh comes to when the finest is not taken for exact.
@@ -193,7 +197,7 @@ fn of_walls(walls: &[Study], machine: &str) -> String {
     text.trim_end().to_owned() + "\n"
 }
 
-/// The table of the README: one line a route.
+/// The table of `docs/performance.md`: one line a route.
 fn short(panel: &Study, walls: &[Study], machine: &str) -> String {
     let shown: Vec<&Study> = walls.iter().skip(1).step_by(2).collect();
     let mut text = format!(

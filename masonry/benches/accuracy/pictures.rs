@@ -110,7 +110,7 @@ pub(crate) fn springs(panel: &Panel) -> Option<String> {
     let failed = panel.springs.iter().filter(|it| !it.end.is_solved());
     let failed: Vec<String> =
         failed.map(|it| format!("{:e} ({})", it.stiffness, it.end.name())).collect();
-    let asked = format!("One marker a solve, asked for a residual of {:e}.", springs::TOLERANCE);
+    let asked = format!("One marker per solve, at a tolerance of {:e}.", springs::TOLERANCE);
     let failed = (!failed.is_empty()).then(|| format!("No answer with {}.", failed.join(", ")));
     let words: Vec<&str> = std::iter::once(&asked).chain(&failed).map(String::as_str).collect();
     drawn(

@@ -10,7 +10,7 @@ use masonry::units::Units;
 /// A whole brick, and the mortar between bricks \[m\].
 const BRICK: Brick = Brick { length: 0.2, height: 0.1 };
 const MORTAR: f64 = 0.01;
-/// A slot across the wall, in bricks; bodies on both sides may meet where that is asked for.
+/// A slot across the wall, in bricks; bodies on both sides may meet where that is wanted.
 const SLOT: f64 = 0.02;
 
 /// The wall and what is switched on.
@@ -116,7 +116,7 @@ impl Wall {
         scene
     }
 
-    /// Running bond, with a slot in the middle of every course where one is asked for.
+    /// Running bond, with a slot in the middle of every course where one is wanted.
     fn courses(&self) -> Vec<Vec<f64>> {
         let whole = self.bricks as usize;
         let bond = |bricks: usize, course: u32| {

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use crate::history::History;
+use crate::history::{History, Step};
 pub use crate::method::info::{PhaseTime, RouteEnd, SoftReport, SolveInfo, SpringShares};
 use crate::model::Model;
 use crate::plan::Plan;
@@ -42,4 +42,18 @@ pub struct Outcome {
     pub judgement: Judgement,
     /// Time of every phase.
     pub times: Vec<PhaseTime>,
+}
+
+/// The state after one step of a load history, for pictures.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Frame {
+    /// The step.
+    pub step: Step,
+    /// Its position among all steps, from zero.
+    pub position: usize,
+    /// The model under the actions of the step.
+    pub model: Model,
+    /// The state.
+    pub state: State,
 }

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::interrupt;
 use crate::analysis::solve::Event;
 
 /// A spinner with the present phase; hidden when standard error is not a terminal.
@@ -18,6 +19,7 @@ impl Progress {
         Self(bar)
     }
 
+    /// Shows how far a solve is; after Ctrl-C asks it to end.
     pub(super) fn show(&mut self, event: Event) -> ControlFlow<()> {
         self.0.set_message(match event {
             Event::Step { number, of } => format!("step {number} of {of}"),
@@ -30,7 +32,7 @@ impl Progress {
             }
         });
         self.0.tick();
-        ControlFlow::Continue(())
+        if interrupt::is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
     pub(super) fn say(&self, text: String) {

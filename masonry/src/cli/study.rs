@@ -6,6 +6,7 @@ use std::time::Duration;
 use clap::Args;
 
 use super::end::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
+use super::out_dir::OutDir;
 use super::progress::Progress;
 use crate::analysis::study::{Settings, machine, study};
 use crate::report::study as output;
@@ -38,14 +39,15 @@ pub(super) struct StudyArgs {
 pub(super) fn run(args: &StudyArgs) -> Result<u8, Failure> {
     let scene = Scene::read(&args.scene)?;
     let settings = settings(args)?;
+    let out = args.out.as_deref().map(|out| OutDir::open(out, "study")).transpose()?;
     let progress = Progress::new();
     let study = study(&scene, &settings, &mut |at| {
         progress.say(format!("mesh {}, {} to {:e}", at.mesh, at.route.name(), at.tolerance));
     });
     progress.clear();
     let study = study?;
-    let written = match &args.out {
-        Some(out) => output::write(&study, out),
+    let written = match &out {
+        Some(out) => output::write(&study, out.path()),
         None => Ok(Vec::new()),
     };
     // What was computed is printed even when a file could not be written.
@@ -57,6 +59,7 @@ pub(super) fn run(args: &StudyArgs) -> Result<u8, Failure> {
     } else {
         print(&format!("{}\n{}", output::table(&study), listing(files)))?;
     }
+    out.map_or(Ok(()), |out| out.finish(files, false))?;
     written?;
     Ok(if study.is_solved() { SOLVED } else { NOT_SOLVED })
 }

@@ -97,7 +97,7 @@ pub fn facing_overlap(
     if gap.iter().any(|g| *g < -slack || *g > slack + limit) {
         return None;
     }
-    // Where gaps are asked for they are kept, down to what rounding makes of the coordinates.
+    // Where gaps are allowed they are kept, down to what rounding makes of the coordinates.
     let ends = first.iter().chain(&second).flat_map(|p| [p.x, p.y]);
     let rounding = ROUNDING * ends.fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let touching = if limit > 0.0 { rounding.min(slack) } else { slack };

@@ -35,6 +35,9 @@ pub fn answer(system: &System, sparse: &Sparse, decision: &Decision, tolerance: 
         Statics::Impossible(_) => {
             (Status::Infeasible, None, "that balance the loads do not exist, proved by a motion")
         }
+        Statics::Open if decision.is_cancelled => {
+            (Status::Cancelled, None, "were not yet found when the search was cancelled")
+        }
         Statics::Open => (Status::Stalled, None, "were neither found nor proved not to exist"),
     };
     let residuals = at_rest.as_ref().map_or(sparse::UNKNOWN, |(_, residuals)| *residuals);

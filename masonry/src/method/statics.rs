@@ -14,22 +14,19 @@
 //! Rigid blocks without gaps stand if there are such forces: at rest every gap and every slip is zero. For all other
 //! walls they are necessary but not sufficient.
 
-use lcp::{InteriorPoint, InteriorPointSettings, LeastForces, Observer};
+use lcp::{LeastForces, Observer, Status};
 
 use crate::model::Model;
 use crate::system::System;
 use program::Program;
 
+mod engine;
+pub mod limit;
 mod program;
 pub mod proof;
 mod sharpen;
 
 pub use proof::Proof;
-
-/// Residual of the program that decides.
-const TOLERANCE: f64 = 1e-12;
-/// Forces and proofs take ten to forty steps. Chosen: far more.
-const MAX_STEPS: usize = 150;
 
 /// What is known about forces that balance the loads.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,6 +46,8 @@ pub struct Decision {
     pub statics: Statics,
     /// Steps of the interior points, each of which factorises one matrix of three unknowns a block.
     pub steps: usize,
+    /// Whether the observer has ended it.
+    pub is_cancelled: bool,
 }
 
 /// Decides whether there are statically admissible forces.
@@ -61,49 +60,18 @@ pub fn decide(
     observer: &mut Observer<'_>,
 ) -> Result<Decision, lcp::Error> {
     let program = Program::of(system);
-    let mut steps = 0;
     if program.is_unloaded() {
         let statics = Statics::Admissible(vec![0.0; system.rows.len()]);
-        return Ok(Decision { statics, steps });
+        return Ok(Decision { statics, steps: 0, is_cancelled: false });
     }
-    let mut search = Search { model, program: &program, steps: &mut steps, observer };
-    let statics = search.run()?;
-    Ok(Decision { statics, steps })
-}
-
-/// The program of a decision.
-struct Search<'a, 'b> {
-    model: &'a Model,
-    program: &'a Program<'a>,
-    steps: &'a mut usize,
-    observer: &'a mut Observer<'b>,
-}
-
-impl Search<'_, '_> {
-    fn run(&mut self) -> Result<Statics, lcp::Error> {
-        let LeastForces { t, u, .. } = self.least_forces()?;
-        if let Some(forces) = self.program.admissible(t) {
-            return Ok(Statics::Admissible(forces));
-        }
+    let LeastForces { status, t, u, info, .. } = program.least_forces(observer)?;
+    let statics = match program.admissible(&t) {
+        Some(forces) => Statics::Admissible(forces),
         // Where there are none, the multipliers of the balance are a motion that proves it.
-        Ok(self.proof(&u).map_or(Statics::Open, Statics::Impossible))
-    }
-
-    /// The proof that a motion leads to.
-    fn proof(&self, motion: &[f64]) -> Option<Proof> {
-        sharpen::candidates(motion, self.program.columns())
-            .find_map(|motion| Proof::of(self.model, &motion[..3 * self.model.blocks.len()]))
-    }
-
-    fn least_forces(&mut self) -> Result<LeastForces, lcp::Error> {
-        let settings = InteriorPointSettings {
-            tolerance: TOLERANCE,
-            max_iterations: MAX_STEPS,
-            ..Default::default()
-        };
-        let (columns, loads) = (self.program.columns(), self.program.loads());
-        let found = InteriorPoint::new(settings).least_forces(columns, loads, self.observer)?;
-        *self.steps += found.info.factorisations;
-        Ok(found)
-    }
+        None => sharpen::candidates((&u, &[]), program.columns())
+            .find_map(|motion| Proof::of(model, &motion[..3 * model.blocks.len()]))
+            .map_or(Statics::Open, Statics::Impossible),
+    };
+    let is_cancelled = status == Status::Cancelled;
+    Ok(Decision { statics, steps: info.factorisations, is_cancelled })
 }

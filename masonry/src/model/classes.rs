@@ -15,10 +15,12 @@ pub(super) struct Classes {
     given: usize,
     /// Of beds and heads.
     usual: [usize; 2],
+    /// Of the walls, then of the arches.
     of_walls: Vec<[usize; 2]>,
     of_supports: Vec<usize>,
     of_pairs: Vec<([Group; 2], usize)>,
-    /// Of every brick the wall that it belongs to; single blocks come after all bricks.
+    /// Of every brick the wall that it belongs to, and of every voussoir its arch, counted after the walls; single blocks
+    /// come after all of these.
     walls: Vec<usize>,
 }
 
@@ -41,8 +43,12 @@ impl Classes {
             })
         };
         let usual = [BED, HEAD].map(&mut index);
-        let of_walls = scene.walls.iter().map(|wall| wall.joints.names().map(&mut index)).collect();
-        let of_supports = scene.supports.iter().map(|support| index(&support.joint)).collect();
+        let of_walls = scene.walls.iter().map(|wall| wall.joints.names());
+        let of_arches = scene.arches.iter().map(|arch| arch.joint.as_deref());
+        let of_arches = of_arches.map(|joint| joint.map_or([BED, HEAD], |joint| [joint; 2]));
+        let of_walls = of_walls.chain(of_arches).map(|names| names.map(&mut index)).collect();
+        let of_supports =
+            scene.all_supports().iter().map(|support| index(&support.joint)).collect();
         let mut of_pairs = Vec::new();
         for (k, between) in scene.between.iter().enumerate() {
             let at = KeyPath::of("between").item(k).key("blocks");
@@ -55,7 +61,11 @@ impl Classes {
             let bricks = bond::bricks_in_mortar(wall, JointThickness::of(scene, wall));
             std::iter::repeat_n(k, bricks.len())
         });
-        let walls = bricks.collect();
+        let mut walls: Vec<usize> = bricks.collect();
+        for (k, arch) in scene.arches.iter().enumerate() {
+            let voussoirs = scene::arch::blocks(arch, &KeyPath::of("arches").item(k))?;
+            walls.extend(std::iter::repeat_n(scene.walls.len() + k, voussoirs.len()));
+        }
         Ok(Self { list, given, usual, of_walls, of_supports, of_pairs, walls })
     }
 
@@ -112,16 +122,20 @@ impl Group {
         if let Some(wall) = scene.walls.iter().position(|wall| wall.name == name) {
             return Ok(Self::Wall(wall));
         }
+        if let Some(arch) = scene.arches.iter().position(|arch| arch.name == name) {
+            return Ok(Self::Wall(scene.walls.len() + arch));
+        }
         if let Some(block) = blocks.iter().position(|block| block.name == name) {
             return Ok(Self::Block(BlockId::new(block)));
         }
         let walls = scene.walls.iter().map(|wall| &wall.name);
+        let walls = walls.chain(scene.arches.iter().map(|arch| &arch.name));
         let known = walls.chain(scene.blocks.iter().map(|block| &block.name)).cloned();
         let kind = SceneErrorKind::Unknown {
-            what: "block or wall",
+            what: "block, wall or arch",
             name: name.to_owned(),
             known: Known::near(name, known.collect()),
-            missing: "it as a block or a wall".to_owned(),
+            missing: "it as a block, a wall or an arch".to_owned(),
         };
         Err(Fault::new(at, kind))
     }

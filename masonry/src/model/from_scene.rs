@@ -16,7 +16,7 @@ use crate::units::Units;
 impl Model {
     /// The model of a scene: blocks laid and meshed, joints found, all in SI units.
     ///
-    /// Blocks come wall by wall, course by course, then the single blocks, in the order of the
+    /// Blocks come wall by wall, course by course, then arch by arch, then the single blocks, in the order of the
     /// scene. Only blocks of elastic materials are meshed.
     ///
     /// # Errors
@@ -33,7 +33,7 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
     let units = scene.units;
     let thickness = scene.thickness.unwrap_or(1.0) * units.length_to_si();
     let (mut blocks, keys) = lay_blocks(scene)?;
-    let supports: Vec<Support> = scene.supports.iter().map(|s| support(s, units)).collect();
+    let supports: Vec<Support> = scene.all_supports().iter().map(|s| support(s, units)).collect();
     placement::check_overlaps(&blocks, &keys, units)?;
     placement::check_supports(&blocks, &supports, units)?;
     placement::check_movements(scene, &blocks)?;
@@ -68,6 +68,14 @@ fn lay_blocks(scene: &Scene) -> Result<(Vec<Block>, Vec<KeyPath>), Fault> {
             let mesh = wall.mesh.map(|whole| brick.mesh(whole));
             blocks.push(block(scene, brick.name(wall), &wall.material, &brick.corners(), mesh));
             keys.push(KeyPath::of("walls").item(k).key("courses"));
+        }
+    }
+    for (k, arch) in scene.arches.iter().enumerate() {
+        let at = KeyPath::of("arches").item(k);
+        let mesh = arch.mesh.map(|counts| counts.map(|n| n as usize));
+        for (name, corners) in scene::arch::blocks(arch, &at)? {
+            blocks.push(block(scene, name, &arch.material, &corners, mesh));
+            keys.push(at.clone());
         }
     }
     for (k, single) in scene.blocks.iter().enumerate() {

@@ -2,10 +2,10 @@
 
 use nalgebra::{Point2, Vector2};
 
-use super::placement::rounded;
 use super::{Acceleration, Block, ContactPoint, EdgeLoad, Joint, Load, PointLoad};
 use crate::geometry;
 use crate::ids::LoadId;
+use crate::rounding::rounded;
 use crate::scene::{self, EdgeStress, Fault, KeyPath, LoadError, LoadKind, Scene, SceneErrorKind};
 use crate::units::Units;
 

@@ -7,6 +7,7 @@ use nalgebra::Point2;
 use super::{Block, Body, Joint, Support};
 use crate::geometry;
 use crate::model::joints::{Options, near_pairs};
+use crate::rounding::rounded;
 use crate::scene::{Fault, KeyPath, Scene, SceneErrorKind};
 use crate::units::Units;
 
@@ -96,11 +97,6 @@ pub(super) fn check_supports(
         }
     }
     Ok(())
-}
-
-/// A number to six digits: messages tell sizes of mistakes, not their rounding errors.
-pub(super) fn rounded(number: f64) -> f64 {
-    format!("{number:.5e}").parse().unwrap_or(number)
 }
 
 /// Length of the part of a segment that is deeper in a block than rounding errors.

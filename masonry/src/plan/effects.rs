@@ -190,9 +190,7 @@ fn deformation(scene: &Scene, sizes: &Sizes, route: &FirstRoute) -> Effect {
         let because = "no material of a block has E: all blocks are rigid";
         return Effect::off("deformation", because.to_owned());
     }
-    let of_walls = scene.walls.iter().map(|wall| wall.material.as_str());
-    let used: BTreeSet<&str> =
-        of_walls.chain(scene.blocks.iter().map(|block| block.material.as_str())).collect();
+    let used: BTreeSet<&str> = scene.used_materials().collect();
     let elastic = |name: &&str| scene.materials.get(*name).is_some_and(|m| m.young.is_some());
     let because = format!("E given for {}", names(used.into_iter().filter(elastic)));
     let effect = route.on("deformation", because, &sizes.without_deformation());

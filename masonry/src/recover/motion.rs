@@ -34,6 +34,35 @@ pub fn mechanism(
     }
 }
 
+/// How bodies flow: rates of the corners of every block, scaled to a largest component of one, by the rigid part of
+/// velocities of the sparse problem; `None` where nothing moves. Unlike [`mechanism`] it is not tested: velocities are as
+/// accurate as the motion from which they are taken.
+pub(crate) fn flow(
+    model: &Model,
+    system: &System,
+    sparse: &Sparse,
+    velocities: &[f64],
+) -> Option<Vec<Vec<Vector2<f64>>>> {
+    let (amplitudes, _) = rigid_part(model, system, sparse, velocities);
+    let mut rates = of_corners(model, system, &amplitudes);
+    let largest = largest(&rates);
+    rates.iter_mut().flatten().for_each(|rate| *rate /= largest);
+    (largest > 0.0 && largest.is_finite()).then_some(rates)
+}
+
+fn of_corners(model: &Model, system: &System, amplitudes: &[f64]) -> Vec<Vec<Vector2<f64>>> {
+    let bodies = model.blocks.iter().zip(&system.bodies).zip(amplitudes.chunks(3));
+    bodies
+        .map(|((block, body), alpha)| {
+            block.corners.iter().map(|p| body.modes.displacement(*p, alpha)).collect()
+        })
+        .collect()
+}
+
+fn largest(rates: &[Vec<Vector2<f64>>]) -> f64 {
+    rates.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max)
+}
+
 /// `deformation` is what the blocks do besides \[m\].
 fn of_amplitudes(
     model: &Model,
@@ -45,16 +74,8 @@ fn of_amplitudes(
     if power <= 0.0 || !power.is_finite() {
         return None;
     }
-    let mut rates: Vec<Vec<Vector2<f64>>> = model
-        .blocks
-        .iter()
-        .zip(&system.bodies)
-        .zip(amplitudes.chunks(3))
-        .map(|((block, body), alpha)| {
-            block.corners.iter().map(|p| body.modes.displacement(*p, alpha)).collect()
-        })
-        .collect();
-    let largest = rates.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max);
+    let mut rates = of_corners(model, system, amplitudes);
+    let largest = largest(&rates);
     if deformation > LARGEST_DEFORMATION * largest {
         return None;
     }

@@ -43,12 +43,15 @@ impl InUnits {
     pub(super) fn force_text(self, newtons: f64) -> String {
         format!("{}\u{a0}{}", significant(self.force(newtons), 4), self.0.force_name())
     }
+}
 
-    /// A stress for people, with its unit and a raised 2, after a space that does not break.
-    pub(super) fn stress_text(self, pascals: f64) -> String {
-        let unit = format!("{}/{}²", self.0.force_name(), self.0.length_name());
-        format!("{}\u{a0}{unit}", significant(self.stress(pascals), 4))
-    }
+/// A stress \[Pa\] for people, in pascals or thousands, millions or billions of them, with its unit after a space that does not break.
+pub(super) fn stress_text(pascals: f64) -> String {
+    let prefixes = [(1e9, "G"), (1e6, "M"), (1e3, "k")];
+    // What is rounded to a thousand of a unit is one of the next.
+    let fits = |(unit, _): &(f64, &str)| pascals.abs() >= unit * (1.0 - 5e-5);
+    let (unit, prefix) = prefixes.into_iter().find(fits).unwrap_or((1.0, ""));
+    format!("{}\u{a0}{prefix}Pa", significant(pascals / unit, 4))
 }
 
 /// An acceleration \[m/s^2\] for people, with its unit after a space that does not break.
@@ -158,6 +161,21 @@ mod tests {
         ];
         for (value, text) in cases {
             assert_eq!(significant(value, 4), text);
+        }
+    }
+
+    #[test]
+    fn stresses_have_the_prefix_that_reads_best() {
+        let cases = [
+            (0.0, "0 Pa"),
+            (-730.0, "-730 Pa"),
+            (999.99, "1 kPa"),
+            (258_400.0, "258.4 kPa"),
+            (1.2e6, "1.2 MPa"),
+            (5e9, "5 GPa"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(stress_text(value).replace('\u{a0}', " "), text);
         }
     }
 

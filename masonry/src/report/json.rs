@@ -132,7 +132,7 @@ struct Balance {
 
 /// A reaction: force on the structure, and moment about the origin.
 #[derive(Serialize)]
-struct Force {
+pub(super) struct Force {
     fx: f64,
     fy: f64,
     m: f64,
@@ -217,7 +217,7 @@ struct Stress<'a> {
 }
 
 /// An object with one member per name, in the order of the list.
-struct ByName<'a, T>(Vec<(&'a str, T)>);
+pub(super) struct ByName<'a, T>(pub(super) Vec<(&'a str, T)>);
 
 impl<T: Serialize> Serialize for ByName<'_, T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -349,7 +349,7 @@ impl UnitNames {
     }
 }
 
-fn rates_by_name<'a>(
+pub(super) fn rates_by_name<'a>(
     model: &'a model::Model,
     rates: &[Vec<Vector2<f64>>],
 ) -> ByName<'a, Vec<[f64; 2]>> {
@@ -358,7 +358,7 @@ fn rates_by_name<'a>(
     ByName(names.zip(rates).collect())
 }
 
-fn named_force(reaction: &Reaction, units: InUnits) -> (&str, Force) {
+pub(super) fn named_force(reaction: &Reaction, units: InUnits) -> (&str, Force) {
     let force = Force {
         fx: units.force(reaction.fx),
         fy: units.force(reaction.fy),

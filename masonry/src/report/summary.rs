@@ -251,15 +251,19 @@ pub fn reason(outcome: &Outcome) -> Option<String> {
     if outcome.judgement.verdict == Verdict::Falls
         && outcome.solve.status != lcp::Status::Infeasible
     {
-        why += " What proves it is another vector, a motion that was checked in the geometry: no contact forces within \
-                friction balance the loads.";
+        why += " It is also proved by a motion, which was checked in the geometry: no contact forces within friction \
+             balance the loads.";
     }
     let history = outcome.history.as_ref().filter(|history| !history.records.is_empty());
     Some(match history.and_then(|history| history.failed.as_ref()) {
-        Some(Step { stage, number, of, .. }) => format!(
-            "Step {number} of {of} of stage \"{stage}\" could not be solved. {why} Load history, reactions and \
-             state are those of the step before, which was solved."
-        ),
+        Some(Step { stage, number, of, .. }) => {
+            let is_cancelled = outcome.solve.status == lcp::Status::Cancelled;
+            let end = if is_cancelled { "was not finished" } else { "could not be solved" };
+            format!(
+                "Step {number} of {of} of stage \"{stage}\" {end}. {why} Load history, reactions and state are those of \
+                 the step before, which was solved."
+            )
+        }
         None => why,
     })
 }
@@ -273,9 +277,9 @@ fn why(outcome: &Outcome) -> Option<&'static str> {
              forces and loads, does not hold. What was computed is kept for inspection only."
         }
         lcp::Status::RayTermination if outcome.mechanism.is_some() => {
-            "No attempt found an equilibrium, and one ended on a secondary ray that is a movement of \
-             the blocks that the supports do not stop and on which the loads do work. Friction may \
-             stop it: by itself this is not a proof of collapse."
+            "A collapse mechanism was found, and no equilibrium: a motion of the blocks that the \
+             supports do not stop and on which the loads do work. Friction may stop it: by itself \
+             this is not a proof of collapse."
         }
         lcp::Status::RayTermination => {
             "No attempt found an equilibrium, and the last form ended on secondary rays. With \
@@ -284,8 +288,7 @@ fn why(outcome: &Outcome) -> Option<&'static str> {
         }
         lcp::Status::Infeasible => {
             "There is no equilibrium, and this is proved: no contact forces within their limits balance \
-             the loads with displacements that fit together, which a vector shows that was checked in the \
-             data (Farkas)."
+             the loads with displacements that fit together (by a Farkas vector, which was checked in the data)."
         }
         lcp::Status::NoEquilibrium => {
             "Springs on all blocks keep their share of the load however soft they are: from there \
@@ -304,7 +307,7 @@ fn why(outcome: &Outcome) -> Option<&'static str> {
              limit or another start may find an equilibrium."
         }
         lcp::Status::NumericalTrouble => {
-            "Rounding errors could not be brought under control. This says nothing about the \
+            "Rounding errors are too large. This says nothing about the \
              structure: look for blocks, stiffnesses or gaps of very different size."
         }
         lcp::Status::AlmostSolved => {
@@ -312,10 +315,10 @@ fn why(outcome: &Outcome) -> Option<&'static str> {
              not accepted as an equilibrium."
         }
         lcp::Status::Cycling => {
-            "The pivots came back to where they had been, in every way that was tried. This says \
+            "The pivots cycled in every attempt. This says \
              nothing about the structure: another mesh or another form may find an equilibrium."
         }
-        lcp::Status::Cancelled => "The solve was cancelled before it came to an end.",
+        lcp::Status::Cancelled => "The solve was cancelled.",
         _ => "The solver returned no equilibrium.",
     };
     Some(what)

@@ -287,12 +287,12 @@ pub(super) fn paragraph(text: &str) -> String {
 }
 
 /// A paragraph of the head of the report.
-fn head(text: &str) -> String {
+pub(super) fn head(text: &str) -> String {
     paragraph(text).lines().map(|line| line.trim_start().to_owned() + "\n").collect()
 }
 
 /// Names and values in two columns.
-fn pairs(rows: &[(&str, String)]) -> String {
+pub(super) fn pairs(rows: &[(&str, String)]) -> String {
     let mut table = Table::new();
     table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Dynamic);
     table.set_width(WIDTH);

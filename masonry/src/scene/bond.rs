@@ -1,6 +1,10 @@
-//! The bricks of a wall: running bond, or courses given brick by brick.
+//! The bricks of a wall: laid in a bond and cut at openings, or courses given brick by brick.
 
-use crate::scene::{Courses, Joint, Scene, Wall};
+mod openings;
+
+use crate::scene::{Bond, Courses, Joint, Scene, Wall};
+
+pub(crate) use openings::taken;
 
 /// Parts of a brick shorter than this fraction of it are rounding errors, not bricks.
 const SLIVER: f64 = 1e-9;
@@ -99,8 +103,9 @@ pub fn bricks_in_mortar(wall: &Wall, joints: JointThickness) -> Vec<PlacedBrick>
 /// leaves nothing of a brick.
 pub(crate) fn first_without_length(wall: &Wall, joints: JointThickness) -> Option<[usize; 2]> {
     let gone = |&[start, end]: &Stretch| left_of(end - start, wall, joints) <= SLIVER;
-    // Two courses show all there is of a running bond.
-    let repeated = if matches!(wall.courses, Courses::RunningBond(_)) { 2 } else { usize::MAX };
+    // Two courses show all there is of a bond without openings.
+    let is_bond = matches!(wall.courses, Courses::RunningBond(_)) && wall.openings.is_empty();
+    let repeated = if is_bond { 2 } else { usize::MAX };
     let mut places = courses(wall, joints).take(repeated).enumerate();
     places.find_map(|(course, stretches)| {
         let brick = stretches.iter().position(gone)?;
@@ -116,7 +121,11 @@ fn courses(wall: &Wall, joints: JointThickness) -> Box<dyn Iterator<Item = Vec<S
         Courses::RunningBond(count) => {
             let width = wall.width.unwrap_or(wall.brick.length);
             let width = snap((width + joints.head) / (wall.brick.length + joints.head));
-            Box::new((0..*count as usize).map(move |course| running_bond(course, width)))
+            let laid = move |course: usize| {
+                let bricks = bricks_between(&ends(wall.bond.unwrap_or_default(), course, width));
+                openings::cut(wall, joints, course, bricks)
+            };
+            Box::new((0..*count as usize).map(laid))
         }
         Courses::List(lists) => Box::new(lists.iter().map(|lengths| given(lengths))),
     }
@@ -136,11 +145,30 @@ fn snap(bricks: f64) -> f64 {
 /// A stretch of a course in units of one brick and its head joint, from its start to its end.
 type Stretch = [f64; 2];
 
-/// A course of a wall `width` bricks wide; every other one begins with a half brick.
-fn running_bond(course: usize, width: f64) -> Vec<Stretch> {
-    let first = if course.is_multiple_of(2) { 1.0 } else { 0.5 };
-    let inner = (0..).map(|k| first + f64::from(k)).take_while(|end| *end < width - SLIVER);
-    let ends: Vec<f64> = std::iter::once(0.0).chain(inner).chain(std::iter::once(width)).collect();
+/// The ends of the bricks of a course of a wall `width` bricks wide, from 0 on.
+fn ends(bond: Bond, course: usize, width: f64) -> Vec<f64> {
+    let is_even = course.is_multiple_of(2);
+    let (first, step) = match bond {
+        Bond::Running if !is_even => (0.5, 1.0),
+        Bond::English if !is_even => (0.75, 0.5),
+        Bond::Running | Bond::Stack | Bond::English => (1.0, 1.0),
+    };
+    let mut ends = vec![0.0];
+    if bond == Bond::English && !is_even && width > 0.5 + SLIVER {
+        ends.push(0.5);
+    }
+    // Within 1.5 there is no room for two closers.
+    let closed = bond == Bond::English && !is_even && width > 1.5 + SLIVER;
+    let last = if closed { width - 0.75 } else { width };
+    ends.extend((0..).map(|k| first + step * f64::from(k)).take_while(|end| *end < last - SLIVER));
+    if closed {
+        ends.extend([last, width - 0.5]);
+    }
+    ends.push(width);
+    ends
+}
+
+fn bricks_between(ends: &[f64]) -> Vec<Stretch> {
     ends.windows(2).map(|pair| [pair[0], pair[1]]).collect()
 }
 

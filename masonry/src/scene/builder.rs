@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::source::Source;
 use super::{
-    Between, Block, Brick, Contact, Courses, Films, Form, Joint, Load, Material, Output, Plane,
-    PointRule, Route, Scene, Solver, Stage, Support, Wall, WallJoints,
+    Arch, Between, Block, Bond, Brick, Contact, Courses, Films, Form, Joint, Limit, Load, Material,
+    Opening, Output, Plane, PointRule, Route, Scene, Solver, Stage, Support, Wall, WallJoints,
 };
 use crate::units::Units;
 
@@ -17,15 +17,18 @@ impl Scene {
             plane: None,
             thickness: None,
             gravity: None,
+            block_list: None,
             units,
             materials: BTreeMap::new(),
             joints: BTreeMap::new(),
             between: Vec::new(),
             walls: Vec::new(),
+            arches: Vec::new(),
             blocks: Vec::new(),
             supports: Vec::new(),
             loads: Vec::new(),
             stages: Vec::new(),
+            limit: Limit::default(),
             contact: Contact::default(),
             solver: Solver::default(),
             output: Output::default(),
@@ -83,6 +86,13 @@ impl Scene {
         self
     }
 
+    /// Adds an arch.
+    #[must_use]
+    pub fn arch(mut self, arch: Arch) -> Self {
+        self.arches.push(arch);
+        self
+    }
+
     /// Adds a block.
     #[must_use]
     pub fn block(mut self, block: Block) -> Self {
@@ -108,6 +118,13 @@ impl Scene {
     #[must_use]
     pub fn stage(mut self, stage: Stage) -> Self {
         self.stages.push(stage);
+        self
+    }
+
+    /// Names the load or group of loads of which the limit load is asked.
+    #[must_use]
+    pub fn limit_group(mut self, name: &str) -> Self {
+        self.limit.group = Some(name.to_owned());
         self
     }
 
@@ -255,6 +272,20 @@ impl Wall {
         Self::new(name, material, brick, Courses::List(courses))
     }
 
+    /// Sets how the bricks are laid.
+    #[must_use]
+    pub fn bond(mut self, bond: Bond) -> Self {
+        self.bond = Some(bond);
+        self
+    }
+
+    /// Adds an opening.
+    #[must_use]
+    pub fn opening(mut self, opening: Opening) -> Self {
+        self.openings.push(opening);
+        self
+    }
+
     /// Sets the classes of the beds and heads within the wall.
     #[must_use]
     pub fn joints(mut self, bed: &str, head: &str) -> Self {
@@ -284,6 +315,8 @@ impl Wall {
             brick,
             width: None,
             courses,
+            bond: None,
+            openings: Vec::new(),
             joints: WallJoints::default(),
             mesh: None,
         }

@@ -4,6 +4,10 @@ use std::collections::BTreeMap;
 
 use nalgebra::Point2;
 
+use super::rules::{
+    Check, MAGNITUDES, One, exactly_one, finite, missing, not_negative, point, positive, too_many,
+    unwanted, value,
+};
 use super::{
     Between, Block, Courses, Fault, Form, Joint, KeyPath, Known, Material, Route, Scene,
     SceneError, SceneErrorKind, Solver, Support, Wall,
@@ -11,21 +15,19 @@ use super::{
 use crate::geometry::{self, PolygonError};
 use crate::scene::bond::JointThickness;
 
+mod arches;
 mod loads;
 mod mortar;
+mod openings;
 mod stages;
 
 /// Bricks and blocks of one scene, at most.
 const MOST_BLOCKS: u32 = 1_000_000;
-/// Magnitudes beyond these are no lengths, moduli or loads of anything, and would overflow.
-const MAGNITUDES: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 /// Elements of one block along one edge, at most.
 const MOST_ELEMENTS: u32 = 1_000;
 
 /// A tensile strength that was computed from the cohesion may exceed its limit by this part.
 const ROUNDING: f64 = 1e-12;
-
-type Check = Result<(), Fault>;
 
 impl Scene {
     /// Checks all data: names that refer to nothing, numbers out of their range, missing keys.
@@ -49,7 +51,7 @@ impl Scene {
             check_joint(&at, joint)?;
             self.check_mortar(&at, joint)?;
         }
-        if self.walls.is_empty() && self.blocks.is_empty() {
+        if self.walls.is_empty() && self.blocks.is_empty() && self.arches.is_empty() {
             return Err(Fault::new(KeyPath::default(), SceneErrorKind::Empty));
         }
         self.check_names()?;
@@ -59,7 +61,8 @@ impl Scene {
         for (k, block) in self.blocks.iter().enumerate() {
             self.check_block(&KeyPath::of("blocks").item(k), block)?;
         }
-        if self.supports.is_empty() {
+        self.check_arches()?;
+        if self.all_supports().is_empty() {
             return Err(Fault::new(KeyPath::default(), SceneErrorKind::NoSupport));
         }
         for (k, between) in self.between.iter().enumerate() {
@@ -70,10 +73,16 @@ impl Scene {
         }
         self.check_loads()?;
         self.check_stages()?;
+        self.check_limit()?;
         self.check_options()
     }
 
     fn check_general(&self) -> Check {
+        if let Some(path) = &self.block_list {
+            let message = "only reading a scene file takes it in".to_owned();
+            let kind = SceneErrorKind::BlockList { path: path.clone(), message };
+            return Err(Fault::new(KeyPath::of("block_list"), kind));
+        }
         let Some(thickness) = self.thickness else {
             let because = "to turn tractions into forces";
             return Err(missing(&KeyPath::default(), "thickness", because, "thickness = 1.0"));
@@ -110,6 +119,7 @@ impl Scene {
     /// Names of walls, blocks, supports and loads: given, and each once among its like.
     fn check_names(&self) -> Check {
         unique("wall", "walls", self.walls.iter().map(|wall| &wall.name))?;
+        unique("arch", "arches", self.arches.iter().map(|arch| &arch.name))?;
         unique("block", "blocks", self.blocks.iter().map(|block| &block.name))?;
         unique("support", "supports", self.supports.iter().map(|support| &support.name))?;
         unique("load", "loads", self.loads.iter().map(|load| &load.name))
@@ -121,7 +131,9 @@ impl Scene {
         positive(at.key("brick").key("length"), wall.brick.length)?;
         positive(at.key("brick").key("height"), wall.brick.height)?;
         let count = match &wall.courses {
-            Courses::RunningBond(count) => check_running_bond(at, wall, *count)?,
+            Courses::RunningBond(count) => {
+                check_running_bond(at, wall, *count, JointThickness::of(self, wall))?
+            }
             Courses::List(courses) => check_courses(at, wall, courses)?,
         };
         if count > f64::from(MOST_BLOCKS) {
@@ -214,11 +226,11 @@ impl Scene {
         let springs = matches!(route, Route::Qp | Route::Pgs);
         let otherwise = ", or set route = \"lemke\"";
         if form != Form::Auto && !pivots {
-            let because = "is the form of the pivoting route, which is not the one asked for";
+            let because = "is used by the routes `auto` and `lemke` only";
             return Err(unwanted(at, "form", because, otherwise));
         }
         if max_pivots.is_some() && !pivots {
-            let because = "limits the pivoting route, which is not the one asked for";
+            let because = "is used by the routes `auto` and `lemke` only";
             return Err(unwanted(at, "max_pivots", because, otherwise));
         }
         if soft.is_some() && !springs {
@@ -257,14 +269,22 @@ fn check_joint(at: &KeyPath, joint: &Joint) -> Check {
     Ok(())
 }
 
-/// Checks the keys of a wall in running bond; an upper bound of the number of its bricks.
-fn check_running_bond(at: &KeyPath, wall: &Wall, count: u32) -> Result<f64, Fault> {
+/// Checks the keys of a wall in a bond; an upper bound of the number of its bricks.
+fn check_running_bond(
+    at: &KeyPath,
+    wall: &Wall,
+    count: u32,
+    joints: JointThickness,
+) -> Result<f64, Fault> {
     value(at.key("courses"), f64::from(count), count > 0, "a wall has at least one course")?;
     let Some(width) = wall.width else {
         return Err(missing(at, "width", "where `courses` is a number", "width = 1.0"));
     };
     positive(at.key("width"), width)?;
-    Ok(f64::from(count) * (width / wall.brick.length + 1.0).floor())
+    openings::check(at, wall, joints, (width, count))?;
+    // An English bond has two headers a brick, and an opening divides two bricks.
+    let in_course = 2.0 * width / wall.brick.length + 3.0 + 2.0 * wall.openings.len() as f64;
+    Ok(f64::from(count) * in_course.floor())
 }
 
 /// Checks a list of courses; the number of its bricks.
@@ -272,6 +292,12 @@ fn check_courses(at: &KeyPath, wall: &Wall, courses: &[Vec<f64>]) -> Result<f64,
     if wall.width.is_some() {
         let because = "has no meaning where `courses` is a list";
         return Err(unwanted(at, "width", because, ", or give the number of courses"));
+    }
+    for (key, given) in [("bond", wall.bond.is_some()), ("openings", !wall.openings.is_empty())] {
+        if given {
+            let because = "is for walls whose `courses` is a number";
+            return Err(unwanted(at, key, because, ", or give the number of courses"));
+        }
     }
     let list = at.key("courses");
     if courses.is_empty() {
@@ -342,66 +368,6 @@ fn unique<'a>(
         }
     }
     Ok(())
-}
-
-enum One<A, B> {
-    First(A),
-    Second(B),
-}
-
-fn exactly_one<A, B>(
-    at: &KeyPath,
-    (first, a): (&'static str, Option<A>),
-    (second, b): (&'static str, Option<B>),
-) -> Result<One<A, B>, Fault> {
-    match (a, b) {
-        (Some(a), None) => Ok(One::First(a)),
-        (None, Some(b)) => Ok(One::Second(b)),
-        (Some(_), Some(_)) => {
-            Err(Fault::new(at.key(second), SceneErrorKind::Both { first, second }))
-        }
-        (None, None) => Err(Fault::new(at.clone(), SceneErrorKind::Neither { first, second })),
-    }
-}
-
-fn point(at: &KeyPath, coordinates: [f64; 2]) -> Check {
-    coordinates.into_iter().enumerate().try_for_each(|(k, x)| finite(at.item(k), x))
-}
-
-fn finite(at: KeyPath, number: f64) -> Check {
-    let allowed = number.abs() <= *MAGNITUDES.end();
-    value(at, number, allowed, "give a finite number (of magnitude at most 1e100)")
-}
-
-fn positive(at: KeyPath, number: f64) -> Check {
-    let wanted = "give a finite number greater than zero (between 1e-100 and 1e100)";
-    value(at, number, MAGNITUDES.contains(&number), wanted)
-}
-
-fn not_negative(at: KeyPath, number: f64) -> Check {
-    let allowed = (0.0..=*MAGNITUDES.end()).contains(&number);
-    value(at, number, allowed, "give zero or a finite positive number (at most 1e100)")
-}
-
-fn value(at: KeyPath, value: f64, allowed: bool, wanted: &'static str) -> Check {
-    if allowed { Ok(()) } else { Err(Fault::new(at, SceneErrorKind::Value { value, wanted })) }
-}
-
-fn missing(at: &KeyPath, key: &'static str, because: &'static str, remedy: &'static str) -> Fault {
-    Fault::new(at.clone(), SceneErrorKind::Missing { key, because, remedy })
-}
-
-fn unwanted(
-    at: &KeyPath,
-    key: &'static str,
-    because: &'static str,
-    otherwise: &'static str,
-) -> Fault {
-    Fault::new(at.key(key), SceneErrorKind::Unwanted { key, because, otherwise })
-}
-
-fn too_many(at: KeyPath, what: &'static str, count: f64, limit: u32) -> Fault {
-    Fault::new(at, SceneErrorKind::TooMany { what, count, limit })
 }
 
 fn unknown(

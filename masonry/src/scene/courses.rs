@@ -52,3 +52,21 @@ impl<'de> Visitor<'de> for CoursesVisitor {
         Ok(Courses::List(courses))
     }
 }
+
+/// Written out as the reading is.
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for Courses {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Courses".into()
+    }
+
+    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let (count, list) =
+            (generator.subschema_for::<u32>(), generator.subschema_for::<Vec<Vec<f64>>>());
+        schemars::json_schema!({
+            "description": "So many courses in a bond; or a list of courses from bottom to top, each a list of brick \
+                            lengths in units of one brick, of which a negative number is an opening.",
+            "anyOf": [count, list]
+        })
+    }
+}

@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 
 pub use contact::ContactError;
 
+use super::arch_error::ArchError;
 use super::load::LoadError;
+use super::opening::OpeningError;
 use super::source::{Place, Source};
 use super::{KeyPath, Scene};
 
@@ -57,6 +59,11 @@ impl SceneError {
         let place = source.place(error.span().unwrap_or(0..0));
         let kind = SceneErrorKind::Syntax { message: with_nearest(error.message()) };
         Self::new(kind, KeyPath::default(), place, source.path().map(Path::to_owned))
+    }
+
+    pub(super) fn list(path: &Path, message: &str, place: Option<Place>) -> Self {
+        let kind = SceneErrorKind::Syntax { message: with_nearest(message) };
+        Self::new(kind, KeyPath::default(), place, Some(path.to_owned()))
     }
 
     pub(super) fn unreadable(path: &Path, message: &str) -> Self {
@@ -113,13 +120,13 @@ impl Fault {
     /// The error with its place in the text, if the scene still says what the text says.
     pub(crate) fn locate(self, scene: &Scene) -> SceneError {
         let source = &scene.source;
-        let unchanged = toml::from_str::<Scene>(source.as_str()).is_ok_and(|read| {
+        let unchanged = Scene::of(source).is_ok_and(|read| {
             // NaN differs from itself: what was written is compared, not what it is worth.
             format!("{read:?}") == format!("{:?}", scene.without_source())
         });
         if unchanged {
-            let place = source.locate(&self.key);
-            SceneError::new(*self.kind, self.key, place, source.path().map(Path::to_owned))
+            let (file, place) = source.locate(&self.key);
+            SceneError::new(*self.kind, self.key, place, file.map(Path::to_owned))
         } else {
             SceneError::new(*self.kind, self.key, None, None)
         }
@@ -140,6 +147,14 @@ pub enum SceneErrorKind {
     #[error("cannot write the scene as TOML: {message}")]
     Write {
         /// The writer's message.
+        message: String,
+    },
+    /// The list of blocks cannot be read.
+    #[error("cannot read the list of blocks {}: {message}: name a JSON file, relative to the scene", path.display())]
+    BlockList {
+        /// The file, as the scene names it.
+        path: PathBuf,
+        /// The operating system's message.
         message: String,
     },
     /// The text is no TOML, or has unknown, missing or repeated keys, or values of a wrong type.
@@ -220,7 +235,7 @@ pub enum SceneErrorKind {
         missing: String,
     },
     /// Nothing to analyse.
-    #[error("the scene has no blocks: add [[walls]] or [[blocks]]")]
+    #[error("the scene has no blocks: add [[walls]], [[arches]] or [[blocks]]")]
     Empty,
     /// A list has no items.
     #[error("the list is empty: {remedy}")]
@@ -229,7 +244,9 @@ pub enum SceneErrorKind {
         remedy: &'static str,
     },
     /// Nothing holds the structure.
-    #[error("the scene has no support, so that nothing holds it: add [[supports]]")]
+    #[error(
+        "the scene has no support, so that nothing holds it: add [[supports]], or `springing` to an arch"
+    )]
     NoSupport,
     /// The two ends of a segment coincide.
     #[error("the segment has no length: `from` and `to` are both [{x}, {y}]")]
@@ -381,6 +398,12 @@ pub enum SceneErrorKind {
         /// Name of the other.
         second: String,
     },
+    /// What is impossible about an arch.
+    #[error("{0}")]
+    Arch(#[from] ArchError),
+    /// What is impossible about an opening.
+    #[error("{0}")]
+    Opening(#[from] OpeningError),
     /// What is wrong with a load.
     #[error("{0}")]
     Load(#[from] LoadError),

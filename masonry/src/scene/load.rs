@@ -14,6 +14,7 @@ use super::strict;
 /// assert_eq!([&wind, &beam, &quake].map(Load::group_name), ["wind", "roof", "quake"]);
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Load {
     /// Name of the load.
@@ -289,6 +290,15 @@ pub enum LoadError {
     NoMass {
         /// Name of the load.
         load: String,
+    },
+    /// A limit load is asked of a support.
+    #[error(
+        "\"{name}\" is a support: its movement is no load, and rigid blocks follow any of it without a limit; name a load \
+         or a group of loads"
+    )]
+    Support {
+        /// Name of the support.
+        name: String,
     },
     /// A stage names what is a load and a group of others.
     #[error(

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use toml::de::{DeTable, DeValue};
 
+use super::json_span;
 use super::key_path::{KeyPath, Step};
 
 /// The text that a scene was read from; empty for a scene built in Rust.
@@ -17,7 +18,15 @@ pub(super) struct Source(Option<Arc<Text>>);
 #[derive(Debug)]
 struct Text {
     file: Option<PathBuf>,
-    text: String,
+    scene: String,
+    list: Option<List>,
+}
+
+/// A file with a list of blocks.
+#[derive(Debug)]
+pub(super) struct List {
+    pub(super) path: PathBuf,
+    pub(super) text: String,
 }
 
 impl PartialEq for Source {
@@ -28,24 +37,63 @@ impl PartialEq for Source {
 
 impl Source {
     pub(super) fn text(text: &str) -> Self {
-        Self(Some(Arc::new(Text { file: None, text: text.to_owned() })))
+        Self(Some(Arc::new(Text { file: None, scene: text.to_owned(), list: None })))
     }
 
     pub(super) fn file(path: &Path, text: &str) -> Self {
-        Self(Some(Arc::new(Text { file: Some(path.to_owned()), text: text.to_owned() })))
+        let file = Some(path.to_owned());
+        Self(Some(Arc::new(Text { file, scene: text.to_owned(), list: None })))
+    }
+
+    /// The same with the list of blocks in a file, whose path is relative to that of the scene.
+    ///
+    /// # Errors
+    /// What the system says of the file.
+    pub(super) fn with_list(&self, list: &Path) -> std::io::Result<Self> {
+        let path = self.path().and_then(Path::parent).map_or(list.to_owned(), |it| it.join(list));
+        let text = std::fs::read_to_string(&path)?;
+        let (file, scene) = (self.path().map(Path::to_owned), self.as_str().to_owned());
+        Ok(Self(Some(Arc::new(Text { file, scene, list: Some(List { path, text }) }))))
     }
 
     pub(super) fn as_str(&self) -> &str {
-        self.0.as_ref().map_or("", |source| &source.text)
+        self.0.as_ref().map_or("", |source| &source.scene)
     }
 
     pub(super) fn path(&self) -> Option<&Path> {
         self.0.as_ref()?.file.as_deref()
     }
 
-    /// The place of the value at `path`, or of the innermost table around it that is written out.
-    pub(super) fn locate(&self, path: &KeyPath) -> Option<Place> {
-        let text = &self.0.as_ref()?.text;
+    /// The list of blocks.
+    pub(super) fn list(&self) -> Option<&List> {
+        self.0.as_ref()?.list.as_ref()
+    }
+
+    /// The file and the place of the value at `path`, or of the innermost table around it that is written out.
+    pub(super) fn locate(&self, path: &KeyPath) -> (Option<&Path>, Option<Place>) {
+        match self.locate_in_list(path) {
+            Some((file, place)) => (Some(file), place),
+            None => (self.path(), self.locate_in_scene(path)),
+        }
+    }
+
+    /// Blocks that are not in the scene itself are in the list.
+    fn locate_in_list(&self, path: &KeyPath) -> Option<(&Path, Option<Place>)> {
+        let list = self.list()?;
+        let [Step::Key(key), Step::Index(index), inner @ ..] = path.steps() else { return None };
+        let table = DeTable::parse(self.as_str()).ok()?;
+        let own = match table.get_ref().get("blocks").map(toml::Spanned::get_ref) {
+            Some(DeValue::Array(blocks)) => blocks.len(),
+            _ => 0,
+        };
+        let in_list = index.checked_sub(own).filter(|_| key == "blocks")?;
+        let steps = [&[Step::Index(in_list)], inner].concat();
+        let span = json_span::locate(&list.text, &steps);
+        Some((&list.path, span.and_then(|span| Place::new(&list.text, span))))
+    }
+
+    fn locate_in_scene(&self, path: &KeyPath) -> Option<Place> {
+        let text = &self.0.as_ref()?.scene;
         let table = DeTable::parse(text).ok()?;
         let mut span = None;
         let mut value: Option<&DeValue<'_>> = None;
@@ -65,7 +113,7 @@ impl Source {
 
     /// The place of a range of bytes.
     pub(super) fn place(&self, span: Range<usize>) -> Option<Place> {
-        Place::new(&self.0.as_ref()?.text, span)
+        Place::new(&self.0.as_ref()?.scene, span)
     }
 }
 
@@ -83,6 +131,14 @@ pub(super) struct Place {
 }
 
 impl Place {
+    /// A place by its line and column, from 1.
+    pub(super) fn at(text: &str, line: usize, column: usize) -> Option<Self> {
+        let before: usize = text.split_inclusive('\n').take(line.max(1) - 1).map(str::len).sum();
+        let in_line = text.get(before..)?.char_indices().nth(column.max(1) - 1);
+        let start = in_line.map_or(text.len(), |(offset, _)| before + offset);
+        Self::new(text, start..start)
+    }
+
     fn new(text: &str, span: Range<usize>) -> Option<Self> {
         let before = text.get(..span.start)?;
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);

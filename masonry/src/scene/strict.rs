@@ -29,6 +29,17 @@ pub(super) fn corners<'de, D: Deserializer<'de>>(
     Ok(corners.into_iter().map(|Exact(corner)| corner).collect())
 }
 
+/// Two points.
+type Segment = [[f64; 2]; 2];
+
+pub(super) fn some_segments<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<Vec<Segment>>, D::Error> {
+    let segments = Vec::<Exact<Exact<f64, 2>, 2>>::deserialize(deserializer)?;
+    let segment = |Exact([Exact(from), Exact(to)])| [from, to];
+    Ok(Some(segments.into_iter().map(segment).collect()))
+}
+
 struct Exact<T, const N: usize>([T; N]);
 
 impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exact<T, N> {
@@ -67,6 +78,12 @@ pub(super) fn table<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
     deserializer: D,
 ) -> Result<T, D::Error> {
     Table::deserialize(deserializer).map(|Table(item)| item)
+}
+
+pub(super) fn some_table<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+    deserializer: D,
+) -> Result<Option<T>, D::Error> {
+    table(deserializer).map(Some)
 }
 
 pub(super) fn named_tables<'de, D: Deserializer<'de>, T: Deserialize<'de>>(

@@ -68,7 +68,7 @@ fn accelerations_are_arrows_beside_the_structure() {
         "0.5 m/s²",
         "1.5 m/s²",
         "body accelerations, 0.5 to 1.5 m/s²",
-        "edge load, 2 kN/m²",
+        "edge load, 2 kPa",
     ] {
         assert!(texts.contains(label), "no {label} in {texts}");
     }

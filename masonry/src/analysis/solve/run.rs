@@ -8,7 +8,7 @@ use nalgebra::Vector2;
 use super::chain::{Attempt, Chain};
 use super::{Clock, Event, SolveError, check_size};
 use crate::analysis::checkpoint::{Checkpoint, CheckpointError};
-use crate::analysis::outcome::Outcome;
+use crate::analysis::outcome::{Frame, Outcome};
 use crate::history::energy::{self, Snapshot};
 use crate::history::{self, History, Step, StepRecord};
 use crate::method::Request;
@@ -199,7 +199,7 @@ impl Run {
         Ok(self)
     }
 
-    /// Solves the next step; false when there is none, or the last one failed.
+    /// Solves the next step; false when there is none, or the last one failed. `Break` cancels the step, which fails then.
     ///
     /// # Errors
     /// As [`solve`](super::solve). Steps that were solved before are kept.
@@ -217,7 +217,11 @@ impl Run {
         });
         if let Some((model, _)) = &stepped {
             let (number, of) = (self.solved + 1, self.steps.len());
-            let _ = observer(Event::Step { number, of });
+            if observer(Event::Step { number, of }).is_break() {
+                let info = SolveInfo::new(Status::Cancelled, UNKNOWN);
+                self.last = Some(Last { info, statics: None, mechanism: None });
+                return Ok(true);
+            }
             self.system.reload(model);
         }
         let model = stepped.as_ref().map_or(&self.model, |(model, _)| model);
@@ -331,6 +335,20 @@ impl Run {
     /// How many steps were solved.
     pub fn solved_steps(&self) -> usize {
         self.solved
+    }
+
+    /// How many steps there are.
+    pub fn steps(&self) -> usize {
+        self.steps.len()
+    }
+
+    /// The state after the last step that was solved; `None` before the first, and for a scene of one step.
+    pub fn frame(&self) -> Option<Frame> {
+        let position = self.records.len().checked_sub(1)?;
+        let Reached { state, in_history, .. } = self.reached.as_ref()?;
+        let InHistory { model, .. } = in_history.as_ref()?;
+        let step = self.records[position].step.clone();
+        Some(Frame { step, position, model: model.clone(), state: state.clone() })
     }
 
     /// Everything that the next step needs; `None` before the first, and for a scene of one step.

@@ -75,6 +75,7 @@ pub fn refined(scene: &Scene, factor: u32) -> Scene {
     let mut scene = scene.clone();
     let meshes = scene.walls.iter_mut().map(|wall| &mut wall.mesh);
     let meshes = meshes.chain(scene.blocks.iter_mut().map(|block| &mut block.mesh));
+    let meshes = meshes.chain(scene.arches.iter_mut().map(|arch| &mut arch.mesh));
     for mesh in meshes.flatten() {
         *mesh = mesh.map(|elements| elements.saturating_mul(factor));
     }

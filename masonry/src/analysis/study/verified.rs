@@ -15,7 +15,7 @@ use crate::system::System;
 /// last step, with the slips that those before it left.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verified {
-    /// The largest lack of an equation of the refined answer, relative to the terms of its row \[-\].
+    /// The largest residual of an equation of the refined solution, relative to the terms of its row \[-\].
     pub residual: f64,
     /// By how much the data contradict themselves, which redundant contacts show, relative to the terms of a row
     /// \[-\]: rounding errors of coordinates and stiffnesses, or zero.

@@ -2,7 +2,7 @@
 //!
 //! `z = (t_n, b+, b-, lambda, alpha+, alpha-)`,
 //! `w = (y_n, lambda + y_t, lambda - y_t, mu t_n + C_0 - b+ - b-, e, -e)`, where
-//! `y = F t + G alpha + C K^+ f + x` and `e = -(G^T t + N^T f)` is what equilibrium lacks. `F` is positive
+//! `y = F t + G alpha + C K^+ f + x` and `e = -(G^T t + N^T f)` are the unbalanced forces. `F` is positive
 //! semidefinite, `G` enters skew, and of the friction rows only `mu lambda t_n` is left in `z.M z`: `M` is
 //! copositive.
 //!

@@ -1,9 +1,18 @@
 //! The program of admissible forces.
 
-use faer::sparse::SparseColMat;
+use faer::sparse::{SparseColMat, SparseColMatRef};
+use lcp::{InteriorPoint, InteriorPointSettings, LeastForces, Observer};
 
-use crate::columns::{Columns, column};
+use crate::columns::{Columns, column, first_columns};
+use crate::rounding;
 use crate::system::System;
+
+mod linear;
+
+/// Residual of the forces of least size.
+const TOLERANCE: f64 = 1e-12;
+/// Forces and proofs take ten to forty steps. Chosen: far more.
+const MAX_STEPS: usize = 150;
 
 /// What is left of the balance of a block, relative to the largest load, in forces that are called admissible.
 const BALANCED: f64 = 1e-9;
@@ -16,7 +25,7 @@ pub(super) struct Program<'a> {
     /// The frictional points with a constant part of friction, and `C_0` of each in units of the largest load.
     constant: Vec<(usize, f64)>,
     /// `E`: edges, then for every force `q` of constant friction `q' = C_0 + q` and `q'' = C_0 - q`, with
-    /// `q' + q'' = 2 C_0` below the balance of the blocks.
+    /// `q' + q'' = 2 C_0` below the balance of the blocks. Last, if loads grow, what a factor of one adds to them.
     e: SparseColMat<usize, f64>,
     /// `r`, in units of the largest load; where there is constant friction, with `-C_0` along it.
     loads: Vec<f64>,
@@ -26,6 +35,15 @@ pub(super) struct Program<'a> {
 
 impl<'a> Program<'a> {
     pub(super) fn of(system: &'a System) -> Self {
+        Self::with(system, None)
+    }
+
+    /// `growth` is what a factor of one adds to the loads, `N^T f` of all blocks \[N\].
+    pub(super) fn growing(system: &'a System, growth: &[f64]) -> Self {
+        Self::with(system, Some(growth))
+    }
+
+    fn with(system: &'a System, growth: Option<&[f64]>) -> Self {
         let mut counts = vec![1; system.points()];
         for friction in system.friction.iter().filter(|friction| friction.mu > 0.0) {
             counts[friction.contact.index()] = 2;
@@ -36,7 +54,7 @@ impl<'a> Program<'a> {
             Some(*sum)
         }));
         let resultants = system.resultants();
-        let largest = resultants.iter().fold(0.0, |unit: f64, f| unit.max(f.abs()));
+        let largest = rounding::largest(resultants.iter().chain(growth.into_iter().flatten()));
         let unit = if largest > 0.0 { largest } else { 1.0 };
         let mut loads: Vec<f64> = resultants.iter().map(|f| f / unit).collect();
         let with_base = system.friction.iter().enumerate().filter(|(_, it)| it.base > 0.0);
@@ -48,41 +66,75 @@ impl<'a> Program<'a> {
             }
         }
         loads.extend(constant.iter().map(|(_, base)| -2.0 * base));
-        let e = edges(system, &constant, &sides).assembled(loads.len());
+        let mut columns = edges(system, &constant, &sides);
+        if let Some(growth) = growth {
+            columns.push(growth.iter().map(|g| g / unit).enumerate());
+        }
+        let e = columns.assembled(loads.len());
         Self { system, first, constant, e, loads, unit }
     }
 
     /// No load acts.
     pub(super) fn is_unloaded(&self) -> bool {
-        self.loads[..3 * self.system.bodies.len()].iter().all(|load| load.abs() <= 0.0)
+        self.loads[..self.balances()].iter().all(|load| load.abs() <= 0.0)
     }
 
-    /// `r`
-    pub(super) fn loads(&self) -> &[f64] {
-        &self.loads
+    /// The largest load \[N\].
+    pub(super) fn unit(&self) -> f64 {
+        self.unit
     }
 
-    fn edges(&self) -> usize {
+    /// Rigid amplitudes of all blocks, and a multiplier of every bound of constant friction.
+    pub(super) fn unknowns(&self) -> usize {
+        self.loads.len()
+    }
+
+    /// Rigid amplitudes of all blocks.
+    fn balances(&self) -> usize {
+        3 * self.system.bodies.len()
+    }
+
+    /// Columns that are forces along the edges of cones.
+    pub(super) fn edges(&self) -> usize {
         self.first[self.first.len() - 1]
     }
 
-    /// `E`
-    pub(super) fn columns(&self) -> &SparseColMat<usize, f64> {
-        &self.e
+    /// Columns that are forces: along edges, and the pairs of constant friction.
+    pub(super) fn forces(&self) -> usize {
+        self.edges() + 2 * self.constant.len()
     }
 
-    /// The forces of all rows \[N\], if those along the edges balance the loads.
-    pub(super) fn admissible(&self, mut p: Vec<f64>) -> Option<Vec<f64>> {
-        p.iter_mut().for_each(|p| *p = p.max(0.0));
+    /// The columns of `E` that are forces.
+    pub(super) fn columns(&self) -> SparseColMatRef<'_, usize, f64> {
+        first_columns(&self.e, self.forces())
+    }
+
+    /// `min |p|^2 / 2` subject to `E p + r = 0`, `p >= 0`, or a proof that there are no such forces.
+    pub(super) fn least_forces(
+        &self,
+        observer: &mut Observer<'_>,
+    ) -> Result<LeastForces, lcp::Error> {
+        let settings = InteriorPointSettings {
+            tolerance: TOLERANCE,
+            max_iterations: MAX_STEPS,
+            ..Default::default()
+        };
+        InteriorPoint::new(settings).least_forces(&self.e, &self.loads, observer)
+    }
+
+    /// The forces of all rows \[N\], if those along the columns balance the loads.
+    pub(super) fn admissible(&self, p: &[f64]) -> Option<Vec<f64>> {
+        let p: Vec<f64> = p.iter().map(|p| p.max(0.0)).collect();
         let mut rest = self.loads.clone();
         for (k, p) in p.iter().enumerate() {
-            column(&self.e, k).for_each(|(i, v)| rest[i] += v * p);
+            column(self.e.as_ref(), k).for_each(|(i, v)| rest[i] += v * p);
         }
         let is_balanced = rest.iter().all(|rest| rest.abs() <= BALANCED);
-        is_balanced.then(|| self.forces(&p))
+        is_balanced.then(|| self.of_rows(&p))
     }
 
-    fn forces(&self, p: &[f64]) -> Vec<f64> {
+    /// The forces of all rows \[N\].
+    fn of_rows(&self, p: &[f64]) -> Vec<f64> {
         let points = self.system.points();
         let mut forces = vec![0.0; self.system.rows.len()];
         for point in 0..points {
@@ -97,7 +149,8 @@ impl<'a> Program<'a> {
                     self.unit * parts(self.system, point)[1] * (p[edge] - p[edge + 1]);
             }
         }
-        for ((k, base), q) in self.constant.iter().zip(p[self.edges()..].chunks_exact(2)) {
+        let pairs = p[self.edges()..self.forces()].chunks_exact(2);
+        for ((k, base), q) in self.constant.iter().zip(pairs) {
             forces[points + k] += self.unit * (q[0] - base).clamp(-base, *base);
         }
         forces
@@ -147,7 +200,7 @@ impl<'a> Sides<'a> {
     }
 }
 
-/// The columns of `E`.
+/// The columns of `E` that are forces.
 fn edges(system: &System, constant: &[(usize, f64)], sides: &Sides<'_>) -> Columns {
     let mut columns = Columns::default();
     let points = system.points();

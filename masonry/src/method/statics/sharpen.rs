@@ -4,63 +4,89 @@
 //! edges on which it does no work it shows nevertheless; what they leave free is the null space of their rows `E_A^T`, onto
 //! which `delta (E_A E_A^T + delta)^-1` projects when it is applied a few times. Its rounding errors lie in the null space.
 
-use faer::sparse::SparseColMat;
+use faer::sparse::SparseColMatRef;
 use lcp::Gram;
 
 use crate::columns::column;
+use crate::rounding;
 
-/// Work of a force of one below these parts of the largest velocity is none, in attempts one after the other.
-const AT_REST: [f64; 4] = [1e-9, 1e-7, 1e-5, 1e-3];
+/// Columns that are made to do no work.
+enum Idle {
+    /// Those whose work is below this part of the largest velocity.
+    AtRest(f64),
+    /// Those whose force, relative to the largest, is at least so many times as large as its work, likewise.
+    Pressed(f64),
+}
+
+/// Attempts, one after the other.
+const ATTEMPTS: [Idle; 7] = [
+    Idle::Pressed(1.0),
+    Idle::AtRest(1e-9),
+    Idle::AtRest(1e-7),
+    Idle::AtRest(1e-5),
+    Idle::AtRest(1e-3),
+    Idle::Pressed(1e-2),
+    Idle::Pressed(1e2),
+];
 /// `delta`, relative to the largest diagonal.
 const SHIFT: f64 = 1e-9;
 /// Each makes what is not in the null space a million times smaller, or more.
 const PASSES: usize = 3;
 
-/// The motion itself, and those near it on which some edges do no work.
+/// A motion, which may come with forces along the first columns, and those near it on which some columns do no work.
 pub(super) fn candidates<'a>(
-    motion: &'a [f64],
-    edges: &'a SparseColMat<usize, f64>,
+    (motion, forces): (&'a [f64], &'a [f64]),
+    columns: SparseColMatRef<'a, usize, f64>,
 ) -> impl Iterator<Item = Vec<f64>> + 'a {
-    let largest = motion.iter().fold(0.0, |max: f64, v| max.max(v.abs()));
-    let work = (0..edges.ncols()).map(|k| column(edges, k).map(|(i, v)| v * motion[i]).sum());
+    let work = (0..columns.ncols()).map(|k| column(columns, k).map(|(i, v)| v * motion[i]).sum());
     let work: Vec<f64> = work.collect();
-    let mut last = 0;
+    let [fastest, most, farthest] = [motion, forces, &work[..forces.len()]].map(rounding::largest);
+    let mut last = Vec::new();
     let mut factors = None;
-    let near = AT_REST.into_iter().filter_map(move |part| {
-        let is_idle: Vec<bool> =
-            work.iter().map(|work: &f64| work.abs() <= part * largest).collect();
-        let count = is_idle.iter().filter(|is_idle| **is_idle).count();
-        if count == last || !largest.is_finite() {
+    let near = ATTEMPTS.iter().filter_map(move |attempt| {
+        let mut is_idle: Vec<bool> = match attempt {
+            Idle::AtRest(part) => work.iter().map(|work| work.abs() <= part * fastest).collect(),
+            Idle::Pressed(times) => {
+                let pairs = work.iter().zip(forces);
+                pairs.map(|(work, force)| times * work * most <= force * farthest).collect()
+            }
+        };
+        is_idle.resize(work.len(), false);
+        if is_idle == last || !fastest.is_finite() {
             return None;
         }
-        last = count;
-        if factors.is_none() {
-            factors = Gram::new(None, edges.symbolic()).ok();
-        }
-        projected(motion, edges, &is_idle, factors.as_mut()?)
+        last.clone_from(&is_idle);
+        projected(motion, columns, &is_idle, &mut factors)
     });
     std::iter::once(motion.to_vec()).chain(near)
 }
 
+/// The factors are kept for the next set of idle columns.
 fn projected(
     motion: &[f64],
-    edges: &SparseColMat<usize, f64>,
+    columns: SparseColMatRef<'_, usize, f64>,
     is_idle: &[bool],
-    factors: &mut Gram,
+    factors: &mut Option<Gram>,
 ) -> Option<Vec<f64>> {
     let mut diagonal = vec![0.0; motion.len()];
     for k in (0..is_idle.len()).filter(|&k| is_idle[k]) {
-        column(edges, k).for_each(|(i, v)| diagonal[i] += v * v);
+        column(columns, k).for_each(|(i, v)| diagonal[i] += v * v);
     }
-    let shift = SHIFT * diagonal.iter().fold(0.0, |max: f64, it| max.max(*it));
+    let shift = SHIFT * rounding::largest(&diagonal);
     if shift <= 0.0 {
         return None;
     }
+    if factors.is_none() {
+        *factors = Gram::new(None, columns.symbolic()).ok();
+    }
+    let factors = factors.as_mut()?;
     let idle: Vec<f64> = is_idle.iter().map(|is_idle| f64::from(u8::from(*is_idle))).collect();
-    factors.factorise(None, edges.as_ref(), (&idle, shift));
+    factors.factorise(None, columns, (&idle, shift));
     let mut motion = motion.to_vec();
     for _ in 0..PASSES {
-        motion.iter_mut().for_each(|v| *v *= shift);
+        for v in &mut motion {
+            *v *= shift;
+        }
         factors.solve(&mut motion);
     }
     Some(motion)

@@ -30,7 +30,7 @@ pub(super) struct Place {
 type Weighted = (f64, f64, [f64; 2]);
 
 /// Places the points of a joint of the given length \[m\]; fractions of the joint closer than `slack`
-/// are one place. Empty when nodal pairs are asked for and there are none.
+/// are one place. Empty for nodal pairs, when there are none.
 pub(super) fn place(
     rule: PointRule,
     a: Option<&Side>,

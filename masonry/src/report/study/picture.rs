@@ -20,7 +20,7 @@ pub fn accuracy(study: &Study) -> Option<String> {
     let asked = || study.on_first_mesh().map(|it| it.tolerance);
     let (loosest, tightest) = (asked().reduce(f64::max)?, asked().reduce(f64::min)?);
     let solves = format!(
-        "One marker a solve, asked for {loosest:e} (first) to {tightest:e} (last). Errors below {ROUNDING:e} are drawn there."
+        "One marker per solve, tolerance {loosest:e} (first) to {tightest:e} (last). Errors below {ROUNDING:e} are drawn there."
     );
     let notes: Vec<String> = std::iter::once(solves).chain(study.machine.clone()).collect();
     let title = format!("{}, {}: algebraic error and time", study.title, first.name);

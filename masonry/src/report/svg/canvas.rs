@@ -84,9 +84,9 @@ impl Canvas {
     }
 
     /// An open line through several points.
-    pub(super) fn polyline(&mut self, points: &[Pixel]) {
-        let points = joined(points);
-        self.push(format_args!("<polyline points=\"{points}\"/>\n"));
+    pub(super) fn polyline(&mut self, points: &[Pixel], attributes: &str) {
+        let (points, attributes) = (joined(points), spaced(attributes));
+        self.push(format_args!("<polyline points=\"{points}\"{attributes}/>\n"));
     }
 
     pub(super) fn rectangle(&mut self, corner: Pixel, width: f64, height: f64, attributes: &str) {
@@ -162,7 +162,7 @@ pub(super) fn fixed(value: f64) -> String {
 
 /// Text with the characters escaped that mean something in XML; control characters, which XML
 /// forbids, become spaces.
-pub(super) fn escape(text: &str) -> String {
+pub(in crate::report) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
         match character {
@@ -220,6 +220,11 @@ fn fitting(text: &str, size: f64, width: f64) -> usize {
     let ends = text.char_indices().map(|(at, character)| at + character.len_utf8());
     let first = ends.clone().next().unwrap_or(0);
     ends.take_while(|end| text_width(&text[..*end], size) <= width).last().unwrap_or(first)
+}
+
+/// The attribute by which a page changes the scale of movements: where the points of an element were before.
+pub(super) fn before(points: &[Pixel]) -> String {
+    format!("data-before=\"{}\"", joined(points))
 }
 
 fn joined(points: &[Pixel]) -> String {

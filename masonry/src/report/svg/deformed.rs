@@ -2,9 +2,9 @@
 
 use nalgebra::{Point2, Vector2};
 
-use super::canvas::{Canvas, Pixel, fixed};
+use super::canvas::{Pixel, before, fixed};
 use super::marks::{self, OUTLINE};
-use super::sheet::{Bounds, Frame, Margins, Sheet};
+use super::sheet::{Bounds, Margins, Sheet};
 use crate::model::{Block, Model};
 use crate::report::format::{InUnits, round_down, significant};
 use crate::report::summary::{largest_displacement, nodes};
@@ -16,35 +16,70 @@ const MESH: &str = "#bfa582";
 /// What the largest displacement should come close to: parts of the structure's diagonal and of
 /// its smaller side, whichever is less.
 const SHOWN: (f64, f64) = (0.07, 0.3);
+/// A page magnifies up to so many times as much as a file.
+pub(super) const PAGE: f64 = 2.0;
+
+/// How displacements are magnified, alike in all pictures of a load history.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::report) struct Magnified {
+    factor: f64,
+    /// The largest displacement of all \[m\].
+    largest: f64,
+    bounds: Bounds,
+    /// Whether a page changes the factor.
+    for_page: bool,
+}
+
+impl Magnified {
+    /// So that the largest displacement of these states is readable; for a page with room for more.
+    pub(in crate::report) fn of(states: &[(&Model, &State)], for_page: bool) -> Self {
+        let largest_of = |(model, state): &(&Model, &State)| {
+            largest_displacement(model, state).map_or(0.0, |it| it.value.abs())
+        };
+        let largest = states.iter().map(largest_of).fold(0.0, f64::max);
+        let all = states.iter().map(|(model, _)| marks::bounds(model));
+        let still = Bounds::of(all.flat_map(|bounds| [bounds.low, bounds.high]));
+        let factor = magnification(&still, largest);
+        let room = if for_page { PAGE * factor } else { factor };
+        let moved = states.iter().flat_map(|(model, state)| {
+            let blocks = model.blocks.iter().zip(&state.displacements);
+            let supports = model.supports.iter().flat_map(move |support| {
+                [support.from, support.to].map(|end| end + support.displacement_at(end) * room)
+            });
+            blocks.flat_map(move |(block, moves)| moved_nodes(block, moves, room)).chain(supports)
+        });
+        let bounds = Bounds::of(moved.chain([still.low, still.high]));
+        Self { factor, largest, bounds, for_page }
+    }
+}
 
 /// The deformed structure, magnified by a round factor that the legend states, over the undeformed
 /// outline. Joints that open show the white of the paper.
 pub fn deformed(title: &str, model: &Model, state: &State) -> String {
-    let largest = largest_displacement(model, state).map_or(0.0, |it| it.value.abs());
-    let factor = magnification(&marks::bounds(model), largest);
-    let moved: Vec<Vec<Point2<f64>>> = model
-        .blocks
-        .iter()
-        .zip(&state.displacements)
-        .map(|(block, moves)| moved_nodes(block, moves, factor))
-        .collect();
-    let model = &with_moved_supports(model, factor);
-    let still = marks::bounds(model);
-    let bounds = Bounds::of(moved.iter().flatten().copied().chain([still.low, still.high]));
+    magnified(title, model, state, &Magnified::of(&[(model, state)], false))
+}
 
-    let mut sheet = Sheet::new(&format!("{title}: deformed"), bounds, Margins::HATCH);
-    let units = InUnits(model.units);
-    let frame = sheet.frame;
-    let width = marks::outline_width(marks::brick_size(model, &frame));
+/// The same, magnified like others.
+pub(in crate::report) fn magnified(
+    title: &str,
+    model: &Model,
+    state: &State,
+    by: &Magnified,
+) -> String {
+    let mut sheet = Sheet::new(&format!("{title}: deformed"), by.bounds, Margins::HATCH);
+    let width = marks::outline_width(marks::brick_size(model, &sheet.frame));
     let thin = fixed(0.7 * width);
     let style = format!(
         "class=\"undeformed\" fill=\"none\" stroke=\"{UNDEFORMED}\" stroke-width=\"{thin}\""
     );
     marks::blocks(&mut sheet, model, &style);
-    draw_moved(&mut sheet.canvas, model, &moved, &frame, width);
-    marks::supports(&mut sheet, model);
-    add_legend(&mut sheet, units, factor, largest);
-    sheet.length_bar(units);
+    draw_moved(&mut sheet, model, state, by, width);
+    marks::moved_supports(&mut sheet, model, by.factor, by.for_page);
+    if by.for_page && by.largest > 0.0 {
+        sheet.tell("magnified", &significant(by.factor, 4));
+    }
+    add_legend(&mut sheet, InUnits(model.units), by, model, state);
+    sheet.length_bar(InUnits(model.units));
     sheet.finish()
 }
 
@@ -57,86 +92,76 @@ pub(super) fn magnification(bounds: &Bounds, largest: f64) -> f64 {
     if wanted.is_finite() && wanted > 0.0 { round_down(wanted) } else { 1.0 }
 }
 
-/// The model with its supports where they have moved to, magnified like the blocks.
-fn with_moved_supports(model: &Model, factor: f64) -> Model {
-    let mut model = model.clone();
-    for support in &mut model.supports {
-        let [from, to] = [support.from, support.to].map(|end| support.displacement_at(end));
-        support.from += from * factor;
-        support.to += to * factor;
-    }
-    model
-}
-
 fn moved_nodes(block: &Block, moves: &[Vector2<f64>], factor: f64) -> Vec<Point2<f64>> {
     nodes(block).iter().zip(moves).map(|(node, u)| node + u * factor).collect()
 }
 
-fn draw_moved(
-    canvas: &mut Canvas,
-    model: &Model,
-    moved: &[Vec<Point2<f64>>],
-    frame: &Frame,
-    width: f64,
-) {
+fn draw_moved(sheet: &mut Sheet, model: &Model, state: &State, by: &Magnified, width: f64) {
+    let frame = sheet.frame;
     let (outline, thin) = (fixed(width), fixed(0.5 * width));
     let fill = format!("class=\"deformed\" fill=\"{FILLED}\" fill-opacity=\"0.8\" stroke=\"none\"");
     let mesh = format!("class=\"mesh\" fill=\"none\" stroke=\"{MESH}\" stroke-width=\"{thin}\"");
     let rims = format!(
         "fill=\"none\" stroke=\"{OUTLINE}\" stroke-width=\"{outline}\" stroke-linejoin=\"round\""
     );
-    let rim = |block: &Block, nodes: &[Point2<f64>]| -> Vec<Pixel> {
-        let rim = marks::rim(block);
-        rim.into_iter().filter_map(|node| nodes.get(node)).map(|p| frame.at(*p)).collect()
+    // Lines through nodes of a block where they are, and for a page where they were.
+    let line = |block: &Block, moves: &[Vector2<f64>], nodes_of_line: &[usize]| {
+        let pixels = |factor: f64| -> Vec<Pixel> {
+            let nodes = moved_nodes(block, moves, factor);
+            nodes_of_line.iter().filter_map(|k| nodes.get(*k)).map(|p| frame.at(*p)).collect()
+        };
+        let still = if by.for_page { before(&pixels(0.0)) } else { String::new() };
+        (pixels(by.factor), still)
     };
-    canvas.group(&fill, |canvas| {
-        for (block, nodes) in model.blocks.iter().zip(moved) {
-            canvas.polygon(&rim(block, nodes), "");
-        }
-    });
-    canvas.group(&mesh, |canvas| {
-        for (block, nodes) in model.blocks.iter().zip(moved) {
-            draw_mesh(canvas, block, nodes, frame);
-        }
-    });
-    canvas.group(&rims, |canvas| {
-        for (block, nodes) in model.blocks.iter().zip(moved) {
-            canvas.polygon(&rim(block, nodes), "");
-        }
-    });
-}
-
-/// The lines between the elements of one block.
-fn draw_mesh(canvas: &mut Canvas, block: &Block, nodes: &[Point2<f64>], frame: &Frame) {
-    let Some(mesh) = &block.mesh else { return };
-    if nodes.len() < (mesh.nx + 1) * (mesh.ny + 1) {
-        return;
-    }
-    let at = |i: usize, j: usize| frame.at(nodes[j * (mesh.nx + 1) + i]);
-    for i in 1..mesh.nx {
-        let line: Vec<Pixel> = (0..=mesh.ny).map(|j| at(i, j)).collect();
-        canvas.polyline(&line);
-    }
-    for j in 1..mesh.ny {
-        let line: Vec<Pixel> = (0..=mesh.nx).map(|i| at(i, j)).collect();
-        canvas.polyline(&line);
+    let blocks = || model.blocks.iter().zip(&state.displacements);
+    for (style, is_mesh) in [(fill, false), (mesh, true), (rims, false)] {
+        sheet.canvas.group(&style, |canvas| {
+            for (block, moves) in blocks() {
+                if is_mesh {
+                    for nodes in mesh_lines(block, moves.len()) {
+                        let (points, still) = line(block, moves, &nodes);
+                        canvas.polyline(&points, &still);
+                    }
+                } else {
+                    let (points, still) = line(block, moves, &marks::rim(block));
+                    canvas.polygon(&points, &still);
+                }
+            }
+        });
     }
 }
 
-fn add_legend(sheet: &mut Sheet, units: InUnits, factor: f64, largest: f64) {
+/// The lines between the elements of one block, as positions in the list of its nodes.
+fn mesh_lines(block: &Block, nodes: usize) -> Vec<Vec<usize>> {
+    let Some(mesh) = block.mesh.as_ref().filter(|it| nodes >= (it.nx + 1) * (it.ny + 1)) else {
+        return Vec::new();
+    };
+    let at = |i: usize, j: usize| j * (mesh.nx + 1) + i;
+    let upright = (1..mesh.nx).map(|i| (0..=mesh.ny).map(|j| at(i, j)).collect());
+    let level = (1..mesh.ny).map(|j| (0..=mesh.nx).map(|i| at(i, j)).collect());
+    upright.chain(level).collect()
+}
+
+fn add_legend(sheet: &mut Sheet, units: InUnits, by: &Magnified, model: &Model, state: &State) {
     sheet.entry("undeformed", |symbol| {
         let style = format!("fill=\"none\" stroke=\"{UNDEFORMED}\" stroke-width=\"0.8\"");
         symbol.rectangle(Pixel::new(-16.0, -6.0), 32.0, 12.0, &style);
     });
-    let text = if largest > 0.0 {
-        format!("deformed, displacements magnified {} times", significant(factor, 4))
-    } else {
-        "no displacement".to_owned()
+    let largest = largest_displacement(model, state).map_or(0.0, |it| it.value.abs());
+    let factor = significant(by.factor, 4);
+    let text = match (largest > 0.0, by.for_page) {
+        (true, false) => format!("deformed, displacements magnified {factor} times"),
+        (true, true) => "deformed".to_owned(),
+        (false, _) => "no displacement".to_owned(),
     };
     sheet.entry(&text, |symbol| {
         let style = format!("fill=\"{FILLED}\" stroke=\"{OUTLINE}\" stroke-width=\"1\"");
         symbol.rectangle(Pixel::new(-16.0, -6.0), 32.0, 12.0, &style);
     });
+    if largest > 0.0 && by.for_page {
+        // A line of its own, which the page changes.
+        sheet.entry(&format!("magnified {factor} times"), |_| {});
+    }
     if largest > 0.0 {
         sheet.entry(&format!("largest component {}", units.length_text(largest)), |_| {});
     }

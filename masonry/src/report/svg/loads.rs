@@ -2,12 +2,13 @@
 
 use nalgebra::{Point2, Vector2};
 
-use super::canvas::{Anchor, Canvas, Pixel, text_width};
+use super::canvas::{Anchor, Canvas, Pixel};
+use super::labels::Labels;
 use super::marks;
 use super::sheet::{Bounds, Frame, Margins, Sheet, label_room};
 use crate::geometry;
 use crate::model::Model;
-use crate::report::format::{InUnits, acceleration_text, significant};
+use crate::report::format::{InUnits, acceleration_text, significant, stress_text};
 use crate::report::summary::loaded_part;
 
 const COLOUR: &str = "#a02020";
@@ -45,6 +46,13 @@ impl Force {
 
     fn pulls(&self) -> bool {
         self.outwards.dot(&self.value) > 0.0
+    }
+
+    /// Tail and tip.
+    fn arrow(&self, frame: &Frame) -> [Pixel; 2] {
+        let (at, n) = (frame.at(self.at), self.outwards);
+        let far = at.shifted(n.x, -n.y, self.length());
+        if self.pulls() { [at, far] } else { [far, at] }
     }
 }
 
@@ -98,7 +106,7 @@ impl Loads {
             Acceleration { value, label }
         };
         Self {
-            edges: groups(model, units),
+            edges: groups(model),
             points: forces(model, units),
             accelerations: accelerations.map(|it| acceleration(it.value)).collect(),
         }
@@ -144,8 +152,25 @@ impl Loads {
         margins
     }
 
+    /// Keeps labels away from all arrows.
+    pub(super) fn mark(&self, frame: &Frame, labels: &mut Labels) {
+        for group in &self.edges {
+            for (from, to) in group.pieces.iter().map(|(from, to)| (frame.at(*from), frame.at(*to)))
+            {
+                let bar = bar(group, from, to);
+                for [from, to] in arrows(group, from, to).into_iter().chain(bar) {
+                    labels.avoid(from, to);
+                }
+            }
+        }
+        for force in &self.points {
+            let [tail, tip] = force.arrow(frame);
+            labels.avoid(tail, tip);
+        }
+    }
+
     /// Draws arrows, labels where they do not collide, and legend entries.
-    pub(super) fn draw(&self, sheet: &mut Sheet, model: &Model) {
+    pub(super) fn draw(&self, sheet: &mut Sheet, model: &Model, labels: &mut Labels) {
         let frame = sheet.frame;
         sheet.canvas.group("class=\"loads\"", |canvas| {
             for group in &self.edges {
@@ -154,9 +179,11 @@ impl Loads {
                 }
             }
             for force in &self.points {
-                draw_force(canvas, force, frame.at(force.at));
+                let [tail, tip] = force.arrow(&frame);
+                canvas.arrow(tail, tip, COLOUR);
+                canvas.circle(frame.at(force.at), 2.2, &format!("fill=\"{COLOUR}\""));
             }
-            self.draw_labels(canvas, &frame);
+            self.draw_labels(canvas, &frame, labels);
         });
         if !self.accelerations.is_empty() {
             sheet.canvas.group("class=\"accelerations\"", |canvas| {
@@ -164,30 +191,29 @@ impl Loads {
             });
         }
         let units = InUnits(model.units);
-        let tractions = self.edges.iter().map(|it| it.traction.norm());
-        let number = |value| significant(units.stress(value), 4);
-        entry(sheet, "edge load", tractions, number, |value| units.stress_text(value));
-        let forces = self.points.iter().map(|it| it.value.norm());
+        let tractions = self.edges.iter().map(|it| it.traction);
+        entry(sheet, "edge load", tractions, stress_text, stress_text);
+        let forces = self.points.iter().map(|it| it.value);
         let number = |value| significant(units.force(value), 4);
         entry(sheet, "point load", forces, number, |value| units.force_text(value));
-        let accelerations = self.accelerations.iter().map(|it| it.value.norm());
+        let accelerations = self.accelerations.iter().map(|it| it.value);
         let number = |value| significant(value, 4);
         entry(sheet, "body acceleration", accelerations, number, acceleration_text);
     }
 
-    fn draw_labels(&self, canvas: &mut Canvas, frame: &Frame) {
-        let mut taken: Vec<[f64; 4]> = Vec::new();
+    fn draw_labels(&self, canvas: &mut Canvas, frame: &Frame, labels: &mut Labels) {
         for group in &self.edges {
             let extent = Bounds::of(group.pieces.iter().flat_map(|&(from, to)| [from, to]));
             let middle = frame.at(nalgebra::center(&extent.low, &extent.high));
             let (n, t) = (group.normal, group.traction.normalize());
             let reach = if group.tangential() { 12.0 } else { group.length() * t.dot(&n).abs() };
-            draw_label(canvas, &mut taken, middle.shifted(n.x, -n.y, reach + 8.0), n, &group.label);
+            let at = middle.shifted(n.x, -n.y, reach + 5.0);
+            labels.draw(canvas, at, n, LABEL_SIZE, &group.label);
         }
         for force in &self.points {
             let n = force.outwards;
-            let at = frame.at(force.at).shifted(n.x, -n.y, force.length() + 8.0);
-            draw_label(canvas, &mut taken, at, n, &force.label);
+            let at = frame.at(force.at).shifted(n.x, -n.y, force.length() + 5.0);
+            labels.draw(canvas, at, n, LABEL_SIZE, &force.label);
         }
     }
 
@@ -214,7 +240,7 @@ impl Loads {
 }
 
 /// All edge loads that are not zero, grouped.
-fn groups(model: &Model, units: InUnits) -> Vec<Group> {
+fn groups(model: &Model) -> Vec<Group> {
     let near = 1e-9 * marks::bounds(model).diagonal();
     let mut groups: Vec<Group> = Vec::new();
     for block in &model.blocks {
@@ -233,7 +259,7 @@ fn groups(model: &Model, units: InUnits) -> Vec<Group> {
             if let Some(group) = same {
                 group.pieces.push((from, to));
             } else {
-                let label = units.stress_text(load.traction.norm());
+                let label = stress_text(load.traction.norm());
                 let traction = load.traction;
                 groups.push(Group { pieces: vec![(from, to)], traction, normal, part: 1.0, label });
             }
@@ -270,89 +296,74 @@ fn forces(model: &Model, units: InUnits) -> Vec<Force> {
     forces
 }
 
-/// The legend entry of loads of these sizes, if there are any.
+/// The legend entry of these loads, if there are any.
 fn entry(
     sheet: &mut Sheet,
     name: &str,
-    sizes: impl Iterator<Item = f64> + Clone,
+    loads: impl Iterator<Item = Vector2<f64>> + Clone,
     number: impl Fn(f64) -> String,
     with_unit: impl Fn(f64) -> String,
 ) {
+    let sizes = loads.clone().map(|it| it.norm());
     let most = sizes.clone().fold(0.0, f64::max);
     let least = sizes.fold(f64::INFINITY, f64::min);
-    if most <= 0.0 {
-        return;
-    }
+    let Some(first) = loads.clone().next().filter(|_| most > 0.0) else { return };
+    // Their direction, if they have one.
+    let is_one = loads.map(|it| it.normalize()).all(|it| it.dot(&first.normalize()) > 1.0 - 1e-9);
+    let way = if is_one { first } else { Vector2::new(0.0, -1.0) };
     let text = if least < most {
         format!("{name}s, {} to {}", number(least), with_unit(most))
     } else {
         format!("{name}, {}", with_unit(most))
     };
     sheet.entry(&text, |symbol| {
-        symbol.arrow(Pixel::new(0.0, -10.0), Pixel::new(0.0, 10.0), COLOUR);
+        let middle = Pixel::new(0.0, 0.0);
+        symbol.arrow(
+            middle.shifted(-way.x, way.y, 10.0),
+            middle.shifted(way.x, -way.y, 10.0),
+            COLOUR,
+        );
     });
 }
 
 fn draw_piece(canvas: &mut Canvas, group: &Group, from: Pixel, to: Pixel) {
+    for [tail, tip] in arrows(group, from, to) {
+        canvas.arrow(tail, tip, COLOUR);
+    }
+    if let Some([from, to]) = bar(group, from, to) {
+        canvas.line(from, to, &format!("stroke=\"{COLOUR}\" stroke-width=\"1\""));
+    }
+}
+
+/// Tails and tips of the arrows on a loaded edge.
+fn arrows(group: &Group, from: Pixel, to: Pixel) -> Vec<[Pixel; 2]> {
     let (t, n) = (group.traction, group.normal);
     let length = group.length();
     let mut count = 1.0;
     while from.distance(to) / (count + 1.0) > SPACING {
         count += 1.0;
     }
+    let mut arrows = Vec::new();
     let mut index = 0.5;
     while index < count {
         let foot = from.between(to, index / count);
-        let (tail, tip) = if group.tangential() {
+        arrows.push(if group.tangential() {
             let middle = foot.shifted(n.x, -n.y, 7.0);
             let half = 0.5 * length.min(0.9 * from.distance(to));
-            (middle.shifted(-t.x, t.y, half), middle.shifted(t.x, -t.y, half))
+            [middle.shifted(-t.x, t.y, half), middle.shifted(t.x, -t.y, half)]
         } else if t.dot(&n) < 0.0 {
-            (foot.shifted(-t.x, t.y, length), foot)
+            [foot.shifted(-t.x, t.y, length), foot]
         } else {
-            (foot, foot.shifted(t.x, -t.y, length))
-        };
-        canvas.arrow(tail, tip, COLOUR);
+            [foot, foot.shifted(t.x, -t.y, length)]
+        });
         index += 1.0;
     }
-    if t.dot(&n) < 0.0 && !group.tangential() {
-        let bar = [from, to].map(|end| end.shifted(-t.x, t.y, length));
-        canvas.line(bar[0], bar[1], &format!("stroke=\"{COLOUR}\" stroke-width=\"1\""));
-    }
+    arrows
 }
 
-fn draw_force(canvas: &mut Canvas, force: &Force, at: Pixel) {
-    let n = force.outwards;
-    let far = at.shifted(n.x, -n.y, force.length());
-    let (tail, tip) = if force.pulls() { (at, far) } else { (far, at) };
-    canvas.arrow(tail, tip, COLOUR);
-    canvas.circle(at, 2.2, &format!("fill=\"{COLOUR}\""));
-}
-
-/// Draws a label on the side `n` of a place, unless another one is there.
-fn draw_label(
-    canvas: &mut Canvas,
-    taken: &mut Vec<[f64; 4]>,
-    at: Pixel,
-    n: Vector2<f64>,
-    label: &str,
-) {
-    let width = text_width(label, LABEL_SIZE);
-    let (anchor, left) = if n.x > 0.5 {
-        (Anchor::Start, at.x)
-    } else if n.x < -0.5 {
-        (Anchor::End, at.x - width)
-    } else {
-        (Anchor::Middle, at.x - 0.5 * width)
-    };
-    let base = at.y + 0.36 * LABEL_SIZE - n.y * 0.36 * LABEL_SIZE;
-    let rectangle = [left, base - LABEL_SIZE, left + width, base];
-    if !taken.iter().any(|other| overlap(&rectangle, other)) {
-        canvas.rimmed_text(Pixel::new(at.x, base), anchor, LABEL_SIZE, label);
-        taken.push(rectangle);
-    }
-}
-
-fn overlap(one: &[f64; 4], other: &[f64; 4]) -> bool {
-    one[0] < other[2] && other[0] < one[2] && one[1] < other[3] && other[1] < one[3]
+/// The line that joins the tails of arrows which press.
+fn bar(group: &Group, from: Pixel, to: Pixel) -> Option<[Pixel; 2]> {
+    let t = group.traction;
+    (t.dot(&group.normal) < 0.0 && !group.tangential())
+        .then(|| [from, to].map(|end| end.shifted(-t.x, t.y, group.length())))
 }

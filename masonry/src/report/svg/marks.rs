@@ -2,7 +2,8 @@
 
 use nalgebra::{Point2, Vector2};
 
-use super::canvas::{Canvas, Pixel, fixed};
+use super::canvas::{Canvas, Pixel, before, fixed};
+use super::labels::Labels;
 use super::sheet::{Bounds, Frame, Sheet};
 use crate::geometry;
 use crate::ids::SupportId;
@@ -23,6 +24,10 @@ const GROUND: &str = "#444444";
 const OPEN: &str = "#222222";
 /// Fill of a sliding contact point.
 const SLIDING: &str = "#cc3399";
+/// Length of the strokes of a hatch.
+const TICK: f64 = 7.0;
+/// The line of a support is wider than its hatch.
+const LINE: &str = "stroke-width=\"2.2\"";
 
 /// The box around all blocks and supports.
 pub(super) fn bounds(model: &Model) -> Bounds {
@@ -68,6 +73,11 @@ pub(super) fn rim(block: &Block) -> Vec<usize> {
 
 /// All supports, hatched on the side away from the structure, and their legend entry.
 pub(super) fn supports(sheet: &mut Sheet, model: &Model) {
+    moved_supports(sheet, model, 0.0, false);
+}
+
+/// The same with supports where they have moved to, magnified; for a page also where they were.
+pub(super) fn moved_supports(sheet: &mut Sheet, model: &Model, factor: f64, for_page: bool) {
     if model.supports.is_empty() {
         return;
     }
@@ -76,14 +86,28 @@ pub(super) fn supports(sheet: &mut Sheet, model: &Model) {
     sheet.canvas.group(&attributes, |canvas| {
         for (index, support) in model.supports.iter().enumerate() {
             let inward = side_of_structure(model, SupportId::new(index), support);
-            hatched(canvas, frame.at(support.from), frame.at(support.to), inward);
+            let ends = [support.from, support.to];
+            let at =
+                |factor: f64| ends.map(|end| frame.at(end + support.displacement_at(end) * factor));
+            let ticks = ticks(at(0.0));
+            let (still, moved) = (hatch(at(0.0), ticks, inward), hatch(at(factor), ticks, inward));
+            for (index, (from, to)) in still.into_iter().zip(moved).enumerate() {
+                let mut attributes = String::from(if index == 0 { LINE } else { "" });
+                if for_page && from != to {
+                    attributes = format!("{attributes} {}", before(&from));
+                }
+                canvas.line(to[0], to[1], attributes.trim_start());
+            }
         }
     });
     sheet.entry("support", |symbol| {
         let attributes = format!("stroke=\"{GROUND}\" stroke-width=\"1\"");
         symbol.group(&attributes, |symbol| {
-            let (from, to) = (Pixel::new(-22.0, -3.0), Pixel::new(22.0, -3.0));
-            hatched(symbol, from, to, Vector2::new(0.0, 1.0));
+            let ends = [Pixel::new(-22.0, -3.0), Pixel::new(22.0, -3.0)];
+            let hatch = hatch(ends, ticks(ends), Vector2::new(0.0, 1.0));
+            for (index, [from, to]) in hatch.into_iter().enumerate() {
+                symbol.line(from, to, if index == 0 { LINE } else { "" });
+            }
         });
     });
 }
@@ -106,8 +130,8 @@ pub(super) fn contact_marks(sheet: &mut Sheet, model: &Model, states: &[ContactS
             }
         });
         if count > 0 {
-            let points = if count == 1 { "point" } else { "points" };
-            sheet.entry(&format!("{name}: {count} contact {points}"), |symbol| {
+            let text = format!("{name}: {}", counted(count, "contact point"));
+            sheet.entry(&text, |symbol| {
                 symbol.group(&mark_style(status, 3.6), |symbol| {
                     draw_mark(symbol, Pixel::new(0.0, 0.0), 3.6, status);
                 });
@@ -157,25 +181,45 @@ fn side_of_structure(model: &Model, id: SupportId, support: &Support) -> Vector2
     centre - nalgebra::center(&support.from, &support.to)
 }
 
-fn hatched(canvas: &mut Canvas, from: Pixel, to: Pixel, inward: Vector2<f64>) {
-    const TICK: f64 = 7.0;
-    let length = from.distance(to);
+/// Keeps labels away from the supports.
+pub(super) fn avoid_supports(frame: &Frame, model: &Model, labels: &mut Labels) {
+    for (index, support) in model.supports.iter().enumerate() {
+        let inward = side_of_structure(model, SupportId::new(index), support);
+        let [from, to] = [support.from, support.to].map(|end| frame.at(end));
+        let [a, b] = [from, to].map(|end| end.shifted(-inward.x, inward.y, TICK));
+        labels.avoid(from, to);
+        labels.avoid(a, b);
+    }
+}
+
+/// How many strokes a hatch along a line has.
+fn ticks([from, to]: [Pixel; 2]) -> f64 {
+    let mut ticks = 2.0;
+    while from.distance(to) / ticks > TICK {
+        ticks += 1.0;
+    }
+    ticks
+}
+
+/// The line of a support and the strokes of its hatch, away from the structure, which is on the side `inward`, y up.
+fn hatch([from, to]: [Pixel; 2], ticks: f64, inward: Vector2<f64>) -> Vec<[Pixel; 2]> {
     let (tx, ty) = (to.x - from.x, to.y - from.y);
     // The normal of the line away from the structure; pixels count y downwards.
     let (mut nx, mut ny) = (-ty, tx);
     if nx * inward.x - ny * inward.y > 0.0 {
         (nx, ny) = (-nx, -ny);
     }
-    canvas.line(from, to, "stroke-width=\"2.2\"");
-    let mut ticks = 2.0;
-    while length / ticks > TICK {
-        ticks += 1.0;
-    }
+    let mut strokes = vec![[from, to]];
     let mut index = 0.5;
     while index < ticks {
         let foot = from.between(to, index / ticks);
-        let end = foot.shifted(nx, ny, TICK).shifted(-tx, -ty, 0.6 * TICK);
-        canvas.line(foot, end, "");
+        strokes.push([foot, foot.shifted(nx, ny, TICK).shifted(-tx, -ty, 0.6 * TICK)]);
         index += 1.0;
     }
+    strokes
+}
+
+/// A number of things: `1 joint`, `2 joints`.
+pub(in crate::report) fn counted(count: usize, name: &str) -> String {
+    if count == 1 { format!("1 {name}") } else { format!("{count} {name}s") }
 }

@@ -1,39 +1,57 @@
-//! The movement by which a structure without equilibrium gives way.
+//! The movement by which a structure without equilibrium gives way, with its hinges and sliding joints.
 
 use nalgebra::{Point2, Vector2};
 
-use super::canvas::{Pixel, fixed};
-use super::deformed::magnification;
-use super::marks::{self, BRICK, OUTLINE};
+use super::canvas::{Canvas, Pixel, before, fixed};
+use super::deformed::{PAGE, magnification};
+use super::labels::Labels;
+use super::marks::{self, BRICK, OUTLINE, counted};
 use super::sheet::{Bounds, Margins, Sheet};
 use crate::model::{Anchor, Model};
 use crate::report::format::InUnits;
+use crate::report::hinges::{Yield, YieldingJoint, yielding};
 
 const MOVING: &str = "#f0b98d";
 const STILL: &str = "#a8a8a8";
+const HINGE: &str = "#a50026";
+const SLIDING: &str = "#7b3294";
 /// Blocks slower than this part of the fastest are drawn as at rest.
 const AT_REST: f64 = 1e-6;
+/// So many hinges and sliding joints have numbers; of more, numbers would hide the structure.
+const NUMBERED: usize = 48;
 
 /// The structure displaced along `rates`, the displacement rates of the corners of every block,
 /// over its outline. Only ratios between rates mean something: the picture has no displacement
-/// scale.
+/// scale. Hinges and sliding joints are marked and, where they are few, numbered in the order of the joints.
 pub fn mechanism(title: &str, model: &Model, rates: &[Vec<Vector2<f64>>]) -> String {
+    drawn(title, model, rates, false)
+}
+
+/// The same with the places before, by which a page changes the amplitude.
+pub(in crate::report) fn mechanism_on_page(
+    title: &str,
+    model: &Model,
+    rates: &[Vec<Vector2<f64>>],
+) -> String {
+    drawn(title, model, rates, true)
+}
+
+fn drawn(title: &str, model: &Model, rates: &[Vec<Vector2<f64>>], for_page: bool) -> String {
     let fastest = rates.iter().map(|rate| speed(rate)).fold(0.0, f64::max);
     let still = marks::bounds(model);
     let factor = magnification(&still, fastest);
-    let moved: Vec<Vec<Point2<f64>>> = model
-        .blocks
-        .iter()
-        .zip(rates)
-        .map(|(block, rate)| {
-            block.corners.iter().zip(rate).map(|(corner, rate)| corner + rate * factor).collect()
-        })
-        .collect();
-    let bounds = Bounds::of(moved.iter().flatten().copied().chain([still.low, still.high]));
+    let moved = |factor: f64| -> Vec<Vec<Point2<f64>>> {
+        let blocks = model.blocks.iter().zip(rates);
+        let corners = blocks.map(|(block, rate)| block.corners.iter().zip(rate));
+        corners.map(|it| it.map(|(corner, rate)| corner + rate * factor).collect()).collect()
+    };
+    let furthest = moved(if for_page { PAGE * factor } else { factor });
+    let bounds = Bounds::of(furthest.into_iter().flatten().chain([still.low, still.high]));
 
     let mut sheet = Sheet::new(&format!("{title}: mechanism"), bounds, Margins::HATCH);
     let frame = sheet.frame;
-    let width = marks::outline_width(marks::brick_size(model, &frame));
+    let brick = marks::brick_size(model, &frame);
+    let width = marks::outline_width(brick);
     let (outline, thin) = (fixed(width), fixed(0.7 * width));
     let style =
         format!("class=\"undeformed\" fill=\"none\" stroke=\"{STILL}\" stroke-width=\"{thin}\"");
@@ -43,21 +61,32 @@ pub fn mechanism(title: &str, model: &Model, rates: &[Vec<Vector2<f64>>]) -> Str
         "fill-opacity=\"0.8\" stroke=\"{OUTLINE}\" stroke-width=\"{outline}\" stroke-linejoin=\"round\""
     );
     sheet.canvas.group(&style, |canvas| {
-        for (corners, rate) in moved.iter().zip(rates) {
+        for ((corners, rate), block) in moved(factor).iter().zip(rates).zip(&model.blocks) {
             let moves = speed(rate) > AT_REST * fastest;
             moving += usize::from(moves);
-            let style = if moves {
+            let mut style = if moves {
                 format!("class=\"moving\" fill=\"{MOVING}\"")
             } else {
                 format!("class=\"still\" fill=\"{BRICK}\"")
             };
-            let corners: Vec<_> = corners.iter().map(|corner| frame.at(*corner)).collect();
-            canvas.polygon(&corners, &style);
+            let pixels = |corners: &[Point2<f64>]| -> Vec<Pixel> {
+                corners.iter().map(|corner| frame.at(*corner)).collect()
+            };
+            if for_page && moves {
+                style = format!("{style} {}", before(&pixels(&block.corners)));
+            }
+            canvas.polygon(&pixels(corners), &style);
         }
     });
     marks::supports(&mut sheet, model);
+    if for_page {
+        sheet.tell("amplitude", "1");
+    }
     for (text, fill) in [
-        (format!("{moving} blocks move"), MOVING),
+        (
+            if moving == 1 { "1 block moves".to_owned() } else { format!("{moving} blocks move") },
+            MOVING,
+        ),
         (format!("{} at rest", model.blocks.len().saturating_sub(moving)), BRICK),
     ] {
         sheet.entry(&text, |symbol| {
@@ -65,6 +94,7 @@ pub fn mechanism(title: &str, model: &Model, rates: &[Vec<Vector2<f64>>]) -> Str
             symbol.rectangle(Pixel::new(-16.0, -6.0), 32.0, 12.0, &style);
         });
     }
+    draw_yielding(&mut sheet, model, &yielding(model, rates), brick, (factor, for_page));
     sheet.entry("amplitude is arbitrary", |_| {});
     if dilates(model, rates) {
         // A motion that proves collapse.
@@ -72,6 +102,87 @@ pub fn mechanism(title: &str, model: &Model, rates: &[Vec<Vector2<f64>>]) -> Str
     }
     sheet.length_bar(InUnits(model.units));
     sheet.finish()
+}
+
+/// Marks of hinges and sliding joints where they have moved to, with their numbers.
+fn draw_yielding(
+    sheet: &mut Sheet,
+    model: &Model,
+    joints: &[YieldingJoint],
+    brick: f64,
+    (factor, for_page): (f64, bool),
+) {
+    let frame = sheet.frame;
+    let radius = (0.09 * brick).clamp(1.2, 4.5);
+    let marked: Vec<(usize, &YieldingJoint)> =
+        (1..).zip(joints.iter().filter(|it| it.does.is_marked())).collect();
+    let place = |it: &YieldingJoint| frame.at(it.at + it.rate * factor);
+    let mut labels = Labels::within(sheet.room());
+    for (_, it) in &marked {
+        let [from, to] = mark(it, model, place(it), radius);
+        labels.avoid(from, to);
+    }
+    sheet.canvas.group("class=\"yielding\"", |canvas| {
+        for (number, it) in &marked {
+            let (at, still) = (place(it), frame.at(it.at));
+            let moves = format!(
+                "class=\"{}\" data-moved=\"{},{}\"",
+                it.does.name(),
+                fixed(at.x - still.x),
+                fixed(at.y - still.y)
+            );
+            let class = format!("class=\"{}\"", it.does.name());
+            canvas.group(if for_page { &moves } else { &class }, |canvas| {
+                draw_mark(canvas, it.does, mark(it, model, at, radius), radius);
+                if marked.len() <= NUMBERED {
+                    let side = model.joints[it.joint.index()].normal;
+                    let side = if side.y < 0.0 { -side } else { side };
+                    let at = at.shifted(side.x, -side.y, radius + 2.0);
+                    labels.draw(canvas, at, side, 12.0, &number.to_string());
+                }
+            });
+        }
+    });
+    let horizontal = [Pixel::new(-10.0, 0.0), Pixel::new(10.0, 0.0)];
+    for (does, name) in [(Yield::Hinge, "hinge"), (Yield::Slides, "sliding")] {
+        let count = joints.iter().filter(|it| it.does == does).count();
+        if count > 0 {
+            let text = format!("{name}: {}", counted(count, "joint"));
+            sheet.entry(&text, |symbol| draw_mark(symbol, does, horizontal, 4.5));
+        }
+    }
+    let apart = joints.len() - marked.len();
+    if apart > 0 {
+        sheet.entry(&format!("coming apart: {}", counted(apart, "joint")), |_| {});
+    }
+}
+
+/// The ends of a mark, along its joint.
+fn mark(it: &YieldingJoint, model: &Model, at: Pixel, radius: f64) -> [Pixel; 2] {
+    let along = model.joints[it.joint.index()].tangent();
+    let half = if it.does == Yield::Hinge { radius } else { 2.2 * radius };
+    [-half, half].map(|half| at.shifted(along.x, -along.y, half))
+}
+
+/// A hinge is a ring, a sliding joint a line with half arrows on both sides.
+fn draw_mark(canvas: &mut Canvas, does: Yield, [from, to]: [Pixel; 2], radius: f64) {
+    if does == Yield::Hinge {
+        let style = format!(
+            "fill=\"#ffffff\" stroke=\"{HINGE}\" stroke-width=\"{}\"",
+            fixed((0.4 * radius).max(0.8))
+        );
+        canvas.circle(from.between(to, 0.5), radius, &style);
+        return;
+    }
+    let style = format!("stroke=\"{SLIDING}\" stroke-width=\"{}\"", fixed((0.4 * radius).max(0.8)));
+    let (dx, dy) = (to.x - from.x, to.y - from.y);
+    for (tip, way) in [(to, 1.0), (from, -1.0)] {
+        let start = if way > 0.0 { from } else { to };
+        let side = |it: Pixel, by: f64| it.shifted(-dy * way, dx * way, by * radius);
+        let barb = side(tip, 1.3).shifted(-dx * way, -dy * way, 1.3 * radius);
+        canvas.line(side(start, 0.45), side(tip, 0.45), &style);
+        canvas.line(side(tip, 0.45), barb, &style);
+    }
 }
 
 /// Whether joints open just so far that no force inside their friction cones does work.

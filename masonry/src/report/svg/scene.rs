@@ -3,34 +3,36 @@
 use nalgebra::Point2;
 
 use super::canvas::{Anchor, Pixel, fixed, text_width};
+use super::dimensions::Dimensions;
+use super::labels::Labels;
 use super::loads::Loads;
-use super::marks::{self, BRICK, OUTLINE};
+use super::marks;
+use super::materials;
 use super::sheet::Sheet;
 use crate::geometry;
 use crate::law::JointLaw;
 use crate::model::Model;
-use crate::report::format::{InUnits, acceleration_text, significant};
+use crate::report::format::{InUnits, acceleration_text, significant, stress_text};
 
 /// Colours of joint classes, told apart by the colour-blind too (Okabe and Ito).
 const CLASSES: [&str; 5] = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9"];
 const NAMED_BLOCKS: usize = 120;
 
-/// The scene as it would be solved: bricks (with their names while they fit), hatched supports,
-/// joints in the colour of their class, contact points, and loads with values and units.
+/// The scene as it would be solved: bricks (with their names while they fit) and what they are made of, dimensions,
+/// hatched supports, joints in the colour of their class, contact points, and loads with values and units.
 pub fn scene(title: &str, model: &Model) -> String {
     let units = InUnits(model.units);
     let loads = Loads::of(model, units);
-    let mut sheet = Sheet::new(title, marks::bounds(model), loads.margins());
+    let dimensions = Dimensions::of(model, loads.margins());
+    let mut sheet = Sheet::new(title, marks::bounds(model), dimensions.margins());
     let brick = marks::brick_size(model, &sheet.frame);
-    let width = fixed(marks::outline_width(brick));
-    let style = format!(
-        "class=\"bricks\" fill=\"{BRICK}\" stroke=\"{OUTLINE}\" stroke-width=\"{width}\" \
-         stroke-linejoin=\"round\""
-    );
-    marks::blocks(&mut sheet, model, &style);
+    materials::draw(&mut sheet, model, brick);
     marks::supports(&mut sheet, model);
     draw_joints(&mut sheet, model, brick);
-    loads.draw(&mut sheet, model);
+    let mut labels = Labels::within(sheet.room());
+    loads.mark(&sheet.frame, &mut labels);
+    loads.draw(&mut sheet, model, &mut labels);
+    dimensions.draw(&mut sheet, units);
     draw_names(&mut sheet, model);
     draw_gravity(&mut sheet, model);
     sheet.length_bar(units);
@@ -59,7 +61,7 @@ fn draw_joints(sheet: &mut Sheet, model: &Model, brick: f64) {
             }
         });
         if used {
-            let text = format!("{} joints, {}", class.name, law(&class.law, InUnits(model.units)));
+            let text = format!("{} joints, {}", class.name, law(&class.law));
             sheet.entry(&text, |symbol| {
                 let style = format!("stroke=\"{colour}\" stroke-width=\"1.8\"");
                 symbol.line(Pixel::new(-22.0, 0.0), Pixel::new(22.0, 0.0), &style);
@@ -72,11 +74,11 @@ fn draw_joints(sheet: &mut Sheet, model: &Model, brick: f64) {
 }
 
 /// The law of a class: friction, and what strength it has.
-fn law(law: &JointLaw, units: InUnits) -> String {
+fn law(law: &JointLaw) -> String {
     let mut text = format!("μ\u{a0}=\u{a0}{}", significant(law.mu, 4));
     for (name, value) in [("c", law.cohesion), ("f_t", law.tension)] {
         if value > 0.0 {
-            text = format!("{text}, {name}\u{a0}=\u{a0}{}", units.stress_text(value));
+            text = format!("{text}, {name}\u{a0}=\u{a0}{}", stress_text(value));
         }
     }
     text

@@ -55,6 +55,16 @@ pub(super) struct Margins {
 
 impl Margins {
     pub(super) const HATCH: Self = Self { left: 14.0, right: 14.0, top: 14.0, bottom: 14.0 };
+
+    /// Room for both.
+    pub(super) fn and(self, other: Self) -> Self {
+        Self {
+            left: self.left.max(other.left),
+            right: self.right.max(other.right),
+            top: self.top.max(other.top),
+            bottom: self.bottom.max(other.bottom),
+        }
+    }
 }
 
 /// The map from metres to pixels.
@@ -88,8 +98,11 @@ pub(super) struct Sheet {
     title: String,
     title_lines: Vec<String>,
     legend: Vec<Entry>,
-    /// Bottom of the drawing.
-    bottom: f64,
+    /// What a page is told about the picture: attributes of the file.
+    data: String,
+    /// Where the structure is drawn, and where it may be with all its marks: left, top, right and bottom.
+    drawn: [f64; 4],
+    room: [f64; 4],
     legend_below: bool,
 }
 
@@ -122,9 +135,31 @@ impl Sheet {
             title: title.to_owned(),
             title_lines,
             legend: Vec::new(),
-            bottom: origin.y + margins.bottom,
+            data: String::new(),
+            drawn: [origin.x, origin.y - drawn.y, origin.x + drawn.x, origin.y],
+            room: [
+                EDGE,
+                EDGE + titles,
+                EDGE + margins.left + width + margins.right,
+                origin.y + margins.bottom,
+            ],
             legend_below,
         }
+    }
+
+    /// Where everything within the bounds is drawn: left, top, right and bottom.
+    pub(super) fn drawn(&self) -> [f64; 4] {
+        self.drawn
+    }
+
+    /// Where the drawing may be with all its marks: left, top, right and bottom.
+    pub(super) fn room(&self) -> [f64; 4] {
+        self.room
+    }
+
+    /// Tells a page something about the picture.
+    pub(super) fn tell(&mut self, name: &str, value: &str) {
+        self.data.extend([" data-", name, "=\"", &escape(value), "\""]);
     }
 
     /// Adds a legend entry; `draw` draws its symbol about the origin within 60 by 16 pixels.
@@ -148,14 +183,15 @@ impl Sheet {
     /// The finished file.
     pub(super) fn finish(self) -> String {
         let mut legend = Canvas::default();
+        let [.., drawn] = self.room;
         let bottom = if self.legend_below {
-            self.place_legend(&mut legend, EDGE, self.bottom + 16.0, 3)
+            self.place_legend(&mut legend, EDGE, drawn + 16.0, 3)
         } else {
             let titles: f64 = self.title_lines.iter().map(|_| TITLE_LINE).sum();
             let top = EDGE + titles + 24.0;
             self.place_legend(&mut legend, WIDTH - EDGE - ENTRY_WIDTH + 14.0, top, 1)
         };
-        let height = fixed(bottom.max(self.bottom) + EDGE);
+        let height = fixed(bottom.max(drawn) + EDGE);
         let width = fixed(WIDTH);
         let mut titles = Canvas::default();
         let mut y = EDGE;
@@ -165,12 +201,13 @@ impl Sheet {
         }
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" \
+             viewBox=\"0 0 {width} {height}\"{} \
              font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" fill=\"{DARK}\">\n\
              <title>{}</title>\n\
              <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n\
-             <g id=\"title\">\n{}</g>\n<g id=\"drawing\">\n{}</g>\n<g id=\"legend\">\n{}</g>\n\
+             <g class=\"title\">\n{}</g>\n<g class=\"drawing\">\n{}</g>\n<g class=\"legend\">\n{}</g>\n\
              </svg>\n",
+            self.data,
             escape(&self.title),
             titles.as_str(),
             self.canvas.as_str(),

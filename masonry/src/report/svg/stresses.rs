@@ -7,7 +7,7 @@ use super::marks::{self, BRICK, COMPRESSION, OUTLINE, TENSION};
 use super::sheet::{Frame, Margins, Sheet, draw_bar};
 use crate::geometry;
 use crate::model::Model;
-use crate::report::format::{InUnits, round_down};
+use crate::report::format::{InUnits, round_down, stress_text};
 use crate::report::summary::extreme_stresses;
 use crate::scene::bond::{self, JointThickness, PlacedBrick};
 use crate::scene::{Scene, Wall};
@@ -61,25 +61,35 @@ impl ReferenceLines {
     }
 }
 
-/// Whether there are bricks all along the lines that rise from these places at the foot of a wall until they meet.
+/// Whether there are bricks all along the lines that rise from these places at the foot of a wall until they meet, and
+/// every whole one lies half over a joint of the course below: the lines are those of running bond.
 fn is_filled(wall: &Wall, joints: JointThickness, [left, right]: [f64; 2]) -> bool {
+    /// In lengths of a brick.
+    const NEAR: f64 = 1e-6;
     let length = wall.brick.length + joints.head;
     let bricks = bond::bricks_in_mortar(wall, joints);
-    let courses = bricks.chunk_by(|a, b| a.course == b.course);
-    courses
-        .map_while(|course| {
-            // In the middle of the height.
-            let along = (course[0].course as f64 - 0.5) * 0.5 * length;
-            (2.0 * along < right - left).then_some((course, along))
-        })
-        .all(|(course, along)| {
-            let has_brick = |x: f64| {
-                let reach =
-                    |brick: &PlacedBrick| brick.low[0] - joints.head..=brick.high[0] + joints.head;
-                course.iter().any(|brick| reach(brick).contains(&x))
-            };
-            has_brick(left + along) && has_brick(right - along)
-        })
+    let courses: Vec<&[PlacedBrick]> = bricks.chunk_by(|a, b| a.course == b.course).collect();
+    let steps = |brick: &PlacedBrick, below: &[PlacedBrick]| {
+        let middle = 0.5 * (brick.low[0] + brick.high[0]);
+        let ends = below.iter().flat_map(|it| [it.low[0] - joints.head, it.high[0] + joints.head]);
+        let mut distances = ends.map(|end| (end - middle).abs() - 0.5 * joints.head);
+        (brick.fraction - 1.0).abs() > NEAR || distances.any(|it| it.abs() <= NEAR * length)
+    };
+    let lines = courses.iter().enumerate().map_while(|(k, course)| {
+        // In the middle of the height.
+        let along = (course[0].course as f64 - 0.5) * 0.5 * length;
+        (2.0 * along < right - left).then_some((k.checked_sub(1), course, along))
+    });
+    lines.into_iter().all(|(below, course, along)| {
+        let is_laid = |x: f64| {
+            let reach =
+                |brick: &PlacedBrick| brick.low[0] - joints.head..=brick.high[0] + joints.head;
+            let mut met = course.iter().filter(|brick| reach(brick).contains(&x)).peekable();
+            met.peek().is_some()
+                && met.all(|brick| below.is_none_or(|below| steps(brick, courses[below])))
+        };
+        is_laid(left + along) && is_laid(right - along)
+    })
 }
 
 /// Principal stresses of every element as crosses whose strokes are proportional to the stresses,
@@ -93,6 +103,16 @@ pub fn principal_stresses(
     state: &State,
     reference: Option<&ReferenceLines>,
 ) -> String {
+    compared(title, model, state, (reference, large(&state.stresses)))
+}
+
+/// The same with strokes as long as those of others: a large stress and the largest one of all.
+pub(in crate::report) fn compared(
+    title: &str,
+    model: &Model,
+    state: &State,
+    (reference, large): (Option<&ReferenceLines>, [f64; 2]),
+) -> String {
     let title = format!("{title}: principal stresses");
     let mut sheet = Sheet::new(&title, marks::bounds(model), Margins::HATCH);
     let units = InUnits(model.units);
@@ -104,7 +124,7 @@ pub fn principal_stresses(
          stroke-linejoin=\"round\""
     );
     marks::blocks(&mut sheet, model, &style);
-    draw_strokes(&mut sheet, model, state, units);
+    draw_strokes(&mut sheet, model, state, (units, large));
     marks::supports(&mut sheet, model);
     if let Some(lines) = reference {
         draw_reference(&mut sheet, model, lines);
@@ -114,11 +134,16 @@ pub fn principal_stresses(
     sheet.finish()
 }
 
-fn draw_strokes(sheet: &mut Sheet, model: &Model, state: &State, units: InUnits) {
+fn draw_strokes(
+    sheet: &mut Sheet,
+    model: &Model,
+    state: &State,
+    (units, large): (InUnits, [f64; 2]),
+) {
     let frame = sheet.frame;
     let element = element_size(model, state) * frame.scale;
     let width = (0.055 * element).clamp(0.3, 1.8);
-    let pixels_per_pascal = stroke_scale(&state.stresses, element);
+    let pixels_per_pascal = stroke_scale(large, element);
     for (name, colour, compressed) in
         [("compression", COMPRESSION, true), ("tension", TENSION, false)]
     {
@@ -153,15 +178,14 @@ fn draw_strokes(sheet: &mut Sheet, model: &Model, state: &State, units: InUnits)
     for (name, colour, extreme) in
         [("compression", COMPRESSION, compression), ("tension", TENSION, tension)]
     {
-        let most = extreme.map_or("none".to_owned(), |it| {
-            format!("largest {}", units.stress_text(it.value.abs()))
-        });
+        let most = extreme
+            .map_or("none".to_owned(), |it| format!("largest {}", stress_text(it.value.abs())));
         sheet.entry(&format!("{name}, {most}"), |symbol| {
             let style = format!("stroke=\"{colour}\" stroke-width=\"{}\"", fixed(width.max(1.2)));
             symbol.line(Pixel::new(-22.0, 0.0), Pixel::new(22.0, 0.0), &style);
         });
     }
-    sheet.entry(&format!("stroke of {}", units.stress_text(round)), |symbol| {
+    sheet.entry(&format!("stroke of {}", stress_text(round)), |symbol| {
         draw_bar(symbol, 0.5 * round * pixels_per_pascal, "#222222", 1.4);
     });
 }
@@ -175,16 +199,21 @@ fn draw_stroke(canvas: &mut Canvas, frame: &Frame, centre: Point2<f64>, half: f6
 
 /// Pixels per pascal: large stresses fill an element, and the largest overlap the next one or two
 /// where a few are far above the rest.
-fn stroke_scale(stresses: &[ElementStress], element: f64) -> f64 {
+fn stroke_scale([large, largest]: [f64; 2], element: f64) -> f64 {
+    if largest > 0.0 { (element / large).min(2.2 * element / largest) } else { 1.0 }
+}
+
+/// The size that a twentieth of all stresses exceed, and the largest \[Pa\]; zeros where there are none.
+pub(in crate::report) fn large(stresses: &[ElementStress]) -> [f64; 2] {
     let mut sizes: Vec<f64> = stresses
         .iter()
         .map(|it| it.principal.sigma_1.abs().max(it.principal.sigma_2.abs()))
         .filter(|size| *size > 0.0 && size.is_finite())
         .collect();
     sizes.sort_by(f64::total_cmp);
-    match (sizes.last(), sizes.get(sizes.len() * 19 / 20)) {
-        (Some(&largest), Some(&large)) => (element / large).min(2.2 * element / largest),
-        _ => 1.0,
+    match (sizes.get(sizes.len() * 19 / 20), sizes.last()) {
+        (Some(&large), Some(&largest)) => [large, largest],
+        _ => [0.0; 2],
     }
 }
 

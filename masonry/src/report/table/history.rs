@@ -74,8 +74,7 @@ pub(super) fn history(history: &History, units: InUnits) -> String {
         ]);
     }
     let mut text = table.trim_fmt()
-        + "\n W: work, D: dissipated energy, both from the beginning; U: strain energy. W-U-D is what steps that\n \
-           are too long make of the balance. moved: the largest displacement.\n";
+        + "\n W: work, D: dissipated energy, both from the beginning; U: strain energy. W-U-D is the error of the\n balance from steps that are too long. moved: the largest displacement.\n";
     if let Some(failed) = &history.failed {
         let step = format!("{} of stage \"{}\"", place(failed), failed.stage);
         text += &pairs(&[("not solved", step)]);

@@ -35,9 +35,7 @@ impl Scene {
         if let Some(acceleration) = load.acceleration {
             point(&at, acceleration)?;
         }
-        let of_walls = self.walls.iter().map(|wall| &wall.material);
-        let used = of_walls.chain(self.blocks.iter().map(|block| &block.material));
-        let densities = used.filter_map(|name| self.materials.get(name)?.density);
+        let densities = self.used_materials().filter_map(|name| self.materials.get(name)?.density);
         if densities.count() > 0 {
             return Ok(());
         }
@@ -62,6 +60,18 @@ impl Scene {
         Ok(())
     }
 
+    /// The group of the limit load is one of loads, and no support.
+    pub(super) fn check_limit(&self) -> Check {
+        let Some(name) = &self.limit.group else { return Ok(()) };
+        let at = KeyPath::of("limit").key("group");
+        if self.all_supports().iter().any(|support| support.name == *name)
+            && !self.loads.iter().any(|load| load.is_called(name))
+        {
+            return Err(Fault::new(at, LoadError::Support { name: name.clone() }.into()));
+        }
+        self.check_load_name(&at, name)
+    }
+
     fn check_load_name(&self, at: &KeyPath, name: &str) -> Check {
         let names = |of: &dyn Fn(&&Load) -> bool| -> Vec<String> {
             self.loads.iter().filter(of).map(|load| load.name.clone()).collect()
@@ -84,7 +94,7 @@ impl Scene {
     }
 
     /// The names of all groups, in the order of their first loads.
-    fn groups(&self) -> Vec<String> {
+    pub(crate) fn groups(&self) -> Vec<String> {
         let mut groups: Vec<String> = Vec::new();
         for load in &self.loads {
             if !groups.iter().any(|group| group == load.group_name()) {

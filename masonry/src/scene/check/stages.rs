@@ -34,7 +34,8 @@ impl Scene {
         self.check_stage_loads(&at.key("loads"), stage)?;
         for (name, to) in &stage.moves {
             let at = at.key("moves").key(name);
-            there_is(("support", "supports"), name, self.supports.iter().map(|it| &it.name), &at)?;
+            let supports = self.all_supports();
+            there_is(("support", "supports"), name, supports.iter().map(|it| &it.name), &at)?;
             finite(at.key("x"), to.x)?;
             finite(at.key("y"), to.y)?;
             finite(at.key("turn"), to.turn)?;

@@ -67,8 +67,8 @@ impl Pair {
         let force = |part: f64| bodies.share(&self.blocks, part);
         let across = smaller(length(self.gap), force(self.t_n + self.law.tension));
         let wanted = -self.law.bound(self.t_n) * self.slip.signum();
-        let lacks = (self.t_t - wanted).abs() / self.sensitivity();
-        larger(across, smaller(length(self.slip.abs()), force(lacks)))
+        let error = (self.t_t - wanted).abs() / self.sensitivity();
+        larger(across, smaller(length(self.slip.abs()), force(error)))
     }
 
     /// Of huge friction: its bound has the errors of the normal force so many times.

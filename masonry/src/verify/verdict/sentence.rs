@@ -18,8 +18,8 @@ pub(super) fn of(
     let at = failed.map(at_step).unwrap_or_default();
     let first = match (verdict, evidence) {
         (Verdict::Stands, Evidence::AdmissibleForces) => {
-            "The wall stands: admissible forces exist and were verified, which is the upper end of what \
-             friction allows."
+            "The wall stands: contact forces within friction balance the loads (verified). This is an \
+             upper bound of what friction can hold."
                 .to_owned()
         }
         (Verdict::Stands, _) => match known.history {
@@ -71,7 +71,7 @@ fn undecided(known: &Known<'_>, evidence: Evidence, movement: Option<Movement>) 
             let movement = movement.map(of_movement).unwrap_or_default();
             format!("an equilibrium was computed, but far beyond small displacements: {movement}.")
         }
-        (Status::Cancelled, _) => "the solve was cancelled before it came to an end.".to_owned(),
+        (Status::Cancelled, _) => "the solve was cancelled.".to_owned(),
         (Status::Infeasible, _) if info.proved => {
             "no displacements and forces satisfy gaps, supports and loads together (proved), but forces that \
              balance the loads may exist."
@@ -92,7 +92,7 @@ fn tried(known: &Known<'_>) -> String {
     names.retain(|name| *name != "forces");
     let near = info.residuals.worst();
     let near = if near.is_finite() {
-        format!("; what came nearest leaves a residual of {near:.0e}")
+        format!("; the nearest point has a residual of {near:.0e}")
     } else {
         String::new()
     };

@@ -1,7 +1,7 @@
 //! Whether contact forces are unique: forces that circulate between contacts without any effect on the blocks can be
 //! added to them.
 
-use faer::sparse::SparseColMat;
+use faer::sparse::{SparseColMat, SparseColMatRef};
 use lcp::{Contact2d, Gram};
 
 use crate::columns::{Columns, column};
@@ -22,7 +22,7 @@ const CIRCULATES: f64 = 1e-3;
 /// forces on the displacements of them.
 pub(crate) fn circulating(model: &Model, problem: &Contact2d, state: &State) -> usize {
     let Some(Changes { points, effects }) = changes(model, problem, state) else { return 0 };
-    let Some(unfelt) = unfelt(&effects) else { return 0 };
+    let Some(unfelt) = unfelt(effects.as_ref()) else { return 0 };
     let circulating = points.iter().zip(&unfelt).filter(|(_, unfelt)| unfelt.abs() > CIRCULATES);
     let mut points: Vec<usize> = circulating.map(|(point, _)| *point).collect();
     points.dedup();
@@ -44,6 +44,7 @@ fn changes(model: &Model, problem: &Contact2d, state: &State) -> Option<Changes>
     let largest = contacts().map(pressed).fold(0.0, f64::max);
     let normals = problem.normal().as_ref().transpose().to_col_major().ok()?;
     let tangents = problem.tangent().as_ref().transpose().to_col_major().ok()?;
+    let [normals, tangents] = [normals.as_ref(), tangents.as_ref()];
     let (mut points, mut effects) = (Vec::new(), Columns::default());
     for (point, (contact, force)) in contacts().enumerate() {
         let ContactState { t_n, t_t, .. } = *force;
@@ -54,11 +55,11 @@ fn changes(model: &Model, problem: &Contact2d, state: &State) -> Option<Changes>
         points.push(point);
         if t_t.abs() < (1.0 - NONE) * law.bound(t_n) {
             points.push(point);
-            effects.push(column(&normals, point));
-            effects.push(column(&tangents, point));
+            effects.push(column(normals, point));
+            effects.push(column(tangents, point));
         } else {
             let edge = if law.mu > 0.0 { law.mu.copysign(t_t) } else { 0.0 };
-            effects.push(sum(column(&normals, point), (edge, column(&tangents, point))));
+            effects.push(sum(column(normals, point), (edge, column(tangents, point))));
         }
     }
     Some(Changes { points, effects: effects.assembled(problem.displacements()) })
@@ -82,7 +83,7 @@ fn sum(
 }
 
 /// The part of changes of order one that no displacement feels.
-fn unfelt(effects: &SparseColMat<usize, f64>) -> Option<Vec<f64>> {
+fn unfelt(effects: SparseColMatRef<'_, usize, f64>) -> Option<Vec<f64>> {
     let count = effects.ncols();
     let mut diagonal = vec![0.0; effects.nrows()];
     for k in 0..count {
@@ -93,7 +94,7 @@ fn unfelt(effects: &SparseColMat<usize, f64>) -> Option<Vec<f64>> {
         return None;
     }
     let mut factors = Gram::new(None, effects.symbolic()).ok()?;
-    factors.factorise(None, effects.as_ref(), (&vec![1.0; count], shift));
+    factors.factorise(None, effects, (&vec![1.0; count], shift));
     let mut left: Vec<f64> = (0..count).map(scattered).collect();
     // The shift is gone after the second time.
     for _ in 0..2 {

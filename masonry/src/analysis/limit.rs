@@ -1,0 +1,223 @@
+//! Limit analysis: the factor of a group of loads at which a structure fails.
+//!
+//! Loads that are not of the group act in full, and the stages of the scene are not looked at. There are two laws of
+//! friction. With associated flow blocks are rigid, which changes no limit load, and gaps are taken for closed; the answer is
+//! proved, and an upper bound for Coulomb's friction. With Coulomb's friction a path of states at rest is followed
+//! ([`Path`]), on blocks and gaps as they are.
+//!
+//! ```
+//! use masonry::analysis::limit::{Answer, limit};
+//! use masonry::scene::{Block, Joint, Load, Material, Scene, Support};
+//! use masonry::units::Units;
+//!
+//! // It tips over at a fifth of gravity, its breadth over its height.
+//! let scene = Scene::new("A block that is pushed", Units::SI)
+//!     .thickness(1.0)
+//!     .gravity([0.0, -10.0])
+//!     .material("stone", Material::rigid().density(1000.0))
+//!     .joint("floor", Joint::mu(0.7))
+//!     .block(Block::new("block", "stone", [[0.0, 0.0], [0.2, 0.0], [0.2, 1.0], [0.0, 1.0]]))
+//!     .support(Support::new("ground", [-1.0, 0.0], [1.0, 0.0], "floor"))
+//!     .load(Load::acceleration("quake", [10.0, 0.0]));
+//! let limit = limit(&scene)?;
+//! let associative = limit.associative.unwrap();
+//! assert_eq!(associative.answer, Answer::Fails);
+//! assert!((associative.load_factor.unwrap() - 0.2).abs() < 1e-6);
+//! assert!((limit.path.unwrap().load_factor.unwrap() - 0.2).abs() < 1e-4);
+//! # Ok::<(), masonry::analysis::limit::LimitError>(())
+//! ```
+
+mod associative;
+mod error;
+mod path;
+mod range;
+mod sentence;
+mod thickness;
+
+use std::time::Instant;
+
+pub use associative::{Answer, Associative};
+pub use error::LimitError;
+pub use path::{Change, Event, Path, Stand};
+pub use range::{Extremes, Range, ranges};
+pub use thickness::{Thickness, least_thickness};
+
+use crate::history::Actions;
+use crate::method::info::PhaseTime;
+use crate::model::Model;
+use crate::scene::{Load, Scene};
+use crate::system::{self, System};
+
+/// The laws of friction of which a limit load is asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Laws {
+    /// Joints that open by `mu` times their slip: one linear program, with a proof.
+    Associative,
+    /// Coulomb's friction, in which joints slide without opening: a path of states at rest.
+    Path,
+    /// Both.
+    #[default]
+    Both,
+}
+
+/// What is known of the limit load of a scene.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Limit {
+    /// Title of the scene.
+    pub title: String,
+    /// The structure with rigid blocks, under the load factor; without one, under all loads in full.
+    pub model: Model,
+    /// The load or the group of loads that grows.
+    pub group: String,
+    /// The limit load of associated flow, if it was chosen.
+    pub associative: Option<Associative>,
+    /// The limit load of Coulomb's friction along a path, if it was chosen.
+    pub path: Option<Path>,
+    /// The answer in the words of an engineer.
+    pub sentence: String,
+    /// What limits the meaning of the answer.
+    pub warnings: Vec<String>,
+    /// Time of every phase.
+    pub times: Vec<PhaseTime>,
+}
+
+/// The limit load of the group that the scene names, or of its only one, by both laws.
+///
+/// # Errors
+/// [`LimitError`] when the scene is wrong or has no such group.
+pub fn limit(scene: &Scene) -> Result<Limit, LimitError> {
+    limit_by(scene, Laws::Both)
+}
+
+/// The same by the chosen laws.
+///
+/// # Errors
+/// As [`limit`].
+pub fn limit_by(scene: &Scene, laws: Laws) -> Result<Limit, LimitError> {
+    let mut clock = Clock::new();
+    let group = group(scene)?;
+    let given = Model::from_scene(scene)?;
+    let model = rigid(given.clone());
+    let loads: Vec<bool> = scene.loads.iter().map(|load| load.is_called(&group)).collect();
+    let structure = Structure { model: &model, grows: &loads };
+    let growth = structure.growth();
+    if growth.iter().all(|force| force.abs() <= 0.0) {
+        return Err(LimitError::NoForce { group });
+    }
+    clock.lap("model");
+    // Its bound ends the path.
+    let associative = associative::of(&structure, &growth)?;
+    clock.lap("associative");
+    let path = if laws == Laws::Associative {
+        None
+    } else {
+        let path = path::of(&Structure { model: &given, grows: &loads }, &associative)?;
+        clock.lap("path");
+        Some(path)
+    };
+    let mut warnings = warnings(&model, laws);
+    warnings.extend(path.as_ref().map(Path::warning));
+    let carried = associative.load_factor.unwrap_or(1.0);
+    let associative = (laws != Laws::Path).then_some(associative);
+    Ok(Limit {
+        title: scene.title.clone(),
+        sentence: sentence::of(&group, associative.as_ref(), path.as_ref()),
+        warnings,
+        model: structure.under(1.0, carried),
+        group,
+        associative,
+        path,
+        times: clock.times,
+    })
+}
+
+/// Times of phases, one after the other.
+struct Clock {
+    began: Instant,
+    times: Vec<PhaseTime>,
+}
+
+impl Clock {
+    fn new() -> Self {
+        Self { began: Instant::now(), times: Vec::new() }
+    }
+
+    /// Ends a phase.
+    fn lap(&mut self, phase: &str) {
+        let seconds = self.began.elapsed().as_secs_f64();
+        self.times.push(PhaseTime { phase: phase.to_owned(), seconds });
+        self.began = Instant::now();
+    }
+}
+
+/// The group that grows: that which the scene names, else its only one, else the only one with a factor.
+fn group(scene: &Scene) -> Result<String, LimitError> {
+    scene.check()?;
+    if let Some(group) = &scene.limit.group {
+        return Ok(group.clone());
+    }
+    let groups = scene.groups();
+    let has_factor = |load: &Load| load.factor.to_bits() != 1_f64.to_bits();
+    let scaled = |group: &&String| {
+        scene.loads.iter().any(|load| load.group_name() == group.as_str() && has_factor(load))
+    };
+    let with_factor: Vec<&String> = groups.iter().filter(scaled).collect();
+    match (groups.as_slice(), with_factor.as_slice()) {
+        ([], _) => Err(LimitError::NoLoads),
+        ([only], _) => Ok(only.clone()),
+        (_, [only]) => Ok((*only).clone()),
+        _ => Err(LimitError::WhichGroup { groups }),
+    }
+}
+
+/// A structure of rigid blocks and the loads that grow.
+struct Structure<'a> {
+    model: &'a Model,
+    /// In the order of the scene.
+    grows: &'a [bool],
+}
+
+impl Structure<'_> {
+    /// The structure with these factors of gravity and of loads that do not grow, and of loads that do.
+    fn under(&self, stays: f64, grows: f64) -> Model {
+        let actions = Actions {
+            gravity: stays,
+            loads: self.grows.iter().map(|it| if *it { grows } else { stays }).collect(),
+            movements: self.model.supports.iter().map(|support| support.movement).collect(),
+        };
+        self.model.under(&actions, &[])
+    }
+
+    /// The resultants of the loads that grow, `N^T f` of all blocks \[N\].
+    fn growth(&self) -> Vec<f64> {
+        let model = self.under(0.0, 1.0);
+        model.blocks.iter().flat_map(|block| system::resultant(&model, block)).collect()
+    }
+
+    fn system(&self, stays: f64, grows: f64) -> Result<(Model, System), LimitError> {
+        let model = self.under(stays, grows);
+        let system = System::without_factors(&model)?;
+        Ok((model, system))
+    }
+}
+
+fn rigid(mut model: Model) -> Model {
+    for block in &mut model.blocks {
+        (block.elasticity, block.mesh) = (None, None);
+    }
+    model
+}
+
+fn warnings(model: &Model, laws: Laws) -> Vec<String> {
+    let mut list = model.unusual();
+    let gaps = model.contacts.iter().filter(|contact| contact.gap > 0.0).count();
+    if gaps > 0 && laws != Laws::Path {
+        list.push(format!(
+            "{gaps} of {} contact points are apart and were taken for closed: the structure may fail earlier, but not \
+             carry more.",
+            model.contacts.len()
+        ));
+    }
+    list
+}

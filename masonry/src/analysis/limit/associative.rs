@@ -1,0 +1,103 @@
+//! The limit load of associated flow: a linear program, and the two sides of its answer.
+
+use std::ops::ControlFlow;
+
+use lcp::Iteration;
+use nalgebra::Vector2;
+use serde::Serialize;
+
+use super::{LimitError, Structure};
+use crate::method::statics::limit::Growing;
+use crate::method::statics::{self, Statics};
+use crate::model::Model;
+use crate::recover;
+use crate::state::{ContactState, Reaction};
+
+/// What becomes of a structure under a growing group of loads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+pub enum Answer {
+    /// There is a largest factor.
+    #[serde(rename = "fails")]
+    Fails,
+    /// Forces within friction carry any factor.
+    #[serde(rename = "does not fail")]
+    Unlimited,
+    /// Without the group no forces within friction balance the loads.
+    #[serde(rename = "falls without the group")]
+    Falls,
+    /// None of these came out.
+    #[serde(rename = "undecided")]
+    Undecided,
+}
+
+/// The limit load of associated flow: an upper bound for Coulomb's friction, and what ideal plasticity carries.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Associative {
+    /// What becomes of the structure.
+    pub answer: Answer,
+    /// The largest factor \[-\] for which forces were found that balance the loads.
+    pub load_factor: Option<f64>,
+    /// The smallest factor \[-\] for which it is proved that there are none.
+    pub bound: Option<f64>,
+    /// Whether the answer is proved: forces, and the motion that does more work than they could, both recomputed from the
+    /// geometry, leave no other.
+    pub proved: bool,
+    /// The forces under [`load_factor`](Self::load_factor), point by point; gaps and slips are zero.
+    pub forces: Option<Vec<ContactState>>,
+    /// The reactions to them.
+    pub reactions: Vec<Reaction>,
+    /// The motion that proves it: displacement rates of the corners of every block, scaled to a largest component of one.
+    pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
+}
+
+impl Associative {
+    fn new(answer: Answer, proved: bool) -> Self {
+        Self {
+            answer,
+            load_factor: None,
+            bound: None,
+            proved,
+            forces: None,
+            reactions: Vec::new(),
+            mechanism: None,
+        }
+    }
+
+    fn with_forces(self, model: &Model, forces: Option<Vec<ContactState>>) -> Self {
+        let reactions =
+            forces.as_ref().map_or_else(Vec::new, |forces| recover::reactions(model, forces));
+        Self { forces, reactions, ..self }
+    }
+}
+
+pub(super) fn of(structure: &Structure<'_>, growth: &[f64]) -> Result<Associative, LimitError> {
+    let on = &mut |_: &Iteration| ControlFlow::Continue(());
+    let (model, system) = structure.system(1.0, 0.0)?;
+    let at_zero = statics::decide(&model, &system, on)?.statics;
+    if let Statics::Impossible(proof) = at_zero {
+        let answer = Associative::new(Answer::Falls, true);
+        return Ok(Associative { mechanism: Some(proof.rates), ..answer });
+    }
+    let at = |factor| structure.under(1.0, factor);
+    let bounds = Growing { at: &at, system: &system, growth }.largest(on)?;
+    if bounds.above.is_none() {
+        // Forces that carry the group alone, without any strength, can be added any number of times.
+        let mut alone = structure.under(0.0, 1.0);
+        alone.remove_strength();
+        let system = crate::system::System::without_factors(&alone)?;
+        let alone = statics::decide(&alone, &system, on)?.statics;
+        if let (Statics::Admissible(_), Statics::Admissible(forces)) = (alone, &at_zero) {
+            let forces = recover::forces_at_rest(&model, forces);
+            return Ok(Associative::new(Answer::Unlimited, true).with_forces(&model, Some(forces)));
+        }
+    }
+    let proved = bounds.is_closed();
+    let answer = if proved { Answer::Fails } else { Answer::Undecided };
+    let (load_factor, forces) = bounds.below.unzip();
+    let (bound, proof) = bounds.above.unzip();
+    let forces = forces.map(|forces| recover::forces_at_rest(&model, &forces));
+    let found = Associative::new(answer, proved).with_forces(&model, forces);
+    let mechanism = proof.map(|proof| proof.rates);
+    Ok(Associative { load_factor, bound, mechanism, ..found })
+}

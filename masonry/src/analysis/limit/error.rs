@@ -1,0 +1,62 @@
+//! Why a limit load cannot be computed.
+
+use crate::scene::{Known, SceneError};
+use crate::system::SystemError;
+
+/// Why a limit load cannot be computed.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum LimitError {
+    /// The scene is wrong.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A block cannot be assembled.
+    #[error(transparent)]
+    System(#[from] SystemError),
+    /// The data overflow.
+    #[error("the program was refused: {0}")]
+    Solver(#[from] lcp::Error),
+    /// Nothing can grow.
+    #[error("the scene has no loads of which a factor could grow: add [[loads]]")]
+    NoLoads,
+    /// Several groups, and none was named.
+    #[error(
+        "the scene has several groups of loads, {}: say which one grows, by `[limit] group = \"{}\"` or `--group \"{}\"`",
+        listed(groups), groups[0], groups[0]
+    )]
+    WhichGroup {
+        /// Their names.
+        groups: Vec<String>,
+    },
+    /// An arch that is not there.
+    #[error(
+        "there is no arch \"{name}\" in the scene; {known}: correct the name or add it under [[arches]]"
+    )]
+    NoArch {
+        /// The name.
+        name: String,
+        /// The names that there are.
+        known: Known,
+    },
+    /// An arch whose joints are given.
+    #[error(
+        "the joints of arch \"{name}\" are given, so that it has no `thickness`: choose another `shape`"
+    )]
+    NoThickness {
+        /// Name of the arch.
+        name: String,
+    },
+    /// A group of loads that are zero.
+    #[error(
+        "the loads of \"{group}\" are zero, so that no factor changes anything: give them a value, or name another group"
+    )]
+    NoForce {
+        /// Name of the group.
+        group: String,
+    },
+}
+
+fn listed(names: &[String]) -> String {
+    let names: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
+    names.join(", ")
+}

@@ -1,0 +1,232 @@
+//! The limit load of Coulomb's friction along a path: the factor grows step by step, and the blocks rest or flow.
+
+mod events;
+mod springs;
+mod steps;
+
+use nalgebra::Vector2;
+
+pub use events::{Change, Event};
+use steps::{End, Rest, Steps};
+
+use super::{Answer, Associative, LimitError, Structure};
+use crate::method::forms::Sparse;
+use crate::model::Model;
+use crate::recover;
+use crate::state::{ContactState, Reaction};
+use crate::system::System;
+
+/// Steps up to the bound of associated flow. Measured on the walls of Ferris and Tin-Loi, whose published limits are met to
+/// 2e-3.
+const STEPS: f64 = 16.0;
+/// Where the factors that stand and fall differ by less than this part, the search ends.
+const NEAR: f64 = 5e-5;
+/// Where they differ by less than this part, they are one number. Chosen: far below what another path may change.
+const ONE_NUMBER: f64 = 5e-3;
+/// Just above the limit blocks flow so slowly that a step may end neither at rest nor in a flow. Then it is tried with
+/// factors that are larger by these parts. Chosen.
+const ABOVE: [f64; 3] = [1e-3, 2e-3, 4e-3];
+/// How often the search goes on where blocks rest there after all. Chosen.
+const AGAIN: usize = 3;
+/// Steps of a structure that never falls; each is twice as long as the one before. Chosen.
+const DOUBLED: usize = 10;
+/// Largest residual of a state at rest. Chosen: that of scenes without a tolerance.
+const TOLERANCE: f64 = 1e-10;
+
+/// The limit load of Coulomb's friction, in which joints do not open when they slide.
+///
+/// The factor grows from zero in steps. In each the blocks come to rest, or flow; the limit is found by bisection. With
+/// friction other paths may end elsewhere. Rigid blocks have springs in their joints, which say how forces are shared.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Path {
+    /// The largest factor \[-\] at which the blocks rest; `None` where they do not even without the group.
+    pub load_factor: Option<f64>,
+    /// The least factor \[-\] at which they were found to flow, or which it is proved that no forces carry.
+    pub falls: Option<f64>,
+    /// Whether both are one number, nearly, or every factor that was tried stands. Where not, at factors between them neither
+    /// rest nor flow was found.
+    pub decided: bool,
+    /// The structure under [`load_factor`](Self::load_factor), with the springs.
+    pub model: Model,
+    /// The last state at rest, point by point; slips are those of its step.
+    pub contacts: Option<Vec<ContactState>>,
+    /// Its reactions.
+    pub reactions: Vec<Reaction>,
+    /// How the blocks move above: displacement rates of their corners, scaled to a largest component of one.
+    pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
+    /// Joints that opened or slid on the way, for the first time.
+    pub events: Vec<Event>,
+    /// The states at rest, by growing factor.
+    pub curve: Vec<Stand>,
+    /// Joints between rigid bodies, into which springs were put.
+    pub springs: usize,
+}
+
+impl Path {
+    /// What limits the meaning of the answer.
+    pub(super) fn warning(&self) -> String {
+        let springs = match self.springs {
+            0 => "",
+            _ => " Joints between rigid bodies have springs, which say how forces are shared.",
+        };
+        format!("With friction other paths may end at other factors.{springs}")
+    }
+}
+
+/// A state at rest on the path.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stand {
+    /// The load factor \[-\].
+    pub load_factor: f64,
+    /// The largest displacement \[m\] from where the factor is zero; of rigid blocks that of the springs, which has no
+    /// meaning by itself.
+    pub displacement: f64,
+    /// Contact points that are open, stick and slide.
+    pub contacts: [usize; 3],
+}
+
+/// Follows the path; `model` has blocks as they are, elastic or rigid.
+pub(super) fn of(structure: &Structure<'_>, associative: &Associative) -> Result<Path, LimitError> {
+    let mut stays = structure.under(1.0, 0.0);
+    let load: f64 = stays.blocks.iter().map(|block| size(&stays, block)).sum();
+    let springs = springs::put_into(&mut stays, load);
+    let mut grown = structure.under(1.0, 1.0);
+    springs::put_into(&mut grown, load);
+    let [system, with_growth] = [&stays, &grown].map(System::without_factors);
+    let (system, with_growth) = (system?, with_growth?);
+    let sparse = Sparse::new(&system)?;
+    let with_growth = Sparse::new(&with_growth)?;
+    let loads = with_growth.problem.loads().iter().zip(sparse.problem.loads());
+    let growth: Vec<f64> = loads.map(|(grown, stays)| grown - stays).collect();
+    let steps = Steps { sparse: &sparse, growth: &growth, tolerance: TOLERANCE };
+    let falls = if associative.answer == Answer::Falls { Some(0.0) } else { associative.bound };
+    let mut climb = Climb { steps, rests: Vec::new(), end: falls, falls, motion: None };
+    climb.run()?;
+    for _ in 0..AGAIN {
+        if !climb.goes_on()? {
+            break;
+        }
+        climb.run()?;
+    }
+    let Climb { rests, falls, motion, .. } = climb;
+    let flows = motion.and_then(|motion| recover::flow(&stays, &system, &sparse, &motion));
+    // At the bound of associated flow its motion is one that nothing stops.
+    let is_bound = falls.is_some() && falls == associative.bound;
+    let proved = associative.mechanism.as_ref().filter(|_| is_bound);
+    let mechanism = flows.or_else(|| proved.cloned());
+    let load_factor = rests.last().map(|(factor, _)| *factor);
+    let mut model = structure.under(1.0, load_factor.unwrap_or(0.0));
+    springs::put_into(&mut model, load);
+    let contacts = rests.last().map(|(_, rest)| {
+        let rows = sparse.rows(&rest.state);
+        recover::from_displacements(&model, &system, &sparse, &rows, &rest.u, TOLERANCE, false)
+            .contacts
+    });
+    let reactions = contacts.as_ref().map_or_else(Vec::new, |it| recover::reactions(&model, it));
+    let (events, curve) = events::along(&model, &system, &sparse, &rests);
+    Ok(Path {
+        load_factor,
+        falls,
+        decided: is_near(falls, load_factor),
+        model,
+        contacts,
+        reactions,
+        mechanism,
+        events,
+        curve,
+        springs,
+    })
+}
+
+/// Whether a factor that falls is hardly larger than one that stands; or there is none.
+fn is_near(falls: Option<f64>, stands: Option<f64>) -> bool {
+    match (falls, stands) {
+        (Some(falls), Some(stands)) => falls - stands <= ONE_NUMBER * falls,
+        (Some(falls), None) => falls <= 0.0,
+        (None, stands) => stands.is_some(),
+    }
+}
+
+fn size(model: &Model, block: &crate::model::Block) -> f64 {
+    let [x, y, _] = crate::system::resultant(model, block);
+    x.hypot(y)
+}
+
+/// The way up.
+struct Climb<'a> {
+    steps: Steps<'a>,
+    rests: Vec<(f64, Rest)>,
+    /// The least factor at which no rest was found, and the least at which it is known that there is none.
+    end: Option<f64>,
+    falls: Option<f64>,
+    motion: Option<Vec<f64>>,
+}
+
+impl Climb<'_> {
+    fn run(&mut self) -> Result<(), LimitError> {
+        let is_below = self.end.is_some_and(|end| end <= 0.0);
+        if is_below || self.rests.is_empty() && !self.tried(0.0)? {
+            return Ok(());
+        }
+        let mut step = self.end.map_or(1.0, |end| end / STEPS);
+        // A structure that no factor leaves at rest has an end too.
+        let least = NEAR * NEAR * self.end.unwrap_or(1.0);
+        let mut doubled = 0;
+        loop {
+            let at = self.rests.last().map_or(0.0, |(factor, _)| *factor);
+            let next = at + step;
+            let next = match self.end {
+                Some(end) if end - at <= least.max(NEAR * end) => return Ok(()),
+                Some(end) if end - next <= NEAR * end => 0.5 * (at + end),
+                _ => next,
+            };
+            let rests = self.tried(next)?;
+            if self.end.is_none() {
+                doubled += 1;
+                step *= 2.0;
+                if doubled == DOUBLED {
+                    return Ok(());
+                }
+            } else if !rests {
+                step = step.min(0.5 * (next - at));
+            }
+        }
+    }
+
+    /// Whether blocks rest a little above where neither came out; if they do not, whether they flow is known better.
+    fn goes_on(&mut self) -> Result<bool, LimitError> {
+        let at = self.rests.last().map(|(factor, _)| *factor);
+        let (Some(at), Some(falls)) = (at, self.falls) else { return Ok(false) };
+        for part in ABOVE {
+            let factor = at + part * falls;
+            if is_near(self.falls, Some(at)) || factor >= falls {
+                return Ok(false);
+            }
+            let rests = self.tried(factor)?;
+            if rests {
+                self.end = self.falls;
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Whether the blocks rest at a factor.
+    fn tried(&mut self, factor: f64) -> Result<bool, LimitError> {
+        let from = self.rests.last().map(|(_, rest)| rest);
+        match self.steps.advance(from, factor)? {
+            End::Rests(rest) => {
+                self.rests.push((factor, rest));
+                return Ok(true);
+            }
+            End::Flows(motion) => {
+                self.falls = Some(factor);
+                self.motion = Some(motion);
+            }
+            End::Open => {}
+        }
+        self.end = Some(factor);
+        Ok(false)
+    }
+}

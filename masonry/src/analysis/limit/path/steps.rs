@@ -1,0 +1,87 @@
+//! One step of a load factor: the blocks rest, or flow.
+
+use std::ops::ControlFlow;
+
+use lcp::{
+    ContactState, Evolution, EvolutionSettings, InteriorPoint, InteriorPointSettings, Solver,
+    Status, WarmStart,
+};
+
+use crate::method::forms::Sparse;
+
+/// Steps of interior points from the states of contacts before blocks move. Chosen: near a state at rest few suffice.
+const STEPS_BEFORE_MOTION: usize = 40;
+/// Steps of the motions of one step. Chosen: those of [`EvolutionSettings`].
+const STEPS_OF_MOTION: usize = 1000;
+
+/// The blocks where they rest.
+#[derive(Debug, Clone)]
+pub(super) struct Rest {
+    /// Displacements of the sparse problem.
+    pub(super) u: Vec<f64>,
+    /// Forces and gaps; slips of the step.
+    pub(super) state: ContactState,
+}
+
+/// How a step ended.
+pub(super) enum End {
+    Rests(Rest),
+    /// With the velocities of all displacements.
+    Flows(Vec<f64>),
+    /// Neither came out.
+    Open,
+}
+
+/// A structure under loads that stay and others that grow.
+pub(super) struct Steps<'a> {
+    pub(super) sparse: &'a Sparse,
+    /// The loads that grow, for a factor of one.
+    pub(super) growth: &'a [f64],
+    pub(super) tolerance: f64,
+}
+
+impl Steps<'_> {
+    /// From a state at rest, or from nothing, to a load factor.
+    pub(super) fn advance(&self, from: Option<&Rest>, factor: f64) -> Result<End, lcp::Error> {
+        let unloaded = &self.sparse.problem;
+        let loads = unloaded.loads().iter().zip(self.growth);
+        let mut problem =
+            unloaded.with_loads(loads.map(|(stays, grows)| stays + factor * grows).collect())?;
+        let mut start = WarmStart::None;
+        let mut at = vec![0.0; problem.displacements()];
+        if let Some(from) = from {
+            problem = problem.after(&from.u)?;
+            let (t, y) = problem.to_pairs(&from.state);
+            start = WarmStart::Point { t, y };
+            at.clone_from(&from.u);
+        }
+        let settings = InteriorPointSettings {
+            tolerance: self.tolerance,
+            max_iterations: STEPS_BEFORE_MOTION,
+            start,
+            continuation: false,
+            ..InteriorPointSettings::default()
+        };
+        let on = &mut |_: &lcp::Iteration| ControlFlow::Continue(());
+        let solution = InteriorPoint::new(settings).solve_observed(&problem, on)?;
+        if solution.status == Status::Solved
+            && let Some(state) = solution.contact
+        {
+            return Ok(End::Rests(Rest { u: state.u.clone(), state }));
+        }
+        let settings = EvolutionSettings {
+            tolerance: self.tolerance,
+            max_iterations: STEPS_OF_MOTION,
+            ..EvolutionSettings::default()
+        };
+        let evolved = Evolution::new(settings).advance(&problem, &at)?;
+        Ok(match evolved.solution.status {
+            Status::Solved => {
+                let state = evolved.state().clone();
+                End::Rests(Rest { u: state.u.clone(), state })
+            }
+            Status::NoEquilibrium => End::Flows(evolved.motions.motion),
+            _ => End::Open,
+        })
+    }
+}

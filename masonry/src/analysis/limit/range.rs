@@ -1,0 +1,107 @@
+//! How much reactions can differ from one set of admissible forces to another.
+
+use std::ops::ControlFlow;
+
+use lcp::Iteration;
+use nalgebra::Vector2;
+
+use super::{LimitError, rigid};
+use crate::method::statics::limit::{Extreme, extreme};
+use crate::method::statics::{self, Statics};
+use crate::model::{Body, Model};
+use crate::scene::Scene;
+use crate::system::{Direction, System};
+
+/// The least and the largest reactions of all supports over all forces within friction that balance the loads, each for
+/// itself: the thrust of an arch, for instance, when its supports spread and when they close.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Range {
+    /// Title of the scene.
+    pub title: String,
+    /// The structure with rigid blocks.
+    pub model: Model,
+    /// Of every support, in the order of the scene; `None` where it is proved that no forces balance the loads.
+    pub supports: Option<Vec<Extremes>>,
+    /// The answer in the words of an engineer.
+    pub sentence: String,
+}
+
+/// The least and the largest reaction of a support.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Extremes {
+    /// Name of the support.
+    pub support: String,
+    /// The horizontal force on the structure, at least and at most \[N\].
+    pub fx: [Extreme; 2],
+    /// The vertical force on the structure, at least and at most \[N\].
+    pub fy: [Extreme; 2],
+}
+
+/// The ranges of all reactions of a scene under its loads in full.
+///
+/// # Errors
+/// [`LimitError`] when the scene is wrong.
+pub fn ranges(scene: &Scene) -> Result<Range, LimitError> {
+    let on = &mut |_: &Iteration| ControlFlow::Continue(());
+    let model = rigid(Model::from_scene(scene)?);
+    let system = System::without_factors(&model)?;
+    let title = scene.title.clone();
+    if let Statics::Impossible(_) = statics::decide(&model, &system, on)?.statics {
+        let sentence = "The structure falls: no forces within friction balance all loads of the scene in full (proved).";
+        return Ok(Range { title, model, supports: None, sentence: sentence.to_owned() });
+    }
+    let mut supports = Vec::with_capacity(model.supports.len());
+    for (k, support) in model.supports.iter().enumerate() {
+        let mut extremes = |along: Vector2<f64>| -> Result<[Extreme; 2], LimitError> {
+            // Of the unknowns of the system, which are larger than the forces by the tensile strength.
+            let (rows, beyond) = component(&model, &system, k, along);
+            let opposite: Vec<f64> = rows.iter().map(|row| -row).collect();
+            let least = negated(extreme(&system, &opposite, on)?);
+            Ok([least, extreme(&system, &rows, on)?].map(|it| shifted(it, -beyond)))
+        };
+        let [fx, fy] = [extremes(Vector2::x())?, extremes(Vector2::y())?];
+        supports.push(Extremes { support: support.name.clone(), fx, fy });
+    }
+    let sentence = "Reactions lie between the least and the largest that forces within friction allow; each limit is \
+                    reached by some of them, not all at once.";
+    Ok(Range { title, model, supports: Some(supports), sentence: sentence.to_owned() })
+}
+
+/// The component of the reaction of a support as a linear function of the forces of all rows, and its value for the tensile
+/// strengths.
+fn component(
+    model: &Model,
+    system: &System,
+    support: usize,
+    along: Vector2<f64>,
+) -> (Vec<f64>, f64) {
+    let mut beyond = 0.0;
+    let rows = system.rows.iter().map(|row| {
+        let joint = &model.joints[model.contacts[row.contact.index()].joint.index()];
+        if !matches!(joint.a, Body::Support(id) if id.index() == support) {
+            return 0.0;
+        }
+        let direction = match row.direction {
+            Direction::Normal => joint.normal,
+            Direction::Tangent => joint.tangent(),
+        };
+        beyond += row.tension * direction.dot(&along);
+        direction.dot(&along)
+    });
+    (rows.collect(), beyond)
+}
+
+fn negated(extreme: Extreme) -> Extreme {
+    match extreme {
+        Extreme::Value { value, bound } => Extreme::Value { value: -value, bound: -bound },
+        other => other,
+    }
+}
+
+fn shifted(extreme: Extreme, by: f64) -> Extreme {
+    match extreme {
+        Extreme::Value { value, bound } => Extreme::Value { value: value + by, bound: bound + by },
+        other => other,
+    }
+}

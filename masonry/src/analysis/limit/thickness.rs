@@ -1,0 +1,150 @@
+//! The least thickness of an arch.
+
+use std::ops::ControlFlow;
+
+use lcp::Iteration;
+use nalgebra::Vector2;
+
+use super::{LimitError, rigid};
+use crate::method::statics::{self, Statics};
+use crate::model::Model;
+use crate::recover;
+use crate::scene::{Known, Scene};
+use crate::state::ContactState;
+use crate::system::System;
+
+/// Where the thicknesses on both sides of the least one differ by less than this part of them, the search ends.
+const NEAR: f64 = 1e-6;
+/// Times that a thickness is doubled or halved to find one that falls and one that stands.
+const DOUBLED: u32 = 10;
+
+/// The least thickness at which an arch stands, between one that falls and one that stands; the span and the rise of its
+/// intrados stay, and so do all other parts of the scene.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Thickness {
+    /// Title of the scene.
+    pub title: String,
+    /// Name of the arch.
+    pub arch: String,
+    /// The largest thickness \[m\] at which it is proved that the structure falls.
+    pub falls: Option<f64>,
+    /// The smallest thickness \[m\] at which forces were found that balance the loads.
+    pub stands: Option<f64>,
+    /// Whether the two are so near to each other that they are one number.
+    pub proved: bool,
+    /// The structure that stands, or that of the scene where none does.
+    pub model: Model,
+    /// Its forces, point by point; gaps and slips are zero.
+    pub forces: Option<Vec<ContactState>>,
+    /// The motion in which the thicker of those that fall does so: rates of the corners of every block.
+    pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
+    /// The answer in the words of an engineer.
+    pub sentence: String,
+}
+
+/// The least thickness of an arch under the loads of the scene in full.
+///
+/// # Errors
+/// [`LimitError`] when the scene is wrong, at the thickness of the scene or at one that was tried, or has no such arch.
+pub fn least_thickness(scene: &Scene, arch: &str) -> Result<Thickness, LimitError> {
+    scene.check()?;
+    let Some(place) = scene.arches.iter().position(|it| it.name == arch) else {
+        let names = scene.arches.iter().map(|it| it.name.clone()).collect();
+        let (name, known) = (arch.to_owned(), Known::near(arch, names));
+        return Err(LimitError::NoArch { name, known });
+    };
+    let Some(given) = scene.arches[place].thickness else {
+        return Err(LimitError::NoThickness { name: arch.to_owned() });
+    };
+    let mut search = Search { scene: scene.clone(), place, falls: None, stands: None };
+    search.run(given)?;
+    search.finish(arch)
+}
+
+/// A search between two thicknesses, in units of the scene.
+struct Search {
+    scene: Scene,
+    place: usize,
+    falls: Option<(f64, Vec<Vec<Vector2<f64>>>)>,
+    stands: Option<(f64, Model, Vec<ContactState>)>,
+}
+
+impl Search {
+    fn run(&mut self, given: f64) -> Result<(), LimitError> {
+        self.tried(given)?;
+        let factor = if self.stands.is_some() { 0.5 } else { 2.0 };
+        let mut next = given;
+        for _ in 0..DOUBLED {
+            if self.falls.is_some() == self.stands.is_some() {
+                break;
+            }
+            next *= factor;
+            if !self.tried(next)? {
+                return Ok(());
+            }
+        }
+        while let (Some((falls, _)), Some((stands, ..))) = (&self.falls, &self.stands) {
+            let (falls, stands) = (*falls, *stands);
+            if stands - falls <= NEAR * stands || !self.tried(0.5 * (falls + stands))? {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether it came out if the arch stands at a thickness.
+    fn tried(&mut self, thickness: f64) -> Result<bool, LimitError> {
+        let on = &mut |_: &Iteration| ControlFlow::Continue(());
+        self.scene.arches[self.place].thickness = Some(thickness);
+        let model = rigid(Model::from_scene(&self.scene)?);
+        let system = System::without_factors(&model)?;
+        match statics::decide(&model, &system, on)?.statics {
+            Statics::Admissible(rows) => {
+                let forces = recover::forces_at_rest(&model, &rows);
+                self.stands = Some((thickness, model, forces));
+            }
+            Statics::Impossible(proof) => self.falls = Some((thickness, proof.rates)),
+            Statics::Open => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    fn finish(mut self, arch: &str) -> Result<Thickness, LimitError> {
+        let unit = self.scene.units.length_to_si();
+        let name = self.scene.units.length_name();
+        let falls = self.falls.as_ref().map(|(thickness, _)| *thickness);
+        let stands = self.stands.as_ref().map(|(thickness, ..)| *thickness);
+        let sentence = match (falls, stands) {
+            (Some(falls), Some(stands)) => format!(
+                "Arch \"{arch}\" needs a thickness of {stands:.6} {name}: forces within friction balance the loads then, \
+                 and at {falls:.6} {name} none do (proved)."
+            ),
+            (Some(falls), None) => format!(
+                "Arch \"{arch}\" stands at none of the thicknesses that were tried, up to {falls:.6} {name} (proved)."
+            ),
+            (None, Some(stands)) => format!(
+                "Arch \"{arch}\" stands at all thicknesses that were tried, down to {stands:.6} {name}."
+            ),
+            (None, None) => format!("Undecided: whether arch \"{arch}\" stands was not found out."),
+        };
+        let proved =
+            falls.zip(stands).is_some_and(|(falls, stands)| stands - falls <= NEAR * stands);
+        let mechanism = self.falls.take().map(|(_, rates)| rates);
+        let (model, forces) = match self.stands.take() {
+            Some((_, model, forces)) => (model, Some(forces)),
+            None => (rigid(Model::from_scene(&self.scene)?), None),
+        };
+        Ok(Thickness {
+            title: self.scene.title,
+            arch: arch.to_owned(),
+            falls: falls.map(|it| it * unit),
+            stands: stands.map(|it| it * unit),
+            proved,
+            model,
+            forces,
+            mechanism,
+            sentence,
+        })
+    }
+}

@@ -1,0 +1,23 @@
+//! Ctrl-C: the first asks a run to end with what is known, the second ends the program at once.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// What shells expect of a program that Ctrl-C has ended.
+const ENDED_BY_SIGNAL: i32 = 130;
+
+static ASKED: AtomicBool = AtomicBool::new(false);
+
+/// From now on Ctrl-C asks. Where the system has no such signals, it goes on ending the program.
+pub(super) fn listen() {
+    let _ = ctrlc::set_handler(|| {
+        if ASKED.swap(true, Ordering::SeqCst) {
+            std::process::exit(ENDED_BY_SIGNAL);
+        }
+        eprintln!("interrupted: ending with what is known; once more ends at once");
+    });
+}
+
+/// Whether the run should end.
+pub(super) fn is_asked() -> bool {
+    ASKED.load(Ordering::SeqCst)
+}

@@ -1,0 +1,130 @@
+//! `masonry limit`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::end::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
+use super::out_dir::OutDir;
+use super::page;
+use crate::analysis::limit::{Answer, Associative, Laws, Path, least_thickness, limit_by, ranges};
+use crate::report::{self, limit as output};
+use crate::scene::Scene;
+
+/// The law of friction that a limit load is asked of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Law {
+    /// Joints that slide open by mu times the slip: a linear program, and an upper bound for Coulomb's friction.
+    Associative,
+    /// Coulomb's friction: the factor grows step by step until the blocks no longer come to rest.
+    Path,
+    /// One after the other.
+    Both,
+}
+
+impl From<Law> for Laws {
+    fn from(law: Law) -> Self {
+        match law {
+            Law::Associative => Self::Associative,
+            Law::Path => Self::Path,
+            Law::Both => Self::Both,
+        }
+    }
+}
+
+#[derive(Debug, Args)]
+pub(super) struct LimitArgs {
+    /// The scene file (TOML).
+    scene: PathBuf,
+    /// The law of friction.
+    #[arg(long, value_enum, default_value_t = Law::Both)]
+    law: Law,
+    /// The load or group of loads that grows, instead of that of the scene.
+    #[arg(long, conflicts_with = "range")]
+    group: Option<String>,
+    /// Ask for the least and the largest reactions under the loads of the scene instead.
+    #[arg(long)]
+    range: bool,
+    /// Ask for the least thickness of an arch under the loads of the scene instead.
+    #[arg(long, value_name = "ARCH", conflicts_with_all = ["range", "group"])]
+    thickness: Option<String>,
+    /// The directory to write pictures into, if any; created when missing.
+    #[arg(long, conflicts_with = "range")]
+    out: Option<PathBuf>,
+    /// Also write the report as one page of HTML, with pictures to choose from; opens without a network.
+    #[arg(long, value_name = "FILE", conflicts_with = "range")]
+    report: Option<PathBuf>,
+    /// Print one JSON object instead of the report.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
+    let mut scene = Scene::read(&args.scene)?;
+    if args.range {
+        return range(&scene, args.json);
+    }
+    if let Some(arch) = &args.thickness {
+        return thickness(&scene, arch, args);
+    }
+    if let Some(group) = &args.group {
+        scene = scene.limit_group(group);
+    }
+    let out = out_dir(args)?;
+    page::check(args.report.as_deref())?;
+    let limit = limit_by(&scene, args.law.into())?;
+    let written = match &out {
+        Some(out) => output::write(&limit, out.path()),
+        None => Ok(Vec::new()),
+    };
+    // What was computed is printed even when a file could not be written.
+    let in_out = written.as_deref().unwrap_or_default();
+    let mut files = in_out.to_vec();
+    let page = page::write(args.report.as_deref(), || report::page::limit(&limit), &mut files);
+    if args.json {
+        print(&output::json(&limit, &names(&files))?)?;
+    } else {
+        print(&format!("{}\n{}", output::table(&limit), listing(&files)))?;
+    }
+    out.map_or(Ok(()), |out| out.finish(in_out, false))?;
+    written?;
+    page?;
+    let is_known = |it: &Associative| matches!(it.answer, Answer::Fails | Answer::Unlimited);
+    let by_path = |path: &Path| path.decided && path.load_factor.is_some();
+    let solved =
+        limit.associative.as_ref().is_none_or(is_known) && limit.path.as_ref().is_none_or(by_path);
+    Ok(if solved { SOLVED } else { NOT_SOLVED })
+}
+
+fn out_dir(args: &LimitArgs) -> Result<Option<OutDir>, Failure> {
+    args.out.as_deref().map(|out| OutDir::open(out, "limit")).transpose()
+}
+
+fn range(scene: &Scene, json: bool) -> Result<u8, Failure> {
+    let range = ranges(scene)?;
+    let text = if json { output::range_json(&range)? } else { output::range_table(&range) };
+    print(&text)?;
+    Ok(if range.supports.is_some() { SOLVED } else { NOT_SOLVED })
+}
+
+fn thickness(scene: &Scene, arch: &str, args: &LimitArgs) -> Result<u8, Failure> {
+    let out = out_dir(args)?;
+    page::check(args.report.as_deref())?;
+    let found = least_thickness(scene, arch)?;
+    let written = match &out {
+        Some(out) => output::write_thickness(&found, out.path()),
+        None => Ok(Vec::new()),
+    };
+    let in_out = written.as_deref().unwrap_or_default();
+    let mut files = in_out.to_vec();
+    let page = page::write(args.report.as_deref(), || report::page::thickness(&found), &mut files);
+    if args.json {
+        print(&output::thickness_json(&found, &names(&files))?)?;
+    } else {
+        print(&format!("{}\n{}", output::thickness_table(&found), listing(&files)))?;
+    }
+    out.map_or(Ok(()), |out| out.finish(in_out, false))?;
+    written?;
+    page?;
+    Ok(if found.proved { SOLVED } else { NOT_SOLVED })
+}

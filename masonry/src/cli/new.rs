@@ -1,0 +1,50 @@
+//! `masonry new`: commented scenes to begin with.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::end::{Failure, SOLVED, listing, print};
+
+/// What a new scene is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Kind {
+    /// A wall of rigid bricks with a window, pushed to the side.
+    Wall,
+    /// A segmental arch on piers with a load on its crown.
+    Arch,
+    /// An elastic panel between rigid walls.
+    Panel,
+    /// A wall with a door and a beam above it.
+    Door,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct NewArgs {
+    /// What the scene is of.
+    #[arg(value_enum)]
+    kind: Kind,
+    /// The file to write, which must not exist yet; by default the scene is printed.
+    #[arg(long)]
+    out: Option<PathBuf>,
+}
+
+pub(super) fn run(args: &NewArgs) -> Result<u8, Failure> {
+    let text = match args.kind {
+        Kind::Wall => include_str!("new/wall.toml"),
+        Kind::Arch => include_str!("new/arch.toml"),
+        Kind::Panel => include_str!("new/panel.toml"),
+        Kind::Door => include_str!("new/door.toml"),
+    };
+    let Some(out) = &args.out else {
+        print(text)?;
+        return Ok(SOLVED);
+    };
+    // A scene that somebody has worked on is not overwritten.
+    let file = std::fs::OpenOptions::new().write(true).create_new(true).open(out);
+    file.and_then(|mut file| file.write_all(text.as_bytes()))
+        .map_err(|error| format!("cannot write {}: {error}; choose another name", out.display()))?;
+    print(&listing(std::slice::from_ref(out)))?;
+    Ok(SOLVED)
+}

@@ -1,0 +1,150 @@
+//! The directory that a run writes into: tried before the work, used by one run at a time, and cleared of what the last run
+//! of the same command has left.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::{self, File, TryLockError};
+use std::io::{self, ErrorKind, Read, Seek, Write};
+use std::path::{Component, Path, PathBuf};
+
+use super::end::{Failure, names};
+
+/// The file that is locked. It lists what the last run of every command has written.
+const RECORD: &str = ".masonry.json";
+
+/// Names of files by the name of the command.
+type Record = BTreeMap<String, BTreeSet<String>>;
+
+/// A directory that nobody else writes into.
+#[derive(Debug)]
+pub(super) struct OutDir {
+    path: PathBuf,
+    command: &'static str,
+    /// The system unlocks it where a run ends without a word.
+    file: File,
+    record: Record,
+    /// What this run has written or goes on from.
+    claimed: BTreeSet<String>,
+    /// What was made for it, innermost first.
+    made: Vec<PathBuf>,
+    is_used: bool,
+}
+
+impl OutDir {
+    /// Makes a directory where there is none, and locks it until the end of the run.
+    pub(super) fn open(path: &Path, command: &'static str) -> Result<Self, Failure> {
+        let failed = |error: io::Error| {
+            format!("cannot write into {}: {error}; choose another --out", path.display())
+        };
+        let missing = path.ancestors().filter(|it| !it.as_os_str().is_empty() && !it.exists());
+        let mut made: Vec<PathBuf> = missing.map(Path::to_owned).collect();
+        fs::create_dir_all(path).map_err(failed)?;
+        let record = path.join(RECORD);
+        if !record.exists() {
+            made.insert(0, record.clone());
+        }
+        let mut options = File::options();
+        let mut file = options
+            .read(true)
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(record)
+            .map_err(failed)?;
+        match file.try_lock() {
+            Ok(()) => {}
+            // Some file systems of networks have no locks.
+            Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {}
+            Err(TryLockError::Error(error)) => return Err(failed(error).into()),
+            Err(TryLockError::WouldBlock) => {
+                return Err(format!(
+                    "another run is writing into {}: wait for its end, or choose another --out",
+                    path.display()
+                )
+                .into());
+            }
+        }
+        let mut text = String::new();
+        file.read_to_string(&mut text).map_err(failed)?;
+        // A run that was killed while it wrote the record has left none.
+        let record = serde_json::from_str(&text).unwrap_or_default();
+        let (path, claimed) = (path.to_owned(), BTreeSet::new());
+        Ok(Self { path, command, file, record, claimed, made, is_used: false })
+    }
+
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Takes a file for one of this run, before it is written.
+    pub(super) fn claim(&mut self, name: &str) -> Result<(), Failure> {
+        if !self.claimed.insert(name.to_owned()) {
+            return Ok(());
+        }
+        let mut record = self.record.clone();
+        record.entry(self.command.to_owned()).or_default().insert(name.to_owned());
+        self.write(&record)
+    }
+
+    /// Ends a run that has written these files: what the last one of the same command has left besides is removed, or else
+    /// `kept`. Says on standard error which.
+    pub(super) fn finish(mut self, written: &[PathBuf], kept: bool) -> Result<(), Failure> {
+        self.claimed.extend(names(written));
+        let mut record = self.record.clone();
+        let earlier = record.remove(self.command).unwrap_or_default();
+        // What another command has written before is not its file any more.
+        for names in record.values_mut() {
+            names.retain(|name| !self.claimed.contains(name));
+        }
+        let (mut left, mut removed) = (Vec::new(), Vec::new());
+        for name in earlier.into_iter().filter(|it| is_file_name(it) && !self.claimed.contains(it))
+        {
+            let path = self.path.join(&name);
+            if path.exists() {
+                let is_removed = !kept && fs::remove_file(path).is_ok();
+                if is_removed { removed.push(name) } else { left.push(name) }
+            }
+        }
+        for (names, what) in [(&removed, "removed"), (&left, "left")] {
+            if !names.is_empty() {
+                eprintln!(
+                    "{what} in {}, of an earlier run: {}",
+                    self.path.display(),
+                    names.join(", ")
+                );
+            }
+        }
+        record.insert(self.command.to_owned(), self.claimed.iter().cloned().chain(left).collect());
+        self.write(&record)
+    }
+
+    fn write(&mut self, record: &Record) -> Result<(), Failure> {
+        self.is_used = true;
+        let text = serde_json::to_string(record)?;
+        let file = &mut self.file;
+        file.set_len(0)
+            .and_then(|()| file.rewind())
+            .and_then(|()| file.write_all(text.as_bytes()))
+            .map_err(|error| {
+                format!("cannot write {}: {error}", self.path.join(RECORD).display()).into()
+            })
+    }
+}
+
+/// A run that ended before it wrote anything leaves nothing.
+impl Drop for OutDir {
+    fn drop(&mut self) {
+        if self.is_used {
+            return;
+        }
+        for path in &self.made {
+            // Others may have put something into a directory by now.
+            let _ = if path.is_dir() { fs::remove_dir(path) } else { fs::remove_file(path) };
+        }
+    }
+}
+
+/// Whether it is the name of a file in the directory itself.
+fn is_file_name(name: &str) -> bool {
+    let mut parts = Path::new(name).components();
+    matches!((parts.next(), parts.next()), (Some(Component::Normal(_)), None))
+}

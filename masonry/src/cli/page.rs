@@ -1,0 +1,38 @@
+//! `--report`: the page of HTML.
+
+use std::path::{Path, PathBuf};
+
+use super::end::Failure;
+use crate::files::write_atomically;
+
+/// Before the work, whether a page can be written at all.
+pub(super) fn check(path: Option<&Path>) -> Result<(), Failure> {
+    let Some(path) = path else { return Ok(()) };
+    let directory = match path.parent() {
+        Some(parent) if parent.as_os_str().is_empty() => Path::new("."),
+        Some(parent) => parent,
+        None => path,
+    };
+    let why = if path.is_dir() {
+        "it is a directory"
+    } else if !directory.is_dir() {
+        "its directory does not exist"
+    } else {
+        return Ok(());
+    };
+    Err(format!("cannot write the page {}: {why}; choose another --report", path.display()).into())
+}
+
+/// Writes the page, with `--report`, and adds it to the files that were written.
+pub(super) fn write(
+    path: Option<&Path>,
+    page: impl FnOnce() -> String,
+    files: &mut Vec<PathBuf>,
+) -> Result<(), Failure> {
+    let Some(path) = path else { return Ok(()) };
+    write_atomically(path, page().as_bytes()).map_err(|error| {
+        format!("cannot write the page {}: {error}; choose another --report", path.display())
+    })?;
+    files.push(path.to_owned());
+    Ok(())
+}

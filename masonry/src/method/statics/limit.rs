@@ -1,0 +1,171 @@
+//! The largest factor of a group of loads that statically admissible forces carry.
+//!
+//! With the resultants `g` of a factor of one on the blocks, `max l` subject to `E p + r + l g = 0`, `p >= 0`, `l >= 0` is a
+//! linear program. Its multipliers are a motion `x` of rigid blocks with `E^T x >= 0` and `g.x = 1`, the mechanism of
+//! associated flow, in which joints that slide open by `mu` times the slip; on it `l = -r.x`. So the program has both sides
+//! of the theorems of limit analysis (Drucker, Prager and Greenberg 1952; of blocks, Livesley 1978): its forces are a
+//! bound from below, and its motion is one from above, which the [`Proof`] checks in the geometry.
+
+use lcp::Observer;
+
+use super::engine::Engine;
+use super::program::Program;
+use super::{Proof, sharpen};
+use crate::model::Model;
+use crate::system::System;
+
+/// Beyond the factor that forces carry by one of these parts of it, a motion proves that there are none.
+const BEYOND: [f64; 6] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
+/// Bounds that are nearer to each other than this part of the factor end the search.
+pub const NEAR: f64 = 2e-5;
+/// Motions that are tried in any case: they may bring the bounds nearer still.
+const ALWAYS: usize = 2;
+/// Steps of one program.
+const MAX_STEPS: usize = 200;
+
+/// The methods for linear programs, one after the other. Measured on a wall of 1000 bricks, where the first gives no proof: the second
+/// does, and the third does not.
+const LINEAR: [Engine; 3] = [Engine::Inside, Engine::Interior, Engine::Clarabel];
+
+/// What is known of the largest factor.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Bounds {
+    /// A factor, and forces of all rows of the [`System`] \[N\] that balance the loads under it.
+    pub below: Option<(f64, Vec<f64>)>,
+    /// A factor, and the proof that no forces balance the loads under it.
+    pub above: Option<(f64, Proof)>,
+    /// The factor, or that under which what grows is as large as the loads that stay, if that is larger: the distance of
+    /// the bounds is measured by it.
+    pub size: f64,
+}
+
+impl Bounds {
+    /// The distance of the two bounds, where there are both.
+    pub fn gap(&self) -> Option<f64> {
+        Some(self.above.as_ref()?.0 - self.below.as_ref()?.0)
+    }
+
+    /// Whether the bounds are so near to each other that they are one number.
+    pub fn is_closed(&self) -> bool {
+        self.gap().is_some_and(|gap| gap <= NEAR * self.size)
+    }
+}
+
+/// A structure under loads that stay, and others that grow with a factor.
+pub struct Growing<'a> {
+    /// The structure under some factor.
+    pub at: &'a dyn Fn(f64) -> Model,
+    /// The system of the structure under the loads that stay.
+    pub system: &'a System,
+    /// The resultants of a factor of one, `N^T f` of all blocks \[N\].
+    pub growth: &'a [f64],
+}
+
+/// The largest value of a linear function of admissible forces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Extreme {
+    /// What forces reach, and what by a motion no forces exceed \[N\].
+    Value {
+        /// The first.
+        value: f64,
+        /// The second.
+        bound: f64,
+    },
+    /// Forces that balance one another make it as large as one likes.
+    Unlimited,
+    /// Neither came out.
+    Open,
+}
+
+/// The largest value of `of_rows . t` over the admissible forces `t` of all rows of a system.
+///
+/// # Errors
+/// As [`Growing::largest`].
+pub fn extreme(
+    system: &System,
+    of_rows: &[f64],
+    observer: &mut Observer<'_>,
+) -> Result<Extreme, lcp::Error> {
+    let program = Program::of(system);
+    let gain = program.gain(of_rows);
+    let problem = program.greatest(&gain)?;
+    let mut best: Option<[f64; 2]> = None;
+    for engine in LINEAR {
+        let solution = engine.solve(&problem, MAX_STEPS, observer)?;
+        let (z, _) = problem.recover(&solution.t, &solution.y);
+        let (motion, columns) = z.split_at(program.unknowns());
+        let Some(forces) = program.admissible(columns) else { continue };
+        let value: f64 = forces.iter().zip(of_rows).map(|(force, gain)| force * gain).sum();
+        let bound = program.bound(motion, &gain);
+        if best.is_none_or(|[other, above]| (bound - value).abs() < (above - other).abs()) {
+            best = Some([value, bound]);
+        }
+        if (bound - value).abs() <= NEAR * program.unit() {
+            return Ok(Extreme::Value { value, bound });
+        }
+    }
+    let circulating = program.circulating(&gain);
+    let found = circulating.least_forces(observer)?;
+    Ok(match (circulating.admissible(&found.t), best) {
+        (Some(_), _) => Extreme::Unlimited,
+        (None, Some([value, bound])) => Extreme::Value { value, bound },
+        (None, None) => Extreme::Open,
+    })
+}
+
+impl Growing<'_> {
+    /// The largest factor that is not negative, between bounds. There are none where no factor can be carried, or any.
+    ///
+    /// # Errors
+    /// [`lcp::Error::NotFinite`] when the data of the scene overflow.
+    pub fn largest(&self, observer: &mut Observer<'_>) -> Result<Bounds, lcp::Error> {
+        let program = Program::growing(self.system, self.growth);
+        let problem = program.greatest(&[(program.forces(), 1.0)])?;
+        let mut bounds = Bounds::default();
+        for engine in LINEAR {
+            let solution = engine.solve(&problem, MAX_STEPS, observer)?;
+            let (z, _) = problem.recover(&solution.t, &solution.y);
+            let (motion, columns) = z.split_at(program.unknowns());
+            let factor = columns[program.forces()].max(0.0);
+            if let Some(forces) = program.admissible(columns)
+                && bounds.below.as_ref().is_none_or(|(below, _)| factor > *below)
+            {
+                bounds.below = Some((factor, forces));
+            }
+            bounds.size = program.size_of_factor().max(factor);
+            self.prove(&program, (factor, motion, columns), &mut bounds);
+            if bounds.is_closed() {
+                break;
+            }
+        }
+        Ok(bounds)
+    }
+
+    /// Takes the smallest factor that the motion, or one near it, proves to be too large.
+    fn prove(
+        &self,
+        program: &Program<'_>,
+        (factor, motion, columns): (f64, &[f64], &[f64]),
+        bounds: &mut Bounds,
+    ) {
+        let beyond: Vec<(f64, Model)> = BEYOND
+            .iter()
+            .map(|part| factor + part * bounds.size)
+            .map(|factor| (factor, (self.at)(factor)))
+            .collect();
+        let near = (motion, &columns[..program.edges()]);
+        for (k, motion) in sharpen::candidates(near, program.columns()).enumerate() {
+            if k >= ALWAYS && bounds.is_closed() {
+                return;
+            }
+            for (factor, model) in &beyond {
+                if bounds.above.as_ref().is_some_and(|(above, _)| above <= factor) {
+                    break;
+                }
+                if let Some(proof) = Proof::of(model, &motion[..3 * model.blocks.len()]) {
+                    bounds.above = Some((*factor, proof));
+                }
+            }
+        }
+    }
+}

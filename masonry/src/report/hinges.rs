@@ -1,0 +1,117 @@
+//! What the joints of a mechanism do: they turn about a hinge, slide, or come apart.
+
+use nalgebra::{Point2, Vector2};
+
+use crate::ids::JointId;
+use crate::model::{Anchor, Model};
+
+/// Joints that move by less than this part of the fastest are taken for closed. Chosen: hardly seen in a picture, and above what
+/// springs in joints make of a motion.
+const STILL: f64 = 1e-2;
+
+/// What a joint does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Yield {
+    /// It opens about a place that stays closed.
+    Hinge,
+    /// Its sides slide on each other.
+    Slides,
+    /// Its sides come apart.
+    Opens,
+}
+
+impl Yield {
+    /// Whether pictures mark it with a number: what comes apart is seen without.
+    pub fn is_marked(self) -> bool {
+        self != Self::Opens
+    }
+
+    /// What a reader is told: `hinge`, `slides`, `opens`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Hinge => "hinge",
+            Self::Slides => "slides",
+            Self::Opens => "opens",
+        }
+    }
+}
+
+/// A joint of a mechanism that yields.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct YieldingJoint {
+    /// The joint.
+    pub joint: JointId,
+    /// What it does.
+    pub does: Yield,
+    /// Where its sides touch, or its middle \[m\].
+    pub at: Point2<f64>,
+    /// How that place moves: the mean of both sides.
+    pub rate: Vector2<f64>,
+    /// The largest rate at which it opens, relative to the fastest joint.
+    pub opens: f64,
+    /// The largest rate at which it slides, relative to the fastest joint.
+    pub slides: f64,
+}
+
+/// What happens at a contact point.
+struct PointRate {
+    at: Point2<f64>,
+    mean: Vector2<f64>,
+    opens: f64,
+    slides: f64,
+    /// With associated flow a joint opens by `mu` times its slip, and still its sides touch.
+    lifts: f64,
+}
+
+/// The joints that yield in a mechanism, the displacement rates of the corners of all blocks, in the order of the joints.
+pub fn yielding(model: &Model, rates: &[Vec<Vector2<f64>>]) -> Vec<YieldingJoint> {
+    let mut of_joints: Vec<Vec<PointRate>> = model.joints.iter().map(|_| Vec::new()).collect();
+    for contact in &model.contacts {
+        let joint = &model.joints[contact.joint.index()];
+        let front = rate_at(rates, contact.b);
+        let behind = contact.a.map_or_else(Vector2::zeros, |anchor| rate_at(rates, anchor));
+        let apart = front - behind;
+        let slides = apart.dot(&joint.tangent()).abs();
+        of_joints[contact.joint.index()].push(PointRate {
+            at: contact.position,
+            mean: 0.5 * (front + behind),
+            opens: apart.dot(&joint.normal).max(0.0),
+            slides,
+            lifts: contact.law.mu * slides,
+        });
+    }
+    let fastest = of_joints.iter().flatten().map(|it| it.opens.max(it.slides)).fold(0.0, f64::max);
+    let joints = of_joints.iter().enumerate();
+    joints.filter_map(|(index, points)| of_joint(JointId::new(index), points, fastest)).collect()
+}
+
+/// What a joint does with these points; `None` where it stays as it is.
+fn of_joint(joint: JointId, points: &[PointRate], fastest: f64) -> Option<YieldingJoint> {
+    let still = STILL * fastest;
+    let largest = |of: fn(&PointRate) -> f64| points.iter().map(of).fold(0.0, f64::max);
+    let (opens, slides) = (largest(|it| it.opens), largest(|it| it.slides));
+    if opens.max(slides) <= still || fastest <= 0.0 {
+        return None;
+    }
+    let touching: Vec<&PointRate> =
+        points.iter().filter(|it| it.opens <= it.lifts + still).collect();
+    let does = if touching.is_empty() {
+        Yield::Opens
+    } else if touching.iter().any(|it| it.slides > still) {
+        Yield::Slides
+    } else {
+        Yield::Hinge
+    };
+    let places = if touching.is_empty() { points.iter().collect() } else { touching };
+    let share = 1.0 / places.len() as f64;
+    let at: Vector2<f64> = places.iter().map(|it| it.at.coords * share).sum();
+    let rate: Vector2<f64> = places.iter().map(|it| it.mean * share).sum();
+    let (opens, slides) = (opens / fastest, slides / fastest);
+    Some(YieldingJoint { joint, does, at: Point2::from(at), rate, opens, slides })
+}
+
+fn rate_at(rates: &[Vec<Vector2<f64>>], anchor: Anchor) -> Vector2<f64> {
+    let corners = &rates[anchor.block.index()];
+    let next = (anchor.edge + 1) % corners.len();
+    corners[anchor.edge] * (1.0 - anchor.at) + corners[next] * anchor.at
+}

@@ -1,0 +1,180 @@
+//! Arches: voussoirs between joints, by shape, with springings or piers.
+
+mod lines;
+mod place;
+
+use serde::{Deserialize, Serialize};
+
+pub(crate) use lines::lines;
+pub(crate) use place::{blocks, supports};
+
+use super::strict;
+
+/// An arch of voussoirs, from the left springing to the right.
+///
+/// The voussoirs are called `name/1`, `name/2` and so on, blocks of piers `name/left/1` and `name/right/1` from the bottom, and
+/// the supports below both ends `name/left` and `name/right`.
+///
+/// ```
+/// use masonry::scene::Arch;
+/// let arch = Arch::segmental("bridge", "stone", 4.0, 1.0, 0.4, 21).springing("joint");
+/// assert_eq!((arch.span, arch.rise), (Some(4.0), Some(1.0)));
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Arch {
+    /// Name of the arch.
+    pub name: String,
+    /// Name of the material of voussoirs and piers.
+    pub material: String,
+    /// What the intrados is, and which keys say where it runs.
+    pub shape: Shape,
+    /// The left end of the intrados \[length\].
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::some_pair"
+    )]
+    pub origin: Option<[f64; 2]>,
+    /// Distance of the ends of the intrados \[length\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub span: Option<f64>,
+    /// Height of the crown of the intrados above its ends \[length\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rise: Option<f64>,
+    /// Angle of a segmental arch at the centre of its circle \[degrees\], instead of the rise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub embrace_deg: Option<f64>,
+    /// Angle of the springings of a flat arch from the vertical \[degrees\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub skew_deg: Option<f64>,
+    /// Depth of the ring, of a flat arch its height \[length\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thickness: Option<f64>,
+    /// How many voussoirs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub voussoirs: Option<u32>,
+    /// The joints from left to right, each from the intrados to the extrados \[length\], where no shape gives them.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::some_segments"
+    )]
+    pub lines: Option<Vec<Line>>,
+    /// The class of the joints within the arch, instead of `bed` and `head`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub joint: Option<String>,
+    /// The class of the joints with rigid supports below both ends; without it there are none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub springing: Option<String>,
+    /// Piers or buttresses below both ends.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::some_table"
+    )]
+    pub piers: Option<Piers>,
+    /// Elements of every block; required when the material is elastic.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::some_pair"
+    )]
+    pub mesh: Option<[u32; 2]>,
+}
+
+/// A joint from the intrados to the extrados \[length\].
+pub type Line = [[f64; 2]; 2];
+
+/// The shape of an arch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum Shape {
+    /// An arc of a circle: `span`, and `rise` or `embrace_deg`; joints towards the centre.
+    Segmental,
+    /// Half a circle: `span`.
+    Semicircular,
+    /// Two arcs that meet at the crown: `span` and `rise`; an even number of voussoirs.
+    Pointed,
+    /// A straight intrados: `span` and `skew_deg`; joints towards one point below.
+    Flat,
+    /// The joints are given: `lines`.
+    Joints,
+}
+
+/// Piers below both ends of an arch. The inner face is in line with the end of the intrados; where the springing is inclined, a
+/// block with that face lies on top.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Piers {
+    /// Width of a pier \[length\].
+    pub width: f64,
+    /// Height up to the end of the intrados \[length\].
+    pub height: f64,
+    /// Blocks on top of each other up to there.
+    pub courses: u32,
+}
+
+impl Arch {
+    /// An arc of a circle by span and rise of the intrados, thickness \[length\] and number of voussoirs.
+    pub fn segmental(
+        name: &str,
+        material: &str,
+        span: f64,
+        rise: f64,
+        thickness: f64,
+        voussoirs: u32,
+    ) -> Self {
+        Self {
+            rise: Some(rise),
+            ..Self::new((name, material), Shape::Segmental, span, thickness, voussoirs)
+        }
+    }
+
+    /// Half a circle by the span of the intrados, thickness \[length\] and number of voussoirs.
+    pub fn semicircular(
+        name: &str,
+        material: &str,
+        span: f64,
+        thickness: f64,
+        voussoirs: u32,
+    ) -> Self {
+        Self::new((name, material), Shape::Semicircular, span, thickness, voussoirs)
+    }
+
+    /// Puts rigid supports below both ends, whose joints are of a class.
+    #[must_use]
+    pub fn springing(mut self, joint: &str) -> Self {
+        self.springing = Some(joint.to_owned());
+        self
+    }
+
+    fn new(
+        (name, material): (&str, &str),
+        shape: Shape,
+        span: f64,
+        thickness: f64,
+        voussoirs: u32,
+    ) -> Self {
+        Self {
+            name: name.to_owned(),
+            material: material.to_owned(),
+            shape,
+            origin: None,
+            span: Some(span),
+            rise: None,
+            embrace_deg: None,
+            skew_deg: None,
+            thickness: Some(thickness),
+            voussoirs: Some(voussoirs),
+            lines: None,
+            joint: None,
+            springing: None,
+            piers: None,
+            mesh: None,
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! The joints of an arch.
+
+use nalgebra::Point2;
+
+use super::{Arch, Line, Shape};
+use crate::geometry;
+use crate::scene::rules::{missing, positive, unwanted, value};
+use crate::scene::{ArchError, Fault, KeyPath, SceneErrorKind};
+
+/// The joints from the left springing to the right, each from the intrados to the extrados \[length\].
+pub(crate) fn lines(arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
+    refuse_others(arch, at)?;
+    if arch.shape == Shape::Joints {
+        return given(arch, at);
+    }
+    let size = Size::of(arch, at)?;
+    match arch.shape {
+        Shape::Segmental => {
+            let half = half_angle(arch, at, size.span)?;
+            let radius = 0.5 * size.span / half.sin();
+            let centre = size.place([0.5 * size.span, -radius * half.cos()]);
+            Ok(size.fan(centre, radius, [-half, half], size.count))
+        }
+        Shape::Semicircular => {
+            let (centre, half) = (size.place([0.5 * size.span, 0.0]), 0.5 * std::f64::consts::PI);
+            Ok(size.fan(centre, 0.5 * size.span, [-half, half], size.count))
+        }
+        Shape::Pointed => size.pointed(arch, at),
+        Shape::Flat | Shape::Joints => size.flat(arch, at),
+    }
+}
+
+/// The joints as they are given, where they bound voussoirs.
+fn given(arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
+    let because = "for `shape = \"joints\"`";
+    let remedy = "lines = [[[0.0, 0.0], [0.0, 0.2]], [[0.5, 0.0], [0.5, 0.2]]]";
+    let lines = arch.lines.clone().ok_or_else(|| missing(at, "lines", because, remedy))?;
+    let at = at.key("lines");
+    let wanted = "give at least two joints, between which there is a voussoir";
+    value(at.clone(), lines.len() as f64, lines.len() >= 2, wanted)?;
+    for (k, [from, to]) in lines.iter().enumerate() {
+        let [x, y] = *from;
+        if (x - to[0]).abs().max((y - to[1]).abs()) <= 0.0 {
+            return Err(Fault::new(at.item(k), ArchError::NoLength { x, y }.into()));
+        }
+    }
+    for (k, pair) in lines.windows(2).enumerate() {
+        let corners = [pair[0][0], pair[1][0], pair[1][1], pair[0][1]];
+        if geometry::check_convex(&corners.map(Point2::from)).is_err() {
+            return Err(Fault::new(at.item(k + 1), ArchError::NoVoussoir { number: k + 1 }.into()));
+        }
+    }
+    let [x, y] = arch.origin.unwrap_or_default();
+    let moved = |[px, py]: [f64; 2]| [x + px, y + py];
+    Ok(lines.into_iter().map(|line| line.map(moved)).collect())
+}
+
+/// Keys that belong to other shapes.
+fn refuse_others(arch: &Arch, at: &KeyPath) -> Result<(), Fault> {
+    use Shape::{Flat, Joints, Pointed, Segmental, Semicircular};
+    let circles = [Segmental, Semicircular, Pointed, Flat];
+    let keys: [(&'static str, bool, &[Shape]); 7] = [
+        ("span", arch.span.is_some(), &circles),
+        ("thickness", arch.thickness.is_some(), &circles),
+        ("voussoirs", arch.voussoirs.is_some(), &circles),
+        ("rise", arch.rise.is_some(), &[Segmental, Pointed]),
+        ("embrace_deg", arch.embrace_deg.is_some(), &[Segmental]),
+        ("skew_deg", arch.skew_deg.is_some(), &[Flat]),
+        ("lines", arch.lines.is_some(), &[Joints]),
+    ];
+    let because = "follows from the shape or has no meaning for it";
+    match keys.iter().find(|(_, given, shapes)| *given && !shapes.contains(&arch.shape)) {
+        Some((key, ..)) => Err(unwanted(at, key, because, ", or choose another `shape`")),
+        None => Ok(()),
+    }
+}
+
+/// What all shapes but given joints have.
+struct Size {
+    origin: [f64; 2],
+    span: f64,
+    thickness: f64,
+    count: u32,
+}
+
+/// Voussoirs of one arch, at most.
+const MOST: u32 = 10_000;
+
+impl Size {
+    fn of(arch: &Arch, at: &KeyPath) -> Result<Self, Fault> {
+        let because = "for this shape";
+        let span = arch.span.ok_or_else(|| missing(at, "span", because, "span = 2.0"))?;
+        positive(at.key("span"), span)?;
+        let thickness =
+            arch.thickness.ok_or_else(|| missing(at, "thickness", because, "thickness = 0.3"))?;
+        positive(at.key("thickness"), thickness)?;
+        let count =
+            arch.voussoirs.ok_or_else(|| missing(at, "voussoirs", because, "voussoirs = 11"))?;
+        let wanted = "an arch has between 1 and 10000 voussoirs";
+        value(at.key("voussoirs"), f64::from(count), (1..=MOST).contains(&count), wanted)?;
+        Ok(Self { origin: arch.origin.unwrap_or_default(), span, thickness, count })
+    }
+
+    fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.origin[0] + x, self.origin[1] + y]
+    }
+
+    /// Joints towards a centre, at equal angles from the vertical.
+    fn fan(&self, [x, y]: [f64; 2], radius: f64, [from, to]: [f64; 2], count: u32) -> Vec<Line> {
+        let at = |radius: f64, angle: f64| [x + radius * angle.sin(), y + radius * angle.cos()];
+        let angle = |k: u32| from + (to - from) * f64::from(k) / f64::from(count);
+        (0..=count).map(|k| [radius, radius + self.thickness].map(|r| at(r, angle(k)))).collect()
+    }
+
+    /// Two arcs about centres at the height of the springings, and a vertical joint at the crown.
+    fn pointed(&self, arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
+        let because = "for a pointed arch";
+        let rise = arch.rise.ok_or_else(|| missing(at, "rise", because, "rise = 2.0"))?;
+        positive(at.key("rise"), rise)?;
+        let (half, count) = (0.5 * self.span, self.count);
+        if rise <= half {
+            return Err(Fault::new(at.key("rise"), ArchError::TooLow { rise, least: half }.into()));
+        }
+        if !count.is_multiple_of(2) {
+            let error = ArchError::Odd { count, even: count + 1 };
+            return Err(Fault::new(at.key("voussoirs"), error.into()));
+        }
+        let radius = (half * half + rise * rise) / self.span;
+        let outer = radius + self.thickness;
+        // From the left centre, which lies to the right of the left springing, to the crown.
+        let across = radius - half;
+        let crown = [rise, (outer * outer - across * across).sqrt()].map(|y| self.place([half, y]));
+        let angle = -(across / radius).asin();
+        let quarter = -0.5 * std::f64::consts::PI;
+        let mut lines = self.fan(self.place([radius, 0.0]), radius, [quarter, angle], count / 2);
+        lines.pop();
+        let mirrored = |[x, y]: [f64; 2]| [2.0 * self.origin[0] + self.span - x, y];
+        let right: Vec<Line> = lines.iter().rev().map(|line| line.map(mirrored)).collect();
+        lines.push(crown);
+        lines.extend(right);
+        Ok(lines)
+    }
+
+    /// Joints at equal distances along the intrados, towards one point below its middle.
+    fn flat(&self, arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
+        let because = "for a flat arch";
+        let skew =
+            arch.skew_deg.ok_or_else(|| missing(at, "skew_deg", because, "skew_deg = 20.0"))?;
+        let wanted = "the springings of a flat arch lean by at least 0 and at most 80 degrees";
+        value(at.key("skew_deg"), skew, (0.0..=80.0).contains(&skew), wanted)?;
+        let widened = self.thickness * skew.to_radians().tan();
+        let joint = |k: u32| {
+            let part = f64::from(k) / f64::from(self.count);
+            let outwards = widened * (2.0 * part - 1.0);
+            [[part * self.span, 0.0], [part * self.span + outwards, self.thickness]]
+                .map(|place| self.place(place))
+        };
+        Ok((0..=self.count).map(joint).collect())
+    }
+}
+
+/// Half the angle of an arc at its centre \[rad\].
+fn half_angle(arch: &Arch, at: &KeyPath, span: f64) -> Result<f64, Fault> {
+    match (arch.rise, arch.embrace_deg) {
+        (Some(_), Some(_)) => {
+            let (first, second) = ("rise", "embrace_deg");
+            Err(Fault::new(at.key(second), SceneErrorKind::Both { first, second }))
+        }
+        (None, None) => {
+            let (first, second) = ("rise", "embrace_deg");
+            Err(Fault::new(at.clone(), SceneErrorKind::Neither { first, second }))
+        }
+        (Some(rise), None) => {
+            positive(at.key("rise"), rise)?;
+            let largest = 0.5 * span;
+            if rise > largest {
+                return Err(Fault::new(
+                    at.key("rise"),
+                    ArchError::TooHigh { rise, largest }.into(),
+                ));
+            }
+            Ok(2.0 * (rise / largest).atan())
+        }
+        (None, Some(embrace)) => {
+            let wanted = "an arc of a circle embraces more than 0 and at most 180 degrees";
+            value(at.key("embrace_deg"), embrace, embrace > 0.0 && embrace <= 180.0, wanted)?;
+            Ok(0.5 * embrace.to_radians())
+        }
+    }
+}

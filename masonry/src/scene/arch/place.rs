@@ -1,0 +1,112 @@
+//! The blocks and supports of an arch.
+
+use super::{Arch, Line, Piers, lines};
+use crate::rounding::rounded;
+use crate::scene::rules::{positive, value};
+use crate::scene::{ArchError, Fault, KeyPath, Scene, Support};
+
+/// A springing that rises by less than this part of its length is level.
+const LEVEL: f64 = 1e-9;
+/// Blocks of one pier, at most.
+const MOST: u32 = 10_000;
+
+/// The name of a block and its corners \[length\].
+type Named = (String, [[f64; 2]; 4]);
+
+/// The blocks of an arch with their names, voussoirs from the left first \[length\].
+pub(crate) fn blocks(arch: &Arch, at: &KeyPath) -> Result<Vec<Named>, Fault> {
+    let lines = lines(arch, at)?;
+    let mut blocks = Vec::new();
+    for (k, pair) in lines.windows(2).enumerate() {
+        let [[from_in, from_out], [to_in, to_out]] = [pair[0], pair[1]];
+        let corners = [from_in, to_in, to_out, from_out];
+        blocks.push((format!("{}/{}", arch.name, k + 1), corners));
+    }
+    let Some(piers) = arch.piers else { return Ok(blocks) };
+    for (side, sign, line) in ends(&lines) {
+        let pier = pier(&piers, &at.key("piers"), (side, sign), line)?;
+        let named = |(k, corners)| (format!("{}/{side}/{}", arch.name, k + 1), corners);
+        blocks.extend(pier.into_iter().enumerate().map(named));
+    }
+    Ok(blocks)
+}
+
+/// The supports below both ends: along the springings, or below the piers. None without a class.
+pub(crate) fn supports(arch: &Arch, at: &KeyPath) -> Result<Vec<Support>, Fault> {
+    let Some(class) = &arch.springing else { return Ok(Vec::new()) };
+    let lines = lines(arch, at)?;
+    let support = |(side, sign, [inner, outer]): (&str, f64, Line)| {
+        let (from, to) = match arch.piers {
+            Some(Piers { width, height, .. }) => {
+                let y = inner[1] - height;
+                ([inner[0], y], [inner[0] + sign * width, y])
+            }
+            None => (inner, outer),
+        };
+        Support::new(&format!("{}/{side}", arch.name), from, to, class)
+    };
+    Ok(ends(&lines).map(support).into())
+}
+
+impl Scene {
+    /// All supports: those of the scene, then those below its arches. An arch that cannot be built, which
+    /// [`Scene::check`] refuses, has none.
+    pub fn all_supports(&self) -> Vec<Support> {
+        let of_arches = self.arches.iter().enumerate().flat_map(|(k, arch)| {
+            supports(arch, &KeyPath::of("arches").item(k)).unwrap_or_default()
+        });
+        self.supports.iter().cloned().chain(of_arches).collect()
+    }
+
+    /// The materials of all walls, arches and blocks, by name.
+    pub(crate) fn used_materials(&self) -> impl Iterator<Item = &str> {
+        let of_walls = self.walls.iter().map(|wall| &wall.material);
+        let of_arches = self.arches.iter().map(|arch| &arch.material);
+        let of_blocks = self.blocks.iter().map(|block| &block.material);
+        of_walls.chain(of_arches).chain(of_blocks).map(String::as_str)
+    }
+}
+
+/// Both springings, each with the direction in which its pier lies.
+fn ends(lines: &[Line]) -> [(&'static str, f64, Line); 2] {
+    [("left", -1.0, lines[0]), ("right", 1.0, lines[lines.len() - 1])]
+}
+
+/// The blocks of a pier from the bottom, and the one with the face of the springing.
+fn pier(
+    piers: &Piers,
+    at: &KeyPath,
+    (side, sign): (&'static str, f64),
+    [inner, outer]: Line,
+) -> Result<Vec<[[f64; 2]; 4]>, Fault> {
+    let Piers { width, height, courses } = *piers;
+    positive(at.key("width"), width)?;
+    positive(at.key("height"), height)?;
+    let wanted = "a pier has between 1 and 10000 blocks";
+    value(at.key("courses"), f64::from(courses), (1..=MOST).contains(&courses), wanted)?;
+    let (reach, rises) = (sign * (outer[0] - inner[0]), outer[1] - inner[1]);
+    let level = LEVEL * reach.hypot(rises);
+    if rises < -level || reach < -level {
+        return Err(Fault::new(at.clone(), ArchError::Overhang { side }.into()));
+    }
+    let is_level = rises <= level;
+    if width < reach - level || (!is_level && width <= reach + level) {
+        let error = ArchError::NarrowPier { width, least: rounded(reach) };
+        return Err(Fault::new(at.key("width"), error.into()));
+    }
+    let far = inner[0] + sign * width;
+    let (left, right) = (far.min(inner[0]), far.max(inner[0]));
+    let level_at = |k: u32| inner[1] - height * f64::from(courses - k) / f64::from(courses);
+    let mut blocks: Vec<[[f64; 2]; 4]> = (0..courses)
+        .map(|k| [level_at(k), level_at(k + 1)])
+        .map(|[low, high]| [[left, low], [right, low], [right, high], [left, high]])
+        .collect();
+    if !is_level {
+        blocks.push(if sign < 0.0 {
+            [[far, inner[1]], inner, outer, [far, outer[1]]]
+        } else {
+            [inner, [far, inner[1]], [far, outer[1]], outer]
+        });
+    }
+    Ok(blocks)
+}

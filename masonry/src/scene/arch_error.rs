@@ -1,0 +1,73 @@
+//! What is impossible about an arch.
+
+/// What is impossible about an arch. Lengths are in units of the scene.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ArchError {
+    /// A segmental arch higher than half a circle.
+    #[error(
+        "a rise of {rise} is more than that of half a circle of this span: give at most {largest}, or \
+         `shape = \"pointed\"`"
+    )]
+    TooHigh {
+        /// The rise.
+        rise: f64,
+        /// Half the span.
+        largest: f64,
+    },
+    /// A pointed arch that would have no point.
+    #[error(
+        "a rise of {rise} leaves no point at the crown: a pointed arch of this span rises by more than {least}; give \
+         more, or `shape = \"segmental\"`"
+    )]
+    TooLow {
+        /// The rise.
+        rise: f64,
+        /// Half the span.
+        least: f64,
+    },
+    /// A pointed arch with a voussoir at the crown.
+    #[error(
+        "{count} voussoirs would put one across the point, where it is not convex: give an even number, such as {even}"
+    )]
+    Odd {
+        /// How many.
+        count: u32,
+        /// The next even number.
+        even: u32,
+    },
+    /// A joint whose ends coincide.
+    #[error("the joint has no length, for both of its ends are [{x}, {y}]: move one of them")]
+    NoLength {
+        /// Coordinate of the ends.
+        x: f64,
+        /// Coordinate of the ends.
+        y: f64,
+    },
+    /// Two joints with no voussoir between them.
+    #[error(
+        "this joint and the one before bound no convex voussoir (number {number}): list joints from left to right, each \
+         from the intrados to the extrados, such that no two cross"
+    )]
+    NoVoussoir {
+        /// The voussoir, from 1.
+        number: usize,
+    },
+    /// A pier on which the springing has no room.
+    #[error("a pier {width} wide does not reach below the springing: give more than {least}")]
+    NarrowPier {
+        /// Its width.
+        width: f64,
+        /// How far the springing reaches from the end of the intrados.
+        least: f64,
+    },
+    /// A springing that leans over the opening.
+    #[error(
+        "piers need a springing that rises outwards from the intrados, and the {side} one does not: turn the {side} \
+         joint of `lines`"
+    )]
+    Overhang {
+        /// `left` or `right`.
+        side: &'static str,
+    },
+}

@@ -1,0 +1,37 @@
+//! A JSON file with single blocks, such as other programs write: their corners and material.
+
+use serde::Deserialize;
+
+use super::source::{List, Place};
+use super::{Block, strict};
+
+/// A block as the list has it.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Listed {
+    #[serde(default)]
+    name: Option<String>,
+    material: String,
+    #[serde(deserialize_with = "strict::corners")]
+    corners: Vec<[f64; 2]>,
+    #[serde(default, deserialize_with = "strict::some_pair")]
+    mesh: Option<[u32; 2]>,
+}
+
+/// The blocks of a list. Those without a name are called by the name of the file and their number in the list.
+///
+/// # Errors
+/// What does not fit the format, and where.
+pub(super) fn blocks(list: &List) -> Result<Vec<Block>, (String, Option<Place>)> {
+    let listed: Vec<Listed> = serde_json::from_str(&list.text).map_err(|error| {
+        let message = error.to_string();
+        let message = message.rsplit_once(" at line ").map_or(&*message, |(what, _)| what);
+        (message.to_owned(), Place::at(&list.text, error.line(), error.column()))
+    })?;
+    let stem = list.path.file_stem().map_or("blocks".into(), |stem| stem.to_string_lossy());
+    let block = |(number, Listed { name, material, corners, mesh }): (usize, Listed)| {
+        let name = name.unwrap_or_else(|| format!("{stem}/{number}"));
+        Block { name, material, corners, mesh }
+    };
+    Ok((1..).zip(listed).map(block).collect())
+}

@@ -1,0 +1,40 @@
+//! Checks of arches.
+
+use super::{Check, check_mesh, point, value};
+use crate::scene::{Arch, Fault, Joint, KeyPath, Scene, SceneErrorKind, arch};
+
+impl Scene {
+    /// Arches that can be built, and their names.
+    pub(super) fn check_arches(&self) -> Check {
+        for (k, arch) in self.arches.iter().enumerate() {
+            self.check_arch(&KeyPath::of("arches").item(k), arch)?;
+        }
+        Ok(())
+    }
+
+    fn check_arch(&self, at: &KeyPath, arch: &Arch) -> Check {
+        let material = self.material_of(at, &arch.material)?;
+        point(&at.key("origin"), arch.origin.unwrap_or_default())?;
+        for (k, line) in arch.lines.iter().flatten().enumerate() {
+            point(&at.key("lines").item(k).item(0), line[0])?;
+            point(&at.key("lines").item(k).item(1), line[1])?;
+        }
+        for (key, class) in [("joint", &arch.joint), ("springing", &arch.springing)] {
+            let Some(class) = class else { continue };
+            self.check_class(at.key(key), class)?;
+            let mortar = self.joints.get(class).map_or(0.0, Joint::mortar_thickness);
+            let wanted = "the joints of an arch are dry: name a class whose `thickness` is 0";
+            value(at.key(key), mortar, mortar <= 0.0, wanted)?;
+        }
+        check_mesh(at, arch.mesh, material)?;
+        arch::blocks(arch, at)?;
+        for support in arch::supports(arch, at)? {
+            if let Some(k) = self.supports.iter().position(|it| it.name == support.name) {
+                let first = KeyPath::of("supports").item(k).to_string();
+                let kind = SceneErrorKind::Duplicate { what: "support", name: support.name, first };
+                return Err(Fault::new(at.key("name"), kind));
+            }
+        }
+        Ok(())
+    }
+}

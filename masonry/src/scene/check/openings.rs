@@ -1,0 +1,95 @@
+//! Checks of openings.
+
+use super::{Check, MAGNITUDES, not_negative, positive, value};
+use crate::rounding::rounded;
+use crate::scene::bond::{JointThickness, taken};
+use crate::scene::{Fault, KeyPath, Opening, OpeningError, Wall};
+
+/// What rounding makes of a length, relative to a brick.
+const ROUNDING: f64 = 1e-9;
+
+/// Openings inside their wall, whose lintels rest on it and that do not meet.
+pub(super) fn check(
+    at: &KeyPath,
+    wall: &Wall,
+    joints: JointThickness,
+    (width, courses): (f64, u32),
+) -> Check {
+    for (k, opening) in wall.openings.iter().enumerate() {
+        let at = at.key("openings").item(k);
+        check_place(&at, wall, opening, (width, courses))?;
+        let others = wall.openings[..k].iter().enumerate();
+        for (other, before) in others {
+            let rows = |it: &Opening| it.rows().start..it.rows().end + 1;
+            let (a, b) = (rows(opening), rows(before));
+            let shared = a.start.max(b.start)..a.end.min(b.end);
+            let meets = |course: &usize| {
+                let gap = |it: &Opening| taken(wall, joints, it, *course).map(|(gap, _)| gap);
+                let both = gap(opening).zip(gap(before));
+                both.is_some_and(|([a, b], [c, d])| a < d - ROUNDING && c < b - ROUNDING)
+            };
+            if let Some(course) = shared.into_iter().find(meets) {
+                let error = OpeningError::Meets { other, course: course + 1 };
+                return Err(Fault::new(at, error.into()));
+            }
+        }
+    }
+    for k in 0..wall.openings.len() {
+        check_lintel(&at.key("openings").item(k), wall, k, (width, courses))?;
+    }
+    Ok(())
+}
+
+fn check_place(at: &KeyPath, wall: &Wall, opening: &Opening, (wide, high): (f64, u32)) -> Check {
+    let Opening { x, width, course, courses, bearing } = *opening;
+    not_negative(at.key("x"), x)?;
+    positive(at.key("width"), width)?;
+    let room = wide - x;
+    if width > room + ROUNDING * wall.brick.length {
+        let error = OpeningError::TooWide { width, x, wall: wide, room: rounded(room.max(0.0)) };
+        return Err(Fault::new(at.key("width"), error.into()));
+    }
+    let wanted = "courses are counted from 1";
+    value(at.key("course"), f64::from(course), course > 0, wanted)?;
+    let wanted = "an opening is at least one course high";
+    value(at.key("courses"), f64::from(courses), courses > 0, wanted)?;
+    let room = (high + 1).saturating_sub(course);
+    if courses > room {
+        let error = OpeningError::TooHigh { courses, first: course, wall: high, room };
+        return Err(Fault::new(at.key("courses"), error.into()));
+    }
+    let wanted =
+        "a lintel rests on some length of wall on both sides; leave the key out for half a brick";
+    bearing.map_or(Ok(()), |it| value(at.key("bearing"), it, MAGNITUDES.contains(&it), wanted))
+}
+
+/// The wall on both sides of an opening is as wide as its lintel needs: up to the end, or to another opening.
+fn check_lintel(at: &KeyPath, wall: &Wall, k: usize, (wide, high): (f64, u32)) -> Check {
+    let opening = &wall.openings[k];
+    let top = opening.rows().end;
+    if top >= high as usize {
+        return Ok(());
+    }
+    let others = wall
+        .openings
+        .iter()
+        .enumerate()
+        .filter(|(other, it)| *other != k && it.rows().contains(&(top - 1)));
+    let (mut left, mut right) = (opening.x, wide - opening.x - opening.width);
+    for (_, other) in others {
+        if other.x < opening.x {
+            left = left.min(opening.x - other.x - other.width);
+        } else {
+            right = right.min(other.x - opening.x - opening.width);
+        }
+    }
+    let bearing = opening.bearing_on(wall.brick.length);
+    for (side, room) in [("left", left), ("right", right)] {
+        if bearing > room + ROUNDING * wall.brick.length {
+            let (bearing, room) = (rounded(bearing), rounded(room.max(0.0)));
+            let error = OpeningError::NoBearing { side, bearing, room };
+            return Err(Fault::new(at.clone(), error.into()));
+        }
+    }
+    Ok(())
+}

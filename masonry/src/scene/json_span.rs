@@ -1,0 +1,27 @@
+//! Where in a JSON text a value is.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use serde_json::value::RawValue;
+
+use super::key_path::Step;
+
+/// The bytes of the value at the end of these steps, or of the innermost one around it.
+pub(super) fn locate(text: &str, steps: &[Step]) -> Option<Range<usize>> {
+    let mut value: &RawValue = serde_json::from_str(text).ok()?;
+    for step in steps {
+        let inner = match step {
+            Step::Key(key) => serde_json::from_str::<BTreeMap<String, &RawValue>>(value.get())
+                .ok()
+                .and_then(|table| table.get(key).copied()),
+            Step::Index(index) => serde_json::from_str::<Vec<&RawValue>>(value.get())
+                .ok()
+                .and_then(|list| list.get(*index).copied()),
+        };
+        let Some(inner) = inner else { break };
+        value = inner;
+    }
+    let start = value.get().as_ptr().addr() - text.as_ptr().addr();
+    Some(start..start + value.get().len())
+}

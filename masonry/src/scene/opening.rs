@@ -1,0 +1,122 @@
+//! Openings in walls, and how bricks are laid.
+
+use serde::{Deserialize, Serialize};
+
+use crate::rounding::rounded;
+
+/// How the bricks of a wall are laid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum Bond {
+    /// Every second course begins with a half brick.
+    #[default]
+    Running,
+    /// All courses are alike, and head joints lie above each other.
+    Stack,
+    /// Courses of whole bricks and courses of half bricks in turn, these with a quarter beside the first and the last: the face
+    /// of an English bond, with its stretchers, headers and closers.
+    English,
+}
+
+/// An opening in a wall, with a lintel above it.
+///
+/// Bricks are cut at its sides; a piece that would be shorter than a quarter of a brick is laid as one with its neighbour. The
+/// lintel is one block in the course above, a brick as any other for its name, and there is none where the opening
+/// reaches the top of the wall.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Opening {
+    /// Distance of its left side from the left end of the wall \[length\].
+    pub x: f64,
+    /// Its width \[length\].
+    pub width: f64,
+    /// Its lowest course, from 1; of a door the first.
+    #[serde(default = "first")]
+    pub course: u32,
+    /// Its height in courses.
+    pub courses: u32,
+    /// Length on which the lintel rests on either side \[length\], half a brick without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bearing: Option<f64>,
+}
+
+impl Opening {
+    /// The courses that it takes, from 0.
+    pub(crate) fn rows(&self) -> std::ops::Range<usize> {
+        let first = self.course.saturating_sub(1) as usize;
+        first..first.saturating_add(self.courses as usize)
+    }
+
+    /// Length on which the lintel rests on either side, where a whole brick has this length.
+    pub(crate) fn bearing_on(&self, brick: f64) -> f64 {
+        self.bearing.unwrap_or(0.5 * brick)
+    }
+}
+
+/// What is impossible about an opening. Lengths are in units of the scene.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OpeningError {
+    /// It reaches beyond the end of the wall.
+    #[error(
+        "an opening of {width} at x = {x} reaches beyond the wall, which is {wall} wide: give a width of at most {room}"
+    )]
+    TooWide {
+        /// Its width.
+        width: f64,
+        /// Where it begins.
+        x: f64,
+        /// Width of the wall.
+        wall: f64,
+        /// What is left of it there.
+        room: f64,
+    },
+    /// It reaches beyond the top of the wall.
+    #[error(
+        "an opening of {courses} courses from course {first} on reaches beyond the {wall} of the wall: give at most {room}"
+    )]
+    TooHigh {
+        /// Its height in courses.
+        courses: u32,
+        /// Its lowest course.
+        first: u32,
+        /// Courses of the wall.
+        wall: u32,
+        /// How many there are from its lowest one on.
+        room: u32,
+    },
+    /// The lintel rests on nothing.
+    #[error(
+        "the lintel would rest on {bearing} of wall on its {side}, and there are {room}: move the opening by at least \
+         {}{}", rounded(bearing - room), shorter(*room)
+    )]
+    NoBearing {
+        /// `left` or `right`.
+        side: &'static str,
+        /// What it is to rest on.
+        bearing: f64,
+        /// What there is.
+        room: f64,
+    },
+    /// Two openings, or an opening and a lintel, take the same place.
+    #[error(
+        "the opening or its lintel runs into openings[{other}] in course {course}: move them apart, or make one smaller"
+    )]
+    Meets {
+        /// The other one, from 0.
+        other: usize,
+        /// The course, from 1.
+        course: usize,
+    },
+}
+
+/// Another remedy, where there is some wall.
+fn shorter(room: f64) -> String {
+    if room > 0.0 { format!(", or give a `bearing` of at most {room}") } else { String::new() }
+}
+
+fn first() -> u32 {
+    1
+}

@@ -1,0 +1,66 @@
+//! Scenes from text and as text.
+
+use std::path::Path;
+
+use super::source::Source;
+use super::{Fault, KeyPath, Scene, SceneError, SceneErrorKind, block_list};
+
+impl Scene {
+    /// Reads a scene from TOML text and [checks](Scene::check) it.
+    ///
+    /// # Errors
+    /// What is wrong with the text or the data, with line and column.
+    pub fn from_toml(text: &str) -> Result<Self, SceneError> {
+        Self::parse(&Source::text(text))
+    }
+
+    /// Reads a scene from a TOML file and [checks](Scene::check) it.
+    ///
+    /// # Errors
+    /// [`SceneErrorKind::Read`] when the file cannot be read as UTF-8 text, else as
+    /// [`Scene::from_toml`], with the path of the file.
+    pub fn read(path: &Path) -> Result<Self, SceneError> {
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| SceneError::unreadable(path, &error.to_string()))?;
+        Self::parse(&Source::file(path, &text))
+    }
+
+    /// The scene as TOML text, which reads back as an equal scene.
+    ///
+    /// # Errors
+    /// [`SceneErrorKind::Write`] when TOML cannot hold a value.
+    pub fn to_toml(&self) -> Result<String, SceneError> {
+        toml::to_string(self).map_err(|error| SceneError::unwritable(&error.to_string()))
+    }
+
+    pub(super) fn without_source(&self) -> Self {
+        Self { source: Source::default(), ..self.clone() }
+    }
+
+    fn parse(source: &Source) -> Result<Self, SceneError> {
+        let mut scene = Self { source: source.clone(), ..Self::of(source)? };
+        if let Some(list) = &scene.block_list {
+            let source = source.with_list(list).map_err(|error| {
+                let (path, message) = (list.clone(), error.to_string());
+                Fault::new(KeyPath::of("block_list"), SceneErrorKind::BlockList { path, message })
+                    .locate(&scene)
+            })?;
+            scene = Self { source: source.clone(), ..Self::of(&source)? };
+        }
+        scene.check()?;
+        Ok(scene)
+    }
+
+    /// What a source says, with the blocks of its list.
+    pub(super) fn of(source: &Source) -> Result<Self, SceneError> {
+        let mut scene: Self =
+            toml::from_str(source.as_str()).map_err(|error| SceneError::syntax(source, &error))?;
+        if let Some(list) = source.list() {
+            let wrong =
+                |(message, place): (String, _)| SceneError::list(&list.path, &message, place);
+            scene.blocks.extend(block_list::blocks(list).map_err(wrong)?);
+            scene.block_list = None;
+        }
+        Ok(scene)
+    }
+}

@@ -1,0 +1,60 @@
+//! The JSON schema of scene files.
+
+use schemars::Schema;
+use schemars::generate::SchemaSettings;
+use schemars::transform::{Transform, transform_subschemas};
+
+use super::Scene;
+
+impl Scene {
+    /// The JSON schema of scene files (draft 2020-12), pretty-printed: keys, types, and what they mean. Editors complete and check
+    /// TOML by it. What needs more than one value, such as names that refer to others, only [`Scene::check`] knows.
+    ///
+    /// ```
+    /// assert!(masonry::Scene::schema().contains("\"title\""));
+    /// ```
+    pub fn schema() -> String {
+        let settings = SchemaSettings::draft2020_12().with_transform(PlainText);
+        let schema = settings.into_generator().into_root_schema_for::<Self>();
+        format!("{:#}\n", schema.as_value())
+    }
+}
+
+/// Descriptions without what only the documentation of Rust understands.
+#[derive(Debug, Clone)]
+struct PlainText;
+
+impl Transform for PlainText {
+    fn transform(&mut self, schema: &mut Schema) {
+        if let Some(text) = schema.get("description").and_then(|it| it.as_str()).map(plain) {
+            schema.insert("description".to_owned(), text.into());
+        }
+        transform_subschemas(self, schema);
+    }
+}
+
+/// Without examples, without the targets of links, and with brackets around units as they are meant.
+fn plain(text: &str) -> String {
+    let text = text.split("\n```").next().unwrap_or(text).trim_end();
+    let mut parts = text.split("](");
+    let mut plain = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        // The bracket of a link goes with its target.
+        if let Some(start) = plain.rfind('[') {
+            plain.remove(start);
+        }
+        plain += part.split_once(')').map_or(part, |(_, after)| after);
+    }
+    plain.replace("\\[", "[").replace("\\]", "]").replace('\n', " ").replace("  ", "\n\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn descriptions_are_plain() {
+        let text = "Length \\[length\\], of a\n[`block`](crate::scene::Block) or [wall](Wall).\n\nMore.\n\n```\nlet x = 1;\n```";
+        assert_eq!(plain(text), "Length [length], of a `block` or wall.\n\nMore.");
+    }
+}
