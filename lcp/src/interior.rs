@@ -4,6 +4,7 @@ mod balance;
 mod constants;
 mod continuation;
 mod evolution;
+mod evolved;
 mod homogeneous;
 mod iterate;
 mod least;
@@ -20,7 +21,8 @@ mod turn;
 
 use std::ops::ControlFlow;
 
-pub use evolution::{Evolution, EvolutionSettings, Evolved, Way};
+pub use evolution::{Evolution, EvolutionSettings};
+pub use evolved::{Evolved, Way};
 pub use least::LeastForces;
 pub use settings::InteriorPointSettings;
 

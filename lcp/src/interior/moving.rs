@@ -4,7 +4,7 @@ use super::constants::{
     BLUNT, FREE, LEAST_VISCOSITY, MOST_VISCOSITY, MOVED, SETTLING, SHARPER, SMOOTH, STEADIER,
     STEADY, STEADY_MOTIONS, TRIES,
 };
-use super::evolution::{Evolved, Way};
+use super::evolved::{Evolved, Way};
 use super::motion::{Motions, Moved, Viscosity, unresisted};
 use super::rest::settled;
 use super::start::{start, start_smooth};
