@@ -21,7 +21,6 @@ use lcp::Way;
 use masonry::analysis::outcome::Outcome;
 use masonry::analysis::solve::{Event, Run};
 use masonry::method::forms::Sparse;
-use masonry::method::statics::{self, Statics};
 use masonry::model::Model;
 use masonry::system::System;
 use walls::{Case, Wall};
@@ -40,8 +39,6 @@ const CASES: [Case; 10] = [
     Case::Settlement(5),
     Case::Settlement(20),
 ];
-/// Bisections of the largest tilt, between 0 and 2.
-const HALVINGS: usize = 14;
 
 fn main() {
     if !common::is_bench() {
@@ -60,7 +57,8 @@ fn main() {
         let mu = mu.parse().expect("a coefficient of friction");
         let cases = || CASES.into_iter().filter(|it| it.to_string().contains(&case));
         let is_tilted = cases().any(|it| matches!(it, Case::Tilt(_)));
-        let limit = if is_tilted { limit(&Wall { courses, mu, mesh: None }) } else { 0.0 };
+        let rigid = Wall { courses, mu, mesh: None };
+        let limit = if is_tilted { rigid.largest_tilt() } else { 0.0 };
         for bricks in bricks.as_deref().unwrap_or(BRICKS).split(',') {
             let wall = Wall { courses, mu, mesh: mesh(bricks) };
             let yardstick = yardstick(&wall);
@@ -82,23 +80,6 @@ fn option(name: &str) -> Option<String> {
 fn mesh(bricks: &str) -> Option<[u32; 2]> {
     let (nx, ny) = bricks.split_once('x')?;
     Some([nx, ny].map(|it| it.parse().expect("elements of a brick")))
-}
-
-/// The tangent of the tilt beyond which no forces within friction hold the wall.
-fn limit(wall: &Wall) -> f64 {
-    let stands = |tangent: f64| {
-        let model =
-            Model::from_scene(&wall.scene(Case::Tilt(1.0), tangent)).expect("a sound scene");
-        let system = System::new(&model).expect("sound blocks");
-        let decision = statics::decide(&model, &system, &mut |_| ControlFlow::Continue(()));
-        matches!(decision.expect("finite data").statics, Statics::Admissible(_))
-    };
-    let halved = |(low, high): (f64, f64), _| {
-        let middle = 0.5 * (low + high);
-        if stands(middle) { (middle, high) } else { (low, middle) }
-    };
-    let (low, high) = (0..HALVINGS).fold((0.0, 2.0), halved);
-    0.5 * (low + high)
 }
 
 /// Seconds of one Cholesky factorisation, symbolic and numeric, of a matrix with the pattern of the steps.

@@ -1,14 +1,20 @@
 //! The walls of the bench: bricks 2 : 1 in running bond, loaded and supported in the ways that are hardest to decide.
 
 use std::fmt;
+use std::ops::ControlFlow;
 
+use masonry::method::statics::{self, Statics};
+use masonry::model::Model;
 use masonry::scene::{
     Brick, Joint, Load, Material, Movement, Plane, Scene, Stage, Support, Wall as Bond,
 };
+use masonry::system::System;
 use masonry::units::{ForceUnit, LengthUnit, Units};
 
 const BRICK: Brick = Brick { length: 0.25, height: 0.125 };
 const GRAVITY: f64 = 9.81;
+/// Bisections of the largest tilt, between 0 and 2.
+const HALVINGS: usize = 14;
 
 /// What a wall has to bear.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,5 +96,22 @@ impl Wall {
                         .moves("right", Movement { x: 0.0, y: -0.004, turn: -0.004 }),
                 ),
         }
+    }
+
+    /// The tangent of the tilt beyond which no forces within friction hold the wall.
+    pub(crate) fn largest_tilt(&self) -> f64 {
+        let stands = |tangent: f64| {
+            let model =
+                Model::from_scene(&self.scene(Case::Tilt(1.0), tangent)).expect("a sound scene");
+            let system = System::new(&model).expect("sound blocks");
+            let decision = statics::decide(&model, &system, &mut |_| ControlFlow::Continue(()));
+            matches!(decision.expect("finite data").statics, Statics::Admissible(_))
+        };
+        let halved = |(low, high): (f64, f64), _| {
+            let middle = 0.5 * (low + high);
+            if stands(middle) { (middle, high) } else { (low, middle) }
+        };
+        let (low, high) = (0..HALVINGS).fold((0.0, 2.0), halved);
+        0.5 * (low + high)
     }
 }

@@ -9,6 +9,7 @@ mod homogeneous;
 mod iterate;
 mod least;
 mod motion;
+mod moving;
 mod path;
 mod problems;
 mod program;

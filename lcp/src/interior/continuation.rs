@@ -63,7 +63,7 @@ pub(super) fn follow(
 /// Of bodies that are at rest the motion has a part of the order of the spring, and their resistance is that
 /// of its square, far below that of the springs. Every body is looked at by itself: what a soft one resists
 /// would be lost in the rounding errors of a stiff one.
-pub(super) fn is_free(problem: &Scaled, motion: &[f64], spring: f64) -> bool {
+fn is_free(problem: &Scaled, motion: &[f64], spring: f64) -> bool {
     let body = bodies(problem);
     let mut resistance = vec![(0.0_f64, 0.0); motion.len()];
     for (j, v) in motion.iter().enumerate() {

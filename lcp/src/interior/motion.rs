@@ -3,13 +3,13 @@
 use faer::sparse::FaerError;
 
 use super::constants::{
-    FIRST_VISCOSITY, FLOWING, JERKS_GO_ON, JERKY, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS,
-    SAME_LENGTH, SLOWER,
+    FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS, MOVED, SAME_LENGTH,
+    SLOWER, SOFTEST,
 };
 use super::homogeneous::{Accuracy, Factors, solved};
 use super::program::{Program, associated};
 use crate::Status;
-use crate::states::Scaled;
+use crate::states::{Condensed, Scaled, Springs};
 
 /// Bodies that move with associated flow.
 ///
@@ -62,6 +62,27 @@ impl Motions {
     }
 }
 
+/// The part of motions that neither bodies nor closed contacts resist: what is left of them when a part of the viscosity
+/// acts on them as a stiffness.
+pub(super) fn unresisted(
+    problem: &Scaled,
+    condensed: &mut Condensed,
+    (motion, forces): (&[f64], &[(f64, f64)]),
+    viscosity: f64,
+) -> Vec<f64> {
+    let largest = forces.iter().fold(0.0_f64, |max, (t_n, _)| max.max(*t_n));
+    let closed = Springs { nn: 1.0, ..Springs::default() };
+    let spring = |(t_n, _): &(f64, f64)| {
+        if *t_n > MOVED * largest { closed } else { Springs::default() }
+    };
+    let springs: Vec<Springs> = forces.iter().map(spring).collect();
+    let stiffness = SOFTEST * viscosity;
+    condensed.factorise(problem, &springs, stiffness);
+    let mut left: Vec<f64> = motion.iter().map(|v| stiffness * v).collect();
+    condensed.solve(&mut left);
+    left
+}
+
 /// How viscous motions are: less and less, and as before while they become longer for it, until they are as short as
 /// before or go on for ever.
 pub(super) struct Viscosity {
@@ -103,44 +124,23 @@ impl Viscosity {
         self.same > FLOWING
     }
 
+    /// Whether it stays as it is.
+    pub(super) fn is_held(&self) -> bool {
+        self.held.is_some()
+    }
+
+    /// Takes motions of the same length for those of bodies that something soft resists.
+    pub(super) fn release(&mut self) {
+        (self.held, self.same) = (None, 0);
+    }
+
     /// For the next motion.
     pub(super) fn decrease(&mut self) {
-        if self.held.is_none() {
-            self.value /= LESS_VISCOUS;
-        }
+        self.value /= LESS_VISCOUS;
     }
 
     /// For a motion that cannot be computed otherwise.
     pub(super) fn increase(&mut self) {
         self.value *= MORE_VISCOUS;
-    }
-}
-
-/// Motions at the same viscosity that change from one to the next.
-#[derive(Debug)]
-pub(super) struct Jerks {
-    lengths: Vec<f64>,
-    /// What changes of one sense would have left of the first motion.
-    left: f64,
-}
-
-impl Default for Jerks {
-    fn default() -> Self {
-        Self { lengths: Vec::new(), left: 1.0 }
-    }
-}
-
-impl Jerks {
-    /// Takes the next motion, which differs from the one before by this part.
-    pub(super) fn follow(&mut self, motion: &[f64], change: f64) {
-        self.lengths.push(motion.iter().map(|v| v.abs()).sum());
-        self.left *= (1.0 - change).max(0.0);
-    }
-
-    /// Whether motions that change much do not become shorter.
-    pub(super) fn go_on(&self) -> bool {
-        let (early, late) = self.lengths.split_at(self.lengths.len() / 2);
-        let [early, late] = [early, late].map(|half| half.iter().sum::<f64>() / half.len() as f64);
-        self.left <= JERKY && late >= JERKS_GO_ON * early
     }
 }

@@ -1,6 +1,6 @@
 //! Where the iteration starts, and how it finds out how far bodies move.
 
-use super::constants::{FAR, HALF, OPENED, OPENINGS, WIDE};
+use super::constants::{FAR, HALF, MOST_FRICTION, OPENED, OPENINGS, WIDE};
 use super::iterate::{Iterate, Pairs};
 use super::path::{Ahead, advance};
 use crate::states::{Condensed, PROXIMAL, Scaled, Springs};
@@ -37,6 +37,26 @@ pub(super) fn start(problem: &Scaled, condensed: &mut Condensed, spring: f64) ->
         }
     });
     Iterate { points: points.collect(), u, smooth: 0.0 }
+}
+
+/// A start with smooth friction, whose forces are those of the slips of the start.
+///
+/// `(mu t_n + t_t) s_+ = (mu t_n - t_t) s_- = e mu t_n` makes the slip `s_+ - s_- = -2 e r / (1 - r^2)`, where
+/// `r = t_t / (mu t_n)`. `slip` is `e`.
+pub(super) fn start_smooth(problem: &Scaled, condensed: &mut Condensed, slip: f64) -> Iterate {
+    let mut at = start(problem, condensed, PROXIMAL);
+    at.smooth = slip;
+    if at.smooth > 0.0 {
+        for (point, pairs) in problem.points.iter().zip(&mut at.points).filter(|it| it.0.mu > 0.0) {
+            let slip = point.slip(&at.u) / at.smooth;
+            let share = -slip / (1.0 + (1.0 + slip * slip).sqrt());
+            let share = share.clamp(-MOST_FRICTION, MOST_FRICTION);
+            pairs.t_t = share * point.mu * pairs.t_n;
+            (pairs.slip_plus, pairs.slip_minus) =
+                (at.smooth / (1.0 + share), at.smooth / (1.0 - share));
+        }
+    }
+    at
 }
 
 /// A start for one more attempt, where those before went as far as `reached` in gaps and slips.

@@ -40,9 +40,12 @@ impl Method for Interior<'_> {
             InteriorPointSettings { tolerance: request.tolerance, start, ..Default::default() };
         let may_move = !problem.frictional().is_empty();
         let is_rigid = problem.stiffness().val().iter().all(|k| k.abs() <= 0.0);
-        let mut thorough = settings.clone();
+        let thorough = settings.clone();
         if may_move {
-            settings.max_iterations = auto::STEPS_BEFORE_MOTION;
+            settings.max_iterations = match self.start {
+                Some(_) => auto::STEPS_BETWEEN,
+                None => auto::STEPS_BEFORE_MOTION,
+            };
             settings.continuation = false;
         }
         // Between steps rigid bodies have no path, and where the step before moved this one will.
@@ -53,15 +56,12 @@ impl Method for Interior<'_> {
             path => path,
         };
         let moved = self.by_motion(path, request, observer)?;
-        if is_over(&moved) {
+        if is_over(&moved) || moved.info.status == Status::NoEquilibrium {
             return Ok(moved);
         }
-        // The path that did not get far in a few steps may still get there. How bodies fall is known where they flow.
-        thorough.continuation = moved.info.status != Status::NoEquilibrium;
+        // The path that did not get far in a few steps may still get there.
         let answer = self.by_path(thorough, observer)?;
-        let says_more =
-            answer.info.status == Status::Solved || moved.info.status != Status::NoEquilibrium;
-        Ok(if says_more { after(&moved.info, answer) } else { moved })
+        Ok(after(&moved.info, answer))
     }
 }
 
@@ -91,12 +91,16 @@ impl Interior<'_> {
         let problem = &self.sparse.problem;
         let rest = vec![0.0; problem.displacements()];
         let from = self.start.map_or(&rest, |state| &state.u);
-        let settings = EvolutionSettings {
+        let mut settings = EvolutionSettings {
             tolerance: request.tolerance,
             at_once: self.way != Way::Motion,
             max_iterations: auto::STEPS_OF_MOTION,
             ..EvolutionSettings::default()
         };
+        // From nowhere, friction that turns over long slips would hold blocks by forces that no loading leads to.
+        if self.start.is_none() {
+            settings.slips.truncate(1);
+        }
         let evolved = Evolution::new(settings)
             .advance_observed(problem, from, &mut |at| observer(at.into()))?;
         let line = described(&evolved);

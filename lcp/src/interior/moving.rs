@@ -1,0 +1,287 @@
+//! Bodies on their way: rest by smooth friction, and motions against viscosity.
+
+use super::constants::{
+    BLUNT, FREE, LEAST_VISCOSITY, MOST_VISCOSITY, MOVED, SETTLING, SHARPER, SMOOTH, STEADIER,
+    STEADY, STEADY_MOTIONS, TRIES,
+};
+use super::evolved::{Evolved, Way};
+use super::motion::{Motions, Moved, Viscosity, unresisted};
+use super::rest::settled;
+use super::start::{start, start_smooth};
+use crate::active::{Effort, Search, unplanned};
+use crate::lower::judged_point;
+use crate::solve::Monitor;
+use crate::states::{PROXIMAL, Point};
+use crate::vector::max_abs;
+use crate::{Certificate, Contact2d, Error, Method, SoftSprings, Solution, Status};
+
+/// Where bodies rest.
+enum Found {
+    /// The best point of the search solves the problem itself.
+    Law,
+    /// Displacements from which slips are measured, and the solution there.
+    Rest(Vec<f64>, Box<Solution>),
+}
+
+/// A state at rest with smooth friction, scaled.
+struct Settled {
+    found: Found,
+    /// The slip over which friction turns.
+    slip: f64,
+    /// The largest displacement on the way.
+    moved: f64,
+    dissipation: f64,
+}
+
+/// Bodies on their way.
+pub(super) struct Moving<'a, 'b> {
+    problem: &'a Contact2d,
+    tolerance: f64,
+    /// With slips from where the last motion ended.
+    search: Search<'a>,
+    monitor: Monitor<'b>,
+    /// Where they were at the beginning.
+    origin: Vec<f64>,
+    /// Where the last motion ended, and its forces by contact point.
+    at: Vec<f64>,
+    forces: Vec<(f64, f64)>,
+    /// What has stopped it.
+    limit: Option<Status>,
+    /// In units of the scaled problem.
+    dissipation: f64,
+}
+
+impl<'a, 'b> Moving<'a, 'b> {
+    pub(super) fn new(
+        problem: &'a Contact2d,
+        tolerance: f64,
+        search: Search<'a>,
+        monitor: Monitor<'b>,
+        from: &[f64],
+    ) -> Self {
+        let at = search.scaled.of_displacements(from);
+        let forces = vec![(0.0, 0.0); problem.points()];
+        let origin = at.clone();
+        let (limit, dissipation) = (None, 0.0);
+        Self { problem, tolerance, search, monitor, origin, at, forces, limit, dissipation }
+    }
+
+    /// Moves the bodies until they rest or flow; rest without a motion is looked for first if that is wanted.
+    pub(super) fn until_rest(mut self, slips: &[f64], at_once: bool) -> Result<Evolved, Error> {
+        let mut path = SoftSprings::default();
+        match at_once.then(|| self.rest(&slips[..slips.len().min(1)], true)).flatten() {
+            Some(Found::Law) => return Ok(self.by_law(path)),
+            Some(Found::Rest(from, solution)) => {
+                return Ok(self.concluded((Way::SmoothFriction, from, *solution), path));
+            }
+            None => {}
+        }
+        let mut motions =
+            Motions::of(&self.search.scaled).map_err(|it| unplanned(Method::Interior, it))?;
+        let load: f64 = self.search.scaled.f.iter().map(|f| f.abs()).sum();
+        let (mut viscosity, mut tries) = (Viscosity::default(), 0);
+        // Where the motions with the present viscosity began.
+        let mut since = self.at.clone();
+        let status = loop {
+            if let Some(limit) = self.limit {
+                break limit;
+            }
+            let Some(velocity) = self.motion(&mut motions, (viscosity.value, MOVED)) else {
+                viscosity.increase();
+                if viscosity.value > MOST_VISCOSITY {
+                    break self.limit.unwrap_or(Status::Stalled);
+                }
+                continue;
+            };
+            let length: f64 = velocity.iter().map(|v| v.abs()).sum();
+            viscosity.follow(length);
+            path.stiffness.push(viscosity.value);
+            path.shares.push(if load > 0.0 { viscosity.value * length / load } else { length });
+            path.motion = self.search.scaled.displacements(&velocity);
+            if viscosity.flows() {
+                if let Some(mechanism) = self.mechanism(&mut motions, viscosity.value, &since) {
+                    path.motion = self.search.scaled.displacements(&mechanism);
+                    let stopped = self.limit.filter(|it| *it != Status::IterationLimit);
+                    break stopped.unwrap_or(Status::NoEquilibrium);
+                }
+                viscosity.release();
+            }
+            if viscosity.may_rest() {
+                tries += 1;
+                let parts = if tries < TRIES { &slips[..slips.len().min(1)] } else { slips };
+                if let Some(Found::Rest(from, solution)) = self.rest(parts, false) {
+                    self.search.condensed.factorisations += motions.factorisations();
+                    return Ok(self.concluded((Way::Motion, from, *solution), path));
+                }
+            }
+            if tries == TRIES || viscosity.value <= LEAST_VISCOSITY {
+                break self.limit.unwrap_or(Status::Stalled);
+            }
+            if !viscosity.is_held() {
+                since.clone_from(&self.at);
+                viscosity.decrease();
+            }
+        };
+        self.search.condensed.factorisations += motions.factorisations();
+        self.given_up(path, status)
+    }
+
+    /// The state at rest that friction leads to which turns over one of these parts of the displacements of the start, with
+    /// slips from there; or the solution of the problem itself next to it, where that is wanted.
+    ///
+    /// Where bodies move hardly farther than friction needs to turn, it turns over a shorter slip: what vanishes with that
+    /// slip is no movement.
+    fn rest(&mut self, parts: &[f64], by_law: bool) -> Option<Found> {
+        let size = max_abs(&start(&self.search.scaled, &mut self.search.condensed, PROXIMAL).u);
+        let settled = parts.iter().find_map(|part| self.sharpened(part * size, by_law))?;
+        self.dissipation += settled.dissipation;
+        Some(settled.found)
+    }
+
+    fn sharpened(&mut self, slip: f64, by_law: bool) -> Option<Settled> {
+        let mut settled = self.settled(slip, by_law)?;
+        for _ in 1..SHARPER {
+            let shorter = SMOOTH[0] * settled.moved;
+            if settled.slip <= BLUNT * shorter || settled.slip >= settled.moved {
+                break;
+            }
+            settled = self.settled(shorter, by_law)?;
+        }
+        Some(settled)
+    }
+
+    /// The same with friction that turns over a slip, if the judge agrees.
+    fn settled(&mut self, slip: f64, by_law: bool) -> Option<Settled> {
+        let Self { problem, tolerance, search, monitor, limit, origin, .. } = self;
+        let (mut best, mut left) = (f64::INFINITY, SETTLING);
+        let go_on = |residual| {
+            (best, left) =
+                if residual <= 0.5 * best { (residual, SETTLING) } else { (best, left - 1) };
+            *limit = monitor.stop(residual);
+            limit.is_none() && left > 0
+        };
+        let Search { scaled, condensed, .. } = search;
+        let begin = start_smooth(scaled, condensed, slip);
+        let mut states = None;
+        let found = settled(scaled, condensed, begin, go_on, |condensed, at, (u, forces)| {
+            let from = scaled.displacements(&u);
+            let there = problem.after(&from).ok()?;
+            let mut other = Search::new(Method::Interior, &there, *tolerance).ok()?;
+            other.try_point((&u, &forces), Some(&Effort::held(PROXIMAL)));
+            condensed.factorisations += other.condensed.factorisations;
+            let solution = other.found()?;
+            let slid = |(point, (_, t_t)): (&Point, &(f64, f64))| -t_t * point.slip(&u);
+            let dissipation = scaled.points.iter().zip(&forces).map(slid).sum();
+            let moved = max_abs(&difference(&u, origin));
+            states = Some((at.u.clone(), at.forces(), at.contacts(scaled)));
+            let found = Found::Rest(from, Box::new(solution));
+            Some(Settled { found, slip, moved, dissipation })
+        });
+        if let Some((u, forces, contacts)) = states.filter(|_| by_law)
+            && search.cross_over((&u, &forces), contacts, &Effort::QUICK)
+        {
+            return Some(Settled { found: Found::Law, slip: 0.0, moved: 0.0, dissipation: 0.0 });
+        }
+        found
+    }
+
+    /// Takes the bodies to the end of one motion, from which slips are measured then, and gives its displacements; `None`
+    /// where it cannot be computed, or a limit is reached.
+    fn motion(
+        &mut self,
+        motions: &mut Motions,
+        (viscosity, accuracy): (f64, f64),
+    ) -> Option<Vec<f64>> {
+        let Self { search, monitor, at, limit, .. } = self;
+        let Moved { u, forces } =
+            motions.advance(&search.scaled, at, (viscosity, accuracy), |residual| {
+                *limit = monitor.stop(residual);
+                *limit
+            })?;
+        let velocity = difference(&u, &self.at);
+        self.dissipation += viscosity * square(&velocity);
+        for (point, (_, t_t)) in self.search.scaled.points.iter_mut().zip(&forces) {
+            self.dissipation -= t_t * point.slip(&u);
+            point.s_0 = -point.moved(&u).1;
+        }
+        (self.at, self.forces) = (u, forces);
+        Some(velocity)
+    }
+
+    /// How bodies flow whose motions have been of the same length `since` they were there; `None` where a soft spring or a
+    /// stop still resists, so that they may come to rest.
+    ///
+    /// A mechanism that does not change is followed until it is exact. Blocks that hit each other change it for ever: then
+    /// it is the mean of the motions, without what strains bodies and closes contacts.
+    fn mechanism(
+        &mut self,
+        motions: &mut Motions,
+        viscosity: f64,
+        since: &[f64],
+    ) -> Option<Vec<f64>> {
+        let total = difference(&self.at, since);
+        let Search { scaled, condensed, .. } = &mut self.search;
+        let mean = unresisted(scaled, condensed, (&total, &self.forces), viscosity);
+        let left: f64 = mean.iter().zip(&total).map(|(v, total)| v * total).sum();
+        if left < FREE * square(&total) {
+            return None;
+        }
+        let (mut last, mut change) = (self.motion(motions, (viscosity, STEADY)), f64::INFINITY);
+        for _ in 1..STEADY_MOTIONS {
+            let (Some(before), Some(velocity)) = (last, self.motion(motions, (viscosity, STEADY)))
+            else {
+                return Some(mean);
+            };
+            let changed = max_abs(&difference(&velocity, &before)) / max_abs(&velocity);
+            if changed > STEADIER * change {
+                return Some(mean);
+            }
+            (last, change) = (Some(velocity), changed);
+            if change <= STEADY {
+                break;
+            }
+        }
+        last
+    }
+
+    /// Where the bodies were when the last motion ended.
+    fn given_up(self, motions: SoftSprings, status: Status) -> Result<Evolved, Error> {
+        let scaled = &self.search.scaled;
+        let from = scaled.displacements(&self.at);
+        let problem = self.problem.after(&from)?;
+        let (t_n, t_t) =
+            self.forces.iter().map(|(n, t)| (n * scaled.force(), t * scaled.force())).unzip();
+        let pairs = problem.to_pairs(&problem.state(from.clone(), t_n, t_t));
+        let mut solution = judged_point(&problem, pairs, self.tolerance, status);
+        if solution.status == Status::NoEquilibrium {
+            solution.certificate = Some(Certificate::Springs(motions.clone()));
+        }
+        Ok(self.concluded((Way::Motion, from, solution), motions))
+    }
+
+    fn by_law(self, motions: SoftSprings) -> Evolved {
+        let solution = self.search.finish(Status::Stalled, self.monitor);
+        Evolved { way: Way::Law, from: None, solution, motions, dissipation: 0.0 }
+    }
+
+    fn concluded(
+        self,
+        (way, from, mut solution): (Way, Vec<f64>, Solution),
+        motions: SoftSprings,
+    ) -> Evolved {
+        let Search { scaled, condensed, .. } = &self.search;
+        let dissipation = self.dissipation * scaled.energy();
+        let factorisations = condensed.factorisations;
+        solution.info = self.monitor.info(Method::Interior);
+        solution.info.factorisations = factorisations;
+        Evolved { way, from: Some(from), solution, motions, dissipation }
+    }
+}
+
+fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+fn square(v: &[f64]) -> f64 {
+    v.iter().map(|v| v * v).sum()
+}

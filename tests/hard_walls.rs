@@ -1,0 +1,67 @@
+//! Walls that are hard to decide: tilts near the largest that any forces hold, open bases, settlements in one step and in
+//! five. The bench `scaling` has the same table for walls of a thousand bricks.
+
+#[path = "../benches/scaling/walls.rs"]
+mod walls;
+
+use masonry::{Evidence, Verdict, solve};
+use walls::{Case, Wall};
+
+/// Bricks in a course, and courses.
+const COURSES: u32 = 8;
+
+fn verdict_of(wall: &Wall, case: Case, limit: f64) -> (Verdict, Evidence) {
+    let outcome = solve(&wall.scene(case, limit)).expect("a sound scene");
+    (outcome.judgement.verdict, outcome.judgement.evidence)
+}
+
+/// Rigid walls stand up to the largest tilt that any forces hold. Elastic ones may slide and fall before, never after.
+/// Walls that settle come to rest.
+fn check(mu: f64) {
+    let rigid = Wall { courses: COURSES, mu, mesh: None };
+    let limit = rigid.largest_tilt();
+    assert!(limit > 0.0 && limit <= mu + 1e-3, "mu {mu}: {limit}");
+    for mesh in [None, Some([1, 1]), Some([2, 1])] {
+        let wall = Wall { mesh, ..rigid };
+        let verdict = |case| verdict_of(&wall, case, limit);
+        for case in [Case::Lean, Case::Tilt(0.5), Case::Settlement(1), Case::Settlement(5)] {
+            assert_eq!(verdict(case).0, Verdict::Stands, "mu {mu}, {mesh:?}: {case}");
+        }
+        for case in [Case::Tilt(0.9), Case::Tilt(0.99)] {
+            let found = verdict(case);
+            let flows = mesh.is_some() && found == (Verdict::Falls, Evidence::Motion);
+            assert!(found.0 == Verdict::Stands || flows, "mu {mu}, {mesh:?}: {case}: {found:?}");
+        }
+        for case in [Case::Tilt(1.01), Case::Tilt(1.3)] {
+            let (falls, evidence) = verdict(case);
+            assert_eq!(falls, Verdict::Falls, "mu {mu}, {mesh:?}: {case}");
+            assert_ne!(evidence, Evidence::Motion, "mu {mu}, {mesh:?}: {case}");
+        }
+        let (open, evidence) = verdict(Case::OpenBase);
+        assert_ne!(open, Verdict::Undecided, "mu {mu}, {mesh:?}: open base: {evidence:?}");
+    }
+}
+
+#[test]
+fn walls_with_little_friction_are_decided() {
+    check(0.3);
+    check(0.5);
+}
+
+#[test]
+fn walls_with_usual_friction_are_decided() {
+    check(0.6);
+    check(0.7);
+}
+
+#[test]
+fn walls_with_friction_at_its_critical_value_are_decided() {
+    check(0.9999);
+    check(1.0);
+    check(1.0001);
+}
+
+#[test]
+fn walls_with_much_friction_are_decided() {
+    check(1.3);
+}
