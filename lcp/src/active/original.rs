@@ -115,6 +115,18 @@ pub(crate) fn brought_right<'a>(
     best
 }
 
+/// The first point that the states of contacts lead to without rounding errors, which is a solution.
+pub(crate) fn unrounded(
+    (judge, scaled, condensed): (&dyn Judge, &Scaled, &mut Condensed),
+    at: At<'_>,
+    contacts: &[ContactStatus],
+    tolerance: f64,
+) -> Option<Judged<'static>> {
+    refined_states(scaled, condensed, at, contacts, ROUNDED)
+        .map(|exact| rounded(judge, scaled, &exact, Precision::Exact))
+        .find(|near| near.worst() <= tolerance)
+}
+
 fn rounded(
     judge: &dyn Judge,
     scaled: &Scaled,

@@ -6,7 +6,7 @@ use faer::sparse::FaerError;
 
 use super::crossover::{Effort, Vertex, cross_over};
 use super::original::{
-    Answer, At, Judge, Judged, Original, brought_right, confirmed, judged as judged_by,
+    Answer, At, Judge, Judged, Original, brought_right, confirmed, judged as judged_by, unrounded,
 };
 use crate::certify::Precision;
 use crate::problem::ContactStatus;
@@ -139,6 +139,19 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// The best point without the rounding errors that forces have of large displacements, if it is a solution then.
+    fn without_rounding(&mut self) {
+        let Self { judge, tolerance, scaled, condensed, best, .. } = self;
+        if let Some(Best { u, forces, residuals, .. }) = best {
+            let contacts = nearest(scaled, u, forces);
+            let with = (judge.as_ref(), &*scaled, condensed);
+            if let Some(right) = unrounded(with, (u, forces), &contacts, *tolerance) {
+                let right = (right.u.into_owned(), right.forces.into_owned(), right.residuals);
+                (*u, *forces, *residuals) = right;
+            }
+        }
+    }
+
     /// The worst residual of a point, which is kept if none was better.
     pub(crate) fn judge(&mut self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
         let Self { judge, tolerance, scaled, condensed, best, .. } = self;
@@ -157,8 +170,11 @@ impl<'a> Search<'a> {
         self.best.as_ref().map_or(f64::INFINITY, |best| best.residuals.worst())
     }
 
-    /// The best point, if it is a solution.
-    pub(crate) fn found(self) -> Option<Solution> {
+    /// The best point to its last digits, if it is a solution.
+    pub(crate) fn found(mut self) -> Option<Solution> {
+        if self.residual() <= self.tolerance {
+            self.without_rounding();
+        }
         let observer = &mut |_: &Iteration| ControlFlow::Continue(());
         let solution = self.finish(Status::Stalled, Monitor::new(0, None, observer));
         solution.is_solved().then_some(solution)
