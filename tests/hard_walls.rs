@@ -24,10 +24,10 @@ fn check(mu: f64) {
     for mesh in [None, Some([1, 1]), Some([2, 1])] {
         let wall = Wall { mesh, ..rigid };
         let verdict = |case| verdict_of(&wall, case, limit);
-        for case in [Case::Lean, Case::Tilt(0.5), Case::Settlement(1), Case::Settlement(5)] {
+        for case in [Case::Lean, Case::Settlement(1), Case::Settlement(5)] {
             assert_eq!(verdict(case).0, Verdict::Stands, "mu {mu}, {mesh:?}: {case}");
         }
-        for case in [Case::Tilt(0.9), Case::Tilt(0.99)] {
+        for case in [Case::Tilt(0.5), Case::Tilt(0.9), Case::Tilt(0.99)] {
             let found = verdict(case);
             let flows = mesh.is_some() && found == (Verdict::Falls, Evidence::Motion);
             assert!(found.0 == Verdict::Stands || flows, "mu {mu}, {mesh:?}: {case}: {found:?}");

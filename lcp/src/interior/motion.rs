@@ -3,8 +3,8 @@
 use faer::sparse::FaerError;
 
 use super::constants::{
-    FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS, MOVED, SAME_LENGTH,
-    SLOWER, SOFTEST,
+    AS_LONG, FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, MORE_VISCOUS, MOVED, SAME_LENGTH, SLOWER,
+    SOFTEST,
 };
 use super::homogeneous::{Accuracy, Factors, solved};
 use super::program::{Program, associated};
@@ -83,8 +83,8 @@ pub(super) fn unresisted(
     left
 }
 
-/// How viscous motions are: less and less, and as before while they become longer for it, until they are as short as
-/// before or go on for ever.
+/// How viscous motions are: less and less, and as before while they do not become shorter for it, until they do or go on
+/// for ever.
 pub(super) struct Viscosity {
     pub(super) value: f64,
     /// The length of the last motion.
@@ -106,7 +106,7 @@ impl Viscosity {
     pub(super) fn follow(&mut self, length: f64) {
         let before = std::mem::replace(&mut self.last, length);
         self.held = match self.held {
-            None if length > LONGER_MOTION * before => Some(length),
+            None if length > AS_LONG * before => Some(length),
             Some(first) if length > SLOWER * first => Some(first),
             _ => None,
         };

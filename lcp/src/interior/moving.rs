@@ -1,8 +1,8 @@
 //! Bodies on their way: rest by smooth friction, and motions against viscosity.
 
 use super::constants::{
-    BLUNT, FREE, LEAST_VISCOSITY, MOST_VISCOSITY, MOVED, SETTLING, SHARPER, SMOOTH, STEADIER,
-    STEADY, STEADY_MOTIONS, TRIES,
+    BLUNT, FREE, LEAST_VISCOSITY, LONG_SLIPS, MOST_VISCOSITY, MOVED, SETTLING, SHARPER, SMOOTH,
+    STEADIER, STEADY, STEADY_MOTIONS, TRIES,
 };
 use super::evolved::{Evolved, Way};
 use super::motion::{Motions, Moved, Viscosity, unresisted};
@@ -108,7 +108,7 @@ impl<'a, 'b> Moving<'a, 'b> {
             }
             if viscosity.may_rest() {
                 tries += 1;
-                let parts = if tries < TRIES { &slips[..slips.len().min(1)] } else { slips };
+                let parts = if tries < LONG_SLIPS { &slips[..slips.len().min(1)] } else { slips };
                 if let Some(Found::Rest(from, solution)) = self.rest(parts, false) {
                     self.search.condensed.factorisations += motions.factorisations();
                     return Ok(self.concluded((Way::Motion, from, *solution), path));
