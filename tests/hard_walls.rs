@@ -8,7 +8,7 @@ use masonry::{Evidence, Verdict, solve};
 use walls::{Case, Wall};
 
 /// Bricks in a course, and courses.
-const COURSES: u32 = 8;
+const COURSES: u32 = 6;
 
 fn verdict_of(wall: &Wall, case: Case, limit: f64) -> (Verdict, Evidence) {
     let outcome = solve(&wall.scene(case, limit)).expect("a sound scene");

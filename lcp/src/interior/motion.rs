@@ -124,6 +124,11 @@ impl Viscosity {
         self.same > FLOWING
     }
 
+    /// Keeps it as it is, for motions that lead to no rest that is found.
+    pub(super) fn hold(&mut self) {
+        self.held.get_or_insert(self.last);
+    }
+
     /// Whether it stays as it is.
     pub(super) fn is_held(&self) -> bool {
         self.held.is_some()

@@ -106,7 +106,7 @@ impl<'a, 'b> Moving<'a, 'b> {
                 }
                 viscosity.release();
             }
-            if viscosity.may_rest() {
+            if viscosity.may_rest() && tries < TRIES {
                 tries += 1;
                 let parts = if tries < LONG_SLIPS { &slips[..slips.len().min(1)] } else { slips };
                 if let Some(Found::Rest(from, solution)) = self.rest(parts, false) {
@@ -114,10 +114,12 @@ impl<'a, 'b> Moving<'a, 'b> {
                     return Ok(self.concluded((Way::Motion, from, *solution), path));
                 }
             }
-            if tries == TRIES || viscosity.value <= LEAST_VISCOSITY {
+            if viscosity.value <= LEAST_VISCOSITY {
                 break self.limit.unwrap_or(Status::Stalled);
             }
-            if !viscosity.is_held() {
+            if tries == TRIES {
+                viscosity.hold();
+            } else if !viscosity.is_held() {
                 since.clone_from(&self.at);
                 viscosity.decrease();
             }
