@@ -3,8 +3,8 @@
 use faer::sparse::FaerError;
 
 use super::constants::{
-    AS_LONG, FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, MORE_VISCOUS, MOVED, SAME_LENGTH, SLOWER,
-    SOFTEST,
+    FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS, MOVED, SAME_LENGTH,
+    SLOWER, SOFTEST,
 };
 use super::homogeneous::{Accuracy, Factors, solved};
 use super::program::{Program, associated};
@@ -39,12 +39,13 @@ impl Motions {
         self.factors.factorisations
     }
 
-    /// One motion from displacements, with slips as the problem measures them; `None` where it cannot be computed, or
-    /// `stop` says so, which is asked before every step, with the residual.
+    /// One motion from displacements, with slips as the problem measures them, and without the gaps that these `slips`
+    /// open, of points with friction; `None` where it cannot be computed, or `stop` says so, which is asked before every
+    /// step, with the residual.
     pub(super) fn advance(
         &mut self,
         problem: &Scaled,
-        from: &[f64],
+        (from, slips): (&[f64], Option<&[f64]>),
         (viscosity, accuracy): (f64, f64),
         stop: impl FnMut(f64) -> Option<Status>,
     ) -> Option<Moved> {
@@ -54,6 +55,12 @@ impl Motions {
         }
         for (x_0, (point, mu)) in edges.x_0.iter_mut().zip(problem.edges()) {
             *x_0 = point.x_0 + mu * point.s_0;
+        }
+        if let Some(slips) = slips {
+            let opened = problem.points.iter().zip(slips).flat_map(|(point, slip)| {
+                std::iter::repeat_n(point.mu * slip.abs(), if point.mu > 0.0 { 2 } else { 1 })
+            });
+            edges.x_0.iter_mut().zip(opened).for_each(|(x_0, gap)| *x_0 += gap);
         }
         let accuracy = Accuracy::of_all(accuracy);
         let (moved, status) = solved(edges, factors, (viscosity, accuracy), stop, |_| false);
@@ -83,8 +90,8 @@ pub(super) fn unresisted(
     left
 }
 
-/// How viscous motions are: less and less, and as before while they do not become shorter for it, until they do or go on
-/// for ever.
+/// How viscous motions are: less and less, and as before while they become longer for it, until they are as short as
+/// before or go on for ever.
 pub(super) struct Viscosity {
     pub(super) value: f64,
     /// The length of the last motion.
@@ -106,7 +113,7 @@ impl Viscosity {
     pub(super) fn follow(&mut self, length: f64) {
         let before = std::mem::replace(&mut self.last, length);
         self.held = match self.held {
-            None if length > AS_LONG * before => Some(length),
+            None if length > LONGER_MOTION * before => Some(length),
             Some(first) if length > SLOWER * first => Some(first),
             _ => None,
         };
