@@ -17,11 +17,11 @@ fn verdict_of(wall: &Wall, case: Case, limit: f64) -> (Verdict, Evidence) {
 
 /// Rigid walls stand up to the largest tilt that any forces hold. Elastic ones may slide and fall before, never after.
 /// Walls that settle come to rest.
-fn check(mu: f64) {
+fn check(mu: f64, mesh: [u32; 2]) {
     let rigid = Wall { courses: COURSES, mu, mesh: None };
     let limit = rigid.largest_tilt();
     assert!(limit > 0.0 && limit <= mu + 1e-3, "mu {mu}: {limit}");
-    for mesh in [None, Some([1, 1]), Some([2, 1])] {
+    for mesh in [None, Some(mesh)] {
         let wall = Wall { mesh, ..rigid };
         let verdict = |case| verdict_of(&wall, case, limit);
         for case in [Case::Lean, Case::Settlement(1), Case::Settlement(5)] {
@@ -44,24 +44,24 @@ fn check(mu: f64) {
 
 #[test]
 fn walls_with_little_friction_are_decided() {
-    check(0.3);
-    check(0.5);
+    check(0.3, [2, 1]);
+    check(0.5, [1, 1]);
 }
 
 #[test]
 fn walls_with_usual_friction_are_decided() {
-    check(0.6);
-    check(0.7);
+    check(0.6, [1, 1]);
+    check(0.7, [2, 1]);
 }
 
 #[test]
 fn walls_with_friction_at_its_critical_value_are_decided() {
-    check(0.9999);
-    check(1.0);
-    check(1.0001);
+    check(0.9999, [1, 1]);
+    check(1.0, [2, 1]);
+    check(1.0001, [1, 1]);
 }
 
 #[test]
 fn walls_with_much_friction_are_decided() {
-    check(1.3);
+    check(1.3, [2, 1]);
 }

@@ -3,8 +3,8 @@
 use faer::sparse::FaerError;
 
 use super::constants::{
-    FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS, MOVED, SAME_LENGTH,
-    SLOWER, SOFTEST,
+    CREEPING, FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS, MOVED,
+    SAME_LENGTH, SLOWER, SOFTEST,
 };
 use super::homogeneous::{Accuracy, Factors, solved};
 use super::program::{Program, associated};
@@ -39,13 +39,12 @@ impl Motions {
         self.factors.factorisations
     }
 
-    /// One motion from displacements, with slips as the problem measures them, and without the gaps that these `slips`
-    /// open, of points with friction; `None` where it cannot be computed, or `stop` says so, which is asked before every
-    /// step, with the residual.
+    /// One motion from displacements, with slips as the problem measures them; `None` where it cannot be computed, or
+    /// `stop` says so, which is asked before every step, with the residual.
     pub(super) fn advance(
         &mut self,
         problem: &Scaled,
-        (from, slips): (&[f64], Option<&[f64]>),
+        from: &[f64],
         (viscosity, accuracy): (f64, f64),
         stop: impl FnMut(f64) -> Option<Status>,
     ) -> Option<Moved> {
@@ -55,12 +54,6 @@ impl Motions {
         }
         for (x_0, (point, mu)) in edges.x_0.iter_mut().zip(problem.edges()) {
             *x_0 = point.x_0 + mu * point.s_0;
-        }
-        if let Some(slips) = slips {
-            let opened = problem.points.iter().zip(slips).flat_map(|(point, slip)| {
-                std::iter::repeat_n(point.mu * slip.abs(), if point.mu > 0.0 { 2 } else { 1 })
-            });
-            edges.x_0.iter_mut().zip(opened).for_each(|(x_0, gap)| *x_0 += gap);
         }
         let accuracy = Accuracy::of_all(accuracy);
         let (moved, status) = solved(edges, factors, (viscosity, accuracy), stop, |_| false);
@@ -94,8 +87,9 @@ pub(super) fn unresisted(
 /// before or go on for ever.
 pub(super) struct Viscosity {
     pub(super) value: f64,
-    /// The length of the last motion.
+    /// The length of the last motion, and of the longest.
     last: f64,
+    longest: f64,
     /// The length of the first motion with this viscosity, where it stays as it is.
     held: Option<f64>,
     /// How many motions in sequence have been as long as the one before.
@@ -104,7 +98,7 @@ pub(super) struct Viscosity {
 
 impl Default for Viscosity {
     fn default() -> Self {
-        Self { value: FIRST_VISCOSITY, last: f64::INFINITY, held: None, same: 0 }
+        Self { value: FIRST_VISCOSITY, last: f64::INFINITY, longest: 0.0, held: None, same: 0 }
     }
 }
 
@@ -112,6 +106,7 @@ impl Viscosity {
     /// Takes note of the length of a motion.
     pub(super) fn follow(&mut self, length: f64) {
         let before = std::mem::replace(&mut self.last, length);
+        self.longest = self.longest.max(length);
         self.held = match self.held {
             None if length > LONGER_MOTION * before => Some(length),
             Some(first) if length > SLOWER * first => Some(first),
@@ -126,9 +121,14 @@ impl Viscosity {
         self.held.is_none() && self.value < FIRST_VISCOSITY
     }
 
-    /// Whether bodies move on as fast as before.
-    pub(super) fn flows(&self) -> bool {
+    /// Whether bodies move on as before.
+    pub(super) fn is_steady(&self) -> bool {
         self.same > FLOWING
+    }
+
+    /// Whether they move next to nothing.
+    pub(super) fn creeps(&self) -> bool {
+        self.last < CREEPING * self.longest
     }
 
     /// Keeps it as it is, for motions that lead to no rest that is found.

@@ -1,8 +1,8 @@
 //! Bodies on their way: rest by smooth friction, and motions against viscosity.
 
 use super::constants::{
-    BLUNT, DRIVEN, FREE, GROWING, LEAST_VISCOSITY, LONG_SLIPS, MOST_VISCOSITY, MOVED, REPETITIONS,
-    SETTLING, SHARPER, SMOOTH, STEADIER, STEADY, STEADY_MOTIONS, TRIES,
+    BLUNT, FREE, LEAST_VISCOSITY, LONG_SLIPS, MOST_VISCOSITY, MOVED, SETTLING, SHARPER, SMOOTH,
+    STEADIER, STEADY, STEADY_MOTIONS, TRIES,
 };
 use super::evolved::{Evolved, Way};
 use super::motion::{Motions, Moved, Viscosity, unresisted};
@@ -98,11 +98,9 @@ impl<'a, 'b> Moving<'a, 'b> {
             path.stiffness.push(viscosity.value);
             path.shares.push(if load > 0.0 { viscosity.value * length / load } else { length });
             path.motion = self.search.scaled.displacements(&velocity);
-            if viscosity.flows() {
-                let is_driven = path.shares.last().is_some_and(|share| *share >= DRIVEN);
-                let flows = is_driven || self.grows(&mut motions, viscosity.value);
-                if let Some(mechanism) =
-                    flows.then(|| self.mechanism(&mut motions, viscosity.value, &since)).flatten()
+            if viscosity.is_steady() {
+                if !viscosity.creeps()
+                    && let Some(mechanism) = self.mechanism(&mut motions, viscosity.value, &since)
                 {
                     path.motion = self.search.scaled.displacements(&mechanism);
                     let stopped = self.limit.filter(|it| *it != Status::IterationLimit);
@@ -203,7 +201,7 @@ impl<'a, 'b> Moving<'a, 'b> {
     ) -> Option<Vec<f64>> {
         let Self { search, monitor, at, limit, .. } = self;
         let Moved { u, forces } =
-            motions.advance(&search.scaled, (at, None), (viscosity, accuracy), |residual| {
+            motions.advance(&search.scaled, at, (viscosity, accuracy), |residual| {
                 *limit = monitor.stop(residual);
                 *limit
             })?;
@@ -215,34 +213,6 @@ impl<'a, 'b> Moving<'a, 'b> {
         }
         (self.at, self.forces) = (u, forces);
         Some(velocity)
-    }
-
-    /// Whether the slips of one motion have no end when the gaps that they open are taken away, again and again: then no
-    /// slips from here obey Coulomb's law.
-    fn grows(&mut self, motions: &mut Motions, viscosity: f64) -> bool {
-        let Self { search: Search { scaled, .. }, monitor, at, limit, .. } = self;
-        let mut slips = vec![0.0; scaled.points.len()];
-        let (mut first, mut last) = (None, 0.0);
-        for _ in 0..REPETITIONS {
-            let moved =
-                motions.advance(scaled, (at, Some(&slips)), (viscosity, MOVED), |residual| {
-                    *limit = monitor.stop(residual);
-                    *limit
-                });
-            let Some(Moved { u, forces }) = moved else { return false };
-            let pressed = forces.iter().fold(0.0_f64, |max, (t_n, _)| max.max(*t_n)) * MOVED;
-            let slip = |(point, (t_n, _)): (&Point, &(f64, f64))| {
-                if *t_n > pressed { point.slip(&u) } else { 0.0 }
-            };
-            slips = scaled.points.iter().zip(&forces).map(slip).collect();
-            let all: f64 = slips.iter().map(|slip| slip.abs()).sum();
-            let first = *first.get_or_insert(all);
-            if all - last < GROWING * first {
-                return false;
-            }
-            last = all;
-        }
-        true
     }
 
     /// How bodies flow whose motions have been of the same length `since` they were there; `None` where a soft spring or a

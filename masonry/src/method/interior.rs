@@ -40,7 +40,7 @@ impl Method for Interior<'_> {
             InteriorPointSettings { tolerance: request.tolerance, start, ..Default::default() };
         let may_move = !problem.frictional().is_empty();
         let is_rigid = problem.stiffness().val().iter().all(|k| k.abs() <= 0.0);
-        let thorough = settings.clone();
+        let mut thorough = settings.clone();
         if may_move {
             settings.max_iterations = match self.start {
                 Some(_) => auto::STEPS_BETWEEN,
@@ -56,12 +56,15 @@ impl Method for Interior<'_> {
             path => path,
         };
         let moved = self.by_motion(path, request, observer)?;
-        if is_over(&moved) || moved.info.status == Status::NoEquilibrium {
+        if is_over(&moved) || is_driven(&moved) {
             return Ok(moved);
         }
         // The path that did not get far in a few steps may still get there.
+        thorough.continuation = moved.info.status != Status::NoEquilibrium;
         let answer = self.by_path(thorough, observer)?;
-        Ok(after(&moved.info, answer))
+        let says_more =
+            answer.info.status == Status::Solved || moved.info.status != Status::NoEquilibrium;
+        Ok(if says_more { after(&moved.info, answer) } else { moved })
     }
 }
 
@@ -139,6 +142,13 @@ impl Interior<'_> {
 fn is_over(answer: &Answer) -> bool {
     let status = answer.info.status;
     matches!(status, Status::Solved | Status::Cancelled | Status::Infeasible)
+}
+
+/// Whether loads that contacts do not carry drive the motion of blocks that flow.
+fn is_driven(answer: &Answer) -> bool {
+    let springs =
+        answer.info.springs.as_ref().filter(|_| answer.info.status == Status::NoEquilibrium);
+    springs.and_then(|it| it.shares.last()).is_some_and(|share| *share >= auto::DRIVEN)
 }
 
 /// An answer with what was done before it.
