@@ -1,8 +1,8 @@
 //! Bodies on their way: rest by smooth friction, and motions against viscosity.
 
 use super::constants::{
-    BLUNT, FREE, LEAST_VISCOSITY, LONG_SLIPS, MOST_VISCOSITY, MOVED, SETTLING, SHARPER, SMOOTH,
-    STEADIER, STEADY, STEADY_MOTIONS, TRIES,
+    FREE, LEAST_VISCOSITY, LONG_SLIPS, MOST_VISCOSITY, MOVED, SETTLING, STEADIER, STEADY,
+    STEADY_MOTIONS, TRIES,
 };
 use super::evolved::{Evolved, Way};
 use super::motion::{Motions, Moved, Viscosity, unresisted};
@@ -21,16 +21,6 @@ enum Found {
     Law,
     /// Displacements from which slips are measured, and the solution there.
     Rest(Vec<f64>, Box<Solution>),
-}
-
-/// A state at rest with smooth friction, scaled.
-struct Settled {
-    found: Found,
-    /// The slip over which friction turns.
-    slip: f64,
-    /// The largest displacement on the way.
-    moved: f64,
-    dissipation: f64,
 }
 
 /// Bodies on their way.
@@ -135,30 +125,16 @@ impl<'a, 'b> Moving<'a, 'b> {
 
     /// The state at rest that friction leads to which turns over one of these parts of the displacements of the start, with
     /// slips from there; or the solution of the problem itself next to it, where that is wanted.
-    ///
-    /// Where bodies move hardly farther than friction needs to turn, it turns over a shorter slip: what vanishes with that
-    /// slip is no movement.
     fn rest(&mut self, parts: &[f64], by_law: bool) -> Option<Found> {
         let size = max_abs(&start(&self.search.scaled, &mut self.search.condensed, PROXIMAL).u);
-        let settled = parts.iter().find_map(|part| self.sharpened(part * size, by_law))?;
-        self.dissipation += settled.dissipation;
-        Some(settled.found)
+        let (found, dissipation) =
+            parts.iter().find_map(|&part| self.settled((part, size), by_law))?;
+        self.dissipation += dissipation;
+        Some(found)
     }
 
-    fn sharpened(&mut self, slip: f64, by_law: bool) -> Option<Settled> {
-        let mut settled = self.settled(slip, by_law)?;
-        for _ in 1..SHARPER {
-            let shorter = SMOOTH[0] * settled.moved;
-            if settled.slip <= BLUNT * shorter || settled.slip >= settled.moved {
-                break;
-            }
-            settled = self.settled(shorter, by_law)?;
-        }
-        Some(settled)
-    }
-
-    /// The same with friction that turns over a slip, if the judge agrees.
-    fn settled(&mut self, slip: f64, by_law: bool) -> Option<Settled> {
+    /// The same with friction that turns over this part of the displacements, if the judge agrees, and what friction took.
+    fn settled(&mut self, (part, size): (f64, f64), by_law: bool) -> Option<(Found, f64)> {
         let Self { problem, tolerance, search, monitor, limit, origin, .. } = self;
         let (mut best, mut left) = (f64::INFINITY, SETTLING);
         let go_on = |residual| {
@@ -167,27 +143,30 @@ impl<'a, 'b> Moving<'a, 'b> {
             *limit = monitor.stop(residual);
             limit.is_none() && left > 0
         };
+        let wanted = |u: &[f64]| {
+            let size = if part < 1.0 { max_abs(&difference(u, origin)) } else { size };
+            part * size
+        };
         let Search { scaled, condensed, .. } = search;
-        let begin = start_smooth(scaled, condensed, slip);
+        let begin = start_smooth(scaled, condensed, part * size);
         let mut states = None;
-        let found = settled(scaled, condensed, begin, go_on, |condensed, at, (u, forces)| {
-            let from = scaled.displacements(&u);
-            let there = problem.after(&from).ok()?;
-            let mut other = Search::new(Method::Interior, &there, *tolerance).ok()?;
-            other.try_point((&u, &forces), Some(&Effort::held(PROXIMAL)));
-            condensed.factorisations += other.condensed.factorisations;
-            let solution = other.found()?;
-            let slid = |(point, (_, t_t)): (&Point, &(f64, f64))| -t_t * point.slip(&u);
-            let dissipation = scaled.points.iter().zip(&forces).map(slid).sum();
-            let moved = max_abs(&difference(&u, origin));
-            states = Some((at.u.clone(), at.forces(), at.contacts(scaled)));
-            let found = Found::Rest(from, Box::new(solution));
-            Some(Settled { found, slip, moved, dissipation })
-        });
+        let found =
+            settled(scaled, condensed, begin, wanted, go_on, |condensed, at, (u, forces)| {
+                let from = scaled.displacements(&u);
+                let there = problem.after(&from).ok()?;
+                let mut other = Search::new(Method::Interior, &there, *tolerance).ok()?;
+                other.try_point((&u, &forces), Some(&Effort::held(PROXIMAL)));
+                condensed.factorisations += other.condensed.factorisations;
+                let solution = other.found()?;
+                let slid = |(point, (_, t_t)): (&Point, &(f64, f64))| -t_t * point.slip(&u);
+                let dissipation = scaled.points.iter().zip(&forces).map(slid).sum();
+                states = Some((at.u.clone(), at.forces(), at.contacts(scaled)));
+                Some((Found::Rest(from, Box::new(solution)), dissipation))
+            });
         if let Some((u, forces, contacts)) = states.filter(|_| by_law)
             && search.cross_over((&u, &forces), contacts, &Effort::QUICK)
         {
-            return Some(Settled { found: Found::Law, slip: 0.0, moved: 0.0, dissipation: 0.0 });
+            return Some((Found::Law, 0.0));
         }
         found
     }

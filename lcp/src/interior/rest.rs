@@ -1,6 +1,6 @@
 //! Bodies at rest: gaps and normal forces exactly complementary, and friction that turns over a short slip.
 
-use super::constants::{ADMISSIBLE, SETTLED, STIFF_CLOSED};
+use super::constants::{ADMISSIBLE, BLUNT, SETTLED, SHARPENED, SHARPER, STIFF_CLOSED};
 use super::continuation::centred;
 use super::iterate::{Iterate, Pairs};
 use crate::states::{Condensed, PROXIMAL, Point, Scaled, Springs};
@@ -14,13 +14,25 @@ pub(super) type Rest = (Vec<f64>, Vec<(f64, f64)>);
 
 /// The states at rest on the way to the point with smooth friction at which all gaps and normal forces are complementary,
 /// until one is `accepted`. `go_on` is asked before every step, with the residual.
+///
+/// Where the bodies move hardly farther than friction needs to turn, what vanishes with that slip is no movement: then
+/// friction turns over the slip that is `wanted` for these displacements.
 pub(super) fn settled<T>(
     problem: &Scaled,
     condensed: &mut Condensed,
     mut at: Iterate,
+    wanted: impl Fn(&[f64]) -> f64,
     mut go_on: impl FnMut(f64) -> bool,
     mut accepted: impl FnMut(&mut Condensed, &Iterate, Rest) -> Option<T>,
 ) -> Option<T> {
+    for _ in 0..SHARPER {
+        at = centred(problem, condensed, at, (PROXIMAL, SHARPENED), &mut go_on)?;
+        let slip = wanted(&at.u);
+        if at.smooth <= BLUNT * slip {
+            break;
+        }
+        at.smooth = slip;
+    }
     for accuracy in SETTLED {
         at = centred(problem, condensed, at, (PROXIMAL, accuracy), &mut go_on)?;
         let rest = polished(problem, condensed, &at);

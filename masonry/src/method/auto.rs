@@ -28,8 +28,8 @@ const FEW: usize = 2000;
 /// Most walls are solved in so many steps of the interior points.
 pub(crate) const STEPS_BEFORE_PROOF: usize = 40;
 /// With friction a motion follows after so many steps of the interior points. Measured: walls of 1000 bricks near their
-/// limit take up to 97.
-pub(crate) const STEPS_BEFORE_MOTION: usize = 100;
+/// limit take up to 116.
+pub(crate) const STEPS_BEFORE_MOTION: usize = 130;
 /// The same from one step of a history to the next, where rest after a motion costs less than the path.
 pub(crate) const STEPS_BETWEEN: usize = 45;
 /// Steps of such a motion. Measured: walls of 1000 bricks that come to rest take 60 to 200, those that flow 200 to 500.
