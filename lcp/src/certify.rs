@@ -40,7 +40,7 @@ pub use evidence::{Ray, SoftSprings};
 pub(crate) use boxed::BoxedJudge;
 pub(crate) use constants::ROUNDING;
 pub(crate) use contact::{ContactJudge, StateOf};
-pub(crate) use farkas::{is_proof, is_proof_of};
+pub(crate) use farkas::{is_proof, is_proof_of, is_proof_of_mixed};
 pub(crate) use general::{GeneralJudge, right_hand_side};
 pub(crate) use ledger::{Precision, ratio};
 

@@ -4,11 +4,14 @@ mod balance;
 mod constants;
 mod continuation;
 mod evolution;
+mod evolved;
 mod homogeneous;
 mod iterate;
+mod least;
 mod motion;
 mod path;
 mod problems;
+mod program;
 mod rest;
 mod saddle;
 mod settings;
@@ -17,7 +20,9 @@ mod turn;
 
 use std::ops::ControlFlow;
 
-pub use evolution::{Evolution, EvolutionSettings, Evolved, Way};
+pub use evolution::{Evolution, EvolutionSettings};
+pub use evolved::{Evolved, Way};
+pub use least::LeastForces;
 pub use settings::InteriorPointSettings;
 
 use balance::{Balance, balance};

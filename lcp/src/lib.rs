@@ -171,7 +171,7 @@ pub use basis::{Basis, Side};
 pub use certify::{Certificate, Leaf, Ray, Residuals, SoftSprings};
 pub use error::Error;
 pub use interior::{
-    Evolution, EvolutionSettings, Evolved, InteriorPoint, InteriorPointSettings, Way,
+    Evolution, EvolutionSettings, Evolved, InteriorPoint, InteriorPointSettings, LeastForces, Way,
 };
 #[doc(inline)]
 pub use lemke::Lemke;
@@ -190,9 +190,9 @@ pub use qp::{QuadraticProgram, QuadraticProgramSettings};
 pub use settings::{Covering, LemkeSettings, WarmStart};
 pub use solution::{Info, Route, RouteEnd, Solution};
 pub use solve::{Iteration, Observer, Solver};
-/// For the benches of the workspace.
+/// For the benches of the workspace, and for masonry.
 #[doc(hidden)]
-pub use sparse::Multifrontal;
+pub use sparse::{Gram, Multifrontal};
 pub use status::Status;
 
 /// The programs of the README are compiled and run with the tests.

@@ -208,9 +208,16 @@ impl Matrix {
     /// The first entry of a square matrix that is not its mirror image, up to rounding and with a sign by row and column.
     pub(crate) fn asymmetry(&self, sign: impl Fn(usize, usize) -> f64) -> Option<(usize, usize)> {
         let size: Vec<f64> = (0..self.ncols()).map(|i| self[(i, i)].abs().sqrt()).collect();
+        let is_alike = |i: usize, j: usize, v: f64, mirrored: f64| {
+            are_alike(v, sign(i, j) * mirrored, size[i] * size[j])
+        };
+        if let Self::Sparse(m) = self
+            && is_mirrored(m, is_alike)
+        {
+            return None;
+        }
         let places = (0..self.ncols()).flat_map(|j| self.column(j).map(move |(i, v)| (i, j, v)));
-        let mut unlike =
-            places.filter(|&(i, j, v)| !are_alike(v, sign(i, j) * self[(j, i)], size[i] * size[j]));
+        let mut unlike = places.filter(|&(i, j, v)| !is_alike(i, j, v, self[(j, i)]));
         unlike.next().map(|(i, j, _)| (i, j))
     }
 
@@ -325,6 +332,28 @@ impl From<&nalgebra::DMatrix<f64>> for Matrix {
 fn are_alike(v: f64, mirrored: f64, size: f64) -> bool {
     let larger = |a: f64, b: f64| if a > b { a } else { b };
     (v - mirrored).abs() <= DATA_ROUNDING * larger(larger(v.abs(), mirrored.abs()), size)
+}
+
+/// Whether every entry of a sparse matrix has one in the mirrored place that is like it. Columns are gone through in their
+/// order, and with each the rows that it has entries in go one entry further.
+fn is_mirrored(
+    m: &SparseColMat<usize, f64>,
+    is_alike: impl Fn(usize, usize, f64, f64) -> bool,
+) -> bool {
+    let (starts, rows, values) = (m.col_ptr(), m.row_idx(), m.val());
+    let mut next = starts[..m.ncols()].to_vec();
+    for j in 0..m.ncols() {
+        for e in starts[j]..starts[j + 1] {
+            let i = rows[e];
+            let at = next[i];
+            let has_mirrored = at < starts[i + 1] && rows[at] == j;
+            if !has_mirrored || !is_alike(i, j, values[e], values[at]) {
+                return false;
+            }
+            next[i] += 1;
+        }
+    }
+    true
 }
 
 /// Whether a dense matrix is symmetric: tile by tile, so that rows come from the cache.

@@ -1,9 +1,13 @@
 //! Sparse linear algebra: columns, their order, and an LU factorisation that grows by columns.
 
+mod cholesky;
+mod degree;
+mod gram;
 mod lu;
 mod multifrontal;
 mod order;
 
+pub use gram::Gram;
 pub(crate) use lu::{Growing, SparseLu, row_counts};
 pub use multifrontal::Multifrontal;
 pub(crate) use order::{Turn, elimination_order};

@@ -49,6 +49,7 @@
 pub mod analysis;
 #[cfg(feature = "cli")]
 pub mod cli;
+mod columns;
 pub mod element;
 mod files;
 pub mod geometry;

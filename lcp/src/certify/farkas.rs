@@ -4,13 +4,25 @@
 //! `A^T pi <= 0`, `B^T pi <= 0` and `c.pi > 0`.
 
 use super::constants::{CLEAR, LARGEST_OF_VECTOR, SUM_ROUNDING};
-use crate::HorizontalLcp;
 use crate::extended::Extended;
 use crate::matrix::Column;
+use crate::{HorizontalLcp, MixedLcp};
 
 /// Whether a vector proves that the linear conditions of a problem have no solution.
 pub(crate) fn is_proof(problem: &HorizontalLcp, pi: &[f64]) -> bool {
     is_proof_of(problem.columns(), problem.c(), pi)
+}
+
+/// The same for the general form of a mixed problem, which is not put together.
+pub(crate) fn is_proof_of_mixed(problem: &MixedLcp, pi: &[f64]) -> bool {
+    let places: Vec<usize> = (0..problem.order()).collect();
+    // `w - M z = q`, where the positive and the negative part of a free `z` take the place of `z` and `w`.
+    let columns = problem.free().iter().enumerate().flat_map(|(j, is_free)| {
+        let m = problem.m().slice(j);
+        let unit = Column::Sparse { rows: &places[j..=j], values: &[1.0] };
+        [(-1.0, m), (1.0, if *is_free { m } else { unit })]
+    });
+    separates(columns, problem.q(), pi)
 }
 
 /// Whether `pi . a <= 0` for all columns and `pi . c > 0`, so that no nonnegative combination of the
@@ -23,13 +35,19 @@ pub(crate) fn is_proof_of<'a>(
     c: &[f64],
     pi: &[f64],
 ) -> bool {
+    separates(columns.into_iter().map(|column| (1.0, column)), c, pi)
+}
+
+/// The same for columns with a sign.
+fn separates<'a>(columns: impl Iterator<Item = (f64, Column<'a>)>, c: &[f64], pi: &[f64]) -> bool {
     if pi.len() != c.len() || pi.iter().any(|pi| !pi.is_finite()) {
         return false;
     }
     let (gap, size, terms) = product(Column::Dense(c), pi);
     let mut rounding = SUM_ROUNDING * terms;
-    for column in columns {
+    for (sign, column) in columns {
         let (sum, size, terms) = product(column, pi);
+        let sum = sign * sum;
         if !size.is_finite() || sum > LARGEST_OF_VECTOR.max(SUM_ROUNDING * terms) * size {
             return false;
         }

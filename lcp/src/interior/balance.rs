@@ -1,8 +1,11 @@
 //! Whether any contact forces balance the loads, wherever the bodies are.
 
+use faer::sparse::SparseColMat;
+
 use super::constants::{LEAST_WORK, ROW_ROUNDING};
+use super::program;
 use crate::problem::column_of;
-use crate::states::{Point, Scaled};
+use crate::states::Scaled;
 use crate::vector::max_abs;
 use crate::{Matrix, MixedLcp, Solution};
 
@@ -28,7 +31,7 @@ pub(super) fn balance(
     problem: &Scaled,
     solve: impl FnOnce(&MixedLcp) -> Option<Solution>,
 ) -> Balance {
-    let edges = problem.associated().points;
+    let edges = program::edges(problem);
     let Some(mixed) = nearest(problem, &edges) else { return Balance::Open };
     let Some(solution) = solve(&mixed) else { return Balance::Open };
     let (z, _) = mixed.recover(&solution.t, &solution.y);
@@ -45,17 +48,17 @@ pub(super) fn balance(
 
 /// The conditions of the least `|f + C^T t - K u|^2 / 2`, with `v`, `u` and then the parts of the forces
 /// along the edges as variables.
-fn nearest(problem: &Scaled, edges: &[Point]) -> Option<MixedLcp> {
+fn nearest(problem: &Scaled, edges: &SparseColMat<usize, f64>) -> Option<MixedLcp> {
     let n = problem.order();
-    let order = 2 * n + edges.len();
+    let order = 2 * n + edges.ncols();
     let mut entries: Vec<(usize, usize, f64)> = (0..n).map(|j| (j, j, 1.0)).collect();
     for j in 0..n {
         for (i, k) in column_of(&problem.k, j) {
             entries.extend([(i, n + j, k), (n + j, i, -k)]);
         }
     }
-    for (k, edge) in edges.iter().enumerate() {
-        for (j, value) in components(edge) {
+    for k in 0..edges.ncols() {
+        for (j, value) in column_of(edges, k) {
             entries.extend([(j, 2 * n + k, -value), (2 * n + k, j, value)]);
         }
     }
@@ -65,11 +68,6 @@ fn nearest(problem: &Scaled, edges: &[Point]) -> Option<MixedLcp> {
     MixedLcp::new(m, q, (0..order).map(|j| j < 2 * n).collect()).ok()
 }
 
-/// Displacements that an edge force acts on, with its components.
-fn components(edge: &Point) -> impl Iterator<Item = (usize, f64)> + '_ {
-    edge.columns.iter().copied().zip(edge.normal.iter().copied())
-}
-
 /// What does not move but for rounding errors is at rest: errors of their own size would contradict a proof.
 fn without_noise(v: &[f64]) -> Vec<f64> {
     let noise = ROW_ROUNDING * max_abs(v);
@@ -77,7 +75,7 @@ fn without_noise(v: &[f64]) -> Vec<f64> {
 }
 
 /// Whether a motion proves that no forces balance the loads.
-fn is_proof(problem: &Scaled, edges: &[Point], v: &[f64]) -> bool {
+fn is_proof(problem: &Scaled, edges: &SparseColMat<usize, f64>, v: &[f64]) -> bool {
     let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
     let (load, motion) = (size(&problem.f), size(v));
     let work: f64 = problem.f.iter().zip(v).map(|(f, v)| f * v).sum();
@@ -91,8 +89,8 @@ fn is_proof(problem: &Scaled, edges: &[Point], v: &[f64]) -> bool {
         let (sum, terms) = sum(&mut column_of(&problem.k, j));
         sum.abs() <= ROW_ROUNDING * terms
     });
-    let opens = edges.iter().all(|edge| {
-        let (sum, terms) = sum(&mut components(edge));
+    let opens = (0..edges.ncols()).all(|k| {
+        let (sum, terms) = sum(&mut column_of(edges, k));
         sum >= -ROW_ROUNDING * terms
     });
     max_abs(v) > 0.0 && work >= LEAST_WORK * load * motion && is_free && opens

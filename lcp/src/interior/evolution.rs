@@ -8,6 +8,7 @@ use super::constants::{
     STEADY_MOTIONS, TRIES,
 };
 use super::continuation::is_free;
+use super::evolved::{Evolved, Way};
 use super::motion::{Jerks, Motions, Moved, Viscosity};
 use super::rest::settled;
 use super::start::start;
@@ -17,9 +18,7 @@ use crate::settings::check_tolerance;
 use crate::solve::Monitor;
 use crate::states::{PROXIMAL, Point};
 use crate::vector::{check_length, check_vector, max_abs};
-use crate::{
-    Certificate, Contact2d, ContactState, Error, Method, Observer, SoftSprings, Solution, Status,
-};
+use crate::{Certificate, Contact2d, Error, Method, Observer, SoftSprings, Solution, Status};
 
 /// Settings of [`Evolution`].
 #[derive(Debug, Clone, PartialEq)]
@@ -44,7 +43,7 @@ impl Default for EvolutionSettings {
 ///
 /// Under loads or gaps that have changed, a contact problem with friction may have several solutions, or none that a
 /// method finds, since its law relates total slips. Bodies do not solve it: they move, and friction opposes the velocity
-/// at every moment. Three ways lead to a state at rest, one after the other ([`Way`]):
+/// at every moment. Three ways lead to a state at rest, one after the other ([`Way`](crate::Way)):
 ///
 /// 1. **Smooth friction.** Gaps and normal forces are complementary as always, but friction turns over a short slip `e`, a
 ///    thousandth of the displacements: `(mu t_n + t_t) s_+ = (mu t_n - t_t) s_- = e mu t_n`. These equations have a smooth path
@@ -95,62 +94,6 @@ impl Default for EvolutionSettings {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Evolution {
     settings: EvolutionSettings,
-}
-
-/// How bodies came to where they are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(rename_all = "kebab-case")
-)]
-#[non_exhaustive]
-pub enum Way {
-    /// The state solves the problem as given: Coulomb's law for the slips of the whole step.
-    Law,
-    /// Coulomb's law with friction that turns over a short slip.
-    SmoothFriction,
-    /// Motions against viscosity.
-    Motion,
-}
-
-impl Way {
-    /// A name for files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Law => "law",
-            Self::SmoothFriction => "smooth-friction",
-            Self::Motion => "motion",
-        }
-    }
-}
-
-/// Where the bodies are after an [`Evolution`].
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Evolved {
-    /// How they came there.
-    pub way: Way,
-    /// The displacements from which the slips of the solution are measured; `None` where they are those of the problem.
-    pub from: Option<Vec<f64>>,
-    /// The solution of the problem [after](Contact2d::after) `from`, where the bodies rest.
-    pub solution: Solution,
-    /// By motion the viscosity, in units of the equilibrated problem, and its share of the loads.
-    pub motions: SoftSprings,
-    /// The energy that friction and viscosity took on the way to `from`.
-    pub dissipation: f64,
-}
-
-impl Evolved {
-    /// The displacements, forces, gaps and slips where the bodies are.
-    pub fn state(&self) -> &ContactState {
-        self.solution.contact.as_ref().unwrap_or_else(|| unreachable!("a contact problem has one"))
-    }
-
-    /// Whether the bodies have come to rest.
-    pub fn rests(&self) -> bool {
-        self.solution.is_solved()
-    }
 }
 
 impl Evolution {

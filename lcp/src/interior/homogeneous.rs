@@ -1,58 +1,120 @@
-//! Convex problems as part of a homogeneous one, which always has a solution: that of the problem, or a proof that there
-//! is none.
+//! Convex programs as part of a homogeneous problem, which always has a solution: that of the program, or a proof that
+//! there is none.
+
+use faer::sparse::FaerError;
 
 use super::constants::{
-    BACK, CORRECTORS, LEAST_AIM, LONG_ENOUGH, LONGER, NO_STEP, PATIENCE, PROVED, STRICTER,
+    BACK, CENTRAL, COMPLIANCE, CORRECTORS, LEAST_AIM, LONG_ENOUGH, LONGER, NO_STEP, PATIENCE,
+    PROVED, STRICTER,
 };
-use super::iterate::{Defect, Iterate, Tangent};
-use super::path::{corrections, targets};
-use super::start::start;
+use super::program::Program;
 use crate::Status;
-use crate::problem::column_of;
-use crate::states::{Condensed, PROXIMAL, Point, Scaled};
+use crate::sparse::Gram;
+use crate::states::PROXIMAL;
 use crate::vector::max_abs;
+
+/// The variables of a program inside their bounds, or a step of them.
+#[derive(Debug, Clone)]
+pub(super) struct Variables {
+    pub(super) u: Vec<f64>,
+    pub(super) t: Vec<f64>,
+    pub(super) y: Vec<f64>,
+}
+
+/// The matrix of the steps of a program: order, pattern and factors.
+pub(super) struct Factors {
+    gram: Gram,
+    pub(super) factorisations: usize,
+}
+
+impl Factors {
+    pub(super) fn of(program: &Program) -> Result<Self, FaerError> {
+        let gram = Gram::new(Some(program.k.symbolic()), program.a.symbolic())?;
+        Ok(Self { gram, factorisations: 0 })
+    }
+
+    fn factorise(&mut self, program: &Program, stiffness: &[f64], spring: f64) {
+        self.gram.factorise(Some(program.k.as_ref()), program.a.as_ref(), (stiffness, spring));
+        self.factorisations += 1;
+    }
+}
+
+/// How exact a solution has to be.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Accuracy {
+    tolerance: f64,
+    /// What the smaller one of a pair counts beside what the equations lack.
+    pairs: f64,
+}
+
+impl Accuracy {
+    /// Equations and pairs alike, relative to the largest force and gap.
+    pub(super) fn of_all(tolerance: f64) -> Self {
+        Self { tolerance, pairs: 1.0 }
+    }
+
+    /// Equations to the tolerance, and pairs below a tenth of its root: to that, their products are far below the
+    /// tolerance.
+    pub(super) fn of_products(tolerance: f64) -> Self {
+        Self { tolerance, pairs: 10.0 * tolerance.sqrt() }
+    }
+}
 
 /// A point of the homogeneous problem of Andersen and Ye (1999),
 ///
 /// ```text
-/// K u = f tau + N^T t,   y = N u + D t + x_0 tau,   kappa = f.u - x_0.t - (u.K u + t.D t) / tau,
+/// K u = f tau + A t,   y = A^T u + D t + x_0 tau,   kappa = f.u - x_0.t - (u.K u + t.D t) / tau,
 /// t y = 0,   tau kappa = 0,   t, y, tau, kappa >= 0.
 /// ```
 ///
 /// Where `tau > 0`, `u / tau` and `t / tau` are a solution of the problem; where `kappa > 0`, `u` and `t` prove that there
 /// is none.
 struct Homogeneous<'a> {
-    problem: &'a Scaled,
+    program: &'a Program,
     /// A stiffness that comes on top of `K` on every displacement.
     spring: f64,
-    at: Iterate,
+    at: Variables,
     tau: f64,
     kappa: f64,
+    /// `K u`, with the springs, and `A^T u`.
+    strained: Vec<f64>,
+    opened: Vec<f64>,
 }
 
 /// A step of all variables.
 struct Step {
-    at: Iterate,
+    at: Variables,
     tau: f64,
     kappa: f64,
 }
 
-/// The solution of a problem without friction, with a spring on every displacement, to a tolerance; or `u` and `t` that may
-/// prove that there is none, with [`Status::Infeasible`] if `is_proof` says so, which is asked wherever they are near.
-/// `stop` is asked before every step, with the residual.
+/// What the equations lack at a point.
+struct Defect {
+    /// `f tau + A t - K u`
+    balance: Vec<f64>,
+    /// `A^T u + D t + x_0 tau - y`
+    gaps: Vec<f64>,
+}
+
+/// The solution of a program, with a spring on every displacement; or `u` and `t` that may prove that there is none, with
+/// [`Status::Infeasible`] if `is_proof` says so, which is asked wherever they are near. Springs carry any load, so with them
+/// no proof is looked for. `stop` is asked before every step, with the residual.
 pub(super) fn solved(
-    problem: &Scaled,
-    condensed: &mut Condensed,
-    (spring, tolerance): (f64, f64),
+    program: &Program,
+    factors: &mut Factors,
+    (spring, accuracy): (f64, Accuracy),
     mut stop: impl FnMut(f64) -> Option<Status>,
-    mut is_proof: impl FnMut(&Iterate) -> bool,
-) -> (Iterate, Status) {
-    let at = start(problem, condensed, spring.max(PROXIMAL));
-    let kappa = at.gap(problem);
-    let mut now = Homogeneous { problem, spring, at, tau: 1.0, kappa };
-    let (mut least, mut since, mut provable) = (f64::INFINITY, 0, PROVED);
+    mut is_proof: impl FnMut(&Variables) -> bool,
+) -> (Variables, Status) {
+    let Accuracy { tolerance, pairs } = accuracy;
+    let at = start(program, factors, spring.max(PROXIMAL));
+    let kappa = at.mean_product();
+    let mut now = Homogeneous::new((program, spring), at, (1.0, kappa));
+    let (mut least, mut since, mut provable) = ([f64::INFINITY; 3], 0, PROVED);
     loop {
-        let (residual, error) = (now.residual(), now.error_of_proof());
+        let defect = now.defect();
+        let residual = now.residual(&defect, pairs);
+        let error = if spring > 0.0 { f64::INFINITY } else { now.error_of_proof() };
         if residual <= tolerance {
             return (now.solution(), Status::Solved);
         }
@@ -65,30 +127,93 @@ pub(super) fn solved(
                 return (now.at, Status::Stalled);
             }
         }
-        let merit = residual.min(error);
-        if let Some(status) = stop(merit) {
+        if let Some(status) = stop(residual.min(error)) {
             return (now.solution(), status);
         }
-        since = if merit < 0.9 * least { 0 } else { since + 1 };
-        least = least.min(merit);
-        let alpha = now.advance(condensed);
+        // Far from a proof its error may be as small as it will be for long, while the rest goes on.
+        let merits = [residual, error, now.mean()];
+        let is_better = merits.iter().zip(&least).any(|(merit, least)| *merit < 0.9 * least);
+        since = if is_better { 0 } else { since + 1 };
+        least = [0, 1, 2].map(|k| least[k].min(merits[k]));
+        let alpha = now.advance(factors, defect);
         if alpha < NO_STEP || since > PATIENCE {
             return (now.solution(), Status::Stalled);
         }
     }
 }
 
-impl Homogeneous<'_> {
-    /// The solution that the point may be near to.
-    fn solution(self) -> Iterate {
-        self.at.multiple(1.0 / self.tau.max(f64::MIN_POSITIVE))
+/// A start from the forces that the contacts would carry if they were springs in both directions.
+fn start(program: &Program, factors: &mut Factors, spring: f64) -> Variables {
+    let stiffness: Vec<f64> = program.compliance.iter().map(|c| 1.0 / (1.0 + c)).collect();
+    factors.factorise(program, &stiffness, spring);
+    let mut u = program.f.clone();
+    let forces = stiffness.iter().zip(&program.x_0).map(|(stiffness, x)| -stiffness * x);
+    program.add_forces(&forces.collect::<Vec<f64>>(), &mut u);
+    factors.gram.solve(&mut u);
+    // Less than the gap by what the force presses together, which is the force of a spring of stiffness one.
+    let mut gaps = program.opened(&u);
+    for ((gap, x), stiffness) in gaps.iter_mut().zip(&program.x_0).zip(&stiffness) {
+        *gap = stiffness * (*gap + x);
+    }
+    let mean = gaps.iter().map(|g| g.abs()).sum::<f64>() / gaps.len().max(1) as f64;
+    let shift = if mean > 0.0 && mean.is_finite() { mean } else { 1.0 };
+    let t = gaps.iter().map(|gap| (-gap).max(0.0) + shift).collect();
+    let y = gaps.iter().map(|gap| gap.max(0.0) + shift).collect();
+    Variables { u, t, y }
+}
+
+impl Variables {
+    fn mean_product(&self) -> f64 {
+        dot(&self.t, &self.y) / self.t.len().max(1) as f64
     }
 
-    fn residual(&self) -> f64 {
-        let (force, length) = self.at.sizes();
-        let units = (force.max(self.tau), length.max(self.tau));
-        let defect = self.defect().relative(units);
-        self.at.natural(self.problem, units).max(defect)
+    fn moved(&self, step: &Self, alpha: f64) -> Self {
+        let moved = |v: &[f64], step: &[f64]| {
+            v.iter().zip(step).map(|(v, step)| v + alpha * step).collect::<Vec<f64>>()
+        };
+        Self { u: moved(&self.u, &step.u), t: moved(&self.t, &step.t), y: moved(&self.y, &step.y) }
+    }
+
+    fn is_finite(&self) -> bool {
+        [&self.u, &self.t].iter().map(|v| v.iter().sum::<f64>()).sum::<f64>().is_finite()
+    }
+
+    /// The largest step, at most one, that leaves all bounded variables positive.
+    fn longest(&self, step: &Self) -> f64 {
+        let pairs = self.t.iter().zip(&step.t).chain(self.y.iter().zip(&step.y));
+        longest(pairs.map(|(v, change)| (*v, *change)))
+    }
+}
+
+/// The largest step, at most one, that leaves numbers positive that change.
+fn longest(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
+    pairs.filter(|(_, change)| *change < 0.0).map(|(v, change)| -v / change).fold(1.0, f64::min)
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+impl<'a> Homogeneous<'a> {
+    fn new((program, spring): (&'a Program, f64), at: Variables, (tau, kappa): (f64, f64)) -> Self {
+        let (strained, opened) = (program.strained(&at.u, spring), program.opened(&at.u));
+        Self { program, spring, at, tau, kappa, strained, opened }
+    }
+
+    /// The solution that the point may be near to.
+    fn solution(mut self) -> Variables {
+        let by = 1.0 / self.tau.max(f64::MIN_POSITIVE);
+        let Variables { u, t, y } = &mut self.at;
+        u.iter_mut().chain(t).chain(y).for_each(|v| *v *= by);
+        self.at
+    }
+
+    fn residual(&self, defect: &Defect, pairs: f64) -> f64 {
+        let (force, length) = (max_abs(&self.at.t), max_abs(&self.at.y));
+        let (force, length) = (force.max(self.tau), length.max(self.tau));
+        let defect = (max_abs(&defect.balance) / force).max(max_abs(&defect.gaps) / length);
+        let natural = self.at.t.iter().zip(&self.at.y).map(|(t, y)| (t / force).min(y / length));
+        natural.fold(defect, |max, v| max.max(pairs * v.abs()))
     }
 
     /// How far the point is from a proof: what has to vanish, relative to the work of loads and gaps, which has to be
@@ -98,57 +223,50 @@ impl Homogeneous<'_> {
         if work <= 0.0 {
             return f64::INFINITY;
         }
-        let against =
-            self.points().map(|(point, t)| (-point.moved(&self.at.u).0).max(point.compliance * t));
-        against.fold(max_abs(&self.strained()), f64::max) / work
+        let forces = self.program.compliance.iter().zip(&self.at.t);
+        let against = self.opened.iter().zip(forces).map(|(opened, (c, t))| (-opened).max(c * t));
+        against.fold(max_abs(&self.strained), f64::max) / work
     }
 
     fn defect(&self) -> Defect {
-        Defect::of_multiple(self.problem, &self.at, (self.spring, self.tau))
-    }
-
-    fn points(&self) -> impl Iterator<Item = (&Point, f64)> {
-        self.problem.points.iter().zip(self.at.points.iter().map(|pairs| pairs.t_n))
+        let Self { program, at, tau, .. } = self;
+        let mut balance: Vec<f64> =
+            program.f.iter().zip(&self.strained).map(|(f, strained)| tau * f - strained).collect();
+        program.add_forces(&at.t, &mut balance);
+        let data = program.x_0.iter().zip(&program.compliance);
+        let pairs = self.opened.iter().zip(data).zip(at.t.iter().zip(&at.y));
+        let gaps = pairs.map(|((opened, (x, c)), (t, y))| opened + tau * x + c * t - y).collect();
+        Defect { balance, gaps }
     }
 
     /// `f.u - x_0.t`
     fn work(&self) -> f64 {
-        let loads: f64 = self.problem.f.iter().zip(&self.at.u).map(|(f, u)| f * u).sum();
-        loads - self.points().map(|(point, t)| point.x_0 * t).sum::<f64>()
-    }
-
-    /// `K u`
-    fn strained(&self) -> Vec<f64> {
-        let mut strained: Vec<f64> = self.at.u.iter().map(|u| self.spring * u).collect();
-        for (j, u) in self.at.u.iter().enumerate() {
-            column_of(&self.problem.k, j).for_each(|(i, v)| strained[i] += v * u);
-        }
-        strained
+        dot(&self.program.f, &self.at.u) - dot(&self.program.x_0, &self.at.t)
     }
 
     /// The mean of the products of all pairs.
     fn mean(&self) -> f64 {
-        let count = self.problem.points.len() as f64;
-        (self.at.gap(self.problem) * count + self.tau * self.kappa) / (count + 1.0)
+        let count = self.at.t.len() as f64;
+        (self.at.mean_product() * count + self.tau * self.kappa) / (count + 1.0)
     }
 
     /// One step of Mehrotra's method with Gondzio's correctors; gives its length.
-    fn advance(&mut self, condensed: &mut Condensed) -> f64 {
-        let newton = Newton::of(self, condensed);
+    fn advance(&mut self, factors: &mut Factors, defect: Defect) -> f64 {
+        let (newton, affine) = Newton::of(self, factors, defect);
         let mean = self.mean();
-        let affine = newton.step((1.0, 0.0), None);
         let free = self.longest(&affine);
         let centring = (1.0 - free).powi(3).min(1.0);
         let aim = centring * mean;
-        let mut step = newton.step((1.0 - centring, aim), Some(&affine));
+        let mut step = newton.step((1.0 - centring, aim), &affine);
+        drop(affine);
         let mut alpha = self.longest(&step);
         for _ in 0..CORRECTORS {
             if alpha >= LONG_ENOUGH {
                 break;
             }
-            let trial = self.at.moved(&step.at, (1.5 * alpha + 0.3).min(1.0));
-            let corrections = corrections(self.problem, &trial, aim.max(LEAST_AIM * mean));
-            let corrected = step.plus(&newton.corrector(&corrections));
+            let trial = (1.5 * alpha + 0.3).min(1.0);
+            let corrector = newton.corrector(&step.at, trial, aim.max(LEAST_AIM * mean));
+            let corrected = step.plus(&corrector);
             let reached = self.longest(&corrected);
             if reached < alpha + LONGER {
                 break;
@@ -161,17 +279,14 @@ impl Homogeneous<'_> {
         if !at.is_finite() || !(tau + kappa).is_finite() {
             return 0.0;
         }
-        (self.at, self.tau, self.kappa) = (at, tau, kappa);
+        *self = Self::new((self.program, self.spring), at, (tau, kappa));
         alpha
     }
 
     /// The largest step, at most one, that leaves all variables positive.
     fn longest(&self, step: &Step) -> f64 {
         let pairs = [(self.tau, step.tau), (self.kappa, step.kappa)];
-        let shrinking = pairs.into_iter().filter(|(_, change)| *change < 0.0);
-        shrinking
-            .map(|(v, change)| -v / change)
-            .fold(self.at.longest(self.problem, &step.at), f64::min)
+        longest(pairs.into_iter()).min(self.at.longest(&step.at))
     }
 }
 
@@ -185,10 +300,12 @@ impl Step {
 /// Newton's equations at a point: those of the problem, bordered by those of `tau` and `kappa`.
 struct Newton<'a> {
     now: &'a Homogeneous<'a>,
-    tangent: Tangent<'a>,
+    gram: &'a Gram,
+    /// The springs that Newton's method puts in the place of the pairs.
+    stiffness: Vec<f64>,
     defect: Defect,
     /// The step of `u` and `t` for a step of one of `tau`.
-    of_tau: Iterate,
+    of_tau: Variables,
     /// The derivatives of the equation of `kappa` by `u` and `t`.
     border: (Vec<f64>, Vec<f64>),
     /// What is left of that equation.
@@ -197,56 +314,145 @@ struct Newton<'a> {
     pivot: f64,
 }
 
+/// What a step has to make good, and the changes of the products of the pairs, to first order: `y dt + t dy = target`.
+struct Aim<'a> {
+    balance: Vec<f64>,
+    gaps: &'a [f64],
+    /// The part of the gaps that counts.
+    part: f64,
+    targets: Vec<f64>,
+}
+
 impl<'a> Newton<'a> {
-    fn of(now: &'a Homogeneous<'a>, condensed: &'a mut Condensed) -> Self {
-        let Homogeneous { problem, spring, at, tau, kappa } = now;
-        let strained = now.strained();
-        let tangent = Tangent::new(problem, condensed, at, spring.max(PROXIMAL));
-        let none = vec![[0.0; 3]; problem.points.len()];
-        let of_tau = tangent.step(&Defect::of_data(problem), &none);
-        let by_u = problem.f.iter().zip(&strained).map(|(f, k)| f - 2.0 * k / tau).collect();
-        let by_t = now.points().map(|(it, t)| it.x_0 + 2.0 * it.compliance * t / tau).collect();
-        let bodies: f64 = strained.iter().zip(&at.u).map(|(k, u)| k * u).sum();
-        let contacts: f64 = now.points().map(|(point, t)| point.compliance * t * t).sum();
-        let energy = (bodies + contacts) / tau;
+    /// With the step to products of zero.
+    fn of(now: &'a Homogeneous<'a>, factors: &'a mut Factors, defect: Defect) -> (Self, Step) {
+        let Homogeneous { program, spring, at, tau, kappa, strained, .. } = now;
+        let pairs = at.t.iter().zip(&at.y).zip(&program.compliance);
+        let stiffness: Vec<f64> = pairs.map(|((t, y), c)| 1.0 / (y / t + c + COMPLIANCE)).collect();
+        factors.factorise(program, &stiffness, spring.max(PROXIMAL));
+        let data = program.x_0.iter().zip(&program.compliance).zip(&at.t);
+        let by_u = program.f.iter().zip(strained).map(|(f, k)| f - 2.0 * k / tau).collect();
+        let by_t = data.map(|((x, c), t)| x + 2.0 * c * t / tau).collect();
+        let contacts = program.compliance.iter().zip(&at.t).map(|(c, t)| c * t * t).sum::<f64>();
+        let energy = (dot(strained, &at.u) + contacts) / tau;
+        let none = Variables { u: Vec::new(), t: Vec::new(), y: Vec::new() };
         let mut newton = Self {
             now,
-            tangent,
-            defect: now.defect(),
-            of_tau,
+            gram: &factors.gram,
+            stiffness,
+            defect,
+            of_tau: none,
             border: (by_u, by_t),
             rest: now.work() - energy - kappa,
             pivot: 0.0,
         };
-        newton.pivot = newton.across(&newton.of_tau) + (energy + kappa) / tau;
-        newton
+        let of_data = Aim {
+            balance: program.f.clone(),
+            gaps: &program.x_0,
+            part: 1.0,
+            targets: vec![0.0; at.t.len()],
+        };
+        let to_zero = Aim {
+            balance: newton.defect.balance.clone(),
+            gaps: &newton.defect.gaps,
+            part: 1.0,
+            targets: at.t.iter().zip(&at.y).map(|(t, y)| -t * y).collect(),
+        };
+        let [of_tau, affine] = newton.held(&[of_data, to_zero]);
+        newton.pivot = newton.across(&of_tau) + (energy + kappa) / tau;
+        newton.of_tau = of_tau;
+        let affine = newton.bordered(&affine, (newton.rest, -tau * kappa));
+        (newton, affine)
     }
 
     /// The product of the border with a step of `u` and `t`.
-    fn across(&self, step: &Iterate) -> f64 {
+    fn across(&self, step: &Variables) -> f64 {
         let (by_u, by_t) = &self.border;
-        let u: f64 = by_u.iter().zip(&step.u).map(|(v, du)| v * du).sum();
-        u - by_t.iter().zip(&step.points).map(|(v, pairs)| v * pairs.t_n).sum::<f64>()
+        dot(by_u, &step.u) - dot(by_t, &step.t)
     }
 
     /// The step that reduces the residuals of all equations by a part, with products of an aim in the end, less the
     /// second-order term of a predictor.
-    fn step(&self, (part, aim): (f64, f64), predictor: Option<&Step>) -> Step {
-        let Homogeneous { problem, at, tau, kappa, .. } = self.now;
-        let targets = targets(problem, at, aim, predictor.map(|it| &it.at));
-        let second = predictor.map_or(0.0, |it| it.tau * it.kappa);
-        let rest = (part * self.rest, aim - tau * kappa - second);
-        self.bordered(&self.tangent.step(&self.defect.reduced(part), &targets), rest)
+    fn step(&self, (part, aim): (f64, f64), predictor: &Step) -> Step {
+        let Homogeneous { at, tau, kappa, .. } = self.now;
+        let pairs = at.t.iter().zip(&at.y).zip(predictor.at.t.iter().zip(&predictor.at.y));
+        let aims = Aim {
+            balance: self.defect.balance.iter().map(|v| part * v).collect(),
+            gaps: &self.defect.gaps,
+            part,
+            targets: pairs.map(|((t, y), (dt, dy))| aim - t * y - dt * dy).collect(),
+        };
+        let [held] = self.held(&[aims]);
+        let second = predictor.tau * predictor.kappa;
+        self.bordered(&held, (part * self.rest, aim - tau * kappa - second))
     }
 
-    /// The step that changes the products of the pairs by `targets`, and nothing else.
-    fn corrector(&self, targets: &[[f64; 3]]) -> Step {
-        self.bordered(&self.tangent.step(&Defect::none(self.now.problem), targets), (0.0, 0.0))
+    /// The step that brings the products back among those that are central, where another one leads, and changes nothing
+    /// else.
+    fn corrector(&self, step: &Variables, alpha: f64, aim: f64) -> Step {
+        let Variables { t, y, .. } = &self.now.at;
+        let (low, high) = (CENTRAL.0 * aim, CENTRAL.1 * aim);
+        let correction = |((t, y), (dt, dy)): ((&f64, &f64), (&f64, &f64))| {
+            let (t, y) = (t + alpha * dt, y + alpha * dy);
+            // Two negative values are as far outside as one.
+            let product = if t < 0.0 && y < 0.0 { -t * y } else { t * y };
+            if product < low {
+                low - product
+            } else if product > high {
+                (high - product).max(-high)
+            } else {
+                0.0
+            }
+        };
+        let aims = Aim {
+            balance: vec![0.0; self.now.at.u.len()],
+            gaps: &self.defect.gaps,
+            part: 0.0,
+            targets: t.iter().zip(y).zip(step.t.iter().zip(&step.y)).map(correction).collect(),
+        };
+        let [held] = self.held(&[aims]);
+        self.bordered(&held, (0.0, 0.0))
+    }
+
+    /// Steps at `tau` as it is.
+    fn held<const N: usize>(&self, aims: &[Aim<'_>; N]) -> [Variables; N] {
+        let Homogeneous { program, at, .. } = self.now;
+        let n = at.u.len();
+        let mut all = Vec::with_capacity(N * n);
+        // Forces that do not depend on the displacements.
+        let fixed = aims.each_ref().map(|aim| {
+            let pairs = self.stiffness.iter().zip(aim.targets.iter().zip(&at.t)).zip(aim.gaps);
+            let force = |((stiffness, (target, t)), gap): ((&f64, (&f64, &f64)), &f64)| {
+                stiffness * (target / t - aim.part * gap)
+            };
+            let fixed: Vec<f64> = pairs.map(force).collect();
+            let begin = all.len();
+            all.extend_from_slice(&aim.balance);
+            program.add_forces(&fixed, &mut all[begin..]);
+            fixed
+        });
+        self.gram.solve(&mut all);
+        let mut at_once = fixed.into_iter().zip(aims).enumerate();
+        std::array::from_fn(|_| {
+            let Some((place, (mut t, aim))) = at_once.next() else {
+                unreachable!("one for every aim")
+            };
+            let u = all[place * n..(place + 1) * n].to_vec();
+            let mut y = program.opened(&u);
+            t.iter_mut().zip(&y).zip(&self.stiffness).for_each(|((t, y), s)| *t -= s * y);
+            let data = aim.gaps.iter().zip(&aim.targets).zip(&program.compliance);
+            let pairs = at.t.iter().zip(&at.y).zip(&t).zip(data);
+            // Of the two equations for `dy` the one that keeps the digits: the second where `t` is the larger one.
+            for (y, (((t, gap), dt), ((lack, target), c))) in y.iter_mut().zip(pairs) {
+                *y = if t > gap { (target - gap * dt) / t } else { *y + c * dt + aim.part * lack };
+            }
+            Variables { u, t, y }
+        })
     }
 
     /// A step at `tau` as it is, with what it takes to make good `rest` of the equation of `kappa` and to change
     /// `tau kappa` by `target`.
-    fn bordered(&self, held: &Iterate, (rest, target): (f64, f64)) -> Step {
+    fn bordered(&self, held: &Variables, (rest, target): (f64, f64)) -> Step {
         let Homogeneous { tau, kappa, .. } = self.now;
         let change = (target / tau - rest - self.across(held)) / self.pivot;
         let at = held.moved(&self.of_tau, change);

@@ -70,30 +70,9 @@ impl Defect {
             } else {
                 0.0
             };
-            (point.gap(&at.u) + point.compliance * pairs.t_n - pairs.gap, slip)
+            (point.gap(&at.u) - pairs.gap, slip)
         });
         Self { balance, gaps: gaps.collect() }
-    }
-
-    /// Of points without friction under `scale` times all loads and initial gaps.
-    pub(super) fn of_multiple(problem: &Scaled, at: &Iterate, (spring, scale): (f64, f64)) -> Self {
-        let mut defect = Self::of(problem, at, spring);
-        let more = scale - 1.0;
-        defect.balance.iter_mut().zip(&problem.f).for_each(|(b, f)| *b += more * f);
-        defect.gaps.iter_mut().zip(&problem.points).for_each(|(gap, it)| gap.0 += more * it.x_0);
-        defect
-    }
-
-    /// The loads and initial gaps of points without friction.
-    pub(super) fn of_data(problem: &Scaled) -> Self {
-        let gaps = problem.points.iter().map(|point| (point.x_0, 0.0)).collect();
-        Self { balance: problem.f.clone(), gaps }
-    }
-
-    /// This part of it.
-    pub(super) fn reduced(&self, part: f64) -> Self {
-        let gaps = self.gaps.iter().map(|(gap, slip)| (part * gap, part * slip)).collect();
-        Self { balance: self.balance.iter().map(|b| part * b).collect(), gaps }
     }
 
     pub(super) fn none(problem: &Scaled) -> Self {
@@ -163,7 +142,7 @@ impl<'a> Tangent<'a> {
             let moved = point.moved(&u);
             let (t_n, t_t) = self.springs[i].forces(moved.0, moved.1);
             let (t_n, t_t) = (fixed.0 - t_n, fixed.1 - t_t);
-            let opened = moved.0 + point.compliance * t_n + defect.gaps[i].0;
+            let opened = moved.0 + defect.gaps[i].0;
             let opened = (opened, moved.1 + defect.gaps[i].1);
             self.at.points[i].change(point.mu, (t_n, t_t), opened, &targets[i])
         });
@@ -185,7 +164,7 @@ impl Pairs {
 
 /// The springs that Newton's method puts in the place of a contact.
 fn springs(point: &Point, pairs: &Pairs) -> Springs {
-    let nn = 1.0 / (pairs.gap / pairs.t_n + point.compliance + COMPLIANCE);
+    let nn = 1.0 / (pairs.gap / pairs.t_n + COMPLIANCE);
     if point.mu == 0.0 {
         return Springs { nn, ..Springs::default() };
     }
@@ -358,11 +337,6 @@ impl Iterate {
         let u = self.u.iter().zip(&step.u).map(|(u, du)| u + alpha * du).collect();
         let points = self.points.iter().zip(&step.points).map(|(p, d)| p.plus(d, alpha)).collect();
         Self { u, points, smooth: self.smooth }
-    }
-
-    /// All variables times a number.
-    pub(super) fn multiple(&self, by: f64) -> Self {
-        self.moved(self, by - 1.0)
     }
 
     /// `(1 - share) self + share other`.

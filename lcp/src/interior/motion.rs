@@ -6,9 +6,10 @@ use super::constants::{
     FIRST_VISCOSITY, FLOWING, JERKS_GO_ON, JERKY, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS,
     SAME_LENGTH, SLOWER,
 };
-use super::homogeneous::solved;
+use super::homogeneous::{Accuracy, Factors, solved};
+use super::program::{Program, associated};
 use crate::Status;
-use crate::states::{Condensed, Scaled};
+use crate::states::Scaled;
 
 /// Bodies that move with associated flow.
 ///
@@ -16,8 +17,8 @@ use crate::states::{Condensed, Scaled};
 /// always find. The next motion has the gaps as they are and slips from zero, so that bodies fall back on each other;
 /// where they come to rest nothing slips, and forces and gaps are those of Coulomb's law (Anitescu 2006).
 pub(super) struct Motions {
-    edges: Scaled,
-    condensed: Condensed,
+    edges: Program,
+    factors: Factors,
 }
 
 /// Where bodies are after a motion, and the forces on the way, by contact point.
@@ -28,14 +29,14 @@ pub(super) struct Moved {
 
 impl Motions {
     pub(super) fn of(problem: &Scaled) -> Result<Self, FaerError> {
-        let edges = problem.associated();
-        let condensed = Condensed::new(&edges)?;
-        Ok(Self { edges, condensed })
+        let edges = associated(problem);
+        let factors = Factors::of(&edges)?;
+        Ok(Self { edges, factors })
     }
 
     /// The factorisations of all motions.
     pub(super) fn factorisations(&self) -> usize {
-        self.condensed.factorisations
+        self.factors.factorisations
     }
 
     /// One motion from displacements, with slips as the problem measures them; `None` where it cannot be computed, or
@@ -47,15 +48,16 @@ impl Motions {
         (viscosity, accuracy): (f64, f64),
         stop: impl FnMut(f64) -> Option<Status>,
     ) -> Option<Moved> {
-        let Self { edges, condensed } = self;
+        let Self { edges, factors } = self;
         for (f, (load, from)) in edges.f.iter_mut().zip(problem.f.iter().zip(from)) {
             *f = load + viscosity * from;
         }
-        for (edge, (point, mu)) in edges.points.iter_mut().zip(problem.edges()) {
-            edge.x_0 = point.x_0 + mu * point.s_0;
+        for (x_0, (point, mu)) in edges.x_0.iter_mut().zip(problem.edges()) {
+            *x_0 = point.x_0 + mu * point.s_0;
         }
-        let (moved, status) = solved(edges, condensed, (viscosity, accuracy), stop, |_| false);
-        let forces = problem.of_edges(moved.points.iter().map(|pairs| pairs.t_n));
+        let accuracy = Accuracy::of_all(accuracy);
+        let (moved, status) = solved(edges, factors, (viscosity, accuracy), stop, |_| false);
+        let forces = problem.of_edges(moved.t.iter().copied());
         (status == Status::Solved).then_some(Moved { forces, u: moved.u })
     }
 }

@@ -3,8 +3,8 @@
 use super::saddle::Saddle;
 use super::{InteriorPoint, InteriorPointSettings};
 use crate::active::unplanned;
-use crate::certify::is_proof;
-use crate::lower::{General, judged_by, judged_point, solve_disguised, solve_lowered};
+use crate::certify::is_proof_of_mixed;
+use crate::lower::{judged_by, judged_point, solve_disguised, solve_lowered};
 use crate::solve::Monitor;
 use crate::{
     BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Method, MixedLcp, Observer,
@@ -46,17 +46,18 @@ impl Solver<MixedLcp> for InteriorPoint {
         let Some(saddle) = saddle else { return self.run(problem, observer) };
         self.settings.validate(problem.order())?;
         let mut monitor = Monitor::new(max_iterations, time_limit, observer);
-        let mut condensed = saddle.planned().map_err(|error| unplanned(Method::Interior, error))?;
-        let mut general = None;
+        let mut factors = saddle.planned().map_err(|error| unplanned(Method::Interior, error))?;
+        let is_proof = |pi: &[f64]| is_proof_of_mixed(problem, pi);
         let (z, w, status, certificate) =
-            saddle.solved(&mut condensed, tolerance, &mut monitor, |z| {
-                is_proof(general.get_or_insert_with(|| problem.general()), z)
-            });
+            saddle.solved(&mut factors, tolerance, &mut monitor, is_proof);
+        let factorisations = factors.factorisations;
+        // The judge needs the space.
+        drop((saddle, factors));
         let pairs = problem.to_pairs(&z, &w);
         let mut solution = judged_point(problem, pairs, tolerance, status);
         solution.certificate = certificate;
         solution.info = monitor.info(Method::Interior);
-        solution.info.factorisations = condensed.factorisations;
+        solution.info.factorisations = factorisations;
         Ok(solution)
     }
 }

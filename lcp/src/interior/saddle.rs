@@ -1,34 +1,39 @@
 //! Mixed problems whose bounded variables are forces on the free ones: those of convex programs in few variables with
 //! many inequalities, or the other way round.
 
-use faer::sparse::{SparseColMat, Triplet};
+use faer::sparse::{FaerError, SparseColMat};
 
 use super::constants::ROW_ROUNDING;
-use super::homogeneous::solved;
-use super::iterate::Iterate;
+use super::homogeneous::{Accuracy, Factors, Variables, solved};
+use super::program::{Program, Units, assembled};
 use crate::problem::column_of;
 use crate::solve::Monitor;
-use crate::states::{Condensed, Point, Scaled};
 use crate::vector::max_abs;
-use crate::{Certificate, MixedLcp, Status};
+use crate::{Certificate, Matrix, MixedLcp, Status};
 
-/// Such a problem: `K u = f + N^T t`, `y = N u + D t + x_0`, `0 <= t _|_ y >= 0`, with a diagonal `D >= 0`.
+/// Such a problem: `K u = f + A t`, `y = A^T u + D t + x_0`, `0 <= t _|_ y >= 0`, with a diagonal `D >= 0`.
 ///
 /// A step factorises a matrix with the order of `u`, where the mixed problem as it stands has that of `u` and `t`.
-pub(super) struct Saddle {
-    scaled: Scaled,
+pub(super) struct Saddle<'a> {
+    program: Program,
+    units: Units,
     /// Of every variable of the mixed problem its place among the free or the bounded ones.
     places: Vec<usize>,
-    free: Vec<bool>,
+    free: &'a [bool],
 }
 
-impl Saddle {
+impl<'a> Saddle<'a> {
     /// `None` where bounded variables act on each other, or are not acted on as they act.
-    pub(super) fn of(problem: &MixedLcp) -> Option<Self> {
-        if problem.asymmetry().is_some() {
-            return None;
-        }
-        let (m, q, free) = (problem.m().clone().into_sparse(), problem.q(), problem.free());
+    pub(super) fn of(problem: &'a MixedLcp) -> Option<Self> {
+        let (q, free) = (problem.q(), problem.free());
+        let dense;
+        let m = match problem.m() {
+            Matrix::Sparse(m) => m,
+            m @ Matrix::Dense(_) => {
+                dense = m.clone().into_sparse();
+                &dense
+            }
+        };
         let mut counts = [0; 2];
         let place = |is_free: &bool| {
             let count = &mut counts[usize::from(*is_free)];
@@ -36,54 +41,52 @@ impl Saddle {
             *count - 1
         };
         let places: Vec<usize> = free.iter().map(place).collect();
-        let [bounded, order] = counts;
-        let mut points = Vec::with_capacity(bounded);
-        for j in (0..free.len()).filter(|&j| !free[j]) {
-            let (mut columns, mut normal, mut compliance) = (Vec::new(), Vec::new(), 0.0);
-            for (i, v) in column_of(&m, j).filter(|(_, v)| *v != 0.0) {
-                if free[i] {
-                    columns.push(places[i]);
-                    normal.push(-v);
-                } else if i == j && v > 0.0 {
-                    compliance = v;
-                } else {
-                    return None;
+        let order = counts[1];
+        let among_free = |j: usize| {
+            let entries = column_of(m, j).filter(|(i, v)| free[*i] && *v != 0.0);
+            entries.map(|(i, v)| (places[i], v))
+        };
+        let matrix_of = |is_free: bool, sign: f64| {
+            let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
+            for j in (0..free.len()).filter(|&j| free[j] == is_free) {
+                for (i, v) in among_free(j) {
+                    rows.push(i);
+                    values.push(sign * v);
                 }
+                starts.push(rows.len());
             }
-            let tangent = vec![0.0; columns.len()];
-            points.push(Point {
-                columns,
-                normal,
-                tangent,
-                x_0: q[j],
-                s_0: 0.0,
-                mu: 0.0,
-                compliance,
-            });
+            assembled(order, starts, rows, values)
+        };
+        let bounded = || (0..free.len()).filter(|&j| !free[j]);
+        let compliance = bounded().map(|j| own_compliance(m, free, j));
+        let compliance = compliance.collect::<Option<Vec<f64>>>()?;
+        if problem.asymmetry().is_some() {
+            return None;
         }
-        let among_free = |j: usize| column_of(&m, j).filter(|(i, v)| free[*i] && *v != 0.0);
-        let stiffness = (0..free.len()).filter(|&j| free[j]).flat_map(|j| {
-            among_free(j).map(|(i, v)| Triplet::new(places[i], places[j], v)).collect::<Vec<_>>()
-        });
-        let stiffness: Vec<_> = stiffness.collect();
-        let k = SparseColMat::try_new_from_triplets(order, order, &stiffness).ok()?;
-        let loads = q.iter().zip(free).filter(|(_, free)| **free).map(|(q, _)| -q).collect();
-        let scaled = Scaled::of_parts(k, loads, points);
-        Some(Self { scaled, places, free: free.to_vec() })
+        let program = Program {
+            k: matrix_of(true, 1.0),
+            f: q.iter().zip(free).filter(|(_, free)| **free).map(|(q, _)| -q).collect(),
+            a: matrix_of(false, -1.0),
+            x_0: bounded().map(|j| q[j]).collect(),
+            compliance,
+        };
+        let (program, units) = program.scaled();
+        Some(Self { program, units, places, free })
     }
 
     /// `(z, w)` of a solution to the tolerance, or where a limit is reached; or along a motion that may prove that there is
     /// none. The last is the Farkas vector that `is_proof` has confirmed.
     pub(super) fn solved(
         &self,
-        condensed: &mut Condensed,
+        factors: &mut Factors,
         tolerance: f64,
         monitor: &mut Monitor<'_>,
         mut is_proof: impl FnMut(&[f64]) -> bool,
     ) -> (Vec<f64>, Vec<f64>, Status, Option<Certificate>) {
-        let is_proof = |at: &Iterate| is_proof(&self.proof(at));
+        let is_proof = |at: &Variables| is_proof(&self.proof(at));
         let stop = |residual| monitor.stop(residual);
-        let (at, status) = solved(&self.scaled, condensed, (0.0, tolerance), stop, is_proof);
+        let accuracy = (0.0, Accuracy::of_all(tolerance));
+        let (at, status) = solved(&self.program, factors, accuracy, stop, is_proof);
         let (z, w) = self.variables(&at);
         (
             z,
@@ -94,10 +97,10 @@ impl Saddle {
     }
 
     /// A Farkas vector with a largest entry of one.
-    fn proof(&self, at: &Iterate) -> Vec<f64> {
+    fn proof(&self, at: &Variables) -> Vec<f64> {
         let (z, _) = self.variables(at);
-        let points = &self.scaled.points;
-        let is_none = |j: usize| !self.free[j] && points[self.places[j]].compliance > 0.0;
+        let compliance = &self.program.compliance;
+        let is_none = |j: usize| !self.free[j] && compliance[self.places[j]] > 0.0;
         let kept = z.iter().enumerate().map(|(j, v)| if is_none(j) { 0.0 } else { -v });
         let kept: Vec<f64> = kept.collect();
         let largest = max_abs(&kept);
@@ -106,20 +109,30 @@ impl Saddle {
         kept.iter().map(noise).collect()
     }
 
-    pub(super) fn planned(&self) -> Result<Condensed, faer::sparse::FaerError> {
-        Condensed::new(&self.scaled)
+    pub(super) fn planned(&self) -> Result<Factors, FaerError> {
+        Factors::of(&self.program)
     }
 
-    fn variables(&self, at: &Iterate) -> (Vec<f64>, Vec<f64>) {
-        let u = self.scaled.displacements(&at.u);
+    fn variables(&self, at: &Variables) -> (Vec<f64>, Vec<f64>) {
+        let Units { column, force, length } = &self.units;
         let of = |(&place, free): (&usize, &bool)| {
             if *free {
-                return (u[place], 0.0);
+                (at.u[place] * column[place] * length, 0.0)
+            } else {
+                (at.t[place] * force, at.y[place] * length)
             }
-            let pairs = &at.points[place];
-            (pairs.t_n * self.scaled.force(), pairs.gap * self.scaled.length())
         };
-        self.places.iter().zip(&self.free).map(of).unzip()
+        self.places.iter().zip(self.free).map(of).unzip()
+    }
+}
+
+/// How far a bounded variable of one opens its own gap; `None` if it acts on that of another one.
+fn own_compliance(m: &SparseColMat<usize, f64>, free: &[bool], j: usize) -> Option<f64> {
+    let mut acting = column_of(m, j).filter(|(i, v)| !free[*i] && *v != 0.0);
+    match (acting.next(), acting.next()) {
+        (None, _) => Some(0.0),
+        (Some((i, v)), None) if i == j && v > 0.0 => Some(v),
+        _ => None,
     }
 }
 

@@ -3,26 +3,23 @@
 use super::constants::{FAR, HALF, OPENED, OPENINGS, WIDE};
 use super::iterate::{Iterate, Pairs};
 use super::path::{Ahead, advance};
-use crate::states::{Condensed, PROXIMAL, Point, Scaled, Springs};
+use crate::states::{Condensed, PROXIMAL, Scaled, Springs};
 
 /// A start from the forces that the contacts would carry if they were springs in both directions.
 pub(super) fn start(problem: &Scaled, condensed: &mut Condensed, spring: f64) -> Iterate {
-    let stiffness = |point: &Point| 1.0 / (1.0 + point.compliance);
     let tangential = |mu: f64| if mu > 0.0 { 1.0 } else { 0.0 };
     let springs: Vec<Springs> = problem
         .points
         .iter()
-        .map(|point| Springs { nn: stiffness(point), tn: 0.0, tt: tangential(point.mu) })
+        .map(|point| Springs { nn: 1.0, tn: 0.0, tt: tangential(point.mu) })
         .collect();
     condensed.factorise(problem, &springs, spring);
     let mut u = problem.f.clone();
     for point in &problem.points {
-        point.add_forces(-stiffness(point) * point.x_0, -tangential(point.mu) * point.s_0, &mut u);
+        point.add_forces(-point.x_0, -tangential(point.mu) * point.s_0, &mut u);
     }
     condensed.solve(&mut u);
-    // Less than the gap by what the force presses together, which is the force of a spring of stiffness one.
-    let gaps: Vec<f64> =
-        problem.points.iter().map(|point| stiffness(point) * point.gap(&u)).collect();
+    let gaps: Vec<f64> = problem.points.iter().map(|point| point.gap(&u)).collect();
     let mean = gaps.iter().map(|g| g.abs()).sum::<f64>() / gaps.len().max(1) as f64;
     let shift = if mean > 0.0 && mean.is_finite() { mean } else { 1.0 };
     let points = problem.points.iter().zip(&gaps).map(|(point, gap)| {

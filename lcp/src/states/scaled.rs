@@ -30,8 +30,6 @@ pub(crate) struct Point {
     pub(crate) x_0: f64,
     pub(crate) s_0: f64,
     pub(crate) mu: f64,
-    /// How far a normal force of one opens the gap; only interior points know it.
-    pub(crate) compliance: f64,
 }
 
 impl Point {
@@ -94,7 +92,6 @@ impl Scaled {
                 x_0: problem.initial_gaps()[i] / length,
                 s_0: problem.initial_slips()[i] / length,
                 mu: problem.mu()[i],
-                compliance: 0.0,
             })
             .collect();
         for (j, d) in column.iter().enumerate() {
@@ -158,7 +155,6 @@ impl Scaled {
             x_0: 0.0,
             s_0: 0.0,
             mu: 0.0,
-            compliance: 0.0,
         });
         let points: Vec<Point> = points.collect();
         let moves_nothing = |j: usize| column_of(&k, j).all(|(_, v)| v == 0.0);
@@ -167,53 +163,9 @@ impl Scaled {
         Self { k, f, points, column, force, length: force / stiffness, idle }
     }
 
-    /// Of bodies and points without friction as they are.
-    pub(crate) fn of_parts(
-        k: SparseColMat<usize, f64>,
-        mut f: Vec<f64>,
-        mut points: Vec<Point>,
-    ) -> Self {
-        let mut largest = vec![0.0_f64; f.len()];
-        for point in &points {
-            for (&j, n) in point.columns.iter().zip(&point.normal) {
-                largest[j] = largest[j].max(n.abs());
-            }
-        }
-        let factor = |n: &f64| if *n > 0.0 { power_of_two(1.0 / n) } else { 1.0 };
-        let column: Vec<f64> = largest.iter().map(factor).collect();
-        f.iter_mut().zip(&column).for_each(|(f, d)| *f *= d);
-        let load = max_abs(&f);
-        let gap = points.iter().fold(0.0_f64, |max, point| max.max(point.x_0.abs()));
-        let soft = points.iter().fold(0.0_f64, |max, point| max.max(point.compliance));
-        let stiff: Vec<f64> = diagonal(&k).iter().zip(&column).map(|(k, d)| k * d * d).collect();
-        let compliance = match (soft, max_abs(&stiff)) {
-            (soft, _) if soft > 0.0 => soft,
-            (_, stiff) if stiff > 0.0 => 1.0 / stiff,
-            _ => 1.0,
-        };
-        let force = if load > 0.0 { load } else { gap / compliance };
-        let force = power_of_two(if force > 0.0 { force } else { 1.0 });
-        let length = power_of_two(force * compliance);
-        let k = congruent(k, &column, length / force);
-        for f in &mut f {
-            *f /= force;
-        }
-        for point in &mut points {
-            point.x_0 /= length;
-            point.compliance *= force / length;
-            point.normal.iter_mut().zip(&point.columns).for_each(|(n, &j)| *n *= column[j]);
-        }
-        Self { k, f, points, column, force, length, idle: None }
-    }
-
     /// The unit of contact forces.
     pub(crate) fn force(&self) -> f64 {
         self.force
-    }
-
-    /// The unit of gaps.
-    pub(crate) fn length(&self) -> f64 {
-        self.length
     }
 
     /// The unit of energy.
@@ -234,29 +186,6 @@ impl Scaled {
     /// Displacements in the units of this problem.
     pub(crate) fn of_displacements(&self, u: &[f64]) -> Vec<f64> {
         u.iter().zip(&self.column).map(|(u, d)| u / d / self.length).collect()
-    }
-
-    /// The same bodies with associated flow: every friction cone by its edges, each a point without friction along
-    /// `n + mu t` or `n - mu t`, so that slips open gaps by `mu` times their size.
-    pub(crate) fn associated(&self) -> Self {
-        let edge = |(point, mu): (&Point, f64)| Point {
-            columns: point.columns.clone(),
-            normal: point.normal.iter().zip(&point.tangent).map(|(n, t)| n + mu * t).collect(),
-            tangent: vec![0.0; point.columns.len()],
-            x_0: point.x_0 + mu * point.s_0,
-            s_0: 0.0,
-            mu: 0.0,
-            compliance: point.compliance,
-        };
-        Self {
-            k: self.k.clone(),
-            f: self.f.clone(),
-            points: self.edges().map(edge).collect(),
-            column: self.column.clone(),
-            force: self.force,
-            length: self.length,
-            idle: None,
-        }
     }
 
     /// Normal and tangential forces of the points from those along the edges of their cones.

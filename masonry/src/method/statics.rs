@@ -14,9 +14,7 @@
 //! Rigid blocks without gaps stand if there are such forces: at rest every gap and every slip is zero. For all other
 //! walls they are necessary but not sufficient.
 
-use lcp::{
-    InteriorPoint, InteriorPointSettings, Iteration, MixedLcp, Observer, Solution, Solver, Status,
-};
+use lcp::{LeastForces, Observer, Status};
 
 use crate::model::Model;
 use crate::system::System;
@@ -29,11 +27,6 @@ pub mod proof;
 mod sharpen;
 
 pub use proof::Proof;
-
-/// Residual of the program that decides.
-const TOLERANCE: f64 = 1e-12;
-/// Forces and proofs take ten to forty steps. Chosen: far more.
-const MAX_STEPS: usize = 150;
 
 /// What is known about forces that balance the loads.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,59 +60,18 @@ pub fn decide(
     observer: &mut Observer<'_>,
 ) -> Result<Decision, lcp::Error> {
     let program = Program::of(system);
-    let mut steps = 0;
     if program.is_unloaded() {
         let statics = Statics::Admissible(vec![0.0; system.rows.len()]);
-        return Ok(Decision { statics, steps, is_cancelled: false });
+        return Ok(Decision { statics, steps: 0, is_cancelled: false });
     }
-    let is_cancelled = false;
-    let mut search = Search { model, program: &program, steps: &mut steps, is_cancelled, observer };
-    let statics = search.run()?;
-    let is_cancelled = search.is_cancelled;
-    Ok(Decision { statics, steps, is_cancelled })
-}
-
-/// The program of a decision.
-struct Search<'a, 'b> {
-    model: &'a Model,
-    program: &'a Program<'a>,
-    steps: &'a mut usize,
-    is_cancelled: bool,
-    observer: &'a mut Observer<'b>,
-}
-
-impl Search<'_, '_> {
-    fn run(&mut self) -> Result<Statics, lcp::Error> {
-        let least = self.program.least_forces()?;
-        let solution = self.solved(&least)?;
-        let (z, _) = least.recover(&solution.t, &solution.y);
-        if let Some(forces) = self.program.admissible(&z) {
-            return Ok(Statics::Admissible(forces));
-        }
+    let LeastForces { status, t, u, info, .. } = program.least_forces(observer)?;
+    let statics = match program.admissible(&t) {
+        Some(forces) => Statics::Admissible(forces),
         // Where there are none, the multipliers of the balance are a motion that proves it.
-        Ok(self.proof(&z).map_or(Statics::Open, Statics::Impossible))
-    }
-
-    /// The proof that the motion at the beginning of `z` leads to.
-    fn proof(&self, z: &[f64]) -> Option<Proof> {
-        let entries = self.program.entries();
-        let motion = &z[..self.program.unknowns()];
-        sharpen::candidates(motion, entries, self.program.columns())
-            .find_map(|motion| Proof::of(self.model, &motion[..3 * self.model.blocks.len()]))
-    }
-
-    fn solved(&mut self, program: &MixedLcp) -> Result<Solution, lcp::Error> {
-        let settings = InteriorPointSettings {
-            tolerance: TOLERANCE,
-            max_iterations: MAX_STEPS,
-            continuation: false,
-            crossover: false,
-            ..Default::default()
-        };
-        let observer = &mut |at: &Iteration| (self.observer)(at);
-        let solution = InteriorPoint::new(settings).solve_observed(program, observer)?;
-        *self.steps += solution.info.factorisations;
-        self.is_cancelled |= solution.status == Status::Cancelled;
-        Ok(solution)
-    }
+        None => sharpen::candidates((&u, &[]), program.columns())
+            .find_map(|motion| Proof::of(model, &motion[..3 * model.blocks.len()]))
+            .map_or(Statics::Open, Statics::Impossible),
+    };
+    let is_cancelled = status == Status::Cancelled;
+    Ok(Decision { statics, steps: info.factorisations, is_cancelled })
 }

@@ -1,4 +1,4 @@
-//! The methods that solve the convex programs of admissible forces.
+//! The methods that solve the linear programs of admissible forces.
 
 use lcp::{
     InteriorPoint, InteriorPointSettings, Iteration, MixedLcp, Observer, QuadraticProgram,
@@ -13,7 +13,7 @@ const INSIDE: f64 = 1e-8;
 /// How a program is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Engine {
-    /// Interior points, to a point near the solution: the first choice for linear programs, which have many solutions.
+    /// Interior points, to a point near the solution: the first choice, since there may be many solutions.
     Inside,
     /// Interior points, and the vertex that they lead to.
     Interior,

@@ -18,6 +18,8 @@ use crate::system::System;
 const BEYOND: [f64; 6] = [1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4];
 /// Bounds that are nearer to each other than this part of the factor end the search.
 pub const NEAR: f64 = 2e-5;
+/// Motions that are tried in any case: they may bring the bounds nearer still.
+const ALWAYS: usize = 2;
 /// Steps of one program.
 const MAX_STEPS: usize = 200;
 
@@ -91,9 +93,10 @@ pub fn extreme(
     for engine in LINEAR {
         let solution = engine.solve(&problem, MAX_STEPS, observer)?;
         let (z, _) = problem.recover(&solution.t, &solution.y);
-        let Some(forces) = program.admissible(&z) else { continue };
+        let (motion, columns) = z.split_at(program.unknowns());
+        let Some(forces) = program.admissible(columns) else { continue };
         let value: f64 = forces.iter().zip(of_rows).map(|(force, gain)| force * gain).sum();
-        let bound = program.bound(&z[..program.unknowns()], &gain);
+        let bound = program.bound(motion, &gain);
         if best.is_none_or(|[other, above]| (bound - value).abs() < (above - other).abs()) {
             best = Some([value, bound]);
         }
@@ -102,10 +105,8 @@ pub fn extreme(
         }
     }
     let circulating = program.circulating(&gain);
-    let problem = circulating.least_forces()?;
-    let solution = Engine::Interior.solve(&problem, MAX_STEPS, observer)?;
-    let (z, _) = problem.recover(&solution.t, &solution.y);
-    Ok(match (circulating.admissible(&z), best) {
+    let found = circulating.least_forces(observer)?;
+    Ok(match (circulating.admissible(&found.t), best) {
         (Some(_), _) => Extreme::Unlimited,
         (None, Some([value, bound])) => Extreme::Value { value, bound },
         (None, None) => Extreme::Open,
@@ -126,7 +127,7 @@ impl Growing<'_> {
             let (z, _) = problem.recover(&solution.t, &solution.y);
             let (motion, columns) = z.split_at(program.unknowns());
             let factor = columns[program.forces()].max(0.0);
-            if let Some(forces) = program.admissible(&z)
+            if let Some(forces) = program.admissible(columns)
                 && bounds.below.as_ref().is_none_or(|(below, _)| factor > *below)
             {
                 bounds.below = Some((factor, forces));
@@ -147,19 +148,14 @@ impl Growing<'_> {
         (factor, motion, columns): (f64, &[f64], &[f64]),
         bounds: &mut Bounds,
     ) {
-        let entries = program.entries_of(program.forces());
-        let (along_edges, edges) = (program.entries_of(program.edges()), program.edges());
         let beyond: Vec<(f64, Model)> = BEYOND
             .iter()
             .map(|part| factor + part * bounds.size)
             .map(|factor| (factor, (self.at)(factor)))
             .collect();
-        let mut near = sharpen::candidates(motion, &entries, program.forces());
-        let mut complementary = sharpen::complementary(motion, &columns[..edges], &along_edges);
-        let first: Vec<Vec<f64>> = near.next().into_iter().chain(complementary.next()).collect();
-        let tried = first.len();
-        for (k, motion) in first.into_iter().chain(near).chain(complementary).enumerate() {
-            if k >= tried && bounds.is_closed() {
+        let near = (motion, &columns[..program.edges()]);
+        for (k, motion) in sharpen::candidates(near, program.columns()).enumerate() {
+            if k >= ALWAYS && bounds.is_closed() {
                 return;
             }
             for (factor, model) in &beyond {

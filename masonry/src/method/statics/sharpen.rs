@@ -4,92 +4,90 @@
 //! edges on which it does no work it shows nevertheless; what they leave free is the null space of their rows `E_A^T`, onto
 //! which `delta (E_A E_A^T + delta)^-1` projects when it is applied a few times. Its rounding errors lie in the null space.
 
-use faer::linalg::solvers::Solve;
-use faer::sparse::{SparseColMat, Triplet};
-use faer::{Col, Side};
+use faer::sparse::SparseColMatRef;
+use lcp::Gram;
 
+use crate::columns::column;
 use crate::rounding;
 
-/// Work of a force of one below these parts of the largest velocity is none, in attempts one after the other.
-const AT_REST: [f64; 4] = [1e-9, 1e-7, 1e-5, 1e-3];
-/// A force, relative to the largest, is large beside its work, likewise, when it is so many times as large.
-const LARGE: [f64; 3] = [1.0, 1e-2, 1e2];
+/// Columns that are made to do no work.
+enum Idle {
+    /// Those whose work is below this part of the largest velocity.
+    AtRest(f64),
+    /// Those whose force, relative to the largest, is at least so many times as large as its work, likewise.
+    Pressed(f64),
+}
+
+/// Attempts, one after the other.
+const ATTEMPTS: [Idle; 7] = [
+    Idle::Pressed(1.0),
+    Idle::AtRest(1e-9),
+    Idle::AtRest(1e-7),
+    Idle::AtRest(1e-5),
+    Idle::AtRest(1e-3),
+    Idle::Pressed(1e-2),
+    Idle::Pressed(1e2),
+];
 /// `delta`, relative to the largest diagonal.
 const SHIFT: f64 = 1e-9;
 /// Each makes what is not in the null space a million times smaller, or more.
 const PASSES: usize = 3;
 
-/// The motion itself, and those near it on which some edges do no work.
+/// A motion, which may come with forces along the first columns, and those near it on which some columns do no work.
 pub(super) fn candidates<'a>(
-    motion: &'a [f64],
-    entries: &'a [(usize, usize, f64)],
-    edges: usize,
+    (motion, forces): (&'a [f64], &'a [f64]),
+    columns: SparseColMatRef<'a, usize, f64>,
 ) -> impl Iterator<Item = Vec<f64>> + 'a {
-    let largest = motion.iter().fold(0.0, |max: f64, v| max.max(v.abs()));
-    let mut work = vec![0.0; edges];
-    for &(i, k, v) in entries {
-        work[k] += v * motion[i];
-    }
-    let mut last = 0;
-    let near = AT_REST.into_iter().filter_map(move |part| {
-        let is_idle: Vec<bool> = work.iter().map(|work| work.abs() <= part * largest).collect();
-        let count = is_idle.iter().filter(|is_idle| **is_idle).count();
-        if count == last || !largest.is_finite() {
+    let work = (0..columns.ncols()).map(|k| column(columns, k).map(|(i, v)| v * motion[i]).sum());
+    let work: Vec<f64> = work.collect();
+    let [fastest, most, farthest] = [motion, forces, &work[..forces.len()]].map(rounding::largest);
+    let mut last = Vec::new();
+    let mut factors = None;
+    let near = ATTEMPTS.iter().filter_map(move |attempt| {
+        let mut is_idle: Vec<bool> = match attempt {
+            Idle::AtRest(part) => work.iter().map(|work| work.abs() <= part * fastest).collect(),
+            Idle::Pressed(times) => {
+                let pairs = work.iter().zip(forces);
+                pairs.map(|(work, force)| times * work * most <= force * farthest).collect()
+            }
+        };
+        is_idle.resize(work.len(), false);
+        if is_idle == last || !fastest.is_finite() {
             return None;
         }
-        last = count;
-        projected(motion, entries, &is_idle)
+        last.clone_from(&is_idle);
+        projected(motion, columns, &is_idle, &mut factors)
     });
     std::iter::once(motion.to_vec()).chain(near)
 }
 
-/// Motions near one that comes with forces, on which the forces that are large beside their work do no work.
-pub(super) fn complementary<'a>(
-    motion: &'a [f64],
-    forces: &'a [f64],
-    entries: &'a [(usize, usize, f64)],
-) -> impl Iterator<Item = Vec<f64>> + 'a {
-    let mut work = vec![0.0; forces.len()];
-    for &(i, k, v) in entries {
-        work[k] += v * motion[i];
-    }
-    let [most, farthest] = [forces, &work[..]].map(rounding::largest);
-    LARGE.into_iter().filter_map(move |large| {
-        let pairs = work.iter().zip(forces);
-        let is_idle: Vec<bool> =
-            pairs.map(|(work, force)| large * work * most <= force * farthest).collect();
-        projected(motion, entries, &is_idle)
-    })
-}
-
+/// The factors are kept for the next set of idle columns.
 fn projected(
     motion: &[f64],
-    entries: &[(usize, usize, f64)],
+    columns: SparseColMatRef<'_, usize, f64>,
     is_idle: &[bool],
+    factors: &mut Option<Gram>,
 ) -> Option<Vec<f64>> {
-    let n = motion.len();
-    let mut columns = vec![Vec::new(); is_idle.len()];
-    for &(i, k, v) in entries.iter().filter(|(_, k, _)| is_idle[*k]) {
-        columns[k].push((i, v));
+    let mut diagonal = vec![0.0; motion.len()];
+    for k in (0..is_idle.len()).filter(|&k| is_idle[k]) {
+        column(columns, k).for_each(|(i, v)| diagonal[i] += v * v);
     }
-    let mut diagonal = vec![0.0; n];
-    let mut products = Vec::new();
-    for column in &columns {
-        for &(i, v) in column {
-            diagonal[i] += v * v;
-            products.extend(column.iter().map(|&(j, w)| Triplet::new(i, j, v * w)));
-        }
-    }
-    let shift = SHIFT * diagonal.iter().fold(0.0, |max: f64, it| max.max(*it));
+    let shift = SHIFT * rounding::largest(&diagonal);
     if shift <= 0.0 {
         return None;
     }
-    products.extend((0..n).map(|i| Triplet::new(i, i, shift)));
-    let matrix = SparseColMat::try_new_from_triplets(n, n, &products).ok()?;
-    let factor = matrix.sp_cholesky(Side::Lower).ok()?;
-    let mut motion: Col<f64> = Col::from_fn(n, |i| motion[i]);
-    for _ in 0..PASSES {
-        motion = factor.solve(&(&motion * faer::Scale(shift)));
+    if factors.is_none() {
+        *factors = Gram::new(None, columns.symbolic()).ok();
     }
-    Some(motion.iter().copied().collect())
+    let factors = factors.as_mut()?;
+    let idle: Vec<f64> = is_idle.iter().map(|is_idle| f64::from(u8::from(*is_idle))).collect();
+    factors.factorise(None, columns, (&idle, shift));
+    let mut motion = motion.to_vec();
+    for _ in 0..PASSES {
+        for v in &mut motion {
+            *v *= shift;
+        }
+        factors.solve(&mut motion);
+    }
+    Some(motion)
 }

@@ -1,11 +1,10 @@
 //! Whether contact forces are unique: forces that circulate between contacts without any effect on the blocks can be
 //! added to them.
 
-use faer::linalg::solvers::Solve;
-use faer::sparse::{SparseColMat, Triplet};
-use faer::{Col, Side};
-use lcp::Contact2d;
+use faer::sparse::{SparseColMat, SparseColMatRef};
+use lcp::{Contact2d, Gram};
 
+use crate::columns::{Columns, column};
 use crate::model::{ContactPoint, Model};
 use crate::state::{ContactState, State};
 
@@ -22,93 +21,90 @@ const CIRCULATES: f64 = 1e-3;
 /// a set of such changes `d` of order one, `d - B^T (B B^T)^-1 B d` is what the blocks do not feel, where `B` makes
 /// forces on the displacements of them.
 pub(crate) fn circulating(model: &Model, problem: &Contact2d, state: &State) -> usize {
-    let changes = changes(model, problem, state);
-    let Some(unfelt) = unfelt(problem.displacements(), &changes) else { return 0 };
-    let mut points: Vec<usize> = changes
-        .iter()
-        .zip(&unfelt)
-        .filter(|(_, unfelt)| unfelt.abs() > CIRCULATES)
-        .map(|(change, _)| change.point)
-        .collect();
+    let Some(Changes { points, effects }) = changes(model, problem, state) else { return 0 };
+    let Some(unfelt) = unfelt(effects.as_ref()) else { return 0 };
+    let circulating = points.iter().zip(&unfelt).filter(|(_, unfelt)| unfelt.abs() > CIRCULATES);
+    let mut points: Vec<usize> = circulating.map(|(point, _)| *point).collect();
     points.dedup();
     points.len()
 }
 
-/// A way in which the force at a point may change.
-struct Change {
-    point: usize,
-    /// What the displacements feel of it.
-    effect: Vec<(usize, f64)>,
+/// Ways in which the forces at points may change, in the order of the points.
+struct Changes {
+    points: Vec<usize>,
+    /// What the displacements feel of each.
+    effects: SparseColMat<usize, f64>,
 }
 
-fn changes(model: &Model, problem: &Contact2d, state: &State) -> Vec<Change> {
+/// `None` where memory does not suffice.
+fn changes(model: &Model, problem: &Contact2d, state: &State) -> Option<Changes> {
     let contacts = || model.contacts.iter().zip(&state.contacts);
     // How far a force is from opening the joint.
     let pressed = |(point, force): (&ContactPoint, &ContactState)| force.t_n + point.law.tension;
     let largest = contacts().map(pressed).fold(0.0, f64::max);
-    let normals = rows(problem.normal());
-    let tangents = rows(problem.tangent());
-    let mut list = Vec::new();
+    let normals = problem.normal().as_ref().transpose().to_col_major().ok()?;
+    let tangents = problem.tangent().as_ref().transpose().to_col_major().ok()?;
+    let [normals, tangents] = [normals.as_ref(), tangents.as_ref()];
+    let (mut points, mut effects) = (Vec::new(), Columns::default());
     for (point, (contact, force)) in contacts().enumerate() {
         let ContactState { t_n, t_t, .. } = *force;
         let law = contact.law;
         if pressed((contact, force)) <= NONE * largest {
             continue;
         }
-        let along = |t: f64| {
-            let tangent = tangents[point].iter().map(|(j, v)| (*j, t * v));
-            normals[point].iter().copied().chain(tangent).collect::<Vec<_>>()
-        };
-        let is_inside = t_t.abs() < (1.0 - NONE) * law.bound(t_n);
-        if is_inside {
-            list.push(Change { point, effect: normals[point].clone() });
-            list.push(Change { point, effect: tangents[point].clone() });
+        points.push(point);
+        if t_t.abs() < (1.0 - NONE) * law.bound(t_n) {
+            points.push(point);
+            effects.push(column(normals, point));
+            effects.push(column(tangents, point));
         } else {
             let edge = if law.mu > 0.0 { law.mu.copysign(t_t) } else { 0.0 };
-            list.push(Change { point, effect: along(edge) });
+            effects.push(sum(column(normals, point), (edge, column(tangents, point))));
         }
     }
-    list
+    Some(Changes { points, effects: effects.assembled(problem.displacements()) })
 }
 
-fn rows(matrix: &SparseColMat<usize, f64>) -> Vec<Vec<(usize, f64)>> {
-    let mut rows = vec![Vec::new(); matrix.nrows()];
-    for entry in matrix.triplet_iter() {
-        rows[entry.row].push((entry.col, *entry.val));
-    }
-    rows
+/// The entries of the sum of a column and of a multiple of another one.
+fn sum(
+    first: impl Iterator<Item = (usize, f64)>,
+    (factor, other): (f64, impl Iterator<Item = (usize, f64)>),
+) -> Vec<(usize, f64)> {
+    let mut entries: Vec<(usize, f64)> = first.chain(other.map(|(i, v)| (i, factor * v))).collect();
+    entries.sort_by_key(|(i, _)| *i);
+    entries.dedup_by(|(i, v), (before, sum)| {
+        let is_same = i == before;
+        if is_same {
+            *sum += *v;
+        }
+        is_same
+    });
+    entries
 }
 
 /// The part of changes of order one that no displacement feels.
-fn unfelt(displacements: usize, changes: &[Change]) -> Option<Vec<f64>> {
-    let mut diagonal = vec![0.0; displacements];
-    let mut entries = Vec::new();
-    for Change { effect, .. } in changes {
-        for &(i, v) in effect {
-            diagonal[i] += v * v;
-            entries.extend(effect.iter().map(|&(j, w)| Triplet::new(i, j, v * w)));
-        }
+fn unfelt(effects: SparseColMatRef<'_, usize, f64>) -> Option<Vec<f64>> {
+    let count = effects.ncols();
+    let mut diagonal = vec![0.0; effects.nrows()];
+    for k in 0..count {
+        column(effects, k).for_each(|(i, v)| diagonal[i] += v * v);
     }
     let shift = SHIFT * diagonal.iter().fold(0.0, |max: f64, it| max.max(*it));
     if shift <= 0.0 {
         return None;
     }
-    entries.extend((0..displacements).map(|i| Triplet::new(i, i, shift)));
-    let matrix =
-        SparseColMat::try_new_from_triplets(displacements, displacements, &entries).ok()?;
-    let factor = matrix.sp_cholesky(Side::Lower).ok()?;
-    let mut left: Vec<f64> = (0..changes.len()).map(scattered).collect();
+    let mut factors = Gram::new(None, effects.symbolic()).ok()?;
+    factors.factorise(None, effects, (&vec![1.0; count], shift));
+    let mut left: Vec<f64> = (0..count).map(scattered).collect();
     // The shift is gone after the second time.
     for _ in 0..2 {
-        let mut felt = Col::zeros(displacements);
-        for (Change { effect, .. }, left) in changes.iter().zip(&left) {
-            for &(j, v) in effect {
-                felt[j] += v * left;
-            }
+        let mut moved = vec![0.0; effects.nrows()];
+        for (k, left) in left.iter().enumerate() {
+            column(effects, k).for_each(|(i, v)| moved[i] += v * left);
         }
-        let moved = factor.solve(&felt);
-        for (Change { effect, .. }, left) in changes.iter().zip(&mut left) {
-            *left -= effect.iter().map(|&(j, v)| v * moved[j]).sum::<f64>();
+        factors.solve(&mut moved);
+        for (k, left) in left.iter_mut().enumerate() {
+            *left -= column(effects, k).map(|(i, v)| v * moved[i]).sum::<f64>();
         }
     }
     Some(left)

@@ -1,0 +1,110 @@
+//! Forces of least size.
+
+use faer::sparse::SparseColMat;
+
+use super::InteriorPoint;
+use super::constants::ROW_ROUNDING;
+use super::homogeneous::{Accuracy, Factors, solved};
+use super::program::Program;
+use crate::active::unplanned;
+use crate::certify::is_proof_of;
+use crate::matrix::Column;
+use crate::solve::Monitor;
+use crate::vector::{check_length, check_vector, max_abs};
+use crate::{Error, Info, Method, Observer, Status};
+
+/// Forces that are the least of all that balance loads, or a proof that there are none.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct LeastForces {
+    /// [`Status::Solved`], [`Status::Infeasible`] with a checked proof, or why there is neither.
+    pub status: Status,
+    /// The forces `t`.
+    pub t: Vec<f64>,
+    /// The multipliers `u` of the balance; a proof where the status says so, with a largest component of one.
+    pub u: Vec<f64>,
+    /// What it took.
+    pub info: Info,
+}
+
+impl InteriorPoint {
+    /// `min |t|^2 / 2` with `A t + f = 0` and `t >= 0`, or `u` with `A^T u >= 0` and `f.u > 0`, which proves that there is no
+    /// such `t` (Farkas 1902), by the homogeneous problem of Andersen and Ye (1999). Uses the tolerance and the limits of
+    /// the settings.
+    ///
+    /// The balance holds to the tolerance, relative to the largest force. A force and its multiplier `t + A^T u` may both be
+    /// zero, and come near it together: their smaller one counts by its square.
+    ///
+    /// # Errors
+    /// [`Error::Length`] when `f` is not as long as a column of `A`, [`Error::NotFinite`] for a NaN or an infinity,
+    /// [`Error::Setting`] for a setting out of range, and [`Error::NotTreated`] when memory does not suffice.
+    ///
+    /// ```
+    /// use faer::sparse::{SparseColMat, Triplet};
+    /// use lcp::{InteriorPoint, Status};
+    /// // Two supports side by side share a load; neither of them can pull.
+    /// let entries = [Triplet::new(0, 0, 1.0), Triplet::new(0, 1, 1.0)];
+    /// let supports = SparseColMat::try_new_from_triplets(1, 2, &entries).unwrap();
+    /// let observer = &mut |_: &lcp::Iteration| std::ops::ControlFlow::Continue(());
+    /// let stands = InteriorPoint::default().least_forces(&supports, &[-3.0], observer)?;
+    /// assert!(stands.t.iter().all(|t| (t - 1.5).abs() < 1e-9));
+    /// let lifted = InteriorPoint::default().least_forces(&supports, &[3.0], observer)?;
+    /// assert_eq!((lifted.status, lifted.u), (Status::Infeasible, vec![1.0]));
+    /// # Ok::<(), lcp::Error>(())
+    /// ```
+    pub fn least_forces(
+        &self,
+        a: &SparseColMat<usize, f64>,
+        f: &[f64],
+        observer: &mut Observer<'_>,
+    ) -> Result<LeastForces, Error> {
+        let settings = self.settings();
+        let (n, m) = (a.nrows(), a.ncols());
+        settings.validate(m)?;
+        check_length("f", f.len(), n)?;
+        check_vector("f", f)?;
+        check_vector("A", a.val())?;
+        let observer = &mut |at: &_| observer(at);
+        let mut monitor = Monitor::new(settings.max_iterations, settings.time_limit, observer);
+        let program = Program {
+            k: SparseColMat::try_new_from_triplets(n, n, &[])
+                .unwrap_or_else(|_| unreachable!("it has no entries")),
+            f: f.to_vec(),
+            a: a.clone(),
+            x_0: vec![0.0; m],
+            compliance: vec![1.0; m],
+        };
+        let (program, units) = program.scaled();
+        let planned = Factors::of(&program);
+        let mut factors = planned.map_err(|error| unplanned(Method::Interior, error))?;
+        let loads: Vec<f64> = f.iter().map(|f| -f).collect();
+        let original = |u: &[f64]| -> Vec<f64> {
+            u.iter().zip(&units.column).map(|(u, d)| u * d * units.length).collect()
+        };
+        let accuracy = Accuracy::of_products(settings.tolerance);
+        let stop = |residual| monitor.stop(residual);
+        let is_proof = |u: &[f64]| is_proof_of(columns(a), &loads, &against(&original(u)));
+        let (at, status) =
+            solved(&program, &mut factors, (0.0, accuracy), stop, |at| is_proof(&at.u));
+        let u = original(&at.u);
+        let is_proved = status == Status::Infeasible;
+        let u = if is_proved { against(&u).iter().map(|v| -v).collect() } else { u };
+        let t = at.t.iter().map(|t| t * units.force).collect();
+        let mut info = monitor.info(Method::Interior);
+        info.factorisations = factors.factorisations;
+        Ok(LeastForces { status, t, u, info })
+    }
+}
+
+fn columns(a: &SparseColMat<usize, f64>) -> impl Iterator<Item = Column<'_>> {
+    let a = a.as_ref();
+    (0..a.ncols())
+        .map(move |j| Column::Sparse { rows: a.row_idx_of_col_raw(j), values: a.val_of_col(j) })
+}
+
+/// The opposite of a motion, with a largest component of one. What hardly moves is at rest: rounding errors would
+/// contradict each other.
+fn against(u: &[f64]) -> Vec<f64> {
+    let largest = max_abs(u);
+    u.iter().map(|v| if v.abs() <= ROW_ROUNDING * largest { 0.0 } else { -v / largest }).collect()
+}

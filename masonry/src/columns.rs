@@ -1,0 +1,58 @@
+//! Sparse matrices by columns.
+
+use faer::sparse::{SparseColMat, SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
+
+/// A matrix that is put together column by column.
+pub(crate) struct Columns {
+    starts: Vec<usize>,
+    rows: Vec<usize>,
+    values: Vec<f64>,
+}
+
+impl Default for Columns {
+    fn default() -> Self {
+        Self { starts: vec![0], rows: Vec::new(), values: Vec::new() }
+    }
+}
+
+impl Columns {
+    /// Adds a column, with rows increasing.
+    pub(crate) fn push(&mut self, entries: impl IntoIterator<Item = (usize, f64)>) {
+        for (row, value) in entries {
+            self.rows.push(row);
+            self.values.push(value);
+        }
+        self.starts.push(self.rows.len());
+    }
+
+    /// The matrix, with so many rows.
+    ///
+    /// # Panics
+    /// If a row is not below that, or rows of a column do not increase.
+    pub(crate) fn assembled(self, rows: usize) -> SparseColMat<usize, f64> {
+        let columns = self.starts.len() - 1;
+        let pattern =
+            SymbolicSparseColMat::new_checked(rows, columns, self.starts, None, self.rows);
+        SparseColMat::new(pattern, self.values)
+    }
+}
+
+/// The entries `(row, value)` of a column.
+pub(crate) fn column(
+    matrix: SparseColMatRef<'_, usize, f64>,
+    k: usize,
+) -> impl Iterator<Item = (usize, f64)> {
+    matrix.row_idx_of_col_raw(k).iter().copied().zip(matrix.val_of_col(k).iter().copied())
+}
+
+/// A matrix without its last columns.
+pub(crate) fn first_columns(
+    matrix: &SparseColMat<usize, f64>,
+    count: usize,
+) -> SparseColMatRef<'_, usize, f64> {
+    let starts = &matrix.col_ptr()[..=count];
+    let entries = ..starts[count];
+    let rows = &matrix.row_idx()[entries];
+    let pattern = SymbolicSparseColMatRef::new_checked(matrix.nrows(), count, starts, None, rows);
+    SparseColMatRef::new(pattern, &matrix.val()[entries])
+}

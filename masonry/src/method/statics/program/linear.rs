@@ -1,0 +1,88 @@
+//! Linear programs of admissible forces: the largest value of a linear function of them, or factor of the loads that grow.
+
+use faer::sparse::{SparseColMat, Triplet};
+use lcp::MixedLcp;
+
+use super::{Program, parts};
+use crate::columns::{Columns, column};
+use crate::rounding;
+
+impl Program<'_> {
+    /// What each force along a column adds to a linear function of the forces of all rows.
+    pub(in crate::method::statics) fn gain(&self, of_rows: &[f64]) -> Vec<(usize, f64)> {
+        let (normals, tangents) = of_rows.split_at(self.system.points());
+        let mut gain = Vec::new();
+        for (point, normal) in normals.iter().enumerate() {
+            let [along, _] = parts(self.system, point);
+            gain.extend((self.first[point]..self.first[point + 1]).map(|k| (k, along * normal)));
+        }
+        for (friction, tangent) in self.system.friction.iter().zip(tangents) {
+            if friction.mu > 0.0 {
+                let point = friction.contact.index();
+                let (edge, [_, across]) = (self.first[point], parts(self.system, point));
+                gain[edge].1 += across * tangent;
+                gain[edge + 1].1 -= across * tangent;
+            }
+        }
+        let constant = self.constant.iter().enumerate();
+        gain.extend(constant.map(|(place, (k, _))| (self.edges() + 2 * place, tangents[*k])));
+        gain
+    }
+
+    /// `max gain . p` subject to `E p + r = 0`, `p >= 0`. The multipliers are a motion `x` with `E^T x >= gain`.
+    pub(in crate::method::statics) fn greatest(
+        &self,
+        gain: &[(usize, f64)],
+    ) -> Result<MixedLcp, lcp::Error> {
+        let n = self.unknowns();
+        let order = n + self.e.ncols();
+        let mut q: Vec<f64> = self.loads.iter().map(|r| -r).collect();
+        q.resize(order, 0.0);
+        for (k, gain) in gain {
+            q[n + k] -= gain;
+        }
+        let entries = self.e.triplet_iter().filter(|entry| *entry.val != 0.0);
+        let skew = entries.flat_map(|entry| {
+            let (i, k) = (entry.row, n + entry.col);
+            [Triplet::new(i, k, -entry.val), Triplet::new(k, i, *entry.val)]
+        });
+        let m = SparseColMat::try_new_from_triplets(order, order, &skew.collect::<Vec<_>>())
+            .unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}"));
+        MixedLcp::new(m, q, (0..order).map(|j| j < n).collect())
+    }
+
+    /// What no forces can exceed of a gain, by a motion `x` with `E^T x >= gain` \[N\].
+    pub(in crate::method::statics) fn bound(&self, motion: &[f64], gain: &[(usize, f64)]) -> f64 {
+        let motion = &motion[..self.balances()];
+        let work: f64 = self.loads.iter().zip(motion).map(|(r, x)| r * x).sum();
+        // The loads have `-C_0` along each force of constant friction.
+        let pairs =
+            self.constant.iter().zip(&gain[self.edges()..]).map(|((_, base), (k, gain))| {
+                let on_blocks = column(self.e.as_ref(), *k).filter(|(i, _)| *i < motion.len());
+                let pushed: f64 = on_blocks.map(|(i, v)| v * motion[i]).sum();
+                base * ((pushed - gain).abs() - pushed)
+            });
+        self.unit * (pairs.sum::<f64>() - work)
+    }
+
+    /// The forces along edges that balance one another and gain one: any number of times them can be added to others.
+    pub(in crate::method::statics) fn circulating(mut self, gain: &[(usize, f64)]) -> Self {
+        let row = self.balances();
+        let mut columns = Columns::default();
+        for &(k, gain) in &gain[..self.edges()] {
+            let gained = (gain != 0.0).then_some((row, gain));
+            columns.push(column(self.e.as_ref(), k).chain(gained));
+        }
+        self.constant.clear();
+        self.e = columns.assembled(row + 1);
+        self.loads = vec![0.0; row];
+        self.loads.push(-1.0);
+        self
+    }
+
+    /// The factor under which what grows is as large as the loads that stay.
+    pub(in crate::method::statics) fn size_of_factor(&self) -> f64 {
+        let growth = rounding::largest(self.e.val_of_col(self.forces()));
+        rounding::largest(&self.system.resultants()) / self.unit / growth
+    }
+}
