@@ -51,9 +51,10 @@ fn pages_that_the_code_names_exist() {
                     .chars()
                     .take_while(|it| it.is_ascii_alphanumeric() || "/_.".contains(*it))
                     .collect();
-                let name = name.trim_end_matches('.');
-                if name.ends_with(".md") && !root().join(name).exists() {
-                    missing.push(format!("{}:{}: {name}", file.display(), number + 1));
+                let page = Path::new(name.trim_end_matches('.'));
+                if page.extension().is_some_and(|it| it == "md") && !root().join(page).exists() {
+                    let (file, page) = (file.display(), page.display());
+                    missing.push(format!("{file}:{}: {page}", number + 1));
                 }
             }
         }

@@ -4,7 +4,7 @@
 //! version to the next, and from one machine to another.
 
 /// Whether the words of `quoted` stand in `output` one after the other.
-pub fn says(output: &str, quoted: &str) -> bool {
+pub(crate) fn says(output: &str, quoted: &str) -> bool {
     let output: Vec<&str> = output.split_whitespace().collect();
     let quoted: Vec<&str> = quoted.split_whitespace().collect();
     output
