@@ -1,7 +1,7 @@
 //! What the choice of the method costs on dense positive definite problems: `Auto` against the active set method
 //! alone, and against one dense Cholesky factorisation of the matrix in the same run.
 //!
-//! `cargo bench --bench auto` prints a table; with `-- --write` it also puts it into `docs/methods.md`.
+//! `cargo bench --bench auto` prints a table; with `-- --write` it also puts it into `docs/methods/auto.md`.
 
 mod common;
 #[path = "common/dense.rs"]
@@ -31,7 +31,7 @@ fn main() {
         println!("{line}");
         let _ = writeln!(table, "{line}");
     }
-    common::write_if_asked("docs/methods.md", "auto", &table);
+    common::write_if_asked("docs/methods/auto.md", "auto", &table);
 }
 
 fn line(problem: &Lcp) -> String {

@@ -1,7 +1,8 @@
 //! Limit loads of rigid walls: wall 3 of Ferris and Tin-Loi by both laws, and a wall of a thousand bricks with six windows
 //! with associated flow.
 //!
-//! `cargo bench --bench limit` prints a table; with `-- --write` it goes into the guide. All is on one thread.
+//! `cargo bench --bench limit` prints a table; with `-- --write` it also goes into
+//! `docs/reference/limit.md`. All is on one thread.
 
 mod common;
 
@@ -42,7 +43,7 @@ fn main() {
         );
     }
     println!("{table}");
-    common::write_if_asked("docs/guide.md", "limit", &table);
+    common::write_if_asked("docs/reference/limit.md", "limit", &table);
 }
 
 /// 34 courses of 36 bricks, less six windows in two rows.

@@ -200,7 +200,24 @@ pub use status::Status;
 #[doc = include_str!("../README.md")]
 struct ReadmeDoctest;
 
-/// See [`ReadmeDoctest`].
+/// The programs of the guide, likewise, page by page.
 #[cfg(all(doctest, feature = "clarabel", feature = "exact", feature = "io"))]
-#[doc = include_str!("../../docs/lcp.md")]
-struct GuideDoctest;
+mod guide {
+    #[doc = include_str!("../../docs/lcp/problems.md")]
+    struct Problems;
+
+    #[doc = include_str!("../../docs/lcp/solving.md")]
+    struct Solving;
+
+    #[doc = include_str!("../../docs/lcp/settings.md")]
+    struct Settings;
+
+    #[doc = include_str!("../../docs/lcp/certificates.md")]
+    struct Certificates;
+
+    #[doc = include_str!("../../docs/lcp/paths_and_exact_solutions.md")]
+    struct PathsAndExactSolutions;
+
+    #[doc = include_str!("../../docs/lcp/files.md")]
+    struct Files;
+}

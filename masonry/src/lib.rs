@@ -88,3 +88,8 @@ struct ReadmeDoctest;
 #[cfg(doctest)]
 #[doc = include_str!("../../docs/guide.md")]
 struct GuideDoctest;
+
+/// See [`ReadmeDoctest`].
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/reference/rust.md")]
+struct ReferenceDoctest;

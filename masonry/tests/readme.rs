@@ -1,6 +1,9 @@
-//! The wall of the README: its commands print what the README says.
+//! The wall of the README: its commands print what the README says, with numbers to 1 %.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+
+#[path = "common/quoted.rs"]
+mod quoted;
 
 use std::fs;
 use std::path::Path;
@@ -33,7 +36,9 @@ fn the_wall_of_the_readme_gives_the_sentences_of_the_readme() {
             .output()
             .unwrap();
         let printed = String::from_utf8(output.stdout).unwrap();
-        assert_eq!(printed.lines().next(), Some(promised(command)), "{command}");
+        let first = printed.lines().next().unwrap();
+        let promised = promised(command);
+        assert!(quoted::says(first, promised), "{command}: {first:?}, not {promised:?}");
     }
     assert!(directory.join("wall/principal_stresses.svg").exists());
 }

@@ -17,7 +17,7 @@ Scenes that are hard on purpose, what is known about their solutions, and the re
 HARD_CASES=write cargo test --test hard_cases
 ```
 
-A solved case has passed the [checks](theory.md#10-residuals-and-balances), which are independent of the methods: balance of every block, friction cone, gaps
+A solved case has passed the [checks](theory/solutions.md#10-residuals-and-balances), which are independent of the methods: balance of every block, friction cone, gaps
 and sliding from the displacements, forces at all nodes from the elements, and the energy `f.u + t.y = 2 U + t.x` (loads, forces on gaps and slips, strain
 energy, initial gaps). Forces are relative to those on the same block, so a light block is not excused by a heavy neighbour; rounding errors of the neighbour
 count as 1e-9 at most. The test repeats the checks, with the balances in double-double arithmetic, and compares the solution with what is known. The tolerance
@@ -41,9 +41,9 @@ Each case is followed by its parameters and by what is known about the solution.
 * A dash means that the route does not treat the scene; `not tried` means that it would take too long for a test.
 * The cost is the number of pivots of all attempts, or of sweeps, steps, programs or iterations.
 
-Only `Infeasible` is a proof that there is no equilibrium. `NoEquilibrium` is [evidence](methods.md#soft-springs-is-there-an-equilibrium-at-all),
+Only `Infeasible` is a proof that there is no equilibrium. `NoEquilibrium` is [evidence](methods/soft_springs.md#soft-springs-is-there-an-equilibrium-at-all),
 with friction no proof, and it can be wrong: `interior` also reports it for the panel without a floor (below) at mu = 1.4, where
-the topmost course carries the load as an arch. All other [statuses](lcp.md#solving-and-reading-a-solution) prove nothing.
+the topmost course carries the load as an arch. All other [statuses](lcp/solving.md#solving-and-reading-a-solution) prove nothing.
 
 The test does not compare powers of ten, costs, and the status of a failure, since these may depend on the last digits. At the limit itself, where rounding
 decides, it does not compare whether there is a solution.

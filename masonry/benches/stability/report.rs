@@ -26,7 +26,7 @@ const HEAD: &str = "\
 The [hard cases](hard_cases.md) with varied parameters, from harmless to hopeless, by every route. The pictures show where the accuracy of a solution decreases,
 and where a route finds none. Solutions are compared with checks that are independent of the methods. The tolerance was 1e-10, for `alm` 1e-8.
 
-* **Error**: the worst of the [checks](theory.md#10-residuals-and-balances): balance, friction cone, gaps, sliding, nodal forces and energy. Forces are relative
+* **Error**: the worst of the [checks](theory/solutions.md#10-residuals-and-balances): balance, friction cone, gaps, sliding, nodal forces and energy. Forces are relative
   to those on the same block; rounding errors of larger forces on its neighbours count as 1e-9 at most.
 * **Backward error**: the relative change of loads, stiffness and contact forces with which equilibrium alone holds exactly; gaps and friction are not included.
   If it is near rounding and all routes have the same larger error, the scene itself is sensitive.

@@ -25,8 +25,8 @@ residual at which it ended. A dash is a problem that the method does not treat. 
 runs with dense and with sparse matrices, on contact problems always with sparse ones. The test does not compare powers of ten, costs, and the status of a
 failure.
 
-Only `Infeasible` is a proof that there is no solution. `NoEquilibrium` is [evidence](methods.md#soft-springs-is-there-an-equilibrium-at-all), with friction no
-proof. All other [statuses](lcp.md#solving-and-reading-a-solution), such as `AlmostSolved`, `Stalled`, `RayTermination`, `IterationLimit` and
+Only `Infeasible` is a proof that there is no solution. `NoEquilibrium` is [evidence](methods/soft_springs.md#soft-springs-is-there-an-equilibrium-at-all), with friction no
+proof. All other [statuses](lcp/solving.md#solving-and-reading-a-solution), such as `AlmostSolved`, `Stalled`, `RayTermination`, `IterationLimit` and
 `NumericalTrouble`, prove nothing: another method may find a solution. Solved means solved to the residual: with a condition number of 1e18 (Hilbert, order 14)
 no digit of `z` has to be right.
 
