@@ -44,6 +44,8 @@ pub struct Request {
     pub form: Form,
     /// Pivots of one attempt; `None` leaves it to the solver.
     pub max_pivots: Option<usize>,
+    /// Steps of the interior points of one attempt; `None` leaves it to the route.
+    pub max_steps: Option<usize>,
     /// Stiffness of springs on all displacements, relative to that of the blocks, for the routes that
     /// have them.
     pub soft: Option<f64>,
@@ -54,7 +56,14 @@ pub struct Request {
 impl Request {
     /// A request with this tolerance and nothing else.
     pub fn new(tolerance: f64) -> Self {
-        Self { tolerance, form: Form::Auto, max_pivots: None, soft: None, time_limit: None }
+        Self {
+            tolerance,
+            form: Form::Auto,
+            max_pivots: None,
+            max_steps: None,
+            soft: None,
+            time_limit: None,
+        }
     }
 }
 

@@ -258,6 +258,7 @@ fn numbers_out_of_their_range() {
         ("origin = [2.0, 0.0]", "origin = [inf, 0.0]", "inf", "walls[1].origin[0]"),
         ("[1.0, 0.3], [1.0, 0.5]", "[1.0, nan], [1.0, 0.5]", "nan", "blocks[0].corners[1][1]"),
         ("tolerance = 1e-10", "max_pivots = 0", "0", "solver.max_pivots"),
+        ("tolerance = 1e-10", "max_steps = 0", "0", "solver.max_steps"),
         ("pressure = 10.0", "traction = [0.0, inf]", "inf", "loads[0].traction[1]"),
         ("to = [3.0, 0.0]", "to = [-inf, 0.0]", "-inf", "supports[0].to[0]"),
     ] {
@@ -271,6 +272,7 @@ fn keys_of_another_route() {
     for (replacement, marked, key, words) in [
         ("route = \"interior\"\nform = \"mixed\"", "\"mixed\"", "solver.form", "route = \"lemke\""),
         ("route = \"qp\"\nmax_pivots = 7", "7", "solver.max_pivots", "route = \"lemke\""),
+        ("route = \"pgs\"\nmax_steps = 7", "7", "solver.max_steps", "route = \"interior\""),
         ("route = \"lemke\"\nsoft = 1e-4", "1e-4", "solver.soft", "route = \"qp\""),
         ("soft = 0.125", "0.125", "solver.soft", "route = \"pgs\""),
         ("route = \"pgs\"\nsoft = 2.0", "2.0", "solver.soft", "at most 1"),

@@ -32,3 +32,13 @@ pub struct SoftSprings {
     /// The displacements with the softest springs: the mechanism, as large as the springs let it become.
     pub motion: Vec<f64>,
 }
+
+/// More of the load than this is none that contacts carry but for what steps of a method leave. Chosen.
+const CARRIED: f64 = 1e-4;
+
+impl SoftSprings {
+    /// Whether the softest springs, or the least viscosity, carry a share of the load that matters: more than 1e-4.
+    pub fn carry_load(&self) -> bool {
+        self.shares.last().is_some_and(|share| *share > CARRIED)
+    }
+}

@@ -5,6 +5,7 @@ use super::constants::{
     STEADY_MOTIONS, TRIES,
 };
 use super::evolved::{Evolved, Way};
+use super::iterate::Iterate;
 use super::motion::{Motions, Moved, Viscosity, unresisted};
 use super::rest::settled;
 use super::start::{start, start_smooth};
@@ -112,7 +113,7 @@ impl<'a, 'b> Moving<'a, 'b> {
             if viscosity.value <= LEAST_VISCOSITY {
                 break self.limit.unwrap_or(Status::Stalled);
             }
-            if tries == TRIES {
+            if tries == TRIES && !path.carry_load() {
                 viscosity.hold();
             } else if !viscosity.is_held() {
                 since.clone_from(&self.at);
@@ -148,7 +149,11 @@ impl<'a, 'b> Moving<'a, 'b> {
             part * size
         };
         let Search { scaled, condensed, .. } = search;
-        let begin = start_smooth(scaled, condensed, part * size);
+        // Friction that hardly yields is at its bound wherever anything slips at the start, and stays there.
+        let begin = match part {
+            ..1.0 => Iterate { smooth: part * size, ..start(scaled, condensed, PROXIMAL) },
+            _ => start_smooth(scaled, condensed, part * size),
+        };
         let mut states = None;
         let found =
             settled(scaled, condensed, begin, wanted, go_on, |condensed, at, (u, forces)| {

@@ -34,8 +34,6 @@ pub(crate) const STEPS_BEFORE_MOTION: usize = 130;
 pub(crate) const STEPS_BETWEEN: usize = 45;
 /// Steps of such a motion. Measured: walls of 1000 bricks that come to rest take 60 to 200, those that flow 200 to 500.
 pub(crate) const STEPS_OF_MOTION: usize = 600;
-/// Of the loads of blocks that flow, viscosity carries this part at least where nothing else may. Chosen.
-pub(crate) const DRIVEN: f64 = 1e-4;
 /// How long the last route may take, which seldom has an answer where the others have none.
 const LAST_RESORT: Duration = Duration::from_secs(10);
 

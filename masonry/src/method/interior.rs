@@ -38,14 +38,15 @@ impl Method for Interior<'_> {
         });
         let mut settings =
             InteriorPointSettings { tolerance: request.tolerance, start, ..Default::default() };
+        settings.max_iterations = request.max_steps.unwrap_or(settings.max_iterations);
         let may_move = !problem.frictional().is_empty();
         let is_rigid = problem.stiffness().val().iter().all(|k| k.abs() <= 0.0);
         let mut thorough = settings.clone();
         if may_move {
-            settings.max_iterations = match self.start {
+            settings.max_iterations = settings.max_iterations.min(match self.start {
                 Some(_) => auto::STEPS_BETWEEN,
                 None => auto::STEPS_BEFORE_MOTION,
-            };
+            });
             settings.continuation = false;
         }
         // Between steps rigid bodies have no path, and where the step before moved this one will.
@@ -55,8 +56,8 @@ impl Method for Interior<'_> {
             Some(answer) if !may_move || is_over(&answer) => return Ok(answer),
             path => path,
         };
-        let moved = self.by_motion(path, request, observer)?;
-        if is_over(&moved) || is_driven(&moved) {
+        let (moved, is_driven) = self.by_motion(path, request, observer)?;
+        if is_over(&moved) || is_driven {
             return Ok(moved);
         }
         // The path that did not get far in a few steps may still get there.
@@ -84,20 +85,21 @@ impl Interior<'_> {
         sparse::answer(Route::Interior, self.sparse, Found::of(self.sparse, solution), None)
     }
 
-    /// The answer that a motion leads to, or the `given` one where it says no more.
+    /// The answer that a motion leads to, or the `given` one where it says no more; and whether loads that contacts do not
+    /// carry drive blocks that flow.
     fn by_motion(
         &self,
         given: Option<Answer>,
         request: &Request,
         observer: Observer<'_>,
-    ) -> Result<Answer, RouteError> {
+    ) -> Result<(Answer, bool), RouteError> {
         let problem = &self.sparse.problem;
         let rest = vec![0.0; problem.displacements()];
         let from = self.start.map_or(&rest, |state| &state.u);
         let mut settings = EvolutionSettings {
             tolerance: request.tolerance,
             at_once: self.way != Way::Motion,
-            max_iterations: auto::STEPS_OF_MOTION,
+            max_iterations: request.max_steps.unwrap_or(auto::STEPS_OF_MOTION),
             ..EvolutionSettings::default()
         };
         // From nowhere, friction that turns over long slips would hold blocks by forces that no loading leads to.
@@ -107,9 +109,11 @@ impl Interior<'_> {
         let evolved = Evolution::new(settings)
             .advance_observed(problem, from, &mut |at| observer(at.into()))?;
         let line = described(&evolved);
-        let says_more = evolved.rests() || evolved.solution.status == Status::NoEquilibrium;
+        let flows = evolved.solution.status == Status::NoEquilibrium;
+        let (says_more, is_driven) =
+            (evolved.rests() || flows, flows && evolved.motions.carry_load());
         let Info { iterations, factorisations, .. } = evolved.solution.info;
-        Ok(match given {
+        let answer = match given {
             Some(mut given) if !says_more => {
                 given.info.iterations += iterations;
                 given.info.factorisations += factorisations;
@@ -126,7 +130,8 @@ impl Interior<'_> {
                     None => answer,
                 }
             }
-        })
+        };
+        Ok((answer, is_driven))
     }
 
     /// The slips of the points with friction at displacements, as the problem measures them.
@@ -142,13 +147,6 @@ impl Interior<'_> {
 fn is_over(answer: &Answer) -> bool {
     let status = answer.info.status;
     matches!(status, Status::Solved | Status::Cancelled | Status::Infeasible)
-}
-
-/// Whether loads that contacts do not carry drive the motion of blocks that flow.
-fn is_driven(answer: &Answer) -> bool {
-    let springs =
-        answer.info.springs.as_ref().filter(|_| answer.info.status == Status::NoEquilibrium);
-    springs.and_then(|it| it.shares.last()).is_some_and(|share| *share >= auto::DRIVEN)
 }
 
 /// An answer with what was done before it.

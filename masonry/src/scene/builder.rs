@@ -185,6 +185,13 @@ impl Scene {
         self
     }
 
+    /// Sets the largest number of steps of one attempt of the interior points.
+    #[must_use]
+    pub fn max_steps(mut self, max_steps: u32) -> Self {
+        self.solver.max_steps = Some(max_steps);
+        self
+    }
+
     /// Sets whether stresses are recovered and written.
     #[must_use]
     pub fn stresses(mut self, stresses: bool) -> Self {

@@ -212,6 +212,8 @@ impl Scene {
         let pivots = self.solver.max_pivots;
         let wanted = "at least one pivot; leave the key out for a limit by the order";
         value(solver.key("max_pivots"), 0.0, pivots != Some(0), wanted)?;
+        let wanted = "at least one step; leave the key out for the usual limit";
+        value(solver.key("max_steps"), 0.0, self.solver.max_steps != Some(0), wanted)?;
         if let Some(soft) = self.solver.soft {
             let wanted = "springs have a stiffness above 0 and at most 1, that of the blocks";
             value(solver.key("soft"), soft, soft > 0.0 && soft <= 1.0, wanted)?;
@@ -221,7 +223,7 @@ impl Scene {
 
     /// Keys of the solver that the route has no use for.
     fn check_route(&self, at: &KeyPath) -> Check {
-        let Solver { route, form, max_pivots, soft, .. } = self.solver;
+        let Solver { route, form, max_pivots, max_steps, soft, .. } = self.solver;
         let pivots = matches!(route, Route::Auto | Route::Lemke);
         let springs = matches!(route, Route::Qp | Route::Pgs);
         let otherwise = ", or set route = \"lemke\"";
@@ -232,6 +234,10 @@ impl Scene {
         if max_pivots.is_some() && !pivots {
             let because = "is used by the routes `auto` and `lemke` only";
             return Err(unwanted(at, "max_pivots", because, otherwise));
+        }
+        if max_steps.is_some() && !matches!(route, Route::Auto | Route::Interior) {
+            let because = "is used by the routes `auto` and `interior` only";
+            return Err(unwanted(at, "max_steps", because, ", or set route = \"interior\""));
         }
         if soft.is_some() && !springs {
             let because = "is the stiffness of springs, which only the routes `qp` and `pgs` have";

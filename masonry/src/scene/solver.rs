@@ -20,6 +20,10 @@ pub struct Solver {
     /// Belongs to [`Route::Lemke`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_pivots: Option<u32>,
+    /// Largest number of steps of the interior points of one attempt, and of the motions of blocks that come to rest
+    /// or flow; without it the path takes 300 and motions take 600. Belongs to [`Route::Interior`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_steps: Option<u32>,
     /// Stiffness of springs on all displacements, relative to that of the blocks \[-\], which are
     /// taken away again; belongs to [`Route::Qp`], and to [`Route::Pgs`], which always has them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -33,6 +37,7 @@ impl Default for Solver {
             route: Route::default(),
             form: Form::default(),
             max_pivots: None,
+            max_steps: None,
             soft: None,
         }
     }

@@ -127,8 +127,9 @@ impl Run {
         };
         let build = if plan.dense_numbers() > 0 { System::new } else { System::without_factors };
         let system = clock.time("system", observer, || build(&model))?;
-        let Solver { tolerance, form, max_pivots, soft, .. } = scene.solver;
-        let max_pivots = max_pivots.map(|limit| limit as usize);
+        let Solver { tolerance, form, max_pivots, max_steps, soft, .. } = scene.solver;
+        let [max_pivots, max_steps] =
+            [max_pivots, max_steps].map(|limit| limit.map(|it| it as usize));
         Ok(Self {
             title: scene.title.clone(),
             model,
@@ -138,7 +139,7 @@ impl Run {
             unusual,
             loads: scene.loads.iter().map(|load| load.name.clone()).collect(),
             origin,
-            request: Request { tolerance, form, max_pivots, soft, time_limit: None },
+            request: Request { tolerance, form, max_pivots, max_steps, soft, time_limit: None },
             with_stresses: scene.output.stresses,
             solved: 0,
             records: Vec::new(),
