@@ -155,12 +155,12 @@ pub(super) const SLOWER: f64 = 0.5;
 pub(super) const SAME_LENGTH: f64 = 0.9;
 /// How many times. Chosen.
 pub(super) const FLOWING: usize = 4;
-/// Of such motions this part at least must be left when closed contacts and this part of the viscosity as a stiffness
-/// resist them. Measured on tilted walls of 1000 bricks that flow: 0.93 and more; a body that moves against a spring or to
-/// a stop has next to nothing. Chosen: the middle.
+/// Of such motions this part at least must be left when closed contacts and a stiffness of [`SOFTEST`] resist them. Measured
+/// on tilted walls of 1000 bricks that flow: 0.93 and more; a body that moves against a spring or to a stop has next to
+/// nothing. Chosen: the middle.
 pub(super) const FREE: f64 = 0.5;
-/// See [`FREE`]. Chosen: softer springs than this cannot be told from none.
-pub(super) const SOFTEST: f64 = 1e-4;
+/// Relative to the stiffness of the bodies. Rounding: springs softer than some hundred eps cannot be told from none.
+pub(super) const SOFTEST: f64 = 1e-13;
 /// Motions of the same length that are shorter than this part of the longest are none of bodies that flow: gaps that slips
 /// open, and that the next motion closes, may keep them up. Measured on walls of 36 and 64 bricks: 0.02 and more where they
 /// fall, and 5e-4 of one that has an equilibrium.

@@ -62,13 +62,12 @@ impl Motions {
     }
 }
 
-/// The part of motions that neither bodies nor closed contacts resist: what is left of them when a part of the viscosity
-/// acts on them as a stiffness.
+/// The part of motions that neither bodies nor closed contacts resist: what is left of them when a very soft spring acts on
+/// every displacement.
 pub(super) fn unresisted(
     problem: &Scaled,
     condensed: &mut Condensed,
     (motion, forces): (&[f64], &[(f64, f64)]),
-    viscosity: f64,
 ) -> Vec<f64> {
     let largest = forces.iter().fold(0.0_f64, |max, (t_n, _)| max.max(*t_n));
     let closed = Springs { nn: 1.0, ..Springs::default() };
@@ -76,9 +75,8 @@ pub(super) fn unresisted(
         if *t_n > MOVED * largest { closed } else { Springs::default() }
     };
     let springs: Vec<Springs> = forces.iter().map(spring).collect();
-    let stiffness = SOFTEST * viscosity;
-    condensed.factorise(problem, &springs, stiffness);
-    let mut left: Vec<f64> = motion.iter().map(|v| stiffness * v).collect();
+    condensed.factorise(problem, &springs, SOFTEST);
+    let mut left: Vec<f64> = motion.iter().map(|v| SOFTEST * v).collect();
     condensed.solve(&mut left);
     left
 }

@@ -212,7 +212,7 @@ impl<'a, 'b> Moving<'a, 'b> {
     ) -> Option<Vec<f64>> {
         let total = difference(&self.at, since);
         let Search { scaled, condensed, .. } = &mut self.search;
-        let mean = unresisted(scaled, condensed, (&total, &self.forces), viscosity);
+        let mean = unresisted(scaled, condensed, (&total, &self.forces));
         let left: f64 = mean.iter().zip(&total).map(|(v, total)| v * total).sum();
         if left < FREE * square(&total) {
             return None;
