@@ -3,8 +3,8 @@
 use faer::sparse::FaerError;
 
 use super::constants::{
-    CREEPING, FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS, MOVED,
-    SAME_LENGTH, SLOWER, SOFTEST,
+    CREEPING, FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS, SAME_LENGTH,
+    SLOWER, SOFTEST,
 };
 use super::homogeneous::{Accuracy, Factors, solved};
 use super::program::{Program, associated};
@@ -67,14 +67,10 @@ impl Motions {
 pub(super) fn unresisted(
     problem: &Scaled,
     condensed: &mut Condensed,
-    (motion, forces): (&[f64], &[(f64, f64)]),
+    (motion, closed): (&[f64], &[bool]),
 ) -> Vec<f64> {
-    let largest = forces.iter().fold(0.0_f64, |max, (t_n, _)| max.max(*t_n));
-    let closed = Springs { nn: 1.0, ..Springs::default() };
-    let spring = |(t_n, _): &(f64, f64)| {
-        if *t_n > MOVED * largest { closed } else { Springs::default() }
-    };
-    let springs: Vec<Springs> = forces.iter().map(spring).collect();
+    let spring = |is_closed: &bool| Springs { nn: f64::from(*is_closed), ..Springs::default() };
+    let springs: Vec<Springs> = closed.iter().map(spring).collect();
     condensed.factorise(problem, &springs, SOFTEST);
     let mut left: Vec<f64> = motion.iter().map(|v| SOFTEST * v).collect();
     condensed.solve(&mut left);

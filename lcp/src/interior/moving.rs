@@ -36,6 +36,8 @@ pub(super) struct Moving<'a, 'b> {
     /// Where the last motion ended, and its forces by contact point.
     at: Vec<f64>,
     forces: Vec<(f64, f64)>,
+    /// Which points were closed on its way.
+    closed: Vec<bool>,
     /// What has stopped it.
     limit: Option<Status>,
     /// In units of the scaled problem.
@@ -52,9 +54,10 @@ impl<'a, 'b> Moving<'a, 'b> {
     ) -> Self {
         let at = search.scaled.of_displacements(from);
         let forces = vec![(0.0, 0.0); problem.points()];
+        let closed = vec![false; problem.points()];
         let origin = at.clone();
         let (limit, dissipation) = (None, 0.0);
-        Self { problem, tolerance, search, monitor, origin, at, forces, limit, dissipation }
+        Self { problem, tolerance, search, monitor, origin, at, forces, closed, limit, dissipation }
     }
 
     /// Moves the bodies until they rest or flow; rest without a motion is looked for first if that is wanted.
@@ -191,8 +194,11 @@ impl<'a, 'b> Moving<'a, 'b> {
             })?;
         let velocity = difference(&u, &self.at);
         self.dissipation += viscosity * square(&velocity);
-        for (point, (_, t_t)) in self.search.scaled.points.iter_mut().zip(&forces) {
-            self.dissipation -= t_t * point.slip(&u);
+        let points = self.search.scaled.points.iter_mut().zip(&forces);
+        for ((point, (t_n, t_t)), closed) in points.zip(&mut self.closed) {
+            let slip = point.slip(&u);
+            *closed = *t_n > point.gap(&u) - point.mu * slip.abs();
+            self.dissipation -= t_t * slip;
             point.s_0 = -point.moved(&u).1;
         }
         (self.at, self.forces) = (u, forces);
@@ -212,7 +218,7 @@ impl<'a, 'b> Moving<'a, 'b> {
     ) -> Option<Vec<f64>> {
         let total = difference(&self.at, since);
         let Search { scaled, condensed, .. } = &mut self.search;
-        let mean = unresisted(scaled, condensed, (&total, &self.forces));
+        let mean = unresisted(scaled, condensed, (&total, &self.closed));
         let left: f64 = mean.iter().zip(&total).map(|(v, total)| v * total).sum();
         if left < FREE * square(&total) {
             return None;
