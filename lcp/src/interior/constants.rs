@@ -159,6 +159,8 @@ pub(super) const FLOWING: usize = 4;
 /// on tilted walls of 1000 bricks that flow: 0.93 and more; a body that moves against a spring or to a stop has next to
 /// nothing. Chosen: the middle.
 pub(super) const FREE: f64 = 0.5;
+/// Bodies that reach a stop when they move on so many times as far do not flow yet. Chosen.
+pub(super) const AHEAD: f64 = 4.0;
 /// Relative to the stiffness of the bodies. Rounding: springs softer than some hundred eps cannot be told from none.
 pub(super) const SOFTEST: f64 = 1e-13;
 /// Motions of the same length that are shorter than this part of the longest are none of bodies that flow: gaps that slips

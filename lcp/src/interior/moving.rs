@@ -1,7 +1,7 @@
 //! Bodies on their way: rest by smooth friction, and motions against viscosity.
 
 use super::constants::{
-    FREE, LEAST_VISCOSITY, LONG_SLIPS, MOST_VISCOSITY, MOVED, SETTLING, STEADIER, STEADY,
+    AHEAD, FREE, LEAST_VISCOSITY, LONG_SLIPS, MOST_VISCOSITY, MOVED, SETTLING, STEADIER, STEADY,
     STEADY_MOTIONS, TRIES,
 };
 use super::evolved::{Evolved, Way};
@@ -194,11 +194,10 @@ impl<'a, 'b> Moving<'a, 'b> {
             })?;
         let velocity = difference(&u, &self.at);
         self.dissipation += viscosity * square(&velocity);
-        let points = self.search.scaled.points.iter_mut().zip(&forces);
-        for ((point, (t_n, t_t)), closed) in points.zip(&mut self.closed) {
-            let slip = point.slip(&u);
-            *closed = *t_n > point.gap(&u) - point.mu * slip.abs();
-            self.dissipation -= t_t * slip;
+        let largest = forces.iter().fold(0.0_f64, |max, (t_n, _)| max.max(*t_n));
+        self.closed = forces.iter().map(|(t_n, _)| *t_n > MOVED * largest).collect();
+        for (point, (_, t_t)) in self.search.scaled.points.iter_mut().zip(&forces) {
+            self.dissipation -= t_t * point.slip(&u);
             point.s_0 = -point.moved(&u).1;
         }
         (self.at, self.forces) = (u, forces);
@@ -220,7 +219,12 @@ impl<'a, 'b> Moving<'a, 'b> {
         let Search { scaled, condensed, .. } = &mut self.search;
         let mean = unresisted(scaled, condensed, (&total, &self.closed));
         let left: f64 = mean.iter().zip(&total).map(|(v, total)| v * total).sum();
-        if left < FREE * square(&total) {
+        // Gaps that motions have opened they close again, and no body stops there.
+        let is_stop =
+            |(point, closed): &(&Point, &bool)| !**closed && point.gap(&self.origin) > 0.0;
+        let stops = scaled.points.iter().zip(&self.closed).filter(is_stop);
+        let mut ahead = stops.map(|(point, _)| point.gap(&self.at) + AHEAD * point.moved(&mean).0);
+        if left < FREE * square(&total) || ahead.any(|gap| gap < 0.0) {
             return None;
         }
         let (mut last, mut change) = (self.motion(motions, (viscosity, STEADY)), f64::INFINITY);
