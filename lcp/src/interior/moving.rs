@@ -2,7 +2,7 @@
 
 use super::constants::{
     AHEAD, FREE, LEAST_VISCOSITY, LONG_SLIPS, MOST_VISCOSITY, MOVED, SETTLING, STEADIER, STEADY,
-    STEADY_MOTIONS, TRIES,
+    STEADY_MOTIONS, THROUGH, TRIES,
 };
 use super::evolved::{Evolved, Way};
 use super::iterate::Iterate;
@@ -219,12 +219,15 @@ impl<'a, 'b> Moving<'a, 'b> {
         let Search { scaled, condensed, .. } = &mut self.search;
         let mean = unresisted(scaled, condensed, (&total, &self.closed));
         let left: f64 = mean.iter().zip(&total).map(|(v, total)| v * total).sum();
-        // Gaps that motions have opened they close again, and no body stops there.
-        let is_stop =
-            |(point, closed): &(&Point, &bool)| !**closed && point.gap(&self.origin) > 0.0;
-        let stops = scaled.points.iter().zip(&self.closed).filter(is_stop);
-        let mut ahead = stops.map(|(point, _)| point.gap(&self.at) + AHEAD * point.moved(&mean).0);
-        if left < FREE * square(&total) || ahead.any(|gap| gap < 0.0) {
+        // Gaps that motions have opened they close again, and no body stops there; but what the motions keep apart without
+        // much force does not come together.
+        let depth = THROUGH * max_abs(&mean);
+        let is_stopped = |(point, is_closed): (&Point, &bool)| {
+            let (gap, rate) = (point.gap(&self.at), point.moved(&mean).0);
+            let is_ahead = !is_closed && point.gap(&self.origin) > 0.0;
+            rate < point.moved(&total).0 - depth || is_ahead && gap + AHEAD * rate < 0.0
+        };
+        if left < FREE * square(&total) || scaled.points.iter().zip(&self.closed).any(is_stopped) {
             return None;
         }
         let (mut last, mut change) = (self.motion(motions, (viscosity, STEADY)), f64::INFINITY);
