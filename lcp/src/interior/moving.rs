@@ -224,7 +224,7 @@ impl<'a, 'b> Moving<'a, 'b> {
         let depth = THROUGH * max_abs(&mean);
         let is_stopped = |(point, is_closed): (&Point, &bool)| {
             let (gap, rate) = (point.gap(&self.at), point.moved(&mean).0);
-            let is_ahead = !is_closed && point.gap(&self.origin) > 0.0;
+            let is_ahead = !is_closed && point.x_0 > 0.0;
             rate < point.moved(&total).0 - depth || is_ahead && gap + AHEAD * rate < 0.0
         };
         if left < FREE * square(&total) || scaled.points.iter().zip(&self.closed).any(is_stopped) {
