@@ -1,8 +1,9 @@
 //! What accuracy costs: the panels by all routes to many tolerances on many meshes, and walls of many sizes.
 //!
-//! `cargo bench --bench accuracy` prints the tables; with `-- --write` it also writes `docs/accuracy.md`, its
-//! pictures, the same numbers as CSV, and a section of `docs/performance.md`. Every solve is a whole one, from the scene
-//! to the checked solution, on one thread; of short ones the median of three.
+//! `cargo bench --bench accuracy` prints the tables; with `-- --write` it also writes `docs/accuracy.md`, further
+//! tables and the same numbers as CSV into `docs/data/`, further pictures into `target/accuracy/`, and a section of
+//! `docs/performance.md`. Every solve is a whole one, from the scene to the checked solution, on one thread; of short ones
+//! the median of three.
 
 #[path = "../../benches/common/mod.rs"]
 mod common;
@@ -18,6 +19,8 @@ mod machine;
 mod page;
 #[path = "accuracy/pictures.rs"]
 mod pictures;
+#[path = "accuracy/sentences.rs"]
+mod sentences;
 #[path = "accuracy/springs.rs"]
 mod springs;
 #[path = "accuracy/tables.rs"]

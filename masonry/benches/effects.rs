@@ -1,15 +1,14 @@
 //! What every effect costs: one wall with each of them switched off and on, by pivots and by interior points.
 //!
 //! `cargo bench --bench effects` prints two tables; with `-- --write` it also puts them into
-//! `docs/effects.md`, and the picture of the ratios beside it. Times are medians of whole solves on one thread, memory
-//! is what was allocated at the peak of one more; the allocator counts in all of them, which costs next to nothing.
+//! `docs/data/effects.md`, and the ratios into the table of `docs/effects.md`. Times are medians of whole solves on one
+//! thread, memory is what was allocated at the peak of one more; the allocator counts in all of them, which costs next to
+//! nothing.
 
 #[path = "../../benches/common/mod.rs"]
 mod common;
 #[path = "../../benches/common/machine.rs"]
 mod machine;
-#[path = "effects/picture.rs"]
-mod picture;
 #[path = "effects/wall.rs"]
 mod wall;
 
@@ -55,10 +54,6 @@ impl Row {
     fn ratio(&self, of: fn(&Taken) -> f64) -> f64 {
         of(&self.taken[1]) / of(&self.taken[0])
     }
-
-    fn ratios(&self) -> picture::Bars {
-        (self.effect, [self.ratio(|it| it.seconds), self.ratio(|it| it.bytes as f64)])
-    }
 }
 
 fn main() {
@@ -72,17 +67,47 @@ fn main() {
         let table = table(&rows);
         println!("{}\n{table}", wall.title(route));
         let _ = write!(page, "\n**{}**\n\n{table}", wall.title(route));
-        routes.push((wall.title(route), rows));
+        routes.push(rows);
     }
-    common::write_if_asked("docs/effects.md", "effects", &page);
+    common::write_if_asked("docs/data/effects.md", "effects", &page);
     if std::env::args().any(|argument| argument == "--write") {
-        let of_route = |(title, rows): &(String, Vec<Row>)| {
-            (title.replace('`', ""), rows.iter().map(Row::ratios).collect())
-        };
-        let ratios: Vec<(String, Vec<picture::Bars>)> = routes.iter().map(of_route).collect();
-        let path = common::root().join("docs/pictures/effects.svg");
-        picture::write(&path, &ratios).expect("the picture can be written");
+        let path = common::root().join("docs/effects.md");
+        let text = std::fs::read_to_string(&path).expect("the page is part of the repository");
+        std::fs::write(path, with_ratios(&text, &routes)).expect("the page can be written");
     }
+}
+
+/// Rows of the table of the page, and which measurement belongs into each.
+const MEASURED: [(&str, &str); 11] = [
+    ("contact", "contact pairs across a slot"),
+    ("friction", "friction"),
+    ("mortar films", "mortar films"),
+    ("longitudinal film terms", "longitudinal film terms"),
+    ("deformation", "deformation, eight elements a brick"),
+    ("self weight", "self weight"),
+    ("edge loads", "edge loads"),
+    ("stresses", "stresses"),
+    ("dense matrices", "dense matrices"),
+    ("load history", "load history of five steps"),
+    ("support movements", "a support that moves"),
+];
+
+/// The page with new ratios in the last two cells of its rows: time and memory, each by both routes.
+fn with_ratios(page: &str, routes: &[Vec<Row>]) -> String {
+    let ratios = |effect: &str, of: fn(&Taken) -> f64| {
+        let rows = routes.iter().filter_map(|rows| rows.iter().find(|row| row.effect == effect));
+        let ratios: Vec<String> = rows.map(|row| format!("{:.1}", row.ratio(of))).collect();
+        ratios.join(", ")
+    };
+    let line = |line: &str| {
+        let row = |(name, _): &&(&str, &str)| line.starts_with(&format!("| {name} | "));
+        let Some((_, effect)) = MEASURED.iter().find(row) else { return format!("{line}\n") };
+        let cells: Vec<&str> = line.trim_end_matches(" |").rsplitn(3, " | ").collect();
+        let [time, memory] =
+            [ratios(effect, |it| it.seconds), ratios(effect, |it| it.bytes as f64)];
+        format!("{} | {time} | {memory} |\n", cells[2])
+    };
+    page.lines().map(line).collect()
 }
 
 /// Every effect that can be switched for itself, at a wall of elastic bricks with friction in dry joints, under

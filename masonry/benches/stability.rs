@@ -2,8 +2,9 @@
 //!
 //! `cargo bench --bench stability` prints for every value what each route gives: the worst of the checks of
 //! what it calls solved, held against balance, friction cone, gaps, nodal forces and energy, and the backward
-//! error; or how it gave up. It fails where an answer is worse than what is promised. With `-- --write` it also
-//! writes `docs/stability.md` and its pictures; with a word after `--` it takes only the sweeps that have it in their titles.
+//! error; or how it gave up. It draws them into `target/stability/`, and fails where an answer is worse than what is
+//! promised. With `-- --write` it also writes `docs/stability.md`, its picture and its tables; with a word after `--` it
+//! takes only the sweeps that have it in their titles.
 
 #![allow(clippy::unwrap_used, reason = "a bench that cannot go on should stop")]
 #![allow(dead_code, unreachable_pub, reason = "its modules are those of a test")]
@@ -72,13 +73,14 @@ fn main() {
     let of_problems = if wanted.is_none() { problems::sweeps() } else { Vec::new() };
     of_problems.iter().for_each(print);
     wrong.extend(of_problems.iter().flat_map(|sweep| sweep.wrong.clone()));
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    report::draw(&root.join("target/stability"), &swept, &of_problems);
     for line in &wrong {
         println!("WRONG: {line}");
     }
     assert!(wrong.is_empty(), "{} answers are worse than what is promised", wrong.len());
     if arguments.iter().any(|it| it == "--write") && wanted.is_none() {
-        let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
-        report::write(&docs, &swept, &of_problems);
+        report::write(&root.join("docs"), &swept, &of_problems);
     }
 }
 

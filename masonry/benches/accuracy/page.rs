@@ -1,65 +1,74 @@
-//! `docs/accuracy.md` with its pictures and tables, and a section of `docs/performance.md`.
+//! `docs/accuracy.md` with its picture, the further tables in `docs/data/`, and a section of `docs/performance.md`.
 
 use std::fmt::Write as _;
 use std::path::Path;
 
 use lcp::Status;
-use masonry::analysis::study::{End, MeshErrors, Record, Study};
+use masonry::analysis::study::{End, Mesh, MeshErrors, Record, Study};
 use masonry::report::study;
 use masonry::scene::Route;
 
 use super::tables::{self, seconds};
-use super::{Panel, TOLERANCES, common, data, machine, pictures, springs};
+use super::{Panel, TOLERANCES, common, data, machine, pictures, sentences, springs};
 
-const HEAD: &str = "\
-# What accuracy costs
+/// The picture on the page is of the first panel.
+const PICTURE: &str = "docs/pictures/accuracy_panel_rectangular_routes.svg";
+/// Where the others are drawn.
+const FURTHER: &str = "target/accuracy";
 
-Every route takes a tolerance, the largest residual of a solution with status `Solved`. Two errors are distinguished:
+const MEANINGS: &str = "
+## What the words mean
 
-* The **algebraic error** is the error of the solver: the distance of its contact forces, stresses and strain energy from the reference on the same mesh, the
-  largest of the three, each relative to its largest value. The reference is refined in double-double arithmetic, in which its inequalities are checked too.
-* The **error of the mesh** cannot be reduced by a solver: it is the distance of the reference from that on the finest mesh. The true error is larger, since the
-  finest mesh has an error too. If the error is of order `p` in the element size, it is `1 / (1 - 2^-p)` times the given value for a mesh half as fine as the
-  finest, and `1 / (1 - 4^-p)` times for one a quarter as fine: 2 and 1.3 times for `p = 1`, 3.4 and 2 times for `p = 1/2`. Extrapolated values take this into
-  account.
+* **Tolerance**: the largest residual of a solution with status `Solved`.
+* **Algebraic error**: the error of the solver. It is the distance of contact forces, stresses and strain energy from the reference on the same mesh, the largest
+  of the three, each relative to its largest value. The reference is refined in double-double arithmetic, in which its inequalities are checked too.
+* **Error of the mesh**: the distance of the reference from that on the finest mesh. No solver can reduce it. The true error is larger, since the finest mesh has
+  an error too. If the error is of order `p` in the element size, the true one is `1 / (1 - 2^-p)` times the given value for a mesh half as fine as the finest,
+  and `1 / (1 - 4^-p)` times for one a quarter as fine: 2 and 1.3 times for `p = 1`, 3.4 and 2 times for `p = 1/2`.
+* **Extrapolated** errors take this into account. They are relative to the limit of the three finest meshes by Richardson's rule,
+  `v_3 + (v_3 - v_2)^2 / ((v_2 - v_1) - (v_3 - v_2))`. Their cells are empty if the differences do not decrease at a rate between the orders 0.5 and 2.5; only
+  finer meshes would help there. A single value may be near that of the finest mesh by accident, so sentences and pictures use the largest of the three.
+* **Time** is that of a whole solve, from the scene to the checked solution. A status (`TimeLimit`, `IterationLimit`, `AlmostSolved`) stands in place of the error
+  of what is not solved. Times above the limit are those of a factorisation or a program that is not interrupted. `Skipped` was not tried; the further tables
+  say why.
 
-All times are those of whole solves, from the scene to the checked solution. `masonry study SCENE --out DIR` makes such a study of any scene. This page is
-written by `cargo bench --bench accuracy -- --write`.
+## Further numbers and pictures
+
+[Further tables](data/accuracy.md) have the other meshes, the references, the cost of the last digits and the effect of soft springs. `cargo bench --bench accuracy`
+measures all this; with `-- --write` it writes this page and the tables, and draws the other pictures into `target/accuracy/`. `masonry study SCENE --out DIR`
+makes such a [study](reference/study.md) of any scene.
+";
+
+const TABLES: &str = "\
+# Accuracy: further tables
+
+The tables behind [the page on accuracy](../accuracy.md), which says what the words mean. Written by `cargo bench --bench accuracy -- --write`.
 ";
 
 const HOW_TO_READ: &str = "
 ## How to read the tables
 
-* **Meshes.** Errors are relative to the finest mesh. Extrapolated errors are relative to the limit of the three finest meshes by Richardson's rule, `v_3 + (v_3 - v_2)^2 / ((v_2 - v_1) - (v_3 - v_2))`. Their cells are empty if the differences do not decrease at a rate between the orders 0.5 and 2.5; only finer meshes would help there. A single value may be near that of the finest mesh by accident, so pictures and sentences use the largest of the three.
 * **References.** The margin is the smallest margin of the inequalities of the contact law, relative to the largest force or displacement. Except for rounding it is not negative for a solution; if it is small, another state of a contact is near. Certain digits are those not affected by rounding errors of the data; redundant contacts, whose gaps contradict each other in the last digits, reduce their number. The distances, in the forces on the nodes, are those of the route's solution in `f64` from its refinement, and of the refined solution of another route from that refinement.
 * **The last digits.** A route in `f64` must find the states of all contacts, and includes its own refinement. If only the states are known, one factorisation is needed, and solves with it. The error of one solve is large because its factors have springs in place of rigid contacts, 1e8 times as stiff as the bodies; without them redundant contacts would make the matrix singular. Further solves remove the effect of the springs: in `f64` down to its rounding errors, and with compensated refinement (residuals in double-double arithmetic) further. Redundant contacts need more solves: if their gaps contradict each other in the last digits of the data, the residual stops decreasing, is attributed to the data, and the solves start again, finally with softer springs. Errors are distances from the reference in the forces on the nodes; they are known only to its certain digits.
 * **Soft springs** on all displacements, an option of quadratic programs, change the solution until they are re-centred. The columns give the share of the load that they carry before that, and their bias, the change of the displacements. Both are measured by additional solves with springs at rest in the initial position; they are missing if no time is left for these solves, or if they fail.
-
 ";
-
-const NO_BIAS: &str = "There is no picture of these: for the solved ones no bias is known.\n\n";
 
 /// Writes all files.
 pub(crate) fn write(root: &Path, panels: &[Panel], walls: &[Study]) {
     let machine = machine::machine();
-    let mut text = format!("{HEAD}\n{machine}\n## In short\n\n");
+    save(root, "docs/accuracy.md", &page(panels, walls, &machine));
+    save(root, "docs/data/accuracy.md", &further(panels, walls, &machine));
+    let shown = study::accuracy(&panels[0].study).expect("something was solved");
+    save(root, PICTURE, &shown);
     for panel in panels {
-        let short = study::in_short(&panel.study);
-        let short = short.unwrap_or_else(|| "No route has a solution.".to_owned());
-        let _ = writeln!(text, "* **{}.** {short}{}", panel.study.title, in_the_limit(panel));
-    }
-    text += HOW_TO_READ;
-    for panel in panels {
-        let springs = pictures::springs(panel);
-        text += &of_panel(panel, springs.is_some(), &machine);
         let pictures = [
             ("routes", study::accuracy(&panel.study)),
             ("mesh", pictures::mesh(&panel.study)),
             ("digits", pictures::digits(panel)),
-            ("springs", springs),
+            ("springs", pictures::springs(panel)),
         ];
         for (what, picture) in pictures {
-            let file = format!("docs/pictures/accuracy_{}_{what}.svg", panel.name);
+            let file = format!("{FURTHER}/{}_{what}.svg", panel.name);
             match picture {
                 Some(picture) => save(root, &file, &picture),
                 // That of an earlier run, if there is one, is no longer true.
@@ -70,16 +79,93 @@ pub(crate) fn write(root: &Path, panels: &[Panel], walls: &[Study]) {
             save(root, &format!("docs/data/{file}"), &table);
         }
     }
-    text += &of_walls(walls, &machine);
     let title = "Square walls, one element a brick: time and size";
     let sizes = pictures::sizes(title, walls, TOLERANCES).expect("something was solved");
-    save(root, "docs/pictures/accuracy_sizes.svg", &sizes);
-    save(root, "docs/accuracy.md", &text);
+    save(root, &format!("{FURTHER}/sizes.svg"), &sizes);
     common::write_if_asked(
         "docs/performance.md",
         "accuracy",
         &short(&panels[0].study, walls, &machine),
     );
+}
+
+/// A picture, three sentences, the tables that most readers want, and what they mean.
+fn page(panels: &[Panel], walls: &[Study], machine: &str) -> String {
+    let first = &panels[0].study;
+    let mesh = first.meshes.first().map_or("", |mesh| &mesh.name);
+    let picture = PICTURE.trim_start_matches("docs/");
+    let mut text = format!(
+        "# What accuracy costs\n\n\
+         ![Algebraic error against time, one line for each route]({picture})\n\n\
+         *{}, on {mesh}: algebraic error against time, one line for each route and one marker for each tolerance. The lower left is best.*\n\n",
+        first.title
+    );
+    let sentences = [
+        sentences::of_tolerance(panels),
+        sentences::of_mesh(panels),
+        sentences::of_time(panels, walls),
+    ];
+    text += &list(&sentences);
+    let _ = write!(text, "\n{machine}");
+    for panel in panels {
+        let study = &panel.study;
+        let _ = writeln!(text, "\n## {}\n", study.title);
+        if let Some(mesh) = study.meshes.first() {
+            text += &by_tolerance(study, mesh);
+        }
+        text += "Error of the mesh:\n\n";
+        text += &tables::meshes(panel);
+        text += &tables::accident(study);
+    }
+    text += &of_walls(walls);
+    text + MEANINGS
+}
+
+/// The tables that a reader of the page may want to see.
+fn further(panels: &[Panel], walls: &[Study], machine: &str) -> String {
+    let mut text = format!("{TABLES}\n{machine}");
+    for panel in panels {
+        let study = &panel.study;
+        let _ = writeln!(text, "\n## {}\n", study.title);
+        text += &list(&study::summary(study));
+        let limit = in_the_limit(panel);
+        if !limit.is_empty() {
+            text += &list(&[limit]);
+        }
+        text += "\n";
+        let mut meshes: Vec<_> = study.meshes.iter().skip(1).collect();
+        meshes.sort_by_key(|mesh| mesh.factor);
+        for mesh in meshes {
+            text += &by_tolerance(study, mesh);
+        }
+        text += &tables::not_tried(study);
+        text += "The references, refined in double-double arithmetic:\n\n";
+        text += &tables::references(study);
+        text += "\nCost of the last digits, compared with a whole solve in `f64`:\n\n";
+        text += &tables::refinings(panel);
+        let _ = writeln!(text, "\nSoft springs, with a tolerance of {:e}:\n", springs::TOLERANCE);
+        text += &tables::springs(panel);
+        let files = data::files(panel);
+        let files: Vec<String> =
+            files.iter().map(|(file, _)| format!("[{file}]({file})")).collect();
+        let _ = writeln!(text, "All numbers: {}.", files.join(", "));
+    }
+    text += "\n## Size\n\n";
+    for wall in walls {
+        let skipped = tables::not_tried(wall);
+        if !skipped.is_empty() {
+            let _ = write!(text, "{}. {skipped}", wall.title);
+        }
+    }
+    text.trim_end().to_owned() + "\n" + HOW_TO_READ
+}
+
+fn by_tolerance(study: &Study, mesh: &Mesh) -> String {
+    let heading = format!(
+        "**{0} x {0} elements a square, {1} contact points**: time, and algebraic error if solved\n\n",
+        mesh.factor, mesh.contact_points
+    );
+    heading + &tables::by_tolerance(study, mesh.factor)
 }
 
 /// What the error of the scene's own mesh comes to when the finest is not taken for exact.
@@ -88,7 +174,9 @@ fn in_the_limit(panel: &Panel) -> String {
     let limit =
         panel.extrapolated.first().and_then(MeshErrors::worst).filter(|it| Some(*it) > error);
     limit.map_or_else(String::new, |it| {
-        format!(" Relative to the extrapolated limit of the meshes it is {it:.1e}.")
+        format!(
+            "Relative to the extrapolated limit of the meshes the error of this mesh is {it:.1e}."
+        )
     })
 }
 
@@ -103,76 +191,11 @@ fn list(sentences: &[String]) -> String {
     sentences.iter().fold(String::new(), |text, sentence| text + "* " + sentence + "\n")
 }
 
-/// A picture with what is to be seen on it.
-fn picture(file: &str, what: &str, machine: &str) -> String {
-    format!("\n![{what}](pictures/{file})\n\n*{what}. {}*\n\n", machine.trim())
-}
-
-fn of_panel(panel: &Panel, has_bias: bool, machine: &str) -> String {
-    let (name, study) = (panel.name, &panel.study);
-    let first = study.meshes.first().map_or("", |mesh| &mesh.name);
-    let mut text = format!("## {}\n\n", study.title);
-    text += &list(&study::summary(study));
-    text += &picture(
-        &format!("accuracy_{name}_routes.svg"),
-        &format!(
-            "Algebraic error against time on {first}, one line for each route and one marker for each tolerance"
-        ),
-        machine,
-    );
-    let mut meshes: Vec<_> = study.meshes.iter().collect();
-    meshes.sort_by_key(|mesh| mesh.factor);
-    for mesh in meshes {
-        let _ = writeln!(
-            text,
-            "**{0} x {0} elements a square, {1} contact points**: time, and algebraic error if solved\n",
-            mesh.factor, mesh.contact_points
-        );
-        text += &tables::by_tolerance(study, mesh.factor);
-    }
-    text += &tables::not_tried(study);
-    text += &picture(
-        &format!("accuracy_{name}_mesh.svg"),
-        "Error of the mesh, the largest of energy, thrust and displacement, against time, from coarse to fine",
-        machine,
-    );
-    text += &tables::meshes(panel);
-    text += &tables::accident(study);
-    text += "\nThe references, refined in double-double arithmetic:\n\n";
-    text += &tables::references(study);
-    text += "\nCost of the last digits, compared with a whole solve in `f64`:\n\n";
-    text += &tables::refinings(panel);
-    text += &picture(
-        &format!("accuracy_{name}_digits.svg"),
-        "Error of the forces on the nodes against time: with the states of all contacts known, by one solve, one refinement and compensated refinement; \
-         and by whole solves in `f64`",
-        machine,
-    );
-    text += &of_springs(panel, has_bias, machine);
-    let files = data::files(panel);
-    let files: Vec<String> =
-        files.iter().map(|(file, _)| format!("[{file}](data/{file})")).collect();
-    let _ = writeln!(text, "All numbers: {}.\n", files.join(", "));
-    text
-}
-
-fn of_springs(panel: &Panel, has_bias: bool, machine: &str) -> String {
-    let mut text = format!("Soft springs, with a tolerance of {:e}:\n\n", springs::TOLERANCE);
-    text += &tables::springs(panel);
-    if !has_bias {
-        return text + NO_BIAS;
-    }
-    let what = "Change by soft springs before they are re-centred, against their stiffness; stiffnesses that are not drawn have no solution";
-    text + &picture(&format!("accuracy_{}_springs.svg", panel.name), what, machine)
-}
-
-fn of_walls(walls: &[Study], machine: &str) -> String {
+fn of_walls(walls: &[Study]) -> String {
     let [loose, tight] = TOLERANCES;
     let mut text = format!(
-        "## Size\n\nSquare walls in running bond on a full floor, one element a brick, `mu = 0.6`, under their weight and a load on top inclined by a tenth: time to {loose:e} and to {tight:e}, and the algebraic error of both.\n"
+        "\n## Size\n\nSquare walls in running bond on a full floor, one element a brick, `mu = 0.6`, under their weight and a load on top inclined by a tenth: time to {loose:e} and to {tight:e}, and the algebraic error of both.\n\n"
     );
-    let what = "Time against the number of bricks, one line for each route and tolerance";
-    text += &picture("accuracy_sizes.svg", what, machine);
     let routes = walls.first().map(Study::routes).unwrap_or_default();
     let names: Vec<&str> = routes.iter().map(|route| route.name()).collect();
     let _ = writeln!(text, "| wall | bricks | contact points | {} |", names.join(" | "));
@@ -187,14 +210,7 @@ fn of_walls(walls: &[Study], machine: &str) -> String {
         }
         text += "\n";
     }
-    text += "\n";
-    for wall in walls {
-        let skipped = tables::not_tried(wall);
-        if !skipped.is_empty() {
-            let _ = write!(text, "{}. {skipped}", wall.title);
-        }
-    }
-    text.trim_end().to_owned() + "\n"
+    text
 }
 
 /// The table of `docs/performance.md`: one line a route.
@@ -223,7 +239,7 @@ fn short(panel: &Study, walls: &[Study], machine: &str) -> String {
 }
 
 /// Every second course has one more, of which two are halves.
-fn bricks(wall: &Study) -> usize {
+pub(crate) fn bricks(wall: &Study) -> usize {
     wall.meshes.first().map_or(0, |mesh| mesh.blocks)
 }
 

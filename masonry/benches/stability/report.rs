@@ -1,4 +1,4 @@
-//! The sweeps as a page: `docs/stability.md`, and a picture for every theme.
+//! The sweeps as a page, `docs/stability.md`, with the tables of `docs/data/stability.md`; and a picture for every theme.
 
 use std::fmt::{self, Write};
 use std::path::Path;
@@ -14,33 +14,58 @@ use super::sweep::{Expected, Point, Reached, Sweep};
 
 /// Sweeps that are drawn in one picture.
 pub(crate) struct Theme {
-    /// Part of the name of its picture.
+    /// The name of its picture.
     pub(crate) file: &'static str,
     pub(crate) title: &'static str,
     pub(crate) sweeps: Vec<(Sweep, Vec<Point>)>,
 }
 
-const HEAD: &str = "\
-# Stability: accuracy under varied parameters
+const INTRODUCTION: &str = "
+Every [hard case](hard_cases.md) has a parameter. A sweep varies it from harmless to hopeless, and solves every value by every route. Checks that are independent
+of the methods judge every solution. The tolerance is 1e-10, for `alm` 1e-8.
 
-The [hard cases](hard_cases.md) with varied parameters, from harmless to hopeless, by every route. The pictures show where the accuracy of a solution decreases,
-and where a route finds none. Solutions are compared with checks that are independent of the methods. The tolerance was 1e-10, for `alm` 1e-8.
+![Errors of four hard cases over their parameters](pictures/stability.svg)
+
+*Four of the cases. Full markers are solutions, drawn at their worst error. Hollow markers are failures, drawn at the residual that the route reports. Dots are
+backward errors. Grey lines are what is promised; for `alm` it is a hundred times that.*
+";
+
+const MEANINGS: &str = "
+## What the words mean
 
 * **Error**: the worst of the [checks](theory/solutions.md#10-residuals-and-balances): balance, friction cone, gaps, sliding, nodal forces and energy. Forces are relative
-  to those on the same block; rounding errors of larger forces on its neighbours count as 1e-9 at most.
-* **Backward error**: the relative change of loads, stiffness and contact forces with which equilibrium alone holds exactly; gaps and friction are not included.
+  to those on the same block. Rounding errors of larger forces on its neighbours count as 1e-9 at most.
+* **Backward error**: the relative change of loads, stiffness and contact forces with which equilibrium alone holds exactly. Gaps and friction are not included.
   If it is near rounding and all routes have the same larger error, the scene itself is sensitive.
-* **Promised**: errors are at most 1e-9, for `alm` 1e-8; nothing else is called solved. A known value of a solution may be off by a hundred times the tolerance,
-  and by more, in proportion, if forces on blocks differ by a factor of more than ten, but by at most 1e-3: the forces on a block carry its loads to a
-  thousandth. If displacements are less certain by a factor that depends on the scene (slender bricks: 1e-8 of the square of the ratio; wedges: one over the
-  sine of the angle), the same factor holds for known displacements. The grey lines include all of this.
-* **Expected**: what is known: a solution exists (*an answer*), none exists (a load above its limit), or this is unknown (*open*). If a load is above its limit
-  by less than the tolerance, the scene cannot be distinguished from one below it, and may be called solved. This holds up to twenty times the tolerance, since
-  the load is only one of the terms of the equations.
+* **Promised**: errors are at most 1e-9, for `alm` 1e-8. Nothing else is called solved. A known value of a solution may be off by a hundred times the tolerance.
+  If forces on blocks differ by a factor of more than ten, it may be off by more, in proportion, but by at most 1e-3: the forces on a block carry its loads to a
+  thousandth. Some displacements are less certain by a factor that depends on the scene (slender bricks: 1e-8 of the square of the ratio; wedges: one over the
+  sine of the angle). The same factor then holds for known displacements.
+* **Exists**: a solution is known to exist, or it is known that none exists (the load is above its limit), or neither is known. A load that is above its limit
+  by less than the tolerance cannot be distinguished from one below it, and may be called solved. This holds up to twenty times the tolerance, since the load is
+  only one of the terms of the equations.
 
-Written by `cargo bench --bench stability -- --write`, which fails if a solution is worse than promised, or if a scene is called solved that cannot stand. Some
-values of the sweeps are tested by `cargo test --test hard_cases`.
+## Further numbers and pictures
+
+[Tables](data/stability.md) have the number of solved values and the worst error of every case, and the same for problems of `lcp`. `cargo bench --bench
+stability` draws all cases into `target/stability/`, and prints every value. It fails if a solution is worse than promised, or if a scene is called solved that
+cannot stand. With `-- --write` it also writes this page. `cargo test --test hard_cases` tests some of the values.
 ";
+
+const TABLES: &str = "\
+# Stability: all cases
+
+The tables of [the page on stability](../stability.md), written by `cargo bench --bench stability -- --write`. A cell has the number of solved values, and their
+worst error. *Expected* is what is known: a solution exists (*an answer*), none exists (*none*), this is unknown (*open*), or it differs from value to value.
+";
+
+/// The cases on the page: bad elements, stiff and soft mortar, the limit of a stack, a wall that grows.
+const SHOWN: [&str; 4] = [
+    "slender bricks",
+    "mortar in a wall",
+    "tipping stack, elastic, below its limit",
+    "wall that grows",
+];
 
 const HOW_TO_READ: &str = "full: called solved, at the worst of its checks; hollow: gave up, at the residual it reports; \
                            dots: backward error; grey: promised, by alm a hundred times that; drawn at 1e-17: all below";
@@ -50,31 +75,63 @@ const ERRORS: [f64; 2] = [1e-17, 1.0];
 const OF_PROBLEMS: &str = "
 ## Problems of `lcp`
 
-Families of [hard problems](hard_problems.md), by every method of `lcp`, with a tolerance of 1e-10. The error is the residual, recomputed from the data in double-double arithmetic; the backward error is relative to the largest terms of all equations.
-
-![Problems of lcp: residuals over parameters](pictures/stability_problems.svg)
-
-Number of solved values, and their largest residual:
+Families of [hard problems](../hard_problems.md), by every method of `lcp`, with a tolerance of 1e-10. The error is the residual, recomputed from the data in double-double arithmetic; the backward error is relative to the largest terms of all equations.
 
 ";
 
-/// Writes the page and the pictures into the folder of the documents.
+/// Draws every theme into a folder.
+pub(crate) fn draw(folder: &Path, themes: &[Theme], problems: &[problems::Sweep]) {
+    std::fs::create_dir_all(folder).unwrap();
+    let save = |file: &str, drawn: Option<String>| {
+        // A theme of which no sweep is wanted has no picture.
+        if let Some(drawn) = drawn {
+            std::fs::write(folder.join(format!("{file}.svg")), drawn).unwrap();
+        }
+    };
+    for theme in themes {
+        let diagrams: Vec<Diagram> = theme.sweeps.iter().map(diagram).collect();
+        save(theme.file, picture(theme.title, &diagrams, &[HOW_TO_READ.to_owned()]));
+    }
+    let diagrams: Vec<Diagram> = problems.iter().map(of_problem).collect();
+    let notes = [HOW_TO_READ.replace(", by alm a hundred times that", "")];
+    save("problems", picture("Problems of lcp", &diagrams, &notes));
+}
+
+/// Writes the page, its picture and its tables into the folder of the documents.
 pub(crate) fn write(docs: &Path, themes: &[Theme], problems: &[problems::Sweep]) {
-    let mut text = HEAD.to_owned();
+    let mut text = headline(themes, problems) + INTRODUCTION;
     write_counts(&mut text, themes).unwrap();
+    text += MEANINGS;
+    std::fs::write(docs.join("stability.md"), text).unwrap();
+
+    let all = || themes.iter().flat_map(|theme| &theme.sweeps);
+    let shown = |title: &str| all().find(|(sweep, _)| sweep.title == title).map(diagram).unwrap();
+    let drawn = picture("Hard cases", &SHOWN.map(shown), &[HOW_TO_READ.to_owned()]).unwrap();
+    std::fs::write(docs.join("pictures/stability.svg"), drawn).unwrap();
+
+    let mut text = TABLES.to_owned();
     for theme in themes {
         write_theme(&mut text, theme).unwrap();
-        let diagrams: Vec<Diagram> = theme.sweeps.iter().map(diagram).collect();
-        let drawn = picture(theme.title, &diagrams, &[HOW_TO_READ.to_owned()]).unwrap();
-        std::fs::write(docs.join(format!("pictures/stability_{}.svg", theme.file)), drawn).unwrap();
     }
     text += OF_PROBLEMS;
     write_problems(&mut text, problems).unwrap();
-    let diagrams: Vec<Diagram> = problems.iter().map(of_problem).collect();
-    let notes = [HOW_TO_READ.replace(", by alm a hundred times that", "")];
-    let drawn = picture("Problems of lcp", &diagrams, &notes).unwrap();
-    std::fs::write(docs.join("pictures/stability_problems.svg"), drawn).unwrap();
-    std::fs::write(docs.join("stability.md"), text).unwrap();
+    std::fs::write(docs.join("data/stability.md"), text).unwrap();
+}
+
+/// The answer of the page, before anything else.
+fn headline(themes: &[Theme], problems: &[problems::Sweep]) -> String {
+    let points = || themes.iter().flat_map(|theme| &theme.sweeps).flat_map(|(_, points)| points);
+    let is_solved = |end: &&Reached| matches!(end, Reached::Solved { .. });
+    let routes = points().flat_map(|point| &point.ends).filter(is_solved).count();
+    let found = problems.iter().flat_map(|sweep| &sweep.methods).flat_map(|(_, found)| found);
+    let methods = found.map(|it| reached(it.as_ref())).filter(|end| is_solved(&end)).count();
+    let wrong: usize = points().map(|it| it.wrong.len()).sum();
+    let wrong = wrong + problems.iter().map(|sweep| sweep.wrong.len()).sum::<usize>();
+    format!(
+        "# Do hard cases stay stable?\n\n\
+         Answers called solved: {} ({routes} by the routes of `masonry`, {methods} by the methods of `lcp`). Answers worse than promised: **{wrong}**.\n",
+        routes + methods
+    )
 }
 
 fn write_counts(text: &mut String, themes: &[Theme]) -> fmt::Result {
@@ -114,12 +171,6 @@ fn write_counts(text: &mut String, themes: &[Theme]) -> fmt::Result {
 
 fn write_theme(text: &mut String, theme: &Theme) -> fmt::Result {
     writeln!(text, "\n## {}\n", theme.title)?;
-    writeln!(
-        text,
-        "![{}: errors over parameters](pictures/stability_{}.svg)\n",
-        theme.title, theme.file
-    )?;
-    writeln!(text, "Number of solved values, and their worst error:\n")?;
     writeln!(
         text,
         "| sweep | parameter | expected | values | {} |",

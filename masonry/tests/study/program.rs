@@ -56,8 +56,9 @@ fn the_program_writes_tables_and_pictures() {
     let text = fs::read_to_string(out.join("accuracy.svg")).unwrap();
     let document = roxmltree::Document::parse(&text).unwrap();
     assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
-    let markers = document.descendants().filter(|it| it.has_tag_name("polygon"));
-    assert!(markers.count() >= 3 * ROUTES.len(), "two of each route, and the legend");
+    let lines = document.descendants().filter(|it| it.has_tag_name("path"));
+    let lines = lines.filter(|it| it.attribute("class").is_some_and(|it| it.starts_with("full")));
+    assert!(lines.count() >= 3 * ROUTES.len(), "one of each route, and two in the legend");
     let table = fs::read_to_string(out.join("study.csv")).unwrap();
     let rows: Vec<&str> = table.lines().collect();
     assert_eq!(rows.len(), 1 + 3 * ROUTES.len() * 2);

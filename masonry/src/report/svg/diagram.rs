@@ -1,40 +1,34 @@
-//! Diagrams with logarithmic axes, one or many in a picture, drawn by `plotters`.
+//! Diagrams with logarithmic axes, one or many in a picture.
+//!
+//! Lines and markers have classes, and coordinates are whole pixels: pages with hundreds of curves stay small.
 
-use std::io;
+use std::collections::BTreeSet;
+use std::fmt::Write as _;
 use std::ops::Range;
 
-use plotters::coord::Shift;
-use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, ValueFormatter};
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-
-use super::canvas::{text_width, wrapped};
-
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn = Result<(), DrawingAreaErrorKind<io::Error>>;
+use super::canvas::{escape, text_width, wrapped};
 
 const FONT: &str = "DejaVu Sans, Helvetica, Arial, sans-serif";
-/// Sizes of letters, which `plotters` divides by [`SCALE`] where it writes them down.
-const TITLE: i32 = 21;
-const TEXT: i32 = 16;
-const SCALE: f64 = 1.24;
-/// Height of a line of text.
+/// Sizes of letters.
+const TITLE: f64 = 17.0;
+const TEXT: f64 = 13.0;
+/// Height of a line of text, and from its top to the foot of its letters.
 const LINE: i32 = 19;
+const FOOT: i32 = 13;
+/// From the middle of a line of text to the foot of its letters.
+const HALF: i32 = 5;
 const EDGE: i32 = 16;
 /// A diagram alone, and one of several, which stand in two columns.
 const SIZES: [[i32; 2]; 2] = [[868, 430], [560, 340]];
-const GRID: RGBColor = RGBColor(0xdd, 0xdd, 0xdd);
-const GREY: RGBColor = RGBColor(0xaa, 0xaa, 0xaa);
+/// Room left of, right of and below the lines of a diagram.
+const LEFT: i32 = 76;
+const RIGHT: i32 = 15;
+const BELOW: i32 = 52;
+/// Lengths of the marks at the labels of an axis.
+const TICK: i32 = 5;
 /// Colours that differ also for those who see few of them (Okabe and Ito), each with its own marker.
-const COLOURS: [RGBColor; 7] = [
-    RGBColor(0x00, 0x72, 0xb2),
-    RGBColor(0xd5, 0x5e, 0x00),
-    RGBColor(0x00, 0x9e, 0x73),
-    RGBColor(0xcc, 0x79, 0xa7),
-    RGBColor(0xb8, 0x86, 0x0b),
-    RGBColor(0x56, 0xb4, 0xe9),
-    RGBColor(0x4d, 0x4d, 0x4d),
-];
+const COLOURS: [&str; 7] =
+    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56b4e9", "#4d4d4d"];
 /// Corners of markers, in pixels.
 const MARKERS: [&[[i32; 2]]; 7] = [
     &[[-1, -4], [2, -4], [4, -1], [4, 2], [2, 4], [-1, 4], [-4, 2], [-4, -1]],
@@ -52,7 +46,7 @@ const MOST_LABELS: f64 = 9.0;
 const PLAIN: Range<f64> = 0.9e-4..1.1e4;
 
 /// How a series is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Look {
     /// A line with markers.
     Full,
@@ -78,13 +72,82 @@ pub struct Series {
 }
 
 impl Series {
-    fn colour(&self) -> RGBColor {
-        if self.look == Look::Bound { GREY } else { COLOURS[self.style % COLOURS.len()] }
+    fn kind(&self) -> Kind {
+        let style = if self.look == Look::Bound { 0 } else { self.style % COLOURS.len() };
+        Kind { look: self.look, style }
     }
 
-    fn drawn(&self) -> impl Iterator<Item = (f64, f64)> + Clone {
+    fn drawn(&self) -> impl Iterator<Item = [f64; 2]> + Clone {
         let is_drawn = |point: &&[f64; 2]| point.iter().all(|it| it.is_finite() && *it > 0.0);
-        self.points.iter().filter(is_drawn).map(|[x, y]| (*x, *y))
+        self.points.iter().filter(is_drawn).copied()
+    }
+}
+
+/// What a class of lines has in common.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Kind {
+    look: Look,
+    style: usize,
+}
+
+impl Kind {
+    /// Of its lines, and of its marker.
+    fn name(self) -> String {
+        let look = match self.look {
+            Look::Full => "full",
+            Look::Hollow => "hollow",
+            Look::Dots => "dots",
+            Look::Bound => return "bound".to_owned(),
+        };
+        format!("{look}{}", self.style)
+    }
+
+    fn rule(self) -> String {
+        let (name, colour) = (self.name(), COLOURS[self.style]);
+        match self.look {
+            Look::Full | Look::Hollow => {
+                format!(".{name}{{stroke:{colour};stroke-width:2;marker:url(#{name})}}\n")
+            }
+            // A line of no length with round ends.
+            Look::Dots => {
+                format!(".{name}{{stroke:{colour};stroke-width:5;stroke-linecap:round}}\n")
+            }
+            Look::Bound => format!(".{name}{{stroke:#aaa;stroke-width:2}}\n"),
+        }
+    }
+
+    /// What stands at every point of a line.
+    fn marker(self) -> Option<String> {
+        let fill = match self.look {
+            Look::Full => COLOURS[self.style],
+            Look::Hollow => "#fff",
+            Look::Dots | Look::Bound => return None,
+        };
+        let (name, colour) = (self.name(), COLOURS[self.style]);
+        let corners = MARKERS[self.style].iter().map(|[x, y]| format!("{x} {y}"));
+        let corners: Vec<String> = corners.collect();
+        Some(format!(
+            "<marker id=\"{name}\" markerUnits=\"userSpaceOnUse\" overflow=\"visible\">\
+             <path d=\"M{}z\" style=\"fill:{fill};stroke:{colour};stroke-width:1\"/></marker>\n",
+            corners.join(" ")
+        ))
+    }
+
+    fn path(self, text: &mut String, pixels: &[[i32; 2]]) {
+        let mut data = String::new();
+        for (k, [x, y]) in pixels.iter().enumerate() {
+            let _ = match self.look {
+                Look::Dots => write!(data, "M{x} {y}h0"),
+                _ => write!(data, "{}{x} {y}", if k == 0 { "M" } else { " " }),
+            };
+        }
+        if let ([_], true) = (pixels, self.look != Look::Dots) {
+            // A point alone has no line, and so no marker.
+            data += "h0";
+        }
+        if !data.is_empty() {
+            let _ = writeln!(text, "<path class=\"{}\" d=\"{data}\"/>", self.name());
+        }
     }
 }
 
@@ -103,148 +166,134 @@ pub struct Diagram {
 
 /// The text of an SVG file; `None` where no series has a point. The legend above all is that of the first diagram.
 pub fn picture(title: &str, diagrams: &[Diagram], notes: &[String]) -> Option<String> {
-    diagrams.iter().flat_map(|it| &it.series).find_map(|it| it.drawn().next())?;
+    let all = || diagrams.iter().flat_map(|it| &it.series);
+    all().find_map(|it| it.drawn().next())?;
     let columns = diagrams.len().min(SIZES.len());
     let rows = diagrams.len().div_ceil(columns);
     let [width, height] = [columns, rows].map(|it| i32::try_from(it).unwrap_or(1));
-    let [width, height] = [width * SIZES[columns - 1][0], height * SIZES[columns - 1][1]];
-    let head = Head::of(title, &diagrams[0].series, notes, width);
-    let size = [width + 2 * EDGE, head.height + height + EDGE].map(i32::unsigned_abs);
-    let mut text = String::new();
-    let area = SVGBackend::with_string(&mut text, size.into()).into_drawing_area();
-    let draw = || -> Drawn {
-        area.fill(&WHITE)?;
-        head.draw(&area)?;
-        let below = area.margin(head.height, EDGE, EDGE, EDGE);
-        for (diagram, part) in diagrams.iter().zip(below.split_evenly((rows, columns))) {
-            diagram.draw(&area, &part)?;
-        }
-        area.present()
-    };
-    draw().ok()?;
-    drop(area);
-    Some(text)
+    let [wide, high] = SIZES[columns - 1];
+    let mut drawn = String::new();
+    let head = draw_head(&mut drawn, title, &diagrams[0].series, notes, width * wide);
+    let places = (0..height).flat_map(|row| (0..width).map(move |column| [column, row]));
+    for (diagram, [column, row]) in diagrams.iter().zip(places) {
+        diagram.draw(&mut drawn, [EDGE + column * wide, head + row * high], [wide, high]);
+    }
+    let kinds: BTreeSet<Kind> = all().map(Series::kind).collect();
+    let rules: String = kinds.iter().map(|kind| kind.rule()).collect();
+    let markers: String = kinds.iter().filter_map(|kind| kind.marker()).collect();
+    let [width, height] = [width * wide + 2 * EDGE, head + height * high + EDGE];
+    Some(format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
+         font-family=\"{FONT}\" font-size=\"{TEXT}\">\n\
+         <title>{}</title>\n<style>\npath{{fill:none}}\n.grid{{stroke:#ddd}}\n.axes{{stroke:#000}}\n{rules}</style>\n{markers}\
+         <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{drawn}</svg>\n",
+        escape(title)
+    ))
 }
 
-/// Title, legend and notes.
-struct Head<'a> {
-    texts: Vec<(i32, i32, String)>,
-    names: Vec<([i32; 2], &'a Series)>,
-    height: i32,
+/// Title, legend and notes, in as many lines as they take; where they end.
+fn draw_head(
+    drawn: &mut String,
+    title: &str,
+    series: &[Series],
+    notes: &[String],
+    width: i32,
+) -> i32 {
+    let mut top = draw_lines(drawn, title, TITLE, EDGE, width);
+    let (mut x, gap) = (0, 40);
+    for series in series.iter().filter(|it| !it.name.is_empty()) {
+        #[allow(clippy::cast_possible_truncation)]
+        let wide = text_width(&series.name, TEXT) as i32 + gap;
+        if x > 0 && x + wide > width {
+            (x, top) = (0, top + LINE);
+        }
+        let [left, middle] = [EDGE + x, top + LINE / 2];
+        // The marker stands in the middle of the line, which has none at its ends.
+        let (kind, name) = (series.kind(), series.kind().name());
+        let _ = writeln!(
+            drawn,
+            "<path class=\"{name}\" style=\"marker:none\" d=\"M{left} {middle}h22\"/>"
+        );
+        kind.path(drawn, &[[left + 11, middle]]);
+        draw_text(drawn, [left + 28, middle + HALF], "", &series.name);
+        x += wide;
+    }
+    top += LINE + LINE / 3;
+    for note in notes {
+        top = draw_lines(drawn, note, TEXT, top, width);
+    }
+    top + LINE / 2
 }
 
-impl<'a> Head<'a> {
-    /// In as many lines as they take.
-    fn of(title: &str, series: &'a [Series], notes: &[String], width: i32) -> Self {
-        let mut head = Self { texts: Vec::new(), names: Vec::new(), height: EDGE };
-        head.add(title, TITLE, width);
-        let (mut x, gap) = (0, 40);
-        for series in series.iter().filter(|it| !it.name.is_empty()) {
-            #[allow(clippy::cast_possible_truncation)]
-            let wide = text_width(&series.name, f64::from(TEXT) / SCALE) as i32 + gap;
-            if x > 0 && x + wide > width {
-                (x, head.height) = (0, head.height + LINE);
-            }
-            head.names.push(([EDGE + x, head.height], series));
-            x += wide;
-        }
-        head.height += LINE + LINE / 3;
-        for note in notes {
-            head.add(note, TEXT, width);
-        }
-        head.height += LINE / 2;
-        head
+/// A text in lines below `top`; where they end.
+fn draw_lines(drawn: &mut String, text: &str, size: f64, mut top: i32, width: i32) -> i32 {
+    let attributes = if size > TEXT { format!(" font-size=\"{size}\"") } else { String::new() };
+    for line in wrapped(text, size, f64::from(width)) {
+        draw_text(drawn, [EDGE, top + FOOT], &attributes, &line);
+        top += LINE;
     }
+    top + LINE / 3
+}
 
-    fn add(&mut self, text: &str, size: i32, width: i32) {
-        for line in wrapped(text, f64::from(size) / SCALE, f64::from(width)) {
-            self.texts.push((self.height, size, line));
-            self.height += LINE;
-        }
-        self.height += LINE / 3;
-    }
-
-    fn draw(&self, area: &Area) -> Drawn {
-        for (y, size, text) in &self.texts {
-            area.draw(&Text::new(text.as_str(), (EDGE, *y), font(*size)))?;
-        }
-        let left = Pos::new(HPos::Left, VPos::Center);
-        for ([x, y], series) in &self.names {
-            let middle = y + LINE / 2;
-            join(area, &[(*x, middle), (x + 22, middle)], &[(x + 11, middle)], series)?;
-            area.draw(&Text::new(series.name.as_str(), (x + 28, middle), font(TEXT).pos(left)))?;
-        }
-        Ok(())
-    }
+fn draw_text(drawn: &mut String, [x, y]: [i32; 2], attributes: &str, text: &str) {
+    let _ = writeln!(drawn, "<text x=\"{x}\" y=\"{y}\"{attributes}>{}</text>", escape(text));
 }
 
 impl Diagram {
-    fn draw(&self, whole: &Area, part: &Area) -> Drawn {
+    fn draw(&self, drawn: &mut String, [x, y]: [i32; 2], [width, height]: [i32; 2]) {
         let all = || self.series.iter().flat_map(Series::drawn);
         let least = self.least.into_iter().flatten();
-        let [x, y] =
-            [Axis::around(all().map(|it| it.0)), Axis::around(all().map(|it| it.1).chain(least))];
-        let (Some(x), Some(y)) = (x, y) else { return Ok(()) };
-        let mut builder = ChartBuilder::on(part);
-        builder.x_label_area_size(46).y_label_area_size(76).margin_right(14).margin_bottom(4);
-        if !self.title.is_empty() {
-            builder.caption(&self.title, font(TEXT));
+        let caption = if self.title.is_empty() { 0 } else { LINE + 2 };
+        let [left, right] = [x + LEFT, x + width - RIGHT];
+        let [top, bottom] = [y + caption, y + height - BELOW];
+        let across = Axis::around(all().map(|it| it[0]), [left, right]);
+        let up = Axis::around(all().map(|it| it[1]).chain(least), [bottom, top]);
+        let (Some(across), Some(up)) = (across, up) else { return };
+        let centre = [x + width / 2, i32::midpoint(left, right)];
+        *drawn += "<g text-anchor=\"middle\">\n";
+        if caption > 0 {
+            draw_text(drawn, [centre[0], y + FOOT], "", &self.title);
         }
-        let mut chart = builder.build_cartesian_2d(x, y)?;
-        chart
-            .configure_mesh()
-            .bold_line_style(GRID)
-            .light_line_style(TRANSPARENT)
-            .label_style(font(TEXT))
-            .x_desc(&self.axes[0])
-            .y_desc(&self.axes[1])
-            .draw()?;
+        draw_text(drawn, [centre[1], bottom + 44], "", &self.axes[0]);
+        let [side, middle] = [x + 11, i32::midpoint(top, bottom)];
+        let turned = format!(" transform=\"rotate(270 {side} {middle})\"");
+        draw_text(drawn, [side, middle], &turned, &self.axes[1]);
+        let [mut grid, mut ticks] = [String::new(), String::new()];
+        for (at, label) in across.labels() {
+            let _ = write!(grid, "M{at} {bottom}V{top}");
+            let _ = write!(ticks, "M{at} {bottom}v{TICK}");
+            draw_text(drawn, [at, bottom + TICK + FOOT + 3], "", &label);
+        }
+        *drawn += "</g>\n<g text-anchor=\"end\">\n";
+        for (at, label) in up.labels() {
+            let _ = write!(grid, "M{left} {at}H{right}");
+            let _ = write!(ticks, "M{left} {at}h-{TICK}");
+            draw_text(drawn, [left - 2 * TICK, at + HALF], "", &label);
+        }
+        let _ = writeln!(
+            drawn,
+            "</g>\n<path class=\"grid\" d=\"{grid}\"/>\n\
+             <path class=\"axes\" d=\"M{left} {top}V{bottom}H{right}{ticks}\"/>"
+        );
         for series in &self.series {
-            let pixels: Vec<_> = series.drawn().map(|it| chart.backend_coord(&it)).collect();
-            join(whole, &pixels, &pixels, series)?;
+            let pixels = series.drawn().map(|[x, y]| [across.at(x), up.at(y)]);
+            series.kind().path(drawn, &pixels.collect::<Vec<_>>());
         }
-        Ok(())
     }
 }
 
-fn font(size: i32) -> TextStyle<'static> {
-    (FONT, size).into_text_style(&(1, 1))
-}
-
-/// What joins points, with what stands at them.
-fn join(area: &Area, pixels: &[(i32, i32)], marked: &[(i32, i32)], it: &Series) -> Drawn {
-    let colour = it.colour();
-    if it.look != Look::Dots {
-        area.draw(&PathElement::new(pixels, colour.stroke_width(2)))?;
-    }
-    for (x, y) in marked {
-        let corners = MARKERS[it.style % MARKERS.len()].iter().map(|[dx, dy]| (x + dx, y + dy));
-        let corners: Vec<_> = corners.collect();
-        let outline = PathElement::new([&corners[..], &corners[..1]].concat(), colour);
-        match it.look {
-            Look::Full => area.draw(&Polygon::new(corners, colour))?,
-            Look::Hollow => area.draw(&Polygon::new(corners, WHITE))?,
-            Look::Dots => area.draw(&Circle::new((*x, *y), 2, colour.filled()))?,
-            Look::Bound => {}
-        }
-        if matches!(it.look, Look::Full | Look::Hollow) {
-            area.draw(&outline)?;
-        }
-    }
-    Ok(())
-}
-
-/// A logarithmic axis. That of `plotters` has no lines below the distance of neighbouring numbers at one.
+/// A logarithmic axis.
 struct Axis {
     /// Decimal logarithms.
     ends: [f64; 2],
+    pixels: [i32; 2],
     /// Where lines are: at decades and, where these are few, at their second and fifth multiples.
     lines: Vec<f64>,
 }
 
 impl Axis {
     /// The axis on which all values have their place; `None` without values.
-    fn around(values: impl Iterator<Item = f64> + Clone) -> Option<Self> {
+    fn around(values: impl Iterator<Item = f64> + Clone, pixels: [i32; 2]) -> Option<Self> {
         let [low, high] = [values.clone().reduce(f64::min)?, values.reduce(f64::max)?];
         let [low, high] = [low, high].map(f64::log10);
         let room = (0.03 * (high - low)).max(0.1);
@@ -256,39 +305,27 @@ impl Axis {
         let decades = decades.take_while(|decade| *decade <= ends[1]);
         let lines = decades.flat_map(|decade| multiples.iter().map(move |it| decade + it.log10()));
         let lines = lines.filter(|it| (ends[0]..=ends[1]).contains(it));
-        Some(Self { ends, lines: lines.map(|it| 10_f64.powf(it)).collect() })
+        Some(Self { ends, pixels, lines: lines.map(|it| 10_f64.powf(it)).collect() })
     }
-}
 
-impl Ranged for Axis {
-    type FormatOption = NoDefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+    fn at(&self, value: f64) -> i32 {
         let share = (value.log10() - self.ends[0]) / (self.ends[1] - self.ends[0]);
+        let [from, to] = self.pixels;
         #[allow(clippy::cast_possible_truncation)]
-        let pixels = (share * f64::from(limit.1 - limit.0)).round() as i32;
-        limit.0 + pixels
+        let pixels = (share * f64::from(to - from)).round() as i32;
+        from + pixels
     }
 
-    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
-        if hint.weight().allow_light_points() { Vec::new() } else { self.lines.clone() }
-    }
-
-    fn range(&self) -> Range<f64> {
-        10_f64.powf(self.ends[0])..10_f64.powf(self.ends[1])
-    }
-}
-
-impl ValueFormatter<f64> for Axis {
     /// Labels of an axis are alike: with exponents, or none with.
-    fn format_ext(&self, value: &f64) -> String {
-        if self.lines.iter().any(|it| !PLAIN.contains(it)) {
-            return format!("{value:.0e}");
-        }
-        let decimals = (-value.log10() - 1e-9).ceil().max(0.0);
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        let decimals = decimals as usize;
-        format!("{value:.decimals$}")
+    fn labels(&self) -> impl Iterator<Item = (i32, String)> {
+        let exponents = self.lines.iter().any(|it| !PLAIN.contains(it));
+        self.lines.iter().map(move |value| {
+            let decimals = (-value.log10() - 1e-9).ceil().max(0.0);
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            let decimals = decimals as usize;
+            let label =
+                if exponents { format!("{value:.0e}") } else { format!("{value:.decimals$}") };
+            (self.at(*value), label)
+        })
     }
 }
