@@ -14,21 +14,25 @@ const WALLS: usize = 10;
 /// Pivots take some seconds on dense matrices of this order.
 const LARGEST_ORDER: usize = 1200;
 
-/// Numbers that are the same in every run (Steele, Lea and Flood 2014, SplitMix64).
+/// Numbers that are the same in every run, by the generator `SplitMix64` (Steele, Lea and Flood 2014).
 struct Random(u64);
 
 impl Random {
-    /// Below one.
-    fn part(&mut self) -> f64 {
+    fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+        z ^ (z >> 31)
+    }
+
+    /// Below one.
+    fn part(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 53) as f64
     }
 
     fn between(&mut self, low: u32, high: u32) -> u32 {
-        low + (self.part() * f64::from(high + 1 - low)) as u32
+        low + u32::try_from(self.next() % u64::from(high + 1 - low)).expect("a small number")
     }
 }
 

@@ -45,7 +45,7 @@ impl Default for EvolutionSettings {
 ///
 /// Under loads or gaps that have changed, a contact problem with friction may have several solutions, or none that a
 /// method finds, since its law relates total slips. Bodies do not solve it: they move, and friction opposes the velocity
-/// at every moment. Three ways lead to a state at rest, one after the other ([`Way`]):
+/// at every moment. Three ways lead to a state at rest, one after the other ([`Way`](crate::Way)):
 ///
 /// 1. **Smooth friction.** Gaps and normal forces are complementary as always, but friction turns over a slip `e`, a
 ///    thousandth of the displacements, or as long as they are: `(mu t_n + t_t) s_+ = (mu t_n - t_t) s_- = e mu t_n`. These
@@ -72,8 +72,10 @@ impl Default for EvolutionSettings {
 /// are zero, and the solution is one of [`problem.after(&u)`](Contact2d::after), judged like every other.
 ///
 /// # Failure
-/// [`Status::NoEquilibrium`] where the bodies flow, with the velocities in [`Certificate::Springs`]: evidence, and no
-/// proof. [`Status::Stalled`] where no rest is found after motions that decrease, and the statuses of limits.
+/// [`Status::NoEquilibrium`](crate::Status::NoEquilibrium) where the bodies flow, with the velocities in
+/// [`Certificate::Springs`](crate::Certificate::Springs): evidence, and no proof.
+/// [`Status::Stalled`](crate::Status::Stalled) where no rest is found after motions that decrease, and the statuses of
+/// limits.
 ///
 /// ```
 /// use lcp::{Contact2d, ContactPoint, Evolution};
@@ -119,7 +121,8 @@ impl Evolution {
         self.advance_observed(problem, from, &mut |_| ControlFlow::Continue(()))
     }
 
-    /// The same, calling the observer before every step; `Break` stops with [`Status::Cancelled`].
+    /// The same, calling the observer before every step; `Break` stops with
+    /// [`Status::Cancelled`](crate::Status::Cancelled).
     ///
     /// # Errors
     /// As for [`advance`](Self::advance).
