@@ -2,7 +2,7 @@
 //! limit, open bases, settlements; rigid and elastic bricks.
 //!
 //! `cargo bench --bench scaling` prints a table of walls of about a thousand bricks; with `-- --write` it also puts it into
-//! `docs/scaling.md`. `-- --courses 100` takes other walls, of as many bricks in a course, and `--mu 0.5,1`, `--bricks
+//! `docs/data/scaling.md`, and a summary into `docs/scaling.md`. `-- --courses 100` takes other walls, of as many bricks in a course, and `--mu 0.5,1`, `--bricks
 //! rigid,2x1` and `--case settlement` a part of the table. All is on one thread.
 
 mod common;
@@ -23,6 +23,7 @@ use masonry::analysis::solve::{Event, Run};
 use masonry::method::forms::Sparse;
 use masonry::model::Model;
 use masonry::system::System;
+use masonry::{Evidence, Verdict};
 use walls::{Case, Wall};
 
 const FRICTION: &str = "0.3,0.5,0.6,0.7,0.9999,1,1.0001,1.3";
@@ -47,6 +48,7 @@ fn main() {
     let courses = option("--courses").map_or(32, |it| it.parse().expect("a number of courses"));
     let (friction, bricks) = (option("--mu"), option("--bricks"));
     let case = option("--case").unwrap_or_default();
+    let mut rows = Vec::new();
     let mut table = String::from(
         "| case | mu | bricks | verdict | evidence | steps | found by law, smooth friction, motion | \
          factorisations, mean of steps | most | time \\[s\\] | time / Cholesky | memory \\[MB\\] |\n\
@@ -63,13 +65,55 @@ fn main() {
             let wall = Wall { courses, mu, mesh: mesh(bricks) };
             let yardstick = yardstick(&wall);
             for case in cases() {
-                let line = line(&wall, bricks, (case, limit), yardstick);
-                println!("{line}");
-                let _ = writeln!(table, "{line}");
+                let row = Row::of(&wall, bricks, (case, limit), yardstick);
+                println!("{}", row.line);
+                let _ = writeln!(table, "{}", row.line);
+                rows.push(row);
             }
         }
     }
-    common::write_if_asked("docs/scaling.md", "scaling", &(table + "\n" + &machine::machine()));
+    common::write_if_asked("docs/scaling.md", "scaling", &summary(&rows));
+    let table = table + "\n" + &machine::machine();
+    common::write_if_asked("docs/data/scaling.md", "scaling", &table);
+}
+
+/// One wall in one case.
+struct Row {
+    case: Case,
+    mu: f64,
+    bricks: String,
+    /// Of verdict and evidence one letter.
+    letter: char,
+    factorisations: f64,
+    line: String,
+}
+
+/// Friction along, walls and cases down.
+fn summary(rows: &[Row]) -> String {
+    let mut friction: Vec<f64> = rows.iter().map(|row| row.mu).collect();
+    friction.sort_by(f64::total_cmp);
+    friction.dedup_by(|a, b| is_same(*a, *b));
+    let first = |row: &&Row| is_same(row.mu, rows[0].mu);
+    let walls = rows.iter().filter(first).map(|row| (row.case, &row.bricks[..]));
+    let names: String = friction.iter().map(|mu| format!(" mu {mu} |")).collect();
+    let mut table =
+        format!("| case | bricks |{names}\n|:--|:--|{}\n", "--:|".repeat(friction.len()));
+    for (case, bricks) in walls {
+        let _ = write!(table, "| {case} | {bricks} |");
+        for mu in &friction {
+            let same =
+                |row: &&Row| row.case == case && row.bricks == bricks && is_same(row.mu, *mu);
+            let cell = rows.iter().find(same);
+            let cell = cell.map(|row| format!("{} {:.0}", row.letter, row.factorisations));
+            let _ = write!(table, " {} |", cell.unwrap_or_default());
+        }
+        table.push('\n');
+    }
+    table
+}
+
+fn is_same(a: f64, b: f64) -> bool {
+    a.total_cmp(&b).is_eq()
 }
 
 /// What follows an option of the command.
@@ -93,29 +137,39 @@ fn yardstick(wall: &Wall) -> f64 {
     symbolic + numeric
 }
 
-fn line(wall: &Wall, bricks: &str, (case, limit): (Case, f64), yardstick: f64) -> String {
-    sparse::forget_peak();
-    let began = Instant::now();
-    let mut iterations = 0;
-    let mut observer = |event: Event| {
-        iterations += usize::from(matches!(event, Event::Iteration { .. }));
-        ControlFlow::Continue(())
-    };
-    let mut run = Run::new(&wall.scene(case, limit), &mut observer).expect("a sound scene");
-    while run.advance(&mut observer).expect("sound data") {}
-    let outcome = run.finish();
-    let seconds = began.elapsed().as_secs_f64();
-    let memory = sparse::peak().map_or_else(|| "-".to_owned(), |it| format!("{it:.0}"));
-    let (verdict, evidence) = (outcome.judgement.verdict, outcome.judgement.evidence);
-    let (steps, ways, counts) = of_steps(&outcome, iterations);
-    let mean = counts.iter().sum::<usize>() as f64 / counts.len().max(1) as f64;
-    let most = counts.iter().max().copied().unwrap_or(0);
-    format!(
-        "| {case} | {} | {bricks} | {verdict} | {evidence:?} | {steps} | {ways} | {mean:.0} | {most} | {seconds:.1} | \
-         {:.0} | {memory} |",
-        wall.mu,
-        seconds / yardstick
-    )
+impl Row {
+    fn of(wall: &Wall, bricks: &str, (case, limit): (Case, f64), yardstick: f64) -> Self {
+        sparse::forget_peak();
+        let began = Instant::now();
+        let mut iterations = 0;
+        let mut observer = |event: Event| {
+            iterations += usize::from(matches!(event, Event::Iteration { .. }));
+            ControlFlow::Continue(())
+        };
+        let mut run = Run::new(&wall.scene(case, limit), &mut observer).expect("a sound scene");
+        while run.advance(&mut observer).expect("sound data") {}
+        let outcome = run.finish();
+        let seconds = began.elapsed().as_secs_f64();
+        let memory = sparse::peak().map_or_else(|| "-".to_owned(), |it| format!("{it:.0}"));
+        let (verdict, evidence) = (outcome.judgement.verdict, outcome.judgement.evidence);
+        let (steps, ways, counts) = of_steps(&outcome, iterations);
+        let mean = counts.iter().sum::<usize>() as f64 / counts.len().max(1) as f64;
+        let most = counts.iter().max().copied().unwrap_or(0);
+        let letter = match (verdict, evidence) {
+            (Verdict::Stands, _) => 's',
+            (Verdict::Falls, Evidence::Motion) => 'f',
+            (Verdict::Falls, _) => 'F',
+            (Verdict::Undecided, _) => '?',
+        };
+        let line = format!(
+            "| {case} | {} | {bricks} | {verdict} | {evidence:?} | {steps} | {ways} | {mean:.0} | {most} | {seconds:.1} | \
+             {:.0} | {memory} |",
+            wall.mu,
+            seconds / yardstick
+        );
+        let (mu, bricks) = (wall.mu, bricks.to_owned());
+        Self { case, mu, bricks, letter, factorisations: mean, line }
+    }
 }
 
 /// Steps solved of all, how many were found in which way, and the factorisations of each; of a single step the steps of

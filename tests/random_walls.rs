@@ -12,7 +12,7 @@ const BRICK: Brick = Brick { length: 0.25, height: 0.125 };
 /// Without the variable.
 const WALLS: usize = 10;
 /// Pivots take some seconds on dense matrices of this order.
-const LARGEST_ORDER: usize = 1200;
+const LARGEST_ORDER: usize = 3000;
 
 /// Numbers that are the same in every run, by the generator `SplitMix64` (Steele, Lea and Flood 2014).
 struct Random(u64);

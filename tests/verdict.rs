@@ -34,7 +34,7 @@ fn rigid_walls_stand_on_admissible_forces() {
         let outcome = common::solved(&scene);
         assert_eq!(outcome.judgement.verdict, Verdict::Stands);
         assert_eq!(outcome.judgement.evidence, Evidence::AdmissibleForces);
-        assert!(outcome.judgement.sentence.contains("upper bound of what friction can hold"));
+        assert!(outcome.judgement.sentence.contains("to which of such forces a loading leads"));
     }
     // Pivots end on rays, which say nothing against it.
     let by_pivots = walls::tall_with_window(0.401_675_53).route(Route::Lemke);

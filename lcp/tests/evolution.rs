@@ -101,6 +101,11 @@ fn limits_and_wrong_starts_are_told() {
     let problem = pushed(&[1.4], STIFFNESS);
     assert!(Evolution::default().advance(&problem, &[0.0]).is_err());
     assert!(Evolution::default().advance(&problem, &[f64::NAN, 0.0]).is_err());
+    for slip in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let wrong = EvolutionSettings { slips: vec![1e-3, slip], ..EvolutionSettings::default() };
+        let error = Evolution::new(wrong).advance(&problem, &[0.0; 2]).unwrap_err();
+        assert!(matches!(error, lcp::Error::Setting { name: "slips", .. }), "{error}");
+    }
     let few = EvolutionSettings { max_iterations: 2, ..EvolutionSettings::default() };
     let end = Evolution::new(few).advance(&problem, &[0.0; 2]).unwrap();
     assert_eq!(end.solution.status, Status::IterationLimit);

@@ -236,6 +236,53 @@ mod interrupted {
         assert!(out.join("checkpoint.json").exists());
     }
 
+    /// The files of a directory, without how long the run took.
+    fn contents(directory: &Path) -> Vec<(String, Vec<u8>)> {
+        let read = |name: String| {
+            let mut content = fs::read(directory.join(&name)).unwrap();
+            match &name[..] {
+                "report.txt" => {
+                    let text = str::from_utf8(&content).unwrap();
+                    content.truncate(text.find("\nTime\n----\n").unwrap());
+                }
+                "result.json" => {
+                    let mut result: Value = serde_json::from_slice(&content).unwrap();
+                    result.as_object_mut().unwrap().remove("time_s").unwrap();
+                    for route in result["routes"].as_array_mut().unwrap() {
+                        route.as_object_mut().unwrap().remove("seconds").unwrap();
+                    }
+                    content = result.to_string().into_bytes();
+                }
+                _ => {}
+            }
+            (name, content)
+        };
+        files(directory).into_iter().map(read).collect()
+    }
+
+    #[test]
+    fn a_killed_history_writes_the_same_files_when_it_is_resumed() {
+        let directory = directory("killed");
+        let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/wall_settlement.toml");
+        let scene = scene.to_str().unwrap();
+        let [whole, parts] = ["whole", "parts"].map(|name| directory.join(name));
+        let arguments =
+            |out: &Path| ["solve", scene, "--out", out.to_str().unwrap()].map(str::to_owned);
+        let arguments = [&whole, &parts].map(|out| arguments(out));
+        let [first, second] = arguments.each_ref().map(|it| it.each_ref().map(String::as_str));
+        assert_eq!(masonry(&first).status.code(), Some(0));
+        let mut killed = started(&second, &parts.join("checkpoint.json"));
+        killed.kill().unwrap();
+        killed.wait().unwrap();
+        assert_eq!(masonry(&[&second[..], &["--resume"]].concat()).status.code(), Some(0));
+        let (whole, parts) = (contents(&whole), contents(&parts));
+        assert!(whole.iter().any(|(name, _)| name == "history.csv"));
+        for ((name, one), (other, two)) in whole.iter().zip(&parts) {
+            assert!(name == other && one == two, "{name} and {other} differ");
+        }
+        assert_eq!(whole.len(), parts.len());
+    }
+
     #[test]
     fn two_runs_into_one_directory_are_refused_unless_one_was_killed() {
         let directory = directory("two");

@@ -143,6 +143,7 @@ impl<'a> Search<'a> {
     fn without_rounding(&mut self) {
         let Self { judge, tolerance, scaled, condensed, best, .. } = self;
         if let Some(Best { u, forces, residuals, .. }) = best {
+            // Not the states of a vertex: where nothing slips, those that slide by nothing stick.
             let contacts = nearest(scaled, u, forces);
             let with = (judge.as_ref(), &*scaled, condensed);
             if let Some(right) = unrounded(with, (u, forces), &contacts, *tolerance) {

@@ -135,6 +135,9 @@ impl Evolution {
         let EvolutionSettings { tolerance, max_iterations, time_limit, at_once, ref slips } =
             self.settings;
         check_tolerance(tolerance)?;
+        if let Some(&value) = slips.iter().find(|slip| !(**slip > 0.0 && slip.is_finite())) {
+            return Err(Error::Setting { name: "slips", value, range: "above 0 and finite" });
+        }
         check_length("from", from.len(), problem.displacements())?;
         check_vector("from", from)?;
         let search = Search::new(Method::Interior, problem, tolerance)?;

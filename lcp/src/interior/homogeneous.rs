@@ -33,9 +33,12 @@ impl Factors {
         Ok(Self { gram, factorisations: 0 })
     }
 
-    fn factorise(&mut self, program: &Program, stiffness: &[f64], spring: f64) {
-        self.gram.factorise(Some(program.k.as_ref()), program.a.as_ref(), (stiffness, spring));
+    /// `None` where numbers overflow.
+    fn factorise(&mut self, program: &Program, stiffness: &[f64], spring: f64) -> Option<()> {
+        let (k, a) = (program.k.as_ref(), program.a.as_ref());
+        self.gram.factorise(Some(k), a, (stiffness, spring)).ok()?;
         self.factorisations += 1;
+        Some(())
     }
 }
 
@@ -107,7 +110,9 @@ pub(super) fn solved(
     mut is_proof: impl FnMut(&Variables) -> bool,
 ) -> (Variables, Status) {
     let Accuracy { tolerance, pairs } = accuracy;
-    let at = start(program, factors, spring.max(PROXIMAL));
+    let Some(at) = start(program, factors, spring.max(PROXIMAL)) else {
+        return (Variables::zero(program), Status::Stalled);
+    };
     let kappa = at.mean_product();
     let mut now = Homogeneous::new((program, spring), at, (1.0, kappa));
     let (mut least, mut since, mut provable) = ([f64::INFINITY; 3], 0, PROVED);
@@ -143,9 +148,9 @@ pub(super) fn solved(
 }
 
 /// A start from the forces that the contacts would carry if they were springs in both directions.
-fn start(program: &Program, factors: &mut Factors, spring: f64) -> Variables {
+fn start(program: &Program, factors: &mut Factors, spring: f64) -> Option<Variables> {
     let stiffness: Vec<f64> = program.compliance.iter().map(|c| 1.0 / (1.0 + c)).collect();
-    factors.factorise(program, &stiffness, spring);
+    factors.factorise(program, &stiffness, spring)?;
     let mut u = program.f.clone();
     let forces = stiffness.iter().zip(&program.x_0).map(|(stiffness, x)| -stiffness * x);
     program.add_forces(&forces.collect::<Vec<f64>>(), &mut u);
@@ -159,10 +164,15 @@ fn start(program: &Program, factors: &mut Factors, spring: f64) -> Variables {
     let shift = if mean > 0.0 && mean.is_finite() { mean } else { 1.0 };
     let t = gaps.iter().map(|gap| (-gap).max(0.0) + shift).collect();
     let y = gaps.iter().map(|gap| gap.max(0.0) + shift).collect();
-    Variables { u, t, y }
+    Some(Variables { u, t, y })
 }
 
 impl Variables {
+    fn zero(program: &Program) -> Self {
+        let pairs = vec![0.0; program.x_0.len()];
+        Self { u: vec![0.0; program.f.len()], t: pairs.clone(), y: pairs }
+    }
+
     fn mean_product(&self) -> f64 {
         dot(&self.t, &self.y) / self.t.len().max(1) as f64
     }
@@ -175,7 +185,7 @@ impl Variables {
     }
 
     fn is_finite(&self) -> bool {
-        [&self.u, &self.t].iter().map(|v| v.iter().sum::<f64>()).sum::<f64>().is_finite()
+        [&self.u, &self.t, &self.y].iter().map(|v| v.iter().sum::<f64>()).sum::<f64>().is_finite()
     }
 
     /// The largest step, at most one, that leaves all bounded variables positive.
@@ -252,7 +262,7 @@ impl<'a> Homogeneous<'a> {
 
     /// One step of Mehrotra's method with Gondzio's correctors; gives its length.
     fn advance(&mut self, factors: &mut Factors, defect: Defect) -> f64 {
-        let (newton, affine) = Newton::of(self, factors, defect);
+        let Some((newton, affine)) = Newton::of(self, factors, defect) else { return 0.0 };
         let mean = self.mean();
         let free = self.longest(&affine);
         let centring = (1.0 - free).powi(3).min(1.0);
@@ -325,11 +335,15 @@ struct Aim<'a> {
 
 impl<'a> Newton<'a> {
     /// With the step to products of zero.
-    fn of(now: &'a Homogeneous<'a>, factors: &'a mut Factors, defect: Defect) -> (Self, Step) {
+    fn of(
+        now: &'a Homogeneous<'a>,
+        factors: &'a mut Factors,
+        defect: Defect,
+    ) -> Option<(Self, Step)> {
         let Homogeneous { program, spring, at, tau, kappa, strained, .. } = now;
         let pairs = at.t.iter().zip(&at.y).zip(&program.compliance);
         let stiffness: Vec<f64> = pairs.map(|((t, y), c)| 1.0 / (y / t + c + COMPLIANCE)).collect();
-        factors.factorise(program, &stiffness, spring.max(PROXIMAL));
+        factors.factorise(program, &stiffness, spring.max(PROXIMAL))?;
         let data = program.x_0.iter().zip(&program.compliance).zip(&at.t);
         let by_u = program.f.iter().zip(strained).map(|(f, k)| f - 2.0 * k / tau).collect();
         let by_t = data.map(|((x, c), t)| x + 2.0 * c * t / tau).collect();
@@ -362,7 +376,7 @@ impl<'a> Newton<'a> {
         newton.pivot = newton.across(&of_tau) + (energy + kappa) / tau;
         newton.of_tau = of_tau;
         let affine = newton.bordered(&affine, (newton.rest, -tau * kappa));
-        (newton, affine)
+        Some((newton, affine))
     }
 
     /// The product of the border with a step of `u` and `t`.

@@ -36,8 +36,6 @@ pub(super) struct Moving<'a, 'b> {
     /// Where the last motion ended, and its forces by contact point.
     at: Vec<f64>,
     forces: Vec<(f64, f64)>,
-    /// Which points were closed on its way.
-    closed: Vec<bool>,
     /// What has stopped it.
     limit: Option<Status>,
     /// In units of the scaled problem.
@@ -54,16 +52,16 @@ impl<'a, 'b> Moving<'a, 'b> {
     ) -> Self {
         let at = search.scaled.of_displacements(from);
         let forces = vec![(0.0, 0.0); problem.points()];
-        let closed = vec![false; problem.points()];
         let origin = at.clone();
         let (limit, dissipation) = (None, 0.0);
-        Self { problem, tolerance, search, monitor, origin, at, forces, closed, limit, dissipation }
+        Self { problem, tolerance, search, monitor, origin, at, forces, limit, dissipation }
     }
 
     /// Moves the bodies until they rest or flow; rest without a motion is looked for first if that is wanted.
     pub(super) fn until_rest(mut self, slips: &[f64], at_once: bool) -> Result<Evolved, Error> {
         let mut path = SoftSprings::default();
-        match at_once.then(|| self.rest(&slips[..slips.len().min(1)], true)).flatten() {
+        let shortest = slips.get(..1).unwrap_or_default();
+        match at_once.then(|| self.rest(shortest, true)).flatten() {
             Some(Found::Law) => return Ok(self.by_law(path)),
             Some(Found::Rest(from, solution)) => {
                 return Ok(self.concluded((Way::SmoothFriction, from, *solution), path));
@@ -93,9 +91,10 @@ impl<'a, 'b> Moving<'a, 'b> {
             path.shares.push(if load > 0.0 { viscosity.value * length / load } else { length });
             path.motion = self.search.scaled.displacements(&velocity);
             if viscosity.is_steady() {
-                if !viscosity.creeps()
-                    && let Some(mechanism) = self.mechanism(&mut motions, viscosity.value, &since)
-                {
+                // No spring that matters is as soft as the last viscosity.
+                let is_last = tries == TRIES && path.carry_load();
+                let mechanism = || self.mechanism(&mut motions, viscosity.value, (&since, is_last));
+                if let Some(mechanism) = (!viscosity.creeps()).then(mechanism).flatten() {
                     path.motion = self.search.scaled.displacements(&mechanism);
                     let stopped = self.limit.filter(|it| *it != Status::IterationLimit);
                     break stopped.unwrap_or(Status::NoEquilibrium);
@@ -107,7 +106,7 @@ impl<'a, 'b> Moving<'a, 'b> {
             }
             if viscosity.may_rest() && tries < TRIES {
                 tries += 1;
-                let parts = if tries < LONG_SLIPS { &slips[..slips.len().min(1)] } else { slips };
+                let parts = if tries < LONG_SLIPS { shortest } else { slips };
                 if let Some(Found::Rest(from, solution)) = self.rest(parts, false) {
                     self.search.condensed.factorisations += motions.factorisations();
                     return Ok(self.concluded((Way::Motion, from, *solution), path));
@@ -194,8 +193,6 @@ impl<'a, 'b> Moving<'a, 'b> {
             })?;
         let velocity = difference(&u, &self.at);
         self.dissipation += viscosity * square(&velocity);
-        let largest = forces.iter().fold(0.0_f64, |max, (t_n, _)| max.max(*t_n));
-        self.closed = forces.iter().map(|(t_n, _)| *t_n > MOVED * largest).collect();
         for (point, (_, t_t)) in self.search.scaled.points.iter_mut().zip(&forces) {
             self.dissipation -= t_t * point.slip(&u);
             point.s_0 = -point.moved(&u).1;
@@ -205,7 +202,7 @@ impl<'a, 'b> Moving<'a, 'b> {
     }
 
     /// How bodies flow whose motions have been of the same length `since` they were there; `None` where a soft spring or a
-    /// stop still resists, so that they may come to rest.
+    /// stop still resists, so that they may come to rest. With the last viscosity only a stop ahead can.
     ///
     /// A mechanism that does not change is followed until it is exact. Blocks that hit each other change it for ever: then
     /// it is the mean of the motions, without what strains bodies and closes contacts.
@@ -213,11 +210,13 @@ impl<'a, 'b> Moving<'a, 'b> {
         &mut self,
         motions: &mut Motions,
         viscosity: f64,
-        since: &[f64],
+        (since, is_last): (&[f64], bool),
     ) -> Option<Vec<f64>> {
         let total = difference(&self.at, since);
+        let largest = self.forces.iter().fold(0.0_f64, |max, (t_n, _)| max.max(*t_n));
+        let closed: Vec<bool> = self.forces.iter().map(|it| it.0 > MOVED * largest).collect();
         let Search { scaled, condensed, .. } = &mut self.search;
-        let mean = unresisted(scaled, condensed, (&total, &self.closed));
+        let mean = unresisted(scaled, condensed, (&total, &closed));
         let left: f64 = mean.iter().zip(&total).map(|(v, total)| v * total).sum();
         // Gaps that motions have opened they close again, and no body stops there; but what the motions keep apart without
         // much force does not come together.
@@ -225,9 +224,10 @@ impl<'a, 'b> Moving<'a, 'b> {
         let is_stopped = |(point, is_closed): (&Point, &bool)| {
             let (gap, rate) = (point.gap(&self.at), point.moved(&mean).0);
             let is_ahead = !is_closed && point.x_0 > 0.0;
-            rate < point.moved(&total).0 - depth || is_ahead && gap + AHEAD * rate < 0.0
+            let comes_nearer = !is_last && rate < point.moved(&total).0 - depth;
+            comes_nearer || is_ahead && gap + AHEAD * rate < 0.0
         };
-        if left < FREE * square(&total) || scaled.points.iter().zip(&self.closed).any(is_stopped) {
+        if left < FREE * square(&total) || scaled.points.iter().zip(&closed).any(is_stopped) {
             return None;
         }
         let (mut last, mut change) = (self.motion(motions, (viscosity, STEADY)), f64::INFINITY);

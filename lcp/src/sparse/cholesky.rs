@@ -1,10 +1,10 @@
 //! Cholesky's method for sparse symmetric positive definite matrices, again and again for other values.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::perm::PermRef;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
+    CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
@@ -17,10 +17,12 @@ const VANISHING: f64 = 1e-15;
 /// What takes their place, so that their variable is zero, which iterative refinement of the caller has to make good.
 const HELD: f64 = 1e60;
 
-/// The factors of matrices with one pattern.
+/// The factors `L D L^T` of matrices with one pattern. (Where a pivot is replaced, faer's `L L^T` keeps a wrong diagonal.)
 pub(super) struct Cholesky {
     symbolic: SymbolicCholesky<usize>,
     values: Vec<f64>,
+    /// Of the pivots.
+    signs: Vec<i8>,
     memory: MemBuffer,
 }
 
@@ -31,19 +33,21 @@ impl Cholesky {
         let ordering = SymmetricOrdering::Custom(PermRef::new_checked(&order, &place, order.len()));
         let params = CholeskySymbolicParams::default();
         let symbolic = factorize_symbolic_cholesky(lower, Side::Lower, ordering, params)?;
-        let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, <_>::default());
+        let scratch = symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, <_>::default());
         let memory = MemBuffer::try_new(scratch).map_err(|_| FaerError::OutOfMemory)?;
         let values = vec![0.0; symbolic.len_val()];
-        Ok(Self { symbolic, values, memory })
+        let signs = vec![1; symbolic.nrows()];
+        Ok(Self { symbolic, values, signs, memory })
     }
 
-    /// Factorises a matrix whose diagonal is of order one.
+    /// Factorises a matrix of finite numbers whose diagonal is of order one.
     pub(super) fn factorise(&mut self, lower: SparseColMatRef<'_, usize, f64>) {
-        let held = LltRegularization {
+        let held = LdltRegularization {
+            dynamic_regularization_signs: Some(&self.signs),
             dynamic_regularization_delta: HELD,
             dynamic_regularization_epsilon: VANISHING,
         };
-        let outcome = self.symbolic.factorize_numeric_llt(
+        let outcome = self.symbolic.factorize_numeric_ldlt(
             &mut self.values,
             lower,
             Side::Lower,
@@ -59,7 +63,7 @@ impl Cholesky {
     pub(super) fn solve(&self, right: MatMut<'_, f64>) {
         let scratch = self.symbolic.solve_in_place_scratch::<f64>(right.ncols(), Par::Seq);
         let mut memory = MemBuffer::new(scratch);
-        LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
+        LdltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
             Conj::No,
             right,
             Par::Seq,
@@ -70,5 +74,34 @@ impl Cholesky {
     /// How many numbers the factors have.
     pub(super) fn stored(&self) -> usize {
         self.values.len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use faer::sparse::{SparseColMat, Triplet};
+
+    use super::*;
+
+    /// Every variable is there twice, so half of the pivots vanish: the others solve the equations.
+    #[test]
+    fn variables_with_vanishing_pivots_are_zero() {
+        const HALF: usize = 20;
+        let entry = |i: usize, j: usize| if i == j { 1.0 } else { 0.5 / (1.0 + (i + j) as f64) };
+        let twice = |i: usize, j: usize| entry(i % HALF, j % HALF);
+        let n = 2 * HALF;
+        let lower: Vec<_> =
+            (0..n).flat_map(|j| (j..n).map(move |i| Triplet::new(i, j, twice(i, j)))).collect();
+        let lower = SparseColMat::try_new_from_triplets(n, n, &lower).expect("inside");
+        let mut factors = Cholesky::new(lower.symbolic()).expect("memory");
+        factors.factorise(lower.as_ref());
+        let exact = |j: usize| (j % 7) as f64 - 3.0;
+        let right = |i: usize| (0..HALF).map(|j| twice(i, j) * exact(j)).sum::<f64>();
+        let mut x = faer::Mat::from_fn(n, 1, |i, _| right(i));
+        factors.solve(x.as_mut());
+        let error = |j: usize| (x[(j, 0)] + x[(j + HALF, 0)] - exact(j)).abs();
+        assert!((0..HALF).all(|j| error(j) < 1e-9), "{x:?}");
+        let least = |j: usize| x[(j, 0)].abs().min(x[(j + HALF, 0)].abs());
+        assert!((0..HALF).all(|j| least(j) < 1e-9), "{x:?}");
     }
 }

@@ -5,6 +5,7 @@ use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 
 use super::cholesky::Cholesky;
 use super::index;
+use crate::Error;
 use crate::scaling::power_of_two;
 use crate::vector::max_abs;
 
@@ -82,6 +83,9 @@ impl Gram {
 
     /// Factorises for these values of `K`, of which the lower triangle counts, `A`, `S` and `delta`.
     ///
+    /// # Errors
+    /// [`Error::NotFinite`] with the first entry of the sum that is no number or overflows.
+    ///
     /// # Panics
     /// If the patterns are not those given before.
     pub fn factorise(
@@ -89,7 +93,7 @@ impl Gram {
         k: Option<SparseColMatRef<'_, usize, f64>>,
         a: SparseColMatRef<'_, usize, f64>,
         (s, delta): (&[f64], f64),
-    ) {
+    ) -> Result<(), Error> {
         self.values.fill(0.0);
         let stiffness = k.map_or(&[][..], |k| k.val());
         for (&place, v) in self.of_stiffness.iter().zip(stiffness).filter(|(it, _)| **it != NONE) {
@@ -117,6 +121,7 @@ impl Gram {
             places = others;
             start = end;
         }
+        self.check_finite()?;
         for (unit, &start) in self.units.iter_mut().zip(&self.starts) {
             *unit = power_of_two(1.0 / self.values[start].max(f64::MIN_POSITIVE).sqrt());
         }
@@ -128,6 +133,13 @@ impl Gram {
         }
         let pattern = SymbolicSparseColMatRef::new_checked(n, n, &self.starts, None, &self.rows);
         self.factors.factorise(SparseColMatRef::new(pattern, &scaled));
+        Ok(())
+    }
+
+    fn check_finite(&self) -> Result<(), Error> {
+        let Some(at) = self.values.iter().position(|v| !v.is_finite()) else { return Ok(()) };
+        let (row, col) = (self.rows[at], self.starts.partition_point(|&start| start <= at) - 1);
+        Err(Error::NotFinite { what: "K + delta 1 + A S A^T", row, col, value: self.values[at] })
     }
 
     /// Overwrites right-hand sides, one after the other, with the solutions for the last factorisation.
@@ -285,7 +297,7 @@ mod tests {
         for scale in [1.0, 1e3] {
             let s: Vec<f64> = (0..a.ncols()).map(|j| scale * (1.0 + (j % 5) as f64)).collect();
             let delta = 1e-3;
-            gram.factorise(Some(k.as_ref()), a.as_ref(), (&s, delta));
+            gram.factorise(Some(k.as_ref()), a.as_ref(), (&s, delta)).expect("finite numbers");
             let exact: Vec<f64> = (0..2 * n).map(|i| (i % 7) as f64 - 3.0).collect();
             let mut x = Vec::new();
             for exact in exact.chunks_exact(n) {
@@ -303,5 +315,20 @@ mod tests {
             let error = x.iter().zip(&exact).map(|(x, e)| (x - e).abs()).fold(0.0, f64::max);
             assert!(error < 1e-6, "{scale}: {error}");
         }
+    }
+
+    #[test]
+    fn numbers_that_overflow_are_named() {
+        let (k, a) = chain(3);
+        let mut gram = Gram::new(Some(k.symbolic()), a.symbolic()).expect("memory");
+        let mut s = vec![1.0; a.ncols()];
+        s[0] = f64::INFINITY;
+        let error = gram.factorise(Some(k.as_ref()), a.as_ref(), (&s, 1e-3)).unwrap_err();
+        assert!(matches!(error, Error::NotFinite { row: 0, col: 0, .. }), "{error}");
+        s[0] = 1.0;
+        gram.factorise(Some(k.as_ref()), a.as_ref(), (&s, 1e-3)).expect("finite numbers");
+        let mut x = vec![1.0; a.nrows()];
+        gram.solve(&mut x);
+        assert!(x.iter().all(|x| x.is_finite()));
     }
 }

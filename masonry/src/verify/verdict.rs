@@ -2,7 +2,7 @@
 //! warnings. Nothing else in the crate decides this.
 //!
 //! * **Stands**: an equilibrium was found and verified. For rigid blocks at rest any forces within friction that
-//!   balance the loads are an equilibrium, so this is an upper bound of what friction can hold.
+//!   balance the loads are an equilibrium. To which of them a loading leads, rigid blocks do not say.
 //! * **Falls**: no contact forces within friction balance the loads. The [proof](crate::method::statics::Proof) was
 //!   checked in the geometry.
 //! * **Undecided**: all other cases. Neither a secondary ray nor springs that keep their load prove that a wall

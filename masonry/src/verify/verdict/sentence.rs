@@ -18,8 +18,8 @@ pub(super) fn of(
     let at = failed.map(at_step).unwrap_or_default();
     let first = match (verdict, evidence) {
         (Verdict::Stands, Evidence::AdmissibleForces) => {
-            "The wall stands: contact forces within friction balance the loads (verified). This is an \
-             upper bound of what friction can hold."
+            "The wall stands: contact forces within friction balance the loads (verified). Rigid blocks do not \
+             say to which of such forces a loading leads."
                 .to_owned()
         }
         (Verdict::Stands, _) => match known.history {
