@@ -259,7 +259,7 @@ fn circles(discs: &[Disc]) -> Vec<Circle> {
 }
 
 fn draw(frames: &[Frame]) -> Result<(), Box<dyn Error>> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
     std::fs::create_dir_all(root.join("target/contact_reuse"))?;
     for (name, frames) in [("pile", &frames[frames.len() - 1..]), ("frames", frames)] {
         let file = Path::new("target/contact_reuse").join(name).with_extension("svg");

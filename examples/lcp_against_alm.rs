@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// The lines of one panel; the iterations of the augmented Lagrangian method.
 fn compare(name: &str) -> Result<Vec<Iteration>, Box<dyn Error>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name);
     let scene = Scene::read(&path.with_extension("toml"))?.tolerance(TOLERANCE);
     let line = |method: &str, order: usize, numbers: usize, iterations: usize, seconds, ratio| {
         let memory = 8.0 * numbers as f64 / 1e6;

@@ -41,7 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         solved = Some((grid, solution.t));
     }
     if let Some((grid, gap)) = solved {
-        let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/obstacle");
+        let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/obstacle");
         std::fs::create_dir_all(&directory)?;
         std::fs::write(directory.join("obstacle.svg"), picture(&grid, &gap))?;
         println!("wrote target/obstacle/obstacle.svg");

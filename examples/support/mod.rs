@@ -12,7 +12,7 @@ use masonry::scene::Scene;
 
 /// Solves `scenes/NAME.toml`, prints the report and writes all files into `target/NAME/`.
 pub(crate) fn run(name: &str) -> Result<(), Box<dyn Error>> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
     let scene = Scene::read(&root.join("scenes").join(name).with_extension("toml"))?;
     let mut in_steps = false;
     let outcome = solve_observed(&scene, &mut |event| {

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::{fs, io};
 
 /// Writes a file beside its place and moves it there, so that nobody finds a part of it.
-pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut temporary = OsString::from(path);
     temporary.push(format!(".{}.tmp", std::process::id()));
     let result = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));

@@ -47,11 +47,10 @@
 //! masonry panels* (1997). Signs and directions are those of [`model`].
 
 pub mod analysis;
-#[cfg(feature = "cli")]
-pub mod cli;
 mod columns;
 pub mod element;
-mod files;
+#[doc(hidden)]
+pub mod files;
 pub mod geometry;
 pub mod history;
 pub mod ids;

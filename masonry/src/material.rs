@@ -14,7 +14,7 @@ pub struct Elasticity {
 
 /// The two-dimensional idealisation of elasticity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Plane {
     /// Free out of the plane: `sigma_z = 0`.

@@ -34,7 +34,6 @@ mod load;
 mod opening;
 mod read;
 mod rules;
-#[cfg(feature = "schema")]
 mod schema;
 mod solver;
 mod source;
@@ -70,7 +69,7 @@ pub(crate) const HEAD: &str = "head";
 /// The fields are the keys of the TOML file. Unknown keys are errors. What a key leaves out is
 /// never guessed where it is physics: see [`Scene::check`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// Title of reports and pictures.
@@ -151,7 +150,7 @@ pub struct Scene {
 
 /// A material: rigid without `E`, elastic with `E` and `nu`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// Young's modulus \[force/length^2\]; blocks of a material without it are rigid.
@@ -176,7 +175,7 @@ impl Material {
 /// A class of joints: what resists sliding, exactly one of `mu` and `phi_deg`, and, where there are, cohesion, tensile
 /// strength and mortar. The law is that of [`law`](crate::law).
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
     /// Coefficient of Coulomb friction \[-\]; zero is a frictionless joint.
@@ -216,7 +215,7 @@ impl Joint {
 
 /// Two bodies, each the name of a block or of a wall, and the class of all joints between them.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Between {
     /// The two names; twice the same wall for the joints within it.
@@ -228,7 +227,7 @@ pub struct Between {
 
 /// The classes of the joints between the bricks of a wall.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct WallJoints {
     /// Of its beds, instead of the class `bed`.
@@ -248,7 +247,7 @@ impl WallJoints {
 
 /// A wall of bricks in courses, built by [`bond`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Wall {
     /// Name of the wall; its bricks are `name/course/place`, both counted from 1.
@@ -287,7 +286,7 @@ pub struct Wall {
 
 /// Size of a whole brick.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Brick {
     /// Length along the course, without mortar \[length\].
@@ -310,7 +309,7 @@ pub enum Courses {
 
 /// A single block: a convex polygon, of an elastic material a quadrilateral.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Block {
     /// Name of the block.
@@ -332,7 +331,7 @@ pub struct Block {
 
 /// A rigid straight support, which moves only where a [`Stage`] moves it. It has no inner side: blocks may lie on either.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Support {
     /// Name of the support.
@@ -349,7 +348,7 @@ pub struct Support {
 
 /// What a [limit load](crate::analysis::limit) is asked of.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Limit {
     /// The load, or the group of loads, whose factor grows; without it the only group, or the only one with a factor.
@@ -359,7 +358,7 @@ pub struct Limit {
 
 /// How contact is looked for and enforced.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     /// Where on a joint the contact law is enforced.
@@ -375,7 +374,7 @@ pub struct Contact {
 
 /// Where on a joint the contact law is enforced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum PointRule {
     /// At both ends of every part of the overlap on which the shape functions of both sides are
@@ -391,7 +390,7 @@ pub enum PointRule {
 
 /// Which terms of mortar films are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Films {
     /// What acts across the joint: a compliance in series with each contact point, without strain
@@ -405,7 +404,7 @@ pub enum Films {
 
 /// What is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Output {
     /// Whether stresses are recovered and written.

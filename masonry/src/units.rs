@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Unit of length of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum LengthUnit {
     /// Millimetre.
@@ -19,7 +19,7 @@ pub enum LengthUnit {
 
 /// Unit of force of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub enum ForceUnit {
     /// Newton.
     N,
@@ -46,7 +46,7 @@ pub enum ForceUnit {
 /// assert_eq!(units.stress_name(), "kN/m2");
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Units {
     /// Unit of length: `mm`, `cm`, `m` or `km`.

@@ -162,7 +162,7 @@ fn value_of(text: &str) -> Value {
 #[test]
 fn the_schema_fits_all_scenes() {
     let schema: Value = serde_json::from_str(&printed(&["schema"])).unwrap();
-    assert_eq!(serde_json::from_str::<Value>(&Scene::schema()).unwrap(), schema);
+    assert_eq!(serde_json::from_str::<Value>(Scene::schema()).unwrap(), schema);
     let mut texts: Vec<(String, String)> =
         KINDS.map(|kind| (kind.to_owned(), printed(&["new", kind]))).into();
     for entry in fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes")).unwrap() {

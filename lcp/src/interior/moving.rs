@@ -92,7 +92,7 @@ impl<'a, 'b> Moving<'a, 'b> {
             path.motion = self.search.scaled.displacements(&velocity);
             if viscosity.is_steady() {
                 // No spring that matters is as soft as the last viscosity.
-                let is_last = tries == TRIES && path.carry_load();
+                let is_last = tries == TRIES;
                 let mechanism = || self.mechanism(&mut motions, viscosity.value, (&since, is_last));
                 if let Some(mechanism) = (!viscosity.creeps()).then(mechanism).flatten() {
                     path.motion = self.search.scaled.displacements(&mechanism);

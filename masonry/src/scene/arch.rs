@@ -21,7 +21,7 @@ use super::strict;
 /// assert_eq!((arch.span, arch.rise), (Some(4.0), Some(1.0)));
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Arch {
     /// Name of the arch.
@@ -89,7 +89,7 @@ pub type Line = [[f64; 2]; 2];
 
 /// The shape of an arch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Shape {
     /// An arc of a circle: `span`, and `rise` or `embrace_deg`; joints towards the centre.
@@ -107,7 +107,7 @@ pub enum Shape {
 /// Piers below both ends of an arch. The inner face is in line with the end of the intrados; where the springing is inclined, a
 /// block with that face lies on top.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Piers {
     /// Width of a pier \[length\].

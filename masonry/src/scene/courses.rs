@@ -54,7 +54,7 @@ impl<'de> Visitor<'de> for CoursesVisitor {
 }
 
 /// Written out as the reading is.
-#[cfg(feature = "schema")]
+#[cfg(test)]
 impl schemars::JsonSchema for Courses {
     fn schema_name() -> std::borrow::Cow<'static, str> {
         "Courses".into()

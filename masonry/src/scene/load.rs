@@ -14,7 +14,7 @@ use super::strict;
 /// assert_eq!([&wind, &beam, &quake].map(Load::group_name), ["wind", "roof", "quake"]);
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Load {
     /// Name of the load.

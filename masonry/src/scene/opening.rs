@@ -6,7 +6,7 @@ use crate::rounding::rounded;
 
 /// How the bricks of a wall are laid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Bond {
     /// Every second course begins with a half brick.
@@ -25,7 +25,7 @@ pub enum Bond {
 /// lintel is one block in the course above, a brick as any other for its name, and there is none where the opening
 /// reaches the top of the wall.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Opening {
     /// Distance of its left side from the left end of the wall \[length\].

@@ -1,9 +1,5 @@
 //! The JSON schema of scene files.
 
-use schemars::Schema;
-use schemars::generate::SchemaSettings;
-use schemars::transform::{Transform, transform_subschemas};
-
 use super::Scene;
 
 impl Scene {
@@ -13,44 +9,63 @@ impl Scene {
     /// ```
     /// assert!(masonry::Scene::schema().contains("\"title\""));
     /// ```
-    pub fn schema() -> String {
-        let settings = SchemaSettings::draft2020_12().with_transform(PlainText);
-        let schema = settings.into_generator().into_root_schema_for::<Self>();
-        format!("{:#}\n", schema.as_value())
+    pub fn schema() -> &'static str {
+        include_str!("schema.json")
     }
-}
-
-/// Descriptions without what only the documentation of Rust understands.
-#[derive(Debug, Clone)]
-struct PlainText;
-
-impl Transform for PlainText {
-    fn transform(&mut self, schema: &mut Schema) {
-        if let Some(text) = schema.get("description").and_then(|it| it.as_str()).map(plain) {
-            schema.insert("description".to_owned(), text.into());
-        }
-        transform_subschemas(self, schema);
-    }
-}
-
-/// Without examples, without the targets of links, and with brackets around units as they are meant.
-fn plain(text: &str) -> String {
-    let text = text.split("\n```").next().unwrap_or(text).trim_end();
-    let mut parts = text.split("](");
-    let mut plain = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        // The bracket of a link goes with its target.
-        if let Some(start) = plain.rfind('[') {
-            plain.remove(start);
-        }
-        plain += part.split_once(')').map_or(part, |(_, after)| after);
-    }
-    plain.replace("\\[", "[").replace("\\]", "]").replace('\n', " ").replace("  ", "\n\n")
 }
 
 #[cfg(test)]
 mod tests {
-    use super::plain;
+    use std::path::Path;
+    use std::{env, fs};
+
+    use schemars::Schema;
+    use schemars::generate::SchemaSettings;
+    use schemars::transform::{Transform, transform_subschemas};
+
+    use super::Scene;
+
+    /// Descriptions without what only the documentation of Rust understands.
+    #[derive(Debug, Clone)]
+    struct PlainText;
+
+    impl Transform for PlainText {
+        fn transform(&mut self, schema: &mut Schema) {
+            if let Some(text) = schema.get("description").and_then(|it| it.as_str()).map(plain) {
+                schema.insert("description".to_owned(), text.into());
+            }
+            transform_subschemas(self, schema);
+        }
+    }
+
+    /// Without examples, without the targets of links, and with brackets around units as they are meant.
+    fn plain(text: &str) -> String {
+        let text = text.split("\n```").next().unwrap_or(text).trim_end();
+        let mut parts = text.split("](");
+        let mut plain = parts.next().unwrap_or_default().to_owned();
+        for part in parts {
+            // The bracket of a link goes with its target.
+            if let Some(start) = plain.rfind('[') {
+                plain.remove(start);
+            }
+            plain += part.split_once(')').map_or(part, |(_, after)| after);
+        }
+        plain.replace("\\[", "[").replace("\\]", "]").replace('\n', " ").replace("  ", "\n\n")
+    }
+
+    /// `UPDATE_SCHEMA=1 cargo test -p masonry --lib schema` writes it.
+    #[test]
+    fn the_schema_is_that_of_the_types() {
+        let settings = SchemaSettings::draft2020_12().with_transform(PlainText);
+        let schema = settings.into_generator().into_root_schema_for::<Scene>();
+        let text = format!("{:#}\n", schema.as_value());
+        if env::var_os("UPDATE_SCHEMA").is_some() {
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/scene/schema.json");
+            fs::write(path, &text).expect("the file can be written");
+            return;
+        }
+        assert_eq!(Scene::schema(), text, "UPDATE_SCHEMA=1 cargo test -p masonry --lib schema");
+    }
 
     #[test]
     fn descriptions_are_plain() {

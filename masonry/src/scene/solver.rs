@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// How the complementarity problem is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Solver {
     /// Requested residual \[-\].
@@ -45,7 +45,7 @@ impl Default for Solver {
 
 /// The way from the equilibrium of the blocks to contact forces and displacements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum Route {
@@ -93,7 +93,7 @@ fn default_tolerance() -> f64 {
 
 /// The form in which friction enters the complementarity problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Form {
     /// The Coulomb form first; the mixed form when that ends on rays.

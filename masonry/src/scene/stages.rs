@@ -19,7 +19,7 @@ use super::strict;
 /// assert_eq!(settlement.moves["floor"].y, -0.01);
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Stage {
     /// Name of the stage, in reports.
@@ -45,7 +45,7 @@ pub struct Stage {
 /// How far a support has moved from where the scene puts it. Displacements are small: the direction of its
 /// joints stays.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Movement {
     /// Displacement of its middle along x \[length\].

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::end::Failure;
-use crate::files::write_atomically;
+use crate::end::Failure;
+use masonry::files::write_atomically;
 
 /// Before the work, whether a page can be written at all.
 pub(super) fn check(path: Option<&Path>) -> Result<(), Failure> {

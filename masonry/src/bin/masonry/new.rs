@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::end::{Failure, SOLVED, listing, print};
+use crate::end::{Failure, SOLVED, listing, print};
 
 /// What a new scene is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

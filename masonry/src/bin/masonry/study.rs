@@ -5,12 +5,12 @@ use std::time::Duration;
 
 use clap::Args;
 
-use super::end::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
-use super::out_dir::OutDir;
-use super::progress::Progress;
-use crate::analysis::study::{Settings, machine, study};
-use crate::report::study as output;
-use crate::scene::{Route, Scene};
+use crate::end::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
+use crate::out_dir::OutDir;
+use crate::progress::Progress;
+use masonry::analysis::study::{Settings, machine, study};
+use masonry::report::study as output;
+use masonry::scene::{Route, Scene};
 
 #[derive(Debug, Args)]
 pub(super) struct StudyArgs {

@@ -4,12 +4,14 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::end::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
-use super::out_dir::OutDir;
-use super::page;
-use crate::analysis::limit::{Answer, Associative, Laws, Path, least_thickness, limit_by, ranges};
-use crate::report::{self, limit as output};
-use crate::scene::Scene;
+use crate::end::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
+use crate::out_dir::OutDir;
+use crate::page;
+use masonry::analysis::limit::{
+    Answer, Associative, Laws, Path, least_thickness, limit_by, ranges,
+};
+use masonry::report::{self, limit as output};
+use masonry::scene::Scene;
 
 /// The law of friction that a limit load is asked of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

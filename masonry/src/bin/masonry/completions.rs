@@ -3,7 +3,7 @@
 use clap::Args;
 use clap_complete::Shell;
 
-use super::end::{Failure, SOLVED, print};
+use crate::end::{Failure, SOLVED, print};
 
 #[derive(Debug, Args)]
 pub(super) struct CompletionsArgs {

@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::interrupt;
-use crate::analysis::solve::Event;
+use crate::interrupt;
+use masonry::analysis::solve::Event;
 
 /// A spinner with the present phase; hidden when standard error is not a terminal.
 pub(super) struct Progress(ProgressBar);

@@ -5,17 +5,17 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use lcp::Status;
 
-use super::end::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
-use super::interrupt;
-use super::out_dir::OutDir;
-use super::page;
-use super::progress::Progress;
-use crate::analysis::checkpoint::{Checkpoint, CheckpointError};
-use crate::analysis::outcome::{Frame, Outcome};
-use crate::analysis::solve::Run;
-use crate::report::svg::ReferenceLines;
-use crate::report::{self, Options, json, table};
-use crate::scene::{Route, Scene};
+use crate::end::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
+use crate::interrupt;
+use crate::out_dir::OutDir;
+use crate::page;
+use crate::progress::Progress;
+use masonry::analysis::checkpoint::{Checkpoint, CheckpointError};
+use masonry::analysis::outcome::{Frame, Outcome};
+use masonry::analysis::solve::Run;
+use masonry::report::svg::ReferenceLines;
+use masonry::report::{self, Options, json, table};
+use masonry::scene::{Route, Scene};
 
 /// The state after the last step, in the directory of a load history.
 const CHECKPOINT: &str = "checkpoint.json";

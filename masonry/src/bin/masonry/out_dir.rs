@@ -6,7 +6,7 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind, Read, Seek, Write};
 use std::path::{Component, Path, PathBuf};
 
-use super::end::{Failure, names};
+use crate::end::{Failure, names};
 
 /// The file that is locked. It lists what the last run of every command has written.
 const RECORD: &str = ".masonry.json";

@@ -19,11 +19,11 @@ use std::process::ExitCode;
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
-use crate::model::Model;
-use crate::plan::Plan;
-use crate::report::{svg, table};
-use crate::scene::{Route, Scene};
-use end::{BAD_INPUT, Failure, SOLVED, print};
+use crate::end::{BAD_INPUT, Failure, SOLVED, print};
+use masonry::model::Model;
+use masonry::plan::Plan;
+use masonry::report::{svg, table};
+use masonry::scene::{Route, Scene};
 
 /// How a wall or an arch of blocks carries its load.
 #[derive(Debug, Parser)]
@@ -74,15 +74,14 @@ struct DrawArgs {
     out: Option<PathBuf>,
 }
 
-/// Runs the program on the arguments of the process.
-pub fn run() -> ExitCode {
+fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Plan(args) => plan(&args),
         Command::Solve(args) => solve::run(&args),
         Command::Limit(args) => limit::run(&args),
         Command::Study(args) => study::run(&args),
         Command::New(args) => new::run(&args),
-        Command::Schema => print(&Scene::schema()).map(|()| SOLVED),
+        Command::Schema => print(Scene::schema()).map(|()| SOLVED),
         Command::Draw(args) => draw(&args),
         Command::Completions(args) => completions::run(&args, Cli::command()),
     };
