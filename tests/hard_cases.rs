@@ -94,41 +94,46 @@ fn growing_walls() {
 }
 
 /// From harmless to hopeless: nowhere on its way an answer is worse than promised.
-#[track_caller]
-fn assert_no_jump(sweeps: &[sweep::Sweep]) {
-    let points = sweeps.iter().flat_map(|it| it.coarse().into_iter().map(|value| it.at(value)));
-    let wrong: Vec<String> = points.flat_map(|point| point.wrong).collect();
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-}
+#[cfg(feature = "long-tests")]
+mod sweeps {
+    use super::{friction, geometry, limits, stiffness, sweep, walls};
 
-#[test]
-fn sweeps_of_contacts_and_shapes() {
-    assert_no_jump(&geometry::sweeps());
-}
+    #[track_caller]
+    fn assert_no_jump(sweeps: &[sweep::Sweep]) {
+        let points = sweeps.iter().flat_map(|it| it.coarse().into_iter().map(|value| it.at(value)));
+        let wrong: Vec<String> = points.flat_map(|point| point.wrong).collect();
+        assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    }
 
-#[test]
-fn sweeps_of_stiffness_and_weight() {
-    assert_no_jump(&stiffness::sweeps());
-}
+    #[test]
+    fn sweeps_of_contacts_and_shapes() {
+        assert_no_jump(&geometry::sweeps());
+    }
 
-#[test]
-fn sweeps_of_friction() {
-    assert_no_jump(&friction::sweeps());
-}
+    #[test]
+    fn sweeps_of_stiffness_and_weight() {
+        assert_no_jump(&stiffness::sweeps());
+    }
 
-#[test]
-fn sweeps_around_limits() {
-    assert_no_jump(&limits::sweeps());
-}
+    #[test]
+    fn sweeps_of_friction() {
+        assert_no_jump(&friction::sweeps());
+    }
 
-/// Larger walls and smaller settlements take long, and are left to the bench.
-#[test]
-fn sweeps_of_growth() {
-    let mut sweeps = walls::sweeps();
-    let [grown, settled] = &mut sweeps[..] else { panic!("there are two sweeps") };
-    grown.values.retain(|length| *length <= 8.0);
-    settled.values.retain(|share| *share > 5e-11);
-    assert_no_jump(&sweeps);
+    #[test]
+    fn sweeps_around_limits() {
+        assert_no_jump(&limits::sweeps());
+    }
+
+    /// Larger walls and smaller settlements take long, and are left to the bench.
+    #[test]
+    fn sweeps_of_growth() {
+        let mut sweeps = walls::sweeps();
+        let [grown, settled] = &mut sweeps[..] else { panic!("there are two sweeps") };
+        grown.values.retain(|length| *length <= 8.0);
+        settled.values.retain(|share| *share > 5e-11);
+        assert_no_jump(&sweeps);
+    }
 }
 
 /// What the judge calls balanced is so in numbers of twice the digits: its sums lose none that count. Light blocks
