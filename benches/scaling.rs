@@ -95,9 +95,12 @@ fn summary(rows: &[Row]) -> String {
     friction.dedup_by(|a, b| is_same(*a, *b));
     let first = |row: &&Row| is_same(row.mu, rows[0].mu);
     let walls = rows.iter().filter(first).map(|row| (row.case, &row.bricks[..]));
-    let names: String = friction.iter().map(|mu| format!(" mu {mu} |")).collect();
-    let mut table =
-        format!("| case | bricks |{names}\n|:--|:--|{}\n", "--:|".repeat(friction.len()));
+    let names: Vec<String> = friction.iter().map(|mu| format!("mu {mu}")).collect();
+    let mut table = format!(
+        "| case | bricks | {} |\n|:--|:--|{}\n",
+        names.join(" | "),
+        "--:|".repeat(friction.len())
+    );
     for (case, bricks) in walls {
         let _ = write!(table, "| {case} | {bricks} |");
         for mu in &friction {
