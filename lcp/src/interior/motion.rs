@@ -86,13 +86,16 @@ pub(super) struct Viscosity {
     longest: f64,
     /// The length of the first motion with this viscosity, where it stays as it is.
     held: Option<f64>,
-    /// How many motions in sequence have been as long as the one before.
+    /// How many motions in sequence have been as long as the one before and as the first of them.
     same: usize,
+    /// The length of that one.
+    first: f64,
 }
 
 impl Default for Viscosity {
     fn default() -> Self {
-        Self { value: FIRST_VISCOSITY, last: f64::INFINITY, longest: 0.0, held: None, same: 0 }
+        let (last, first) = (f64::INFINITY, f64::INFINITY);
+        Self { value: FIRST_VISCOSITY, last, longest: 0.0, held: None, same: 0, first }
     }
 }
 
@@ -106,8 +109,8 @@ impl Viscosity {
             Some(first) if length > SLOWER * first => Some(first),
             _ => None,
         };
-        let is_same = self.held.is_some() && length > SAME_LENGTH * before;
-        self.same = if is_same { self.same + 1 } else { 0 };
+        let is_same = self.held.is_some() && length > SAME_LENGTH * before.max(self.first);
+        (self.same, self.first) = if is_same { (self.same + 1, self.first) } else { (0, length) };
     }
 
     /// Whether bodies may be at rest.
@@ -125,9 +128,10 @@ impl Viscosity {
         self.last < CREEPING * self.longest
     }
 
-    /// Keeps it as it is, for motions that lead to no rest that is found.
-    pub(super) fn hold(&mut self) {
-        self.held.get_or_insert(self.last);
+    /// Keeps it at a value, for motions that lead to no rest that is found.
+    pub(super) fn hold(&mut self, value: f64) {
+        // After one of no length the next is longer.
+        *self = Self { value, last: 0.0, longest: self.longest, ..Self::default() };
     }
 
     /// Whether it stays as it is.

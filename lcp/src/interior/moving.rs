@@ -1,8 +1,8 @@
 //! Bodies on their way: rest by smooth friction, and motions against viscosity.
 
 use super::constants::{
-    AHEAD, FREE, LEAST_VISCOSITY, LONG_SLIPS, MOST_VISCOSITY, MOVED, SETTLING, STEADIER, STEADY,
-    STEADY_MOTIONS, THROUGH, TRIES,
+    AHEAD, FIRST_VISCOSITY, FREE, LEAST_VISCOSITY, LONG_SLIPS, MOST_VISCOSITY, MOVED, SETTLING,
+    STEADIER, STEADY, STEADY_MOTIONS, THROUGH, TRIES,
 };
 use super::evolved::{Evolved, Way};
 use super::iterate::Iterate;
@@ -71,7 +71,7 @@ impl<'a, 'b> Moving<'a, 'b> {
         let mut motions =
             Motions::of(&self.search.scaled).map_err(|it| unplanned(Method::Interior, it))?;
         let load: f64 = self.search.scaled.f.iter().map(|f| f.abs()).sum();
-        let (mut viscosity, mut tries) = (Viscosity::default(), 0);
+        let (mut viscosity, mut tries, mut is_last) = (Viscosity::default(), 0, false);
         // Where the motions with the present viscosity began.
         let mut since = self.at.clone();
         let status = loop {
@@ -91,15 +91,13 @@ impl<'a, 'b> Moving<'a, 'b> {
             path.shares.push(if load > 0.0 { viscosity.value * length / load } else { length });
             path.motion = self.search.scaled.displacements(&velocity);
             if viscosity.is_steady() {
-                // No spring that matters is as soft as the last viscosity.
-                let is_last = tries == TRIES;
                 let mechanism = || self.mechanism(&mut motions, viscosity.value, (&since, is_last));
                 if let Some(mechanism) = (!viscosity.creeps()).then(mechanism).flatten() {
                     path.motion = self.search.scaled.displacements(&mechanism);
                     let stopped = self.limit.filter(|it| *it != Status::IterationLimit);
                     break stopped.unwrap_or(Status::NoEquilibrium);
                 }
-                if tries == TRIES {
+                if is_last {
                     break self.limit.unwrap_or(Status::Stalled);
                 }
                 viscosity.release();
@@ -112,12 +110,16 @@ impl<'a, 'b> Moving<'a, 'b> {
                     return Ok(self.concluded((Way::Motion, from, *solution), path));
                 }
             }
-            if viscosity.value <= LEAST_VISCOSITY {
-                break self.limit.unwrap_or(Status::Stalled);
-            }
-            if tries == TRIES && !path.carry_load() {
-                viscosity.hold();
+            if tries == TRIES && !is_last && !path.carry_load() {
+                // Motions that nothing but gaps shorten are as long with every viscosity. Whether they end, those show that
+                // are short for it.
+                (is_last, tries) = (true, LONG_SLIPS);
+                since.clone_from(&self.at);
+                viscosity.hold(FIRST_VISCOSITY);
             } else if !viscosity.is_held() {
+                if viscosity.value <= LEAST_VISCOSITY || is_last && tries == TRIES {
+                    break self.limit.unwrap_or(Status::Stalled);
+                }
                 since.clone_from(&self.at);
                 viscosity.decrease();
             }
