@@ -4,7 +4,12 @@ use std::path::{Path, PathBuf};
 
 /// Whether this is `cargo bench`: `cargo test --benches` runs the same programs without the flag.
 pub(crate) fn is_bench() -> bool {
-    std::env::args().any(|argument| argument == "--bench")
+    is_asked("--bench")
+}
+
+/// Whether the command has this option.
+pub(crate) fn is_asked(name: &str) -> bool {
+    std::env::args().any(|argument| argument == name)
 }
 
 /// The folder of the repository, whichever crate the bench is of.
@@ -16,7 +21,7 @@ pub(crate) fn root() -> PathBuf {
 
 /// With `-- --write`, puts the table between the marks of the bench in a file of the repository.
 pub(crate) fn write_if_asked(file: &str, bench: &str, table: &str) {
-    if !std::env::args().any(|argument| argument == "--write") {
+    if !is_asked("--write") {
         return;
     }
     let path = root().join(file);

@@ -23,9 +23,9 @@ pub struct EvolutionSettings {
     pub time_limit: Option<Duration>,
     /// Whether rest is looked for without a motion first. Where supports move far it is seldom found so.
     pub at_once: bool,
-    /// The slips over which smooth friction turns, as parts of the largest displacement of the start: the first wherever rest
-    /// is looked for, all of them one after the other where motions have not led to it. With short ones friction is near to
-    /// Coulomb's; long ones lead to rest nearly always, but to one that forces hold which no loading may lead to.
+    /// The slips over which smooth friction turns, as parts of the largest displacement of the start: the first where rest is
+    /// looked for first, and the next one, if there is any, whenever that has failed after a motion. With short ones friction
+    /// is near to Coulomb's; long ones lead to rest nearly always, but to one that forces hold which no loading may lead to.
     pub slips: Vec<f64>,
 }
 

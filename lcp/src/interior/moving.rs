@@ -1,7 +1,7 @@
 //! Bodies on their way: rest by smooth friction, and motions against viscosity.
 
 use super::constants::{
-    AHEAD, FIRST_VISCOSITY, FREE, LEAST_VISCOSITY, LONG_SLIPS, MOST_VISCOSITY, MOVED, SETTLING,
+    AHEAD, FIRST_VISCOSITY, FREE, LAST_TRIES, LEAST_VISCOSITY, MOST_VISCOSITY, MOVED, SETTLING,
     STEADIER, STEADY, STEADY_MOTIONS, THROUGH, TRIES,
 };
 use super::evolved::{Evolved, Way};
@@ -60,8 +60,8 @@ impl<'a, 'b> Moving<'a, 'b> {
     /// Moves the bodies until they rest or flow; rest without a motion is looked for first if that is wanted.
     pub(super) fn until_rest(mut self, slips: &[f64], at_once: bool) -> Result<Evolved, Error> {
         let mut path = SoftSprings::default();
-        let shortest = slips.get(..1).unwrap_or_default();
-        match at_once.then(|| self.rest(shortest, true)).flatten() {
+        let shortest = slips.first().filter(|_| at_once);
+        match shortest.and_then(|&slip| self.rest(slip, true)) {
             Some(Found::Law) => return Ok(self.by_law(path)),
             Some(Found::Rest(from, solution)) => {
                 return Ok(self.concluded((Way::SmoothFriction, from, *solution), path));
@@ -104,8 +104,9 @@ impl<'a, 'b> Moving<'a, 'b> {
             }
             if viscosity.may_rest() && tries < TRIES {
                 tries += 1;
-                let parts = if tries < LONG_SLIPS { shortest } else { slips };
-                if let Some(Found::Rest(from, solution)) = self.rest(parts, false) {
+                let slip = slips.get(tries - 1).or(slips.last());
+                let found = slip.and_then(|&slip| self.rest(slip, false));
+                if let Some(Found::Rest(from, solution)) = found {
                     self.search.condensed.factorisations += motions.factorisations();
                     return Ok(self.concluded((Way::Motion, from, *solution), path));
                 }
@@ -113,7 +114,7 @@ impl<'a, 'b> Moving<'a, 'b> {
             if tries == TRIES && !is_last && !path.carry_load() {
                 // Motions that nothing but gaps shorten are as long with every viscosity. Whether they end, those show that
                 // are short for it.
-                (is_last, tries) = (true, LONG_SLIPS);
+                (is_last, tries) = (true, TRIES - LAST_TRIES);
                 since.clone_from(&self.at);
                 viscosity.hold(FIRST_VISCOSITY);
             } else if !viscosity.is_held() {
@@ -128,12 +129,11 @@ impl<'a, 'b> Moving<'a, 'b> {
         self.given_up(path, status)
     }
 
-    /// The state at rest that friction leads to which turns over one of these parts of the displacements of the start, with
-    /// slips from there; or the solution of the problem itself next to it, where that is wanted.
-    fn rest(&mut self, parts: &[f64], by_law: bool) -> Option<Found> {
+    /// The state at rest that friction leads to which turns over this part of the displacements of the start, with slips from
+    /// there; or the solution of the problem itself next to it, where that is wanted.
+    fn rest(&mut self, part: f64, by_law: bool) -> Option<Found> {
         let size = max_abs(&start(&self.search.scaled, &mut self.search.condensed, PROXIMAL).u);
-        let (found, dissipation) =
-            parts.iter().find_map(|&part| self.settled((part, size), by_law))?;
+        let (found, dissipation) = self.settled((part, size), by_law)?;
         self.dissipation += dissipation;
         Some(found)
     }
