@@ -42,6 +42,16 @@ fn check(mu: f64, mesh: [u32; 2]) {
     }
 }
 
+/// Friction over a thousandth of the way finds no rest of these, friction over a hundredth does.
+#[test]
+fn small_walls_on_open_bases_stand() {
+    for mesh in [[1, 1], [2, 1]] {
+        let wall = Wall { courses: 10, mu: 0.7, mesh: Some(mesh) };
+        let found = verdict_of(&wall, Case::OpenBase, 0.0);
+        assert_eq!(found, (Verdict::Stands, Evidence::Equilibrium), "{mesh:?}");
+    }
+}
+
 #[test]
 fn walls_with_little_friction_are_decided() {
     check(0.3, [2, 1]);

@@ -102,9 +102,8 @@ impl Interior<'_> {
             max_iterations: request.max_steps.unwrap_or(auto::STEPS_OF_MOTION),
             ..EvolutionSettings::default()
         };
-        // From nowhere, friction that turns over long slips would hold blocks by forces that no loading leads to.
         if self.start.is_none() {
-            settings.slips.truncate(1);
+            settings.slips = auto::SLIPS_FROM_NOTHING.to_vec();
         }
         let evolved = Evolution::new(settings)
             .advance_observed(problem, from, &mut |at| observer(at.into()))?;
