@@ -60,8 +60,8 @@ fn main() {
         let courses = option("--courses", COURSES);
         let rows = rows([&courses, FRICTION, BRICKS], &CASES);
         common::write_if_asked("docs/scaling.md", "scaling", &summary(&rows));
-        let lines: String = rows.iter().map(|row| format!("{row}\n")).collect();
-        let table = format!("{HEAD}{lines}\n{}", machine::machine());
+        let lines: Vec<String> = rows.iter().map(Row::to_string).collect();
+        let table = format!("{HEAD}{}\n\n{}", lines.join("\n"), machine::machine());
         common::write_if_asked("docs/data/scaling.md", "scaling", &table);
     }
 }
