@@ -23,7 +23,7 @@ energy, initial gaps). Forces are relative to those on the same block, so a ligh
 count as 1e-9 at most. The test repeats the checks, with the balances in double-double arithmetic, and compares the solution with what is known. The tolerance
 is 1e-10, for `alm` 1e-8.
 
-Each case is followed by its parameters and by what is known about the solution. Unless stated otherwise:
+Each case has its parameters in brackets, and then what is known about its solution. Unless stated otherwise:
 
 * plane stress, thickness 1 m, gravity of 9.81 m/s2 downwards, one `mu` for all joints, contact points at both ends of every part of a
   joint on which displacements are linear;
@@ -36,14 +36,14 @@ Each case is followed by its parameters and by what is known about the solution.
 * `1e-14, 1e-15 (23)`, without a status, is a solved case: the worst of these checks, the residual of the complementarity problem (computed by the library from
   the data, the criterion for `Solved`), and the cost in brackets. The residual is relative to the largest forces, so the checks weight the same error more on a
   block with smaller ones. Powers of ten are rounded up; values below 1e-15 are shown as 1e-15.
-* `Stalled 1e-5 (202)` is no solution: the status, and the residual at which the route ended. This residual may be small at a distant point, where displacements
-  are huge; then other checks refused the point.
+* `Stalled 1e-5 (202)` means that no solution was found: the status, and the residual at which the route ended. This residual may be small at a distant point,
+  where displacements are huge; then other checks refused the point.
 * A dash means that the route does not treat the scene; `not tried` means that it would take too long for a test.
 * The cost is the number of pivots of all attempts, or of sweeps, steps, programs or iterations.
 
-Only `Infeasible` is a proof that there is no equilibrium. `NoEquilibrium` is [evidence](methods/soft_springs.md#soft-springs-is-there-an-equilibrium-at-all),
-with friction no proof, and it can be wrong: `interior` also reports it for the panel without a floor (below) at mu = 1.4, where
-the topmost course carries the load as an arch. All other [statuses](lcp/solving.md#solving-and-reading-a-solution) prove nothing.
+Only `Infeasible` is a proof that there is no equilibrium. `NoEquilibrium` is [evidence](methods/soft_springs.md#soft-springs-is-there-an-equilibrium-at-all).
+With friction it is not a proof and can be wrong: `interior` also reports it for the panel without a floor (below) at mu = 1.4, where the topmost course carries
+the load as an arch. All other [statuses](lcp/solving.md#solving-and-reading-a-solution) prove nothing.
 
 The test does not compare powers of ten, costs, and the status of a failure, since these may depend on the last digits. At the limit itself, where rounding
 decides, it does not compare whether there is a solution.

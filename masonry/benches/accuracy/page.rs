@@ -20,17 +20,18 @@ const MEANINGS: &str = "
 ## What the words mean
 
 * **Tolerance**: the largest residual of a solution with status `Solved`.
-* **Algebraic error**: the error of the solver. It is the distance of contact forces, stresses and strain energy from the reference on the same mesh, the largest
-  of the three, each relative to its largest value. The reference is refined in double-double arithmetic, in which its inequalities are checked too.
-* **Error of the mesh**: the distance of the reference from that on the finest mesh. No solver can reduce it. The true error is larger, since the finest mesh has
-  an error too. If the error is of order `p` in the element size, the true one is `1 / (1 - 2^-p)` times the given value for a mesh half as fine as the finest,
-  and `1 / (1 - 4^-p)` times for one a quarter as fine: 2 and 1.3 times for `p = 1`, 3.4 and 2 times for `p = 1/2`.
+* **Algebraic error**: the error of the solver: the distance from a reference solution on the same mesh. It is the largest of three distances, those of contact
+  forces, stresses and strain energy, each relative to its largest value. The reference is refined in double-double arithmetic (about 31 digits), and its
+  inequalities are checked in it.
+* **Error of the mesh**: the distance between the references on this mesh and on the finest one. No solver can reduce it. The true error is larger, since the
+  finest mesh has an error too. If the error is of order `p` in the element size, the true one is `1 / (1 - 2^-p)` times the given value for a mesh half as fine
+  as the finest, and `1 / (1 - 4^-p)` times for one a quarter as fine: 2 and 1.3 times for `p = 1`, 3.4 and 2 times for `p = 1/2`.
 * **Extrapolated** errors take this into account. They are relative to the limit of the three finest meshes by Richardson's rule,
   `v_3 + (v_3 - v_2)^2 / ((v_2 - v_1) - (v_3 - v_2))`. Their cells are empty if the differences do not decrease at a rate between the orders 0.5 and 2.5; only
   finer meshes would help there. A single value may be near that of the finest mesh by accident, so sentences and pictures use the largest of the three.
-* **Time** is that of a whole solve, from the scene to the checked solution. A status (`TimeLimit`, `IterationLimit`, `AlmostSolved`) stands in place of the error
-  of what is not solved. Times above the limit are those of a factorisation or a program that is not interrupted. `Skipped` was not tried; the further tables
-  say why.
+* **Time** is that of a whole solve, from the scene to the checked solution. If a route did not solve the problem, its status (`TimeLimit`, `IterationLimit`,
+  `AlmostSolved`) replaces the error. A time may exceed the limit, since a factorisation or a program is not interrupted. `Skipped` was not tried; the further
+  tables say why.
 
 ## Further numbers and pictures
 

@@ -23,7 +23,7 @@ pub(crate) fn of_tolerance(panels: &[Panel]) -> String {
     };
     let routes = panels.first().map(|it| it.study.routes()).unwrap_or_default();
     let costs = routes.iter().filter_map(|route| Some((*route, worst(*route)?)));
-    let costs = costs.map(|(route, it)| format!("{it:.1} by {}", route.name()));
+    let costs = costs.map(|(route, it)| format!("{it:.1} times as long with {}", route.name()));
     let without = routes.iter().filter(|route| worst(**route).is_none()).map(|it| it.name());
     let without: Vec<&str> = without.collect();
     let without = match &without[..] {
@@ -31,7 +31,7 @@ pub(crate) fn of_tolerance(panels: &[Panel]) -> String {
         names => format!("; {} did not solve every panel", names.join(" and ")),
     };
     format!(
-        "**Tolerance**: {tight:e} instead of {loose:e} costs at most this many times the time: {}{without}.",
+        "**Tolerance**: with {tight:e} instead of {loose:e} a solve takes at most {}{without}.",
         costs.collect::<Vec<_>>().join(", ")
     )
 }
@@ -57,7 +57,7 @@ pub(crate) fn of_time(panels: &[Panel], walls: &[Study]) -> String {
     let studies = panels.iter().map(|it| (&it.study, short(&it.study)));
     let wall = walls.last().map(|it| (it, format!("{} bricks", bricks(it))));
     let fastest = |(study, name): (&Study, String)| match fastest(study) {
-        Some((record, time)) => format!("{} by {} ({name})", seconds(time), record.route.name()),
+        Some((record, time)) => format!("{} with {} ({name})", seconds(time), record.route.name()),
         None => format!("an unknown time ({name})"),
     };
     let all: Vec<String> = studies.chain(wall).map(fastest).collect();

@@ -21,13 +21,13 @@ pub(crate) struct Theme {
 }
 
 const INTRODUCTION: &str = "
-Every [hard case](hard_cases.md) has a parameter. A sweep varies it from harmless to hopeless, and solves every value by every route. Checks that are independent
-of the methods judge every solution. The tolerance is 1e-10, for `alm` 1e-8.
+Every [hard case](hard_cases.md) has a parameter. A sweep varies it from harmless to hopeless, and every route solves every value. Every solution is checked
+independently of the methods. The tolerance is 1e-10, for `alm` 1e-8.
 
 ![Errors of four hard cases over their parameters](pictures/stability.svg)
 
 *Four of the cases. Full markers are solutions, drawn at their worst error. Hollow markers are failures, drawn at the residual that the route reports. Dots are
-backward errors. Grey lines are what is promised; for `alm` it is a hundred times that.*
+backward errors. Grey lines are the largest errors promised for known values; for `alm` they are a hundred times as large.*
 ";
 
 const MEANINGS: &str = "
@@ -37,13 +37,13 @@ const MEANINGS: &str = "
   to those on the same block. Rounding errors of larger forces on its neighbours count as 1e-9 at most.
 * **Backward error**: the relative change of loads, stiffness and contact forces with which equilibrium alone holds exactly. Gaps and friction are not included.
   If it is near rounding and all routes have the same larger error, the scene itself is sensitive.
-* **Promised**: errors are at most 1e-9, for `alm` 1e-8. Nothing else is called solved. A known value of a solution may be off by a hundred times the tolerance.
-  If forces on blocks differ by a factor of more than ten, it may be off by more, in proportion, but by at most 1e-3: the forces on a block carry its loads to a
-  thousandth. Some displacements are less certain by a factor that depends on the scene (slender bricks: 1e-8 of the square of the ratio; wedges: one over the
-  sine of the angle). The same factor then holds for known displacements.
+* **Promised**: the errors of an answer called solved are at most 1e-9, for `alm` 1e-8. A known value of a solution may be off by a hundred times the tolerance.
+  If forces on blocks differ by a factor of more than ten, it may be off by more, in proportion, but by at most 1e-3, since the forces on a block carry its
+  loads to a thousandth. In two scenes this bound is larger: for slender bricks by a factor of 1e-8 times the square of the ratio of their sides, for wedges by
+  one over the sine of the angle.
 * **Exists**: a solution is known to exist, or it is known that none exists (the load is above its limit), or neither is known. A load that is above its limit
-  by less than the tolerance cannot be distinguished from one below it, and may be called solved. This holds up to twenty times the tolerance, since the load is
-  only one of the terms of the equations.
+  by at most twenty times the tolerance cannot be distinguished from one below it, and may be called solved. (Twenty times, since the load is only one of the
+  terms of the equations.)
 
 ## Further numbers and pictures
 

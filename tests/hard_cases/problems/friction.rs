@@ -80,7 +80,7 @@ pub(super) fn chain(bits: i32) -> Case {
         Contact2d::new(k, load, one, Mat::zeros(N, N), none.clone(), none.clone(), none).unwrap();
     let (u, t_n): (Vec<f64>, Vec<f64>) = (0..N).map(|i| (at(i), force(i))).unzip();
     let (t, y) = problem.to_pairs(&problem.state(u, t_n, vec![0.0; N]));
-    let why = "Displacements depend on differences of large forces, and contact forces are no larger than the residual that is allowed for these: another point may have residuals as small.";
+    let why = "Displacements depend on differences of large forces, and contact forces are no larger than the allowed residual of these forces. So other points may have equally small residuals.";
     Case::new(&format!("springs that differ by 2^{bits}"), why, Problem::Contact(problem))
         .parameters(
             "eight bodies in a row, each over a floor, between springs of stiffness 1 and that by turns, without friction; displacements (1, 1, 0, 0, 2, 2, 3, 0) are planted",

@@ -21,16 +21,17 @@ A planted solution is exact: data and solution are numbers without rounding erro
 is no solution, and rejects proofs and evidence against problems that have one.
 
 In the tables a power of ten without a status is the residual of a solution, rounded up. Otherwise the method found no solution: the cell has its status and the
-residual at which it ended. A dash is a problem that the method does not treat. In brackets is the number of pivots, sweeps, steps or programs. Lemke's method
-runs with dense and with sparse matrices, on contact problems always with sparse ones. The test does not compare powers of ten, costs, and the status of a
-failure.
+residual at which it ended. A dash means that the method does not treat the problem. In brackets is the number of pivots, sweeps, steps or programs. Lemke's
+method runs with dense and with sparse matrices, on contact problems always with sparse ones. The test does not compare powers of ten, costs, and the status of
+a failure.
 
-Only `Infeasible` is a proof that there is no solution. `NoEquilibrium` is [evidence](methods/soft_springs.md#soft-springs-is-there-an-equilibrium-at-all), with friction no
-proof. All other [statuses](lcp/solving.md#solving-and-reading-a-solution), such as `AlmostSolved`, `Stalled`, `RayTermination`, `IterationLimit` and
-`NumericalTrouble`, prove nothing: another method may find a solution. Solved means solved to the residual: with a condition number of 1e18 (Hilbert, order 14)
-no digit of `z` has to be right.
+Only `Infeasible` and `NoSolution` are proofs that there is no solution. `NoEquilibrium` is
+[evidence](methods/soft_springs.md#soft-springs-is-there-an-equilibrium-at-all), but with friction not a proof. All other
+[statuses](lcp/solving.md#solving-and-reading-a-solution), such as `AlmostSolved`, `Stalled`, `RayTermination`, `IterationLimit` and `NumericalTrouble`, prove
+nothing: another method may find a solution. Solved means solved to the residual: with a condition number of 1e18 (Hilbert, order 14) no digit of `z` has to be
+right.
 
-Each case is followed by its parameters: the data, or the function of `lcp` that makes them (its last argument is a seed). Standard problems are `w = M z + q`,
+Each case has its parameters in brackets: the data, or the function of `lcp` that makes them (its last argument is a seed). Standard problems are `w = M z + q`,
 `z, w >= 0`, `z.w = 0`. With indices from zero, `s_ij` is the entry `(i^2 + 3 i j + 5 j) mod 7` of (0, 1, -1, 1, 0, -1, -1): signs without a pattern. A *planted
 solution* is, unless stated otherwise, `z_i = 1 + i mod 3` at even `i`, `w_i = 1 + i mod 3` at odd ones, and zero elsewhere; then `q = w - M z`.
 ";

@@ -10,7 +10,7 @@ use super::problem::Problem;
 pub const TITLE: &str = "No solution";
 
 pub fn cases() -> Vec<Case> {
-    let proved = "There is no solution, and that has to be proved.";
+    let proved = "There is no solution; this has to be proved.";
     let near = "Of two problems with nearly equal data, one has a solution and the other has none.";
     let open =
         "The linear conditions can be met, but not with complementarity: no Farkas vector exists.";
