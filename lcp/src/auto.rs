@@ -47,7 +47,7 @@ pub struct Choice {
 /// |---|---|
 /// | [`Lcp`](crate::Lcp), dense, or up to order 500 | semismooth Newton†, Lemke, interior point§, quadratic program\*, sweeps† |
 /// | [`Lcp`](crate::Lcp), sparse and larger | semismooth Newton†, interior point, quadratic program\*, sweeps†, Lemke |
-/// | [`HorizontalLcp`](crate::HorizontalLcp) | as the standard problem that it is in disguise, else Lemke |
+/// | [`HorizontalLcp`](crate::HorizontalLcp) | as a standard problem if it can be converted, else Lemke |
 /// | [`MixedLcp`](crate::MixedLcp), dense, or up to order 500 | Lemke, interior point§, quadratic program\* |
 /// | [`MixedLcp`](crate::MixedLcp), sparse and larger | interior point, quadratic program\*, Lemke |
 /// | [`BoxedLcp`](crate::BoxedLcp), dense, or up to order 500 | Lemke, interior point‡§, sweeps† |

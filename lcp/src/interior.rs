@@ -38,44 +38,42 @@ use crate::solve::Monitor;
 use crate::states::{Condensed, Scaled};
 use crate::{Certificate, Error, Iteration, Method, Observer, Solution, Status};
 
-/// An interior-point method for the complementarity problem itself, for large sparse problems: contact
-/// with Coulomb's friction ([`Contact2d`](crate::Contact2d)), and mixed and standard problems.
+/// An interior-point method for large sparse problems: contact with Coulomb's friction
+/// ([`Contact2d`](crate::Contact2d)), and mixed and standard problems.
 ///
-/// Newton's method on `K u = f + C^T t`, `y = C u + x`, `t_i y_i = tau`, with `tau` driven to zero by
-/// Mehrotra's predictor and corrector (1992) and Gondzio's correctors of centrality (1996). Everything but
-/// the displacements is eliminated point by point, so that every step factorises one matrix of the
-/// pattern of `K + C^T C`, whose order and structure are found once; the coupling of friction to the
-/// normal force makes its values unsymmetric. Small proximal terms keep bodies that float and redundant
-/// contacts regular and vanish with the steps.
+/// Newton's method on `K u = f + C^T t`, `y = C u + x`, `t_i y_i = tau`, with `tau` driven to zero by Mehrotra's
+/// predictor and corrector (1992) and Gondzio's correctors of centrality (1996). Everything but the displacements is
+/// eliminated point by point, so every step factorises one matrix with the pattern of `K + C^T C`. Its order and
+/// structure are found once; friction makes its values unsymmetric. Small proximal terms keep floating bodies and
+/// redundant contacts regular, and vanish with the steps.
 ///
-/// With friction the path of the points with equal products can turn back: the products have to grow for a
-/// while. The sign of the determinant, which the factorisation gives, tells on which side of a turn a
-/// point is, and steps follow the path around it (Allgower and Georg 1990).
+/// With friction the central path (the points with equal products) can turn back: for a while the products have to
+/// grow. The sign of the determinant, which the factorisation gives, shows on which side of a turn a point is, and
+/// steps follow the path around it (Allgower and Georg 1990).
 ///
-/// Near the solution comes the crossover: the state of every contact (open, sticking, sliding) is
-/// read off, the equations of these states are solved to the last digit, and the few contacts that
-/// contradict are exchanged, until the answer is a complementary basis with residuals at rounding level.
+/// Near the solution follows the crossover. The state of every contact (open, sticking, sliding) is read off, the
+/// equations of these states are solved to the last digit, and contacts with contradictions are exchanged. The result
+/// is a complementary basis with residuals at rounding level.
 ///
-/// Where the iteration jams, soft springs on all displacements are reduced step by step. The share of
-/// the load that they carry tends to zero with their stiffness where there is a solution, and to a
-/// constant where there is none. Then it is asked whether any forces inside the friction cones balance the
-/// loads. If a checked motion proves that none do, the status is [`Status::NoEquilibrium`], and
-/// [`Solution::certificate`] has the evidence; if some do, they are tried.
+/// If the iteration fails, soft springs on all displacements are reduced step by step. If there is a solution, the
+/// share of the load that they carry tends to zero with their stiffness; if there is none, it tends to a constant.
+/// Then a convex program decides whether any forces inside the friction cones balance the loads. If such forces
+/// exist, they are tried. If a checked motion proves that none exist, the status is [`Status::NoEquilibrium`], with
+/// the evidence in [`Solution::certificate`].
 ///
 /// # Guarantee
-/// None is proved. For monotone problems (no friction, positive semidefinite `M`) with a strictly feasible
-/// point the theory of such methods promises convergence. With friction the path is followed, but may lead
-/// nowhere; walls of 6e4 contact points took 30 to 70 steps for `mu` from 1/2 to 1.
+/// None is proved. For monotone problems (no friction, positive semidefinite `M`) with a strictly feasible point the
+/// theory of interior-point methods gives convergence. With friction the path need not lead to a solution; walls of
+/// 6e4 contact points took 30 to 70 steps for `mu` from 1/2 to 1.
 ///
 /// # Failure
-/// [`Status::Stalled`] where both the iteration and the springs fail, and where rigid bodies fall
-/// although some forces could hold them. [`Status::NoEquilibrium`] of bodies that all have a stiffness, with
-/// friction, is evidence and no proof where no motion proves it: there may be a solution
-/// nevertheless. It has no Farkas vector.
+/// [`Status::Stalled`] if both the iteration and the springs fail, and if rigid bodies fall although some forces
+/// could hold them. For elastic bodies with friction [`Status::NoEquilibrium`] is evidence, not a proof: there may be
+/// a solution. It has no Farkas vector.
 ///
 /// # Cost
-/// One sparse factorisation and two to six solves a step. A mixed problem whose `M` is dense is
-/// treated, but not faster than by dense methods.
+/// One sparse factorisation and two to six solves per step. A mixed problem with a dense `M` is treated, but not
+/// faster than by dense methods.
 ///
 /// # References
 /// * S. Mehrotra, On the implementation of a primal-dual interior point method, SIAM Journal on

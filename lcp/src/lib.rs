@@ -85,16 +85,16 @@
 //!
 //! | type | method | for |
 //! |---|---|---|
-//! | [`Auto`] | chooses a method by class and size, gives the reason, and continues with another one if it fails | all |
+//! | [`Auto`] | chooses a method by class and size, and tries the next one if it fails | all |
 //! | [`Lemke`] | Lemke's method (complementary pivoting) | all; proves infeasibility |
 //! | [`SemismoothNewton`] | active sets | obstacle problems, M- and P-matrices, contact |
 //! | `QuadraticProgram` | convex programs; a sequence of them with friction (feature `clarabel`, on by default) | symmetric positive semidefinite matrices, contact, soft constraints |
-//! | [`Evolution`] | motions from one state of contact to the next | moving supports, load histories with friction |
+//! | [`Evolution`] | the next state at rest, step by step | moving supports, load histories with friction |
 //! | [`InteriorPoint`] | interior-point method on the sparse form | large contact problems, mixed problems |
 //! | [`ProjectedGaussSeidel`] | projected Gauss-Seidel, also on rows without a matrix ([`pgs::Rows`]) | large easy problems, rough solutions |
 //! | [`lemke::Parametric`] | the solutions along a line of right-hand sides | all |
 //!
-//! # Answers
+//! # Solutions
 //!
 //! A [`Solution`] has the point, its [`Status`], its [`Residuals`] from the original data, its complementary
 //! [`Basis`] if the method has one, and the cost ([`Info`]). If there is no solution, it has the proof, or the
@@ -102,7 +102,7 @@
 //! [`Lcp::error_bound`] bounds the distance of a point of a monotone problem from the solution, and [`refine`]
 //! computes states of contacts in double-double arithmetic.
 //!
-//! A status is a mathematical outcome; an [`Error`] means that the input was unusable. The status is
+//! A status is a mathematical outcome; an [`Error`] is a mistake in the input. The status is
 //! [`Status::Solved`] only after the residuals were computed from the given data. All tolerances are relative to that
 //! data, so units do not matter. The library does not print.
 //!

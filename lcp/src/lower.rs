@@ -146,7 +146,7 @@ pub(crate) fn solve_lowered<P: Lowered>(
     Ok(judged_by(problem, solve(&problem.general(), false)?, tolerance))
 }
 
-/// Solves a problem that is a standard one in disguise, with the start that belongs to that one.
+/// Solves a problem in its standard form, with the start converted.
 ///
 /// # Errors
 /// Those of the method, and for other problems the one given.

@@ -291,7 +291,7 @@ impl Solver<Lcp> for SemismoothNewton {
     }
 }
 
-/// Problems that are standard ones in disguise ([`HorizontalLcp::to_standard`]).
+/// Problems that can be converted to the standard form ([`HorizontalLcp::to_standard`]).
 impl Solver<HorizontalLcp> for SemismoothNewton {
     fn method(&self) -> Method {
         Method::Newton
@@ -307,8 +307,8 @@ impl Solver<HorizontalLcp> for SemismoothNewton {
         let standard = problem.to_standard().ok_or_else(|| Error::NotTreated {
             method: Method::Newton,
             reason:
-                "it is not a standard problem in disguise, with a column of one entry in every \
-                     pair, all in different rows: take Lemke"
+                "it cannot be converted to the standard form, for which every pair needs a column with \
+                     one entry, all in different rows: take Lemke"
                     .to_owned(),
         })?;
         let start = match &settings.start {

@@ -110,7 +110,7 @@ impl QuadraticProgram {
             return Err(Error::NotTreated {
                 method: Method::QuadraticProgram,
                 reason:
-                    "the dual form needs a positive definite K, and this one is singular, as of \
+                    "the dual form needs a positive definite K, and this one is singular, as for \
                          bodies that float: take the primal form"
                         .to_owned(),
             });
@@ -167,7 +167,7 @@ impl Solver<Lcp> for QuadraticProgram {
     }
 }
 
-/// Of problems that are standard ones in disguise.
+/// Of problems that can be converted to the standard form.
 impl Solver<HorizontalLcp> for QuadraticProgram {
     fn method(&self) -> Method {
         Method::QuadraticProgram

@@ -60,7 +60,7 @@ pub struct Iteration {
     pub residual: f64,
 }
 
-/// Called while a method runs; the result tells whether it continues.
+/// Called while a method runs; the result decides whether it continues.
 pub type Observer<'a> = dyn FnMut(&Iteration) -> ControlFlow<()> + 'a;
 
 /// When a limit on time is over; a limit beyond all clocks is none.

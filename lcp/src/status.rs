@@ -17,10 +17,10 @@ pub enum Status {
     /// There is no solution: the linear conditions can be met, but not together with complementarity.
     /// [`Solution::certificate`](crate::Solution::certificate) proves it choice by choice.
     NoSolution,
-    /// There is no equilibrium, by the evidence of [`Solution::certificate`](crate::Solution::certificate): soft
-    /// springs on all displacements keep their share of the load, however soft they are. If a body is rigid, or
-    /// without friction, it was also checked that no forces balance the loads. For elastic bodies with friction it is
-    /// no proof.
+    /// Evidence that there is no equilibrium ([`Solution::certificate`](crate::Solution::certificate)): soft springs
+    /// on all displacements keep their share of the load, however soft they are. If a body is rigid, or without
+    /// friction, it was also checked that no forces balance the loads. For elastic bodies with friction it is not a
+    /// proof.
     NoEquilibrium,
     /// No attempt found a solution, and at least one ended on a secondary ray. This does not prove
     /// that there is none.

@@ -81,7 +81,7 @@ fn a_method_says_what_it_does_not_treat() {
     let games = r#"{"kind": "lcp", "m": [[0, 2], [1, 0]], "q": [-1, -1]}"#;
     let (mixed, games) = (folder.file("mixed.json", mixed), folder.file("games.json", games));
     for (file, option, words) in [
-        (&mixed, "newton", "semismooth Newton cannot treat this problem: it is not a standard"),
+        (&mixed, "newton", "semismooth Newton cannot treat this problem: it cannot be converted"),
         (&mixed, "pgs", "projected Gauss-Seidel cannot treat this problem"),
         (&games, "newton", "M[0, 0] is 0, but every diagonal entry must be positive: take Lemke"),
         (&games, "pgs", "row 0 has the diagonal entry 0"),
@@ -143,7 +143,7 @@ fn options_of_one_method_are_not_for_another() {
     assert_eq!((run.code, &run.json()["status"]), (1, &"IterationLimit".into()));
     assert_eq!(run.json()["iterations"], 2);
     let report = Run::of(&args[..6]).out;
-    assert!(report.contains("--max-iterations allows more"), "{report}");
+    assert!(report.contains("--max-iterations raises it"), "{report}");
 }
 
 /// By every method, in whatever form it treats a problem: a boxed one becomes the general form, of which bounds that are

@@ -1,4 +1,4 @@
-//! The chain of standard problems, and of general ones that are standard in disguise.
+//! The chain of standard problems, and of general ones that can be converted to the standard form.
 
 use super::constants::{FEW, FEW_DENSE};
 use super::facts::{Facts, Symmetry, is_z_matrix};
@@ -116,7 +116,7 @@ impl Planned for HorizontalLcp {
         }
         let storage = if self.is_sparse() { "sparse" } else { "dense" };
         let reason = format!(
-            "order {}, {storage}, and not a standard problem in disguise: pivots need no other form",
+            "order {}, {storage}, and no standard problem: Lemke's method treats the general form",
             self.order()
         );
         vec![Step::new(Method::Lemke, reason)]

@@ -19,7 +19,7 @@ pub struct Ray {
     pub covering: Vec<f64>,
 }
 
-/// What soft springs on all displacements of a contact problem carry when they are made softer and softer.
+/// The loads that soft springs on all displacements of a contact problem carry, for decreasing stiffness.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]

@@ -7,8 +7,8 @@ use clap::{Args, Parser, Subcommand};
 use super::input::InputArgs;
 use crate::{Covering, LemkeSettings, Method};
 
-/// Solves linear complementarity problems: w = M z + q, z >= 0, w >= 0, z.w = 0, and their relatives
-/// with free and bounded variables, in general form, and for contact with friction.
+/// Solves linear complementarity problems: w = M z + q, z >= 0, w >= 0, z.w = 0; also with free or bounded variables,
+/// in the general form, and for contact with friction.
 #[derive(Debug, Parser)]
 #[command(name = "lcp", version, about, arg_required_else_help = true)]
 pub(super) struct Cli {
@@ -20,9 +20,9 @@ pub(super) struct Cli {
 pub(super) enum Command {
     /// Solve a problem.
     Solve(SolveArgs),
-    /// Say how well a given point solves a problem.
+    /// Check whether a point solves a problem.
     Check(CheckArgs),
-    /// Say what a file holds.
+    /// Show the contents of a file.
     Info(InfoArgs),
 }
 
@@ -33,28 +33,28 @@ pub(super) struct SolveArgs {
     /// The method.
     #[arg(long, value_enum, default_value_t)]
     pub(super) solver: Method,
-    /// Largest residual, relative to the data, of an answer called solved; 1e-10, for pgs 1e-8.
+    /// Largest residual, relative to the data, of a solution; 1e-10, for pgs 1e-8.
     #[arg(long, value_name = "T")]
     pub(super) tol: Option<f64>,
-    /// Pivots of one attempt of lemke; auto then takes that.
+    /// Pivots of one attempt of lemke; auto then uses lemke.
     #[arg(long, value_name = "N")]
     pub(super) max_pivots: Option<usize>,
-    /// Attempts of lemke, each from another start or with another covering vector; auto then takes that.
+    /// Attempts of lemke; auto then uses lemke.
     #[arg(long, value_name = "N")]
     pub(super) attempts: Option<usize>,
-    /// Covering vector of the first attempt of lemke, `ones` or `random:SEED`; auto then takes that.
+    /// Covering vector of the first attempt of lemke, `ones` or `random:SEED`; auto then uses lemke.
     #[arg(long, value_name = "D", value_parser = covering)]
     pub(super) covering: Option<Covering>,
-    /// Where the method starts: `all-y`, `all-t`, or a file with a point, as `lcp solve --json` writes it.
+    /// Start of the method: `all-y`, `all-t`, or a file with a point, as `lcp solve --json` writes it.
     #[arg(long, value_name = "START")]
     pub(super) start: Option<PathBuf>,
-    /// Iterations of pgs, newton or interior; of qp those within one program.
+    /// Iterations of pgs, newton or interior; for qp, those within one program.
     #[arg(long, value_name = "N")]
     pub(super) max_iterations: Option<usize>,
-    /// Time after which the search ends, in seconds.
+    /// Time limit, in seconds.
     #[arg(long, value_name = "S")]
     pub(super) time_limit: Option<f64>,
-    /// A file to write the pivots of lemke into, as JSON; auto then takes that.
+    /// File for the pivots of lemke, as JSON; auto then uses lemke.
     #[arg(long, value_name = "FILE")]
     pub(super) trace: Option<PathBuf>,
 }
@@ -64,8 +64,8 @@ pub(super) struct SolveArgs {
 pub(super) struct CheckArgs {
     #[command(flatten)]
     pub(super) input: InputArgs,
-    /// The point: a JSON object with `z`, and `w` unless it is M z + q; of contact problems `contact` with `u`,
-    /// `t_n` and `t_t` instead. Other fields do not matter.
+    /// The point: a JSON object with `z`, and `w` unless it is M z + q; for contact problems, `contact` with `u`,
+    /// `t_n` and `t_t`. Other fields are ignored.
     #[arg(required = true)]
     pub(super) solution: PathBuf,
     /// Largest residual of a point that counts as a solution.

@@ -200,18 +200,18 @@ impl ValueEnum for Method {
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
         Some(PossibleValue::new(self.name()).help(match self {
-            Self::Auto => "The method that suits the problem best, and the next one where it fails",
+            Self::Auto => "The method that suits the problem, and the next one if it fails",
             Self::Lemke => "Lemke's method: any problem",
             Self::Newton => {
-                "Semismooth Newton, the active set method: positive diagonals, above all M-matrices"
+                "Semismooth Newton, the active set method: positive diagonals, especially M-matrices"
             }
             Self::Interior => "Interior-point method: large sparse problems",
             Self::QuadraticProgram => {
                 "Convex quadratic program: symmetric positive semidefinite matrices"
             }
             Self::GaussSeidel => "Projected Gauss-Seidel: positive diagonals; bounds, friction",
-            Self::Enumeration => "All choices of sides, with proofs: up to 12 pairs",
-            Self::Smoothing => "Newton's method on smoothed equations: where pivots end on a ray",
+            Self::Enumeration => "All choices of one variable per pair, with proofs: up to 12 pairs",
+            Self::Smoothing => "Newton's method on smoothed equations: problems on which pivots end on a ray",
         }))
     }
 }

@@ -55,26 +55,28 @@ fn meaning(answer: &Answer<'_>) -> Option<&'static str> {
         Status::AlmostSolved => {
             "The residuals are above the tolerance; the best point is printed with --json."
         }
-        Status::Infeasible => "There is no solution; --json prints the proof.",
+        Status::Infeasible | Status::NoSolution => "There is no solution; --json prints the proof.",
         Status::NoEquilibrium => {
-            "Soft springs keep their share of the load, however soft they are, so that there seems to be \
-             no solution. That is no proof; --json prints the evidence."
+            "Soft springs keep their share of the load, however soft they are. This is evidence that there is no \
+             solution, not a proof; --json prints it."
         }
         Status::RayTermination => {
-            "No solution was found. That is no proof that there is none; --json prints the first ray."
+            "No solution was found. This does not prove that there is none; --json prints the first ray."
         }
         Status::NoComplementaryBasis => {
             "No complementary basis is nonsingular, and with artificial columns no solution was found."
         }
-        Status::PivotLimit => "The pivots were used up; --max-pivots allows more.",
+        Status::PivotLimit => "The limit on pivots was reached; --max-pivots raises it.",
         Status::Cycling if !answer.attempts.is_empty() => {
             "An attempt cycled, and the others found no solution."
         }
         Status::Cycling | Status::Stalled | Status::IterationLimit if is_auto => {
             "No method of the chain found a solution."
         }
-        Status::IterationLimit => "The iterations were used up; --max-iterations allows more.",
-        Status::TimeLimit => "The time was used up; --time-limit allows more.",
+        Status::IterationLimit => {
+            "The limit on iterations was reached; --max-iterations raises it."
+        }
+        Status::TimeLimit => "The time limit was reached; --time-limit raises it.",
         Status::Cycling => "The method cycled; another --solver may succeed.",
         Status::Stalled => "The method makes no more progress; another --solver may succeed.",
         Status::NumericalTrouble => "Rounding errors are too large.",

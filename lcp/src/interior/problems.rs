@@ -93,7 +93,7 @@ impl Solver<Friction2d> for InteriorPoint {
     }
 }
 
-/// Problems that are standard ones in disguise ([`HorizontalLcp::to_standard`]).
+/// Problems that can be converted to the standard form ([`HorizontalLcp::to_standard`]).
 impl Solver<HorizontalLcp> for InteriorPoint {
     fn method(&self) -> Method {
         Method::Interior
@@ -105,12 +105,14 @@ impl Solver<HorizontalLcp> for InteriorPoint {
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         self.settings.validate(problem.order())?;
-        let refused = || Error::NotTreated {
+        let refused = || {
+            Error::NotTreated {
             method: Method::Interior,
             reason:
-                "it is not a standard one in disguise: Lemke's method treats it, or give the mixed \
-                     or the contact problem that it comes from"
+                "it cannot be converted to the standard form: take Lemke's method, or give the mixed or \
+                     the contact problem that it comes from"
                     .to_owned(),
+        }
         };
         let given = (&self.settings.start, self.settings.tolerance);
         solve_disguised(problem, given, refused, |lcp, start| {
