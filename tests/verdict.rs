@@ -34,7 +34,7 @@ fn rigid_walls_stand_on_admissible_forces() {
         let outcome = common::solved(&scene);
         assert_eq!(outcome.judgement.verdict, Verdict::Stands);
         assert_eq!(outcome.judgement.evidence, Evidence::AdmissibleForces);
-        assert!(outcome.judgement.sentence.contains("to which of such forces a loading leads"));
+        assert!(outcome.judgement.sentence.contains("do not determine which of these forces act"));
     }
     // Pivots end on rays, which say nothing against it.
     let by_pivots = walls::tall_with_window(0.401_675_53).route(Route::Lemke);
@@ -42,9 +42,7 @@ fn rigid_walls_stand_on_admissible_forces() {
     assert_eq!(outcome.solve.status, Status::RayTermination);
     assert_eq!(outcome.judgement.verdict, Verdict::Undecided);
     assert_eq!(outcome.judgement.evidence, Evidence::AdmissibleForces);
-    assert!(
-        outcome.judgement.sentence.contains("forces within friction that balance the loads exist")
-    );
+    assert!(outcome.judgement.sentence.contains("forces within friction balance the loads, but"));
     let falls = (Verdict::Falls, Evidence::NoAdmissibleForces);
     assert_eq!(verdict(&walls::tall_with_window(0.41)), falls);
 }

@@ -96,11 +96,9 @@ impl Plan {
 fn solver(route: Route, form: Form, frictional_points: usize) -> (&'static str, &'static str) {
     let has_friction = frictional_points > 0;
     match (route, form) {
-        (Route::Forces, _) => (
-            "admissible forces",
-            "one convex program, of three unknowns a block, finds forces inside friction that balance the loads, or \
-             proves that there are none",
-        ),
+        (Route::Forces, _) => {
+            ("admissible forces", "one convex program with three unknowns per block")
+        }
         (Route::Interior, _) => (
             "interior points",
             "every step factorises one sparse matrix of the order of the displacements",
@@ -111,12 +109,12 @@ fn solver(route: Route, form: Form, frictional_points: usize) -> (&'static str, 
         ),
         (Route::Qp, _) if has_friction => (
             "quadratic programs",
-            "with the friction forces held every program is convex; their fixed point is the answer",
+            "every program has fixed bounds of friction; the fixed point of the bounds is the solution",
         ),
         (Route::Qp, _) => ("quadratic program", "without friction one convex program is enough"),
         (Route::Pgs, _) => (
             "projected Gauss-Seidel sweeps",
-            "springs make the stiffness definite, and are centred until they carry nothing",
+            "springs make the stiffness definite, and are re-centred until they carry nothing",
         ),
         (Route::Alm, _) => (
             "augmented Lagrangian method",

@@ -8,7 +8,7 @@ use crate::history::Step;
 use crate::ids::BlockId;
 use crate::model::{Block, Body, Cause, EdgeLoad, Load, Model};
 use crate::state::{FilmStress, State};
-use crate::verify::verdict::Verdict;
+use crate::verify::verdict::Evidence;
 
 /// The displacement component of largest size, with its sign and place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -248,11 +248,11 @@ pub fn loaded_part(block: &Block, load: &EdgeLoad) -> (Point2<f64>, Point2<f64>)
 /// Why the scene is not solved, in a sentence or two; `None` when it is.
 pub fn reason(outcome: &Outcome) -> Option<String> {
     let mut why = why(outcome)?.to_owned();
-    if outcome.judgement.verdict == Verdict::Falls
+    if outcome.judgement.evidence == Evidence::NoAdmissibleForces
         && outcome.solve.status != lcp::Status::Infeasible
     {
-        why += " It is also proved by a motion, which was checked in the geometry: no contact forces within friction \
-             balance the loads.";
+        why += " But it is proved that no contact forces within friction balance the loads. The proof is a motion, \
+             which was checked in the geometry.";
     }
     let history = outcome.history.as_ref().filter(|history| !history.records.is_empty());
     Some(match history.and_then(|history| history.failed.as_ref()) {
@@ -277,25 +277,29 @@ fn why(outcome: &Outcome) -> Option<&'static str> {
              forces and loads, does not hold. What was computed is kept for inspection only."
         }
         lcp::Status::RayTermination if outcome.mechanism.is_some() => {
-            "A collapse mechanism was found, and no equilibrium: a motion of the blocks that the \
-             supports do not stop and on which the loads do work. Friction may stop it: by itself \
-             this is not a proof of collapse."
+            "A collapse mechanism was found, but no equilibrium. The mechanism is a motion of the blocks \
+             that the supports do not stop, and on which the loads do work. Friction may stop it, so the \
+             mechanism is not a proof of collapse."
         }
         lcp::Status::RayTermination => {
             "No attempt found an equilibrium, and the last form ended on secondary rays. With \
-             friction this is not a proof of collapse: an equilibrium may exist that the pivots did \
-             not reach."
+             friction this is not a proof of collapse: there may be an equilibrium that Lemke's method \
+             does not reach."
         }
         lcp::Status::Infeasible => {
-            "There is no equilibrium, and this is proved: no contact forces within their limits balance \
-             the loads with displacements that fit together (by a Farkas vector, which was checked in the data)."
+            "There is no equilibrium (proved): no contact forces within their limits and no displacements \
+             that fit them balance the loads. The proof, a Farkas vector, was checked in the data."
+        }
+        lcp::Status::NoEquilibrium if outcome.judgement.evidence == Evidence::Motion => {
+            "The blocks keep moving, however small the viscosity is that slows them down. By itself this is \
+             evidence of collapse, not a proof."
         }
         lcp::Status::NoEquilibrium => {
-            "Springs on all blocks keep their share of the load however soft they are: from there \
-             no equilibrium was reached. With friction this is not a proof of collapse."
+            "Springs on all blocks keep their share of the load, however soft they are. With friction \
+             this is not a proof of collapse."
         }
         lcp::Status::Stalled => {
-            "The residuals stopped falling before the tolerance was reached. This says nothing about the \
+            "The residuals stopped decreasing before the tolerance was reached. This says nothing about the \
              structure: another route may find an equilibrium."
         }
         lcp::Status::IterationLimit => {

@@ -15,24 +15,29 @@ use crate::method::info::{SoftReport, SpringShares};
 use crate::plan::Plan;
 use crate::scene::Route;
 use crate::state::{FilmStress, State};
+use crate::verify::verdict::Evidence;
 
 const WIDTH: u16 = 100;
 
-/// The whole report: verdict, plan, solution, checks, reactions, state, times; or what was tried and what
-/// it means when there is no solution.
+/// The whole report: verdict, reactions, state, history and loads; then how they were found, what was built, and
+/// times. If there is no solution, what this means.
 pub fn report(outcome: &Outcome) -> String {
     let title = if outcome.title.is_empty() { "Untitled scene" } else { &outcome.title };
     let rule: String = title.chars().map(|_| '=').collect();
     let judgement = &outcome.judgement;
     let warnings = judgement.warnings.iter().map(|warning| head(&format!("Warning: {warning}")));
     let verdict = head(&judgement.sentence) + &warnings.collect::<String>();
-    let mut text = format!("{verdict}\n{title}\n{rule}\n\n{}", plan(&outcome.plan));
+    let mut text = format!("{verdict}\n{title}\n{rule}\n");
     if let Some(reason) = reason(outcome) {
         text += &section("No equilibrium found");
         text += &paragraph(&reason);
     }
-    text += &section("Solution");
-    text += &pairs(&solution(outcome));
+    if let Some(state) = &outcome.state {
+        text += &section("Reactions on the structure");
+        text += &reactions(outcome);
+        text += &section("State");
+        text += &pairs(&state_figures(outcome, state));
+    }
     if let Some(history) = &outcome.history {
         text += &section("Load history");
         text += &history::history(history, InUnits(outcome.model.units));
@@ -41,12 +46,10 @@ pub fn report(outcome: &Outcome) -> String {
         text += &section("Loads");
         text += &loads::loads(&outcome.model);
     }
-    if let Some(state) = &outcome.state {
-        text += &section("Reactions on the structure");
-        text += &reactions(outcome);
-        text += &section("State");
-        text += &pairs(&state_figures(outcome, state));
-    }
+    text += &section("Solution");
+    text += &pairs(&solution(outcome));
+    text += &section("What was built");
+    text += &built(&outcome.plan);
     text += &section("Time");
     text += &pairs(&times(outcome));
     text
@@ -64,14 +67,32 @@ pub fn plan(plan: &Plan) -> String {
             effect.cost.clone(),
         ]);
     }
+    format!("{}\n\n{}", table.trim_fmt(), pairs(&figures(plan)))
+}
+
+/// The plan of a solve: what is off in one line.
+fn built(plan: &Plan) -> String {
+    let mut table = table(&["effect", "unknowns", "because", "expected cost"], &[1]);
+    for effect in plan.effects.iter().filter(|effect| effect.on) {
+        let unknowns = effect.unknowns.to_string();
+        table.add_row(vec![effect.name, &unknowns, &effect.because, &effect.cost]);
+    }
+    let off: Vec<&str> =
+        plan.effects.iter().filter(|effect| !effect.on).map(|effect| effect.name).collect();
+    let mut lines = figures(plan);
+    lines.insert(0, ("not used", off.join(", ")));
+    format!("{}\n\n{}", table.trim_fmt(), pairs(&lines))
+}
+
+fn figures(plan: &Plan) -> Vec<(&'static str, String)> {
     let sizes = format!(
-        "{} blocks, {} nodes, {} joints, {} contact points ({} with friction), {} rigid amplitudes",
-        plan.blocks,
-        plan.nodes,
-        plan.joints,
-        plan.contact_points,
+        "{}, {}, {}, {} ({} with friction), {}",
+        count(plan.blocks, "block"),
+        count(plan.nodes, "node"),
+        count(plan.joints, "joint"),
+        count(plan.contact_points, "contact point"),
         plan.frictional_points,
-        plan.rigid_modes
+        count(plan.rigid_modes, "rigid amplitude")
     );
     let mut lines = vec![
         ("sizes", sizes),
@@ -83,8 +104,11 @@ pub fn plan(plan: &Plan) -> String {
         let head = if index == 0 { "route" } else { "" };
         lines.push((head, format!("{}: {}", choice.route.name(), choice.because)));
     }
-    let lines = pairs(&lines);
-    format!("{}\n\n{lines}", table.trim_fmt())
+    lines
+}
+
+fn count(number: usize, what: &str) -> String {
+    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
 }
 
 fn residuals(it: &lcp::Residuals) -> String {
@@ -118,7 +142,9 @@ fn solution(outcome: &Outcome) -> Vec<(&'static str, String)> {
     for (index, attempt) in solve.attempts.iter().enumerate() {
         rows.push((if index == 0 { "attempts" } else { "" }, attempt.clone()));
     }
-    if let Some(springs) = &solve.springs {
+    // Where blocks keep moving, these are steps of their motion and no springs.
+    let springs = solve.springs.as_ref();
+    if let Some(springs) = springs.filter(|_| outcome.judgement.evidence != Evidence::Motion) {
         rows.push(("springs", shares(springs)));
     }
     if let Some(soft) = &solve.soft {
@@ -128,7 +154,7 @@ fn solution(outcome: &Outcome) -> Vec<(&'static str, String)> {
         rows.push(("residuals", residuals(&solve.residuals)));
     }
     if let Some(paper) = &solve.coulomb_residuals {
-        rows.push(("(3.27)", format!("{}, of the same answer in this form", residuals(paper))));
+        rows.push(("(3.27)", format!("{}, of the same solution in this form", residuals(paper))));
     }
     rows
 }
@@ -147,10 +173,10 @@ fn shares(springs: &SpringShares) -> String {
 fn bias(soft: &SoftReport) -> String {
     let share = significant(soft.share, 3);
     let error = soft.displacement_error.map_or_else(String::new, |error| {
-        format!(" and changed the displacements by {} of them", significant(error, 3))
+        format!(" and changed the displacements by a fraction of {}", significant(error, 3))
     });
     format!(
-        "of stiffness {:.0e}, centred {} times; at first they carried {share} of the load{error}",
+        "of stiffness {:.0e}, re-centred {} times; at first they carried {share} of the load{error}",
         soft.stiffness, soft.rounds
     )
 }

@@ -2,9 +2,9 @@
 //! warnings. Nothing else in the crate decides this.
 //!
 //! * **Stands**: an equilibrium was found and verified. For rigid blocks at rest any forces within friction that
-//!   balance the loads are an equilibrium. To which of them a loading leads, rigid blocks do not say.
-//! * **Falls**: no contact forces within friction balance the loads. The [proof](crate::method::statics::Proof) was
-//!   checked in the geometry.
+//!   balance the loads are an equilibrium. Rigid blocks do not determine which of them act.
+//! * **Falls**: no contact forces within friction balance the loads, with a [proof](crate::method::statics::Proof)
+//!   that was checked in the geometry; or the blocks move and do not come to rest, which is evidence.
 //! * **Undecided**: all other cases. Neither a secondary ray nor springs that keep their load prove that a wall
 //!   falls.
 
@@ -81,7 +81,7 @@ pub struct Judgement {
     pub warnings: Vec<String>,
 }
 
-/// What is known at the end of a solve.
+/// All that the verdict depends on.
 #[derive(Clone, Copy)]
 pub(crate) struct Known<'a> {
     pub(crate) model: &'a Model,
@@ -148,18 +148,18 @@ fn law(known: &Known<'_>) -> Option<String> {
     };
     let how = match (smooth, moved) {
         (0, 0) => return None,
-        (_, 0) => format!("with friction that turns over a short slip{}", steps(smooth)),
+        (_, 0) => format!("with friction that grows over a short slip{}", steps(smooth)),
         (0, _) => format!("by a slow motion against viscosity{}", steps(moved)),
         _ => format!(
-            "with friction that turns over a short slip{} and by a slow motion against viscosity{}",
+            "with friction that grows over a short slip{} and by a slow motion against viscosity{}",
             steps(smooth),
             steps(moved)
         ),
     };
-    let slips = if known.history.is_none() { " Slips are measured from there." } else { "" };
+    let slips = if known.history.is_none() { " Slips are measured from this state." } else { "" };
     Some(format!(
-        "The blocks came to rest {how}. Forces balance and are within friction, but other states of rest exist, \
-         and more than two digits of displacements mean little.{slips}"
+        "The blocks came to rest {how}. Forces balance the loads within friction, but there are other states of \
+         rest, and only two digits of the displacements are meaningful.{slips}"
     ))
 }
 
@@ -168,8 +168,8 @@ fn warnings(known: &Known<'_>, movement: Option<Movement>) -> Vec<String> {
     list.extend(law(known));
     if let Some(movement) = movement.filter(|movement| movement.is_large()) {
         list.push(format!(
-            "Displacements exceed what small-displacement theory allows: {}. Places where blocks meet and lever \
-             arms of the forces are still those of the undeformed wall.",
+            "Displacements exceed what small-displacement theory allows: {}. Contacts and lever arms of the \
+             forces are still those of the undeformed wall.",
             sentence::of_movement(movement)
         ));
     }

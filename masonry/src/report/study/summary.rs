@@ -34,7 +34,7 @@ pub fn in_short(study: &Study) -> Option<String> {
         format!("; the error of the mesh is {}", significant(error, 2))
     });
     Some(format!(
-        "On {}, {} at a tolerance of {:e} takes {} s to an algebraic error below {ACCURATE:e}{error}.",
+        "On {}, the fastest route to an algebraic error below {ACCURATE:e} is {} at a tolerance of {:e}: {} s{error}.",
         mesh.name,
         record.route.name(),
         record.tolerance,
@@ -42,7 +42,8 @@ pub fn in_short(study: &Study) -> Option<String> {
     ))
 }
 
-/// "Compared with 1e-4, 1e-8 costs no more (within 20 %) by lemke, 9 x the time by pgs; alm (Stalled) does not reach it."
+/// "Compared with 1e-4, 1e-8 takes as long (within 20 %) with lemke, 9 times as long with pgs; alm (Stalled) does not
+/// reach it."
 fn cost(study: &Study) -> Option<String> {
     let nearest = |wanted: f64| {
         let tolerances = study.on_first_mesh().map(|record| record.tolerance);
@@ -64,14 +65,14 @@ fn cost(study: &Study) -> Option<String> {
         return None;
     }
     let same: Vec<&str> = same.iter().map(|(route, _)| route.name()).collect();
-    let more = more.iter().enumerate().map(|(position, (route, ratio))| {
-        let its = if position == 0 { " the time" } else { "" };
-        format!("{} x{its} by {}", significant(*ratio, 2), route.name())
+    let more = more.iter().map(|(route, ratio)| {
+        format!("{} times as long with {}", significant(*ratio, 2), route.name())
     });
-    let costs = (!same.is_empty()).then(|| format!("no more (within 20 %) by {}", same.join(", ")));
+    let costs =
+        (!same.is_empty()).then(|| format!("as long (within 20 %) with {}", same.join(", ")));
     let costs: Vec<String> = costs.into_iter().chain(more).collect();
     Some(format!(
-        "Compared with {loose:e}, {tight:e} costs {}{}.",
+        "Compared with {loose:e}, {tight:e} takes {}{}.",
         costs.join(", "),
         without(study, tight)
     ))
@@ -134,8 +135,8 @@ fn elsewhere(study: &Study) -> Vec<String> {
         let record = solved.min_by(|a, b| a.tolerance.total_cmp(&b.tolerance))?;
         let error = record.errors?.worst().filter(|error| *error > ELSEWHERE)?;
         Some(format!(
-            "{} ends {} from the reference at its tightest tolerance, {:e}: another equilibrium \
-             (with friction there may be several), or a tolerance that does not bound the error.",
+            "{} ends at a distance of {} from the reference at its tightest tolerance, {:e}. This is another \
+             equilibrium (with friction there may be several), or the tolerance does not bound the error.",
             route.name(),
             significant(error, 2),
             record.tolerance
@@ -147,8 +148,8 @@ fn elsewhere(study: &Study) -> Vec<String> {
 fn reference(study: &Study) -> Option<String> {
     let Some(reference) = study.meshes.first()?.reference.as_ref() else {
         return Some(
-            "There is no reference, since none of interior, lemke, newton, alm and qp has a solution: no \
-             errors are known."
+            "There is no reference, since none of interior, lemke, newton, alm and qp found a solution, so errors \
+             are unknown."
                 .to_owned(),
         );
     };
@@ -161,7 +162,7 @@ fn reference(study: &Study) -> Option<String> {
         None => "no other route confirms it".to_owned(),
     };
     Some(format!(
-        "The reference is the solution by {} at a tolerance of {:e}, residual {:.1e}; its forces and moments balance to {:.1e}{}; {confirmed}.",
+        "The reference is the solution by {} at a tolerance of {:e}, with a residual of {:.1e} and an error of the balances of {:.1e}{}; {confirmed}.",
         reference.route.name(),
         reference.tolerance,
         reference.residual,
@@ -177,13 +178,14 @@ fn refined(verified: Option<&Verified>) -> String {
         .map_or(String::new(), |margin| format!(" (margin of the inequalities {margin:.1e})"));
     if it.is_better() {
         format!(
-            "; refined to a residual of {:.1e}{margin} it changed by {}",
+            ". Refinement to a residual of {:.1e}{margin} changed it by {}",
             it.residual,
             it.distance.map_or("-".to_owned(), |it| significant(it, 2)),
         )
     } else {
         format!(
-            ", which refinement to a residual of {:.1e}{margin} does not confirm: errors are against it as it is",
+            ". Refinement to a residual of {:.1e}{margin} does not confirm it, so errors are relative to the unrefined \
+             solution",
             it.residual
         )
     }

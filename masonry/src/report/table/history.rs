@@ -1,11 +1,16 @@
 //! The load history as a table.
 
-use super::{pairs, table};
+use comfy_table::ColumnConstraint;
+
+use super::{pairs, paragraph, table};
 use crate::history::{History, Step, StepRecord};
 use crate::report::format::{InUnits, aligned};
 
-/// Longer histories are told by the ends of their stages.
+/// Of longer histories only the ends of the stages are shown.
 const MOST_ROWS: usize = 24;
+
+/// Columns of numbers, which do not wrap.
+const NUMBERS: [usize; 8] = [2, 3, 4, 5, 6, 7, 8, 9];
 
 /// One row for every step that was solved, or for every stage of a long history.
 pub(super) fn history(history: &History, units: InUnits) -> String {
@@ -20,21 +25,17 @@ pub(super) fn history(history: &History, units: InUnits) -> String {
         records.iter().collect()
     };
     let (energy, length) = (units.0.energy_name(), units.0.length_name());
-    let heads = [
-        "stage",
-        "step",
-        &format!("W [{energy}]"),
-        &format!("D [{energy}]"),
-        &format!("U [{energy}]"),
-        &format!("W-U-D [{energy}]"),
-        &format!("moved [{length}]"),
-        "open",
-        "stick",
-        "slip",
-        "found by",
-        "factorisations",
-    ];
-    let mut table = table(&heads, &[2, 3, 4, 5, 6, 7, 8, 9, 11]);
+    let heads =
+        ["stage", "step", "W", "D", "U", "W-U-D", "moved", "open", "stick", "slip", "found by"];
+    let mut table = table(&heads, &NUMBERS);
+    for column in table.column_iter_mut() {
+        column.set_padding((1, 0));
+    }
+    for index in NUMBERS {
+        if let Some(column) = table.column_mut(index) {
+            column.set_constraint(ColumnConstraint::ContentWidth);
+        }
+    }
     let total = |of: fn(&StepRecord) -> f64| {
         shown.iter().map(move |last| {
             let until = records.iter().take_while(|record| record.step != last.step);
@@ -47,10 +48,10 @@ pub(super) fn history(history: &History, units: InUnits) -> String {
     let left = (0..shown.len()).map(|k| work[k] - stored[k] - dissipated[k]);
     let left: Vec<f64> = left.collect();
     let energies = [work, dissipated, stored, left].concat();
-    let energies = aligned(&energies, 4);
+    let energies = aligned(&energies, 3);
     let moved: Vec<f64> =
         shown.iter().map(|record| units.length(record.largest_displacement)).collect();
-    let moved = aligned(&moved, 4);
+    let moved = aligned(&moved, 3);
     for (k, record) in shown.iter().enumerate() {
         let [work, dissipated, stored, left] =
             [0, 1, 2, 3].map(|column| &energies[column * shown.len() + k]);
@@ -70,11 +71,13 @@ pub(super) fn history(history: &History, units: InUnits) -> String {
             stick,
             slip,
             record.way.name(),
-            &record.factorisations.to_string(),
         ]);
     }
-    let mut text = table.trim_fmt()
-        + "\n W: work, D: dissipated energy, both from the beginning; U: strain energy. W-U-D is the error of the\n balance from steps that are too long. moved: the largest displacement.\n";
+    let meanings = format!(
+        "W: work, D: dissipated energy, both from the beginning [{energy}]; U: strain energy [{energy}]. W-U-D is the \
+         error of the balance from steps that are too long. moved: the largest displacement [{length}]."
+    );
+    let mut text = table.trim_fmt() + "\n" + &paragraph(&meanings);
     if let Some(failed) = &history.failed {
         let step = format!("{} of stage \"{}\"", place(failed), failed.stage);
         text += &pairs(&[("not solved", step)]);

@@ -19,7 +19,7 @@ pub(super) fn of(
     let first = match (verdict, evidence) {
         (Verdict::Stands, Evidence::AdmissibleForces) => {
             "The wall stands: contact forces within friction balance the loads (verified). Rigid blocks do not \
-             say to which of such forces a loading leads."
+             determine which of these forces act."
                 .to_owned()
         }
         (Verdict::Stands, _) => match known.history {
@@ -30,11 +30,11 @@ pub(super) fn of(
             None => "The wall stands: equilibrium found and verified.".to_owned(),
         },
         (Verdict::Falls, Evidence::Motion) => format!(
-            "The wall falls{at}: blocks keep moving and friction does not stop them, however small the \
-             viscosity is that slows them down{}.",
+            "The wall falls{at}: its blocks keep moving, and friction does not stop them (evidence, not a \
+             proof).{}",
             match known.statics {
                 Some(Statics::Admissible(_)) => {
-                    ". Contact forces that balance the loads exist, but this loading does not lead to them"
+                    " Contact forces that balance the loads exist, but this loading does not lead to them."
                 }
                 _ => "",
             }
@@ -78,8 +78,8 @@ fn undecided(known: &Known<'_>, evidence: Evidence, movement: Option<Movement>) 
                 .to_owned()
         }
         (_, Evidence::AdmissibleForces) => format!(
-            "forces within friction that balance the loads exist, but no equilibrium with displacements \
-             that fit them was found{tried}."
+            "forces within friction balance the loads, but no displacements were found that fit such \
+             forces{tried}."
         ),
         _ => format!("neither an equilibrium nor a proof that there is none was found{tried}."),
     }
