@@ -131,16 +131,16 @@ pub struct Scene {
     /// The load history; without stages all loads act at once.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub stages: Vec<Stage>,
-    /// What a limit load is asked of.
+    /// Limit loads: which load grows.
     #[serde(default, deserialize_with = "strict::table", skip_serializing_if = "is_empty")]
     pub limit: Limit,
-    /// How contact is looked for and enforced.
+    /// Contact: positions of contact points, gaps that close, and mortar films.
     #[serde(default, deserialize_with = "strict::table")]
     pub contact: Contact,
     /// How the complementarity problem is solved.
     #[serde(default, deserialize_with = "strict::table")]
     pub solver: Solver,
-    /// What is written.
+    /// Output.
     #[serde(default, deserialize_with = "strict::table")]
     pub output: Output,
     /// The text that the scene was read from, for the places of errors.
@@ -172,8 +172,8 @@ impl Material {
     }
 }
 
-/// A class of joints: what resists sliding, exactly one of `mu` and `phi_deg`, and, where there are, cohesion, tensile
-/// strength and mortar. The law is that of [`law`](crate::law).
+/// A class of joints: exactly one of `mu` and `phi_deg`, and optionally cohesion, tensile strength and mortar. The
+/// law is that of [`law`](crate::law).
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -230,10 +230,10 @@ pub struct Between {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct WallJoints {
-    /// Of its beds, instead of the class `bed`.
+    /// Class of the bed joints, instead of `bed`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bed: Option<String>,
-    /// Of its heads, instead of the class `head`.
+    /// Class of the head joints, instead of `head`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub head: Option<String>,
 }
@@ -271,7 +271,7 @@ pub struct Wall {
     /// Its openings; only where `courses` is a number.
     #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "strict::tables")]
     pub openings: Vec<Opening>,
-    /// The classes of its joints, where they are not `bed` and `head`.
+    /// The classes of its joints, if not `bed` and `head`.
     #[serde(default, deserialize_with = "strict::table", skip_serializing_if = "is_usual")]
     pub joints: WallJoints,
     /// Elements along the length and height of a whole brick; required when the material is
@@ -295,11 +295,11 @@ pub struct Brick {
     pub height: f64,
 }
 
-/// The courses of a wall: how many in a bond, or each brick by brick.
+/// The courses of a wall: their number in a bond, or a list of bricks.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Courses {
-    /// So many courses in running bond, or in that of the wall: the second, fourth and so on begin with a half brick, and
-    /// the last brick of a course is cut to the width.
+    /// A number of courses in running bond, or in the bond of the wall. The second, fourth and so on begin with a
+    /// half brick, and the last brick of a course is cut to the width.
     RunningBond(u32),
     /// Bottom to top, each a list of brick lengths in units of one brick from left to right; a
     /// negative number is an opening of that length. In mortar the unit is one brick and one head
@@ -346,7 +346,7 @@ pub struct Support {
     pub joint: String,
 }
 
-/// What a [limit load](crate::analysis::limit) is asked of.
+/// Settings of a [limit load](crate::analysis::limit).
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -356,7 +356,7 @@ pub struct Limit {
     pub group: Option<String>,
 }
 
-/// How contact is looked for and enforced.
+/// Contact: positions of contact points, gaps that close, and mortar films.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -402,7 +402,7 @@ pub enum Films {
     Strips,
 }
 
-/// What is written.
+/// Output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

@@ -145,7 +145,7 @@ impl Checkpoint {
         Some(Start::last(sides.chars().map(|it| it == 't').collect()))
     }
 
-    /// What of a scene must not change between a checkpoint and a run that goes on from it, as text.
+    /// The part of a scene that must not change between a checkpoint and a run that continues from it, as text.
     pub(crate) fn origin_of(scene: &Scene) -> Result<String, SceneError> {
         let mut origin = scene.clone();
         origin.stages = Vec::new();

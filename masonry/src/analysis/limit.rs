@@ -48,7 +48,7 @@ use crate::model::Model;
 use crate::scene::{Load, Scene};
 use crate::system::{self, System};
 
-/// The laws of friction of which a limit load is asked.
+/// The laws of friction of a limit load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Laws {
     /// Joints that open by `mu` times their slip: one linear program, with a proof.
@@ -60,7 +60,7 @@ pub enum Laws {
     Both,
 }
 
-/// What is known of the limit load of a scene.
+/// The limit load of a scene.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Limit {
@@ -76,7 +76,7 @@ pub struct Limit {
     pub path: Option<Path>,
     /// The answer in the words of an engineer.
     pub sentence: String,
-    /// What limits the meaning of the answer.
+    /// Warnings: what limits the meaning of the answer.
     pub warnings: Vec<String>,
     /// Time of every phase.
     pub times: Vec<PhaseTime>,
@@ -90,7 +90,7 @@ pub fn limit(scene: &Scene) -> Result<Limit, LimitError> {
     limit_by(scene, Laws::Both)
 }
 
-/// The same by the chosen laws.
+/// The limit load by the chosen laws.
 ///
 /// # Errors
 /// As [`limit`].

@@ -21,7 +21,7 @@ use crate::scene::{Route, Scene, SceneError};
 use crate::system::SystemError;
 use crate::system::rigid::{FreeMotion, RigidError};
 
-/// Why a scene could not be brought to a solver.
+/// Why a scene could not be solved.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolveError {
@@ -31,7 +31,7 @@ pub enum SolveError {
     /// A block cannot be assembled.
     #[error(transparent)]
     System(#[from] SystemError),
-    /// A block can move without any contact noticing.
+    /// A block can move although no contact changes.
     #[error(
         "block \"{block}\" can {motion} without changing a gap or sliding against friction \
          (free motions in all: {free}): let it touch its neighbours or a support, or give its \
@@ -45,7 +45,7 @@ pub enum SolveError {
         /// Number of independent motions that nothing resists.
         free: usize,
     },
-    /// The matrices would not fit into any machine that this program is meant for.
+    /// The matrices would need too much memory.
     #[error(
         "about {gigabytes:.0} GB of memory would be needed, and the limit is {limit:.0} GB: use \
          fewer elements or contact points"
@@ -64,17 +64,17 @@ pub enum SolveError {
     NotTreated {
         /// The route.
         route: Route,
-        /// What is in the way, and what to take instead.
+        /// The reason, and what to use instead.
         reason: String,
     },
-    /// A later step of the load history could not be brought to a solver; those before are kept.
+    /// A later step of the load history could not be solved; the steps before it are kept.
     #[error("step {step} of stage \"{stage}\": {error}")]
     Step {
         /// Name of the stage.
         stage: String,
         /// The step in it, from 1.
         step: usize,
-        /// What went wrong.
+        /// The error.
         #[source]
         error: Box<SolveError>,
     },
@@ -115,7 +115,7 @@ pub enum Event {
     Pivots(lcp::lemke::Progress),
     /// The solver iterates.
     Iteration {
-        /// Steps, programs, or times that springs were centred, done so far.
+        /// Steps, programs or re-centrings of springs so far.
         number: usize,
         /// The residual by which the solver stops.
         residual: f64,
@@ -148,7 +148,7 @@ pub fn solve(scene: &Scene) -> Result<Outcome, SolveError> {
     solve_observed(scene, &mut |_| ControlFlow::Continue(()))
 }
 
-/// Solves a scene and tells an observer how far it has come; `Break` cancels the solver.
+/// Solves a scene and reports its progress to an observer; `Break` cancels the solve.
 ///
 /// # Errors
 /// As [`solve`].

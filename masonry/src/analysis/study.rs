@@ -59,7 +59,7 @@ use crate::units::Units;
 use figures::Figures;
 use runs::Runner;
 
-/// What is varied, and the time limit of a solve.
+/// Routes, tolerances and meshes of a study, and the time limit of a solve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     /// The routes; those that do not treat the scene say so in their records.
@@ -76,7 +76,7 @@ pub struct Settings {
     pub time_limit: Duration,
     /// Number of runs of a solve of less than a second; its time is the median.
     pub repeats: usize,
-    /// Where, and perhaps when, times are measured, for reports: [`machine`], for instance.
+    /// The machine on which times are measured, for reports; [`machine`], for instance.
     pub machine: Option<String>,
 }
 
@@ -139,7 +139,7 @@ pub enum StudyError {
     /// Nothing to vary.
     #[error("a study needs at least one {what}: name one, or leave the list out")]
     Empty {
-        /// What there is none of.
+        /// The empty list.
         what: &'static str,
     },
     /// A tolerance out of its range.
@@ -218,7 +218,7 @@ pub struct Study {
     pub units: Units,
     /// Time limit of one solve.
     pub time_limit: Duration,
-    /// Where times were measured, if that was told.
+    /// The machine on which times were measured, if it was given.
     pub machine: Option<String>,
     /// By mesh, route and tolerance, in the order of the settings.
     pub records: Vec<Record>,
@@ -250,7 +250,7 @@ impl Study {
     }
 }
 
-/// What is being solved.
+/// The solve that is running.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// The factor of the mesh.

@@ -14,7 +14,7 @@ pub enum RouteError {
     NotTreated {
         /// The route.
         route: Route,
-        /// What is in the way, and what to take instead.
+        /// The reason, and what to use instead.
         reason: String,
     },
 }

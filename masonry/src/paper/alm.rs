@@ -80,7 +80,7 @@ pub struct Answer {
 pub enum AlmError {
     /// Some displacement meets no stiffness.
     #[error(
-        "displacement {displacement} meets no stiffness, as those of rigid blocks, and penalties follow from \
+        "displacement {displacement} has no stiffness, as in rigid blocks, and penalties follow from \
          it: give the block an elastic modulus or take another route"
     )]
     NoStiffness {

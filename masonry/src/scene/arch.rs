@@ -28,7 +28,7 @@ pub struct Arch {
     pub name: String,
     /// Name of the material of voussoirs and piers.
     pub material: String,
-    /// What the intrados is, and which keys say where it runs.
+    /// Shape of the intrados.
     pub shape: Shape,
     /// The left end of the intrados \[length\].
     #[serde(
@@ -37,7 +37,7 @@ pub struct Arch {
         deserialize_with = "strict::some_pair"
     )]
     pub origin: Option<[f64; 2]>,
-    /// Distance of the ends of the intrados \[length\].
+    /// Distance between the ends of the intrados \[length\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub span: Option<f64>,
     /// Height of the crown of the intrados above its ends \[length\].
@@ -52,7 +52,7 @@ pub struct Arch {
     /// Depth of the ring, of a flat arch its height \[length\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f64>,
-    /// How many voussoirs.
+    /// Number of voussoirs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub voussoirs: Option<u32>,
     /// The joints from left to right, each from the intrados to the extrados \[length\], where no shape gives them.
@@ -114,7 +114,7 @@ pub struct Piers {
     pub width: f64,
     /// Height up to the end of the intrados \[length\].
     pub height: f64,
-    /// Blocks on top of each other up to there.
+    /// Number of blocks on top of each other.
     pub courses: u32,
 }
 

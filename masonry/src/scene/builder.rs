@@ -121,7 +121,7 @@ impl Scene {
         self
     }
 
-    /// Names the load or group of loads of which the limit load is asked.
+    /// Names the load or group of loads that grows to its limit.
     #[must_use]
     pub fn limit_group(mut self, name: &str) -> Self {
         self.limit.group = Some(name.to_owned());

@@ -64,8 +64,8 @@ impl schemars::JsonSchema for Courses {
         let (count, list) =
             (generator.subschema_for::<u32>(), generator.subschema_for::<Vec<Vec<f64>>>());
         schemars::json_schema!({
-            "description": "So many courses in a bond; or a list of courses from bottom to top, each a list of brick \
-                            lengths in units of one brick, of which a negative number is an opening.",
+            "description": "A number of courses in a bond, or a list of courses from bottom to top, each a list of brick \
+                            lengths in units of one brick, where a negative number is an opening.",
             "anyOf": [count, list]
         })
     }

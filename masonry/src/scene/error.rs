@@ -168,7 +168,7 @@ pub enum SceneErrorKind {
     Missing {
         /// The missing key.
         key: &'static str,
-        /// What calls for it.
+        /// Why it is needed.
         because: &'static str,
         /// An example.
         remedy: &'static str,
@@ -180,7 +180,7 @@ pub enum SceneErrorKind {
         key: &'static str,
         /// Why it has no meaning.
         because: &'static str,
-        /// What to do otherwise.
+        /// An alternative.
         otherwise: &'static str,
     },
     /// Both of two keys are given of which exactly one is wanted.
@@ -240,7 +240,7 @@ pub enum SceneErrorKind {
     /// A list has no items.
     #[error("the list is empty: {remedy}")]
     EmptyList {
-        /// What to put into it.
+        /// The remedy.
         remedy: &'static str,
     },
     /// Nothing holds the structure.
@@ -259,7 +259,7 @@ pub enum SceneErrorKind {
     /// More items than can be analysed.
     #[error("{count:.0} {what} are too many: at most {limit} are possible")]
     TooMany {
-        /// What there is too much of.
+        /// The things that are too many.
         what: &'static str,
         /// How many.
         count: f64,
@@ -378,7 +378,7 @@ pub enum SceneErrorKind {
     },
     /// No free edge lies on the segment of a load.
     #[error(
-        "load \"{load}\" acts on nothing, for no free edge of a block lies on its segment (edges \
+        "load \"{load}\" acts on nothing: no free edge of a block lies on its segment (edges \
          within joints are not free): move it to an edge, or remove it"
     )]
     IdleLoad {

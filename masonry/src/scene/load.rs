@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::strict;
 
-/// A load of exactly one kind: [`LoadKind`] says of which keys each consists.
+/// A load of exactly one kind: [`LoadKind`] lists the keys of each.
 ///
 /// ```
 /// use masonry::scene::Load;
@@ -19,10 +19,10 @@ use super::strict;
 pub struct Load {
     /// Name of the load.
     pub name: String,
-    /// The group that it belongs to; without it the load is a group of its own, of its own name.
+    /// Group of the load; by default a group of its own, with the name of the load.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub group: Option<String>,
-    /// What it is multiplied by \[-\].
+    /// Factor of the load \[-\].
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub factor: f64,
     /// One end of a segment \[length\].

@@ -32,7 +32,7 @@ pub struct Opening {
     pub x: f64,
     /// Its width \[length\].
     pub width: f64,
-    /// Its lowest course, from 1; of a door the first.
+    /// Its lowest course, counted from 1; by default 1, as of a door.
     #[serde(default = "first")]
     pub course: u32,
     /// Its height in courses.

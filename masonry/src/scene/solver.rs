@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Solver {
-    /// Requested residual \[-\].
+    /// Tolerance: the largest residual of a solution \[-\].
     #[serde(default = "default_tolerance")]
     pub tolerance: f64,
-    /// The method, and the problem that it is given.
+    /// The route to the solution.
     #[serde(default)]
     pub route: Route,
     /// The form of the reduced problem; belongs to [`Route::Lemke`].
@@ -20,12 +20,12 @@ pub struct Solver {
     /// Belongs to [`Route::Lemke`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_pivots: Option<u32>,
-    /// Largest number of steps of the interior points of one attempt, and of the motions of blocks that come to rest
-    /// or flow; without it the path takes 300 and motions take 600. Belongs to [`Route::Interior`].
+    /// Largest number of steps of one attempt of the interior-point method, and of the motions of blocks that come to
+    /// rest or flow; 300 and 600 by default. Belongs to [`Route::Interior`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_steps: Option<u32>,
-    /// Stiffness of springs on all displacements, relative to that of the blocks \[-\], which are
-    /// taken away again; belongs to [`Route::Qp`], and to [`Route::Pgs`], which always has them.
+    /// Stiffness of springs on all displacements, relative to that of the blocks \[-\], which are re-centred until
+    /// they carry nothing; belongs to [`Route::Qp`], and to [`Route::Pgs`], which always has them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub soft: Option<f64>,
 }
@@ -43,31 +43,30 @@ impl Default for Solver {
     }
 }
 
-/// The way from the equilibrium of the blocks to contact forces and displacements.
+/// The route to the solution: a form of the equations and a method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
 pub enum Route {
-    /// Chosen by the size of the scene, and another one where that fails.
+    /// The fastest route for the scene, and further ones if it fails.
     #[default]
     Auto,
-    /// Forces inside friction that balance the loads, by one convex program: the answer for rigid blocks without gaps,
-    /// and the proof where there are none.
+    /// Forces within friction that balance the loads, by one convex program; for rigid blocks without gaps, or a
+    /// proof that there are none.
     Forces,
-    /// Pivots on the problem reduced to contact forces, with dense matrices.
+    /// Lemke's method on the problem reduced to contact forces, with dense matrices.
     Lemke,
     /// The interior-point method on the sparse problem with all displacements.
     Interior,
-    /// Newton's method on the states of the contacts, on the sparse problem.
+    /// Active sets (Newton's method on the states of the contacts), on the sparse problem.
     Newton,
-    /// Convex quadratic programs on the sparse problem, a sequence of them for friction.
+    /// Convex quadratic programs on the sparse problem; a sequence of them for friction.
     Qp,
-    /// Projected Gauss-Seidel sweeps on the sparse problem, with blocks held by springs that
-    /// are centred anew until they carry nothing.
+    /// Projected Gauss-Seidel on the sparse problem; springs hold the blocks, and are re-centred until they carry
+    /// nothing.
     Pgs,
-    /// The augmented Lagrangian method on the sparse problem: contact forces as multipliers. For
-    /// elastic blocks only.
+    /// The augmented Lagrangian method on the sparse problem, for elastic blocks only.
     Alm,
 }
 
@@ -96,7 +95,7 @@ fn default_tolerance() -> f64 {
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Form {
-    /// The Coulomb form first; the mixed form when that ends on rays.
+    /// The Coulomb form first; the mixed form if that ends on rays.
     #[default]
     Auto,
     /// Distances to the two edges of the friction cone (3.27): three unknowns a point.

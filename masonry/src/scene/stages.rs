@@ -24,13 +24,14 @@ use super::strict;
 pub struct Stage {
     /// Name of the stage, in reports.
     pub name: String,
-    /// The steps in which it is done; one where the key is missing.
+    /// Number of steps; 1 by default.
     #[serde(default = "one_step", skip_serializing_if = "is_one_step")]
     pub steps: u32,
     /// Factor of gravity at the end of the stage \[-\].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity: Option<f64>,
-    /// Factors of loads at the end of the stage \[-\] beside their own, by the name of the load or of its group.
+    /// Factors of loads at the end of the stage \[-\] in addition to their own, by the name of the load or of its
+    /// group.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub loads: BTreeMap<String, f64>,
     /// Where supports are at the end of the stage, by the name of the support.
@@ -42,8 +43,8 @@ pub struct Stage {
     pub moves: BTreeMap<String, Movement>,
 }
 
-/// How far a support has moved from where the scene puts it. Displacements are small: the direction of its
-/// joints stays.
+/// Displacement of a support from its place in the scene. Displacements are small: the normal of its joints does not
+/// rotate.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]

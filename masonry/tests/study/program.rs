@@ -48,7 +48,7 @@ fn the_program_writes_tables_and_pictures() {
     assert_eq!(object["units"]["thrust"], "N");
     assert_eq!(object["records"][0]["end"]["ended"], "Solved");
     let sentence = object["summary"][0].as_str().unwrap();
-    assert!(sentence.starts_with("Compared with 1e-4, 1e-8 costs ") && sentence.contains("lemke"));
+    assert!(sentence.starts_with("Compared with 1e-4, 1e-8 takes ") && sentence.contains("lemke"));
 
     let names: BTreeSet<&str> =
         object["files"].as_array().unwrap().iter().map(|it| it.as_str().unwrap()).collect();

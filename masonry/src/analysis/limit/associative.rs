@@ -13,7 +13,7 @@ use crate::model::Model;
 use crate::recover;
 use crate::state::{ContactState, Reaction};
 
-/// What becomes of a structure under a growing group of loads.
+/// The outcome for a structure under a growing group of loads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 pub enum Answer {
     /// There is a largest factor.
@@ -25,7 +25,7 @@ pub enum Answer {
     /// Without the group no forces within friction balance the loads.
     #[serde(rename = "falls without the group")]
     Falls,
-    /// None of these came out.
+    /// None of these was found.
     #[serde(rename = "undecided")]
     Undecided,
 }
@@ -34,14 +34,14 @@ pub enum Answer {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Associative {
-    /// What becomes of the structure.
+    /// The outcome.
     pub answer: Answer,
     /// The largest factor \[-\] for which forces were found that balance the loads.
     pub load_factor: Option<f64>,
     /// The smallest factor \[-\] for which it is proved that there are none.
     pub bound: Option<f64>,
-    /// Whether the answer is proved: forces, and the motion that does more work than they could, both recomputed from the
-    /// geometry, leave no other.
+    /// Whether the answer is proved by forces and a motion, both recomputed from the geometry, with a small gap
+    /// between their factors.
     pub proved: bool,
     /// The forces under [`load_factor`](Self::load_factor), point by point; gaps and slips are zero.
     pub forces: Option<Vec<ContactState>>,

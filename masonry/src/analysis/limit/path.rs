@@ -40,12 +40,12 @@ const TOLERANCE: f64 = 1e-10;
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Path {
-    /// The largest factor \[-\] at which the blocks rest; `None` where they do not even without the group.
+    /// The largest factor \[-\] at which the blocks rest; `None` if they do not rest without the group.
     pub load_factor: Option<f64>,
-    /// The least factor \[-\] at which they were found to flow, or which it is proved that no forces carry.
+    /// The smallest factor \[-\] at which they flow, or for which it is proved that no forces balance the loads.
     pub falls: Option<f64>,
-    /// Whether both are one number, nearly, or every factor that was tried stands. Where not, at factors between them neither
-    /// rest nor flow was found.
+    /// Whether the two factors are close to each other, or the structure stands at every factor that was tried.
+    /// Otherwise neither rest nor flow was found between them.
     pub decided: bool,
     /// The structure under [`load_factor`](Self::load_factor), with the springs.
     pub model: Model,
@@ -53,18 +53,19 @@ pub struct Path {
     pub contacts: Option<Vec<ContactState>>,
     /// Its reactions.
     pub reactions: Vec<Reaction>,
-    /// How the blocks move above: displacement rates of their corners, scaled to a largest component of one.
+    /// The motion of the blocks above that factor: displacement rates of their corners, scaled to a largest component
+    /// of one.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
-    /// Joints that opened or slid on the way, for the first time.
+    /// Joints that opened or slid for the first time along the path.
     pub events: Vec<Event>,
     /// The states at rest, by growing factor.
     pub curve: Vec<Stand>,
-    /// Joints between rigid bodies, into which springs were put.
+    /// Number of joints between rigid bodies, which have springs.
     pub springs: usize,
 }
 
 impl Path {
-    /// What limits the meaning of the answer.
+    /// Warnings: what limits the meaning of the answer.
     pub(super) fn warning(&self) -> String {
         let springs = match self.springs {
             0 => "",
@@ -79,8 +80,8 @@ impl Path {
 pub struct Stand {
     /// The load factor \[-\].
     pub load_factor: f64,
-    /// The largest displacement \[m\] from where the factor is zero; of rigid blocks that of the springs, which has no
-    /// meaning by itself.
+    /// The largest displacement \[m\] since the factor was zero; for rigid blocks it is that of the springs and has
+    /// no meaning by itself.
     pub displacement: f64,
     /// Contact points that are open, stick and slide.
     pub contacts: [usize; 3],

@@ -16,7 +16,7 @@ use crate::state::State;
 pub struct Mesh {
     /// The factor of the numbers of elements in the scene, per direction.
     pub factor: u32,
-    /// What reports call it.
+    /// Its name in reports.
     pub name: String,
     /// Blocks.
     pub blocks: usize,
@@ -26,19 +26,19 @@ pub struct Mesh {
     pub contact_points: usize,
     /// Why the mesh cannot be made: too many elements, for instance.
     pub refusal: Option<String>,
-    /// The most accurate answer; `None` where no route gave one within the time.
+    /// The most accurate solution; `None` if no route found one within the time limit.
     pub reference: Option<Reference>,
-    /// What it says.
+    /// Its values.
     pub values: Option<Values>,
-    /// Errors of the mesh: of its values against those of the finest mesh with a reference, which itself
-    /// has none.
+    /// Errors of the mesh: distances of its values from those of the finest mesh with a reference, which itself has
+    /// none.
     pub errors: Option<MeshErrors>,
     /// Where the corners of blocks have gone, of those that carry load.
     #[serde(skip)]
     corners: Vec<Option<Vec<Vector2<f64>>>>,
 }
 
-/// Numbers of an answer that mean the same on every mesh.
+/// Values of a solution that can be compared between meshes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Values {
     /// Strain energy \[J\].

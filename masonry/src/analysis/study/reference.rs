@@ -1,4 +1,4 @@
-//! The most accurate answer on a mesh, and what confirms it.
+//! The most accurate solution on a mesh, and its confirmation by another route.
 
 use lcp::Status;
 use serde::Serialize;
@@ -18,7 +18,7 @@ const TOLERANCES: [f64; 4] = [1e-13, 1e-12, 1e-11, 1e-10];
 /// That of a route that converges to a residual: enough to tell the states of the contacts.
 const CONVERGED: [f64; 1] = [1e-10];
 
-/// The most accurate answer that can be had.
+/// The most accurate solution on a mesh.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Reference {
     /// The route.
@@ -31,14 +31,14 @@ pub struct Reference {
     pub balance: f64,
     /// Wall-clock time \[s\].
     pub seconds: f64,
-    /// What numbers of twice the digits say of it. Errors are measured against the answer so refined where
-    /// that [is better](Verified::is_better).
+    /// Its verification in double-double arithmetic. Errors are relative to the refined solution if that [is
+    /// better](Verified::is_better).
     pub verified: Option<Verified>,
-    /// Another route that went another way; `None` where no other has an answer.
+    /// The solution of another route; `None` if no other has one.
     pub confirmed: Option<Confirmation>,
 }
 
-/// How far an independent answer is from a reference.
+/// The distance of an independent solution from a reference.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Confirmation {
     /// The other route.

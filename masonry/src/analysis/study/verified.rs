@@ -1,4 +1,4 @@
-//! The reference to twice the usual digits: the equations of its contacts' states, solved anew.
+//! The reference in double-double arithmetic: the equations of its contact states, solved again.
 
 use lcp::ContactState;
 use lcp::refine::{ContactStatus, Extended, Refined};
@@ -11,24 +11,24 @@ use crate::recover;
 use crate::state::State;
 use crate::system::System;
 
-/// What numbers of twice the digits say of an answer: see [`lcp::Contact2d::verify`]. Of a load history it is the
-/// last step, with the slips that those before it left.
+/// The verification of a solution in double-double arithmetic: see [`lcp::Contact2d::verify`]. For a load history it
+/// is that of the last step, with the slips of the previous ones.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Verified {
     /// The largest residual of an equation of the refined solution, relative to the terms of its row \[-\].
     pub residual: f64,
-    /// By how much the data contradict themselves, which redundant contacts show, relative to the terms of a row
-    /// \[-\]: rounding errors of coordinates and stiffnesses, or zero.
+    /// The contradiction between the gaps of redundant contacts, relative to the terms of a row \[-\]: rounding
+    /// errors of coordinates and stiffnesses, or zero.
     pub shift: f64,
-    /// The least that an inequality of the contact law leaves, of gaps, slips, forces and distances from the
-    /// edge of the cone, relative to the largest displacement or force \[-\]; `None` without contacts.
+    /// The smallest margin of the inequalities of the contact law (gaps, slips, forces and distances from the edge of
+    /// the cone), relative to the largest displacement or force \[-\]; `None` without contacts.
     pub margin: Option<f64>,
-    /// Whether all of them hold, but for what rounds a number of the usual digits.
+    /// Whether all of them hold, up to rounding errors of `f64`.
     pub holds: bool,
-    /// Decimal digits of the refined answer that are certain.
+    /// Decimal digits of the refined solution that are certain.
     pub digits: f64,
-    /// Distance of the answer of the route from it: the largest difference of the forces on the nodes,
-    /// relative to the largest \[-\].
+    /// Distance of the route's solution from it: the largest difference of the forces on the nodes, relative to the
+    /// largest force \[-\].
     pub distance: Option<f64>,
     /// Solves with one factorisation.
     pub passes: usize,
@@ -42,24 +42,24 @@ const EXACT: f64 = f64::EPSILON;
 const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
 impl Verified {
-    /// Whether the refined answer is better than any of the usual digits, and a solution.
+    /// Whether the refined point is a solution and better than any in `f64`.
     pub fn is_better(&self) -> bool {
         self.holds && self.residual < EXACT
     }
 }
 
-/// An answer, refined to twice the usual digits.
+/// A solution refined in double-double arithmetic.
 #[derive(Debug, Clone)]
 pub struct Exact {
-    /// What that says of the answer.
+    /// Its verification.
     pub verified: Verified,
     /// The problem.
     pub sparse: Sparse,
     /// The states of all contacts.
     pub statuses: Vec<ContactStatus>,
-    /// The answer to the equations of these states.
+    /// The solution of the equations of these states.
     pub refined: Refined,
-    /// It, rounded to the usual digits.
+    /// The same in `f64`.
     pub state: State,
 }
 

@@ -13,7 +13,7 @@ pub(super) fn listen() {
         if ASKED.swap(true, Ordering::SeqCst) {
             std::process::exit(ENDED_BY_SIGNAL);
         }
-        eprintln!("interrupted: ending with what is known; once more ends at once");
+        eprintln!("interrupted: stopping with the last result; Ctrl-C again stops at once");
     });
 }
 

@@ -13,14 +13,14 @@ use masonry::analysis::limit::{
 use masonry::report::{self, limit as output};
 use masonry::scene::Scene;
 
-/// The law of friction that a limit load is asked of.
+/// The law of friction of a limit load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Law {
     /// Joints that slide open by mu times the slip: a linear program, and an upper bound for Coulomb's friction.
     Associative,
     /// Coulomb's friction: the factor grows step by step until the blocks no longer come to rest.
     Path,
-    /// One after the other.
+    /// Both, one after the other.
     Both,
 }
 
@@ -41,19 +41,19 @@ pub(super) struct LimitArgs {
     /// The law of friction.
     #[arg(long, value_enum, default_value_t = Law::Both)]
     law: Law,
-    /// The load or group of loads that grows, instead of that of the scene.
+    /// The load or group of loads that grows, in place of that of the scene.
     #[arg(long, conflicts_with = "range")]
     group: Option<String>,
-    /// Ask for the least and the largest reactions under the loads of the scene instead.
+    /// Find the least and the largest reactions under the loads of the scene instead.
     #[arg(long)]
     range: bool,
-    /// Ask for the least thickness of an arch under the loads of the scene instead.
+    /// Find the least thickness of an arch under the loads of the scene instead.
     #[arg(long, value_name = "ARCH", conflicts_with_all = ["range", "group"])]
     thickness: Option<String>,
-    /// The directory to write pictures into, if any; created when missing.
+    /// Directory for the pictures; created if it does not exist.
     #[arg(long, conflicts_with = "range")]
     out: Option<PathBuf>,
-    /// Also write the report as one page of HTML, with pictures to choose from; opens without a network.
+    /// Also write the report with its pictures as one page of HTML.
     #[arg(long, value_name = "FILE", conflicts_with = "range")]
     report: Option<PathBuf>,
     /// Print one JSON object instead of the report.

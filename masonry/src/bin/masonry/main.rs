@@ -35,21 +35,21 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Say what a scene calls for, before anything is assembled.
+    /// Show what a scene needs: effects, unknowns, memory, and the method.
     Plan(PlanArgs),
     /// Solve a scene: print the report, and write pictures, tables and a mesh.
     Solve(solve::SolveArgs),
-    /// Say at which factor of a group of loads the structure fails.
+    /// Find the factor of a load at which the structure fails.
     Limit(limit::LimitArgs),
-    /// Say what accuracy costs: routes, tolerances and meshes against the most accurate answer.
+    /// Measure error and cost of routes, tolerances and meshes.
     Study(study::StudyArgs),
     /// Print or write a commented scene to begin with.
     New(new::NewArgs),
-    /// Print the JSON schema of scene files, by which editors complete and check them.
+    /// Print the JSON schema of scene files, for editors.
     Schema,
     /// Draw a scene: blocks, supports, loads and contact points.
     Draw(DrawArgs),
-    /// Print the script by which a shell completes commands and options.
+    /// Print a script for the completion of commands and options in a shell.
     Completions(completions::CompletionsArgs),
 }
 
@@ -57,10 +57,10 @@ enum Command {
 struct PlanArgs {
     /// The scene file (TOML).
     scene: PathBuf,
-    /// The route to the solution, instead of that of the scene.
+    /// The route to the solution, in place of that of the scene.
     #[arg(long)]
     route: Option<Route>,
-    /// Print one JSON object.
+    /// Print one JSON object instead of the report.
     #[arg(long)]
     json: bool,
 }
@@ -69,7 +69,7 @@ struct PlanArgs {
 struct DrawArgs {
     /// The scene file (TOML).
     scene: PathBuf,
-    /// The picture to write; by default the scene's name with the ending `.svg`.
+    /// The picture; by default next to the scene, with the extension `.svg`.
     #[arg(long)]
     out: Option<PathBuf>,
 }

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 
 use crate::end::{Failure, SOLVED, listing, print};
 
-/// What a new scene is of.
+/// The kinds of new scenes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Kind {
     /// A wall of rigid bricks with a window, pushed to the side.
@@ -22,10 +22,10 @@ enum Kind {
 
 #[derive(Debug, Args)]
 pub(super) struct NewArgs {
-    /// What the scene is of.
+    /// The kind of scene.
     #[arg(value_enum)]
     kind: Kind,
-    /// The file to write, which must not exist yet; by default the scene is printed.
+    /// The file, which must not exist yet; by default the scene is printed.
     #[arg(long)]
     out: Option<PathBuf>,
 }

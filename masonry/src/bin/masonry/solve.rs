@@ -24,16 +24,16 @@ const CHECKPOINT: &str = "checkpoint.json";
 pub(super) struct SolveArgs {
     /// The scene file (TOML).
     scene: PathBuf,
-    /// The directory to write pictures, tables and a mesh into, if any; created when missing.
+    /// Directory for pictures, tables and a mesh; created if it does not exist.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// The route to the solution, instead of that of the scene.
+    /// The route to the solution, in place of that of the scene.
     #[arg(long)]
     route: Option<Route>,
-    /// Go on from `checkpoint.json` in that directory, which every step of a load history writes.
+    /// Continue a load history from `checkpoint.json` in the directory of `--out`.
     #[arg(long, requires = "out")]
     resume: bool,
-    /// Also write the report as one page of HTML, with pictures to choose from; opens without a network.
+    /// Also write the report with its pictures as one page of HTML.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
     /// Print one JSON object instead of the report.
@@ -133,16 +133,16 @@ fn run_steps(
     Ok(Ran { outcome: run.finish(), frames, files, end })
 }
 
-/// After an interruption: the command that goes on from the last step, on standard error.
+/// After an interruption: the command that continues from the last step, on standard error.
 fn say_how_to_go_on(args: &SolveArgs, outcome: &Outcome) {
     let Some(history) = &outcome.history else { return };
     let (solved, steps) = (history.records.len(), history.steps);
     match &args.out {
         _ if solved == 0 => {
-            eprintln!("interrupted in the first of {steps} steps: nothing to go on from");
+            eprintln!("interrupted in the first of {steps} steps: nothing to continue from");
         }
         None => eprintln!(
-            "interrupted after step {solved} of {steps}; with --out a run can go on from there"
+            "interrupted after step {solved} of {steps}; with --out a run can continue from there"
         ),
         Some(out) => {
             let [scene, out] = [&args.scene, out].map(|path| quoted(path));

@@ -16,19 +16,19 @@ use masonry::scene::{Route, Scene};
 pub(super) struct StudyArgs {
     /// The scene file (TOML).
     scene: PathBuf,
-    /// The directory to write tables and pictures into, if any; created when missing.
+    /// Directory for tables and pictures; created if it does not exist.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// The routes, separated by commas.
+    /// Routes, separated by commas.
     #[arg(long, value_delimiter = ',')]
     routes: Option<Vec<Route>>,
-    /// The tolerances, separated by commas.
+    /// Tolerances for the residuals, separated by commas.
     #[arg(long, value_delimiter = ',')]
     tolerances: Option<Vec<f64>>,
-    /// Factors of the numbers of elements per direction, separated by commas.
+    /// Factors of the numbers of elements in each direction, separated by commas.
     #[arg(long, value_delimiter = ',')]
     meshes: Option<Vec<u32>>,
-    /// Wall-clock time that one solve may take, in seconds.
+    /// Time limit of one solve, in seconds.
     #[arg(long, default_value_t = 20.0)]
     time_limit: f64,
     /// Print one JSON object instead of the report.

@@ -1,4 +1,4 @@
-//! What happens on the way: joints that open and slide.
+//! Events along the path: joints that open and slide.
 
 use serde::Serialize;
 
@@ -14,7 +14,7 @@ use crate::system::System;
 /// the largest are at it. Chosen: far above the errors of states, far below what they mean.
 const ZERO: f64 = 1e-7;
 
-/// What a joint does for the first time.
+/// A change of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Change {
@@ -31,11 +31,11 @@ pub enum Change {
 pub struct Event {
     /// The joint.
     pub joint: JointId,
-    /// What it does.
+    /// The change.
     pub change: Change,
-    /// The last state at rest \[-\] in which it does not.
+    /// The load factor \[-\] of the last state at rest before the change.
     pub after: f64,
-    /// The first in which it does.
+    /// The load factor \[-\] of the first state at rest after it.
     pub before: f64,
 }
 
