@@ -55,23 +55,27 @@ fn small_walls_on_open_bases_stand() {
 #[test]
 fn walls_with_little_friction_are_decided() {
     check(0.3, [2, 1]);
-    check(0.5, [1, 1]);
 }
 
 #[test]
 fn walls_with_usual_friction_are_decided() {
     check(0.6, [1, 1]);
-    check(0.7, [2, 1]);
 }
 
 #[test]
 fn walls_with_friction_at_its_critical_value_are_decided() {
-    check(0.9999, [1, 1]);
     check(1.0, [2, 1]);
-    check(1.0001, [1, 1]);
 }
 
 #[test]
 fn walls_with_much_friction_are_decided() {
     check(1.3, [2, 1]);
+}
+
+#[cfg(feature = "long-tests")]
+#[test]
+fn walls_with_friction_in_between_are_decided() {
+    for (mu, mesh) in [(0.5, [1, 1]), (0.7, [2, 1]), (0.9999, [1, 1]), (1.0001, [1, 1])] {
+        check(mu, mesh);
+    }
 }

@@ -76,7 +76,9 @@ fn flat_bricks_are_refined_after_pivots() {
 #[test]
 fn stiff_bricks_in_mortar_are_rigid() {
     let joint = Joint::mu(0.7).mortar(0.02, "mortar");
-    for route in OF_RIGID_BLOCKS {
+    // Sweeps take seconds, and are left to the long tests.
+    let is_tried = |route: &Route| *route != Route::Pgs || cfg!(feature = "long-tests");
+    for route in OF_RIGID_BLOCKS.into_iter().filter(is_tried) {
         let solved = |bricks: Material| answer_by(&wall(bricks, joint.clone(), 0.02), route);
         let Some(rigid) = solved(Material::rigid()) else { continue };
         let stiff = [1e9, 1e10, 1e11].map(|young| solved(Material::elastic(young, 0.15)));

@@ -13,7 +13,7 @@ use common::panels;
 use masonry::analysis::outcome::{Outcome, State};
 use masonry::analysis::solve::solve;
 use masonry::model::{Body, ContactPoint};
-use masonry::scene::{Form, Route, Scene};
+use masonry::scene::{Route, Scene};
 use masonry::verify::verdict::Verdict;
 
 static OPEN: LazyLock<Outcome> = LazyLock::new(|| {
@@ -171,27 +171,39 @@ fn the_default_contact_points_are_the_nodal_pairs_here() {
     }
 }
 
-/// Without any floor the friction of the walls cannot carry the load at mu = 1: the blocks move and do not stop. Pivots end
-/// on rays.
+/// Without any floor the friction of the walls cannot carry the load at mu = 1: the blocks move and do not stop.
 #[test]
 fn without_a_floor_there_is_no_equilibrium() {
-    let scene = panels::scene("panel_no_floor");
-    assert_eq!(solve(&scene).unwrap().judgement.verdict, Verdict::Falls);
-    let outcome = solve(&scene.route(Route::Lemke)).unwrap();
-    assert_eq!(outcome.solve.status, lcp::Status::RayTermination);
+    let outcome = solve(&panels::scene("panel_no_floor")).unwrap();
+    assert_eq!(outcome.judgement.verdict, Verdict::Falls);
     assert!(outcome.state.is_none());
-    let tried = |form: &str| outcome.solve.attempts.iter().any(|line| line.starts_with(form));
-    assert!(tried("coulomb") && tried("mixed"), "{:?}", outcome.solve.attempts);
-    let rates = outcome.mechanism.as_ref().unwrap();
-    assert!(rates.iter().flatten().all(|rate| rate.y < 0.0), "all blocks fall");
 }
 
-/// The forms are different problems with the same answer.
-#[test]
-fn the_mixed_form_alone_gives_the_same_answer() {
-    let mut scene = panels::scene("panel_square_full_floor");
-    scene.solver.form = Form::Mixed;
-    let outcome = solve(&scene).unwrap();
-    let (a, b) = (state(&outcome).strain_energy, state(&FULL).strain_energy);
-    assert!((a / b - 1.0).abs() < 1e-10, "{a} and {b}");
+/// By dense pivots on problems of order 3500, which take seconds.
+#[cfg(feature = "long-tests")]
+mod by_pivots {
+    use masonry::scene::Form;
+
+    use super::{FULL, Route, panels, solve, state};
+
+    #[test]
+    fn without_a_floor_pivots_end_on_rays() {
+        let outcome = solve(&panels::scene("panel_no_floor").route(Route::Lemke)).unwrap();
+        assert_eq!(outcome.solve.status, lcp::Status::RayTermination);
+        assert!(outcome.state.is_none());
+        let tried = |form: &str| outcome.solve.attempts.iter().any(|line| line.starts_with(form));
+        assert!(tried("coulomb") && tried("mixed"), "{:?}", outcome.solve.attempts);
+        let rates = outcome.mechanism.as_ref().unwrap();
+        assert!(rates.iter().flatten().all(|rate| rate.y < 0.0), "all blocks fall");
+    }
+
+    /// The forms are different problems with the same answer.
+    #[test]
+    fn the_mixed_form_alone_gives_the_same_answer() {
+        let mut scene = panels::scene("panel_square_full_floor");
+        scene.solver.form = Form::Mixed;
+        let outcome = solve(&scene).unwrap();
+        let (a, b) = (state(&outcome).strain_energy, state(&FULL).strain_energy);
+        assert!((a / b - 1.0).abs() < 1e-10, "{a} and {b}");
+    }
 }

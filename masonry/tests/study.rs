@@ -10,6 +10,7 @@ mod words;
 
 use std::collections::BTreeSet;
 use std::path::Path;
+use std::sync::LazyLock;
 use std::time::Duration;
 
 use lcp::Status;
@@ -54,9 +55,14 @@ fn settings() -> Settings {
         routes: ROUTES.to_vec(),
         tolerances: vec![1e-3, 1e-6, 1e-12],
         meshes: vec![1, 2, 4],
+        // Times are not compared.
+        repeats: 1,
         ..Settings::default()
     }
 }
+
+/// The wall by all routes, for all tests that only read it.
+static WALL: LazyLock<Study> = LazyLock::new(|| studied(&wall(), &settings()));
 
 fn studied(scene: &Scene, settings: &Settings) -> Study {
     study(scene, settings, &mut |_| {}).unwrap()
@@ -106,7 +112,7 @@ fn every_combination_has_its_record_and_errors_fall_with_the_tolerance() {
 
 #[test]
 fn the_reference_has_no_error_and_another_route_confirms_it() {
-    let study = studied(&wall(), &settings());
+    let study = &*WALL;
     for mesh in &study.meshes {
         let reference = mesh.reference.as_ref().unwrap();
         assert!(reference.residual <= reference.tolerance && reference.tolerance <= 1e-12);
@@ -117,14 +123,14 @@ fn the_reference_has_no_error_and_another_route_confirms_it() {
         let distance = other.refined.unwrap_or_else(|| panic!("{reference:?}"));
         assert!(distance <= 1e-13, "{other:?}");
         // To its tightest tolerance the route of the reference finds the same, up to rounding.
-        let records = by(&study, reference.route, mesh.factor);
+        let records = by(study, reference.route, mesh.factor);
         assert!(worst(records[2]) <= 1e-12, "{:?}", records[2]);
     }
 }
 
 #[test]
 fn the_reference_is_refined_and_verified() {
-    let study = studied(&wall(), &settings());
+    let study = &*WALL;
     for mesh in &study.meshes {
         let reference = mesh.reference.as_ref().unwrap();
         let verified = reference.verified.as_ref().unwrap();
@@ -135,7 +141,7 @@ fn the_reference_is_refined_and_verified() {
         let distance = verified.distance.unwrap();
         assert!(distance > 0.0 && distance <= 1e-10, "the route ends at rounding: {verified:?}");
         // Against it even the route's own answer has an error.
-        assert!(by(&study, reference.route, mesh.factor).iter().all(|it| worst(it) < 1e-10));
+        assert!(by(study, reference.route, mesh.factor).iter().all(|it| worst(it) < 1e-10));
     }
 }
 
@@ -152,9 +158,9 @@ fn the_refined_reference_of_a_closed_form_is_exact() {
 
 #[test]
 fn pivots_are_counted_once_for_all_tolerances_that_they_reach() {
-    let study = studied(&wall(), &settings());
+    let study = &*WALL;
     for mesh in [1, 2, 4] {
-        let records = by(&study, Route::Lemke, mesh);
+        let records = by(study, Route::Lemke, mesh);
         for (loose, tight) in records.iter().zip(&records[1..]) {
             assert!(tight.residual.unwrap() <= tight.tolerance);
             if loose.residual.unwrap() <= tight.tolerance {
@@ -181,7 +187,8 @@ fn a_load_history_is_studied_at_its_end() {
         .support(Support::new("right", [0.2, 0.0], [0.4, 0.0], "bed"))
         .stage(Stage::new("weight"))
         .stage(Stage::new("settlement").steps(2).moves("right", moved));
-    let study = studied(&scene, &settings());
+    let routes = vec![Route::Lemke, Route::Interior];
+    let study = studied(&scene, &Settings { routes, ..settings() });
     for mesh in &study.meshes {
         let reference = mesh.reference.as_ref().unwrap();
         assert!(reference.verified.as_ref().unwrap().is_better(), "{reference:?}");
@@ -197,7 +204,7 @@ fn a_load_history_is_studied_at_its_end() {
 
 #[test]
 fn finer_meshes_come_nearer_to_the_finest() {
-    let study = studied(&wall(), &settings());
+    let study = &*WALL;
     let [coarse, fine, finest] = &study.meshes[..] else { panic!("three meshes") };
     assert_eq!([coarse.factor, fine.factor, finest.factor], [1, 2, 4]);
     // Of half bricks, half a length of one element is still one.

@@ -31,6 +31,8 @@ pub struct Case {
     pub amplified: f64,
     /// Routes that would take minutes.
     pub slow: Vec<Route>,
+    /// Routes that take seconds.
+    pub long: Vec<Route>,
 }
 
 /// A list of cases that are hard for one reason.
@@ -53,20 +55,43 @@ pub enum End {
     GaveUp { outcome: Box<Outcome> },
     /// It does not treat such scenes.
     Refused,
-    /// It would take minutes.
+    /// It would take minutes, or it is left to the long tests.
     Slow,
 }
 
 impl Case {
     pub fn new(name: &str, why: &'static str, scene: Scene) -> Self {
         let (parameters, expected) = (String::new(), String::new());
-        let (name, slow) = (name.to_owned(), Vec::new());
-        Self { name, why, parameters, expected, scene, truth: Truth::Open, amplified: 1.0, slow }
+        let (slow, long) = (Vec::new(), Vec::new());
+        Self {
+            name: name.to_owned(),
+            why,
+            parameters,
+            expected,
+            scene,
+            truth: Truth::Open,
+            amplified: 1.0,
+            slow,
+            long,
+        }
     }
 
     #[must_use]
     pub fn slow_by(mut self, routes: &[Route]) -> Self {
         self.slow.extend(routes);
+        self
+    }
+
+    #[must_use]
+    pub fn long_by(mut self, routes: &[Route]) -> Self {
+        self.long.extend(routes);
+        self
+    }
+
+    /// Without the routes that take seconds.
+    #[must_use]
+    pub fn shortened(mut self) -> Self {
+        self.slow.append(&mut self.long);
         self
     }
 
@@ -169,7 +194,7 @@ impl Tried {
 /// A load above its limit is less of all terms of the equations that it is in.
 const ABOVE: f64 = 20.0;
 
-/// The residual that is asked for: the augmented Lagrangian method converges by a fixed factor only.
+/// The required residual: the augmented Lagrangian method converges by a fixed factor only.
 fn asked(route: Route) -> f64 {
     if route == Route::Alm { 1e-8 } else { 1e-10 }
 }

@@ -2,7 +2,7 @@
 
 use masonry::ids::SupportId;
 use masonry::model::Body;
-use masonry::scene::{Joint, Load, Material, Scene, Support};
+use masonry::scene::{Joint, Load, Material, Route, Scene, Support};
 use masonry::units::{ForceUnit, LengthUnit, Units};
 use nalgebra::Vector2;
 
@@ -85,6 +85,7 @@ fn mortared_wall(ratio: f64, words: &str) -> Case {
     let mut filled = pressed(filled, width, height, 10.0);
     "floor".clone_into(&mut filled.supports[0].joint);
     Case::new(&format!("mortar {words} than the bricks by 1e6, wall"), RATIO, filled)
+        .long_by(&[Route::Pgs])
         .parameters("three courses of three bricks, films of 0.01 m, mu = 0.6, pressed by 10 kN/m2, weight inclined by 0.1")
         .known("the sum of the reactions is the load", reactions_off)
 }
@@ -164,6 +165,7 @@ fn in_units(units: Units) -> Case {
         "The numbers of the scene differ by up to 1e12; statuses and solutions must be the same.",
         converted(scene, units),
     )
+    .long_by(&[Route::Pgs])
     .parameters(
         "three courses of three bricks, mu = 0.6, pressed by 10 kN/m2, weight inclined by 0.1",
     )

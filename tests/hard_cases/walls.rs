@@ -56,6 +56,7 @@ fn grown([length, courses]: [u32; 2]) -> Case {
         wall(width, courses, 0.6, elastic()).stresses(false),
     )
     .slow_by(slow)
+    .long_by(if bricks < 120 { &[] } else { &[Route::Lemke] })
     .parameters(&format!("courses x bricks: {courses} x {length}, mu = 0.6, weight inclined by 0.1"))
     .known("the sum of the reactions is the load", reactions_off)
 }
@@ -81,6 +82,7 @@ fn settled(sinks: f64) -> Case {
         "Bricks that lose their support rotate far more than they deform.",
         scene,
     )
+    .long_by(&[Route::Pgs])
     .parameters("six courses of six bricks 0.25 x 0.125 m in 2 x 1 elements, thickness 0.25 m, mu = 0.6, the right half of the base sinks by 4 mm and turns by 0.004 in two steps")
     .known("the sum of the reactions is the weight", reactions_off)
 }

@@ -13,7 +13,7 @@ Problems that are hard on purpose, what is known about their solutions, and the 
 [their own page](hard_cases.md). The cases are in `tests/hard_cases/problems/`, which also writes this page:
 
 ```text
-HARD_CASES=write cargo test --test hard_cases
+HARD_CASES=write cargo test --features long-tests --test hard_cases
 ```
 
 A planted solution is exact: data and solution are numbers without rounding errors. Small problems are enumerated in rational arithmetic. The tolerance is
