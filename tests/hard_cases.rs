@@ -292,8 +292,8 @@ fn page_of_the_problems() {
 #[track_caller]
 fn assert_written(name: &str, page: &str) {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
-    if std::env::var_os("HARD_CASES").is_some_and(|it| it == "write") {
-        assert!(IS_LONG, "the pages have all routes: add --features long-tests");
+    // A page has all routes.
+    if IS_LONG && std::env::var_os("HARD_CASES").is_some_and(|it| it == "write") {
         std::fs::write(&file, page).unwrap();
     }
     let mut written = std::fs::read_to_string(&file).unwrap();
