@@ -146,7 +146,7 @@ impl Run<'_, '_> {
         let is_tried = self.search.try_start(&self.settings.start)
             || self.search.try_rest(self.settings.crossover);
         let (mut status, mut springs) = (is_tried.then_some(Status::Solved), None);
-        let attempts = if status.is_none() { &ATTEMPTS[..] } else { &[] };
+        let attempts = if status.is_none() { &ATTEMPTS[..self.settings.attempts] } else { &[] };
         for &(opened, patience) in attempts {
             let Search { scaled, condensed, .. } = &mut self.search;
             let at = start_opened(scaled, condensed, opened);
