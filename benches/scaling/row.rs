@@ -17,7 +17,7 @@ use crate::sparse;
 use crate::walls::{Case, Wall};
 
 /// The head of the table of rows.
-pub(crate) const HEAD: &str = "| case | mu | bricks | verdict | evidence | steps | found by law, smooth friction, motion | \
+pub(crate) const HEAD: &str = "| case | mu | bricks | verdict | evidence | steps | found by law, reduced friction, smooth friction, motion | \
      factorisations, mean of steps | most | time \\[s\\] | time / Cholesky | memory \\[MB\\] |\n\
      |:--|--:|:--|:--|:--|--:|:--|--:|--:|--:|--:|--:|\n";
 
@@ -31,8 +31,8 @@ pub(crate) struct Row {
     evidence: Evidence,
     /// Steps that were solved, of all; `None` without a history.
     steps: Option<[usize; 2]>,
-    /// How many were found by law, by smooth friction, by motion.
-    ways: [usize; 3],
+    /// How many were found by law, by reduced friction, by smooth friction, by motion.
+    ways: [usize; 4],
     /// Of every step; without a history the steps of all methods that were tried.
     counts: Vec<usize>,
     pub(crate) seconds: f64,
@@ -75,7 +75,7 @@ impl Row {
             verdict: outcome.judgement.verdict,
             evidence: outcome.judgement.evidence,
             steps: history.map(|it| [it.records.len(), it.steps]),
-            ways: [Way::Law, Way::SmoothFriction, Way::Motion].map(count),
+            ways: [Way::Law, Way::ReducedFriction, Way::SmoothFriction, Way::Motion].map(count),
             counts: counts(&outcome, iterations),
             seconds,
             phases: outcome.times,
@@ -110,12 +110,12 @@ impl fmt::Display for Row {
         let Self { case, mu, bricks, verdict, evidence, .. } = self;
         let steps =
             self.steps.map_or_else(|| "1".to_owned(), |[solved, all]| format!("{solved} of {all}"));
-        let [law, smooth, motion] = self.ways;
+        let ways = self.ways.map(|it| it.to_string()).join(", ");
         let most = self.counts.iter().max().copied().unwrap_or(0);
         let memory = self.memory.map_or_else(|| "-".to_owned(), |it| format!("{it:.0}"));
         write!(
             f,
-            "| {case} | {mu} | {bricks} | {verdict} | {evidence:?} | {steps} | {law}, {smooth}, {motion} | {:.0} | {most} | \
+            "| {case} | {mu} | {bricks} | {verdict} | {evidence:?} | {steps} | {ways} | {:.0} | {most} | \
              {:.1} | {:.0} | {memory} |",
             self.factorisations(),
             self.seconds,

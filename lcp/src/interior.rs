@@ -27,11 +27,13 @@ pub use least::LeastForces;
 pub use settings::InteriorPointSettings;
 
 use balance::{Balance, balance};
-use constants::{BALANCE_TOLERANCE, HELD, MORE, NEAR, NEARER, NO_STEP, PATIENCE, SURE, WIDTHS};
+use constants::{
+    ATTEMPTS, BALANCE_TOLERANCE, HELD, MORE, NEAR, NEARER, NO_STEP, PATIENCE, SURE, WIDTH,
+};
 use continuation::End;
 use iterate::{Defect, Iterate};
 use path::advance;
-use start::{set_out, start_again};
+use start::{set_out, start_opened};
 
 use crate::active::{Effort, Original, Search};
 use crate::solve::Monitor;
@@ -122,7 +124,7 @@ impl InteriorPoint {
         let monitor =
             Monitor::new(self.settings.max_iterations, self.settings.time_limit, observer);
         let search = Search::new(Method::Interior, problem, self.settings.tolerance)?;
-        Ok(Run { settings: &self.settings, problem, search, monitor, reached: 0.0 }.solve())
+        Ok(Run { settings: &self.settings, problem, search, monitor }.solve())
     }
 }
 
@@ -132,8 +134,6 @@ struct Run<'a, 'b> {
     problem: &'a dyn Original,
     search: Search<'a>,
     monitor: Monitor<'b>,
-    /// The largest gap or slip of the iterations so far.
-    reached: f64,
 }
 
 /// A step from a point, with the stiffness of the springs and the least product of a pair.
@@ -144,11 +144,11 @@ impl Run<'_, '_> {
         let is_tried = self.search.try_start(&self.settings.start)
             || self.search.try_rest(self.settings.crossover);
         let (mut status, mut springs) = (is_tried.then_some(Status::Solved), None);
-        let attempts = if status.is_none() { &WIDTHS[..] } else { &[] };
-        for width in attempts {
+        let attempts = if status.is_none() { &ATTEMPTS[..self.settings.attempts] } else { &[] };
+        for &(opened, patience) in attempts {
             let Search { scaled, condensed, .. } = &mut self.search;
-            let at = start_again(scaled, condensed, self.reached);
-            status = Some(self.iterate(at, *width, set_out));
+            let at = start_opened(scaled, condensed, opened);
+            status = Some(self.iterate(at, patience, set_out));
             if status != Some(Status::Stalled) {
                 break;
             }
@@ -162,7 +162,7 @@ impl Run<'_, '_> {
                 limit.is_none()
             });
             status = Some(match end {
-                End::Standing(at) => self.iterate(at, WIDTHS[0], advance),
+                End::Standing(at) => self.iterate(at, PATIENCE, advance),
                 End::Falling(path) if self.problem.has_bodies() => {
                     let status = self.fallen();
                     springs = (status == Status::NoEquilibrium).then_some(path);
@@ -215,8 +215,8 @@ impl Run<'_, '_> {
         }
     }
 
-    /// The interior-point iteration from a point inside, with a first step of its own.
-    fn iterate(&mut self, mut at: Iterate, width: f64, first_step: Step) -> Status {
+    /// The interior-point iteration from a point inside, with a first step of its own, until it has jammed for so many steps.
+    fn iterate(&mut self, mut at: Iterate, patience: usize, first_step: Step) -> Status {
         let mut step = first_step;
         let mut tried = NEAR / NEARER;
         let (_, first) = at.sizes();
@@ -252,13 +252,13 @@ impl Run<'_, '_> {
                 return if solved > 0 { Status::Solved } else { status };
             }
             let Search { scaled, condensed, .. } = &mut self.search;
-            let (next, alpha) = step(scaled, condensed, &at, (0.0, width));
+            let (next, alpha) = step(scaled, condensed, &at, (0.0, WIDTH));
             step = advance;
             let lack = Defect::of(scaled, &next, 0.0).size();
             let merit = next.gap(scaled) + lack * lack;
             since = if merit < 0.9 * least { 0 } else { since + 1 };
             least = least.min(merit);
-            if !next.is_finite() || alpha < NO_STEP || since > PATIENCE {
+            if !next.is_finite() || alpha < NO_STEP || since > patience {
                 // The residual is no guide where all of one side vanishes, which it is measured by.
                 let contacts = at.contacts(&self.search.scaled);
                 let is_exact = self.settings.crossover
@@ -266,7 +266,6 @@ impl Run<'_, '_> {
                 return if is_exact || solved > 0 { Status::Solved } else { Status::Stalled };
             }
             at = next;
-            self.reached = self.reached.max(at.sizes().1);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::constants::{
     ACCURACY, CONSTANT, FIRST_SPRING, IN_SEQUENCE, LAST_SPRING, LEAST_STEP, LIFT, NOTHING,
-    RESISTANCE, ROUNDING, SMOOTH_WIDTH, SOFT, SOFTER, STEPS, WIDTHS,
+    RESISTANCE, ROUNDING, SMOOTH_WIDTH, SOFT, SOFTER, STEPS, WIDTH,
 };
 use super::iterate::{Defect, Iterate};
 use super::path::advance;
@@ -107,7 +107,7 @@ pub(super) fn centred(
     (spring, accuracy): (f64, f64),
     mut go_on: impl FnMut(f64) -> bool,
 ) -> Option<Iterate> {
-    let width = if at.is_smooth() { SMOOTH_WIDTH } else { WIDTHS[0] };
+    let width = if at.is_smooth() { SMOOTH_WIDTH } else { WIDTH };
     for _ in 0..STEPS {
         let size = at.points.iter().fold(1.0_f64, |max, pairs| max.max(pairs.t_n));
         let lack = Defect::of(problem, &at, spring).size();

@@ -23,6 +23,9 @@ pub struct EvolutionSettings {
     pub time_limit: Option<Duration>,
     /// Whether rest is looked for without a motion first. Where supports move far it is seldom found so.
     pub at_once: bool,
+    /// The parts by which the coefficients of friction are reduced, one after the other, where rest is looked for without a
+    /// motion. In `(0, 1)`.
+    pub reductions: Vec<f64>,
     /// The slips over which smooth friction turns, as parts of the largest displacement of the start: the first where rest is
     /// looked for first, and the next one, if there is any, whenever that has failed after a motion. With short ones friction
     /// is near to Coulomb's; long ones lead to rest nearly always, but to one that forces hold which no loading may lead to.
@@ -36,8 +39,26 @@ impl Default for EvolutionSettings {
             max_iterations: 1000,
             time_limit: None,
             at_once: true,
+            reductions: Vec::new(),
             slips: SMOOTH.to_vec(),
         }
+    }
+}
+
+impl EvolutionSettings {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] with the name of the setting.
+    pub fn validate(&self) -> Result<(), Error> {
+        check_tolerance(self.tolerance)?;
+        if let Some(&value) = self.reductions.iter().find(|it| !(**it > 0.0 && **it < 1.0)) {
+            return Err(Error::Setting { name: "reductions", value, range: "between 0 and 1" });
+        }
+        if let Some(&value) = self.slips.iter().find(|slip| !(**slip > 0.0 && slip.is_finite())) {
+            return Err(Error::Setting { name: "slips", value, range: "above 0 and finite" });
+        }
+        Ok(())
     }
 }
 
@@ -45,14 +66,16 @@ impl Default for EvolutionSettings {
 ///
 /// Under loads or gaps that have changed, a contact problem with friction may have several solutions, or none that a
 /// method finds, since its law relates total slips. Bodies do not solve it: they move, and friction opposes the velocity
-/// at every moment. Three ways lead to a state at rest, one after the other ([`Way`](crate::Way)):
+/// at every moment. Four ways lead to a state at rest, one after the other ([`Way`](crate::Way)):
 ///
-/// 1. **Smooth friction.** Gaps and normal forces are complementary as always, but friction turns over a slip `e`, a
+/// 1. **Reduced friction.** The law as given, but with coefficients of friction that are smaller by a thousandth, say. Walls
+///    on which interior points jam are often solved with them. The forces are inside the friction cones of the problem.
+/// 2. **Smooth friction.** Gaps and normal forces are complementary as always, but friction turns over a slip `e`, a
 ///    thousandth of the displacements, or as long as they are: `(mu t_n + t_t) s_+ = (mu t_n - t_t) s_- = e mu t_n`. These
 ///    equations have a smooth path of interior points, and forces inside the friction cones.
-/// 2. **The law itself**, from the states of the contacts that this leads to, as in
+/// 3. **The law itself**, from the states of the contacts that this leads to, as in
 ///    [`InteriorPoint`](crate::InteriorPoint).
-/// 3. **Motion.** The bodies move against a viscosity `eta` from displacements `u_k` to
+/// 4. **Motion.** The bodies move against a viscosity `eta` from displacements `u_k` to
 ///
 ///    ```text
 ///    K u + eta V (u - u_k) = f + C_n^T t_n + C_t^T t_t,    slip measured from u_k,
@@ -132,16 +155,12 @@ impl Evolution {
         from: &[f64],
         observer: &mut Observer<'_>,
     ) -> Result<Evolved, Error> {
-        let EvolutionSettings { tolerance, max_iterations, time_limit, at_once, ref slips } =
-            self.settings;
-        check_tolerance(tolerance)?;
-        if let Some(&value) = slips.iter().find(|slip| !(**slip > 0.0 && slip.is_finite())) {
-            return Err(Error::Setting { name: "slips", value, range: "above 0 and finite" });
-        }
+        self.settings.validate()?;
+        let EvolutionSettings { tolerance, max_iterations, time_limit, .. } = self.settings;
         check_length("from", from.len(), problem.displacements())?;
         check_vector("from", from)?;
         let search = Search::new(Method::Interior, problem, tolerance)?;
         let monitor = Monitor::new(max_iterations, time_limit, observer);
-        Moving::new(problem, tolerance, search, monitor, from).until_rest(slips, at_once)
+        Moving::new(problem, tolerance, search, monitor, from).until_rest(&self.settings)
     }
 }

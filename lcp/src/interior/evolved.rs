@@ -13,6 +13,8 @@ use crate::{ContactState, SoftSprings, Solution};
 pub enum Way {
     /// The state solves the problem as given: Coulomb's law for the slips of the whole step.
     Law,
+    /// Coulomb's law for the slips of the whole step, with coefficients of friction that are slightly smaller.
+    ReducedFriction,
     /// Coulomb's law with friction that turns over a short slip.
     SmoothFriction,
     /// Motions against viscosity.
@@ -24,6 +26,7 @@ impl Way {
     pub fn name(self) -> &'static str {
         match self {
             Self::Law => "law",
+            Self::ReducedFriction => "reduced-friction",
             Self::SmoothFriction => "smooth-friction",
             Self::Motion => "motion",
         }

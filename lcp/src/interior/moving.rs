@@ -1,20 +1,26 @@
 //! Bodies on their way: rest by smooth friction, and motions against viscosity.
 
+use std::ops::ControlFlow;
+
 use super::constants::{
     AHEAD, FIRST_VISCOSITY, FREE, LAST_TRIES, LEAST_VISCOSITY, MOST_VISCOSITY, MOVED, SETTLING,
     STEADIER, STEADY, STEADY_MOTIONS, THROUGH, TRIES,
 };
+use super::evolution::EvolutionSettings;
 use super::evolved::{Evolved, Way};
 use super::iterate::Iterate;
 use super::motion::{Motions, Moved, Viscosity, unresisted};
-use super::rest::settled;
+use super::rest::{Rest, settled};
 use super::start::{start, start_smooth};
 use crate::active::{Effort, Search, unplanned};
 use crate::lower::judged_point;
 use crate::solve::Monitor;
-use crate::states::{PROXIMAL, Point};
+use crate::states::{Condensed, PROXIMAL, Point, Scaled};
 use crate::vector::max_abs;
-use crate::{Certificate, Contact2d, Error, Method, SoftSprings, Solution, Status};
+use crate::{
+    Certificate, Contact2d, Error, InteriorPoint, InteriorPointSettings, Iteration, Method,
+    SoftSprings, Solution, Solver, Status, WarmStart,
+};
 
 /// Where bodies rest.
 enum Found {
@@ -58,13 +64,13 @@ impl<'a, 'b> Moving<'a, 'b> {
     }
 
     /// Moves the bodies until they rest or flow; rest without a motion is looked for first if that is wanted.
-    pub(super) fn until_rest(mut self, slips: &[f64], at_once: bool) -> Result<Evolved, Error> {
+    pub(super) fn until_rest(mut self, settings: &EvolutionSettings) -> Result<Evolved, Error> {
+        let EvolutionSettings { at_once, reductions, slips, .. } = settings;
         let mut path = SoftSprings::default();
-        let shortest = slips.first().filter(|_| at_once);
-        match shortest.and_then(|&slip| self.rest(slip, true)) {
-            Some(Found::Law) => return Ok(self.by_law(path)),
-            Some(Found::Rest(from, solution)) => {
-                return Ok(self.concluded((Way::SmoothFriction, from, *solution), path));
+        match if *at_once { self.rest_at_once(reductions, slips) } else { None } {
+            Some((_, Found::Law)) => return Ok(self.by_law(path)),
+            Some((way, Found::Rest(from, solution))) => {
+                return Ok(self.concluded((way, from, *solution), path));
             }
             None => {}
         }
@@ -129,6 +135,46 @@ impl<'a, 'b> Moving<'a, 'b> {
         self.given_up(path, status)
     }
 
+    /// Rest without a motion, or the solution of the problem itself next to it.
+    fn rest_at_once(&mut self, reductions: &[f64], slips: &[f64]) -> Option<(Way, Found)> {
+        for reduction in reductions {
+            let found = self.with_reduced_friction(*reduction);
+            if found.is_some() || self.limit.is_some() {
+                return found.map(|found| (Way::ReducedFriction, found));
+            }
+        }
+        slips.first().and_then(|slip| self.rest(*slip, true)).map(|it| (Way::SmoothFriction, it))
+    }
+
+    /// The solution with coefficients of friction that are smaller by this part, whose forces are inside the cones of the
+    /// problem; or that of the problem with the same states of contacts.
+    fn with_reduced_friction(&mut self, part: f64) -> Option<Found> {
+        let Self { problem, tolerance, search, monitor, limit, dissipation, .. } = self;
+        let settings = InteriorPointSettings {
+            tolerance: *tolerance,
+            max_iterations: usize::MAX,
+            attempts: 1,
+            continuation: false,
+            ..InteriorPointSettings::default()
+        };
+        let observer = &mut |at: &Iteration| {
+            *limit = monitor.stop(at.residual);
+            if limit.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let reduced = problem.with_reduced_friction(part);
+        let solution = InteriorPoint::new(settings).solve_observed(&reduced, observer).ok()?;
+        search.condensed.factorisations += solution.info.factorisations;
+        let state = solution.contact.filter(|_| solution.status == Status::Solved)?;
+        if search.try_start(&solution.basis.map_or(WarmStart::None, WarmStart::Basis)) {
+            return Some(Found::Law);
+        }
+        let Search { scaled, condensed, .. } = search;
+        let at = scaled.of_state(&state);
+        let found = at_rest((problem, *tolerance), (scaled, condensed), at)?;
+        *dissipation += found.1;
+        Some(found.0)
+    }
+
     /// The state at rest that friction leads to which turns over this part of the displacements of the start, with slips from
     /// there; or the solution of the problem itself next to it, where that is wanted.
     fn rest(&mut self, part: f64, by_law: bool) -> Option<Found> {
@@ -159,19 +205,11 @@ impl<'a, 'b> Moving<'a, 'b> {
             _ => start_smooth(scaled, condensed, part * size),
         };
         let mut states = None;
-        let found =
-            settled(scaled, condensed, begin, wanted, go_on, |condensed, at, (u, forces)| {
-                let from = scaled.displacements(&u);
-                let there = problem.after(&from).ok()?;
-                let mut other = Search::new(Method::Interior, &there, *tolerance).ok()?;
-                other.try_point((&u, &forces), Some(&Effort::held(PROXIMAL)));
-                condensed.factorisations += other.condensed.factorisations;
-                let solution = other.found()?;
-                let slid = |(point, (_, t_t)): (&Point, &(f64, f64))| -t_t * point.slip(&u);
-                let dissipation = scaled.points.iter().zip(&forces).map(slid).sum();
-                states = Some((at.u.clone(), at.forces(), at.contacts(scaled)));
-                Some((Found::Rest(from, Box::new(solution)), dissipation))
-            });
+        let found = settled(scaled, condensed, begin, wanted, go_on, |condensed, at, rest| {
+            let found = at_rest((problem, *tolerance), (scaled, condensed), rest)?;
+            states = Some((at.u.clone(), at.forces(), at.contacts(scaled)));
+            Some(found)
+        });
         if let Some((u, forces, contacts)) = states.filter(|_| by_law)
             && search.cross_over((&u, &forces), contacts, &Effort::QUICK)
         {
@@ -282,6 +320,23 @@ impl<'a, 'b> Moving<'a, 'b> {
         solution.info.factorisations = factorisations;
         Evolved { way, from: Some(from), solution, motions, dissipation }
     }
+}
+
+/// A state at rest, if the judge agrees, and what friction took on the way there.
+fn at_rest(
+    (problem, tolerance): (&Contact2d, f64),
+    (scaled, condensed): (&Scaled, &mut Condensed),
+    (u, forces): Rest,
+) -> Option<(Found, f64)> {
+    let from = scaled.displacements(&u);
+    let there = problem.after(&from).ok()?;
+    let mut search = Search::new(Method::Interior, &there, tolerance).ok()?;
+    search.try_point((&u, &forces), Some(&Effort::held(PROXIMAL)));
+    condensed.factorisations += search.condensed.factorisations;
+    let solution = search.found()?;
+    let slid = |(point, (_, t_t)): (&Point, &(f64, f64))| -t_t * point.slip(&u);
+    let dissipation = scaled.points.iter().zip(&forces).map(slid).sum();
+    Some((Found::Rest(from, Box::new(solution)), dissipation))
 }
 
 fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {

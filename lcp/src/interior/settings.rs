@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use super::constants::ATTEMPTS;
 use crate::settings::check_tolerance;
 use crate::{Error, WarmStart};
 
@@ -13,6 +14,8 @@ pub struct InteriorPointSettings {
     /// Steps, each with one factorisation; those of the continuation count too. The systems of the crossover
     /// come on top.
     pub max_iterations: usize,
+    /// Attempts, each from another start, which follow when the one before has jammed. In `1..=3`.
+    pub attempts: usize,
     /// Wall-clock time, looked at before every step; `None` is no limit.
     pub time_limit: Option<Duration>,
     /// A point or a basis, of the pairs of the general form, that may be the solution of a similar
@@ -30,6 +33,7 @@ impl Default for InteriorPointSettings {
         Self {
             tolerance: 1e-10,
             max_iterations: 300,
+            attempts: ATTEMPTS.len(),
             time_limit: None,
             start: WarmStart::None,
             crossover: true,
@@ -45,6 +49,10 @@ impl InteriorPointSettings {
     /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
     pub fn validate(&self, n: usize) -> Result<(), Error> {
         check_tolerance(self.tolerance)?;
+        if !(1..=ATTEMPTS.len()).contains(&self.attempts) {
+            let value = self.attempts as f64;
+            return Err(Error::Setting { name: "attempts", value, range: "1 to 3" });
+        }
         self.start.validate(n)
     }
 }

@@ -1,6 +1,6 @@
 //! Where the iteration starts, and how it finds out how far bodies move.
 
-use super::constants::{FAR, HALF, MOST_FRICTION, OPENED, OPENINGS, WIDE};
+use super::constants::{HALF, MOST_FRICTION, OPENED, OPENINGS, WIDE};
 use super::iterate::{Iterate, Pairs};
 use super::path::{Ahead, advance};
 use crate::states::{Condensed, PROXIMAL, Scaled, Springs};
@@ -59,11 +59,11 @@ pub(super) fn start_smooth(problem: &Scaled, condensed: &mut Condensed, slip: f6
     at
 }
 
-/// A start for one more attempt, where those before went as far as `reached` in gaps and slips.
-pub(super) fn start_again(problem: &Scaled, condensed: &mut Condensed, reached: f64) -> Iterate {
+/// A start with gaps and slips wider by a multiple of the largest.
+pub(super) fn start_opened(problem: &Scaled, condensed: &mut Condensed, by: f64) -> Iterate {
     let at = start(problem, condensed, PROXIMAL);
     let (_, length) = at.sizes();
-    if reached > FAR * length { at.opened(problem, OPENED * reached) } else { at }
+    at.opened(problem, by * length)
 }
 
 /// The first step, with the options of [`advance`], from a start that is opened first if need be.

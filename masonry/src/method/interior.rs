@@ -103,6 +103,7 @@ impl Interior<'_> {
             ..EvolutionSettings::default()
         };
         if self.start.is_none() {
+            settings.reductions = auto::REDUCTIONS.to_vec();
             settings.slips = auto::SLIPS_FROM_NOTHING.to_vec();
         }
         let evolved = Evolution::new(settings)
@@ -160,6 +161,9 @@ fn described(evolved: &Evolved) -> String {
     let Info { factorisations, .. } = evolved.solution.info;
     let way = match (evolved.way, evolved.solution.status) {
         (Way::Law, _) => "solved after a start with smooth friction".to_owned(),
+        (Way::ReducedFriction, _) => {
+            "at rest with coefficients of friction that are slightly smaller".to_owned()
+        }
         (Way::SmoothFriction, _) => "at rest with friction that turns over a short slip".to_owned(),
         (_, Status::Solved) => {
             format!(

@@ -137,25 +137,24 @@ fn law(known: &Known<'_>) -> Option<String> {
     if known.history.is_none() && known.state.is_some() {
         ways.push(known.info.way);
     }
-    let count = |way| ways.iter().filter(|it| **it == way).count();
-    let [smooth, moved] = [lcp::Way::SmoothFriction, lcp::Way::Motion].map(count);
-    let steps = |count: usize| {
-        if known.history.is_some() {
-            format!(" in {count} of {} steps", ways.len())
-        } else {
-            String::new()
-        }
+    let how = |(way, how): (lcp::Way, &str)| {
+        let count = ways.iter().filter(|it| **it == way).count();
+        let steps = match known.history {
+            Some(_) => format!(" in {count} of {} steps", ways.len()),
+            None => String::new(),
+        };
+        (count > 0).then(|| format!("{how}{steps}"))
     };
-    let how = match (smooth, moved) {
-        (0, 0) => return None,
-        (_, 0) => format!("with friction that grows over a short slip{}", steps(smooth)),
-        (0, _) => format!("by a slow motion against viscosity{}", steps(moved)),
-        _ => format!(
-            "with friction that grows over a short slip{} and by a slow motion against viscosity{}",
-            steps(smooth),
-            steps(moved)
-        ),
-    };
+    let all = [
+        (lcp::Way::ReducedFriction, "with slightly less friction than given"),
+        (lcp::Way::SmoothFriction, "with friction that grows over a short slip"),
+        (lcp::Way::Motion, "by a slow motion against viscosity"),
+    ];
+    let how: Vec<String> = all.into_iter().filter_map(how).collect();
+    if how.is_empty() {
+        return None;
+    }
+    let how = how.join(" and ");
     let slips = if known.history.is_none() { " Slips are measured from this state." } else { "" };
     Some(format!(
         "The blocks came to rest {how}. Forces balance the loads within friction, but there are other states of \
