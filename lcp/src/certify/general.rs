@@ -5,7 +5,7 @@ use super::significance::{Term, terms_of};
 use super::{Residuals, weights};
 use crate::extended::{Extended, extended};
 use crate::matrix::Column;
-use crate::scaling::{GIVEN, equilibrate};
+use crate::scaling::equilibrate;
 use crate::{HorizontalLcp, Side};
 
 impl HorizontalLcp {
@@ -54,7 +54,7 @@ impl<'a> GeneralJudge<'a> {
 
     /// For another right-hand side, of which every entry comes with the size of its terms.
     pub(crate) fn with_right_hand_side(problem: &'a HorizontalLcp, c: Vec<(f64, f64)>) -> Self {
-        let (row, col) = equilibrate(problem.order(), &problem.columns(), GIVEN);
+        let (row, col) = equilibrate(problem.order(), &problem.columns());
         Self::with_factors(problem, c, (&row, &col))
     }
 
