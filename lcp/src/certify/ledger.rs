@@ -48,27 +48,29 @@ impl Digits for Extended {
 /// How exactly the rows of a point are computed, and what of the loads rounding may excuse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Precision {
-    /// In `f64`, less the rounding errors that the sums may have: of points on the way. Where what is left of the
-    /// loads is beyond the tolerance already, rows that matter to no load count like all others.
-    Quick {
-        /// What a solution may miss.
-        tolerance: f64,
-    },
+    /// In `f64`, less the rounding errors that the sums may have; rows that matter to no load count like all others: of
+    /// points on the way.
+    Quick,
+    /// In `f64`, less these rounding errors: of points that are given up.
+    Usual,
     /// With twice the digits where that may matter, less the rounding error of a point that is exact but for the
     /// last digit of its numbers: of answers.
     Rounded,
+    /// The same where only what is left of the loads is asked for: all rows count.
+    RoundedLoads,
     /// With twice the digits: of points about to be called solved, and of those that have these digits.
     Exact,
 }
 
 impl Precision {
-    fn is_quick(self) -> bool {
-        matches!(self, Self::Quick { .. })
+    /// Whether rows are summed in `f64`, however large their terms are.
+    fn is_usual(self) -> bool {
+        matches!(self, Self::Quick | Self::Usual)
     }
 
-    /// Whether a point with what is left of the loads is none, whatever else may be wrong.
-    fn is_refused(self, loads: f64) -> bool {
-        matches!(self, Self::Quick { tolerance } if loads > tolerance)
+    /// Whether rows that matter to no load are told from the others.
+    fn tells_rows(self) -> bool {
+        !matches!(self, Self::Quick | Self::RoundedLoads)
     }
 }
 
@@ -136,7 +138,7 @@ pub(super) fn residuals_or_refined(
     let rows = point.rows();
     let mut sizes = rows.1.iter().zip(weights);
     let is_hidden = |(terms, weight)| length * f64::EPSILON * terms * weight > SMALL;
-    if !precision.is_quick() && sizes.any(is_hidden) {
+    if !precision.is_usual() && sizes.any(is_hidden) {
         return refined();
     }
     residuals_of_rows(point, rows, (weights, length), precision)
@@ -163,7 +165,7 @@ fn residuals_of_rows(
     let strict = ledger.finished(length, precision);
     let Residuals { equation, natural, loads, .. } = strict;
     let apparent = equation.max(natural);
-    if apparent <= SMALL || loads > MINOR * apparent || precision.is_refused(loads) {
+    if !precision.tells_rows() || apparent <= SMALL || loads > MINOR * apparent {
         return strict;
     }
     let terms = |visit: &mut dyn FnMut(&Term)| point.for_each_term(visit);
@@ -267,15 +269,13 @@ impl<'a> Ledger<'a> {
         let Self { rest, terms, weights, changes, .. } = self;
         let mut residuals = self.residuals;
         let noise = match precision {
-            Precision::Quick { .. } => length * f64::EPSILON,
-            Precision::Rounded => ROUNDING,
+            Precision::Quick | Precision::Usual => length * f64::EPSILON,
+            Precision::Rounded | Precision::RoundedLoads => ROUNDING,
             Precision::Exact => 0.0,
         };
         for (i, (rest, weight)) in rest.iter().zip(*weights).enumerate() {
-            let rounding = match precision {
-                Precision::Quick { .. } => noise * terms[i] * weight,
-                _ => (noise * terms[i] * weight).min(LARGEST_ROUNDING),
-            };
+            let most = if precision.is_usual() { f64::INFINITY } else { LARGEST_ROUNDING };
+            let rounding = (noise * terms[i] * weight).min(most);
             let left = (rest.abs() * weight - rounding).max(0.0);
             let left = left + changes.get(i).unwrap_or(&0.0) * weight;
             // A NaN is no small residual.
