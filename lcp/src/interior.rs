@@ -224,6 +224,7 @@ impl Run<'_, '_> {
         let (_, first) = at.sizes();
         let (mut least, mut since) = (f64::INFINITY, 0);
         let mut solved = 0;
+        let mut defect = Defect::of(&self.search.scaled, &at, 0.0);
         loop {
             let forces = at.forces();
             let worst = self.search.judge(&at.u, &forces);
@@ -231,8 +232,8 @@ impl Run<'_, '_> {
             // Where nothing moves the residuals measure gaps by noise.
             let (force, length) = at.sizes();
             let units = (force.max(1.0), length.max(first));
-            let defect = Defect::of(&self.search.scaled, &at, 0.0).relative(units);
-            let near = at.natural(&self.search.scaled, units).max(defect).min(worst);
+            let natural = at.natural(&self.search.scaled, units);
+            let near = natural.max(defect.relative(units)).min(worst);
             if self.settings.crossover && (is_solved || near <= NEARER * tried) {
                 tried = near;
                 let contacts = at.contacts(&self.search.scaled);
@@ -256,7 +257,8 @@ impl Run<'_, '_> {
             let Search { scaled, condensed, .. } = &mut self.search;
             let (next, alpha) = step(scaled, condensed, &at, (0.0, width));
             step = advance;
-            let lack = Defect::of(scaled, &next, 0.0).size();
+            defect = Defect::of(scaled, &next, 0.0);
+            let lack = defect.size();
             let merit = next.gap(scaled) + lack * lack;
             since = if merit < 0.9 * least { 0 } else { since + 1 };
             least = least.min(merit);

@@ -114,8 +114,10 @@ fn mixture(
     predictor: &Iterate,
     centring: &Iterate,
 ) -> (Iterate, f64) {
-    let reduction =
-        |share: f64| (1.0 - share) * at.longest(problem, &predictor.mixed(centring, share));
+    let reduction = |share: f64| {
+        let pairs = predictor.points.iter().zip(&centring.points);
+        (1.0 - share) * at.longest_of(problem, pairs.map(|(a, b)| a.mixed(b, share)))
+    };
     let tried = MIXTURES.map(|share| (reduction(share), share));
     let (best, share) = tried.into_iter().fold((0.0, 1.0), |a, b| if b.0 > a.0 { b } else { a });
     let share = if best < PROGRESS && !is_central(problem, at) { 1.0 } else { share };
