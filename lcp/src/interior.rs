@@ -138,8 +138,8 @@ struct Run<'a, 'b> {
     reached: f64,
 }
 
-/// A step from a point, with the stiffness of the springs and the least product of a pair.
-type Step = fn(&Scaled, &mut Condensed, &Iterate, (f64, f64)) -> (Iterate, f64);
+/// A step from a point with its residuals, with the stiffness of the springs and the least product of a pair.
+type Step = fn(&Scaled, &mut Condensed, (&Iterate, &Defect), (f64, f64)) -> (Iterate, f64);
 
 impl Run<'_, '_> {
     fn solve(mut self) -> Solution {
@@ -255,7 +255,7 @@ impl Run<'_, '_> {
                 return if solved > 0 { Status::Solved } else { status };
             }
             let Search { scaled, condensed, .. } = &mut self.search;
-            let (next, alpha) = step(scaled, condensed, &at, (0.0, width));
+            let (next, alpha) = step(scaled, condensed, (&at, &defect), (0.0, width));
             step = advance;
             defect = Defect::of(scaled, &next, 0.0);
             let lack = defect.size();

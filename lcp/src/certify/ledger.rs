@@ -1,5 +1,7 @@
 //! Rows at a point: what is left of each, the sizes of its terms, and what violated conditions add.
 
+use std::borrow::Cow;
+
 use super::Residuals;
 use super::constants::{LARGEST_ROUNDING, MINOR, ROUNDING, SMALL};
 use super::significance::{Term, significance};
@@ -101,8 +103,8 @@ impl<X: Digits> Rows<X> {
 /// The residuals of a point while its conditions are gone through.
 pub(super) struct Ledger<'a> {
     /// What is left of every row.
-    rest: Vec<f64>,
-    terms: Vec<f64>,
+    rest: &'a [f64],
+    terms: &'a [f64],
     /// One over the loads that every row feels.
     weights: &'a [f64],
     /// What every row counts; all of them one where it is empty.
@@ -115,7 +117,7 @@ pub(super) struct Ledger<'a> {
 /// A point whose rows and conditions can be gone through.
 pub(super) trait Point {
     /// What is left of the rows, and their terms.
-    fn rows(&self) -> (Vec<f64>, Vec<f64>);
+    fn rows(&self) -> (Cow<'_, [f64]>, Cow<'_, [f64]>);
 
     /// What the right-hand side of every row makes it count, between zero and one.
     fn sources(&self) -> Vec<f64>;
@@ -135,13 +137,13 @@ pub(super) fn residuals_or_refined(
     precision: Precision,
     refined: impl FnOnce() -> Residuals,
 ) -> Residuals {
-    let rows = point.rows();
-    let mut sizes = rows.1.iter().zip(weights);
+    let (rest, terms) = point.rows();
+    let mut sizes = terms.iter().zip(weights);
     let is_hidden = |(terms, weight)| length * f64::EPSILON * terms * weight > SMALL;
     if !precision.is_usual() && sizes.any(is_hidden) {
         return refined();
     }
-    residuals_of_rows(point, rows, (weights, length), precision)
+    residuals_of_rows(point, (&rest, &terms), (weights, length), precision)
 }
 
 /// The residuals of a point with one over the loads of its rows, of so many terms at most.
@@ -150,13 +152,14 @@ pub(super) fn residuals(
     rows: (&[f64], f64),
     precision: Precision,
 ) -> Residuals {
-    residuals_of_rows(point, point.rows(), rows, precision)
+    let (rest, terms) = point.rows();
+    residuals_of_rows(point, (&rest, &terms), rows, precision)
 }
 
 /// Rows that do not matter to the loads are told only where something in them seems to be wrong.
 fn residuals_of_rows(
     point: &impl Point,
-    (rest, terms): (Vec<f64>, Vec<f64>),
+    (rest, terms): (&[f64], &[f64]),
     (weights, length): (&[f64], f64),
     precision: Precision,
 ) -> Residuals {
@@ -168,9 +171,8 @@ fn residuals_of_rows(
     if !precision.tells_rows() || apparent <= SMALL || loads > MINOR * apparent {
         return strict;
     }
-    let terms = |visit: &mut dyn FnMut(&Term)| point.for_each_term(visit);
-    let significance = significance(&ledger.terms, &point.sources(), weights, &terms);
-    let Ledger { rest, terms, .. } = ledger;
+    let all = |visit: &mut dyn FnMut(&Term)| point.for_each_term(visit);
+    let significance = significance(terms, &point.sources(), weights, &all);
     let mut ledger = Ledger { significance, ..Ledger::new(rest, terms, weights) };
     ledger.count_rows();
     point.conditions(&mut ledger);
@@ -192,7 +194,7 @@ pub(super) struct Entry<'a> {
 }
 
 impl<'a> Ledger<'a> {
-    fn new(rest: Vec<f64>, terms: Vec<f64>, weights: &'a [f64]) -> Self {
+    fn new(rest: &'a [f64], terms: &'a [f64], weights: &'a [f64]) -> Self {
         let (significance, changes) = (Vec::new(), Vec::new());
         let residuals = Residuals::default();
         let mut ledger = Self { rest, terms, weights, significance, changes, residuals };

@@ -15,16 +15,16 @@ use crate::states::{Condensed, PROXIMAL, Scaled};
 pub(super) fn advance(
     problem: &Scaled,
     condensed: &mut Condensed,
-    at: &Iterate,
+    (at, defect): (&Iterate, &Defect),
     (spring, width): (f64, f64),
 ) -> (Iterate, f64) {
-    Ahead::of(problem, condensed, at, spring).advance(problem, at, width)
+    Ahead::of(problem, condensed, (at, defect), spring).advance(problem, at, width)
 }
 
 /// What lies ahead of a point.
 pub(super) struct Ahead<'a> {
     tangent: Tangent<'a>,
-    defect: Defect,
+    defect: &'a Defect,
     /// The step to products of zero.
     pub(super) predictor: Iterate,
 }
@@ -33,12 +33,11 @@ impl<'a> Ahead<'a> {
     pub(super) fn of(
         problem: &'a Scaled,
         condensed: &'a mut Condensed,
-        at: &'a Iterate,
+        (at, defect): (&'a Iterate, &'a Defect),
         spring: f64,
     ) -> Self {
         let tangent = Tangent::new(problem, condensed, at, spring.max(PROXIMAL));
-        let defect = Defect::of(problem, at, spring);
-        let predictor = tangent.step(&defect, &targets(problem, at, 0.0, None));
+        let predictor = tangent.step(defect, &targets(problem, at, 0.0, None));
         Self { tangent, defect, predictor }
     }
 

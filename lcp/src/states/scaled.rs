@@ -24,6 +24,9 @@ pub(crate) struct Scaled {
     idle: Option<(Vec<bool>, Vec<bool>)>,
 }
 
+/// Displacements and forces, copied where they were changed.
+type Settled<'a> = (Cow<'a, [f64]>, Cow<'a, [(f64, f64)]>);
+
 /// A contact point: the displacements that it depends on, with their coefficients in gap and slip.
 pub(crate) struct Point {
     pub(crate) columns: Vec<usize>,
@@ -222,11 +225,7 @@ impl Scaled {
     }
 
     /// The same displacements and forces, with zeros where nothing moves and nothing is moved.
-    pub(crate) fn settled<'a>(
-        &self,
-        u: &'a [f64],
-        forces: &'a [(f64, f64)],
-    ) -> (Cow<'a, [f64]>, Cow<'a, [(f64, f64)]>) {
+    pub(crate) fn settled<'a>(&self, u: &'a [f64], forces: &'a [(f64, f64)]) -> Settled<'a> {
         let (mut u, mut forces) = (Cow::from(u), Cow::from(forces));
         if self.idle.is_some() {
             self.settle(u.to_mut(), forces.to_mut());
