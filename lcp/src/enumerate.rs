@@ -15,7 +15,7 @@ use crate::certify::{Leaf, ROUNDING, is_proof_of};
 use crate::extended::{Extended, extended};
 use crate::matrix::Column;
 use crate::nonnegative::{LeastSquares, Minimum};
-use crate::scaling::{GIVEN, equilibrate};
+use crate::scaling::equilibrate;
 use crate::vector::max_abs;
 use crate::{Basis, HorizontalLcp, Side};
 
@@ -119,7 +119,7 @@ impl<'a> Tree<'a> {
     fn new(problem: &'a HorizontalLcp) -> Self {
         let n = problem.order();
         let columns: Vec<Column<'_>> = columns(problem, &vec![None; n]).collect();
-        let (rows, mut factors) = equilibrate(n, &columns, GIVEN);
+        let (rows, mut factors) = equilibrate(n, &columns);
         let scaled = columns.iter().zip(&factors).map(|(column, factor)| {
             let mut scaled = vec![0.0; n];
             column.for_each(|i, v| scaled[i] += factor * (v * rows[i]));

@@ -136,8 +136,8 @@ struct Run<'a, 'b> {
     monitor: Monitor<'b>,
 }
 
-/// A step from a point, with the stiffness of the springs and the least product of a pair.
-type Step = fn(&Scaled, &mut Condensed, &Iterate, (f64, f64)) -> (Iterate, f64);
+/// A step from a point with its residuals, with the stiffness of the springs and the least product of a pair.
+type Step = fn(&Scaled, &mut Condensed, (&Iterate, &Defect), (f64, f64)) -> (Iterate, f64);
 
 impl Run<'_, '_> {
     fn solve(mut self) -> Solution {
@@ -222,6 +222,7 @@ impl Run<'_, '_> {
         let (_, first) = at.sizes();
         let (mut least, mut since) = (f64::INFINITY, 0);
         let mut solved = 0;
+        let mut defect = Defect::of(&self.search.scaled, &at, 0.0);
         loop {
             let forces = at.forces();
             let worst = self.search.judge(&at.u, &forces);
@@ -229,8 +230,8 @@ impl Run<'_, '_> {
             // Where nothing moves the residuals measure gaps by noise.
             let (force, length) = at.sizes();
             let units = (force.max(1.0), length.max(first));
-            let defect = Defect::of(&self.search.scaled, &at, 0.0).relative(units);
-            let near = at.natural(&self.search.scaled, units).max(defect).min(worst);
+            let natural = at.natural(&self.search.scaled, units);
+            let near = natural.max(defect.relative(units)).min(worst);
             if self.settings.crossover && (is_solved || near <= NEARER * tried) {
                 tried = near;
                 let contacts = at.contacts(&self.search.scaled);
@@ -252,9 +253,10 @@ impl Run<'_, '_> {
                 return if solved > 0 { Status::Solved } else { status };
             }
             let Search { scaled, condensed, .. } = &mut self.search;
-            let (next, alpha) = step(scaled, condensed, &at, (0.0, WIDTH));
+            let (next, alpha) = step(scaled, condensed, (&at, &defect), (0.0, WIDTH));
             step = advance;
-            let lack = Defect::of(scaled, &next, 0.0).size();
+            defect = Defect::of(scaled, &next, 0.0);
+            let lack = defect.size();
             let merit = next.gap(scaled) + lack * lack;
             since = if merit < 0.9 * least { 0 } else { since + 1 };
             least = least.min(merit);

@@ -7,11 +7,9 @@
 
 use crate::matrix::Column;
 
-/// Entries below this, once the largest of their row and column is near one, are rounding errors
-/// of a computed tableau and have no say in its scaling.
-pub(crate) const COMPUTED: f64 = 1e-13;
-/// Of data as they were given only entries below the rounding errors of the others do not count.
-pub(crate) const GIVEN: f64 = 1e-15;
+/// Entries below this, once the largest of their row and column is near one, are below the rounding errors of the
+/// others and do not count in the balance.
+const NOISE: f64 = 1e-15;
 
 /// Row and column factors, all powers of two, that bring the entries of a matrix, given by its
 /// columns, near one.
@@ -19,15 +17,23 @@ pub(crate) const GIVEN: f64 = 1e-15;
 /// The largest entries of rows and columns alone (Ruiz 2001) leave a freedom: in `[A, -R^T; R, 0]`
 /// the size of `A`, and with it the units of the problem, would stay whatever they are. So the
 /// logarithms of all entries are balanced in between (Curtis and Reid 1972). A row or column of
-/// zeros keeps the factor one. Entries up to `noise` do not count in the balance.
-pub(crate) fn equilibrate(rows: usize, columns: &[Column<'_>], noise: f64) -> (Vec<f64>, Vec<f64>) {
-    let mut factors = Factors { row: vec![1.0; rows], col: vec![1.0; columns.len()] };
+/// zeros keeps the factor one.
+pub(crate) fn equilibrate(rows: usize, columns: &[Column<'_>]) -> (Vec<f64>, Vec<f64>) {
+    let mut factors = Factors::ones(rows, columns.len());
     factors.damp_largest(columns);
-    factors.balance_logarithms(columns, noise);
+    factors.balance_logarithms(columns);
     factors.damp_largest(columns);
-    let Factors { mut row, mut col } = factors;
-    row.iter_mut().chain(&mut col).for_each(|f| *f = power_of_two(*f));
-    (row, col)
+    factors.rounded()
+}
+
+/// The same for a computed matrix, by its largest entries alone.
+///
+/// Entries of the inverse of a band decrease exponentially with their distance from the diagonal. They are no rounding
+/// errors, but if the balance of logarithms counted them like all others, rows would get factors of up to `1e12`.
+pub(crate) fn equilibrate_computed(rows: usize, columns: &[Column<'_>]) -> (Vec<f64>, Vec<f64>) {
+    let mut factors = Factors::ones(rows, columns.len());
+    factors.damp_largest(columns);
+    factors.rounded()
 }
 
 struct Factors {
@@ -36,6 +42,10 @@ struct Factors {
 }
 
 impl Factors {
+    fn ones(rows: usize, columns: usize) -> Self {
+        Self { row: vec![1.0; rows], col: vec![1.0; columns] }
+    }
+
     /// Divides every row and column by the root of its largest entry (Ruiz), a few times or until
     /// all of these are within a factor of two of one.
     fn damp_largest(&mut self, columns: &[Column<'_>]) {
@@ -61,13 +71,13 @@ impl Factors {
 
     /// Least squares of `log |m_ij| + log row_i + log col_j` over the nonzero entries, by
     /// alternating means, until no logarithm moves by more than a quarter.
-    fn balance_logarithms(&mut self, columns: &[Column<'_>], noise: f64) {
+    fn balance_logarithms(&mut self, columns: &[Column<'_>]) {
         const SWEEPS: usize = 6;
         const SETTLED: f64 = 0.25;
         let mut col = vec![0.0; self.col.len()];
         let mut sums = Sums::new(self.row.len());
         for ((column, mean), factor) in columns.iter().zip(&mut col).zip(&self.col) {
-            *mean = negative_mean(sums.add(*column, &self.row, (*factor, 0.0), noise));
+            *mean = negative_mean(sums.add(*column, &self.row, (*factor, 0.0)));
         }
         let is_full = sums.counts.iter().all(|count| *count >= columns.len() as f64);
         let mut row = sums.negative_means();
@@ -80,8 +90,8 @@ impl Factors {
             let mut sums = Sums::new(row.len());
             // Each column is read once: its own mean, then its share of the sums along rows.
             for ((column, log_col), factor) in columns.iter().zip(&mut col).zip(&self.col) {
-                *log_col = negative_column_mean(*column, (&self.row, &row), *factor, noise);
-                sums.add(*column, &self.row, (*factor, *log_col), noise);
+                *log_col = negative_column_mean(*column, (&self.row, &row), *factor);
+                sums.add(*column, &self.row, (*factor, *log_col));
             }
             let before = std::mem::replace(&mut row, sums.negative_means());
             if row.iter().zip(&before).all(|(a, b)| (a - b).abs() <= SETTLED) {
@@ -90,6 +100,13 @@ impl Factors {
         }
         self.row.iter_mut().zip(row).for_each(|(factor, log)| *factor *= log.exp2());
         self.col.iter_mut().zip(col).for_each(|(factor, log)| *factor *= log.exp2());
+    }
+
+    /// To powers of two.
+    fn rounded(self) -> (Vec<f64>, Vec<f64>) {
+        let Self { mut row, mut col } = self;
+        row.iter_mut().chain(&mut col).for_each(|f| *f = power_of_two(*f));
+        (row, col)
     }
 }
 
@@ -140,11 +157,10 @@ impl Sums {
         column: Column<'_>,
         row: &[f64],
         (col, correction): (f64, f64),
-        noise: f64,
     ) -> (f64, f64) {
         let (mut sums, mut counts) = ([0.0; LANES], [0.0; LANES]);
         let mut add = |lane: usize, v: f64, sum: &mut f64, count: &mut f64| {
-            let (log, kept) = logarithm(v * col, noise);
+            let (log, kept) = logarithm(v * col);
             let term = kept * (log + correction);
             *sum += term;
             *count += kept;
@@ -179,15 +195,10 @@ impl Sums {
 }
 
 /// Minus the mean of the logarithms of the scaled entries, each with the correction of its row.
-fn negative_column_mean(
-    column: Column<'_>,
-    (row, correction): (&[f64], &[f64]),
-    col: f64,
-    noise: f64,
-) -> f64 {
+fn negative_column_mean(column: Column<'_>, (row, correction): (&[f64], &[f64]), col: f64) -> f64 {
     let (mut sums, mut counts) = ([0.0; LANES], [0.0; LANES]);
     let mut add = |lane: usize, v: f64, row: f64, correction: f64| {
-        let (log, kept) = logarithm(v * row * col, noise);
+        let (log, kept) = logarithm(v * row * col);
         sums[lane] += kept * (log + correction);
         counts[lane] += kept;
     };
@@ -224,14 +235,14 @@ fn negative_mean((sum, count): (f64, f64)) -> f64 {
 /// The logarithm to base 2 of the size of a number, to within 0.09, and one, or zero for noise. Exponent
 /// and mantissa as they stand in memory are nearly the logarithm; they become a number by being
 /// put below the exponent of 2^52. The factors are rounded to powers of two in the end.
-fn logarithm(v: f64, noise: f64) -> (f64, f64) {
+fn logarithm(v: f64) -> (f64, f64) {
     const DROPPED: u32 = 12;
     const UNIT: f64 = 1.0 / (1_u64 << (52 - DROPPED)) as f64;
     const BIAS: f64 = 1023.0;
     const SHIFT: f64 = (1_u64 << 52) as f64;
     let v = v.abs();
     let digits = f64::from_bits(SHIFT.to_bits() | v.to_bits() >> DROPPED) - SHIFT;
-    let kept = if v > noise { 1.0 } else { 0.0 };
+    let kept = if v > NOISE { 1.0 } else { 0.0 };
     (digits * UNIT - BIAS, kept)
 }
 
@@ -246,6 +257,16 @@ mod tests {
 
     use super::*;
     use crate::Matrix;
+
+    /// The inverse of a triangular band, whose entries decrease from one to `1e-14`, is left as it is.
+    #[test]
+    fn small_entries_of_an_inverse_do_not_count() {
+        let entry = |i: usize, j: usize| if i < j { 0.0 } else { 0.01_f64.powf((i - j) as f64) };
+        let inverse = Mat::from_fn(8, 8, entry);
+        let columns: Vec<_> = (0..8).map(|j| Column::Dense(inverse.col_as_slice(j))).collect();
+        let (rows, cols) = equilibrate_computed(8, &columns);
+        assert_eq!((rows, cols), (vec![1.0; 8], vec![1.0; 8]));
+    }
 
     /// The block that maxima alone would leave at its units comes near one, dense or sparse.
     #[test]
@@ -264,7 +285,7 @@ mod tests {
             let sparse = Matrix::from_entries(4, 4, nonzero.collect::<Vec<_>>().into_iter());
             for m in [Matrix::from(m), sparse] {
                 let columns: Vec<_> = (0..4).map(|j| m.slice(j)).collect();
-                let (rows, cols) = equilibrate(4, &columns, GIVEN);
+                let (rows, cols) = equilibrate(4, &columns);
                 for (i, j) in [(0, 0), (1, 1), (0, 2), (3, 1)] {
                     let v = rows[i] * m[(i, j)] * cols[j];
                     assert!(v > 0.05 && v < 4.0, "{scale}: {v}");

@@ -14,7 +14,7 @@ use faer::Mat;
 use crate::linear::Lu;
 use crate::matrix::Column;
 use crate::random::SplitMix;
-use crate::scaling::{GIVEN, equilibrate};
+use crate::scaling::equilibrate;
 use crate::sparse::{Columns, SparseLu};
 use crate::vector::max_abs;
 use crate::{Basis, HorizontalLcp, Side};
@@ -106,7 +106,7 @@ impl Data {
     fn new(problem: &HorizontalLcp) -> Self {
         let n = problem.order();
         let columns = problem.columns();
-        let (rows, cols) = equilibrate(n, &columns, GIVEN);
+        let (rows, cols) = equilibrate(n, &columns);
         let right: Vec<f64> = problem.c().iter().zip(&rows).map(|(c, row)| c * row).collect();
         let size = if max_abs(&right) > 0.0 { max_abs(&right) } else { 1.0 };
         let scaled = columns.iter().zip(&cols);

@@ -93,6 +93,24 @@ impl Columns {
     }
 }
 
+/// For every row the groups that have it: where they start, and their numbers.
+pub(crate) fn groups_of_rows(rows: usize, groups: &[&[usize]]) -> (Vec<usize>, Vec<usize>) {
+    let mut starts = vec![0; rows + 1];
+    groups.iter().copied().flatten().for_each(|&i| starts[i + 1] += 1);
+    for i in 0..rows {
+        starts[i + 1] += starts[i];
+    }
+    let mut next = starts.clone();
+    let mut numbers = vec![0; starts[rows]];
+    for (number, group) in groups.iter().enumerate() {
+        for &i in *group {
+            numbers[next[i]] = number;
+            next[i] += 1;
+        }
+    }
+    (starts, numbers)
+}
+
 /// A row or column number in half the space.
 fn index(i: usize) -> u32 {
     u32::try_from(i).unwrap_or_else(|_| unreachable!("more than 2^32 rows do not fit in memory"))

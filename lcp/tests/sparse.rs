@@ -176,8 +176,9 @@ proptest! {
         let sparse = MixedLcp::new(sparse(&saddle), q.clone(), free.clone()).unwrap();
         prop_assert!(sparse.to_general().is_sparse());
         let (status, z) = solve(sparse);
-        let (_, expected) = solve(MixedLcp::new(saddle, q, free).unwrap());
+        let (expected_status, expected) = solve(MixedLcp::new(saddle, q, free).unwrap());
         prop_assert_eq!(status, Status::Solved);
+        prop_assert_eq!(expected_status, Status::Solved);
         prop_assert!(close(&z, &expected), "{:?} {:?}", z, expected);
     }
 

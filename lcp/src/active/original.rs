@@ -76,14 +76,14 @@ pub(crate) fn confirmed<'a>(
     }
     let rest = (vec![0.0; at.0.len()], vec![(0.0, 0.0); at.1.len()]);
     for exact in refined_states(scaled, condensed, (&rest.0, &rest.1), contacts, ALL_DIGITS) {
-        let near = rounded(judge, scaled, &exact, Precision::Exact);
+        let near = rounded(judge, scaled, &exact);
         if near.worst() <= tolerance {
             return near;
         }
     }
     let is_sound = refined_states(scaled, condensed, at, contacts, ALL_DIGITS)
         .any(|exact| judge.residuals_of(scaled, &exact).worst() <= tolerance);
-    if is_sound { judged(judge, scaled, at, Precision::Rounded) } else { given }
+    if is_sound { with_rounded_loads(judge, scaled, given) } else { given }
 }
 
 /// The point that the states of contacts lead to without rounding errors, where it is better than a given one: what is
@@ -99,13 +99,13 @@ pub(crate) fn brought_right<'a>(
     }
     let enough = if best.worst() <= tolerance { ROUNDED } else { ALL_DIGITS };
     for exact in refined_states(scaled, condensed, at, contacts, enough) {
-        let mut near = rounded(judge, scaled, &exact, Precision::Exact);
+        let mut near = rounded(judge, scaled, &exact);
         let Residuals { equation, natural, loads, .. } = near.residuals;
         if loads > EXACT
             && equation.max(natural) <= tolerance
             && judge.residuals_of(scaled, &exact).worst() <= tolerance
         {
-            near = rounded(judge, scaled, &exact, Precision::Rounded);
+            near = with_rounded_loads(judge, scaled, near);
         }
         best = if near.worst() < best.worst() { near } else { best };
         if best.worst() <= tolerance {
@@ -123,22 +123,24 @@ pub(crate) fn unrounded(
     tolerance: f64,
 ) -> Option<Judged<'static>> {
     refined_states(scaled, condensed, at, contacts, ROUNDED)
-        .map(|exact| rounded(judge, scaled, &exact, Precision::Exact))
+        .map(|exact| rounded(judge, scaled, &exact))
         .find(|near| near.worst() <= tolerance)
 }
 
-fn rounded(
-    judge: &dyn Judge,
-    scaled: &Scaled,
-    (u, forces): &Exact,
-    precision: Precision,
-) -> Judged<'static> {
+fn rounded(judge: &dyn Judge, scaled: &Scaled, (u, forces): &Exact) -> Judged<'static> {
     let u: Vec<f64> = u.iter().map(|u| u.rounded()).collect();
     let mut u = scaled.of_displacements(&u);
     let mut forces: Vec<_> = forces.iter().map(|[n, t]| (n.rounded(), t.rounded())).collect();
     scaled.settle(&mut u, &mut forces);
-    let residuals = judge.residuals(scaled, (&u, &forces), precision);
+    let residuals = judge.residuals(scaled, (&u, &forces), Precision::Exact);
     Judged { u: u.into(), forces: forces.into(), residuals }
+}
+
+/// A point that is exact but for its rounding, of whose loads that is no part.
+fn with_rounded_loads<'a>(judge: &dyn Judge, scaled: &Scaled, mut point: Judged<'a>) -> Judged<'a> {
+    let at = (&point.u[..], &point.forces[..]);
+    point.residuals.loads = judge.residuals(scaled, at, Precision::RoundedLoads).loads;
+    point
 }
 
 /// The state of a contact problem that the given one leads to by the states of its contacts, where it is better.

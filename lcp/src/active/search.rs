@@ -156,8 +156,7 @@ impl<'a> Search<'a> {
     /// The worst residual of a point, which is kept if none was better.
     pub(crate) fn judge(&mut self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
         let Self { judge, tolerance, scaled, condensed, best, .. } = self;
-        let (mut u, mut forces) = (u.to_vec(), forces.to_vec());
-        scaled.settle(&mut u, &mut forces);
+        let (u, forces) = scaled.settled(u, forces);
         let contacts = || nearest(scaled, &u, &forces);
         let with = (judge.as_ref(), &*scaled, condensed);
         let judged = judged(with, (&u, &forces), *tolerance, contacts);
@@ -190,8 +189,7 @@ impl<'a> Search<'a> {
         let at = (&u[..], &forces[..]);
         if residuals.worst() > tolerance {
             // On the way rows that matter to no load counted too. A point refused with all digits stays refused.
-            let quick = Precision::Quick { tolerance: f64::INFINITY };
-            let in_full = judge.residuals(&scaled, at, quick);
+            let in_full = judge.residuals(&scaled, at, Precision::Usual);
             residuals = if in_full.worst() > tolerance { in_full } else { residuals };
         }
         let Answer { t, y, contact } = judge.answer(&scaled, at);
@@ -222,8 +220,9 @@ fn judged<'a>(
     tolerance: f64,
     contacts: impl FnOnce() -> Vec<ContactStatus>,
 ) -> Judged<'a> {
-    let quick = judged_by(judge, scaled, at, Precision::Quick { tolerance });
-    if quick.worst() > tolerance {
+    let quick = judged_by(judge, scaled, at, Precision::Quick);
+    // What is left of the loads is the same whatever rows matter.
+    if quick.residuals.loads > tolerance {
         return quick;
     }
     confirmed((judge, scaled, condensed), at, &contacts(), tolerance)

@@ -1,5 +1,7 @@
 //! Points `(z, w)` of standard, mixed and boxed problems.
 
+use std::borrow::Cow;
+
 use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
 use super::significance::{Term, terms_of};
 use super::{Residuals, weights};
@@ -123,13 +125,14 @@ struct At<'a, X> {
 }
 
 impl<X: Digits> Point for At<'_, X> {
-    fn rows(&self) -> (Vec<f64>, Vec<f64>) {
+    fn rows(&self) -> (Cow<'_, [f64]>, Cow<'_, [f64]>) {
         let mut rows = Rows::<X>::new(self.judge.q.iter().map(|q| (-q, q.abs())));
         for (j, &z) in self.z.iter().enumerate().filter(|(_, z)| z.rounded() != 0.0) {
             self.judge.m.slice(j).for_each(|i, v| rows.add(i, -v, z));
         }
         self.w.iter().enumerate().for_each(|(i, w)| rows.add(i, 1.0, *w));
-        rows.rounded()
+        let (rest, terms) = rows.rounded();
+        (rest.into(), terms.into())
     }
 
     fn sources(&self) -> Vec<f64> {

@@ -1,5 +1,7 @@
 //! Displacements, forces, gaps and slips of contact.
 
+use std::borrow::Cow;
+
 use super::Residuals;
 use super::constants::{FULL, ROUNDS, STRONG};
 use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
@@ -171,8 +173,9 @@ fn terms_of<X: Digits>(
 }
 
 impl<X: Digits> Point for At<'_, X> {
-    fn rows(&self) -> (Vec<f64>, Vec<f64>) {
-        self.rows.clone()
+    fn rows(&self) -> (Cow<'_, [f64]>, Cow<'_, [f64]>) {
+        let (rest, terms) = &self.rows;
+        (rest[..].into(), terms[..].into())
     }
 
     /// Loads down to a millionth of those around them count in full, smaller ones by their size: of a body that

@@ -1,5 +1,7 @@
 //! Forces of a contact problem that is reduced to the contacts.
 
+use std::borrow::Cow;
+
 use super::ledger::{self, Entry, Ledger, Point, Precision, Rows};
 use super::significance::{Term, terms_of};
 use super::{Residuals, weights};
@@ -59,8 +61,8 @@ struct At<'a> {
 
 impl Point for At<'_> {
     /// The velocities are defined by the rows, which hold.
-    fn rows(&self) -> (Vec<f64>, Vec<f64>) {
-        (vec![0.0; self.terms.len()], self.terms.clone())
+    fn rows(&self) -> (Cow<'_, [f64]>, Cow<'_, [f64]>) {
+        (vec![0.0; self.terms.len()].into(), self.terms[..].into())
     }
 
     fn sources(&self) -> Vec<f64> {

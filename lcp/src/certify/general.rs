@@ -1,11 +1,13 @@
 //! Points of the general form.
 
+use std::borrow::Cow;
+
 use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
 use super::significance::{Term, terms_of};
 use super::{Residuals, weights};
 use crate::extended::{Extended, extended};
 use crate::matrix::Column;
-use crate::scaling::{GIVEN, equilibrate};
+use crate::scaling::equilibrate;
 use crate::{HorizontalLcp, Side};
 
 impl HorizontalLcp {
@@ -54,7 +56,7 @@ impl<'a> GeneralJudge<'a> {
 
     /// For another right-hand side, of which every entry comes with the size of its terms.
     pub(crate) fn with_right_hand_side(problem: &'a HorizontalLcp, c: Vec<(f64, f64)>) -> Self {
-        let (row, col) = equilibrate(problem.order(), &problem.columns(), GIVEN);
+        let (row, col) = equilibrate(problem.order(), &problem.columns());
         Self::with_factors(problem, c, (&row, &col))
     }
 
@@ -115,10 +117,11 @@ impl<X: Digits> At<'_, X> {
 }
 
 impl<X: Digits> Point for At<'_, X> {
-    fn rows(&self) -> (Vec<f64>, Vec<f64>) {
+    fn rows(&self) -> (Cow<'_, [f64]>, Cow<'_, [f64]>) {
         let mut rows = Rows::<X>::new(self.judge.c.iter().map(|(c, size)| (-c, *size)));
         self.variables().for_each(|(_, x, column)| column.for_each(|i, v| rows.add(i, v, x)));
-        rows.rounded()
+        let (rest, terms) = rows.rounded();
+        (rest.into(), terms.into())
     }
 
     fn sources(&self) -> Vec<f64> {

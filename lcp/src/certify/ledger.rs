@@ -1,5 +1,7 @@
 //! Rows at a point: what is left of each, the sizes of its terms, and what violated conditions add.
 
+use std::borrow::Cow;
+
 use super::Residuals;
 use super::constants::{LARGEST_ROUNDING, MINOR, ROUNDING, SMALL};
 use super::significance::{Term, significance};
@@ -48,27 +50,29 @@ impl Digits for Extended {
 /// How exactly the rows of a point are computed, and what of the loads rounding may excuse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Precision {
-    /// In `f64`, less the rounding errors that the sums may have: of points on the way. Where what is left of the
-    /// loads is beyond the tolerance already, rows that matter to no load count like all others.
-    Quick {
-        /// What a solution may miss.
-        tolerance: f64,
-    },
+    /// In `f64`, less the rounding errors that the sums may have; rows that matter to no load count like all others: of
+    /// points on the way.
+    Quick,
+    /// In `f64`, less these rounding errors: of points that are given up.
+    Usual,
     /// With twice the digits where that may matter, less the rounding error of a point that is exact but for the
     /// last digit of its numbers: of answers.
     Rounded,
+    /// The same where only what is left of the loads is asked for: all rows count.
+    RoundedLoads,
     /// With twice the digits: of points about to be called solved, and of those that have these digits.
     Exact,
 }
 
 impl Precision {
-    fn is_quick(self) -> bool {
-        matches!(self, Self::Quick { .. })
+    /// Whether rows are summed in `f64`, however large their terms are.
+    fn is_usual(self) -> bool {
+        matches!(self, Self::Quick | Self::Usual)
     }
 
-    /// Whether a point with what is left of the loads is none, whatever else may be wrong.
-    fn is_refused(self, loads: f64) -> bool {
-        matches!(self, Self::Quick { tolerance } if loads > tolerance)
+    /// Whether rows that matter to no load are told from the others.
+    fn tells_rows(self) -> bool {
+        !matches!(self, Self::Quick | Self::RoundedLoads)
     }
 }
 
@@ -99,8 +103,8 @@ impl<X: Digits> Rows<X> {
 /// The residuals of a point while its conditions are gone through.
 pub(super) struct Ledger<'a> {
     /// What is left of every row.
-    rest: Vec<f64>,
-    terms: Vec<f64>,
+    rest: &'a [f64],
+    terms: &'a [f64],
     /// One over the loads that every row feels.
     weights: &'a [f64],
     /// What every row counts; all of them one where it is empty.
@@ -113,7 +117,7 @@ pub(super) struct Ledger<'a> {
 /// A point whose rows and conditions can be gone through.
 pub(super) trait Point {
     /// What is left of the rows, and their terms.
-    fn rows(&self) -> (Vec<f64>, Vec<f64>);
+    fn rows(&self) -> (Cow<'_, [f64]>, Cow<'_, [f64]>);
 
     /// What the right-hand side of every row makes it count, between zero and one.
     fn sources(&self) -> Vec<f64>;
@@ -133,13 +137,13 @@ pub(super) fn residuals_or_refined(
     precision: Precision,
     refined: impl FnOnce() -> Residuals,
 ) -> Residuals {
-    let rows = point.rows();
-    let mut sizes = rows.1.iter().zip(weights);
+    let (rest, terms) = point.rows();
+    let mut sizes = terms.iter().zip(weights);
     let is_hidden = |(terms, weight)| length * f64::EPSILON * terms * weight > SMALL;
-    if !precision.is_quick() && sizes.any(is_hidden) {
+    if !precision.is_usual() && sizes.any(is_hidden) {
         return refined();
     }
-    residuals_of_rows(point, rows, (weights, length), precision)
+    residuals_of_rows(point, (&rest, &terms), (weights, length), precision)
 }
 
 /// The residuals of a point with one over the loads of its rows, of so many terms at most.
@@ -148,13 +152,14 @@ pub(super) fn residuals(
     rows: (&[f64], f64),
     precision: Precision,
 ) -> Residuals {
-    residuals_of_rows(point, point.rows(), rows, precision)
+    let (rest, terms) = point.rows();
+    residuals_of_rows(point, (&rest, &terms), rows, precision)
 }
 
 /// Rows that do not matter to the loads are told only where something in them seems to be wrong.
 fn residuals_of_rows(
     point: &impl Point,
-    (rest, terms): (Vec<f64>, Vec<f64>),
+    (rest, terms): (&[f64], &[f64]),
     (weights, length): (&[f64], f64),
     precision: Precision,
 ) -> Residuals {
@@ -163,12 +168,11 @@ fn residuals_of_rows(
     let strict = ledger.finished(length, precision);
     let Residuals { equation, natural, loads, .. } = strict;
     let apparent = equation.max(natural);
-    if apparent <= SMALL || loads > MINOR * apparent || precision.is_refused(loads) {
+    if !precision.tells_rows() || apparent <= SMALL || loads > MINOR * apparent {
         return strict;
     }
-    let terms = |visit: &mut dyn FnMut(&Term)| point.for_each_term(visit);
-    let significance = significance(&ledger.terms, &point.sources(), weights, &terms);
-    let Ledger { rest, terms, .. } = ledger;
+    let all = |visit: &mut dyn FnMut(&Term)| point.for_each_term(visit);
+    let significance = significance(terms, &point.sources(), weights, &all);
     let mut ledger = Ledger { significance, ..Ledger::new(rest, terms, weights) };
     ledger.count_rows();
     point.conditions(&mut ledger);
@@ -190,7 +194,7 @@ pub(super) struct Entry<'a> {
 }
 
 impl<'a> Ledger<'a> {
-    fn new(rest: Vec<f64>, terms: Vec<f64>, weights: &'a [f64]) -> Self {
+    fn new(rest: &'a [f64], terms: &'a [f64], weights: &'a [f64]) -> Self {
         let (significance, changes) = (Vec::new(), Vec::new());
         let residuals = Residuals::default();
         let mut ledger = Self { rest, terms, weights, significance, changes, residuals };
@@ -267,15 +271,13 @@ impl<'a> Ledger<'a> {
         let Self { rest, terms, weights, changes, .. } = self;
         let mut residuals = self.residuals;
         let noise = match precision {
-            Precision::Quick { .. } => length * f64::EPSILON,
-            Precision::Rounded => ROUNDING,
+            Precision::Quick | Precision::Usual => length * f64::EPSILON,
+            Precision::Rounded | Precision::RoundedLoads => ROUNDING,
             Precision::Exact => 0.0,
         };
         for (i, (rest, weight)) in rest.iter().zip(*weights).enumerate() {
-            let rounding = match precision {
-                Precision::Quick { .. } => noise * terms[i] * weight,
-                _ => (noise * terms[i] * weight).min(LARGEST_ROUNDING),
-            };
+            let most = if precision.is_usual() { f64::INFINITY } else { LARGEST_ROUNDING };
+            let rounding = (noise * terms[i] * weight).min(most);
             let left = (rest.abs() * weight - rounding).max(0.0);
             let left = left + changes.get(i).unwrap_or(&0.0) * weight;
             // A NaN is no small residual.

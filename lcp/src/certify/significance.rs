@@ -45,9 +45,9 @@ pub(super) fn significance(
     all: &Terms<'_>,
 ) -> Vec<f64> {
     let rows = terms.len();
-    let links = Links::new(rows, all);
-    let mut worth = vec![0.0; links.nodes()];
-    let loaded: Vec<_> = (0..rows).filter(|i| sources[*i] > 0.0).map(|i| (i, sources[i])).collect();
+    let (links, mut worth) = Links::new(sources, all);
+    let loaded: Vec<_> =
+        (0..worth.len()).filter(|i| worth[*i] > 0.0).map(|i| (i, worth[i])).collect();
     links.spread(&loaded, &mut worth);
     // What no load reaches is measured by the loads around it, if there are any.
     let apart = (0..rows).filter(|i| worth[*i] == 0.0 && terms[*i] > 0.0);
@@ -59,7 +59,7 @@ pub(super) fn significance(
 }
 
 /// Links between rows and, numbered behind them, variables, each with the share that the end makes of what the
-/// beginning is worth.
+/// beginning is worth. Rows that are worth one from the beginning, most in a structure with weight, have none.
 struct Links {
     starts: Vec<usize>,
     ends: Vec<u32>,
@@ -67,24 +67,37 @@ struct Links {
 }
 
 impl Links {
-    fn new(rows: usize, all: &Terms<'_>) -> Self {
+    /// With what rows and variables are worth by the sources, and by rows that are worth one.
+    fn new(sources: &[f64], all: &Terms<'_>) -> (Self, Vec<f64>) {
+        let rows = sources.len();
+        let is_full = |row: usize| sources[row] >= 1.0;
         let mut largest = vec![0.0_f64; rows];
         let mut starts = vec![0; rows + 1];
         all(&mut |Term { row, variable, value }| {
             largest[*row] = largest[*row].max(value.abs());
             let last = rows + variable + 1;
-            starts.resize(starts.len().max(last + 1), 0);
-            starts[row + 1] += 1;
-            starts[last] += 1;
+            if last >= starts.len() {
+                starts.resize(last + 1, 0);
+            }
+            if !is_full(*row) {
+                starts[row + 1] += 1;
+                starts[last] += 1;
+            }
         });
         for i in 1..starts.len() {
             starts[i] += starts[i - 1];
         }
+        let mut worth = sources.to_vec();
+        worth.resize(starts.len() - 1, 0.0);
         let mut next = starts.clone();
         let count = starts.last().copied().unwrap_or(0);
         let (mut ends, mut shares) = (vec![0; count], vec![0.0; count]);
         all(&mut |Term { row, variable, value }| {
             let (row, variable, share) = (*row, rows + variable, value.abs() / largest[*row]);
+            if is_full(row) {
+                worth[variable] = share.max(worth[variable]);
+                return;
+            }
             for (from, to, share) in
                 [(row, variable, share), (variable, row, (share / SPEAKS).min(1.0))]
             {
@@ -92,11 +105,7 @@ impl Links {
                 next[from] += 1;
             }
         });
-        Self { starts, ends, shares }
-    }
-
-    fn nodes(&self) -> usize {
-        self.starts.len() - 1
+        (Self { starts, ends, shares }, worth)
     }
 
     /// Raises what rows and variables are worth to the largest products of shares along chains from the sources: octave

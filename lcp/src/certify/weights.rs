@@ -3,7 +3,7 @@
 use super::constants::{ROUNDS, STRONG};
 use crate::matrix::Column;
 use crate::parts::Parts;
-use crate::scaling::{GIVEN, equilibrate};
+use crate::scaling::equilibrate;
 
 /// For every row one over the loads that it feels, in units of the row: the largest right-hand side of its
 /// connected part, and of others by how weakly they are coupled to it. `loads` are the sizes of the right-hand
@@ -11,7 +11,7 @@ use crate::scaling::{GIVEN, equilibrate};
 /// measure.
 pub(super) fn weights(columns: &[Column<'_>], loads: &[f64]) -> Vec<f64> {
     let rows = loads.len();
-    let (row, col) = equilibrate(rows, columns, GIVEN);
+    let (row, col) = equilibrate(rows, columns);
     weights_of(columns, loads, (&row, &col))
 }
 

@@ -110,15 +110,15 @@ pub(super) fn centred(
     let width = if at.is_smooth() { SMOOTH_WIDTH } else { WIDTH };
     for _ in 0..STEPS {
         let size = at.points.iter().fold(1.0_f64, |max, pairs| max.max(pairs.t_n));
-        let lack = Defect::of(problem, &at, spring).size();
-        let residual = at.natural(problem, (1.0, 1.0)).max(lack) / size;
+        let defect = Defect::of(problem, &at, spring);
+        let residual = at.natural(problem, (1.0, 1.0)).max(defect.size()) / size;
         if residual <= accuracy {
             return Some(at);
         }
         if !go_on(residual) {
             return None;
         }
-        let (next, alpha) = advance(problem, condensed, &at, (spring, width));
+        let (next, alpha) = advance(problem, condensed, (&at, &defect), (spring, width));
         if !next.is_finite() || alpha < LEAST_STEP {
             return None;
         }

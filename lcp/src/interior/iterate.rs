@@ -39,6 +39,11 @@ impl Pairs {
         [tau, friction, friction]
     }
 
+    /// `(1 - share) self + share other`.
+    pub(super) fn mixed(&self, other: &Self, share: f64) -> Self {
+        Self::default().plus(self, 1.0 - share).plus(other, share)
+    }
+
     fn plus(&self, step: &Self, alpha: f64) -> Self {
         Self {
             t_n: self.t_n + alpha * step.t_n,
@@ -262,9 +267,13 @@ impl Iterate {
 
     /// The largest step, at most one, that leaves all pairs positive.
     pub(super) fn longest(&self, problem: &Scaled, step: &Iterate) -> f64 {
+        self.longest_of(problem, step.points.iter().copied())
+    }
+
+    /// The same for the steps of the points.
+    pub(super) fn longest_of(&self, problem: &Scaled, steps: impl Iterator<Item = Pairs>) -> f64 {
         let mut alpha = 1.0_f64;
-        let points = problem.points.iter().zip(self.points.iter().zip(&step.points));
-        for (point, (at, step)) in points {
+        for (point, (at, step)) in problem.points.iter().zip(self.points.iter().zip(steps)) {
             for ((t, y), (dt, dy)) in at.pairs(point.mu).zip(step.pairs(point.mu)) {
                 if dt < 0.0 {
                     alpha = alpha.min(-t / dt);
@@ -341,8 +350,9 @@ impl Iterate {
 
     /// `(1 - share) self + share other`.
     pub(super) fn mixed(&self, other: &Iterate, share: f64) -> Self {
-        let points = vec![Pairs::default(); self.points.len()];
-        let zero = Self { u: vec![0.0; self.u.len()], points, smooth: 0.0 };
-        zero.moved(self, 1.0 - share).moved(other, share)
+        let u = self.u.iter().zip(&other.u).map(|(a, b)| (1.0 - share) * a + share * b).collect();
+        let points =
+            self.points.iter().zip(&other.points).map(|(a, b)| a.mixed(b, share)).collect();
+        Self { u, points, smooth: 0.0 }
     }
 }

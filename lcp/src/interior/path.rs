@@ -15,16 +15,16 @@ use crate::states::{Condensed, PROXIMAL, Scaled};
 pub(super) fn advance(
     problem: &Scaled,
     condensed: &mut Condensed,
-    at: &Iterate,
+    (at, defect): (&Iterate, &Defect),
     (spring, width): (f64, f64),
 ) -> (Iterate, f64) {
-    Ahead::of(problem, condensed, at, spring).advance(problem, at, width)
+    Ahead::of(problem, condensed, (at, defect), spring).advance(problem, at, width)
 }
 
 /// What lies ahead of a point.
 pub(super) struct Ahead<'a> {
     tangent: Tangent<'a>,
-    defect: Defect,
+    defect: &'a Defect,
     /// The step to products of zero.
     pub(super) predictor: Iterate,
 }
@@ -33,12 +33,11 @@ impl<'a> Ahead<'a> {
     pub(super) fn of(
         problem: &'a Scaled,
         condensed: &'a mut Condensed,
-        at: &'a Iterate,
+        (at, defect): (&'a Iterate, &'a Defect),
         spring: f64,
     ) -> Self {
         let tangent = Tangent::new(problem, condensed, at, spring.max(PROXIMAL));
-        let defect = Defect::of(problem, at, spring);
-        let predictor = tangent.step(&defect, &targets(problem, at, 0.0, None));
+        let predictor = tangent.step(defect, &targets(problem, at, 0.0, None));
         Self { tangent, defect, predictor }
     }
 
@@ -114,8 +113,10 @@ fn mixture(
     predictor: &Iterate,
     centring: &Iterate,
 ) -> (Iterate, f64) {
-    let reduction =
-        |share: f64| (1.0 - share) * at.longest(problem, &predictor.mixed(centring, share));
+    let reduction = |share: f64| {
+        let pairs = predictor.points.iter().zip(&centring.points);
+        (1.0 - share) * at.longest_of(problem, pairs.map(|(a, b)| a.mixed(b, share)))
+    };
     let tried = MIXTURES.map(|share| (reduction(share), share));
     let (best, share) = tried.into_iter().fold((0.0, 1.0), |a, b| if b.0 > a.0 { b } else { a });
     let share = if best < PROGRESS && !is_central(problem, at) { 1.0 } else { share };

@@ -1,7 +1,7 @@
 //! Where the iteration starts, and how it finds out how far bodies move.
 
 use super::constants::{HALF, MOST_FRICTION, OPENED, OPENINGS, WIDE};
-use super::iterate::{Iterate, Pairs};
+use super::iterate::{Defect, Iterate, Pairs};
 use super::path::{Ahead, advance};
 use crate::states::{Condensed, PROXIMAL, Scaled, Springs};
 
@@ -76,22 +76,24 @@ pub(super) fn start_opened(problem: &Scaled, condensed: &mut Condensed, by: f64)
 pub(super) fn set_out(
     problem: &Scaled,
     condensed: &mut Condensed,
-    at: &Iterate,
+    (at, defect): (&Iterate, &Defect),
     (spring, width): (f64, f64),
 ) -> (Iterate, f64) {
     let (mut from, mut before) = (at.clone(), (at.clone(), f64::INFINITY));
     for _ in 0..OPENINGS {
-        let ahead = Ahead::of(problem, condensed, &from, spring);
+        let of_from = Defect::of(problem, &from, spring);
+        let ahead = Ahead::of(problem, condensed, (&from, &of_from), spring);
         let change = ahead.predictor.largest_gap() / from.mean_gap();
         if change <= WIDE {
             return ahead.advance(problem, &from, width);
         }
         if change.is_nan() || change > HALF * before.1 {
-            return advance(problem, condensed, &before.0, (spring, width));
+            let of_before = Defect::of(problem, &before.0, spring);
+            return advance(problem, condensed, (&before.0, &of_before), (spring, width));
         }
         let wider = from.clone().opened(problem, OPENED * from.mean_gap());
         before = (from, change);
         from = wider;
     }
-    advance(problem, condensed, at, (spring, width))
+    advance(problem, condensed, (at, defect), (spring, width))
 }

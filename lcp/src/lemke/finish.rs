@@ -45,7 +45,8 @@ pub(super) fn solve_basis(problem: &Equilibrated<'_>, basis: &Basis) -> Option<P
                 residuals = problem.judge.residuals(&values.t, &values.y, Precision::Exact);
             }
             let exact = values.exact_loads(problem, basis, &low);
-            let rounded = problem.judge.residuals(&values.t, &values.y, Precision::Rounded).loads;
+            let rounded =
+                problem.judge.residuals(&values.t, &values.y, Precision::RoundedLoads).loads;
             residuals.loads = residuals.loads.min(exact.max(rounded));
         }
         let Values { t, y, sides } = values;

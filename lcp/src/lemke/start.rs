@@ -8,7 +8,7 @@ use crate::certify::{GeneralJudge, right_hand_side};
 use crate::linear::{Lu, all_finite};
 use crate::matrix::Column;
 use crate::random::SplitMix;
-use crate::scaling::{COMPUTED, GIVEN, equilibrate};
+use crate::scaling::{equilibrate, equilibrate_computed};
 use crate::vector::max_abs;
 use crate::{Basis, HorizontalLcp, Side};
 
@@ -33,7 +33,7 @@ pub(super) struct Equilibrated<'a> {
 impl<'a> Equilibrated<'a> {
     pub(super) fn new(problem: &'a HorizontalLcp) -> Self {
         let n = problem.order();
-        let (row, factors) = equilibrate(n, &problem.columns(), GIVEN);
+        let (row, factors) = equilibrate(n, &problem.columns());
         let (t_factor, y_factor) = (factors[..n].to_vec(), factors[n..].to_vec());
         let opposite = (0..n).map(|pair| problem.opposite(pair)).collect();
         let judge = GeneralJudge::with_factors(problem, right_hand_side(problem), (&row, &factors));
@@ -154,7 +154,7 @@ impl<'a> Equilibrated<'a> {
                 return None;
             }
             let columns: Vec<_> = (0..n).map(|j| Column::Dense(t.col_as_slice(j))).collect();
-            let (rows, cols) = equilibrate(n, &columns, COMPUTED);
+            let (rows, cols) = equilibrate_computed(n, &columns);
             for (j, col) in cols.iter().enumerate() {
                 let column = t.col_as_slice_mut(j);
                 column.iter_mut().zip(&rows).for_each(|(v, row)| *v *= row * col);

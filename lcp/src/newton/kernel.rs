@@ -2,7 +2,7 @@
 
 use super::constants::VANISHING;
 use crate::Matrix;
-use crate::scaling::{GIVEN, equilibrate};
+use crate::scaling::equilibrate;
 
 /// What came of a factorisation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,5 +34,5 @@ pub(super) fn is_vanishing(l: f64, diagonal: f64) -> bool {
 /// Factors of rows and columns, powers of two, that bring the entries of a matrix near one.
 pub(super) fn scales(m: &Matrix) -> (Vec<f64>, Vec<f64>) {
     let columns: Vec<_> = (0..m.ncols()).map(|j| m.slice(j)).collect();
-    equilibrate(m.nrows(), &columns, GIVEN)
+    equilibrate(m.nrows(), &columns)
 }

@@ -298,6 +298,7 @@ pub(crate) fn column_of(
     matrix: &SparseColMat<usize, f64>,
     j: usize,
 ) -> impl Iterator<Item = (usize, f64)> + '_ {
-    let matrix = matrix.as_ref();
-    matrix.row_idx_of_col_raw(j).iter().copied().zip(matrix.val_of_col(j).iter().copied())
+    let pattern = matrix.symbolic();
+    let range = pattern.col_range(j);
+    pattern.row_idx()[range.clone()].iter().copied().zip(matrix.val()[range].iter().copied())
 }

@@ -13,7 +13,7 @@ use super::interior::{Effort, End, Interior};
 use super::scale::Scaled;
 use crate::active::{self, Original, cross_over};
 use crate::certify::is_proof;
-use crate::scaling::{GIVEN, equilibrate};
+use crate::scaling::equilibrate;
 use crate::states::{self, Condensed, nearest};
 use crate::vector::max_abs;
 use crate::{HorizontalLcp, Matrix};
@@ -72,7 +72,7 @@ fn farkas_vector(problem: &HorizontalLcp, effort: Effort) -> Option<Vec<f64>> {
 fn projection(problem: &HorizontalLcp) -> (Form, Vec<f64>) {
     let n = problem.order();
     let columns = problem.columns();
-    let (rows, cols) = equilibrate(n, &columns, GIVEN);
+    let (rows, cols) = equilibrate(n, &columns);
     let is_free: Vec<bool> = (0..n).map(|pair| is_free(problem, pair)).collect();
     let mut entries = Vec::new();
     let mut bounds = Vec::new();

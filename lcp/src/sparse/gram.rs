@@ -4,7 +4,7 @@ use faer::MatMut;
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 
 use super::cholesky::Cholesky;
-use super::index;
+use super::{groups_of_rows, index};
 use crate::Error;
 use crate::scaling::power_of_two;
 use crate::vector::max_abs;
@@ -222,31 +222,15 @@ fn lower(
     ends: &[usize],
 ) -> (Vec<usize>, Vec<usize>) {
     let n = a.nrows();
-    let group = |g: usize| a.row_idx_of_col_raw(ends[g] - 1);
-    let mut of_row = vec![0; n + 1];
-    for g in 0..ends.len() {
-        for &i in group(g) {
-            of_row[i + 1] += 1;
-        }
-    }
-    for i in 0..n {
-        of_row[i + 1] += of_row[i];
-    }
-    let mut next = of_row.clone();
-    let mut groups = vec![0; of_row[n]];
-    for g in 0..ends.len() {
-        for &i in group(g) {
-            groups[next[i]] = g;
-            next[i] += 1;
-        }
-    }
+    let groups: Vec<&[usize]> = ends.iter().map(|end| a.row_idx_of_col_raw(end - 1)).collect();
+    let (first, of_rows) = groups_of_rows(n, &groups);
     let (mut starts, mut rows) = (vec![0], Vec::new());
     let mut last = vec![usize::MAX; n];
     for j in 0..n {
         let begin = rows.len();
         last[j] = j;
         rows.push(j);
-        let of_groups = groups[of_row[j]..of_row[j + 1]].iter().flat_map(|&g| group(g));
+        let of_groups = of_rows[first[j]..first[j + 1]].iter().flat_map(|&g| groups[g]);
         for &i in column(k, j).iter().chain(of_groups) {
             if i > j && last[i] != j {
                 last[i] = j;

@@ -1,10 +1,10 @@
 //! The linear system of a step, condensed to the displacements.
 
-use faer::sparse::{FaerError, Pair, SymbolicSparseColMat};
+use faer::sparse::{FaerError, SymbolicSparseColMatRef};
 
 use super::constants::{ENOUGH, REFINEMENTS};
 use super::scaled::Scaled;
-use crate::sparse::Multifrontal;
+use crate::sparse::{Multifrontal, groups_of_rows};
 use crate::vector::max_abs;
 
 /// The stiffness `s` with which a contact point answers to changes of its gap and slip:
@@ -31,8 +31,8 @@ pub(crate) struct Condensed {
     /// Places of the entries of `K`, and of the diagonal.
     of_stiffness: Vec<usize>,
     of_diagonal: Vec<usize>,
-    /// Places of the terms of every point, columns one after the other.
-    of_points: Vec<Vec<u32>>,
+    /// Places of the terms of the points, one after the other, and of each columns one after the other.
+    of_points: Vec<u32>,
     factors: Multifrontal,
     pub(crate) factorisations: usize,
 }
@@ -40,31 +40,11 @@ pub(crate) struct Condensed {
 impl Condensed {
     pub(crate) fn new(problem: &Scaled) -> Result<Self, FaerError> {
         let n = problem.order();
-        let mut pairs: Vec<Pair<usize, usize>> = (0..n).map(|j| Pair::new(j, j)).collect();
         let k = problem.k.as_ref();
-        for j in 0..n {
-            for &i in k.row_idx_of_col_raw(j) {
-                pairs.extend([Pair::new(i, j), Pair::new(j, i)]);
-            }
-        }
-        // The edges of a cone, one after the other, move the same bodies.
-        let mut before: &[usize] = &[];
-        for point in problem.points.iter().filter(|it| !it.columns.is_empty()) {
-            if point.columns == before {
-                continue;
-            }
-            before = &point.columns;
-            for &j in before {
-                pairs.extend(before.iter().map(|&i| Pair::new(i, j)));
-            }
-        }
-        let (pattern, _) = SymbolicSparseColMat::try_new_from_indices(n, n, &pairs)
-            .map_err(|_| FaerError::OutOfMemory)?;
-        drop(pairs);
+        let (starts, rows) = pattern(problem)?;
         let place = |i: usize, j: usize| {
-            let start = pattern.col_ptr()[j];
-            let found = pattern.row_idx_of_col_raw(j).binary_search(&i);
-            start + found.unwrap_or_else(|_| unreachable!("the pattern has all entries"))
+            let found = rows[starts[j]..starts[j + 1]].binary_search(&i);
+            starts[j] + found.unwrap_or_else(|_| unreachable!("the pattern has all entries"))
         };
         let of_diagonal = (0..n).map(|j| place(j, j)).collect();
         let of_stiffness = (0..n)
@@ -77,15 +57,15 @@ impl Condensed {
         let of_points = problem
             .points
             .iter()
-            .map(|point| {
+            .flat_map(|point| {
                 let columns = &point.columns;
-                let pairs = columns.iter().flat_map(|&j| columns.iter().map(move |&i| (i, j)));
-                pairs.map(|(i, j)| index(place(i, j))).collect()
+                columns.iter().flat_map(move |&j| columns.iter().map(move |&i| (i, j)))
             })
+            .map(|(i, j)| index(place(i, j)))
             .collect();
-        let factors = Multifrontal::new(pattern.as_ref())?;
-        let values = vec![0.0; pattern.compute_nnz()];
-        let (starts, rows) = (pattern.col_ptr().to_vec(), pattern.row_idx().to_vec());
+        let pattern = SymbolicSparseColMatRef::new_checked(n, n, &starts, None, &rows);
+        let factors = Multifrontal::new(pattern)?;
+        let values = vec![0.0; rows.len()];
         Ok(Self {
             starts,
             rows,
@@ -103,8 +83,8 @@ impl Condensed {
         self.values.fill(0.0);
         self.of_stiffness.iter().zip(problem.k.val()).for_each(|(&e, v)| self.values[e] += v);
         self.of_diagonal.iter().for_each(|&e| self.values[e] += delta);
-        for ((point, springs), places) in problem.points.iter().zip(springs).zip(&self.of_points) {
-            let mut places = places.iter();
+        let mut places = self.of_points.iter();
+        for (point, springs) in problem.points.iter().zip(springs) {
             for (n_j, t_j) in point.normal.iter().zip(&point.tangent) {
                 let along = (springs.nn * n_j, springs.tn * n_j + springs.tt * t_j);
                 for ((n_i, t_i), &place) in point.normal.iter().zip(&point.tangent).zip(&mut places)
@@ -170,4 +150,30 @@ impl Condensed {
             x.iter_mut().zip(&rest).for_each(|(x, step)| *x += step);
         }
     }
+}
+
+/// The pattern of `1 + K + K^T + C^T C`: where columns start, and their rows.
+fn pattern(problem: &Scaled) -> Result<(Vec<usize>, Vec<usize>), FaerError> {
+    let n = problem.order();
+    let k = problem.k.symbolic();
+    let transposed = k.transpose().to_col_major()?;
+    // The edges of a cone, one after the other, move the same bodies.
+    let mut groups: Vec<&[usize]> = problem.points.iter().map(|point| &point.columns[..]).collect();
+    groups.dedup();
+    let (first, of_rows) = groups_of_rows(n, &groups);
+    let (mut starts, mut rows) = (vec![0], Vec::new());
+    let mut last = vec![usize::MAX; n];
+    for j in 0..n {
+        let begin = rows.len();
+        let of_points = of_rows[first[j]..first[j + 1]].iter().flat_map(|&group| groups[group]);
+        let of_stiffness = k.row_idx_of_col_raw(j).iter().chain(transposed.row_idx_of_col_raw(j));
+        for &i in [j].iter().chain(of_stiffness).chain(of_points) {
+            if std::mem::replace(&mut last[i], j) != j {
+                rows.push(i);
+            }
+        }
+        rows[begin..].sort_unstable();
+        starts.push(rows.len());
+    }
+    Ok((starts, rows))
 }

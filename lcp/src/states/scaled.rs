@@ -1,5 +1,7 @@
 //! The contact problem in units of its own.
 
+use std::borrow::Cow;
+
 use faer::sparse::SparseColMat;
 
 use crate::parts::Parts;
@@ -21,6 +23,9 @@ pub(crate) struct Scaled {
     /// Displacements that are zero and points without force, see [`idle`].
     idle: Option<(Vec<bool>, Vec<bool>)>,
 }
+
+/// Displacements and forces, copied where they were changed.
+type Settled<'a> = (Cow<'a, [f64]>, Cow<'a, [(f64, f64)]>);
 
 /// A contact point: the displacements that it depends on, with their coefficients in gap and slip.
 pub(crate) struct Point {
@@ -217,6 +222,15 @@ impl Scaled {
     pub(crate) fn is_elastic(&self) -> bool {
         let has_friction = self.points.iter().any(|point| point.mu > 0.0);
         has_friction && diagonal(&self.k).iter().all(|k| *k > 0.0)
+    }
+
+    /// The same displacements and forces, with zeros where nothing moves and nothing is moved.
+    pub(crate) fn settled<'a>(&self, u: &'a [f64], forces: &'a [(f64, f64)]) -> Settled<'a> {
+        let (mut u, mut forces) = (Cow::from(u), Cow::from(forces));
+        if self.idle.is_some() {
+            self.settle(u.to_mut(), forces.to_mut());
+        }
+        (u, forces)
     }
 
     /// Sets to zero what moves nothing and is moved by nothing.

@@ -13,6 +13,8 @@ pub(super) struct Fronts {
     factors: Vec<Factor>,
     /// The frontal matrix in work.
     front: Vec<f64>,
+    /// Whether the determinant of the last matrix is negative.
+    is_negative: bool,
 }
 
 /// The factors of a supernode: rows of its block exchanged, `L` and `U` of the block in one, the rows of
@@ -38,6 +40,7 @@ impl Fronts {
         Self {
             factors: analysis.supernodes.iter().map(factor).collect(),
             front: vec![0.0; largest * largest],
+            is_negative: false,
         }
     }
 
@@ -64,12 +67,13 @@ impl Fronts {
                 children[parent].push(s);
             }
         }
+        self.is_negative =
+            self.factors.iter().fold(false, |negative, factor| negative ^ factor.is_negative());
         replaced
     }
 
-    /// Whether the determinant of the last matrix is negative.
     pub(super) fn is_negative(&self) -> bool {
-        self.factors.iter().fold(false, |negative, factor| negative ^ factor.is_negative())
+        self.is_negative
     }
 
     pub(super) fn solve(&self, analysis: &Analysis, x: &mut [f64]) {
@@ -130,6 +134,9 @@ impl Factor {
         let width = self.rows.len();
         let order = self.lower.len() / width.max(1);
         let pivots = (0..width).filter(|k| self.lower[k * (order + 1)] < 0.0).count();
+        if self.rows.iter().enumerate().all(|(i, row)| i == *row) {
+            return pivots % 2 == 1;
+        }
         // A cycle of even length is an odd number of exchanges.
         let mut seen = vec![false; width];
         let mut exchanges = 0;
