@@ -3,9 +3,12 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 use std::fs;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use masonry::analysis::limit::{Bracket, Laws, least_thickness_observed, limit_observed};
+use masonry::scene::Scene;
 use serde_json::Value;
 
 fn masonry(arguments: &[&str]) -> Output {
@@ -221,9 +224,47 @@ fn what_presses_on_the_floor_has_no_limit() {
     let found = &object["associative"];
     assert_eq!((&found["answer"], &found["proved"]), (&"does not fail".into(), &true.into()));
     assert!(found["load_factor"].is_null() && code == 0);
-    assert!(object["sentence"].as_str().unwrap().contains("does not fail"));
+    assert!(object["sentence"].as_str().unwrap().contains("carry any factor (proved)"));
     let path = &object["path"];
     assert!(path["falls"].is_null() && path["load_factor"].as_f64().unwrap() > 100.0);
+}
+
+/// The observer ends the search as soon as the bracket is narrower than it was asked for.
+#[test]
+fn an_interrupted_search_keeps_its_bracket() {
+    let scene = Scene::read(&given("ferris_wall_1.toml")).unwrap();
+    let mut told = Bracket::default();
+    let limit = limit_observed(&scene, Laws::Both, &mut |at| {
+        told = at;
+        if at.stands.is_some_and(|stands| stands > 0.3) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    })
+    .unwrap();
+    let path = limit.path.unwrap();
+    assert!(limit.is_interrupted && !path.decided);
+    assert_eq!(Bracket { stands: path.load_factor, falls: path.falls }, told);
+    let [stands, falls] = [told.stands, told.falls].map(Option::unwrap);
+    assert!(0.3 < stands && stands < 0.64 && 0.64 < falls, "{stands} {falls}");
+    assert_eq!(
+        limit.sentence,
+        format!(
+            "Interrupted. What is known of \"sideways\": stands up to {stands:.4} (path), cannot stand above 0.6429 (proved)."
+        )
+    );
+    // Before anything was known, and in the search for a thickness.
+    let limit = limit_observed(&scene, Laws::Both, &mut |_| ControlFlow::Break(())).unwrap();
+    assert_eq!(limit.sentence, "Interrupted before anything was known of \"sideways\".");
+    let arch = Scene::read(&given("arch_semicircular.toml")).unwrap();
+    let found = least_thickness_observed(&arch, "arch", &mut |at| match at {
+        Bracket { stands: Some(_), falls: Some(_) } => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    })
+    .unwrap();
+    assert!(found.is_interrupted && !found.proved && found.stands > found.falls);
+    assert!(found.sentence.starts_with("Interrupted. Arch \"arch\" stands at a thickness of "));
 }
 
 #[test]

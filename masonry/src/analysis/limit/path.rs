@@ -9,6 +9,7 @@ use nalgebra::Vector2;
 pub use events::{Change, Event};
 use steps::{End, Rest, Steps};
 
+use super::watch::{Bracket, Watch};
 use super::{Answer, Associative, LimitError, Structure};
 use crate::method::forms::Sparse;
 use crate::model::Model;
@@ -87,7 +88,11 @@ pub struct Stand {
 }
 
 /// Follows the path; `model` has blocks as they are, elastic or rigid.
-pub(super) fn of(structure: &Structure<'_>, associative: &Associative) -> Result<Path, LimitError> {
+pub(super) fn of(
+    structure: &Structure<'_>,
+    associative: &Associative,
+    watch: &mut Watch<'_>,
+) -> Result<Path, LimitError> {
     let mut stays = structure.under(1.0, 0.0);
     let load: f64 = stays.blocks.iter().map(|block| size(&stays, block)).sum();
     let springs = springs::put_into(&mut stays, load);
@@ -101,7 +106,8 @@ pub(super) fn of(structure: &Structure<'_>, associative: &Associative) -> Result
     let growth: Vec<f64> = loads.map(|(grown, stays)| grown - stays).collect();
     let steps = Steps { sparse: &sparse, growth: &growth, tolerance: TOLERANCE };
     let falls = if associative.answer == Answer::Falls { Some(0.0) } else { associative.bound };
-    let mut climb = Climb { steps, rests: Vec::new(), end: falls, falls, motion: None };
+    watch.known = Bracket { stands: None, falls };
+    let mut climb = Climb { steps, watch, rests: Vec::new(), end: falls, falls, motion: None };
     climb.run()?;
     for _ in 0..AGAIN {
         if !climb.goes_on()? {
@@ -109,7 +115,7 @@ pub(super) fn of(structure: &Structure<'_>, associative: &Associative) -> Result
         }
         climb.run()?;
     }
-    let Climb { rests, falls, motion, .. } = climb;
+    let Climb { watch, rests, falls, motion, .. } = climb;
     let flows = motion.and_then(|motion| recover::flow(&stays, &system, &sparse, &motion));
     // At the bound of associated flow its motion is one that nothing stops.
     let is_bound = falls.is_some() && falls == associative.bound;
@@ -128,7 +134,7 @@ pub(super) fn of(structure: &Structure<'_>, associative: &Associative) -> Result
     Ok(Path {
         load_factor,
         falls,
-        decided: is_near(falls, load_factor),
+        decided: !watch.is_ended && is_near(falls, load_factor),
         model,
         contacts,
         reactions,
@@ -154,8 +160,9 @@ fn size(model: &Model, block: &crate::model::Block) -> f64 {
 }
 
 /// The way up.
-struct Climb<'a> {
+struct Climb<'a, 'b> {
     steps: Steps<'a>,
+    watch: &'a mut Watch<'b>,
     rests: Vec<(f64, Rest)>,
     /// The least factor at which no rest was found, and the least at which it is known that there is none.
     end: Option<f64>,
@@ -163,7 +170,7 @@ struct Climb<'a> {
     motion: Option<Vec<f64>>,
 }
 
-impl Climb<'_> {
+impl Climb<'_, '_> {
     fn run(&mut self) -> Result<(), LimitError> {
         let is_below = self.end.is_some_and(|end| end <= 0.0);
         if is_below || self.rests.is_empty() && !self.tried(0.0)? {
@@ -182,6 +189,9 @@ impl Climb<'_> {
                 _ => next,
             };
             let rests = self.tried(next)?;
+            if self.watch.is_ended {
+                return Ok(());
+            }
             if self.end.is_none() {
                 doubled += 1;
                 step *= 2.0;
@@ -200,7 +210,7 @@ impl Climb<'_> {
         let (Some(at), Some(falls)) = (at, self.falls) else { return Ok(false) };
         for part in ABOVE {
             let factor = at + part * falls;
-            if is_near(self.falls, Some(at)) || factor >= falls {
+            if self.watch.is_ended || is_near(self.falls, Some(at)) || factor >= falls {
                 return Ok(false);
             }
             let rests = self.tried(factor)?;
@@ -215,13 +225,16 @@ impl Climb<'_> {
     /// Whether the blocks rest at a factor.
     fn tried(&mut self, factor: f64) -> Result<bool, LimitError> {
         let from = self.rests.last().map(|(_, rest)| rest);
-        match self.steps.advance(from, factor)? {
+        let end = self.steps.advance(from, factor, &mut self.watch.steps())?;
+        match end {
             End::Rests(rest) => {
                 self.rests.push((factor, rest));
+                self.watch.known.stands = Some(factor);
                 return Ok(true);
             }
             End::Flows(motion) => {
                 self.falls = Some(factor);
+                self.watch.known.falls = Some(factor);
                 self.motion = Some(motion);
             }
             End::Open => {}

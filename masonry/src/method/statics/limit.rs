@@ -6,7 +6,7 @@
 //! of the theorems of limit analysis (Drucker, Prager and Greenberg 1952; of blocks, Livesley 1978): its forces are a
 //! bound from below, and its motion is one from above, which the [`Proof`] checks in the geometry.
 
-use lcp::Observer;
+use lcp::{Observer, Status};
 
 use super::engine::Engine;
 use super::program::Program;
@@ -124,6 +124,9 @@ impl Growing<'_> {
         let mut bounds = Bounds::default();
         for engine in LINEAR {
             let solution = engine.solve(&problem, MAX_STEPS, observer)?;
+            if solution.status == Status::Cancelled {
+                break;
+            }
             let (z, _) = problem.recover(&solution.t, &solution.y);
             let (motion, columns) = z.split_at(program.unknowns());
             let factor = columns[program.forces()].max(0.0);

@@ -97,8 +97,7 @@ fn drawn(title: &str, model: &Model, rates: &[Vec<Vector2<f64>>], for_page: bool
     draw_yielding(&mut sheet, model, &yielding(model, rates), brick, (factor, for_page));
     sheet.entry("amplitude is arbitrary", |_| {});
     if dilates(model, rates) {
-        // A motion that proves collapse.
-        sheet.entry("joints that slide open by mu times the slip: a bound, not the path", |_| {});
+        sheet.entry("associated flow: joints that slide also open, by mu times the slip", |_| {});
     }
     sheet.length_bar(InUnits(model.units));
     sheet.finish()
