@@ -138,6 +138,25 @@ fn walls_of_ferris_and_tin_loi_along_a_path() {
     }
 }
 
+/// A block of 10 kN slides at `mu` times its weight, 3 kN, over a gap of a millimetre. Then it leans on a second one of
+/// 13 kN, and both slide at 6.9 kN.
+#[test]
+fn events_are_located() {
+    let one = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let two = [[1.001, 0.0], [2.301, 0.0], [2.301, 1.0], [1.001, 1.0]];
+    let load = "[[loads]]\nname = \"push\"\nblock = \"0\"\nat = [0.0, 0.1]\nforce = [1.0, 0.0]\n\
+                [joints.head]\nmu = 0.0\n[contact]\ngap_limit = 0.01\n";
+    let scene = blocks(0.3, &[one, two], load).replace("to = [1.0, 0.0]", "to = [4.0, 0.0]");
+    let object = assert_associative(&written("events", &scene), 6.9);
+    let path = &object["path"];
+    assert!((path["load_factor"].as_f64().unwrap() / 6.9 - 1.0).abs() < 1e-3, "{path}");
+    let events = path["events"].as_array().unwrap();
+    let slides = |it: &&Value| it["change"] == "slides" && it["between"][1] == "0";
+    let event = events.iter().find(slides).unwrap();
+    let [after, before] = ["after", "before"].map(|key| event[key].as_f64().unwrap());
+    assert!(after <= 3.0 && 3.0 <= before && before - after < 6.9e-3, "{event}");
+}
+
 #[test]
 fn a_law_that_is_not_asked_for_is_null() {
     let path = written("law", &blocks(0.3, &stack(1, 1.0, 1.0), SIDEWAYS));
@@ -257,7 +276,8 @@ fn an_interrupted_search_keeps_its_bracket() {
     // Before anything was known, and in the search for a thickness.
     let limit = limit_observed(&scene, Laws::Both, &mut |_| ControlFlow::Break(())).unwrap();
     assert_eq!(limit.sentence, "Interrupted before anything was known of \"sideways\".");
-    let arch = Scene::read(&given("arch_semicircular.toml")).unwrap();
+    let arch = String::from_utf8(masonry(&["new", "arch"]).stdout).unwrap();
+    let arch = Scene::from_toml(&arch).unwrap();
     let found = least_thickness_observed(&arch, "arch", &mut |at| match at {
         Bracket { stands: Some(_), falls: Some(_) } => ControlFlow::Break(()),
         _ => ControlFlow::Continue(()),

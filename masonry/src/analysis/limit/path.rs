@@ -6,6 +6,7 @@ mod steps;
 
 use nalgebra::Vector2;
 
+use events::Way;
 pub use events::{Change, Event};
 use steps::{End, Rest, Steps};
 
@@ -31,6 +32,8 @@ const ABOVE: [f64; 3] = [1e-3, 2e-3, 4e-3];
 const AGAIN: usize = 3;
 /// Steps of a structure that never falls; each is twice as long as the one before. Chosen.
 const DOUBLED: usize = 10;
+/// Events are located to this part of the factor that falls. Chosen: three digits.
+const LOCATED: f64 = 1e-3;
 /// Largest residual of a state at rest. Chosen: that of scenes without a tolerance.
 const TOLERANCE: f64 = 1e-10;
 
@@ -115,7 +118,7 @@ pub(super) fn of(
         }
         climb.run()?;
     }
-    let Climb { watch, rests, falls, motion, .. } = climb;
+    let Climb { steps, watch, rests, falls, motion, .. } = climb;
     let flows = motion.and_then(|motion| recover::flow(&stays, &system, &sparse, &motion));
     // At the bound of associated flow its motion is one that nothing stops.
     let is_bound = falls.is_some() && falls == associative.bound;
@@ -130,7 +133,9 @@ pub(super) fn of(
             .contacts
     });
     let reactions = contacts.as_ref().map_or_else(Vec::new, |it| recover::reactions(&model, it));
-    let (events, curve) = events::along(&model, &system, &sparse, &rests);
+    let near = LOCATED * falls.or(load_factor).unwrap_or(1.0);
+    let way = Way { model: &model, system: &system, steps: &steps, near };
+    let (events, curve) = way.follow(rests, watch)?;
     Ok(Path {
         load_factor,
         falls,
@@ -224,6 +229,9 @@ impl Climb<'_, '_> {
 
     /// Whether the blocks rest at a factor.
     fn tried(&mut self, factor: f64) -> Result<bool, LimitError> {
+        if self.watch.ask().is_break() {
+            return Ok(false);
+        }
         let from = self.rests.last().map(|(_, rest)| rest);
         let end = self.steps.advance(from, factor, &mut self.watch.steps())?;
         match end {

@@ -111,6 +111,9 @@ impl Search<'_> {
 
     /// Whether it came out if the arch stands at a thickness.
     fn tried(&mut self, thickness: f64) -> Result<bool, LimitError> {
+        if self.watch.ask().is_break() {
+            return Ok(false);
+        }
         self.scene.arches[self.place].thickness = Some(thickness);
         let model = rigid(Model::from_scene(&self.scene)?);
         let system = System::without_factors(&model)?;
@@ -149,7 +152,8 @@ impl Search<'_> {
                  (proved); between them it is not known."
             ),
             (Some(falls), None) => format!(
-                "Arch \"{arch}\" stands at none of the thicknesses that were tried, up to {falls:.6} {name} (proved)."
+                "Arch \"{arch}\" stands at none of the thicknesses that were tried, up to {falls:.6} {name}, under \
+                 all loads of the scene (proved)."
             ),
             (None, Some(stands)) => format!(
                 "Arch \"{arch}\" stands at all thicknesses that were tried, down to {stands:.6} {name}."
