@@ -248,6 +248,21 @@ fn what_presses_on_the_floor_has_no_limit() {
     assert!(path["falls"].is_null() && path["load_factor"].as_f64().unwrap() > 100.0);
 }
 
+/// Loads of a millionth and of a million times the size have factors that are as much larger and smaller. Without friction
+/// nothing is carried to the side.
+#[test]
+fn factors_follow_the_size_of_what_grows() {
+    for (push, factor) in [("1e-5", 2e5), ("1e7", 2e-7)] {
+        let load = SIDEWAYS.replace("10.0", push);
+        assert_factor(&written(push, &blocks(0.7, &stack(1, 0.2, 1.0), &load)), factor);
+    }
+    let (object, code) =
+        object(&written("smooth", &blocks(0.0, &stack(2, 1.0, 1.0), SIDEWAYS)), &[]);
+    let [stands, bound] = [("path", "load_factor"), ("associative", "bound")]
+        .map(|(law, key)| object[law][key].as_f64().unwrap());
+    assert!(stands.abs() <= 0.0 && bound < 1e-5 && code == 0, "{stands} {bound}");
+}
+
 /// The observer ends the search as soon as the bracket is narrower than it was asked for.
 #[test]
 fn an_interrupted_search_keeps_its_bracket() {

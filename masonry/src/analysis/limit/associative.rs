@@ -45,6 +45,8 @@ pub struct Associative {
     pub forces: Option<Vec<ContactState>>,
     /// The reactions to them.
     pub reactions: Vec<Reaction>,
+    /// The factor \[-\] under which what grows is as large as what stays, or the largest, if that is larger.
+    pub(super) size: f64,
     /// The motion that proves it: displacement rates of the corners of every block, scaled to a largest component of one.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
 }
@@ -58,6 +60,7 @@ impl Associative {
             proved,
             forces: None,
             reactions: Vec::new(),
+            size: 0.0,
             mechanism: None,
         }
     }
@@ -93,12 +96,12 @@ pub(super) fn of(
             return Ok(Associative::new(Answer::Unlimited, true).with_forces(&model, Some(forces)));
         }
     }
-    let proved = bounds.is_closed();
+    let (proved, size) = (bounds.is_closed(), bounds.size);
     let answer = if proved { Answer::Fails } else { Answer::Undecided };
     let (load_factor, forces) = bounds.below.unzip();
     let (bound, proof) = bounds.above.unzip();
     let forces = forces.map(|forces| recover::forces_at_rest(&model, &forces));
     let found = Associative::new(answer, proved).with_forces(&model, forces);
     let mechanism = proof.map(|proof| proof.rates);
-    Ok(Associative { load_factor, bound, mechanism, ..found })
+    Ok(Associative { load_factor, bound, size, mechanism, ..found })
 }

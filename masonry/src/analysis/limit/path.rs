@@ -32,6 +32,9 @@ const ABOVE: [f64; 3] = [1e-3, 2e-3, 4e-3];
 const AGAIN: usize = 3;
 /// Steps of a structure that never falls; each is twice as long as the one before. Chosen.
 const DOUBLED: usize = 10;
+/// Factors below this part of the one under which what grows is as large as what stays are none. Chosen: between what the
+/// bound of associated flow leaves open, and what means something.
+const NOTHING: f64 = 1e-6;
 /// Events are located to this part of the factor that falls. Chosen: three digits.
 const LOCATED: f64 = 1e-3;
 /// Largest residual of a state at rest. Chosen: that of scenes without a tolerance.
@@ -110,7 +113,9 @@ pub(super) fn of(
     let steps = Steps { sparse: &sparse, growth: &growth, tolerance: TOLERANCE };
     let falls = if associative.answer == Answer::Falls { Some(0.0) } else { associative.bound };
     watch.known = Bracket { stands: None, falls };
-    let mut climb = Climb { steps, watch, rests: Vec::new(), end: falls, falls, motion: None };
+    let size = associative.size;
+    let mut climb =
+        Climb { steps, watch, size, rests: Vec::new(), end: falls, falls, motion: None };
     climb.run()?;
     for _ in 0..AGAIN {
         if !climb.goes_on()? {
@@ -139,7 +144,7 @@ pub(super) fn of(
     Ok(Path {
         load_factor,
         falls,
-        decided: !watch.is_ended && is_near(falls, load_factor),
+        decided: !watch.is_ended && is_near(falls, load_factor, size),
         model,
         contacts,
         reactions,
@@ -151,9 +156,9 @@ pub(super) fn of(
 }
 
 /// Whether a factor that falls is hardly larger than one that stands; or there is none.
-fn is_near(falls: Option<f64>, stands: Option<f64>) -> bool {
+fn is_near(falls: Option<f64>, stands: Option<f64>, size: f64) -> bool {
     match (falls, stands) {
-        (Some(falls), Some(stands)) => falls - stands <= ONE_NUMBER * falls,
+        (Some(falls), Some(stands)) => falls - stands <= (ONE_NUMBER * falls).max(NOTHING * size),
         (Some(falls), None) => falls <= 0.0,
         (None, stands) => stands.is_some(),
     }
@@ -168,6 +173,8 @@ fn size(model: &Model, block: &crate::model::Block) -> f64 {
 struct Climb<'a, 'b> {
     steps: Steps<'a>,
     watch: &'a mut Watch<'b>,
+    /// The factor under which what grows is as large as what stays.
+    size: f64,
     rests: Vec<(f64, Rest)>,
     /// The least factor at which no rest was found, and the least at which it is known that there is none.
     end: Option<f64>,
@@ -183,7 +190,7 @@ impl Climb<'_, '_> {
         }
         let mut step = self.end.map_or(1.0, |end| end / STEPS);
         // A structure that no factor leaves at rest has an end too.
-        let least = NEAR * NEAR * self.end.unwrap_or(1.0);
+        let least = (NEAR * NEAR * self.end.unwrap_or(1.0)).max(NOTHING * self.size);
         let mut doubled = 0;
         loop {
             let at = self.rests.last().map_or(0.0, |(factor, _)| *factor);
@@ -215,7 +222,7 @@ impl Climb<'_, '_> {
         let (Some(at), Some(falls)) = (at, self.falls) else { return Ok(false) };
         for part in ABOVE {
             let factor = at + part * falls;
-            if self.watch.is_ended || is_near(self.falls, Some(at)) || factor >= falls {
+            if self.watch.is_ended || is_near(self.falls, Some(at), self.size) || factor >= falls {
                 return Ok(false);
             }
             let rests = self.tried(factor)?;
