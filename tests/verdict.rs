@@ -34,7 +34,10 @@ fn rigid_walls_stand_on_admissible_forces() {
         let outcome = common::solved(&scene);
         assert_eq!(outcome.judgement.verdict, Verdict::Stands);
         assert_eq!(outcome.judgement.evidence, Evidence::AdmissibleForces);
-        assert!(outcome.judgement.sentence.contains("do not determine which of these forces act"));
+        assert!(outcome.judgement.sentence.ends_with("balance the loads (verified)."));
+        // That the way of loading matters is a warning, and no doubt in the verdict.
+        let warnings = outcome.judgement.warnings.concat();
+        assert!(warnings.contains("may bring the wall down earlier"), "{warnings}");
     }
     // Pivots end on rays, which say nothing against it.
     let by_pivots = walls::tall_with_window(0.401_675_53).route(Route::Lemke);

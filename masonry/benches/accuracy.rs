@@ -26,6 +26,7 @@ mod springs;
 #[path = "accuracy/tables.rs"]
 mod tables;
 
+use std::ops::ControlFlow;
 use std::time::Duration;
 
 use digits::Refining;
@@ -123,8 +124,14 @@ fn wall(bricks: u32) -> Study {
 fn told(scene: &Scene, settings: Settings) -> Study {
     let machine = Some(machine::machine_and_date());
     let settings = Settings { time_limit: LIMIT, machine, ..settings };
+    let mut shown = None;
     let study = study(scene, &settings, &mut |at| {
-        eprintln!("{}: mesh {}, {} to {:e}", scene.title, at.mesh, at.route.name(), at.tolerance);
+        if shown != Some(at) {
+            let (title, route) = (&scene.title, at.route.name());
+            eprintln!("{title}: mesh {}, {route} to {:e}", at.mesh, at.tolerance);
+            shown = Some(at);
+        }
+        ControlFlow::Continue(())
     });
     let study = study.expect("the scene is sound");
     println!("{}", report::study::table(&study));

@@ -11,6 +11,7 @@ mod extrapolated;
 #[path = "../benches/accuracy/springs.rs"]
 mod springs;
 
+use std::ops::ControlFlow;
 use std::time::Duration;
 
 use lcp::refine::Refinement;
@@ -40,7 +41,7 @@ fn studied() -> Study {
         meshes: vec![1, 2, 4],
         ..Settings::default()
     };
-    study(&wall(), &settings, &mut |_| {}).unwrap()
+    study(&wall(), &settings, &mut |_| ControlFlow::Continue(())).unwrap()
 }
 
 #[test]

@@ -180,6 +180,10 @@ fn voussoirs() -> Broken {
             arch(&format!("thickness = 0.5\nvoussoirs = 0\n{semicircular}")),
         ),
         (
+            "half a circle of one voussoir",
+            arch(&format!("thickness = 0.5\nvoussoirs = 1\n{semicircular}")),
+        ),
+        (
             "an arch that does not say how many voussoirs it has",
             arch(&format!("thickness = 0.5\n{semicircular}")),
         ),

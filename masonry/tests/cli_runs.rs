@@ -305,6 +305,44 @@ mod interrupted {
         assert!(solved_steps(&third) > 0);
     }
 
+    /// A wall of some hundred bricks, whose path takes long.
+    #[test]
+    fn a_limit_load_keeps_what_is_known() {
+        let directory = directory("limit");
+        let out = directory.join("out");
+        let scene = String::from_utf8(masonry(&["new", "wall"]).stdout).unwrap();
+        let fine = scene
+            .replace("length = 0.25, height = 0.125", "length = 0.125, height = 0.0625")
+            .replace("courses = 16", "courses = 32");
+        assert_ne!(fine, scene);
+        let scene = written(&directory, &fine);
+        let arguments = ["limit", &scene, "--out", out.to_str().unwrap(), "--json"];
+        let output = interrupt(started(&arguments, &out.join(".masonry.json")));
+        assert_eq!(output.status.code(), Some(1), "{}", errors(&output));
+        let result = object(&output);
+        let sentence = result["sentence"].as_str().unwrap();
+        assert!(result["interrupted"] == true && sentence.starts_with("Interrupted"), "{sentence}");
+        assert!(result["path"]["decided"] == false && errors(&output).contains("interrupted"));
+        assert!(out.join("limit.json").exists());
+    }
+
+    #[test]
+    fn a_study_keeps_what_was_solved() {
+        let directory = directory("study");
+        let out = directory.join("out");
+        let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/panel_square.toml");
+        let [scene, to] = [&scene, &out].map(|path| path.to_str().unwrap());
+        let arguments = ["study", scene, "--out", to, "--json"];
+        let output = interrupt(started(&arguments, &out.join(".masonry.json")));
+        assert_eq!(output.status.code(), Some(1), "{}", errors(&output));
+        let result = object(&output);
+        assert_eq!(result["interrupted"], true);
+        // Routes, tolerances and meshes.
+        assert_eq!(result["records"].as_array().unwrap().len(), 6 * 6 * 3);
+        assert!(result["summary"][0].as_str().unwrap().starts_with("Interrupted: "));
+        assert!(out.join("study.json").exists());
+    }
+
     /// Sweeps take minutes here.
     #[test]
     fn a_single_solve_ends_with_what_is_known() {

@@ -3,9 +3,12 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 use std::fs;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use masonry::analysis::limit::{Bracket, Laws, least_thickness_observed, limit_observed};
+use masonry::scene::Scene;
 use serde_json::Value;
 
 fn masonry(arguments: &[&str]) -> Output {
@@ -135,6 +138,25 @@ fn walls_of_ferris_and_tin_loi_along_a_path() {
     }
 }
 
+/// A block of 10 kN slides at `mu` times its weight, 3 kN, over a gap of a millimetre. Then it leans on a second one of
+/// 13 kN, and both slide at 6.9 kN.
+#[test]
+fn events_are_located() {
+    let one = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let two = [[1.001, 0.0], [2.301, 0.0], [2.301, 1.0], [1.001, 1.0]];
+    let load = "[[loads]]\nname = \"push\"\nblock = \"0\"\nat = [0.0, 0.1]\nforce = [1.0, 0.0]\n\
+                [joints.head]\nmu = 0.0\n[contact]\ngap_limit = 0.01\n";
+    let scene = blocks(0.3, &[one, two], load).replace("to = [1.0, 0.0]", "to = [4.0, 0.0]");
+    let object = assert_associative(&written("events", &scene), 6.9);
+    let path = &object["path"];
+    assert!((path["load_factor"].as_f64().unwrap() / 6.9 - 1.0).abs() < 1e-3, "{path}");
+    let events = path["events"].as_array().unwrap();
+    let slides = |it: &&Value| it["change"] == "slides" && it["between"][1] == "0";
+    let event = events.iter().find(slides).unwrap();
+    let [after, before] = ["after", "before"].map(|key| event[key].as_f64().unwrap());
+    assert!(after <= 3.0 && 3.0 <= before && before - after < 6.9e-3, "{event}");
+}
+
 #[test]
 fn a_law_that_is_not_asked_for_is_null() {
     let path = written("law", &blocks(0.3, &stack(1, 1.0, 1.0), SIDEWAYS));
@@ -221,9 +243,63 @@ fn what_presses_on_the_floor_has_no_limit() {
     let found = &object["associative"];
     assert_eq!((&found["answer"], &found["proved"]), (&"does not fail".into(), &true.into()));
     assert!(found["load_factor"].is_null() && code == 0);
-    assert!(object["sentence"].as_str().unwrap().contains("does not fail"));
+    assert!(object["sentence"].as_str().unwrap().contains("carry any factor (proved)"));
     let path = &object["path"];
     assert!(path["falls"].is_null() && path["load_factor"].as_f64().unwrap() > 100.0);
+}
+
+/// Loads of a millionth and of a million times the size have factors that are as much larger and smaller. Without friction
+/// nothing is carried to the side.
+#[test]
+fn factors_follow_the_size_of_what_grows() {
+    for (push, factor) in [("1e-5", 2e5), ("1e7", 2e-7)] {
+        let load = SIDEWAYS.replace("10.0", push);
+        assert_factor(&written(push, &blocks(0.7, &stack(1, 0.2, 1.0), &load)), factor);
+    }
+    let (object, code) =
+        object(&written("smooth", &blocks(0.0, &stack(2, 1.0, 1.0), SIDEWAYS)), &[]);
+    let [stands, bound] = [("path", "load_factor"), ("associative", "bound")]
+        .map(|(law, key)| object[law][key].as_f64().unwrap());
+    assert!(stands.abs() <= 0.0 && bound < 1e-5 && code == 0, "{stands} {bound}");
+}
+
+/// The observer ends the search as soon as the bracket is narrower than it was asked for.
+#[test]
+fn an_interrupted_search_keeps_its_bracket() {
+    let scene = Scene::read(&given("ferris_wall_1.toml")).unwrap();
+    let mut told = Bracket::default();
+    let limit = limit_observed(&scene, Laws::Both, &mut |at| {
+        told = at;
+        if at.stands.is_some_and(|stands| stands > 0.3) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    })
+    .unwrap();
+    let path = limit.path.unwrap();
+    assert!(limit.is_interrupted && !path.decided);
+    assert_eq!(Bracket { stands: path.load_factor, falls: path.falls }, told);
+    let [stands, falls] = [told.stands, told.falls].map(Option::unwrap);
+    assert!(0.3 < stands && stands < 0.64 && 0.64 < falls, "{stands} {falls}");
+    assert_eq!(
+        limit.sentence,
+        format!(
+            "Interrupted. What is known of \"sideways\": stands up to {stands:.4} (path), cannot stand above 0.6429 (proved)."
+        )
+    );
+    // Before anything was known, and in the search for a thickness.
+    let limit = limit_observed(&scene, Laws::Both, &mut |_| ControlFlow::Break(())).unwrap();
+    assert_eq!(limit.sentence, "Interrupted before anything was known of \"sideways\".");
+    let arch = String::from_utf8(masonry(&["new", "arch"]).stdout).unwrap();
+    let arch = Scene::from_toml(&arch).unwrap();
+    let found = least_thickness_observed(&arch, "arch", &mut |at| match at {
+        Bracket { stands: Some(_), falls: Some(_) } => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    })
+    .unwrap();
+    assert!(found.is_interrupted && !found.proved && found.stands > found.falls);
+    assert!(found.sentence.starts_with("Interrupted. Arch \"arch\" stands at a thickness of "));
 }
 
 #[test]

@@ -91,6 +91,32 @@ fn hinges_of_an_arch_are_numbered_in_their_order() {
     assert!(numbers.iter().all(|number| texts(&document).contains(number)));
 }
 
+/// Wall 3 of Ferris and Tin-Loi with Coulomb's friction: more joints slide than can be numbered, most of them slowly.
+#[test]
+fn slow_blocks_are_light_and_slow_joints_of_many_have_no_marks() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/ferris_wall_3.toml");
+    let limit = limit_by(&Scene::read(&path).unwrap(), Laws::Path).unwrap();
+    let path = limit.path.unwrap();
+    let rates = path.mechanism.unwrap();
+    let picture = svg::mechanism("Wall", &path.model, &rates);
+    let document = Document::parse(&picture).unwrap();
+    let joints = yielding(&path.model, &rates);
+    let marked: Vec<_> = joints.iter().filter(|it| it.does.is_marked()).collect();
+    let fast = marked.iter().filter(|it| it.opens.max(it.slides) >= 0.05).count();
+    assert!(marked.len() > 48 && fast > 0 && fast < marked.len());
+    let marks = ["slides", "hinge"].map(|class| with_class(&document, class).len());
+    assert_eq!(marks.iter().sum::<usize>(), fast);
+    let left_out = format!("no mark: {} joints, slower", marked.len() - fast);
+    let texts = texts(&document);
+    assert!(texts.iter().any(|text| text.starts_with(&left_out)), "{texts:?}");
+    let speed = |rates: &Vec<nalgebra::Vector2<f64>>| {
+        rates.iter().map(nalgebra::Vector2::norm).fold(0.0, f64::max)
+    };
+    let fastest = rates.iter().map(speed).fold(0.0, f64::max);
+    let moving = rates.iter().filter(|it| speed(it) >= 0.05 * fastest).count();
+    assert!(texts.contains(&format!("moving: {moving} blocks")), "{texts:?}");
+}
+
 #[test]
 fn a_scene_shows_dimensions_and_what_blocks_are_made_of() {
     let scene = Scene::new("Two stones", Units::SI)

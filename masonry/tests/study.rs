@@ -9,6 +9,7 @@ mod program;
 mod words;
 
 use std::collections::BTreeSet;
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::LazyLock;
 use std::time::Duration;
@@ -65,7 +66,7 @@ fn settings() -> Settings {
 static WALL: LazyLock<Study> = LazyLock::new(|| studied(&wall(), &settings()));
 
 fn studied(scene: &Scene, settings: &Settings) -> Study {
-    study(scene, settings, &mut |_| {}).unwrap()
+    study(scene, settings, &mut |_| ControlFlow::Continue(())).unwrap()
 }
 
 fn by(study: &Study, route: Route, mesh: u32) -> Vec<&Record> {
@@ -80,7 +81,11 @@ fn worst(record: &Record) -> f64 {
 fn every_combination_has_its_record_and_errors_fall_with_the_tolerance() {
     let settings = settings();
     let mut told = Vec::new();
-    let study = study(&wall(), &settings, &mut |at| told.push(at)).unwrap();
+    let study = study(&wall(), &settings, &mut |at| {
+        told.push(at);
+        ControlFlow::Continue(())
+    });
+    let study = study.unwrap();
 
     let combination = |it: &Record| (it.mesh, it.route.name(), it.tolerance.to_bits());
     let combinations: BTreeSet<_> = study.records.iter().map(combination).collect();
@@ -283,9 +288,36 @@ fn without_time_there_is_no_answer_and_what_is_harder_is_not_tried() {
     assert!(text.contains("Not tried: alm on mesh 1, 2, 4, since the time ran out"), "{text}");
 }
 
+/// The solves of the reference come first, and then the routes in their order.
+#[test]
+fn an_interrupted_study_keeps_what_was_solved() {
+    let settings = Settings {
+        routes: vec![Route::Interior, Route::Pgs],
+        tolerances: vec![1e-6],
+        meshes: vec![1, 2],
+        ..Settings::default()
+    };
+    let study = study(&wall(), &settings, &mut |at| {
+        if at.route == Route::Pgs { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    let study = study.unwrap();
+    assert!(study.is_interrupted && study.is_solved());
+    let [solved, skipped @ ..] = &study.records[..] else { panic!("no records") };
+    assert!(solved.end.is_solved() && solved.errors.is_some());
+    assert_eq!(skipped.len(), 3);
+    for record in skipped {
+        assert!(record.end.reason().unwrap().contains("interrupted"), "{record:?}");
+    }
+    assert!(study.meshes[0].reference.is_some() && study.meshes[1].reference.is_none());
+    let text = output::table(&study);
+    assert!(text.contains("Interrupted: 3 of 4 solves are missing."), "{text}");
+}
+
 #[test]
 fn settings_out_of_range_are_refused() {
-    let refused = |settings: Settings| study(&wall(), &settings, &mut |_| {}).unwrap_err();
+    let refused = |settings: Settings| {
+        study(&wall(), &settings, &mut |_| ControlFlow::Continue(())).unwrap_err()
+    };
     let empty = refused(Settings { routes: Vec::new(), ..settings() });
     assert!(matches!(empty, StudyError::Empty { what: "route" }));
     for tolerances in [vec![1e-4, 0.0], vec![1.0], vec![f64::NAN]] {
@@ -296,6 +328,7 @@ fn settings_out_of_range_are_refused() {
         refused(Settings { meshes: vec![1, 0], ..settings() }),
         StudyError::NoElements
     ));
-    let error = study(&wall().thickness(-1.0), &settings(), &mut |_| {}).unwrap_err();
+    let error = study(&wall().thickness(-1.0), &settings(), &mut |_| ControlFlow::Continue(()))
+        .unwrap_err();
     assert!(matches!(error, StudyError::Scene(_)));
 }

@@ -33,20 +33,24 @@ mod path;
 mod range;
 mod sentence;
 mod thickness;
+mod watch;
 
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 pub use associative::{Answer, Associative};
 pub use error::LimitError;
 pub use path::{Change, Event, Path, Stand};
 pub use range::{Extremes, Range, ranges};
-pub use thickness::{Thickness, least_thickness};
+pub use thickness::{Thickness, least_thickness, least_thickness_observed};
+pub use watch::{Bracket, Observer};
 
 use crate::history::Actions;
 use crate::method::info::PhaseTime;
 use crate::model::Model;
 use crate::scene::{Load, Scene};
 use crate::system::{self, System};
+use watch::Watch;
 
 /// The laws of friction of a limit load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -78,6 +82,8 @@ pub struct Limit {
     pub sentence: String,
     /// Warnings: what limits the meaning of the answer.
     pub warnings: Vec<String>,
+    /// Whether the observer has ended the search, so that less is known than could be.
+    pub is_interrupted: bool,
     /// Time of every phase.
     pub times: Vec<PhaseTime>,
 }
@@ -95,6 +101,19 @@ pub fn limit(scene: &Scene) -> Result<Limit, LimitError> {
 /// # Errors
 /// As [`limit`].
 pub fn limit_by(scene: &Scene, laws: Laws) -> Result<Limit, LimitError> {
+    limit_observed(scene, laws, &mut |_| ControlFlow::Continue(()))
+}
+
+/// The same, which an observer follows: `Break` ends it with what is known.
+///
+/// # Errors
+/// As [`limit`].
+pub fn limit_observed<'a>(
+    scene: &Scene,
+    laws: Laws,
+    observer: &'a mut Observer<'a>,
+) -> Result<Limit, LimitError> {
+    let mut watch = Watch::new(observer);
     let mut clock = Clock::new();
     let group = group(scene)?;
     let given = Model::from_scene(scene)?;
@@ -107,12 +126,12 @@ pub fn limit_by(scene: &Scene, laws: Laws) -> Result<Limit, LimitError> {
     }
     clock.lap("model");
     // Its bound ends the path.
-    let associative = associative::of(&structure, &growth)?;
+    let associative = associative::of(&structure, &growth, &mut watch)?;
     clock.lap("associative");
     let path = if laws == Laws::Associative {
         None
     } else {
-        let path = path::of(&Structure { model: &given, grows: &loads }, &associative)?;
+        let path = path::of(&Structure { model: &given, grows: &loads }, &associative, &mut watch)?;
         clock.lap("path");
         Some(path)
     };
@@ -120,10 +139,16 @@ pub fn limit_by(scene: &Scene, laws: Laws) -> Result<Limit, LimitError> {
     warnings.extend(path.as_ref().map(Path::warning));
     let carried = associative.load_factor.unwrap_or(1.0);
     let associative = (laws != Laws::Path).then_some(associative);
+    let sentence = if watch.is_ended {
+        sentence::of_interrupted(&group, associative.as_ref(), path.as_ref())
+    } else {
+        sentence::of(&group, associative.as_ref(), path.as_ref())
+    };
     Ok(Limit {
         title: scene.title.clone(),
-        sentence: sentence::of(&group, associative.as_ref(), path.as_ref()),
+        sentence,
         warnings,
+        is_interrupted: watch.is_ended,
         model: structure.under(1.0, carried),
         group,
         associative,

@@ -27,7 +27,7 @@
 //!     meshes: vec![1, 2],
 //!     ..Settings::default()
 //! };
-//! let study = study(&scene, &settings, &mut |_| {})?;
+//! let study = study(&scene, &settings, &mut |_| std::ops::ControlFlow::Continue(()))?;
 //! assert_eq!(study.records.len(), 8);
 //! let [exact, iterated] = [&study.records[1], &study.records[3]];
 //! assert!(exact.errors.unwrap().worst() < iterated.errors.unwrap().worst());
@@ -42,6 +42,7 @@ mod reference;
 mod runs;
 mod verified;
 
+use std::ops::ControlFlow;
 use std::time::Duration;
 
 use lcp::Status;
@@ -220,6 +221,8 @@ pub struct Study {
     pub time_limit: Duration,
     /// The machine on which times were measured, if it was given.
     pub machine: Option<String>,
+    /// Whether the observer has ended it, so that solves were skipped.
+    pub is_interrupted: bool,
     /// By mesh, route and tolerance, in the order of the settings.
     pub records: Vec<Record>,
     /// The meshes, in the order of the settings.
@@ -261,6 +264,9 @@ pub struct Progress {
     pub tolerance: f64,
 }
 
+/// Hears what is being solved, many times in each solve; after `Break` all further solves are skipped.
+pub type Observer<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
+
 /// Studies a scene and reports to the observer what is being solved.
 ///
 /// Form and limit of pivots of the scene are kept for [`Route::Lemke`]; its route, tolerance and springs
@@ -269,10 +275,10 @@ pub struct Progress {
 /// # Errors
 /// [`StudyError`] for a scene that is wrong and for settings out of range. A route or a mesh that fails is
 /// no error but a record.
-pub fn study(
+pub fn study<'a>(
     scene: &Scene,
-    settings: &Settings,
-    observer: &mut dyn FnMut(Progress),
+    settings: &'a Settings,
+    observer: &'a mut Observer<'a>,
 ) -> Result<Study, StudyError> {
     settings.validate()?;
     let model = Model::from_scene(scene)?;
@@ -295,6 +301,7 @@ pub fn study(
         units: scene.units,
         time_limit: settings.time_limit,
         machine: settings.machine.clone(),
+        is_interrupted: runner.is_interrupted(),
         records,
         meshes: mesh::compared(meshes),
     })

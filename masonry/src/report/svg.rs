@@ -22,6 +22,7 @@ pub(super) mod pictures;
 mod scene;
 mod sheet;
 mod stresses;
+mod style;
 
 pub(super) use canvas::escape as escaped;
 pub use cracks::cracks;

@@ -2,7 +2,7 @@
 //! warnings. Nothing else in the crate decides this.
 //!
 //! * **Stands**: an equilibrium was found and verified. For rigid blocks at rest any forces within friction that
-//!   balance the loads are an equilibrium. Rigid blocks do not determine which of them act.
+//!   balance the loads are an equilibrium. Which of them act depends on how the load has grown.
 //! * **Falls**: no contact forces within friction balance the loads, with a [proof](crate::method::statics::Proof)
 //!   that was checked in the geometry; or the blocks move and do not come to rest, which is evidence.
 //! * **Undecided**: all other cases. Neither a secondary ray nor springs that keep their load prove that a wall
@@ -175,7 +175,8 @@ fn warnings(known: &Known<'_>, movement: Option<Movement>) -> Vec<String> {
     if known.circulating > 0 && known.state.is_some() {
         let blocks = "Displacements, stresses and the resultants of joints that do not meet in a corner are \
                       not affected.";
-        let rigid = "One of many sets of forces that balance the loads is shown.";
+        let rigid = "One of many sets that balance the loads is shown. Joints that slide while the load grows \
+                     may bring the wall down earlier; `masonry limit` follows the load.";
         list.push(format!(
             "Forces at {} of {} contact points are not unique. {}",
             known.circulating,

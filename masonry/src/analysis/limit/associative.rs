@@ -1,11 +1,9 @@
 //! The limit load of associated flow: a linear program, and the two sides of its answer.
 
-use std::ops::ControlFlow;
-
-use lcp::Iteration;
 use nalgebra::Vector2;
 use serde::Serialize;
 
+use super::watch::Watch;
 use super::{LimitError, Structure};
 use crate::method::statics::limit::Growing;
 use crate::method::statics::{self, Statics};
@@ -47,6 +45,8 @@ pub struct Associative {
     pub forces: Option<Vec<ContactState>>,
     /// The reactions to them.
     pub reactions: Vec<Reaction>,
+    /// The factor \[-\] under which what grows is as large as what stays, or the largest, if that is larger.
+    pub(super) size: f64,
     /// The motion that proves it: displacement rates of the corners of every block, scaled to a largest component of one.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
 }
@@ -60,6 +60,7 @@ impl Associative {
             proved,
             forces: None,
             reactions: Vec::new(),
+            size: 0.0,
             mechanism: None,
         }
     }
@@ -71,33 +72,36 @@ impl Associative {
     }
 }
 
-pub(super) fn of(structure: &Structure<'_>, growth: &[f64]) -> Result<Associative, LimitError> {
-    let on = &mut |_: &Iteration| ControlFlow::Continue(());
+pub(super) fn of(
+    structure: &Structure<'_>,
+    growth: &[f64],
+    watch: &mut Watch<'_>,
+) -> Result<Associative, LimitError> {
     let (model, system) = structure.system(1.0, 0.0)?;
-    let at_zero = statics::decide(&model, &system, on)?.statics;
+    let at_zero = statics::decide(&model, &system, &mut watch.steps())?.statics;
     if let Statics::Impossible(proof) = at_zero {
         let answer = Associative::new(Answer::Falls, true);
         return Ok(Associative { mechanism: Some(proof.rates), ..answer });
     }
     let at = |factor| structure.under(1.0, factor);
-    let bounds = Growing { at: &at, system: &system, growth }.largest(on)?;
+    let bounds = Growing { at: &at, system: &system, growth }.largest(&mut watch.steps())?;
     if bounds.above.is_none() {
         // Forces that carry the group alone, without any strength, can be added any number of times.
         let mut alone = structure.under(0.0, 1.0);
         alone.remove_strength();
         let system = crate::system::System::without_factors(&alone)?;
-        let alone = statics::decide(&alone, &system, on)?.statics;
+        let alone = statics::decide(&alone, &system, &mut watch.steps())?.statics;
         if let (Statics::Admissible(_), Statics::Admissible(forces)) = (alone, &at_zero) {
             let forces = recover::forces_at_rest(&model, forces);
             return Ok(Associative::new(Answer::Unlimited, true).with_forces(&model, Some(forces)));
         }
     }
-    let proved = bounds.is_closed();
+    let (proved, size) = (bounds.is_closed(), bounds.size);
     let answer = if proved { Answer::Fails } else { Answer::Undecided };
     let (load_factor, forces) = bounds.below.unzip();
     let (bound, proof) = bounds.above.unzip();
     let forces = forces.map(|forces| recover::forces_at_rest(&model, &forces));
     let found = Associative::new(answer, proved).with_forces(&model, forces);
     let mechanism = proof.map(|proof| proof.rates);
-    Ok(Associative { load_factor, bound, mechanism, ..found })
+    Ok(Associative { load_factor, bound, size, mechanism, ..found })
 }

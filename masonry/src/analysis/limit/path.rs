@@ -6,9 +6,11 @@ mod steps;
 
 use nalgebra::Vector2;
 
+use events::Way;
 pub use events::{Change, Event};
 use steps::{End, Rest, Steps};
 
+use super::watch::{Bracket, Watch};
 use super::{Answer, Associative, LimitError, Structure};
 use crate::method::forms::Sparse;
 use crate::model::Model;
@@ -30,6 +32,11 @@ const ABOVE: [f64; 3] = [1e-3, 2e-3, 4e-3];
 const AGAIN: usize = 3;
 /// Steps of a structure that never falls; each is twice as long as the one before. Chosen.
 const DOUBLED: usize = 10;
+/// Factors below this part of the one under which what grows is as large as what stays are none. Chosen: between what the
+/// bound of associated flow leaves open, and what means something.
+const NOTHING: f64 = 1e-6;
+/// Events are located to this part of the factor that falls. Chosen: three digits.
+const LOCATED: f64 = 1e-3;
 /// Largest residual of a state at rest. Chosen: that of scenes without a tolerance.
 const TOLERANCE: f64 = 1e-10;
 
@@ -88,7 +95,11 @@ pub struct Stand {
 }
 
 /// Follows the path; `model` has blocks as they are, elastic or rigid.
-pub(super) fn of(structure: &Structure<'_>, associative: &Associative) -> Result<Path, LimitError> {
+pub(super) fn of(
+    structure: &Structure<'_>,
+    associative: &Associative,
+    watch: &mut Watch<'_>,
+) -> Result<Path, LimitError> {
     let mut stays = structure.under(1.0, 0.0);
     let load: f64 = stays.blocks.iter().map(|block| size(&stays, block)).sum();
     let springs = springs::put_into(&mut stays, load);
@@ -102,7 +113,10 @@ pub(super) fn of(structure: &Structure<'_>, associative: &Associative) -> Result
     let growth: Vec<f64> = loads.map(|(grown, stays)| grown - stays).collect();
     let steps = Steps { sparse: &sparse, growth: &growth, tolerance: TOLERANCE };
     let falls = if associative.answer == Answer::Falls { Some(0.0) } else { associative.bound };
-    let mut climb = Climb { steps, rests: Vec::new(), end: falls, falls, motion: None };
+    watch.known = Bracket { stands: None, falls };
+    let size = associative.size;
+    let mut climb =
+        Climb { steps, watch, size, rests: Vec::new(), end: falls, falls, motion: None };
     climb.run()?;
     for _ in 0..AGAIN {
         if !climb.goes_on()? {
@@ -110,7 +124,7 @@ pub(super) fn of(structure: &Structure<'_>, associative: &Associative) -> Result
         }
         climb.run()?;
     }
-    let Climb { rests, falls, motion, .. } = climb;
+    let Climb { steps, watch, rests, falls, motion, .. } = climb;
     let flows = motion.and_then(|motion| recover::flow(&stays, &system, &sparse, &motion));
     // At the bound of associated flow its motion is one that nothing stops.
     let is_bound = falls.is_some() && falls == associative.bound;
@@ -125,11 +139,13 @@ pub(super) fn of(structure: &Structure<'_>, associative: &Associative) -> Result
             .contacts
     });
     let reactions = contacts.as_ref().map_or_else(Vec::new, |it| recover::reactions(&model, it));
-    let (events, curve) = events::along(&model, &system, &sparse, &rests);
+    let near = LOCATED * falls.or(load_factor).unwrap_or(1.0);
+    let way = Way { model: &model, system: &system, steps: &steps, near };
+    let (events, curve) = way.follow(rests, watch)?;
     Ok(Path {
         load_factor,
         falls,
-        decided: is_near(falls, load_factor),
+        decided: !watch.is_ended && is_near(falls, load_factor, size),
         model,
         contacts,
         reactions,
@@ -141,9 +157,9 @@ pub(super) fn of(structure: &Structure<'_>, associative: &Associative) -> Result
 }
 
 /// Whether a factor that falls is hardly larger than one that stands; or there is none.
-fn is_near(falls: Option<f64>, stands: Option<f64>) -> bool {
+fn is_near(falls: Option<f64>, stands: Option<f64>, size: f64) -> bool {
     match (falls, stands) {
-        (Some(falls), Some(stands)) => falls - stands <= ONE_NUMBER * falls,
+        (Some(falls), Some(stands)) => falls - stands <= (ONE_NUMBER * falls).max(NOTHING * size),
         (Some(falls), None) => falls <= 0.0,
         (None, stands) => stands.is_some(),
     }
@@ -155,8 +171,11 @@ fn size(model: &Model, block: &crate::model::Block) -> f64 {
 }
 
 /// The way up.
-struct Climb<'a> {
+struct Climb<'a, 'b> {
     steps: Steps<'a>,
+    watch: &'a mut Watch<'b>,
+    /// The factor under which what grows is as large as what stays.
+    size: f64,
     rests: Vec<(f64, Rest)>,
     /// The least factor at which no rest was found, and the least at which it is known that there is none.
     end: Option<f64>,
@@ -164,7 +183,7 @@ struct Climb<'a> {
     motion: Option<Vec<f64>>,
 }
 
-impl Climb<'_> {
+impl Climb<'_, '_> {
     fn run(&mut self) -> Result<(), LimitError> {
         let is_below = self.end.is_some_and(|end| end <= 0.0);
         if is_below || self.rests.is_empty() && !self.tried(0.0)? {
@@ -172,7 +191,7 @@ impl Climb<'_> {
         }
         let mut step = self.end.map_or(1.0, |end| end / STEPS);
         // A structure that no factor leaves at rest has an end too.
-        let least = NEAR * NEAR * self.end.unwrap_or(1.0);
+        let least = (NEAR * NEAR * self.end.unwrap_or(1.0)).max(NOTHING * self.size);
         let mut doubled = 0;
         loop {
             let at = self.rests.last().map_or(0.0, |(factor, _)| *factor);
@@ -183,6 +202,9 @@ impl Climb<'_> {
                 _ => next,
             };
             let rests = self.tried(next)?;
+            if self.watch.is_ended {
+                return Ok(());
+            }
             if self.end.is_none() {
                 doubled += 1;
                 step *= 2.0;
@@ -201,7 +223,7 @@ impl Climb<'_> {
         let (Some(at), Some(falls)) = (at, self.falls) else { return Ok(false) };
         for part in ABOVE {
             let factor = at + part * falls;
-            if is_near(self.falls, Some(at)) || factor >= falls {
+            if self.watch.is_ended || is_near(self.falls, Some(at), self.size) || factor >= falls {
                 return Ok(false);
             }
             let rests = self.tried(factor)?;
@@ -215,14 +237,20 @@ impl Climb<'_> {
 
     /// Whether the blocks rest at a factor.
     fn tried(&mut self, factor: f64) -> Result<bool, LimitError> {
+        if self.watch.ask().is_break() {
+            return Ok(false);
+        }
         let from = self.rests.last().map(|(_, rest)| rest);
-        match self.steps.advance(from, factor)? {
+        let end = self.steps.advance(from, factor, &mut self.watch.steps())?;
+        match end {
             End::Rests(rest) => {
                 self.rests.push((factor, rest));
+                self.watch.known.stands = Some(factor);
                 return Ok(true);
             }
             End::Flows(motion) => {
                 self.falls = Some(factor);
+                self.watch.known.falls = Some(factor);
                 self.motion = Some(motion);
             }
             End::Open => {}

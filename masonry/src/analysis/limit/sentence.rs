@@ -12,10 +12,45 @@ pub(super) fn of(group: &str, associative: Option<&Associative>, path: Option<&P
     }
 }
 
+/// What is known where the search was ended before its end.
+pub(super) fn of_interrupted(
+    group: &str,
+    associative: Option<&Associative>,
+    path: Option<&Path>,
+) -> String {
+    let carried = associative.and_then(|it| it.load_factor);
+    let bound = associative.and_then(|it| it.bound);
+    let stands = match (path.and_then(|it| it.load_factor), carried) {
+        (Some(stands), _) => Some(format!("stands up to {} (path)", factor(stands))),
+        (None, Some(carried)) => {
+            Some(format!("forces within friction carry {} times it", factor(carried)))
+        }
+        (None, None) => None,
+    };
+    let flows = path.and_then(|it| it.falls).filter(|falls| Some(*falls) != bound);
+    let falls = match (flows, bound) {
+        (Some(flows), _) => Some(format!("falls at {}", factor(flows))),
+        (None, Some(bound)) => Some(format!("cannot stand above {} (proved)", factor(bound))),
+        (None, None) => None,
+    };
+    let known: Vec<String> = stands.into_iter().chain(falls).collect();
+    if known.is_empty() {
+        return format!("Interrupted before anything was known of \"{group}\".");
+    }
+    format!("Interrupted. What is known of \"{group}\": {}.", known.join(", "))
+}
+
 fn of_both(group: &str, associative: &Associative, path: &Path) -> String {
     match (associative.answer, associative.bound, path.load_factor) {
         (Answer::Fails, Some(bound), Some(stands)) if path.decided => format!(
-            "\"{group}\": stands up to {stands:.4} (path), cannot stand above {bound:.4} (proved)."
+            "\"{group}\": stands up to {} (path), cannot stand above {} (proved).",
+            factor(stands),
+            factor(bound)
+        ),
+        (Answer::Unlimited, _, Some(stands)) if path.falls.is_none() => format!(
+            "\"{group}\": stands at every factor that was tried, up to {} (path); forces within friction carry any \
+             factor (proved).",
+            factor(stands)
         ),
         (Answer::Falls, ..) => of_associative(group, associative),
         _ => format!("{} {}", of_path(group, path), of_associative(group, associative)),
@@ -24,14 +59,18 @@ fn of_both(group: &str, associative: &Associative, path: &Path) -> String {
 
 fn of_path(group: &str, path: &Path) -> String {
     match (path.load_factor, path.falls) {
-        (Some(stands), Some(falls)) if path.decided => {
-            format!("\"{group}\": stands up to {stands:.4} (path), falls at {falls:.4}.")
-        }
-        (Some(stands), None) => {
-            format!("\"{group}\": stands at every factor that was tried, up to {stands:.4} (path).")
-        }
+        (Some(stands), Some(falls)) if path.decided => format!(
+            "\"{group}\": stands up to {} (path), falls at {}.",
+            factor(stands),
+            factor(falls)
+        ),
+        (Some(stands), None) => format!(
+            "\"{group}\": stands at every factor that was tried, up to {} (path).",
+            factor(stands)
+        ),
         (Some(stands), Some(_)) => format!(
-            "\"{group}\": stands up to {stands:.4} (path); above, no state at rest was found, and no motion either."
+            "\"{group}\": stands up to {} (path); above, no state at rest was found, and no motion either.",
+            factor(stands)
         ),
         (None, _) if path.decided => {
             format!("The structure falls without \"{group}\" (path).")
@@ -48,9 +87,9 @@ fn of_associative(group: &str, found: &Associative) -> String {
             "Forces within friction carry up to {carried} times \"{group}\"; the structure cannot stand above {bound} \
              (proved)."
         ),
-        Answer::Unlimited => format!(
-            "The structure does not fail under \"{group}\": forces within friction carry any factor of it (proved)."
-        ),
+        Answer::Unlimited => {
+            format!("Forces within friction carry any factor of \"{group}\" (proved).")
+        }
         Answer::Falls => format!(
             "The structure cannot stand even without \"{group}\": no forces within friction balance the other loads (proved)."
         ),
@@ -65,5 +104,15 @@ fn of_associative(group: &str, found: &Associative) -> String {
             ),
             _ => format!("Undecided: no largest factor of \"{group}\" was found."),
         },
+    }
+}
+
+/// A load factor with four decimals, where these say enough.
+fn factor(it: f64) -> String {
+    match it.abs() {
+        0.0 => "0".to_owned(),
+        0.01..1000.0 => format!("{it:.4}"),
+        1000.0..1e6 => format!("{it:.1}"),
+        _ => format!("{it:.4e}"),
     }
 }

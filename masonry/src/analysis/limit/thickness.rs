@@ -2,9 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use lcp::Iteration;
 use nalgebra::Vector2;
 
+use super::watch::{Observer, Watch};
 use super::{LimitError, rigid};
 use crate::method::statics::{self, Statics};
 use crate::model::Model;
@@ -33,6 +33,8 @@ pub struct Thickness {
     pub stands: Option<f64>,
     /// Whether the two are so near to each other that they are one number.
     pub proved: bool,
+    /// Whether the observer has ended the search.
+    pub is_interrupted: bool,
     /// The structure that stands, or that of the scene where none does.
     pub model: Model,
     /// Its forces, point by point; gaps and slips are zero.
@@ -48,6 +50,18 @@ pub struct Thickness {
 /// # Errors
 /// [`LimitError`] when the scene is wrong, at the thickness of the scene or at one that was tried, or has no such arch.
 pub fn least_thickness(scene: &Scene, arch: &str) -> Result<Thickness, LimitError> {
+    least_thickness_observed(scene, arch, &mut |_| ControlFlow::Continue(()))
+}
+
+/// The same, which an observer follows: `Break` ends it with what is known.
+///
+/// # Errors
+/// As [`least_thickness`].
+pub fn least_thickness_observed<'a>(
+    scene: &Scene,
+    arch: &str,
+    observer: &'a mut Observer<'a>,
+) -> Result<Thickness, LimitError> {
     scene.check()?;
     let Some(place) = scene.arches.iter().position(|it| it.name == arch) else {
         let names = scene.arches.iter().map(|it| it.name.clone()).collect();
@@ -57,20 +71,22 @@ pub fn least_thickness(scene: &Scene, arch: &str) -> Result<Thickness, LimitErro
     let Some(given) = scene.arches[place].thickness else {
         return Err(LimitError::NoThickness { name: arch.to_owned() });
     };
-    let mut search = Search { scene: scene.clone(), place, falls: None, stands: None };
+    let watch = Watch::new(observer);
+    let mut search = Search { scene: scene.clone(), place, watch, falls: None, stands: None };
     search.run(given)?;
     search.finish(arch)
 }
 
 /// A search between two thicknesses, in units of the scene.
-struct Search {
+struct Search<'a> {
     scene: Scene,
     place: usize,
+    watch: Watch<'a>,
     falls: Option<(f64, Vec<Vec<Vector2<f64>>>)>,
     stands: Option<(f64, Model, Vec<ContactState>)>,
 }
 
-impl Search {
+impl Search<'_> {
     fn run(&mut self, given: f64) -> Result<(), LimitError> {
         self.tried(given)?;
         let factor = if self.stands.is_some() { 0.5 } else { 2.0 };
@@ -95,16 +111,24 @@ impl Search {
 
     /// Whether it came out if the arch stands at a thickness.
     fn tried(&mut self, thickness: f64) -> Result<bool, LimitError> {
-        let on = &mut |_: &Iteration| ControlFlow::Continue(());
+        if self.watch.ask().is_break() {
+            return Ok(false);
+        }
         self.scene.arches[self.place].thickness = Some(thickness);
         let model = rigid(Model::from_scene(&self.scene)?);
         let system = System::without_factors(&model)?;
-        match statics::decide(&model, &system, on)?.statics {
+        let unit = self.scene.units.length_to_si();
+        let decision = statics::decide(&model, &system, &mut self.watch.steps())?;
+        match decision.statics {
             Statics::Admissible(rows) => {
                 let forces = recover::forces_at_rest(&model, &rows);
+                self.watch.known.stands = Some(thickness * unit);
                 self.stands = Some((thickness, model, forces));
             }
-            Statics::Impossible(proof) => self.falls = Some((thickness, proof.rates)),
+            Statics::Impossible(proof) => {
+                self.watch.known.falls = Some(thickness * unit);
+                self.falls = Some((thickness, proof.rates));
+            }
             Statics::Open => return Ok(false),
         }
         Ok(true)
@@ -115,21 +139,28 @@ impl Search {
         let name = self.scene.units.length_name();
         let falls = self.falls.as_ref().map(|(thickness, _)| *thickness);
         let stands = self.stands.as_ref().map(|(thickness, ..)| *thickness);
+        let proved =
+            falls.zip(stands).is_some_and(|(falls, stands)| stands - falls <= NEAR * stands);
+        let is_interrupted = self.watch.is_ended;
         let sentence = match (falls, stands) {
+            (Some(_), Some(stands)) if proved => format!(
+                "Arch \"{arch}\" needs a thickness of {stands:.6} {name}: forces within friction balance the loads \
+                 then, and none do where it is thinner by a millionth (proved)."
+            ),
             (Some(falls), Some(stands)) => format!(
-                "Arch \"{arch}\" needs a thickness of {stands:.6} {name}: forces within friction balance the loads then, \
-                 and at {falls:.6} {name} none do (proved)."
+                "Arch \"{arch}\" stands at a thickness of {stands:.6} {name}, and falls at {falls:.6} {name} \
+                 (proved); between them it is not known."
             ),
             (Some(falls), None) => format!(
-                "Arch \"{arch}\" stands at none of the thicknesses that were tried, up to {falls:.6} {name} (proved)."
+                "Arch \"{arch}\" stands at none of the thicknesses that were tried, up to {falls:.6} {name}, under \
+                 all loads of the scene (proved)."
             ),
             (None, Some(stands)) => format!(
                 "Arch \"{arch}\" stands at all thicknesses that were tried, down to {stands:.6} {name}."
             ),
             (None, None) => format!("Undecided: whether arch \"{arch}\" stands was not found out."),
         };
-        let proved =
-            falls.zip(stands).is_some_and(|(falls, stands)| stands - falls <= NEAR * stands);
+        let sentence = if is_interrupted { format!("Interrupted. {sentence}") } else { sentence };
         let mechanism = self.falls.take().map(|(_, rates)| rates);
         let (model, forces) = match self.stands.take() {
             Some((_, model, forces)) => (model, Some(forces)),
@@ -141,6 +172,7 @@ impl Search {
             falls: falls.map(|it| it * unit),
             stands: stands.map(|it| it * unit),
             proved,
+            is_interrupted,
             model,
             forces,
             mechanism,

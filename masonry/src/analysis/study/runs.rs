@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use lcp::Status;
 
-use super::{End, Figures, Progress, Record, Settings};
+use super::{End, Figures, Observer, Progress, Record, Settings};
 use crate::analysis::outcome::Outcome;
 use crate::analysis::solve::solve_observed;
 use crate::model::Model;
@@ -74,15 +74,21 @@ enum Beyond {
 /// Solves scenes, and remembers for which time or iterations were not enough.
 pub(super) struct Runner<'a> {
     settings: &'a Settings,
-    observer: &'a mut dyn FnMut(Progress),
+    observer: &'a mut Observer<'a>,
+    is_interrupted: bool,
     beyond: Vec<(Beyond, u32, Route, f64)>,
     /// The last record by pivots, with its balances.
     pivots: Option<(Record, Checks)>,
 }
 
 impl<'a> Runner<'a> {
-    pub(super) fn new(settings: &'a Settings, observer: &'a mut dyn FnMut(Progress)) -> Self {
-        Self { settings, observer, beyond: Vec::new(), pivots: None }
+    pub(super) fn new(settings: &'a Settings, observer: &'a mut Observer<'a>) -> Self {
+        Self { settings, observer, is_interrupted: false, beyond: Vec::new(), pivots: None }
+    }
+
+    /// Whether the observer has ended the study.
+    pub(super) fn is_interrupted(&self) -> bool {
+        self.is_interrupted
     }
 
     /// What reports call a mesh.
@@ -152,41 +158,46 @@ impl<'a> Runner<'a> {
             let mesh = self.settings.mesh_name(*mesh);
             return Ran::skipped(format!("{what} ran out to {tolerance:e} on {mesh}"));
         }
-        (self.observer)(Progress { mesh, route, tolerance });
+        let at = Progress { mesh, route, tolerance };
+        if self.ask(at).is_break() {
+            return Ran::skipped("the study was interrupted".to_owned());
+        }
         if let Some(order) = dense_order(scene).filter(|order| *order > LARGEST_DENSE) {
             return Ran::skipped(format!(
                 "it may build dense matrices of order {order}, and those above {LARGEST_DENSE} take long"
             ));
         }
-        let mut ran = self.once(scene);
+        let mut ran = self.once(scene, at);
         if let Some(beyond) = ran.is_beyond() {
             self.beyond.push((beyond, mesh, route, tolerance));
         }
         let mut times: Vec<f64> = ran.seconds.into_iter().collect();
         let is_short = times.iter().all(|time| *time < SHORT.as_secs_f64());
         if is_short && ran.solved().is_some() {
-            times.extend((1..self.settings.repeats).filter_map(|_| self.once(scene).seconds));
+            times.extend((1..self.settings.repeats).filter_map(|_| self.once(scene, at).seconds));
         }
         times.sort_by(f64::total_cmp);
         ran.seconds = times.get(times.len() / 2).copied();
         ran
     }
 
-    fn once(&self, scene: &Scene) -> Ran {
+    /// Asks the observer; once it has ended the study, it is not asked again.
+    fn ask(&mut self, at: Progress) -> ControlFlow<()> {
+        self.is_interrupted = self.is_interrupted || (self.observer)(at).is_break();
+        if self.is_interrupted { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    fn once(&mut self, scene: &Scene, at: Progress) -> Ran {
         let began = Instant::now();
+        let limit = self.settings.time_limit;
         let result = solve_observed(scene, &mut |_| {
-            if began.elapsed() < self.settings.time_limit {
-                ControlFlow::Continue(())
-            } else {
-                ControlFlow::Break(())
-            }
+            if began.elapsed() < limit { self.ask(at) } else { ControlFlow::Break(()) }
         });
         let seconds = Some(began.elapsed().as_secs_f64());
         match result {
             Ok(outcome) => {
-                // Nobody but this observer cancels.
                 let status = match outcome.solve.status {
-                    Status::Cancelled => Status::TimeLimit,
+                    Status::Cancelled if !self.is_interrupted => Status::TimeLimit,
                     status => status,
                 };
                 Ran { end: End::Ended(status), seconds, outcome: Some(outcome) }

@@ -1,5 +1,6 @@
 //! Ctrl-C: the first asks a run to end with what is known, the second ends the program at once.
 
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What shells expect of a program that Ctrl-C has ended.
@@ -17,7 +18,7 @@ pub(super) fn listen() {
     });
 }
 
-/// Whether the run should end.
-pub(super) fn is_asked() -> bool {
-    ASKED.load(Ordering::SeqCst)
+/// Whether the run should go on.
+pub(super) fn asked() -> ControlFlow<()> {
+    if ASKED.load(Ordering::SeqCst) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }

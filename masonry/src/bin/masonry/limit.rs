@@ -1,14 +1,17 @@
 //! `masonry limit`.
 
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
 use crate::end::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
+use crate::interrupt;
 use crate::out_dir::OutDir;
 use crate::page;
+use crate::progress::Progress;
 use masonry::analysis::limit::{
-    Answer, Associative, Laws, Path, least_thickness, limit_by, ranges,
+    Answer, Associative, Bracket, Laws, Path, least_thickness_observed, limit_observed, ranges,
 };
 use masonry::report::{self, limit as output};
 use masonry::scene::Scene;
@@ -72,9 +75,13 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
     if let Some(group) = &args.group {
         scene = scene.limit_group(group);
     }
+    interrupt::listen();
     let out = out_dir(args)?;
     page::check(args.report.as_deref())?;
-    let limit = limit_by(&scene, args.law.into())?;
+    let progress = Progress::new();
+    let limit = limit_observed(&scene, args.law.into(), &mut |at| follow(&progress, at));
+    progress.clear();
+    let limit = limit?;
     let written = match &out {
         Some(out) => output::write(&limit, out.path()),
         None => Ok(Vec::new()),
@@ -88,14 +95,25 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
     } else {
         print(&format!("{}\n{}", output::table(&limit), listing(&files)))?;
     }
-    out.map_or(Ok(()), |out| out.finish(in_out, false))?;
+    out.map_or(Ok(()), |out| out.finish(in_out, limit.is_interrupted))?;
     written?;
     page?;
     let is_known = |it: &Associative| matches!(it.answer, Answer::Fails | Answer::Unlimited);
     let by_path = |path: &Path| path.decided && path.load_factor.is_some();
     let solved =
         limit.associative.as_ref().is_none_or(is_known) && limit.path.as_ref().is_none_or(by_path);
-    Ok(if solved { SOLVED } else { NOT_SOLVED })
+    Ok(if solved && !limit.is_interrupted { SOLVED } else { NOT_SOLVED })
+}
+
+/// Shows what is known; after Ctrl-C asks the search to end.
+fn follow(progress: &Progress, at: Bracket) -> ControlFlow<()> {
+    let known = [("stands at", at.stands), ("falls at", at.falls)];
+    let known: Vec<String> = known
+        .into_iter()
+        .filter_map(|(what, value)| Some(format!("{what} {:.5}", value?)))
+        .collect();
+    progress.say(known.join(", "));
+    interrupt::asked()
 }
 
 fn out_dir(args: &LimitArgs) -> Result<Option<OutDir>, Failure> {
@@ -110,9 +128,13 @@ fn range(scene: &Scene, json: bool) -> Result<u8, Failure> {
 }
 
 fn thickness(scene: &Scene, arch: &str, args: &LimitArgs) -> Result<u8, Failure> {
+    interrupt::listen();
     let out = out_dir(args)?;
     page::check(args.report.as_deref())?;
-    let found = least_thickness(scene, arch)?;
+    let progress = Progress::new();
+    let found = least_thickness_observed(scene, arch, &mut |at| follow(&progress, at));
+    progress.clear();
+    let found = found?;
     let written = match &out {
         Some(out) => output::write_thickness(&found, out.path()),
         None => Ok(Vec::new()),
@@ -125,7 +147,7 @@ fn thickness(scene: &Scene, arch: &str, args: &LimitArgs) -> Result<u8, Failure>
     } else {
         print(&format!("{}\n{}", output::thickness_table(&found), listing(&files)))?;
     }
-    out.map_or(Ok(()), |out| out.finish(in_out, false))?;
+    out.map_or(Ok(()), |out| out.finish(in_out, found.is_interrupted))?;
     written?;
     page?;
     Ok(if found.proved { SOLVED } else { NOT_SOLVED })

@@ -32,7 +32,7 @@ impl Progress {
             }
         });
         self.0.tick();
-        if interrupt::is_asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        interrupt::asked()
     }
 
     pub(super) fn say(&self, text: String) {

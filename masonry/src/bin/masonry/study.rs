@@ -6,6 +6,7 @@ use std::time::Duration;
 use clap::Args;
 
 use crate::end::{Failure, NOT_SOLVED, SOLVED, listing, names, print};
+use crate::interrupt;
 use crate::out_dir::OutDir;
 use crate::progress::Progress;
 use masonry::analysis::study::{Settings, machine, study};
@@ -39,10 +40,17 @@ pub(super) struct StudyArgs {
 pub(super) fn run(args: &StudyArgs) -> Result<u8, Failure> {
     let scene = Scene::read(&args.scene)?;
     let settings = settings(args)?;
+    interrupt::listen();
     let out = args.out.as_deref().map(|out| OutDir::open(out, "study")).transpose()?;
     let progress = Progress::new();
+    let mut shown = None;
     let study = study(&scene, &settings, &mut |at| {
-        progress.say(format!("mesh {}, {} to {:e}", at.mesh, at.route.name(), at.tolerance));
+        // Nothing else while a time is measured.
+        if shown != Some(at) {
+            progress.say(format!("mesh {}, {} to {:e}", at.mesh, at.route.name(), at.tolerance));
+            shown = Some(at);
+        }
+        interrupt::asked()
     });
     progress.clear();
     let study = study?;
@@ -59,9 +67,9 @@ pub(super) fn run(args: &StudyArgs) -> Result<u8, Failure> {
     } else {
         print(&format!("{}\n{}", output::table(&study), listing(files)))?;
     }
-    out.map_or(Ok(()), |out| out.finish(files, false))?;
+    out.map_or(Ok(()), |out| out.finish(files, study.is_interrupted))?;
     written?;
-    Ok(if study.is_solved() { SOLVED } else { NOT_SOLVED })
+    Ok(if study.is_solved() && !study.is_interrupted { SOLVED } else { NOT_SOLVED })
 }
 
 fn settings(args: &StudyArgs) -> Result<Settings, Failure> {

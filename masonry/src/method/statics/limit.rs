@@ -6,12 +6,13 @@
 //! of the theorems of limit analysis (Drucker, Prager and Greenberg 1952; of blocks, Livesley 1978): its forces are a
 //! bound from below, and its motion is one from above, which the [`Proof`] checks in the geometry.
 
-use lcp::Observer;
+use lcp::{Observer, Status};
 
 use super::engine::Engine;
 use super::program::Program;
 use super::{Proof, sharpen};
 use crate::model::Model;
+use crate::rounding;
 use crate::system::System;
 
 /// Beyond the factor that forces carry by one of these parts of it, a motion proves that there are none.
@@ -119,26 +120,38 @@ impl Growing<'_> {
     /// # Errors
     /// [`lcp::Error::NotFinite`] when the data of the scene overflow.
     pub fn largest(&self, observer: &mut Observer<'_>) -> Result<Bounds, lcp::Error> {
-        let program = Program::growing(self.system, self.growth);
+        // In the program a factor of one makes what grows as large as what stays.
+        let scale = self.size();
+        let growth: Vec<f64> = self.growth.iter().map(|g| scale * g).collect();
+        let program = Program::growing(self.system, &growth);
         let problem = program.greatest(&[(program.forces(), 1.0)])?;
-        let mut bounds = Bounds::default();
+        let mut bounds = Bounds { size: scale, ..Bounds::default() };
         for engine in LINEAR {
             let solution = engine.solve(&problem, MAX_STEPS, observer)?;
+            if solution.status == Status::Cancelled {
+                break;
+            }
             let (z, _) = problem.recover(&solution.t, &solution.y);
             let (motion, columns) = z.split_at(program.unknowns());
-            let factor = columns[program.forces()].max(0.0);
+            let factor = scale * columns[program.forces()].max(0.0);
             if let Some(forces) = program.admissible(columns)
                 && bounds.below.as_ref().is_none_or(|(below, _)| factor > *below)
             {
                 bounds.below = Some((factor, forces));
             }
-            bounds.size = program.size_of_factor().max(factor);
+            bounds.size = scale.max(factor);
             self.prove(&program, (factor, motion, columns), &mut bounds);
             if bounds.is_closed() {
                 break;
             }
         }
         Ok(bounds)
+    }
+
+    /// The factor under which what grows is as large as the loads that stay; one where there are none.
+    fn size(&self) -> f64 {
+        let size = rounding::largest(&self.system.resultants()) / rounding::largest(self.growth);
+        if size > 0.0 && size.is_finite() { size } else { 1.0 }
     }
 
     /// Takes the smallest factor that the motion, or one near it, proves to be too large.

@@ -25,6 +25,7 @@ pub fn json(limit: &Limit, files: &[String]) -> Result<String, serde_json::Error
     let report = Report {
         sentence: &limit.sentence,
         warnings: &limit.warnings,
+        interrupted: limit.is_interrupted,
         title: &limit.title,
         group: &limit.group,
         units: Names::of(units),
@@ -74,6 +75,7 @@ pub fn thickness_json(it: &Thickness, files: &[String]) -> Result<String, serde_
     let length = |metres: Option<f64>| metres.map(|metres| units.length(metres));
     let report = ThicknessReport {
         sentence: &it.sentence,
+        interrupted: it.is_interrupted,
         title: &it.title,
         arch: &it.arch,
         length: units.0.length_name(),
@@ -89,6 +91,7 @@ pub fn thickness_json(it: &Thickness, files: &[String]) -> Result<String, serde_
 #[derive(Serialize)]
 struct ThicknessReport<'a> {
     sentence: &'a str,
+    interrupted: bool,
     title: &'a str,
     arch: &'a str,
     length: &'a str,
@@ -103,6 +106,7 @@ struct ThicknessReport<'a> {
 struct Report<'a> {
     sentence: &'a str,
     warnings: &'a [String],
+    interrupted: bool,
     title: &'a str,
     group: &'a str,
     units: Names,

@@ -20,8 +20,12 @@ pub fn table(limit: &Limit) -> String {
     if let Some(found) = &limit.associative {
         text += &section(&format!("Limit load of \"{}\", associative flow", limit.group));
         text += &of_associative(found);
-        let title = "Reactions under the load factor, of one set of forces";
-        text += &of_reactions(title, &found.reactions, units);
+        let under = match found.load_factor {
+            Some(_) => "under the load factor".to_owned(),
+            None => format!("without \"{}\"", limit.group),
+        };
+        let title = format!("Reactions {under}, of one set of forces");
+        text += &of_reactions(&title, &found.reactions, units);
     }
     if let Some(path) = &limit.path {
         text +=
@@ -46,13 +50,14 @@ fn yes_or_no(it: bool) -> String {
 }
 
 fn of_associative(found: &Associative) -> String {
+    let with = |it: Option<f64>, what: &str| match it {
+        Some(it) => format!("{}, {what}", significant(it, 10)),
+        None => "none".to_owned(),
+    };
     let gap = found.bound.zip(found.load_factor).map(|(bound, factor)| bound - factor);
     pairs(&[
-        (
-            "load factor",
-            format!("{}, carried by forces within friction", number(found.load_factor)),
-        ),
-        ("bound", format!("{}, above which a motion proves that none do", number(found.bound))),
+        ("load factor", with(found.load_factor, "carried by forces within friction")),
+        ("bound", with(found.bound, "above which a motion proves that none do")),
         ("gap", gap.map_or("none".to_owned(), |gap| significant(gap, 2))),
         ("proved", yes_or_no(found.proved)),
     ])

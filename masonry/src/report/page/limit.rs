@@ -10,50 +10,44 @@ use crate::report::format::{InUnits, significant};
 use crate::report::hinges::yielding;
 use crate::report::limit::{table, thickness_table};
 use crate::report::svg;
+use crate::state::{ContactState, Reaction};
+
+/// Rates of the corners of one block.
+type Rates = Vec<Vector2<f64>>;
 
 /// The page of a limit load.
 pub fn limit(limit: &Limit) -> String {
-    let units = InUnits(limit.model.units);
     let (mut pictures, mut list) = (Vec::new(), Vec::new());
+    let (title, mut curves) = (&limit.title, None);
     if let Some(found) = &limit.associative {
-        let of = "associative flow";
-        if let Some(forces) = &found.forces {
-            let title = format!("{}, {of}", limit.title);
-            let picture = svg::forces(&title, &limit.model, forces);
-            pictures.push(Choice::one("forces", "Forces", picture));
-        }
-        if let Some(rates) = &found.mechanism {
-            let keys = ("mechanism", "Mechanism", of);
-            moving(&mut pictures, &mut list, (&limit.title, &limit.model), rates, keys);
-        }
-        list.extend(tables::reactions(&format!("Reactions, {of}"), &found.reactions, units));
-        if let Some(forces) = &found.forces {
-            list.extend(tables::joints(&format!("Joints, {of}"), &limit.model, forces));
-        }
+        let law = ByLaw {
+            of: "associative flow",
+            names: [("forces", "Forces"), ("mechanism", "Mechanism")],
+            model: &limit.model,
+            forces: found.forces.as_deref(),
+            mechanism: found.mechanism.as_deref(),
+            reactions: &found.reactions,
+            events: None,
+        };
+        law.show(title, &mut pictures, &mut list);
     }
-    let mut curves = None;
     if let Some(path) = &limit.path {
-        let of = "path";
-        if let Some(contacts) = &path.contacts {
-            let title = format!("{}, {of}", limit.title);
-            let picture = svg::forces(&title, &path.model, contacts);
-            pictures.push(Choice::one("path-forces", "Forces, path", picture));
-        }
-        if let Some(rates) = &path.mechanism {
-            let keys = ("path-mechanism", "Mechanism, path", of);
-            moving(&mut pictures, &mut list, (&limit.title, &path.model), rates, keys);
-        }
-        list.extend(tables::reactions(&format!("Reactions, {of}"), &path.reactions, units));
-        list.extend(events(path));
-        if let Some(contacts) = &path.contacts {
-            list.extend(tables::joints(&format!("Joints, {of}"), &path.model, contacts));
-        }
-        curves = svg::path(&limit.title, &limit.group, path);
+        let law = ByLaw {
+            of: "path",
+            names: [("path-forces", "Forces, path"), ("path-mechanism", "Mechanism, path")],
+            model: &path.model,
+            forces: path.contacts.as_deref(),
+            mechanism: path.mechanism.as_deref(),
+            reactions: &path.reactions,
+            events: events(path),
+        };
+        law.show(title, &mut pictures, &mut list);
+        curves = svg::path(title, &limit.group, path);
     }
-    pictures.push(Choice::one("scene", "Scene", svg::scene(&limit.title, &limit.model)));
+    pictures.push(Choice::one("scene", "Scene", svg::scene(title, &limit.model)));
     Page {
-        title: limit.title.clone(),
-        verdict: if is_known(limit) { "stands" } else { "undecided" },
+        title: title.clone(),
+        verdict: verdict(limit),
         sentence: limit.sentence.clone(),
         warnings: limit.warnings.clone(),
         figures: figures(limit),
@@ -64,6 +58,38 @@ pub fn limit(limit: &Limit) -> String {
         ..Page::default()
     }
     .finish()
+}
+
+/// What a page shows of one law of friction.
+struct ByLaw<'a> {
+    /// The law, in titles.
+    of: &'static str,
+    /// Keys and switches of the pictures of forces and of the mechanism.
+    names: [(&'static str, &'static str); 2],
+    model: &'a Model,
+    forces: Option<&'a [ContactState]>,
+    mechanism: Option<&'a [Rates]>,
+    reactions: &'a [Reaction],
+    events: Option<Table>,
+}
+
+impl ByLaw<'_> {
+    fn show(self, title: &str, pictures: &mut Vec<Choice>, list: &mut Vec<Table>) {
+        let Self { of, names: [forces, mechanism], model, .. } = self;
+        if let Some(found) = self.forces {
+            let picture = svg::forces(&format!("{title}, {of}"), model, found);
+            pictures.push(Choice::one(forces.0, forces.1, picture));
+        }
+        if let Some(rates) = self.mechanism {
+            moving(pictures, list, (title, model), rates, (mechanism.0, mechanism.1, of));
+        }
+        let units = InUnits(model.units);
+        list.extend(tables::reactions(&format!("Reactions, {of}"), self.reactions, units));
+        list.extend(self.events);
+        if let Some(found) = self.forces {
+            list.extend(tables::joints(&format!("Joints, {of}"), model, found));
+        }
+    }
 }
 
 /// The page of the least thickness of an arch.
@@ -103,7 +129,7 @@ fn moving(
     pictures: &mut Vec<Choice>,
     tables: &mut Vec<Table>,
     (title, model): (&str, &Model),
-    rates: &[Vec<Vector2<f64>>],
+    rates: &[Rates],
     (key, name, of): (&str, &str, &str),
 ) {
     let picture = svg::mechanism_on_page(&format!("{title}, {of}"), model, rates);
@@ -112,9 +138,18 @@ fn moving(
     tables.extend(tables::yielding(&title, model, &yielding(model, rates)));
 }
 
-fn is_known(limit: &Limit) -> bool {
-    let proved = limit.associative.as_ref().is_none_or(|it| it.answer != Answer::Undecided);
-    proved && limit.path.as_ref().is_none_or(|path| path.decided)
+/// Whether it stands is said of the loads that stay, without those that grow.
+fn verdict(limit: &Limit) -> &'static str {
+    let answer = limit.associative.as_ref().map(|it| it.answer);
+    let falls = |path: &Path| path.decided && path.load_factor.is_none();
+    let is_open = limit.path.as_ref().is_some_and(|it| !it.decided);
+    if answer == Some(Answer::Falls) || limit.path.as_ref().is_some_and(falls) {
+        "falls"
+    } else if answer == Some(Answer::Undecided) || is_open || limit.is_interrupted {
+        "undecided"
+    } else {
+        "stands"
+    }
 }
 
 fn yes_or_no(it: bool) -> String {

@@ -7,7 +7,7 @@ use crate::analysis::study::{Mesh, Record, Study, Values};
 use crate::report::format::InUnits;
 
 /// The object of `study.json` and of `masonry study --json`, pretty-printed: `title`, `units`,
-/// `time_limit_s`, `machine`, `records`, `meshes`, `summary`, `files`. Times are in seconds, errors and
+/// `time_limit_s`, `machine`, `interrupted`, `records`, `meshes`, `summary`, `files`. Times are in seconds, errors and
 /// residuals without dimension, and the values of meshes in the units of the scene, which
 /// `units` names.
 ///
@@ -25,6 +25,7 @@ pub fn json(study: &Study, files: &[&str]) -> Result<String, serde_json::Error> 
         },
         time_limit_s: study.time_limit.as_secs_f64(),
         machine: study.machine.as_deref(),
+        interrupted: study.is_interrupted,
         records: &study.records,
         meshes: study.meshes.iter().map(|mesh| in_units(mesh, units)).collect(),
         summary: summary(study),
@@ -39,6 +40,7 @@ struct Report<'a> {
     units: Names,
     time_limit_s: f64,
     machine: Option<&'a str>,
+    interrupted: bool,
     records: &'a [Record],
     meshes: Vec<Mesh>,
     summary: Vec<String>,

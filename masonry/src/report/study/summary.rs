@@ -1,5 +1,7 @@
 //! What a study comes to, in sentences.
 
+use lcp::Status;
+
 use crate::analysis::study::{End, Record, Study, Verified};
 use crate::report::format::significant;
 use crate::scene::Route;
@@ -18,8 +20,8 @@ const NOISE: f64 = 1.2;
 /// What a study comes to, in sentences: what a tight tolerance costs, which route gets there first, and whether the
 /// mesh is worth it; and what that rests on.
 pub fn summary(study: &Study) -> Vec<String> {
-    let mut sentences: Vec<String> =
-        [cost(study), in_short(study), mesh(study)].into_iter().flatten().collect();
+    let found = [interrupted(study), cost(study), in_short(study), mesh(study)];
+    let mut sentences: Vec<String> = found.into_iter().flatten().collect();
     sentences.extend(gave_up(study));
     sentences.extend(elsewhere(study));
     sentences.extend(reference(study));
@@ -40,6 +42,15 @@ pub fn in_short(study: &Study) -> Option<String> {
         record.tolerance,
         significant(seconds, 2)
     ))
+}
+
+fn interrupted(study: &Study) -> Option<String> {
+    let is_skipped =
+        |it: &&Record| matches!(it.end, End::Skipped(_) | End::Ended(Status::Cancelled));
+    let missing = study.records.iter().filter(is_skipped).count();
+    study
+        .is_interrupted
+        .then(|| format!("Interrupted: {missing} of {} solves are missing.", study.records.len()))
 }
 
 /// "Compared with 1e-4, 1e-8 takes as long (within 20 %) with lemke, 9 times as long with pgs; alm (Stalled) does not

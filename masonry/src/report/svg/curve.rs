@@ -1,14 +1,9 @@
 //! Curves in charts with linear axes, one chart below the other.
 
-use super::canvas::{Anchor, Canvas, Pixel, escape, fixed, text_width, wrapped};
+use super::canvas::{Anchor, Canvas, Pixel, fixed, text_width};
+use super::style::{self, COLOURS, DARK, EDGE, TEXT, TEXT_LINE, WIDTH};
 use crate::report::format::round_down;
 
-const WIDTH: f64 = 900.0;
-const EDGE: f64 = 18.0;
-const TITLE_SIZE: f64 = 17.0;
-const TITLE_LINE: f64 = 22.0;
-const TEXT_SIZE: f64 = 13.0;
-const LINE: f64 = 17.0;
 /// Room left of, right of and below the part of a chart where curves are, and its height.
 const LEFT: f64 = 92.0;
 const RIGHT: f64 = 230.0;
@@ -16,11 +11,7 @@ const BELOW: f64 = 46.0;
 const HEIGHT: f64 = 210.0;
 /// Lines on an axis are at most so many.
 const TICKS: f64 = 7.0;
-const DARK: &str = "#222222";
 const GRID: &str = "#e2e2e2";
-/// Colours told apart by the colour-blind too (Okabe and Ito).
-const COLOURS: [&str; 7] =
-    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56b4e9", "#4d4d4d"];
 const DASHES: [&str; 3] = ["", "7 3", "2 3"];
 
 /// A curve through points.
@@ -115,49 +106,37 @@ pub(in crate::report) fn charts(title: &str, charts: &[Chart]) -> Option<String>
         return None;
     }
     let mut canvas = Canvas::default();
-    let mut y = EDGE;
-    for line in wrapped(title, TITLE_SIZE, WIDTH - 2.0 * EDGE) {
-        y += TITLE_LINE;
-        canvas.text(Pixel::new(EDGE, y - 6.0), Anchor::Start, TITLE_SIZE, &line);
-    }
+    let mut y = style::draw_title(&mut canvas, &style::title_lines(title));
     for chart in charts {
         y = draw(&mut canvas, chart, y + 14.0);
     }
-    let (width, height) = (fixed(WIDTH), fixed(y + EDGE));
-    Some(format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {width} {height}\" \
-         font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" fill=\"{DARK}\">\n\
-         <title>{}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{}</svg>\n",
-        escape(title),
-        canvas.as_str()
-    ))
+    Some(style::file(title, y + EDGE, "", canvas.as_str()))
 }
 
 /// Draws a chart below `top`; its bottom.
 fn draw(canvas: &mut Canvas, chart: &Chart, top: f64) -> f64 {
     let (left, right) = (EDGE + LEFT, WIDTH - EDGE - RIGHT);
-    let (top, bottom) = (top + LINE, top + LINE + HEIGHT);
+    let (top, bottom) = (top + TEXT_LINE, top + TEXT_LINE + HEIGHT);
     let points = || chart.curves.iter().flat_map(|it| &it.points);
     let x = Axis::around(points().map(|it| it[0]), [left, right]);
     let y = Axis::around(points().map(|it| it[1]), [bottom, top]);
-    canvas.text(Pixel::new(EDGE, top - 7.0), Anchor::Start, TEXT_SIZE, &chart.axes[1]);
+    canvas.text(Pixel::new(EDGE, top - 7.0), Anchor::Start, TEXT, &chart.axes[1]);
     let grid = format!("stroke=\"{GRID}\"");
     for (value, text) in y.ticks() {
         let at = y.at(value);
         canvas.line(Pixel::new(left, at), Pixel::new(right, at), &grid);
-        canvas.text(Pixel::new(left - 6.0, at + 4.5), Anchor::End, TEXT_SIZE, &text);
+        canvas.text(Pixel::new(left - 6.0, at + 4.5), Anchor::End, TEXT, &text);
     }
     for (value, text) in x.ticks() {
         let at = x.at(value);
         canvas.line(Pixel::new(at, top), Pixel::new(at, bottom), &grid);
-        canvas.text(Pixel::new(at, bottom + LINE), Anchor::Middle, TEXT_SIZE, &text);
+        canvas.text(Pixel::new(at, bottom + TEXT_LINE), Anchor::Middle, TEXT, &text);
     }
     draw_stages(canvas, chart, &x, [top, bottom]);
     let frame = format!("fill=\"none\" stroke=\"{DARK}\"");
     canvas.rectangle(Pixel::new(left, top), right - left, bottom - top, &frame);
-    let middle = Pixel::new(0.5 * (left + right), bottom + LINE + 18.0);
-    canvas.text(middle, Anchor::Middle, TEXT_SIZE, &chart.axes[0]);
+    let middle = Pixel::new(0.5 * (left + right), bottom + TEXT_LINE + 18.0);
+    canvas.text(middle, Anchor::Middle, TEXT, &chart.axes[0]);
     for (index, curve) in chart.curves.iter().enumerate() {
         let (colour, dash) = (COLOURS[index % COLOURS.len()], DASHES[index % DASHES.len()]);
         let style = format!(
@@ -173,13 +152,13 @@ fn draw(canvas: &mut Canvas, chart: &Chart, top: f64) -> f64 {
                 canvas.circle(at, 2.4, &style);
             }
         }
-        let row = top + 12.0 + LINE * 1.15 * index as f64;
+        let row = top + 12.0 + TEXT_LINE * 1.15 * index as f64;
         let (from, to) = (Pixel::new(right + 14.0, row), Pixel::new(right + 40.0, row));
         canvas.polyline(&[from, to], &style);
         let room = RIGHT - 52.0;
         let mut name = curve.name.clone();
-        while text_width(&name, TEXT_SIZE) > room && name.pop().is_some() {}
-        canvas.text(Pixel::new(right + 46.0, row + 4.5), Anchor::Start, TEXT_SIZE, &name);
+        while text_width(&name, TEXT) > room && name.pop().is_some() {}
+        canvas.text(Pixel::new(right + 46.0, row + 4.5), Anchor::Start, TEXT, &name);
     }
     if let Some(last) = chart.steps.last() {
         let places: Vec<String> = chart.steps.iter().map(|it| fixed(x.at(*it))).collect();
@@ -201,11 +180,11 @@ fn draw_stages(canvas: &mut Canvas, chart: &Chart, x: &Axis, [top, bottom]: [f64
     for (value, name) in &chart.stages {
         let at = x.at(*value);
         canvas.line(Pixel::new(at, top), Pixel::new(at, bottom), style);
-        let end = at + 4.0 + text_width(name, TEXT_SIZE);
-        let rows = free.iter_mut().zip([top + 14.0, top + 14.0 + LINE]);
+        let end = at + 4.0 + text_width(name, TEXT);
+        let rows = free.iter_mut().zip([top + 14.0, top + 14.0 + TEXT_LINE]);
         let place = rows.into_iter().find(|(free, _)| at >= **free && end < x.pixels[1]);
         if let Some((free, y)) = place {
-            canvas.rimmed_text(Pixel::new(at + 4.0, y), Anchor::Start, TEXT_SIZE, name);
+            canvas.rimmed_text(Pixel::new(at + 4.0, y), Anchor::Start, TEXT, name);
             *free = end + 6.0;
         }
     }

@@ -7,11 +7,8 @@ use std::fmt::Write as _;
 use std::ops::Range;
 
 use super::canvas::{escape, text_width, wrapped};
+use super::style::{COLOURS, FONT, TEXT, TITLE};
 
-const FONT: &str = "DejaVu Sans, Helvetica, Arial, sans-serif";
-/// Sizes of letters.
-const TITLE: f64 = 17.0;
-const TEXT: f64 = 13.0;
 /// Height of a line of text, and from its top to the foot of its letters.
 const LINE: i32 = 19;
 const FOOT: i32 = 13;
@@ -26,9 +23,6 @@ const RIGHT: i32 = 15;
 const BELOW: i32 = 52;
 /// Lengths of the marks at the labels of an axis.
 const TICK: i32 = 5;
-/// Colours that differ also for those who see few of them (Okabe and Ito), each with its own marker.
-const COLOURS: [&str; 7] =
-    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56b4e9", "#4d4d4d"];
 /// Corners of markers, in pixels.
 const MARKERS: [&[[i32; 2]]; 7] = [
     &[[-1, -4], [2, -4], [4, -1], [4, 2], [2, 4], [-1, 4], [-4, 2], [-4, -1]],

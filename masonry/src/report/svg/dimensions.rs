@@ -2,14 +2,14 @@
 
 use super::canvas::{Anchor, Pixel};
 use super::sheet::{Bounds, Margins, Sheet};
+use super::style::TEXT;
 use crate::model::Model;
 use crate::report::format::InUnits;
 
 const COLOUR: &str = "#555555";
-const SIZE: f64 = 13.0;
 /// From what else stands beside the structure to a dimension line, and room for its text.
 const GAP: f64 = 10.0;
-const ROOM: f64 = GAP + SIZE + 8.0;
+const ROOM: f64 = GAP + TEXT + 8.0;
 const TICK: f64 = 5.0;
 
 /// Width and height of the box around all blocks.
@@ -50,11 +50,11 @@ impl Dimensions {
             line(Pixel::new(x, low.y), Pixel::new(x, high.y), [1.0, 0.0]);
         });
         sheet.canvas.group(&format!("class=\"dimensions\" fill=\"{COLOUR}\""), |canvas| {
-            let at = Pixel::new(0.5 * (low.x + high.x), y + SIZE + 2.0);
-            canvas.text(at, Anchor::Middle, SIZE, &units.length_text(size.x));
+            let at = Pixel::new(0.5 * (low.x + high.x), y + TEXT + 2.0);
+            canvas.text(at, Anchor::Middle, TEXT, &units.length_text(size.x));
             let at = Pixel::new(x - 5.0, 0.5 * (low.y + high.y));
             let turned = format!("transform=\"rotate(-90 {:.2} {:.2})\"", at.x, at.y);
-            canvas.text_with(at, Anchor::Middle, SIZE, &turned, &units.length_text(size.y));
+            canvas.text_with(at, Anchor::Middle, TEXT, &turned, &units.length_text(size.y));
         });
     }
 }

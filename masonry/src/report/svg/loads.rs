@@ -6,6 +6,7 @@ use super::canvas::{Anchor, Canvas, Pixel};
 use super::labels::Labels;
 use super::marks;
 use super::sheet::{Bounds, Frame, Margins, Sheet, label_room};
+use super::style::TEXT;
 use crate::geometry;
 use crate::model::Model;
 use crate::report::format::{InUnits, acceleration_text, significant, stress_text};
@@ -15,9 +16,8 @@ const COLOUR: &str = "#a02020";
 const LONGEST: f64 = 32.0;
 const SHORTEST: f64 = 12.0;
 const SPACING: f64 = 24.0;
-const LABEL_SIZE: f64 = 13.0;
 /// Height that an acceleration takes beside the structure: its arrow, its label and room between.
-const ACCELERATION_ROOM: f64 = LONGEST + 2.0 * LABEL_SIZE;
+const ACCELERATION_ROOM: f64 = LONGEST + 2.0 * TEXT;
 
 /// Everything that acts and is not zero.
 #[derive(Debug)]
@@ -137,7 +137,7 @@ impl Loads {
         let points = self.points.iter().map(|it| (it.outwards, it.length(), &it.label));
         for (n, length, label) in edges.chain(points) {
             let reach = length + 12.0;
-            let (beside, above) = (reach + label_room(label), reach + LABEL_SIZE + 6.0);
+            let (beside, above) = (reach + label_room(label), reach + TEXT + 6.0);
             if n.x > 0.5 {
                 margins.right = margins.right.max(beside);
             } else if n.x < -0.5 {
@@ -208,12 +208,12 @@ impl Loads {
             let (n, t) = (group.normal, group.traction.normalize());
             let reach = if group.tangential() { 12.0 } else { group.length() * t.dot(&n).abs() };
             let at = middle.shifted(n.x, -n.y, reach + 5.0);
-            labels.draw(canvas, at, n, LABEL_SIZE, &group.label);
+            labels.draw(canvas, at, n, TEXT, &group.label);
         }
         for force in &self.points {
             let n = force.outwards;
             let at = frame.at(force.at).shifted(n.x, -n.y, force.length() + 5.0);
-            labels.draw(canvas, at, n, LABEL_SIZE, &force.label);
+            labels.draw(canvas, at, n, TEXT, &force.label);
         }
     }
 
@@ -231,8 +231,8 @@ impl Loads {
                 let (middle, a) = (Pixel::new(x, y), it.value);
                 let tail = middle.shifted(-a.x, a.y, 0.5 * LONGEST);
                 canvas.arrow(tail, middle.shifted(a.x, -a.y, 0.5 * LONGEST), COLOUR);
-                let base = y + 0.5 * LONGEST + LABEL_SIZE;
-                canvas.rimmed_text(Pixel::new(x, base), Anchor::Middle, LABEL_SIZE, &it.label);
+                let base = y + 0.5 * LONGEST + TEXT;
+                canvas.rimmed_text(Pixel::new(x, base), Anchor::Middle, TEXT, &it.label);
                 y += ACCELERATION_ROOM;
             }
         }

@@ -12,12 +12,15 @@ use crate::report::format::InUnits;
 use crate::report::hinges::{Yield, YieldingJoint, yielding};
 
 const MOVING: &str = "#f0b98d";
+const MOVING_SLOWLY: &str = "#f9e3d0";
 const STILL: &str = "#a8a8a8";
 const HINGE: &str = "#a50026";
 const SLIDING: &str = "#7b3294";
 /// Blocks slower than this part of the fastest are drawn as at rest.
 const AT_REST: f64 = 1e-6;
-/// So many hinges and sliding joints have numbers; of more, numbers would hide the structure.
+/// Blocks and joints slower than this part of the fastest have little to do with how the structure fails. Chosen.
+const SLOW: f64 = 0.05;
+/// So many hinges and sliding joints have numbers; of more, numbers would hide the structure, and slow ones have no marks.
 const NUMBERED: usize = 48;
 
 /// The structure displaced along `rates`, the displacement rates of the corners of every block,
@@ -56,19 +59,22 @@ fn drawn(title: &str, model: &Model, rates: &[Vec<Vector2<f64>>], for_page: bool
     let style =
         format!("class=\"undeformed\" fill=\"none\" stroke=\"{STILL}\" stroke-width=\"{thin}\"");
     marks::blocks(&mut sheet, model, &style);
-    let mut moving = 0_usize;
+    let (mut moving, mut slow) = (0_usize, 0_usize);
     let style = format!(
         "fill-opacity=\"0.8\" stroke=\"{OUTLINE}\" stroke-width=\"{outline}\" stroke-linejoin=\"round\""
     );
     sheet.canvas.group(&style, |canvas| {
         for ((corners, rate), block) in moved(factor).iter().zip(rates).zip(&model.blocks) {
             let moves = speed(rate) > AT_REST * fastest;
-            moving += usize::from(moves);
-            let mut style = if moves {
-                format!("class=\"moving\" fill=\"{MOVING}\"")
-            } else {
-                format!("class=\"still\" fill=\"{BRICK}\"")
+            let is_slow = moves && speed(rate) < SLOW * fastest;
+            moving += usize::from(moves && !is_slow);
+            slow += usize::from(is_slow);
+            let (class, fill) = match (moves, is_slow) {
+                (true, false) => ("moving", MOVING),
+                (true, true) => ("moving", MOVING_SLOWLY),
+                (false, _) => ("still", BRICK),
             };
+            let mut style = format!("class=\"{class}\" fill=\"{fill}\"");
             let pixels = |corners: &[Point2<f64>]| -> Vec<Pixel> {
                 corners.iter().map(|corner| frame.at(*corner)).collect()
             };
@@ -82,23 +88,23 @@ fn drawn(title: &str, model: &Model, rates: &[Vec<Vector2<f64>>], for_page: bool
     if for_page {
         sheet.tell("amplitude", "1");
     }
-    for (text, fill) in [
-        (
-            if moving == 1 { "1 block moves".to_owned() } else { format!("{moving} blocks move") },
-            MOVING,
-        ),
-        (format!("{} at rest", model.blocks.len().saturating_sub(moving)), BRICK),
+    let still = model.blocks.len().saturating_sub(moving + slow);
+    for (count, what, fill) in [
+        (moving, "moving".to_owned(), MOVING),
+        (slow, format!("slower than {} % of the fastest", 100.0 * SLOW), MOVING_SLOWLY),
+        (still, "at rest".to_owned(), BRICK),
     ] {
-        sheet.entry(&text, |symbol| {
-            let style = format!("fill=\"{fill}\" stroke=\"{OUTLINE}\" stroke-width=\"1\"");
-            symbol.rectangle(Pixel::new(-16.0, -6.0), 32.0, 12.0, &style);
-        });
+        if count > 0 {
+            sheet.entry(&format!("{what}: {}", counted(count, "block")), |symbol| {
+                let style = format!("fill=\"{fill}\" stroke=\"{OUTLINE}\" stroke-width=\"1\"");
+                symbol.rectangle(Pixel::new(-16.0, -6.0), 32.0, 12.0, &style);
+            });
+        }
     }
     draw_yielding(&mut sheet, model, &yielding(model, rates), brick, (factor, for_page));
     sheet.entry("amplitude is arbitrary", |_| {});
     if dilates(model, rates) {
-        // A motion that proves collapse.
-        sheet.entry("joints that slide open by mu times the slip: a bound, not the path", |_| {});
+        sheet.entry("associated flow: joints that slide also open, by mu times the slip", |_| {});
     }
     sheet.length_bar(InUnits(model.units));
     sheet.finish()
@@ -114,8 +120,13 @@ fn draw_yielding(
 ) {
     let frame = sheet.frame;
     let radius = (0.09 * brick).clamp(1.2, 4.5);
-    let marked: Vec<(usize, &YieldingJoint)> =
-        (1..).zip(joints.iter().filter(|it| it.does.is_marked())).collect();
+    let yields = |it: &&YieldingJoint| it.does.is_marked();
+    let mut marked: Vec<(usize, &YieldingJoint)> =
+        (1..).zip(joints.iter().filter(yields)).collect();
+    let all = marked.len();
+    if all > NUMBERED {
+        marked.retain(|(_, it)| it.opens.max(it.slides) >= SLOW);
+    }
     let place = |it: &YieldingJoint| frame.at(it.at + it.rate * factor);
     let mut labels = Labels::within(sheet.room());
     for (_, it) in &marked {
@@ -134,7 +145,7 @@ fn draw_yielding(
             let class = format!("class=\"{}\"", it.does.name());
             canvas.group(if for_page { &moves } else { &class }, |canvas| {
                 draw_mark(canvas, it.does, mark(it, model, at, radius), radius);
-                if marked.len() <= NUMBERED {
+                if all <= NUMBERED {
                     let side = model.joints[it.joint.index()].normal;
                     let side = if side.y < 0.0 { -side } else { side };
                     let at = at.shifted(side.x, -side.y, radius + 2.0);
@@ -151,7 +162,15 @@ fn draw_yielding(
             sheet.entry(&text, |symbol| draw_mark(symbol, does, horizontal, 4.5));
         }
     }
-    let apart = joints.len() - marked.len();
+    if marked.len() < all {
+        let text = format!(
+            "no mark: {}, slower than {} % of the fastest",
+            counted(all - marked.len(), "joint"),
+            100.0 * SLOW
+        );
+        sheet.entry(&text, |_| {});
+    }
+    let apart = joints.len() - all;
     if apart > 0 {
         sheet.entry(&format!("coming apart: {}", counted(apart, "joint")), |_| {});
     }

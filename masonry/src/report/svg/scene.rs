@@ -9,6 +9,7 @@ use super::loads::Loads;
 use super::marks;
 use super::materials;
 use super::sheet::Sheet;
+use super::style::DARK;
 use crate::geometry;
 use crate::law::JointLaw;
 use crate::model::Model;
@@ -134,7 +135,7 @@ fn draw_gravity(sheet: &mut Sheet, model: &Model) {
             let (tail, tip) = (Pixel::new(0.0, 0.0), Pixel::new(0.0, 0.0));
             let tail = tail.shifted(-pull.x, pull.y, 9.0);
             let tip = tip.shifted(pull.x, -pull.y, 9.0);
-            symbol.arrow(tail, tip, "#222222");
+            symbol.arrow(tail, tip, DARK);
         });
     }
 }

@@ -3,19 +3,13 @@
 use nalgebra::{Point2, Vector2};
 
 use super::canvas::{Anchor, Canvas, Pixel, escape, fixed, text_width, wrapped};
+use super::style::{self, DARK, EDGE, TEXT, TEXT_LINE, TITLE_LINE, WIDTH};
 use crate::report::format::{InUnits, round_down};
 
-const WIDTH: f64 = 900.0;
-const EDGE: f64 = 18.0;
-const TITLE_SIZE: f64 = 17.0;
-const TITLE_LINE: f64 = 22.0;
-const TEXT_SIZE: f64 = 13.0;
-const TEXT_LINE: f64 = 17.0;
 const ENTRY_GAP: f64 = 9.0;
 const SYMBOL_WIDTH: f64 = 64.0;
 const ENTRY_WIDTH: f64 = 280.0;
 const TALLEST: f64 = 760.0;
-const DARK: &str = "#222222";
 
 /// An axis-parallel box \[m\].
 #[derive(Debug, Clone, Copy)]
@@ -109,7 +103,7 @@ pub(super) struct Sheet {
 impl Sheet {
     /// A sheet on which everything within `bounds` has its place.
     pub(super) fn new(title: &str, bounds: Bounds, margins: Margins) -> Self {
-        let title_lines = wrapped(title, TITLE_SIZE, WIDTH - 2.0 * EDGE);
+        let title_lines = style::title_lines(title);
         let size = bounds.size();
         let legend_below = size.x > 1.5 * size.y;
         let beside = if legend_below { 0.0 } else { ENTRY_WIDTH };
@@ -166,7 +160,7 @@ impl Sheet {
     pub(super) fn entry(&mut self, text: &str, draw: impl FnOnce(&mut Canvas)) {
         let mut symbol = Canvas::default();
         draw(&mut symbol);
-        let lines = wrapped(text, TEXT_SIZE, ENTRY_WIDTH - SYMBOL_WIDTH - 12.0);
+        let lines = wrapped(text, TEXT, ENTRY_WIDTH - SYMBOL_WIDTH - 12.0);
         self.legend.push(Entry { symbol, lines });
     }
 
@@ -191,28 +185,15 @@ impl Sheet {
             let top = EDGE + titles + 24.0;
             self.place_legend(&mut legend, WIDTH - EDGE - ENTRY_WIDTH + 14.0, top, 1)
         };
-        let height = fixed(bottom.max(drawn) + EDGE);
-        let width = fixed(WIDTH);
         let mut titles = Canvas::default();
-        let mut y = EDGE;
-        for line in &self.title_lines {
-            y += TITLE_LINE;
-            titles.text(Pixel::new(EDGE, y - 6.0), Anchor::Start, TITLE_SIZE, line);
-        }
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\"{} \
-             font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" fill=\"{DARK}\">\n\
-             <title>{}</title>\n\
-             <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n\
-             <g class=\"title\">\n{}</g>\n<g class=\"drawing\">\n{}</g>\n<g class=\"legend\">\n{}</g>\n\
-             </svg>\n",
-            self.data,
-            escape(&self.title),
+        style::draw_title(&mut titles, &self.title_lines);
+        let elements = format!(
+            "<g class=\"title\">\n{}</g>\n<g class=\"drawing\">\n{}</g>\n<g class=\"legend\">\n{}</g>\n",
             titles.as_str(),
             self.canvas.as_str(),
             legend.as_str(),
-        )
+        );
+        style::file(&self.title, bottom.max(drawn) + EDGE, &self.data, &elements)
     }
 
     /// Draws the entries in rows of `columns` and returns the bottom of the last.
@@ -228,10 +209,10 @@ impl Sheet {
                     fixed(y + 0.5 * TEXT_LINE)
                 );
                 canvas.group(&middle, |canvas| canvas.append(&entry.symbol));
-                let mut base = y + 0.5 * TEXT_LINE + 0.36 * TEXT_SIZE;
+                let mut base = y + 0.5 * TEXT_LINE + 0.36 * TEXT;
                 for line in &entry.lines {
                     let at = Pixel::new(x + SYMBOL_WIDTH + 8.0, base);
-                    canvas.text(at, Anchor::Start, TEXT_SIZE, line);
+                    canvas.text(at, Anchor::Start, TEXT, line);
                     base += TEXT_LINE;
                 }
                 let lines: f64 = entry.lines.iter().map(|_| TEXT_LINE).sum();
@@ -255,5 +236,5 @@ pub(super) fn draw_bar(canvas: &mut Canvas, half: f64, colour: &str, width: f64)
 
 /// Room for a label of this size beside the drawing.
 pub(super) fn label_room(text: &str) -> f64 {
-    text_width(text, TEXT_SIZE) + 8.0
+    text_width(text, TEXT) + 8.0
 }

@@ -5,6 +5,7 @@ use nalgebra::Point2;
 use super::canvas::{Canvas, Pixel, fixed};
 use super::marks::{self, BRICK, COMPRESSION, OUTLINE, TENSION};
 use super::sheet::{Frame, Margins, Sheet, draw_bar};
+use super::style::DARK;
 use crate::geometry;
 use crate::model::Model;
 use crate::report::format::{InUnits, round_down, stress_text};
@@ -186,7 +187,7 @@ fn draw_strokes(
         });
     }
     sheet.entry(&format!("stroke of {}", stress_text(round)), |symbol| {
-        draw_bar(symbol, 0.5 * round * pixels_per_pascal, "#222222", 1.4);
+        draw_bar(symbol, 0.5 * round * pixels_per_pascal, DARK, 1.4);
     });
 }
 

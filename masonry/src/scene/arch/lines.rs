@@ -19,10 +19,12 @@ pub(crate) fn lines(arch: &Arch, at: &KeyPath) -> Result<Vec<Line>, Fault> {
             let half = half_angle(arch, at, size.span)?;
             let radius = 0.5 * size.span / half.sin();
             let centre = size.place([0.5 * size.span, -radius * half.cos()]);
+            size.check_convex(half, at)?;
             Ok(size.fan(centre, radius, [-half, half], size.count))
         }
         Shape::Semicircular => {
-            let (centre, half) = (size.place([0.5 * size.span, 0.0]), 0.5 * std::f64::consts::PI);
+            let (centre, half) = (size.place([0.5 * size.span, 0.0]), RIGHT_ANGLE);
+            size.check_convex(half, at)?;
             Ok(size.fan(centre, 0.5 * size.span, [-half, half], size.count))
         }
         Shape::Pointed => size.pointed(arch, at),
@@ -85,6 +87,7 @@ struct Size {
 
 /// Voussoirs of one arch, at most.
 const MOST: u32 = 10_000;
+const RIGHT_ANGLE: f64 = 0.5 * std::f64::consts::PI;
 
 impl Size {
     fn of(arch: &Arch, at: &KeyPath) -> Result<Self, Fault> {
@@ -99,6 +102,13 @@ impl Size {
         let wanted = "an arch has between 1 and 10000 voussoirs";
         value(at.key("voussoirs"), f64::from(count), (1..=MOST).contains(&count), wanted)?;
         Ok(Self { origin: arch.origin.unwrap_or_default(), span, thickness, count })
+    }
+
+    /// Half a circle needs two voussoirs.
+    fn check_convex(&self, half: f64, at: &KeyPath) -> Result<(), Fault> {
+        let is_convex = self.count > 1 || half < RIGHT_ANGLE * (1.0 - 1e-9);
+        let wanted = "a single voussoir of half a circle is not convex: give at least 2";
+        value(at.key("voussoirs"), f64::from(self.count), is_convex, wanted)
     }
 
     fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
@@ -131,8 +141,8 @@ impl Size {
         let across = radius - half;
         let crown = [rise, (outer * outer - across * across).sqrt()].map(|y| self.place([half, y]));
         let angle = -(across / radius).asin();
-        let quarter = -0.5 * std::f64::consts::PI;
-        let mut lines = self.fan(self.place([radius, 0.0]), radius, [quarter, angle], count / 2);
+        let mut lines =
+            self.fan(self.place([radius, 0.0]), radius, [-RIGHT_ANGLE, angle], count / 2);
         lines.pop();
         let mirrored = |[x, y]: [f64; 2]| [2.0 * self.origin[0] + self.span - x, y];
         let right: Vec<Line> = lines.iter().rev().map(|line| line.map(mirrored)).collect();

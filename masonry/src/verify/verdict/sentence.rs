@@ -18,8 +18,7 @@ pub(super) fn of(
     let at = failed.map(at_step).unwrap_or_default();
     let first = match (verdict, evidence) {
         (Verdict::Stands, Evidence::AdmissibleForces) => {
-            "The wall stands: contact forces within friction balance the loads (verified). Rigid blocks do not \
-             determine which of these forces act."
+            "The wall stands: contact forces within friction balance the loads (verified)."
                 .to_owned()
         }
         (Verdict::Stands, _) => match known.history {
@@ -42,7 +41,9 @@ pub(super) fn of(
         (Verdict::Falls, _) => format!(
             "The wall falls{at}: no contact forces within friction balance the loads (proof checked)."
         ),
-        (Verdict::Undecided, _) => format!("Undecided{at}: {}", undecided(known, evidence, movement)),
+        (Verdict::Undecided, _) => {
+            format!("Undecided{at}: {}", undecided(known, evidence, movement))
+        }
     };
     match known
         .history

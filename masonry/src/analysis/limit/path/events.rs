@@ -3,7 +3,9 @@
 use serde::Serialize;
 
 use super::Stand;
-use super::steps::Rest;
+use super::steps::{End, Rest, Steps};
+use crate::analysis::limit::LimitError;
+use crate::analysis::limit::watch::Watch;
 use crate::ids::JointId;
 use crate::method::forms::Sparse;
 use crate::model::Model;
@@ -13,6 +15,9 @@ use crate::system::System;
 /// Gaps below this part of the largest displacement are closed, and forces nearer to the bound of friction than this part of
 /// the largest are at it. Chosen: far above the errors of states, far below what they mean.
 const ZERO: f64 = 1e-7;
+/// Steps between states by contact points. Chosen: for some dozen blocks all events are located, and for hundreds the first,
+/// in a part of the time of the path.
+const STEPS_BY_POINTS: usize = 5000;
 
 /// A change of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
@@ -24,6 +29,13 @@ pub enum Change {
     Opens,
     /// All of its closed points are at the bound of friction.
     Slides,
+}
+
+impl Change {
+    /// Whether a joint does more than before. One that was open and meets at one end has no hinge there.
+    fn is_after(self, before: Option<Self>) -> bool {
+        before != Some(self) && (self, before) != (Self::Hinges, Some(Self::Opens))
+    }
 }
 
 /// The first time that a joint opens or slides.
@@ -39,43 +51,79 @@ pub struct Event {
     pub before: f64,
 }
 
-/// Events, and the states between them.
-pub(super) fn along(
-    model: &Model,
-    system: &System,
-    sparse: &Sparse,
-    rests: &[(f64, Rest)],
-) -> (Vec<Event>, Vec<Stand>) {
-    let mut events: Vec<Event> = Vec::new();
-    let mut curve: Vec<Stand> = Vec::new();
-    let mut last: Option<(f64, Vec<Option<Change>>)> = None;
-    let at_zero = rests.first().map(|(_, rest)| rest.u.clone()).unwrap_or_default();
-    let blocks = sparse.starts().last().copied().unwrap_or(0);
-    for (factor, rest) in rests {
-        let statuses = statuses(system, sparse, rest);
-        let moved = rest.u[..blocks].iter().zip(&at_zero).map(|(u, before)| (u - before).abs());
-        let count = |status| statuses.iter().filter(|it| **it == status).count();
-        curve.push(Stand {
-            load_factor: *factor,
-            displacement: moved.fold(0.0, f64::max),
-            contacts: [ContactStatus::Open, ContactStatus::Stick, ContactStatus::Slip].map(count),
-        });
-        let changes: Vec<Option<Change>> =
-            (0..model.joints.len()).map(|joint| change(model, joint, &statuses)).collect();
-        if let Some((after, before)) = &last {
-            for (k, (now, before)) in changes.iter().zip(before).enumerate() {
-                let Some(change) = *now else { continue };
-                let joint = JointId::new(k);
-                let is_known = Some(change) == *before
-                    || events.iter().any(|it| it.joint == joint && it.change == change);
-                if !is_known {
-                    events.push(Event { joint, change, after: *after, before: *factor });
+/// The events on the way, and the states between them.
+pub(super) struct Way<'a> {
+    pub(super) model: &'a Model,
+    pub(super) system: &'a System,
+    pub(super) steps: &'a Steps<'a>,
+    /// Events are looked for until two states are nearer to each other than this factor \[-\].
+    pub(super) near: f64,
+}
+
+impl Way<'_> {
+    /// Follows the states, and puts others between them where joints open or slide, as far as that is quick.
+    pub(super) fn follow(
+        &self,
+        mut rests: Vec<(f64, Rest)>,
+        watch: &mut Watch<'_>,
+    ) -> Result<(Vec<Event>, Vec<Stand>), LimitError> {
+        let mut steps = STEPS_BY_POINTS / self.model.contacts.len().max(1);
+        let mut events: Vec<Event> = Vec::new();
+        let mut curve: Vec<Stand> = Vec::new();
+        let mut known = vec![Vec::new(); self.model.joints.len()];
+        let at_zero = rests.first().map(|(_, rest)| rest.u.clone()).unwrap_or_default();
+        // The next state comes last.
+        rests.reverse();
+        let mut last: Option<(f64, Rest, Vec<Option<Change>>)> = None;
+        while let Some((factor, rest)) = rests.pop() {
+            let statuses = statuses(self.system, self.steps.sparse, &rest);
+            let changes = self.changes(&statuses);
+            if let Some((after, before, earlier)) = &last {
+                let new: Vec<(usize, Change)> = (0..changes.len())
+                    .filter_map(|k| Some((k, changes[k].filter(|it| it.is_after(earlier[k]))?)))
+                    .filter(|(k, change)| !known[*k].contains(change))
+                    .collect();
+                if !new.is_empty() && factor - after > self.near && steps > 0 && !watch.is_ended {
+                    steps -= 1;
+                    let middle = 0.5 * (after + factor);
+                    let end = self.steps.advance(Some(before), middle, &mut watch.steps())?;
+                    if let End::Rests(between) = end {
+                        rests.extend([(factor, rest), (middle, between)]);
+                        continue;
+                    }
+                }
+                for (k, change) in new {
+                    known[k].push(change);
+                    let (joint, after, before) = (JointId::new(k), *after, factor);
+                    events.push(Event { joint, change, after, before });
                 }
             }
+            curve.push(self.stand(factor, &rest, &statuses, &at_zero));
+            last = Some((factor, rest, changes));
         }
-        last = Some((*factor, changes));
+        Ok((events, curve))
     }
-    (events, curve)
+
+    fn changes(&self, statuses: &[ContactStatus]) -> Vec<Option<Change>> {
+        (0..self.model.joints.len()).map(|joint| change(self.model, joint, statuses)).collect()
+    }
+
+    fn stand(
+        &self,
+        load_factor: f64,
+        rest: &Rest,
+        statuses: &[ContactStatus],
+        at_zero: &[f64],
+    ) -> Stand {
+        let blocks = self.steps.sparse.starts().last().copied().unwrap_or(0);
+        let moved = rest.u[..blocks].iter().zip(at_zero).map(|(u, before)| (u - before).abs());
+        let count = |status| statuses.iter().filter(|it| **it == status).count();
+        Stand {
+            load_factor,
+            displacement: moved.fold(0.0, f64::max),
+            contacts: [ContactStatus::Open, ContactStatus::Stick, ContactStatus::Slip].map(count),
+        }
+    }
 }
 
 fn change(model: &Model, joint: usize, statuses: &[ContactStatus]) -> Option<Change> {

@@ -1,10 +1,8 @@
 //! One step of a load factor: the blocks rest, or flow.
 
-use std::ops::ControlFlow;
-
 use lcp::{
-    ContactState, Evolution, EvolutionSettings, InteriorPoint, InteriorPointSettings, Solver,
-    Status, WarmStart,
+    ContactState, Evolution, EvolutionSettings, InteriorPoint, InteriorPointSettings, Observer,
+    Solver, Status, WarmStart,
 };
 
 use crate::method::forms::Sparse;
@@ -42,7 +40,12 @@ pub(super) struct Steps<'a> {
 
 impl Steps<'_> {
     /// From a state at rest, or from nothing, to a load factor.
-    pub(super) fn advance(&self, from: Option<&Rest>, factor: f64) -> Result<End, lcp::Error> {
+    pub(super) fn advance(
+        &self,
+        from: Option<&Rest>,
+        factor: f64,
+        observer: &mut Observer<'_>,
+    ) -> Result<End, lcp::Error> {
         let unloaded = &self.sparse.problem;
         let loads = unloaded.loads().iter().zip(self.growth);
         let mut problem =
@@ -62,8 +65,7 @@ impl Steps<'_> {
             continuation: false,
             ..InteriorPointSettings::default()
         };
-        let on = &mut |_: &lcp::Iteration| ControlFlow::Continue(());
-        let solution = InteriorPoint::new(settings).solve_observed(&problem, on)?;
+        let solution = InteriorPoint::new(settings).solve_observed(&problem, observer)?;
         if solution.status == Status::Solved
             && let Some(state) = solution.contact
         {
@@ -74,7 +76,7 @@ impl Steps<'_> {
             max_iterations: STEPS_OF_MOTION,
             ..EvolutionSettings::default()
         };
-        let evolved = Evolution::new(settings).advance(&problem, &at)?;
+        let evolved = Evolution::new(settings).advance_observed(&problem, &at, observer)?;
         Ok(match evolved.solution.status {
             Status::Solved => {
                 let state = evolved.state().clone();

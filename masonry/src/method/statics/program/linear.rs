@@ -5,7 +5,6 @@ use lcp::MixedLcp;
 
 use super::{Program, parts};
 use crate::columns::{Columns, column};
-use crate::rounding;
 
 impl Program<'_> {
     /// What each force along a column adds to a linear function of the forces of all rows.
@@ -78,11 +77,5 @@ impl Program<'_> {
         self.loads = vec![0.0; row];
         self.loads.push(-1.0);
         self
-    }
-
-    /// The factor under which what grows is as large as the loads that stay.
-    pub(in crate::method::statics) fn size_of_factor(&self) -> f64 {
-        let growth = rounding::largest(self.e.val_of_col(self.forces()));
-        rounding::largest(&self.system.resultants()) / self.unit / growth
     }
 }

@@ -8,11 +8,11 @@ use crate::report::joints::{self, JointForce};
 use crate::report::svg::canvas::Pixel;
 use crate::report::svg::labels::Labels;
 use crate::report::svg::sheet::{Frame, Margins, Sheet, label_room};
+use crate::report::svg::style::TEXT;
 
 const COLOUR: &str = "#1b7837";
 const LONGEST: f64 = 36.0;
 const SHORTEST: f64 = 16.0;
-const LABEL: f64 = 13.0;
 /// Reactions below this part of the largest are not drawn.
 const LEAST: f64 = 1e-6;
 
@@ -59,7 +59,7 @@ impl Reactions {
             let beside = |part: f64| it.length * part + 14.0 + label_room(&it.label);
             margins.right = margins.right.max(if n.x > 0.5 { beside(n.x) } else { 0.0 });
             margins.left = margins.left.max(if n.x < -0.5 { beside(-n.x) } else { 0.0 });
-            let above = |part: f64| it.length * part + 14.0 + LABEL;
+            let above = |part: f64| it.length * part + 14.0 + TEXT;
             margins.top = margins.top.max(if n.y > 0.0 { above(n.y) } else { 0.0 });
             margins.bottom = margins.bottom.max(if n.y < 0.0 { above(-n.y) } else { 0.0 });
         }
@@ -89,7 +89,7 @@ impl Reactions {
                 let n = it.outwards;
                 let [tail, _] = it.arrow(&frame);
                 let at = tail.shifted(n.x, -n.y, 4.0);
-                labels.draw(canvas, at, n, LABEL, &it.label);
+                labels.draw(canvas, at, n, TEXT, &it.label);
             }
         });
         sheet.entry("reaction of a support", |symbol| {

@@ -1,0 +1,41 @@
+//! Who follows a search for a limit, and may end it.
+
+use std::ops::ControlFlow;
+
+use lcp::Iteration;
+
+/// What is known of a limit while it is looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Bracket {
+    /// The largest load factor \[-\], or the smallest thickness \[m\], that was found to stand.
+    pub stands: Option<f64>,
+    /// The smallest load factor \[-\], or the largest thickness \[m\], that was found to fall.
+    pub falls: Option<f64>,
+}
+
+/// Hears what is known, many times on the way; after `Break` the search ends with that.
+pub type Observer<'a> = dyn FnMut(Bracket) -> ControlFlow<()> + 'a;
+
+/// An observer, what it is told, and whether it has ended the search.
+pub(super) struct Watch<'a> {
+    observer: &'a mut Observer<'a>,
+    pub(super) known: Bracket,
+    pub(super) is_ended: bool,
+}
+
+impl<'a> Watch<'a> {
+    pub(super) fn new(observer: &'a mut Observer<'a>) -> Self {
+        Self { observer, known: Bracket::default(), is_ended: false }
+    }
+
+    /// Asks the observer; once it has ended the search, it is not asked again.
+    pub(super) fn ask(&mut self) -> ControlFlow<()> {
+        self.is_ended = self.is_ended || (self.observer)(self.known).is_break();
+        if self.is_ended { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// The same for the steps of a solver.
+    pub(super) fn steps(&mut self) -> impl FnMut(&Iteration) -> ControlFlow<()> {
+        |_| self.ask()
+    }
+}

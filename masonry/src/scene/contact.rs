@@ -1,0 +1,49 @@
+//! How contact is looked for and enforced.
+
+use serde::{Deserialize, Serialize};
+
+/// How contact is looked for and enforced.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Contact {
+    /// Where on a joint the contact law is enforced.
+    #[serde(default)]
+    pub points: PointRule,
+    /// Bodies closer than this may meet \[length\]; zero: only bodies that touch.
+    #[serde(default)]
+    pub gap_limit: f64,
+    /// Which terms of mortar films are kept.
+    #[serde(default)]
+    pub films: Films,
+}
+
+/// Where on a joint the contact law is enforced.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum PointRule {
+    /// At both ends of every part of the overlap on which the shape functions of both sides are
+    /// linear, with trapezoidal weights.
+    #[default]
+    Vertices,
+    /// Only where a node of each side lies (on a support: at the nodes of the block), weighted by
+    /// tributary length: the node pairs of the paper.
+    NodalPairs,
+    /// At two Gauss points in every part on which the shape functions of both sides are linear.
+    Gauss,
+}
+
+/// Which terms of mortar films are kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Films {
+    /// What acts across the joint: a compliance in series with each contact point, without strain
+    /// along the joint.
+    #[default]
+    Compliance,
+    /// The whole strip (3.28)-(3.39), also with the stress along the joint and the strain that it
+    /// shares with the blocks. It is integrated at its Gauss points: `points` must be `gauss`.
+    Strips,
+}

@@ -1,0 +1,285 @@
+//! The kinds of mistakes in a scene, each with its remedy.
+
+use std::path::PathBuf;
+
+use super::{ContactError, Known};
+use crate::scene::{ArchError, LoadError, OpeningError};
+
+/// The kinds of mistakes in a scene.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SceneErrorKind {
+    /// The file cannot be read.
+    #[error("cannot read the scene: {message}")]
+    Read {
+        /// The operating system's message.
+        message: String,
+    },
+    /// The scene cannot be written as TOML.
+    #[error("cannot write the scene as TOML: {message}")]
+    Write {
+        /// The writer's message.
+        message: String,
+    },
+    /// The list of blocks cannot be read.
+    #[error("cannot read the list of blocks {}: {message}: name a JSON file, relative to the scene", path.display())]
+    BlockList {
+        /// The file, as the scene names it.
+        path: PathBuf,
+        /// The operating system's message.
+        message: String,
+    },
+    /// The text is no TOML, or has unknown, missing or repeated keys, or values of a wrong type.
+    #[error("{message}")]
+    Syntax {
+        /// What is wrong and what was expected.
+        message: String,
+    },
+    /// A key is missing that other data of the scene call for.
+    #[error("`{key}` is missing, but needed {because}: add `{remedy}`")]
+    Missing {
+        /// The missing key.
+        key: &'static str,
+        /// Why it is needed.
+        because: &'static str,
+        /// An example.
+        remedy: &'static str,
+    },
+    /// A key has no meaning beside other data of the scene.
+    #[error("`{key}` {because}: remove it{otherwise}")]
+    Unwanted {
+        /// The key.
+        key: &'static str,
+        /// Why it has no meaning.
+        because: &'static str,
+        /// An alternative.
+        otherwise: &'static str,
+    },
+    /// Both of two keys are given of which exactly one is wanted.
+    #[error("both `{first}` and `{second}` are given: keep one of them")]
+    Both {
+        /// One key.
+        first: &'static str,
+        /// The other.
+        second: &'static str,
+    },
+    /// Neither of two keys is given of which exactly one is wanted.
+    #[error("neither `{first}` nor `{second}` is given: add one of them")]
+    Neither {
+        /// One key.
+        first: &'static str,
+        /// The other.
+        second: &'static str,
+    },
+    /// A number is not finite, or out of its range.
+    #[error("{value} is not allowed: {wanted}")]
+    Value {
+        /// The number.
+        value: f64,
+        /// What is allowed.
+        wanted: &'static str,
+    },
+    /// A name is empty.
+    #[error("the name is empty: give a name by which messages and files can refer to it")]
+    EmptyName,
+    /// A name occurs twice.
+    #[error("the {what} name \"{name}\" is taken by {first}: choose another")]
+    Duplicate {
+        /// `wall`, `block`, `support`, `load` or `stage`.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// Where the name occurs first.
+        first: String,
+    },
+    /// A name refers to nothing.
+    #[error(
+        "there is no {what} \"{name}\" in the scene; {known}: correct the name or add {missing}"
+    )]
+    Unknown {
+        /// `material`, `joint class`, `load`, `load or group` or `support`.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// The names that there are.
+        known: Known,
+        /// The table that would define it.
+        missing: String,
+    },
+    /// Nothing to analyse.
+    #[error("the scene has no blocks: add [[walls]], [[arches]] or [[blocks]]")]
+    Empty,
+    /// A list has no items.
+    #[error("the list is empty: {remedy}")]
+    EmptyList {
+        /// The remedy.
+        remedy: &'static str,
+    },
+    /// Nothing holds the structure.
+    #[error(
+        "the scene has no support, so that nothing holds it: add [[supports]], or `springing` to an arch"
+    )]
+    NoSupport,
+    /// The two ends of a segment coincide.
+    #[error("the segment has no length: `from` and `to` are both [{x}, {y}]")]
+    NoLength {
+        /// Coordinate of the ends.
+        x: f64,
+        /// Coordinate of the ends.
+        y: f64,
+    },
+    /// More items than can be analysed.
+    #[error("{count:.0} {what} are too many: at most {limit} are possible")]
+    TooMany {
+        /// The things that are too many.
+        what: &'static str,
+        /// How many.
+        count: f64,
+        /// How many are possible.
+        limit: u32,
+    },
+    /// The corners of a block run clockwise.
+    #[error(
+        "the corners of block \"{block}\" run clockwise (area {area} {unit}2): \
+         list them counter-clockwise"
+    )]
+    Clockwise {
+        /// Name of the block.
+        block: String,
+        /// Signed area in units of the scene.
+        area: f64,
+        /// Unit of length.
+        unit: &'static str,
+    },
+    /// A block with less than three corners.
+    #[error("block \"{block}\" has {count} corners: give at least three")]
+    TooFewCorners {
+        /// Name of the block.
+        block: String,
+        /// How many there are.
+        count: usize,
+    },
+    /// The edges of a block go around more than once.
+    #[error(
+        "the edges of block \"{block}\" cross: list its corners in the order in which they follow each other, \
+         counter-clockwise"
+    )]
+    CrossingEdges {
+        /// Name of the block.
+        block: String,
+    },
+    /// A block of an elastic material that is no quadrilateral.
+    #[error(
+        "block \"{block}\" has {count} corners, but only blocks with four can be elastic: give it a rigid material \
+         (one without E), or divide it into quadrilaterals"
+    )]
+    NoQuadrilateral {
+        /// Name of the block.
+        block: String,
+        /// How many corners it has.
+        count: usize,
+    },
+    /// A block is not strictly convex.
+    #[error(
+        "block \"{block}\" is not strictly convex at corner {corner}: move the corner outwards, or \
+         split the block"
+    )]
+    NotConvex {
+        /// Name of the block.
+        block: String,
+        /// The corner, from 1.
+        corner: usize,
+    },
+    /// The tensile strength lies beyond the tip of the friction cone.
+    #[error(
+        "the tensile strength {tension} is larger than cohesion / mu = {largest}, where the friction cone ends: give \
+         at most that, or more `cohesion`"
+    )]
+    TooMuchTension {
+        /// The tensile strength, in units of the scene.
+        tension: f64,
+        /// The largest possible.
+        largest: f64,
+    },
+    /// Two blocks occupy the same place.
+    #[error(
+        "blocks \"{first}\" and \"{second}\" overlap by an area of {area} {unit}2: move one of them"
+    )]
+    Overlap {
+        /// Name of one block.
+        first: String,
+        /// Name of the other.
+        second: String,
+        /// Area of the overlap in units of the scene.
+        area: f64,
+        /// Unit of length.
+        unit: &'static str,
+    },
+    /// A support runs through a block.
+    #[error(
+        "support \"{support}\" runs through the inside of block \"{block}\" for a length of {length} \
+         {unit}: move it to an edge"
+    )]
+    Pierced {
+        /// Name of the support.
+        support: String,
+        /// Name of the block.
+        block: String,
+        /// Length inside the block in units of the scene.
+        length: f64,
+        /// Unit of length.
+        unit: &'static str,
+    },
+    /// A block meets neither another block nor a support.
+    #[error(
+        "block \"{block}\" touches no other block and no support, so that it can move in every \
+         direction: move it, or raise contact.gap_limit"
+    )]
+    LooseBlock {
+        /// Name of the block.
+        block: String,
+    },
+    /// No block meets a support.
+    #[error(
+        "no block touches support \"{support}\": move it to an edge of a block, raise \
+         contact.gap_limit, or remove it"
+    )]
+    IdleSupport {
+        /// Name of the support.
+        support: String,
+    },
+    /// No free edge lies on the segment of a load.
+    #[error(
+        "load \"{load}\" acts on nothing: no free edge of a block lies on its segment (edges \
+         within joints are not free): move it to an edge, or remove it"
+    )]
+    IdleLoad {
+        /// Name of the load.
+        load: String,
+    },
+    /// Two blocks meet in a joint whose class is not given.
+    #[error(
+        "blocks \"{first}\" and \"{second}\" meet in a joint of class \"{class}\", which is \
+         not given: add [joints.{class}] with `mu` or `phi_deg`"
+    )]
+    MissingClass {
+        /// The class.
+        class: String,
+        /// Name of one block.
+        first: String,
+        /// Name of the other.
+        second: String,
+    },
+    /// What is impossible about an arch.
+    #[error("{0}")]
+    Arch(#[from] ArchError),
+    /// What is impossible about an opening.
+    #[error("{0}")]
+    Opening(#[from] OpeningError),
+    /// What is wrong with a load.
+    #[error("{0}")]
+    Load(#[from] LoadError),
+    /// Contact points could not be placed.
+    #[error("{0}")]
+    Contact(#[from] ContactError),
+}

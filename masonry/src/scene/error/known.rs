@@ -1,0 +1,61 @@
+//! Names that are not there, and the one that was probably meant.
+
+use std::fmt;
+
+/// The names of a kind that a scene has.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Known {
+    /// All of them.
+    pub names: Vec<String>,
+    /// The one that was probably meant.
+    pub nearest: Option<String>,
+}
+
+impl Known {
+    /// The names that there are where another one was given.
+    pub(crate) fn near(given: &str, names: Vec<String>) -> Self {
+        let nearest = nearest(given, names.iter().map(String::as_str)).map(str::to_owned);
+        Self { names, nearest }
+    }
+}
+
+impl fmt::Display for Known {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.names.is_empty() {
+            return f.write_str("none is given");
+        }
+        if let Some(nearest) = &self.nearest {
+            write!(f, "did you mean \"{nearest}\"? ")?;
+        }
+        let (first, more) = self.names.split_at(self.names.len().min(MOST_NAMES));
+        let names: Vec<String> = first.iter().map(|name| format!("\"{name}\"")).collect();
+        write!(f, "there is {}", names.join(", "))?;
+        if more.is_empty() { Ok(()) } else { write!(f, " and {} more", more.len()) }
+    }
+}
+
+/// So many names are listed.
+const MOST_NAMES: usize = 12;
+/// Names that differ by more than this part of their letters are different names.
+const SIMILAR: f64 = 0.7;
+
+/// The name that is most like another one, if one is like it at all.
+fn nearest<'a>(given: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let likeness = |name: &str| strsim::normalized_damerau_levenshtein(given, name);
+    let like =
+        names.map(|name| (likeness(name), name)).filter(|(likeness, _)| *likeness >= SIMILAR);
+    like.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, name)| name)
+}
+
+/// The message of the reader, with the key that was probably meant.
+pub(super) fn with_nearest(message: &str) -> String {
+    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    let hint = message.starts_with("unknown ").then_some(&quoted[..]);
+    match hint.and_then(<[&str]>::split_first) {
+        Some((given, known)) => match nearest(given, known.iter().copied()) {
+            Some(name) => format!("{message}; did you mean `{name}`?"),
+            None => message.to_owned(),
+        },
+        None => message.to_owned(),
+    }
+}

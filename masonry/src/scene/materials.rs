@@ -1,0 +1,84 @@
+//! Materials of blocks and mortar, and what joints resist.
+
+use serde::{Deserialize, Serialize};
+
+use super::{PointRule, strict};
+use crate::material::Elasticity;
+use crate::units::Units;
+
+/// A material: rigid without `E`, elastic with `E` and `nu`.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus \[force/length^2\]; blocks of a material without it are rigid.
+    #[serde(rename = "E", default, skip_serializing_if = "Option::is_none")]
+    pub young: Option<f64>,
+    /// Poisson's ratio \[-\], required with `E`.
+    #[serde(rename = "nu", default, skip_serializing_if = "Option::is_none")]
+    pub poisson: Option<f64>,
+    /// Mass density \[kg/m^3\], whatever the units of the scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub density: Option<f64>,
+}
+
+impl Material {
+    /// The elastic constants in SI units; `None` of a rigid material.
+    pub(crate) fn elasticity(&self, units: Units) -> Option<Elasticity> {
+        let young = self.young? * units.stress_to_si();
+        Some(Elasticity { young, poisson: self.poisson? })
+    }
+}
+
+/// A class of joints: exactly one of `mu` and `phi_deg`, and optionally cohesion, tensile strength and mortar. The
+/// law is that of [`law`](crate::law).
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Joint {
+    /// Coefficient of Coulomb friction \[-\]; zero is a frictionless joint.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mu: Option<f64>,
+    /// Angle of friction \[degrees\].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub phi_deg: Option<f64>,
+    /// Cohesion \[force/length^2\]: what resists sliding without a normal force.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cohesion: Option<f64>,
+    /// Tensile strength \[force/length^2\], at most the cohesion divided by the coefficient of friction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tension: Option<f64>,
+    /// Where on the joints of the class the law is enforced, if not as [`Contact::points`](super::Contact::points) says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub points: Option<PointRule>,
+    /// Thickness of the mortar \[length\]; without it, or with zero, the joint is dry.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thickness: Option<f64>,
+    /// Name of the elastic material of the mortar; required with a thickness above zero.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<String>,
+}
+
+impl Joint {
+    /// The coefficient of friction \[-\]; zero where neither `mu` nor `phi_deg` is given.
+    pub fn friction(&self) -> f64 {
+        self.mu.or(self.phi_deg.map(|phi| phi.to_radians().tan())).unwrap_or(0.0)
+    }
+
+    /// Thickness of the mortar \[length\]; zero for a dry joint.
+    pub fn mortar_thickness(&self) -> f64 {
+        self.thickness.unwrap_or(0.0)
+    }
+}
+
+/// Two bodies, each the name of a block or of a wall, and the class of all joints between them.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Between {
+    /// The two names; twice the same wall for the joints within it.
+    #[serde(deserialize_with = "strict::pair")]
+    pub blocks: [String; 2],
+    /// The class of their joints.
+    pub joint: String,
+}
