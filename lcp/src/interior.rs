@@ -21,10 +21,10 @@ mod turn;
 
 use std::ops::ControlFlow;
 
-pub use evolution::{Evolution, EvolutionSettings};
+pub use evolution::Evolution;
 pub use evolved::{Evolved, Way};
 pub use least::LeastForces;
-pub use settings::InteriorPointSettings;
+pub use settings::{EvolutionSettings, InteriorPointSettings};
 
 use balance::{Balance, balance};
 use constants::{

@@ -6,11 +6,11 @@ use super::constants::{
     AHEAD, FIRST_VISCOSITY, FREE, LAST_TRIES, LEAST_VISCOSITY, MOST_VISCOSITY, MOVED, SETTLING,
     STEADIER, STEADY, STEADY_MOTIONS, THROUGH, TRIES,
 };
-use super::evolution::EvolutionSettings;
 use super::evolved::{Evolved, Way};
 use super::iterate::Iterate;
 use super::motion::{Motions, Moved, Viscosity, unresisted};
 use super::rest::{Rest, settled};
+use super::settings::EvolutionSettings;
 use super::start::{start, start_smooth};
 use crate::active::{Effort, Search, unplanned};
 use crate::lower::judged_point;
