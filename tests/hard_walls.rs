@@ -79,3 +79,19 @@ fn walls_with_friction_in_between_are_decided() {
         check(mu, mesh);
     }
 }
+
+/// Walls of 1040 bricks, at a critical friction and near their limit, on which interior points jam from their first start.
+#[cfg(feature = "long-tests")]
+#[test]
+fn walls_on_which_the_first_attempt_jams_stand() {
+    let wall = |mu, mesh| Wall { courses: 32, mu, mesh: Some(mesh) };
+    for (mu, mesh) in [(0.3, [2, 1]), (0.9999, [2, 1]), (1.0001, [2, 1]), (1.3, [1, 1])] {
+        let found = verdict_of(&wall(mu, mesh), Case::OpenBase, 0.0);
+        assert_eq!(found, (Verdict::Stands, Evidence::Equilibrium), "mu {mu}, {mesh:?}");
+    }
+    for (mu, share) in [(0.5, 0.99), (0.6, 0.9), (0.7, 0.9)] {
+        let limit = Wall { mesh: None, ..wall(mu, [2, 1]) }.largest_tilt();
+        let found = verdict_of(&wall(mu, [2, 1]), Case::Tilt(share), limit);
+        assert_eq!(found, (Verdict::Stands, Evidence::Equilibrium), "mu {mu}, tilt {share}");
+    }
+}

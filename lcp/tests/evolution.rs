@@ -5,7 +5,7 @@
 use std::ops::ControlFlow;
 
 use lcp::faer::Mat;
-use lcp::{Contact2d, ContactPoint, Evolution, EvolutionSettings, Evolved, Status};
+use lcp::{Contact2d, ContactPoint, Evolution, EvolutionSettings, Evolved, Status, Way};
 
 const STIFFNESS: f64 = 4.0;
 const WEIGHT: f64 = 2.0;
@@ -96,6 +96,20 @@ fn a_floor_that_moves_takes_along_what_rests_on_it() {
     assert!((end.state().u[0] - MU * WEIGHT / STIFFNESS).abs() < 1e-4, "{:?}", end.state());
 }
 
+/// A block on a spring under a push beyond friction slides by `(P - mu N) / k`, which the law with less friction leads to. A
+/// push that only the friction given holds leaves it where it is.
+#[test]
+fn reduced_friction_leads_to_the_law_with_the_friction_given() {
+    let reduced = EvolutionSettings { reductions: vec![0.1], ..EvolutionSettings::default() };
+    for (push, slid) in [(3.0, 2.0), (1.4, 0.4), (-2.0, -1.0), (0.95 * MU * WEIGHT, 0.0)] {
+        let problem = pushed(&[push], STIFFNESS);
+        let end = Evolution::new(reduced.clone()).advance(&problem, &[0.0; 2]).unwrap();
+        assert_eq!((end.way, end.solution.status), (Way::Law, Status::Solved));
+        let place = end.state().u[0];
+        assert!((place - slid / STIFFNESS).abs() < 1e-12, "{push}: {place}");
+    }
+}
+
 #[test]
 fn limits_and_wrong_starts_are_told() {
     let problem = pushed(&[1.4], STIFFNESS);
@@ -105,6 +119,11 @@ fn limits_and_wrong_starts_are_told() {
         let wrong = EvolutionSettings { slips: vec![1e-3, slip], ..EvolutionSettings::default() };
         let error = Evolution::new(wrong).advance(&problem, &[0.0; 2]).unwrap_err();
         assert!(matches!(error, lcp::Error::Setting { name: "slips", .. }), "{error}");
+    }
+    for part in [0.0, 1.0, -0.5, f64::NAN] {
+        let wrong = EvolutionSettings { reductions: vec![part], ..EvolutionSettings::default() };
+        let error = Evolution::new(wrong).advance(&problem, &[0.0; 2]).unwrap_err();
+        assert!(matches!(error, lcp::Error::Setting { name: "reductions", .. }), "{error}");
     }
     let few = EvolutionSettings { max_iterations: 2, ..EvolutionSettings::default() };
     let end = Evolution::new(few).advance(&problem, &[0.0; 2]).unwrap();
