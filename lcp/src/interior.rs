@@ -14,6 +14,7 @@ mod path;
 mod problems;
 mod program;
 mod rest;
+mod rigid;
 mod saddle;
 mod settings;
 mod start;

@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use super::constants::{
-    AHEAD, FIRST_VISCOSITY, FREE, LAST_TRIES, LEAST_VISCOSITY, MOST_VISCOSITY, MOVED, SETTLING,
-    STEADIER, STEADY, STEADY_MOTIONS, THROUGH, TRIES,
+    AHEAD, FIRST_VISCOSITY, FREE, LAST_TRIES, LEAST_VISCOSITY, MOST_VISCOSITY, MOVED, STEADIER,
+    STEADY, STEADY_MOTIONS, THROUGH, TRIES,
 };
 use super::evolved::{Evolved, Way};
 use super::iterate::Iterate;
@@ -187,12 +187,9 @@ impl<'a, 'b> Moving<'a, 'b> {
     /// The same with friction that turns over this part of the displacements, if the judge agrees, and what friction took.
     fn settled(&mut self, (part, size): (f64, f64), by_law: bool) -> Option<(Found, f64)> {
         let Self { problem, tolerance, search, monitor, limit, origin, .. } = self;
-        let (mut best, mut left) = (f64::INFINITY, SETTLING);
         let go_on = |residual| {
-            (best, left) =
-                if residual <= 0.5 * best { (residual, SETTLING) } else { (best, left - 1) };
             *limit = monitor.stop(residual);
-            limit.is_none() && left > 0
+            limit.is_none()
         };
         let wanted = |u: &[f64]| {
             let size = if part < 1.0 { max_abs(&difference(u, origin)) } else { size };

@@ -4,7 +4,7 @@ use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 
 use crate::problem::{column_of, diagonal};
 use crate::scaling::power_of_two;
-use crate::states::Scaled;
+use crate::states::{Point, Scaled};
 use crate::vector::max_abs;
 
 /// `K u = f + A t`, `y = A^T u + D t + x_0`, `0 <= t _|_ y >= 0`, with a diagonal `D >= 0`.
@@ -38,13 +38,21 @@ pub(super) fn associated(problem: &Scaled) -> Program {
 
 /// The forces of one along the edges of all friction cones.
 pub(super) fn edges(problem: &Scaled) -> SparseColMat<usize, f64> {
+    along(problem.order(), problem.edges())
+}
+
+/// The forces of one along edges of friction cones: points, each with a coefficient of friction and its sign.
+pub(super) fn along<'a>(
+    order: usize,
+    edges: impl Iterator<Item = (&'a Point, f64)>,
+) -> SparseColMat<usize, f64> {
     let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
-    for (point, mu) in problem.edges() {
+    for (point, mu) in edges {
         rows.extend(&point.columns);
         values.extend(point.normal.iter().zip(&point.tangent).map(|(n, t)| n + mu * t));
         starts.push(rows.len());
     }
-    assembled(problem.order(), starts, rows, values)
+    assembled(order, starts, rows, values)
 }
 
 /// A matrix of this number of rows from its columns.

@@ -1,8 +1,11 @@
 //! Bodies at rest: gaps and normal forces exactly complementary, and friction that turns over a short slip.
 
-use super::constants::{ADMISSIBLE, BLUNT, SETTLED, SHARPENED, SHARPER, STIFF_CLOSED};
+use super::constants::{
+    ADMISSIBLE, BLUNT, NEARLY_SETTLED, SETTLED, SETTLING, SHARPENED, SHARPER, STIFF_CLOSED,
+};
 use super::continuation::centred;
 use super::iterate::{Iterate, Pairs};
+use super::rigid::rigid_rest;
 use crate::states::{Condensed, PROXIMAL, Point, Scaled, Springs};
 use crate::vector::max_abs;
 
@@ -25,28 +28,69 @@ pub(super) fn settled<T>(
     mut go_on: impl FnMut(f64) -> bool,
     mut accepted: impl FnMut(&mut Condensed, &Iterate, Rest) -> Option<T>,
 ) -> Option<T> {
+    let mut progress = Progress::default();
+    let mut settle = |condensed: &mut Condensed, at, accuracy| {
+        let go_on = |residual| go_on(residual) && progress.is_made(residual);
+        centred(problem, condensed, at, (PROXIMAL, accuracy), go_on)
+    };
     for _ in 0..SHARPER {
-        at = centred(problem, condensed, at, (PROXIMAL, SHARPENED), &mut go_on)?;
+        at = settle(condensed, at, SHARPENED)?;
         let slip = wanted(&at.u);
         if at.smooth <= BLUNT * slip {
             break;
         }
         at.smooth = slip;
     }
+    let is_rigid = problem.is_rigid();
+    if is_rigid {
+        at = settle(condensed, at, NEARLY_SETTLED)?;
+    }
     for accuracy in SETTLED {
-        at = centred(problem, condensed, at, (PROXIMAL, accuracy), &mut go_on)?;
+        let settled = settle(condensed, at.clone(), accuracy);
+        if settled.is_none() && !is_rigid {
+            return None;
+        }
+        at = settled.unwrap_or(at);
         let rest = polished(problem, condensed, &at);
         if is_admissible(problem, &at, &rest)
             && let Some(found) = accepted(condensed, &at, rest)
         {
             return Some(found);
         }
+        if is_rigid {
+            let accepted = |condensed: &mut Condensed, rest| accepted(condensed, &at, rest);
+            return rigid_rest(problem, condensed, &at, go_on, accepted);
+        }
     }
     None
 }
 
+/// Whether a residual decreases fast enough.
+struct Progress {
+    best: f64,
+    /// Steps until it has to be halved.
+    left: usize,
+}
+
+impl Default for Progress {
+    fn default() -> Self {
+        Self { best: f64::INFINITY, left: SETTLING }
+    }
+}
+
+impl Progress {
+    fn is_made(&mut self, residual: f64) -> bool {
+        (self.best, self.left) = if residual <= 0.5 * self.best {
+            (residual, SETTLING)
+        } else {
+            (self.best, self.left.saturating_sub(1))
+        };
+        self.left > 0
+    }
+}
+
 /// Whether forces are inside their cones and gaps open, nearly: what is far outside needs no judge.
-fn is_admissible(problem: &Scaled, at: &Iterate, (u, forces): &Rest) -> bool {
+pub(super) fn is_admissible(problem: &Scaled, at: &Iterate, (u, forces): &Rest) -> bool {
     let (force, length) = at.sizes();
     let points = problem.points.iter().zip(forces);
     points.into_iter().all(|(point, (t_n, t_t))| {

@@ -42,6 +42,12 @@ impl Point {
         self.x_0 + dot(&self.normal, &self.columns, u)
     }
 
+    /// The edges of the friction cone; see [`Scaled::edges`].
+    pub(crate) fn edges(&self) -> impl Iterator<Item = (&Self, f64)> {
+        let count = if self.mu > 0.0 { 2 } else { 1 };
+        [(self, self.mu), (self, -self.mu)].into_iter().take(count)
+    }
+
     pub(crate) fn slip(&self, u: &[f64]) -> f64 {
         self.s_0 + dot(&self.tangent, &self.columns, u)
     }
@@ -205,10 +211,7 @@ impl Scaled {
 
     /// The edges of the friction cones: their points, and the tangential force for a normal force of one.
     pub(crate) fn edges(&self) -> impl Iterator<Item = (&Point, f64)> {
-        self.points.iter().flat_map(|point| {
-            let count = if point.mu > 0.0 { 2 } else { 1 };
-            [(point, point.mu), (point, -point.mu)].into_iter().take(count)
-        })
+        self.points.iter().flat_map(Point::edges)
     }
 
     /// Displacements and forces in the units of this problem.
@@ -216,6 +219,11 @@ impl Scaled {
         let forces =
             state.t_n.iter().zip(&state.t_t).map(|(n, t)| (n / self.force, t / self.force));
         (self.of_displacements(&state.u), forces.collect())
+    }
+
+    /// Whether no body resists a displacement.
+    pub(crate) fn is_rigid(&self) -> bool {
+        self.k.val().iter().all(|k| *k == 0.0)
     }
 
     /// Whether every displacement has a stiffness, and there is friction.
