@@ -40,8 +40,8 @@ pub(super) fn associated(problem: &Scaled) -> Program {
 pub(super) fn edges(problem: &Scaled) -> SparseColMat<usize, f64> {
     let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
     for (point, mu) in problem.edges() {
-        rows.extend(&point.columns);
-        values.extend(point.normal.iter().zip(&point.tangent).map(|(n, t)| n + mu * t));
+        rows.extend(point.columns);
+        values.extend(point.coefficients.iter().map(|[n, t]| n + mu * t));
         starts.push(rows.len());
     }
     assembled(problem.order(), starts, rows, values)

@@ -60,7 +60,7 @@ fn is_admissible(problem: &Scaled, at: &Iterate, (u, forces): &Rest) -> bool {
 fn polished(problem: &Scaled, condensed: &mut Condensed, at: &Iterate) -> Rest {
     let (mut u, mut forces) = (at.u.clone(), at.forces());
     let points = || problem.points.iter().zip(&at.points);
-    let springs: Vec<Springs> = points().map(|(point, pairs)| held(point, pairs)).collect();
+    let springs: Vec<Springs> = points().map(|(point, pairs)| held(point.mu, pairs)).collect();
     let is_open = |springs: &Springs| springs.nn <= 0.0;
     let open = forces.iter_mut().zip(&springs).filter(|(_, springs)| is_open(springs));
     open.for_each(|(force, _)| *force = (0.0, 0.0));
@@ -68,7 +68,7 @@ fn polished(problem: &Scaled, condensed: &mut Condensed, at: &Iterate) -> Rest {
     let mut last = f64::INFINITY;
     for _ in 0..REFINEMENTS {
         let rest = problem.unbalanced(&u, forces.iter().copied());
-        let gap = |(point, springs): (&Point, &Springs)| {
+        let gap = |(point, springs): (Point<'_>, &Springs)| {
             (if is_open(springs) { 0.0 } else { point.gap(&u) }, 0.0)
         };
         let gaps: Vec<(f64, f64)> = problem.points.iter().zip(&springs).map(gap).collect();
@@ -88,9 +88,9 @@ fn polished(problem: &Scaled, condensed: &mut Condensed, at: &Iterate) -> Rest {
     (u, forces)
 }
 
-fn held(point: &Point, pairs: &Pairs) -> Springs {
+fn held(mu: f64, pairs: &Pairs) -> Springs {
     if pairs.gap > pairs.t_n {
         return Springs::default();
     }
-    Springs { nn: STIFF_CLOSED, tn: 0.0, tt: pairs.resistance(point.mu) }
+    Springs { nn: STIFF_CLOSED, tn: 0.0, tt: pairs.resistance(mu) }
 }
