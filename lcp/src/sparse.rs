@@ -6,11 +6,13 @@ mod gram;
 mod lu;
 mod multifrontal;
 mod order;
+mod rows;
 
 pub use gram::Gram;
 pub(crate) use lu::{Growing, SparseLu, row_counts};
 pub use multifrontal::Multifrontal;
 pub(crate) use order::{Turn, elimination_order};
+pub(crate) use rows::ByRows;
 
 /// Columns of nonzero entries, one after the other.
 #[derive(Debug, Clone)]

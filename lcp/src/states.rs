@@ -4,9 +4,11 @@
 mod condensed;
 mod constants;
 mod law;
+mod points;
 mod scaled;
 
 pub(crate) use condensed::{Condensed, Springs};
 pub(crate) use constants::PROXIMAL;
 pub(crate) use law::nearest;
-pub(crate) use scaled::{Point, Scaled};
+pub(crate) use points::Point;
+pub(crate) use scaled::Scaled;

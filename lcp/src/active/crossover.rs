@@ -96,21 +96,26 @@ pub(crate) fn cross_over(
 impl Vertex {
     /// Solves the equations of the states; `None` where they have no solution.
     fn solve(&mut self, problem: &Scaled, condensed: &mut Condensed, proximal: f64) -> Option<()> {
-        let springs: Vec<Springs> =
-            problem.points.iter().zip(&self.contacts).map(|(p, c)| c.springs(p, STIFF)).collect();
+        let springs: Vec<Springs> = problem
+            .points
+            .mu
+            .iter()
+            .zip(&self.contacts)
+            .map(|(mu, c)| c.springs(*mu, STIFF))
+            .collect();
         condensed.factorise(problem, &springs, proximal);
-        for ((point, contact), (t_n, t_t)) in
-            problem.points.iter().zip(&self.contacts).zip(&mut self.forces)
+        for ((mu, contact), (t_n, t_t)) in
+            problem.points.mu.iter().zip(&self.contacts).zip(&mut self.forces)
         {
-            [*t_n, *t_t] = contact.on_cone(point.mu, [*t_n, *t_t]);
+            [*t_n, *t_t] = contact.on_cone(*mu, [*t_n, *t_t]);
         }
         let before = max_abs(&self.u);
         let (mut last, mut last_part) = (f64::INFINITY, f64::INFINITY);
         for _ in 0..REFINEMENTS {
             let mut rest = problem.unbalanced(&self.u, self.forces.iter().copied());
-            let points = || problem.points.iter().zip(&self.contacts);
+            let points = problem.points.iter().zip(&self.contacts);
             let opened: Vec<(f64, f64)> =
-                points().map(|(point, contact)| point.opened(*contact, &self.u)).collect();
+                points.map(|(point, contact)| contact.opened(point, &self.u)).collect();
             let size =
                 opened.iter().fold(max_abs(&rest), |max, (g, s)| max.max(g.abs()).max(s.abs()));
             if !size.is_finite() {
@@ -147,7 +152,7 @@ impl Vertex {
     fn close(&mut self, problem: &Scaled) {
         for (point, contact) in problem.points.iter().zip(&self.contacts) {
             if *contact != ContactStatus::Open
-                && let ([j], [n]) = (&point.columns[..], &point.normal[..])
+                && let ([j], [[n, _]]) = (point.columns, point.coefficients)
                 && *n != 0.0
             {
                 self.u[*j] = -point.x_0 / n;
@@ -215,7 +220,7 @@ impl Vertex {
 
 /// The state of a contact that closes. One that has slid by more than it overlaps goes on sliding: to stick it
 /// would have to be taken back all the way, against forces that are no guide to anything.
-fn closed(point: &Point, gap: f64, slip: f64) -> ContactStatus {
+fn closed(point: Point<'_>, gap: f64, slip: f64) -> ContactStatus {
     if point.mu == 0.0 || slip.abs() <= -gap {
         ContactStatus::Stick
     } else if slip > 0.0 {

@@ -334,7 +334,7 @@ impl Original for MixedLcp {
 
     fn point(&self, scaled: &Scaled, t: &[f64], y: &[f64]) -> (Vec<f64>, Vec<(f64, f64)>) {
         let (z, w) = self.recover(t, y);
-        let force = |point: &Point| {
+        let force = |point: Point<'_>| {
             let j = point.columns[0];
             (w[j] / scaled.force_of(j), 0.0)
         };

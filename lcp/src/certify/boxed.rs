@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
-use super::significance::{Term, terms_of};
+use super::ledger::{self, Digits, Entry, InRow, Ledger, Point, Precision, Rows};
+use super::significance::{Term, Terms, terms_of};
 use super::{Residuals, weights};
 use crate::extended::{Extended, extended};
 use crate::matrix::Column;
@@ -102,16 +102,14 @@ impl<'a> BoxedJudge<'a> {
     }
 
     fn conditions_of(&self, j: usize, (z, w): (f64, f64), ledger: &mut Ledger<'_>) {
-        let of_z = |visit: &mut dyn FnMut(usize, f64)| self.m.slice(j).for_each(visit);
-        let of_w = |visit: &mut dyn FnMut(usize, f64)| visit(j, 1.0);
         let (lower, upper) =
             self.bounds.map_or((0.0, f64::INFINITY), |(lower, upper)| (lower[j], upper[j]));
         for (distance, w) in [(z - lower, w.max(0.0)), (upper - z, (-w).max(0.0))] {
-            let w = Entry { value: w, column: &of_w };
+            let w = Entry { value: w, column: InRow(j) };
             if distance.is_finite() {
-                ledger.pair(&Entry { value: distance, column: &of_z }, &w);
+                ledger.pair(Entry { value: distance, column: self.m.slice(j) }, w);
             } else {
-                ledger.zero(&w);
+                ledger.zero(w);
             }
         }
     }
@@ -122,6 +120,18 @@ struct At<'a, X> {
     judge: &'a BoxedJudge<'a>,
     z: &'a [X],
     w: &'a [X],
+}
+
+impl<X: Digits> Terms for At<'_, X> {
+    fn for_each_term(&self, mut visit: impl FnMut(Term)) {
+        let n = self.z.len();
+        for (i, w) in self.w.iter().enumerate().filter(|(_, w)| w.rounded() != 0.0) {
+            visit(Term { row: i, variable: n + i, value: w.rounded() });
+        }
+        for (variable, z) in self.z.iter().enumerate() {
+            terms_of(&mut visit, (variable, z.rounded()), self.judge.m.slice(variable));
+        }
+    }
 }
 
 impl<X: Digits> Point for At<'_, X> {
@@ -137,16 +147,6 @@ impl<X: Digits> Point for At<'_, X> {
 
     fn sources(&self) -> Vec<f64> {
         ledger::in_full(&self.judge.loads)
-    }
-
-    fn for_each_term(&self, visit: &mut dyn FnMut(&Term)) {
-        let n = self.z.len();
-        for (i, w) in self.w.iter().enumerate().filter(|(_, w)| w.rounded() != 0.0) {
-            visit(&Term { row: i, variable: n + i, value: w.rounded() });
-        }
-        for (variable, z) in self.z.iter().enumerate() {
-            terms_of(visit, (variable, z.rounded()), self.judge.m.slice(variable));
-        }
     }
 
     fn conditions(&self, ledger: &mut Ledger<'_>) {

@@ -4,12 +4,13 @@ use std::borrow::Cow;
 
 use super::Residuals;
 use super::constants::{FULL, ROUNDS, STRONG};
-use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
-use super::significance::Term;
+use super::ledger::{self, Digits, Entry, InRow, Ledger, Point, Precision, Rows};
+use super::significance::{Term, Terms};
 use super::weights::{or_largest, per_load};
 use crate::extended::{Extended, extended};
 use crate::parts::Parts;
 use crate::problem::{column_factors, column_of, diagonal, median};
+use crate::sparse::ByRows;
 use crate::{Contact2d, ContactState};
 
 impl Contact2d {
@@ -120,24 +121,19 @@ impl<'a> ContactJudge<'a> {
         ledger: &mut Ledger<'_>,
     ) {
         let (n, m) = (self.problem.displacements(), self.problem.points());
-        let [of_n, of_t] = [&self.normal, &self.tangent].map(|rows| {
-            move |visit: &mut dyn FnMut(usize, f64)| {
-                rows.row(i).iter().for_each(|(j, v)| visit(*j, *v));
-            }
-        });
-        let [of_gap, of_slip] =
-            [n + i, n + m + i].map(|row| move |visit: &mut dyn FnMut(usize, f64)| visit(row, 1.0));
-        ledger.pair(&Entry { value: t_n, column: &of_n }, &Entry { value: gap, column: &of_gap });
+        let [of_n, of_t] = [&self.normal, &self.tangent].map(|rows| rows.row(i));
+        let [of_gap, of_slip] = [n + i, n + m + i].map(InRow);
+        ledger.pair(Entry { value: t_n, column: of_n }, Entry { value: gap, column: of_gap });
         let mu = self.problem.mu()[i];
         if mu == 0.0 {
-            ledger.zero(&Entry { value: t_t, column: &of_t });
+            ledger.zero(Entry { value: t_t, column: of_t });
             return;
         }
         let bound = mu * t_n.max(0.0);
         for (force, slip) in [(bound + t_t, slip), (bound - t_t, -slip)] {
             ledger.pair(
-                &Entry { value: force, column: &of_t },
-                &Entry { value: slip.max(0.0), column: &of_slip },
+                Entry { value: force, column: of_t },
+                Entry { value: slip.max(0.0), column: of_slip },
             );
         }
     }
@@ -189,12 +185,24 @@ impl<X: Digits> Point for At<'_, X> {
         all.map(|(v, weight)| (v.abs() * weight).min(1.0)).collect()
     }
 
-    fn for_each_term(&self, visit: &mut dyn FnMut(&Term)) {
+    fn conditions(&self, ledger: &mut Ledger<'_>) {
+        let StateOf { t_n, t_t, .. } = self.state;
+        let m = t_n.len();
+        for i in 0..m {
+            let forces = (t_n[i].rounded(), t_t[i].rounded());
+            let openings = (self.openings[i], self.openings[m + i]);
+            self.judge.conditions_of(i, forces, openings, ledger);
+        }
+    }
+}
+
+impl<X: Digits> Terms for At<'_, X> {
+    fn for_each_term(&self, mut visit: impl FnMut(Term)) {
         let problem = self.judge.problem;
         let (n, m) = (problem.displacements(), problem.points());
         let mut add = |row: usize, variable: usize, value: f64| {
             if value != 0.0 {
-                visit(&Term { row, variable, value });
+                visit(Term { row, variable, value });
             }
         };
         let StateOf { u, t_n, t_t, .. } = self.state;
@@ -211,47 +219,6 @@ impl<X: Digits> Point for At<'_, X> {
         }
         let openings = self.openings.iter().enumerate();
         openings.for_each(|(i, v)| add(n + i, n + 2 * m + i, *v));
-    }
-
-    fn conditions(&self, ledger: &mut Ledger<'_>) {
-        let StateOf { t_n, t_t, .. } = self.state;
-        let m = t_n.len();
-        for i in 0..m {
-            let forces = (t_n[i].rounded(), t_t[i].rounded());
-            let openings = (self.openings[i], self.openings[m + i]);
-            self.judge.conditions_of(i, forces, openings, ledger);
-        }
-    }
-}
-
-/// The rows of a sparse matrix, one after the other.
-struct ByRows {
-    starts: Vec<usize>,
-    entries: Vec<(usize, f64)>,
-}
-
-impl ByRows {
-    fn of(matrix: &faer::sparse::SparseColMat<usize, f64>) -> Self {
-        let mut starts = vec![0; matrix.nrows() + 1];
-        for j in 0..matrix.ncols() {
-            column_of(matrix, j).for_each(|(i, _)| starts[i + 1] += 1);
-        }
-        for i in 0..matrix.nrows() {
-            starts[i + 1] += starts[i];
-        }
-        let mut next = starts.clone();
-        let mut entries = vec![(0, 0.0); starts[matrix.nrows()]];
-        for j in 0..matrix.ncols() {
-            for (i, v) in column_of(matrix, j) {
-                entries[next[i]] = (j, v);
-                next[i] += 1;
-            }
-        }
-        Self { starts, entries }
-    }
-
-    fn row(&self, i: usize) -> &[(usize, f64)] {
-        &self.entries[self.starts[i]..self.starts[i + 1]]
     }
 }
 

@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-use super::ledger::{self, Entry, Ledger, Point, Precision, Rows};
-use super::significance::{Term, terms_of};
+use super::ledger::{self, Entry, InRow, Ledger, Point, Precision, Rows};
+use super::significance::{Term, Terms, terms_of};
 use super::{Residuals, weights};
 use crate::extended::Extended;
 use crate::matrix::Column;
@@ -59,6 +59,18 @@ struct At<'a> {
     terms: Vec<f64>,
 }
 
+impl Terms for At<'_> {
+    fn for_each_term(&self, mut visit: impl FnMut(Term)) {
+        let rows = self.terms.len();
+        for (row, v) in self.velocities.iter().enumerate().filter(|(_, v)| **v != 0.0) {
+            visit(Term { row, variable: rows + row, value: *v });
+        }
+        for (variable, (column, force)) in self.columns.iter().zip(&self.forces).enumerate() {
+            terms_of(&mut visit, (variable, *force), *column);
+        }
+    }
+}
+
 impl Point for At<'_> {
     /// The velocities are defined by the rows, which hold.
     fn rows(&self) -> (Cow<'_, [f64]>, Cow<'_, [f64]>) {
@@ -69,35 +81,21 @@ impl Point for At<'_> {
         ledger::in_full(self.problem.q())
     }
 
-    fn for_each_term(&self, visit: &mut dyn FnMut(&Term)) {
-        let rows = self.terms.len();
-        for (row, v) in self.velocities.iter().enumerate().filter(|(_, v)| **v != 0.0) {
-            visit(&Term { row, variable: rows + row, value: *v });
-        }
-        for (variable, (column, force)) in self.columns.iter().zip(&self.forces).enumerate() {
-            terms_of(visit, (variable, *force), *column);
-        }
-    }
-
     fn conditions(&self, ledger: &mut Ledger<'_>) {
         for (i, mu) in self.problem.mu().iter().enumerate() {
-            let [of_n, of_t] = [0, 1].map(|k| {
-                let column = self.columns[2 * i + k];
-                move |visit: &mut dyn FnMut(usize, f64)| column.for_each(visit)
-            });
-            let [of_normal, of_slip] =
-                [0, 1].map(|k| move |visit: &mut dyn FnMut(usize, f64)| visit(2 * i + k, 1.0));
+            let [of_n, of_t] = [0, 1].map(|k| self.columns[2 * i + k]);
+            let [of_normal, of_slip] = [0, 1].map(|k| InRow(2 * i + k));
             let (v_n, v_t) = (self.velocities[2 * i], self.velocities[2 * i + 1]);
             let (normal, tangential) = (self.forces[2 * i], self.forces[2 * i + 1]);
             ledger.pair(
-                &Entry { value: normal, column: &of_n },
-                &Entry { value: v_n, column: &of_normal },
+                Entry { value: normal, column: of_n },
+                Entry { value: v_n, column: of_normal },
             );
             let bound = mu * normal.max(0.0);
             for (force, slip) in [(bound + tangential, v_t), (bound - tangential, -v_t)] {
                 ledger.pair(
-                    &Entry { value: force, column: &of_t },
-                    &Entry { value: slip.max(0.0), column: &of_slip },
+                    Entry { value: force, column: of_t },
+                    Entry { value: slip.max(0.0), column: of_slip },
                 );
             }
         }

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
-use super::significance::{Term, terms_of};
+use super::significance::{Term, Terms, terms_of};
 use super::{Residuals, weights};
 use crate::extended::{Extended, extended};
 use crate::matrix::Column;
@@ -116,6 +116,14 @@ impl<X: Digits> At<'_, X> {
     }
 }
 
+impl<X: Digits> Terms for At<'_, X> {
+    fn for_each_term(&self, mut visit: impl FnMut(Term)) {
+        for (variable, x, column) in self.variables() {
+            terms_of(&mut visit, (variable, x.rounded()), column);
+        }
+    }
+}
+
 impl<X: Digits> Point for At<'_, X> {
     fn rows(&self) -> (Cow<'_, [f64]>, Cow<'_, [f64]>) {
         let mut rows = Rows::<X>::new(self.judge.c.iter().map(|(c, size)| (-c, *size)));
@@ -129,21 +137,13 @@ impl<X: Digits> Point for At<'_, X> {
         ledger::in_full(&loads)
     }
 
-    fn for_each_term(&self, visit: &mut dyn FnMut(&Term)) {
-        for (variable, x, column) in self.variables() {
-            terms_of(visit, (variable, x.rounded()), column);
-        }
-    }
-
     fn conditions(&self, ledger: &mut Ledger<'_>) {
         let problem = self.judge.problem;
         for (pair, (t, y)) in self.t.iter().zip(self.y).enumerate() {
-            let [of_t, of_y] = [Side::T, Side::Y].map(|side| {
-                move |visit: &mut dyn FnMut(usize, f64)| problem.column(pair, side).for_each(visit)
-            });
+            let [of_t, of_y] = [Side::T, Side::Y].map(|side| problem.column(pair, side));
             ledger.pair(
-                &Entry { value: t.rounded(), column: &of_t },
-                &Entry { value: y.rounded(), column: &of_y },
+                Entry { value: t.rounded(), column: of_t },
+                Entry { value: y.rounded(), column: of_y },
             );
         }
     }

@@ -4,8 +4,9 @@ use std::borrow::Cow;
 
 use super::Residuals;
 use super::constants::{LARGEST_ROUNDING, MINOR, ROUNDING, SMALL};
-use super::significance::{Term, significance};
+use super::significance::{Terms, significance};
 use crate::extended::Extended;
+use crate::matrix::Column;
 
 /// Numbers in which rows are summed.
 pub(crate) trait Digits: Copy {
@@ -115,15 +116,12 @@ pub(super) struct Ledger<'a> {
 }
 
 /// A point whose rows and conditions can be gone through.
-pub(super) trait Point {
+pub(super) trait Point: Terms {
     /// What is left of the rows, and their terms.
     fn rows(&self) -> (Cow<'_, [f64]>, Cow<'_, [f64]>);
 
     /// What the right-hand side of every row makes it count, between zero and one.
     fn sources(&self) -> Vec<f64>;
-
-    /// Shows all terms that are not zero, always in the same order.
-    fn for_each_term(&self, visit: &mut dyn FnMut(&Term));
 
     /// Goes through the conditions on the variables.
     fn conditions(&self, ledger: &mut Ledger<'_>);
@@ -163,20 +161,18 @@ fn residuals_of_rows(
     (weights, length): (&[f64], f64),
     precision: Precision,
 ) -> Residuals {
-    let mut ledger = Ledger::new(rest, terms, weights);
-    point.conditions(&mut ledger);
-    let strict = ledger.finished(length, precision);
+    let residuals = |significance| {
+        let mut ledger = Ledger::new((rest, terms), weights, significance);
+        point.conditions(&mut ledger);
+        ledger.finished(length, precision)
+    };
+    let strict = residuals(Vec::new());
     let Residuals { equation, natural, loads, .. } = strict;
     let apparent = equation.max(natural);
     if !precision.tells_rows() || apparent <= SMALL || loads > MINOR * apparent {
         return strict;
     }
-    let all = |visit: &mut dyn FnMut(&Term)| point.for_each_term(visit);
-    let significance = significance(terms, &point.sources(), weights, &all);
-    let mut ledger = Ledger { significance, ..Ledger::new(rest, terms, weights) };
-    ledger.count_rows();
-    point.conditions(&mut ledger);
-    ledger.finished(length, precision)
+    residuals(significance(terms, &point.sources(), weights, point))
 }
 
 /// Rows with a right-hand side count in full.
@@ -184,28 +180,55 @@ pub(super) fn in_full(loads: &[f64]) -> Vec<f64> {
     loads.iter().map(|load| if *load == 0.0 { 0.0 } else { 1.0 }).collect()
 }
 
-/// Shows the coefficients of a variable: row and value.
-pub(super) type Coefficients<'a> = dyn Fn(&mut dyn FnMut(usize, f64)) + 'a;
+/// The coefficients that a variable has in the rows.
+pub(super) trait Coefficients: Copy {
+    /// Shows row and value of each.
+    fn for_each(self, visit: impl FnMut(usize, f64));
+}
+
+impl Coefficients for Column<'_> {
+    fn for_each(self, visit: impl FnMut(usize, f64)) {
+        Column::for_each(self, visit);
+    }
+}
+
+impl Coefficients for &[(usize, f64)] {
+    fn for_each(self, mut visit: impl FnMut(usize, f64)) {
+        for (i, v) in self {
+            visit(*i, *v);
+        }
+    }
+}
+
+/// One in a single row.
+#[derive(Clone, Copy)]
+pub(super) struct InRow(pub(super) usize);
+
+impl Coefficients for InRow {
+    fn for_each(self, mut visit: impl FnMut(usize, f64)) {
+        visit(self.0, 1.0);
+    }
+}
 
 /// A variable of a pair: its value, and the coefficients that it has in the rows.
-pub(super) struct Entry<'a> {
+#[derive(Clone, Copy)]
+pub(super) struct Entry<C> {
     pub(super) value: f64,
-    pub(super) column: &'a Coefficients<'a>,
+    pub(super) column: C,
 }
 
 impl<'a> Ledger<'a> {
-    fn new(rest: &'a [f64], terms: &'a [f64], weights: &'a [f64]) -> Self {
-        let (significance, changes) = (Vec::new(), Vec::new());
+    fn new(
+        (rest, terms): (&'a [f64], &'a [f64]),
+        weights: &'a [f64],
+        significance: Vec<f64>,
+    ) -> Self {
         let residuals = Residuals::default();
-        let mut ledger = Self { rest, terms, weights, significance, changes, residuals };
-        ledger.count_rows();
+        let mut ledger =
+            Self { rest, terms, weights, significance, changes: Vec::new(), residuals };
+        let shares = rest.iter().enumerate().map(|(i, v)| ledger.share(i, *v));
+        ledger.residuals.equation = shares.fold(0.0, f64::max);
         ledger
-    }
-
-    fn count_rows(&mut self) {
-        let rows = 0..self.rest.len();
-        self.residuals.equation =
-            rows.fold(0.0, |worst: f64, i| worst.max(self.share(i, self.rest[i])));
     }
 
     /// What a change of a row counts.
@@ -214,36 +237,45 @@ impl<'a> Ledger<'a> {
     }
 
     /// `t >= 0`, `y >= 0`, one of them zero.
-    pub(super) fn pair(&mut self, t: &Entry<'_>, y: &Entry<'_>) {
-        for entry in [t, y] {
-            if entry.value < 0.0 {
-                let effect = self.effect(entry);
-                self.residuals.feasibility = self.residuals.feasibility.max(effect);
-                self.change(entry);
-            }
-        }
+    pub(super) fn pair(&mut self, t: Entry<impl Coefficients>, y: Entry<impl Coefficients>) {
+        self.not_negative(t);
+        self.not_negative(y);
         if t.value > 0.0 && y.value > 0.0 {
             // Which one is the smaller is told by the loads, and by the terms where there are none.
-            let [of_t, of_y] = [t, y].map(|it| (self.burden(it), self.effect(it)));
-            let (entry, (_, effect)) = if of_t <= of_y { (t, of_t) } else { (y, of_y) };
+            let by_loads = self.burden(t).total_cmp(&self.burden(y));
+            let smaller = by_loads.then_with(|| self.effect(t).total_cmp(&self.effect(y)));
+            let effect = if smaller.is_le() { self.removed(t) } else { self.removed(y) };
             self.residuals.complementarity = self.residuals.complementarity.max(effect);
-            self.change(entry);
+        }
+    }
+
+    fn not_negative(&mut self, entry: Entry<impl Coefficients>) {
+        if entry.value < 0.0 {
+            self.zero(entry);
         }
     }
 
     /// A variable that must be zero.
-    pub(super) fn zero(&mut self, entry: &Entry<'_>) {
+    pub(super) fn zero(&mut self, entry: Entry<impl Coefficients>) {
         if entry.value != 0.0 {
-            let effect = self.effect(entry);
+            let effect = self.removed(entry);
             self.residuals.feasibility = self.residuals.feasibility.max(effect);
-            self.change(entry);
         }
     }
 
+    /// The effect of a change to zero, which is noted.
+    fn removed(&mut self, entry: Entry<impl Coefficients>) -> f64 {
+        if self.changes.is_empty() {
+            self.changes = vec![0.0; self.rest.len()];
+        }
+        entry.column.for_each(|i, v| self.changes[i] += (v * entry.value).abs());
+        self.effect(entry)
+    }
+
     /// The largest part of the terms of a row that a variable is. One without any row counts by itself.
-    fn effect(&self, entry: &Entry<'_>) -> f64 {
+    fn effect(&self, entry: Entry<impl Coefficients>) -> f64 {
         let mut effect: Option<f64> = None;
-        (entry.column)(&mut |i, v| {
+        entry.column.for_each(|i, v| {
             if v != 0.0 {
                 let part = self.share(i, v * entry.value);
                 effect = Some(effect.map_or(part, |effect| effect.max(part)));
@@ -253,17 +285,11 @@ impl<'a> Ledger<'a> {
     }
 
     /// The same in units of the loads.
-    fn burden(&self, entry: &Entry<'_>) -> f64 {
+    fn burden(&self, entry: Entry<impl Coefficients>) -> f64 {
         let mut burden = 0.0_f64;
-        (entry.column)(&mut |i, v| burden = burden.max((v * entry.value).abs() * self.weights[i]));
+        let weighed = |i: usize, v: f64| (v * entry.value).abs() * self.weights[i];
+        entry.column.for_each(|i, v| burden = burden.max(weighed(i, v)));
         burden
-    }
-
-    fn change(&mut self, entry: &Entry<'_>) {
-        if self.changes.is_empty() {
-            self.changes = vec![0.0; self.rest.len()];
-        }
-        (entry.column)(&mut |i, v| self.changes[i] += (v * entry.value).abs());
     }
 
     /// The residuals. In rows of up to so many terms that were summed in `f64` rounding errors are left out.
@@ -275,8 +301,8 @@ impl<'a> Ledger<'a> {
             Precision::Rounded | Precision::RoundedLoads => ROUNDING,
             Precision::Exact => 0.0,
         };
+        let most = if precision.is_usual() { f64::INFINITY } else { LARGEST_ROUNDING };
         for (i, (rest, weight)) in rest.iter().zip(*weights).enumerate() {
-            let most = if precision.is_usual() { f64::INFINITY } else { LARGEST_ROUNDING };
             let rounding = (noise * terms[i] * weight).min(most);
             let left = (rest.abs() * weight - rounding).max(0.0);
             let left = left + changes.get(i).unwrap_or(&0.0) * weight;

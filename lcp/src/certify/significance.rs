@@ -18,19 +18,22 @@ pub(super) struct Term {
     pub(super) value: f64,
 }
 
-/// Shows the terms of a point that are not zero, always in the same order.
-pub(super) type Terms<'a> = dyn Fn(&mut dyn FnMut(&Term)) + 'a;
+/// The terms of a point.
+pub(super) trait Terms {
+    /// Shows all that are not zero, always in the same order.
+    fn for_each_term(&self, visit: impl FnMut(Term));
+}
 
 /// The terms of a variable with its column.
 pub(super) fn terms_of(
-    visit: &mut dyn FnMut(&Term),
+    visit: &mut impl FnMut(Term),
     (variable, x): (usize, f64),
     column: Column<'_>,
 ) {
     if x != 0.0 {
         column.for_each(|row, v| {
             if v * x != 0.0 {
-                visit(&Term { row, variable, value: v * x });
+                visit(Term { row, variable, value: v * x });
             }
         });
     }
@@ -42,7 +45,7 @@ pub(super) fn significance(
     terms: &[f64],
     sources: &[f64],
     felt: &[f64],
-    all: &Terms<'_>,
+    all: &impl Terms,
 ) -> Vec<f64> {
     let rows = terms.len();
     let (links, mut worth) = Links::new(sources, all);
@@ -68,18 +71,18 @@ struct Links {
 
 impl Links {
     /// With what rows and variables are worth by the sources, and by rows that are worth one.
-    fn new(sources: &[f64], all: &Terms<'_>) -> (Self, Vec<f64>) {
+    fn new(sources: &[f64], all: &impl Terms) -> (Self, Vec<f64>) {
         let rows = sources.len();
         let is_full = |row: usize| sources[row] >= 1.0;
         let mut largest = vec![0.0_f64; rows];
         let mut starts = vec![0; rows + 1];
-        all(&mut |Term { row, variable, value }| {
-            largest[*row] = largest[*row].max(value.abs());
+        all.for_each_term(|Term { row, variable, value }| {
+            largest[row] = largest[row].max(value.abs());
             let last = rows + variable + 1;
             if last >= starts.len() {
                 starts.resize(last + 1, 0);
             }
-            if !is_full(*row) {
+            if !is_full(row) {
                 starts[row + 1] += 1;
                 starts[last] += 1;
             }
@@ -92,8 +95,8 @@ impl Links {
         let mut next = starts.clone();
         let count = starts.last().copied().unwrap_or(0);
         let (mut ends, mut shares) = (vec![0; count], vec![0.0; count]);
-        all(&mut |Term { row, variable, value }| {
-            let (row, variable, share) = (*row, rows + variable, value.abs() / largest[*row]);
+        all.for_each_term(|Term { row, variable, value }| {
+            let (variable, share) = (rows + variable, value.abs() / largest[row]);
             if is_full(row) {
                 worth[variable] = share.max(worth[variable]);
                 return;
@@ -115,16 +118,14 @@ impl Links {
             worth[node] = value;
         }
         // Only what the sources raise is waited for: most rows are sources.
-        let mut raised = Vec::new();
+        let mut is_raised = vec![false; worth.len()];
         for (node, _) in sources {
-            self.raise(*node, worth, &mut |to, _| raised.push(to));
+            self.raise(*node, worth, &mut |to, _| is_raised[to] = true);
         }
-        raised.sort_unstable();
-        raised.dedup();
         let mut waiting: [VecDeque<(f64, usize)>; OCTAVES] =
             std::array::from_fn(|_| VecDeque::new());
-        for node in raised {
-            waiting[octave(worth[node])].push_back((worth[node], node));
+        for (node, value) in worth.iter().enumerate().filter(|(node, _)| is_raised[*node]) {
+            waiting[octave(*value)].push_back((*value, node));
         }
         for at in 0..OCTAVES {
             while let Some((value, node)) = waiting[at].pop_front() {

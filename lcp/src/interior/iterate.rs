@@ -2,7 +2,7 @@
 
 use super::constants::COMPLIANCE;
 use crate::problem::ContactStatus;
-use crate::states::{Condensed, Point, Scaled, Springs};
+use crate::states::{Condensed, Scaled, Springs};
 use crate::vector::max_abs;
 
 /// A point with all forces inside their cones and all gaps open; or a step between two of them.
@@ -27,7 +27,7 @@ pub(super) struct Pairs {
 
 impl Pairs {
     /// `(t, y)` of the pairs: one without friction, else three.
-    pub(super) fn pairs(&self, mu: f64) -> impl Iterator<Item = (f64, f64)> {
+    pub(super) fn pairs(self, mu: f64) -> impl Iterator<Item = (f64, f64)> {
         let (plus, minus) = (mu * self.t_n + self.t_t, mu * self.t_n - self.t_t);
         let all = [(self.t_n, self.gap), (plus, self.slip_plus), (minus, self.slip_minus)];
         all.into_iter().take(if mu > 0.0 { 3 } else { 1 })
@@ -110,8 +110,8 @@ impl<'a> Tangent<'a> {
         at: &'a Iterate,
         spring: f64,
     ) -> Self {
-        let springs = problem.points.iter().zip(&at.points).map(|(p, pairs)| springs(p, pairs));
-        let springs: Vec<Springs> = springs.collect();
+        let points = problem.points.mu.iter().zip(&at.points);
+        let springs: Vec<Springs> = points.map(|(mu, pairs)| springs(*mu, pairs)).collect();
         condensed.factorise(problem, &springs, spring);
         Self { problem, condensed, at, springs }
     }
@@ -125,15 +125,16 @@ impl<'a> Tangent<'a> {
     /// The step that makes good the defect and changes the products of the pairs by `targets`, to first
     /// order: `y dt + t dy = target`.
     pub(super) fn step(&self, defect: &Defect, targets: &[[f64; 3]]) -> Iterate {
+        let points = self.problem.points.iter().zip(&self.at.points).zip(&self.springs);
+        let points = points.zip(targets).zip(&defect.gaps);
         let mut u = defect.balance.clone();
         // Forces that do not depend on the displacements.
         let mut fixed = Vec::with_capacity(targets.len());
-        for (i, (point, at)) in self.problem.points.iter().zip(&self.at.points).enumerate() {
-            let springs = self.springs[i];
-            let normal = targets[i][0] / at.t_n - defect.gaps[i].0;
+        for ((((point, at), springs), targets), gaps) in points.clone() {
+            let normal = targets[0] / at.t_n - gaps.0;
             let along = if point.mu > 0.0 {
                 let (plus, minus) = at.strengths(point.mu);
-                targets[i][1] / plus - targets[i][2] / minus - defect.gaps[i].1
+                targets[1] / plus - targets[2] / minus - gaps.1
             } else {
                 0.0
             };
@@ -142,14 +143,12 @@ impl<'a> Tangent<'a> {
             fixed.push((t_n, t_t));
         }
         self.condensed.solve(&mut u);
-        let points = fixed.iter().enumerate().map(|(i, fixed)| {
-            let point = &self.problem.points[i];
+        let points = points.zip(fixed).map(|(((((point, at), springs), targets), gaps), fixed)| {
             let moved = point.moved(&u);
-            let (t_n, t_t) = self.springs[i].forces(moved.0, moved.1);
+            let (t_n, t_t) = springs.forces(moved.0, moved.1);
             let (t_n, t_t) = (fixed.0 - t_n, fixed.1 - t_t);
-            let opened = moved.0 + defect.gaps[i].0;
-            let opened = (opened, moved.1 + defect.gaps[i].1);
-            self.at.points[i].change(point.mu, (t_n, t_t), opened, &targets[i])
+            let opened = (moved.0 + gaps.0, moved.1 + gaps.1);
+            at.change(point.mu, (t_n, t_t), opened, targets)
         });
         let points = points.collect();
         Iterate { u, points, smooth: 0.0 }
@@ -168,14 +167,14 @@ impl Pairs {
 }
 
 /// The springs that Newton's method puts in the place of a contact.
-fn springs(point: &Point, pairs: &Pairs) -> Springs {
+fn springs(mu: f64, pairs: &Pairs) -> Springs {
     let nn = 1.0 / (pairs.gap / pairs.t_n + COMPLIANCE);
-    if point.mu == 0.0 {
+    if mu == 0.0 {
         return Springs { nn, ..Springs::default() };
     }
-    let (plus, minus) = pairs.ratios(point.mu);
-    let tt = pairs.resistance(point.mu);
-    Springs { nn, tn: -point.mu * (plus - minus) * tt * nn, tt }
+    let (plus, minus) = pairs.ratios(mu);
+    let tt = pairs.resistance(mu);
+    Springs { nn, tn: -mu * (plus - minus) * tt * nn, tt }
 }
 
 impl Pairs {
@@ -225,19 +224,30 @@ impl Iterate {
 
     /// The states that the contacts are nearest to.
     pub(super) fn contacts(&self, problem: &Scaled) -> Vec<ContactStatus> {
-        let contact = |(point, at): (&Point, &Pairs)| {
+        let contact = |(mu, at): (&f64, &Pairs)| {
             let Pairs { t_n, t_t, gap, slip_plus, slip_minus } = *at;
-            ContactStatus::nearest(point, (t_n, t_t), (gap, slip_plus, slip_minus))
+            ContactStatus::nearest(*mu, (t_n, t_t), (gap, slip_plus, slip_minus))
         };
-        problem.points.iter().zip(&self.points).map(contact).collect()
+        problem.points.mu.iter().zip(&self.points).map(contact).collect()
     }
 
     /// The mean of the products of the pairs; of those of the gaps alone where friction is smooth.
     pub(super) fn gap(&self, problem: &Scaled) -> f64 {
-        let products = problem.points.iter().zip(&self.points);
-        let (sum, count) = products
-            .flat_map(|(point, pairs)| pairs.pairs(point.mu).take(self.sharp()))
-            .fold((0.0, 0_usize), |(sum, count), (t, y)| (sum + t * y, count + 1));
+        self.gap_of(problem, self.points.iter().copied())
+    }
+
+    /// The same after a part of a step.
+    pub(super) fn gap_after(&self, problem: &Scaled, step: &Iterate, alpha: f64) -> f64 {
+        self.gap_of(problem, self.pairs_after(step, alpha))
+    }
+
+    fn gap_of(&self, problem: &Scaled, points: impl Iterator<Item = Pairs>) -> f64 {
+        let (mut sum, mut count) = (0.0, 0_usize);
+        for (pairs, mu) in points.zip(&problem.points.mu) {
+            for (t, y) in pairs.pairs(*mu).take(self.sharp()) {
+                (sum, count) = (sum + t * y, count + 1);
+            }
+        }
         sum / count.max(1) as f64
     }
 
@@ -253,9 +263,9 @@ impl Iterate {
 
     /// Largest `|min(t, y)|` over the pairs, in these units of force and length.
     pub(super) fn natural(&self, problem: &Scaled, (force, length): (f64, f64)) -> f64 {
-        let pairs = problem.points.iter().zip(&self.points);
+        let pairs = problem.points.mu.iter().zip(&self.points);
         pairs
-            .flat_map(|(point, pairs)| pairs.pairs(point.mu).take(self.sharp()))
+            .flat_map(|(mu, pairs)| pairs.pairs(*mu).take(self.sharp()))
             .fold(0.0, |max, (t, y)| max.max((t / force).min(y / length).abs()))
     }
 
@@ -273,8 +283,8 @@ impl Iterate {
     /// The same for the steps of the points.
     pub(super) fn longest_of(&self, problem: &Scaled, steps: impl Iterator<Item = Pairs>) -> f64 {
         let mut alpha = 1.0_f64;
-        for (point, (at, step)) in problem.points.iter().zip(self.points.iter().zip(steps)) {
-            for ((t, y), (dt, dy)) in at.pairs(point.mu).zip(step.pairs(point.mu)) {
+        for (mu, (at, step)) in problem.points.mu.iter().zip(self.points.iter().zip(steps)) {
+            for ((t, y), (dt, dy)) in at.pairs(*mu).zip(step.pairs(*mu)) {
                 if dt < 0.0 {
                     alpha = alpha.min(-t / dt);
                 }
@@ -316,10 +326,10 @@ impl Iterate {
     }
 
     fn raise(&mut self, problem: &Scaled, (force, length): (f64, f64)) {
-        for (point, pairs) in problem.points.iter().zip(&mut self.points) {
+        for (mu, pairs) in problem.points.mu.iter().zip(&mut self.points) {
             pairs.t_n += force;
             pairs.gap += length;
-            if point.mu > 0.0 {
+            if *mu > 0.0 {
                 pairs.slip_plus += length;
                 pairs.slip_minus += length;
             }
@@ -328,24 +338,50 @@ impl Iterate {
 
     /// The smallest product of a pair, relative to what it should be.
     pub(super) fn centrality(&self, problem: &Scaled) -> f64 {
-        let mean = self.gap(problem);
-        self.products(problem, mean)
+        self.centrality_of(problem, self.points.iter().copied())
+    }
+
+    /// The same after a part of a step.
+    pub(super) fn centrality_after(&self, problem: &Scaled, step: &Iterate, alpha: f64) -> f64 {
+        self.centrality_of(problem, self.pairs_after(step, alpha))
+    }
+
+    fn centrality_of(&self, problem: &Scaled, points: impl Iterator<Item = Pairs> + Clone) -> f64 {
+        let mean = self.gap_of(problem, points.clone());
+        self.products_of(problem, points, mean)
             .map(|(product, aim)| product / aim)
             .fold(f64::INFINITY, f64::min)
     }
 
     /// The products of all pairs, each with what it should be where those of the gaps are `tau`.
     pub(super) fn products(&self, problem: &Scaled, tau: f64) -> impl Iterator<Item = (f64, f64)> {
-        problem.points.iter().zip(&self.points).flat_map(move |(point, pairs)| {
-            let aims = pairs.aims(point.mu, tau, self.smooth);
-            pairs.pairs(point.mu).zip(aims).map(|((t, y), aim)| (t * y, aim))
+        self.products_of(problem, self.points.iter().copied(), tau)
+    }
+
+    fn products_of(
+        &self,
+        problem: &Scaled,
+        points: impl Iterator<Item = Pairs>,
+        tau: f64,
+    ) -> impl Iterator<Item = (f64, f64)> {
+        points.zip(&problem.points.mu).flat_map(move |(pairs, mu)| {
+            let aims = pairs.aims(*mu, tau, self.smooth);
+            pairs.pairs(*mu).zip(aims).map(|((t, y), aim)| (t * y, aim))
         })
+    }
+
+    /// The pairs of the points after a part of a step.
+    pub(super) fn pairs_after(
+        &self,
+        step: &Iterate,
+        alpha: f64,
+    ) -> impl Iterator<Item = Pairs> + Clone {
+        self.points.iter().zip(&step.points).map(move |(pairs, step)| pairs.plus(step, alpha))
     }
 
     pub(super) fn moved(&self, step: &Iterate, alpha: f64) -> Self {
         let u = self.u.iter().zip(&step.u).map(|(u, du)| u + alpha * du).collect();
-        let points = self.points.iter().zip(&step.points).map(|(p, d)| p.plus(d, alpha)).collect();
-        Self { u, points, smooth: self.smooth }
+        Self { u, points: self.pairs_after(step, alpha).collect(), smooth: self.smooth }
     }
 
     /// `(1 - share) self + share other`.

@@ -230,9 +230,11 @@ impl<'a, 'b> Moving<'a, 'b> {
             })?;
         let velocity = difference(&u, &self.at);
         self.dissipation += viscosity * square(&velocity);
-        for (point, (_, t_t)) in self.search.scaled.points.iter_mut().zip(&forces) {
+        let points = &mut self.search.scaled.points;
+        for (i, (_, t_t)) in forces.iter().enumerate() {
+            let point = points.get(i);
             self.dissipation -= t_t * point.slip(&u);
-            point.s_0 = -point.moved(&u).1;
+            points.s_0[i] = -point.moved(&u).1;
         }
         (self.at, self.forces) = (u, forces);
         Some(velocity)
@@ -258,7 +260,7 @@ impl<'a, 'b> Moving<'a, 'b> {
         // Gaps that motions have opened they close again, and no body stops there; but what the motions keep apart without
         // much force does not come together.
         let depth = THROUGH * max_abs(&mean);
-        let is_stopped = |(point, is_closed): (&Point, &bool)| {
+        let is_stopped = |(point, is_closed): (Point<'_>, &bool)| {
             let (gap, rate) = (point.gap(&self.at), point.moved(&mean).0);
             let is_ahead = !is_closed && point.x_0 > 0.0;
             let comes_nearer = !is_last && rate < point.moved(&total).0 - depth;
@@ -331,7 +333,7 @@ fn at_rest(
     search.try_point((&u, &forces), Some(&Effort::held(PROXIMAL)));
     condensed.factorisations += search.condensed.factorisations;
     let solution = search.found()?;
-    let slid = |(point, (_, t_t)): (&Point, &(f64, f64))| -t_t * point.slip(&u);
+    let slid = |(point, (_, t_t)): (Point<'_>, &(f64, f64))| -t_t * point.slip(&u);
     let dissipation = scaled.points.iter().zip(&forces).map(slid).sum();
     Some((Found::Rest(from, Box::new(solution)), dissipation))
 }

@@ -4,7 +4,7 @@ use super::constants::{
     BACK, CENTRAL, CORRECTORS, IS_CENTRAL, LEAST_AIM, LONG_ENOUGH, LONGER, MIXTURES, PROGRESS,
     SHORT, SHORTER, SHORTEST,
 };
-use super::iterate::{Defect, Iterate, Tangent};
+use super::iterate::{Defect, Iterate, Pairs, Tangent};
 use super::turn::turn;
 use crate::states::{Condensed, PROXIMAL, Scaled};
 
@@ -62,7 +62,7 @@ fn forwards(
     predictor: &Iterate,
 ) -> (Iterate, f64) {
     let gap = at.gap(problem);
-    let left = at.moved(predictor, at.longest(problem, predictor)).gap(problem);
+    let left = at.gap_after(problem, predictor, at.longest(problem, predictor));
     let aim = gap * (left / gap).powi(3).clamp(0.0, 1.0);
     let mut step = tangent.step(defect, &targets(problem, at, aim, Some(predictor)));
     let mut alpha = at.longest(problem, &step);
@@ -70,8 +70,8 @@ fn forwards(
         if alpha >= LONG_ENOUGH {
             break;
         }
-        let trial = at.moved(&step, (1.5 * alpha + 0.3).min(1.0));
-        let corrections = corrections(problem, &trial, aim.max(LEAST_AIM * gap));
+        let trial = at.pairs_after(&step, (1.5 * alpha + 0.3).min(1.0));
+        let corrections = corrections(problem, trial, (aim.max(LEAST_AIM * gap), at.smooth));
         let corrected = step.moved(&tangent.step(&Defect::none(problem), &corrections), 1.0);
         let reached = at.longest(problem, &corrected);
         if reached < alpha + LONGER {
@@ -98,12 +98,10 @@ fn within(
     width: f64,
 ) -> (Iterate, f64) {
     let least = width.min(0.9 * at.centrality(problem));
-    let mut moved = at.moved(step, alpha);
-    while alpha > SHORTEST && moved.centrality(problem) < least {
+    while alpha > SHORTEST && at.centrality_after(problem, step, alpha) < least {
         alpha *= SHORTER;
-        moved = at.moved(step, alpha);
     }
-    (moved, alpha)
+    (at.moved(step, alpha), alpha)
 }
 
 /// The mixture that reduces the products most, or centring alone where none reduces them much.
@@ -138,8 +136,7 @@ pub(super) fn targets(
     tau: f64,
     predictor: Option<&Iterate>,
 ) -> Vec<[f64; 3]> {
-    let target = |i: usize| {
-        let mu = problem.points[i].mu;
+    let target = |(i, &mu): (usize, &f64)| {
         let mut targets = at.points[i].aims(mu, tau, at.smooth);
         for (target, (t, y)) in targets.iter_mut().zip(at.points[i].pairs(mu)) {
             *target -= t * y;
@@ -151,16 +148,19 @@ pub(super) fn targets(
         }
         targets
     };
-    (0..problem.points.len()).map(target).collect()
+    problem.points.mu.iter().enumerate().map(target).collect()
 }
 
 /// What brings the products of a trial point back among those that are central.
-pub(super) fn corrections(problem: &Scaled, trial: &Iterate, tau: f64) -> Vec<[f64; 3]> {
-    let correction = |i: usize| {
+pub(super) fn corrections(
+    problem: &Scaled,
+    trial: impl Iterator<Item = Pairs>,
+    (tau, smooth): (f64, f64),
+) -> Vec<[f64; 3]> {
+    let correction = |(pairs, &mu): (Pairs, &f64)| {
         let mut targets = [0.0; 3];
-        let pairs = trial.points[i].pairs(problem.points[i].mu);
-        let aims = trial.points[i].aims(problem.points[i].mu, tau, trial.smooth);
-        for ((target, (t, y)), aim) in targets.iter_mut().zip(pairs).zip(aims) {
+        let aims = pairs.aims(mu, tau, smooth);
+        for ((target, (t, y)), aim) in targets.iter_mut().zip(pairs.pairs(mu)).zip(aims) {
             let (low, high) = (CENTRAL.0 * aim, CENTRAL.1 * aim);
             // Two negative values are as far outside as one.
             let product = if t < 0.0 && y < 0.0 { -t * y } else { t * y };
@@ -174,5 +174,5 @@ pub(super) fn corrections(problem: &Scaled, trial: &Iterate, tau: f64) -> Vec<[f
         }
         targets
     };
-    (0..problem.points.len()).map(correction).collect()
+    trial.zip(&problem.points.mu).map(correction).collect()
 }

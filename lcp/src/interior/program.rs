@@ -44,12 +44,12 @@ pub(super) fn edges(problem: &Scaled) -> SparseColMat<usize, f64> {
 /// The forces of one along edges of friction cones: points, each with a coefficient of friction and its sign.
 pub(super) fn along<'a>(
     order: usize,
-    edges: impl Iterator<Item = (&'a Point, f64)>,
+    edges: impl Iterator<Item = (Point<'a>, f64)>,
 ) -> SparseColMat<usize, f64> {
     let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
     for (point, mu) in edges {
-        rows.extend(&point.columns);
-        values.extend(point.normal.iter().zip(&point.tangent).map(|(n, t)| n + mu * t));
+        rows.extend(point.columns);
+        values.extend(point.coefficients.iter().map(|[n, t]| n + mu * t));
         starts.push(rows.len());
     }
     assembled(order, starts, rows, values)

@@ -46,23 +46,17 @@ pub(super) fn settled<T>(
         at = settle(condensed, at, NEARLY_SETTLED)?;
     }
     for accuracy in SETTLED {
-        let settled = settle(condensed, at.clone(), accuracy);
-        if settled.is_none() && !is_rigid {
-            return None;
-        }
-        at = settled.unwrap_or(at);
+        let Some(next) = settle(condensed, at.clone(), accuracy) else { break };
+        at = next;
         let rest = polished(problem, condensed, &at);
         if is_admissible(problem, &at, &rest)
             && let Some(found) = accepted(condensed, &at, rest)
         {
             return Some(found);
         }
-        if is_rigid {
-            let accepted = |condensed: &mut Condensed, rest| accepted(condensed, &at, rest);
-            return rigid_rest(problem, condensed, &at, go_on, accepted);
-        }
     }
-    None
+    let accepted = |condensed: &mut Condensed, rest| accepted(condensed, &at, rest);
+    if is_rigid { rigid_rest(problem, condensed, &at, go_on, accepted) } else { None }
 }
 
 /// Whether a residual decreases fast enough.
@@ -104,7 +98,7 @@ pub(super) fn is_admissible(problem: &Scaled, at: &Iterate, (u, forces): &Rest) 
 fn polished(problem: &Scaled, condensed: &mut Condensed, at: &Iterate) -> Rest {
     let (mut u, mut forces) = (at.u.clone(), at.forces());
     let points = || problem.points.iter().zip(&at.points);
-    let springs: Vec<Springs> = points().map(|(point, pairs)| held(point, pairs)).collect();
+    let springs: Vec<Springs> = points().map(|(point, pairs)| held(point.mu, pairs)).collect();
     let is_open = |springs: &Springs| springs.nn <= 0.0;
     let open = forces.iter_mut().zip(&springs).filter(|(_, springs)| is_open(springs));
     open.for_each(|(force, _)| *force = (0.0, 0.0));
@@ -112,7 +106,7 @@ fn polished(problem: &Scaled, condensed: &mut Condensed, at: &Iterate) -> Rest {
     let mut last = f64::INFINITY;
     for _ in 0..REFINEMENTS {
         let rest = problem.unbalanced(&u, forces.iter().copied());
-        let gap = |(point, springs): (&Point, &Springs)| {
+        let gap = |(point, springs): (Point<'_>, &Springs)| {
             (if is_open(springs) { 0.0 } else { point.gap(&u) }, 0.0)
         };
         let gaps: Vec<(f64, f64)> = problem.points.iter().zip(&springs).map(gap).collect();
@@ -132,9 +126,9 @@ fn polished(problem: &Scaled, condensed: &mut Condensed, at: &Iterate) -> Rest {
     (u, forces)
 }
 
-fn held(point: &Point, pairs: &Pairs) -> Springs {
+fn held(mu: f64, pairs: &Pairs) -> Springs {
     if pairs.gap > pairs.t_n {
         return Springs::default();
     }
-    Springs { nn: STIFF_CLOSED, tn: 0.0, tt: pairs.resistance(point.mu) }
+    Springs { nn: STIFF_CLOSED, tn: 0.0, tt: pairs.resistance(mu) }
 }

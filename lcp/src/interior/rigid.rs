@@ -89,7 +89,7 @@ impl Contacts {
         let program = Program {
             k: problem.k.clone(),
             f,
-            a: along(problem.order(), near.iter().map(|i| (&problem.points[*i], 0.0))),
+            a: along(problem.order(), near.iter().map(|i| (problem.points.get(*i), 0.0))),
             x_0: near.iter().map(|i| gaps[*i] / unit).collect(),
             compliance: vec![0.0; near.len()],
         };
@@ -107,7 +107,7 @@ impl Contacts {
     }
 
     /// The edges of the cones of closed contacts.
-    fn edges<'a>(&'a self, problem: &'a Scaled) -> impl Iterator<Item = (&'a Point, f64)> {
+    fn edges<'a>(&'a self, problem: &'a Scaled) -> impl Iterator<Item = (Point<'a>, f64)> {
         let closed = problem.points.iter().zip(&self.is_closed).filter(|it| *it.1);
         closed.flat_map(|(point, _)| point.edges())
     }
@@ -132,7 +132,7 @@ impl Contacts {
     /// Forces by contact point of those along the edges.
     fn forces(&self, problem: &Scaled, mut along: impl Iterator<Item = f64>) -> Vec<(f64, f64)> {
         let points = problem.points.iter().zip(&self.is_closed);
-        let force = |(point, is_closed): (&Point, &bool)| {
+        let force = |(point, is_closed): (Point<'_>, &bool)| {
             let edges = point.edges().filter(|_| *is_closed);
             edges
                 .zip(&mut along)
@@ -148,7 +148,7 @@ impl Contacts {
         condensed.factorise(problem, &springs, KEPT_EXACTLY);
         let mut u = self.u.clone();
         for _ in 0..REFINED {
-            let gap = |(point, is_closed): (&Point, &bool)| {
+            let gap = |(point, is_closed): (Point<'_>, &bool)| {
                 (if *is_closed { point.gap(&u) } else { 0.0 }, 0.0)
             };
             let gaps: Vec<(f64, f64)> =

@@ -10,12 +10,13 @@ pub(super) fn start(problem: &Scaled, condensed: &mut Condensed, spring: f64) ->
     let tangential = |mu: f64| if mu > 0.0 { 1.0 } else { 0.0 };
     let springs: Vec<Springs> = problem
         .points
+        .mu
         .iter()
-        .map(|point| Springs { nn: 1.0, tn: 0.0, tt: tangential(point.mu) })
+        .map(|mu| Springs { nn: 1.0, tn: 0.0, tt: tangential(*mu) })
         .collect();
     condensed.factorise(problem, &springs, spring);
     let mut u = problem.f.clone();
-    for point in &problem.points {
+    for point in problem.points.iter() {
         point.add_forces(-point.x_0, -tangential(point.mu) * point.s_0, &mut u);
     }
     condensed.solve(&mut u);

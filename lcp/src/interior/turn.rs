@@ -21,8 +21,8 @@ pub(super) fn turn(
 ) -> (Iterate, f64) {
     let along = tangent.step(&Defect::none(problem), &vec![[1.0; 3]; problem.points.len()]);
     let (mut product, mut square, mut largest) = (0.0, 0.0, 0.0_f64);
-    for (i, point) in problem.points.iter().enumerate() {
-        let [at, along, predictor] = [at, &along, predictor].map(|it| it.points[i].pairs(point.mu));
+    for (i, mu) in problem.points.mu.iter().enumerate() {
+        let [at, along, predictor] = [at, &along, predictor].map(|it| it.points[i].pairs(*mu));
         for (((t, y), (t_along, y_along)), (dt, dy)) in at.zip(along).zip(predictor) {
             for (along, change) in [(t_along / t, dt / t), (y_along / y, dy / y)] {
                 product += along * change;

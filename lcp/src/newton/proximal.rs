@@ -55,9 +55,10 @@ impl Proximal<'_> {
     pub(super) fn step(&self, problem: &Scaled, condensed: &mut Condensed, at: &At) -> (At, bool) {
         let springs: Vec<Springs> = problem
             .points
+            .mu
             .iter()
             .zip(&at.contacts)
-            .map(|(point, contact)| contact.springs(point, self.stiffness))
+            .map(|(mu, contact)| contact.springs(*mu, self.stiffness))
             .collect();
         condensed.factorise(problem, &springs, self.spring);
         let mut step = at.unbalanced.clone();
@@ -100,7 +101,7 @@ impl Proximal<'_> {
 
 /// State and forces of a contact, from those of the last step.
 fn project(
-    point: &Point,
+    point: Point<'_>,
     (last_n, last_t): (f64, f64),
     stiffness: f64,
     u: &[f64],

@@ -294,6 +294,7 @@ impl Contact2d {
 const LARGEST_MU: f64 = 1e12;
 
 /// The entries of a column.
+#[inline]
 pub(crate) fn column_of(
     matrix: &SparseColMat<usize, f64>,
     j: usize,

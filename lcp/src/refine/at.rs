@@ -17,7 +17,7 @@ pub(super) struct At {
 impl At {
     pub(super) fn from(scaled: &Scaled, state: &ContactState) -> Self {
         let (u, mut forces) = scaled.of_state(state);
-        let smooth = forces.iter_mut().zip(&scaled.points).filter(|(_, point)| point.mu <= 0.0);
+        let smooth = forces.iter_mut().zip(&scaled.points.mu).filter(|(_, mu)| **mu <= 0.0);
         smooth.for_each(|((_, t_t), _)| *t_t = 0.0);
         Self::of(&u, &forces)
     }
@@ -46,9 +46,18 @@ impl At {
         high.into_iter().zip(low).map(|(high, low)| Extended::from(high) + low.into()).collect()
     }
 
-    /// Gap or slip of a point.
-    pub(super) fn row(&self, point: &Point, first: f64, coefficients: &[f64]) -> Extended {
-        let terms = point.columns.iter().zip(coefficients).map(|(&j, &v)| self.u[j] * v);
+    /// Gap of a point.
+    pub(super) fn gap(&self, point: Point<'_>) -> Extended {
+        self.row(point, point.x_0, 0)
+    }
+
+    /// Slip of a point.
+    pub(super) fn slip(&self, point: Point<'_>) -> Extended {
+        self.row(point, point.s_0, 1)
+    }
+
+    fn row(&self, point: Point<'_>, first: f64, k: usize) -> Extended {
+        let terms = point.columns.iter().zip(point.coefficients).map(|(&j, v)| self.u[j] * v[k]);
         terms.fold(Extended::from(first), |sum, term| sum + term)
     }
 
@@ -57,7 +66,8 @@ impl At {
         let (u, forces) = self.rounded();
         let force =
             forces.iter().fold(max_abs(&scaled.f), |max, (n, t)| max.max(n.abs().max(t.abs())));
-        let gaps = scaled.points.iter().map(|point| point.x_0.abs().max(point.s_0.abs()));
+        let gaps =
+            scaled.points.x_0.iter().zip(&scaled.points.s_0).map(|(x, s)| x.abs().max(s.abs()));
         // The unit of stiffness is one.
         (force, gaps.fold(max_abs(&u).max(force), f64::max))
     }
@@ -66,7 +76,7 @@ impl At {
         let (u, forces) = self.rounded();
         let (force, length) = self.sizes(scaled);
         let part = |v: f64, unit: f64| if unit > 0.0 { v / unit } else { 0.0 };
-        let of_point = |(point, (t_n, t_t)): (&Point, (f64, f64))| {
+        let of_point = |(point, (t_n, t_t)): (Point<'_>, (f64, f64))| {
             let (gap, slip) = (part(point.gap(&u), length), part(point.slip(&u), length));
             let margin = part(point.mu * t_n - t_t.abs(), force);
             if gap > part(t_n, force).max(CLOSED) {

@@ -73,18 +73,17 @@ impl Lack {
         }
         let mut opened = Vec::with_capacity(statuses.len());
         for ((point, status), shifts) in scaled.points.iter().zip(statuses).zip(&shifts.gaps) {
-            let mut row = |shift: Extended, first: f64, coefficients: &[f64]| {
-                let sum = shift + at.row(point, first, coefficients);
-                let terms = point.columns.iter().zip(coefficients).map(|(&j, v)| (u[j] * v).abs());
+            let mut row = |sum: Extended, first: f64, k: usize| {
+                let terms = point.columns.iter().zip(point.coefficients);
+                let terms = terms.map(|(&j, v)| (u[j] * v[k]).abs());
                 let terms = terms.fold(first.abs(), |sum, term| sum + term);
                 residual = residual.max(ratio(sum.rounded(), terms.max(FLOOR * length)));
                 sum
             };
             let [gap, slip] = status.is_closed(point.mu);
-            let gap = if gap { row(shifts[0], point.x_0, &point.normal) } else { Extended::ZERO };
-            let slip =
-                if slip { row(shifts[1], point.s_0, &point.tangent) } else { Extended::ZERO };
-            opened.push([gap, slip]);
+            let gap = gap.then(|| row(shifts[0] + at.gap(point), point.x_0, 0));
+            let slip = slip.then(|| row(shifts[1] + at.slip(point), point.s_0, 1));
+            opened.push([gap, slip].map(Option::unwrap_or_default));
         }
         Self { unbalanced, opened, residual }
     }
@@ -100,7 +99,7 @@ impl Lack {
         let mut unbalanced = scaled.unbalanced(&u, forces.into_iter());
         unbalanced.iter_mut().zip(floating).filter(|(_, is)| **is).for_each(|(v, _)| *v = 0.0);
         let closed = scaled.points.iter().zip(statuses).map(|(point, status)| {
-            let (gap, slip) = point.opened(*status, &u);
+            let (gap, slip) = status.opened(point, &u);
             [gap, slip].map(Extended::from)
         });
         let opened: Vec<[Extended; 2]> = closed.collect();
@@ -115,7 +114,7 @@ impl Lack {
 pub(super) fn on_bodies(scaled: &Scaled, forces: &[[Extended; 2]]) -> Vec<Extended> {
     let mut sum = vec![Extended::ZERO; scaled.order()];
     for (point, [t_n, t_t]) in scaled.points.iter().zip(forces) {
-        for ((&j, &n), &t) in point.columns.iter().zip(&point.normal).zip(&point.tangent) {
+        for (&j, &[n, t]) in point.columns.iter().zip(point.coefficients) {
             sum[j] += *t_n * n + *t_t * t;
         }
     }
@@ -138,7 +137,7 @@ pub(super) fn without_idle(
     let is_pressed = |i: usize| at.forces[i].iter().any(|t| t.abs() > none);
     let idle = unreached(scaled, |i| statuses[i] != ContactStatus::Open && is_pressed(i));
     let points = scaled.points.iter().zip(statuses);
-    let of_point = |(point, status): (&Point, &ContactStatus)| {
+    let of_point = |(point, status): (Point<'_>, &ContactStatus)| {
         if touched(point).any(|j| idle[j]) { ContactStatus::Open } else { *status }
     };
     points.map(of_point).collect()
@@ -162,8 +161,8 @@ fn unreached(scaled: &Scaled, touches: impl Fn(usize) -> bool) -> Vec<bool> {
 }
 
 /// The displacements that a point sees.
-pub(super) fn touched(point: &Point) -> impl Iterator<Item = usize> + '_ {
-    let rows = point.columns.iter().zip(point.normal.iter().zip(&point.tangent));
-    let seen = rows.filter(|(_, (n, t))| **n != 0.0 || point.mu > 0.0 && **t != 0.0);
+pub(super) fn touched(point: Point<'_>) -> impl Iterator<Item = usize> {
+    let rows = point.columns.iter().zip(point.coefficients);
+    let seen = rows.filter(move |(_, [n, t])| *n != 0.0 || point.mu > 0.0 && *t != 0.0);
     seen.map(|(&j, _)| j)
 }

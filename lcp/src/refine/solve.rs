@@ -92,11 +92,11 @@ impl<'a> Solve<'a> {
         statuses: &'a [ContactStatus],
         weights: Weights,
     ) -> Self {
-        let all = scaled.points.iter().zip(statuses);
+        let all = scaled.points.mu.iter().zip(statuses);
         let springs: Vec<Springs> =
-            all.clone().map(|(point, status)| status.springs(point, weights.stiff)).collect();
-        for ((point, status), forces) in all.zip(&mut at.forces) {
-            *forces = status.on_cone(point.mu, *forces);
+            all.clone().map(|(mu, status)| status.springs(*mu, weights.stiff)).collect();
+        for ((mu, status), forces) in all.zip(&mut at.forces) {
+            *forces = status.on_cone(*mu, *forces);
         }
         condensed.factorise(scaled, &springs, weights.proximal);
         Self {
@@ -190,7 +190,7 @@ impl<'a> Solve<'a> {
     fn finish(self, seconds: f64) -> (Refined, Vec<(f64, ContactStatus)>) {
         let (residual, correction) = (self.residual(), self.correction.max(self.shifted));
         let Self { scaled, statuses, at, shifts, floating, passes, .. } = self;
-        let floats = |i: usize| lack::touched(&scaled.points[i]).any(|j| floating[j]);
+        let floats = |i: usize| lack::touched(scaled.points.get(i)).any(|j| floating[j]);
         let slacks: Vec<(f64, ContactStatus)> =
             law::slacks(scaled, statuses, &at)
                 .enumerate()

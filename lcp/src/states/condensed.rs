@@ -4,6 +4,7 @@ use faer::sparse::{FaerError, SymbolicSparseColMatRef};
 
 use super::constants::{ENOUGH, REFINEMENTS};
 use super::scaled::Scaled;
+use crate::problem::column_of;
 use crate::sparse::{Multifrontal, groups_of_rows};
 use crate::vector::max_abs;
 
@@ -28,8 +29,9 @@ pub(crate) struct Condensed {
     starts: Vec<usize>,
     rows: Vec<usize>,
     values: Vec<f64>,
-    /// Places of the entries of `K`, and of the diagonal.
-    of_stiffness: Vec<usize>,
+    /// The part of the values that `K` has.
+    stiffness: Vec<f64>,
+    /// Places of the diagonal.
     of_diagonal: Vec<usize>,
     /// Places of the terms of the points, one after the other, and of each columns one after the other.
     of_points: Vec<u32>,
@@ -40,17 +42,16 @@ pub(crate) struct Condensed {
 impl Condensed {
     pub(crate) fn new(problem: &Scaled) -> Result<Self, FaerError> {
         let n = problem.order();
-        let k = problem.k.as_ref();
         let (starts, rows) = pattern(problem)?;
         let place = |i: usize, j: usize| {
             let found = rows[starts[j]..starts[j + 1]].binary_search(&i);
             starts[j] + found.unwrap_or_else(|_| unreachable!("the pattern has all entries"))
         };
         let of_diagonal = (0..n).map(|j| place(j, j)).collect();
-        let of_stiffness = (0..n)
-            .flat_map(|j| k.row_idx_of_col_raw(j).iter().map(move |&i| (i, j)))
-            .map(|(i, j)| place(i, j))
-            .collect();
+        let mut stiffness = vec![0.0; rows.len()];
+        for j in 0..n {
+            column_of(&problem.k, j).for_each(|(i, v)| stiffness[place(i, j)] += v);
+        }
         let index = |i: usize| {
             u32::try_from(i).unwrap_or_else(|_| unreachable!("2^32 entries do not fit in memory"))
         };
@@ -58,7 +59,7 @@ impl Condensed {
             .points
             .iter()
             .flat_map(|point| {
-                let columns = &point.columns;
+                let columns = point.columns;
                 columns.iter().flat_map(move |&j| columns.iter().map(move |&i| (i, j)))
             })
             .map(|(i, j)| index(place(i, j)))
@@ -70,7 +71,7 @@ impl Condensed {
             starts,
             rows,
             values,
-            of_stiffness,
+            stiffness,
             of_diagonal,
             of_points,
             factors,
@@ -80,15 +81,13 @@ impl Condensed {
 
     /// Factorises for these springs of the points, and a spring `delta` on every displacement.
     pub(crate) fn factorise(&mut self, problem: &Scaled, springs: &[Springs], delta: f64) {
-        self.values.fill(0.0);
-        self.of_stiffness.iter().zip(problem.k.val()).for_each(|(&e, v)| self.values[e] += v);
+        self.values.copy_from_slice(&self.stiffness);
         self.of_diagonal.iter().for_each(|&e| self.values[e] += delta);
         let mut places = self.of_points.iter();
         for (point, springs) in problem.points.iter().zip(springs) {
-            for (n_j, t_j) in point.normal.iter().zip(&point.tangent) {
+            for [n_j, t_j] in point.coefficients {
                 let along = (springs.nn * n_j, springs.tn * n_j + springs.tt * t_j);
-                for ((n_i, t_i), &place) in point.normal.iter().zip(&point.tangent).zip(&mut places)
-                {
+                for ([n_i, t_i], &place) in point.coefficients.iter().zip(&mut places) {
                     self.values[place as usize] += n_i * along.0 + t_i * along.1;
                 }
             }
@@ -158,7 +157,7 @@ fn pattern(problem: &Scaled) -> Result<(Vec<usize>, Vec<usize>), FaerError> {
     let k = problem.k.symbolic();
     let transposed = k.transpose().to_col_major()?;
     // The edges of a cone, one after the other, move the same bodies.
-    let mut groups: Vec<&[usize]> = problem.points.iter().map(|point| &point.columns[..]).collect();
+    let mut groups: Vec<&[usize]> = problem.points.iter().map(|point| point.columns).collect();
     groups.dedup();
     let (first, of_rows) = groups_of_rows(n, &groups);
     let (mut starts, mut rows) = (vec![0], Vec::new());

@@ -1,14 +1,15 @@
 //! The state that a contact is nearest to, and the springs that hold it there.
 
 use super::condensed::Springs;
-use super::scaled::{Point, Scaled};
+use super::points::Point;
+use super::scaled::Scaled;
 use crate::problem::ContactStatus;
 
 /// The states that displacements and forces are nearest to, wherever they are.
 pub(crate) fn nearest(problem: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Vec<ContactStatus> {
     let points = problem.points.iter().zip(forces).map(|(point, &forces)| {
         let slip = if point.mu > 0.0 { point.slip(u) } else { 0.0 };
-        ContactStatus::nearest(point, forces, (point.gap(u), slip.max(0.0), (-slip).max(0.0)))
+        ContactStatus::nearest(point.mu, forces, (point.gap(u), slip.max(0.0), (-slip).max(0.0)))
     });
     points.collect()
 }
@@ -16,16 +17,16 @@ pub(crate) fn nearest(problem: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Vec
 impl ContactStatus {
     /// The state that is nearest to normal and tangential force, gap, and slips forwards and backwards.
     pub(crate) fn nearest(
-        point: &Point,
+        mu: f64,
         (t_n, t_t): (f64, f64),
         (gap, slip_plus, slip_minus): (f64, f64, f64),
     ) -> Self {
         if gap > t_n {
             return Self::Open;
         }
-        let bound = point.mu * t_n;
+        let bound = mu * t_n;
         let (plus, minus) = (slip_plus > bound + t_t, slip_minus > bound - t_t);
-        match (point.mu > 0.0 && plus, point.mu > 0.0 && minus) {
+        match (mu > 0.0 && plus, mu > 0.0 && minus) {
             (true, _) if slip_plus >= slip_minus => Self::Forwards,
             (_, true) => Self::Backwards,
             (true, false) => Self::Forwards,
@@ -33,14 +34,20 @@ impl ContactStatus {
         }
     }
 
+    /// Gap and slip of a point where the state allows none.
+    pub(crate) fn opened(self, point: Point<'_>, u: &[f64]) -> (f64, f64) {
+        let [gap, slip] = self.is_closed(point.mu);
+        (if gap { point.gap(u) } else { 0.0 }, if slip { point.slip(u) } else { 0.0 })
+    }
+
     /// Springs of this stiffness against what the state does not allow.
-    pub(crate) fn springs(self, point: &Point, stiffness: f64) -> Springs {
-        let tangential = if point.mu > 0.0 { stiffness } else { 0.0 };
+    pub(crate) fn springs(self, mu: f64, stiffness: f64) -> Springs {
+        let tangential = if mu > 0.0 { stiffness } else { 0.0 };
         match self {
             Self::Open => Springs::default(),
             Self::Stick => Springs { nn: stiffness, tn: 0.0, tt: tangential },
-            Self::Forwards => Springs { nn: stiffness, tn: -point.mu * stiffness, tt: 0.0 },
-            Self::Backwards => Springs { nn: stiffness, tn: point.mu * stiffness, tt: 0.0 },
+            Self::Forwards => Springs { nn: stiffness, tn: -mu * stiffness, tt: 0.0 },
+            Self::Backwards => Springs { nn: stiffness, tn: mu * stiffness, tt: 0.0 },
         }
     }
 }

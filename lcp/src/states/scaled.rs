@@ -4,9 +4,11 @@ use std::borrow::Cow;
 
 use faer::sparse::SparseColMat;
 
+use super::points::{Point, Points};
 use crate::parts::Parts;
-use crate::problem::{ContactStatus, column_factors, column_of, diagonal, median};
+use crate::problem::{column_factors, column_of, diagonal, median};
 use crate::scaling::power_of_two;
+use crate::sparse::ByRows;
 use crate::vector::max_abs;
 use crate::{Contact2d, ContactState, MixedLcp};
 
@@ -16,7 +18,7 @@ pub(crate) struct Scaled {
     /// Stiffness, columns of `(row, value)` one after the other.
     pub(crate) k: SparseColMat<usize, f64>,
     pub(crate) f: Vec<f64>,
-    pub(crate) points: Vec<Point>,
+    pub(crate) points: Points,
     column: Vec<f64>,
     force: f64,
     length: f64,
@@ -26,54 +28,6 @@ pub(crate) struct Scaled {
 
 /// Displacements and forces, copied where they were changed.
 type Settled<'a> = (Cow<'a, [f64]>, Cow<'a, [(f64, f64)]>);
-
-/// A contact point: the displacements that it depends on, with their coefficients in gap and slip.
-pub(crate) struct Point {
-    pub(crate) columns: Vec<usize>,
-    pub(crate) normal: Vec<f64>,
-    pub(crate) tangent: Vec<f64>,
-    pub(crate) x_0: f64,
-    pub(crate) s_0: f64,
-    pub(crate) mu: f64,
-}
-
-impl Point {
-    pub(crate) fn gap(&self, u: &[f64]) -> f64 {
-        self.x_0 + dot(&self.normal, &self.columns, u)
-    }
-
-    /// The edges of the friction cone; see [`Scaled::edges`].
-    pub(crate) fn edges(&self) -> impl Iterator<Item = (&Self, f64)> {
-        let count = if self.mu > 0.0 { 2 } else { 1 };
-        [(self, self.mu), (self, -self.mu)].into_iter().take(count)
-    }
-
-    pub(crate) fn slip(&self, u: &[f64]) -> f64 {
-        self.s_0 + dot(&self.tangent, &self.columns, u)
-    }
-
-    /// Gap and slip where the status allows none.
-    pub(crate) fn opened(&self, status: ContactStatus, u: &[f64]) -> (f64, f64) {
-        let [gap, slip] = status.is_closed(self.mu);
-        (if gap { self.gap(u) } else { 0.0 }, if slip { self.slip(u) } else { 0.0 })
-    }
-
-    /// The changes of gap and slip by a step of the displacements, which may be far smaller than both.
-    pub(crate) fn moved(&self, u: &[f64]) -> (f64, f64) {
-        (dot(&self.normal, &self.columns, u), dot(&self.tangent, &self.columns, u))
-    }
-
-    /// Adds the forces of the point to those on the displacements.
-    pub(crate) fn add_forces(&self, t_n: f64, t_t: f64, out: &mut [f64]) {
-        for ((&j, n), t) in self.columns.iter().zip(&self.normal).zip(&self.tangent) {
-            out[j] += n * t_n + t * t_t;
-        }
-    }
-}
-
-fn dot(row: &[f64], columns: &[usize], u: &[f64]) -> f64 {
-    row.iter().zip(columns).map(|(v, &j)| v * u[j]).sum()
-}
 
 impl Scaled {
     pub(crate) fn of_contact(problem: &Contact2d) -> Self {
@@ -95,33 +49,16 @@ impl Scaled {
         let (force, length) = (power_of_two(force), power_of_two(length));
         let k = congruent(problem.stiffness().clone(), &column, length / force);
         let f: Vec<f64> = problem.loads().iter().zip(&column).map(|(f, d)| f * d / force).collect();
-        let mut points: Vec<Point> = (0..problem.points())
-            .map(|i| Point {
-                columns: Vec::new(),
-                normal: Vec::new(),
-                tangent: Vec::new(),
-                x_0: problem.initial_gaps()[i] / length,
-                s_0: problem.initial_slips()[i] / length,
-                mu: problem.mu()[i],
-            })
-            .collect();
-        for (j, d) in column.iter().enumerate() {
-            for (i, v) in column_of(problem.normal(), j) {
-                points[i].columns.push(j);
-                points[i].normal.push(v * d);
-                points[i].tangent.push(0.0);
-            }
-            for (i, v) in column_of(problem.tangent(), j).filter(|(i, _)| problem.mu()[*i] > 0.0) {
-                let point = &mut points[i];
-                if point.columns.last() != Some(&j) {
-                    point.columns.push(j);
-                    point.normal.push(0.0);
-                    point.tangent.push(0.0);
-                }
-                if let Some(tangent) = point.tangent.last_mut() {
-                    *tangent += v * d;
-                }
-            }
+        let lengths = |v: &[f64]| v.iter().map(|v| v / length).collect();
+        let (x_0, s_0) = (lengths(problem.initial_gaps()), lengths(problem.initial_slips()));
+        let mut points = Points::new(x_0, s_0, problem.mu().to_vec());
+        let [normal, tangent] = [problem.normal(), problem.tangent()].map(ByRows::of);
+        for i in 0..points.len() {
+            let frictional = if points.mu[i] > 0.0 { tangent.row(i) } else { &[] };
+            for_each_in_either(normal.row(i), frictional, |j, coefficients| {
+                points.push(j, coefficients.map(|v| v * column[j]));
+            });
+            points.close();
         }
         let idle = idle(&k, &f, &points, &vec![false; n]);
         Self { k, f, points, column, force, length, idle }
@@ -158,16 +95,13 @@ impl Scaled {
         let force = if load > 0.0 { power_of_two(load) } else { 1.0 };
         let k = congruent(m, &column, 1.0 / stiffness);
         let f: Vec<f64> = problem.q().iter().zip(&column).map(|(q, d)| -q * d / force).collect();
-        let bounded = (0..n).filter(|&j| !problem.free()[j]);
-        let points = bounded.map(|j| Point {
-            columns: vec![j],
-            normal: vec![1.0],
-            tangent: vec![0.0],
-            x_0: 0.0,
-            s_0: 0.0,
-            mu: 0.0,
-        });
-        let points: Vec<Point> = points.collect();
+        let bounded: Vec<usize> = (0..n).filter(|&j| !problem.free()[j]).collect();
+        let zero = || vec![0.0; bounded.len()];
+        let mut points = Points::new(zero(), zero(), zero());
+        for &j in &bounded {
+            points.push(j, [1.0, 0.0]);
+            points.close();
+        }
         let moves_nothing = |j: usize| column_of(&k, j).all(|(_, v)| v == 0.0);
         let moves_nothing: Vec<bool> = (0..n).map(moves_nothing).collect();
         let idle = idle(&k, &f, &points, &moves_nothing);
@@ -202,15 +136,15 @@ impl Scaled {
     /// Normal and tangential forces of the points from those along the edges of their cones.
     pub(crate) fn of_edges(&self, mut parts: impl Iterator<Item = f64>) -> Vec<(f64, f64)> {
         let mut part = || parts.next().unwrap_or(0.0);
-        let force = |point: &Point| {
-            let (plus, minus) = (part(), if point.mu > 0.0 { part() } else { 0.0 });
-            (plus + minus, point.mu * (plus - minus))
+        let force = |mu: &f64| {
+            let (plus, minus) = (part(), if *mu > 0.0 { part() } else { 0.0 });
+            (plus + minus, mu * (plus - minus))
         };
-        self.points.iter().map(force).collect()
+        self.points.mu.iter().map(force).collect()
     }
 
     /// The edges of the friction cones: their points, and the tangential force for a normal force of one.
-    pub(crate) fn edges(&self) -> impl Iterator<Item = (&Point, f64)> {
+    pub(crate) fn edges(&self) -> impl Iterator<Item = (Point<'_>, f64)> {
         self.points.iter().flat_map(Point::edges)
     }
 
@@ -228,7 +162,7 @@ impl Scaled {
 
     /// Whether every displacement has a stiffness, and there is friction.
     pub(crate) fn is_elastic(&self) -> bool {
-        let has_friction = self.points.iter().any(|point| point.mu > 0.0);
+        let has_friction = self.points.mu.iter().any(|mu| *mu > 0.0);
         has_friction && diagonal(&self.k).iter().all(|k| *k > 0.0)
     }
 
@@ -278,7 +212,7 @@ impl Scaled {
             column_of(&self.k, j).for_each(|(i, v)| terms[i] += (v * u).abs());
         }
         for (point, (t_n, t_t)) in self.points.iter().zip(forces) {
-            for ((&j, n), t) in point.columns.iter().zip(&point.normal).zip(&point.tangent) {
+            for (&j, [n, t]) in point.columns.iter().zip(point.coefficients) {
                 terms[j] += (n * t_n).abs() + (t * t_t).abs();
             }
         }
@@ -292,7 +226,7 @@ impl Scaled {
 fn idle(
     k: &SparseColMat<usize, f64>,
     f: &[f64],
-    points: &[Point],
+    points: &Points,
     moves_nothing: &[bool],
 ) -> Option<(Vec<bool>, Vec<bool>)> {
     let (n, m) = (f.len(), points.len());
@@ -319,9 +253,32 @@ fn idle(
     let at_rest = |(loaded, stiff, open): (bool, bool, bool)| !(open || loaded && stiff);
     let displacements: Vec<bool> = (0..n).map(|j| at_rest(of(j)) || moves_nothing[j]).collect();
     let without_force = |(loaded, _, open): (bool, bool, bool)| !loaded && !open;
-    let acts = |point: &Point| point.normal.iter().any(|v| *v != 0.0) || point.x_0 <= 0.0;
-    let points: Vec<bool> = (0..m).map(|i| without_force(of(n + i)) || !acts(&points[i])).collect();
+    let acts =
+        |point: Point<'_>| point.coefficients.iter().any(|c| c[0] != 0.0) || point.x_0 <= 0.0;
+    let points = points.iter().enumerate();
+    let points: Vec<bool> =
+        points.map(|(i, point)| without_force(of(n + i)) || !acts(point)).collect();
     (displacements.contains(&true) || points.contains(&true)).then_some((displacements, points))
+}
+
+/// Shows the columns that have an entry in either of two rows, ascending, with both entries.
+fn for_each_in_either<'a>(
+    mut first: &'a [(usize, f64)],
+    mut second: &'a [(usize, f64)],
+    mut visit: impl FnMut(usize, [f64; 2]),
+) {
+    let column = |row: &[(usize, f64)]| row.first().map_or(usize::MAX, |(j, _)| *j);
+    while !(first.is_empty() && second.is_empty()) {
+        let j = column(first).min(column(second));
+        let entries = [&mut first, &mut second].map(|row| match *row {
+            [(i, v), rest @ ..] if *i == j => {
+                *row = rest;
+                *v
+            }
+            _ => 0.0,
+        });
+        visit(j, entries);
+    }
 }
 
 /// `factor D K D`.

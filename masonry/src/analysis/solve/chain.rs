@@ -40,6 +40,8 @@ pub(super) struct Attempt {
     pub(super) statics: Option<Statics>,
     /// What a motion did before the slips of the state, by contact point.
     pub(super) moved: Option<Moved>,
+    /// The sparse problem, if a route was solved on it.
+    pub(super) sparse: Option<Sparse>,
 }
 
 impl Attempt {
@@ -146,6 +148,7 @@ impl<'a> Chain<'a> {
         best.info.attempts = lines;
         best.info.pivots = pivots;
         self.add_statics(&mut best);
+        best.sparse = self.sparse;
         Ok(best)
     }
 
@@ -362,6 +365,7 @@ impl<'a> Chain<'a> {
         let mechanism = motion.and_then(|motion| {
             recover::mechanism(self.model, self.system, self.sparse.as_ref(), motion)
         });
-        Attempt { info, state, checks, mechanism, basis: answer.basis, statics: None, moved: None }
+        let basis = answer.basis;
+        Attempt { info, state, checks, mechanism, basis, statics: None, moved: None, sparse: None }
     }
 }

@@ -76,6 +76,8 @@ pub struct Run {
     last: Option<Last>,
     /// Where the pivots of the next step start.
     basis: Option<Start>,
+    /// The sparse problem of the last step that was tried, if it was built.
+    sparse: Option<Sparse>,
     clock: Clock,
 }
 
@@ -146,6 +148,7 @@ impl Run {
             reached: None,
             last: None,
             basis: None,
+            sparse: None,
             clock,
         })
     }
@@ -231,6 +234,7 @@ impl Run {
         let before = self.reached.as_ref().map(|reached| &reached.state);
         let way = self.records.last().map_or(Way::Law, |record| record.way);
         let start = (self.basis.take(), before, way);
+        self.sparse = None;
         let found = Chain::new(parts, wanted, start, &mut self.clock, observer);
         match found.run(&self.plan.routes) {
             Ok(found) => self.take(step, stepped, found),
@@ -257,8 +261,8 @@ impl Run {
     /// Keeps a step that was solved; of one that was not, its state only where there is none before.
     /// Of the only step there is nothing to remember but its state.
     fn take(&mut self, step: Step, stepped: Option<(Model, Vec<f64>)>, found: Attempt) {
-        let Attempt { info, state, checks, mechanism, basis, statics, moved } = found;
-        self.basis = basis;
+        let Attempt { info, state, checks, mechanism, basis, statics, moved, sparse } = found;
+        (self.basis, self.sparse) = (basis, sparse);
         if let (Some(moved), None) = (&moved, &stepped) {
             // The state is judged with slips from where the blocks came to.
             self.model = self.model.slid(&moved.slips);
@@ -380,7 +384,8 @@ impl Run {
         let reactions =
             contacts.map_or_else(Vec::new, |contacts| recover::reactions(&model, contacts));
         let history = (steps > 1).then_some(history);
-        let sparse = state.as_ref().and_then(|_| Sparse::new(&self.system).ok());
+        let build = || Sparse::new(&self.system).ok();
+        let sparse = state.as_ref().and_then(|_| self.sparse.or_else(build));
         let circulating = state.as_ref().zip(sparse);
         let judgement = Judgement::of(&Known {
             model: &model,
