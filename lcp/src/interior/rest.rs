@@ -1,7 +1,8 @@
 //! Bodies at rest: gaps and normal forces exactly complementary, and friction that turns over a short slip.
 
 use super::constants::{
-    ADMISSIBLE, BLUNT, NEARLY_SETTLED, SETTLED, SETTLING, SHARPENED, SHARPER, STIFF_CLOSED,
+    ADMISSIBLE, BLUNT, HELD_CLOSED, NEARLY_SETTLED, SETTLED, SETTLING, SHARPENED, SHARPER,
+    STIFF_CLOSED,
 };
 use super::continuation::centred;
 use super::iterate::{Iterate, Pairs};
@@ -102,7 +103,7 @@ fn polished(problem: &Scaled, condensed: &mut Condensed, at: &Iterate) -> Rest {
     let is_open = |springs: &Springs| springs.nn <= 0.0;
     let open = forces.iter_mut().zip(&springs).filter(|(_, springs)| is_open(springs));
     open.for_each(|(force, _)| *force = (0.0, 0.0));
-    condensed.factorise(problem, &springs, PROXIMAL);
+    condensed.factorise(problem, &springs, HELD_CLOSED);
     let mut last = f64::INFINITY;
     for _ in 0..REFINEMENTS {
         let rest = problem.unbalanced(&u, forces.iter().copied());
