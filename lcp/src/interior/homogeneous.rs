@@ -4,7 +4,7 @@
 use faer::sparse::FaerError;
 
 use super::constants::{
-    BACK, CENTRAL, COMPLIANCE, CORRECTORS, LEAST_AIM, LONG_ENOUGH, LONGER, NO_STEP, PATIENCE,
+    AWAY, BACK, CENTRAL, COMPLIANCE, CORRECTORS, LEAST_AIM, LONG_ENOUGH, LONGER, NO_STEP, PATIENCE,
     PROVED, STRICTER,
 };
 use super::program::Program;
@@ -161,7 +161,10 @@ fn start(program: &Program, factors: &mut Factors, spring: f64) -> Option<Variab
         *gap = stiffness * (*gap + x);
     }
     let mean = gaps.iter().map(|g| g.abs()).sum::<f64>() / gaps.len().max(1) as f64;
-    let shift = if mean > 0.0 && mean.is_finite() { mean } else { 1.0 };
+    // What pulls cannot stay: the larger that is, the farther off the solution.
+    let pull = gaps.iter().fold(0.0, |max, gap| gap.max(max));
+    let shift = mean.max(AWAY * pull);
+    let shift = if shift > 0.0 && shift.is_finite() { shift } else { 1.0 };
     let t = gaps.iter().map(|gap| (-gap).max(0.0) + shift).collect();
     let y = gaps.iter().map(|gap| gap.max(0.0) + shift).collect();
     Some(Variables { u, t, y })

@@ -1,8 +1,8 @@
 //! The interior-point iteration: predictor, correctors, and what to do when they get nowhere.
 
 use super::constants::{
-    BACK, CENTRAL, CORRECTORS, IS_CENTRAL, LEAST_AIM, LONG_ENOUGH, LONGER, MIXTURES, PROGRESS,
-    SHORT, SHORTER, SHORTEST,
+    BACK, CENTRAL, CORRECTORS, HELD_SMOOTH, IS_CENTRAL, LEAST_AIM, LONG_ENOUGH, LONGER, MIXTURES,
+    PROGRESS, SHORT, SHORTER, SHORTEST,
 };
 use super::iterate::{Defect, Iterate, Pairs, Tangent};
 use super::turn::turn;
@@ -36,7 +36,8 @@ impl<'a> Ahead<'a> {
         (at, defect): (&'a Iterate, &'a Defect),
         spring: f64,
     ) -> Self {
-        let tangent = Tangent::new(problem, condensed, at, spring.max(PROXIMAL));
+        let proximal = if at.is_smooth() { HELD_SMOOTH } else { PROXIMAL };
+        let tangent = Tangent::new(problem, condensed, at, spring.max(proximal));
         let predictor = tangent.step(defect, &targets(problem, at, 0.0, None));
         Self { tangent, defect, predictor }
     }
