@@ -2,9 +2,10 @@
 //! limit, open bases, settlements; rigid and elastic bricks.
 //!
 //! `cargo bench --bench scaling` prints a table of walls of about a thousand bricks; with `-- --write` it also puts it into
-//! `docs/data/scaling.md`, and a summary into `docs/scaling.md`. `-- --sizes 10,32,100` prints how time and memory grow with
+//! `docs/data/scaling.md`, and a summary into `docs/scaling.md`; `--courses 100` does the same for walls of ten thousand
+//! bricks. Walls that a run leaves out keep the lines that they have there. `-- --sizes 10,32,100` prints how time and memory grow with
 //! the courses of a wall and the bricks in each, and writes the same two files and a picture. `--mu 0.5,1`, `--bricks
-//! rigid,2x1`, `--case settlement` and `--courses 100` choose a part. All is on one thread.
+//! rigid,2x1` and `--case settlement` choose a part. All is on one thread.
 
 mod common;
 #[path = "common/machine.rs"]
@@ -15,12 +16,13 @@ mod row;
 mod sizes;
 #[path = "common/sparse.rs"]
 mod sparse;
+#[path = "scaling/table.rs"]
+mod table;
 #[path = "scaling/walls.rs"]
 mod walls;
 
-use std::fmt::Write as _;
-
-use row::{HEAD, Row, is_same, yardstick};
+use row::{HEAD, Row, yardstick};
+use table::Table;
 use walls::{Case, Wall};
 
 const FRICTION: &str = "0.3,0.5,0.6,0.7,0.9999,1,1.0001,1.3";
@@ -58,11 +60,16 @@ fn main() {
         }
     } else {
         let courses = option("--courses", COURSES);
-        let rows = rows([&courses, FRICTION, BRICKS], &CASES);
-        common::write_if_asked("docs/scaling.md", "scaling", &summary(&rows));
-        let lines: Vec<String> = rows.iter().map(Row::to_string).collect();
-        let table = format!("{HEAD}{}\n\n{}", lines.join("\n"), machine::machine());
-        common::write_if_asked("docs/data/scaling.md", "scaling", &table);
+        let block = if courses == COURSES { "scaling" } else { "large" };
+        let computed = rows([&courses, FRICTION, BRICKS], &CASES);
+        let mut summary = String::new();
+        common::rewrite_if_asked("docs/data/scaling.md", block, |before| {
+            let cases = CASES.map(|case| case.to_string());
+            let table = Table::new(&computed, before, (&cases, BRICKS));
+            summary = table.summary();
+            table.whole() + "\n" + &machine::machine()
+        });
+        common::write_if_asked("docs/scaling.md", block, &summary);
     }
 }
 
@@ -92,32 +99,6 @@ fn rows([courses, friction, bricks]: [&str; 3], all: &[Case]) -> Vec<Row> {
         }
     }
     rows
-}
-
-/// Friction along, walls and cases down.
-fn summary(rows: &[Row]) -> String {
-    let mut friction: Vec<f64> = rows.iter().map(|row| row.mu).collect();
-    friction.sort_by(f64::total_cmp);
-    friction.dedup_by(|a, b| is_same(*a, *b));
-    let names: Vec<String> = friction.iter().map(|mu| format!("mu {mu}")).collect();
-    let mut table = format!(
-        "| case | bricks | {} |\n|:--|:--|{}\n",
-        names.join(" | "),
-        "--:|".repeat(friction.len())
-    );
-    for first in rows.iter().filter(|row| is_same(row.mu, rows[0].mu)) {
-        let Row { case, bricks, .. } = first;
-        let _ = write!(table, "| {case} | {bricks} |");
-        for mu in &friction {
-            let same =
-                |row: &&Row| row.case == *case && row.bricks == *bricks && is_same(row.mu, *mu);
-            let cell = rows.iter().find(same);
-            let cell = cell.map(|row| format!("{} {:.0}", row.letter(), row.factorisations()));
-            let _ = write!(table, " {} |", cell.unwrap_or_default());
-        }
-        table.push('\n');
-    }
-    table
 }
 
 /// What follows an option of the command, unless that is another option, or nothing.

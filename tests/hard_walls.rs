@@ -95,3 +95,14 @@ fn walls_on_which_the_first_attempt_jams_stand() {
         assert_eq!(found, (Verdict::Stands, Evidence::Equilibrium), "mu {mu}, tilt {share}");
     }
 }
+
+/// Rigid walls of 2328 bricks, in which contacts near rest cannot all be closed at once.
+#[cfg(feature = "long-tests")]
+#[test]
+fn large_rigid_walls_that_settle_come_to_rest() {
+    for mu in [0.5, 1.0, 1.3] {
+        let wall = Wall { courses: 48, mu, mesh: None };
+        let found = verdict_of(&wall, Case::Settlement(1), 0.0);
+        assert_eq!(found, (Verdict::Stands, Evidence::Equilibrium), "mu {mu}");
+    }
+}

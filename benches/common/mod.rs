@@ -21,6 +21,11 @@ pub(crate) fn root() -> PathBuf {
 
 /// With `-- --write`, puts the table between the marks of the bench in a file of the repository.
 pub(crate) fn write_if_asked(file: &str, bench: &str, table: &str) {
+    rewrite_if_asked(file, bench, |_| table.to_owned());
+}
+
+/// The same with a table that is made of the one before.
+pub(crate) fn rewrite_if_asked(file: &str, bench: &str, table: impl FnOnce(&str) -> String) {
     if !is_asked("--write") {
         return;
     }
@@ -28,8 +33,9 @@ pub(crate) fn write_if_asked(file: &str, bench: &str, table: &str) {
     let marks =
         [format!("<!-- begin: bench {bench} -->\n"), format!("<!-- end: bench {bench} -->")];
     let text = std::fs::read_to_string(&path).expect("the file is part of the repository");
-    let (before, rest) = text.split_once(&marks[0]).expect("the file has the first mark");
-    let (_, after) = rest.split_once(&marks[1]).expect("the file has the second mark");
-    let text = format!("{before}{}{table}{}{after}", marks[0], marks[1]);
+    let (start, rest) = text.split_once(&marks[0]).expect("the file has the first mark");
+    let (before, end) = rest.split_once(&marks[1]).expect("the file has the second mark");
+    let table = table(before);
+    let text = format!("{start}{}{table}{}{end}", marks[0], marks[1]);
     std::fs::write(path, text).expect("the file can be written");
 }

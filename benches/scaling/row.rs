@@ -89,16 +89,6 @@ impl Row {
         self.counts.iter().sum::<usize>() as f64 / self.counts.len().max(1) as f64
     }
 
-    /// Of verdict and evidence one letter.
-    pub(crate) fn letter(&self) -> char {
-        match (self.verdict, self.evidence) {
-            (Verdict::Stands, _) => 's',
-            (Verdict::Falls, Evidence::Motion) => 'f',
-            (Verdict::Falls, _) => 'F',
-            (Verdict::Undecided, _) => '?',
-        }
-    }
-
     /// Whether they differ by their size only.
     pub(crate) fn is_alike(&self, other: &Self) -> bool {
         self.case == other.case && self.bricks == other.bricks && is_same(self.mu, other.mu)

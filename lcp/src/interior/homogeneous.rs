@@ -4,8 +4,8 @@
 use faer::sparse::FaerError;
 
 use super::constants::{
-    AWAY, BACK, CENTRAL, COMPLIANCE, CORRECTORS, LEAST_AIM, LONG_ENOUGH, LONGER, NO_STEP, PATIENCE,
-    PROVED, STRICTER,
+    AWAY, BACK, CENTRAL, COMPLIANCE, CORRECTORS, LEAST_AIM, LOADS, LONG_ENOUGH, LONGER, NO_STEP,
+    PATIENCE, PROVED, ROUNDING, STRICTER,
 };
 use super::program::Program;
 use crate::Status;
@@ -48,18 +48,25 @@ pub(super) struct Accuracy {
     tolerance: f64,
     /// What the smaller one of a pair counts beside what the equations lack.
     pairs: f64,
+    /// The balance is measured by the largest force, and by no more than this multiple of the largest load.
+    loads: f64,
 }
 
 impl Accuracy {
     /// Equations and pairs alike, relative to the largest force and gap.
     pub(super) fn of_all(tolerance: f64) -> Self {
-        Self { tolerance, pairs: 1.0 }
+        Self { tolerance, pairs: 1.0, loads: f64::INFINITY }
     }
 
     /// Equations to the tolerance, and pairs below a tenth of its root: to that, their products are far below the
     /// tolerance.
     pub(super) fn of_products(tolerance: f64) -> Self {
-        Self { tolerance, pairs: 10.0 * tolerance.sqrt() }
+        Self { pairs: 10.0 * tolerance.sqrt(), ..Self::of_all(tolerance) }
+    }
+
+    /// The same where forces may be far larger than the loads that they balance.
+    pub(super) fn of_loads(tolerance: f64) -> Self {
+        Self { loads: LOADS, ..Self::of_products(tolerance) }
     }
 }
 
@@ -109,7 +116,7 @@ pub(super) fn solved(
     mut stop: impl FnMut(f64) -> Option<Status>,
     mut is_proof: impl FnMut(&Variables) -> bool,
 ) -> (Variables, Status) {
-    let Accuracy { tolerance, pairs } = accuracy;
+    let Accuracy { tolerance, .. } = accuracy;
     let Some(at) = start(program, factors, spring.max(PROXIMAL)) else {
         return (Variables::zero(program), Status::Stalled);
     };
@@ -118,7 +125,7 @@ pub(super) fn solved(
     let (mut least, mut since, mut provable) = ([f64::INFINITY; 3], 0, PROVED);
     loop {
         let defect = now.defect();
-        let residual = now.residual(&defect, pairs);
+        let residual = now.residual(&defect, accuracy);
         let error = if spring > 0.0 { f64::INFINITY } else { now.error_of_proof() };
         if residual <= tolerance {
             return (now.solution(), Status::Solved);
@@ -221,10 +228,14 @@ impl<'a> Homogeneous<'a> {
         self.at
     }
 
-    fn residual(&self, defect: &Defect, pairs: f64) -> f64 {
+    fn residual(&self, defect: &Defect, Accuracy { tolerance, pairs, loads }: Accuracy) -> f64 {
         let (force, length) = (max_abs(&self.at.t), max_abs(&self.at.y));
         let (force, length) = (force.max(self.tau), length.max(self.tau));
-        let defect = (max_abs(&defect.balance) / force).max(max_abs(&defect.gaps) / length);
+        let load = loads * self.tau * max_abs(&self.program.f);
+        // Rounding leaves some last digits of the largest force.
+        let rounded = ROUNDING * force / tolerance;
+        let unit = if load < force { load.max(rounded).min(force) } else { force };
+        let defect = (max_abs(&defect.balance) / unit).max(max_abs(&defect.gaps) / length);
         let natural = self.at.t.iter().zip(&self.at.y).map(|(t, y)| (t / force).min(y / length));
         natural.fold(defect, |max, v| max.max(pairs * v.abs()))
     }

@@ -32,7 +32,8 @@ impl InteriorPoint {
     /// such `t` (Farkas 1902), by the homogeneous problem of Andersen and Ye (1999). Uses the tolerance and the limits of
     /// the settings.
     ///
-    /// The balance holds to the tolerance, relative to the largest force. A force and its multiplier `t + A^T u` may both be
+    /// The balance holds to the tolerance, relative to the largest force, and to a hundred times it relative to the largest
+    /// load, unless rounding errors of the forces are larger. A force and its multiplier `t + A^T u` may both be
     /// zero, and come near it together: their smaller one counts by its square.
     ///
     /// # Errors
@@ -81,7 +82,7 @@ impl InteriorPoint {
         let original = |u: &[f64]| -> Vec<f64> {
             u.iter().zip(&units.column).map(|(u, d)| u * d * units.length).collect()
         };
-        let accuracy = Accuracy::of_products(settings.tolerance);
+        let accuracy = Accuracy::of_loads(settings.tolerance);
         let stop = |residual| monitor.stop(residual);
         let is_proof = |u: &[f64]| is_proof_of(columns(a), &loads, &against(&original(u)));
         let (at, status) =
