@@ -15,6 +15,9 @@ pub(super) struct Iterate {
     pub(super) smooth: f64,
 }
 
+/// Displacements and forces, scaled.
+pub(super) type Rest = (Vec<f64>, Vec<(f64, f64)>);
+
 /// The variables of a contact point. Those of friction are zero where there is none.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Pairs {

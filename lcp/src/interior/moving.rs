@@ -7,9 +7,9 @@ use super::constants::{
     STEADY, STEADY_MOTIONS, THROUGH, TRIES,
 };
 use super::evolved::{Evolved, Way};
-use super::iterate::Iterate;
+use super::iterate::{Iterate, Rest};
 use super::motion::{Motions, Moved, Viscosity, unresisted};
-use super::rest::{Rest, settled};
+use super::rest::settled;
 use super::settings::EvolutionSettings;
 use super::start::{start, start_smooth};
 use crate::active::{Effort, Search, unplanned};

@@ -5,16 +5,13 @@ use super::constants::{
     STIFF_CLOSED,
 };
 use super::continuation::centred;
-use super::iterate::{Iterate, Pairs};
+use super::iterate::{Iterate, Pairs, Rest};
 use super::rigid::rigid_rest;
 use crate::states::{Condensed, PROXIMAL, Point, Scaled, Springs};
 use crate::vector::max_abs;
 
 /// Refinements of the equations of closed and open contacts. Chosen: each reduces the residuals by some powers of ten.
 const REFINEMENTS: usize = 10;
-
-/// Displacements and forces, scaled.
-pub(super) type Rest = (Vec<f64>, Vec<(f64, f64)>);
 
 /// The states at rest on the way to the point with smooth friction at which all gaps and normal forces are complementary,
 /// until one is `accepted`. `go_on` is asked before every step, with the residual.
@@ -46,14 +43,17 @@ pub(super) fn settled<T>(
     if is_rigid {
         at = settle(condensed, at, NEARLY_SETTLED)?;
     }
+    let mut accepted = |condensed: &mut Condensed, at: &Iterate, rest| {
+        let is_admissible = is_admissible(problem, at, &rest);
+        if is_admissible { accepted(condensed, at, rest) } else { None }
+    };
     for accuracy in SETTLED {
         let Some(next) = settle(condensed, at.clone(), accuracy) else { break };
         at = next;
         let rest = polished(problem, condensed, &at);
-        if is_admissible(problem, &at, &rest)
-            && let Some(found) = accepted(condensed, &at, rest)
-        {
-            return Some(found);
+        let found = accepted(condensed, &at, rest);
+        if found.is_some() {
+            return found;
         }
     }
     let accepted = |condensed: &mut Condensed, rest| accepted(condensed, &at, rest);
@@ -85,7 +85,7 @@ impl Progress {
 }
 
 /// Whether forces are inside their cones and gaps open, nearly: what is far outside needs no judge.
-pub(super) fn is_admissible(problem: &Scaled, at: &Iterate, (u, forces): &Rest) -> bool {
+fn is_admissible(problem: &Scaled, at: &Iterate, (u, forces): &Rest) -> bool {
     let (force, length) = at.sizes();
     let points = problem.points.iter().zip(forces);
     points.into_iter().all(|(point, (t_n, t_t))| {
