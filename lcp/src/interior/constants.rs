@@ -131,7 +131,19 @@ pub(super) const HELD_SMOOTH: f64 = 1e-8;
 /// Where gaps and forces are complementary to this, relative to the largest force, the equations of the states may do
 /// the rest. Measured there: mostly with the first, some with the last.
 pub(super) const SETTLED: [f64; 3] = [1e-7, 1e-9, 1e-11];
-/// The same of rigid bodies, for which convex programs do the rest. Measured on settlements of rigid walls of 2300 bricks:
+/// Forces outside their cones and gaps closed by more than this part of the largest are not worth a judge. Chosen.
+pub(super) const ADMISSIBLE: f64 = 1e-7;
+/// Steps in which the residual has to be halved on the way there. Measured on tilted and settling walls of 1000 bricks: where
+/// it was not, it never fell below a hundredth in 45; ways that ended took 10 to 40.
+pub(super) const SETTLING: usize = 12;
+/// Stiffness of closed contacts in these equations, and of springs that hold every displacement, relative to that of the
+/// bodies. Rounding: the first times the last digit must be far below the second, or loose bodies fly off. Measured on
+/// walls of 4000 bricks.
+pub(super) const STIFF_CLOSED: f64 = 1e4;
+/// See [`STIFF_CLOSED`].
+pub(super) const HELD_CLOSED: f64 = 1e-9;
+
+/// Where smooth friction of rigid bodies has come to this, relative to the largest force, convex programs do the rest. Measured on settlements of rigid walls of 2300 bricks:
 /// from 1e-3, 1e-5 and 1e-7 all are found; smooth friction often creeps below 1e-5.
 pub(super) const NEARLY_SETTLED: f64 = 1e-5;
 /// Gaps up to this multiple of their normal force are closed, where such programs begin; lengths and forces are those of the
@@ -151,22 +163,11 @@ pub(super) const KEPT: f64 = 1e-6;
 pub(super) const REACH: f64 = 1e4;
 /// Accuracy of the forces that balance the loads then, relative to the largest. Rounding.
 pub(super) const BALANCED: f64 = 1e-12;
-/// The same that keeps bodies where all gaps are closed exactly, relative to the stiffness of contacts. Rounding: errors
+/// Stiffness that keeps bodies where they are while all gaps are closed exactly, relative to the stiffness of contacts. Rounding: errors
 /// are multiplied by its inverse.
 pub(super) const KEPT_EXACTLY: f64 = 1e-9;
 /// Refinements of that. Chosen: each reduces the gaps by several powers of ten.
 pub(super) const REFINED: usize = 4;
-/// Forces outside their cones and gaps closed by more than this part of the largest are not worth a judge. Chosen.
-pub(super) const ADMISSIBLE: f64 = 1e-7;
-/// Steps in which the residual has to be halved on the way there. Measured on tilted and settling walls of 1000 bricks: where
-/// it was not, it never fell below a hundredth in 45; ways that ended took 10 to 40.
-pub(super) const SETTLING: usize = 12;
-/// Stiffness of closed contacts in these equations, and of springs that hold every displacement, relative to that of the
-/// bodies. Rounding: the first times the last digit must be far below the second, or loose bodies fly off. Measured on
-/// walls of 4000 bricks.
-pub(super) const STIFF_CLOSED: f64 = 1e4;
-/// See [`STIFF_CLOSED`].
-pub(super) const HELD_CLOSED: f64 = 1e-9;
 
 /// The first viscosity of a motion, relative to the stiffness. Measured on settlements of walls of 100 to 1000 bricks.
 pub(super) const FIRST_VISCOSITY: f64 = 1e-4;

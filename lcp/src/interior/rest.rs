@@ -17,7 +17,8 @@ const REFINEMENTS: usize = 10;
 /// until one is `accepted`. `go_on` is asked before every step, with the residual.
 ///
 /// Where the bodies move hardly farther than friction needs to turn, what vanishes with that slip is no movement: then
-/// friction turns over the slip that is `wanted` for these displacements.
+/// friction turns over the slip that is `wanted` for these displacements. What that leaves open of rigid bodies,
+/// [`rigid_rest`] decides.
 pub(super) fn settled<T>(
     problem: &Scaled,
     condensed: &mut Condensed,
