@@ -4,8 +4,8 @@
 use faer::sparse::FaerError;
 
 use super::constants::{
-    AWAY, BACK, CENTRAL, COMPLIANCE, CORRECTORS, LEAST_AIM, LOADS, LONG_ENOUGH, LONGER, NO_STEP,
-    PATIENCE, PROVED, ROUNDING, STRICTER,
+    AWAY, BACK, CENTRAL, COMPLIANCE, CORRECTORS, LEAST_AIM, LONG_ENOUGH, LONGER, NO_STEP, PATIENCE,
+    PROVED, ROUNDING, STRICTER,
 };
 use super::program::Program;
 use crate::Status;
@@ -64,9 +64,9 @@ impl Accuracy {
         Self { pairs: 10.0 * tolerance.sqrt(), ..Self::of_all(tolerance) }
     }
 
-    /// The same where forces may be far larger than the loads that they balance.
-    pub(super) fn of_loads(tolerance: f64) -> Self {
-        Self { loads: LOADS, ..Self::of_products(tolerance) }
+    /// The same with the balance relative to a multiple of the largest load, where forces may be far larger.
+    pub(super) fn of_loads(self, loads: f64) -> Self {
+        Self { loads, ..self }
     }
 }
 

@@ -3,7 +3,7 @@
 use faer::sparse::SparseColMat;
 
 use super::InteriorPoint;
-use super::constants::ROW_ROUNDING;
+use super::constants::{LOADS, ROW_ROUNDING};
 use super::homogeneous::{Accuracy, Factors, solved};
 use super::program::Program;
 use crate::active::unplanned;
@@ -82,7 +82,7 @@ impl InteriorPoint {
         let original = |u: &[f64]| -> Vec<f64> {
             u.iter().zip(&units.column).map(|(u, d)| u * d * units.length).collect()
         };
-        let accuracy = Accuracy::of_loads(settings.tolerance);
+        let accuracy = Accuracy::of_products(settings.tolerance).of_loads(LOADS);
         let stop = |residual| monitor.stop(residual);
         let is_proof = |u: &[f64]| is_proof_of(columns(a), &loads, &against(&original(u)));
         let (at, status) =

@@ -3,8 +3,8 @@
 use faer::sparse::FaerError;
 
 use super::constants::{
-    CREEPING, FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS, SAME_LENGTH,
-    SLOWER, SOFTEST,
+    AS_FREE, CREEPING, FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS, MOVED,
+    SAME_LENGTH, SLOWER, SOFTEST,
 };
 use super::homogeneous::{Accuracy, Factors, solved};
 use super::program::{Program, associated};
@@ -55,7 +55,7 @@ impl Motions {
         for (x_0, (point, mu)) in edges.x_0.iter_mut().zip(problem.edges()) {
             *x_0 = point.x_0 + mu * point.s_0;
         }
-        let accuracy = Accuracy::of_all(accuracy);
+        let accuracy = Accuracy::of_all(accuracy).of_loads(MOVED / accuracy);
         let (moved, status) = solved(edges, factors, (viscosity, accuracy), stop, |_| false);
         let forces = problem.of_edges(moved.t.iter().copied());
         (status == Status::Solved).then_some(Moved { forces, u: moved.u })
@@ -90,12 +90,22 @@ pub(super) struct Viscosity {
     same: usize,
     /// The length of that one.
     first: f64,
+    /// Length times viscosity of the last motion with more viscosity.
+    resisted: f64,
 }
 
 impl Default for Viscosity {
     fn default() -> Self {
         let (last, first) = (f64::INFINITY, f64::INFINITY);
-        Self { value: FIRST_VISCOSITY, last, longest: 0.0, held: None, same: 0, first }
+        Self {
+            value: FIRST_VISCOSITY,
+            last,
+            longest: 0.0,
+            held: None,
+            same: 0,
+            first,
+            resisted: first,
+        }
     }
 }
 
@@ -139,6 +149,17 @@ impl Viscosity {
         self.held.is_some()
     }
 
+    /// Whether a motion is about as long as the last one.
+    pub(super) fn is_as_long(&self, length: f64) -> bool {
+        length > AS_FREE * self.last
+    }
+
+    /// Whether the last motion is longer than that with more viscosity by about the factor between the two: then nothing
+    /// else resists it.
+    pub(super) fn goes_on(&self) -> bool {
+        self.value * self.last > AS_FREE * self.resisted
+    }
+
     /// Takes motions of the same length for those of bodies that something soft resists.
     pub(super) fn release(&mut self) {
         (self.held, self.same) = (None, 0);
@@ -146,6 +167,7 @@ impl Viscosity {
 
     /// For the next motion.
     pub(super) fn decrease(&mut self) {
+        self.resisted = self.value * self.last;
         self.value /= LESS_VISCOUS;
     }
 

@@ -76,7 +76,7 @@ impl<'a, 'b> Moving<'a, 'b> {
         }
         let mut motions =
             Motions::of(&self.search.scaled).map_err(|it| unplanned(Method::Interior, it))?;
-        let load: f64 = self.search.scaled.f.iter().map(|f| f.abs()).sum();
+        let load = length(&self.search.scaled.f);
         let (mut viscosity, mut tries, mut is_last) = (Viscosity::default(), 0, false);
         // Where the motions with the present viscosity began.
         let mut since = self.at.clone();
@@ -91,13 +91,14 @@ impl<'a, 'b> Moving<'a, 'b> {
                 }
                 continue;
             };
-            let length: f64 = velocity.iter().map(|v| v.abs()).sum();
+            let length = length(&velocity);
             viscosity.follow(length);
             path.stiffness.push(viscosity.value);
             path.shares.push(if load > 0.0 { viscosity.value * length / load } else { length });
             path.motion = self.search.scaled.displacements(&velocity);
             if viscosity.is_steady() {
-                let mechanism = || self.mechanism(&mut motions, viscosity.value, (&since, is_last));
+                let go_on = is_last || viscosity.goes_on();
+                let mechanism = || self.mechanism(&mut motions, &viscosity, (&since, go_on));
                 if let Some(mechanism) = (!viscosity.creeps()).then(mechanism).flatten() {
                     path.motion = self.search.scaled.displacements(&mechanism);
                     let stopped = self.limit.filter(|it| *it != Status::IterationLimit);
@@ -241,15 +242,16 @@ impl<'a, 'b> Moving<'a, 'b> {
     }
 
     /// How bodies flow whose motions have been of the same length `since` they were there; `None` where a soft spring or a
-    /// stop still resists, so that they may come to rest. With the last viscosity only a stop ahead can.
+    /// stop still resists, so that they may come to rest, or where an exact motion is shorter. What the motions keep apart
+    /// is no stop where they `go_on` with less viscosity.
     ///
     /// A mechanism that does not change is followed until it is exact. Blocks that hit each other change it for ever: then
     /// it is the mean of the motions, without what strains bodies and closes contacts.
     fn mechanism(
         &mut self,
         motions: &mut Motions,
-        viscosity: f64,
-        (since, is_last): (&[f64], bool),
+        viscosity: &Viscosity,
+        (since, go_on): (&[f64], bool),
     ) -> Option<Vec<f64>> {
         let total = difference(&self.at, since);
         let largest = self.forces.iter().fold(0.0_f64, |max, (t_n, _)| max.max(*t_n));
@@ -263,28 +265,31 @@ impl<'a, 'b> Moving<'a, 'b> {
         let is_stopped = |(point, is_closed): (Point<'_>, &bool)| {
             let (gap, rate) = (point.gap(&self.at), point.moved(&mean).0);
             let is_ahead = !is_closed && point.x_0 > 0.0;
-            let comes_nearer = !is_last && rate < point.moved(&total).0 - depth;
+            let comes_nearer = !go_on && rate < point.moved(&total).0 - depth;
             comes_nearer || is_ahead && gap + AHEAD * rate < 0.0
         };
         if left < FREE * square(&total) || scaled.points.iter().zip(&closed).any(is_stopped) {
             return None;
         }
-        let (mut last, mut change) = (self.motion(motions, (viscosity, STEADY)), f64::INFINITY);
+        let mut last = self.motion(motions, (viscosity.value, STEADY))?;
+        if !viscosity.is_as_long(length(&last)) {
+            return None;
+        }
+        let mut change = f64::INFINITY;
         for _ in 1..STEADY_MOTIONS {
-            let (Some(before), Some(velocity)) = (last, self.motion(motions, (viscosity, STEADY)))
-            else {
+            let Some(velocity) = self.motion(motions, (viscosity.value, STEADY)) else {
                 return Some(mean);
             };
-            let changed = max_abs(&difference(&velocity, &before)) / max_abs(&velocity);
+            let changed = max_abs(&difference(&velocity, &last)) / max_abs(&velocity);
             if changed > STEADIER * change {
                 return Some(mean);
             }
-            (last, change) = (Some(velocity), changed);
+            (last, change) = (velocity, changed);
             if change <= STEADY {
                 break;
             }
         }
-        last
+        Some(last)
     }
 
     /// Where the bodies were when the last motion ended.
@@ -340,6 +345,10 @@ fn at_rest(
 
 fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+fn length(v: &[f64]) -> f64 {
+    v.iter().map(|v| v.abs()).sum()
 }
 
 fn square(v: &[f64]) -> f64 {
