@@ -96,6 +96,19 @@ fn walls_on_which_the_first_attempt_jams_stand() {
     }
 }
 
+/// Walls of 1040 bricks near their limit, where forces are far larger than loads and single contacts come and go: neither hides
+/// that the bricks flow.
+#[cfg(feature = "long-tests")]
+#[test]
+fn walls_near_their_limit_flow() {
+    for mu in [0.6, 1.0] {
+        let limit = Wall { courses: 32, mu, mesh: None }.largest_tilt();
+        let wall = Wall { courses: 32, mu, mesh: Some([2, 1]) };
+        let found = verdict_of(&wall, Case::Tilt(0.99), limit);
+        assert_eq!(found, (Verdict::Falls, Evidence::Motion), "mu {mu}");
+    }
+}
+
 /// Rigid walls of 2328 bricks, in which contacts near rest cannot all be closed at once.
 #[cfg(feature = "long-tests")]
 #[test]

@@ -138,13 +138,17 @@ impl<'a, 'b> Moving<'a, 'b> {
 
     /// Rest without a motion, or the solution of the problem itself next to it.
     fn rest_at_once(&mut self, reductions: &[f64], slips: &[f64]) -> Option<(Way, Found)> {
+        let smooth = slips.first().and_then(|slip| self.rest(*slip, true));
+        if smooth.is_some() || self.limit.is_some() {
+            return smooth.map(|found| (Way::SmoothFriction, found));
+        }
         for reduction in reductions {
             let found = self.with_reduced_friction(*reduction);
             if found.is_some() || self.limit.is_some() {
                 return found.map(|found| (Way::ReducedFriction, found));
             }
         }
-        slips.first().and_then(|slip| self.rest(*slip, true)).map(|it| (Way::SmoothFriction, it))
+        None
     }
 
     /// The solution with coefficients of friction that are smaller by this part, whose forces are inside the cones of the

@@ -29,7 +29,7 @@ const FEW: usize = 2000;
 pub(crate) const STEPS_BEFORE_PROOF: usize = 40;
 /// With friction a motion follows after so many steps of the interior points. Measured: walls of 1000 bricks near their
 /// limit take up to 116.
-pub(crate) const STEPS_BEFORE_MOTION: usize = 130;
+pub(crate) const STEPS_BEFORE_MOTION: usize = 120;
 /// The same from one step of a history to the next, where rest after a motion costs less than the path.
 pub(crate) const STEPS_BETWEEN: usize = 45;
 /// The parts by which friction is reduced where the path has jammed. Measured on open bases of 1000 bricks with friction
@@ -39,8 +39,9 @@ pub(crate) const REDUCTIONS: [f64; 1] = [1e-3];
 /// of 10 courses on open bases: they rest with the second or the third. One as long as the way would hold blocks by forces
 /// that no loading leads to.
 pub(crate) const SLIPS_FROM_NOTHING: [f64; 3] = [1e-3, 1e-2, 1e-1];
-/// Steps of such a motion. Measured: walls of 1000 bricks that come to rest take 60 to 200, those that flow 200 to 500.
-pub(crate) const STEPS_OF_MOTION: usize = 600;
+/// Steps of such a motion. Measured: walls of 1000 bricks that come to rest take 60 to 200, those that flow 200 to 500, and
+/// walls of 10 000 bricks up to 800.
+pub(crate) const STEPS_OF_MOTION: usize = 1000;
 /// How long the last route may take, which seldom has an answer where the others have none.
 const LAST_RESORT: Duration = Duration::from_secs(10);
 

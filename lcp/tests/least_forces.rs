@@ -1,0 +1,48 @@
+//! Forces of least size that balance loads: two struts that are nearly in line, whose forces are thousands of loads.
+
+use std::ops::ControlFlow;
+
+use faer::sparse::{SparseColMat, Triplet};
+use lcp::{InteriorPoint, LeastForces, Status};
+
+/// Two struts that rise at an angle from a load between them; they can push and not pull.
+fn carried(angle: f64, load: [f64; 2]) -> LeastForces {
+    let (sin, cos) = angle.sin_cos();
+    let entries = [(0, 0, cos), (1, 0, sin), (0, 1, -cos), (1, 1, sin)];
+    let entries = entries.map(|(row, column, value)| Triplet::new(row, column, value));
+    let struts = SparseColMat::try_new_from_triplets(2, 2, &entries).expect("a sound matrix");
+    InteriorPoint::default()
+        .least_forces(&struts, &load, &mut |_| ControlFlow::Continue(()))
+        .expect("finite data")
+}
+
+#[test]
+fn the_balance_is_measured_by_the_load_where_forces_are_far_larger() {
+    for angle in [1.0, 1e-1, 1e-2, 1e-3, 1e-4] {
+        for load in [1.0, 1e-9, 1e9] {
+            let found = carried(angle, [0.0, -load]);
+            assert_eq!(found.status, Status::Solved, "{angle}, {load}");
+            let force = load / (2.0 * angle.sin());
+            let along = (found.t[0] - found.t[1]) * angle.cos();
+            let across = (found.t[0] + found.t[1]) * angle.sin() - load;
+            // A hundred tolerances; rounding leaves some last digits of the forces.
+            let lacks = along.abs().max(across.abs());
+            assert!(lacks <= 1e-8 * load + 1e-14 * force, "{angle}, {load}: {lacks}");
+            assert!(found.t.iter().all(|t| (t - force).abs() <= 1e-7 * force), "{:?}", found.t);
+        }
+    }
+}
+
+#[test]
+fn struts_that_would_have_to_pull_are_proved_to_carry_nothing() {
+    for angle in [1.0, 1e-2, 1e-4] {
+        for load in [1.0, 1e-9, 1e9] {
+            let found = carried(angle, [0.0, load]);
+            assert_eq!(found.status, Status::Infeasible, "{angle}, {load}");
+            // A motion against which no strut pushes, and on which the load does work.
+            let [x, y] = [found.u[0], found.u[1]];
+            let (sin, cos) = angle.sin_cos();
+            assert!(y > 0.0 && sin * y - cos * x.abs() >= -1e-12, "{:?}", found.u);
+        }
+    }
+}
