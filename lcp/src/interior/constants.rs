@@ -143,8 +143,9 @@ pub(super) const STIFF_CLOSED: f64 = 1e4;
 /// See [`STIFF_CLOSED`].
 pub(super) const HELD_CLOSED: f64 = 1e-9;
 
-/// Where smooth friction of rigid bodies has come to this, relative to the largest force, convex programs do the rest. Measured on settlements of rigid walls of 2300 bricks:
-/// from 1e-3, 1e-5 and 1e-7 all are found; smooth friction often creeps below 1e-5.
+/// Where smooth friction of rigid bodies has come to this, relative to the largest force, convex programs do the rest.
+/// Measured on settlements of rigid walls of 2300 bricks: from 1e-3, 1e-5 and 1e-7 all are found; smooth friction often
+/// creeps below 1e-5.
 pub(super) const NEARLY_SETTLED: f64 = 1e-5;
 /// Gaps up to this multiple of their normal force are closed, where such programs begin; lengths and forces are those of the
 /// scaled problem. Measured there: with 1e-5 and 1e-2 all are found.
@@ -163,8 +164,8 @@ pub(super) const KEPT: f64 = 1e-6;
 pub(super) const REACH: f64 = 1e4;
 /// Accuracy of the forces that balance the loads then, relative to the largest. Rounding.
 pub(super) const BALANCED: f64 = 1e-12;
-/// Stiffness that keeps bodies where they are while all gaps are closed exactly, relative to the stiffness of contacts. Rounding: errors
-/// are multiplied by its inverse.
+/// Stiffness that keeps bodies where they are while all gaps are closed exactly, relative to the stiffness of contacts.
+/// Rounding: errors are multiplied by its inverse.
 pub(super) const KEPT_EXACTLY: f64 = 1e-9;
 /// Refinements of that. Chosen: each reduces the gaps by several powers of ten.
 pub(super) const REFINED: usize = 4;
@@ -194,7 +195,8 @@ pub(super) const SAME_LENGTH: f64 = 0.9;
 /// How many times. Chosen.
 pub(super) const FLOWING: usize = 4;
 /// Where viscosity takes this part at least of the load that it took when it was larger, nothing else resists the bodies.
-/// Measured on tilted walls of 1000 bricks: 0.8 and more where they flow freely, a third or less where they do not.
+/// Measured on tilted walls of 1000 bricks: 0.8 and more where they flow freely, a third or less where they do not. An exact
+/// motion of bodies that flow has at least this part of the length of the last one; chosen.
 pub(super) const AS_FREE: f64 = 0.5;
 /// Of such motions this part at least must be left when closed contacts and a stiffness of [`SOFTEST`] resist them. Measured
 /// on tilted walls of 1000 bricks that flow: 0.93 and more; a body that moves against a spring or to a stop has next to
