@@ -29,7 +29,7 @@ pub use settings::{EvolutionSettings, InteriorPointSettings};
 
 use balance::{Balance, balance};
 use constants::{
-    ATTEMPTS, BALANCE_TOLERANCE, HELD, MORE, NEAR, NEARER, NO_STEP, PATIENCE, SURE, WIDTH,
+    BALANCE_TOLERANCE, HELD, MORE, NEAR, NEARER, NO_STEP, PATIENCE, PATIENCE_AT_FIRST, SURE, WIDTH,
 };
 use continuation::End;
 use iterate::{Defect, Iterate};
@@ -145,10 +145,11 @@ impl Run<'_, '_> {
         let is_tried = self.search.try_start(&self.settings.start)
             || self.search.try_rest(self.settings.crossover);
         let (mut status, mut springs) = (is_tried.then_some(Status::Solved), None);
-        let attempts = if status.is_none() { &ATTEMPTS[..self.settings.attempts] } else { &[] };
-        for &(opened, patience) in attempts {
+        let openings = if status.is_none() { &self.settings.openings[..] } else { &[] };
+        for &opening in openings {
+            let patience = if opening > 0.0 { PATIENCE } else { PATIENCE_AT_FIRST };
             let Search { scaled, condensed, .. } = &mut self.search;
-            let at = start_opened(scaled, condensed, opened);
+            let at = start_opened(scaled, condensed, opening);
             status = Some(self.iterate(at, patience, set_out));
             if status != Some(Status::Stalled) {
                 break;

@@ -300,10 +300,10 @@ fn what_is_no_standard_problem_is_refused_with_a_remedy() {
 #[test]
 fn limits_are_kept_and_leave_the_best_point() {
     let problem = Obstacle::new(20, 20, Ground::Hills { count: 2 }).problem();
-    for attempts in [0, 4] {
-        let wrong = InteriorPointSettings { attempts, ..default() };
+    for openings in [vec![], vec![0.0, -1.0], vec![f64::NAN]] {
+        let wrong = InteriorPointSettings { openings, ..default() };
         let error = InteriorPoint::new(wrong).solve(&problem).unwrap_err();
-        assert!(matches!(error, Error::Setting { name: "attempts", .. }), "{error}");
+        assert!(matches!(error, Error::Setting { name: "openings", .. }), "{error}");
     }
     let run = |settings| InteriorPoint::new(settings).solve(&problem).unwrap();
     let few = run(InteriorPointSettings { max_iterations: 2, ..default() });

@@ -29,11 +29,15 @@ pub(super) const HALF: f64 = 0.5;
 /// No start is opened more often. Chosen.
 pub(super) const OPENINGS: usize = 8;
 
-/// Starts, one after the other: by which multiple of the largest gap all are opened, and after how many steps without a
-/// reduction the attempt is left. Measured on walls of 1000 bricks: where gaps are not opened, those that are easy take a
-/// third less steps, and attempts that end are never held up for more than twenty steps; where they are, by 1e3 or 1e4, walls near
-/// their limit and on open bases are solved in 35 to 80 steps, on which all other attempts jam, whatever the friction.
-pub(super) const ATTEMPTS: [(f64, usize); 3] = [(0.0, 20), (1e4, PATIENCE), (1e3, PATIENCE)];
+/// By which multiple of the largest gap starts are opened, one after the other. Measured on walls of 1000 bricks: where gaps
+/// are not opened, those that are easy take a third less steps; where they are, by 1e3 or 1e4, walls near their limit and on
+/// open bases are solved in 35 to 80 steps, on which all other attempts jam, whatever the friction.
+pub(super) const STARTS: [f64; 3] = [0.0, 1e4, 1e3];
+/// The same where friction is reduced. Measured there: the first solves all but one of those on which the path has jammed.
+pub(super) const REDUCED_STARTS: [f64; 2] = [1e4, 0.0];
+/// Steps without a reduction after which an attempt from a start that is not opened is left. Measured there: with 12 one wall
+/// is not solved that is with 15, with 20 those that jam take up to 15 more.
+pub(super) const PATIENCE_AT_FIRST: usize = 15;
 /// Least product of a pair, relative to the mean. Measured on walls: with 0.01 and 0.3 some are solved and others not.
 pub(super) const WIDTH: f64 = 0.1;
 /// Part of the longest step that is taken. Theory: it must stay inside; the usual value of predictor and corrector.

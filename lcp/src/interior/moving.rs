@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use super::constants::{
-    AHEAD, FIRST_VISCOSITY, FREE, LAST_TRIES, LEAST_VISCOSITY, MOST_VISCOSITY, MOVED, STEADIER,
-    STEADY, STEADY_MOTIONS, THROUGH, TRIES,
+    AHEAD, FIRST_VISCOSITY, FREE, LAST_TRIES, LEAST_VISCOSITY, MOST_VISCOSITY, MOVED,
+    REDUCED_STARTS, STEADIER, STEADY, STEADY_MOTIONS, THROUGH, TRIES,
 };
 use super::evolved::{Evolved, Way};
 use super::iterate::{Iterate, Rest};
@@ -142,8 +142,9 @@ impl<'a, 'b> Moving<'a, 'b> {
         if smooth.is_some() || self.limit.is_some() {
             return smooth.map(|found| (Way::SmoothFriction, found));
         }
-        for reduction in reductions {
-            let found = self.with_reduced_friction(*reduction);
+        let starts = |part: &f64| REDUCED_STARTS.map(|opening| (*part, opening));
+        for start in reductions.iter().flat_map(starts) {
+            let found = self.with_reduced_friction(start);
             if found.is_some() || self.limit.is_some() {
                 return found.map(|found| (Way::ReducedFriction, found));
             }
@@ -151,14 +152,14 @@ impl<'a, 'b> Moving<'a, 'b> {
         None
     }
 
-    /// The solution with coefficients of friction that are smaller by this part, whose forces are inside the cones of the
-    /// problem; or that of the problem with the same states of contacts.
-    fn with_reduced_friction(&mut self, part: f64) -> Option<Found> {
+    /// The solution with coefficients of friction that are smaller by this part, from a start with this opening, whose forces
+    /// are inside the cones of the problem; or that of the problem with the same states of contacts.
+    fn with_reduced_friction(&mut self, (part, opening): (f64, f64)) -> Option<Found> {
         let Self { problem, tolerance, search, monitor, limit, dissipation, .. } = self;
         let settings = InteriorPointSettings {
             tolerance: *tolerance,
             max_iterations: usize::MAX,
-            attempts: 1,
+            openings: vec![opening],
             continuation: false,
             ..InteriorPointSettings::default()
         };

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::constants::{ATTEMPTS, SMOOTH};
+use super::constants::{SMOOTH, STARTS};
 use crate::settings::check_tolerance;
 use crate::{Error, WarmStart};
 
@@ -14,8 +14,9 @@ pub struct InteriorPointSettings {
     /// Steps, each with one factorisation; those of the continuation count too. The systems of the crossover
     /// come on top.
     pub max_iterations: usize,
-    /// Attempts, each from another start, which follow when the one before has jammed. In `1..=3`.
-    pub attempts: usize,
+    /// By which multiple of the largest gap a start is opened: one attempt for each, when the one before has jammed. From
+    /// wide starts easy problems take half as many steps again, but hard ones jam less often. At least one, none negative.
+    pub openings: Vec<f64>,
     /// Wall-clock time, looked at before every step; `None` is no limit.
     pub time_limit: Option<Duration>,
     /// A point or a basis, of the pairs of the general form, that may be the solution of a similar
@@ -33,7 +34,7 @@ impl Default for InteriorPointSettings {
         Self {
             tolerance: 1e-10,
             max_iterations: 300,
-            attempts: ATTEMPTS.len(),
+            openings: STARTS.to_vec(),
             time_limit: None,
             start: WarmStart::None,
             crossover: true,
@@ -49,9 +50,20 @@ impl InteriorPointSettings {
     /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
     pub fn validate(&self, n: usize) -> Result<(), Error> {
         check_tolerance(self.tolerance)?;
-        if !(1..=ATTEMPTS.len()).contains(&self.attempts) {
-            let value = self.attempts as f64;
-            return Err(Error::Setting { name: "attempts", value, range: "1 to 3" });
+        let is_good = |it: &f64| *it >= 0.0 && it.is_finite();
+        if let Some(&value) = self.openings.iter().find(|it| !is_good(it)) {
+            return Err(Error::Setting {
+                name: "openings",
+                value,
+                range: "not negative and finite",
+            });
+        }
+        if self.openings.is_empty() {
+            return Err(Error::Setting {
+                name: "openings",
+                value: 0.0,
+                range: "one number at least",
+            });
         }
         self.start.validate(n)
     }

@@ -47,6 +47,7 @@ impl Method for Interior<'_> {
                 Some(_) => auto::STEPS_BETWEEN,
                 None => auto::STEPS_BEFORE_MOTION,
             });
+            settings.openings.truncate(1);
             settings.continuation = false;
         }
         // Between steps rigid bodies have no path, and where the step before moved this one will.
