@@ -78,6 +78,8 @@ pub(crate) struct Monitor<'a> {
     deadline: Option<Instant>,
     max_iterations: usize,
     observer: &'a mut Observer<'a>,
+    /// Whether the observer has stopped it, which is not asked again.
+    is_cancelled: bool,
     /// The residual at the start and after every iteration.
     pub(crate) history: Vec<f64>,
 }
@@ -90,14 +92,17 @@ impl<'a> Monitor<'a> {
     ) -> Self {
         let began = Instant::now();
         let deadline = deadline_of(began, time_limit);
-        Self { began, deadline, max_iterations, observer, history: Vec::new() }
+        let (is_cancelled, history) = (false, Vec::new());
+        Self { began, deadline, max_iterations, observer, is_cancelled, history }
     }
 
     /// Notes the residual before an iteration; a status where there must be none.
     pub(crate) fn stop(&mut self, residual: f64) -> Option<Status> {
         let iteration = self.history.len();
         self.history.push(residual);
-        if (self.observer)(&Iteration { iteration, residual }).is_break() {
+        self.is_cancelled =
+            self.is_cancelled || (self.observer)(&Iteration { iteration, residual }).is_break();
+        if self.is_cancelled {
             return Some(Status::Cancelled);
         }
         if iteration >= self.max_iterations {

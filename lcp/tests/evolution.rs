@@ -110,6 +110,29 @@ fn reduced_friction_leads_to_the_law_with_the_friction_given() {
     }
 }
 
+/// Flowing blocks take smooth and reduced friction, and motions; wherever the observer stops that, it is not asked again.
+#[test]
+fn who_is_stopped_once_does_not_go_on() {
+    let problem = pushed(&[1.4, 0.3], 0.0);
+    let reductions = vec![1e-3];
+    let evolution = Evolution::new(EvolutionSettings { reductions, ..Default::default() });
+    let mut calls = 0;
+    let whole = evolution.advance_observed(&problem, &[0.0; 4], &mut |_| {
+        calls += 1;
+        ControlFlow::Continue(())
+    });
+    assert_eq!(whole.unwrap().solution.status, Status::NoEquilibrium);
+    assert!(calls > 50, "{calls}");
+    for last in 1..=calls {
+        let mut asked = 0;
+        let stopped = evolution.advance_observed(&problem, &[0.0; 4], &mut |_| {
+            asked += 1;
+            if asked == last { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        assert_eq!((stopped.unwrap().solution.status, asked), (Status::Cancelled, last));
+    }
+}
+
 #[test]
 fn limits_and_wrong_starts_are_told() {
     let problem = pushed(&[1.4], STIFFNESS);

@@ -66,6 +66,12 @@ fn compared(walls: impl Iterator<Item = Tiltable>) -> (usize, Vec<String>) {
             if !stands {
                 assert_eq!(verdict, Verdict::Falls, "{name}: {:#?}", outcome.solve.attempts);
                 assert_eq!(evidence, Evidence::NoAdmissibleForces, "{name}");
+                // No motion is computed of a wall with a proof.
+                let attempts = &outcome.solve.attempts;
+                assert!(
+                    !attempts.iter().any(|it| it.contains("viscosity")),
+                    "{name}: {attempts:#?}"
+                );
                 continue;
             }
             if verdict == Verdict::Falls {

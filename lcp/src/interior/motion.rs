@@ -171,8 +171,9 @@ impl Viscosity {
         self.value /= LESS_VISCOUS;
     }
 
-    /// For a motion that cannot be computed otherwise.
+    /// For a motion that cannot be computed otherwise. The viscosity may be larger now than that of the motion before.
     pub(super) fn increase(&mut self) {
         self.value *= MORE_VISCOUS;
+        self.resisted = f64::INFINITY;
     }
 }

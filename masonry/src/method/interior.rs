@@ -9,11 +9,11 @@
 
 use lcp::{
     ContactState, Evolution, EvolutionSettings, Evolved, Info, InteriorPoint,
-    InteriorPointSettings, Solution, Solver, Status, WarmStart, Way,
+    InteriorPointSettings, Iteration, Solution, Solver, Status, WarmStart, Way,
 };
 
 use super::sparse::Found;
-use super::{Answer, Method, Moved, Observer, Request, RouteError, auto, sparse};
+use super::{Answer, Method, Moved, Observer, Request, RouteError, Step, auto, sparse};
 use crate::method::forms::Sparse;
 use crate::method::info::SolveInfo;
 use crate::scene::Route;
@@ -52,7 +52,7 @@ impl Method for Interior<'_> {
         }
         // Between steps rigid bodies have no path, and where the step before moved this one will.
         let is_hopeless = may_move && self.start.is_some() && (is_rigid || self.way == Way::Motion);
-        let path = if is_hopeless { None } else { Some(self.by_path(settings, observer)?) };
+        let path = if is_hopeless { None } else { Some(self.by_path((settings, 0), observer)?) };
         let path = match path {
             Some(answer) if !may_move || is_over(&answer) => return Ok(answer),
             path => path,
@@ -63,7 +63,7 @@ impl Method for Interior<'_> {
         }
         // The path that did not get far in a few steps may still get there.
         thorough.continuation = moved.info.status != Status::NoEquilibrium;
-        let answer = self.by_path(thorough, observer)?;
+        let answer = self.by_path((thorough, moved.info.iterations), observer)?;
         let says_more =
             answer.info.status == Status::Solved || moved.info.status != Status::NoEquilibrium;
         Ok(if says_more { after(&moved.info, answer) } else { moved })
@@ -71,14 +71,15 @@ impl Method for Interior<'_> {
 }
 
 impl Interior<'_> {
+    /// The answer of the path, after so many other steps.
     fn by_path(
         &self,
-        settings: InteriorPointSettings,
+        (settings, before): (InteriorPointSettings, usize),
         observer: Observer<'_>,
     ) -> Result<Answer, RouteError> {
         let solver = InteriorPoint::new(settings);
-        let solution =
-            solver.solve_observed(&self.sparse.problem, &mut |at| observer(at.into()))?;
+        let problem = &self.sparse.problem;
+        let solution = solver.solve_observed(problem, &mut |at| observer(step(at, before)))?;
         Ok(self.answer(solution))
     }
 
@@ -107,8 +108,9 @@ impl Interior<'_> {
             settings.reductions = auto::REDUCTIONS.to_vec();
             settings.slips = auto::SLIPS_FROM_NOTHING.to_vec();
         }
+        let before = given.as_ref().map_or(0, |given| given.info.iterations);
         let evolved = Evolution::new(settings)
-            .advance_observed(problem, from, &mut |at| observer(at.into()))?;
+            .advance_observed(problem, from, &mut |at| observer(step(at, before)))?;
         let line = described(&evolved);
         let flows = evolved.solution.status == Status::NoEquilibrium;
         let (says_more, is_driven) =
@@ -116,6 +118,9 @@ impl Interior<'_> {
         let Info { iterations, factorisations, .. } = evolved.solution.info;
         let answer = match given {
             Some(mut given) if !says_more => {
+                if evolved.solution.status == Status::Cancelled {
+                    given.info.status = Status::Cancelled;
+                }
                 given.info.iterations += iterations;
                 given.info.factorisations += factorisations;
                 given.info.attempts.push(line);
@@ -142,6 +147,11 @@ impl Interior<'_> {
         let state = problem.state(u, none.clone(), none);
         self.sparse.rows(&state).y.split_off(self.sparse.points())
     }
+}
+
+/// A step after so many others.
+fn step(at: &Iteration, before: usize) -> Step {
+    Step::Iteration { number: before + at.iteration, residual: at.residual }
 }
 
 /// Whether nothing is left to try.
