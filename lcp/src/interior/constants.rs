@@ -35,8 +35,8 @@ pub(super) const OPENINGS: usize = 8;
 pub(super) const STARTS: [f64; 3] = [0.0, 1e4, 1e3];
 /// The same where friction is reduced. Measured there: the first solves all but one of those on which the path has jammed.
 pub(super) const REDUCED_STARTS: [f64; 2] = [1e4, 0.0];
-/// Steps without a reduction after which an attempt from a start that is not opened is left. Measured there: with 12 one wall
-/// is not solved that is with 15, with 20 those that jam take up to 15 more.
+/// Steps without a reduction after which an attempt from a start that is not opened is left. Measured there: with 12 an open
+/// base is lost that the path solves with 15; with 20 those that jam take up to 15 more.
 pub(super) const PATIENCE_AT_FIRST: usize = 15;
 /// Least product of a pair, relative to the mean. Measured on walls: with 0.01 and 0.3 some are solved and others not.
 pub(super) const WIDTH: f64 = 0.1;
