@@ -5,6 +5,30 @@ use std::ops::ControlFlow;
 use faer::sparse::{SparseColMat, Triplet};
 use lcp::{InteriorPoint, LeastForces, Status};
 
+/// Two struts that rise at an angle from a load between them, and a support of another load beside them; they can push and
+/// not pull.
+fn carried_beside(angle: f64, light: f64) -> LeastForces {
+    let (sin, cos) = angle.sin_cos();
+    let entries = [(0, 0, cos), (1, 0, sin), (0, 1, -cos), (1, 1, sin), (2, 2, 1.0)];
+    let entries = entries.map(|(row, column, value)| Triplet::new(row, column, value));
+    let struts = SparseColMat::try_new_from_triplets(3, 3, &entries).expect("a sound matrix");
+    InteriorPoint::default()
+        .least_forces(&struts, &[0.0, -1.0, -light], &mut |_| ControlFlow::Continue(()))
+        .expect("finite data")
+}
+
+#[test]
+fn a_light_load_is_balanced_to_its_own_last_digits() {
+    for angle in [1.0, 1e-2, 1e-4] {
+        for light in [1e-2, 1e-4, 1e-6] {
+            let found = carried_beside(angle, light);
+            assert_eq!(found.status, Status::Solved, "{angle}, {light}");
+            let error = (found.t[2] - light).abs() / light;
+            assert!(error <= 1e-12, "{angle}, {light}: {error}");
+        }
+    }
+}
+
 /// Two struts that rise at an angle from a load between them; they can push and not pull.
 fn carried(angle: f64, load: [f64; 2]) -> LeastForces {
     let (sin, cos) = angle.sin_cos();

@@ -4,8 +4,8 @@
 use faer::sparse::FaerError;
 
 use super::constants::{
-    AWAY, BACK, CENTRAL, COMPLIANCE, CORRECTORS, LEAST_AIM, LONG_ENOUGH, LONGER, NO_STEP, PATIENCE,
-    PROVED, ROUNDING, STRICTER,
+    AWAY, BACK, BALANCINGS, CENTRAL, COMPLIANCE, CORRECTORS, LEAST_AIM, LONG_ENOUGH, LONGER,
+    NO_STEP, PATIENCE, PROVED, ROUNDING, STRICTER,
 };
 use super::program::Program;
 use crate::Status;
@@ -24,21 +24,48 @@ pub(super) struct Variables {
 /// The matrix of the steps of a program: order, pattern and factors.
 pub(super) struct Factors {
     gram: Gram,
+    /// The springs in the place of the pairs that the factors are of.
+    stiffness: Vec<f64>,
     pub(super) factorisations: usize,
 }
 
 impl Factors {
     pub(super) fn of(program: &Program) -> Result<Self, FaerError> {
         let gram = Gram::new(Some(program.k.symbolic()), program.a.symbolic())?;
-        Ok(Self { gram, factorisations: 0 })
+        Ok(Self { gram, stiffness: Vec::new(), factorisations: 0 })
     }
 
     /// `None` where numbers overflow.
-    fn factorise(&mut self, program: &Program, stiffness: &[f64], spring: f64) -> Option<()> {
+    fn factorise(&mut self, program: &Program, stiffness: Vec<f64>, spring: f64) -> Option<()> {
         let (k, a) = (program.k.as_ref(), program.a.as_ref());
-        self.gram.factorise(Some(k), a, (stiffness, spring)).ok()?;
+        self.gram.factorise(Some(k), a, (&stiffness, spring)).ok()?;
+        self.stiffness = stiffness;
         self.factorisations += 1;
         Some(())
+    }
+
+    /// Makes the forces of a solution of a program without stiffness balance its loads to the last digit of every row, by
+    /// those of the springs of the last step.
+    pub(super) fn balance(&self, program: &Program, t: &mut Vec<f64>) {
+        let lack = |t: &[f64]| {
+            let mut rest = program.f.clone();
+            program.add_forces(t, &mut rest);
+            rest
+        };
+        let mut rest = lack(t);
+        for _ in 0..BALANCINGS {
+            let before = max_abs(&rest);
+            self.gram.solve(&mut rest);
+            let pairs = t.iter().zip(&self.stiffness).zip(program.opened(&rest));
+            let next: Vec<f64> = pairs.map(|((t, s), change)| (t - s * change).max(0.0)).collect();
+            rest = lack(&next);
+            let left = max_abs(&rest);
+            // Where the largest is rounding, the others may still be made good.
+            if left.is_nan() || left > 2.0 * before {
+                break;
+            }
+            *t = next;
+        }
     }
 }
 
@@ -157,14 +184,15 @@ pub(super) fn solved(
 /// A start from the forces that the contacts would carry if they were springs in both directions.
 fn start(program: &Program, factors: &mut Factors, spring: f64) -> Option<Variables> {
     let stiffness: Vec<f64> = program.compliance.iter().map(|c| 1.0 / (1.0 + c)).collect();
-    factors.factorise(program, &stiffness, spring)?;
+    factors.factorise(program, stiffness, spring)?;
+    let stiffness = &factors.stiffness;
     let mut u = program.f.clone();
     let forces = stiffness.iter().zip(&program.x_0).map(|(stiffness, x)| -stiffness * x);
     program.add_forces(&forces.collect::<Vec<f64>>(), &mut u);
     factors.gram.solve(&mut u);
     // Less than the gap by what the force presses together, which is the force of a spring of stiffness one.
     let mut gaps = program.opened(&u);
-    for ((gap, x), stiffness) in gaps.iter_mut().zip(&program.x_0).zip(&stiffness) {
+    for ((gap, x), stiffness) in gaps.iter_mut().zip(&program.x_0).zip(stiffness) {
         *gap = stiffness * (*gap + x);
     }
     let mean = gaps.iter().map(|g| g.abs()).sum::<f64>() / gaps.len().max(1) as f64;
@@ -324,9 +352,8 @@ impl Step {
 /// Newton's equations at a point: those of the problem, bordered by those of `tau` and `kappa`.
 struct Newton<'a> {
     now: &'a Homogeneous<'a>,
-    gram: &'a Gram,
-    /// The springs that Newton's method puts in the place of the pairs.
-    stiffness: Vec<f64>,
+    /// With the springs that Newton's method puts in the place of the pairs.
+    factors: &'a Factors,
     defect: Defect,
     /// The step of `u` and `t` for a step of one of `tau`.
     of_tau: Variables,
@@ -357,7 +384,7 @@ impl<'a> Newton<'a> {
         let Homogeneous { program, spring, at, tau, kappa, strained, .. } = now;
         let pairs = at.t.iter().zip(&at.y).zip(&program.compliance);
         let stiffness: Vec<f64> = pairs.map(|((t, y), c)| 1.0 / (y / t + c + COMPLIANCE)).collect();
-        factors.factorise(program, &stiffness, spring.max(PROXIMAL))?;
+        factors.factorise(program, stiffness, spring.max(PROXIMAL))?;
         let data = program.x_0.iter().zip(&program.compliance).zip(&at.t);
         let by_u = program.f.iter().zip(strained).map(|(f, k)| f - 2.0 * k / tau).collect();
         let by_t = data.map(|((x, c), t)| x + 2.0 * c * t / tau).collect();
@@ -366,8 +393,7 @@ impl<'a> Newton<'a> {
         let none = Variables { u: Vec::new(), t: Vec::new(), y: Vec::new() };
         let mut newton = Self {
             now,
-            gram: &factors.gram,
-            stiffness,
+            factors,
             defect,
             of_tau: none,
             border: (by_u, by_t),
@@ -445,11 +471,12 @@ impl<'a> Newton<'a> {
     /// Steps at `tau` as it is.
     fn held<const N: usize>(&self, aims: &[Aim<'_>; N]) -> [Variables; N] {
         let Homogeneous { program, at, .. } = self.now;
+        let Factors { gram, stiffness, .. } = self.factors;
         let n = at.u.len();
         let mut all = Vec::with_capacity(N * n);
         // Forces that do not depend on the displacements.
         let fixed = aims.each_ref().map(|aim| {
-            let pairs = self.stiffness.iter().zip(aim.targets.iter().zip(&at.t)).zip(aim.gaps);
+            let pairs = stiffness.iter().zip(aim.targets.iter().zip(&at.t)).zip(aim.gaps);
             let force = |((stiffness, (target, t)), gap): ((&f64, (&f64, &f64)), &f64)| {
                 stiffness * (target / t - aim.part * gap)
             };
@@ -459,7 +486,7 @@ impl<'a> Newton<'a> {
             program.add_forces(&fixed, &mut all[begin..]);
             fixed
         });
-        self.gram.solve(&mut all);
+        gram.solve(&mut all);
         let mut at_once = fixed.into_iter().zip(aims).enumerate();
         std::array::from_fn(|_| {
             let Some((place, (mut t, aim))) = at_once.next() else {
@@ -467,7 +494,7 @@ impl<'a> Newton<'a> {
             };
             let u = all[place * n..(place + 1) * n].to_vec();
             let mut y = program.opened(&u);
-            t.iter_mut().zip(&y).zip(&self.stiffness).for_each(|((t, y), s)| *t -= s * y);
+            t.iter_mut().zip(&y).zip(stiffness).for_each(|((t, y), s)| *t -= s * y);
             let data = aim.gaps.iter().zip(&aim.targets).zip(&program.compliance);
             let pairs = at.t.iter().zip(&at.y).zip(&t).zip(data);
             // Of the two equations for `dy` the one that keeps the digits: the second where `t` is the larger one.

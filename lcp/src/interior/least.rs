@@ -85,8 +85,11 @@ impl InteriorPoint {
         let accuracy = Accuracy::of_products(settings.tolerance).of_loads(LOADS);
         let stop = |residual| monitor.stop(residual);
         let is_proof = |u: &[f64]| is_proof_of(columns(a), &loads, &against(&original(u)));
-        let (at, status) =
+        let (mut at, status) =
             solved(&program, &mut factors, (0.0, accuracy), stop, |at| is_proof(&at.u));
+        if status == Status::Solved {
+            factors.balance(&program, &mut at.t);
+        }
         let u = original(&at.u);
         let is_proved = status == Status::Infeasible;
         let u = if is_proved { against(&u).iter().map(|v| -v).collect() } else { u };

@@ -3,6 +3,7 @@
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::perm::PermRef;
+use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymmetricOrdering,
     factorize_symbolic_cholesky,
@@ -31,7 +32,10 @@ impl Cholesky {
     pub(super) fn new(lower: SymbolicSparseColMatRef<'_, usize>) -> Result<Self, FaerError> {
         let (order, place) = minimum_degree(lower)?;
         let ordering = SymmetricOrdering::Custom(PermRef::new_checked(&order, &place, order.len()));
-        let params = CholeskySymbolicParams::default();
+        let params = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            ..Default::default()
+        };
         let symbolic = factorize_symbolic_cholesky(lower, Side::Lower, ordering, params)?;
         let scratch = symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, <_>::default());
         let memory = MemBuffer::try_new(scratch).map_err(|_| FaerError::OutOfMemory)?;
