@@ -13,6 +13,8 @@ mod program;
 mod walls;
 
 use masonry::analysis::solve::solve;
+use masonry::scene::{Brick, Joint, Material, Scene, Support, Wall};
+use masonry::units::{ForceUnit, LengthUnit, Units};
 use masonry::verify::verdict::{Evidence, Verdict};
 
 use program::{Limit, largest_tilt};
@@ -41,6 +43,26 @@ fn verdicts_on_polygons_agree_too() {
     let (scenes, open) = compared((0..12).map(|_| walls::polygons(&mut random)));
     assert!(scenes >= 36, "{scenes} scenes");
     assert_eq!(open, [""; 0]);
+}
+
+/// Rigid blocks with admissible forces do not fall, even if no method meets the tolerance.
+#[test]
+fn a_tolerance_that_nothing_meets_makes_no_wall_fall() {
+    let brick = Brick { length: 0.25, height: 0.125 };
+    for tilt in [0.1, 0.35, 0.39] {
+        let scene = Scene::new("tilted", Units { length: LengthUnit::M, force: ForceUnit::Kn })
+            .thickness(0.25)
+            .gravity([9.81 * tilt, -9.81])
+            .material("brick", Material::rigid().density(1800.0))
+            .joint("bed", Joint::mu(0.4))
+            .joint("head", Joint::mu(0.4))
+            .wall(Wall::running_bond("wall", "brick", brick, 1.0, 4))
+            .support(Support::new("floor", [0.0, 0.0], [1.0, 0.0], "bed"))
+            .tolerance(1e-30);
+        let judgement = solve(&scene).unwrap().judgement;
+        assert_eq!(judgement.verdict, Verdict::Undecided, "{tilt}: {}", judgement.sentence);
+        assert_eq!(judgement.evidence, Evidence::AdmissibleForces, "{tilt}");
+    }
 }
 
 /// The number of scenes, and those without a verdict.

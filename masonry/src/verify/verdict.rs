@@ -109,6 +109,10 @@ impl Judgement {
                     if known.at_rest { Evidence::AdmissibleForces } else { Evidence::Equilibrium };
                 (Verdict::Stands, evidence)
             }
+            // Of blocks at rest such forces say more than a motion, even where they are not exact enough for an answer.
+            Some(Statics::Admissible(_)) if known.at_rest => {
+                (Verdict::Undecided, Evidence::AdmissibleForces)
+            }
             _ if flows(known.info) => (Verdict::Falls, Evidence::Motion),
             Some(Statics::Admissible(_)) => (Verdict::Undecided, Evidence::AdmissibleForces),
             Some(Statics::Open) | None => (Verdict::Undecided, Evidence::None),

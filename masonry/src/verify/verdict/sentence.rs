@@ -78,6 +78,9 @@ fn undecided(known: &Known<'_>, evidence: Evidence, movement: Option<Movement>) 
              balance the loads may exist."
                 .to_owned()
         }
+        (_, Evidence::AdmissibleForces) if known.at_rest => format!(
+            "forces within friction balance the loads, but not to the tolerance of the scene{tried}."
+        ),
         (_, Evidence::AdmissibleForces) => format!(
             "forces within friction balance the loads, but no displacements were found that fit such \
              forces{tried}."
