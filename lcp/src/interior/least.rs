@@ -32,8 +32,9 @@ impl InteriorPoint {
     /// such `t` (Farkas 1902), by the homogeneous problem of Andersen and Ye (1999). Uses the tolerance and the limits of
     /// the settings.
     ///
-    /// The balance holds to the tolerance, relative to the largest force, and to a hundred times it relative to the largest
-    /// load, unless rounding errors of the forces are larger. A force and its multiplier `t + A^T u` may both be
+    /// The iteration ends where the balance holds to the tolerance, relative to the largest force, and to a hundred times it
+    /// relative to the largest load. What is left then is distributed, so that every row is balanced to its last digits, as
+    /// far as rounding errors of the forces allow. A force and its multiplier `t + A^T u` may both be
     /// zero, and come near it together: their smaller one counts by its square.
     ///
     /// # Errors
