@@ -5,6 +5,7 @@ mod constants;
 mod continuation;
 mod evolution;
 mod evolved;
+mod factors;
 mod homogeneous;
 mod iterate;
 mod least;

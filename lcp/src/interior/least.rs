@@ -4,7 +4,8 @@ use faer::sparse::SparseColMat;
 
 use super::InteriorPoint;
 use super::constants::{LOADS, ROW_ROUNDING};
-use super::homogeneous::{Accuracy, Factors, solved};
+use super::factors::Factors;
+use super::homogeneous::{Accuracy, solved};
 use super::program::Program;
 use crate::active::unplanned;
 use crate::certify::is_proof_of;

@@ -6,7 +6,8 @@ use super::constants::{
     AS_FREE, CREEPING, FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS, MOVED,
     SAME_LENGTH, SLOWER, SOFTEST,
 };
-use super::homogeneous::{Accuracy, Factors, solved};
+use super::factors::Factors;
+use super::homogeneous::{Accuracy, solved};
 use super::program::{Program, associated};
 use crate::Status;
 use crate::states::{Condensed, Scaled, Springs};

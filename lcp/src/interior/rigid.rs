@@ -14,7 +14,8 @@
 use super::constants::{
     BALANCED, CLEARLY_CLOSED, CLOSED, KEPT, KEPT_EXACTLY, REACH, REFINED, ROUND, ROUNDS,
 };
-use super::homogeneous::{Accuracy, Factors, Variables, solved};
+use super::factors::Factors;
+use super::homogeneous::{Accuracy, Variables, solved};
 use super::iterate::{Iterate, Rest};
 use super::program::{Program, Units, along};
 use crate::Status;

@@ -4,7 +4,8 @@
 use faer::sparse::{FaerError, SparseColMat};
 
 use super::constants::ROW_ROUNDING;
-use super::homogeneous::{Accuracy, Factors, Variables, solved};
+use super::factors::Factors;
+use super::homogeneous::{Accuracy, Variables, solved};
 use super::program::{Program, Units, assembled};
 use crate::problem::column_of;
 use crate::solve::Monitor;

@@ -1,0 +1,61 @@
+//! The matrix of the steps of a program.
+
+use faer::sparse::FaerError;
+
+use super::constants::BALANCINGS;
+use super::program::Program;
+use crate::sparse::Gram;
+use crate::vector::max_abs;
+
+/// The matrix of the steps of a program: order, pattern and factors.
+pub(super) struct Factors {
+    pub(super) gram: Gram,
+    /// The springs in the place of the pairs that the factors are of.
+    pub(super) stiffness: Vec<f64>,
+    pub(super) factorisations: usize,
+}
+
+impl Factors {
+    pub(super) fn of(program: &Program) -> Result<Self, FaerError> {
+        let gram = Gram::new(Some(program.k.symbolic()), program.a.symbolic())?;
+        Ok(Self { gram, stiffness: Vec::new(), factorisations: 0 })
+    }
+
+    /// `None` where numbers overflow.
+    pub(super) fn factorise(
+        &mut self,
+        program: &Program,
+        stiffness: Vec<f64>,
+        spring: f64,
+    ) -> Option<()> {
+        let (k, a) = (program.k.as_ref(), program.a.as_ref());
+        self.gram.factorise(Some(k), a, (&stiffness, spring)).ok()?;
+        self.stiffness = stiffness;
+        self.factorisations += 1;
+        Some(())
+    }
+
+    /// Makes the forces of a solution of a program without stiffness balance its loads to the last digit of every row, by
+    /// those of the springs of the last step.
+    pub(super) fn balance(&self, program: &Program, t: &mut Vec<f64>) {
+        let lack = |t: &[f64]| {
+            let mut rest = program.f.clone();
+            program.add_forces(t, &mut rest);
+            rest
+        };
+        let mut rest = lack(t);
+        for _ in 0..BALANCINGS {
+            let before = max_abs(&rest);
+            self.gram.solve(&mut rest);
+            let pairs = t.iter().zip(&self.stiffness).zip(program.opened(&rest));
+            let next: Vec<f64> = pairs.map(|((t, s), change)| (t - s * change).max(0.0)).collect();
+            rest = lack(&next);
+            let left = max_abs(&rest);
+            // Where the largest is rounding, the others may still be made good.
+            if left.is_nan() || left > 2.0 * before {
+                break;
+            }
+            *t = next;
+        }
+    }
+}
