@@ -2,7 +2,7 @@
 
 use faer::sparse::FaerError;
 
-use super::constants::BALANCINGS;
+use super::constants::{BALANCINGS, ROUNDING};
 use super::program::Program;
 use crate::sparse::Gram;
 use crate::vector::max_abs;
@@ -44,15 +44,15 @@ impl Factors {
             rest
         };
         let mut rest = lack(t);
+        // The largest does not grow but for rounding; the others are made good beside it.
+        let most = max_abs(&rest).max(ROUNDING * max_abs(t));
         for _ in 0..BALANCINGS {
-            let before = max_abs(&rest);
             self.gram.solve(&mut rest);
             let pairs = t.iter().zip(&self.stiffness).zip(program.opened(&rest));
             let next: Vec<f64> = pairs.map(|((t, s), change)| (t - s * change).max(0.0)).collect();
             rest = lack(&next);
             let left = max_abs(&rest);
-            // Where the largest is rounding, the others may still be made good.
-            if left.is_nan() || left > 2.0 * before {
+            if left.is_nan() || left > most {
                 break;
             }
             *t = next;
