@@ -30,7 +30,7 @@ pub use settings::{EvolutionSettings, InteriorPointSettings};
 
 use balance::{Balance, balance};
 use constants::{
-    BALANCE_TOLERANCE, HELD, MORE, NEAR, NEARER, NO_STEP, PATIENCE, PATIENCE_AT_FIRST, SURE, WIDTH,
+    BALANCE_TOLERANCE, HELD, MORE, NEAR, NEARER, NO_STEP, PATIENCE, PATIENCE_OF_START, SURE, WIDTH,
 };
 use continuation::End;
 use iterate::{Defect, Iterate};
@@ -148,10 +148,9 @@ impl Run<'_, '_> {
         let (mut status, mut springs) = (is_tried.then_some(Status::Solved), None);
         let openings = if status.is_none() { &self.settings.openings[..] } else { &[] };
         for &opening in openings {
-            let patience = if opening > 0.0 { PATIENCE } else { PATIENCE_AT_FIRST };
             let Search { scaled, condensed, .. } = &mut self.search;
             let at = start_opened(scaled, condensed, opening);
-            status = Some(self.iterate(at, patience, set_out));
+            status = Some(self.iterate(at, PATIENCE_OF_START, set_out));
             if status != Some(Status::Stalled) {
                 break;
             }

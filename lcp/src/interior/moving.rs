@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::constants::{
     AHEAD, FIRST_VISCOSITY, FREE, LAST_TRIES, LEAST_VISCOSITY, MOST_VISCOSITY, MOVED,
-    REDUCED_STARTS, STEADIER, STEADY, STEADY_MOTIONS, THROUGH, TRIES,
+    REDUCED_START, STEADIER, STEADY, STEADY_MOTIONS, THROUGH, TRIES,
 };
 use super::evolved::{Evolved, Way};
 use super::iterate::{Iterate, Rest};
@@ -138,28 +138,24 @@ impl<'a, 'b> Moving<'a, 'b> {
 
     /// Rest without a motion, or the solution of the problem itself next to it.
     fn rest_at_once(&mut self, reductions: &[f64], slips: &[f64]) -> Option<(Way, Found)> {
-        let smooth = slips.first().and_then(|slip| self.rest(*slip, true));
-        if smooth.is_some() || self.limit.is_some() {
-            return smooth.map(|found| (Way::SmoothFriction, found));
-        }
-        let starts = |part: &f64| REDUCED_STARTS.map(|opening| (*part, opening));
-        for start in reductions.iter().flat_map(starts) {
-            let found = self.with_reduced_friction(start);
+        for part in reductions {
+            let found = self.with_reduced_friction(*part);
             if found.is_some() || self.limit.is_some() {
                 return found.map(|found| (Way::ReducedFriction, found));
             }
         }
-        None
+        let found = slips.first().and_then(|slip| self.rest(*slip, true));
+        found.map(|found| (Way::SmoothFriction, found))
     }
 
-    /// The solution with coefficients of friction that are smaller by this part, from a start with this opening, whose forces
-    /// are inside the cones of the problem; or that of the problem with the same states of contacts.
-    fn with_reduced_friction(&mut self, (part, opening): (f64, f64)) -> Option<Found> {
+    /// The solution with coefficients of friction that are smaller by this part, whose forces are inside the cones of the
+    /// problem; or that of the problem with the same states of contacts.
+    fn with_reduced_friction(&mut self, part: f64) -> Option<Found> {
         let Self { problem, tolerance, search, monitor, limit, dissipation, .. } = self;
         let settings = InteriorPointSettings {
             tolerance: *tolerance,
             max_iterations: usize::MAX,
-            openings: vec![opening],
+            openings: vec![REDUCED_START],
             continuation: false,
             ..InteriorPointSettings::default()
         };
