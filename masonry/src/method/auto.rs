@@ -30,8 +30,6 @@ pub(crate) const STEPS_BEFORE_PROOF: usize = 40;
 /// With friction, smooth friction and motions follow after so many steps of the interior points from their first start. Measured
 /// on walls of 1000 bricks: what that start solves it solves in up to 60, and smooth friction takes 15 to 45 where it succeeds.
 pub(crate) const STEPS_BEFORE_MOTION: usize = 60;
-/// The same from one step of a history to the next, where rest after a motion costs less than the path.
-pub(crate) const STEPS_BETWEEN: usize = 45;
 /// The parts by which friction is reduced where the path has jammed. Measured on open bases of 1000 bricks with friction
 /// near one, its critical value: with 5e-4 all are solved in 57 to 90 steps; with 1e-3 and 2e-3 one or two are not, and with
 /// 1e-4 they take up to 150.

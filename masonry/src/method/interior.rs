@@ -43,14 +43,15 @@ impl Method for Interior<'_> {
         let is_rigid = problem.stiffness().val().iter().all(|k| k.abs() <= 0.0);
         let mut thorough = settings.clone();
         if may_move {
-            settings.max_iterations = settings.max_iterations.min(match self.start {
-                Some(_) => auto::STEPS_BETWEEN,
-                None => auto::STEPS_BEFORE_MOTION,
-            });
+            // Between steps only the states of the step before are tried.
+            settings.max_iterations = match self.start {
+                Some(_) => 0,
+                None => settings.max_iterations.min(auto::STEPS_BEFORE_MOTION),
+            };
             settings.openings.truncate(1);
             settings.continuation = false;
         }
-        // Between steps rigid bodies have no path, and where the step before moved this one will.
+        // Rigid bodies have other states in every step, and where the step before moved this one will.
         let is_hopeless = may_move && self.start.is_some() && (is_rigid || self.way == Way::Motion);
         let path = if is_hopeless { None } else { Some(self.by_path((settings, 0), observer)?) };
         let path = match path {
@@ -105,8 +106,10 @@ impl Interior<'_> {
             ..EvolutionSettings::default()
         };
         if self.start.is_none() {
-            settings.reductions = auto::REDUCTIONS.to_vec();
             settings.slips = auto::SLIPS_FROM_NOTHING.to_vec();
+            // Where the path creeps but has not jammed, smooth friction rests sooner.
+            let creeps = given.as_ref().is_some_and(|it| it.info.status == Status::IterationLimit);
+            settings.reductions = if creeps { Vec::new() } else { auto::REDUCTIONS.to_vec() };
         }
         let before = given.as_ref().map_or(0, |given| given.info.iterations);
         let evolved = Evolution::new(settings)
