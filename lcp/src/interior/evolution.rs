@@ -16,13 +16,14 @@ use crate::{Contact2d, Error, Method, Observer};
 /// method finds, since its law relates total slips. Bodies do not solve it: they move, and friction opposes the velocity
 /// at every moment. Four ways lead to a state at rest, one after the other ([`Way`](crate::Way)):
 ///
-/// 1. **Smooth friction.** Gaps and normal forces are complementary as always, but friction turns over a slip `e`, a
+/// 1. **Reduced friction**, where settings say so. The law as given, but with coefficients of friction that are smaller by a
+///    thousandth, say. Walls on which interior points jam are often solved with them. The forces are inside the friction cones
+///    of the problem.
+/// 2. **Smooth friction.** Gaps and normal forces are complementary as always, but friction turns over a slip `e`, a
 ///    thousandth of the displacements, or as long as they are: `(mu t_n + t_t) s_+ = (mu t_n - t_t) s_- = e mu t_n`. These
 ///    equations have a smooth path of interior points, and forces inside the friction cones.
-/// 2. **The law itself**, from the states of the contacts that this leads to, as in
+/// 3. **The law itself**, from the states of the contacts that this leads to, as in
 ///    [`InteriorPoint`](crate::InteriorPoint).
-/// 3. **Reduced friction.** The law as given, but with coefficients of friction that are smaller by a thousandth, say. Walls
-///    on which interior points jam are often solved with them. The forces are inside the friction cones of the problem.
 /// 4. **Motion.** The bodies move against a viscosity `eta` from displacements `u_k` to
 ///
 ///    ```text

@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use super::constants::{
-    AHEAD, FIRST_VISCOSITY, FREE, LAST_TRIES, LEAST_VISCOSITY, MOST_VISCOSITY, MOVED,
-    REDUCED_START, STEADIER, STEADY, STEADY_MOTIONS, THROUGH, TRIES,
+    AHEAD, FIRST_VISCOSITY, FREE, LAST_TRIES, LEAST_VISCOSITY, LONGER_SETTLING, MOST_VISCOSITY,
+    MOVED, REDUCED_START, SETTLING, STEADIER, STEADY, STEADY_MOTIONS, THROUGH, TRIES,
 };
 use super::evolved::{Evolved, Way};
 use super::iterate::{Iterate, Rest};
@@ -42,6 +42,8 @@ pub(super) struct Moving<'a, 'b> {
     /// Where the last motion ended, and its forces by contact point.
     at: Vec<f64>,
     forces: Vec<(f64, f64)>,
+    /// Steps in which a residual has to be halved where rest is looked for.
+    patience: usize,
     /// What has stopped it.
     limit: Option<Status>,
     /// In units of the scaled problem.
@@ -59,8 +61,19 @@ impl<'a, 'b> Moving<'a, 'b> {
         let at = search.scaled.of_displacements(from);
         let forces = vec![(0.0, 0.0); problem.points()];
         let origin = at.clone();
-        let (limit, dissipation) = (None, 0.0);
-        Self { problem, tolerance, search, monitor, origin, at, forces, limit, dissipation }
+        let (patience, limit, dissipation) = (SETTLING, None, 0.0);
+        Self {
+            problem,
+            tolerance,
+            search,
+            monitor,
+            origin,
+            at,
+            forces,
+            patience,
+            limit,
+            dissipation,
+        }
     }
 
     /// Moves the bodies until they rest or flow; rest without a motion is looked for first if that is wanted.
@@ -181,14 +194,16 @@ impl<'a, 'b> Moving<'a, 'b> {
     /// there; or the solution of the problem itself next to it, where that is wanted.
     fn rest(&mut self, part: f64, by_law: bool) -> Option<Found> {
         let size = max_abs(&start(&self.search.scaled, &mut self.search.condensed, PROXIMAL).u);
-        let (found, dissipation) = self.settled((part, size), by_law)?;
+        let found = self.settled((part, size), by_law);
+        self.patience += LONGER_SETTLING;
+        let (found, dissipation) = found?;
         self.dissipation += dissipation;
         Some(found)
     }
 
     /// The same with friction that turns over this part of the displacements, if the judge agrees, and what friction took.
     fn settled(&mut self, (part, size): (f64, f64), by_law: bool) -> Option<(Found, f64)> {
-        let Self { problem, tolerance, search, monitor, limit, origin, .. } = self;
+        let Self { problem, tolerance, search, monitor, limit, origin, patience, .. } = self;
         let go_on = |residual| {
             *limit = monitor.stop(residual);
             limit.is_none()
@@ -203,7 +218,7 @@ impl<'a, 'b> Moving<'a, 'b> {
             ..1.0 => Iterate { smooth: part * size, ..start(scaled, condensed, PROXIMAL) },
             _ => start_smooth(scaled, condensed, part * size),
         };
-        let mut states = None;
+        let (mut states, begin) = (None, (begin, *patience));
         let found = settled(scaled, condensed, begin, wanted, go_on, |condensed, at, rest| {
             let found = at_rest((problem, *tolerance), (scaled, condensed), rest)?;
             states = Some((at.u.clone(), at.forces(), at.contacts(scaled)));

@@ -1,8 +1,7 @@
 //! Bodies at rest: gaps and normal forces exactly complementary, and friction that turns over a short slip.
 
 use super::constants::{
-    ADMISSIBLE, BLUNT, HELD_CLOSED, NEARLY_SETTLED, SETTLED, SETTLING, SHARPENED, SHARPER,
-    STIFF_CLOSED,
+    ADMISSIBLE, BLUNT, HELD_CLOSED, NEARLY_SETTLED, SETTLED, SHARPENED, SHARPER, STIFF_CLOSED,
 };
 use super::continuation::centred;
 use super::iterate::{Iterate, Pairs, Rest};
@@ -22,12 +21,12 @@ const REFINEMENTS: usize = 10;
 pub(super) fn settled<T>(
     problem: &Scaled,
     condensed: &mut Condensed,
-    mut at: Iterate,
+    (mut at, patience): (Iterate, usize),
     wanted: impl Fn(&[f64]) -> f64,
     mut go_on: impl FnMut(f64) -> bool,
     mut accepted: impl FnMut(&mut Condensed, &Iterate, Rest) -> Option<T>,
 ) -> Option<T> {
-    let mut progress = Progress::default();
+    let mut progress = Progress::within(patience);
     let mut settle = |condensed: &mut Condensed, at, accuracy| {
         let go_on = |residual| go_on(residual) && progress.is_made(residual);
         centred(problem, condensed, at, (PROXIMAL, accuracy), go_on)
@@ -64,20 +63,19 @@ pub(super) fn settled<T>(
 /// Whether a residual decreases fast enough.
 struct Progress {
     best: f64,
-    /// Steps until it has to be halved.
+    /// Steps in which it has to be halved, and what is left of them.
+    patience: usize,
     left: usize,
 }
 
-impl Default for Progress {
-    fn default() -> Self {
-        Self { best: f64::INFINITY, left: SETTLING }
-    }
-}
-
 impl Progress {
+    fn within(patience: usize) -> Self {
+        Self { best: f64::INFINITY, patience, left: patience }
+    }
+
     fn is_made(&mut self, residual: f64) -> bool {
         (self.best, self.left) = if residual <= 0.5 * self.best {
-            (residual, SETTLING)
+            (residual, self.patience)
         } else {
             (self.best, self.left.saturating_sub(1))
         };
