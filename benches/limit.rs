@@ -2,7 +2,7 @@
 //! with associated flow.
 //!
 //! `cargo bench --bench limit` prints a table; with `-- --write` it also goes into
-//! `docs/reference/limit.md`. All is on one thread.
+//! `docs/reference/limit.md`. Bound to one core (`taskset -c 0`) all is on one thread.
 
 mod common;
 

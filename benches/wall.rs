@@ -1,8 +1,8 @@
 //! Walls of many bricks with friction by the interior-point method, against one sparse factorisation of
 //! the matrix of its steps in the same run.
 //!
-//! `cargo bench --bench wall` prints a table; with `-- --write` it also puts it into `docs/performance.md`. All is on
-//! one thread. The yardstick is faer's Cholesky factorisation, symbolic and numeric, of
+//! `cargo bench --bench wall` prints a table; with `-- --write` it also puts it into `docs/performance.md`. Bound to
+//! one core (`taskset -c 0`) all is on one thread. The yardstick is faer's Cholesky factorisation, symbolic and numeric, of
 //! `K + k C^T C`, which has the pattern of the matrices that the method factorises; those are unsymmetric,
 //! which doubles the operations of the numeric part.
 

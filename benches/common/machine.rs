@@ -18,8 +18,12 @@ pub(crate) fn machine_and_date() -> String {
     let model = info.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
     // A bench bound to one core still names all of the machine.
     let cores = info.lines().filter(|line| line.starts_with("processor")).count();
+    let threads = match std::thread::available_parallelism().map_or(1, usize::from) {
+        1 => "one thread".to_owned(),
+        several => format!("up to {several} threads"),
+    };
     format!(
-        "{}, one thread on {cores} cores, {}, {}",
+        "{}, {threads} on {cores} cores, {}, {}",
         model.map_or_else(unknown, |(_, name)| name.to_owned()),
         said("rustc", "--version").unwrap_or_else(unknown),
         said("date", "+%Y-%m-%d").unwrap_or_else(unknown),

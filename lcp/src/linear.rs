@@ -94,11 +94,6 @@ pub(crate) fn solve_upper(matrix: MatRef<'_, f64>, rhs: MatMut<'_, f64>) {
     solve_upper_triangular_in_place(matrix, rhs, Par::Seq);
 }
 
-/// Overwrites `rows` with the solution of `X U = rows` for an upper triangular matrix `U`.
-pub(crate) fn solve_right_upper(upper: MatRef<'_, f64>, rows: MatMut<'_, f64>) {
-    solve_lower_triangular_in_place(upper.transpose(), rows.transpose_mut(), Par::Seq);
-}
-
 /// LU factorisation in place of a block with row exchanges, which `beside` follows: row `i` becomes what
 /// was row `rows[i]`. Pivots below `vanishing` times the largest entry of their column are replaced by that
 /// bound; gives their number. (A column by itself may be small against others and exact nevertheless.)

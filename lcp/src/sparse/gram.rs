@@ -1,9 +1,8 @@
 //! Matrices `K + delta 1 + A S A^T`, with a symmetric `K` and a diagonal `S`.
 
-use faer::MatMut;
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 
-use super::cholesky::Cholesky;
+use super::multifrontal::Cholesky;
 use super::{groups_of_rows, index};
 use crate::Error;
 use crate::scaling::power_of_two;
@@ -131,8 +130,7 @@ impl Gram {
             let entries = self.rows[range.clone()].iter().zip(&mut scaled[range]);
             entries.for_each(|(&i, v)| *v *= self.units[i] * unit);
         }
-        let pattern = SymbolicSparseColMatRef::new_checked(n, n, &self.starts, None, &self.rows);
-        self.factors.factorise(SparseColMatRef::new(pattern, &scaled));
+        self.factors.factorise(&scaled);
         Ok(())
     }
 
@@ -190,8 +188,7 @@ impl Gram {
                 .for_each(|x| x.iter_mut().zip(&self.units).for_each(|(x, unit)| *x *= unit));
         };
         scale(x);
-        let count = x.len() / n;
-        self.factors.solve(MatMut::from_column_major_slice_mut(x, n, count));
+        self.factors.solve(x);
         scale(x);
     }
 

@@ -1,184 +1,291 @@
-//! The numerical part: frontal matrices one after the other, and the solves with their factors.
+//! The numerical part: frontal matrices from the leaves of the elimination tree to its roots, and the solves with their
+//! factors.
 
-use faer::{MatMut, MatRef};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use super::analysis::{Analysis, Supernode};
-use crate::linear::{add_product, factorise_block, solve_right_upper, solve_unit_lower};
+use crate::parallel::for_each;
 
-/// Pivots below this multiple of the largest entry of their column of the block are replaced by it.
-const VANISHING: f64 = 1e-15;
+/// The factors of a supernode.
+pub(super) trait Factor: Send + Sync {
+    /// Whether only the lower half of frontal matrices counts.
+    const IS_SYMMETRIC: bool;
+
+    /// The first row of a column that counts.
+    fn first(column: usize) -> usize {
+        if Self::IS_SYMMETRIC { column } else { 0 }
+    }
+
+    /// How many numbers of a matrix of an order count.
+    fn size(order: usize) -> usize {
+        if Self::IS_SYMMETRIC { order * (order + 1) / 2 } else { order * order }
+    }
+
+    /// Room for them.
+    fn of(node: &Supernode) -> Self;
+
+    /// Eliminates the columns of the supernode in its frontal matrix, and keeps their factors. What is left stands in the
+    /// lower right corner. Gives the number of pivots that were replaced.
+    fn eliminate(&mut self, node: &Supernode, front: &mut [f64]) -> usize;
+
+    /// Solves with the lower factor: for the variables of the supernode, and what they change of those of its rows. `work`
+    /// is memory.
+    fn forward(&self, node: &Supernode, x: &mut [f64], work: &mut Vec<f64>);
+
+    /// Solves with the upper factor.
+    fn backward(&self, node: &Supernode, x: &mut [f64], work: &mut Vec<f64>);
+}
 
 /// The factors of all supernodes.
-pub(super) struct Fronts {
-    factors: Vec<Factor>,
+pub(super) struct Fronts<F> {
+    /// Of the groups of the tree.
+    groups: Vec<Group<F>>,
+    above: Group<F>,
+    /// Memory of earlier factorisations.
+    spare: Mutex<Vec<Memory>>,
+}
+
+/// Supernodes whose fronts one thread eliminates one after the other.
+struct Group<F> {
+    nodes: Vec<usize>,
+    factors: Vec<F>,
+    /// Of its supernodes those whose parent is in no group, or in none at all.
+    roots: Vec<usize>,
+    /// Order of the largest front.
+    largest: usize,
+}
+
+/// What the roots of a group leave for the supernodes above: the frontal matrices of the rows below them.
+type Left = Vec<(usize, Vec<f64>)>;
+
+/// The memory of a thread.
+#[derive(Default)]
+struct Memory {
     /// The frontal matrix in work.
     front: Vec<f64>,
-    /// Whether the determinant of the last matrix is negative.
-    is_negative: bool,
+    /// What supernodes have left that is not assembled yet, one after the other, and their numbers.
+    stack: Vec<f64>,
+    on_stack: Vec<usize>,
 }
 
-/// The factors of a supernode: rows of its block exchanged, `L` and `U` of the block in one, the rows of
-/// `L` below it, and the columns of `U` to the right.
-#[derive(Default)]
-struct Factor {
-    /// The row of the block that became each row.
-    rows: Vec<usize>,
-    /// `order x width`, columns one after the other.
-    lower: Vec<f64>,
-    /// `width x rows below`.
-    upper: Vec<f64>,
-}
-
-impl Fronts {
+impl<F: Factor> Fronts<F> {
     pub(super) fn new(analysis: &Analysis) -> Self {
-        let factor = |node: &Supernode| Factor {
-            rows: vec![0; node.width],
-            lower: vec![0.0; node.order() * node.width],
-            upper: vec![0.0; node.width * node.rows.len()],
-        };
-        let largest = analysis.supernodes.iter().map(Supernode::order).max().unwrap_or(0);
-        Self {
-            factors: analysis.supernodes.iter().map(factor).collect(),
-            front: vec![0.0; largest * largest],
-            is_negative: false,
-        }
+        let group = |nodes: &Vec<usize>| Group::of(analysis, nodes.clone());
+        let groups = analysis.tree.groups.iter().map(group).collect();
+        Self { groups, above: group(&analysis.tree.above), spare: Mutex::default() }
+    }
+
+    /// The factors of all supernodes, in no order.
+    pub(super) fn factors(&self) -> impl Iterator<Item = &F> {
+        self.groups.iter().chain([&self.above]).flat_map(|group| &group.factors)
     }
 
     pub(super) fn factorise(&mut self, analysis: &Analysis, values: &[f64]) -> usize {
+        let Self { groups, above, .. } = self;
+        let spare = &self.spare;
+        let spare = || spare.lock().unwrap_or_else(PoisonError::into_inner);
+        let replaced = AtomicUsize::new(0);
+        let mut left: Vec<Left> = groups.iter().map(|_| Left::new()).collect();
+        for_each(groups.iter_mut().zip(&mut left), |(group, left)| {
+            let mut memory = spare().pop().unwrap_or_default();
+            let count = group.factorise((analysis, values), Left::new(), &mut memory);
+            *left = memory.left::<F>(analysis);
+            spare().push(memory);
+            replaced.fetch_add(count, Ordering::Relaxed);
+        });
+        let mut left: Left = left.into_iter().flatten().collect();
+        left.sort_by_key(|it| it.0);
+        let mut memory = spare().pop().unwrap_or_default();
+        let of_above = above.factorise((analysis, values), left, &mut memory);
+        spare().push(memory);
+        replaced.into_inner() + of_above
+    }
+
+    /// Overwrites right-hand sides, one after the other, with the solutions.
+    pub(super) fn solve(&self, analysis: &Analysis, x: &mut [f64]) {
+        let n = analysis.order.len();
+        let mut ordered = vec![0.0; x.len()];
+        for (ordered, x) in ordered.chunks_exact_mut(n).zip(x.chunks_exact(n)) {
+            ordered.iter_mut().zip(&analysis.order).for_each(|(v, &i)| *v = x[i]);
+        }
+        self.forward(analysis, &mut ordered);
+        self.backward(analysis, &mut ordered);
+        for (ordered, x) in ordered.chunks_exact(n).zip(x.chunks_exact_mut(n)) {
+            ordered.iter().zip(&analysis.order).for_each(|(v, &i)| x[i] = *v);
+        }
+    }
+
+    fn forward(&self, analysis: &Analysis, x: &mut [f64]) {
+        let n = analysis.order.len();
+        let mut moved: Vec<Vec<f64>> = self.groups.iter().map(|_| Vec::new()).collect();
+        for_each(self.groups.iter().zip(&mut moved), |(group, moved)| {
+            *moved = vec![0.0; x.len()];
+            group.copy(analysis, x, moved);
+            group.forward(analysis, moved);
+        });
+        for (group, moved) in self.groups.iter().zip(&mut moved) {
+            group.copy(analysis, moved, x);
+            for row in group.roots.iter().flat_map(|&root| &analysis.supernodes[root].rows) {
+                for start in (0..x.len()).step_by(n) {
+                    let at = start + *row as usize;
+                    x[at] += std::mem::take(&mut moved[at]);
+                }
+            }
+        }
+        self.above.forward(analysis, x);
+    }
+
+    fn backward(&self, analysis: &Analysis, x: &mut [f64]) {
+        let n = analysis.order.len();
+        self.above.backward(analysis, x);
+        let mut solved: Vec<Vec<f64>> = self.groups.iter().map(|_| Vec::new()).collect();
+        for_each(self.groups.iter().zip(&mut solved), |(group, solved)| {
+            *solved = vec![0.0; x.len()];
+            group.copy(analysis, x, solved);
+            for row in group.roots.iter().flat_map(|&root| &analysis.supernodes[root].rows) {
+                for at in (*row as usize..x.len()).step_by(n) {
+                    solved[at] = x[at];
+                }
+            }
+            group.backward(analysis, solved);
+        });
+        for (group, solved) in self.groups.iter().zip(&solved) {
+            group.copy(analysis, solved, x);
+        }
+    }
+}
+
+impl<F: Factor> Group<F> {
+    fn of(analysis: &Analysis, nodes: Vec<usize>) -> Self {
+        let all = &analysis.supernodes;
+        let is_root = |s: &usize| all[*s].parent.is_none_or(|it| nodes.binary_search(&it).is_err());
+        Self {
+            factors: nodes.iter().map(|&s| F::of(&all[s])).collect(),
+            roots: nodes.iter().copied().filter(is_root).collect(),
+            largest: nodes.iter().map(|&s| all[s].order()).max().unwrap_or(0),
+            nodes,
+        }
+    }
+
+    /// Takes what the roots of other groups left, in their order. What its own leave stays on the stack.
+    fn factorise(
+        &mut self,
+        (analysis, values): (&Analysis, &[f64]),
+        others: Left,
+        memory: &mut Memory,
+    ) -> usize {
+        let mut others = others.into_iter().peekable();
+        memory.front.resize(memory.front.len().max(self.largest * self.largest), 0.0);
+        let Memory { front, stack, on_stack } = memory;
         let mut replaced = 0;
-        // What every supernode leaves for its parent, until that is assembled.
-        let mut left: Vec<Vec<f64>> = vec![Vec::new(); analysis.supernodes.len()];
-        let mut children: Vec<Vec<usize>> = vec![Vec::new(); analysis.supernodes.len()];
-        for (s, node) in analysis.supernodes.iter().enumerate() {
+        for (&s, factor) in self.nodes.iter().zip(&mut self.factors) {
+            while let Some((root, left)) = others.next_if(|it| it.0 < s) {
+                on_stack.push(root);
+                stack.extend(left);
+            }
+            let node = &analysis.supernodes[s];
             let order = node.order();
-            let front = &mut self.front[..order * order];
-            front.fill(0.0);
+            let front = &mut front[..order * order];
+            for (k, column) in front.chunks_exact_mut(order).enumerate() {
+                column[F::first(k)..].fill(0.0);
+            }
             for entry in &node.entries {
                 front[entry.row as usize + order * entry.col as usize] +=
                     values[entry.position as usize];
             }
-            for child in std::mem::take(&mut children[s]) {
-                let update = std::mem::take(&mut left[child]);
-                extend_add(front, order, &update, &analysis.places[child]);
+            // In this order of the tree the last ones are those of the children.
+            let children = on_stack.split_off(on_stack.len() - node.children);
+            let sizes = children.iter().map(|&child| F::size(analysis.places[child].len()));
+            let begin = stack.len() - sizes.sum::<usize>();
+            let mut updates = &stack[begin..];
+            for child in children {
+                let places = &analysis.places[child];
+                let (update, rest) = updates.split_at(F::size(places.len()));
+                extend_add::<F>((front, order), update, places);
+                updates = rest;
             }
-            replaced += eliminate(front, node, &mut self.factors[s]);
-            if let Some(parent) = node.parent {
-                left[s] = remainder(front, node);
-                children[parent].push(s);
+            stack.truncate(begin);
+            replaced += factor.eliminate(node, front);
+            if node.parent.is_some() {
+                on_stack.push(s);
+                let columns = front[order * node.width..].chunks_exact(order);
+                columns.enumerate().for_each(|(k, column)| {
+                    stack.extend_from_slice(&column[node.width + F::first(k)..]);
+                });
             }
         }
-        self.is_negative =
-            self.factors.iter().fold(false, |negative, factor| negative ^ factor.is_negative());
         replaced
     }
 
-    pub(super) fn is_negative(&self) -> bool {
-        self.is_negative
+    fn forward(&self, analysis: &Analysis, x: &mut [f64]) {
+        let mut work = Vec::new();
+        for (&s, factor) in self.nodes.iter().zip(&self.factors) {
+            for x in x.chunks_exact_mut(analysis.order.len()) {
+                factor.forward(&analysis.supernodes[s], x, &mut work);
+            }
+        }
     }
 
-    pub(super) fn solve(&self, analysis: &Analysis, x: &mut [f64]) {
-        let mut ordered: Vec<f64> = analysis.order.iter().map(|&i| x[i]).collect();
-        let largest = analysis.supernodes.iter().map(|node| node.width).max().unwrap_or(0);
-        let mut block = vec![0.0; largest];
-        for (node, factor) in analysis.supernodes.iter().zip(&self.factors) {
-            factor.forward(node, &mut ordered, &mut block);
+    fn backward(&self, analysis: &Analysis, x: &mut [f64]) {
+        let mut work = Vec::new();
+        for (&s, factor) in self.nodes.iter().zip(&self.factors).rev() {
+            for x in x.chunks_exact_mut(analysis.order.len()) {
+                factor.backward(&analysis.supernodes[s], x, &mut work);
+            }
         }
-        for (node, factor) in analysis.supernodes.iter().zip(&self.factors).rev() {
-            factor.backward(node, &mut ordered);
+    }
+
+    /// Copies the variables of its supernodes.
+    fn copy(&self, analysis: &Analysis, from: &[f64], to: &mut [f64]) {
+        let n = analysis.order.len();
+        for node in self.nodes.iter().map(|&s| &analysis.supernodes[s]) {
+            for start in (node.start..to.len()).step_by(n) {
+                let range = start..start + node.width;
+                to[range.clone()].copy_from_slice(&from[range]);
+            }
         }
-        analysis.order.iter().zip(&ordered).for_each(|(&i, value)| x[i] = *value);
+    }
+}
+
+impl Memory {
+    /// What is on the stack.
+    fn left<F: Factor>(&mut self, analysis: &Analysis) -> Left {
+        let mut stack = &self.stack[..];
+        let pieces = self.on_stack.drain(..).map(|root| {
+            let (left, rest) = stack.split_at(F::size(analysis.places[root].len()));
+            stack = rest;
+            (root, left.to_vec())
+        });
+        let left = pieces.collect();
+        self.stack.clear();
+        left
     }
 }
 
 /// Adds what a child left to the frontal matrix of its parent.
-fn extend_add(front: &mut [f64], order: usize, update: &[f64], places: &[u32]) {
-    for (column, &j) in update.chunks_exact(places.len()).zip(places) {
+fn extend_add<F: Factor>((front, order): (&mut [f64], usize), mut update: &[f64], places: &[u32]) {
+    // Places that follow one another: where they begin, and up to which of them.
+    let mut runs: Vec<(usize, usize)> = Vec::new();
+    for (k, &place) in places.iter().enumerate() {
+        match runs.last_mut() {
+            Some((begin, end)) if *begin + k == place as usize => *end = k + 1,
+            _ => runs.push((place as usize - k, k + 1)),
+        }
+    }
+    for (k, &j) in places.iter().enumerate() {
         let target = &mut front[order * j as usize..][..order];
-        column.iter().zip(places).for_each(|(v, &i)| target[i as usize] += v);
-    }
-}
-
-/// Eliminates the columns of a supernode in its frontal matrix and stores the factors. What is left
-/// stands in the lower right corner.
-fn eliminate(front: &mut [f64], node: &Supernode, factor: &mut Factor) -> usize {
-    let (width, order) = (node.width, node.order());
-    let matrix = MatMut::from_column_major_slice_mut(front, order, order);
-    let (left, right) = matrix.split_at_col_mut(width);
-    let (mut block, mut below) = left.split_at_row_mut(width);
-    let (mut beside, corner) = right.split_at_row_mut(width);
-    let replaced = factorise_block(block.as_mut(), beside.as_mut(), &mut factor.rows, VANISHING);
-    solve_right_upper(block.as_ref(), below.as_mut());
-    solve_unit_lower(block.as_ref(), beside.as_mut());
-    add_product(corner, -1.0, below.as_ref(), beside.as_ref());
-    factor.lower.copy_from_slice(&front[..order * width]);
-    let columns = front[order * width..].chunks_exact(order);
-    for (stored, column) in factor.upper.chunks_exact_mut(width).zip(columns) {
-        stored.copy_from_slice(&column[..width]);
-    }
-    replaced
-}
-
-/// The lower right corner of an eliminated frontal matrix.
-fn remainder(front: &[f64], node: &Supernode) -> Vec<f64> {
-    let (width, order) = (node.width, node.order());
-    let mut left = Vec::with_capacity(node.rows.len() * node.rows.len());
-    for column in front[order * width..].chunks_exact(order) {
-        left.extend_from_slice(&column[width..]);
-    }
-    left
-}
-
-impl Factor {
-    /// Whether the determinant of the block is negative.
-    fn is_negative(&self) -> bool {
-        let width = self.rows.len();
-        let order = self.lower.len() / width.max(1);
-        let pivots = (0..width).filter(|k| self.lower[k * (order + 1)] < 0.0).count();
-        if self.rows.iter().enumerate().all(|(i, row)| i == *row) {
-            return pivots % 2 == 1;
-        }
-        // A cycle of even length is an odd number of exchanges.
-        let mut seen = vec![false; width];
-        let mut exchanges = 0;
-        for first in 0..width {
-            let mut row = first;
-            while !std::mem::replace(&mut seen[row], true) {
-                row = self.rows[row];
-                exchanges += usize::from(row != first);
+        let mut at = F::first(k);
+        let (column, rest) = update.split_at(places.len() - at);
+        let mut column = column;
+        for &(begin, end) in &runs {
+            if end > at {
+                let (here, others) = column.split_at(end - at);
+                let target = &mut target[begin + at..begin + end];
+                target.iter_mut().zip(here).for_each(|(target, v)| *target += v);
+                (column, at) = (others, end);
             }
         }
-        (pivots + exchanges) % 2 == 1
-    }
-
-    fn forward(&self, node: &Supernode, x: &mut [f64], block: &mut [f64]) {
-        let (width, order) = (node.width, node.order());
-        let block = &mut block[..width];
-        block.iter_mut().zip(&self.rows).for_each(|(b, row)| *b = x[node.start + row]);
-        for (j, column) in self.lower.chunks_exact(order).enumerate() {
-            let pivot = block[j];
-            if pivot == 0.0 {
-                continue;
-            }
-            block[j + 1..].iter_mut().zip(&column[j + 1..width]).for_each(|(b, v)| *b -= v * pivot);
-            for (v, &row) in column[width..].iter().zip(&node.rows) {
-                x[row as usize] -= v * pivot;
-            }
-        }
-        x[node.start..node.start + width].copy_from_slice(block);
-    }
-
-    fn backward(&self, node: &Supernode, x: &mut [f64]) {
-        let (width, order) = (node.width, node.order());
-        let (head, tail) = x.split_at_mut(node.start + width);
-        let block = &mut head[node.start..];
-        for (column, &row) in self.upper.chunks_exact(width).zip(&node.rows) {
-            let value = tail[row as usize - node.start - width];
-            if value != 0.0 {
-                block.iter_mut().zip(column).for_each(|(b, v)| *b -= v * value);
-            }
-        }
-        let block = MatMut::from_column_major_slice_mut(block, width, 1);
-        let lower = MatRef::from_column_major_slice(&self.lower, order, width);
-        crate::linear::solve_upper(lower.subrows(0, width), block);
+        update = rest;
     }
 }
