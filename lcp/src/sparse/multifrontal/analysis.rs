@@ -92,7 +92,7 @@ impl Analysis {
         let n = pattern.ncols();
         let mut order =
             symbolic.perm().map_or_else(|| (0..n).collect(), |it| it.arrays().0.to_vec());
-        let mut supernodes = postordered(supernodes(symbolic.raw()), &mut order);
+        let mut supernodes = postordered(&supernodes(symbolic.raw()), &mut order);
         let mut place = vec![0; n];
         order.iter().enumerate().for_each(|(at, &i)| place[i] = at);
         let of_column = of_columns(&supernodes, n);
@@ -116,7 +116,8 @@ impl Analysis {
                 node.rows.iter().filter_map(local).collect()
             })
             .collect();
-        let tree = Tree::of(&supernodes);
+        let parents: Vec<Option<usize>> = supernodes.iter().map(|node| node.parent).collect();
+        let tree = Tree::of(&parents, supernodes.iter().map(Supernode::work).collect());
         Ok(Self { order, supernodes, places, tree })
     }
 }
@@ -132,9 +133,9 @@ fn of_columns(supernodes: &[Supernode], n: usize) -> Vec<usize> {
 
 /// Supernodes with their parents, and sorted so that every subtree follows on another, its root at its end; the order of
 /// the variables goes with them.
-fn postordered(nodes: Vec<Supernode>, order: &mut Vec<usize>) -> Vec<Supernode> {
+fn postordered(nodes: &[Supernode], order: &mut Vec<usize>) -> Vec<Supernode> {
     let count = nodes.len();
-    let of_column = of_columns(&nodes, order.len());
+    let of_column = of_columns(nodes, order.len());
     let parent = |node: &Supernode| node.rows.iter().min().map(|row| of_column[*row as usize]);
     let parents: Vec<Option<usize>> = nodes.iter().map(parent).collect();
     let mut sizes = vec![1; count];

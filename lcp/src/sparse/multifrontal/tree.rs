@@ -2,9 +2,7 @@
 
 use std::cmp::Reverse;
 
-use super::analysis::Supernode;
-
-/// Operations for which threads are not worth their start. Measured: a start takes as long as some 1e6.
+/// Below so many operations all is done on one thread. Chosen: they take a thousand times as long as a thread to start.
 const LEAST_WORK: f64 = 1e9;
 /// Groups of subtrees, each for one thread at a time. Results depend on it in their last digits, so it is not the number of
 /// cores. Chosen.
@@ -23,24 +21,23 @@ pub(super) struct Tree {
 }
 
 impl Tree {
-    pub(super) fn of(supernodes: &[Supernode]) -> Self {
-        let mut work: Vec<f64> = supernodes.iter().map(Supernode::work).collect();
+    /// For the parent of every supernode, which comes after it, and the operations of its elimination.
+    pub(super) fn of(parents: &[Option<usize>], mut work: Vec<f64>) -> Self {
         let total: f64 = work.iter().sum();
-        let everything = || (0..supernodes.len()).collect();
+        let count = parents.len();
         if total < LEAST_WORK {
-            return Self { groups: Vec::new(), above: everything() };
+            return Self { groups: Vec::new(), above: (0..count).collect() };
         }
-        for (s, node) in supernodes.iter().enumerate() {
-            if let Some(parent) = node.parent {
+        for (s, parent) in parents.iter().enumerate() {
+            if let Some(parent) = *parent {
                 work[parent] += work[s];
             }
         }
-        let mut group_of = vec![None; supernodes.len()];
+        let mut group_of = vec![None; count];
         let is_small = |s: usize| work[s] <= PART * total;
-        let is_root = |s: &usize| {
-            is_small(*s) && supernodes[*s].parent.is_none_or(|parent| !is_small(parent))
-        };
-        let mut roots: Vec<usize> = (0..supernodes.len()).filter(is_root).collect();
+        let is_root =
+            |s: &usize| is_small(*s) && parents[*s].is_none_or(|parent| !is_small(parent));
+        let mut roots: Vec<usize> = (0..count).filter(is_root).collect();
         roots.sort_by(|a, b| work[*b].total_cmp(&work[*a]));
         let mut loads = [0.0_f64; GROUPS];
         for root in roots {
@@ -49,14 +46,13 @@ impl Tree {
             loads[group] += work[root];
             group_of[root] = Some(group);
         }
-        // Parents come after their children.
-        for s in (0..supernodes.len()).rev() {
-            if let Some(parent) = supernodes[s].parent.filter(|_| group_of[s].is_none()) {
+        for s in (0..count).rev() {
+            if let Some(parent) = parents[s].filter(|_| group_of[s].is_none()) {
                 group_of[s] = group_of[parent];
             }
         }
         let of_group = |group: Option<usize>| -> Vec<usize> {
-            (0..supernodes.len()).filter(|&s| group_of[s] == group).collect()
+            (0..count).filter(|&s| group_of[s] == group).collect()
         };
         let mut order: Vec<usize> = (0..GROUPS).filter(|&group| loads[group] > 0.0).collect();
         order.sort_by_key(|&group| Reverse(loads[group].to_bits()));
