@@ -139,14 +139,16 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The best point without the rounding errors that forces have of large displacements, if it is a solution then.
+    /// The best point without the rounding errors that forces have of large displacements, if it is a better solution then:
+    /// states that do not fit may have none that is as good.
     fn without_rounding(&mut self) {
         let Self { judge, tolerance, scaled, condensed, best, .. } = self;
         if let Some(Best { u, forces, residuals, .. }) = best {
             // Not the states of a vertex: where nothing slips, those that slide by nothing stick.
             let contacts = nearest(scaled, u, forces);
+            let given = judge.residuals(scaled, (u, forces), Precision::Exact).worst();
             let with = (judge.as_ref(), &*scaled, condensed);
-            if let Some(right) = unrounded(with, (u, forces), &contacts, *tolerance) {
+            if let Some(right) = unrounded(with, (u, forces), &contacts, given.min(*tolerance)) {
                 let right = (right.u.into_owned(), right.forces.into_owned(), right.residuals);
                 (*u, *forces, *residuals) = right;
             }

@@ -104,7 +104,7 @@ impl<F: Factor> Fronts<F> {
 
     /// Overwrites right-hand sides, one after the other, with the solutions.
     pub(super) fn solve(&self, analysis: &Analysis, x: &mut [f64]) {
-        let n = analysis.order.len();
+        let n = analysis.order.len().max(1);
         let mut ordered = vec![0.0; x.len()];
         for (ordered, x) in ordered.chunks_exact_mut(n).zip(x.chunks_exact(n)) {
             ordered.iter_mut().zip(&analysis.order).for_each(|(v, &i)| *v = x[i]);
@@ -116,6 +116,7 @@ impl<F: Factor> Fronts<F> {
         }
     }
 
+    /// Every group works on variables of its own. What groups change of those above is added up in their order.
     fn forward(&self, analysis: &Analysis, x: &mut [f64]) {
         let n = analysis.order.len();
         let mut moved: Vec<Vec<f64>> = self.groups.iter().map(|_| Vec::new()).collect();
