@@ -1,7 +1,7 @@
 //! The sparse LU of the steps of `lcp` against faer's, and against its Cholesky where the matrix is symmetric.
 //!
-//! `cargo bench --bench lu` prints a table. Every line is one run, bound to one core (`taskset -c 0`), of every factorisation the
-//! fastest of five; symbolic parts are apart, since `lcp` needs one for a whole solve.
+//! `cargo bench --bench lu` prints a table. Bound to one core (`taskset -c 0`) all is on one thread.
+//! Every line is one run, of every factorisation the fastest of five; symbolic parts are apart, since `lcp` needs one for a whole solve.
 
 #[allow(dead_code, reason = "other benches write their tables")]
 mod common;

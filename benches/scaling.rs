@@ -5,8 +5,8 @@
 //! `docs/data/scaling.md`, and a summary into `docs/scaling.md`; `--courses 100` does the same for walls of ten thousand
 //! bricks. Walls that a run leaves out keep the lines that they have there. `-- --sizes 10,32,100` prints how time and memory grow with
 //! the courses of a wall and the bricks in each, and writes the same two files and a picture. `--mu 0.5,1`, `--bricks
-//! rigid,2x1` and `--case settlement` choose a part. Bound to
-//! one core (`taskset -c 0`) all is on one thread.
+//! rigid,2x1` and `--case settlement` choose a part. Bound to one core
+//! (`taskset -c 0`) all is on one thread.
 
 mod common;
 #[path = "common/machine.rs"]
