@@ -12,6 +12,7 @@ mod least;
 mod motion;
 mod moving;
 mod path;
+mod polish;
 mod problems;
 mod program;
 mod rest;

@@ -69,6 +69,12 @@ impl<'a> Point<'a> {
         self.x_0 + self.moved(u).0
     }
 
+    /// The sum of the sizes of the terms of the gap.
+    pub(crate) fn gap_terms(&self, u: &[f64]) -> f64 {
+        let terms = self.columns.iter().zip(self.coefficients);
+        terms.fold(self.x_0.abs(), |sum, (&j, [n, _])| sum + (n * u[j]).abs())
+    }
+
     pub(crate) fn slip(&self, u: &[f64]) -> f64 {
         self.s_0 + self.moved(u).1
     }
