@@ -18,7 +18,7 @@ use crate::{Contact2d, Error, Method, Observer};
 ///
 /// 1. **Reduced friction**, where settings say so. The law as given, but with coefficients of friction that are smaller by a
 ///    thousandth, say. Walls on which interior points jam are often solved with them. The forces are inside the friction cones
-///    of the problem.
+///    of the problem. Smooth friction is tried before, as long as it advances fast.
 /// 2. **Smooth friction.** Gaps and normal forces are complementary as always, but friction turns over a slip `e`, a
 ///    thousandth of the displacements, or as long as they are: `(mu t_n + t_t) s_+ = (mu t_n - t_t) s_- = e mu t_n`. These
 ///    equations have a smooth path of interior points, and forces inside the friction cones.

@@ -3,13 +3,14 @@
 use std::ops::ControlFlow;
 
 use super::constants::{
-    AHEAD, FIRST_VISCOSITY, FREE, LAST_TRIES, LEAST_VISCOSITY, LONGER_SETTLING, MOST_VISCOSITY,
-    MOVED, REDUCED_START, SETTLING, STEADIER, STEADY, STEADY_MOTIONS, THROUGH, TRIES,
+    AHEAD, FIRST_VISCOSITY, FREE, HURRY, LAST_TRIES, LEAST_VISCOSITY, LONGER_SETTLING,
+    MOST_VISCOSITY, MOVED, REDUCED_START, SETTLING, STEADIER, STEADY, STEADY_MOTIONS, THROUGH,
+    TRIES,
 };
 use super::evolved::{Evolved, Way};
 use super::iterate::{Iterate, Rest};
 use super::motion::{Motions, Moved, Viscosity, unresisted};
-use super::rest::settled;
+use super::rest::{Patience, settled};
 use super::settings::EvolutionSettings;
 use super::start::{start, start_smooth};
 use crate::active::{Effort, Search, unplanned};
@@ -151,13 +152,20 @@ impl<'a, 'b> Moving<'a, 'b> {
 
     /// Rest without a motion, or the solution of the problem itself next to it.
     fn rest_at_once(&mut self, reductions: &[f64], slips: &[f64]) -> Option<(Way, Found)> {
+        let slip = slips.first().copied();
+        if let Some(slip) = slip.filter(|_| !reductions.is_empty()) {
+            let found = self.rest_within(Patience { first: HURRY, then: SETTLING }, (slip, true));
+            if found.is_some() || self.limit.is_some() {
+                return found.map(|found| (Way::SmoothFriction, found));
+            }
+        }
         for part in reductions {
             let found = self.with_reduced_friction(*part);
             if found.is_some() || self.limit.is_some() {
                 return found.map(|found| (Way::ReducedFriction, found));
             }
         }
-        let found = slips.first().and_then(|slip| self.rest(*slip, true));
+        let found = slip.and_then(|slip| self.rest(slip, true));
         found.map(|found| (Way::SmoothFriction, found))
     }
 
@@ -193,17 +201,27 @@ impl<'a, 'b> Moving<'a, 'b> {
     /// The state at rest that friction leads to which turns over this part of the displacements of the start, with slips from
     /// there; or the solution of the problem itself next to it, where that is wanted.
     fn rest(&mut self, part: f64, by_law: bool) -> Option<Found> {
-        let size = max_abs(&start(&self.search.scaled, &mut self.search.condensed, PROXIMAL).u);
-        let found = self.settled((part, size), by_law);
+        let patience = Patience { first: self.patience, then: self.patience };
         self.patience += LONGER_SETTLING;
-        let (found, dissipation) = found?;
+        self.rest_within(patience, (part, by_law))
+    }
+
+    /// The same with this patience.
+    fn rest_within(&mut self, patience: Patience, (part, by_law): (f64, bool)) -> Option<Found> {
+        let size = max_abs(&start(&self.search.scaled, &mut self.search.condensed, PROXIMAL).u);
+        let (found, dissipation) = self.settled((part, size), patience, by_law)?;
         self.dissipation += dissipation;
         Some(found)
     }
 
     /// The same with friction that turns over this part of the displacements, if the judge agrees, and what friction took.
-    fn settled(&mut self, (part, size): (f64, f64), by_law: bool) -> Option<(Found, f64)> {
-        let Self { problem, tolerance, search, monitor, limit, origin, patience, .. } = self;
+    fn settled(
+        &mut self,
+        (part, size): (f64, f64),
+        patience: Patience,
+        by_law: bool,
+    ) -> Option<(Found, f64)> {
+        let Self { problem, tolerance, search, monitor, limit, origin, .. } = self;
         let go_on = |residual| {
             *limit = monitor.stop(residual);
             limit.is_none()
@@ -218,7 +236,7 @@ impl<'a, 'b> Moving<'a, 'b> {
             ..1.0 => Iterate { smooth: part * size, ..start(scaled, condensed, PROXIMAL) },
             _ => start_smooth(scaled, condensed, part * size),
         };
-        let (mut states, begin) = (None, (begin, *patience));
+        let (mut states, begin) = (None, (begin, patience));
         let found = settled(scaled, condensed, begin, wanted, go_on, |condensed, at, rest| {
             let found = at_rest((problem, *tolerance), (scaled, condensed), rest)?;
             states = Some((at.u.clone(), at.forces(), at.contacts(scaled)));

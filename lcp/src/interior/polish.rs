@@ -7,8 +7,9 @@ use crate::vector::max_abs;
 
 /// Refinements of the equations of closed and open contacts. Chosen: each reduces the residuals by some powers of ten.
 const REFINEMENTS: usize = 10;
-/// Rounds in which contacts change their states. Chosen: each costs a factorisation.
-const EXCHANGES: usize = 4;
+/// Rounds in which contacts change their states. Measured on settlements of walls of 10 000 bricks: each leaves a fourth to a half
+/// of those that do not fit, from some 100 on; after four rounds one was left in some, with a force outside its cone.
+const EXCHANGES: usize = 10;
 
 /// A point to the last digit: closed contacts have no gap, open ones no force, and friction changes as it does at the
 /// point. Contacts that do not fit then change their states ([`exchange`]).

@@ -16,7 +16,7 @@ use crate::states::{Condensed, PROXIMAL, Scaled};
 pub(super) fn settled<T>(
     problem: &Scaled,
     condensed: &mut Condensed,
-    (mut at, patience): (Iterate, usize),
+    (mut at, patience): (Iterate, Patience),
     wanted: impl Fn(&[f64]) -> f64,
     mut go_on: impl FnMut(f64) -> bool,
     mut accepted: impl FnMut(&mut Condensed, &Iterate, Rest) -> Option<T>,
@@ -55,25 +55,33 @@ pub(super) fn settled<T>(
     if is_rigid { rigid_rest(problem, condensed, &at, go_on, accepted) } else { None }
 }
 
+/// Steps in which a residual has to be halved: down to [`SHARPENED`], and then.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Patience {
+    pub(super) first: usize,
+    pub(super) then: usize,
+}
+
 /// Whether a residual decreases fast enough.
 struct Progress {
     best: f64,
-    /// Steps in which it has to be halved, and what is left of them.
-    patience: usize,
+    patience: Patience,
     left: usize,
 }
 
 impl Progress {
-    fn within(patience: usize) -> Self {
-        Self { best: f64::INFINITY, patience, left: patience }
+    fn within(patience: Patience) -> Self {
+        Self { best: f64::INFINITY, patience, left: patience.first }
     }
 
     fn is_made(&mut self, residual: f64) -> bool {
-        (self.best, self.left) = if residual <= 0.5 * self.best {
-            (residual, self.patience)
+        if residual <= 0.5 * self.best {
+            let Patience { first, then } = self.patience;
+            self.best = residual;
+            self.left = if residual > SHARPENED { first } else { then };
         } else {
-            (self.best, self.left.saturating_sub(1))
-        };
+            self.left = self.left.saturating_sub(1);
+        }
         self.left > 0
     }
 }
