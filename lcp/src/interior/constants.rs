@@ -145,9 +145,9 @@ pub(super) const SETTLING: usize = 8;
 /// So many more where rest was not found before. Measured on settlements of rigid walls of 1000 bricks: one with a friction of
 /// 1.3 rests with 12 and not with 8.
 pub(super) const LONGER_SETTLING: usize = 4;
-/// The same before friction is reduced, down to [`SHARPENED`]. Measured on walls of 10 000 bricks on full floors: those that rest
-/// by smooth friction in 15 to 30 steps halve the residual in every second one, and reduced friction takes some 80 before; other
-/// walls of 1000 bricks are left after 3 to 6.
+/// Steps in which the residual has to be halved, down to [`SHARPENED`], where reduced friction is still to be tried. Measured on
+/// walls of 10 000 bricks on full floors: those that rest by smooth friction in 15 to 30 steps do so in every second one, and
+/// reduced friction would take some 80. Other walls of 1000 bricks are left after 3 to 6.
 pub(super) const HURRY: usize = 2;
 /// Stiffness of closed contacts in these equations, and of springs that hold every displacement, relative to that of the
 /// bodies. Rounding: the first times the last digit must be far below the second, or loose bodies fly off. Measured on
