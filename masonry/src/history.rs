@@ -205,7 +205,8 @@ pub struct StepRecord {
     /// Work of loads and of moving supports in this step \[J\], by the trapezoidal rule.
     pub work: f64,
     /// Energy dissipated by sliding in this step \[J\], `-t_t . (increment of y_t)`, never negative; plus the energy
-    /// of opening joints with tensile strength, which is recovered when they close.
+    /// of opening joints with tensile strength, which is recovered when they close. Where [`way`](Self::way) is not
+    /// [`Law`](lcp::Way::Law), `t_t` is the mean of the forces at both ends of the step.
     pub dissipation: f64,
     /// Strain energy of blocks and films after the step \[J\].
     pub strain_energy: f64,

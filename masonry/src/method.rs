@@ -80,9 +80,9 @@ pub struct Answer {
     pub basis: Option<Start>,
     /// A motion that nothing seems to stop, when not solved.
     pub motion: Option<Motion>,
-    /// The slips \[m\] of the points with friction before those of `rows`, and the energy that they took, if a motion
-    /// led to the solution.
-    pub moved: Option<Moved>,
+    /// By point with friction, in the order of the system, how far it slid \[m\] before the slip in `rows`, if a motion led to
+    /// the solution.
+    pub moved: Option<Vec<f64>>,
 }
 
 /// A motion of all blocks.
@@ -92,15 +92,6 @@ pub enum Motion {
     Rigid(Vec<f64>),
     /// Displacements of the sparse problem, which are a rigid motion of every block and a little more.
     Displacements(Vec<f64>),
-}
-
-/// The effect of a motion in a step of a load history before its end.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Moved {
-    /// By point with friction, in the order of the system, how far it slid \[m\].
-    pub slips: Vec<f64>,
-    /// The energy that friction and viscosity took \[J\].
-    pub dissipation: f64,
 }
 
 /// Progress of a route.

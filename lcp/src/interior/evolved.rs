@@ -45,8 +45,6 @@ pub struct Evolved {
     pub solution: Solution,
     /// By motion the viscosity, in units of the equilibrated problem, and its share of the loads.
     pub motions: SoftSprings,
-    /// The energy that friction and viscosity took on the way to `from`.
-    pub dissipation: f64,
 }
 
 impl Evolved {

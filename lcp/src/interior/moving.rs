@@ -47,8 +47,6 @@ pub(super) struct Moving<'a, 'b> {
     patience: usize,
     /// What has stopped it.
     limit: Option<Status>,
-    /// In units of the scaled problem.
-    dissipation: f64,
 }
 
 impl<'a, 'b> Moving<'a, 'b> {
@@ -62,19 +60,8 @@ impl<'a, 'b> Moving<'a, 'b> {
         let at = search.scaled.of_displacements(from);
         let forces = vec![(0.0, 0.0); problem.points()];
         let origin = at.clone();
-        let (patience, limit, dissipation) = (SETTLING, None, 0.0);
-        Self {
-            problem,
-            tolerance,
-            search,
-            monitor,
-            origin,
-            at,
-            forces,
-            patience,
-            limit,
-            dissipation,
-        }
+        let (patience, limit) = (SETTLING, None);
+        Self { problem, tolerance, search, monitor, origin, at, forces, patience, limit }
     }
 
     /// Moves the bodies until they rest or flow; rest without a motion is looked for first if that is wanted.
@@ -172,7 +159,7 @@ impl<'a, 'b> Moving<'a, 'b> {
     /// The solution with coefficients of friction that are smaller by this part, whose forces are inside the cones of the
     /// problem; or that of the problem with the same states of contacts.
     fn with_reduced_friction(&mut self, part: f64) -> Option<Found> {
-        let Self { problem, tolerance, search, monitor, limit, dissipation, .. } = self;
+        let Self { problem, tolerance, search, monitor, limit, .. } = self;
         let settings = InteriorPointSettings {
             tolerance: *tolerance,
             max_iterations: usize::MAX,
@@ -193,9 +180,7 @@ impl<'a, 'b> Moving<'a, 'b> {
         }
         let Search { scaled, condensed, .. } = search;
         let at = scaled.of_state(&state);
-        let found = at_rest((problem, *tolerance), (scaled, condensed), at)?;
-        *dissipation += found.1;
-        Some(found.0)
+        at_rest((problem, *tolerance), (scaled, condensed), at)
     }
 
     /// The state at rest that friction leads to which turns over this part of the displacements of the start, with slips from
@@ -209,18 +194,16 @@ impl<'a, 'b> Moving<'a, 'b> {
     /// The same with this patience.
     fn rest_within(&mut self, patience: Patience, (part, by_law): (f64, bool)) -> Option<Found> {
         let size = max_abs(&start(&self.search.scaled, &mut self.search.condensed, PROXIMAL).u);
-        let (found, dissipation) = self.settled((part, size), patience, by_law)?;
-        self.dissipation += dissipation;
-        Some(found)
+        self.settled((part, size), patience, by_law)
     }
 
-    /// The same with friction that turns over this part of the displacements, if the judge agrees, and what friction took.
+    /// The same with friction that turns over this part of the displacements, if the judge agrees.
     fn settled(
         &mut self,
         (part, size): (f64, f64),
         patience: Patience,
         by_law: bool,
-    ) -> Option<(Found, f64)> {
+    ) -> Option<Found> {
         let Self { problem, tolerance, search, monitor, limit, origin, .. } = self;
         let go_on = |residual| {
             *limit = monitor.stop(residual);
@@ -245,7 +228,7 @@ impl<'a, 'b> Moving<'a, 'b> {
         if let Some((u, forces, contacts)) = states.filter(|_| by_law)
             && search.cross_over((&u, &forces), contacts, &Effort::QUICK)
         {
-            return Some((Found::Law, 0.0));
+            return Some(Found::Law);
         }
         found
     }
@@ -264,12 +247,9 @@ impl<'a, 'b> Moving<'a, 'b> {
                 *limit
             })?;
         let velocity = difference(&u, &self.at);
-        self.dissipation += viscosity * square(&velocity);
         let points = &mut self.search.scaled.points;
-        for (i, (_, t_t)) in forces.iter().enumerate() {
-            let point = points.get(i);
-            self.dissipation -= t_t * point.slip(&u);
-            points.s_0[i] = -point.moved(&u).1;
+        for i in 0..forces.len() {
+            points.s_0[i] = -points.get(i).moved(&u).1;
         }
         (self.at, self.forces) = (u, forces);
         Some(velocity)
@@ -343,7 +323,7 @@ impl<'a, 'b> Moving<'a, 'b> {
 
     fn by_law(self, motions: SoftSprings) -> Evolved {
         let solution = self.search.finish(Status::Stalled, self.monitor);
-        Evolved { way: Way::Law, from: None, solution, motions, dissipation: 0.0 }
+        Evolved { way: Way::Law, from: None, solution, motions }
     }
 
     fn concluded(
@@ -351,30 +331,25 @@ impl<'a, 'b> Moving<'a, 'b> {
         (way, from, mut solution): (Way, Vec<f64>, Solution),
         motions: SoftSprings,
     ) -> Evolved {
-        let Search { scaled, condensed, .. } = &self.search;
-        let dissipation = self.dissipation * scaled.energy();
-        let factorisations = condensed.factorisations;
         solution.info = self.monitor.info(Method::Interior);
-        solution.info.factorisations = factorisations;
-        Evolved { way, from: Some(from), solution, motions, dissipation }
+        solution.info.factorisations = self.search.condensed.factorisations;
+        Evolved { way, from: Some(from), solution, motions }
     }
 }
 
-/// A state at rest, if the judge agrees, and what friction took on the way there.
+/// A state at rest, if the judge agrees.
 fn at_rest(
     (problem, tolerance): (&Contact2d, f64),
     (scaled, condensed): (&Scaled, &mut Condensed),
     (u, forces): Rest,
-) -> Option<(Found, f64)> {
+) -> Option<Found> {
     let from = scaled.displacements(&u);
     let there = problem.after(&from).ok()?;
     let mut search = Search::new(Method::Interior, &there, tolerance).ok()?;
     search.try_point((&u, &forces), Some(&Effort::held(PROXIMAL)));
     condensed.factorisations += search.condensed.factorisations;
     let solution = search.found()?;
-    let slid = |(point, (_, t_t)): (Point<'_>, &(f64, f64))| -t_t * point.slip(&u);
-    let dissipation = scaled.points.iter().zip(&forces).map(slid).sum();
-    Some((Found::Rest(from, Box::new(solution)), dissipation))
+    Some(Found::Rest(from, Box::new(solution)))
 }
 
 fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {

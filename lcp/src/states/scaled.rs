@@ -113,11 +113,6 @@ impl Scaled {
         self.force
     }
 
-    /// The unit of energy.
-    pub(crate) fn energy(&self) -> f64 {
-        self.force * self.length
-    }
-
     /// The unit of the force on a displacement.
     pub(crate) fn force_of(&self, j: usize) -> f64 {
         self.force / self.column[j]

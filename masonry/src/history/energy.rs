@@ -5,6 +5,9 @@
 //! single term is negative, for friction opposes slip. `W` is a trapezoidal sum, exact where forces
 //! change linearly with displacements. So `W - U - D` tends to zero as steps become shorter,
 //! and is zero where no point slides with a force that changes.
+//!
+//! Friction of blocks that came to rest need not oppose all slips of the step. `D` is a trapezoidal sum there, too; then
+//! `W - U - D` is the work of normal forces where gaps open and close.
 
 use nalgebra::Vector2;
 
@@ -92,6 +95,20 @@ impl Snapshot {
 /// Energy \[J\] that sliding dissipates in a step, where `y_t` of the contacts is their slip in the step.
 pub(crate) fn dissipation(contacts: &[ContactState]) -> f64 {
     contacts.iter().map(|contact| -contact.t_t * contact.y_t).sum()
+}
+
+/// The same where the blocks slid by `slips` before the slip of the state in which they rest: by the trapezoidal rule. `before`
+/// is `None` in the first step.
+pub(crate) fn dissipation_to_rest(
+    before: Option<&[ContactState]>,
+    after: &[ContactState],
+    slips: &[f64],
+) -> f64 {
+    let taken = |(i, (contact, slip)): (usize, (&ContactState, &f64))| {
+        let t_t = before.map_or(0.0, |before| before[i].t_t) + contact.t_t;
+        -0.5 * t_t * (slip + contact.y_t)
+    };
+    after.iter().zip(slips).enumerate().map(taken).sum()
 }
 
 /// Energy \[J\] that the tensile strength of open joints holds, `T y_n`: what opening them took, and what they give

@@ -13,7 +13,7 @@ use lcp::{
 };
 
 use super::sparse::Found;
-use super::{Answer, Method, Moved, Observer, Request, RouteError, Step, auto, sparse};
+use super::{Answer, Method, Observer, Request, RouteError, Step, auto, sparse};
 use crate::method::forms::Sparse;
 use crate::method::info::SolveInfo;
 use crate::scene::Route;
@@ -130,8 +130,7 @@ impl Interior<'_> {
                 given
             }
             given => {
-                let dissipation = evolved.dissipation;
-                let moved = evolved.from.map(|from| Moved { slips: self.slips(from), dissipation });
+                let moved = evolved.from.map(|from| self.slips(from));
                 let mut answer = Answer { moved, ..self.answer(evolved.solution) };
                 (answer.info.way, answer.info.attempts) = (evolved.way, vec![line]);
                 match given {

@@ -18,7 +18,7 @@ use crate::method::pgs::Sweeps;
 use crate::method::qp::Programs;
 use crate::method::reduction::Reduction;
 use crate::method::statics::{self, Decision, Statics};
-use crate::method::{Answer, Method, Moved, Request, Step};
+use crate::method::{Answer, Method, Request, Step};
 use crate::model::Model;
 use crate::paper::alm::{Multipliers, Strips};
 use crate::plan::Choice;
@@ -38,8 +38,8 @@ pub(super) struct Attempt {
     pub(super) basis: Option<Start>,
     /// What is known of admissible forces, where it was asked.
     pub(super) statics: Option<Statics>,
-    /// What a motion did before the slips of the state, by contact point.
-    pub(super) moved: Option<Moved>,
+    /// How far every contact point slid \[m\] before the slip of the state, if a motion led there.
+    pub(super) moved: Option<Vec<f64>>,
     /// The sparse problem, if a route was solved on it.
     pub(super) sparse: Option<Sparse>,
 }
@@ -289,7 +289,7 @@ impl<'a> Chain<'a> {
             )];
         }
         let moved = answer.moved.take().map(|moved| self.by_contact(moved));
-        let after = moved.as_ref().map(|moved| model.slid(&moved.slips));
+        let after = moved.as_ref().map(|moved| model.slid(moved));
         let model = after.as_ref().unwrap_or(model);
         let state = self.recovered((model, &sparse), &answer);
         self.sparse = Some(sparse);
@@ -297,12 +297,12 @@ impl<'a> Chain<'a> {
     }
 
     /// With a slip for every contact point, zero without friction.
-    fn by_contact(&self, moved: Moved) -> Moved {
+    fn by_contact(&self, moved: Vec<f64>) -> Vec<f64> {
         let mut slips = vec![0.0; self.model.contacts.len()];
-        for (friction, slip) in self.system.friction.iter().zip(moved.slips) {
+        for (friction, slip) in self.system.friction.iter().zip(moved) {
             slips[friction.contact.index()] = slip;
         }
-        Moved { slips, ..moved }
+        slips
     }
 
     /// The state that an answer on the sparse problem is.

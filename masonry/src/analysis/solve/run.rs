@@ -265,15 +265,20 @@ impl Run {
         (self.basis, self.sparse) = (basis, sparse);
         if let (Some(moved), None) = (&moved, &stepped) {
             // The state is judged with slips from where the blocks came to.
-            self.model = self.model.slid(&moved.slips);
+            self.model = self.model.slid(moved);
         }
         if let Some(mut state) = state {
-            let mut dissipation = energy::dissipation(&state.contacts);
+            let dissipation = match &moved {
+                Some(slips) => {
+                    let before = self.reached.as_ref().map(|it| &it.state.contacts[..]);
+                    energy::dissipation_to_rest(before, &state.contacts, slips)
+                }
+                None => energy::dissipation(&state.contacts),
+            };
             let in_history = stepped.map(|(mut model, mut slips)| {
                 if let Some(moved) = &moved {
-                    model = model.slid(&moved.slips);
-                    slips.iter_mut().zip(&moved.slips).for_each(|(slip, moved)| *slip += moved);
-                    dissipation += moved.dissipation;
+                    model = model.slid(moved);
+                    slips.iter_mut().zip(moved).for_each(|(slip, moved)| *slip += moved);
                 }
                 let steps = model.contacts.iter().zip(&mut state.contacts).zip(slips);
                 let frictional = steps.filter(|((contact, _), _)| contact.law.resists_sliding());
