@@ -3,10 +3,9 @@
 //!
 //! `cargo bench --bench scaling` prints a table of walls of about a thousand bricks; with `-- --write` it also puts it into
 //! `docs/data/scaling.md`, and a summary into `docs/scaling.md`; `--courses 100` does the same for walls of ten thousand
-//! bricks. Walls that a run leaves out keep the lines that they have there. `-- --sizes 10,32,100` prints how time and memory grow with
-//! the courses of a wall and the bricks in each, and writes the same two files and a picture. `--mu 0.5,1`, `--bricks
-//! rigid,2x1` and `--case settlement` choose a part. Bound to one core
-//! (`taskset -c 0`) all is on one thread.
+//! bricks. `-- --sizes 10,32,100` prints how time and memory grow with the courses of a wall and the bricks in each, and writes the
+//! same two files and a picture. Walls that a run leaves out keep the lines that they have there. `--mu 0.5,1`, `--bricks
+//! rigid,2x1` and `--case settlement` choose a part. Bound to one core (`taskset -c 0`) all is on one thread.
 
 mod common;
 #[path = "common/machine.rs"]
@@ -23,6 +22,7 @@ mod table;
 mod walls;
 
 use row::{HEAD, Row, yardstick};
+use sizes::Sizes;
 use table::Table;
 use walls::{Case, Wall};
 
@@ -50,15 +50,17 @@ fn main() {
     let of_sizes = common::is_asked("--sizes");
     if of_sizes {
         let defaults = [&option("--sizes", sizes::SIZES)[..], sizes::FRICTION, sizes::BRICKS];
-        let rows = rows(defaults, &sizes::CASES);
-        common::write_if_asked("docs/scaling.md", "sizes", &sizes::exponents(&rows));
-        let table = sizes::table(&rows) + "\n" + &machine::machine();
-        common::write_if_asked("docs/data/scaling.md", "sizes", &table);
-        println!("\n{}\n{table}", sizes::exponents(&rows));
-        if let Some(picture) = sizes::drawn(&rows).filter(|_| common::is_asked("--write")) {
-            let file = common::root().join("docs/pictures/scaling.svg");
-            std::fs::write(file, picture).expect("the file can be written");
-        }
+        let computed = rows(defaults, &sizes::CASES);
+        println!("\n{}", Sizes::new(&computed, "").whole());
+        common::rewrite_if_asked("docs/data/scaling.md", "sizes", |before| {
+            let sizes = Sizes::new(&computed, before);
+            common::write_if_asked("docs/scaling.md", "sizes", &sizes.exponents());
+            if let Some(picture) = sizes.drawn() {
+                let file = common::root().join("docs/pictures/scaling.svg");
+                std::fs::write(file, picture).expect("the file can be written");
+            }
+            sizes.whole() + "\n" + &machine::machine()
+        });
     } else {
         let courses = option("--courses", COURSES);
         let block = if courses == COURSES { "scaling" } else { "large" };

@@ -88,11 +88,6 @@ impl Row {
     pub(crate) fn factorisations(&self) -> f64 {
         self.counts.iter().sum::<usize>() as f64 / self.counts.len().max(1) as f64
     }
-
-    /// Whether they differ by their size only.
-    pub(crate) fn is_alike(&self, other: &Self) -> bool {
-        self.case == other.case && self.bricks == other.bricks && is_same(self.mu, other.mu)
-    }
 }
 
 impl fmt::Display for Row {
@@ -128,8 +123,4 @@ pub(crate) fn yardstick(wall: &Wall) -> f64 {
     let (symbolic, numeric) =
         sparse::fastest(3, |(s, n): &(f64, f64)| s + n, || sparse::cholesky(&matrix));
     symbolic + numeric
-}
-
-pub(crate) fn is_same(a: f64, b: f64) -> bool {
-    a.total_cmp(&b).is_eq()
 }

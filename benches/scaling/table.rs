@@ -18,11 +18,7 @@ impl<'a> Table<'a> {
         before: &str,
         (cases, bricks): (&'a [String], &'a str),
     ) -> Self {
-        let mut lines: Vec<String> = computed.iter().map(Row::to_string).collect();
-        let of_walls = |line: &&str| line.starts_with("| ") && !line.starts_with("| case");
-        let is_old = |line: &&str| lines.iter().all(|it| key(it) != key(line));
-        let kept = before.lines().filter(of_walls).filter(is_old).map(str::to_owned);
-        lines.extend(kept.collect::<Vec<String>>());
+        let mut lines = merged(computed.iter().map(Row::to_string).collect(), before, is_same);
         let bricks: Vec<&str> = bricks.split(',').collect();
         lines.sort_by(|a, b| {
             let place = |line: &str| {
@@ -63,12 +59,30 @@ impl<'a> Table<'a> {
     }
 }
 
+/// Lines that were computed, and those of the table `before` that are of other walls.
+pub(crate) fn merged(
+    mut lines: Vec<String>,
+    before: &str,
+    is_same: fn(&str, &str) -> bool,
+) -> Vec<String> {
+    let of_walls = |line: &&str| line.starts_with("| ") && !line.starts_with("| case");
+    let is_old = |line: &&str| lines.iter().all(|it| !is_same(it, line));
+    let kept: Vec<&str> = before.lines().filter(of_walls).filter(is_old).collect();
+    lines.extend(kept.into_iter().map(str::to_owned));
+    lines
+}
+
+/// Whether they are of one wall, if it has one size.
+pub(crate) fn is_same(a: &str, b: &str) -> bool {
+    key(a) == key(b)
+}
+
 /// Case, friction and bricks.
-fn key(line: &str) -> [&str; 3] {
+pub(crate) fn key(line: &str) -> [&str; 3] {
     [1, 2, 3].map(|k| cell(line, k))
 }
 
-fn mu(line: &str) -> f64 {
+pub(crate) fn mu(line: &str) -> f64 {
     cell(line, 2).parse().expect("a coefficient of friction")
 }
 
@@ -83,6 +97,6 @@ fn brief(line: &str) -> String {
     format!("{letter} {}", cell(line, 8))
 }
 
-fn cell(line: &str, k: usize) -> &str {
+pub(crate) fn cell(line: &str, k: usize) -> &str {
     line.split('|').nth(k).expect("a line of the table").trim()
 }

@@ -30,6 +30,27 @@ pub(crate) fn for_each<T: Send>(items: impl IntoIterator<Item = T>, work: impl F
 }
 
 fn cores() -> usize {
+    #[cfg(test)]
+    if let Some(cores) = tests::GIVEN.get() {
+        return cores;
+    }
     static CORES: OnceLock<usize> = OnceLock::new();
     *CORES.get_or_init(|| thread::available_parallelism().map_or(1, NonZero::get))
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use std::cell::Cell;
+
+    thread_local! {
+        pub(super) static GIVEN: Cell<Option<usize>> = const { Cell::new(None) };
+    }
+
+    /// Does the work as on a machine with so many cores.
+    pub(crate) fn on_cores<T>(cores: usize, work: impl FnOnce() -> T) -> T {
+        GIVEN.set(Some(cores));
+        let result = work();
+        GIVEN.set(None);
+        result
+    }
 }

@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use super::constants::{
     AHEAD, FIRST_VISCOSITY, FREE, HURRY, LAST_TRIES, LEAST_VISCOSITY, LONGER_SETTLING,
-    MOST_VISCOSITY, MOVED, REDUCED_START, SETTLING, STEADIER, STEADY, STEADY_MOTIONS, THROUGH,
-    TRIES,
+    MOST_VISCOSITY, MOVED, REDUCED_START, SETTLING, SOONER, STEADIER, STEADY, STEADY_MOTIONS,
+    THROUGH, TRIES,
 };
 use super::evolved::{Evolved, Way};
 use super::iterate::{Iterate, Rest};
@@ -186,7 +186,7 @@ impl<'a, 'b> Moving<'a, 'b> {
     /// The state at rest that friction leads to which turns over this part of the displacements of the start, with slips from
     /// there; or the solution of the problem itself next to it, where that is wanted.
     fn rest(&mut self, part: f64, by_law: bool) -> Option<Found> {
-        let patience = Patience { first: self.patience, then: self.patience };
+        let patience = Patience { first: self.patience - SOONER, then: self.patience };
         self.patience += LONGER_SETTLING;
         self.rest_within(patience, (part, by_law))
     }

@@ -12,7 +12,7 @@ const REFINEMENTS: usize = 10;
 const EXCHANGES: usize = 10;
 
 /// A point to the last digit: closed contacts have no gap, open ones no force, and friction changes as it does at the
-/// point. Contacts that do not fit then change their states ([`exchange`]).
+/// point. Contacts that do not fit then change their states ([`exchange`]), as long as they become fewer.
 pub(super) fn polished(problem: &Scaled, condensed: &mut Condensed, at: &Iterate) -> Rest {
     let points = problem.points.mu.iter().zip(&at.points);
     let mut springs: Vec<Springs> = points.map(|(mu, pairs)| held(*mu, pairs)).collect();
@@ -21,8 +21,11 @@ pub(super) fn polished(problem: &Scaled, condensed: &mut Condensed, at: &Iterate
     open.for_each(|(force, _)| *force = (0.0, 0.0));
     condensed.factorise(problem, &springs, HELD_CLOSED);
     refine((problem, condensed, &springs), (&mut u, &mut forces), true);
+    let mut misfits = usize::MAX;
     for _ in 0..EXCHANGES {
-        if exchange(problem, &mut springs, (&u, &mut forces)) == 0 {
+        let before = misfits;
+        misfits = exchange(problem, &mut springs, (&u, &mut forces));
+        if misfits == 0 || misfits >= before {
             break;
         }
         condensed.factorise(problem, &springs, HELD_CLOSED);

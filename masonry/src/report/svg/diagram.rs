@@ -48,7 +48,7 @@ pub enum Look {
     Hollow,
     /// Dots alone.
     Dots,
-    /// A grey line alone, with which others are compared.
+    /// A grey line alone, with which others are compared; dashed unless its style is 0.
     Bound,
 }
 
@@ -67,8 +67,8 @@ pub struct Series {
 
 impl Series {
     fn kind(&self) -> Kind {
-        let style = if self.look == Look::Bound { 0 } else { self.style % COLOURS.len() };
-        Kind { look: self.look, style }
+        let styles = if self.look == Look::Bound { 2 } else { COLOURS.len() };
+        Kind { look: self.look, style: self.style % styles }
     }
 
     fn drawn(&self) -> impl Iterator<Item = [f64; 2]> + Clone {
@@ -91,7 +91,7 @@ impl Kind {
             Look::Full => "full",
             Look::Hollow => "hollow",
             Look::Dots => "dots",
-            Look::Bound => return "bound".to_owned(),
+            Look::Bound => "bound",
         };
         format!("{look}{}", self.style)
     }
@@ -106,7 +106,10 @@ impl Kind {
             Look::Dots => {
                 format!(".{name}{{stroke:{colour};stroke-width:5;stroke-linecap:round}}\n")
             }
-            Look::Bound => format!(".{name}{{stroke:#aaa;stroke-width:2}}\n"),
+            Look::Bound => {
+                let dashes = ["", ";stroke-dasharray:7 4"][self.style];
+                format!(".{name}{{stroke:#aaa;stroke-width:2{dashes}}}\n")
+            }
         }
     }
 
