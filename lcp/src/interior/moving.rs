@@ -12,7 +12,7 @@ use super::iterate::{Iterate, Rest};
 use super::motion::{Motions, Moved, Viscosity, unresisted};
 use super::rest::{Patience, settled};
 use super::settings::EvolutionSettings;
-use super::start::{start, start_smooth};
+use super::start::{smoothed, start};
 use crate::active::{Effort, Search, unplanned};
 use crate::lower::judged_point;
 use crate::solve::Monitor;
@@ -193,31 +193,22 @@ impl<'a, 'b> Moving<'a, 'b> {
 
     /// The same with this patience.
     fn rest_within(&mut self, patience: Patience, (part, by_law): (f64, bool)) -> Option<Found> {
-        let size = max_abs(&start(&self.search.scaled, &mut self.search.condensed, PROXIMAL).u);
-        self.settled((part, size), patience, by_law)
-    }
-
-    /// The same with friction that turns over this part of the displacements, if the judge agrees.
-    fn settled(
-        &mut self,
-        (part, size): (f64, f64),
-        patience: Patience,
-        by_law: bool,
-    ) -> Option<Found> {
         let Self { problem, tolerance, search, monitor, limit, origin, .. } = self;
         let go_on = |residual| {
             *limit = monitor.stop(residual);
             limit.is_none()
         };
+        let Search { scaled, condensed, .. } = search;
+        let begin = start(scaled, condensed, PROXIMAL);
+        let size = max_abs(&begin.u);
         let wanted = |u: &[f64]| {
             let size = if part < 1.0 { max_abs(&difference(u, origin)) } else { size };
             part * size
         };
-        let Search { scaled, condensed, .. } = search;
         // Friction that hardly yields is at its bound wherever anything slips at the start, and stays there.
         let begin = match part {
-            ..1.0 => Iterate { smooth: part * size, ..start(scaled, condensed, PROXIMAL) },
-            _ => start_smooth(scaled, condensed, part * size),
+            ..1.0 => Iterate { smooth: part * size, ..begin },
+            _ => smoothed(scaled, begin, part * size),
         };
         let (mut states, begin) = (None, (begin, patience));
         let found = settled(scaled, condensed, begin, wanted, go_on, |condensed, at, rest| {

@@ -40,13 +40,12 @@ pub(super) fn start(problem: &Scaled, condensed: &mut Condensed, spring: f64) ->
     Iterate { points: points.collect(), u, smooth: 0.0 }
 }
 
-/// A start with smooth friction, whose forces are those of the slips of the start.
+/// A start with smooth friction, whose forces are those of its slips.
 ///
 /// `(mu t_n + t_t) s_+ = (mu t_n - t_t) s_- = e mu t_n` makes the slip `s_+ - s_- = -2 e r / (1 - r^2)`, where
 /// `r = t_t / (mu t_n)`. `slip` is `e`.
-pub(super) fn start_smooth(problem: &Scaled, condensed: &mut Condensed, slip: f64) -> Iterate {
-    let mut at = start(problem, condensed, PROXIMAL);
-    at.smooth = slip;
+pub(super) fn smoothed(problem: &Scaled, at: Iterate, slip: f64) -> Iterate {
+    let mut at = Iterate { smooth: slip, ..at };
     if at.smooth > 0.0 {
         for (point, pairs) in problem.points.iter().zip(&mut at.points).filter(|it| it.0.mu > 0.0) {
             let slip = point.slip(&at.u) / at.smooth;
