@@ -51,7 +51,8 @@ fn main() {
     if of_sizes {
         let defaults = [&option("--sizes", sizes::SIZES)[..], sizes::FRICTION, sizes::BRICKS];
         let computed = rows(defaults, &sizes::CASES);
-        println!("\n{}", Sizes::new(&computed, "").whole());
+        let sizes = Sizes::new(&computed, "");
+        println!("\n{}\n{}", sizes.exponents(), sizes.whole());
         common::rewrite_if_asked("docs/data/scaling.md", "sizes", |before| {
             let sizes = Sizes::new(&computed, before);
             common::write_if_asked("docs/scaling.md", "sizes", &sizes.exponents());

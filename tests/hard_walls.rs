@@ -12,6 +12,7 @@ const COURSES: u32 = 6;
 /// Elastic walls that stand may take no more factorisations, in any step of a history.
 const MOST_FACTORISATIONS: usize = 150;
 
+/// Verdict and evidence, within these factorisations.
 fn verdict_of(wall: &Wall, case: Case, limit: f64) -> (Verdict, Evidence) {
     let (judgement, most) = solved(wall, case, limit);
     if wall.mesh.is_some() && judgement.0 == Verdict::Stands {
@@ -56,7 +57,8 @@ fn check(mu: f64, mesh: [u32; 2]) {
     }
 }
 
-/// Friction over a thousandth of the way finds no rest of these, friction over a hundredth does.
+/// Friction over a thousandth of the way finds no rest of these, friction over a hundredth does, in more factorisations than
+/// walls of other sizes take.
 #[test]
 fn small_walls_on_open_bases_stand() {
     for mesh in [[1, 1], [2, 1]] {

@@ -132,8 +132,12 @@ fn line(row: &Row) -> String {
 
 /// A positive number with at least three digits.
 fn three_digits(value: f64) -> String {
-    let decimals = (2.0 - value.log10().floor()).clamp(0.0, 9.0);
-    format!("{value:.0$}", decimals as usize)
+    let (mut decimals, mut scaled) = (0, value);
+    while scaled < 100.0 && decimals < 9 {
+        scaled *= 10.0;
+        decimals += 1;
+    }
+    format!("{value:.decimals$}")
 }
 
 /// Phases that take time, and their parts of it.

@@ -30,11 +30,11 @@ pub(crate) fn for_each<T: Send>(items: impl IntoIterator<Item = T>, work: impl F
 }
 
 fn cores() -> usize {
+    static CORES: OnceLock<usize> = OnceLock::new();
     #[cfg(test)]
     if let Some(cores) = tests::GIVEN.get() {
         return cores;
     }
-    static CORES: OnceLock<usize> = OnceLock::new();
     *CORES.get_or_init(|| thread::available_parallelism().map_or(1, NonZero::get))
 }
 

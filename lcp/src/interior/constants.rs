@@ -143,7 +143,7 @@ pub(super) const ADMISSIBLE: f64 = 1e-7;
 /// more.
 pub(super) const SETTLING: usize = 8;
 /// So many fewer down to [`SHARPENED`]. Measured on settlements of elastic walls of 1000 bricks: 223 of 226 ways that ended
-/// halved it there in four steps at most. None then takes more than 148 factorisations, and up to 165 without. With three an open
+/// halved it there in four steps at most. None then takes more than 145 factorisations, and up to 165 without. With three an open
 /// base of such a wall needs a motion.
 pub(super) const SOONER: usize = 2;
 /// So many more where rest was not found before. Measured on settlements of rigid walls of 1000 bricks: one with a friction of
