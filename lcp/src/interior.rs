@@ -21,6 +21,7 @@ mod saddle;
 mod settings;
 mod start;
 mod turn;
+mod variables;
 
 use std::ops::ControlFlow;
 

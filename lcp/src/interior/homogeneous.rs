@@ -2,22 +2,15 @@
 //! there is none.
 
 use super::constants::{
-    AWAY, BACK, CENTRAL, COMPLIANCE, CORRECTORS, LEAST_AIM, LONG_ENOUGH, LONGER, NO_STEP, PATIENCE,
+    BACK, CENTRAL, COMPLIANCE, CORRECTORS, LEAST_AIM, LONG_ENOUGH, LONGER, NO_STEP, PATIENCE,
     PROVED, ROUNDING, STRICTER,
 };
 use super::factors::Factors;
 use super::program::Program;
+use super::variables::{Variables, dot, longest};
 use crate::Status;
 use crate::states::PROXIMAL;
 use crate::vector::max_abs;
-
-/// The variables of a program inside their bounds, or a step of them.
-#[derive(Debug, Clone)]
-pub(super) struct Variables {
-    pub(super) u: Vec<f64>,
-    pub(super) t: Vec<f64>,
-    pub(super) y: Vec<f64>,
-}
 
 /// How exact a solution has to be.
 #[derive(Debug, Clone, Copy)]
@@ -90,13 +83,24 @@ pub(super) fn solved(
     program: &Program,
     factors: &mut Factors,
     (spring, accuracy): (f64, Accuracy),
+    stop: impl FnMut(f64) -> Option<Status>,
+    is_proof: impl FnMut(&Variables) -> bool,
+) -> (Variables, Status) {
+    let Some(at) = Variables::start(program, factors, spring) else {
+        return (Variables::zero(program), Status::Stalled);
+    };
+    solved_from(at, (program, factors), (spring, accuracy), stop, is_proof)
+}
+
+/// The same from this start.
+pub(super) fn solved_from(
+    at: Variables,
+    (program, factors): (&Program, &mut Factors),
+    (spring, accuracy): (f64, Accuracy),
     mut stop: impl FnMut(f64) -> Option<Status>,
     mut is_proof: impl FnMut(&Variables) -> bool,
 ) -> (Variables, Status) {
     let Accuracy { tolerance, .. } = accuracy;
-    let Some(at) = start(program, factors, spring.max(PROXIMAL)) else {
-        return (Variables::zero(program), Status::Stalled);
-    };
     let kappa = at.mean_product();
     let mut now = Homogeneous::new((program, spring), at, (1.0, kappa));
     let (mut least, mut since, mut provable) = ([f64::INFINITY; 3], 0, PROVED);
@@ -129,67 +133,6 @@ pub(super) fn solved(
             return (now.solution(), Status::Stalled);
         }
     }
-}
-
-/// A start from the forces that the contacts would carry if they were springs in both directions.
-fn start(program: &Program, factors: &mut Factors, spring: f64) -> Option<Variables> {
-    let stiffness: Vec<f64> = program.compliance.iter().map(|c| 1.0 / (1.0 + c)).collect();
-    factors.factorise(program, stiffness, spring)?;
-    let stiffness = &factors.stiffness;
-    let mut u = program.f.clone();
-    let forces = stiffness.iter().zip(&program.x_0).map(|(stiffness, x)| -stiffness * x);
-    program.add_forces(&forces.collect::<Vec<f64>>(), &mut u);
-    factors.gram.solve(&mut u);
-    // Less than the gap by what the force presses together, which is the force of a spring of stiffness one.
-    let mut gaps = program.opened(&u);
-    for ((gap, x), stiffness) in gaps.iter_mut().zip(&program.x_0).zip(stiffness) {
-        *gap = stiffness * (*gap + x);
-    }
-    let mean = gaps.iter().map(|g| g.abs()).sum::<f64>() / gaps.len().max(1) as f64;
-    // What pulls cannot stay: the larger that is, the farther off the solution.
-    let pull = gaps.iter().fold(0.0, |max, gap| gap.max(max));
-    let shift = mean.max(AWAY * pull);
-    let shift = if shift > 0.0 && shift.is_finite() { shift } else { 1.0 };
-    let t = gaps.iter().map(|gap| (-gap).max(0.0) + shift).collect();
-    let y = gaps.iter().map(|gap| gap.max(0.0) + shift).collect();
-    Some(Variables { u, t, y })
-}
-
-impl Variables {
-    fn zero(program: &Program) -> Self {
-        let pairs = vec![0.0; program.x_0.len()];
-        Self { u: vec![0.0; program.f.len()], t: pairs.clone(), y: pairs }
-    }
-
-    fn mean_product(&self) -> f64 {
-        dot(&self.t, &self.y) / self.t.len().max(1) as f64
-    }
-
-    fn moved(&self, step: &Self, alpha: f64) -> Self {
-        let moved = |v: &[f64], step: &[f64]| {
-            v.iter().zip(step).map(|(v, step)| v + alpha * step).collect::<Vec<f64>>()
-        };
-        Self { u: moved(&self.u, &step.u), t: moved(&self.t, &step.t), y: moved(&self.y, &step.y) }
-    }
-
-    fn is_finite(&self) -> bool {
-        [&self.u, &self.t, &self.y].iter().map(|v| v.iter().sum::<f64>()).sum::<f64>().is_finite()
-    }
-
-    /// The largest step, at most one, that leaves all bounded variables positive.
-    fn longest(&self, step: &Self) -> f64 {
-        let pairs = self.t.iter().zip(&step.t).chain(self.y.iter().zip(&step.y));
-        longest(pairs.map(|(v, change)| (*v, *change)))
-    }
-}
-
-/// The largest step, at most one, that leaves numbers positive that change.
-fn longest(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
-    pairs.filter(|(_, change)| *change < 0.0).map(|(v, change)| -v / change).fold(1.0, f64::min)
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 impl<'a> Homogeneous<'a> {

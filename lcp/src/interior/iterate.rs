@@ -10,8 +10,8 @@ use crate::vector::max_abs;
 pub(super) struct Iterate {
     pub(super) u: Vec<f64>,
     pub(super) points: Vec<Pairs>,
-    /// The slip over which friction turns, in units of the scaled problem: products of friction are not driven below this
-    /// times `mu t_n`. Zero for Coulomb's law itself.
+    /// The slip `e` over which friction turns, in units of the scaled problem: products of friction are to be `tau + e mu t_n`.
+    /// Zero for Coulomb's law itself.
     pub(super) smooth: f64,
 }
 
@@ -38,7 +38,7 @@ impl Pairs {
 
     /// What the products of the pairs should be where those of the gaps are `tau`.
     pub(super) fn aims(&self, mu: f64, tau: f64, smooth: f64) -> [f64; 3] {
-        let friction = tau.max(smooth * mu * self.t_n);
+        let friction = tau + smooth * mu * self.t_n.max(0.0);
         [tau, friction, friction]
     }
 
@@ -114,7 +114,8 @@ impl<'a> Tangent<'a> {
         spring: f64,
     ) -> Self {
         let points = problem.points.mu.iter().zip(&at.points);
-        let springs: Vec<Springs> = points.map(|(mu, pairs)| springs(*mu, pairs)).collect();
+        let spring_of = |(mu, pairs): (&f64, &Pairs)| springs((*mu, at.smooth), pairs);
+        let springs: Vec<Springs> = points.map(spring_of).collect();
         condensed.factorise(problem, &springs, spring);
         Self { problem, condensed, at, springs }
     }
@@ -126,7 +127,7 @@ impl<'a> Tangent<'a> {
     }
 
     /// The step that makes good the defect and changes the products of the pairs by `targets`, to first
-    /// order: `y dt + t dy = target`.
+    /// order: `y dt + t dy = target`, and for friction `target + e mu dt_n`.
     pub(super) fn step(&self, defect: &Defect, targets: &[[f64; 3]]) -> Iterate {
         let points = self.problem.points.iter().zip(&self.at.points).zip(&self.springs);
         let points = points.zip(targets).zip(&defect.gaps);
@@ -151,7 +152,9 @@ impl<'a> Tangent<'a> {
             let (t_n, t_t) = springs.forces(moved.0, moved.1);
             let (t_n, t_t) = (fixed.0 - t_n, fixed.1 - t_t);
             let opened = (moved.0 + gaps.0, moved.1 + gaps.1);
-            at.change(point.mu, (t_n, t_t), opened, targets)
+            let turned = self.at.smooth * point.mu * t_n;
+            let targets = [targets[0], targets[1] + turned, targets[2] + turned];
+            at.change(point.mu, (t_n, t_t), opened, &targets)
         });
         let points = points.collect();
         Iterate { u, points, smooth: 0.0 }
@@ -169,15 +172,16 @@ impl Pairs {
     }
 }
 
-/// The springs that Newton's method puts in the place of a contact.
-fn springs(mu: f64, pairs: &Pairs) -> Springs {
+/// The springs that Newton's method puts in the place of a contact with friction that turns over the slip `smooth`.
+fn springs((mu, smooth): (f64, f64), pairs: &Pairs) -> Springs {
     let nn = 1.0 / (pairs.gap / pairs.t_n + COMPLIANCE);
     if mu == 0.0 {
         return Springs { nn, ..Springs::default() };
     }
-    let (plus, minus) = pairs.ratios(mu);
     let tt = pairs.resistance(mu);
-    Springs { nn, tn: -mu * (plus - minus) * tt * nn, tt }
+    let (plus, minus) = pairs.strengths(mu);
+    let along = (pairs.slip_plus - smooth) / plus - (pairs.slip_minus - smooth) / minus;
+    Springs { nn, tn: -mu * along * tt * nn, tt }
 }
 
 impl Pairs {

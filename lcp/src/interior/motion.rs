@@ -4,11 +4,12 @@ use faer::sparse::FaerError;
 
 use super::constants::{
     AS_FREE, CREEPING, FIRST_VISCOSITY, FLOWING, LESS_VISCOUS, LONGER_MOTION, MORE_VISCOUS, MOVED,
-    SAME_LENGTH, SLOWER, SOFTEST,
+    SAME_LENGTH, SLOWER, SOFTEST, WARM,
 };
 use super::factors::Factors;
-use super::homogeneous::{Accuracy, solved};
+use super::homogeneous::{Accuracy, solved_from};
 use super::program::{Program, associated};
+use super::variables::Variables;
 use crate::Status;
 use crate::states::{Condensed, Scaled, Springs};
 
@@ -20,6 +21,8 @@ use crate::states::{Condensed, Scaled, Springs};
 pub(super) struct Motions {
     edges: Program,
     factors: Factors,
+    /// The solution of the last program: part of the start of the next (Skajaa, Andersen and Ye 2013).
+    last: Option<Variables>,
 }
 
 /// Where bodies are after a motion, and the forces on the way, by contact point.
@@ -32,7 +35,7 @@ impl Motions {
     pub(super) fn of(problem: &Scaled) -> Result<Self, FaerError> {
         let edges = associated(problem);
         let factors = Factors::of(&edges)?;
-        Ok(Self { edges, factors })
+        Ok(Self { edges, factors, last: None })
     }
 
     /// The factorisations of all motions.
@@ -49,7 +52,7 @@ impl Motions {
         (viscosity, accuracy): (f64, f64),
         stop: impl FnMut(f64) -> Option<Status>,
     ) -> Option<Moved> {
-        let Self { edges, factors } = self;
+        let Self { edges, factors, last } = self;
         for (f, (load, from)) in edges.f.iter_mut().zip(problem.f.iter().zip(from)) {
             *f = load + viscosity * from;
         }
@@ -57,9 +60,18 @@ impl Motions {
             *x_0 = point.x_0 + mu * point.s_0;
         }
         let accuracy = Accuracy::of_all(accuracy).of_loads(MOVED / accuracy);
-        let (moved, status) = solved(edges, factors, (viscosity, accuracy), stop, |_| false);
-        let forces = problem.of_edges(moved.t.iter().copied());
-        (status == Status::Solved).then_some(Moved { forces, u: moved.u })
+        let mut at = Variables::start(edges, factors, viscosity)?;
+        if let Some(last) = last {
+            at = at.mixed(last, WARM);
+        }
+        let how = (viscosity, accuracy);
+        let (moved, status) = solved_from(at, (edges, factors), how, stop, |_| false);
+        if status != Status::Solved {
+            return None;
+        }
+        let (u, forces) = (moved.u.clone(), problem.of_edges(moved.t.iter().copied()));
+        *last = Some(moved);
+        Some(Moved { u, forces })
     }
 }
 

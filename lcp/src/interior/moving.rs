@@ -3,14 +3,13 @@
 use std::ops::ControlFlow;
 
 use super::constants::{
-    AHEAD, FIRST_VISCOSITY, FREE, HURRY, LAST_TRIES, LEAST_VISCOSITY, LONGER_SETTLING,
-    MOST_VISCOSITY, MOVED, REDUCED_START, SETTLING, SOONER, STEADIER, STEADY, STEADY_MOTIONS,
-    THROUGH, TRIES,
+    AHEAD, FIRST_VISCOSITY, FREE, HURRY, LAST_TRIES, LEAST_VISCOSITY, MOST_VISCOSITY, MOVED,
+    REDUCED_START, SETTLING, STEADIER, STEADY, STEADY_MOTIONS, THROUGH, TRIES,
 };
 use super::evolved::{Evolved, Way};
 use super::iterate::{Iterate, Rest};
 use super::motion::{Motions, Moved, Viscosity, unresisted};
-use super::rest::{Patience, settled};
+use super::rest::settled;
 use super::settings::EvolutionSettings;
 use super::start::{smoothed, start};
 use crate::active::{Effort, Search, unplanned};
@@ -43,8 +42,6 @@ pub(super) struct Moving<'a, 'b> {
     /// Where the last motion ended, and its forces by contact point.
     at: Vec<f64>,
     forces: Vec<(f64, f64)>,
-    /// Steps in which a residual has to be halved where rest is looked for.
-    patience: usize,
     /// What has stopped it.
     limit: Option<Status>,
 }
@@ -60,8 +57,7 @@ impl<'a, 'b> Moving<'a, 'b> {
         let at = search.scaled.of_displacements(from);
         let forces = vec![(0.0, 0.0); problem.points()];
         let origin = at.clone();
-        let (patience, limit) = (SETTLING, None);
-        Self { problem, tolerance, search, monitor, origin, at, forces, patience, limit }
+        Self { problem, tolerance, search, monitor, origin, at, forces, limit: None }
     }
 
     /// Moves the bodies until they rest or flow; rest without a motion is looked for first if that is wanted.
@@ -113,7 +109,7 @@ impl<'a, 'b> Moving<'a, 'b> {
             if viscosity.may_rest() && tries < TRIES {
                 tries += 1;
                 let slip = slips.get(tries - 1).or(slips.last());
-                let found = slip.and_then(|&slip| self.rest(slip, false));
+                let found = slip.and_then(|&slip| self.rest(SETTLING, (slip, false)));
                 if let Some(Found::Rest(from, solution)) = found {
                     self.search.condensed.factorisations += motions.factorisations();
                     return Ok(self.concluded((Way::Motion, from, *solution), path));
@@ -141,7 +137,7 @@ impl<'a, 'b> Moving<'a, 'b> {
     fn rest_at_once(&mut self, reductions: &[f64], slips: &[f64]) -> Option<(Way, Found)> {
         let slip = slips.first().copied();
         if let Some(slip) = slip.filter(|_| !reductions.is_empty()) {
-            let found = self.rest_within(Patience { first: HURRY, then: SETTLING }, (slip, true));
+            let found = self.rest(HURRY, (slip, true));
             if found.is_some() || self.limit.is_some() {
                 return found.map(|found| (Way::SmoothFriction, found));
             }
@@ -152,7 +148,7 @@ impl<'a, 'b> Moving<'a, 'b> {
                 return found.map(|found| (Way::ReducedFriction, found));
             }
         }
-        let found = slip.and_then(|slip| self.rest(slip, true));
+        let found = slip.and_then(|slip| self.rest(SETTLING, (slip, true)));
         found.map(|found| (Way::SmoothFriction, found))
     }
 
@@ -184,15 +180,9 @@ impl<'a, 'b> Moving<'a, 'b> {
     }
 
     /// The state at rest that friction leads to which turns over this part of the displacements of the start, with slips from
-    /// there; or the solution of the problem itself next to it, where that is wanted.
-    fn rest(&mut self, part: f64, by_law: bool) -> Option<Found> {
-        let patience = Patience { first: self.patience - SOONER, then: self.patience };
-        self.patience += LONGER_SETTLING;
-        self.rest_within(patience, (part, by_law))
-    }
-
-    /// The same with this patience.
-    fn rest_within(&mut self, patience: Patience, (part, by_law): (f64, bool)) -> Option<Found> {
+    /// there; or the solution of the problem itself next to it, where that is wanted. The residual has to be halved in
+    /// `patience` steps at first.
+    fn rest(&mut self, patience: usize, (part, by_law): (f64, bool)) -> Option<Found> {
         let Self { problem, tolerance, search, monitor, limit, origin, .. } = self;
         let go_on = |residual| {
             *limit = monitor.stop(residual);

@@ -1,6 +1,8 @@
 //! Bodies at rest: gaps and normal forces exactly complementary, and friction that turns over a short slip.
 
-use super::constants::{ADMISSIBLE, BLUNT, NEARLY_SETTLED, SETTLED, SHARPENED, SHARPER};
+use super::constants::{
+    ADMISSIBLE, BLUNT, MOST_STEPS, NEARLY_SETTLED, SETTLED, SETTLING, SHARPENED, SHARPER,
+};
 use super::continuation::centred;
 use super::iterate::{Iterate, Rest};
 use super::polish::polished;
@@ -8,7 +10,8 @@ use super::rigid::rigid_rest;
 use crate::states::{Condensed, PROXIMAL, Scaled};
 
 /// The states at rest on the way to the point with smooth friction at which all gaps and normal forces are complementary,
-/// until one is `accepted`. `go_on` is asked before every step, with the residual.
+/// until one is `accepted`. The residual has to be halved in `patience` steps down to [`SHARPENED`], which takes no more than
+/// [`MOST_STEPS`], and in [`SETTLING`] then. `go_on` is asked before every step, with the residual.
 ///
 /// Where the bodies move hardly farther than friction needs to turn, what vanishes with that slip is no movement: then
 /// friction turns over the slip that is `wanted` for these displacements. What that leaves open of rigid bodies,
@@ -16,7 +19,7 @@ use crate::states::{Condensed, PROXIMAL, Scaled};
 pub(super) fn settled<T>(
     problem: &Scaled,
     condensed: &mut Condensed,
-    (mut at, patience): (Iterate, Patience),
+    (mut at, patience): (Iterate, usize),
     wanted: impl Fn(&[f64]) -> f64,
     mut go_on: impl FnMut(f64) -> bool,
     mut accepted: impl FnMut(&mut Condensed, &Iterate, Rest) -> Option<T>,
@@ -55,34 +58,28 @@ pub(super) fn settled<T>(
     if is_rigid { rigid_rest(problem, condensed, &at, go_on, accepted) } else { None }
 }
 
-/// Steps in which a residual has to be halved: down to [`SHARPENED`], and then.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Patience {
-    pub(super) first: usize,
-    pub(super) then: usize,
-}
-
 /// Whether a residual decreases fast enough.
 struct Progress {
     best: f64,
-    patience: Patience,
+    patience: usize,
     left: usize,
+    steps: usize,
 }
 
 impl Progress {
-    fn within(patience: Patience) -> Self {
-        Self { best: f64::INFINITY, patience, left: patience.first }
+    fn within(patience: usize) -> Self {
+        Self { best: f64::INFINITY, patience, left: patience, steps: 0 }
     }
 
     fn is_made(&mut self, residual: f64) -> bool {
         if residual <= 0.5 * self.best {
-            let Patience { first, then } = self.patience;
             self.best = residual;
-            self.left = if residual > SHARPENED { first } else { then };
+            self.left = if residual > SHARPENED { self.patience } else { SETTLING };
         } else {
             self.left = self.left.saturating_sub(1);
         }
-        self.left > 0
+        self.steps += 1;
+        self.left > 0 && (residual <= SHARPENED || self.steps <= MOST_STEPS)
     }
 }
 

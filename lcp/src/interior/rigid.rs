@@ -15,9 +15,10 @@ use super::constants::{
     BALANCED, CLEARLY_CLOSED, CLOSED, KEPT, KEPT_EXACTLY, REACH, REFINED, ROUND, ROUNDS,
 };
 use super::factors::Factors;
-use super::homogeneous::{Accuracy, Variables, solved};
+use super::homogeneous::{Accuracy, solved};
 use super::iterate::{Iterate, Rest};
 use super::program::{Program, Units, along};
+use super::variables::Variables;
 use crate::Status;
 use crate::states::{Condensed, Point, Scaled, Springs};
 

@@ -5,8 +5,9 @@ use faer::sparse::{FaerError, SparseColMat};
 
 use super::constants::ROW_ROUNDING;
 use super::factors::Factors;
-use super::homogeneous::{Accuracy, Variables, solved};
+use super::homogeneous::{Accuracy, solved};
 use super::program::{Program, Units, assembled};
+use super::variables::Variables;
 use crate::problem::column_of;
 use crate::solve::Monitor;
 use crate::vector::max_abs;

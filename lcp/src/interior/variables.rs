@@ -1,0 +1,83 @@
+//! The variables of convex programs, inside their bounds, and where they start.
+
+use super::constants::AWAY;
+use super::factors::Factors;
+use super::program::Program;
+use crate::states::PROXIMAL;
+
+/// The variables of a program inside their bounds, or a step of them.
+#[derive(Debug, Clone)]
+pub(super) struct Variables {
+    pub(super) u: Vec<f64>,
+    pub(super) t: Vec<f64>,
+    pub(super) y: Vec<f64>,
+}
+
+impl Variables {
+    /// A start from the forces that the contacts would carry if they were springs in both directions.
+    pub(super) fn start(program: &Program, factors: &mut Factors, spring: f64) -> Option<Self> {
+        let spring = spring.max(PROXIMAL);
+        let stiffness: Vec<f64> = program.compliance.iter().map(|c| 1.0 / (1.0 + c)).collect();
+        factors.factorise(program, stiffness, spring)?;
+        let stiffness = &factors.stiffness;
+        let mut u = program.f.clone();
+        let forces = stiffness.iter().zip(&program.x_0).map(|(stiffness, x)| -stiffness * x);
+        program.add_forces(&forces.collect::<Vec<f64>>(), &mut u);
+        factors.gram.solve(&mut u);
+        // Less than the gap by what the force presses together, which is the force of a spring of stiffness one.
+        let mut gaps = program.opened(&u);
+        for ((gap, x), stiffness) in gaps.iter_mut().zip(&program.x_0).zip(stiffness) {
+            *gap = stiffness * (*gap + x);
+        }
+        let mean = gaps.iter().map(|g| g.abs()).sum::<f64>() / gaps.len().max(1) as f64;
+        // What pulls cannot stay: the larger that is, the farther off the solution.
+        let pull = gaps.iter().fold(0.0, |max, gap| gap.max(max));
+        let shift = mean.max(AWAY * pull);
+        let shift = if shift > 0.0 && shift.is_finite() { shift } else { 1.0 };
+        let t = gaps.iter().map(|gap| (-gap).max(0.0) + shift).collect();
+        let y = gaps.iter().map(|gap| gap.max(0.0) + shift).collect();
+        Some(Self { u, t, y })
+    }
+
+    pub(super) fn zero(program: &Program) -> Self {
+        let pairs = vec![0.0; program.x_0.len()];
+        Self { u: vec![0.0; program.f.len()], t: pairs.clone(), y: pairs }
+    }
+
+    pub(super) fn mean_product(&self) -> f64 {
+        dot(&self.t, &self.y) / self.t.len().max(1) as f64
+    }
+
+    pub(super) fn moved(&self, step: &Self, alpha: f64) -> Self {
+        self.with(step, |v, step| v + alpha * step)
+    }
+
+    /// `(1 - share) self + share other`.
+    pub(super) fn mixed(&self, other: &Self, share: f64) -> Self {
+        self.with(other, |a, b| (1.0 - share) * a + share * b)
+    }
+
+    fn with(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
+        let with = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| of(*a, *b)).collect();
+        Self { u: with(&self.u, &other.u), t: with(&self.t, &other.t), y: with(&self.y, &other.y) }
+    }
+
+    pub(super) fn is_finite(&self) -> bool {
+        [&self.u, &self.t, &self.y].iter().map(|v| v.iter().sum::<f64>()).sum::<f64>().is_finite()
+    }
+
+    /// The largest step, at most one, that leaves all bounded variables positive.
+    pub(super) fn longest(&self, step: &Self) -> f64 {
+        let pairs = self.t.iter().zip(&step.t).chain(self.y.iter().zip(&step.y));
+        longest(pairs.map(|(v, change)| (*v, *change)))
+    }
+}
+
+/// The largest step, at most one, that leaves numbers positive that change.
+pub(super) fn longest(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
+    pairs.filter(|(_, change)| *change < 0.0).map(|(v, change)| -v / change).fold(1.0, f64::min)
+}
+
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
