@@ -45,6 +45,7 @@ impl<'a> Ahead<'a> {
     /// The step of [`advance`].
     pub(super) fn advance(&self, problem: &Scaled, at: &Iterate, width: f64) -> (Iterate, f64) {
         let Self { tangent, defect, predictor } = self;
+        // Smooth friction mostly goes on with long steps where the determinant is negative.
         let (step, alpha) = if tangent.is_backwards() && !at.is_smooth() {
             turn(problem, tangent, at, predictor)
         } else {
@@ -84,7 +85,8 @@ fn forwards(
         let centring = tangent.step(defect, &targets(problem, at, gap, None));
         (step, alpha) = mixture(problem, at, predictor, &centring);
     }
-    if alpha < SHORT {
+    // Rigid bodies that jam each other, a wedge for example, are found at rest only without going round the turn.
+    if alpha < SHORT && !(at.is_smooth() && problem.is_rigid()) {
         return turn(problem, tangent, at, predictor);
     }
     (step, alpha)
