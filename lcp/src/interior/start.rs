@@ -3,6 +3,8 @@
 use super::constants::{HALF, MOST_FRICTION, OPENED, OPENINGS, WIDE};
 use super::iterate::{Defect, Iterate, Pairs};
 use super::path::{Ahead, advance};
+#[cfg(test)]
+use super::{iterate::Tangent, path::targets};
 use crate::states::{Condensed, PROXIMAL, Scaled, Springs};
 
 /// A start from the forces that the contacts would carry if they were springs in both directions.
@@ -96,4 +98,41 @@ pub(super) fn set_out(
         from = wider;
     }
     advance(problem, condensed, (at, defect), (spring, width))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+mod tests {
+    use super::*;
+    use crate::{Contact2d, ContactPoint};
+
+    /// What products miss decreases by the part of a step that is taken, up to the square of that part.
+    #[test]
+    fn newtons_step_is_exact_to_first_order() {
+        let mut builder = Contact2d::builder([[2.0, 0.5], [0.5, 1.0]], vec![-1.0, 0.7]);
+        for (normal, slip) in [([(0, 1.0)], 0.0), ([(0, 0.4)], 0.1)] {
+            let tangent = &[(1, 1.0)];
+            builder.add_point(ContactPoint { normal: &normal, tangent, gap: 0.1, slip, mu: 0.6 });
+        }
+        let problem = Scaled::of_contact(&builder.build().unwrap());
+        let mut condensed = Condensed::new(&problem).unwrap();
+        let begin = start(&problem, &mut condensed, PROXIMAL);
+        for slip in [0.0, 0.03, 0.3] {
+            let at = smoothed(&problem, begin.clone(), slip);
+            let tau = 0.1 * at.gap(&problem);
+            let defect = Defect::of(&problem, &at, 0.0);
+            let tangent = Tangent::new(&problem, &mut condensed, &at, PROXIMAL);
+            let step = tangent.step(&defect, &targets(&problem, &at, tau, None));
+            let missing = |at: &Iterate| -> Vec<f64> {
+                at.products(&problem, tau).map(|(product, aim)| product - aim).collect()
+            };
+            let part = 1e-4;
+            let (before, after) = (missing(&at), missing(&at.moved(&step, part)));
+            let size = before.iter().fold(0.0_f64, |max, v| max.max(v.abs()));
+            for (before, after) in before.iter().zip(after) {
+                let error = (after - (1.0 - part) * before).abs();
+                assert!(error < 10.0 * part * part * size, "{slip}: {error} of {size}");
+            }
+        }
+    }
 }
