@@ -1,10 +1,12 @@
 //! Where the iteration starts, and how it finds out how far bodies move.
 
 use super::constants::{HALF, MOST_FRICTION, OPENED, OPENINGS, WIDE};
-use super::iterate::{Defect, Iterate, Pairs};
-use super::path::{Ahead, advance};
 #[cfg(test)]
-use super::{iterate::Tangent, path::targets};
+use super::iterate::Tangent;
+use super::iterate::{Defect, Iterate, Pairs};
+#[cfg(test)]
+use super::path::targets;
+use super::path::{Ahead, advance};
 use crate::states::{Condensed, PROXIMAL, Scaled, Springs};
 
 /// A start from the forces that the contacts would carry if they were springs in both directions.
