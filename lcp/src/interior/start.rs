@@ -103,8 +103,9 @@ pub(super) fn set_out(
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+
     use super::*;
     use crate::{Contact2d, ContactPoint};
 
