@@ -9,13 +9,14 @@ use serde::{Deserialize, Serialize};
 use crate::files::write_atomically;
 use crate::history::StepRecord;
 use crate::method::forms::Start;
+use crate::method::info::SolveInfo;
 use crate::model::Model;
 use crate::recover;
 use crate::scene::{Output, Scene, SceneError, Solver};
 use crate::state::{ContactState, State};
 
 /// The version of the format.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// Why a checkpoint cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -104,6 +105,8 @@ pub struct Checkpoint {
     pub(crate) origin: String,
     /// The results of the steps.
     pub records: Vec<StepRecord>,
+    /// How the last step was solved, without times: the file does not depend on the machine.
+    pub(crate) solve: SolveInfo,
     displacements: Vec<Vec<[f64; 2]>>,
     contacts: Vec<ContactState>,
     strain_energy: f64,
@@ -120,14 +123,16 @@ struct Version {
 impl Checkpoint {
     pub(crate) fn new(
         origin: String,
-        records: Vec<StepRecord>,
+        (records, mut solve): (Vec<StepRecord>, SolveInfo),
         (state, basis): (&State, Option<&Start>),
     ) -> Self {
+        solve.routes.iter_mut().for_each(|route| route.seconds = 0.0);
         let side = |is_t: &bool| if *is_t { 't' } else { 'y' };
         Self {
             version: VERSION,
             origin,
             records,
+            solve,
             displacements: state
                 .displacements
                 .iter()

@@ -1,11 +1,11 @@
 //! Records of the work of routes: plain data.
 
-use serde::Serialize;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::scene::Route;
 
 /// How the complementarity problem was solved.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct SolveInfo {
     /// `Solved`, or why not.
@@ -29,7 +29,7 @@ pub struct SolveInfo {
     /// augmented Lagrangian method.
     pub iterations: usize,
     /// Every iteration of the augmented Lagrangian method; empty on the other routes.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub convergence: Vec<Iteration>,
     /// Matrices factorised.
     pub factorisations: usize,
@@ -73,22 +73,29 @@ impl SolveInfo {
 }
 
 /// One iteration of the augmented Lagrangian method.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Iteration {
     /// The attempt, from 1.
     pub attempt: usize,
     /// Largest unbalanced force after the projection, relative to the largest load \[-\].
+    #[serde(deserialize_with = "or_infinite")]
     pub unbalance: f64,
     /// Estimate of the distance from the solution, of displacements and of the forces in the blocks, relative
     /// to the largest of them or what the loads alone would make \[-\]; infinite until the iteration contracts.
+    #[serde(deserialize_with = "or_infinite")]
     pub distance: f64,
     /// Contacts that changed their state.
     pub changes: usize,
 }
 
+/// A number; infinite where a file has none, since JSON has no infinite numbers.
+fn or_infinite<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
+}
+
 /// How a route ended.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct RouteEnd {
     /// The route.
@@ -103,7 +110,7 @@ pub struct RouteEnd {
 
 /// Springs on all displacements that are made softer and softer, and the share of the load that they carry. If the
 /// share does not tend to zero, nothing else carries it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct SpringShares {
     /// The stiffnesses, relative to that of the blocks \[-\].
@@ -114,7 +121,7 @@ pub struct SpringShares {
 
 /// Springs that hold the blocks while a scene is solved, and their effect before they were re-centred; the final
 /// result is without them.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct SoftReport {
     /// The stiffness, relative to that of the blocks \[-\].

@@ -84,6 +84,7 @@ pub struct Run {
 /// What the last step that was solved has come to.
 #[derive(Debug)]
 struct Reached {
+    info: SolveInfo,
     state: State,
     checks: Option<Checks>,
     /// The step as the next one needs it; `None` where there is only one.
@@ -182,20 +183,18 @@ impl Run {
         let state = checkpoint.state(&model, self.with_stresses)?;
         self.system.reload(&model);
         let snapshot = Snapshot::of(&model, &self.system, &state);
-        let info = SolveInfo {
-            route: record.route,
-            because: "of the run that wrote the checkpoint".to_owned(),
-            ..SolveInfo::new(Status::Solved, record.residuals)
-        };
         // What slid in the last step is not in the file: what has slid in all is taken for where it started.
         let slips: Vec<f64> = state.contacts.iter().map(|contact| contact.y_t).collect();
         let judged = self.model.under(&record.step.actions, &slips);
         let checks = Checks::of(&judged, &state);
-        if !checks.hold(self.request.tolerance.max(record.residuals.worst())) {
+        let info = checkpoint.solve.clone();
+        let tolerance = self.request.tolerance.max(record.residuals.worst());
+        if info.status != Status::Solved || !checks.hold(tolerance) {
             return Err(CheckpointError::NoEquilibrium.into());
         }
         let in_history = Some(InHistory { model, snapshot });
-        self.reached = Some(Reached { state, checks: Some(checks), in_history });
+        let reached = Reached { info: info.clone(), state, checks: Some(checks), in_history };
+        self.reached = Some(reached);
         self.last = Some(Last { info, statics: None, mechanism: None });
         self.solved = records.len();
         self.records.clone_from(records);
@@ -292,10 +291,10 @@ impl Run {
             });
             let is_solved = info.status == Status::Solved;
             if is_solved || self.reached.is_none() {
-                let reached = Reached { state, checks, in_history };
+                let reached = Reached { info: info.clone(), state, checks, in_history };
                 if is_solved {
                     self.solved += 1;
-                    self.records.extend(self.record(step, &info, dissipation, &reached));
+                    self.records.extend(self.record(step, dissipation, &reached));
                 }
                 self.reached = Some(reached);
             }
@@ -304,14 +303,8 @@ impl Run {
     }
 
     /// The record of a step that follows the last one reached; `None` where there is no history.
-    fn record(
-        &self,
-        step: Step,
-        info: &SolveInfo,
-        dissipation: f64,
-        reached: &Reached,
-    ) -> Option<StepRecord> {
-        let Reached { state, checks, in_history } = reached;
+    fn record(&self, step: Step, dissipation: f64, reached: &Reached) -> Option<StepRecord> {
+        let Reached { info, state, checks, in_history } = reached;
         let InHistory { model, snapshot } = in_history.as_ref()?;
         let before = self.reached.as_ref().and_then(|it| it.in_history.as_ref());
         let work = match before {
@@ -363,10 +356,10 @@ impl Run {
 
     /// Everything that the next step needs; `None` before the first, and for a scene of one step.
     pub fn checkpoint(&self) -> Option<Checkpoint> {
-        let reached = self.reached.as_ref()?;
+        let Reached { info, state, .. } = self.reached.as_ref()?;
         (!self.records.is_empty()).then(|| {
-            let reached = (&reached.state, self.basis.as_ref());
-            Checkpoint::new(self.origin.clone(), self.records.clone(), reached)
+            let solved = (self.records.clone(), info.clone());
+            Checkpoint::new(self.origin.clone(), solved, (state, self.basis.as_ref()))
         })
     }
 
@@ -380,7 +373,7 @@ impl Run {
         let steps = self.steps.len();
         let history = History { records: self.records, failed, steps, loads: self.loads };
         let (model, state, checks) = match self.reached {
-            Some(Reached { state, checks, in_history }) => {
+            Some(Reached { state, checks, in_history, .. }) => {
                 (in_history.map_or(self.model, |it| it.model), Some(state), checks)
             }
             None => (self.model, None, None),
