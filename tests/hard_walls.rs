@@ -1,5 +1,5 @@
-//! Walls that are hard to decide: tilts near the largest that any forces hold, open bases, settlements in one step and in
-//! five. The bench `scaling` has the same table for walls of a thousand bricks.
+//! Walls that are hard to decide: tilts near the largest that any forces hold, open bases, settlements in one step, five and
+//! twenty. The bench `scaling` has the same table for walls of a thousand bricks.
 
 #[path = "../benches/scaling/walls.rs"]
 mod walls;
@@ -12,22 +12,28 @@ const COURSES: u32 = 6;
 /// Elastic walls that stand may take no more factorisations, in any step of a history.
 const MOST_FACTORISATIONS: usize = 150;
 
+/// Histories of twenty steps may take no more on average, with rigid bricks too.
+const MEAN_FACTORISATIONS: usize = 100;
+
 /// Verdict and evidence, within these factorisations.
 fn verdict_of(wall: &Wall, case: Case, limit: f64) -> (Verdict, Evidence) {
-    let (judgement, most) = solved(wall, case, limit);
+    let (judgement, steps) = solved(wall, case, limit);
     if wall.mesh.is_some() && judgement.0 == Verdict::Stands {
+        let most = steps.into_iter().max().unwrap_or(0);
         assert!(most <= MOST_FACTORISATIONS, "mu {}, {:?}: {case}: {most}", wall.mu, wall.mesh);
     }
     judgement
 }
 
-/// Verdict and evidence, and the most factorisations of a step.
-fn solved(wall: &Wall, case: Case, limit: f64) -> ((Verdict, Evidence), usize) {
+/// Verdict and evidence, and the factorisations of all steps.
+fn solved(wall: &Wall, case: Case, limit: f64) -> ((Verdict, Evidence), Vec<usize>) {
     let outcome = solve(&wall.scene(case, limit)).expect("a sound scene");
-    let in_steps = outcome.history.iter().flat_map(|history| &history.records);
-    let most = in_steps.map(|record| record.factorisations).max();
     let judgement = (outcome.judgement.verdict, outcome.judgement.evidence);
-    (judgement, most.unwrap_or(outcome.solve.factorisations))
+    let steps = match &outcome.history {
+        Some(history) => history.records.iter().map(|record| record.factorisations).collect(),
+        None => vec![outcome.solve.factorisations],
+    };
+    (judgement, steps)
 }
 
 /// Rigid walls stand up to the largest tilt that any forces hold. Elastic ones may slide and fall before, never after.
@@ -65,6 +71,17 @@ fn small_walls_on_open_bases_stand() {
         let wall = Wall { courses: 10, mu: 0.7, mesh: Some(mesh) };
         let (found, _) = solved(&wall, Case::OpenBase, 0.0);
         assert_eq!(found, (Verdict::Stands, Evidence::Equilibrium), "{mesh:?}");
+    }
+}
+
+#[test]
+fn walls_that_settle_in_twenty_steps_come_to_rest() {
+    for (mu, mesh) in [(0.6, None), (1.3, None), (0.5, Some([1, 1])), (1.0, Some([2, 1]))] {
+        let wall = Wall { courses: 10, mu, mesh };
+        let (found, steps) = solved(&wall, Case::Settlement(20), 0.0);
+        assert_eq!(found, (Verdict::Stands, Evidence::Equilibrium), "mu {mu}, {mesh:?}");
+        let mean = steps.iter().sum::<usize>() / steps.len();
+        assert!(steps.len() == 21 && mean <= MEAN_FACTORISATIONS, "mu {mu}, {mesh:?}: {steps:?}");
     }
 }
 

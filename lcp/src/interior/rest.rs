@@ -14,8 +14,8 @@ use crate::states::{Condensed, PROXIMAL, Scaled};
 /// [`MOST_STEPS`], and in [`SETTLING`] then. `go_on` is asked before every step, with the residual.
 ///
 /// Where the bodies move hardly farther than friction needs to turn, what vanishes with that slip is no movement: then
-/// friction turns over the slip that is `wanted` for these displacements. What that leaves open of rigid bodies,
-/// [`rigid_rest`] decides.
+/// friction turns over the slip that is `wanted` for these displacements. From near rest, [`rigid_rest`] goes on with rigid
+/// bodies.
 pub(super) fn settled<T>(
     problem: &Scaled,
     condensed: &mut Condensed,
@@ -37,25 +37,24 @@ pub(super) fn settled<T>(
         }
         at.smooth = slip;
     }
-    let is_rigid = problem.is_rigid();
-    if is_rigid {
-        at = settle(condensed, at, NEARLY_SETTLED)?;
-    }
     let mut accepted = |condensed: &mut Condensed, at: &Iterate, rest| {
         let is_admissible = is_admissible(problem, at, &rest);
         if is_admissible { accepted(condensed, at, rest) } else { None }
     };
+    if problem.is_rigid() {
+        at = settle(condensed, at, NEARLY_SETTLED)?;
+        let accepted = |condensed: &mut Condensed, rest| accepted(condensed, &at, rest);
+        return rigid_rest(problem, condensed, &at, go_on, accepted);
+    }
     for accuracy in SETTLED {
-        let Some(next) = settle(condensed, at.clone(), accuracy) else { break };
-        at = next;
+        at = settle(condensed, at, accuracy)?;
         let rest = polished(problem, condensed, &at);
         let found = accepted(condensed, &at, rest);
         if found.is_some() {
             return found;
         }
     }
-    let accepted = |condensed: &mut Condensed, rest| accepted(condensed, &at, rest);
-    if is_rigid { rigid_rest(problem, condensed, &at, go_on, accepted) } else { None }
+    None
 }
 
 /// Whether a residual decreases fast enough.
