@@ -85,11 +85,7 @@ fn forwards(
         let centring = tangent.step(defect, &targets(problem, at, gap, None));
         (step, alpha) = mixture(problem, at, predictor, &centring);
     }
-    // Rigid bodies that jam each other, a wedge for example, are found at rest only without going round the turn.
-    if alpha < SHORT && !(at.is_smooth() && problem.is_rigid()) {
-        return turn(problem, tangent, at, predictor);
-    }
-    (step, alpha)
+    if alpha < SHORT { turn(problem, tangent, at, predictor) } else { (step, alpha) }
 }
 
 /// The longest part of a step that keeps the products near their mean.
