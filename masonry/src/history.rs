@@ -208,7 +208,7 @@ pub struct StepRecord {
     /// of opening joints with tensile strength, which is recovered when they close. Where [`way`](Self::way) is not
     /// [`Law`](lcp::Way::Law), `t_t` is the mean of the forces at both ends of the step.
     pub dissipation: f64,
-    /// Strain energy of blocks and films after the step \[J\].
+    /// Strain energy of blocks, joints and films after the step \[J\].
     pub strain_energy: f64,
     /// The largest displacement after the step \[m\].
     pub largest_displacement: f64,

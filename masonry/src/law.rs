@@ -21,9 +21,13 @@
 //! use `t_n'`, and only [`Friction::base`] is new there; [`State`](crate::state::State) has `t_n` again. Nothing else
 //! in the crate depends on the bound.
 
+//!
+//! The faces of a joint may give way before it opens or slides: with a stiffness `k_n` and `k_t` \[Pa/m\] they are springs
+//! in series with this law, of the compliance `1 / (k A)` \[m/N\] at a point. Gap and slip are what is left beyond these.
+
 use crate::ids::ContactId;
 
-/// Resistance to sliding and opening of a class of joints.
+/// Resistance of a class of joints to sliding and opening, and to being compressed and sheared.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JointLaw {
     /// Coefficient of Coulomb friction \[-\].
@@ -32,6 +36,8 @@ pub struct JointLaw {
     pub cohesion: f64,
     /// Tensile strength `f_t` \[Pa\], at most `c / mu`.
     pub tension: f64,
+    /// Stiffness `k_n` across and `k_t` along the joint \[Pa/m\]; `None` where the faces do not give way.
+    pub stiffness: Option<[f64; 2]>,
 }
 
 impl JointLaw {
@@ -48,6 +54,19 @@ impl JointLaw {
     /// The law of a point that stands for an area \[m^2\].
     pub fn at(&self, area: f64) -> PointLaw {
         PointLaw { mu: self.mu, cohesion: self.cohesion * area, tension: self.tension * area }
+    }
+
+    /// Compression and shear of the faces \[m/N\] of a point that stands for an area \[m^2\]: `1 / (k_n A)` and
+    /// `1 / (k_t A)`, or zeros.
+    ///
+    /// ```
+    /// use masonry::law::JointLaw;
+    /// let law = JointLaw { stiffness: Some([4e9, 2e9]), ..JointLaw::friction(0.6) };
+    /// assert_eq!(law.compliance(0.5), [5e-10, 1e-9]);
+    /// assert_eq!(JointLaw::friction(0.6).compliance(0.5), [0.0, 0.0]);
+    /// ```
+    pub fn compliance(&self, area: f64) -> [f64; 2] {
+        self.stiffness.map_or([0.0; 2], |stiffness| stiffness.map(|k| 1.0 / (k * area)))
     }
 }
 

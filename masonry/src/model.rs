@@ -270,8 +270,19 @@ pub struct ContactPoint {
     pub slip: f64,
     /// The law of its joint's class, for the area that it stands for.
     pub law: PointLaw,
+    /// Compression and shear of the joint itself, by its [stiffness](JointLaw::stiffness), under a unit of force \[m/N\];
+    /// zeros where it does not give way.
+    pub compliance: [f64; 2],
     /// Additional data of a point of a film; `None` in a dry joint.
     pub film: Option<FilmPoint>,
+}
+
+impl ContactPoint {
+    /// Compression and shear under a unit of force \[m/N\], of the joint and of a film in it, one after the other.
+    pub fn gives(&self) -> [f64; 2] {
+        let film = self.film.map_or([0.0; 2], |film| film.compliance);
+        [0, 1].map(|k| self.compliance[k] + film[k])
+    }
 }
 
 /// A contact point of a film.

@@ -13,7 +13,7 @@ use crate::state::{
 };
 use crate::system::{BodySystem, Direction, System, displaced_nodes};
 
-/// Gaps and slips below this fraction of the largest displacement or film compression count as zero when points are called
+/// Gaps and slips below this fraction of the largest displacement or compression of a joint count as zero when points are called
 /// open, sticking or sliding.
 const STATUS_TOLERANCE: f64 = 1e-8;
 
@@ -51,7 +51,7 @@ pub fn recover(
         displacements.push(moved.collect());
     }
     let contacts = contact_states(model, system, rows, &displacements);
-    strain_energy += films_energy(model, system, &contacts, &displacements);
+    strain_energy += joints_energy(model, system, &contacts, &displacements);
     let (stresses, films) = wanted_stresses(model, &displacements, &contacts, with_stresses);
     State { displacements, contacts, films, stresses, strain_energy }
 }
@@ -72,7 +72,7 @@ pub(crate) fn wanted_stresses(
 
 /// The state that belongs to forces and displacements of the sparse problem, solved to `tolerance`.
 ///
-/// Where all blocks are rigid and nothing has an initial gap or a film, no displacement has a natural
+/// Where all blocks are rigid and nothing has an initial gap or gives way, no displacement has a natural
 /// size, and rounding errors around zero are taken for zero.
 pub fn from_displacements(
     model: &Model,
@@ -115,7 +115,7 @@ fn of_blocks(
         });
     }
     let contacts = contact_states(model, system, rows, &displacements);
-    strain_energy += films_energy(model, system, &contacts, &displacements);
+    strain_energy += joints_energy(model, system, &contacts, &displacements);
     let (stresses, films) = wanted_stresses(model, &displacements, &contacts, with_stresses);
     State { displacements, contacts, films, stresses, strain_energy }
 }
@@ -125,8 +125,8 @@ fn energy(system: &System, body: &BodySystem, u: &[f64]) -> f64 {
     body.stiffness.map_or(0.0, |k| system.stiffnesses[k].energy(u))
 }
 
-/// The energy of all films \[J\]: of their compression and shear, and of the elongation of strips.
-fn films_energy(
+/// The energy of all joints and films \[J\]: of their compression and shear, and of the elongation of strips.
+fn joints_energy(
     model: &Model,
     system: &System,
     contacts: &[ContactState],
@@ -242,9 +242,9 @@ fn contact_states(
     }
     let relative = states.iter().map(|s| s.y_n.abs().max(s.y_t.abs())).fold(0.0, f64::max);
     let absolute = displacements.iter().flatten().map(nalgebra::Matrix::amax).fold(0.0, f64::max);
-    // Where no block moves and none is deformed, films may be.
-    let films = system.rows.iter().zip(&rows.t).map(|(row, t)| row.compliance * t.abs());
-    let zero = STATUS_TOLERANCE * films.fold(relative.max(absolute), f64::max);
+    // Where no block moves and none is deformed, joints may be.
+    let pressed = system.rows.iter().zip(&rows.t).map(|(row, t)| row.compliance * t.abs());
+    let zero = STATUS_TOLERANCE * pressed.fold(relative.max(absolute), f64::max);
     for state in &mut states {
         state.status = status(state, zero);
     }

@@ -19,7 +19,7 @@ pub struct State {
     pub films: Vec<FilmStress>,
     /// Stresses at the centre of every element; empty when no output shows them.
     pub stresses: Vec<ElementStress>,
-    /// Strain energy of all blocks and films \[J\].
+    /// Strain energy of all blocks, joints and films \[J\].
     pub strain_energy: f64,
 }
 

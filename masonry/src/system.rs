@@ -4,9 +4,9 @@
 //! Row `c` of `C`, for `c` below the number of contact points, is the normal row of contact point `c`;
 //! one tangential row follows for each point with friction, in the order of the points.
 //!
-//! A film of mortar is a spring in series with the contact: `y = C u + x + c t`, with the compliance `c`
-//! of the film in the row of the point ([`Row::compliance`]). Its shear is that of the strip (3.38),
-//! `(u_b - u_a).t` and half the thickness times the rotation of both faces, so that no rigid motion
+//! The stiffness of a joint, and a film of mortar, are springs in series with the contact: `y = C u + x + c t`, with
+//! the sum `c` of their compliances in the row of the point ([`Row::compliance`]). The shear of a film is that of the
+//! strip (3.38), `(u_b - u_a).t` and half the thickness times the rotation of both faces, so that no rigid motion
 //! shears it; both faces feel its force in the middle between them. Whole strips of mortar have two terms
 //! more where they touch elastic blocks, by the elongation `e = L u` of the film: a gap of
 //! `t_y (C_12 / C_22) eps_x` in the normal row, and the force of a bar, [`StretchRow`],
@@ -54,9 +54,9 @@ pub struct Row {
     pub contact: ContactId,
     /// The direction.
     pub direction: Direction,
-    /// Initial gap `x_0` or initial slip `s_0` \[m\]; of a film with tensile strength less its stretching by that.
+    /// Initial gap `x_0` or initial slip `s_0` \[m\]; less what tensile strength stretches a joint that gives way.
     pub offset: f64,
-    /// Compression or shear of the film under a unit of force \[m/N\]; zero in a dry joint.
+    /// Compression or shear of the joint and of a film in it under a unit of force \[m/N\]; zero where nothing gives way.
     pub compliance: f64,
     /// The difference between the unknown and the force \[N\]: the tensile strength `T` of the point in a normal row,
     /// and zero in the others. It is among the loads on both sides.
@@ -66,7 +66,7 @@ pub struct Row {
 impl Row {
     fn of(model: &Model, contact: ContactId, direction: Direction) -> Self {
         let point = &model.contacts[contact.index()];
-        let compliance = point.film.map_or([0.0; 2], |film| film.compliance);
+        let compliance = point.gives();
         let (offset, compliance, tension) = match direction {
             Direction::Normal => (point.gap, compliance[0], point.law.tension),
             Direction::Tangent => (point.slip, compliance[1], 0.0),
@@ -199,13 +199,13 @@ impl System {
         self.rows.len() - self.friction.len()
     }
 
-    /// Whether contact forces deform anything: there is an elastic block or a film of mortar.
+    /// Whether contact forces deform anything: there is an elastic block, a joint with a stiffness or a film of mortar.
     pub fn gives_way(&self) -> bool {
         let is_elastic = |body: &BodySystem| body.stiffness.is_some();
         self.bodies.iter().any(is_elastic) || self.rows.iter().any(|row| row.compliance > 0.0)
     }
 
-    /// Whether blocks may be at rest under any forces: all are rigid, no gap is open, no slip is left and nothing has a film.
+    /// Whether blocks may be at rest under any forces: all are rigid, no gap is open, no slip is left and no joint gives way.
     pub fn is_at_rest(&self) -> bool {
         let is_closed = |row: &Row| row.offset.abs() <= 0.0 && row.compliance <= 0.0;
         !self.gives_way() && self.rows.iter().all(is_closed)

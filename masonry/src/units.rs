@@ -84,6 +84,11 @@ impl Units {
         self.force_to_si() / (self.length_to_si() * self.length_to_si())
     }
 
+    /// Pascals per metre in one unit of the stiffness of a joint, force / length^3.
+    pub fn stiffness_to_si(self) -> f64 {
+        self.stress_to_si() / self.length_to_si()
+    }
+
     /// Joules in one unit of energy (and newton metres in one unit of moment).
     pub fn energy_to_si(self) -> f64 {
         self.force_to_si() * self.length_to_si()

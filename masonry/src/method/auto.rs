@@ -3,7 +3,7 @@
 //!
 //! The cheapest method that can decide runs first; slower ones follow only for what they alone can decide:
 //!
-//! 1. Rigid blocks without gaps and films: the program of admissible forces ([`statics`](crate::method::statics)) decides
+//! 1. Rigid blocks without gaps, in joints that do not give way: the program of admissible forces ([`statics`](crate::method::statics)) decides
 //!    either way.
 //! 2. All other walls: the interior-point method, at every size. If it has no solution after [`STEPS_BEFORE_PROOF`],
 //!    that program checks whether any forces balance the loads at all; if it proves that none do, this is the result.
@@ -47,7 +47,7 @@ const LAST_RESORT: Duration = Duration::from_secs(10);
 /// What decides between the routes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Facts {
-    /// All blocks are rigid, nothing has a film, and all gaps are closed before supports move.
+    /// All blocks are rigid, no joint gives way, and all gaps are closed before supports move.
     pub(crate) at_rest: bool,
     /// Order of the largest dense matrix that pivots would turn to.
     pub(crate) largest_dense: usize,

@@ -3,7 +3,7 @@
 //! With isostatic rows `I` and the others `E`, equilibrium of all blocks is
 //! `t_I = R t_E + t_0` (3.18), and the relative displacements follow from
 //! `y_E = A t_E - R^T y_I + c` (3.23), where `A = W^T F W`, `W` is the identity on `E` and `R` on `I`,
-//! and `F = C K^+ C^T`, with the compliance of mortar films on the diagonal. Any generalised inverse `K^+` gives the same `A` and `c`, because the
+//! and `F = C K^+ C^T`, with the compliance of joints and of mortar films on the diagonal. Any generalised inverse `K^+` gives the same `A` and `c`, because the
 //! columns of `W` and the loads with `t_0` balance on every block. Strips of mortar couple blocks; what that changes
 //! is in [`Bars`].
 
@@ -28,8 +28,8 @@ pub struct Reduction {
     pub r: Mat<f64>,
     /// `t_0` of (3.18): forces of the isostatic rows that balance the loads \[N\].
     pub t0: Vec<f64>,
-    /// `A = W^T F W` \[m/N\], symmetric and positive semidefinite; empty if nothing deforms: rigid blocks in dry
-    /// joints only have `R`.
+    /// `A = W^T F W` \[m/N\], symmetric and positive semidefinite; empty if nothing deforms: rigid blocks in joints
+    /// that do not give way only have `R`.
     pub a: Mat<f64>,
     /// `c` of (3.23) \[m\].
     pub c: Vec<f64>,
@@ -127,7 +127,7 @@ impl Reduction {
         self.g_isostatic.partial_piv_lu().solve(rhs).col_as_slice(0).to_vec()
     }
 
-    /// `F = C K^+ C^T` \[m/N\] of all rows, with the compliance of films and without bars, dense; empty
+    /// `F = C K^+ C^T` \[m/N\] of all rows, with the compliance of joints and films and without bars, dense; empty
     /// where nothing gives way.
     pub fn flexibility(&self, system: &System) -> Mat<f64> {
         if !system.gives_way() {

@@ -147,6 +147,7 @@ fn joint_class(scene: &Scene, (name, joint): (&String, &scene::Joint)) -> JointC
         mu: joint.friction(),
         cohesion: strength(joint.cohesion),
         tension: strength(joint.tension),
+        stiffness: joint.stiffness.map(|pair| pair.map(|k| k * scene.units.stiffness_to_si())),
     };
     JointClass { name: name.clone(), law, points: joint.points, mortar: mortar(scene, joint) }
 }

@@ -319,6 +319,7 @@ impl Meeting {
             gap: gap_from + (gap_to - gap_from) * place.along,
             slip: 0.0,
             law: law.at(weight),
+            compliance: law.compliance(weight),
             film,
         }
     }

@@ -17,6 +17,7 @@ pub(super) fn of(scene: &Scene, model: &Model, sizes: &Sizes, first: &Choice) ->
         friction(model, sizes, &route),
         cohesion(model, sizes, &route),
         tension(model),
+        joint_stiffness(model, sizes, &route),
         mortar_films(scene, model, sizes, &route),
         longitudinal_terms(scene, model, sizes, &route),
         deformation(scene, sizes, &route),
@@ -120,6 +121,24 @@ fn tension(model: &Model) -> Effect {
     Effect::on("tension", because, RIGHT_HAND_SIDE.to_owned())
 }
 
+/// Each point gives way across its joint and, with friction, along it. By pivots that is on the diagonal of `A`, on the
+/// sparse routes each is a displacement, unless a film has it already.
+fn joint_stiffness(model: &Model, sizes: &Sizes, route: &FirstRoute) -> Effect {
+    let name = "joint stiffness";
+    let used = classes_in_use(model, |law| law.stiffness.is_some());
+    if used.is_empty() {
+        return Effect::off(name, "no joint has a stiffness".to_owned());
+    }
+    let compliances = count(sizes.of_stiff_joints(), "compliance");
+    let because = format!("stiffness given for {}: {compliances}", names(used.into_iter()));
+    let effect = route.on(name, because, &sizes.without_joint_stiffness());
+    if route.pivots() {
+        let cost = format!("{compliances} on the diagonal of A");
+        return Effect { cost, ..effect };
+    }
+    effect
+}
+
 /// The names of the classes of the joints whose law has something.
 fn classes_in_use(model: &Model, has: impl Fn(&JointLaw) -> bool) -> BTreeSet<&str> {
     let used = model.joints.iter().map(|joint| &model.joint_classes[joint.class]);
@@ -147,7 +166,7 @@ fn mortar_films(scene: &Scene, model: &Model, sizes: &Sizes, route: &FirstRoute)
         };
         return Effect::off(name, because.to_owned());
     }
-    let compliances = count(sizes.compliances(), "compliance");
+    let compliances = count(sizes.of_films(), "compliance");
     let films = count(films, "film");
     let because =
         format!("thickness given for {}: {films}, {compliances}", names(filled.into_iter()));

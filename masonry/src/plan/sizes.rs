@@ -1,7 +1,7 @@
 //! How large the problem of a model is on each route, and what it would be without an effect.
 
 use super::choice::Choice;
-use crate::model::{Anchor, Block, Model};
+use crate::model::{Anchor, Block, ContactPoint, Model};
 use crate::paper::alm::Strips;
 use crate::scene::{Form, Route};
 
@@ -21,14 +21,47 @@ pub(super) struct Sizes {
     coulomb: usize,
     /// and those that do so without one.
     cohesive: usize,
-    /// Points of mortar films; each gives way across its joint.
-    film_points: usize,
-    /// Those with friction, which give way along it too.
-    sheared_films: usize,
+    /// Points of mortar films whose joints have no stiffness of their own,
+    in_films: Giving,
+    /// of joints with a stiffness and no film,
+    in_stiff_joints: Giving,
+    /// and of those with both, which are in series and give way together.
+    in_both: Giving,
     /// Bars of mortar strips, which couple the blocks.
     pub(super) bars: usize,
     /// Films are whole strips.
     strips: bool,
+}
+
+/// Points that give way.
+#[derive(Debug, Clone, Copy, Default)]
+struct Giving {
+    /// All of them, which give way across their joints.
+    points: usize,
+    /// Those that resist sliding, which give way along them too.
+    sheared: usize,
+}
+
+impl Giving {
+    fn of<'a>(points: impl Iterator<Item = &'a ContactPoint>) -> Self {
+        points.fold(Self::default(), |it, point| Self {
+            points: it.points + 1,
+            sheared: it.sheared + usize::from(point.law.resists_sliding()),
+        })
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self { points: self.points + other.points, sheared: self.sheared + other.sheared }
+    }
+
+    fn without_friction(self) -> Self {
+        Self { sheared: 0, ..self }
+    }
+
+    /// Rows of the system in which they give way.
+    fn rows(self) -> usize {
+        self.points + self.sheared
+    }
 }
 
 impl Sizes {
@@ -41,6 +74,13 @@ impl Sizes {
         let elastic = of_blocks.iter().flatten();
         let points = model.contacts.iter();
         let frictional = points.clone().filter(|point| point.law.resists_sliding());
+        let giving = |film: bool, stiffness: bool| {
+            let has_stiffness = |point: &ContactPoint| point.compliance.iter().any(|c| *c > 0.0);
+            let is_such = |point: &&ContactPoint| {
+                point.film.is_some() == film && has_stiffness(point) == stiffness
+            };
+            Giving::of(points.clone().filter(is_such))
+        };
         Self {
             blocks: of_blocks.len(),
             rigid_blocks: of_blocks.len() - elastic.clone().count(),
@@ -50,8 +90,9 @@ impl Sizes {
             frictional: frictional.clone().count(),
             coulomb: frictional.clone().filter(|point| point.law.mu > 0.0).count(),
             cohesive: frictional.clone().filter(|point| point.law.base() > 0.0).count(),
-            film_points: points.filter(|point| point.film.is_some()).count(),
-            sheared_films: frictional.filter(|point| point.film.is_some()).count(),
+            in_films: giving(true, false),
+            in_stiff_joints: giving(false, true),
+            in_both: giving(true, true),
             bars: stretching_points(model),
             strips: Strips::are_in(model),
         }
@@ -59,34 +100,59 @@ impl Sizes {
 
     /// No block is elastic, and no joint gives way.
     pub(super) fn is_rigid(&self) -> bool {
-        self.rigid_blocks == self.blocks && self.film_points == 0
+        self.rigid_blocks == self.blocks && self.compliances() == 0
     }
 
     pub(super) fn rigid_modes(&self) -> usize {
         3 * self.blocks
     }
 
-    /// Rows of the system in which a film gives way: on the sparse routes, displacements.
-    pub(super) fn compliances(&self) -> usize {
-        self.film_points + self.sheared_films
+    /// Rows of the system in which joints or films give way: on the sparse routes, displacements.
+    fn compliances(&self) -> usize {
+        self.in_films.and(self.in_stiff_joints).and(self.in_both).rows()
     }
 
-    /// Without the normal forces: what friction and films add to each point is theirs.
+    /// Those in which films do.
+    pub(super) fn of_films(&self) -> usize {
+        self.in_films.and(self.in_both).rows()
+    }
+
+    /// Those in which the joints themselves do.
+    pub(super) fn of_stiff_joints(&self) -> usize {
+        self.in_stiff_joints.and(self.in_both).rows()
+    }
+
+    /// Without the normal forces: what friction, joints and films add to each point is theirs.
     pub(super) fn without_contact(self) -> Self {
         Self { points: 0, ..self }
     }
 
     pub(super) fn without_friction(self) -> Self {
-        Self { frictional: 0, coulomb: 0, cohesive: 0, sheared_films: 0, ..self }
+        Self {
+            frictional: 0,
+            coulomb: 0,
+            cohesive: 0,
+            in_films: self.in_films.without_friction(),
+            in_stiff_joints: self.in_stiff_joints.without_friction(),
+            in_both: self.in_both.without_friction(),
+            ..self
+        }
     }
 
-    /// With the films of points that only cohesion keeps from sliding.
+    /// With what gives way at points that only cohesion keeps from sliding.
     pub(super) fn without_cohesion(self) -> Self {
         Self { frictional: self.coulomb, cohesive: 0, ..self }
     }
 
     pub(super) fn without_films(self) -> Self {
-        Self { film_points: 0, sheared_films: 0, ..self.without_bars() }
+        let in_stiff_joints = self.in_stiff_joints.and(self.in_both);
+        let none = Giving::default();
+        Self { in_films: none, in_both: none, in_stiff_joints, ..self.without_bars() }
+    }
+
+    pub(super) fn without_joint_stiffness(self) -> Self {
+        let in_films = self.in_films.and(self.in_both);
+        Self { in_stiff_joints: Giving::default(), in_both: Giving::default(), in_films, ..self }
     }
 
     pub(super) fn without_bars(self) -> Self {
@@ -121,7 +187,7 @@ impl Sizes {
             }
             // Contact forces are no unknowns of its linear systems, and neither is what strips do.
             Route::Alm => {
-                let order = displacements - if self.strips { self.compliances() } else { 0 };
+                let order = displacements - if self.strips { self.of_films() } else { 0 };
                 Choice { order, largest_order: order, ..sparse }
             }
             // The matrix of a program, and that of a proof, have the rows of the contacts too.

@@ -244,6 +244,13 @@ impl Joint {
         self
     }
 
+    /// Sets the normal and the tangential stiffness of the faces \[force/length^3\].
+    #[must_use]
+    pub fn stiffness(mut self, stiffness: [f64; 2]) -> Self {
+        self.stiffness = Some(stiffness);
+        self
+    }
+
     /// Sets where on the joints of the class the law is enforced.
     #[must_use]
     pub fn points(mut self, points: PointRule) -> Self {

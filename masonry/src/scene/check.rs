@@ -263,6 +263,9 @@ fn check_joint(at: &KeyPath, joint: &Joint) -> Check {
             value(at.key("phi_deg"), phi, (0.0..90.0).contains(&phi), wanted)?;
         }
     }
+    for (k, stiffness) in joint.stiffness.into_iter().flatten().enumerate() {
+        positive(at.key("stiffness").item(k), stiffness)?;
+    }
     let cohesion = joint.cohesion.unwrap_or(0.0);
     not_negative(at.key("cohesion"), cohesion)?;
     let Some(tension) = joint.tension else { return Ok(()) };

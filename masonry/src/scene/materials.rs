@@ -30,8 +30,8 @@ impl Material {
     }
 }
 
-/// A class of joints: exactly one of `mu` and `phi_deg`, and optionally cohesion, tensile strength and mortar. The
-/// law is that of [`law`](crate::law).
+/// A class of joints: exactly one of `mu` and `phi_deg`, and optionally cohesion, tensile strength, stiffness and mortar.
+/// The law is that of [`law`](crate::law).
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
@@ -48,6 +48,13 @@ pub struct Joint {
     /// Tensile strength \[force/length^2\], at most the cohesion divided by the coefficient of friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tension: Option<f64>,
+    /// Normal and tangential stiffness of the faces `[k_n, k_t]` \[force/length^3\]; without them the faces do not give way.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::some_pair"
+    )]
+    pub stiffness: Option<[f64; 2]>,
     /// Where on the joints of the class the law is enforced, if not as [`Contact::points`](super::Contact::points) says.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub points: Option<PointRule>,

@@ -6,7 +6,7 @@
 //! A force is relative to the sum of the sizes of all forces on the same block: loads, contact forces, and the tensile
 //! strengths of its points, since contact forces are computed relative to these. So a light block is not excused by a
 //! heavy neighbour. A length is relative to the displacements of the blocks that meet, and to initial gaps and slips and
-//! compressions of films at their points. If one of the blocks is rigid, it is relative to the largest length of all,
+//! compressions of joints at their points. If one of the blocks is rigid, it is relative to the largest length of all,
 //! since a rigid block has no displacement scale of its own.
 //!
 //! Rounding errors limit both. Blocks that touch share forces and displacements, and an equation of them is known up

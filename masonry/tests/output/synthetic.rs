@@ -270,6 +270,7 @@ fn add_joint(model: &mut Model, (a, b, class): (Body, BlockId, usize), ends: [[f
             gap: 0.0,
             slip: 0.0,
             law: model.joint_classes[class].law.at(1.0),
+            compliance: [0.0; 2],
             film: None,
         });
     }

@@ -14,9 +14,9 @@ use crate::system::{BodySystem, System, displaced_nodes};
 #[derive(Debug, Clone)]
 pub struct Sparse {
     /// `K u = f + C^T t` (3.2) with the contact law. The displacements are those of the nodes, block by block; for a
-    /// rigid block the amplitudes of its three motions. Then follow, row by row, the deformations of each film at its
-    /// points: displacements of its free face relative to the block, with the stiffness `1 / c` of the film and
-    /// loaded by the contact force only, `u = c t`. Strips of mortar couple their blocks by `L^T D L` in `K`.
+    /// rigid block the amplitudes of its three motions. Then follow, row by row, the deformations of joints with a stiffness
+    /// and of films at their points: displacements of the free face relative to the block, with the stiffness `1 / c`
+    /// and loaded by the contact force only, `u = c t`. Strips of mortar couple their blocks by `L^T D L` in `K`.
     /// Cohesion comes last, with its own points and displacements.
     pub problem: Contact2d,
     /// The first displacement of every block, and one past the last.
@@ -57,10 +57,10 @@ impl Sparse {
         for body in &system.bodies {
             starts.push(starts[starts.len() - 1] + unknowns(body));
         }
-        let films: Vec<usize> =
+        let giving: Vec<usize> =
             (0..system.rows.len()).filter(|row| system.rows[*row].compliance > 0.0).collect();
         let blocks_end = starts[starts.len() - 1];
-        let films_end = blocks_end + films.len();
+        let giving_end = blocks_end + giving.len();
         let m = system.points();
         let mut constant = Vec::new();
         let mut carriers = Vec::with_capacity(system.friction.len());
@@ -72,7 +72,7 @@ impl Sparse {
             });
             constant.extend(has_base.then_some(friction.base));
         }
-        let (n, all_points) = (films_end + constant.len(), m + constant.len());
+        let (n, all_points) = (giving_end + constant.len(), m + constant.len());
         let points_of = |row: usize| match row.checked_sub(m) {
             None => Carriers { friction: Some(row), constant: None },
             Some(position) => carriers[position],
@@ -114,15 +114,15 @@ impl Sparse {
                 k.extend(entries.iter().map(|&(j, w)| Triplet::new(i, j, row.stiffness * (v * w))));
             }
         }
-        for (position, row) in films.into_iter().enumerate() {
+        for (position, row) in giving.into_iter().enumerate() {
             let gives = blocks_end + position;
             k.push(Triplet::new(gives, gives, 1.0 / system.rows[row].compliance));
             f.push(0.0);
             let rows = if row < m { &mut c_n } else { &mut c_t };
             rows.extend(points_of(row).points().map(|point| Triplet::new(point, gives, 1.0)));
         }
-        k.extend(pressing(&k, &c_t, (m, films_end)));
-        c_n.extend((0..constant.len()).map(|i| Triplet::new(m + i, films_end + i, 1.0)));
+        k.extend(pressing(&k, &c_t, (m, giving_end)));
+        c_n.extend((0..constant.len()).map(|i| Triplet::new(m + i, giving_end + i, 1.0)));
         f.extend(constant.iter().map(|base| -base));
         let (mut s_0, mut mu) = (vec![0.0; all_points], vec![0.0; all_points]);
         for ((friction, row), carriers) in
@@ -200,8 +200,8 @@ impl Sparse {
         let (n, m) = (self.problem.displacements(), self.problem.points());
         if u.len() < n {
             let forces = system.rows.iter().zip(normal.iter().chain(tangential));
-            let films = forces.filter(|(row, _)| row.compliance > 0.0);
-            u.extend(films.map(|(row, t)| row.compliance * t));
+            let giving = forces.filter(|(row, _)| row.compliance > 0.0);
+            u.extend(giving.map(|(row, t)| row.compliance * t));
             u.resize(n, 0.0);
         }
         let (mut t_n, mut t_t) = (normal.to_vec(), vec![0.0; m]);

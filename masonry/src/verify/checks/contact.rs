@@ -4,7 +4,7 @@ use super::bodies::Bodies;
 use super::kinematics::{displaced, terms};
 use super::{Lengths, larger};
 use crate::law::PointLaw;
-use crate::model::{ContactPoint, FilmPoint, Model};
+use crate::model::{ContactPoint, Model};
 use crate::state::{ContactState, State};
 
 /// A contact point as displacements and forces have it, and what both are compared with.
@@ -28,8 +28,8 @@ impl Pair {
         state: &State,
         (contact, it): (&ContactPoint, &ContactState),
     ) -> Self {
-        let gives = |film: FilmPoint| film.compliance;
-        let [c_n, c_t] = contact.film.map_or([0.0; 2], gives);
+        // Faces that are pressed come nearer than they were, which is no gap below zero.
+        let [c_n, c_t] = contact.gives();
         let mut gap = contact.gap + c_n * it.t_n;
         let mut slip = contact.slip + c_t * it.t_t;
         for term in terms(model, contact) {

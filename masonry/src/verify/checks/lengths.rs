@@ -10,8 +10,8 @@ use crate::state::{ContactState, State};
 
 /// The largest lengths \[m\].
 pub(super) struct Lengths {
-    /// Of every block: displacements, and gaps and slips at first and compressions of films at its points. A block
-    /// may be at rest between films and supports that are not. Of rigid ones the largest of all: nothing but others
+    /// Of every block: displacements, and gaps and slips at first and compressions of joints at its points. A block
+    /// may be at rest between joints and supports that are not. Of rigid ones the largest of all: nothing but others
     /// tells how far they move, and many do not.
     blocks: Vec<f64>,
     /// What rounding errors of the largest of all may be, and on elastic blocks what forces do that are rounding errors of
@@ -62,6 +62,6 @@ impl Lengths {
 }
 
 fn lengths(contact: &ContactPoint, it: &ContactState) -> [f64; 4] {
-    let [c_n, c_t] = contact.film.map_or([0.0; 2], |film| film.compliance);
+    let [c_n, c_t] = contact.gives();
     [contact.gap, contact.slip, c_n * it.t_n, c_t * it.t_t].map(f64::abs)
 }
