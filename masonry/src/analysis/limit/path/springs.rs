@@ -2,7 +2,7 @@
 
 use nalgebra::Vector2;
 
-use crate::model::{Anchor, Body, ContactPoint, FilmPoint, Joint, Model};
+use crate::model::{Body, ContactPoint, Joint, Model};
 
 /// Stiffness of blocks without elastic constants, relative to those that have some, or to the stress that all loads make on
 /// a square of their thickness. Chosen: displacements are small beside blocks, and digits remain.
@@ -10,27 +10,17 @@ const STIFF: f64 = 1e6;
 /// Compliance in shear by that in compression. Theory: `E / G` for a Poisson's ratio of zero.
 const SHEAR: f64 = 2.0;
 
-/// Puts springs into all dry joints with a rigid body on each side: what half of both blocks would give, if they were
+/// Puts springs into all joints between rigid bodies that do not give way by themselves: what half of both blocks would give, if they were
 /// elastic. Gives the number of these joints.
 pub(super) fn put_into(model: &mut Model, load: f64) -> usize {
     let young = young(model, load);
-    let mut compliances = Vec::with_capacity(model.contacts.len());
-    for contact in &model.contacts {
-        compliances.push(compliance(model, contact, young));
-    }
+    let of_point = |contact: &ContactPoint| compliance(model, contact, young);
+    let compliances: Vec<Option<f64>> = model.contacts.iter().map(of_point).collect();
     let mut joints = Vec::new();
     for (contact, compliance) in model.contacts.iter_mut().zip(compliances) {
         let Some(compliance) = compliance else { continue };
         joints.push(contact.joint);
-        let point = |anchor: Anchor| [anchor; 2];
-        contact.film = Some(FilmPoint {
-            half: 0.0,
-            length: contact.weight / model.thickness,
-            a: contact.a.map(point),
-            b: point(contact.b),
-            compliance: [compliance, SHEAR * compliance],
-            stretch: None,
-        });
+        contact.compliance = [compliance, SHEAR * compliance];
     }
     joints.dedup();
     joints.len()
@@ -53,7 +43,8 @@ fn compliance(model: &Model, contact: &ContactPoint, young: f64) -> Option<f64> 
         Body::Block(id) => Some(id.index()),
         Body::Support(_) => None,
     };
-    if contact.film.is_some() || is_elastic(joint.b.index()) || behind.is_some_and(is_elastic) {
+    let gives = contact.gives().into_iter().any(|c| c > 0.0);
+    if gives || is_elastic(joint.b.index()) || behind.is_some_and(is_elastic) {
         return None;
     }
     let depth =
