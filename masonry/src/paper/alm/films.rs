@@ -60,6 +60,14 @@ pub enum AttachError {
         /// Its name.
         class: String,
     },
+    /// The law of the film has its own stiffness only.
+    #[error(
+        "the joint class \"{class}\" has a stiffness beside that of its mortar, which films as strips do not have"
+    )]
+    Stiffness {
+        /// Its name.
+        class: String,
+    },
     /// Contact points and segments of films were divided in different ways.
     #[error(
         "the films have {points} contact points and {segments} segments, which should have two each: let nodes of \
@@ -126,6 +134,9 @@ fn of_joint(
     ends.sort_by(f64::total_cmp);
     ends.dedup_by(|b, a| *b - *a < near);
     let class = &model.joint_classes[joint.class];
+    if class.law.stiffness.is_some() {
+        return Err(AttachError::Stiffness { class: class.name.clone() });
+    }
     if class.law != JointLaw::friction(class.law.mu) {
         return Err(AttachError::Strength { class: class.name.clone() });
     }

@@ -46,7 +46,9 @@ impl Strips<'_> {
         let (t_n, t_t): (Vec<f64>, Vec<f64>) = forces.map(|[t_n, t_t]| (t_n, t_t)).unzip();
         let friction = self.system.friction.iter();
         let tangential: Vec<f64> = friction.map(|it| t_t[it.contact.index()]).collect();
-        self.sparse.with_forces(self.system, found.u.clone(), (&t_n, &tangential))
+        // What follows the blocks is another list in the problem with points in the films.
+        let blocks = self.sparse.starts().last().copied().unwrap_or_default();
+        self.sparse.with_forces(self.system, found.u[..blocks].to_vec(), (&t_n, &tangential))
     }
 }
 
