@@ -143,6 +143,8 @@ fn unusual_magnitudes_are_warnings() {
         )),
         "are the units right?",
     );
+    let soft = usual.clone().joint("bed", Joint::mu(0.5).stiffness([4.0, 4e9]));
+    warned(&soft, "The stiffness 4e0 N/m3 of a joint is 4e0 Pa/m");
     let mut weightless = usual.clone();
     weightless.gravity = None;
     warned(&weightless.load(Load::pressure("top", [0.0, 0.3], [0.8, 0.3], 1e4)), "no gravity");

@@ -6,6 +6,8 @@ use super::Model;
 
 /// Of stone, brick, and mortar from fresh to hard \[Pa\].
 const YOUNG: RangeInclusive<f64> = 1e6..=1e12;
+/// From pads of rubber to polished stone \[Pa/m\].
+const STIFFNESS: RangeInclusive<f64> = 1e6..=1e14;
 /// From light concrete to lead \[kg/m^3\].
 const DENSITY: RangeInclusive<f64> = 100.0..=20_000.0;
 /// Up to several times that of the earth \[m/s^2\].
@@ -17,7 +19,7 @@ const LARGE: f64 = 0.5;
 impl Model {
     /// What is unusual about the magnitudes of a scene, in sentences; empty where nothing is.
     pub fn unusual(&self) -> Vec<String> {
-        let lists = [self.elasticities(), self.weights(), self.totals()];
+        let lists = [self.elasticities(), self.stiffnesses(), self.weights(), self.totals()];
         lists.concat()
     }
 
@@ -35,6 +37,24 @@ impl Model {
                 "E = {:e} {}/{}2 is {young:.0e} Pa, which is unusual: masonry has 1e8 to 1e11 Pa. Is it given in \
                  the units of the scene?",
                 young / units.stress_to_si(),
+                units.force_name(),
+                units.length_name()
+            )
+        };
+        odd.into_iter().map(sentence).collect()
+    }
+
+    fn stiffnesses(&self) -> Vec<String> {
+        let all = self.joint_classes.iter().filter_map(|class| class.law.stiffness);
+        let mut odd: Vec<f64> = all.flatten().filter(|k| !STIFFNESS.contains(k)).collect();
+        odd.sort_by(f64::total_cmp);
+        odd.dedup();
+        let units = self.units;
+        let sentence = |k: f64| {
+            format!(
+                "The stiffness {:e} {}/{}3 of a joint is {k:.0e} Pa/m, which is unusual: dry joints have 1e9 to 1e10 Pa/m. \
+                 Is it given in the units of the scene?",
+                k / units.stiffness_to_si(),
                 units.force_name(),
                 units.length_name()
             )

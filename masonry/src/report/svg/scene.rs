@@ -74,12 +74,17 @@ fn draw_joints(sheet: &mut Sheet, model: &Model, brick: f64) {
     }
 }
 
-/// The law of a class: friction, and what strength it has.
+/// The law of a class: friction, and what strength and stiffness it has.
 fn law(law: &JointLaw) -> String {
     let mut text = format!("μ\u{a0}=\u{a0}{}", significant(law.mu, 4));
     for (name, value) in [("c", law.cohesion), ("f_t", law.tension)] {
         if value > 0.0 {
             text = format!("{text}, {name}\u{a0}=\u{a0}{}", stress_text(value));
+        }
+    }
+    if let Some(stiffness) = law.stiffness {
+        for (name, value) in ["k_n", "k_t"].into_iter().zip(stiffness) {
+            text = format!("{text}, {name}\u{a0}=\u{a0}{}/m", stress_text(value));
         }
     }
     text
