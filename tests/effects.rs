@@ -121,6 +121,22 @@ fn films_without_thickness_have_no_rows_and_no_unknowns() {
 }
 
 #[test]
+fn joints_without_a_stiffness_have_no_rows_and_no_unknowns() {
+    for material in [Material::rigid(), elastic()] {
+        for route in ROUTES {
+            let (plan, model, system) = built(&boxed(material, Joint::mu(0.6)), route);
+            let stiffness = effect(&plan, "joint stiffness");
+            assert!(!stiffness.on && stiffness.unknowns == 0);
+            assert!(model.contacts.iter().all(|point| point.gives().iter().all(|c| *c <= 0.0)));
+            assert!(system.rows.iter().all(|row| row.compliance <= 0.0));
+            let displacements = Sparse::new(&system).unwrap().problem.displacements();
+            let of_blocks = if plan.nodes > 0 { 2 * plan.nodes } else { plan.rigid_modes };
+            assert_eq!(displacements, of_blocks);
+        }
+    }
+}
+
+#[test]
 fn without_gravity_or_density_there_is_no_weight() {
     let rough = || boxed(elastic(), Joint::mu(0.6));
     let light = rough().material("brick", elastic());

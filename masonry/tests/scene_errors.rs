@@ -152,6 +152,14 @@ fn text_that_does_not_fit_the_format() {
             "invalid type: sequence",
         ),
         ("mesh = [4, 2]", "mesh = [4, -2]", "-2", "expected u32"),
+        ("mu = 0.6", "mu = 0.6\nstiffness = 4e6", "4e6", "a list of exactly 2 items"),
+        (
+            "mu = 0.6",
+            "mu = 0.6\nstiffness = [4e6]",
+            "[4e6]",
+            "length 1, expected a list of exactly 2",
+        ),
+        ("mu = 0.6", "mu = 0.6\nstifness = [1, 1]", "stifness", "did you mean `stiffness`?"),
         ("gap_limit = 0.0", "points = \"corners\"", "\"corners\"", "`nodal_pairs`"),
         ("tolerance = 1e-10", "form = \"fast\"", "\"fast\"", "`stewart_trinkle`"),
         ("[joints.head]", "[joints.bed]", "bed", "duplicate key"),
@@ -261,6 +269,10 @@ fn numbers_out_of_their_range() {
         ("tolerance = 1e-10", "max_steps = 0", "0", "solver.max_steps"),
         ("pressure = 10.0", "traction = [0.0, inf]", "inf", "loads[0].traction[1]"),
         ("to = [3.0, 0.0]", "to = [-inf, 0.0]", "-inf", "supports[0].to[0]"),
+        ("mu = 0.6", "mu = 0.6\nstiffness = [0.0, 1.0]", "0.0, 1", "joints.bed.stiffness[0]"),
+        ("mu = 0.6", "mu = 0.6\nstiffness = [1.0, -2.0]", "-2.0", "joints.bed.stiffness[1]"),
+        ("mu = 0.6", "mu = 0.6\nstiffness = [inf, 2.0]", "inf", "joints.bed.stiffness[0]"),
+        ("mu = 0.6", "mu = 0.6\nstiffness = [1.0, nan]", "nan", "joints.bed.stiffness[1]"),
     ] {
         assert_error(piece, replacement, marked, key, &[]);
     }

@@ -40,6 +40,7 @@ fn every_effect_has_a_test() {
         "friction",
         "cohesion",
         "tension",
+        "joint stiffness",
         "mortar films",
         "longitudinal film terms",
         "deformation",
@@ -96,6 +97,29 @@ fn films_that_are_too_thin_to_give_way() {
         for (a, b) in figures(&dry).iter().zip(figures(&thin)) {
             let apart = difference(a, &b);
             assert!(apart <= thickness / 0.1 + rounding(route), "{route:?}: {apart:e}");
+        }
+    }
+}
+
+/// A joint gives way by its stiffness, against that of the bricks, and so does what it changes: it has no neutral value
+/// but to be left out. Programs come to no end with joints that are stiffer than bricks by more than 1e9.
+#[test]
+fn joints_that_are_too_stiff_to_give_way() {
+    // Young's modulus of the bricks by their height.
+    let bricks = 1e6 / 0.1;
+    for route in ROUTES {
+        let ratio = if route == Route::Qp { 1e-8 } else { 1e-11 };
+        let stiffness = [bricks / ratio; 2];
+        let plain = column(elastic(), Joint::mu(0.6), 0.0);
+        let stiff = column(elastic(), Joint::mu(0.6).stiffness(stiffness), 0.0);
+        let Some((plain, stiff)) = answer_by(&plain, route).zip(answer_by(&stiff, route)) else {
+            continue;
+        };
+        let name = "joint stiffness";
+        assert!(!effect(&plain.plan, name).on && effect(&stiff.plan, name).on);
+        for (a, b) in figures(&plain).iter().zip(figures(&stiff)) {
+            let apart = difference(a, &b);
+            assert!(apart <= ratio + rounding(route), "{route:?}: {apart:e}");
         }
     }
 }

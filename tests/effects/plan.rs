@@ -17,12 +17,22 @@ fn pairs() -> Vec<(&'static str, Scene, Scene)> {
     let dry = |material| stack(material, rough());
     let compliance = in_mortar(elastic(), Films::Compliance);
     let without_mortar = compliance.clone().joint("bed", rough()).gap_limit(0.011);
+    let in_stiff_mortar =
+        compliance.clone().joint("bed", rough().mortar(0.01, "mortar").stiffness([1e8, 5e7]));
     let rigid = |films| in_mortar(Material::rigid(), films);
     vec![
         ("friction", boxed(elastic(), Joint::mu(0.0)), boxed(elastic(), rough())),
         ("friction", boxed(Material::rigid(), Joint::mu(0.0)), boxed(Material::rigid(), rough())),
         // Faces that stay apart by the thickness of the mortar, as gaps.
         ("mortar films", without_mortar, compliance.clone()),
+        ("joint stiffness", dry(elastic()), stack(elastic(), rough().stiffness([1e8, 5e7]))),
+        (
+            "joint stiffness",
+            dry(Material::rigid()),
+            stack(Material::rigid(), rough().stiffness([1e8, 5e7])),
+        ),
+        // In mortar the unknowns are there already.
+        ("joint stiffness", compliance.clone(), in_stiff_mortar),
         ("longitudinal film terms", compliance, in_mortar(elastic(), Films::Strips)),
         ("longitudinal film terms", rigid(Films::Compliance), rigid(Films::Strips)),
         ("deformation", rigid(Films::Compliance), in_mortar(elastic(), Films::Compliance)),
