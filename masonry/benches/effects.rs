@@ -78,9 +78,10 @@ fn main() {
 }
 
 /// Rows of the table of the page, and which measurement belongs into each.
-const MEASURED: [(&str, &str); 11] = [
+const MEASURED: [(&str, &str); 12] = [
     ("contact", "contact pairs across a slot"),
     ("friction", "friction"),
+    ("joint stiffness", "joint stiffness"),
     ("mortar films", "mortar films"),
     ("longitudinal film terms", "longitudinal film terms"),
     ("deformation", "deformation, eight elements a brick"),
@@ -123,6 +124,7 @@ fn pairs(route: Route, wall: Wall) -> Vec<Pair> {
             [slotted, Wall { far_pairs: true, ..slotted }]
         }),
         of("friction", |wall| [Wall { friction: false, ..wall }, wall]),
+        of("joint stiffness", |wall| [wall, Wall { stiffness: true, ..wall }]),
         of("mortar films", |wall| [wall, Wall { mortar: true, ..wall }]),
         of("longitudinal film terms", |wall| {
             let films = Wall { mortar: true, gauss: true, ..wall };

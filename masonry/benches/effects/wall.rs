@@ -10,6 +10,8 @@ use masonry::units::Units;
 /// A whole brick, and the mortar between bricks \[m\].
 const BRICK: Brick = Brick { length: 0.2, height: 0.1 };
 const MORTAR: f64 = 0.01;
+/// Stiffness of dry joints \[Pa/m\].
+const STIFFNESS: [f64; 2] = [5e9, 2e9];
 /// A slot across the wall, in bricks; bodies on both sides may meet where that is wanted.
 const SLOT: f64 = 0.02;
 
@@ -23,6 +25,8 @@ pub(crate) struct Wall {
     pub(crate) elastic: bool,
     /// Elements along a whole brick, and of its height.
     pub(crate) mesh: [u32; 2],
+    /// Joints between bricks have a stiffness.
+    pub(crate) stiffness: bool,
     pub(crate) mortar: bool,
     pub(crate) strips: bool,
     /// Contact points at Gauss points instead of vertices.
@@ -47,6 +51,7 @@ impl Wall {
             friction: true,
             elastic: true,
             mesh: [2, 1],
+            stiffness: false,
             mortar: false,
             strips: false,
             gauss: false,
@@ -80,6 +85,7 @@ impl Wall {
         let joint = Joint::mu(if self.friction { 0.6 } else { 0.0 });
         let filled =
             if self.mortar { joint.clone().mortar(MORTAR, "mortar") } else { joint.clone() };
+        let filled = if self.stiffness { filled.stiffness(STIFFNESS) } else { filled };
         let mut scene = Scene::new("A wall", Units::SI)
             .plane(Plane::Stress)
             .thickness(0.1)
