@@ -5,19 +5,19 @@ use std::collections::BTreeMap;
 use nalgebra::Point2;
 
 use super::rules::{
-    Check, MAGNITUDES, One, exactly_one, finite, missing, not_negative, point, positive, too_many,
-    unwanted, value,
+    Check, MAGNITUDES, finite, missing, not_negative, point, positive, too_many, unwanted, value,
 };
 use super::{
-    Between, Block, Courses, Fault, Form, Joint, KeyPath, Known, Material, Route, Scene,
-    SceneError, SceneErrorKind, Solver, Support, Wall,
+    Between, Block, Courses, Fault, Form, KeyPath, Known, Material, Route, Scene, SceneError,
+    SceneErrorKind, Solver, Support, Wall,
 };
 use crate::geometry::{self, PolygonError};
 use crate::scene::bond::JointThickness;
 
 mod arches;
+mod joints;
 mod loads;
-mod mortar;
+
 mod openings;
 mod stages;
 
@@ -25,9 +25,6 @@ mod stages;
 const MOST_BLOCKS: u32 = 1_000_000;
 /// Elements of one block along one edge, at most.
 const MOST_ELEMENTS: u32 = 1_000;
-
-/// A tensile strength that was computed from the cohesion may exceed its limit by this part.
-const ROUNDING: f64 = 1e-12;
 
 impl Scene {
     /// Checks all data: names that refer to nothing, numbers out of their range, missing keys.
@@ -48,7 +45,7 @@ impl Scene {
         }
         for (name, joint) in &self.joints {
             let at = KeyPath::of("joints").key(name);
-            check_joint(&at, joint)?;
+            joints::check_law(&at, joint)?;
             self.check_mortar(&at, joint)?;
         }
         if self.walls.is_empty() && self.blocks.is_empty() && self.arches.is_empty() {
@@ -143,7 +140,7 @@ impl Scene {
             let Some(class) = class else { continue };
             self.check_class(at.key("joints").key(key), class)?;
         }
-        mortar::check_room(at, wall, JointThickness::of(self, wall))?;
+        joints::check_room(at, wall, JointThickness::of(self, wall))?;
         check_mesh(at, wall.mesh, material)
     }
 
@@ -253,29 +250,6 @@ impl Scene {
             unknown(at.key("material"), "material", name, known, "materials")
         })
     }
-}
-
-fn check_joint(at: &KeyPath, joint: &Joint) -> Check {
-    match exactly_one(at, ("mu", joint.mu), ("phi_deg", joint.phi_deg))? {
-        One::First(mu) => not_negative(at.key("mu"), mu)?,
-        One::Second(phi) => {
-            let wanted = "the angle of friction is at least 0 and less than 90 degrees";
-            value(at.key("phi_deg"), phi, (0.0..90.0).contains(&phi), wanted)?;
-        }
-    }
-    for (k, stiffness) in joint.stiffness.into_iter().flatten().enumerate() {
-        positive(at.key("stiffness").item(k), stiffness)?;
-    }
-    let cohesion = joint.cohesion.unwrap_or(0.0);
-    not_negative(at.key("cohesion"), cohesion)?;
-    let Some(tension) = joint.tension else { return Ok(()) };
-    not_negative(at.key("tension"), tension)?;
-    let largest = cohesion / joint.friction();
-    if joint.friction() * tension > cohesion * (1.0 + ROUNDING) {
-        let kind = SceneErrorKind::TooMuchTension { tension, largest };
-        return Err(Fault::new(at.key("tension"), kind));
-    }
-    Ok(())
 }
 
 /// Checks the keys of a wall in a bond; an upper bound of the number of its bricks.

@@ -1,7 +1,8 @@
 //! Checks of loads, and of the names by which stages call them.
 
-use super::{Check, One, exactly_one, finite, missing, point, segment, unknown};
+use super::{Check, finite, missing, point, segment, unknown};
 use crate::scene::load::{EDGE, POINT};
+use crate::scene::rules::{One, exactly_one};
 use crate::scene::{Fault, KeyPath, Load, LoadError, Scene, SceneErrorKind, Stage};
 
 impl Scene {

@@ -1,8 +1,12 @@
-//! Checks of joints with mortar, and of the bricks that it leaves room for.
+//! Checks of joints, of their mortar, and of the bricks that it leaves room for.
 
 use super::{Check, missing, not_negative, positive, unknown, unwanted, value};
 use crate::scene::bond::{self, JointThickness};
-use crate::scene::{Courses, Films, Joint, KeyPath, PointRule, Scene, Wall};
+use crate::scene::rules::{One, exactly_one};
+use crate::scene::{Courses, Fault, Films, Joint, KeyPath, PointRule, Scene, SceneErrorKind, Wall};
+
+/// A tensile strength that was computed from the cohesion may exceed its limit by this part.
+const ROUNDING: f64 = 1e-12;
 
 impl Scene {
     /// Thickness and material of the mortar: none, or both, the material elastic.
@@ -58,6 +62,30 @@ impl Scene {
         }
         Ok(())
     }
+}
+
+/// Friction, stiffness and strength.
+pub(super) fn check_law(at: &KeyPath, joint: &Joint) -> Check {
+    match exactly_one(at, ("mu", joint.mu), ("phi_deg", joint.phi_deg))? {
+        One::First(mu) => not_negative(at.key("mu"), mu)?,
+        One::Second(phi) => {
+            let wanted = "the angle of friction is at least 0 and less than 90 degrees";
+            value(at.key("phi_deg"), phi, (0.0..90.0).contains(&phi), wanted)?;
+        }
+    }
+    for (k, stiffness) in joint.stiffness.into_iter().flatten().enumerate() {
+        positive(at.key("stiffness").item(k), stiffness)?;
+    }
+    let cohesion = joint.cohesion.unwrap_or(0.0);
+    not_negative(at.key("cohesion"), cohesion)?;
+    let Some(tension) = joint.tension else { return Ok(()) };
+    not_negative(at.key("tension"), tension)?;
+    let largest = cohesion / joint.friction();
+    if joint.friction() * tension > cohesion * (1.0 + ROUNDING) {
+        let kind = SceneErrorKind::TooMuchTension { tension, largest };
+        return Err(Fault::new(at.key("tension"), kind));
+    }
+    Ok(())
 }
 
 /// Refuses bricks of which the head joints leave nothing.
