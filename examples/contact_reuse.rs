@@ -164,8 +164,8 @@ fn velocity_problem(discs: &[Disc], contacts: &[Contact]) -> Result<Contact2d, l
             normal: &normal,
             tangent: &tangent,
             gap,
-            slip: 0.0,
             mu: FRICTION,
+            ..Default::default()
         });
     }
     builder.build()

@@ -219,6 +219,8 @@ impl Divide for Contact2d {
                 picked(self.initial_slips(), &points),
                 picked(self.mu(), &points),
             );
+            let problem =
+                problem.and_then(|it| it.with_compliance(picked(self.compliance(), &points)));
             let frictional: Vec<usize> = points.iter().filter_map(|&point| place[point]).collect();
             let count = self.frictional().len();
             let pairs = group.iter().copied();

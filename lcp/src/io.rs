@@ -13,7 +13,7 @@
 //! | `"mixed"` | `m`, `q`, `free` (booleans) | [`MixedLcp`] |
 //! | `"boxed"` | `m`, `q`, `lower`, `upper` (`null`: no bound) | [`BoxedLcp`] |
 //! | `"friction"` | `w`, `q`, `mu` | [`Friction2d`] |
-//! | `"contact"` | `k`, `f`, `c_n`, `c_t`, `x_0`, `s_0`, `mu` | [`Contact2d`] |
+//! | `"contact"` | `k`, `f`, `c_n`, `c_t`, `x_0`, `s_0`, `mu`, and `compliance` if there is any | [`Contact2d`] |
 //!
 //! A matrix is an array of its rows, or `{"rows": 2, "cols": 2, "triplets": [[0, 1, 2.5]]}` with indices from 0;
 //! values at the same place are added. [`to_json`] writes this form, with all digits.

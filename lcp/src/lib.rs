@@ -13,9 +13,8 @@
 //! let foot = builder.add_point(ContactPoint {
 //!     normal: &[(y, 1.0)],
 //!     tangent: &[(x, 1.0)],
-//!     gap: 0.0,
-//!     slip: 0.0,
 //!     mu: 0.5,
+//!     ..Default::default()
 //! });
 //! let contact = builder.build()?;
 //! let solution = Auto::default().solve(&contact)?;
@@ -45,8 +44,8 @@
 //!         normal: &[(1, 1.0)],
 //!         tangent: &[(0, 1.0)],
 //!         gap: position[1] / h,
-//!         slip: 0.0,
 //!         mu,
+//!         ..Default::default()
 //!     });
 //!     let step = builder.build()?;
 //!     let state = step.variables(&Auto::default().solve(&step)?);

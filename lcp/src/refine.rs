@@ -44,7 +44,7 @@ impl Contact2d {
     /// t = 0 (open),   g = s = 0 (stick),   g = 0, t_t = -mu t_n (forwards) or mu t_n (backwards)
     /// ```
     ///
-    /// with factors in `f64`, and refines displacements and forces with residuals in [`Extended`] (Björck 1990),
+    /// where `g` and `s` contain what the forces press compliant contacts together, with factors in `f64`, and refines displacements and forces with residuals in [`Extended`] (Björck 1990),
     /// starting from the given state. If the inequalities hold too, which [`Refined::margin`] shows, this is a
     /// solution of the problem, and its equations hold to [`Refined::residual`].
     ///

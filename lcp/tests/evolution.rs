@@ -21,9 +21,8 @@ fn pushed(pushes: &[f64], stiffness: f64) -> Contact2d {
         builder.add_point(ContactPoint {
             normal: &[(2 * block + 1, 1.0)],
             tangent: &[(2 * block, 1.0)],
-            gap: 0.0,
-            slip: 0.0,
             mu: MU,
+            ..Default::default()
         });
     }
     builder.build().unwrap()
@@ -87,9 +86,9 @@ fn a_floor_that_moves_takes_along_what_rests_on_it() {
     builder.add_point(ContactPoint {
         normal: &[(1, 1.0)],
         tangent: &[(0, 1.0)],
-        gap: 0.0,
         slip: -shift,
         mu: MU,
+        ..Default::default()
     });
     let end = at_rest(&builder.build().unwrap(), &[0.0; 2]);
     // The viscosity of the first motion holds back the last ten-thousandth.

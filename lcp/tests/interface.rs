@@ -21,6 +21,7 @@ fn two_points() -> Contact2d {
         gap: 0.1,
         slip: -0.2,
         mu: 0.5,
+        ..Default::default()
     });
     let second =
         builder.add_point(ContactPoint { normal: &[(0, -1.0)], gap: 5.0, ..Default::default() });
@@ -35,6 +36,7 @@ fn a_builder_gives_the_matrices() {
     assert_eq!(built.tangent().to_dense(), mat![[1.0, 0.0], [0.0, 0.0]]);
     assert_eq!((built.initial_gaps(), built.initial_slips()), (&[0.1, 5.0][..], &[-0.2, 0.0][..]));
     assert_eq!((built.mu(), built.loads()), (&[0.5, 0.0][..], &[0.4, -2.0][..]));
+    assert_eq!(built.compliance(), [[0.0; 2]; 2]);
     let none = Contact2d::builder([[1.0]], vec![2.0]).build().unwrap();
     assert_eq!((none.displacements(), none.points()), (1, 0));
 }
@@ -64,6 +66,8 @@ fn a_builder_names_the_point_and_the_entry() {
         (ContactPoint { slip: f64::INFINITY, ..good }, "slip"),
         (ContactPoint { mu: -0.1, ..good }, "mu"),
         (ContactPoint { mu: f64::NAN, ..good }, "mu"),
+        (ContactPoint { compliance: [-0.1, 0.0], ..good }, "normal compliance"),
+        (ContactPoint { compliance: [0.0, f64::INFINITY], ..good }, "tangential compliance"),
     ] {
         let error = error(point);
         assert!(

@@ -2,7 +2,7 @@
 
 use lcp::faer::mat;
 use lcp::faer::sparse::SparseColMat;
-use lcp::io::{Format, Problem, ReadError, read};
+use lcp::io::{Format, Problem, ReadError, read, to_json};
 use lcp::{Contact2d, Lemke, Solver};
 
 use super::{at, error, error_as, problem};
@@ -30,6 +30,30 @@ fn json_has_the_matrices_dense_or_as_triplets() {
         // It sinks by 0.1 and stands on the plane, which carries the weight.
         let state = contact.variables(&Lemke::default().solve(contact).unwrap());
         assert!((state.u[1] + 0.1).abs() < 1e-15 && (state.t_n[0] - 2.0).abs() < 1e-14);
+    }
+}
+
+/// On a spring of the stiffness 8 it sinks further.
+#[test]
+fn json_may_have_compliances() {
+    let text = CONTACT.replace(r#""mu": [0.5]"#, r#""mu": [0.5], "compliance": [[0.125, 0.25]]"#);
+    let problem = problem(&text);
+    let contact = contact(&problem);
+    assert_eq!(contact.compliance(), [[0.125, 0.25]]);
+    let state = contact.variables(&Lemke::default().solve(contact).unwrap());
+    assert!((state.u[1] + 0.35).abs() < 1e-15 && (state.t_n[0] - 2.0).abs() < 1e-14);
+    let written = to_json(&problem);
+    assert!(written.contains(r#""compliance": [[0.125, 0.25]]"#), "{written}");
+    assert_eq!(to_json(&super::problem(&written)), written);
+    assert!(!to_json(&super::problem(CONTACT)).contains("compliance"));
+    for (pairs, place, words) in [
+        ("[]", at(2, 75), "`compliance` has 0 entries, but must have 1"),
+        ("[[0.125]]", at(2, 82), "invalid length 1"),
+        ("[[-0.125, 0]]", at(1, 1), "contact point 0 has the normal compliance -0.125"),
+    ] {
+        let error = error(&text.replace("[[0.125, 0.25]]", pairs));
+        assert!(error.to_string().contains(words), "{pairs}: {error}");
+        assert_eq!(error.position(), Some(place), "{pairs}: {error}");
     }
 }
 

@@ -96,13 +96,9 @@ pub(crate) fn cross_over(
 impl Vertex {
     /// Solves the equations of the states; `None` where they have no solution.
     fn solve(&mut self, problem: &Scaled, condensed: &mut Condensed, proximal: f64) -> Option<()> {
-        let springs: Vec<Springs> = problem
-            .points
-            .mu
-            .iter()
-            .zip(&self.contacts)
-            .map(|(mu, c)| c.springs(*mu, STIFF))
-            .collect();
+        let points = problem.points.iter().zip(&self.contacts);
+        let springs: Vec<Springs> =
+            points.map(|(point, contact)| contact.springs(point, STIFF)).collect();
         condensed.factorise(problem, &springs, proximal);
         for ((mu, contact), (t_n, t_t)) in
             problem.points.mu.iter().zip(&self.contacts).zip(&mut self.forces)
@@ -113,9 +109,10 @@ impl Vertex {
         let (mut last, mut last_part) = (f64::INFINITY, f64::INFINITY);
         for _ in 0..REFINEMENTS {
             let mut rest = problem.unbalanced(&self.u, self.forces.iter().copied());
-            let points = problem.points.iter().zip(&self.contacts);
-            let opened: Vec<(f64, f64)> =
-                points.map(|(point, contact)| contact.opened(point, &self.u)).collect();
+            let points = problem.points.iter().zip(&self.contacts).zip(&self.forces);
+            let opened: Vec<(f64, f64)> = points
+                .map(|((point, contact), forces)| contact.opened(point, &self.u, *forces))
+                .collect();
             let size =
                 opened.iter().fold(max_abs(&rest), |max, (g, s)| max.max(g.abs()).max(s.abs()));
             if !size.is_finite() {
@@ -150,12 +147,13 @@ impl Vertex {
 
     /// Displacements that a closed contact fixes alone, to the last digit.
     fn close(&mut self, problem: &Scaled) {
-        for (point, contact) in problem.points.iter().zip(&self.contacts) {
+        let points = problem.points.iter().zip(&self.contacts).zip(&self.forces);
+        for ((point, contact), (t_n, _)) in points {
             if *contact != ContactStatus::Open
                 && let ([j], [[n, _]]) = (point.columns, point.coefficients)
                 && *n != 0.0
             {
-                self.u[*j] = -point.x_0 / n;
+                self.u[*j] = -(point.x_0 + point.compliance[0] * t_n) / n;
             }
         }
     }
@@ -180,13 +178,13 @@ impl Vertex {
     fn contradictions(&self, problem: &Scaled, rounding: f64) -> Vec<(f64, usize, ContactStatus)> {
         let force =
             self.forces.iter().fold(max_abs(&problem.f), |max, (t_n, _)| max.max(t_n.abs()));
-        let length = max_abs(&self.u);
+        let length = max_abs(&self.u).max(self.pressed(problem));
         let relative = |v: f64, unit: f64| if unit > 0.0 { v / unit } else { 0.0 };
         let mut contradictions = Vec::new();
         for (i, point) in problem.points.iter().enumerate() {
             let (t_n, t_t) = self.forces[i];
             let bound = point.mu * t_n.max(0.0);
-            let (gap, slip) = (point.gap(&self.u), point.slip(&self.u));
+            let (gap, slip) = (point.gap(&self.u, t_n), point.slip(&self.u, t_t));
             let (size, next) = match self.contacts[i] {
                 ContactStatus::Open => (relative(-gap, length), closed(point, gap, slip)),
                 _ if t_n < 0.0 => (relative(-t_n, force), ContactStatus::Open),
@@ -203,6 +201,14 @@ impl Vertex {
             }
         }
         contradictions
+    }
+
+    /// The most that a spring of a contact is pressed together or drawn aside.
+    fn pressed(&self, problem: &Scaled) -> f64 {
+        let all = problem.points.compliance.iter().zip(&self.forces);
+        all.fold(0.0, |max, ([normal, tangential], (t_n, t_t))| {
+            max.max((normal * t_n).abs()).max((tangential * t_t).abs())
+        })
     }
 
     /// Gives the contacts that contradict their states most other states; says how many contradict, and the

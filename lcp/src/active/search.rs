@@ -196,7 +196,8 @@ impl<'a> Search<'a> {
         }
         let Answer { t, y, contact } = judge.answer(&scaled, at);
         let basis = exact.map(|(contacts, _)| {
-            let slips: Vec<f64> = scaled.points.iter().map(|point| point.slip(&u)).collect();
+            let points = scaled.points.iter().zip(&forces);
+            let slips: Vec<f64> = points.map(|(point, (_, t_t))| point.slip(&u, *t_t)).collect();
             self.problem.basis(&contacts, &y, &slips)
         });
         // Steps may end with a point that is solved and another that the iteration gave up.

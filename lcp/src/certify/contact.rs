@@ -16,11 +16,11 @@ use crate::{Contact2d, ContactState};
 impl Contact2d {
     /// Residuals of a state, dimensionless, from the data as given; [`Residuals::worst`] decides.
     ///
-    /// * rows are equilibrium, `K u - f - C_n^T t_n - C_t^T t_t`, gaps, `C_n u + x_0 - g`, and slips,
-    ///   `C_t u + s_0 - s`, each measured by its own terms;
+    /// * rows are equilibrium, `K u - f - C_n^T t_n - C_t^T t_t`, gaps, `C_n u + x_0 + a_n t_n - g`, and slips,
+    ///   `C_t u + s_0 + a_t t_t - s`, each measured by its own terms;
     /// * pairs are normal force and gap, and the two distances `mu t_n + t_t` and `mu t_n - t_t` to the borders of
     ///   the friction cone with the slip forwards and backwards: a force counts by what it is of the terms
-    ///   of its rows of equilibrium, a gap or slip by what it is of its own terms;
+    ///   of its rows of equilibrium and, with compliance, of gap or slip, a gap or slip by what it is of its own terms;
     /// * loads compare equilibrium with the largest load on the connected part of the structure, gaps and slips with
     ///   its largest initial one or what the loads would deform it by. Forces are not compared with
     ///   displacements, nor one part with another.
@@ -38,7 +38,7 @@ impl Contact2d {
 /// A contact problem with the weights of its rows: equilibrium, gaps and slips.
 pub(crate) struct ContactJudge<'a> {
     problem: &'a Contact2d,
-    /// The displacements that every point acts on.
+    /// The rows that the forces of every point act on: of displacements, and where it is compliant of its gap or slip.
     normal: ByRows,
     tangent: ByRows,
     weights: Vec<f64>,
@@ -61,7 +61,13 @@ impl<'a> ContactJudge<'a> {
         let matrices = [problem.stiffness(), problem.normal(), problem.tangent()];
         let terms = |j: usize| matrices.iter().map(|it| column_of(it, j).count()).sum::<usize>();
         let longest = (0..problem.displacements()).map(terms).max().unwrap_or(0);
-        let [normal, tangent] = [problem.normal(), problem.tangent()].map(ByRows::of);
+        let (n, m) = (problem.displacements(), problem.points());
+        let compliance = problem.compliance();
+        let own = |k: usize, first: usize| {
+            move |i: usize| Some((first + i, compliance[i][k])).filter(|(_, a)| *a > 0.0)
+        };
+        let normal = ByRows::with(problem.normal(), own(0, n));
+        let tangent = ByRows::with(problem.tangent(), own(1, n + m));
         let length = (longest + 2) as f64;
         Self { problem, normal, tangent, weights: weights(problem), length }
     }
@@ -166,6 +172,13 @@ fn terms_of<X: Digits>(
             visit(j, -v, t_t[i]);
         }
     }
+    for (i, [normal, tangential]) in problem.compliance().iter().enumerate() {
+        for (row, a, t) in [(n + i, *normal, t_n[i]), (n + m + i, *tangential, t_t[i])] {
+            if a > 0.0 {
+                visit(row, a, t);
+            }
+        }
+    }
 }
 
 impl<X: Digits> Point for At<'_, X> {
@@ -216,6 +229,10 @@ impl<X: Digits> Terms for At<'_, X> {
                 add(n + m + i, j, v * u.rounded());
                 add(j, n + m + i, v * t_t[i].rounded());
             }
+        }
+        for (i, [normal, tangential]) in problem.compliance().iter().enumerate() {
+            add(n + i, n + i, normal * t_n[i].rounded());
+            add(n + m + i, n + m + i, tangential * t_t[i].rounded());
         }
         let openings = self.openings.iter().enumerate();
         openings.for_each(|(i, v)| add(n + i, n + 2 * m + i, *v));
@@ -289,6 +306,7 @@ fn weights(problem: &Contact2d) -> Vec<f64> {
         let part = &mut loads[parts.of(n + i)];
         let slip = if problem.mu()[i] > 0.0 { problem.initial_slips()[i].abs() } else { 0.0 };
         part.opening = part.opening.max(problem.initial_gaps()[i].abs()).max(slip);
+        part.stiffness.extend(problem.springs_of(i));
     }
     let mut felt: Vec<(f64, f64)> = loads.iter_mut().map(Loads::felt).collect();
     for _ in 0..ROUNDS {

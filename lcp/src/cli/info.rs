@@ -24,6 +24,8 @@ struct Facts {
     free: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     contacts: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    compliant_contacts: Option<usize>,
 }
 
 #[derive(Debug, Serialize)]
@@ -80,6 +82,14 @@ impl Facts {
             Problem::Contact(contact) => Some(contact.points()),
             _ => None,
         };
+        let compliant_contacts = match problem {
+            Problem::Contact(contact) => {
+                let all = contact.compliance().iter();
+                let count = all.filter(|pair| pair.iter().any(|a| *a > 0.0)).count();
+                (count > 0).then_some(count)
+            }
+            _ => None,
+        };
         Self {
             format: input.format,
             kind: problem.kind(),
@@ -88,6 +98,7 @@ impl Facts {
             matrices: problem.matrices().iter().map(|(name, m)| MatrixFacts::of(name, m)).collect(),
             free,
             contacts,
+            compliant_contacts,
         }
     }
 
@@ -99,6 +110,9 @@ impl Facts {
         }
         if let Some(contacts) = self.contacts {
             let _ = writeln!(text, "contacts: {contacts}");
+        }
+        if let Some(contacts) = self.compliant_contacts {
+            let _ = writeln!(text, "compliant contacts: {contacts}");
         }
         self.matrices.iter().for_each(|matrix| text += &matrix.report());
         text

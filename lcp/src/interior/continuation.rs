@@ -4,7 +4,7 @@ use super::constants::{
     ACCURACY, CONSTANT, FIRST_SPRING, IN_SEQUENCE, LAST_SPRING, LEAST_STEP, LIFT, NOTHING,
     RESISTANCE, ROUNDING, SMOOTH_WIDTH, SOFT, SOFTER, STEPS, WIDTH,
 };
-use super::iterate::{Defect, Iterate};
+use super::iterate::{Defect, Iterate, Pairs};
 use super::path::advance;
 use super::start::start;
 use crate::SoftSprings;
@@ -30,10 +30,10 @@ pub(super) fn follow(
     let load: f64 = problem.f.iter().map(|f| f.abs()).sum();
     let mut spring = FIRST_SPRING;
     let mut at = start(problem, condensed, spring);
+    let mut before = at.clone();
     let mut path = SoftSprings::default();
     let mut constant = 0;
     while spring >= LAST_SPRING {
-        let before = at.u.clone();
         let Some(next) = centred(problem, condensed, at, (spring, ACCURACY), |_| go_on()) else {
             return End::Open;
         };
@@ -46,12 +46,13 @@ pub(super) fn follow(
         constant = if is_constant { constant + 1 } else { 0 };
         path.stiffness.push(spring);
         path.shares.push(share);
-        let step: Vec<f64> = at.u.iter().zip(&before).map(|(u, before)| u - before).collect();
+        let step = at.moved(&before, -1.0);
         if constant >= IN_SEQUENCE && spring <= SOFT && is_free(problem, &step, spring) {
             path.motion = problem.displacements(&at.u);
             return End::Falling(path);
         }
         spring *= SOFTER;
+        before = at.clone();
         at = at.lifted(problem, LIFT);
     }
     End::Open
@@ -61,9 +62,10 @@ pub(super) fn follow(
 /// the springs leave them their share of the load too, as long as they are.
 ///
 /// Of bodies that are at rest the motion has a part of the order of the spring, and their resistance is that
-/// of its square, far below that of the springs. Every body is looked at by itself: what a soft one resists
-/// would be lost in the rounding errors of a stiff one.
-fn is_free(problem: &Scaled, motion: &[f64], spring: f64) -> bool {
+/// of its square, far below that of the springs. Every body is looked at by itself, and every compliant contact: what a
+/// soft one resists would be lost in the rounding errors of a stiff one.
+fn is_free(problem: &Scaled, step: &Iterate, spring: f64) -> bool {
+    let motion = &step.u;
     let body = bodies(problem);
     let mut resistance = vec![(0.0_f64, 0.0); motion.len()];
     for (j, v) in motion.iter().enumerate() {
@@ -75,7 +77,12 @@ fn is_free(problem: &Scaled, motion: &[f64], spring: f64) -> bool {
     }
     let size: f64 = motion.iter().map(|v| v * v).sum();
     let least = RESISTANCE * spring * spring * size;
+    let of_contact = |([normal, tangential], pairs): (&[f64; 2], &Pairs)| {
+        normal * pairs.t_n * pairs.t_n + tangential * pairs.t_t * pairs.t_t
+    };
+    let mut contacts = problem.points.compliance.iter().zip(&step.points).map(of_contact);
     resistance.iter().all(|(resistance, terms)| *resistance <= least.max(ROUNDING * terms))
+        && contacts.all(|resistance| resistance <= least)
 }
 
 /// For every displacement the first of those that it is coupled to by stiffness.

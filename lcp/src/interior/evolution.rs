@@ -55,7 +55,7 @@ use crate::{Contact2d, Error, Method, Observer};
 /// let pushed = |push: f64| {
 ///     let mut builder = Contact2d::builder([[4.0, 0.0], [0.0, 0.0]], vec![push, -2.0]);
 ///     builder.add_point(ContactPoint {
-///         normal: &[(1, 1.0)], tangent: &[(0, 1.0)], gap: 0.0, slip: 0.0, mu: 0.5,
+///         normal: &[(1, 1.0)], tangent: &[(0, 1.0)], mu: 0.5, ..Default::default()
 ///     });
 ///     builder.build()
 /// };

@@ -2,7 +2,7 @@
 
 use super::constants::COMPLIANCE;
 use crate::problem::ContactStatus;
-use crate::states::{Condensed, Scaled, Springs};
+use crate::states::{Condensed, Point, Scaled, Springs};
 use crate::vector::max_abs;
 
 /// A point with all forces inside their cones and all gaps open; or a step between two of them.
@@ -62,7 +62,7 @@ impl Pairs {
 pub(super) struct Defect {
     /// `f + C^T t - K u`, with the springs of the continuation.
     balance: Vec<f64>,
-    /// `C_n u + x_0 - g` and `C_t u + s_0 - (s+ - s-)`.
+    /// `C_n u + x_0 + a_n t_n - g` and `C_t u + s_0 + a_t t_t - (s+ - s-)`.
     gaps: Vec<(f64, f64)>,
 }
 
@@ -74,11 +74,11 @@ impl Defect {
         balance.iter_mut().zip(&at.u).for_each(|(b, u)| *b -= spring * u);
         let gaps = problem.points.iter().zip(&at.points).map(|(point, pairs)| {
             let slip = if point.mu > 0.0 {
-                point.slip(&at.u) - (pairs.slip_plus - pairs.slip_minus)
+                point.slip(&at.u, pairs.t_t) - (pairs.slip_plus - pairs.slip_minus)
             } else {
                 0.0
             };
-            (point.gap(&at.u) - pairs.gap, slip)
+            (point.gap(&at.u, pairs.t_n) - pairs.gap, slip)
         });
         Self { balance, gaps: gaps.collect() }
     }
@@ -113,8 +113,8 @@ impl<'a> Tangent<'a> {
         at: &'a Iterate,
         spring: f64,
     ) -> Self {
-        let points = problem.points.mu.iter().zip(&at.points);
-        let spring_of = |(mu, pairs): (&f64, &Pairs)| springs((*mu, at.smooth), pairs);
+        let points = problem.points.iter().zip(&at.points);
+        let spring_of = |(point, pairs): (Point<'_>, &Pairs)| springs((point, at.smooth), pairs);
         let springs: Vec<Springs> = points.map(spring_of).collect();
         condensed.factorise(problem, &springs, spring);
         Self { problem, condensed, at, springs }
@@ -151,7 +151,8 @@ impl<'a> Tangent<'a> {
             let moved = point.moved(&u);
             let (t_n, t_t) = springs.forces(moved.0, moved.1);
             let (t_n, t_t) = (fixed.0 - t_n, fixed.1 - t_t);
-            let opened = (moved.0 + gaps.0, moved.1 + gaps.1);
+            let [normal, tangential] = point.compliance;
+            let opened = (moved.0 + gaps.0 + normal * t_n, moved.1 + gaps.1 + tangential * t_t);
             let turned = self.at.smooth * point.mu * t_n;
             let targets = [targets[0], targets[1] + turned, targets[2] + turned];
             at.change(point.mu, (t_n, t_t), opened, &targets)
@@ -163,22 +164,23 @@ impl<'a> Tangent<'a> {
 
 impl Pairs {
     /// The stiffness of friction against slip, as Newton's method has it at a gap that does not change.
-    pub(super) fn resistance(&self, mu: f64) -> f64 {
-        if mu == 0.0 {
+    pub(super) fn resistance(&self, point: Point<'_>) -> f64 {
+        if point.mu == 0.0 {
             return 0.0;
         }
-        let (plus, minus) = self.ratios(mu);
-        1.0 / (plus + minus + COMPLIANCE)
+        let (plus, minus) = self.ratios(point.mu);
+        1.0 / (plus + minus + point.compliance[1] + COMPLIANCE)
     }
 }
 
 /// The springs that Newton's method puts in the place of a contact with friction that turns over the slip `smooth`.
-fn springs((mu, smooth): (f64, f64), pairs: &Pairs) -> Springs {
-    let nn = 1.0 / (pairs.gap / pairs.t_n + COMPLIANCE);
+fn springs((point, smooth): (Point<'_>, f64), pairs: &Pairs) -> Springs {
+    let Point { mu, compliance, .. } = point;
+    let nn = 1.0 / (pairs.gap / pairs.t_n + compliance[0] + COMPLIANCE);
     if mu == 0.0 {
         return Springs { nn, ..Springs::default() };
     }
-    let tt = pairs.resistance(mu);
+    let tt = pairs.resistance(point);
     let (plus, minus) = pairs.strengths(mu);
     let along = (pairs.slip_plus - smooth) / plus - (pairs.slip_minus - smooth) / minus;
     Springs { nn, tn: -mu * along * tt * nn, tt }

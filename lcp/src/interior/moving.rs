@@ -258,7 +258,7 @@ impl<'a, 'b> Moving<'a, 'b> {
         // much force does not come together.
         let depth = THROUGH * max_abs(&mean);
         let is_stopped = |(point, is_closed): (Point<'_>, &bool)| {
-            let (gap, rate) = (point.gap(&self.at), point.moved(&mean).0);
+            let (gap, rate) = (point.gap(&self.at, 0.0), point.moved(&mean).0);
             let is_ahead = !is_closed && point.x_0 > 0.0;
             let comes_nearer = !go_on && rate < point.moved(&total).0 - depth;
             comes_nearer || is_ahead && gap + AHEAD * rate < 0.0

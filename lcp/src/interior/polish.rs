@@ -14,8 +14,8 @@ const EXCHANGES: usize = 10;
 /// A point to the last digit: closed contacts have no gap, open ones no force, and friction changes as it does at the
 /// point. Contacts that do not fit then change their states ([`exchange`]), as long as they become fewer.
 pub(super) fn polished(problem: &Scaled, condensed: &mut Condensed, at: &Iterate) -> Rest {
-    let points = problem.points.mu.iter().zip(&at.points);
-    let mut springs: Vec<Springs> = points.map(|(mu, pairs)| held(*mu, pairs)).collect();
+    let points = problem.points.iter().zip(&at.points);
+    let mut springs: Vec<Springs> = points.map(|(point, pairs)| held(point, pairs)).collect();
     let (mut u, mut forces) = (at.u.clone(), at.forces());
     let open = forces.iter_mut().zip(&springs).filter(|(_, springs)| is_open(springs));
     open.for_each(|(force, _)| *force = (0.0, 0.0));
@@ -37,11 +37,16 @@ pub(super) fn polished(problem: &Scaled, condensed: &mut Condensed, at: &Iterate
     (u, forces)
 }
 
-fn held(mu: f64, pairs: &Pairs) -> Springs {
+fn held(point: Point<'_>, pairs: &Pairs) -> Springs {
     if pairs.gap > pairs.t_n {
         return Springs::default();
     }
-    Springs { nn: STIFF_CLOSED, tn: 0.0, tt: pairs.resistance(mu) }
+    Springs { nn: closed(point), tn: 0.0, tt: pairs.resistance(point) }
+}
+
+/// The stiffness of a closed contact.
+fn closed(point: Point<'_>) -> f64 {
+    point.in_series([STIFF_CLOSED, 0.0])[0]
 }
 
 fn is_open(springs: &Springs) -> bool {
@@ -57,10 +62,11 @@ fn refine(
     let mut last = f64::INFINITY;
     for _ in 0..REFINEMENTS {
         let rest = problem.unbalanced(u, forces.iter().copied());
-        let gap = |(point, springs): (Point<'_>, &Springs)| {
-            (if with_gaps && !is_open(springs) { point.gap(u) } else { 0.0 }, 0.0)
+        let gap = |((point, springs), (t_n, _)): ((Point<'_>, &Springs), &(f64, f64))| {
+            (if with_gaps && !is_open(springs) { point.gap(u, *t_n) } else { 0.0 }, 0.0)
         };
-        let gaps: Vec<(f64, f64)> = problem.points.iter().zip(springs).map(gap).collect();
+        let points = problem.points.iter().zip(springs).zip(&*forces);
+        let gaps: Vec<(f64, f64)> = points.map(gap).collect();
         let size = gaps.iter().fold(max_abs(&rest), |max, (gap, _)| max.max(gap.abs()));
         if size.is_nan() || size >= 0.5 * last {
             break;
@@ -89,10 +95,10 @@ fn exchange(
     let mut changed = 0;
     for ((point, springs), (t_n, t_t)) in problem.points.iter().zip(springs).zip(forces) {
         if is_open(springs) {
-            if point.gap(u) >= -ROUNDING * point.gap_terms(u) {
+            if point.gap(u, *t_n) >= -ROUNDING * point.gap_terms(u, *t_n) {
                 continue;
             }
-            springs.nn = STIFF_CLOSED;
+            springs.nn = closed(point);
         } else if *t_n < -rounding {
             (*springs, *t_n, *t_t) = (Springs::default(), 0.0, 0.0);
         } else if point.mu > 0.0 && t_t.abs() > point.mu * *t_n + rounding {
@@ -118,7 +124,7 @@ mod tests {
         let mut builder = Contact2d::builder([[1.0, 0.0], [0.0, 1.0]], vec![1.0, 1.0]);
         for gap in [0.0, 0.0, 0.0, -1.0] {
             let (normal, tangent) = (&[(0, 1.0)], &[(1, 1.0)]);
-            builder.add_point(ContactPoint { normal, tangent, gap, slip: 0.0, mu: 0.5 });
+            builder.add_point(ContactPoint { normal, tangent, gap, mu: 0.5, ..Default::default() });
         }
         let problem = Scaled::of_contact(&builder.build().unwrap());
         let closed = Springs { nn: STIFF_CLOSED, tn: 0.0, tt: 2.0 };

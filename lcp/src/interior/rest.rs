@@ -88,6 +88,6 @@ fn is_admissible(problem: &Scaled, at: &Iterate, (u, forces): &Rest) -> bool {
     let points = problem.points.iter().zip(forces);
     points.into_iter().all(|(point, (t_n, t_t))| {
         let friction = if point.mu > 0.0 { t_t.abs() - point.mu * t_n } else { 0.0 };
-        t_n.min(-friction) >= -ADMISSIBLE * force && point.gap(u) >= -ADMISSIBLE * length
+        t_n.min(-friction) >= -ADMISSIBLE * force && point.gap(u, *t_n) >= -ADMISSIBLE * length
     })
 }

@@ -94,7 +94,7 @@ impl Pressed {
 
 impl Contacts {
     fn pressed(&self, problem: &Scaled) -> Pressed {
-        let gaps: Vec<f64> = problem.points.iter().map(|point| point.gap(&self.u)).collect();
+        let gaps: Vec<f64> = problem.points.iter().map(|point| point.gap(&self.u, 0.0)).collect();
         let closed = gaps.iter().zip(&self.is_closed).filter(|it| *it.1);
         let left = closed.fold(0.0_f64, |max, (gap, _)| max.max(gap.abs()));
         let gap = if left > 0.0 { left } else { 1.0 };
@@ -194,7 +194,7 @@ impl Contacts {
         let mut u = self.u.clone();
         for _ in 0..REFINED {
             let gap = |(point, is_closed): (Point<'_>, &bool)| {
-                (if *is_closed { point.gap(&u) } else { 0.0 }, 0.0)
+                (if *is_closed { point.gap(&u, 0.0) } else { 0.0 }, 0.0)
             };
             let gaps: Vec<(f64, f64)> =
                 problem.points.iter().zip(&self.is_closed).map(gap).collect();
@@ -216,7 +216,13 @@ mod tests {
         let mut builder = Contact2d::builder([[0.0; 2]; 2], load.to_vec());
         for (direction, gap) in contacts {
             let (normal, tangent) = (&[(1, *direction)], &[(0, 1.0)]);
-            builder.add_point(ContactPoint { normal, tangent, gap: *gap, slip: 0.0, mu: 0.5 });
+            builder.add_point(ContactPoint {
+                normal,
+                tangent,
+                gap: *gap,
+                mu: 0.5,
+                ..Default::default()
+            });
         }
         let problem = Scaled::of_contact(&builder.build().unwrap());
         let condensed = Condensed::new(&problem).unwrap();
@@ -249,6 +255,8 @@ mod tests {
         contacts.move_to(&found, &pressed);
         assert_eq!(contacts.is_closed, [true, false]);
         let u = contacts.exactly_closed(&problem, &mut condensed);
-        assert!(problem.points.get(0).gap(&u).abs() < 1e-12 * problem.points.get(1).gap(&u));
+        assert!(
+            problem.points.get(0).gap(&u, 0.0).abs() < 1e-12 * problem.points.get(1).gap(&u, 0.0)
+        );
     }
 }

@@ -7,33 +7,31 @@ use super::iterate::{Defect, Iterate, Pairs};
 #[cfg(test)]
 use super::path::targets;
 use super::path::{Ahead, advance};
-use crate::states::{Condensed, PROXIMAL, Scaled, Springs};
+use crate::problem::ContactStatus;
+use crate::states::{Condensed, PROXIMAL, Point, Scaled, Springs};
 
 /// A start from the forces that the contacts would carry if they were springs in both directions.
 pub(super) fn start(problem: &Scaled, condensed: &mut Condensed, spring: f64) -> Iterate {
-    let tangential = |mu: f64| if mu > 0.0 { 1.0 } else { 0.0 };
-    let springs: Vec<Springs> = problem
-        .points
-        .mu
-        .iter()
-        .map(|mu| Springs { nn: 1.0, tn: 0.0, tt: tangential(*mu) })
-        .collect();
+    let spring_of = |point: Point<'_>| ContactStatus::Stick.springs(point, 1.0);
+    let springs: Vec<Springs> = problem.points.iter().map(spring_of).collect();
     condensed.factorise(problem, &springs, spring);
     let mut u = problem.f.clone();
-    for point in problem.points.iter() {
-        point.add_forces(-point.x_0, -tangential(point.mu) * point.s_0, &mut u);
+    for (point, springs) in problem.points.iter().zip(&springs) {
+        point.add_forces(-springs.nn * point.x_0, -springs.tt * point.s_0, &mut u);
     }
     condensed.solve(&mut u);
-    let gaps: Vec<f64> = problem.points.iter().map(|point| point.gap(&u)).collect();
+    // Less than what opens without forces by what a force presses a compliant contact together.
+    let gaps = problem.points.iter().zip(&springs);
+    let gaps: Vec<f64> = gaps.map(|(point, springs)| springs.nn * point.gap(&u, 0.0)).collect();
     let mean = gaps.iter().map(|g| g.abs()).sum::<f64>() / gaps.len().max(1) as f64;
     let shift = if mean > 0.0 && mean.is_finite() { mean } else { 1.0 };
-    let points = problem.points.iter().zip(&gaps).map(|(point, gap)| {
+    let points = problem.points.iter().zip(&springs).zip(&gaps).map(|((point, springs), gap)| {
         let t_n = (-gap).max(0.0) + shift;
         let pairs = Pairs { t_n, gap: gap.max(0.0) + shift, ..Pairs::default() };
         if point.mu == 0.0 {
             return pairs;
         }
-        let (slip, bound) = (point.slip(&u), 0.5 * point.mu * t_n);
+        let (slip, bound) = (springs.tt * point.slip(&u, 0.0), 0.5 * point.mu * t_n);
         Pairs {
             t_t: (-slip).clamp(-bound, bound),
             slip_plus: slip.max(0.0) + shift,
@@ -52,7 +50,7 @@ pub(super) fn smoothed(problem: &Scaled, at: Iterate, slip: f64) -> Iterate {
     let mut at = Iterate { smooth: slip, ..at };
     if at.smooth > 0.0 {
         for (point, pairs) in problem.points.iter().zip(&mut at.points).filter(|it| it.0.mu > 0.0) {
-            let slip = point.slip(&at.u) / at.smooth;
+            let slip = point.slip(&at.u, pairs.t_t) / at.smooth;
             let share = -slip / (1.0 + (1.0 + slip * slip).sqrt());
             let share = share.clamp(-MOST_FRICTION, MOST_FRICTION);
             pairs.t_t = share * point.mu * pairs.t_n;
@@ -115,7 +113,15 @@ mod tests {
         let mut builder = Contact2d::builder([[2.0, 0.5], [0.5, 1.0]], vec![-1.0, 0.7]);
         for (normal, slip) in [([(0, 1.0)], 0.0), ([(0, 0.4)], 0.1)] {
             let tangent = &[(1, 1.0)];
-            builder.add_point(ContactPoint { normal: &normal, tangent, gap: 0.1, slip, mu: 0.6 });
+            let compliance = [0.2, 0.3];
+            builder.add_point(ContactPoint {
+                normal: &normal,
+                tangent,
+                gap: 0.1,
+                slip,
+                mu: 0.6,
+                compliance,
+            });
         }
         let problem = Scaled::of_contact(&builder.build().unwrap());
         let mut condensed = Condensed::new(&problem).unwrap();

@@ -50,6 +50,8 @@ struct Document<'a> {
     x_0: Option<&'a RawValue>,
     #[serde(borrow)]
     s_0: Option<&'a RawValue>,
+    #[serde(borrow)]
+    compliance: Option<&'a RawValue>,
 }
 
 pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
@@ -75,6 +77,7 @@ pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
             ("c_t", document.c_t),
             ("x_0", document.x_0),
             ("s_0", document.s_0),
+            ("compliance", document.compliance),
         ],
     );
     let problem = match document.kind {
@@ -114,7 +117,9 @@ pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
             let k = fields.matrix("k", f.len())?;
             let [c_n, c_t] = ["c_n", "c_t"].map(|name| fields.matrix_of(name, mu.len(), f.len()));
             let [x_0, s_0] = ["x_0", "s_0"].map(|name| fields.list(name, mu.len()));
-            Problem::contact((k, f), (c_n?, c_t?), (x_0?, s_0?, mu), fields.begin())
+            let compliance = fields.list_if_any("compliance", mu.len())?;
+            let points = (x_0?, s_0?, mu);
+            Problem::contact((k, f), (c_n?, c_t?), points, compliance, fields.begin())
         }
     }?;
     fields.none_left()?;

@@ -185,14 +185,20 @@ impl Problem {
         refused(BoxedLcp::new(m, q, lower, upper), at).map(Self::Boxed)
     }
 
-    /// From `(K, f)`, `(C_n, C_t)` and `(x_0, s_0, mu)`.
+    /// From `(K, f)`, `(C_n, C_t)`, `(x_0, s_0, mu)` and the compliances, if there are any.
     pub(super) fn contact(
         (k, f): (Matrix, Vec<f64>),
         (c_n, c_t): (Matrix, Matrix),
         (x_0, s_0, mu): (Vec<f64>, Vec<f64>, Vec<f64>),
+        compliance: Option<Vec<[f64; 2]>>,
         at: Position,
     ) -> Result<Self, ReadError> {
-        refused(Contact2d::new(k, f, c_n, c_t, x_0, s_0, mu), at).map(Self::Contact)
+        let hard = Contact2d::new(k, f, c_n, c_t, x_0, s_0, mu);
+        let problem = match compliance {
+            Some(compliance) => hard.and_then(|hard| hard.with_compliance(compliance)),
+            None => hard,
+        };
+        refused(problem, at).map(Self::Contact)
     }
 
     pub(super) fn friction(

@@ -89,7 +89,7 @@ impl Rounds<'_, '_> {
         let (stiffness, spring) = GLUE;
         let points = || scaled.points.iter();
         let springs: Vec<Springs> =
-            points().map(|point| ContactStatus::Stick.springs(point.mu, stiffness)).collect();
+            points().map(|point| ContactStatus::Stick.springs(point, stiffness)).collect();
         condensed.factorise(scaled, &springs, spring);
         let pulls = points().zip(&springs).map(|(p, springs)| springs.forces(-p.x_0, -p.s_0));
         let rest = vec![0.0; scaled.order()];

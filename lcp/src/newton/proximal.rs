@@ -13,6 +13,8 @@ use crate::vector::max_abs;
 /// t_n = [t_n0 - stiffness g]_+ ,    t_t = t_t0 - stiffness s, cut off at -mu t_n and mu t_n.
 /// ```
 ///
+/// Gap and slip of a compliant contact depend on the new forces, so that its stiffness is in series with the other.
+///
 /// With `u = u_0` and `t = t_0` these are the equations of the problem itself, whatever both stiffnesses.
 pub(super) struct Proximal<'a> {
     pub(super) centre: &'a [f64],
@@ -53,13 +55,9 @@ impl Proximal<'_> {
     /// Newton's step, which solves the equations of the states of all contacts, as far as the line search
     /// goes; and whether these are those of the new point, so that it is exact.
     pub(super) fn step(&self, problem: &Scaled, condensed: &mut Condensed, at: &At) -> (At, bool) {
-        let springs: Vec<Springs> = problem
-            .points
-            .mu
-            .iter()
-            .zip(&at.contacts)
-            .map(|(mu, contact)| contact.springs(*mu, self.stiffness))
-            .collect();
+        let points = problem.points.iter().zip(&at.contacts);
+        let springs: Vec<Springs> =
+            points.map(|(point, contact)| contact.springs(point, self.stiffness)).collect();
         condensed.factorise(problem, &springs, self.spring);
         let mut step = at.unbalanced.clone();
         condensed.solve(&mut step);
@@ -106,14 +104,16 @@ fn project(
     stiffness: f64,
     u: &[f64],
 ) -> (ContactStatus, (f64, f64)) {
-    let t_n = last_n - stiffness * point.gap(u);
+    let [softer_n, softer_t] = point.compliance.map(|a| 1.0 + a * stiffness);
+    let t_n = (last_n - stiffness * point.gap(u, 0.0)) / softer_n;
     if t_n <= 0.0 {
         return (ContactStatus::Open, (0.0, 0.0));
     }
     if point.mu == 0.0 {
         return (ContactStatus::Stick, (t_n, 0.0));
     }
-    let (t_t, bound) = (last_t - stiffness * point.slip(u), point.mu * t_n);
+    let t_t = (last_t - stiffness * point.slip(u, 0.0)) / softer_t;
+    let bound = point.mu * t_n;
     if t_t > bound {
         (ContactStatus::Backwards, (t_n, bound))
     } else if t_t < -bound {

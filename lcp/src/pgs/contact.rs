@@ -8,7 +8,7 @@ use crate::sparse::Columns;
 use crate::{Contact2d, ContactState, Error, Observer, Solution};
 
 /// On the forces, in the pairs of [`Contact2d::to_general`]: the displacements follow from them where `K`
-/// is positive definite. Bodies that `K` does not couple are eliminated one by one.
+/// is positive definite, and the compliances of the contacts are on the diagonal. Bodies that `K` does not couple are eliminated one by one.
 impl Sweepable for Contact2d {
     fn solve_by(
         &self,
@@ -19,7 +19,7 @@ impl Sweepable for Contact2d {
         let mut monitor = solver.monitor(observer);
         let layout = Layout::new(self);
         let start = solver.start(|t, y| layout.forces(&self.recover(t, y)))?;
-        let compliance = Compliance::new(self.stiffness(), layout.rows()?)?;
+        let compliance = Compliance::new(self.stiffness(), layout.rows()?, layout.own())?;
         let free = compliance.displacements(self.loads(), &vec![0.0; layout.order]);
         let q = layout.velocities(&free);
         let state =
@@ -97,6 +97,15 @@ impl<'a> Layout<'a> {
             rows.close();
         }
         Ok(rows)
+    }
+
+    /// How far the force of every row opens its contact by itself.
+    fn own(&self) -> Vec<f64> {
+        let [normal, tangential] = [0, 1].map(|k| {
+            let of_points = self.problem.compliance().iter().map(|it| it[k]);
+            of_points.collect::<Vec<f64>>()
+        });
+        self.by_rows(&normal, &tangential)
     }
 
     fn forces(&self, state: &ContactState) -> Vec<f64> {

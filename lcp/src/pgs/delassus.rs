@@ -1,4 +1,5 @@
-//! The matrix `C K^-1 C^T` of contacts between elastic bodies, by its rows.
+//! The matrix `C K^-1 C^T + D` of contacts between elastic bodies, by its rows. `D` is diagonal: the compliances of the
+//! contacts themselves.
 
 use faer::sparse::SparseColMat;
 
@@ -18,9 +19,11 @@ pub(super) struct Compliance {
     /// The rows of `C` that have an entry for a displacement.
     contacts: Columns,
     columns: Columns,
+    /// The diagonal of `D`.
+    own: Vec<f64>,
 }
 
-/// The rows of `C K^-1 C^T`, with the displacements `K^-1 C^T z` as the state.
+/// The rows of `C K^-1 C^T + D`, with the displacements `K^-1 C^T z` as the state.
 #[derive(Debug)]
 pub(super) struct Delassus<'a> {
     compliance: &'a Compliance,
@@ -28,8 +31,12 @@ pub(super) struct Delassus<'a> {
 }
 
 impl Compliance {
-    /// From `K` and the rows of `C`, none of which is empty.
-    pub(super) fn new(k: &SparseColMat<usize, f64>, c: Columns) -> Result<Self, Error> {
+    /// From `K`, the rows of `C`, none of which is empty, and the diagonal of `D`.
+    pub(super) fn new(
+        k: &SparseColMat<usize, f64>,
+        c: Columns,
+        own: Vec<f64>,
+    ) -> Result<Self, Error> {
         let n = k.ncols();
         let coupled = coupled_displacements(k);
         let mut body_of = vec![0; n];
@@ -68,7 +75,7 @@ impl Compliance {
             }
             columns.close();
         }
-        Ok(Self { bodies, contacts: c.transposed(n), c, columns })
+        Ok(Self { bodies, contacts: c.transposed(n), c, columns, own })
     }
 
     /// Number of factorisations.
@@ -96,8 +103,8 @@ impl Rows for Delassus<'_> {
         self.compliance.c.len()
     }
 
-    fn product(&self, i: usize, _z: &[f64]) -> f64 {
-        self.compliance.c.dot(i, &self.u)
+    fn product(&self, i: usize, z: &[f64]) -> f64 {
+        self.compliance.c.dot(i, &self.u) + self.compliance.own[i] * z[i]
     }
 
     fn moved(&mut self, i: usize, change: f64) {
@@ -108,8 +115,9 @@ impl Rows for Delassus<'_> {
         self.u.fill(0.0);
     }
 
-    fn size(&self, i: usize, _z: &[f64]) -> f64 {
-        self.compliance.c.entries(i).map(|(j, v)| (v * self.u[j]).abs()).sum()
+    fn size(&self, i: usize, z: &[f64]) -> f64 {
+        let of_bodies: f64 = self.compliance.c.entries(i).map(|(j, v)| (v * self.u[j]).abs()).sum();
+        of_bodies + (self.compliance.own[i] * z[i]).abs()
     }
 
     fn neighbours(&self, i: usize) -> Option<Vec<usize>> {

@@ -22,7 +22,8 @@ use crate::{Error, Matrix};
 /// Unilateral contact with Coulomb's friction between elastic or rigid bodies in the plane:
 ///
 /// ```text
-/// K u = f + C_n^T t_n + C_t^T t_t,    g = C_n u + x_0,    s = C_t u + s_0,
+/// K u = f + C_n^T t_n + C_t^T t_t,
+/// g = C_n u + x_0 + a_n t_n,    s = C_t u + s_0 + a_t t_t,
 /// 0 <= t_n  _|_  g >= 0,
 /// 0 <= mu t_n + t_t  _|_  s+ >= 0,    0 <= mu t_n - t_t  _|_  s- >= 0,    s = s+ - s-,
 /// ```
@@ -31,6 +32,10 @@ use crate::{Error, Matrix};
 /// gaps `g`, slips `s`. `K` is symmetric positive semidefinite and may have zero modes, as for floating bodies. For a
 /// rigid body `u` are the amplitudes of its motions, and `K` is zero (in statics) or its mass. A point with `mu = 0`
 /// has no tangential force, whatever its row of `C_t`.
+///
+/// The compliances `a_n` and `a_t` are those of springs in series with the contact, such as a film between the bodies:
+/// lengths per force, zero unless [`Contact2d::with_compliance`] or a [`ContactPoint`] gives them. The gap `g` is what is
+/// left open beside the spring.
 ///
 /// [`Contact2d::builder`] takes the points one by one, [`Contact2d::new`] takes matrices, and
 /// [`Contact2d::variables`] gives the state of a solution.
@@ -43,6 +48,8 @@ pub struct Contact2d {
     x_0: Vec<f64>,
     s_0: Vec<f64>,
     mu: Vec<f64>,
+    /// `a_n` and `a_t` of every point.
+    compliance: Vec<[f64; 2]>,
     /// The points with friction.
     friction: Vec<usize>,
 }
@@ -98,7 +105,41 @@ impl Contact2d {
         k.check_symmetric("K")?;
         let friction = (0..m).filter(|&i| mu[i] > 0.0).collect();
         let [k, c_n, c_t] = [k, c_n, c_t].map(Matrix::into_sparse);
-        Ok(Self { k, f, c_n, c_t, x_0, s_0, mu, friction })
+        let compliance = vec![[0.0; 2]; m];
+        Ok(Self { k, f, c_n, c_t, x_0, s_0, mu, compliance, friction })
+    }
+
+    /// The same problem with springs in series with the contacts: the normal and the tangential compliance of every
+    /// point, in length per force. Without friction a point has no tangential force, and its tangential compliance does
+    /// not matter.
+    ///
+    /// ```
+    /// use faer::mat;
+    /// use lcp::{Auto, Contact2d, Solver};
+    /// // A body of weight 2 on a spring of the stiffness 4
+    /// let block = Contact2d::new(
+    ///     mat![[0.0]], vec![-2.0], mat![[1.0]], mat![[0.0]], vec![0.0], vec![0.0], vec![0.0],
+    /// )?;
+    /// let block = block.with_compliance(vec![[0.25, 0.0]])?;
+    /// let state = block.variables(&Auto::default().solve(&block)?);
+    /// assert!((state.u[0] + 0.5).abs() < 1e-14 && (state.t_n[0] - 2.0).abs() < 1e-14);
+    /// # Ok::<(), lcp::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Length`] when there is not one pair for every point, [`Error::PointValue`] for a compliance that is
+    /// negative or not finite.
+    pub fn with_compliance(self, compliance: Vec<[f64; 2]>) -> Result<Self, Error> {
+        check_length("compliance", compliance.len(), self.points())?;
+        for (name, k) in [("normal compliance", 0), ("tangential compliance", 1)] {
+            let values = compliance.iter().map(|it| it[k]).enumerate();
+            let wrong = |(_, value): &(usize, f64)| !(*value >= 0.0 && value.is_finite());
+            if let Some((point, value)) = values.into_iter().find(wrong) {
+                let range = "at least zero and finite";
+                return Err(Error::PointValue { point, name, value, range });
+            }
+        }
+        Ok(Self { compliance, ..self })
     }
 
     /// The same structure under other loads.
@@ -111,7 +152,8 @@ impl Contact2d {
         Ok(Self { f, ..self.clone() })
     }
 
-    /// The same problem with slips measured from the displacements `u`, for bodies that have moved there.
+    /// The same problem with slips measured from the displacements `u`, for bodies that have moved there: `s_0` becomes
+    /// `-C_t u`. Slips of a state with compliant contacts are taken off by [`slid`](Self::slid).
     ///
     /// # Errors
     /// [`Error::Length`] or [`Error::NotFinite`] as [`new`](Self::new).
@@ -122,6 +164,17 @@ impl Contact2d {
         for (j, u) in u.iter().enumerate() {
             column_of(&self.c_t, j).for_each(|(i, v)| s_0[i] -= v * u);
         }
+        Ok(Self { s_0, ..self.clone() })
+    }
+
+    /// The same problem with slips measured from where these `slips` have taken place: they are subtracted from `s_0`.
+    ///
+    /// # Errors
+    /// [`Error::Length`] or [`Error::NotFinite`] as [`new`](Self::new).
+    pub fn slid(&self, slips: &[f64]) -> Result<Self, Error> {
+        check_length("slips", slips.len(), self.points())?;
+        let s_0: Vec<f64> = self.s_0.iter().zip(slips).map(|(s_0, slip)| s_0 - slip).collect();
+        check_vector("slips", &s_0)?;
         Ok(Self { s_0, ..self.clone() })
     }
 
@@ -181,6 +234,11 @@ impl Contact2d {
         &self.mu
     }
 
+    /// The normal and the tangential compliance of every point.
+    pub fn compliance(&self) -> &[[f64; 2]] {
+        &self.compliance
+    }
+
     /// Number of pairs of the general problem: `n + m`, and two for every point with friction.
     pub fn order(&self) -> usize {
         self.displacements() + self.points() + 2 * self.friction.len()
@@ -207,11 +265,17 @@ impl Contact2d {
             }
         }
         b.extend((n..n + m).map(|i| (i, i, 1.0)));
+        let springs = (0..m).filter(|&i| self.compliance[i][0] > 0.0);
+        a.extend(springs.map(|i| (n + i, n + i, -self.compliance[i][0])));
         for (k, &point) in self.friction.iter().enumerate() {
             let [plus, minus] = self.tangential_pairs(k);
             b.extend([(plus, plus, 1.0), (plus, minus, -1.0)]);
             a.extend([(minus, n + point, -2.0 * self.mu[point])]);
             a.extend([(minus, plus, 1.0), (minus, minus, 1.0)]);
+            let gives = 0.5 * self.compliance[point][1];
+            if gives > 0.0 {
+                a.extend([(plus, plus, -gives), (plus, minus, gives)]);
+            }
         }
         let mut c = self.f.clone();
         c.extend(&self.x_0);
@@ -251,6 +315,10 @@ impl Contact2d {
         for (j, &u) in u.iter().enumerate() {
             column_of(&self.c_n, j).for_each(|(i, v)| gap[i] += v * u);
             column_of(&self.c_t, j).for_each(|(i, v)| slip[i] += v * u);
+        }
+        for (i, [normal, tangential]) in self.compliance.iter().enumerate() {
+            gap[i] += normal * t_n[i];
+            slip[i] += tangential * t_t[i];
         }
         ContactState { u, t_n, t_t, gap, slip }
     }

@@ -26,12 +26,15 @@ pub(super) fn primal_form(contact: &Contact2d) -> Form {
     });
     let mut offset = contact.initial_gaps().to_vec();
     offset.extend(friction.iter().map(|&i| contact.initial_slips()[i]));
+    let compliance = contact.compliance().iter().map(|it| it[0]);
+    let compliance = compliance.chain(friction.iter().map(|&i| contact.compliance()[i][1]));
+    let compliance = compliance.enumerate().filter(|(_, a)| *a > 0.0);
     let mut bounds = vec![Bounds::Nonnegative; m];
     bounds.extend(friction.iter().map(|&i| Bounds::Cone { normal: i, mu: contact.mu()[i] }));
     Form {
         p: contact.stiffness().clone(),
         d: Matrix::from_entries(rows, n, entries).into_sparse(),
-        s: Matrix::from_entries(rows, rows, std::iter::empty()).into_sparse(),
+        s: Matrix::from_entries(rows, rows, compliance.map(|(i, a)| (i, i, a))).into_sparse(),
         linear: contact.loads().iter().map(|f| -f).collect(),
         offset,
         bounds,
@@ -109,7 +112,8 @@ impl Dual {
             let full = &full;
             (0..rows).map(move |i| (i, j, 0.5 * (full[(i, j)] + full[(j, i)])))
         });
-        let s = Matrix::from_entries(rows, rows, entries).into_sparse();
+        let own = (0..rows).flat_map(|j| column_of(&form.s, j).map(move |(i, v)| (i, j, v)));
+        let s = Matrix::from_entries(rows, rows, entries.chain(own)).into_sparse();
         let mut free: Vec<f64> = form.linear.iter().map(|v| -v).collect();
         solve_vector(&stiffness, &mut free);
         let mut offset = form.offset.clone();

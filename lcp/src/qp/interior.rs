@@ -62,8 +62,8 @@ enum Layout {
     /// The variables are the multipliers: rows of their lower and upper bounds for cones.
     Multipliers { b: Vec<f64>, cones: Vec<(usize, [usize; 2])> },
     /// The variables are `x`, then those of the rows with a diagonal entry of `S`, then one for every
-    /// cone; `row[i]` is the constraint of row `i`.
-    Unknowns { row: Vec<usize>, linear: Vec<f64>, cones: Vec<(usize, usize)> },
+    /// cone; `row[i]` is the constraint of row `i`, and `curved` are the rows with a diagonal entry.
+    Unknowns { row: Vec<usize>, linear: Vec<f64>, curved: Vec<usize>, cones: Vec<(usize, usize)> },
 }
 
 /// A matrix in the making, by entries.
@@ -166,7 +166,7 @@ impl Interior {
         let cone = [ZeroConeT(free.len()), NonnegativeConeT(bounded.len() + cones.len())];
         let solver = DefaultSolver::new(&p, &linear, &a, &b, &cone, settings.clone()).ok()?;
         let cones = cones.iter().enumerate().map(|(k, &i)| (i, first + k)).collect();
-        Some(Self { solver, settings, layout: Layout::Unknowns { row, linear, cones } })
+        Some(Self { solver, settings, layout: Layout::Unknowns { row, linear, curved, cones } })
     }
 
     /// Solves for these bounds of the multipliers of cones, one for every row of the form. On failure of
@@ -219,13 +219,15 @@ impl Interior {
                 }
                 self.solver.update_b(&b).ok()
             }
-            Layout::Unknowns { linear, cones, .. } if !cones.is_empty() => {
+            Layout::Unknowns { linear, curved, cones, .. } if !cones.is_empty() => {
                 let mut linear = linear.clone();
                 for (i, column) in cones {
                     linear[*column] = 2.0 * limits[*i];
                 }
-                for (j, linear) in linear[..form.unknowns()].iter_mut().enumerate() {
-                    column_of(&form.d, j).for_each(|(i, v)| {
+                let of_curved = curved.iter().map(|&j| (&form.s, j));
+                let columns = (0..form.unknowns()).map(|j| (&form.d, j)).chain(of_curved);
+                for ((matrix, j), linear) in columns.zip(&mut linear) {
+                    column_of(matrix, j).for_each(|(i, v)| {
                         if matches!(form.bounds[i], Bounds::Cone { .. }) {
                             *linear += limits[i] * v;
                         }

@@ -46,14 +46,14 @@ impl At {
         high.into_iter().zip(low).map(|(high, low)| Extended::from(high) + low.into()).collect()
     }
 
-    /// Gap of a point.
-    pub(super) fn gap(&self, point: Point<'_>) -> Extended {
-        self.row(point, point.x_0, 0)
+    /// Gap of a point with this normal force.
+    pub(super) fn gap(&self, point: Point<'_>, t_n: Extended) -> Extended {
+        self.row(point, point.x_0, 0) + t_n * point.compliance[0]
     }
 
-    /// Slip of a point.
-    pub(super) fn slip(&self, point: Point<'_>) -> Extended {
-        self.row(point, point.s_0, 1)
+    /// Slip of a point with this tangential force.
+    pub(super) fn slip(&self, point: Point<'_>, t_t: Extended) -> Extended {
+        self.row(point, point.s_0, 1) + t_t * point.compliance[1]
     }
 
     fn row(&self, point: Point<'_>, first: f64, k: usize) -> Extended {
@@ -77,7 +77,8 @@ impl At {
         let (force, length) = self.sizes(scaled);
         let part = |v: f64, unit: f64| if unit > 0.0 { v / unit } else { 0.0 };
         let of_point = |(point, (t_n, t_t)): (Point<'_>, (f64, f64))| {
-            let (gap, slip) = (part(point.gap(&u), length), part(point.slip(&u), length));
+            let (gap, slip) = (point.gap(&u, t_n), point.slip(&u, t_t));
+            let (gap, slip) = (part(gap, length), part(slip, length));
             let margin = part(point.mu * t_n - t_t.abs(), force);
             if gap > part(t_n, force).max(CLOSED) {
                 ContactStatus::Open

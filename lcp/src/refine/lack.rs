@@ -72,17 +72,19 @@ impl Lack {
             residual = residual.max(ratio(rest.rounded(), terms.max(FLOOR * force)));
         }
         let mut opened = Vec::with_capacity(statuses.len());
-        for ((point, status), shifts) in scaled.points.iter().zip(statuses).zip(&shifts.gaps) {
+        let points = scaled.points.iter().zip(statuses).zip(at.forces.iter().zip(&forces));
+        for (((point, status), ([t_n, t_t], rounded)), shifts) in points.zip(&shifts.gaps) {
             let mut row = |sum: Extended, first: f64, k: usize| {
+                let pressed = (point.compliance[k] * [rounded.0, rounded.1][k]).abs();
                 let terms = point.columns.iter().zip(point.coefficients);
                 let terms = terms.map(|(&j, v)| (u[j] * v[k]).abs());
-                let terms = terms.fold(first.abs(), |sum, term| sum + term);
+                let terms = terms.fold(first.abs() + pressed, |sum, term| sum + term);
                 residual = residual.max(ratio(sum.rounded(), terms.max(FLOOR * length)));
                 sum
             };
             let [gap, slip] = status.is_closed(point.mu);
-            let gap = gap.then(|| row(shifts[0] + at.gap(point), point.x_0, 0));
-            let slip = slip.then(|| row(shifts[1] + at.slip(point), point.s_0, 1));
+            let gap = gap.then(|| row(shifts[0] + at.gap(point, *t_n), point.x_0, 0));
+            let slip = slip.then(|| row(shifts[1] + at.slip(point, *t_t), point.s_0, 1));
             opened.push([gap, slip].map(Option::unwrap_or_default));
         }
         Self { unbalanced, opened, residual }
@@ -96,10 +98,11 @@ impl Lack {
         floating: &[bool],
     ) -> Self {
         let (u, forces) = at.rounded();
-        let mut unbalanced = scaled.unbalanced(&u, forces.into_iter());
+        let mut unbalanced = scaled.unbalanced(&u, forces.iter().copied());
         unbalanced.iter_mut().zip(floating).filter(|(_, is)| **is).for_each(|(v, _)| *v = 0.0);
-        let closed = scaled.points.iter().zip(statuses).map(|(point, status)| {
-            let (gap, slip) = status.opened(point, &u);
+        let points = scaled.points.iter().zip(statuses).zip(forces);
+        let closed = points.map(|((point, status), forces)| {
+            let (gap, slip) = status.opened(point, &u, forces);
             [gap, slip].map(Extended::from)
         });
         let opened: Vec<[Extended; 2]> = closed.collect();

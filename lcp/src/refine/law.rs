@@ -39,9 +39,9 @@ pub(super) fn slacks(
     let points = scaled.points.iter().zip(statuses).zip(&at.forces);
     points.map(move |((point, status), [t_n, t_t])| {
         let pressed = (part(*t_n, force), Open);
-        let slip = || part(at.slip(point), length);
+        let slip = || part(at.slip(point, *t_t), length);
         let other = match status {
-            Open => return (part(at.gap(point), length), Stick),
+            Open => return (part(at.gap(point, *t_n), length), Stick),
             _ if point.mu == 0.0 => return pressed,
             Stick => {
                 let next = if *t_t < Extended::ZERO { Forwards } else { Backwards };

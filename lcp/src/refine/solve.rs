@@ -92,11 +92,11 @@ impl<'a> Solve<'a> {
         statuses: &'a [ContactStatus],
         weights: Weights,
     ) -> Self {
-        let all = scaled.points.mu.iter().zip(statuses);
+        let all = scaled.points.iter().zip(statuses);
         let springs: Vec<Springs> =
-            all.clone().map(|(mu, status)| status.springs(*mu, weights.stiff)).collect();
-        for ((mu, status), forces) in all.zip(&mut at.forces) {
-            *forces = status.on_cone(*mu, *forces);
+            all.clone().map(|(point, status)| status.springs(point, weights.stiff)).collect();
+        for ((point, status), forces) in all.zip(&mut at.forces) {
+            *forces = status.on_cone(point.mu, *forces);
         }
         condensed.factorise(scaled, &springs, weights.proximal);
         Self {

@@ -30,6 +30,21 @@ impl ByRows {
         Self { starts, entries }
     }
 
+    /// The same with one more entry, behind the others, in the rows that have one.
+    pub(crate) fn with(
+        matrix: &SparseColMat<usize, f64>,
+        other: impl Fn(usize) -> Option<(usize, f64)>,
+    ) -> Self {
+        let all = Self::of(matrix);
+        let (mut starts, mut entries) = (vec![0], Vec::with_capacity(all.entries.len()));
+        for i in 0..matrix.nrows() {
+            entries.extend_from_slice(all.row(i));
+            entries.extend(other(i));
+            starts.push(entries.len());
+        }
+        Self { starts, entries }
+    }
+
     /// Columns and values of a row.
     pub(crate) fn row(&self, i: usize) -> &[(usize, f64)] {
         &self.entries[self.starts[i]..self.starts[i + 1]]

@@ -8,8 +8,9 @@ use crate::problem::ContactStatus;
 /// The states that displacements and forces are nearest to, wherever they are.
 pub(crate) fn nearest(problem: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Vec<ContactStatus> {
     let points = problem.points.iter().zip(forces).map(|(point, &forces)| {
-        let slip = if point.mu > 0.0 { point.slip(u) } else { 0.0 };
-        ContactStatus::nearest(point.mu, forces, (point.gap(u), slip.max(0.0), (-slip).max(0.0)))
+        let gap = point.gap(u, forces.0);
+        let slip = if point.mu > 0.0 { point.slip(u, forces.1) } else { 0.0 };
+        ContactStatus::nearest(point.mu, forces, (gap, slip.max(0.0), (-slip).max(0.0)))
     });
     points.collect()
 }
@@ -34,20 +35,22 @@ impl ContactStatus {
         }
     }
 
-    /// Gap and slip of a point where the state allows none.
-    pub(crate) fn opened(self, point: Point<'_>, u: &[f64]) -> (f64, f64) {
+    /// Gap and slip of a point with these forces where the state allows none.
+    pub(crate) fn opened(self, point: Point<'_>, u: &[f64], (t_n, t_t): (f64, f64)) -> (f64, f64) {
         let [gap, slip] = self.is_closed(point.mu);
-        (if gap { point.gap(u) } else { 0.0 }, if slip { point.slip(u) } else { 0.0 })
+        let gap = if gap { point.gap(u, t_n) } else { 0.0 };
+        (gap, if slip { point.slip(u, t_t) } else { 0.0 })
     }
 
-    /// Springs of this stiffness against what the state does not allow.
-    pub(crate) fn springs(self, mu: f64, stiffness: f64) -> Springs {
-        let tangential = if mu > 0.0 { stiffness } else { 0.0 };
+    /// Springs of this stiffness, in series with those of the point, against what the state does not allow.
+    pub(crate) fn springs(self, point: Point<'_>, stiffness: f64) -> Springs {
+        let Point { mu, .. } = point;
+        let [nn, tt] = point.in_series([stiffness, if mu > 0.0 { stiffness } else { 0.0 }]);
         match self {
             Self::Open => Springs::default(),
-            Self::Stick => Springs { nn: stiffness, tn: 0.0, tt: tangential },
-            Self::Forwards => Springs { nn: stiffness, tn: -mu * stiffness, tt: 0.0 },
-            Self::Backwards => Springs { nn: stiffness, tn: mu * stiffness, tt: 0.0 },
+            Self::Stick => Springs { nn, tn: 0.0, tt },
+            Self::Forwards => Springs { nn, tn: -mu * nn, tt: 0.0 },
+            Self::Backwards => Springs { nn, tn: mu * nn, tt: 0.0 },
         }
     }
 }

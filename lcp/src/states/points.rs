@@ -9,6 +9,8 @@ pub(crate) struct Points {
     pub(crate) x_0: Vec<f64>,
     pub(crate) s_0: Vec<f64>,
     pub(crate) mu: Vec<f64>,
+    /// Normal and tangential; without friction the second is zero.
+    pub(crate) compliance: Vec<[f64; 2]>,
 }
 
 /// A contact point: the displacements that it depends on, with their coefficients in gap and slip.
@@ -19,12 +21,15 @@ pub(crate) struct Point<'a> {
     pub(crate) x_0: f64,
     pub(crate) s_0: f64,
     pub(crate) mu: f64,
+    pub(crate) compliance: [f64; 2],
 }
 
 impl Points {
-    /// Without displacements until these are [added](Self::close), point by point.
+    /// Hard, and without displacements until these are [added](Self::close), point by point.
     pub(crate) fn new(x_0: Vec<f64>, s_0: Vec<f64>, mu: Vec<f64>) -> Self {
-        Self { starts: vec![0], columns: Vec::new(), coefficients: Vec::new(), x_0, s_0, mu }
+        let compliance = vec![[0.0; 2]; mu.len()];
+        let (columns, coefficients) = (Vec::new(), Vec::new());
+        Self { starts: vec![0], columns, coefficients, x_0, s_0, mu, compliance }
     }
 
     /// Adds a displacement to those of a point, with its coefficients in gap and slip.
@@ -50,6 +55,7 @@ impl Points {
             x_0: self.x_0[i],
             s_0: self.s_0[i],
             mu: self.mu[i],
+            compliance: self.compliance[i],
         }
     }
 
@@ -65,18 +71,26 @@ impl<'a> Point<'a> {
         [(self, self.mu), (self, -self.mu)].into_iter().take(count)
     }
 
-    pub(crate) fn gap(&self, u: &[f64]) -> f64 {
-        self.x_0 + self.moved(u).0
+    /// The gap at displacements and a normal force.
+    pub(crate) fn gap(&self, u: &[f64], t_n: f64) -> f64 {
+        self.x_0 + self.moved(u).0 + self.compliance[0] * t_n
     }
 
     /// The sum of the sizes of the terms of the gap.
-    pub(crate) fn gap_terms(&self, u: &[f64]) -> f64 {
+    pub(crate) fn gap_terms(&self, u: &[f64], t_n: f64) -> f64 {
         let terms = self.columns.iter().zip(self.coefficients);
-        terms.fold(self.x_0.abs(), |sum, (&j, [n, _])| sum + (n * u[j]).abs())
+        let given = self.x_0.abs() + (self.compliance[0] * t_n).abs();
+        terms.fold(given, |sum, (&j, [n, _])| sum + (n * u[j]).abs())
     }
 
-    pub(crate) fn slip(&self, u: &[f64]) -> f64 {
-        self.s_0 + self.moved(u).1
+    /// The slip at displacements and a tangential force.
+    pub(crate) fn slip(&self, u: &[f64], t_t: f64) -> f64 {
+        self.s_0 + self.moved(u).1 + self.compliance[1] * t_t
+    }
+
+    /// The stiffnesses that the compliances leave of these, in series with them.
+    pub(crate) fn in_series(&self, stiffness: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|k| stiffness[k] / (1.0 + self.compliance[k] * stiffness[k]))
     }
 
     /// The changes of gap and slip by a step of the displacements, which may be far smaller than both.

@@ -13,7 +13,8 @@ use crate::vector::max_abs;
 use crate::{Contact2d, ContactState, MixedLcp};
 
 /// A contact problem whose stiffness, forces and gaps are of order one whatever the units: with the
-/// displacements `u = length * column * u'`, forces `t = force * t'`, gaps and slips `y = length * y'`.
+/// displacements `u = length * column * u'`, forces `t = force * t'`, gaps and slips `y = length * y'`, compliances
+/// `a = length / force * a'`.
 pub(crate) struct Scaled {
     /// Stiffness, columns of `(row, value)` one after the other.
     pub(crate) k: SparseColMat<usize, f64>,
@@ -34,8 +35,8 @@ impl Scaled {
         let n = problem.displacements();
         let column = column_factors(problem);
         let diagonal = diagonal(problem.stiffness());
-        let mut stiff: Vec<f64> =
-            (0..n).map(|j| diagonal[j] * column[j] * column[j]).filter(|k| *k > 0.0).collect();
+        let stiff = (0..n).map(|j| diagonal[j] * column[j] * column[j]).filter(|k| *k > 0.0);
+        let mut stiff: Vec<f64> = stiff.chain(problem.springs()).collect();
         let load = (0..n).fold(0.0_f64, |max, j| max.max((problem.loads()[j] * column[j]).abs()));
         let gap = max_abs(problem.initial_gaps()).max(max_abs(problem.initial_slips()));
         let stiffness = median(&mut stiff);
@@ -52,6 +53,11 @@ impl Scaled {
         let lengths = |v: &[f64]| v.iter().map(|v| v / length).collect();
         let (x_0, s_0) = (lengths(problem.initial_gaps()), lengths(problem.initial_slips()));
         let mut points = Points::new(x_0, s_0, problem.mu().to_vec());
+        let all = points.compliance.iter_mut().zip(problem.compliance()).zip(problem.mu());
+        for ((scaled, [normal, tangential]), mu) in all {
+            let carried = [*normal, if *mu > 0.0 { *tangential } else { 0.0 }];
+            *scaled = carried.map(|a| a * (force / length));
+        }
         let [normal, tangent] = [problem.normal(), problem.tangent()].map(ByRows::of);
         for i in 0..points.len() {
             let frictional = if points.mu[i] > 0.0 { tangent.row(i) } else { &[] };
@@ -150,9 +156,10 @@ impl Scaled {
         (self.of_displacements(&state.u), forces.collect())
     }
 
-    /// Whether no body resists a displacement.
+    /// Whether neither a body nor a contact gives way.
     pub(crate) fn is_rigid(&self) -> bool {
-        self.k.val().iter().all(|k| *k == 0.0)
+        let mut compliance = self.points.compliance.iter().flatten();
+        self.k.val().iter().all(|k| *k == 0.0) && compliance.all(|a| *a == 0.0)
     }
 
     /// Whether every displacement has a stiffness, and there is friction.
@@ -239,7 +246,9 @@ fn idle(
         is_stiff[part] |= column_of(k, j).any(|(_, v)| v != 0.0);
     }
     for (i, point) in points.iter().enumerate() {
-        is_open[parts.of(n + i)] |= point.x_0 != 0.0 || point.mu > 0.0 && point.s_0 != 0.0;
+        let part = parts.of(n + i);
+        is_open[part] |= point.x_0 != 0.0 || point.mu > 0.0 && point.s_0 != 0.0;
+        is_stiff[part] |= point.compliance.iter().any(|a| *a > 0.0);
     }
     let mut of = |i: usize| {
         let part = parts.of(i);

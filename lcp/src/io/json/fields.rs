@@ -160,6 +160,16 @@ impl<'a, const N: usize> Fields<'a, N> {
         Ok(list)
     }
 
+    /// The same of a field that need not be there.
+    pub(super) fn list_if_any<T: Deserialize<'a>>(
+        &mut self,
+        name: &'static str,
+        length: usize,
+    ) -> Result<Option<Vec<T>>, ReadError> {
+        let is_there = self.named.iter().any(|(field, raw)| *field == name && raw.is_some());
+        if is_there { self.list(name, length).map(Some) } else { Ok(None) }
+    }
+
     fn take(&mut self, name: &'static str) -> Result<&'a RawValue, ReadError> {
         let field = self.named.iter_mut().find(|(field, _)| *field == name);
         field.and_then(|(_, raw)| raw.take()).ok_or_else(|| ReadError::Json {

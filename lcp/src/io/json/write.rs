@@ -2,8 +2,8 @@
 
 use std::fmt::{Display, Write};
 
-use crate::Matrix;
 use crate::io::Problem;
+use crate::{Contact2d, Matrix};
 
 /// A problem as JSON text that [`read`](crate::io::read) gives back, to the last digit.
 ///
@@ -41,7 +41,7 @@ pub fn to_json(problem: &Problem) -> String {
             ("q", numbers(problem.q())),
             ("mu", numbers(problem.mu())),
         ],
-        Problem::Contact(problem) => vec![
+        Problem::Contact(problem) => [
             ("k", matrix(&problem.stiffness().clone().into())),
             ("f", numbers(problem.loads())),
             ("c_n", matrix(&problem.normal().clone().into())),
@@ -49,7 +49,10 @@ pub fn to_json(problem: &Problem) -> String {
             ("x_0", numbers(problem.initial_gaps())),
             ("s_0", numbers(problem.initial_slips())),
             ("mu", numbers(problem.mu())),
-        ],
+        ]
+        .into_iter()
+        .chain(compliance(problem).map(|pairs| ("compliance", pairs)))
+        .collect(),
     };
     let mut out = format!("{{\n  \"kind\": \"{}\"", problem.kind());
     for (name, value) in fields {
@@ -69,6 +72,13 @@ fn matrix(matrix: &Matrix) -> String {
     let row = |i| list((0..cols).map(|j| Number(matrix[(i, j)])), ", ");
     let rows: Vec<String> = (0..rows).map(|i| format!("\n    {}", row(i))).collect();
     if rows.is_empty() { "[]".to_owned() } else { format!("[{}\n  ]", rows.join(",")) }
+}
+
+/// The compliances, if any contact has one.
+fn compliance(problem: &Contact2d) -> Option<String> {
+    let all = problem.compliance();
+    let is_compliant = all.iter().flatten().any(|a| *a > 0.0);
+    is_compliant.then(|| list(all.iter().map(|pair| numbers(pair)), ", "))
 }
 
 fn numbers(values: &[f64]) -> String {

@@ -25,7 +25,7 @@ pub(in crate::io) fn read_global(text: &str) -> Result<Problem, ReadError> {
     tokens.end("correct the sizes, or take it out")?;
     let [c_n, c_t] = [0, 1].map(|part| rows_of(&h, part));
     let of_contacts = |part: usize| b.iter().skip(part).step_by(2).copied().collect();
-    Problem::contact((m, q), (c_n, c_t), (of_contacts(0), of_contacts(1), mu), at)
+    Problem::contact((m, q), (c_n, c_t), (of_contacts(0), of_contacts(1), mu), None, at)
 }
 
 /// The order of the matrix that comes next: its word after the storage type.

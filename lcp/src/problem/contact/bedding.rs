@@ -8,8 +8,8 @@ use crate::{Error, Matrix};
 ///
 /// Every displacement has a spring of the stiffness `epsilon k_j`, with `k_j = K_jj` if that is not zero. Where `K`
 /// has no stiffness, as for rigid bodies, `k_j = k c_j^2`. Here `c_j` is the norm of the column `j` of `[C_n; C_t]`,
-/// and `k` is the geometric mean of `K_jj / c_j^2` over the other displacements. If all of `K` is zero, `k` is the
-/// largest `|f_j| / c_j` over the largest initial gap or slip (over one, if there are none: then the stiffness only
+/// and `k` is the geometric mean of `K_jj / c_j^2` over the other displacements, and of the stiffnesses of compliant
+/// contacts. If there are none, `k` is the largest `|f_j| / c_j` over the largest initial gap or slip (over one, if there are none: then the stiffness only
 /// sets the unit of the displacements). So units do not matter.
 ///
 /// ```
@@ -62,7 +62,8 @@ impl Bedding {
         let f = f.map(|(j, (f, u))| f + stiffness(j) * u).collect();
         let [c_n, c_t] = [contact.normal(), contact.tangent()].map(|c| Matrix::from(c.clone()));
         let (x_0, s_0) = (contact.initial_gaps().to_vec(), contact.initial_slips().to_vec());
-        Contact2d::new(k, f, c_n, c_t, x_0, s_0, contact.mu().to_vec())
+        Contact2d::new(k, f, c_n, c_t, x_0, s_0, contact.mu().to_vec())?
+            .with_compliance(contact.compliance().to_vec())
     }
 
     /// The forces of springs that are at rest at `centre`, for displacements `u`.
@@ -94,10 +95,10 @@ fn units(contact: &Contact2d) -> Vec<f64> {
             both.into_iter().flat_map(|c| column_of(c, j)).map(|(_, v)| v * v).sum()
         })
         .collect();
-    let logs: Vec<f64> = (0..n)
+    let of_bodies = (0..n)
         .filter(|&j| diagonal[j] > 0.0 && squared[j] > 0.0)
-        .map(|j| (diagonal[j] / squared[j]).ln())
-        .collect();
+        .map(|j| (diagonal[j] / squared[j]).ln());
+    let logs: Vec<f64> = of_bodies.chain(contact.springs().map(f64::ln)).collect();
     let mean = if logs.is_empty() {
         let force = (0..n)
             .filter(|&j| squared[j] > 0.0)

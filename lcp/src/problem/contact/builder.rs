@@ -6,7 +6,7 @@ use crate::{Error, Matrix};
 /// A contact point with the displacements that open it and make it slip. A row is a list of pairs
 /// `(displacement, coefficient)`; coefficients of the same displacement are added.
 ///
-/// Without `tangent`, `gap`, `slip` and `mu` it is a closed point without friction:
+/// Without `tangent`, `gap`, `slip`, `mu` and `compliance` it is a hard closed point without friction:
 ///
 /// ```
 /// use lcp::ContactPoint;
@@ -25,6 +25,8 @@ pub struct ContactPoint<'a> {
     pub slip: f64,
     /// The coefficient of friction, at least zero.
     pub mu: f64,
+    /// The compliances of springs in series with the contact, normal and tangential, at least zero.
+    pub compliance: [f64; 2],
 }
 
 /// Builds a [`Contact2d`] point by point: see [`Contact2d::builder`].
@@ -37,6 +39,7 @@ pub struct Contact2dBuilder {
     gaps: Vec<f64>,
     slips: Vec<f64>,
     mu: Vec<f64>,
+    compliance: Vec<[f64; 2]>,
 }
 
 /// Rows of a matrix as triplets.
@@ -70,6 +73,7 @@ impl Contact2d {
             gaps: Vec::new(),
             slips: Vec::new(),
             mu: Vec::new(),
+            compliance: Vec::new(),
         }
     }
 }
@@ -78,12 +82,13 @@ impl Contact2dBuilder {
     /// Adds a contact point and returns its number, which is its index in the solution.
     pub fn add_point(&mut self, point: ContactPoint<'_>) -> usize {
         let number = self.mu.len();
-        let ContactPoint { normal, tangent, gap, slip, mu } = point;
+        let ContactPoint { normal, tangent, gap, slip, mu, compliance } = point;
         self.normal.extend(normal.iter().map(|&(index, value)| (number, index, value)));
         self.tangent.extend(tangent.iter().map(|&(index, value)| (number, index, value)));
         self.gaps.push(gap);
         self.slips.push(slip);
         self.mu.push(mu);
+        self.compliance.push(compliance);
         number
     }
 
@@ -93,7 +98,7 @@ impl Contact2dBuilder {
     /// [`Error::PointEntry`] or [`Error::PointValue`] with the number of a point whose data are wrong, and those
     /// of [`Contact2d::new`] for `K` and `f`.
     pub fn build(self) -> Result<Contact2d, Error> {
-        let Self { k, f, normal, tangent, gaps, slips, mu } = self;
+        let Self { k, f, normal, tangent, gaps, slips, mu, compliance } = self;
         let (n, m) = (f.len(), mu.len());
         for (row, entries) in [("normal", &normal), ("tangent", &tangent)] {
             check_entries(row, entries, n)?;
@@ -103,7 +108,7 @@ impl Contact2dBuilder {
         }
         check_values("mu", &mu, "at least zero and finite", |mu| mu >= 0.0 && mu.is_finite())?;
         let [c_n, c_t] = [normal, tangent].map(|rows| Matrix::from_entries(m, n, rows.into_iter()));
-        Contact2d::new(k, f, c_n, c_t, gaps, slips, mu)
+        Contact2d::new(k, f, c_n, c_t, gaps, slips, mu)?.with_compliance(compliance)
     }
 }
 

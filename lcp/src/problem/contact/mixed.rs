@@ -7,7 +7,8 @@ use crate::{Basis, Matrix, MixedLcp, Side, WarmStart};
 impl Contact2d {
     /// The mixed problem with the variables `u` (free), `t_n` and, for every point with friction, the
     /// parts `b+`, `b-` of `t_t = b+ - b-` and the slip `l` to either side (Stewart and Trinkle 1996):
-    /// `w = (g, l + s, l - s, mu t_n - b+ - b-)`. It is copositive, which makes Lemke's method safer on
+    /// `w = (g, l + s, l - s, mu t_n - b+ - b-)`, where `g` and `s` depend on `u` and, with compliance, on the
+    /// forces. It is copositive, which makes Lemke's method safer on
     /// it than on the general problem, and larger by a pair for every point with friction.
     pub fn to_mixed(&self) -> MixedLcp {
         let (n, m, count) = (self.displacements(), self.points(), self.friction.len());
@@ -23,6 +24,8 @@ impl Contact2d {
                 entries.extend([(plus, j, v), (j, plus, -v), (minus, j, -v), (j, minus, v)]);
             }
         }
+        let springs = (0..m).filter(|&i| self.compliance[i][0] > 0.0);
+        entries.extend(springs.map(|i| (n + i, n + i, self.compliance[i][0])));
         let mut q: Vec<f64> = self.f.iter().map(|f| -f).chain(self.x_0.iter().copied()).collect();
         q.resize(order, 0.0);
         for (k, &point) in self.friction.iter().enumerate() {
@@ -30,6 +33,11 @@ impl Contact2d {
             entries.extend([(plus, slip, 1.0), (minus, slip, 1.0)]);
             entries.extend([(slip, plus, -1.0), (slip, minus, -1.0)]);
             entries.push((slip, n + point, self.mu[point]));
+            let gives = self.compliance[point][1];
+            if gives > 0.0 {
+                entries.extend([(plus, plus, gives), (plus, minus, -gives)]);
+                entries.extend([(minus, plus, -gives), (minus, minus, gives)]);
+            }
             (q[plus], q[minus]) = (self.s_0[point], -self.s_0[point]);
         }
         let matrix = Matrix::from_entries(order, order, entries.into_iter());

@@ -33,6 +33,20 @@ pub(crate) fn column_factors(problem: &Contact2d) -> Vec<f64> {
     largest.iter().zip(&diagonal).map(factor).collect()
 }
 
+impl Contact2d {
+    /// The stiffnesses of the springs in series with the contacts, as far as they carry forces.
+    pub(crate) fn springs(&self) -> impl Iterator<Item = f64> {
+        (0..self.points()).flat_map(|i| self.springs_of(i))
+    }
+
+    /// The same of one point.
+    pub(crate) fn springs_of(&self, i: usize) -> impl Iterator<Item = f64> + use<> {
+        let carries = [true, self.mu[i] > 0.0];
+        let both = self.compliance[i].into_iter().zip(carries);
+        both.filter(|(a, carries)| *carries && *a > 0.0).map(|(a, _)| (1.0 / a).min(f64::MAX))
+    }
+}
+
 /// The diagonal entries.
 pub(crate) fn diagonal(k: &SparseColMat<usize, f64>) -> Vec<f64> {
     (0..k.ncols()).map(|j| k.get(j, j).copied().unwrap_or(0.0)).collect()
