@@ -32,7 +32,8 @@ pub use settings::{EvolutionSettings, InteriorPointSettings};
 
 use balance::{Balance, balance};
 use constants::{
-    BALANCE_TOLERANCE, HELD, MORE, NEAR, NEARER, NO_STEP, PATIENCE, PATIENCE_OF_START, SURE, WIDTH,
+    BALANCE_TOLERANCE, HELD, MORE, NEAR, NEARER, NO_STEP, OPENING_OF_STEP, PATIENCE,
+    PATIENCE_OF_START, SURE, WIDTH,
 };
 use continuation::End;
 use iterate::{Defect, Iterate};
@@ -42,7 +43,9 @@ use start::{set_out, start_opened};
 use crate::active::{Effort, Original, Search};
 use crate::solve::Monitor;
 use crate::states::{Condensed, Scaled};
-use crate::{Certificate, Error, Iteration, Method, Observer, Solution, Status};
+use crate::{
+    Certificate, Contact2d, Error, Iteration, Method, Observer, SoftSprings, Solution, Status,
+};
 
 /// An interior-point method for large sparse problems: contact with Coulomb's friction
 /// ([`Contact2d`](crate::Contact2d)), and mixed and standard problems.
@@ -125,40 +128,71 @@ impl InteriorPoint {
 
     fn run(&self, problem: &dyn Original, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         self.settings.validate(problem.order())?;
-        let monitor =
+        let mut monitor =
             Monitor::new(self.settings.max_iterations, self.settings.time_limit, observer);
-        let search = Search::new(Method::Interior, problem, self.settings.tolerance)?;
-        Ok(Run { settings: &self.settings, problem, search, monitor }.solve())
+        let mut search = Search::new(Method::Interior, problem, self.settings.tolerance)?;
+        let (settings, parts) = (&self.settings, (&mut search, &mut monitor));
+        let (status, springs) = Run::new(settings, problem, parts).solve();
+        let mut solution = search.finish(status, monitor);
+        if !solution.is_solved() {
+            solution.certificate = springs.map(Certificate::Springs);
+        }
+        Ok(solution)
     }
 }
 
+/// The path from one wide start, for a problem whose search others have begun.
+pub(crate) fn follow_path(
+    problem: &Contact2d,
+    tolerance: f64,
+    search: &mut Search<'_>,
+    monitor: &mut Monitor<'_>,
+) -> Status {
+    let settings = InteriorPointSettings { tolerance, ..InteriorPointSettings::default() };
+    Run::new(&settings, problem, (search, monitor)).path(OPENING_OF_STEP)
+}
+
 /// One solve.
-struct Run<'a, 'b> {
-    settings: &'a InteriorPointSettings,
-    problem: &'a dyn Original,
-    search: Search<'a>,
-    monitor: Monitor<'b>,
+struct Run<'r, 'a, 'b> {
+    settings: &'r InteriorPointSettings,
+    problem: &'r dyn Original,
+    search: &'r mut Search<'a>,
+    monitor: &'r mut Monitor<'b>,
 }
 
 /// A step from a point with its residuals, with the stiffness of the springs and the least product of a pair.
 type Step = fn(&Scaled, &mut Condensed, (&Iterate, &Defect), (f64, f64)) -> (Iterate, f64);
 
-impl Run<'_, '_> {
-    fn solve(mut self) -> Solution {
+impl<'r, 'a, 'b> Run<'r, 'a, 'b> {
+    fn new(
+        settings: &'r InteriorPointSettings,
+        problem: &'r dyn Original,
+        (search, monitor): (&'r mut Search<'a>, &'r mut Monitor<'b>),
+    ) -> Self {
+        Self { settings, problem, search, monitor }
+    }
+
+    /// The path from a start that is opened by this multiple of its largest gap.
+    fn path(&mut self, opening: f64) -> Status {
+        let Search { scaled, condensed, .. } = &mut *self.search;
+        let at = start_opened(scaled, condensed, opening);
+        self.iterate(at, PATIENCE_OF_START, set_out)
+    }
+
+    fn solve(mut self) -> (Status, Option<SoftSprings>) {
         let is_tried = self.search.try_start(&self.settings.start)
             || self.search.try_rest(self.settings.crossover);
         let (mut status, mut springs) = (is_tried.then_some(Status::Solved), None);
         let openings = if status.is_none() { &self.settings.openings[..] } else { &[] };
         for &opening in openings {
-            let Search { scaled, condensed, .. } = &mut self.search;
-            let at = start_opened(scaled, condensed, opening);
-            status = Some(self.iterate(at, PATIENCE_OF_START, set_out));
+            status = Some(self.path(opening));
             if status != Some(Status::Stalled) {
                 break;
             }
         }
         if status == Some(Status::Stalled) && self.settings.continuation {
-            let Self { search: Search { scaled, condensed, .. }, monitor, .. } = &mut self;
+            let Self { search, monitor, .. } = &mut self;
+            let Search { scaled, condensed, .. } = &mut **search;
             let mut limit = None;
             let end = continuation::follow(scaled, condensed, || {
                 let last = monitor.history.last().copied().unwrap_or(f64::INFINITY);
@@ -175,11 +209,7 @@ impl Run<'_, '_> {
                 End::Falling(_) | End::Open => limit.unwrap_or(Status::Stalled),
             });
         }
-        let mut solution = self.search.finish(status.unwrap_or(Status::Stalled), self.monitor);
-        if !solution.is_solved() {
-            solution.certificate = springs.map(Certificate::Springs);
-        }
-        solution
+        (status.unwrap_or(Status::Stalled), springs)
     }
 
     /// What follows from bodies that fall from spring to spring.
@@ -189,7 +219,8 @@ impl Run<'_, '_> {
     /// to fall, because it says how their contacts are strained; of rigid ones nothing is known.
     fn fallen(&mut self) -> Status {
         let left = self.settings.max_iterations.saturating_sub(self.monitor.iterations());
-        let Self { search: Search { scaled, .. }, monitor, .. } = self;
+        let Self { search, monitor, .. } = self;
+        let scaled = &search.scaled;
         let last = monitor.history.last().copied().unwrap_or(f64::INFINITY);
         let mut limit = None;
         let observer = &mut |_: &Iteration| {
@@ -256,7 +287,7 @@ impl Run<'_, '_> {
             if let Some(status) = self.monitor.stop(worst) {
                 return if solved > 0 { Status::Solved } else { status };
             }
-            let Search { scaled, condensed, .. } = &mut self.search;
+            let Search { scaled, condensed, .. } = &mut *self.search;
             let (next, alpha) = step(scaled, condensed, (&at, &defect), (0.0, WIDTH));
             step = advance;
             defect = Defect::of(scaled, &next, 0.0);

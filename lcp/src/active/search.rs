@@ -42,8 +42,21 @@ impl<'a> Search<'a> {
         problem: &'a dyn Original,
         tolerance: f64,
     ) -> Result<Self, Error> {
+        Self::planned(method, problem, tolerance, None)
+    }
+
+    /// The same with the linear system of a problem of the same pattern, which is planned already.
+    pub(crate) fn planned(
+        method: Method,
+        problem: &'a dyn Original,
+        tolerance: f64,
+        plan: Option<Condensed>,
+    ) -> Result<Self, Error> {
         let scaled = problem.scaled();
-        let condensed = Condensed::new(&scaled).map_err(|error| unplanned(method, error))?;
+        let condensed = match plan {
+            Some(condensed) => condensed.reloaded(&scaled),
+            None => Condensed::new(&scaled).map_err(|error| unplanned(method, error))?,
+        };
         let judge = problem.judge();
         Ok(Self { method, problem, judge, tolerance, scaled, condensed, best: None })
     }
@@ -184,7 +197,16 @@ impl<'a> Search<'a> {
 
     /// The best point, with this status unless it is a solution.
     pub(crate) fn finish(self, otherwise: Status, monitor: Monitor<'_>) -> Solution {
-        let Self { judge, tolerance, scaled, best, .. } = self;
+        let method = self.method;
+        let (mut solution, condensed) = self.ended(otherwise);
+        solution.info = monitor.info(method);
+        solution.info.factorisations = condensed.factorisations;
+        solution
+    }
+
+    /// The same without its cost, and the linear system.
+    pub(crate) fn ended(self, otherwise: Status) -> (Solution, Condensed) {
+        let Self { judge, tolerance, scaled, condensed, best, .. } = self;
         let Some(Best { u, forces, mut residuals, exact }) = best else {
             unreachable!("every solve judges a point");
         };
@@ -205,9 +227,7 @@ impl<'a> Search<'a> {
         let mut solution = Solution::judged((t, y), residuals, tolerance, otherwise);
         solution.contact = contact;
         solution.basis = basis;
-        solution.info = monitor.info(self.method);
-        solution.info.factorisations = self.condensed.factorisations;
-        solution
+        (solution, condensed)
     }
 }
 

@@ -178,6 +178,21 @@ impl Contact2d {
         Ok(Self { s_0, ..self.clone() })
     }
 
+    /// The problem of a step of bodies with a mass, of which `resistance` times is added to `K`, with these loads, gaps and
+    /// slips. Its pattern does not depend on the numbers.
+    pub(crate) fn stepped(
+        &self,
+        (mass, resistance): (&SparseColMat<usize, f64>, f64),
+        f: Vec<f64>,
+        (x_0, s_0): (Vec<f64>, Vec<f64>),
+    ) -> Self {
+        let sum = faer::sparse::ops::binary_op(self.k.as_ref(), mass.as_ref(), |k, m| {
+            k.copied().unwrap_or(0.0) + resistance * m.copied().unwrap_or(0.0)
+        });
+        let k = sum.unwrap_or_else(|e| unreachable!("both were built before: {e:?}"));
+        Self { k, f, x_0, s_0, ..self.clone() }
+    }
+
     /// The same problem with coefficients of friction that are smaller by this part.
     pub(crate) fn with_reduced_friction(&self, part: f64) -> Self {
         let mu = self.mu.iter().map(|mu| (1.0 - part) * mu).collect();

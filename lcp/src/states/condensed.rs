@@ -79,6 +79,21 @@ impl Condensed {
         })
     }
 
+    /// The same plan for a problem of the same pattern, whose stiffness may have other values.
+    pub(crate) fn reloaded(mut self, problem: &Scaled) -> Self {
+        self.stiffness.fill(0.0);
+        for j in 0..problem.order() {
+            let range = self.starts[j]..self.starts[j + 1];
+            for (i, v) in column_of(&problem.k, j) {
+                let found = self.rows[range.clone()].binary_search(&i);
+                let place = found.unwrap_or_else(|_| unreachable!("the pattern is the same"));
+                self.stiffness[range.start + place] += v;
+            }
+        }
+        self.factorisations = 0;
+        self
+    }
+
     /// Factorises for these springs of the points, and a spring `delta` on every displacement.
     pub(crate) fn factorise(&mut self, problem: &Scaled, springs: &[Springs], delta: f64) {
         self.values.copy_from_slice(&self.stiffness);

@@ -1,0 +1,298 @@
+//! Bodies in contact that move: implicit steps in time, until they rest or flow.
+
+mod account;
+mod data;
+mod motion;
+mod settings;
+mod step;
+
+pub use account::Account;
+pub use motion::Ending;
+pub use settings::DynamicsSettings;
+
+use std::ops::ControlFlow;
+
+use faer::sparse::SparseColMat;
+
+use crate::problem::ContactStatus;
+use crate::solve::Monitor;
+use crate::states::Condensed;
+use crate::vector::{check_length, check_vector};
+use crate::{Contact2d, ContactState, Error, Iteration, Matrix, Method, Observer, Status};
+use data::Data;
+use step::Taken;
+
+/// Bodies with mass in contact, on their way through loads, gaps and supports that change.
+///
+/// # Equations
+/// A step of the length `h` leads from displacements `u_k` and velocities `v_k` to
+///
+/// ```text
+/// (K + M/h^2 + c M/h) u = f + (M/h^2) (u_k + h v_k) + (c M/h) u_k + C_n^T t_n + C_t^T t_t,    v = (u - u_k) / h,
+/// ```
+///
+/// with the loads, gaps and supports of its end, and with Coulomb's law exactly on the increment: slips are measured from
+/// where the step before has ended. Without [`inertia`](DynamicsSettings::inertia) the terms with `M/h^2` are left out,
+/// and bodies only feel the drag `c M v`: then a step depends on `h` by `c/h` alone.
+///
+/// # How a step is solved
+/// 1. By the states of the contacts in the step before, if they still hold: two or three factorisations.
+/// 2. By the exact path of interior points, from a start of its own.
+/// 3. By steps of half the length, which have twice the drag and half the change of the data. Steps that are solved become
+///    longer again.
+///
+/// # Rest and flow
+/// [`settle`](Self::settle) leaves loads and gaps as they are, and doubles the steps until
+///
+/// * bodies rest: displacements solve the problem without mass, with slips measured from the step before, and
+///   judged like every other solution; or
+/// * bodies flow: their velocity does not change from step to step, strains nothing, and leads to no other contact, so
+///   that it goes on for ever, while the loads do work.
+///
+/// # Guarantee
+/// For a fixed step every solution that is called solved obeys Coulomb's law on the increment: friction takes all that it
+/// can of every slip, and no energy is created ([`Account`]). As steps become shorter, solutions of such schemes converge
+/// to one of the differential inclusion of bodies with mass (Anitescu 2006, for the scheme with associated flow). It
+/// need not be unique: with friction, the way matters, and so may the drag.
+///
+/// # References
+/// * M. Jean, The non-smooth contact dynamics method, Computer Methods in Applied Mechanics and Engineering 177 (1999),
+///   [doi:10.1016/S0045-7825(98)00383-1](https://doi.org/10.1016/S0045-7825(98)00383-1)
+/// * M. Anitescu, Optimization-based simulation of nonsmooth rigid multibody dynamics, Mathematical Programming 105
+///   (2006), [doi:10.1007/s10107-005-0590-7](https://doi.org/10.1007/s10107-005-0590-7)
+///
+/// ```
+/// use lcp::{Contact2d, ContactPoint, Dynamics, DynamicsSettings};
+/// // A body of weight 2 on a plane (mu = 0.5) with a spring of stiffness 4 behind it.
+/// let pushed = |push: f64| {
+///     let mut builder = Contact2d::builder([[4.0, 0.0], [0.0, 0.0]], vec![push, -2.0]);
+///     builder.add_point(ContactPoint {
+///         normal: &[(1, 1.0)], tangent: &[(0, 1.0)], mu: 0.5, ..Default::default()
+///     });
+///     builder.build()
+/// };
+/// let mass = [[0.2, 0.0], [0.0, 0.2]];
+/// let mut body = Dynamics::new(&pushed(0.0)?, mass, DynamicsSettings::default())?;
+/// body.advance(&pushed(1.4)?, 1.0)?;
+/// assert!(body.settle(&pushed(1.4)?, 1.0)?.rests());
+/// assert!((body.state().u[0] - 0.1).abs() < 1e-12);
+/// // Without the push friction holds the spring, which has 0.4 of the 1 that friction can.
+/// body.advance(&pushed(0.0)?, 1.0)?;
+/// assert!(body.settle(&pushed(0.0)?, 1.0)?.rests());
+/// assert!((body.state().u[0] - 0.1).abs() < 1e-12 && (body.state().t_t[0] - 0.4).abs() < 1e-12);
+/// # Ok::<(), lcp::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Dynamics {
+    settings: DynamicsSettings,
+    mass: SparseColMat<usize, f64>,
+    mu: Vec<f64>,
+    /// The loads, gaps and supports under which the bodies are.
+    data: Data,
+    /// Where they are; slips are those of the last step.
+    state: ContactState,
+    velocity: Vec<f64>,
+    /// The slip of every point before the last step, and after it.
+    slips: [Vec<f64>; 2],
+    /// What the contacts do, if a step has told.
+    contacts: Option<Vec<ContactStatus>>,
+    account: Account,
+    factorisations: usize,
+}
+
+/// What is kept from step to step of one run: the plan of the factors.
+type Plan = Option<Condensed>;
+
+impl Dynamics {
+    /// Bodies at rest without displacements and without contact forces, under the loads and gaps of a problem. Its `K` is the
+    /// stiffness of the bodies, `mass` their mass (symmetric, positive semidefinite).
+    ///
+    /// # Errors
+    /// [`Error::Shape`], [`Error::NotFinite`] or [`Error::NotSymmetric`] for the mass, [`Error::Setting`] for the settings.
+    pub fn new(
+        problem: &Contact2d,
+        mass: impl Into<Matrix>,
+        settings: DynamicsSettings,
+    ) -> Result<Self, Error> {
+        settings.validate()?;
+        let (n, m) = (problem.displacements(), problem.points());
+        let mass = mass.into();
+        mass.check("M", n, n)?;
+        mass.check_symmetric("M")?;
+        let zero = || vec![0.0; m];
+        let slips = problem.initial_slips();
+        Ok(Self {
+            settings,
+            mass: mass.into_sparse(),
+            mu: problem.mu().to_vec(),
+            data: Data::of(problem),
+            state: problem.state(vec![0.0; n], zero(), zero()),
+            velocity: vec![0.0; n],
+            slips: [slips.to_vec(), slips.to_vec()],
+            contacts: None,
+            account: Account::default(),
+            factorisations: 0,
+        })
+    }
+
+    /// The same bodies with other velocities.
+    ///
+    /// # Errors
+    /// [`Error::Length`] or [`Error::NotFinite`].
+    pub fn moving(self, velocity: Vec<f64>) -> Result<Self, Error> {
+        check_length("velocity", velocity.len(), self.velocity.len())?;
+        check_vector("velocity", &velocity)?;
+        Ok(Self { velocity, ..self })
+    }
+
+    /// The same bodies at rest in another state, with the slip that every point has come to. Points whose friction is at its
+    /// bound are taken to slide on, until a step shows that they do not.
+    ///
+    /// # Errors
+    /// [`Error::Length`] or [`Error::NotFinite`].
+    pub fn at(self, state: ContactState, slips: Vec<f64>) -> Result<Self, Error> {
+        let n = self.velocity.len();
+        for (name, vector, length) in [
+            ("u", &state.u, n),
+            ("t_n", &state.t_n, self.state.t_n.len()),
+            ("t_t", &state.t_t, self.state.t_t.len()),
+            ("slips", &slips, self.state.t_n.len()),
+        ] {
+            check_length(name, vector.len(), length)?;
+            check_vector(name, vector)?;
+        }
+        let points = self.mu.iter().zip(state.t_n.iter().zip(&state.t_t));
+        let contacts = points.map(|(mu, (t_n, t_t))| match (mu * t_n, t_t) {
+            _ if *t_n <= 0.0 => ContactStatus::Open,
+            (bound, t_t) if bound > 0.0 && t_t.abs() >= AT_BOUND * bound => {
+                if *t_t < 0.0 {
+                    ContactStatus::Forwards
+                } else {
+                    ContactStatus::Backwards
+                }
+            }
+            _ => ContactStatus::Stick,
+        });
+        let contacts = Some(contacts.collect());
+        let slips = [slips.clone(), slips];
+        Ok(Self { state, slips, contacts, velocity: vec![0.0; n], ..self })
+    }
+
+    /// Displacements, forces and gaps. Slips are those of the last step.
+    pub fn state(&self) -> &ContactState {
+        &self.state
+    }
+
+    /// The velocities.
+    pub fn velocity(&self) -> &[f64] {
+        &self.velocity
+    }
+
+    /// The slip that every point has come to, without the deformation of its spring; at first it is that of the problem.
+    pub fn slips(&self) -> &[f64] {
+        &self.slips[1]
+    }
+
+    /// The same before the last step: the state solves the problem [with slips from there](Contact2d::slid).
+    pub fn slips_before(&self) -> &[f64] {
+        &self.slips[0]
+    }
+
+    /// Works and energies since the start.
+    pub fn account(&self) -> &Account {
+        &self.account
+    }
+
+    /// Factorisations since the start.
+    pub fn factorisations(&self) -> usize {
+        self.factorisations
+    }
+
+    /// One step of a length `h` to the loads, gaps and supports of `problem`: [`Status::Solved`], or why it was not taken.
+    ///
+    /// # Errors
+    /// [`Error::Length`] for a problem of other bodies, [`Error::Setting`] for a step that is not positive, and
+    /// [`Error::NotTreated`] where memory does not suffice.
+    pub fn step(&mut self, problem: &Contact2d, h: f64) -> Result<Status, Error> {
+        self.check(problem, h)?;
+        self.observed(&mut |_| ControlFlow::Continue(()), |this, plan, monitor| {
+            let data = Data::of(problem);
+            Ok(match this.taken(problem, (&data, h), plan, monitor)? {
+                Taken::Yes(_) => Status::Solved,
+                Taken::No(status) => status,
+            })
+        })
+    }
+
+    /// Steps to the loads, gaps and supports of `problem`, which change evenly in a time `duration`: one, or more where one
+    /// is not solved. Bodies that arrive there may still move.
+    ///
+    /// # Errors
+    /// As for [`step`](Self::step).
+    pub fn advance(&mut self, problem: &Contact2d, duration: f64) -> Result<Ending, Error> {
+        self.advance_observed(problem, duration, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// The same, calling the observer before every factorisation; `Break` stops with
+    /// [`Status::Cancelled`](crate::Status::Cancelled).
+    ///
+    /// # Errors
+    /// As for [`step`](Self::step).
+    pub fn advance_observed(
+        &mut self,
+        problem: &Contact2d,
+        duration: f64,
+        observer: &mut Observer<'_>,
+    ) -> Result<Ending, Error> {
+        self.check(problem, duration)?;
+        self.observed(observer, |this, plan, monitor| this.driven(problem, duration, plan, monitor))
+    }
+
+    /// Steps under the loads and gaps of `problem` until the bodies rest or flow; the first one has the length `h`.
+    ///
+    /// # Errors
+    /// As for [`step`](Self::step).
+    pub fn settle(&mut self, problem: &Contact2d, h: f64) -> Result<Ending, Error> {
+        self.settle_observed(problem, h, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// The same, with an observer as in [`advance_observed`](Self::advance_observed).
+    ///
+    /// # Errors
+    /// As for [`step`](Self::step).
+    pub fn settle_observed(
+        &mut self,
+        problem: &Contact2d,
+        h: f64,
+        observer: &mut Observer<'_>,
+    ) -> Result<Ending, Error> {
+        self.check(problem, h)?;
+        self.observed(observer, |this, plan, monitor| this.settled(problem, h, plan, monitor))
+    }
+
+    fn check(&self, problem: &Contact2d, h: f64) -> Result<(), Error> {
+        check_length("displacements", problem.displacements(), self.velocity.len())?;
+        check_length("points", problem.points(), self.state.t_n.len())?;
+        if h > 0.0 && h.is_finite() {
+            return Ok(());
+        }
+        Err(Error::Setting { name: "step", value: h, range: "above 0 and finite" })
+    }
+
+    /// Runs steps with the limits of the settings.
+    fn observed<T>(
+        &mut self,
+        observer: &mut Observer<'_>,
+        run: impl FnOnce(&mut Self, &mut Plan, &mut Monitor<'_>) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let DynamicsSettings { max_iterations, time_limit, .. } = self.settings;
+        let mut forward = |at: &Iteration| observer(at);
+        let mut monitor = Monitor::new(max_iterations, time_limit, &mut forward);
+        run(self, &mut None, &mut monitor)
+    }
+}
+
+/// The part of its bound at which friction is taken to be there. Rounding: states are solved to ten digits.
+const AT_BOUND: f64 = 1.0 - 1e-9;
+/// The method that the steps are solved by.
+const METHOD: Method = Method::Interior;

@@ -1,0 +1,58 @@
+//! Settings of dynamics.
+
+use std::time::Duration;
+
+use crate::Error;
+use crate::settings::check_tolerance;
+
+/// Settings of [`Dynamics`](crate::Dynamics).
+#[derive(Debug, Clone, PartialEq)]
+pub struct DynamicsSettings {
+    /// Largest residual, dimensionless, of every step and of the state at rest. In `(0, 1)`.
+    pub tolerance: f64,
+    /// The drag `c` [1/time]: a body of the mass `M` with the velocity `v` feels the force `-c M v`. At least zero, and
+    /// above zero without inertia.
+    pub drag: f64,
+    /// Whether bodies have inertia. Without it they come to rest as soon as nothing moves them any more.
+    pub inertia: bool,
+    /// The largest displacement, from where [`advance`](crate::Dynamics::advance) and
+    /// [`settle`](crate::Dynamics::settle) begin, up to which the problem means anything: beyond it they end with
+    /// [`Ending::Left`](crate::Ending::Left).
+    pub reach: f64,
+    /// Factorisations of one call.
+    pub max_iterations: usize,
+    /// Wall-clock time of one call, looked at before every factorisation; `None` is no limit.
+    pub time_limit: Option<Duration>,
+}
+
+impl Default for DynamicsSettings {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-10,
+            drag: 1.0,
+            inertia: false,
+            reach: f64::INFINITY,
+            max_iterations: 4000,
+            time_limit: None,
+        }
+    }
+}
+
+impl DynamicsSettings {
+    /// Checks the settings.
+    ///
+    /// # Errors
+    /// [`Error::Setting`] with the name of the setting.
+    pub fn validate(&self) -> Result<(), Error> {
+        check_tolerance(self.tolerance)?;
+        let least = if self.inertia { 0.0 } else { f64::MIN_POSITIVE };
+        if !(self.drag >= least && self.drag.is_finite()) {
+            let range = "at least 0 and finite, and above 0 without inertia";
+            return Err(Error::Setting { name: "drag", value: self.drag, range });
+        }
+        if self.reach > 0.0 {
+            return Ok(());
+        }
+        Err(Error::Setting { name: "reach", value: self.reach, range: "above 0" })
+    }
+}
