@@ -19,8 +19,8 @@ use crate::solve::Monitor;
 use crate::states::Condensed;
 use crate::vector::{check_length, check_vector};
 use crate::{Contact2d, ContactState, Error, Iteration, Matrix, Method, Observer, Status};
+use account::Taken;
 use data::Data;
-use step::Taken;
 
 /// Bodies with mass in contact, on their way through loads, gaps and supports that change.
 ///

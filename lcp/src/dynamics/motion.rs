@@ -1,7 +1,7 @@
 //! Steps one after the other: to other loads and supports, and to rest or flow.
 
+use super::account::Taken;
 use super::data::Data;
-use super::step::Taken;
 use super::{Account, Dynamics, Plan};
 use crate::active::Effort;
 use crate::problem::column_of;

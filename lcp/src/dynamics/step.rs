@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use super::account::Taken;
 use super::data::Data;
 use super::{Account, Dynamics, DynamicsSettings, METHOD, Plan};
 use crate::active::{Effort, Original, Search};
@@ -10,14 +11,6 @@ use crate::problem::{ContactStatus, column_of};
 use crate::solve::Monitor;
 use crate::states::nearest;
 use crate::{Contact2d, ContactState, Error, Iteration, Solution, Status};
-
-/// Whether a step was taken.
-pub(super) enum Taken {
-    /// With its own account.
-    Yes(Account),
-    /// Why not: [`Status::Stalled`] where a shorter one may be, or a limit.
-    No(Status),
-}
 
 /// Steps of the path of interior points in one try. Measured on settlements of walls of 100 to 1000 bricks: those that are
 /// solved take 20 to 45.
