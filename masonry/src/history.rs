@@ -204,10 +204,16 @@ pub struct StepRecord {
     pub residuals: lcp::Residuals,
     /// Work of loads and of moving supports in this step \[J\], by the trapezoidal rule.
     pub work: f64,
-    /// Energy dissipated by sliding in this step \[J\], `-t_t . (increment of y_t)`, never negative; plus the energy
+    /// Energy dissipated by sliding in this step \[J\], `-t_t . (increment of y_t)`; plus the energy
     /// of opening joints with tensile strength, which is recovered when they close. Where [`way`](Self::way) is not
     /// [`Law`](lcp::Way::Law), `t_t` is the mean of the forces at both ends of the step.
     pub dissipation: f64,
+    /// What friction took by what it could take of the slips of this step at most: the sum of `-t_t ds` by that of
+    /// `(mu t_n + C) |ds|`, with the forces after the step. One if Coulomb's law was kept along the way; `None` where nothing
+    /// slid.
+    pub friction_power: Option<f64>,
+    /// Energy that friction gave in this step \[J\], by the same forces: none by Coulomb's law.
+    pub energy_created: f64,
     /// Strain energy of blocks, joints and films after the step \[J\].
     pub strain_energy: f64,
     /// The largest displacement after the step \[m\].
@@ -232,7 +238,23 @@ pub struct History {
     pub loads: Vec<String>,
 }
 
+impl StepRecord {
+    /// Whether friction has taken what it could of every slip, but for a hundredth.
+    pub fn keeps_law(&self) -> bool {
+        self.friction_power.is_none_or(|power| power >= KEPT)
+    }
+}
+
+/// The part of its capacity that friction has to take for the law to be called kept. Chosen: steps by the law have one, to
+/// many digits, and others mostly much less.
+const KEPT: f64 = 0.99;
+
 impl History {
+    /// How many of the steps keep Coulomb's law along the way only in part.
+    pub fn steps_against_law(&self) -> usize {
+        self.records.iter().filter(|record| !record.keeps_law()).count()
+    }
+
     /// Work of loads and supports in all steps \[J\].
     pub fn work(&self) -> f64 {
         self.records.iter().map(|record| record.work).sum()

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use masonry::analysis::limit::{Bracket, Laws, least_thickness_observed, limit_observed};
+use masonry::analysis::limit::{Bracket, Laws, least_thickness_observed, limit, limit_observed};
 use masonry::scene::Scene;
 use serde_json::Value;
 
@@ -402,4 +402,30 @@ fn ranges_of_reactions() {
     let (both, _) = object(&written("range_two", &(scene + &second + "\n")), &["--range"]);
     assert_eq!(both["range"]["left"]["fx"]["max"]["unlimited"], true);
     assert!(value(&both["range"]["left"]["fx"]["min"]).abs() < 1e-5);
+}
+
+/// A bar that only a pull could keep between two posts which lean outwards falls freely, whatever the load: a place a
+/// million metres below is no state of rest.
+#[test]
+fn a_free_fall_is_no_rest() {
+    let scene = Scene::from_toml(
+        r#"title = "A keystone upside down"
+plane = "stress"
+thickness = 1
+gravity = [0, -9.81]
+units = { length = "m", force = "kN" }
+materials.stone = { density = 1000, E = 1e7, nu = 0.2 }
+joints.s = { mu = 0.84 }
+supports = [
+  { name = "left", from = [-1.1547, 0], to = [-0.692819784648, 0.8], joint = "s" },
+  { name = "right", from = [0.692819784648, 0.8], to = [1.1547, 0], joint = "s" }]
+blocks = [{ name = "bar", material = "stone", mesh = [8, 4], corners = [
+  [-1.1547, 0], [1.1547, 0], [0.692819784648, 0.8], [-0.692819784648, 0.8]] }]
+loads = [{ name = "extra", block = "bar", at = [0, 0.2], force = [0, -1] }]
+"#,
+    )
+    .unwrap();
+    let path = limit(&scene).unwrap().path.unwrap();
+    assert_eq!((path.load_factor, path.falls), (None, Some(0.0)));
+    assert!(path.mechanism.is_some());
 }

@@ -14,7 +14,7 @@ use nalgebra::Vector2;
 use crate::ids::BlockId;
 use crate::model::{Body, Model};
 use crate::recover;
-use crate::state::{ContactState, State};
+use crate::state::{ContactState, ContactStatus, State};
 use crate::system::{System, displaced_nodes};
 
 /// What loads and supports need to have their work told.
@@ -109,6 +109,43 @@ pub(crate) fn dissipation_to_rest(
         -0.5 * t_t * (slip + contact.y_t)
     };
     after.iter().zip(slips).enumerate().map(taken).sum()
+}
+
+/// What friction did with the slips of a step, by the forces at its end: the law of motion as it was kept.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Friction {
+    /// Energy \[J\] that it took, the sum of `-t_t ds`.
+    taken: f64,
+    /// Energy \[J\] that it could take at most, the sum of `(mu t_n + C) |ds|`.
+    capacity: f64,
+    /// Energy \[J\] that it gave: the part of the first sum that is negative.
+    pub(crate) created: f64,
+}
+
+impl Friction {
+    /// Of contacts that slid by `slips` before the slip of their state, if by any.
+    pub(crate) fn of(model: &Model, contacts: &[ContactState], slips: Option<&[f64]>) -> Self {
+        let mut sum = Self::default();
+        for (i, (point, contact)) in model.contacts.iter().zip(contacts).enumerate() {
+            // What is computed for a contact that sticks is an error, and no slip.
+            let own = if contact.status == ContactStatus::Stick { 0.0 } else { contact.y_t };
+            let slip = own + slips.map_or(0.0, |slips| slips[i]);
+            let is_open = contact.status == ContactStatus::Open;
+            if is_open || !point.law.resists_sliding() {
+                continue;
+            }
+            let taken = -contact.t_t * slip;
+            sum.taken += taken;
+            sum.created += (-taken).max(0.0);
+            sum.capacity += point.law.bound(contact.t_n) * slip.abs();
+        }
+        sum
+    }
+
+    /// What it took of what it could, one by Coulomb's law; `None` where nothing slid.
+    pub(crate) fn power(&self) -> Option<f64> {
+        (self.capacity > 0.0).then(|| self.taken / self.capacity)
+    }
 }
 
 /// Energy \[J\] that the tensile strength of open joints holds, `T y_n`: what opening them took, and what they give

@@ -160,9 +160,17 @@ fn law(known: &Known<'_>) -> Option<String> {
     }
     let how = how.join(" and ");
     let slips = if known.history.is_none() { " Slips are measured from this state." } else { "" };
+    let least = known.history.and_then(|history| {
+        let powers = history.records.iter().filter_map(|record| record.friction_power);
+        powers.reduce(f64::min)
+    });
+    let power = least.map_or_else(String::new, |least| {
+        format!(" Friction took {:.0} % of what it could in the worst step.", 100.0 * least)
+    });
     Some(format!(
-        "The blocks came to rest {how}. Forces balance the loads within friction, but there are other states of \
-         rest, and only two digits of the displacements are meaningful.{slips}"
+        "The blocks came to rest {how}.{power} Forces balance the loads within friction, but there are other states of \
+         rest: cracks, thrust and displacements may differ by tens of per cent from those that this loading leads \
+         to.{slips}"
     ))
 }
 

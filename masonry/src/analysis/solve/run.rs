@@ -9,7 +9,7 @@ use super::chain::{Attempt, Chain};
 use super::{Clock, Event, SolveError, check_size};
 use crate::analysis::checkpoint::{Checkpoint, CheckpointError};
 use crate::analysis::outcome::{Frame, Outcome};
-use crate::history::energy::{self, Snapshot};
+use crate::history::energy::{self, Friction, Snapshot};
 use crate::history::{self, History, Step, StepRecord};
 use crate::method::Request;
 use crate::method::forms::{Sparse, Start};
@@ -274,6 +274,8 @@ impl Run {
                 }
                 None => energy::dissipation(&state.contacts),
             };
+            let model = stepped.as_ref().map_or(&self.model, |(model, _)| model);
+            let friction = Friction::of(model, &state.contacts, moved.as_deref());
             let in_history = stepped.map(|(mut model, mut slips)| {
                 if let Some(moved) = &moved {
                     model = model.slid(moved);
@@ -294,7 +296,7 @@ impl Run {
                 let reached = Reached { info: info.clone(), state, checks, in_history };
                 if is_solved {
                     self.solved += 1;
-                    self.records.extend(self.record(step, dissipation, &reached));
+                    self.records.extend(self.record(step, (dissipation, friction), &reached));
                 }
                 self.reached = Some(reached);
             }
@@ -303,7 +305,12 @@ impl Run {
     }
 
     /// The record of a step that follows the last one reached; `None` where there is no history.
-    fn record(&self, step: Step, dissipation: f64, reached: &Reached) -> Option<StepRecord> {
+    fn record(
+        &self,
+        step: Step,
+        (dissipation, friction): (f64, Friction),
+        reached: &Reached,
+    ) -> Option<StepRecord> {
         let Reached { info, state, checks, in_history } = reached;
         let InHistory { model, snapshot } = in_history.as_ref()?;
         let before = self.reached.as_ref().and_then(|it| it.in_history.as_ref());
@@ -322,7 +329,9 @@ impl Run {
             factorisations: info.factorisations,
             residuals: info.residuals,
             work,
-            dissipation: dissipation.max(0.0) + held,
+            dissipation: dissipation + held,
+            friction_power: friction.power(),
+            energy_created: friction.created,
             strain_energy: state.strain_energy,
             largest_displacement: largest.fold(0.0, f64::max),
             contacts: checks.as_ref().map_or([0; 3], |it| [it.open, it.stick, it.slip]),

@@ -11,7 +11,7 @@ use crate::report::format::{InUnits, shortest};
 ///
 /// Columns carry the units of the scene in their names: `stage`, `step` (from 1 in each stage), the
 /// factor `gravity`, a factor `load NAME` for each load, `SUPPORT x_m`, `SUPPORT y_m`, `SUPPORT
-/// turn_rad` for each support, of this step `work_kJ` and `dissipation_kJ`, after it `strain_energy_kJ`
+/// turn_rad` for each support, of this step `work_kJ` and `dissipation_kJ`, the `friction_power` and `energy_created_kJ`, after it `strain_energy_kJ`
 /// and `max_displacement_m`, the numbers `open`, `stick`, `slip` of contact points, `SUPPORT fx_kN`,
 /// `SUPPORT fy_kN` and `SUPPORT m_kNm` (about the origin) for each support, the `residual`, the `way` in which the step was found
 /// (`law`, `smooth-friction` or `motion`), and its `factorisations`.
@@ -25,10 +25,13 @@ pub fn history(model: &Model, history: &History) -> String {
         for moved in &actions.movements {
             numbers.extend([units.length(moved.x), units.length(moved.y), moved.turn]);
         }
-        numbers.extend(
-            [record.work, record.dissipation, record.strain_energy].map(|e| units.energy(e)),
-        );
-        numbers.push(units.length(record.largest_displacement));
+        numbers.extend([record.work, record.dissipation].map(|e| units.energy(e)));
+        let power = record.friction_power.map_or_else(String::new, shortest);
+        let after = [
+            units.energy(record.energy_created),
+            units.energy(record.strain_energy),
+            units.length(record.largest_displacement),
+        ];
         let counts = record.contacts.map(|count| count.to_string());
         let reactions = record.reactions.iter().flat_map(|it| {
             [units.force(it.fx), units.force(it.fy), units.energy(it.m)].map(shortest)
@@ -37,6 +40,8 @@ pub fn history(model: &Model, history: &History) -> String {
             .into_iter()
             .chain([record.step.number.to_string()])
             .chain(numbers.into_iter().map(shortest))
+            .chain([power])
+            .chain(after.map(shortest))
             .chain(counts)
             .chain(reactions)
             .chain([shortest(record.residuals.worst())])
@@ -58,7 +63,9 @@ fn header(model: &Model, history: &History, units: InUnits) -> String {
     heads.extend(supports().flat_map(|name| {
         [moves[0].as_str(), &moves[1], "turn_rad"].map(|column| format!("{name} {column}"))
     }));
-    heads.extend(["work", "dissipation", "strain_energy"].map(|it| format!("{it}_{energy}")));
+    heads.extend(["work", "dissipation"].map(|it| format!("{it}_{energy}")));
+    heads.push("friction_power".to_owned());
+    heads.extend(["energy_created", "strain_energy"].map(|it| format!("{it}_{energy}")));
     heads.push(format!("max_displacement_{length}"));
     heads.extend(["open", "stick", "slip"].map(str::to_owned));
     let forces = [format!("fx_{force}"), format!("fy_{force}"), format!("m_{energy}")];

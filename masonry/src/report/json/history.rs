@@ -40,6 +40,8 @@ struct Record<'a> {
     residual: f64,
     work: f64,
     dissipation: f64,
+    friction_power: Option<f64>,
+    energy_created: f64,
     strain_energy: f64,
     /// `W - U - D` from the beginning.
     balance: f64,
@@ -95,6 +97,8 @@ impl<'a> Record<'a> {
             residual: record.residuals.worst(),
             work: units.energy(record.work),
             dissipation: units.energy(record.dissipation),
+            friction_power: record.friction_power,
+            energy_created: units.energy(record.energy_created),
             strain_energy: units.energy(record.strain_energy),
             balance: units.energy(balance),
             max_displacement: units.length(record.largest_displacement),

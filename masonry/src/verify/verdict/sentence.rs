@@ -22,10 +22,7 @@ pub(super) fn of(
                 .to_owned()
         }
         (Verdict::Stands, _) => match known.history {
-            Some(history) => format!(
-                "The wall stands in all {} steps: equilibrium found and verified in each.",
-                history.steps
-            ),
+            Some(history) => in_all_steps(history),
             None => "The wall stands: equilibrium found and verified.".to_owned(),
         },
         (Verdict::Falls, Evidence::Motion) => format!(
@@ -52,6 +49,20 @@ pub(super) fn of(
     {
         Some(reached) => format!("{first} {reached}"),
         None => first,
+    }
+}
+
+/// What was found in the steps of a history, and what of it was checked.
+fn in_all_steps(history: &History) -> String {
+    let steps = history.steps;
+    match history.steps_against_law() {
+        0 => format!(
+            "The wall stands in all {steps} steps: equilibrium found, and Coulomb's law verified, in each."
+        ),
+        count => format!(
+            "The wall stands in all {steps} steps: equilibrium found and verified in each, but {count} of them keep \
+             Coulomb's law along the way only in part."
+        ),
     }
 }
 

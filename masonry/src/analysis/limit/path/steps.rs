@@ -36,6 +36,8 @@ pub(super) struct Steps<'a> {
     /// The loads that grow, for a factor of one.
     pub(super) growth: &'a [f64],
     pub(super) tolerance: f64,
+    /// How far blocks may move in a step \[m\].
+    pub(super) reach: f64,
 }
 
 impl Steps<'_> {
@@ -69,7 +71,7 @@ impl Steps<'_> {
         if solution.status == Status::Solved
             && let Some(state) = solution.contact
         {
-            return Ok(End::Rests(Rest { u: state.u.clone(), state }));
+            return Ok(self.end(&at, state));
         }
         let settings = EvolutionSettings {
             tolerance: self.tolerance,
@@ -79,11 +81,19 @@ impl Steps<'_> {
         let evolved = Evolution::new(settings).advance_observed(&problem, &at, observer)?;
         Ok(match evolved.solution.status {
             Status::Solved => {
-                let state = evolved.state().clone();
-                End::Rests(Rest { u: state.u.clone(), state })
+                self.end(&at, evolved.state().clone())
             }
             Status::NoEquilibrium => End::Flows(evolved.motions.motion),
             _ => End::Open,
         })
+    }
+
+    /// Where blocks rest; or that they flow, if the place is so far away that nothing there is as it was: what has taken
+    /// them there has met no resistance.
+    fn end(&self, from: &[f64], state: ContactState) -> End {
+        let blocks = self.sparse.starts().last().copied().unwrap_or(0);
+        let moved: Vec<f64> = state.u.iter().zip(from).map(|(u, before)| u - before).collect();
+        let is_far = moved[..blocks].iter().any(|moved| moved.abs() > self.reach);
+        if is_far { End::Flows(moved) } else { End::Rests(Rest { u: state.u.clone(), state }) }
     }
 }
