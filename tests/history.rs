@@ -135,7 +135,9 @@ fn energy_is_accounted_for() {
             let outcome = solve(&pushed(steps).route(route).tolerance(1e-9)).unwrap();
             assert_eq!(outcome.solve.status, Status::Solved, "{route:?}");
             let history = outcome.history.as_ref().unwrap();
-            assert!(history.records.iter().all(|record| record.dissipation >= 0.0));
+            // What is not clipped has rounding errors, of the size of the tolerance of the routes.
+            let least = -1e-9 * history.work();
+            assert!(history.records.iter().all(|record| record.dissipation >= least));
             let stored = outcome.state.as_ref().unwrap().strain_energy;
             assert!(history.dissipation() > 1e-3 * history.work());
             (history.work() - stored - history.dissipation()).abs() / history.work()

@@ -92,13 +92,8 @@ impl Snapshot {
     }
 }
 
-/// Energy \[J\] that sliding dissipates in a step, where `y_t` of the contacts is their slip in the step.
-pub(crate) fn dissipation(contacts: &[ContactState]) -> f64 {
-    contacts.iter().map(|contact| -contact.t_t * contact.y_t).sum()
-}
-
-/// The same where the blocks slid by `slips` before the slip of the state in which they rest: by the trapezoidal rule. `before`
-/// is `None` in the first step.
+/// Energy \[J\] that sliding dissipates where the blocks slid by `slips` before the slip of the state in which they rest: by the
+/// trapezoidal rule. `before` is `None` in the first step.
 pub(crate) fn dissipation_to_rest(
     before: Option<&[ContactState]>,
     after: &[ContactState],
@@ -115,7 +110,7 @@ pub(crate) fn dissipation_to_rest(
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Friction {
     /// Energy \[J\] that it took, the sum of `-t_t ds`.
-    taken: f64,
+    pub(crate) taken: f64,
     /// Energy \[J\] that it could take at most, the sum of `(mu t_n + C) |ds|`.
     capacity: f64,
     /// Energy \[J\] that it gave: the part of the first sum that is negative.

@@ -267,15 +267,15 @@ impl Run {
             self.model = self.model.slid(moved);
         }
         if let Some(mut state) = state {
+            let model = stepped.as_ref().map_or(&self.model, |(model, _)| model);
+            let friction = Friction::of(model, &state.contacts, moved.as_deref());
             let dissipation = match &moved {
                 Some(slips) => {
                     let before = self.reached.as_ref().map(|it| &it.state.contacts[..]);
                     energy::dissipation_to_rest(before, &state.contacts, slips)
                 }
-                None => energy::dissipation(&state.contacts),
+                None => friction.taken,
             };
-            let model = stepped.as_ref().map_or(&self.model, |(model, _)| model);
-            let friction = Friction::of(model, &state.contacts, moved.as_deref());
             let in_history = stepped.map(|(mut model, mut slips)| {
                 if let Some(moved) = &moved {
                     model = model.slid(moved);

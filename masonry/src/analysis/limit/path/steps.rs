@@ -80,9 +80,7 @@ impl Steps<'_> {
         };
         let evolved = Evolution::new(settings).advance_observed(&problem, &at, observer)?;
         Ok(match evolved.solution.status {
-            Status::Solved => {
-                self.end(&at, evolved.state().clone())
-            }
+            Status::Solved => self.end(&at, evolved.state().clone()),
             Status::NoEquilibrium => End::Flows(evolved.motions.motion),
             _ => End::Open,
         })
