@@ -1,10 +1,10 @@
 //! Bodies in contact that move: implicit steps in time, until they rest or flow.
 
 mod account;
-mod data;
 mod motion;
 mod settings;
 mod step;
+mod target;
 
 pub use account::Account;
 pub use motion::Ending;
@@ -16,11 +16,9 @@ use faer::sparse::SparseColMat;
 
 use crate::problem::ContactStatus;
 use crate::solve::Monitor;
-use crate::states::Condensed;
 use crate::vector::{check_length, check_vector};
 use crate::{Contact2d, ContactState, Error, Iteration, Matrix, Method, Observer, Status};
-use account::Taken;
-use data::Data;
+use target::{Course, Data, Taken, Target};
 
 /// Bodies with mass in contact, on their way through loads, gaps and supports that change.
 ///
@@ -42,7 +40,7 @@ use data::Data;
 ///    longer again.
 ///
 /// # Rest and flow
-/// [`settle`](Self::settle) leaves loads and gaps as they are, and doubles the steps until
+/// [`settle`](Self::settle) leaves loads and gaps as they are, and doubles the steps of bodies without inertia until
 ///
 /// * bodies rest: displacements solve the problem without mass, with slips measured from the step before, and
 ///   judged like every other solution; or
@@ -86,7 +84,6 @@ use data::Data;
 pub struct Dynamics {
     settings: DynamicsSettings,
     mass: SparseColMat<usize, f64>,
-    mu: Vec<f64>,
     /// The loads, gaps and supports under which the bodies are.
     data: Data,
     /// Where they are; slips are those of the last step.
@@ -99,9 +96,6 @@ pub struct Dynamics {
     account: Account,
     factorisations: usize,
 }
-
-/// What is kept from step to step of one run: the plan of the factors.
-type Plan = Option<Condensed>;
 
 impl Dynamics {
     /// Bodies at rest without displacements and without contact forces, under the loads and gaps of a problem. Its `K` is the
@@ -124,7 +118,6 @@ impl Dynamics {
         Ok(Self {
             settings,
             mass: mass.into_sparse(),
-            mu: problem.mu().to_vec(),
             data: Data::of(problem),
             state: problem.state(vec![0.0; n], zero(), zero()),
             velocity: vec![0.0; n],
@@ -145,8 +138,7 @@ impl Dynamics {
         Ok(Self { velocity, ..self })
     }
 
-    /// The same bodies at rest in another state, with the slip that every point has come to. Points whose friction is at its
-    /// bound are taken to slide on, until a step shows that they do not.
+    /// The same bodies at rest in another state, with the slip that every point has come to.
     ///
     /// # Errors
     /// [`Error::Length`] or [`Error::NotFinite`].
@@ -161,21 +153,8 @@ impl Dynamics {
             check_length(name, vector.len(), length)?;
             check_vector(name, vector)?;
         }
-        let points = self.mu.iter().zip(state.t_n.iter().zip(&state.t_t));
-        let contacts = points.map(|(mu, (t_n, t_t))| match (mu * t_n, t_t) {
-            _ if *t_n <= 0.0 => ContactStatus::Open,
-            (bound, t_t) if bound > 0.0 && t_t.abs() >= AT_BOUND * bound => {
-                if *t_t < 0.0 {
-                    ContactStatus::Forwards
-                } else {
-                    ContactStatus::Backwards
-                }
-            }
-            _ => ContactStatus::Stick,
-        });
-        let contacts = Some(contacts.collect());
         let slips = [slips.clone(), slips];
-        Ok(Self { state, slips, contacts, velocity: vec![0.0; n], ..self })
+        Ok(Self { state, slips, contacts: None, velocity: vec![0.0; n], ..self })
     }
 
     /// Displacements, forces and gaps. Slips are those of the last step.
@@ -215,9 +194,9 @@ impl Dynamics {
     /// [`Error::NotTreated`] where memory does not suffice.
     pub fn step(&mut self, problem: &Contact2d, h: f64) -> Result<Status, Error> {
         self.check(problem, h)?;
-        self.observed(&mut |_| ControlFlow::Continue(()), |this, plan, monitor| {
-            let data = Data::of(problem);
-            Ok(match this.taken(problem, (&data, h), plan, monitor)? {
+        self.observed(&mut |_| ControlFlow::Continue(()), |this, course| {
+            let target = Target { problem, data: &Data::of(problem), h: Some(h) };
+            Ok(match this.taken(target, course)? {
                 Taken::Yes(_) => Status::Solved,
                 Taken::No(status) => status,
             })
@@ -245,13 +224,14 @@ impl Dynamics {
         observer: &mut Observer<'_>,
     ) -> Result<Ending, Error> {
         self.check(problem, duration)?;
-        self.observed(observer, |this, plan, monitor| this.driven(problem, duration, plan, monitor))
+        self.observed(observer, |this, course| this.driven(problem, duration, course))
     }
 
     /// Steps under the loads and gaps of `problem` until the bodies rest or flow; the first one has the length `h`.
     ///
     /// # Errors
-    /// As for [`step`](Self::step).
+    /// As for [`step`](Self::step), and [`Error::Setting`] for bodies with inertia: they swing through places where forces
+    /// are balanced, and steps that become longer would leave the swing out. Take [`steps`](Self::step) until they rest.
     pub fn settle(&mut self, problem: &Contact2d, h: f64) -> Result<Ending, Error> {
         self.settle_observed(problem, h, &mut |_| ControlFlow::Continue(()))
     }
@@ -259,7 +239,7 @@ impl Dynamics {
     /// The same, with an observer as in [`advance_observed`](Self::advance_observed).
     ///
     /// # Errors
-    /// As for [`step`](Self::step).
+    /// As for [`settle`](Self::settle).
     pub fn settle_observed(
         &mut self,
         problem: &Contact2d,
@@ -267,7 +247,11 @@ impl Dynamics {
         observer: &mut Observer<'_>,
     ) -> Result<Ending, Error> {
         self.check(problem, h)?;
-        self.observed(observer, |this, plan, monitor| this.settled(problem, h, plan, monitor))
+        if self.settings.inertia {
+            let range = "switched off where bodies are to settle: it is 1 where they have inertia";
+            return Err(Error::Setting { name: "inertia", value: 1.0, range });
+        }
+        self.observed(observer, |this, course| this.settled(problem, h, course))
     }
 
     fn check(&self, problem: &Contact2d, h: f64) -> Result<(), Error> {
@@ -283,16 +267,14 @@ impl Dynamics {
     fn observed<T>(
         &mut self,
         observer: &mut Observer<'_>,
-        run: impl FnOnce(&mut Self, &mut Plan, &mut Monitor<'_>) -> Result<T, Error>,
+        run: impl FnOnce(&mut Self, &mut Course<'_, '_>) -> Result<T, Error>,
     ) -> Result<T, Error> {
         let DynamicsSettings { max_iterations, time_limit, .. } = self.settings;
         let mut forward = |at: &Iteration| observer(at);
         let mut monitor = Monitor::new(max_iterations, time_limit, &mut forward);
-        run(self, &mut None, &mut monitor)
+        run(self, &mut Course { plan: None, monitor: &mut monitor })
     }
 }
 
-/// The part of its bound at which friction is taken to be there. Rounding: states are solved to ten digits.
-const AT_BOUND: f64 = 1.0 - 1e-9;
 /// The method that the steps are solved by.
 const METHOD: Method = Method::Interior;

@@ -186,6 +186,30 @@ fn a_block_on_a_soft_spring_comes_to_rest() {
     }
 }
 
+/// Nor is it if the spring is invisible beside the stiffness of the body that it holds.
+#[test]
+fn a_stiff_body_on_a_soft_spring_comes_to_rest() {
+    let push = 2.0 * MU * WEIGHT;
+    for (body, spring) in [(1e6, 1.0), (1e10, 1e2), (1e10, 1e-1)] {
+        let stiffness = [[body, -body, 0.0], [-body, body + spring, 0.0], [0.0; 3]];
+        let mut builder = Contact2d::builder(stiffness, vec![push, 0.0, -WEIGHT]);
+        builder.add_point(ContactPoint {
+            normal: &[(2, 1.0)],
+            tangent: &[(0, 1.0)],
+            mu: MU,
+            ..Default::default()
+        });
+        let problem = builder.build().unwrap();
+        let settings = DynamicsSettings::default();
+        let mut moving = Dynamics::new(&problem, diagonal(&[MASS; 3]), settings).unwrap();
+        assert_eq!(moving.settle(&problem, 1e-3).unwrap(), Ending::Rests, "{body} {spring}");
+        let place = (push - MU * WEIGHT) / spring;
+        // The rounding errors of what strains the body, beside the force of the spring.
+        let rounded = 1e-9_f64.max(4.0 * f64::EPSILON * body / spring);
+        assert!((moving.state().u[1] - place).abs() < rounded * place);
+    }
+}
+
 /// Pushed and released a block on a spring remembers its way: it stays until the force has fallen by `2 mu N` (Jenkins'
 /// element). However far the push goes at once, it arrives at the same places.
 #[test]
@@ -275,6 +299,9 @@ fn limits_and_mistakes_are_named() {
     assert!(matches!(refused, Error::Setting { name: "reach", .. }), "{refused}");
     assert!(matches!(moving.step(&problem, 0.0), Err(Error::Setting { name: "step", .. })));
     assert!(matches!(moving.step(&problem, f64::NAN), Err(Error::Setting { name: "step", .. })));
+    let mut swinging = Dynamics::new(&problem, MASSES, with_inertia()).unwrap();
+    let refused = swinging.settle(&problem, 1.0).unwrap_err();
+    assert!(matches!(refused, Error::Setting { name: "inertia", .. }), "{refused}");
     let skew = Dynamics::new(&problem, [[1.0, 2.0], [0.0, 1.0]], DynamicsSettings::default());
     assert!(matches!(skew.unwrap_err(), Error::NotSymmetric { .. }));
     let short = moving.clone().moving(vec![0.0]);

@@ -26,8 +26,6 @@ pub(crate) struct Effort {
 impl Effort {
     /// While the iteration comes nearer, when few contacts are left to exchange.
     pub(crate) const QUICK: Self = Self { rounds: 8, patience: 2, points: 400, ..Self::THOROUGH };
-    /// The given states only, or those that a single round of exchanges leads to.
-    pub(crate) const GIVEN: Self = Self { rounds: 2, patience: 1, points: 400, ..Self::THOROUGH };
     /// Where it does not come any nearer.
     pub(crate) const THOROUGH: Self =
         Self { rounds: 60, patience: 10, points: 20, anchored: false, proximal: PROXIMAL };

@@ -1,7 +1,5 @@
 //! Works and energies of the steps.
 
-use crate::Status;
-
 /// Works and energies of a [`Dynamics`](crate::Dynamics), summed over its steps.
 ///
 /// For every step the difference of both sides is rounding:
@@ -29,14 +27,6 @@ pub struct Account {
     pub dragged: f64,
     /// What implicit steps take by themselves: never negative, and small if steps are short.
     pub lost: f64,
-}
-
-/// Whether a step was taken.
-pub(super) enum Taken {
-    /// With its own account.
-    Yes(Account),
-    /// Why not: [`Status::Stalled`] where a shorter one may be, or a limit.
-    No(Status),
 }
 
 impl Account {

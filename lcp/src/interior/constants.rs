@@ -33,7 +33,8 @@ pub(super) const OPENINGS: usize = 8;
 /// are not opened, those that are easy take a third less steps; where they are, by 1e3 or 1e4, walls near their limit and on
 /// open bases are solved in 35 to 80 steps, on which all other attempts jam, whatever the friction.
 pub(super) const STARTS: [f64; 3] = [0.0, 1e4, 1e3];
-/// The same for steps of bodies with mass. Measured on settlements of walls of 100 to 1000 bricks.
+/// The same for steps of bodies with mass. Measured on settlements of 105 and 410 bricks, elastic and rigid: of some 120 tries 19
+/// fail; with 0, 1e3 and 1e4 in its place it is 33 of 148, 24 of 131 and 50 of 174.
 pub(super) const OPENING_OF_STEP: f64 = 1.0;
 /// The same where friction is reduced. Measured there: of ten walls that stand, and on which the path has jammed, this
 /// solves all but one; with 1e2 in its place it is two, and with no opening three.

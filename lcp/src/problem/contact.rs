@@ -178,19 +178,18 @@ impl Contact2d {
         Ok(Self { s_0, ..self.clone() })
     }
 
-    /// The problem of a step of bodies with a mass, of which `resistance` times is added to `K`, with these loads, gaps and
-    /// slips. Its pattern does not depend on the numbers.
-    pub(crate) fn stepped(
-        &self,
-        (mass, resistance): (&SparseColMat<usize, f64>, f64),
-        f: Vec<f64>,
-        (x_0, s_0): (Vec<f64>, Vec<f64>),
-    ) -> Self {
+    /// The same bodies with `resistance` times a mass in addition to `K`; the pattern does not depend on the numbers.
+    pub(crate) fn resisted(&self, mass: &SparseColMat<usize, f64>, resistance: f64) -> Self {
         let sum = faer::sparse::ops::binary_op(self.k.as_ref(), mass.as_ref(), |k, m| {
             k.copied().unwrap_or(0.0) + resistance * m.copied().unwrap_or(0.0)
         });
         let k = sum.unwrap_or_else(|e| unreachable!("both were built before: {e:?}"));
-        Self { k, f, x_0, s_0, ..self.clone() }
+        Self { k, ..self.clone() }
+    }
+
+    /// The same structure under other loads, gaps and slips, which are finite.
+    pub(crate) fn under(self, f: Vec<f64>, x_0: Vec<f64>, s_0: Vec<f64>) -> Self {
+        Self { f, x_0, s_0, ..self }
     }
 
     /// The same problem with coefficients of friction that are smaller by this part.

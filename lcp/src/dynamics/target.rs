@@ -1,0 +1,62 @@
+//! What steps go to, and what is kept while they follow one another.
+
+use crate::solve::Monitor;
+use crate::states::Condensed;
+use crate::{Account, Contact2d, Status};
+
+/// The loads, gaps and slips without displacements of a problem, which change from step to step.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Data {
+    pub(super) f: Vec<f64>,
+    pub(super) x_0: Vec<f64>,
+    pub(super) s_0: Vec<f64>,
+}
+
+impl Data {
+    pub(super) fn of(problem: &Contact2d) -> Self {
+        Self {
+            f: problem.loads().to_vec(),
+            x_0: problem.initial_gaps().to_vec(),
+            s_0: problem.initial_slips().to_vec(),
+        }
+    }
+
+    /// A part of the way to other data.
+    pub(super) fn towards(&self, end: &Self, part: f64) -> Self {
+        if part >= 1.0 {
+            return end.clone();
+        }
+        let between = |a: &[f64], b: &[f64]| -> Vec<f64> {
+            a.iter().zip(b).map(|(a, b)| a + part * (b - a)).collect()
+        };
+        Self {
+            f: between(&self.f, &end.f),
+            x_0: between(&self.x_0, &end.x_0),
+            s_0: between(&self.s_0, &end.s_0),
+        }
+    }
+}
+
+/// What a step goes to.
+#[derive(Clone, Copy)]
+pub(super) struct Target<'a> {
+    pub(super) problem: &'a Contact2d,
+    /// The loads, gaps and slips at its end, in the place of those of the problem.
+    pub(super) data: &'a Data,
+    /// Its length; `None` leads to rest, whatever the mass.
+    pub(super) h: Option<f64>,
+}
+
+/// Whether a step was taken.
+pub(super) enum Taken {
+    /// With its own account.
+    Yes(Account),
+    /// Why not: [`Status::Stalled`] where a shorter one may be, or a limit.
+    No(Status),
+}
+
+/// The limits of steps that follow one another, and the plan of their factors.
+pub(super) struct Course<'a, 'b> {
+    pub(super) plan: Option<Condensed>,
+    pub(super) monitor: &'a mut Monitor<'b>,
+}
