@@ -429,3 +429,25 @@ loads = [{ name = "extra", block = "bar", at = [0, 0.2], force = [0, -1] }]
     assert_eq!((path.load_factor, path.falls), (None, Some(0.0)));
     assert!(path.mechanism.is_some());
 }
+
+/// A block of jelly that is pressed together by many times its height rests all the same.
+#[test]
+fn what_a_soft_block_takes_is_no_fall() {
+    let scene = Scene::from_toml(
+        r#"title = "A soft block"
+plane = "stress"
+thickness = 1
+gravity = [0, -10]
+units = { length = "m", force = "N" }
+materials.jelly = { density = 1000, E = 100, nu = 0 }
+joints.s = { mu = 0.5 }
+supports = [{ name = "floor", from = [-1, 0], to = [2, 0], joint = "s" }]
+blocks = [{ name = "block", material = "jelly", mesh = [1, 1], corners = [[0, 0], [1, 0], [1, 1], [0, 1]] }]
+loads = [{ name = "push", block = "block", at = [0, 0.1], force = [1000, 0] }]
+"#,
+    )
+    .unwrap();
+    let path = limit(&scene).unwrap().path.unwrap();
+    // It slides at half its weight.
+    assert!((path.load_factor.unwrap() - 5.0).abs() < 0.05 * 5.0, "{:?}", path.load_factor);
+}

@@ -12,7 +12,6 @@ use steps::{End, Rest, Steps};
 
 use super::watch::{Bracket, Watch};
 use super::{Answer, Associative, LimitError, Structure};
-use crate::geometry;
 use crate::method::forms::Sparse;
 use crate::model::Model;
 use crate::recover;
@@ -38,9 +37,6 @@ const DOUBLED: usize = 10;
 const NOTHING: f64 = 1e-6;
 /// Events are located to this part of the factor that falls. Chosen: three digits.
 const LOCATED: f64 = 1e-3;
-/// Blocks that a step takes further than this multiple of the largest of them are not where the contacts of the scene are.
-/// Chosen.
-const REACH: f64 = 2.0;
 /// Largest residual of a state at rest. Chosen: that of scenes without a tolerance.
 const TOLERANCE: f64 = 1e-10;
 
@@ -115,9 +111,7 @@ pub(super) fn of(
     let with_growth = Sparse::new(&with_growth)?;
     let loads = with_growth.problem.loads().iter().zip(sparse.problem.loads());
     let growth: Vec<f64> = loads.map(|(grown, stays)| grown - stays).collect();
-    let sizes = stays.blocks.iter().map(|block| geometry::size(&block.corners));
-    let reach = REACH * sizes.fold(0.0, f64::max);
-    let steps = Steps { sparse: &sparse, growth: &growth, tolerance: TOLERANCE, reach };
+    let steps = Steps { sparse: &sparse, growth: &growth, tolerance: TOLERANCE };
     let falls = if associative.answer == Answer::Falls { Some(0.0) } else { associative.bound };
     watch.known = Bracket { stands: None, falls };
     let size = associative.size;

@@ -60,8 +60,9 @@ fn in_all_steps(history: &History) -> String {
             "The wall stands in all {steps} steps: equilibrium found, and Coulomb's law verified, in each."
         ),
         count => format!(
-            "The wall stands in all {steps} steps: equilibrium found and verified in each, but {count} of them keep \
-             Coulomb's law along the way only in part."
+            "The wall stands in all {steps} steps: equilibrium found and verified in each, but {count} of them {} \
+             Coulomb's law along the way only in part.",
+            if count == 1 { "keeps" } else { "keep" }
         ),
     }
 }

@@ -1,8 +1,9 @@
 //! One step of a load factor: the blocks rest, or flow.
 
+use faer::sparse::SparseColMat;
 use lcp::{
-    ContactState, Evolution, EvolutionSettings, InteriorPoint, InteriorPointSettings, Observer,
-    Solver, Status, WarmStart,
+    Contact2d, ContactState, Evolution, EvolutionSettings, InteriorPoint, InteriorPointSettings,
+    Observer, Solver, Status, WarmStart,
 };
 
 use crate::method::forms::Sparse;
@@ -11,6 +12,10 @@ use crate::method::forms::Sparse;
 const STEPS_BEFORE_MOTION: usize = 40;
 /// Steps of the motions of one step. Chosen: those of [`EvolutionSettings`].
 const STEPS_OF_MOTION: usize = 1000;
+
+/// The part of the work of the loads that nothing may have taken where blocks rest. Theory: none where they do, all where they
+/// fall freely; the middle.
+const UNTAKEN: f64 = 0.5;
 
 /// The blocks where they rest.
 #[derive(Debug, Clone)]
@@ -36,8 +41,6 @@ pub(super) struct Steps<'a> {
     /// The loads that grow, for a factor of one.
     pub(super) growth: &'a [f64],
     pub(super) tolerance: f64,
-    /// How far blocks may move in a step \[m\].
-    pub(super) reach: f64,
 }
 
 impl Steps<'_> {
@@ -71,7 +74,7 @@ impl Steps<'_> {
         if solution.status == Status::Solved
             && let Some(state) = solution.contact
         {
-            return Ok(self.end(&at, state));
+            return Ok(end(&problem, &at, state));
         }
         let settings = EvolutionSettings {
             tolerance: self.tolerance,
@@ -80,18 +83,27 @@ impl Steps<'_> {
         };
         let evolved = Evolution::new(settings).advance_observed(&problem, &at, observer)?;
         Ok(match evolved.solution.status {
-            Status::Solved => self.end(&at, evolved.state().clone()),
+            Status::Solved => end(&problem, &at, evolved.state().clone()),
             Status::NoEquilibrium => End::Flows(evolved.motions.motion),
             _ => End::Open,
         })
     }
+}
 
-    /// Where blocks rest; or that they flow, if the place is so far away that nothing there is as it was: what has taken
-    /// them there has met no resistance.
-    fn end(&self, from: &[f64], state: ContactState) -> End {
-        let blocks = self.sparse.starts().last().copied().unwrap_or(0);
-        let moved: Vec<f64> = state.u.iter().zip(from).map(|(u, before)| u - before).collect();
-        let is_far = moved[..blocks].iter().any(|moved| moved.abs() > self.reach);
-        if is_far { End::Flows(moved) } else { End::Rests(Rest { u: state.u.clone(), state }) }
+/// Where blocks rest under loads; or that they flow, if nothing there balances the loads that have taken them there. Of blocks
+/// that are far away residuals tell nothing: what their stiffness makes of the rounding errors of displacements is more
+/// than all loads.
+fn end(problem: &Contact2d, from: &[f64], state: ContactState) -> End {
+    let moved: Vec<f64> = state.u.iter().zip(from).map(|(u, before)| u - before).collect();
+    let work: f64 = problem.loads().iter().zip(&moved).map(|(f, moved)| f * moved).sum();
+    let along = |forces: &[f64], rows: &SparseColMat<usize, f64>| -> f64 {
+        rows.triplet_iter().map(|entry| forces[entry.row] * entry.val * moved[entry.col]).sum()
+    };
+    let by_contacts = along(&state.t_n, problem.normal()) + along(&state.t_t, problem.tangent());
+    let unbalanced = work + by_contacts - along(&state.u, problem.stiffness());
+    if work > 0.0 && unbalanced > UNTAKEN * work {
+        End::Flows(moved)
+    } else {
+        End::Rests(Rest { u: state.u.clone(), state })
     }
 }
