@@ -1,4 +1,5 @@
-//! A rigid block on an elastic bed without tension, of mortar or of a joint with a stiffness, loaded off its middle: `p = N / b (1 +- 6 e / b)` up to
+//! A rigid block on an elastic bed without tension, of mortar or of a joint with a stiffness, loaded off its middle: `p = N
+//! / b (1 +- 6 e / b)` up to
 //! `e = b / 6`; beyond, a contact of the length `a = 3 (b / 2 - e)` with `p_max = 2 N / a` at its edge.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]

@@ -131,8 +131,9 @@ impl InteriorPoint {
         let mut monitor =
             Monitor::new(self.settings.max_iterations, self.settings.time_limit, observer);
         let mut search = Search::new(Method::Interior, problem, self.settings.tolerance)?;
-        let (settings, parts) = (&self.settings, (&mut search, &mut monitor));
-        let (status, springs) = Run::new(settings, problem, parts).solve();
+        let settings = &self.settings;
+        let run = Run { settings, problem, search: &mut search, monitor: &mut monitor };
+        let (status, springs) = run.solve();
         let mut solution = search.finish(status, monitor);
         if !solution.is_solved() {
             solution.certificate = springs.map(Certificate::Springs);
@@ -149,7 +150,7 @@ pub(crate) fn follow_path(
     monitor: &mut Monitor<'_>,
 ) -> Status {
     let settings = InteriorPointSettings { tolerance, ..InteriorPointSettings::default() };
-    Run::new(&settings, problem, (search, monitor)).path(OPENING_OF_STEP)
+    Run { settings: &settings, problem, search, monitor }.path(OPENING_OF_STEP)
 }
 
 /// One solve.
@@ -163,15 +164,7 @@ struct Run<'r, 'a, 'b> {
 /// A step from a point with its residuals, with the stiffness of the springs and the least product of a pair.
 type Step = fn(&Scaled, &mut Condensed, (&Iterate, &Defect), (f64, f64)) -> (Iterate, f64);
 
-impl<'r, 'a, 'b> Run<'r, 'a, 'b> {
-    fn new(
-        settings: &'r InteriorPointSettings,
-        problem: &'r dyn Original,
-        (search, monitor): (&'r mut Search<'a>, &'r mut Monitor<'b>),
-    ) -> Self {
-        Self { settings, problem, search, monitor }
-    }
-
+impl Run<'_, '_, '_> {
     /// The path from a start that is opened by this multiple of its largest gap.
     fn path(&mut self, opening: f64) -> Status {
         let Search { scaled, condensed, .. } = &mut *self.search;

@@ -44,9 +44,10 @@ impl Contact2d {
     /// t = 0 (open),   g = s = 0 (stick),   g = 0, t_t = -mu t_n (forwards) or mu t_n (backwards)
     /// ```
     ///
-    /// where `g` and `s` contain what the forces press compliant contacts together, with factors in `f64`, and refines displacements and forces with residuals in [`Extended`] (Björck 1990),
-    /// starting from the given state. If the inequalities hold too, which [`Refined::margin`] shows, this is a
-    /// solution of the problem, and its equations hold to [`Refined::residual`].
+    /// where `g` and `s` contain what the forces press compliant contacts together, with factors in `f64`, and refines
+    /// displacements and forces with residuals in [`Extended`] (Björck 1990), starting from the given state. If the
+    /// inequalities hold too, which [`Refined::margin`] shows, this is a solution of the problem, and its equations hold to
+    /// [`Refined::residual`].
     ///
     /// The forces of redundant contacts are not unique: they stay as near to the given ones as the equations allow.
     /// If their gaps contradict each other in the last digits of the data, or bodies move freely, the data are

@@ -8,7 +8,8 @@ use crate::sparse::Columns;
 use crate::{Contact2d, ContactState, Error, Observer, Solution};
 
 /// On the forces, in the pairs of [`Contact2d::to_general`]: the displacements follow from them where `K`
-/// is positive definite, and the compliances of the contacts are on the diagonal. Bodies that `K` does not couple are eliminated one by one.
+/// is positive definite, and the compliances of the contacts are on the diagonal. Bodies that `K` does not couple are
+/// eliminated one by one.
 impl Sweepable for Contact2d {
     fn solve_by(
         &self,

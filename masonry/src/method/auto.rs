@@ -3,8 +3,8 @@
 //!
 //! The cheapest method that can decide runs first; slower ones follow only for what they alone can decide:
 //!
-//! 1. Rigid blocks without gaps, in joints that do not give way: the program of admissible forces ([`statics`](crate::method::statics)) decides
-//!    either way.
+//! 1. Rigid blocks without gaps, in joints that do not give way: the program of admissible forces
+//!    ([`statics`](crate::method::statics)) decides either way.
 //! 2. All other walls: the interior-point method, at every size. If it has no solution after [`STEPS_BEFORE_PROOF`],
 //!    that program checks whether any forces balance the loads at all; if it proves that none do, this is the result.
 //! 3. Lemke's method, for a second opinion, if its dense matrices take about a second.

@@ -3,9 +3,9 @@
 //! With isostatic rows `I` and the others `E`, equilibrium of all blocks is
 //! `t_I = R t_E + t_0` (3.18), and the relative displacements follow from
 //! `y_E = A t_E - R^T y_I + c` (3.23), where `A = W^T F W`, `W` is the identity on `E` and `R` on `I`,
-//! and `F = C K^+ C^T`, with the compliance of joints and of mortar films on the diagonal. Any generalised inverse `K^+` gives the same `A` and `c`, because the
-//! columns of `W` and the loads with `t_0` balance on every block. Strips of mortar couple blocks; what that changes
-//! is in [`Bars`].
+//! and `F = C K^+ C^T`, with the compliance of joints and of mortar films on the diagonal. Any generalised inverse `K^+`
+//! gives the same `A` and `c`, because the columns of `W` and the loads with `t_0` balance on every block. Strips of mortar
+//! couple blocks; what that changes is in [`Bars`].
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef};

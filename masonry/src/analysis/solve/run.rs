@@ -296,7 +296,7 @@ impl Run {
                 let reached = Reached { info: info.clone(), state, checks, in_history };
                 if is_solved {
                     self.solved += 1;
-                    self.records.extend(self.record(step, (dissipation, friction), &reached));
+                    self.records.extend(self.record(step, dissipation, friction, &reached));
                 }
                 self.reached = Some(reached);
             }
@@ -308,7 +308,8 @@ impl Run {
     fn record(
         &self,
         step: Step,
-        (dissipation, friction): (f64, Friction),
+        dissipation: f64,
+        friction: Friction,
         reached: &Reached,
     ) -> Option<StepRecord> {
         let Reached { info, state, checks, in_history } = reached;

@@ -75,7 +75,8 @@ pub(super) fn history(history: &History, units: InUnits) -> String {
     }
     let meanings = format!(
         "W: work, D: dissipated energy, both from the beginning [{energy}]; U: strain energy [{energy}]. W-U-D is the \
-         error of the balance from steps that are too long; it does not tell whether friction kept its law. moved: the largest displacement [{length}]."
+         error of the balance from steps that are too long; it does not tell whether friction kept its law. \
+         moved: the largest displacement [{length}]."
     );
     let mut text = table.trim_fmt() + "\n" + &paragraph(&meanings);
     if let Some(failed) = &history.failed {

@@ -10,8 +10,8 @@ const STIFF: f64 = 1e6;
 /// Compliance in shear by that in compression. Theory: `E / G` for a Poisson's ratio of zero.
 const SHEAR: f64 = 2.0;
 
-/// Puts springs into all joints between rigid bodies that do not give way by themselves: what half of both blocks would give, if they were
-/// elastic. Gives the number of these joints.
+/// Puts springs into all joints between rigid bodies that do not give way by themselves: what half of both blocks would
+/// give, if they were elastic. Gives the number of these joints.
 pub(super) fn put_into(model: &mut Model, load: f64) -> usize {
     let young = young(model, load);
     let of_point = |contact: &ContactPoint| compliance(model, contact, young);
