@@ -4,6 +4,7 @@
 #![allow(unreachable_pub, reason = "a module of helpers, compiled into each test binary")]
 
 pub mod films;
+pub mod histories;
 pub mod panels;
 pub mod routes;
 
