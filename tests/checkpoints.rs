@@ -49,7 +49,7 @@ fn checkpoints() {
         let mut second = resumed(&scene, &checkpoint).unwrap();
         while second.advance(&mut |_| ControlFlow::Continue(())).unwrap() {}
         let [whole, resumed] =
-            [whole, second.finish()].map(|it| (it.state.unwrap(), it.history.unwrap()));
+            [whole, second.finish()].map(|it| (it.state.unwrap(), it.history.unwrap().records));
         assert_eq!(resumed.1, whole.1, "{route:?}");
         assert_eq!(resumed.0.contacts, whole.0.contacts);
         assert_eq!(resumed.0.displacements, whole.0.displacements);

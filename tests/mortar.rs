@@ -17,7 +17,7 @@ use masonry::ids::FilmId;
 use masonry::method::forms::Sparse;
 use masonry::model::joints::PointRule;
 use masonry::model::{Body, Model, Plane};
-use masonry::paper::alm::{self, Settings};
+use masonry::paper::alm::{self, AlmError, Settings};
 use masonry::plan::Plan;
 use masonry::recover;
 use masonry::report::summary;
@@ -247,13 +247,16 @@ fn all_routes_have_the_same_answer() {
 #[test]
 fn the_sparse_problem_has_the_same_answer() {
     let outcome = solved(&wall(0.02, true));
-    let sparse = Sparse::new(&System::new(&outcome.model).unwrap()).unwrap();
+    let system = System::new(&outcome.model).unwrap();
+    let sparse = Sparse::new(&system).unwrap();
+    let with_free_faces = Sparse::with_free_faces(&system).unwrap();
     let solution = InteriorPoint::default().solve(&sparse.problem).unwrap();
     assert!(solution.is_solved());
     let found = sparse.problem.recover(&solution.t, &solution.y);
-    let augmented =
-        alm::solve(&sparse.problem, &Settings::default(), &mut |_| ControlFlow::Continue(()))
-            .unwrap();
+    let observer = &mut |_: &_| ControlFlow::Continue(());
+    let refused = alm::solve(&sparse.problem, &Settings::default(), observer).unwrap_err();
+    assert!(matches!(refused, AlmError::Compliance { contact: 0 }), "{refused}");
+    let augmented = alm::solve(&with_free_faces.problem, &Settings::default(), observer).unwrap();
     assert_eq!(augmented.status, lcp::Status::Solved);
     let largest = moved(&outcome).iter().fold(0.0, |m: f64, u| m.max(u.abs()));
     for (k, u) in state(&outcome).displacements.iter().enumerate() {
@@ -331,7 +334,7 @@ fn the_plan_and_the_files_tell_of_films() {
 
     let model = Model::from_scene(&panels::scene("panel_square_mortar")).unwrap();
     let points = model.contacts.iter().filter(|contact| contact.film.is_some()).count();
-    for (route, unknowns) in [(Route::Lemke, 0), (Route::Interior, 2 * points)] {
+    for (route, unknowns) in [(Route::Lemke, 0), (Route::Interior, 0), (Route::Alm, 2 * points)] {
         let plan = Plan::of(&panels::scene("panel_square_mortar").route(route), &model);
         let films = plan.effects.iter().find(|effect| effect.name == "mortar films").unwrap();
         assert_eq!(films.unknowns, unknowns, "{route:?}");

@@ -40,8 +40,8 @@ fn solved(scene: &Scene, route: Route) -> Outcome {
     assert_eq!((info.route, info.routes.len()), (route, 1));
     assert!([outcome.plan.order, outcome.plan.largest_order].contains(&info.order));
     assert!(info.because.contains(route.name()));
-    // A start basis may be the answer, without an attempt.
-    assert_eq!(info.attempts.len() == 1 && info.pivots == 0, route != Route::Lemke);
+    // A start basis may be the answer.
+    assert!(info.pivots == 0 || route == Route::Lemke);
     assert_eq!(info.iterations > 0, route != Route::Lemke);
     assert_eq!(info.soft.is_some(), route == Route::Pgs);
     outcome
@@ -194,26 +194,20 @@ fn springs_leave_no_bias() {
     assert!(stiff.solve.soft.unwrap().share > soft.share);
 }
 
-/// Springs keep what friction leaves over of the whole load.
+/// Nothing stops a block that friction does not hold.
 #[test]
-fn springs_show_that_a_block_slides() {
+fn a_motion_shows_that_a_block_slides() {
     for material in materials() {
         let outcome = solve(&stack(1, 0.8, material).route(Route::Interior)).unwrap();
         assert_eq!(outcome.solve.status, Status::NoEquilibrium, "{:?}", outcome.solve.attempts);
         assert!(outcome.state.is_none() && outcome.reactions.is_empty());
-        let springs = outcome.solve.springs.as_ref().unwrap();
-        // Near (0.8 - 0.6) / (0.8 + 1.0), in units in which the displacements are scaled.
-        let [.., before, last] = springs.shares.as_slice() else { panic!("{springs:?}") };
-        assert!((0.05..0.2).contains(last), "{springs:?}");
-        assert_close(*before, *last, 1e-2);
         for corner in &outcome.mechanism.as_ref().unwrap()[0] {
             assert!((corner - Vector2::x()).amax() < 1e-4, "{corner}");
         }
         assert!(summary::reason(&outcome).unwrap().contains("not a proof"));
         let report = table::report(&outcome);
-        assert!(report.contains("springs") && report.contains("of the load"), "{report}");
+        assert!(report.contains("go on moving, and nothing resists them"), "{report}");
         let json: Value = serde_json::from_str(&json::result(&outcome, &[]).unwrap()).unwrap();
-        assert_eq!(json["springs"]["shares"].as_array().unwrap().len(), springs.shares.len());
         assert!(json["mechanism"]["0"].is_array() && json["reactions"].is_null());
     }
 }

@@ -9,6 +9,7 @@ use std::ops::ControlFlow;
 use common::assert_close;
 use lcp::Status;
 use masonry::analysis::solve::{Run, solve};
+use masonry::method::info::Way;
 use masonry::scene::{Brick, Joint, Material, Movement, Plane, Route, Scene, Stage, Support, Wall};
 use masonry::state::ContactState;
 use masonry::units::{ForceUnit, LengthUnit, Units};
@@ -28,12 +29,12 @@ fn a_settlement_moves_bricks_far() {
     for (record, carried_now) in history.records.iter().zip(&carried) {
         let residuals = record.residuals;
         assert!(
-            residuals.equation.max(residuals.loads) < 1e-13,
+            residuals.equation.max(residuals.loads) < 1e-11,
             "{:?}: {residuals:?}",
             record.step
         );
-        assert!(residuals.natural < 1e-11, "{:?}: {residuals:?}", record.step);
-        assert!(record.dissipation >= 0.0);
+        assert!(residuals.natural < 1e-10, "{:?}: {residuals:?}", record.step);
+        assert!(record.dissipation >= -1e-12 * history.work().abs());
         assert_close(*carried_now, carried[0], 1e-9);
     }
 }
@@ -73,14 +74,13 @@ fn a_settlement_that_tilts_stands_throughout() {
     for record in &history.records {
         assert!(record.residuals.worst() <= 1e-10, "{:?}: {:?}", record.step, record.residuals);
         assert_close(record.reactions.iter().map(|it| it.fy).sum(), weight, 1e-9);
-        assert!(record.dissipation >= 0.0);
+        assert!(record.dissipation >= -1e-12 * history.work().abs());
     }
 }
 
-/// What friction took of what it could is told of every step, and the verdict says how many keep the law only in part: by
-/// the two sums that define it, over the slips since the step before.
+/// Friction takes all that it can of every slip: by the two sums that define it, over the slips since the step before.
 #[test]
-fn steps_that_keep_the_law_in_part_are_counted() {
+fn steps_keep_the_law_along_the_way() {
     let scene = on_a_sinking_floor(5, Material::elastic(5e6, 0.15), Some([1, 1]));
     let mut run = Run::new(&scene, &mut |_| ControlFlow::Continue(())).unwrap();
     let (mut before, mut powers): (Option<Vec<ContactState>>, _) = (None, Vec::new());
@@ -100,16 +100,17 @@ fn steps_that_keep_the_law_in_part_are_counted() {
     let history = outcome.history.as_ref().unwrap();
     for (record, power) in history.records.iter().zip(&powers).skip(1) {
         let told = record.friction_power.unwrap();
-        assert!((told - power).abs() < 1e-6, "{told} instead of {power}");
+        assert!(told >= 1.0 - 1e-9, "{told}");
+        // Motions of several steps may slide to and fro.
+        let is_one_step = record.way == Way::Law;
+        assert!(!is_one_step || (told - power).abs() < 1e-6, "{told} instead of {power}");
     }
-    let count = powers.iter().skip(1).filter(|power| **power < 0.99).count();
-    assert_eq!(history.steps_against_law(), count);
-    let says_so = outcome.judgement.sentence.contains(&format!("{count} of them keep"));
-    assert_eq!(says_so, count > 0, "{}", outcome.judgement.sentence);
+    assert!(history.records.iter().any(|record| record.way == Way::Law));
+    assert_eq!(history.steps_against_law(), 0);
+    assert!(outcome.judgement.sentence.contains("Coulomb's law verified"));
 }
 
-/// Where the bricks came to rest without Coulomb's law for the slips of a whole step, `W = U + D` holds as well, the better the
-/// shorter the steps.
+/// Where a part of the floor sinks, `W = U + D` holds as well, the better the shorter the steps.
 #[test]
 fn energy_is_accounted_for_where_bricks_come_to_rest() {
     let errors = [5, 20].map(|steps| {
@@ -117,9 +118,8 @@ fn energy_is_accounted_for_where_bricks_come_to_rest() {
         let outcome = solve(&scene).unwrap();
         let history = outcome.history.as_ref().unwrap();
         assert_eq!(history.records.len(), steps as usize + 1);
-        let of_rest = history.records.iter().filter(|record| record.way != lcp::Way::Law);
-        assert!(of_rest.count() >= steps as usize / 2);
-        assert!(history.records.iter().all(|record| record.dissipation >= 0.0));
+        let least = -1e-12 * history.work().abs();
+        assert!(history.records.iter().all(|record| record.dissipation >= least));
         let stored = outcome.state.as_ref().unwrap().strain_energy;
         let error = (history.work() - stored - history.dissipation()).abs();
         error / history.dissipation()
@@ -134,17 +134,17 @@ fn rigid_bricks_evolve_where_a_part_of_the_floor_sinks() {
     let scene = on_a_sinking_floor(5, Material::rigid(), None);
     let outcome = solve(&scene).unwrap();
     assert_eq!(outcome.judgement.verdict, Verdict::Stands, "{}", outcome.judgement.sentence);
-    assert!(outcome.judgement.warnings.iter().any(|it| it.contains("came to rest")));
+    assert!(outcome.judgement.warnings.iter().any(|it| it.contains("stiffness of dry ones")));
     let history = outcome.history.as_ref().unwrap();
     assert_eq!(history.records.len(), 6);
-    assert_eq!(history.records[0].way, lcp::Way::Law);
+    assert_eq!(history.records[0].way, Way::Law);
     let weight = 2.5 * 1.25 * 0.25 * 1800.0 * 9.81;
     for record in &history.records {
         assert!(record.residuals.worst() <= 1e-10, "{:?}: {:?}", record.step, record.residuals);
         assert_close(record.reactions.iter().map(|it| it.fy).sum(), weight, 1e-9);
     }
     let settled = &history.records[1..];
-    assert!(settled.iter().all(|it| it.way != lcp::Way::Law && it.factorisations > 0));
+    assert_eq!(history.steps_against_law(), 0);
     // The wall is lowered, and what its weight does goes into friction.
     assert!(settled.iter().all(|it| it.dissipation > 0.0) && history.work() > 0.0);
     let sunk = 0.004 + 0.004 * 0.5;

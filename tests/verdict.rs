@@ -27,18 +27,25 @@ fn parsed(outcome: &Outcome) -> Value {
     serde_json::from_str(&json::result(outcome, &[]).unwrap()).unwrap()
 }
 
-/// Walls whose forces pivots do not find, and which no sequence of motions brings down.
+/// Walls that some forces within friction would hold, which pivots do not find, but to which no loading leads: the published
+/// limit of the first is 0.356.
 #[test]
-fn rigid_walls_stand_on_admissible_forces() {
+fn rigid_walls_fall_if_loading_does_not_lead_to_rest() {
     for scene in [walls::tall_with_window(0.401_675_53), walls::door(None)] {
         let outcome = common::solved(&scene);
-        assert_eq!(outcome.judgement.verdict, Verdict::Stands);
-        assert_eq!(outcome.judgement.evidence, Evidence::AdmissibleForces);
-        assert!(outcome.judgement.sentence.ends_with("balance the loads (verified)."));
-        // That the way of loading matters is a warning, and no doubt in the verdict.
-        let warnings = outcome.judgement.warnings.concat();
-        assert!(warnings.contains("may bring the wall down earlier"), "{warnings}");
+        assert_eq!(outcome.judgement.verdict, Verdict::Falls);
+        assert_eq!(outcome.judgement.evidence, Evidence::Motion);
+        assert!(outcome.mechanism.is_some());
+        assert!(
+            outcome.judgement.sentence.contains("a prestress"),
+            "{}",
+            outcome.judgement.sentence
+        );
     }
+    let outcome = common::solved(&walls::tall_with_window(0.34));
+    assert_eq!(outcome.judgement.verdict, Verdict::Stands);
+    assert_eq!(outcome.judgement.evidence, Evidence::AdmissibleForces);
+    assert!(outcome.judgement.sentence.ends_with("loading leads to rest."));
     // Pivots end on rays, which say nothing against it.
     let by_pivots = walls::tall_with_window(0.401_675_53).route(Route::Lemke);
     let outcome = solve(&by_pivots).unwrap();

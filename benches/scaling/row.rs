@@ -4,7 +4,6 @@ use std::fmt;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use lcp::Way;
 use masonry::analysis::outcome::Outcome;
 use masonry::analysis::solve::{Event, Run};
 use masonry::method::forms::Sparse;
@@ -17,9 +16,9 @@ use crate::sparse;
 use crate::walls::{Case, Wall};
 
 /// The head of the table of rows.
-pub(crate) const HEAD: &str = "| case | mu | bricks | verdict | evidence | steps | found by law, reduced friction, smooth friction, motion | \
+pub(crate) const HEAD: &str = "| case | mu | bricks | verdict | evidence | steps | of these keep the law | least P / cap | \
      factorisations, mean of steps | most | time \\[s\\] | time / Cholesky | memory \\[MB\\] |\n\
-     |:--|--:|:--|:--|:--|--:|:--|--:|--:|--:|--:|--:|\n";
+     |:--|--:|:--|:--|:--|--:|--:|--:|--:|--:|--:|--:|--:|\n";
 
 /// One wall in one case.
 pub(crate) struct Row {
@@ -31,8 +30,8 @@ pub(crate) struct Row {
     evidence: Evidence,
     /// Steps that were solved, of all; `None` without a history.
     steps: Option<[usize; 2]>,
-    /// How many were found by law, by reduced friction, by smooth friction, by motion.
-    ways: [usize; 4],
+    /// How many of them keep Coulomb's law, and the least that friction took of what it could.
+    law: Option<(usize, f64)>,
     /// Of every step; without a history the steps of all methods that were tried.
     counts: Vec<usize>,
     pub(crate) seconds: f64,
@@ -61,11 +60,6 @@ impl Row {
         while run.advance(&mut observer).expect("sound data") {}
         let outcome = run.finish();
         let seconds = began.elapsed().as_secs_f64();
-        let all: Vec<Way> = match &outcome.history {
-            Some(history) => history.records.iter().map(|record| record.way).collect(),
-            None => vec![outcome.solve.way],
-        };
-        let count = |way| all.iter().filter(|it| **it == way).count();
         let history = outcome.history.as_ref();
         Self {
             case,
@@ -75,7 +69,10 @@ impl Row {
             verdict: outcome.judgement.verdict,
             evidence: outcome.judgement.evidence,
             steps: history.map(|it| [it.records.len(), it.steps]),
-            ways: [Way::Law, Way::ReducedFriction, Way::SmoothFriction, Way::Motion].map(count),
+            law: history.map(|it| {
+                let powers = it.records.iter().filter_map(|record| record.friction_power);
+                (it.records.len() - it.steps_against_law(), powers.fold(1.0, f64::min))
+            }),
             counts: counts(&outcome, iterations),
             seconds,
             phases: outcome.times,
@@ -95,12 +92,14 @@ impl fmt::Display for Row {
         let Self { case, mu, bricks, verdict, evidence, .. } = self;
         let steps =
             self.steps.map_or_else(|| "1".to_owned(), |[solved, all]| format!("{solved} of {all}"));
-        let ways = self.ways.map(|it| it.to_string()).join(", ");
+        let law = self
+            .law
+            .map_or_else(|| "- | -".to_owned(), |(kept, least)| format!("{kept} | {least:.4}"));
         let most = self.counts.iter().max().copied().unwrap_or(0);
         let memory = self.memory.map_or_else(|| "-".to_owned(), |it| format!("{it:.0}"));
         write!(
             f,
-            "| {case} | {mu} | {bricks} | {verdict} | {evidence:?} | {steps} | {ways} | {:.0} | {most} | \
+            "| {case} | {mu} | {bricks} | {verdict} | {evidence:?} | {steps} | {law} | {:.0} | {most} | \
              {:.1} | {:.0} | {memory} |",
             self.factorisations(),
             self.seconds,

@@ -3,20 +3,13 @@
 mod balance;
 mod constants;
 mod continuation;
-mod evolution;
-mod evolved;
 mod factors;
 mod homogeneous;
 mod iterate;
 mod least;
-mod motion;
-mod moving;
 mod path;
-mod polish;
 mod problems;
 mod program;
-mod rest;
-mod rigid;
 mod saddle;
 mod settings;
 mod start;
@@ -25,10 +18,8 @@ mod variables;
 
 use std::ops::ControlFlow;
 
-pub use evolution::Evolution;
-pub use evolved::{Evolved, Way};
 pub use least::LeastForces;
-pub use settings::{EvolutionSettings, InteriorPointSettings};
+pub use settings::InteriorPointSettings;
 
 use balance::{Balance, balance};
 use constants::{

@@ -88,8 +88,7 @@
 //! | [`Lemke`] | Lemke's method (complementary pivoting) | all; proves infeasibility |
 //! | [`SemismoothNewton`] | active sets | obstacle problems, M- and P-matrices, contact |
 //! | `QuadraticProgram` | convex programs; a sequence of them with friction (feature `clarabel`, on by default) | symmetric positive semidefinite matrices, contact, soft constraints |
-//! | [`Dynamics`] | implicit steps in time, with velocities and energies | bodies with mass that slide, fall, settle or flow |
-//! | [`Evolution`] | the next state at rest, step by step | moving supports, load histories with friction |
+//! | [`Evolution`] | implicit steps in time, with velocities and energies | load histories, moving supports; bodies with mass that slide, fall, settle or flow |
 //! | [`InteriorPoint`] | interior-point method on the sparse form | large contact problems, mixed problems |
 //! | [`ProjectedGaussSeidel`] | projected Gauss-Seidel, also on rows without a matrix ([`pgs::Rows`]) | large easy problems, rough solutions |
 //! | [`lemke::Parametric`] | the solutions along a line of right-hand sides | all |
@@ -127,9 +126,9 @@ mod certify;
 #[cfg(feature = "cli")]
 pub mod cli;
 mod divide;
-mod dynamics;
 mod enumerate;
 mod error;
+mod evolution;
 #[cfg(feature = "exact")]
 pub mod exact;
 mod extended;
@@ -171,11 +170,9 @@ pub use faer;
 pub use auto::{Auto, AutoSettings, Choice};
 pub use basis::{Basis, Side};
 pub use certify::{Certificate, Leaf, Ray, Residuals, SoftSprings};
-pub use dynamics::{Account, Dynamics, DynamicsSettings, Ending};
 pub use error::Error;
-pub use interior::{
-    Evolution, EvolutionSettings, Evolved, InteriorPoint, InteriorPointSettings, LeastForces, Way,
-};
+pub use evolution::{Account, Ending, Evolution, EvolutionSettings};
+pub use interior::{InteriorPoint, InteriorPointSettings, LeastForces};
 #[doc(inline)]
 pub use lemke::Lemke;
 pub use matrix::Matrix;
@@ -218,8 +215,8 @@ mod guide {
     #[doc = include_str!("../../docs/lcp/certificates.md")]
     struct Certificates;
 
-    #[doc = include_str!("../../docs/methods/dynamics.md")]
-    struct Dynamics;
+    #[doc = include_str!("../../docs/methods/evolution.md")]
+    struct Evolution;
 
     #[doc = include_str!("../../docs/lcp/paths_and_exact_solutions.md")]
     struct PathsAndExactSolutions;

@@ -200,3 +200,13 @@ pub fn turn_right(v: Vector2<f64>) -> Vector2<f64> {
 pub fn cross(a: Vector2<f64>, b: Vector2<f64>) -> f64 {
     a.x * b.y - a.y * b.x
 }
+
+/// The polar moment of area of a polygon about its centroid \[m^4\].
+pub fn polar_moment(polygon: &[Point2<f64>]) -> f64 {
+    let centre = centroid(polygon);
+    let of_triangle = |k: usize| {
+        let [a, b] = edge(polygon, k).map(|p| p - centre);
+        cross(a, b) * (a.dot(&a) + a.dot(&b) + b.dot(&b)) / 12.0
+    };
+    (0..polygon.len()).map(of_triangle).sum()
+}

@@ -20,11 +20,15 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
+use crate::method::info::Way;
 use crate::model::{Body, Model};
 use crate::scene::{Load, Movement, Route, Scene, Stage};
 use crate::state::Reaction;
 
 pub(crate) mod energy;
+pub(crate) mod spread;
+
+pub use spread::Spread;
 
 /// What acts on a model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -196,8 +200,8 @@ pub struct StepRecord {
     pub step: Step,
     /// The route that solved it.
     pub route: Route,
-    /// How the state at rest was found, and so which law of friction the step obeys.
-    pub way: lcp::Way,
+    /// How the state at rest was found.
+    pub way: Way,
     /// Number of factorised matrices.
     pub factorisations: usize,
     /// Its residuals.
@@ -205,16 +209,16 @@ pub struct StepRecord {
     /// Work of loads and of moving supports in this step \[J\], by the trapezoidal rule.
     pub work: f64,
     /// Energy dissipated by sliding in this step \[J\], `-t_t . (increment of y_t)`; plus the energy
-    /// of opening joints with tensile strength, which is recovered when they close. Where [`way`](Self::way) is not
-    /// [`Law`](lcp::Way::Law), `t_t` is the mean of the forces at both ends of the step.
+    /// of opening joints with tensile strength, which is recovered when they close.
     pub dissipation: f64,
-    /// What friction took by what it could take of the slips of this step at most: the sum of `-t_t ds` by that of
-    /// `(mu t_n + C) |ds|`, with the forces after the step. One if Coulomb's law was kept along the way; `None` where nothing
-    /// slid.
+    /// What friction took by what it could take of these slips at most, the sum of `-t_t ds` by that of `(mu t_n + C) |ds|`:
+    /// one by Coulomb's law. `None` where nothing slid.
     pub friction_power: Option<f64>,
-    /// Energy that friction gave in this step \[J\], by the same forces: none by Coulomb's law.
+    /// Energy that friction gave in this step \[J\]: none by Coulomb's law.
     pub energy_created: f64,
-    /// Strain energy of blocks, joints and films after the step \[J\].
+    /// Energy that the drag of slow motions took in this step \[J\].
+    pub dragged: f64,
+    /// Strain energy of blocks and films after the step \[J\].
     pub strain_energy: f64,
     /// The largest displacement after the step \[m\].
     pub largest_displacement: f64,
@@ -236,6 +240,8 @@ pub struct History {
     pub steps: usize,
     /// Names of the loads, in the order of the factors.
     pub loads: Vec<String>,
+    /// How far the state after another loading is from this one, if that was [asked](crate::analysis::solve::Run::compare).
+    pub spread: Option<Spread>,
 }
 
 impl StepRecord {

@@ -26,6 +26,7 @@ pub mod forms;
 pub mod info;
 pub mod interior;
 pub mod lemke;
+pub(crate) mod loading;
 pub mod newton;
 pub mod pgs;
 pub mod qp;
@@ -51,6 +52,8 @@ pub struct Request {
     pub soft: Option<f64>,
     /// Wall-clock time of the programs; `None` is no limit.
     pub time_limit: Option<Duration>,
+    /// The part of the loads that the drag may carry while blocks move: how slowly they are loaded.
+    pub slowness: f64,
 }
 
 impl Request {
@@ -63,6 +66,7 @@ impl Request {
             max_steps: None,
             soft: None,
             time_limit: None,
+            slowness: loading::SLOWNESS,
         }
     }
 }
@@ -83,6 +87,8 @@ pub struct Answer {
     /// By point with friction, in the order of the system, how far it slid \[m\] before the slip in `rows`, if a motion led to
     /// the solution.
     pub moved: Option<Vec<f64>>,
+    /// Works and energies on the way, if blocks moved.
+    pub account: Option<lcp::Account>,
 }
 
 /// A motion of all blocks.
@@ -92,6 +98,8 @@ pub enum Motion {
     Rigid(Vec<f64>),
     /// Displacements of the sparse problem, which are a rigid motion of every block and a little more.
     Displacements(Vec<f64>),
+    /// Velocities of the sparse problem, of blocks that go on moving.
+    Velocities(Vec<f64>),
 }
 
 /// Progress of a route.

@@ -11,6 +11,7 @@
 //! * `t_t` \[N\] acts on `b` along `+t`.
 
 mod classes;
+mod dry;
 mod forces;
 mod from_scene;
 pub mod joints;
@@ -20,6 +21,7 @@ mod place_loads;
 mod placement;
 mod unusual;
 
+pub use dry::DRY_JOINT;
 pub use forces::Cause;
 pub use loads::{Acceleration, BlockLoad, EdgeLoad, Load, PlacedForce, PointLoad};
 use nalgebra::{Point2, Vector2};

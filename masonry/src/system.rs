@@ -26,6 +26,7 @@ use crate::system::rigid::Modes;
 mod body;
 mod error;
 mod loads;
+pub(crate) mod mass;
 pub mod rigid;
 mod stiffness;
 mod stretch;

@@ -164,7 +164,7 @@ fn a_law_that_is_not_asked_for_is_null() {
     assert!(object["associative"].is_null() && code == 0);
     let stands = object["path"]["load_factor"].as_f64().unwrap();
     assert!((stands - 0.3).abs() < 1e-4, "{stands}");
-    assert_eq!(object["path"]["joints_with_springs"], 1);
+    assert_eq!(object["path"]["dry_joints"], 1);
 }
 
 /// It slides at `mu` and tips over at breadth by height.

@@ -59,7 +59,7 @@ fn unknowns(scene: &Scene, route: Route) -> usize {
     let strips = model.contacts.iter().any(|it| it.film.is_some_and(|it| it.stretch.is_some()));
     match route {
         Route::Alm if strips => system.bodies.iter().map(|body| body.load.len()).sum(),
-        Route::Alm => problem.displacements(),
+        Route::Alm => Sparse::with_free_faces(&system).unwrap().problem.displacements(),
         _ => problem.displacements() + problem.points() + 2 * problem.frictional().len(),
     }
 }

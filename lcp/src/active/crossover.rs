@@ -26,6 +26,9 @@ pub(crate) struct Effort {
 impl Effort {
     /// While the iteration comes nearer, when few contacts are left to exchange.
     pub(crate) const QUICK: Self = Self { rounds: 8, patience: 2, points: 400, ..Self::THOROUGH };
+    /// From the exact point of a problem that is hardly another.
+    pub(crate) const PATIENT: Self =
+        Self { rounds: 40, patience: 10, points: 10, ..Self::THOROUGH };
     /// Where it does not come any nearer.
     pub(crate) const THOROUGH: Self =
         Self { rounds: 60, patience: 10, points: 20, anchored: false, proximal: PROXIMAL };
@@ -66,6 +69,7 @@ pub(crate) fn cross_over(
     let mut vertex = Vertex { u: u.to_vec(), forces: forces.to_vec(), contacts };
     let (mut fewest, mut least, mut since) = (effort.most(problem.points.len()), f64::INFINITY, 0);
     let mut is_found = false;
+    let has_friction = problem.points.mu.iter().any(|mu| *mu > 0.0);
     for _ in 0..effort.rounds {
         if effort.anchored {
             (vertex.u, vertex.forces) = (u.to_vec(), forces.to_vec());
@@ -76,17 +80,20 @@ pub(crate) fn cross_over(
         problem.settle(&mut vertex.u, &mut vertex.forces);
         let mut contradictions = vertex.contradictions(problem, ROUNDING);
         is_found |= is_solution(condensed, &vertex, contradictions.is_empty());
-        if contradictions.is_empty() && !is_found {
+        let is_dust = contradictions.is_empty();
+        if is_dust && !is_found {
             // What may be rounding is too much for the tolerance.
             contradictions = vertex.contradictions(problem, 0.0);
         }
-        let (exchanged, largest) = vertex.exchange(&contradictions);
+        let (exchanged, largest) = (contradictions.len(), largest_of(&contradictions));
         let is_nearer = exchanged < fewest - fewest / 4 || largest < SMALLER * least;
         since = if is_nearer { 0 } else { since + 1 };
         let is_hopeless = exchanged > fewest && (is_found || exchanged > 10 * fewest);
         if exchanged == 0 || since > effort.patience || is_hopeless {
             break;
         }
+        // All at a time may go round in circles, with friction above all.
+        vertex.exchange(&contradictions, is_nearer || is_dust || !has_friction);
         fewest = fewest.min(exchanged);
         least = least.min(largest);
     }
@@ -211,17 +218,21 @@ impl Vertex {
         })
     }
 
-    /// Gives the contacts that contradict their states most other states; says how many contradict, and the
-    /// most that one does.
-    fn exchange(&mut self, contradictions: &[(f64, usize, ContactStatus)]) -> (usize, f64) {
-        let largest = contradictions.iter().fold(0.0_f64, |max, (size, ..)| max.max(*size));
-        for (size, i, next) in contradictions {
-            if *size >= LARGE * largest {
-                self.contacts[*i] = *next;
-            }
+    /// Gives the contacts that contradict their states most other states; or only the first of them, which cannot cycle
+    /// if all principal minors are positive.
+    fn exchange(&mut self, contradictions: &[(f64, usize, ContactStatus)], is_block: bool) {
+        let least = LARGE * largest_of(contradictions);
+        let all = contradictions.iter().filter(|(size, ..)| *size >= least || !is_block);
+        let most = if is_block { usize::MAX } else { 1 };
+        for (_, i, next) in all.take(most) {
+            self.contacts[*i] = *next;
         }
-        (contradictions.len(), largest)
     }
+}
+
+/// The most that a contact contradicts its state.
+fn largest_of(contradictions: &[(f64, usize, ContactStatus)]) -> f64 {
+    contradictions.iter().fold(0.0_f64, |max, (size, ..)| max.max(*size))
 }
 
 /// The state of a contact that closes. One that has slid by more than it overlaps goes on sliding: to stick it

@@ -115,16 +115,23 @@ pub(crate) fn brought_right<'a>(
     best
 }
 
-/// The first point that the states of contacts lead to without rounding errors, which is a solution.
+/// The best point that the states of contacts lead to without rounding errors.
 pub(crate) fn unrounded(
     (judge, scaled, condensed): (&dyn Judge, &Scaled, &mut Condensed),
     at: At<'_>,
     contacts: &[ContactStatus],
-    tolerance: f64,
 ) -> Option<Judged<'static>> {
-    refined_states(scaled, condensed, at, contacts, ROUNDED)
-        .map(|exact| rounded(judge, scaled, &exact))
-        .find(|near| near.worst() <= tolerance)
+    let mut best: Option<Judged<'static>> = None;
+    for exact in refined_states(scaled, condensed, at, contacts, ROUNDED) {
+        let near = rounded(judge, scaled, &exact);
+        if best.as_ref().is_none_or(|best| near.worst() < best.worst()) {
+            best = Some(near);
+        }
+        if best.as_ref().is_some_and(|best| best.worst() <= EXACT) {
+            break;
+        }
+    }
+    best
 }
 
 fn rounded(judge: &dyn Judge, scaled: &Scaled, (u, forces): &Exact) -> Judged<'static> {

@@ -1,7 +1,5 @@
 //! The points that a method comes to, of which the best one is kept.
 
-use std::ops::ControlFlow;
-
 use faer::sparse::FaerError;
 
 use super::crossover::{Effort, Vertex, cross_over};
@@ -12,7 +10,7 @@ use crate::certify::Precision;
 use crate::problem::ContactStatus;
 use crate::solve::Monitor;
 use crate::states::{Condensed, Scaled, nearest};
-use crate::{Error, Iteration, Method, Residuals, Solution, Status, WarmStart};
+use crate::{Error, Method, Residuals, Solution, Status, WarmStart};
 
 /// A problem with the best point so far.
 pub(crate) struct Search<'a> {
@@ -152,16 +150,19 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The best point without the rounding errors that forces have of large displacements, if it is a better solution then:
-    /// states that do not fit may have none that is as good.
-    fn without_rounding(&mut self) {
+    /// The best point without the rounding errors that forces have of large displacements, if that is a solution too.
+    pub(crate) fn without_rounding(&mut self) {
         let Self { judge, tolerance, scaled, condensed, best, .. } = self;
-        if let Some(Best { u, forces, residuals, .. }) = best {
-            // Not the states of a vertex: where nothing slips, those that slide by nothing stick.
-            let contacts = nearest(scaled, u, forces);
-            let given = judge.residuals(scaled, (u, forces), Precision::Exact).worst();
+        if let Some(Best { u, forces, residuals, exact }) = best
+            && residuals.worst() <= *tolerance
+        {
+            let contacts = match exact {
+                Some((contacts, _)) => contacts.clone(),
+                None => nearest(scaled, u, forces),
+            };
             let with = (judge.as_ref(), &*scaled, condensed);
-            if let Some(right) = unrounded(with, (u, forces), &contacts, given.min(*tolerance)) {
+            let right = unrounded(with, (u, forces), &contacts);
+            if let Some(right) = right.filter(|right| right.worst() <= *tolerance) {
                 let right = (right.u.into_owned(), right.forces.into_owned(), right.residuals);
                 (*u, *forces, *residuals) = right;
             }
@@ -183,16 +184,6 @@ impl<'a> Search<'a> {
     /// The worst residual of the best point.
     pub(crate) fn residual(&self) -> f64 {
         self.best.as_ref().map_or(f64::INFINITY, |best| best.residuals.worst())
-    }
-
-    /// The best point to its last digits, if it is a solution.
-    pub(crate) fn found(mut self) -> Option<Solution> {
-        if self.residual() <= self.tolerance {
-            self.without_rounding();
-        }
-        let observer = &mut |_: &Iteration| ControlFlow::Continue(());
-        let solution = self.finish(Status::Stalled, Monitor::new(0, None, observer));
-        solution.is_solved().then_some(solution)
     }
 
     /// The best point, with this status unless it is a solution.

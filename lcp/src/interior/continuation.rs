@@ -2,7 +2,7 @@
 
 use super::constants::{
     ACCURACY, CONSTANT, FIRST_SPRING, IN_SEQUENCE, LAST_SPRING, LEAST_STEP, LIFT, NOTHING,
-    RESISTANCE, ROUNDING, SMOOTH_WIDTH, SOFT, SOFTER, STEPS, WIDTH,
+    RESISTANCE, ROUNDING, SOFT, SOFTER, STEPS, WIDTH,
 };
 use super::iterate::{Defect, Iterate, Pairs};
 use super::path::advance;
@@ -34,7 +34,7 @@ pub(super) fn follow(
     let mut path = SoftSprings::default();
     let mut constant = 0;
     while spring >= LAST_SPRING {
-        let Some(next) = centred(problem, condensed, at, (spring, ACCURACY), |_| go_on()) else {
+        let Some(next) = centred(problem, condensed, at, (spring, ACCURACY), &mut go_on) else {
             return End::Open;
         };
         at = next;
@@ -106,15 +106,14 @@ fn bodies(problem: &Scaled) -> Vec<usize> {
 }
 
 /// The point with springs of a stiffness, to this accuracy relative to the largest force; `None` where the steps get
-/// nowhere. `go_on` is asked before every step, with the residual.
+/// nowhere. `go_on` is asked before every step.
 pub(super) fn centred(
     problem: &Scaled,
     condensed: &mut Condensed,
     mut at: Iterate,
     (spring, accuracy): (f64, f64),
-    mut go_on: impl FnMut(f64) -> bool,
+    mut go_on: impl FnMut() -> bool,
 ) -> Option<Iterate> {
-    let width = if at.is_smooth() { SMOOTH_WIDTH } else { WIDTH };
     for _ in 0..STEPS {
         let size = at.points.iter().fold(1.0_f64, |max, pairs| max.max(pairs.t_n));
         let defect = Defect::of(problem, &at, spring);
@@ -122,10 +121,10 @@ pub(super) fn centred(
         if residual <= accuracy {
             return Some(at);
         }
-        if !go_on(residual) {
+        if !go_on() {
             return None;
         }
-        let (next, alpha) = advance(problem, condensed, (&at, &defect), (spring, width));
+        let (next, alpha) = advance(problem, condensed, (&at, &defect), (spring, WIDTH));
         if !next.is_finite() || alpha < LEAST_STEP {
             return None;
         }

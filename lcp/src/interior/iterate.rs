@@ -10,13 +10,7 @@ use crate::vector::max_abs;
 pub(super) struct Iterate {
     pub(super) u: Vec<f64>,
     pub(super) points: Vec<Pairs>,
-    /// The slip `e` over which friction turns, in units of the scaled problem: products of friction are to be `tau + e mu t_n`.
-    /// Zero for Coulomb's law itself.
-    pub(super) smooth: f64,
 }
-
-/// Displacements and forces, scaled.
-pub(super) type Rest = (Vec<f64>, Vec<(f64, f64)>);
 
 /// The variables of a contact point. Those of friction are zero where there is none.
 #[derive(Debug, Clone, Copy, Default)]
@@ -34,12 +28,6 @@ impl Pairs {
         let (plus, minus) = (mu * self.t_n + self.t_t, mu * self.t_n - self.t_t);
         let all = [(self.t_n, self.gap), (plus, self.slip_plus), (minus, self.slip_minus)];
         all.into_iter().take(if mu > 0.0 { 3 } else { 1 })
-    }
-
-    /// What the products of the pairs should be where those of the gaps are `tau`.
-    pub(super) fn aims(&self, mu: f64, tau: f64, smooth: f64) -> [f64; 3] {
-        let friction = tau + smooth * mu * self.t_n.max(0.0);
-        [tau, friction, friction]
     }
 
     /// `(1 - share) self + share other`.
@@ -114,7 +102,7 @@ impl<'a> Tangent<'a> {
         spring: f64,
     ) -> Self {
         let points = problem.points.iter().zip(&at.points);
-        let spring_of = |(point, pairs): (Point<'_>, &Pairs)| springs((point, at.smooth), pairs);
+        let spring_of = |(point, pairs): (Point<'_>, &Pairs)| springs(point, pairs);
         let springs: Vec<Springs> = points.map(spring_of).collect();
         condensed.factorise(problem, &springs, spring);
         Self { problem, condensed, at, springs }
@@ -127,7 +115,7 @@ impl<'a> Tangent<'a> {
     }
 
     /// The step that makes good the defect and changes the products of the pairs by `targets`, to first
-    /// order: `y dt + t dy = target`, and for friction `target + e mu dt_n`.
+    /// order: `y dt + t dy = target`.
     pub(super) fn step(&self, defect: &Defect, targets: &[[f64; 3]]) -> Iterate {
         let points = self.problem.points.iter().zip(&self.at.points).zip(&self.springs);
         let points = points.zip(targets).zip(&defect.gaps);
@@ -153,12 +141,10 @@ impl<'a> Tangent<'a> {
             let (t_n, t_t) = (fixed.0 - t_n, fixed.1 - t_t);
             let [normal, tangential] = point.compliance;
             let opened = (moved.0 + gaps.0 + normal * t_n, moved.1 + gaps.1 + tangential * t_t);
-            let turned = self.at.smooth * point.mu * t_n;
-            let targets = [targets[0], targets[1] + turned, targets[2] + turned];
-            at.change(point.mu, (t_n, t_t), opened, &targets)
+            at.change(point.mu, (t_n, t_t), opened, targets)
         });
         let points = points.collect();
-        Iterate { u, points, smooth: 0.0 }
+        Iterate { u, points }
     }
 }
 
@@ -173,16 +159,16 @@ impl Pairs {
     }
 }
 
-/// The springs that Newton's method puts in the place of a contact with friction that turns over the slip `smooth`.
-fn springs((point, smooth): (Point<'_>, f64), pairs: &Pairs) -> Springs {
+/// The springs that Newton's method puts in the place of a contact.
+fn springs(point: Point<'_>, pairs: &Pairs) -> Springs {
     let Point { mu, compliance, .. } = point;
     let nn = 1.0 / (pairs.gap / pairs.t_n + compliance[0] + COMPLIANCE);
     if mu == 0.0 {
         return Springs { nn, ..Springs::default() };
     }
     let tt = pairs.resistance(point);
-    let (plus, minus) = pairs.strengths(mu);
-    let along = (pairs.slip_plus - smooth) / plus - (pairs.slip_minus - smooth) / minus;
+    let (plus, minus) = pairs.ratios(mu);
+    let along = plus - minus;
     Springs { nn, tn: -mu * along * tt * nn, tt }
 }
 
@@ -240,41 +226,21 @@ impl Iterate {
         problem.points.mu.iter().zip(&self.points).map(contact).collect()
     }
 
-    /// The mean of the products of the pairs; of those of the gaps alone where friction is smooth.
+    /// The mean of the products of the pairs.
     pub(super) fn gap(&self, problem: &Scaled) -> f64 {
-        self.gap_of(problem, self.points.iter().copied())
+        mean_product(problem, self.points.iter().copied())
     }
 
     /// The same after a part of a step.
     pub(super) fn gap_after(&self, problem: &Scaled, step: &Iterate, alpha: f64) -> f64 {
-        self.gap_of(problem, self.pairs_after(step, alpha))
-    }
-
-    fn gap_of(&self, problem: &Scaled, points: impl Iterator<Item = Pairs>) -> f64 {
-        let (mut sum, mut count) = (0.0, 0_usize);
-        for (pairs, mu) in points.zip(&problem.points.mu) {
-            for (t, y) in pairs.pairs(*mu).take(self.sharp()) {
-                (sum, count) = (sum + t * y, count + 1);
-            }
-        }
-        sum / count.max(1) as f64
-    }
-
-    /// Whether friction turns over a slip.
-    pub(super) fn is_smooth(&self) -> bool {
-        self.smooth > 0.0
-    }
-
-    /// How many pairs of a point are to be complementary in the end.
-    fn sharp(&self) -> usize {
-        if self.is_smooth() { 1 } else { 3 }
+        mean_product(problem, self.pairs_after(step, alpha))
     }
 
     /// Largest `|min(t, y)|` over the pairs, in these units of force and length.
     pub(super) fn natural(&self, problem: &Scaled, (force, length): (f64, f64)) -> f64 {
         let pairs = problem.points.mu.iter().zip(&self.points);
         pairs
-            .flat_map(|(mu, pairs)| pairs.pairs(*mu).take(self.sharp()))
+            .flat_map(|(mu, pairs)| pairs.pairs(*mu))
             .fold(0.0, |max, (t, y)| max.max((t / force).min(y / length).abs()))
     }
 
@@ -347,36 +313,17 @@ impl Iterate {
 
     /// The smallest product of a pair, relative to what it should be.
     pub(super) fn centrality(&self, problem: &Scaled) -> f64 {
-        self.centrality_of(problem, self.points.iter().copied())
+        centrality(problem, self.points.iter().copied())
     }
 
     /// The same after a part of a step.
     pub(super) fn centrality_after(&self, problem: &Scaled, step: &Iterate, alpha: f64) -> f64 {
-        self.centrality_of(problem, self.pairs_after(step, alpha))
+        centrality(problem, self.pairs_after(step, alpha))
     }
 
-    fn centrality_of(&self, problem: &Scaled, points: impl Iterator<Item = Pairs> + Clone) -> f64 {
-        let mean = self.gap_of(problem, points.clone());
-        self.products_of(problem, points, mean)
-            .map(|(product, aim)| product / aim)
-            .fold(f64::INFINITY, f64::min)
-    }
-
-    /// The products of all pairs, each with what it should be where those of the gaps are `tau`.
-    pub(super) fn products(&self, problem: &Scaled, tau: f64) -> impl Iterator<Item = (f64, f64)> {
-        self.products_of(problem, self.points.iter().copied(), tau)
-    }
-
-    fn products_of(
-        &self,
-        problem: &Scaled,
-        points: impl Iterator<Item = Pairs>,
-        tau: f64,
-    ) -> impl Iterator<Item = (f64, f64)> {
-        points.zip(&problem.points.mu).flat_map(move |(pairs, mu)| {
-            let aims = pairs.aims(*mu, tau, self.smooth);
-            pairs.pairs(*mu).zip(aims).map(|((t, y), aim)| (t * y, aim))
-        })
+    /// The products of all pairs.
+    pub(super) fn products(&self, problem: &Scaled) -> impl Iterator<Item = f64> {
+        products(problem, self.points.iter().copied())
     }
 
     /// The pairs of the points after a part of a step.
@@ -390,7 +337,7 @@ impl Iterate {
 
     pub(super) fn moved(&self, step: &Iterate, alpha: f64) -> Self {
         let u = self.u.iter().zip(&step.u).map(|(u, du)| u + alpha * du).collect();
-        Self { u, points: self.pairs_after(step, alpha).collect(), smooth: self.smooth }
+        Self { u, points: self.pairs_after(step, alpha).collect() }
     }
 
     /// `(1 - share) self + share other`.
@@ -398,6 +345,29 @@ impl Iterate {
         let u = self.u.iter().zip(&other.u).map(|(a, b)| (1.0 - share) * a + share * b).collect();
         let points =
             self.points.iter().zip(&other.points).map(|(a, b)| a.mixed(b, share)).collect();
-        Self { u, points, smooth: 0.0 }
+        Self { u, points }
     }
+}
+
+/// The mean of the products of the pairs.
+fn mean_product(problem: &Scaled, points: impl Iterator<Item = Pairs>) -> f64 {
+    let (mut sum, mut count) = (0.0, 0_usize);
+    for (pairs, mu) in points.zip(&problem.points.mu) {
+        for (t, y) in pairs.pairs(*mu) {
+            (sum, count) = (sum + t * y, count + 1);
+        }
+    }
+    sum / count.max(1) as f64
+}
+
+/// The least product of a pair, relative to the mean.
+fn centrality(problem: &Scaled, points: impl Iterator<Item = Pairs> + Clone) -> f64 {
+    let mean = mean_product(problem, points.clone());
+    products(problem, points).map(|product| product / mean).fold(f64::INFINITY, f64::min)
+}
+
+/// The products of all pairs.
+fn products(problem: &Scaled, points: impl Iterator<Item = Pairs>) -> impl Iterator<Item = f64> {
+    let products = |(pairs, mu): (Pairs, &f64)| pairs.pairs(*mu).map(|(t, y)| t * y);
+    points.zip(&problem.points.mu).flat_map(products)
 }

@@ -1,8 +1,8 @@
 //! The interior-point iteration: predictor, correctors, and what to do when they get nowhere.
 
 use super::constants::{
-    BACK, CENTRAL, CORRECTORS, HELD_SMOOTH, IS_CENTRAL, LEAST_AIM, LONG_ENOUGH, LONGER, MIXTURES,
-    PROGRESS, SHORT, SHORTER, SHORTEST,
+    BACK, CENTRAL, CORRECTORS, IS_CENTRAL, LEAST_AIM, LONG_ENOUGH, LONGER, MIXTURES, PROGRESS,
+    SHORT, SHORTER, SHORTEST,
 };
 use super::iterate::{Defect, Iterate, Pairs, Tangent};
 use super::turn::turn;
@@ -36,8 +36,7 @@ impl<'a> Ahead<'a> {
         (at, defect): (&'a Iterate, &'a Defect),
         spring: f64,
     ) -> Self {
-        let proximal = if at.is_smooth() { HELD_SMOOTH } else { PROXIMAL };
-        let tangent = Tangent::new(problem, condensed, at, spring.max(proximal));
+        let tangent = Tangent::new(problem, condensed, at, spring.max(PROXIMAL));
         let predictor = tangent.step(defect, &targets(problem, at, 0.0, None));
         Self { tangent, defect, predictor }
     }
@@ -45,8 +44,7 @@ impl<'a> Ahead<'a> {
     /// The step of [`advance`].
     pub(super) fn advance(&self, problem: &Scaled, at: &Iterate, width: f64) -> (Iterate, f64) {
         let Self { tangent, defect, predictor } = self;
-        // Smooth friction mostly goes on with long steps where the determinant is negative.
-        let (step, alpha) = if tangent.is_backwards() && !at.is_smooth() {
+        let (step, alpha) = if tangent.is_backwards() {
             turn(problem, tangent, at, predictor)
         } else {
             forwards(problem, tangent, at, defect, predictor)
@@ -73,7 +71,7 @@ fn forwards(
             break;
         }
         let trial = at.pairs_after(&step, (1.5 * alpha + 0.3).min(1.0));
-        let corrections = corrections(problem, trial, (aim.max(LEAST_AIM * gap), at.smooth));
+        let corrections = corrections(problem, trial, aim.max(LEAST_AIM * gap));
         let corrected = step.moved(&tangent.step(&Defect::none(problem), &corrections), 1.0);
         let reached = at.longest(problem, &corrected);
         if reached < alpha + LONGER {
@@ -123,8 +121,9 @@ fn mixture(
 }
 
 fn is_central(problem: &Scaled, at: &Iterate) -> bool {
-    let mut products = at.products(problem, at.gap(problem));
-    products.all(|(it, aim)| (IS_CENTRAL.0 * aim..=IS_CENTRAL.1 * aim).contains(&it))
+    let mean = at.gap(problem);
+    let mut products = at.products(problem);
+    products.all(|it| (IS_CENTRAL.0 * mean..=IS_CENTRAL.1 * mean).contains(&it))
 }
 
 /// The residuals of the products of the pairs, where those of the gaps are to be `tau`, less the second-order term of
@@ -136,9 +135,9 @@ pub(super) fn targets(
     predictor: Option<&Iterate>,
 ) -> Vec<[f64; 3]> {
     let target = |(i, &mu): (usize, &f64)| {
-        let mut targets = at.points[i].aims(mu, tau, at.smooth);
+        let mut targets = [0.0; 3];
         for (target, (t, y)) in targets.iter_mut().zip(at.points[i].pairs(mu)) {
-            *target -= t * y;
+            *target = tau - t * y;
         }
         if let Some(predictor) = predictor {
             for (target, (dt, dy)) in targets.iter_mut().zip(predictor.points[i].pairs(mu)) {
@@ -154,13 +153,12 @@ pub(super) fn targets(
 pub(super) fn corrections(
     problem: &Scaled,
     trial: impl Iterator<Item = Pairs>,
-    (tau, smooth): (f64, f64),
+    tau: f64,
 ) -> Vec<[f64; 3]> {
     let correction = |(pairs, &mu): (Pairs, &f64)| {
         let mut targets = [0.0; 3];
-        let aims = pairs.aims(mu, tau, smooth);
-        for ((target, (t, y)), aim) in targets.iter_mut().zip(pairs.pairs(mu)).zip(aims) {
-            let (low, high) = (CENTRAL.0 * aim, CENTRAL.1 * aim);
+        let (low, high) = (CENTRAL.0 * tau, CENTRAL.1 * tau);
+        for (target, (t, y)) in targets.iter_mut().zip(pairs.pairs(mu)) {
             // Two negative values are as far outside as one.
             let product = if t < 0.0 && y < 0.0 { -t * y } else { t * y };
             *target = if product < low {

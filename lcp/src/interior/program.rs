@@ -24,18 +24,6 @@ pub(super) struct Units {
     pub(super) length: f64,
 }
 
-/// Bodies with associated flow: every friction cone by its edges, each a force along `n + mu t` or `n - mu t`, so that
-/// slips open gaps by `mu` times their size.
-pub(super) fn associated(problem: &Scaled) -> Program {
-    Program {
-        k: problem.k.clone(),
-        f: problem.f.clone(),
-        a: edges(problem),
-        x_0: problem.edges().map(|(point, mu)| point.x_0 + mu * point.s_0).collect(),
-        compliance: vec![0.0; problem.edges().count()],
-    }
-}
-
 /// The forces of one along the edges of all friction cones.
 pub(super) fn edges(problem: &Scaled) -> SparseColMat<usize, f64> {
     along(problem.order(), problem.edges())

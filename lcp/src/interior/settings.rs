@@ -1,8 +1,8 @@
-//! Settings of the interior-point method, and of evolutions.
+//! Settings of the interior-point method.
 
 use std::time::Duration;
 
-use super::constants::{SMOOTH, STARTS};
+use super::constants::STARTS;
 use crate::settings::check_tolerance;
 use crate::{Error, WarmStart};
 
@@ -66,55 +66,5 @@ impl InteriorPointSettings {
             });
         }
         self.start.validate(n)
-    }
-}
-
-/// Settings of [`Evolution`](crate::Evolution).
-#[derive(Debug, Clone, PartialEq)]
-pub struct EvolutionSettings {
-    /// Largest residual, dimensionless, of the state at rest. In `(0, 1)`.
-    pub tolerance: f64,
-    /// Steps of interior points in all motions together, each with one factorisation.
-    pub max_iterations: usize,
-    /// Wall-clock time, looked at before every step; `None` is no limit.
-    pub time_limit: Option<Duration>,
-    /// Whether rest is looked for without a motion first. Where supports move far it is seldom found so.
-    pub at_once: bool,
-    /// The parts by which the coefficients of friction are reduced, one after the other, where rest is looked for without a
-    /// motion. In `(0, 1)`.
-    pub reductions: Vec<f64>,
-    /// The slips over which smooth friction turns, as parts of the largest displacement of the start: the first where rest is
-    /// looked for first, and the next one, if there is any, whenever that has failed after a motion. With short ones friction
-    /// is near to Coulomb's; long ones lead to rest nearly always, but to one that forces hold which no loading may lead to.
-    pub slips: Vec<f64>,
-}
-
-impl Default for EvolutionSettings {
-    fn default() -> Self {
-        Self {
-            tolerance: 1e-10,
-            max_iterations: 1000,
-            time_limit: None,
-            at_once: true,
-            reductions: Vec::new(),
-            slips: SMOOTH.to_vec(),
-        }
-    }
-}
-
-impl EvolutionSettings {
-    /// Checks the settings.
-    ///
-    /// # Errors
-    /// [`Error::Setting`] with the name of the setting.
-    pub fn validate(&self) -> Result<(), Error> {
-        check_tolerance(self.tolerance)?;
-        if let Some(&value) = self.reductions.iter().find(|it| !(**it > 0.0 && **it < 1.0)) {
-            return Err(Error::Setting { name: "reductions", value, range: "between 0 and 1" });
-        }
-        if let Some(&value) = self.slips.iter().find(|slip| !(**slip > 0.0 && slip.is_finite())) {
-            return Err(Error::Setting { name: "slips", value, range: "above 0 and finite" });
-        }
-        Ok(())
     }
 }

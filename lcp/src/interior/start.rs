@@ -1,6 +1,6 @@
 //! Where the iteration starts, and how it finds out how far bodies move.
 
-use super::constants::{HALF, MOST_FRICTION, OPENED, OPENINGS, WIDE};
+use super::constants::{HALF, OPENED, OPENINGS, WIDE};
 #[cfg(test)]
 use super::iterate::Tangent;
 use super::iterate::{Defect, Iterate, Pairs};
@@ -39,26 +39,7 @@ pub(super) fn start(problem: &Scaled, condensed: &mut Condensed, spring: f64) ->
             ..pairs
         }
     });
-    Iterate { points: points.collect(), u, smooth: 0.0 }
-}
-
-/// A start with smooth friction, whose forces are those of its slips.
-///
-/// `(mu t_n + t_t) s_+ = (mu t_n - t_t) s_- = e mu t_n` makes the slip `s_+ - s_- = -2 e r / (1 - r^2)`, where
-/// `r = t_t / (mu t_n)`. `slip` is `e`.
-pub(super) fn smoothed(problem: &Scaled, at: Iterate, slip: f64) -> Iterate {
-    let mut at = Iterate { smooth: slip, ..at };
-    if at.smooth > 0.0 {
-        for (point, pairs) in problem.points.iter().zip(&mut at.points).filter(|it| it.0.mu > 0.0) {
-            let slip = point.slip(&at.u, pairs.t_t) / at.smooth;
-            let share = -slip / (1.0 + (1.0 + slip * slip).sqrt());
-            let share = share.clamp(-MOST_FRICTION, MOST_FRICTION);
-            pairs.t_t = share * point.mu * pairs.t_n;
-            (pairs.slip_plus, pairs.slip_minus) =
-                (at.smooth / (1.0 + share), at.smooth / (1.0 - share));
-        }
-    }
-    at
+    Iterate { points: points.collect(), u }
 }
 
 /// A start with gaps and slips wider by a multiple of the largest.
@@ -125,23 +106,19 @@ mod tests {
         }
         let problem = Scaled::of_contact(&builder.build().unwrap());
         let mut condensed = Condensed::new(&problem).unwrap();
-        let begin = start(&problem, &mut condensed, PROXIMAL);
-        for slip in [0.0, 0.03, 0.3] {
-            let at = smoothed(&problem, begin.clone(), slip);
-            let tau = 0.1 * at.gap(&problem);
-            let defect = Defect::of(&problem, &at, 0.0);
-            let tangent = Tangent::new(&problem, &mut condensed, &at, PROXIMAL);
-            let step = tangent.step(&defect, &targets(&problem, &at, tau, None));
-            let missing = |at: &Iterate| -> Vec<f64> {
-                at.products(&problem, tau).map(|(product, aim)| product - aim).collect()
-            };
-            let part = 1e-4;
-            let (before, after) = (missing(&at), missing(&at.moved(&step, part)));
-            let size = before.iter().fold(0.0_f64, |max, v| max.max(v.abs()));
-            for (before, after) in before.iter().zip(after) {
-                let error = (after - (1.0 - part) * before).abs();
-                assert!(error < 10.0 * part * part * size, "{slip}: {error} of {size}");
-            }
+        let at = start(&problem, &mut condensed, PROXIMAL);
+        let tau = 0.1 * at.gap(&problem);
+        let defect = Defect::of(&problem, &at, 0.0);
+        let tangent = Tangent::new(&problem, &mut condensed, &at, PROXIMAL);
+        let step = tangent.step(&defect, &targets(&problem, &at, tau, None));
+        let missing =
+            |at: &Iterate| -> Vec<f64> { at.products(&problem).map(|it| it - tau).collect() };
+        let part = 1e-4;
+        let (before, after) = (missing(&at), missing(&at.moved(&step, part)));
+        let size = before.iter().fold(0.0_f64, |max, v| max.max(v.abs()));
+        for (before, after) in before.iter().zip(after) {
+            let error = (after - (1.0 - part) * before).abs();
+            assert!(error < 10.0 * part * part * size, "{error} of {size}");
         }
     }
 }

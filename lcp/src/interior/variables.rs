@@ -52,11 +52,6 @@ impl Variables {
         self.with(step, |v, step| v + alpha * step)
     }
 
-    /// `(1 - share) self + share other`.
-    pub(super) fn mixed(&self, other: &Self, share: f64) -> Self {
-        self.with(other, |a, b| (1.0 - share) * a + share * b)
-    }
-
     fn with(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
         let with = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| of(*a, *b)).collect();
         Self { u: with(&self.u, &other.u), t: with(&self.t, &other.t), y: with(&self.y, &other.y) }

@@ -192,12 +192,6 @@ impl Contact2d {
         Self { f, x_0, s_0, ..self }
     }
 
-    /// The same problem with coefficients of friction that are smaller by this part.
-    pub(crate) fn with_reduced_friction(&self, part: f64) -> Self {
-        let mu = self.mu.iter().map(|mu| (1.0 - part) * mu).collect();
-        Self { mu, ..self.clone() }
-    }
-
     /// Number of displacements.
     pub fn displacements(&self) -> usize {
         self.f.len()

@@ -76,13 +76,6 @@ impl<'a> Point<'a> {
         self.x_0 + self.moved(u).0 + self.compliance[0] * t_n
     }
 
-    /// The sum of the sizes of the terms of the gap.
-    pub(crate) fn gap_terms(&self, u: &[f64], t_n: f64) -> f64 {
-        let terms = self.columns.iter().zip(self.coefficients);
-        let given = self.x_0.abs() + (self.compliance[0] * t_n).abs();
-        terms.fold(given, |sum, (&j, [n, _])| sum + (n * u[j]).abs())
-    }
-
     /// The slip at displacements and a tangential force.
     pub(crate) fn slip(&self, u: &[f64], t_t: f64) -> f64 {
         self.s_0 + self.moved(u).1 + self.compliance[1] * t_t

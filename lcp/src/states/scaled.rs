@@ -156,12 +156,6 @@ impl Scaled {
         (self.of_displacements(&state.u), forces.collect())
     }
 
-    /// Whether neither a body nor a contact gives way.
-    pub(crate) fn is_rigid(&self) -> bool {
-        let mut compliance = self.points.compliance.iter().flatten();
-        self.k.val().iter().all(|k| *k == 0.0) && compliance.all(|a| *a == 0.0)
-    }
-
     /// Whether every displacement has a stiffness, and there is friction.
     pub(crate) fn is_elastic(&self) -> bool {
         let has_friction = self.points.mu.iter().any(|mu| *mu > 0.0);

@@ -16,7 +16,7 @@ use crate::scene::{Output, Scene, SceneError, Solver};
 use crate::state::{ContactState, State};
 
 /// The version of the format.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// Why a checkpoint cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -109,6 +109,8 @@ pub struct Checkpoint {
     pub(crate) solve: SolveInfo,
     displacements: Vec<Vec<[f64; 2]>>,
     contacts: Vec<ContactState>,
+    /// How far every contact point had slid where the slips of the last step are measured from \[m\].
+    slips: Vec<f64>,
     strain_energy: f64,
     /// The side of every pair that is basic, `t` or `y`, where pivots end: the next step starts there.
     basis: Option<String>,
@@ -124,7 +126,7 @@ impl Checkpoint {
     pub(crate) fn new(
         origin: String,
         (records, mut solve): (Vec<StepRecord>, SolveInfo),
-        (state, basis): (&State, Option<&Start>),
+        (state, slips, basis): (&State, &[f64], Option<&Start>),
     ) -> Self {
         solve.routes.iter_mut().for_each(|route| route.seconds = 0.0);
         let side = |is_t: &bool| if *is_t { 't' } else { 'y' };
@@ -139,9 +141,22 @@ impl Checkpoint {
                 .map(|moved| moved.iter().map(|u| [u.x, u.y]).collect())
                 .collect(),
             contacts: state.contacts.clone(),
+            slips: slips.to_vec(),
             strain_energy: state.strain_energy,
             basis: basis.map(|basis| basis.t_basic.iter().map(side).collect()),
         }
+    }
+
+    /// How far every contact point had slid where the slips of the last step are measured from.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Size`] or [`CheckpointError::NoEquilibrium`].
+    pub(crate) fn slips(&self, model: &Model) -> Result<Vec<f64>, CheckpointError> {
+        same("slips", self.slips.len(), model.contacts.len())?;
+        if self.slips.iter().all(|slip| slip.is_finite()) {
+            return Ok(self.slips.clone());
+        }
+        Err(CheckpointError::NoEquilibrium)
     }
 
     /// Where the pivots of the next step start, if that is a basis of a problem of this order.

@@ -5,6 +5,7 @@
 
 mod chain;
 mod run;
+mod spread;
 
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -158,6 +159,7 @@ pub fn solve_observed(
 ) -> Result<Outcome, SolveError> {
     let mut run = Run::new(scene, observer)?;
     while run.advance(observer)? {}
+    run.compare(scene, observer)?;
     Ok(run.finish())
 }
 

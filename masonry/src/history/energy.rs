@@ -6,8 +6,8 @@
 //! change linearly with displacements. So `W - U - D` tends to zero as steps become shorter,
 //! and is zero where no point slides with a force that changes.
 //!
-//! Friction of blocks that came to rest need not oppose all slips of the step. `D` is a trapezoidal sum there, too; then
-//! `W - U - D` is the work of normal forces where gaps open and close.
+//! Of blocks that move several steps lead from one state to the next. `D` is the sum over all of them, and the drag takes
+//! a small part of the work, too.
 
 use nalgebra::Vector2;
 
@@ -92,54 +92,45 @@ impl Snapshot {
     }
 }
 
-/// Energy \[J\] that sliding dissipates where the blocks slid by `slips` before the slip of the state in which they rest: by the
-/// trapezoidal rule. `before` is `None` in the first step.
-pub(crate) fn dissipation_to_rest(
-    before: Option<&[ContactState]>,
-    after: &[ContactState],
-    slips: &[f64],
-) -> f64 {
-    let taken = |(i, (contact, slip)): (usize, (&ContactState, &f64))| {
-        let t_t = before.map_or(0.0, |before| before[i].t_t) + contact.t_t;
-        -0.5 * t_t * (slip + contact.y_t)
-    };
-    after.iter().zip(slips).enumerate().map(taken).sum()
-}
-
-/// What friction did with the slips of a step, by the forces at its end: the law of motion as it was kept.
+/// What friction did in a step, or on a way of several.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Friction {
-    /// Energy \[J\] that it took, the sum of `-t_t ds`.
-    pub(crate) taken: f64,
-    /// Energy \[J\] that it could take at most, the sum of `(mu t_n + C) |ds|`.
-    capacity: f64,
-    /// Energy \[J\] that it gave: the part of the first sum that is negative.
+    /// Energy \[J\] that it took, `-t_t . (increment of y_t)`.
+    pub(crate) dissipation: f64,
+    /// What it took of what it could; `None` where nothing slid.
+    power: Option<f64>,
+    /// Energy \[J\] that it gave: the part of the dissipation that is negative.
     pub(crate) created: f64,
+    /// Energy \[J\] that the drag of slow motions took.
+    pub(crate) dragged: f64,
 }
 
 impl Friction {
-    /// Of contacts that slid by `slips` before the slip of their state, if by any.
-    pub(crate) fn of(model: &Model, contacts: &[ContactState], slips: Option<&[f64]>) -> Self {
-        let mut sum = Self::default();
-        for (i, (point, contact)) in model.contacts.iter().zip(contacts).enumerate() {
-            // What is computed for a contact that sticks is an error, and no slip.
-            let own = if contact.status == ContactStatus::Stick { 0.0 } else { contact.y_t };
-            let slip = own + slips.map_or(0.0, |slips| slips[i]);
-            let is_open = contact.status == ContactStatus::Open;
-            if is_open || !point.law.resists_sliding() {
+    /// Of one step, where `y_t` of the contacts is their slip in it.
+    pub(crate) fn of_step(model: &Model, contacts: &[ContactState]) -> Self {
+        let (mut sum, mut capacity) = (Self::default(), 0.0);
+        for (point, contact) in model.contacts.iter().zip(contacts) {
+            if contact.status != ContactStatus::Slip {
                 continue;
             }
-            let taken = -contact.t_t * slip;
-            sum.taken += taken;
+            let taken = -contact.t_t * contact.y_t;
+            sum.dissipation += taken;
             sum.created += (-taken).max(0.0);
-            sum.capacity += point.law.bound(contact.t_n) * slip.abs();
+            capacity += point.law.bound(contact.t_n) * contact.y_t.abs();
         }
+        sum.power = (capacity > 0.0).then(|| sum.dissipation / capacity);
         sum
     }
 
-    /// What it took of what it could, one by Coulomb's law; `None` where nothing slid.
+    /// Of all steps on a way.
+    pub(crate) fn of_way(account: &lcp::Account) -> Self {
+        let lcp::Account { dissipation, created, dragged, .. } = *account;
+        Self { dissipation, power: account.friction_power(), created, dragged }
+    }
+
+    /// What it took of what it could; `None` where nothing slid.
     pub(crate) fn power(&self) -> Option<f64> {
-        (self.capacity > 0.0).then(|| self.taken / self.capacity)
+        self.power
     }
 }
 

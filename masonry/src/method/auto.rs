@@ -20,27 +20,16 @@ use std::time::Duration;
 
 use lcp::Status;
 
-use crate::method::info::SolveInfo;
+use crate::method::info::{SolveInfo, Way};
 use crate::scene::{Form, Route, Solver};
 
 /// Pivots on dense matrices of this order take about a second; the time grows with the cube.
 const FEW: usize = 2000;
 /// Most walls are solved in so many steps of the interior points.
 pub(crate) const STEPS_BEFORE_PROOF: usize = 40;
-/// With friction, smooth friction and motions follow after so many steps of the interior points from their first start. Measured
-/// on walls of 1000 bricks: what that start solves it solves in up to 60, and smooth friction takes 15 to 45 where it succeeds.
+/// With friction, blocks move after so many steps of the interior points from their first start. Measured
+/// on walls of 1000 bricks: what that start solves it solves in up to 60.
 pub(crate) const STEPS_BEFORE_MOTION: usize = 60;
-/// The parts by which friction is reduced where the path has jammed. Measured on open bases of 1000 bricks with friction
-/// near one, its critical value: with 5e-4 all are solved in 57 to 90 steps; with 1e-3 and 2e-3 one or two are not, and with
-/// 1e-4 they take up to 150.
-pub(crate) const REDUCTIONS: [f64; 1] = [5e-4];
-/// The slips of smooth friction of such a motion where it starts from nothing, each for one look for rest. Measured on walls
-/// of 10 courses on open bases: they rest with the second or the third. One as long as the way would hold blocks by forces
-/// that no loading leads to.
-pub(crate) const SLIPS_FROM_NOTHING: [f64; 3] = [1e-3, 1e-2, 1e-1];
-/// Steps of such a motion. Measured: walls of 1000 bricks that come to rest take 60 to 200, those that flow 200 to 500, and
-/// walls of 10 000 bricks up to 800.
-pub(crate) const STEPS_OF_MOTION: usize = 1000;
 /// How long the last route may take, which seldom has an answer where the others have none.
 const LAST_RESORT: Duration = Duration::from_secs(10);
 
@@ -134,7 +123,11 @@ pub(crate) fn time_limit(route: Route, routes: usize) -> Option<Duration> {
 
 /// Whether a route may say more than is known.
 pub(crate) fn is_asked(route: Route, known: Rank, has_friction: bool) -> bool {
-    route != Route::Qp || !has_friction || known > Rank::Springs
+    match known {
+        // Forces that balance the loads are none that the loading leads to; that there are none is a proof.
+        Rank::Motion => route == Route::Forces,
+        _ => route != Route::Qp || !has_friction || known > Rank::Springs,
+    }
 }
 
 /// How much an attempt says; what comes first says more.
@@ -143,6 +136,8 @@ pub(crate) enum Rank {
     Solved,
     /// There is none, with a proof, or with springs or a ray that show how it falls.
     Proved,
+    /// Blocks with mass move on under their loads.
+    Motion,
     Springs,
     Mechanism,
     /// Something was found that does not hold.
@@ -155,6 +150,7 @@ impl Rank {
         match info.status {
             Status::Solved => Self::Solved,
             Status::Infeasible if info.proved => Self::Proved,
+            Status::NoEquilibrium if info.way == Way::Motion => Self::Motion,
             Status::NoEquilibrium if info.springs.is_some() => Self::Springs,
             _ if has_mechanism => Self::Mechanism,
             Status::AlmostSolved => Self::Almost,
@@ -168,7 +164,7 @@ impl Rank {
         match self {
             Self::Solved | Self::Proved => true,
             Self::Mechanism => !has_friction,
-            Self::Springs | Self::Almost | Self::Open => false,
+            Self::Motion | Self::Springs | Self::Almost | Self::Open => false,
         }
     }
 }

@@ -59,6 +59,7 @@ pub fn answer(system: &System, sparse: &Sparse, decision: &Decision, tolerance: 
         motion: None,
         basis: None,
         moved: None,
+        account: None,
     }
 }
 

@@ -4,6 +4,26 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::scene::Route;
 
+/// How a state was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Way {
+    /// By one step from the state before, or from nothing, with Coulomb's law for its slips.
+    Law,
+    /// By the motion of blocks with mass, with Coulomb's law in each of its steps.
+    Motion,
+}
+
+impl Way {
+    /// A name for files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Law => "law",
+            Self::Motion => "motion",
+        }
+    }
+}
+
 /// How the complementarity problem was solved.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -40,7 +60,7 @@ pub struct SolveInfo {
     /// The effect of the springs of the scene.
     pub soft: Option<SoftReport>,
     /// How the state was found, and so which law of friction it obeys.
-    pub way: lcp::Way,
+    pub way: Way,
     /// Dimensionless residuals recomputed from the original data.
     pub residuals: lcp::Residuals,
     /// Residuals of the same solution in the paper's form (3.27), if another form was solved.
@@ -65,7 +85,7 @@ impl SolveInfo {
             springs: None,
             proved: false,
             soft: None,
-            way: lcp::Way::Law,
+            way: Way::Law,
             residuals,
             coulomb_residuals: None,
         }

@@ -1,21 +1,19 @@
 //! The interior-point route, for walls of many blocks: every step factorises one sparse matrix.
 //!
-//! Where there seems to be no equilibrium, springs that carry their share of the load however soft they
-//! are say so, and how blocks on the softest springs move is the mechanism. That is evidence, and with friction no
-//! proof.
-//!
-//! Where friction keeps the path from an answer, the blocks evolve: friction turns over a short slip, or they move against
-//! viscosity from the state before until they rest or flow ([`Evolution`]).
+//! With friction, and where the path has no answer, blocks with mass move under their loads until they rest or fall
+//! ([`Evolution`](lcp::Evolution)). In a load history they always do, from where the step before has left them. Without
+//! friction soft springs tell whether there is an equilibrium.
 
 use lcp::{
-    ContactState, Evolution, EvolutionSettings, Evolved, Info, InteriorPoint,
-    InteriorPointSettings, Iteration, Solution, Solver, Status, WarmStart, Way,
+    Contact2d, ContactState, InteriorPoint, InteriorPointSettings, Iteration, Solution, Solver,
+    Status,
 };
 
+use super::loading::{self, Led, Loading};
 use super::sparse::Found;
 use super::{Answer, Method, Observer, Request, RouteError, Step, auto, sparse};
 use crate::method::forms::Sparse;
-use crate::method::info::SolveInfo;
+use crate::method::info::{SolveInfo, Way};
 use crate::scene::Route;
 
 /// The route on a sparse problem.
@@ -23,172 +21,104 @@ use crate::scene::Route;
 pub struct Interior<'a> {
     /// The problem.
     pub sparse: &'a Sparse,
-    /// The state of a similar problem, whose contacts are tried before anything else.
-    pub start: Option<&'a ContactState>,
-    /// How that state was found.
-    pub way: Way,
+    /// Loads, gaps and supports before, and the state in which the blocks rest there.
+    pub before: Option<(&'a Contact2d, &'a ContactState)>,
+    /// The mass of every displacement \[kg\].
+    pub mass: &'a [f64],
+    /// How far blocks may move \[m\].
+    pub reach: f64,
 }
 
 impl Method for Interior<'_> {
     fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
         let problem = &self.sparse.problem;
-        let start = self.start.map_or(WarmStart::None, |state| {
-            let (t, y) = problem.to_pairs(state);
-            WarmStart::Point { t, y }
-        });
         let mut settings =
-            InteriorPointSettings { tolerance: request.tolerance, start, ..Default::default() };
+            InteriorPointSettings { tolerance: request.tolerance, ..Default::default() };
         settings.max_iterations = request.max_steps.unwrap_or(settings.max_iterations);
         let may_move = !problem.frictional().is_empty();
-        let is_rigid = problem.stiffness().val().iter().all(|k| k.abs() <= 0.0);
-        let mut thorough = settings.clone();
         if may_move {
-            // Between steps only the states of the step before are tried.
-            settings.max_iterations = match self.start {
-                Some(_) => 0,
-                None => settings.max_iterations.min(auto::STEPS_BEFORE_MOTION),
-            };
+            if self.before.is_some() {
+                return self.led(None, request, observer);
+            }
+            settings.max_iterations = settings.max_iterations.min(auto::STEPS_BEFORE_MOTION);
             settings.openings.truncate(1);
             settings.continuation = false;
         }
-        // Rigid bodies have other states in every step, and where the step before moved this one will.
-        let is_hopeless = may_move && self.start.is_some() && (is_rigid || self.way == Way::Motion);
-        let path = if is_hopeless { None } else { Some(self.by_path((settings, 0), observer)?) };
-        let path = match path {
-            Some(answer) if !may_move || is_over(&answer) => return Ok(answer),
-            path => path,
-        };
-        let (moved, is_driven) = self.by_motion(path, request, observer)?;
-        if is_over(&moved) || is_driven {
-            return Ok(moved);
-        }
-        // The path that did not get far in a few steps may still get there.
-        thorough.continuation = moved.info.status != Status::NoEquilibrium;
-        let answer = self.by_path((thorough, moved.info.iterations), observer)?;
-        let says_more =
-            answer.info.status == Status::Solved || moved.info.status != Status::NoEquilibrium;
-        Ok(if says_more { after(&moved.info, answer) } else { moved })
+        let solver = InteriorPoint::new(settings);
+        let solution = solver.solve_observed(problem, &mut |at| observer(step(at, 0)))?;
+        let path = self.answer(solution);
+        let is_over =
+            matches!(path.info.status, Status::Solved | Status::Cancelled | Status::Infeasible);
+        if is_over || !may_move { Ok(path) } else { self.led(Some(path), request, observer) }
     }
 }
 
 impl Interior<'_> {
-    /// The answer of the path, after so many other steps.
-    fn by_path(
-        &self,
-        (settings, before): (InteriorPointSettings, usize),
-        observer: Observer<'_>,
-    ) -> Result<Answer, RouteError> {
-        let solver = InteriorPoint::new(settings);
-        let problem = &self.sparse.problem;
-        let solution = solver.solve_observed(problem, &mut |at| observer(step(at, before)))?;
-        Ok(self.answer(solution))
-    }
-
     fn answer(&self, solution: Solution) -> Answer {
         sparse::answer(Route::Interior, self.sparse, Found::of(self.sparse, solution), None)
     }
 
-    /// The answer that a motion leads to, or the `given` one where it says no more; and whether loads that contacts do not
-    /// carry drive blocks that flow.
-    fn by_motion(
+    /// Where the loading leads to, after a path that has no answer.
+    fn led(
         &self,
-        given: Option<Answer>,
+        path: Option<Answer>,
         request: &Request,
         observer: Observer<'_>,
-    ) -> Result<(Answer, bool), RouteError> {
-        let problem = &self.sparse.problem;
-        let rest = vec![0.0; problem.displacements()];
-        let from = self.start.map_or(&rest, |state| &state.u);
-        let mut settings = EvolutionSettings {
-            tolerance: request.tolerance,
-            at_once: self.way != Way::Motion,
-            max_iterations: request.max_steps.unwrap_or(auto::STEPS_OF_MOTION),
-            ..EvolutionSettings::default()
-        };
-        if self.start.is_none() {
-            settings.slips = auto::SLIPS_FROM_NOTHING.to_vec();
-            // Where the path creeps but has not jammed, smooth friction rests sooner.
-            let creeps = given.as_ref().is_some_and(|it| it.info.status == Status::IterationLimit);
-            settings.reductions = if creeps { Vec::new() } else { auto::REDUCTIONS.to_vec() };
+    ) -> Result<Answer, RouteError> {
+        let Self { sparse, before, mass, reach } = *self;
+        let problem = &sparse.problem;
+        let tolerance = request.tolerance;
+        let taken = path.as_ref().map_or(0, |path| path.info.iterations);
+        let slowness = request.slowness;
+        let loading = Loading { before, problem, mass, reach, slowness, tolerance };
+        let led = loading.lead(&mut |at| observer(step(at, taken)))?;
+        let mut answer = self.answer_of(led)?;
+        if let Some(path) = path {
+            let SolveInfo { iterations, factorisations, attempts, .. } = &mut answer.info;
+            *iterations += path.info.iterations;
+            *factorisations += path.info.factorisations;
+            attempts.splice(0..0, path.info.attempts);
         }
-        let before = given.as_ref().map_or(0, |given| given.info.iterations);
-        let evolved = Evolution::new(settings)
-            .advance_observed(problem, from, &mut |at| observer(step(at, before)))?;
-        let line = described(&evolved);
-        let flows = evolved.solution.status == Status::NoEquilibrium;
-        let (says_more, is_driven) =
-            (evolved.rests() || flows, flows && evolved.motions.carry_load());
-        let Info { iterations, factorisations, .. } = evolved.solution.info;
-        let answer = match given {
-            Some(mut given) if !says_more => {
-                if evolved.solution.status == Status::Cancelled {
-                    given.info.status = Status::Cancelled;
-                }
-                given.info.iterations += iterations;
-                given.info.factorisations += factorisations;
-                given.info.attempts.push(line);
-                given
-            }
-            given => {
-                let moved = evolved.from.map(|from| self.slips(from));
-                let mut answer = Answer { moved, ..self.answer(evolved.solution) };
-                (answer.info.way, answer.info.attempts) = (evolved.way, vec![line]);
-                match given {
-                    Some(given) => after(&given.info, answer),
-                    None => answer,
-                }
-            }
-        };
-        Ok((answer, is_driven))
+        Ok(answer)
     }
 
-    /// The slips of the points with friction at displacements, as the problem measures them.
-    fn slips(&self, u: Vec<f64>) -> Vec<f64> {
-        let problem = &self.sparse.problem;
-        let none = vec![0.0; problem.points()];
-        let state = problem.state(u, none.clone(), none);
-        self.sparse.rows(&state).y.split_off(self.sparse.points())
+    fn answer_of(&self, led: Led) -> Result<Answer, RouteError> {
+        let status = loading::status(led.ending);
+        let problem = self.sparse.problem.slid(&led.slips)?;
+        let residuals = problem.residuals(&led.state);
+        let line = format!(
+            "interior: loaded slowly, the blocks {}, after {} factorisations",
+            match led.ending {
+                lcp::Ending::Rests => "have come to rest".to_owned(),
+                lcp::Ending::Flows => "go on moving, and nothing resists them".to_owned(),
+                lcp::Ending::Left => "have moved beyond small displacements".to_owned(),
+                _ => format!("have come to no end: {status}"),
+            },
+            led.factorisations
+        );
+        let found = Found {
+            status,
+            state: led.state,
+            residuals,
+            iterations: led.iterations,
+            factorisations: led.factorisations,
+            springs: None,
+            proof: None,
+        };
+        let mut answer = sparse::answer(Route::Interior, self.sparse, found, None);
+        let is_one_step = led.ending == lcp::Ending::Rests && led.steps == 1;
+        answer.info.way = if is_one_step { Way::Law } else { Way::Motion };
+        answer.info.attempts = vec![line];
+        answer.account = Some(led.account);
+        answer.moved = Some(self.sparse.by_rows(&led.slips));
+        if status == Status::NoEquilibrium {
+            answer.motion = Some(super::Motion::Velocities(led.velocity));
+        }
+        Ok(answer)
     }
 }
 
 /// A step after so many others.
 fn step(at: &Iteration, before: usize) -> Step {
     Step::Iteration { number: before + at.iteration, residual: at.residual }
-}
-
-/// Whether nothing is left to try.
-fn is_over(answer: &Answer) -> bool {
-    let status = answer.info.status;
-    matches!(status, Status::Solved | Status::Cancelled | Status::Infeasible)
-}
-
-/// An answer with what was done before it.
-fn after(before: &SolveInfo, mut answer: Answer) -> Answer {
-    answer.info.iterations += before.iterations;
-    answer.info.factorisations += before.factorisations;
-    answer.info.attempts.splice(0..0, before.attempts.iter().cloned());
-    answer
-}
-
-fn described(evolved: &Evolved) -> String {
-    let Info { factorisations, .. } = evolved.solution.info;
-    let way = match (evolved.way, evolved.solution.status) {
-        (Way::Law, _) => "solved after a start with smooth friction".to_owned(),
-        (Way::ReducedFriction, _) => {
-            "at rest with coefficients of friction that are slightly smaller".to_owned()
-        }
-        (Way::SmoothFriction, _) => "at rest with friction that turns over a short slip".to_owned(),
-        (_, Status::Solved) => {
-            format!(
-                "moved against viscosity and came to rest in {} motions",
-                evolved.motions.shares.len()
-            )
-        }
-        (_, Status::NoEquilibrium) => format!(
-            "flows: {} motions, the last ones of the same length",
-            evolved.motions.shares.len()
-        ),
-        (_, status) => format!("moved against viscosity, {status}"),
-    };
-    format!("interior: {way}, after {factorisations} factorisations")
 }

@@ -128,6 +128,7 @@ impl Search<'_> {
             motion: ray.map(Motion::Rigid),
             basis,
             moved: None,
+            account: None,
         })
     }
 

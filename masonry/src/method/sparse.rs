@@ -93,6 +93,7 @@ pub(crate) fn answer(
         motion: motion.map(Motion::Displacements),
         basis: None,
         moved: None,
+        account: None,
     }
 }
 

@@ -29,6 +29,13 @@ impl Model {
     }
 }
 
+impl Model {
+    /// Whether there are several steps, and friction makes the last state depend on those before it.
+    pub(crate) fn depends_on_way(&self, scene: &Scene) -> bool {
+        scene.steps() > 1 && self.contacts.iter().any(|point| point.law.resists_sliding())
+    }
+}
+
 fn build(scene: &Scene) -> Result<Model, Fault> {
     let units = scene.units;
     let thickness = scene.thickness.unwrap_or(1.0) * units.length_to_si();
@@ -43,7 +50,7 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
     let (loads, accelerations) =
         place_loads::place(scene, &mut blocks, &found.joints, &found.contacts)?;
 
-    Ok(Model {
+    let mut model = Model {
         blocks,
         supports,
         joints: found.joints,
@@ -56,7 +63,11 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
         accelerations,
         loads,
         units,
-    })
+    };
+    if model.depends_on_way(scene) {
+        model.give_stiffness_to_dry_joints();
+    }
+    Ok(model)
 }
 
 /// All blocks, and for each the key of the scene that describes it.

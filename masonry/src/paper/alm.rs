@@ -87,6 +87,15 @@ pub enum AlmError {
         /// The displacement, from 0.
         displacement: usize,
     },
+    /// Some contact has a spring in series.
+    #[error(
+        "contact {contact} has a compliance, which penalties cannot stand for: give its spring a \
+         displacement, as Sparse::with_free_faces does"
+    )]
+    Compliance {
+        /// The contact, from 0.
+        contact: usize,
+    },
     /// A setting outside its range.
     #[error("tolerance is {tolerance}, but must be between 0 and 1")]
     Tolerance {

@@ -121,22 +121,33 @@ fn tension(model: &Model) -> Effect {
     Effect::on("tension", because, RIGHT_HAND_SIDE.to_owned())
 }
 
-/// Each point gives way across its joint and, with friction, along it. By pivots that is on the diagonal of `A`, on the
-/// sparse routes each is a displacement, unless a film has it already.
+/// Each point gives way across its joint and, with friction, along it: numbers on the diagonal of its contact rows. On the
+/// sparse routes what friction and cohesion share is a displacement.
 fn joint_stiffness(model: &Model, sizes: &Sizes, route: &FirstRoute) -> Effect {
     let name = "joint stiffness";
     let used = classes_in_use(model, |law| law.stiffness.is_some());
-    if used.is_empty() {
+    let dry = model.dry_joints();
+    if used.is_empty() && dry == 0 {
         return Effect::off(name, "no joint has a stiffness".to_owned());
     }
     let compliances = count(sizes.of_stiff_joints(), "compliance");
-    let because = format!("stiffness given for {}: {compliances}", names(used.into_iter()));
-    let effect = route.on(name, because, &sizes.without_joint_stiffness());
-    if route.pivots() {
-        let cost = format!("{compliances} on the diagonal of A");
-        return Effect { cost, ..effect };
+    let mut causes = Vec::new();
+    if !used.is_empty() {
+        causes.push(format!("stiffness given for {}", names(used.into_iter())));
     }
-    effect
+    if dry > 0 {
+        causes.push(format!("rigid blocks in a load history: {dry} joints as stiff as dry ones"));
+    }
+    let because = format!("{}: {compliances}", causes.join("; "));
+    on_the_diagonal(route.on(name, because, &sizes.without_joint_stiffness()), &compliances)
+}
+
+/// An effect that only adds numbers to the contact rows, unless it has unknowns.
+fn on_the_diagonal(effect: Effect, compliances: &str) -> Effect {
+    if effect.unknowns > 0 {
+        return effect;
+    }
+    Effect { cost: format!("{compliances} on the diagonal of the contact rows"), ..effect }
 }
 
 /// The names of the classes of the joints whose law has something.
@@ -145,9 +156,9 @@ fn classes_in_use(model: &Model, has: impl Fn(&JointLaw) -> bool) -> BTreeSet<&s
     used.filter(|class| has(&class.law)).map(|class| class.name.as_str()).collect()
 }
 
-/// Each point of a film has a compliance across and, with friction, one along the joint. By pivots they
-/// are added to the diagonal of `A` without new unknowns; on the sparse routes each is a displacement,
-/// but where the augmented Lagrangian method has whole strips.
+/// Each point of a film has a compliance across and, with friction, one along the joint: numbers on the diagonal of its
+/// contact rows. On the sparse routes what friction and cohesion share is a displacement, except where the augmented
+/// Lagrangian method has whole strips.
 fn mortar_films(scene: &Scene, model: &Model, sizes: &Sizes, route: &FirstRoute) -> Effect {
     let name = "mortar films";
     let films = model.joints.iter().filter(|joint| joint.film.is_some()).count();
@@ -170,12 +181,7 @@ fn mortar_films(scene: &Scene, model: &Model, sizes: &Sizes, route: &FirstRoute)
     let films = count(films, "film");
     let because =
         format!("thickness given for {}: {films}, {compliances}", names(filled.into_iter()));
-    let effect = route.on(name, because, &sizes.without_films());
-    if route.pivots() {
-        let cost = format!("{compliances} on the diagonal of A");
-        return Effect { cost, ..effect };
-    }
-    effect
+    on_the_diagonal(route.on(name, because, &sizes.without_films()), &compliances)
 }
 
 /// Each point of a strip at an elastic block has the stiffness of a bar along the joint, and its gap a term

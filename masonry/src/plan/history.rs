@@ -8,12 +8,12 @@ use crate::scene::Scene;
 
 /// The steps that are solved: one, unless the answer depends on the way.
 pub(super) fn steps(scene: &Scene, model: &Model) -> usize {
-    if has_friction(model) { asked(scene).max(1) } else { 1 }
+    if model.depends_on_way(scene) { scene.steps() } else { 1 }
 }
 
 /// The effects that only a load history calls for.
 pub(super) fn effects(scene: &Scene, model: &Model) -> [Effect; 3] {
-    let (stages, asked, steps) = (scene.stages.len(), asked(scene), steps(scene, model));
+    let (stages, asked, steps) = (scene.stages.len(), scene.steps(), steps(scene, model));
     let off = |name, because: &str| Effect::off(name, because.to_owned());
     let on = |name, because: String, cost: &str| Effect::on(name, because, cost.to_owned());
 
@@ -46,13 +46,4 @@ pub(super) fn effects(scene: &Scene, model: &Model) -> [Effect; 3] {
         off("dissipation", "there is no load history")
     };
     [history, movements, dissipation]
-}
-
-fn has_friction(model: &Model) -> bool {
-    model.contacts.iter().any(|point| point.law.resists_sliding())
-}
-
-/// The steps of all stages.
-fn asked(scene: &Scene) -> usize {
-    scene.stages.iter().map(|stage| stage.steps as usize).sum()
 }

@@ -40,6 +40,8 @@ struct Giving {
     points: usize,
     /// Those that resist sliding, which give way along them too.
     sheared: usize,
+    /// Those that do so by friction and by cohesion, which share what gives way along the joint.
+    shared: usize,
 }
 
 impl Giving {
@@ -47,15 +49,24 @@ impl Giving {
         points.fold(Self::default(), |it, point| Self {
             points: it.points + 1,
             sheared: it.sheared + usize::from(point.law.resists_sliding()),
+            shared: it.shared + usize::from(point.law.mu > 0.0 && point.law.base() > 0.0),
         })
     }
 
     fn and(self, other: Self) -> Self {
-        Self { points: self.points + other.points, sheared: self.sheared + other.sheared }
+        Self {
+            points: self.points + other.points,
+            sheared: self.sheared + other.sheared,
+            shared: self.shared + other.shared,
+        }
     }
 
     fn without_friction(self) -> Self {
-        Self { sheared: 0, ..self }
+        Self { sheared: 0, shared: 0, ..self }
+    }
+
+    fn without_cohesion(self) -> Self {
+        Self { shared: 0, ..self }
     }
 
     /// Rows of the system in which they give way.
@@ -100,24 +111,23 @@ impl Sizes {
 
     /// No block is elastic, and no joint gives way.
     pub(super) fn is_rigid(&self) -> bool {
-        self.rigid_blocks == self.blocks && self.compliances() == 0
+        self.rigid_blocks == self.blocks && self.giving().rows() == 0
     }
 
     pub(super) fn rigid_modes(&self) -> usize {
         3 * self.blocks
     }
 
-    /// Rows of the system in which joints or films give way: on the sparse routes, displacements.
-    fn compliances(&self) -> usize {
-        self.in_films.and(self.in_stiff_joints).and(self.in_both).rows()
+    fn giving(&self) -> Giving {
+        self.in_films.and(self.in_stiff_joints).and(self.in_both)
     }
 
-    /// Those in which films do.
+    /// Rows of the system in which films give way.
     pub(super) fn of_films(&self) -> usize {
         self.in_films.and(self.in_both).rows()
     }
 
-    /// Those in which the joints themselves do.
+    /// Rows of the system in which the joints themselves do.
     pub(super) fn of_stiff_joints(&self) -> usize {
         self.in_stiff_joints.and(self.in_both).rows()
     }
@@ -141,7 +151,14 @@ impl Sizes {
 
     /// With what gives way at points that only cohesion keeps from sliding.
     pub(super) fn without_cohesion(self) -> Self {
-        Self { frictional: self.coulomb, cohesive: 0, ..self }
+        Self {
+            frictional: self.coulomb,
+            cohesive: 0,
+            in_films: self.in_films.without_cohesion(),
+            in_stiff_joints: self.in_stiff_joints.without_cohesion(),
+            in_both: self.in_both.without_cohesion(),
+            ..self
+        }
     }
 
     pub(super) fn without_films(self) -> Self {
@@ -185,9 +202,10 @@ impl Sizes {
                 let order = self.rigid_modes() + self.points + self.coulomb + 2 * self.cohesive;
                 Choice { order, largest_order: order, ..sparse }
             }
-            // Contact forces are no unknowns of its linear systems, and neither is what strips do.
+            // Contact forces are no unknowns of its linear systems, but all that gives way is, except strips.
             Route::Alm => {
-                let order = displacements - if self.strips { self.of_films() } else { 0 };
+                let giving = if self.strips { self.in_stiff_joints } else { self.giving() };
+                let order = self.of_blocks() + giving.rows();
                 Choice { order, largest_order: order, ..sparse }
             }
             // The matrix of a program, and that of a proof, have the rows of the contacts too.
@@ -200,7 +218,11 @@ impl Sizes {
     }
 
     fn displacements(&self) -> usize {
-        self.nodal + 3 * self.rigid_blocks + self.compliances()
+        self.of_blocks() + self.giving().shared
+    }
+
+    fn of_blocks(&self) -> usize {
+        self.nodal + 3 * self.rigid_blocks
     }
 
     fn lemke(&self, form: Form) -> Choice {

@@ -30,7 +30,8 @@ pub fn mechanism(
             let (amplitudes, deformation) = rigid_part(model, system, sparse, u);
             of_amplitudes(model, system, &amplitudes, deformation)
         }
-        (Motion::Displacements(_), None) => None,
+        (Motion::Velocities(v), Some(sparse)) => flow(model, system, sparse, v),
+        (Motion::Displacements(_) | Motion::Velocities(_), None) => None,
     }
 }
 

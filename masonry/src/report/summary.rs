@@ -291,8 +291,7 @@ fn why(outcome: &Outcome) -> Option<&'static str> {
              that fit them balance the loads. The proof, a Farkas vector, was checked in the data."
         }
         lcp::Status::NoEquilibrium if outcome.judgement.evidence == Evidence::Motion => {
-            "The blocks keep moving, however small the viscosity is that slows them down. By itself this is \
-             evidence of collapse, not a proof."
+            "The blocks keep moving, and nothing stops them. By itself this is evidence of collapse, not a proof."
         }
         lcp::Status::NoEquilibrium => {
             "Springs on all blocks keep their share of the load, however soft they are. With friction \

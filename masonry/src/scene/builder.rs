@@ -10,6 +10,13 @@ use super::{
 use crate::units::Units;
 
 impl Scene {
+    /// The steps of all stages.
+    pub(crate) fn steps(&self) -> usize {
+        self.stages.iter().map(|stage| stage.steps as usize).sum()
+    }
+}
+
+impl Scene {
     /// A scene without anything in it.
     pub fn new(title: &str, units: Units) -> Self {
         Self {

@@ -20,8 +20,8 @@ pub struct Solver {
     /// Belongs to [`Route::Lemke`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_pivots: Option<u32>,
-    /// Largest number of steps of one attempt of the interior-point method, and of the motions of blocks that come to
-    /// rest or flow; 300 and 600 by default. Belongs to [`Route::Interior`].
+    /// Largest number of steps of one attempt of the interior-point method; 300 by default. Belongs to
+    /// [`Route::Interior`].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_steps: Option<u32>,
     /// Stiffness of springs on all displacements, relative to that of the blocks \[-\], which are re-centred until

@@ -2,7 +2,7 @@
 //! warnings. Nothing else in the crate decides this.
 //!
 //! * **Stands**: an equilibrium was found and verified. For rigid blocks at rest any forces within friction that
-//!   balance the loads are an equilibrium. Which of them act depends on how the load has grown.
+//!   balance the loads are an equilibrium; loading from a state without stresses has to lead to rest as well.
 //! * **Falls**: no contact forces within friction balance the loads, with a [proof](crate::method::statics::Proof)
 //!   that was checked in the geometry; or the blocks move and do not come to rest, which is evidence.
 //! * **Undecided**: all other cases. Neither a secondary ray nor springs that keep their load prove that a wall
@@ -17,7 +17,7 @@ use serde::Serialize;
 use crate::geometry;
 use crate::history::History;
 use crate::ids::BlockId;
-use crate::method::info::SolveInfo;
+use crate::method::info::{SolveInfo, Way};
 use crate::method::statics::Statics;
 use crate::model::{Body, ContactPoint, Model};
 use crate::recover;
@@ -58,7 +58,7 @@ pub enum Evidence {
     /// There are no such forces, with a checked proof.
     #[serde(rename = "no admissible forces")]
     NoAdmissibleForces,
-    /// A motion against viscosity that does not come to rest, however small the viscosity is. If forces within
+    /// A slow motion under the loads that does not come to rest. If forces within
     /// friction balance the loads, this is no proof that the wall falls under every order of loading.
     #[serde(rename = "motion")]
     Motion,
@@ -81,6 +81,15 @@ pub struct Judgement {
     pub warnings: Vec<String>,
 }
 
+/// Where loading from a state without stresses leads rigid blocks that some forces within friction would hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Led {
+    ToRest,
+    ToFall,
+    /// Neither came out.
+    Nowhere,
+}
+
 /// All that the verdict depends on.
 #[derive(Clone, Copy)]
 pub(crate) struct Known<'a> {
@@ -88,6 +97,7 @@ pub(crate) struct Known<'a> {
     pub(crate) info: &'a SolveInfo,
     pub(crate) state: Option<&'a State>,
     pub(crate) statics: Option<&'a Statics>,
+    pub(crate) led: Option<Led>,
     /// With several steps only.
     pub(crate) history: Option<&'a History>,
     /// What is unusual about the magnitudes of the scene.
@@ -104,6 +114,10 @@ impl Judgement {
         let is_solved = known.info.status == lcp::Status::Solved;
         let (verdict, evidence) = match known.statics {
             Some(Statics::Impossible(_)) => (Verdict::Falls, Evidence::NoAdmissibleForces),
+            _ if known.led == Some(Led::ToFall) => (Verdict::Falls, Evidence::Motion),
+            _ if known.led == Some(Led::Nowhere) => {
+                (Verdict::Undecided, Evidence::AdmissibleForces)
+            }
             _ if is_solved && !movement.is_some_and(|movement| is_too_far(known, movement)) => {
                 let evidence =
                     if known.at_rest { Evidence::AdmissibleForces } else { Evidence::Equilibrium };
@@ -122,61 +136,20 @@ impl Judgement {
     }
 }
 
-/// Whether the blocks move against viscosity without coming to rest.
+/// Whether the blocks move under their loads without coming to rest.
 fn flows(info: &SolveInfo) -> bool {
-    info.status == lcp::Status::NoEquilibrium && info.way == lcp::Way::Motion
+    info.status == lcp::Status::NoEquilibrium && info.way == Way::Motion
 }
 
 /// Whether displacements are too large for the state to mean anything. One that only a motion leads to may be at the end of
 /// a fall.
 fn is_too_far(known: &Known<'_>, movement: Movement) -> bool {
-    movement.is_too_large() || (known.info.way == lcp::Way::Motion && movement.is_large())
-}
-
-/// Which law of friction the state obeys, where it is not that of the problem.
-fn law(known: &Known<'_>) -> Option<String> {
-    let mut ways: Vec<lcp::Way> = known
-        .history
-        .map_or_else(Vec::new, |history| history.records.iter().map(|record| record.way).collect());
-    if known.history.is_none() && known.state.is_some() {
-        ways.push(known.info.way);
-    }
-    let how = |(way, how): (lcp::Way, &str)| {
-        let count = ways.iter().filter(|it| **it == way).count();
-        let steps = match known.history {
-            Some(_) => format!(" in {count} of {} steps", ways.len()),
-            None => String::new(),
-        };
-        (count > 0).then(|| format!("{how}{steps}"))
-    };
-    let all = [
-        (lcp::Way::ReducedFriction, "with slightly less friction than given"),
-        (lcp::Way::SmoothFriction, "with friction that grows over a short slip"),
-        (lcp::Way::Motion, "by a slow motion against viscosity"),
-    ];
-    let how: Vec<String> = all.into_iter().filter_map(how).collect();
-    if how.is_empty() {
-        return None;
-    }
-    let how = how.join(" and ");
-    let slips = if known.history.is_none() { " Slips are measured from this state." } else { "" };
-    let least = known.history.and_then(|history| {
-        let powers = history.records.iter().filter_map(|record| record.friction_power);
-        powers.reduce(f64::min)
-    });
-    let power = least.map_or_else(String::new, |least| {
-        format!(" Friction took {:.0} % of what it could in the worst step.", 100.0 * least)
-    });
-    Some(format!(
-        "The blocks came to rest {how}.{power} Forces balance the loads within friction, but there are other states of \
-         rest: cracks, thrust and displacements may differ by tens of per cent from those that this loading leads \
-         to.{slips}"
-    ))
+    movement.is_too_large() || (known.info.way == Way::Motion && movement.is_large())
 }
 
 fn warnings(known: &Known<'_>, movement: Option<Movement>) -> Vec<String> {
     let mut list = known.unusual.to_vec();
-    list.extend(law(known));
+    list.extend(known.model.of_dry_joints());
     if let Some(movement) = movement.filter(|movement| movement.is_large()) {
         list.push(format!(
             "Displacements exceed what small-displacement theory allows: {}. Contacts and lever arms of the \

@@ -1,7 +1,6 @@
 //! The limit load of Coulomb's friction along a path: the factor grows step by step, and the blocks rest or flow.
 
 mod events;
-mod springs;
 mod steps;
 
 use nalgebra::Vector2;
@@ -13,37 +12,36 @@ use steps::{End, Rest, Steps};
 use super::watch::{Bracket, Watch};
 use super::{Answer, Associative, LimitError, Structure};
 use crate::method::forms::Sparse;
+use crate::method::loading;
 use crate::model::Model;
 use crate::recover;
 use crate::state::{ContactState, Reaction};
-use crate::system::System;
+use crate::system::{System, mass};
 
 /// Steps up to the bound of associated flow. Measured on the walls of Ferris and Tin-Loi, whose published limits are met to
 /// 2e-3.
 const STEPS: f64 = 16.0;
 /// Where the factors that stand and fall differ by less than this part, the search ends.
 const NEAR: f64 = 5e-5;
+/// It ends at this part if blocks take long to fall, and so does that for events. Chosen: three digits.
+const NEAR_ENOUGH: f64 = 1e-3;
+/// Steps of the solver in a long fall. Measured on walls: a few blocks fall within 100, a hundred within some hundred.
+const LONG: usize = 200;
 /// Where they differ by less than this part, they are one number. Chosen: far below what another path may change.
 const ONE_NUMBER: f64 = 5e-3;
-/// Just above the limit blocks flow so slowly that a step may end neither at rest nor in a flow. Then it is tried with
-/// factors that are larger by these parts. Chosen.
-const ABOVE: [f64; 3] = [1e-3, 2e-3, 4e-3];
-/// How often the search goes on where blocks rest there after all. Chosen.
-const AGAIN: usize = 3;
 /// Steps of a structure that never falls; each is twice as long as the one before. Chosen.
 const DOUBLED: usize = 10;
 /// Factors below this part of the one under which what grows is as large as what stays are none. Chosen: between what the
 /// bound of associated flow leaves open, and what means something.
 const NOTHING: f64 = 1e-6;
-/// Events are located to this part of the factor that falls. Chosen: three digits.
-const LOCATED: f64 = 1e-3;
 /// Largest residual of a state at rest. Chosen: that of scenes without a tolerance.
 const TOLERANCE: f64 = 1e-10;
 
 /// The limit load of Coulomb's friction, in which joints do not open when they slide.
 ///
 /// The factor grows from zero in steps. In each the blocks come to rest, or flow; the limit is found by bisection. With
-/// friction other paths may end elsewhere. Rigid blocks have springs in their joints, which say how forces are shared.
+/// friction other paths may end elsewhere. Joints between rigid blocks have the [stiffness of dry
+/// ones](crate::model::DRY_JOINT), unless their class has another.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Path {
@@ -67,18 +65,16 @@ pub struct Path {
     pub events: Vec<Event>,
     /// The states at rest, by growing factor.
     pub curve: Vec<Stand>,
-    /// Number of joints between rigid bodies, which have springs.
-    pub springs: usize,
 }
 
 impl Path {
     /// Warnings: what limits the meaning of the answer.
     pub(super) fn warning(&self) -> String {
-        let springs = match self.springs {
-            0 => "",
-            _ => " Joints between rigid bodies have springs, which say how forces are shared.",
-        };
-        format!("With friction other paths may end at other factors.{springs}")
+        let way = "With friction other paths may end at other factors.";
+        match self.model.of_dry_joints() {
+            Some(sentence) => format!("{way} {sentence}"),
+            None => way.to_owned(),
+        }
     }
 }
 
@@ -100,30 +96,40 @@ pub(super) fn of(
     associative: &Associative,
     watch: &mut Watch<'_>,
 ) -> Result<Path, LimitError> {
-    let mut stays = structure.under(1.0, 0.0);
-    let load: f64 = stays.blocks.iter().map(|block| size(&stays, block)).sum();
-    let springs = springs::put_into(&mut stays, load);
-    let mut grown = structure.under(1.0, 1.0);
-    springs::put_into(&mut grown, load);
+    let stiff = |growth: f64| {
+        let mut model = structure.under(1.0, growth);
+        model.give_stiffness_to_dry_joints();
+        model
+    };
+    let (stays, grown) = (stiff(0.0), stiff(1.0));
     let [system, with_growth] = [&stays, &grown].map(System::without_factors);
     let (system, with_growth) = (system?, with_growth?);
     let sparse = Sparse::new(&system)?;
     let with_growth = Sparse::new(&with_growth)?;
     let loads = with_growth.problem.loads().iter().zip(sparse.problem.loads());
     let growth: Vec<f64> = loads.map(|(grown, stays)| grown - stays).collect();
-    let steps = Steps { sparse: &sparse, growth: &growth, tolerance: TOLERANCE };
+    let mass = mass::lumped(&stays, &system);
+    let steps = Steps {
+        sparse: &sparse,
+        growth: &growth,
+        mass: &mass,
+        reach: loading::reach(&stays),
+        tolerance: TOLERANCE,
+    };
     let falls = if associative.answer == Answer::Falls { Some(0.0) } else { associative.bound };
     watch.known = Bracket { stands: None, falls };
     let size = associative.size;
-    let mut climb =
-        Climb { steps, watch, size, rests: Vec::new(), end: falls, falls, motion: None };
+    let mut climb = Climb {
+        steps,
+        watch,
+        size,
+        rests: Vec::new(),
+        end: falls,
+        falls,
+        near: NEAR,
+        motion: None,
+    };
     climb.run()?;
-    for _ in 0..AGAIN {
-        if !climb.goes_on()? {
-            break;
-        }
-        climb.run()?;
-    }
     let Climb { steps, watch, rests, falls, motion, .. } = climb;
     let flows = motion.and_then(|motion| recover::flow(&stays, &system, &sparse, &motion));
     // At the bound of associated flow its motion is one that nothing stops.
@@ -131,15 +137,14 @@ pub(super) fn of(
     let proved = associative.mechanism.as_ref().filter(|_| is_bound);
     let mechanism = flows.or_else(|| proved.cloned());
     let load_factor = rests.last().map(|(factor, _)| *factor);
-    let mut model = structure.under(1.0, load_factor.unwrap_or(0.0));
-    springs::put_into(&mut model, load);
+    let model = stiff(load_factor.unwrap_or(0.0));
     let contacts = rests.last().map(|(_, rest)| {
         let rows = sparse.rows(&rest.state);
         recover::from_displacements(&model, &system, &sparse, &rows, &rest.u, TOLERANCE, false)
             .contacts
     });
     let reactions = contacts.as_ref().map_or_else(Vec::new, |it| recover::reactions(&model, it));
-    let near = LOCATED * falls.or(load_factor).unwrap_or(1.0);
+    let near = NEAR_ENOUGH * falls.or(load_factor).unwrap_or(1.0);
     let way = Way { model: &model, system: &system, steps: &steps, near };
     let (events, curve) = way.follow(rests, watch)?;
     Ok(Path {
@@ -152,7 +157,6 @@ pub(super) fn of(
         mechanism,
         events,
         curve,
-        springs,
     })
 }
 
@@ -165,11 +169,6 @@ fn is_near(falls: Option<f64>, stands: Option<f64>, size: f64) -> bool {
     }
 }
 
-fn size(model: &Model, block: &crate::model::Block) -> f64 {
-    let [x, y, _] = crate::system::resultant(model, block);
-    x.hypot(y)
-}
-
 /// The way up.
 struct Climb<'a, 'b> {
     steps: Steps<'a>,
@@ -180,6 +179,8 @@ struct Climb<'a, 'b> {
     /// The least factor at which no rest was found, and the least at which it is known that there is none.
     end: Option<f64>,
     falls: Option<f64>,
+    /// The part by which the two factors may differ.
+    near: f64,
     motion: Option<Vec<f64>>,
 }
 
@@ -197,8 +198,8 @@ impl Climb<'_, '_> {
             let at = self.rests.last().map_or(0.0, |(factor, _)| *factor);
             let next = at + step;
             let next = match self.end {
-                Some(end) if end - at <= least.max(NEAR * end) => return Ok(()),
-                Some(end) if end - next <= NEAR * end => 0.5 * (at + end),
+                Some(end) if end - at <= least.max(self.near * end) => return Ok(()),
+                Some(end) if end - next <= self.near * end => 0.5 * (at + end),
                 _ => next,
             };
             let rests = self.tried(next)?;
@@ -217,34 +218,23 @@ impl Climb<'_, '_> {
         }
     }
 
-    /// Whether blocks rest a little above where neither came out; if they do not, whether they flow is known better.
-    fn goes_on(&mut self) -> Result<bool, LimitError> {
-        let at = self.rests.last().map(|(factor, _)| *factor);
-        let (Some(at), Some(falls)) = (at, self.falls) else { return Ok(false) };
-        for part in ABOVE {
-            let factor = at + part * falls;
-            if self.watch.is_ended || is_near(self.falls, Some(at), self.size) || factor >= falls {
-                return Ok(false);
-            }
-            let rests = self.tried(factor)?;
-            if rests {
-                self.end = self.falls;
-                return Ok(true);
-            }
-        }
-        Ok(false)
-    }
-
     /// Whether the blocks rest at a factor.
     fn tried(&mut self, factor: f64) -> Result<bool, LimitError> {
         if self.watch.ask().is_break() {
             return Ok(false);
         }
         let from = self.rests.last().map(|(_, rest)| rest);
-        let end = self.steps.advance(from, factor, &mut self.watch.steps())?;
+        let mut taken = 0;
+        let end = self.steps.advance(from, factor, &mut |_| {
+            taken += 1;
+            self.watch.ask()
+        })?;
+        if taken > LONG && !matches!(end, End::Rests(_)) {
+            self.near = NEAR_ENOUGH;
+        }
         match end {
             End::Rests(rest) => {
-                self.rests.push((factor, rest));
+                self.rests.push((factor, *rest));
                 self.watch.known.stands = Some(factor);
                 return Ok(true);
             }

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use lcp::{Status, Way};
+use lcp::{Contact2d, Status};
 use nalgebra::Vector2;
 
 use super::{Clock, Event, SolveError, named};
@@ -13,6 +13,7 @@ use crate::method::forms::{Sparse, Start};
 use crate::method::info::{RouteEnd, SolveInfo};
 use crate::method::interior::Interior;
 use crate::method::lemke::Pivots;
+use crate::method::loading;
 use crate::method::newton::Newton;
 use crate::method::pgs::Sweeps;
 use crate::method::qp::Programs;
@@ -25,9 +26,9 @@ use crate::plan::Choice;
 use crate::recover;
 use crate::scene::Route;
 use crate::state::State;
-use crate::system::System;
+use crate::system::{System, mass};
 use crate::verify::checks::Checks;
-use crate::verify::verdict::Movement;
+use crate::verify::verdict::{Led, Movement};
 
 /// What a route came to.
 pub(super) struct Attempt {
@@ -38,8 +39,12 @@ pub(super) struct Attempt {
     pub(super) basis: Option<Start>,
     /// What is known of admissible forces, where it was asked.
     pub(super) statics: Option<Statics>,
+    /// Where loading leads rigid blocks at rest, if that was asked.
+    pub(super) led: Option<Led>,
     /// How far every contact point slid \[m\] before the slip of the state, if a motion led there.
     pub(super) moved: Option<Vec<f64>>,
+    /// Works and energies on the way.
+    pub(super) account: Option<lcp::Account>,
     /// The sparse problem, if a route was solved on it.
     pub(super) sparse: Option<Sparse>,
 }
@@ -50,6 +55,13 @@ impl Attempt {
     }
 }
 
+/// Where a step of a load history begins.
+pub(super) struct Before<'a> {
+    /// The loads, gaps and supports there, with slips measured from the state.
+    pub(super) problem: Contact2d,
+    pub(super) state: &'a State,
+}
+
 /// A model on its way through the routes.
 pub(super) struct Chain<'a> {
     pub(super) model: &'a Model,
@@ -58,11 +70,9 @@ pub(super) struct Chain<'a> {
     pub(super) with_stresses: bool,
     pub(super) clock: &'a mut Clock,
     pub(super) observer: &'a mut dyn FnMut(Event) -> ControlFlow<()>,
-    /// The basis of the step before, and its state.
+    /// The basis of the step before.
     start: Option<Start>,
-    before: Option<&'a State>,
-    /// How that was found.
-    way: Way,
+    before: Option<Before<'a>>,
     sparse: Option<Sparse>,
     /// Whether there are admissible forces; asked at most once.
     decision: Option<Decision>,
@@ -74,7 +84,7 @@ impl<'a> Chain<'a> {
     pub(super) fn new(
         (model, system): (&'a Model, &'a System),
         (request, with_stresses): (Request, bool),
-        (start, before, way): (Option<Start>, Option<&'a State>, Way),
+        (start, before): (Option<Start>, Option<Before<'a>>),
         clock: &'a mut Clock,
         observer: &'a mut dyn FnMut(Event) -> ControlFlow<()>,
     ) -> Self {
@@ -87,7 +97,6 @@ impl<'a> Chain<'a> {
             observer,
             start,
             before,
-            way,
             sparse: None,
             decision: None,
             may_be_cut: false,
@@ -148,6 +157,7 @@ impl<'a> Chain<'a> {
         best.info.attempts = lines;
         best.info.pivots = pivots;
         self.add_statics(&mut best);
+        self.add_loading(&mut best)?;
         best.sparse = self.sparse;
         Ok(best)
     }
@@ -166,6 +176,37 @@ impl<'a> Chain<'a> {
         if let Some(Statics::Impossible(proof)) = &best.statics {
             best.mechanism.get_or_insert_with(|| proof.rates.clone());
         }
+    }
+
+    /// Where loading from a state without stresses leads rigid blocks that have admissible forces: a prestress may hold them
+    /// that nothing brings about.
+    fn add_loading(&mut self, best: &mut Attempt) -> Result<(), SolveError> {
+        let is_solved = best.info.status == Status::Solved;
+        if !is_solved || !self.system.is_at_rest() || self.system.friction.is_empty() {
+            return Ok(());
+        }
+        let mut model = self.model.clone();
+        model.give_stiffness_to_dry_joints();
+        let system = System::without_factors(&model)?;
+        let sparse = Sparse::new(&system)?;
+        let mass = &mass::lumped(&model, &system);
+        let method =
+            Interior { sparse: &sparse, before: None, mass, reach: loading::reach(&model) };
+        self.may_be_cut = false;
+        let Answer { info, motion, .. } = self.timed(&method)?;
+        best.info.attempts.extend(info.attempts);
+        best.info.factorisations += info.factorisations;
+        best.led = Some(match info.status {
+            Status::Solved => Led::ToRest,
+            Status::NoEquilibrium => Led::ToFall,
+            _ => Led::Nowhere,
+        });
+        if best.led == Some(Led::ToFall) {
+            let motion = motion.as_ref();
+            best.mechanism = motion
+                .and_then(|motion| recover::mechanism(&model, &system, Some(&sparse), motion));
+        }
+        Ok(())
     }
 
     /// Whether there are admissible forces.
@@ -262,7 +303,9 @@ impl<'a> Chain<'a> {
 
     fn on_sparse(&mut self, route: Route) -> Result<Attempt, SolveError> {
         let Self { model, system, .. } = *self;
-        let sparse = self.sparse()?;
+        let has_compliances = route != Route::Alm;
+        let sparse =
+            if has_compliances { self.sparse()? } else { Sparse::with_free_faces(system)? };
         let answer = match route {
             Route::Newton => self.timed(&Newton { sparse: &sparse }),
             Route::Qp => self.timed(&Programs { sparse: &sparse }),
@@ -272,9 +315,16 @@ impl<'a> Chain<'a> {
             }
             Route::Alm => self.timed(&Multipliers { sparse: &sparse }),
             _ => {
-                let start = self.before.map(|state| sparse.state(model, system, state));
-                let way = self.way;
-                self.timed(&Interior { sparse: &sparse, start: start.as_ref(), way })
+                let before = self.before.take();
+                let state = before.as_ref().map(|it| sparse.state(model, system, it.state));
+                let before = before.as_ref().map(|it| &it.problem).zip(state.as_ref());
+                let mass = &mass::lumped(model, system);
+                self.timed(&Interior {
+                    sparse: &sparse,
+                    before,
+                    mass,
+                    reach: loading::reach(model),
+                })
             }
         };
         let mut answer = answer?;
@@ -288,12 +338,15 @@ impl<'a> Chain<'a> {
                 route.name()
             )];
         }
+        let account = answer.account;
         let moved = answer.moved.take().map(|moved| self.by_contact(moved));
         let after = moved.as_ref().map(|moved| model.slid(moved));
         let model = after.as_ref().unwrap_or(model);
         let state = self.recovered((model, &sparse), &answer);
-        self.sparse = Some(sparse);
-        Ok(Attempt { moved, ..self.concluded(model, answer, state) })
+        if has_compliances {
+            self.sparse = Some(sparse);
+        }
+        Ok(Attempt { moved, account, ..self.concluded(model, answer, state) })
     }
 
     /// With a slip for every contact point, zero without friction.
@@ -366,6 +419,7 @@ impl<'a> Chain<'a> {
             recover::mechanism(self.model, self.system, self.sparse.as_ref(), motion)
         });
         let basis = answer.basis;
-        Attempt { info, state, checks, mechanism, basis, statics: None, moved: None, sparse: None }
+        let (statics, led, moved, account, sparse) = (None, None, None, None, None);
+        Attempt { info, state, checks, mechanism, basis, statics, led, moved, account, sparse }
     }
 }

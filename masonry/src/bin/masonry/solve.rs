@@ -10,6 +10,7 @@ use crate::interrupt;
 use crate::out_dir::OutDir;
 use crate::page;
 use crate::progress::Progress;
+use masonry::Verdict;
 use masonry::analysis::checkpoint::{Checkpoint, CheckpointError};
 use masonry::analysis::outcome::{Frame, Outcome};
 use masonry::analysis::solve::Run;
@@ -33,6 +34,9 @@ pub(super) struct SolveArgs {
     /// Continue a load history from `checkpoint.json` in the directory of `--out`.
     #[arg(long, requires = "out")]
     resume: bool,
+    /// Leave out the second loading of a load history, which says how far its answer is unique.
+    #[arg(long)]
+    no_spread: bool,
     /// Also write the report with its pictures as one page of HTML.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -73,7 +77,7 @@ pub(super) fn run(args: &SolveArgs) -> Result<u8, Failure> {
     written?;
     page?;
     end?;
-    Ok(if outcome.solve.status == Status::Solved { SOLVED } else { NOT_SOLVED })
+    Ok(if outcome.judgement.verdict == Verdict::Stands { SOLVED } else { NOT_SOLVED })
 }
 
 /// What became of all steps.
@@ -128,6 +132,9 @@ fn run_steps(
             Ok(()) => files = vec![path.clone()],
             Err(error) => end = Err(error),
         }
+    }
+    if !args.no_spread && end.is_ok() {
+        end = run.compare(scene, &mut |event| progress.show(event)).map_err(Failure::from);
     }
     progress.clear();
     Ok(Ran { outcome: run.finish(), frames, files, end })

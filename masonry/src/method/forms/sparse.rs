@@ -14,15 +14,19 @@ use crate::system::{BodySystem, System, displaced_nodes};
 #[derive(Debug, Clone)]
 pub struct Sparse {
     /// `K u = f + C^T t` (3.2) with the contact law. The displacements are those of the nodes, block by block; for a
-    /// rigid block the amplitudes of its three motions. Then follow, row by row, the deformations of joints with a stiffness
-    /// and of films at their points: displacements of the free face relative to the block, with the stiffness `1 / c`
-    /// and loaded by the contact force only, `u = c t`. Strips of mortar couple their blocks by `L^T D L` in `K`.
-    /// Cohesion comes last, with its own points and displacements.
+    /// rigid block the amplitudes of its three motions. Joints with a stiffness and films are the compliance of their
+    /// points. Strips of mortar couple their blocks by `L^T D L` in `K`.
+    ///
+    /// Then follow the deformations of the tangential rows that friction and cohesion share, for their two points have
+    /// one: displacements of the free face relative to the block, with the stiffness `1 / c` and loaded by the contact
+    /// force only, `u = c t`. Cohesion comes last, with its own points and displacements.
     pub problem: Contact2d,
     /// The first displacement of every block, and one past the last.
     starts: Vec<usize>,
     /// Who carries the forces of the tangential rows of the system.
     carriers: Vec<Carriers>,
+    /// The rows of the system whose deformations are displacements.
+    free_faces: Vec<usize>,
 }
 
 /// The points of the problem that share a tangential force: `|t_t| <= mu t_n + C_0` is the sum of a part that friction
@@ -37,6 +41,10 @@ struct Carriers {
 }
 
 impl Carriers {
+    fn are_two(self) -> bool {
+        self.friction.is_some() && self.constant.is_some()
+    }
+
     fn points(self) -> impl Iterator<Item = usize> {
         self.friction.into_iter().chain(self.constant)
     }
@@ -53,14 +61,24 @@ impl Sparse {
     /// # Errors
     /// [`lcp::Error::NotFinite`] when the data of the scene overflow.
     pub fn new(system: &System) -> Result<Self, lcp::Error> {
+        Self::of(system, Carriers::are_two)
+    }
+
+    /// The same problem for methods without compliances of contacts: the deformations of all rows that have one are
+    /// displacements.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_free_faces(system: &System) -> Result<Self, lcp::Error> {
+        Self::of(system, |_| true)
+    }
+
+    /// With displacements for the deformations of the rows that these carriers have.
+    fn of(system: &System, is_free: impl Fn(Carriers) -> bool) -> Result<Self, lcp::Error> {
         let mut starts = vec![0];
         for body in &system.bodies {
             starts.push(starts[starts.len() - 1] + unknowns(body));
         }
-        let giving: Vec<usize> =
-            (0..system.rows.len()).filter(|row| system.rows[*row].compliance > 0.0).collect();
-        let blocks_end = starts[starts.len() - 1];
-        let giving_end = blocks_end + giving.len();
         let m = system.points();
         let mut constant = Vec::new();
         let mut carriers = Vec::with_capacity(system.friction.len());
@@ -72,11 +90,16 @@ impl Sparse {
             });
             constant.extend(has_base.then_some(friction.base));
         }
-        let (n, all_points) = (giving_end + constant.len(), m + constant.len());
         let points_of = |row: usize| match row.checked_sub(m) {
             None => Carriers { friction: Some(row), constant: None },
             Some(position) => carriers[position],
         };
+        let free_faces: Vec<usize> = (0..system.rows.len())
+            .filter(|row| system.rows[*row].compliance > 0.0 && is_free(points_of(*row)))
+            .collect();
+        let blocks_end = starts[starts.len() - 1];
+        let faces_end = blocks_end + free_faces.len();
+        let (n, all_points) = (faces_end + constant.len(), m + constant.len());
         let (mut k, mut f) = (Vec::new(), Vec::with_capacity(n));
         let (mut c_n, mut c_t) = (Vec::new(), Vec::new());
         let mut stretches = vec![Vec::new(); system.stretches.len()];
@@ -114,15 +137,23 @@ impl Sparse {
                 k.extend(entries.iter().map(|&(j, w)| Triplet::new(i, j, row.stiffness * (v * w))));
             }
         }
-        for (position, row) in giving.into_iter().enumerate() {
+        let mut compliance = vec![[0.0; 2]; all_points];
+        for (row, of) in system.rows.iter().enumerate() {
+            let at = points_of(row);
+            if !is_free(at) {
+                let direction = usize::from(row >= m);
+                at.points().for_each(|point| compliance[point][direction] = of.compliance);
+            }
+        }
+        for (position, &row) in free_faces.iter().enumerate() {
             let gives = blocks_end + position;
             k.push(Triplet::new(gives, gives, 1.0 / system.rows[row].compliance));
             f.push(0.0);
             let rows = if row < m { &mut c_n } else { &mut c_t };
             rows.extend(points_of(row).points().map(|point| Triplet::new(point, gives, 1.0)));
         }
-        k.extend(pressing(&k, &c_t, (m, giving_end)));
-        c_n.extend((0..constant.len()).map(|i| Triplet::new(m + i, giving_end + i, 1.0)));
+        k.extend(pressing(&k, &c_t, (m, faces_end)));
+        c_n.extend((0..constant.len()).map(|i| Triplet::new(m + i, faces_end + i, 1.0)));
         f.extend(constant.iter().map(|base| -base));
         let (mut s_0, mut mu) = (vec![0.0; all_points], vec![0.0; all_points]);
         for ((friction, row), carriers) in
@@ -139,31 +170,39 @@ impl Sparse {
                 let built = SparseColMat::try_new_from_triplets(rows, n, &entries);
                 built.unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}"))
             });
-        let problem = Contact2d::new(k, f, c_n, c_t, x_0, s_0, mu)?;
-        Ok(Self { problem, starts, carriers })
+        let problem = Contact2d::new(k, f, c_n, c_t, x_0, s_0, mu)?.with_compliance(compliance)?;
+        Ok(Self { problem, starts, carriers, free_faces })
     }
 
     /// Forces and relative displacements of all rows of the system; relative displacements that are rounding errors of
     /// those of the two sides are zero, as those of contacts that are closed or stick.
     pub fn rows(&self, state: &ContactState) -> RowState {
-        let cleared_by = |matrix: &SparseColMat<usize, f64>, values: &[f64]| -> Vec<f64> {
-            let mut sizes = vec![0.0_f64; values.len()];
+        let cleared_by = |matrix: &SparseColMat<usize, f64>, direction: usize, values: &[f64]| {
+            let forces = [&state.t_n, &state.t_t][direction];
+            let give = self.problem.compliance().iter().zip(forces);
+            let mut sizes: Vec<f64> =
+                give.map(|(compliance, t)| (compliance[direction] * t).abs()).collect();
             for entry in matrix.triplet_iter() {
                 let term = (entry.val * state.u[entry.col]).abs();
                 sizes[entry.row] = sizes[entry.row].max(term);
             }
-            values.iter().zip(sizes).map(|(value, size)| cleared(*value, size)).collect()
+            let values = values.iter().zip(sizes);
+            values.map(|(value, size)| cleared(*value, size)).collect::<Vec<_>>()
         };
-        let gap = cleared_by(self.problem.normal(), &state.gap);
-        let slip = cleared_by(self.problem.tangent(), &state.slip);
+        let gap = cleared_by(self.problem.normal(), 0, &state.gap);
+        let slip = cleared_by(self.problem.tangent(), 1, &state.slip);
         let points = self.points();
         let friction = self.carriers.iter();
         let tangential = friction.clone().map(|carriers| carriers.sum(&state.t_t));
         let t = state.t_n[..points].iter().copied().chain(tangential).collect();
-        // All points of a row have one slip.
-        let slips = friction.filter_map(|carriers| carriers.points().next().map(|i| slip[i]));
-        let y = gap[..points].iter().copied().chain(slips).collect();
+        let y = gap[..points].iter().copied().chain(self.by_rows(&slip)).collect();
         RowState { t, y }
+    }
+
+    /// Slips of the tangential rows of the system from those of the points of the problem: all points of a row have one.
+    pub(crate) fn by_rows(&self, slips: &[f64]) -> Vec<f64> {
+        let first = |carriers: &Carriers| carriers.points().next().map(|i| slips[i]);
+        self.carriers.iter().filter_map(first).collect()
     }
 
     /// Displacements and forces of the problem from those of the structure, the way back of
@@ -199,9 +238,9 @@ impl Sparse {
     ) -> ContactState {
         let (n, m) = (self.problem.displacements(), self.problem.points());
         if u.len() < n {
-            let forces = system.rows.iter().zip(normal.iter().chain(tangential));
-            let giving = forces.filter(|(row, _)| row.compliance > 0.0);
-            u.extend(giving.map(|(row, t)| row.compliance * t));
+            let forces = normal.iter().chain(tangential).zip(&system.rows);
+            let given: Vec<f64> = forces.map(|(t, row)| row.compliance * t).collect();
+            u.extend(self.free_faces.iter().map(|&row| given[row]));
             u.resize(n, 0.0);
         }
         let (mut t_n, mut t_t) = (normal.to_vec(), vec![0.0; m]);
@@ -215,7 +254,7 @@ impl Sparse {
                 Some(other) => (t_n[other], t_t[other]) = (friction.base, constant),
                 None => t_t[point] = *force,
             }
-            if carriers.friction.is_some() && carriers.constant.is_some() {
+            if carriers.are_two() {
                 t_t[point] = by_friction;
             }
         }

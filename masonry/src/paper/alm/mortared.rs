@@ -104,7 +104,7 @@ impl MortaredWall {
         let mut dry = model.clone();
         dry.contacts.retain(|contact| contact.film.is_none());
         let system = System::without_factors(&dry)?;
-        let sparse = Sparse::new(&system)?;
+        let sparse = Sparse::with_free_faces(&system)?;
         let films = attached(model, sparse.starts())?;
         Ok(Self { dry, system, sparse, films })
     }

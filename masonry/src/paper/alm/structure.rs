@@ -42,6 +42,10 @@ impl<'a> Structure<'a> {
         if let Some(displacement) = diagonal.iter().position(|k| *k <= 0.0) {
             return Err(AlmError::NoStiffness { displacement });
         }
+        let has_spring = |compliance: &[f64; 2]| compliance.iter().any(|it| *it > 0.0);
+        if let Some(contact) = problem.compliance().iter().position(has_spring) {
+            return Err(AlmError::Compliance { contact });
+        }
         let rows = |matrix: &SparseColMat<usize, f64>| {
             let mut rows = vec![Vec::new(); problem.points()];
             matrix.triplet_iter().for_each(|entry| rows[entry.row].push((entry.col, *entry.val)));

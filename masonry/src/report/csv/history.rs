@@ -9,13 +9,16 @@ use crate::report::format::{InUnits, shortest};
 
 /// The text of `history.csv`: one row per step that was solved.
 ///
-/// Columns carry the units of the scene in their names: `stage`, `step` (from 1 in each stage), the
-/// factor `gravity`, a factor `load NAME` for each load, `SUPPORT x_m`, `SUPPORT y_m`, `SUPPORT
-/// turn_rad` for each support, of this step `work_kJ` and `dissipation_kJ`, the `friction_power` and `energy_created_kJ`,
-/// after it `strain_energy_kJ` and `max_displacement_m`, the numbers `open`, `stick`, `slip` of contact points, `SUPPORT
-/// fx_kN`,
-/// `SUPPORT fy_kN` and `SUPPORT m_kNm` (about the origin) for each support, the `residual`, the `way` in which the step was found
-/// (`law`, `smooth-friction` or `motion`), and its `factorisations`.
+/// Columns carry the units of the scene in their names, here m and kN:
+///
+/// * `stage` and `step` (from 1 in each stage);
+/// * the factor `gravity`, and a factor `load NAME` for each load;
+/// * `SUPPORT x_m`, `SUPPORT y_m` and `SUPPORT turn_rad` for each support;
+/// * `work_kJ`, `dissipation_kJ`, `friction_power` and `energy_created_kJ` of the step;
+/// * `strain_energy_kJ` and `max_displacement_m` after it;
+/// * the numbers `open`, `stick` and `slip` of contact points;
+/// * `SUPPORT fx_kN`, `SUPPORT fy_kN` and `SUPPORT m_kNm` (about the origin) for each support;
+/// * the `residual`, the `way` in which the step was found (`law` or `motion`), and its `factorisations`.
 pub fn history(model: &Model, history: &History) -> String {
     let units = InUnits(model.units);
     let mut text = header(model, history, units);

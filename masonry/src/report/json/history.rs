@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use super::{ByName, Contacts, Force, named_force};
-use crate::history::{History, Step, StepRecord};
+use crate::history::{History, Spread, Step, StepRecord};
+use crate::method::info::Way;
 use crate::model::Support;
 use crate::report::format::InUnits;
 use crate::scene::{Movement, Route};
@@ -16,6 +17,7 @@ pub(super) struct Report<'a> {
     failed: Option<At<'a>>,
     work: f64,
     dissipation: f64,
+    spread: Option<Spread>,
     records: Vec<Record<'a>>,
 }
 
@@ -35,13 +37,14 @@ struct Record<'a> {
     loads: ByName<'a, f64>,
     moves: ByName<'a, Movement>,
     route: Route,
-    way: lcp::Way,
+    way: Way,
     factorisations: usize,
     residual: f64,
     work: f64,
     dissipation: f64,
     friction_power: Option<f64>,
     energy_created: f64,
+    dragged: f64,
     strain_energy: f64,
     /// `W - U - D` from the beginning.
     balance: f64,
@@ -64,6 +67,7 @@ impl<'a> Report<'a> {
             failed: history.failed.as_ref().map(At::of),
             work: units.energy(history.work()),
             dissipation: units.energy(history.dissipation()),
+            spread: history.spread,
             records: history.records.iter().map(record).collect(),
         }
     }
@@ -99,6 +103,7 @@ impl<'a> Record<'a> {
             dissipation: units.energy(record.dissipation),
             friction_power: record.friction_power,
             energy_created: units.energy(record.energy_created),
+            dragged: units.energy(record.dragged),
             strain_energy: units.energy(record.strain_energy),
             balance: units.energy(balance),
             max_displacement: units.length(record.largest_displacement),

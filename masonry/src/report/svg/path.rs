@@ -16,7 +16,7 @@ pub fn path(title: &str, group: &str, path: &Path) -> Option<String> {
         let points = vec![[0.0, falls], [last, falls]];
         curves.push(Curve { name: "falls".to_owned(), points });
     }
-    let what = if path.springs > 0 {
+    let what = if path.model.dry_joints() > 0 {
         "displacement of the springs in joints"
     } else {
         "largest displacement"

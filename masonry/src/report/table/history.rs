@@ -3,7 +3,7 @@
 use comfy_table::ColumnConstraint;
 
 use super::{pairs, paragraph, table};
-use crate::history::{History, Step, StepRecord};
+use crate::history::{History, Spread, Step, StepRecord};
 use crate::report::format::{InUnits, aligned};
 
 /// Of longer histories only the ends of the stages are shown.
@@ -79,11 +79,24 @@ pub(super) fn history(history: &History, units: InUnits) -> String {
          moved: the largest displacement [{length}]."
     );
     let mut text = table.trim_fmt() + "\n" + &paragraph(&meanings);
+    if let Some(spread) = &history.spread {
+        text += &paragraph(&self::spread(spread));
+    }
     if let Some(failed) = &history.failed {
         let step = format!("{} of stage \"{}\"", place(failed), failed.stage);
         text += &pairs(&[("not solved", step)]);
     }
     text
+}
+
+fn spread(spread: &Spread) -> String {
+    let Spread { steps, displacements, openings, reactions, dissipation, .. } = *spread;
+    let [displacements, openings, reactions, dissipation] =
+        [displacements, openings, reactions, dissipation].map(|it| format!("{:.1} %", 100.0 * it));
+    format!(
+        "Another loading, with {steps} steps and ten times as fast, differs at the end by {displacements} in \
+         displacements, {openings} in gaps, {reactions} in reactions (root mean squares) and {dissipation} in D."
+    )
 }
 
 fn place(step: &Step) -> String {

@@ -18,8 +18,12 @@ pub(super) fn of(
     let at = failed.map(at_step).unwrap_or_default();
     let first = match (verdict, evidence) {
         (Verdict::Stands, Evidence::AdmissibleForces) => {
-            "The wall stands: contact forces within friction balance the loads (verified)."
-                .to_owned()
+            match known.led {
+                Some(_) => "The wall stands: contact forces within friction balance the loads (verified), and loading leads \
+                     to rest.",
+                None => "The wall stands: contact forces within friction balance the loads (verified).",
+            }
+            .to_owned()
         }
         (Verdict::Stands, _) => match known.history {
             Some(history) => in_all_steps(history),
@@ -29,6 +33,10 @@ pub(super) fn of(
             "The wall falls{at}: its blocks keep moving, and friction does not stop them (evidence, not a \
              proof).{}",
             match known.statics {
+                _ if known.led.is_some() => {
+                    " Contact forces within friction that balance the loads exist, as a prestress might bring them about, \
+                     but loading from a state without stresses does not lead to them."
+                }
                 Some(Statics::Admissible(_)) => {
                     " Contact forces that balance the loads exist, but this loading does not lead to them."
                 }
@@ -55,7 +63,7 @@ pub(super) fn of(
 /// What was found in the steps of a history, and what of it was checked.
 fn in_all_steps(history: &History) -> String {
     let steps = history.steps;
-    match history.steps_against_law() {
+    let stands = match history.steps_against_law() {
         0 => format!(
             "The wall stands in all {steps} steps: equilibrium found, and Coulomb's law verified, in each."
         ),
@@ -64,6 +72,13 @@ fn in_all_steps(history: &History) -> String {
              Coulomb's law along the way only in part.",
             if count == 1 { "keeps" } else { "keep" }
         ),
+    };
+    match history.spread.filter(|spread| !spread.is_unique()) {
+        Some(spread) => format!(
+            "{stands} Cracks and thrust are not unique: two loadings differ by {:.0} %.",
+            100.0 * spread.largest()
+        ),
+        None => stands,
     }
 }
 
@@ -80,6 +95,9 @@ fn undecided(known: &Known<'_>, evidence: Evidence, movement: Option<Movement>) 
     let info = known.info;
     let tried = tried(known);
     match (info.status, evidence) {
+        (Status::Solved, _) if known.led.is_some() => {
+            "forces within friction balance the loads, but it was not found whether loading leads to them.".to_owned()
+        }
         (Status::Solved, _) => {
             let movement = movement.map(of_movement).unwrap_or_default();
             format!("an equilibrium was computed, but far beyond small displacements: {movement}.")

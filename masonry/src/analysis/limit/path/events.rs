@@ -88,7 +88,7 @@ impl Way<'_> {
                     let middle = 0.5 * (after + factor);
                     let end = self.steps.advance(Some(before), middle, &mut watch.steps())?;
                     if let End::Rests(between) = end {
-                        rests.extend([(factor, rest), (middle, between)]);
+                        rests.extend([(factor, rest), (middle, *between)]);
                         continue;
                     }
                 }

@@ -1,34 +1,27 @@
 //! One step of a load factor: the blocks rest, or flow.
 
-use faer::sparse::SparseColMat;
 use lcp::{
-    Contact2d, ContactState, Evolution, EvolutionSettings, InteriorPoint, InteriorPointSettings,
-    Observer, Solver, Status, WarmStart,
+    Contact2d, ContactState, Ending, InteriorPoint, InteriorPointSettings, Observer, Solver,
 };
 
+use crate::method::auto::STEPS_BEFORE_MOTION;
 use crate::method::forms::Sparse;
-
-/// Steps of interior points from the states of contacts before blocks move. Chosen: near a state at rest few suffice.
-const STEPS_BEFORE_MOTION: usize = 40;
-/// Steps of the motions of one step. Chosen: those of [`EvolutionSettings`].
-const STEPS_OF_MOTION: usize = 1000;
-
-/// The part of the work of the loads that nothing may have taken where blocks rest. Theory: none where they do, all where they
-/// fall freely; the middle.
-const UNTAKEN: f64 = 0.5;
+use crate::method::loading::{self, Loading};
 
 /// The blocks where they rest.
 #[derive(Debug, Clone)]
 pub(super) struct Rest {
     /// Displacements of the sparse problem.
     pub(super) u: Vec<f64>,
-    /// Forces and gaps; slips of the step.
+    /// Forces and gaps; slips of the last part of the step.
     pub(super) state: ContactState,
+    /// The loads under which they rest, with slips measured from the state.
+    under: Contact2d,
 }
 
 /// How a step ended.
 pub(super) enum End {
-    Rests(Rest),
+    Rests(Box<Rest>),
     /// With the velocities of all displacements.
     Flows(Vec<f64>),
     /// Neither came out.
@@ -40,6 +33,9 @@ pub(super) struct Steps<'a> {
     pub(super) sparse: &'a Sparse,
     /// The loads that grow, for a factor of one.
     pub(super) growth: &'a [f64],
+    /// The mass of every displacement \[kg\], and how far blocks may move \[m\].
+    pub(super) mass: &'a [f64],
+    pub(super) reach: f64,
     pub(super) tolerance: f64,
 }
 
@@ -53,57 +49,42 @@ impl Steps<'_> {
     ) -> Result<End, lcp::Error> {
         let unloaded = &self.sparse.problem;
         let loads = unloaded.loads().iter().zip(self.growth);
-        let mut problem =
-            unloaded.with_loads(loads.map(|(stays, grows)| stays + factor * grows).collect())?;
-        let mut start = WarmStart::None;
-        let mut at = vec![0.0; problem.displacements()];
+        let loads = loads.map(|(stays, grows)| stays + factor * grows).collect();
+        let mut problem = unloaded.with_loads(loads)?;
+        let before = from.map(|from| (&from.under, &from.state));
         if let Some(from) = from {
             problem = problem.after(&from.u)?;
-            let (t, y) = problem.to_pairs(&from.state);
-            start = WarmStart::Point { t, y };
-            at.clone_from(&from.u);
+        } else {
+            let settings = InteriorPointSettings {
+                tolerance: self.tolerance,
+                max_iterations: STEPS_BEFORE_MOTION,
+                continuation: false,
+                ..InteriorPointSettings::default()
+            };
+            let solution = InteriorPoint::new(settings).solve_observed(&problem, observer)?;
+            if let (true, Some(state)) = (solution.is_solved(), solution.contact) {
+                return Ok(End::Rests(rest(&problem, state)?.into()));
+            }
         }
-        let settings = InteriorPointSettings {
-            tolerance: self.tolerance,
-            max_iterations: STEPS_BEFORE_MOTION,
-            start,
-            continuation: false,
-            ..InteriorPointSettings::default()
+        let Self { mass, reach, tolerance, .. } = *self;
+        let loading = Loading {
+            before,
+            problem: &problem,
+            mass,
+            reach,
+            slowness: loading::SLOWNESS,
+            tolerance,
         };
-        let solution = InteriorPoint::new(settings).solve_observed(&problem, observer)?;
-        if solution.status == Status::Solved
-            && let Some(state) = solution.contact
-        {
-            return Ok(end(&problem, &at, state));
-        }
-        let settings = EvolutionSettings {
-            tolerance: self.tolerance,
-            max_iterations: STEPS_OF_MOTION,
-            ..EvolutionSettings::default()
-        };
-        let evolved = Evolution::new(settings).advance_observed(&problem, &at, observer)?;
-        Ok(match evolved.solution.status {
-            Status::Solved => end(&problem, &at, evolved.state().clone()),
-            Status::NoEquilibrium => End::Flows(evolved.motions.motion),
+        let led = loading.lead(&mut |at| observer(at))?;
+        Ok(match led.ending {
+            Ending::Rests => End::Rests(rest(&problem, led.state)?.into()),
+            Ending::Flows | Ending::Left => End::Flows(led.velocity),
             _ => End::Open,
         })
     }
 }
 
-/// Where blocks rest under loads; or that they flow, if nothing there balances the loads that have taken them there. Of blocks
-/// that are far away residuals tell nothing: what their stiffness makes of the rounding errors of displacements is more
-/// than all loads.
-fn end(problem: &Contact2d, from: &[f64], state: ContactState) -> End {
-    let moved: Vec<f64> = state.u.iter().zip(from).map(|(u, before)| u - before).collect();
-    let work: f64 = problem.loads().iter().zip(&moved).map(|(f, moved)| f * moved).sum();
-    let along = |forces: &[f64], rows: &SparseColMat<usize, f64>| -> f64 {
-        rows.triplet_iter().map(|entry| forces[entry.row] * entry.val * moved[entry.col]).sum()
-    };
-    let by_contacts = along(&state.t_n, problem.normal()) + along(&state.t_t, problem.tangent());
-    let unbalanced = work + by_contacts - along(&state.u, problem.stiffness());
-    if work > 0.0 && unbalanced > UNTAKEN * work {
-        End::Flows(moved)
-    } else {
-        End::Rests(Rest { u: state.u.clone(), state })
-    }
+fn rest(problem: &Contact2d, state: ContactState) -> Result<Rest, lcp::Error> {
+    let under = problem.after(&state.u)?;
+    Ok(Rest { u: state.u.clone(), state, under })
 }

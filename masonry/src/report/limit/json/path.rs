@@ -16,7 +16,7 @@ pub(super) struct Path<'a> {
     mechanism: Option<ByName<'a, Vec<[f64; 2]>>>,
     events: Vec<Event<'a>>,
     curve: Vec<State>,
-    joints_with_springs: usize,
+    dry_joints: usize,
 }
 
 #[derive(Serialize)]
@@ -89,6 +89,6 @@ pub(super) fn of(path: &limit::Path, units: InUnits) -> Path<'_> {
         mechanism: path.mechanism.as_ref().map(|rates| rates_by_name(model, rates)),
         events: path.events.iter().map(event).collect(),
         curve: path.curve.iter().map(|it| State::of(it, units)).collect(),
-        joints_with_springs: path.springs,
+        dry_joints: path.model.dry_joints(),
     }
 }

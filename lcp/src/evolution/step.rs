@@ -2,24 +2,28 @@
 
 use std::ops::ControlFlow;
 
-use super::target::{Course, Data, Taken, Target};
-use super::{Account, Dynamics, DynamicsSettings, METHOD};
+use super::motion::ROUNDING;
+use super::target::{Course, Data, Rest, Taken, Target};
+use super::{Account, Evolution, EvolutionSettings, METHOD};
 use crate::active::{Effort, Original, Search};
 use crate::interior::follow_path;
 use crate::problem::{ContactStatus, column_of};
 use crate::solve::Monitor;
 use crate::states::nearest;
+use crate::vector::max_abs;
 use crate::{Contact2d, ContactState, Error, Iteration, Solution, Status};
 
 /// Steps of the path of interior points in one try. Measured on settlements of 410 rigid bricks with a friction of one, where
 /// most tries fail: with 40 half as many tries again are made, with 60 as many, and a third of the tries fail.
 const PATH: usize = 80;
 
-impl Dynamics {
-    /// A step, by whatever solves it.
+impl Evolution {
+    /// A step, by whatever solves it. If bodies may rest, and a solution without drag is found next to its end, they go there
+    /// instead: friction is the same, with slips measured from the same place.
     pub(super) fn taken(
         &mut self,
         target: Target<'_>,
+        rest: Rest,
         course: &mut Course<'_, '_>,
     ) -> Result<Taken, Error> {
         let stepped = self.stepped(target);
@@ -37,33 +41,60 @@ impl Dynamics {
             follow_path(&stepped, tolerance, &mut search, &mut own)
         };
         let solution = self.concluded(search, status, course);
-        if !solution.is_solved() {
+        if !solution.is_solved() || solution.basis.is_none() {
             return Ok(Taken::No(limit.unwrap_or(Status::Stalled)));
         }
-        Ok(Taken::Yes(self.moved(target, &stepped, solution)))
+        let end = end_of(&stepped, solution);
+        let at_rest = Target { h: None, ..target };
+        let rests = match rest {
+            Rest::Never => false,
+            Rest::ByStates => self.rests(at_rest, &end, &Effort::QUICK, course)?,
+            Rest::ByPath => {
+                self.rests(at_rest, &end, &Effort::PATIENT, course)?
+                    || matches!(self.taken(at_rest, Rest::Never, course)?, Taken::Yes(_))
+            }
+        };
+        if rests {
+            return Ok(Taken::Rests);
+        }
+        Ok(Taken::Yes(self.moved(target, end)))
     }
 
-    /// Whether the states of the contacts, or those that they lead to, are those of bodies that rest under some data; then
-    /// they are there.
+    /// Whether the states of the contacts in the last step, or those that they lead to, are those of bodies that rest under
+    /// some data; then they are there.
     pub(super) fn holds(
         &mut self,
         at_rest: Target<'_>,
         course: &mut Course<'_, '_>,
     ) -> Result<bool, Error> {
+        let contacts = self.contacts.clone().unwrap_or_default();
+        let now = End { state: self.state.clone(), contacts };
+        self.rests(at_rest, &now, &Effort::QUICK, course)
+    }
+
+    /// The same with the states of some end.
+    fn rests(
+        &mut self,
+        at_rest: Target<'_>,
+        from: &End,
+        effort: &Effort,
+        course: &mut Course<'_, '_>,
+    ) -> Result<bool, Error> {
         let problem = self.stepped(at_rest);
-        let (search, is_found) = self.by_states(&problem, course)?;
+        let (search, is_found) = self.searched(&problem, from, effort, course)?;
         let status = if is_found { Status::Solved } else { Status::Stalled };
         let solution = self.concluded(search, status, course);
-        let rests = solution.is_solved();
+        let moved = solution.contact.as_ref().map(|it| &it.u[..]).unwrap_or_default();
+        let rests = solution.is_solved() && !self.is_beyond(moved);
         if rests {
-            self.moved(at_rest, &problem, solution);
+            self.moved(at_rest, end_of(&problem, solution));
         }
         Ok(rests)
     }
 
     /// The problem that the end of a step solves.
     fn stepped(&self, Target { problem, data, h }: Target<'_>) -> Contact2d {
-        let DynamicsSettings { drag, inertia, .. } = self.settings;
+        let EvolutionSettings { drag, inertia, .. } = self.settings;
         let (resistance, momentum) = h.map_or((0.0, 0.0), |h| {
             let momentum = if inertia { 1.0 / h } else { 0.0 };
             ((momentum + drag) / h, momentum)
@@ -83,54 +114,63 @@ impl Dynamics {
         stepped: &'a Contact2d,
         course: &mut Course<'_, '_>,
     ) -> Result<(Search<'a>, bool), Error> {
+        let contacts = self.contacts.clone().unwrap_or_default();
+        let now = End { state: self.state.clone(), contacts };
+        self.searched(stepped, &now, &Effort::QUICK, course)
+    }
+
+    /// The same from the states of some end.
+    fn searched<'a>(
+        &self,
+        problem: &'a Contact2d,
+        from: &End,
+        effort: &Effort,
+        course: &mut Course<'_, '_>,
+    ) -> Result<(Search<'a>, bool), Error> {
         let (tolerance, plan) = (self.settings.tolerance, course.plan.take());
-        let mut search = Search::planned(METHOD, stepped, tolerance, plan)?;
-        let (u, forces) = search.scaled.of_state(&self.state);
+        let mut search = Search::planned(METHOD, problem, tolerance, plan)?;
+        let (u, forces) = search.scaled.of_state(&from.state);
         search.judge(&u, &forces);
-        let contacts = match &self.contacts {
-            Some(contacts) => contacts.clone(),
-            None => nearest(&search.scaled, &u, &forces),
+        let contacts = match &from.contacts[..] {
+            [] => nearest(&search.scaled, &u, &forces),
+            contacts => contacts.to_vec(),
         };
-        let is_found = search.cross_over((&u, &forces), contacts, &Effort::QUICK);
+        let is_found = search.cross_over((&u, &forces), contacts, effort);
         Ok((search, is_found))
     }
 
     /// The end of a search, whose linear system is kept for the next one.
     fn concluded(
         &mut self,
-        search: Search<'_>,
+        mut search: Search<'_>,
         status: Status,
         course: &mut Course<'_, '_>,
     ) -> Solution {
+        search.without_rounding();
         let (solution, condensed) = search.ended(status);
         self.factorisations += condensed.factorisations;
         course.plan = Some(condensed);
         solution
     }
 
-    /// Goes to the solution of a step, and gives its account.
-    fn moved(&mut self, target: Target<'_>, stepped: &Contact2d, solution: Solution) -> Account {
+    /// Goes to the end of a step, and gives its account.
+    fn moved(&mut self, target: Target<'_>, End { state: next, contacts }: End) -> Account {
         let Target { problem, data, h } = target;
-        let next = solution.contact.unwrap_or_else(|| unreachable!("a contact problem has one"));
-        let contacts = if let Some(basis) = &solution.basis {
-            Original::contacts(stepped, basis)
-        } else {
-            let scaled = stepped.scaled();
-            let (u, forces) = scaled.of_state(&next);
-            nearest(&scaled, &u, &forces)
-        };
         let velocity: Vec<f64> = match h {
             Some(h) => next.u.iter().zip(&self.state.u).map(|(u, u_k)| (u - u_k) / h).collect(),
             None => vec![0.0; next.u.len()],
         };
-        // What is computed for a contact that sticks is an error, and no slip.
-        let slid = contacts.iter().zip(&next.slip);
-        let slid: Vec<f64> = slid
-            .map(|(contact, slip)| if *contact == ContactStatus::Stick { 0.0 } else { *slip })
-            .collect();
+        // What is computed for a contact that sticks is an error, and no slip; so is what is less than the rounding errors of
+        // displacements.
+        let least = ROUNDING * max_abs(&next.u);
+        let slid = contacts.iter().zip(&next.slip).map(|(contact, slip)| {
+            if *contact == ContactStatus::Stick || slip.abs() <= least { 0.0 } else { *slip }
+        });
+        let slid: Vec<f64> = slid.collect();
         let mut step = self.of_bodies(problem, data, &next.u, &velocity);
         step.add(&self.of_contacts(target, &next, &slid));
         self.account.add(&step);
+        self.steps += 1;
         let slips = self.slips[1].iter().zip(&slid).map(|(slip, more)| slip + more).collect();
         self.slips = [std::mem::take(&mut self.slips[1]), slips];
         (self.state, self.velocity, self.data) = (next, velocity, data.clone());
@@ -141,7 +181,7 @@ impl Dynamics {
     /// The account of a step as far as bodies and loads are concerned.
     fn of_bodies(&self, problem: &Contact2d, data: &Data, u: &[f64], velocity: &[f64]) -> Account {
         let mut step = Account::default();
-        let DynamicsSettings { drag, inertia, .. } = self.settings;
+        let EvolutionSettings { drag, inertia, .. } = self.settings;
         let (u_k, v_k) = (&self.state.u, &self.velocity);
         for j in 0..u.len() {
             let du = u[j] - u_k[j];
@@ -196,4 +236,23 @@ impl Dynamics {
         }
         step
     }
+}
+
+/// Where a step ends.
+struct End {
+    state: ContactState,
+    /// What the contacts do; empty if not known.
+    contacts: Vec<ContactStatus>,
+}
+
+fn end_of(problem: &Contact2d, solution: Solution) -> End {
+    let state = solution.contact.unwrap_or_else(|| unreachable!("a contact problem has one"));
+    let contacts = if let Some(basis) = &solution.basis {
+        Original::contacts(problem, basis)
+    } else {
+        let scaled = problem.scaled();
+        let (u, forces) = scaled.of_state(&state);
+        nearest(&scaled, &u, &forces)
+    };
+    End { state, contacts }
 }

@@ -8,7 +8,7 @@ mod target;
 
 pub use account::Account;
 pub use motion::Ending;
-pub use settings::DynamicsSettings;
+pub use settings::EvolutionSettings;
 
 use std::ops::ControlFlow;
 
@@ -18,7 +18,7 @@ use crate::problem::ContactStatus;
 use crate::solve::Monitor;
 use crate::vector::{check_length, check_vector};
 use crate::{Contact2d, ContactState, Error, Iteration, Matrix, Method, Observer, Status};
-use target::{Course, Data, Taken, Target};
+use target::{Course, Data, Rest, Taken, Target};
 
 /// Bodies with mass in contact, on their way through loads, gaps and supports that change.
 ///
@@ -30,22 +30,23 @@ use target::{Course, Data, Taken, Target};
 /// ```
 ///
 /// with the loads, gaps and supports of its end, and with Coulomb's law exactly on the increment: slips are measured from
-/// where the step before has ended. Without [`inertia`](DynamicsSettings::inertia) the terms with `M/h^2` are left out,
+/// where the step before has ended. Without [`inertia`](EvolutionSettings::inertia) the terms with `M/h^2` are left out,
 /// and bodies only feel the drag `c M v`: then a step depends on `h` by `c/h` alone.
 ///
 /// # How a step is solved
 /// 1. By the states of the contacts in the step before, if they still hold: two or three factorisations.
 /// 2. By the exact path of interior points, from a start of its own.
-/// 3. By steps of half the length, which have twice the drag and half the change of the data. Steps that are solved become
-///    longer again.
+/// 3. By steps of half the length, which have twice the drag and half the change of the data. From the second one that is
+///    solved on, steps become longer again.
 ///
 /// # Rest and flow
 /// [`settle`](Self::settle) leaves loads and gaps as they are, and doubles the steps of bodies without inertia until
 ///
 /// * bodies rest: displacements solve the problem without mass, with slips measured from the step before, and
 ///   judged like every other solution; or
-/// * bodies flow: their velocity does not change from step to step, strains nothing, and leads to no other contact, so
-///   that it goes on for ever, while the loads do work.
+/// * bodies flow: the loads do work, the velocity changes by less than a hundredth in a step of twice the length, no gap
+///   closes before bodies are out of [reach](EvolutionSettings::reach), and up to there what they strain would take less
+///   than a hundredth of the work.
 ///
 /// # Guarantee
 /// For a fixed step every solution that is called solved obeys Coulomb's law on the increment: friction takes all that it
@@ -60,7 +61,7 @@ use target::{Course, Data, Taken, Target};
 ///   (2006), [doi:10.1007/s10107-005-0590-7](https://doi.org/10.1007/s10107-005-0590-7)
 ///
 /// ```
-/// use lcp::{Contact2d, ContactPoint, Dynamics, DynamicsSettings};
+/// use lcp::{Contact2d, ContactPoint, Evolution, EvolutionSettings};
 /// // A body of weight 2 on a plane (mu = 0.5) with a spring of stiffness 4 behind it.
 /// let pushed = |push: f64| {
 ///     let mut builder = Contact2d::builder([[4.0, 0.0], [0.0, 0.0]], vec![push, -2.0]);
@@ -70,7 +71,7 @@ use target::{Course, Data, Taken, Target};
 ///     builder.build()
 /// };
 /// let mass = [[0.2, 0.0], [0.0, 0.2]];
-/// let mut body = Dynamics::new(&pushed(0.0)?, mass, DynamicsSettings::default())?;
+/// let mut body = Evolution::new(&pushed(0.0)?, mass, EvolutionSettings::default())?;
 /// body.advance(&pushed(1.4)?, 1.0)?;
 /// assert!(body.settle(&pushed(1.4)?, 1.0)?.rests());
 /// assert!((body.state().u[0] - 0.1).abs() < 1e-12);
@@ -81,8 +82,8 @@ use target::{Course, Data, Taken, Target};
 /// # Ok::<(), lcp::Error>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct Dynamics {
-    settings: DynamicsSettings,
+pub struct Evolution {
+    settings: EvolutionSettings,
     mass: SparseColMat<usize, f64>,
     /// The loads, gaps and supports under which the bodies are.
     data: Data,
@@ -94,10 +95,11 @@ pub struct Dynamics {
     /// What the contacts do, if a step has told.
     contacts: Option<Vec<ContactStatus>>,
     account: Account,
+    steps: usize,
     factorisations: usize,
 }
 
-impl Dynamics {
+impl Evolution {
     /// Bodies at rest without displacements and without contact forces, under the loads and gaps of a problem. Its `K` is the
     /// stiffness of the bodies, `mass` their mass (symmetric, positive semidefinite).
     ///
@@ -106,7 +108,7 @@ impl Dynamics {
     pub fn new(
         problem: &Contact2d,
         mass: impl Into<Matrix>,
-        settings: DynamicsSettings,
+        settings: EvolutionSettings,
     ) -> Result<Self, Error> {
         settings.validate()?;
         let (n, m) = (problem.displacements(), problem.points());
@@ -124,6 +126,7 @@ impl Dynamics {
             slips: [slips.to_vec(), slips.to_vec()],
             contacts: None,
             account: Account::default(),
+            steps: 0,
             factorisations: 0,
         })
     }
@@ -182,6 +185,11 @@ impl Dynamics {
         &self.account
     }
 
+    /// Steps since the start.
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
     /// Factorisations since the start.
     pub fn factorisations(&self) -> usize {
         self.factorisations
@@ -196,8 +204,8 @@ impl Dynamics {
         self.check(problem, h)?;
         self.observed(&mut |_| ControlFlow::Continue(()), |this, course| {
             let target = Target { problem, data: &Data::of(problem), h: Some(h) };
-            Ok(match this.taken(target, course)? {
-                Taken::Yes(_) => Status::Solved,
+            Ok(match this.taken(target, Rest::Never, course)? {
+                Taken::Yes(_) | Taken::Rests => Status::Solved,
                 Taken::No(status) => status,
             })
         })
@@ -224,7 +232,31 @@ impl Dynamics {
         observer: &mut Observer<'_>,
     ) -> Result<Ending, Error> {
         self.check(problem, duration)?;
-        self.observed(observer, |this, course| this.driven(problem, duration, course))
+        self.observed(observer, |this, course| this.driven(problem, duration, Rest::Never, course))
+    }
+
+    /// Both: bodies that do not rest under the loads, gaps and supports of `problem` are taken there evenly in a time
+    /// `duration`, and left there until they rest or flow.
+    ///
+    /// # Errors
+    /// As for [`settle`](Self::settle).
+    pub fn lead(&mut self, problem: &Contact2d, duration: f64) -> Result<Ending, Error> {
+        self.lead_observed(problem, duration, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// The same, with an observer as in [`advance_observed`](Self::advance_observed).
+    ///
+    /// # Errors
+    /// As for [`settle`](Self::settle).
+    pub fn lead_observed(
+        &mut self,
+        problem: &Contact2d,
+        duration: f64,
+        observer: &mut Observer<'_>,
+    ) -> Result<Ending, Error> {
+        self.check(problem, duration)?;
+        self.check_settles()?;
+        self.observed(observer, |this, course| this.led(problem, duration, course))
     }
 
     /// Steps under the loads and gaps of `problem` until the bodies rest or flow; the first one has the length `h`.
@@ -247,10 +279,7 @@ impl Dynamics {
         observer: &mut Observer<'_>,
     ) -> Result<Ending, Error> {
         self.check(problem, h)?;
-        if self.settings.inertia {
-            let range = "switched off where bodies are to settle: it is 1 where they have inertia";
-            return Err(Error::Setting { name: "inertia", value: 1.0, range });
-        }
+        self.check_settles()?;
         self.observed(observer, |this, course| this.settled(problem, h, course))
     }
 
@@ -263,13 +292,21 @@ impl Dynamics {
         Err(Error::Setting { name: "step", value: h, range: "above 0 and finite" })
     }
 
+    fn check_settles(&self) -> Result<(), Error> {
+        if !self.settings.inertia {
+            return Ok(());
+        }
+        let range = "switched off where bodies are to settle: it is 1 where they have inertia";
+        Err(Error::Setting { name: "inertia", value: 1.0, range })
+    }
+
     /// Runs steps with the limits of the settings.
     fn observed<T>(
         &mut self,
         observer: &mut Observer<'_>,
         run: impl FnOnce(&mut Self, &mut Course<'_, '_>) -> Result<T, Error>,
     ) -> Result<T, Error> {
-        let DynamicsSettings { max_iterations, time_limit, .. } = self.settings;
+        let EvolutionSettings { max_iterations, time_limit, .. } = self.settings;
         let mut forward = |at: &Iteration| observer(at);
         let mut monitor = Monitor::new(max_iterations, time_limit, &mut forward);
         run(self, &mut Course { plan: None, monitor: &mut monitor })

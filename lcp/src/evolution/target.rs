@@ -47,10 +47,22 @@ pub(super) struct Target<'a> {
     pub(super) h: Option<f64>,
 }
 
+/// How a solution without drag is looked for at the end of a step.
+#[derive(Clone, Copy)]
+pub(super) enum Rest {
+    Never,
+    /// By the states of the contacts there.
+    ByStates,
+    /// By these with more patience, and by the path of interior points.
+    ByPath,
+}
+
 /// Whether a step was taken.
 pub(super) enum Taken {
     /// With its own account.
     Yes(Account),
+    /// And the bodies rest at its end.
+    Rests,
     /// Why not: [`Status::Stalled`] where a shorter one may be, or a limit.
     No(Status),
 }

@@ -5,9 +5,9 @@ use std::time::Duration;
 use crate::Error;
 use crate::settings::check_tolerance;
 
-/// Settings of [`Dynamics`](crate::Dynamics).
+/// Settings of [`Evolution`](crate::Evolution).
 #[derive(Debug, Clone, PartialEq)]
-pub struct DynamicsSettings {
+pub struct EvolutionSettings {
     /// Largest residual, dimensionless, of every step and of the state at rest. In `(0, 1)`.
     pub tolerance: f64,
     /// The drag `c` [1/time]: a body of the mass `M` with the velocity `v` feels the force `-c M v`. At least zero, and
@@ -15,9 +15,8 @@ pub struct DynamicsSettings {
     pub drag: f64,
     /// Whether bodies have inertia. Without it they come to rest as soon as nothing moves them any more.
     pub inertia: bool,
-    /// The largest displacement, from where [`advance`](crate::Dynamics::advance) and
-    /// [`settle`](crate::Dynamics::settle) begin, up to which the problem means anything: beyond it they end with
-    /// [`Ending::Left`](crate::Ending::Left).
+    /// The largest displacement up to which the problem means anything: beyond it [`advance`](crate::Evolution::advance)
+    /// and [`settle`](crate::Evolution::settle) end with [`Ending::Left`](crate::Ending::Left), and no state there is rest.
     pub reach: f64,
     /// Factorisations of one call.
     pub max_iterations: usize,
@@ -25,7 +24,7 @@ pub struct DynamicsSettings {
     pub time_limit: Option<Duration>,
 }
 
-impl Default for DynamicsSettings {
+impl Default for EvolutionSettings {
     fn default() -> Self {
         Self {
             tolerance: 1e-10,
@@ -38,7 +37,7 @@ impl Default for DynamicsSettings {
     }
 }
 
-impl DynamicsSettings {
+impl EvolutionSettings {
     /// Checks the settings.
     ///
     /// # Errors

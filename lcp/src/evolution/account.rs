@@ -1,6 +1,6 @@
 //! Works and energies of the steps.
 
-/// Works and energies of a [`Dynamics`](crate::Dynamics), summed over its steps.
+/// Works and energies of a [`Evolution`](crate::Evolution), summed over its steps.
 ///
 /// For every step the difference of both sides is rounding:
 ///

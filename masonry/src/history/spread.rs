@@ -1,0 +1,78 @@
+//! How far the answers of two loadings differ, of which neither is more right than the other.
+
+use serde::Serialize;
+
+use crate::model::Model;
+use crate::state::State;
+
+/// How much two loadings have to differ for an answer to be called not unique. Chosen: engineers compare widths of cracks to
+/// a few per cent.
+const UNIQUE: f64 = 0.05;
+
+/// The differences between the state after a load history and that after another loading, relative to the first: root mean
+/// squares over all nodes, contacts and supports \[-\].
+///
+/// The other loading has half as many steps in every stage, or two of a stage of one, and is ten times as fast. With friction
+/// there may be several answers, and these differences say how far they are apart.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Spread {
+    /// Steps of the other loading.
+    pub steps: usize,
+    /// Of the displacements of all nodes.
+    pub displacements: f64,
+    /// Of the gaps of all contact points: the widths of cracks.
+    pub openings: f64,
+    /// Of the reactions.
+    pub reactions: f64,
+    /// Of the energy that friction has taken.
+    pub dissipation: f64,
+}
+
+/// The state after a history, as far as it is compared.
+pub(crate) struct Reached<'a> {
+    pub(crate) model: &'a Model,
+    pub(crate) state: &'a State,
+    pub(crate) dissipation: f64,
+}
+
+impl Spread {
+    /// Of two states of one structure.
+    pub(crate) fn of(one: &Reached<'_>, other: &Reached<'_>, steps: usize) -> Self {
+        let displacements = |it: &Reached<'_>| -> Vec<f64> {
+            it.state.displacements.iter().flatten().flat_map(|u| [u.x, u.y]).collect()
+        };
+        let openings = |it: &Reached<'_>| -> Vec<f64> {
+            it.state.contacts.iter().map(|contact| contact.y_n).collect()
+        };
+        let reactions = |it: &Reached<'_>| -> Vec<f64> {
+            let all = crate::recover::reactions(it.model, &it.state.contacts);
+            all.iter().flat_map(|reaction| [reaction.fx, reaction.fy]).collect()
+        };
+        Self {
+            steps,
+            displacements: difference(&displacements(one), &displacements(other)),
+            openings: difference(&openings(one), &openings(other)),
+            reactions: difference(&reactions(one), &reactions(other)),
+            dissipation: difference(&[one.dissipation], &[other.dissipation]),
+        }
+    }
+
+    /// The largest difference of what can be seen or measured: displacements, cracks and reactions.
+    pub fn largest(&self) -> f64 {
+        self.displacements.max(self.openings).max(self.reactions)
+    }
+
+    /// Whether the answer is one, but for a few per cent.
+    pub fn is_unique(&self) -> bool {
+        self.largest() <= UNIQUE
+    }
+}
+
+/// The root of the squares of all differences, relative to that of the numbers.
+fn difference(one: &[f64], other: &[f64]) -> f64 {
+    let squares = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>();
+    let size = squares(&mut one.iter().copied());
+    let apart = squares(&mut one.iter().zip(other).map(|(a, b)| a - b));
+    if size > 0.0 { (apart / size).sqrt() } else { 0.0 }
+}

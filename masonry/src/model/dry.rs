@@ -1,0 +1,52 @@
+//! The stiffness of dry joints between rigid blocks, which alone would not say how forces are shared.
+
+use super::{Body, ContactPoint, Model};
+
+/// Stiffness of dry joints across and along them \[Pa/m\]. Block models of dry stone use 1e9 to 1e10 Pa/m across and about a
+/// half along; see the review of J. V. Lemos, Discrete element modeling of masonry structures, International Journal of
+/// Architectural Heritage 1 (2007), [doi:10.1080/15583050601176868](https://doi.org/10.1080/15583050601176868).
+pub const DRY_JOINT: [f64; 2] = [2e9, 1e9];
+
+impl Model {
+    /// Gives joints between rigid blocks and supports, if nothing in them gives way, the stiffness [`DRY_JOINT`].
+    pub(crate) fn give_stiffness_to_dry_joints(&mut self) {
+        let hard: Vec<bool> = self.contacts.iter().map(|point| self.is_hard(point)).collect();
+        for (point, _) in self.contacts.iter_mut().zip(hard).filter(|(_, is_hard)| *is_hard) {
+            point.compliance = DRY_JOINT.map(|k| 1.0 / (k * point.weight));
+        }
+    }
+
+    /// Joints that have the stiffness of dry ones although their class has none.
+    pub fn dry_joints(&self) -> usize {
+        let has_default = |point: &&ContactPoint| {
+            let class = &self.joint_classes[self.joints[point.joint.index()].class];
+            class.law.stiffness.is_none() && point.compliance[0] > 0.0
+        };
+        let mut joints: Vec<_> = self.contacts.iter().filter(has_default).collect();
+        joints.dedup_by_key(|point| point.joint);
+        joints.len()
+    }
+
+    /// What a reader has to know of these joints.
+    pub(crate) fn of_dry_joints(&self) -> Option<String> {
+        let [across, along] = DRY_JOINT;
+        (self.dry_joints() > 0).then(|| {
+            format!(
+                "Joints between rigid blocks have the stiffness of dry ones, {across:.0e} Pa/m across and {along:.0e} Pa/m \
+                 along: cracks and thrust depend on it. Give `stiffness` to their class if it is known."
+            )
+        })
+    }
+
+    /// Whether neither the joint nor what is on its sides gives way.
+    fn is_hard(&self, point: &ContactPoint) -> bool {
+        let joint = &self.joints[point.joint.index()];
+        let is_rigid = |body: Body| match body {
+            Body::Block(id) => self.blocks[id.index()].elasticity.is_none(),
+            Body::Support(_) => true,
+        };
+        point.gives().iter().all(|c| *c <= 0.0)
+            && is_rigid(Body::Block(joint.b))
+            && is_rigid(joint.a)
+    }
+}
