@@ -45,7 +45,7 @@ fn sweeps(tolerance: f64) -> ProjectedGaussSeidel {
 }
 
 fn lemke(tolerance: f64) -> Lemke {
-    Lemke::new(LemkeSettings { tolerance, max_attempts: 2, ..Default::default() })
+    Lemke::new(LemkeSettings { tolerance, max_attempts: Some(2), ..Default::default() })
 }
 
 fn newton(tolerance: f64) -> SemismoothNewton {

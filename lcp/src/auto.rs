@@ -10,7 +10,6 @@ pub(crate) mod memory;
 mod method;
 mod mixed;
 mod settings;
-mod smoothed;
 mod standard;
 
 pub use settings::AutoSettings;
@@ -18,8 +17,6 @@ pub use settings::AutoSettings;
 #[cfg(feature = "cli")]
 pub(crate) use enumerated::Enumeration;
 use method::Planned;
-#[cfg(feature = "cli")]
-pub(crate) use smoothed::Smoothing;
 
 use crate::{Error, Method, Observer, Solution, Solver};
 
@@ -62,9 +59,9 @@ pub struct Choice {
 /// variables and skew between them; † where the diagonal is positive; ‡ without free variables; § sparse, or dense
 /// up to order 200.
 ///
-/// Problems of up to 12 pairs, not counting free variables, are always decided: after Lemke's method all choices of
-/// sides are enumerated by branching, with a solution or a proof for each. All larger ones except
-/// [`Contact2d`](crate::Contact2d) end with Newton's method on smoothed equations, from several starts.
+/// Problems of up to 100 pairs have enumeration as well: branching over the sides of pairs, with a solution or a proof for
+/// each choice. It follows Lemke's method if there are at most 18 pairs, not counting free variables, and decides all of
+/// these; else it comes last, and its work is limited to less than a minute.
 ///
 /// # Independent parts
 /// Rows and variables that no entry connects are independent problems. Each has its own chain, so a body that touches

@@ -34,6 +34,7 @@ pub use crate::pivoting::{
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+pub(crate) use constants::KINDS;
 use search::Search;
 
 use crate::solve::deadline_of;

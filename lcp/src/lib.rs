@@ -154,7 +154,6 @@ mod random;
 pub mod refine;
 mod scaling;
 mod settings;
-mod smoothing;
 mod solution;
 mod solve;
 mod sparse;

@@ -37,14 +37,11 @@ pub enum Method {
     /// The last resort of [`Auto`](crate::Auto) for small problems: all choices of sides, with proofs.
     #[cfg_attr(feature = "serde", serde(rename = "enumeration"))]
     Enumeration,
-    /// The last resort of [`Auto`](crate::Auto) for larger ones: Newton's method on smoothed equations.
-    #[cfg_attr(feature = "serde", serde(rename = "smoothing"))]
-    Smoothing,
 }
 
 impl Method {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 7] = [
         Self::Auto,
         Self::Lemke,
         Self::Newton,
@@ -52,7 +49,6 @@ impl Method {
         Self::QuadraticProgram,
         Self::GaussSeidel,
         Self::Enumeration,
-        Self::Smoothing,
     ];
 
     /// The short name.
@@ -65,7 +61,6 @@ impl Method {
             Self::QuadraticProgram => "qp",
             Self::GaussSeidel => "pgs",
             Self::Enumeration => "enumeration",
-            Self::Smoothing => "smoothing",
         }
     }
 
@@ -79,7 +74,6 @@ impl Method {
             Self::QuadraticProgram => "quadratic programming",
             Self::GaussSeidel => "projected Gauss-Seidel",
             Self::Enumeration => "enumeration",
-            Self::Smoothing => "the smoothed continuation",
         }
     }
 }

@@ -59,9 +59,10 @@ pub struct LemkeSettings {
     pub max_pivots: Option<usize>,
     /// Wall-clock time of all attempts together, checked before every pivot; `None` is no limit.
     pub time_limit: Option<Duration>,
-    /// Attempts, each with another covering vector, start basis or perturbation, before a ray is
-    /// reported. At least 1.
-    pub max_attempts: usize,
+    /// Attempts, each with another covering vector, start basis or perturbation, before a ray is reported. At least 1;
+    /// `None` is as many as some seconds allow, at least twelve, and no more than
+    /// there are complementary bases.
+    pub max_attempts: Option<usize>,
     /// Covering vector of the first attempt.
     pub covering: Covering,
     /// Start of the first attempt.
@@ -84,7 +85,7 @@ impl Default for LemkeSettings {
             tolerance: 1e-10,
             max_pivots: None,
             time_limit: None,
-            max_attempts: 12,
+            max_attempts: None,
             covering: Covering::Ones,
             start: WarmStart::None,
             refactor_interval: None,
@@ -100,6 +101,18 @@ pub(crate) fn check_tolerance(tolerance: f64) -> Result<(), Error> {
         return Ok(());
     }
     Err(Error::Setting { name: "tolerance", value: tolerance, range: "between 0 and 1" })
+}
+
+/// Checks the number of attempts of Lemke's method.
+pub(crate) fn check_attempts(max_attempts: Option<usize>) -> Result<(), Error> {
+    check_count("max_attempts", max_attempts)
+}
+
+fn check_count(name: &'static str, count: Option<usize>) -> Result<(), Error> {
+    if count == Some(0) {
+        return Err(Error::Setting { name, value: 0.0, range: "at least 1" });
+    }
+    Ok(())
 }
 
 impl WarmStart {
@@ -126,13 +139,8 @@ impl LemkeSettings {
     /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
     pub fn validate(&self, n: usize) -> Result<(), Error> {
         check_tolerance(self.tolerance)?;
-        let counts = [
-            ("max_attempts", Some(self.max_attempts)),
-            ("refactor_interval", self.refactor_interval),
-        ];
-        if let Some((name, _)) = counts.into_iter().find(|(_, count)| *count == Some(0)) {
-            return Err(Error::Setting { name, value: 0.0, range: "at least 1" });
-        }
+        check_attempts(self.max_attempts)?;
+        check_count("refactor_interval", self.refactor_interval)?;
         self.start.validate(n)?;
         if let Covering::Given(d) = &self.covering {
             check_length("covering", d.len(), n)?;

@@ -20,7 +20,6 @@ const INTERIOR: Method = Method::Interior;
 const PROGRAM: Method = Method::QuadraticProgram;
 const SWEEPS: Method = Method::GaussSeidel;
 const CHOICES: Method = Method::Enumeration;
-const SMOOTHED: Method = Method::Smoothing;
 
 fn auto() -> Auto {
     Auto::default()

@@ -14,7 +14,7 @@ use proptest::prelude::*;
 
 /// The promises are for the first path: no second attempt is needed.
 fn first_attempt(problem: &HorizontalLcp) -> Solution {
-    let once = LemkeSettings { max_attempts: 1, ..LemkeSettings::default() };
+    let once = LemkeSettings { max_attempts: Some(1), ..LemkeSettings::default() };
     Lemke::new(once).solve(problem).unwrap()
 }
 

@@ -38,7 +38,7 @@ impl Case {
 
     /// Solves at the first attempt and compares, to 1e-9 of the largest entry on each side.
     fn check(&self) {
-        let once = LemkeSettings { max_attempts: 1, ..LemkeSettings::default() };
+        let once = LemkeSettings { max_attempts: Some(1), ..LemkeSettings::default() };
         let solution = self.solve(once);
         assert_eq!(solution.status, Status::Solved);
         self.compare(&solution.t, &solution.y);

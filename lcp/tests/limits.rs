@@ -26,7 +26,7 @@ fn the_limit_on_pivots_is_exact() {
     for allowed in [0, 1, needed / 2, needed - 1] {
         let settings = LemkeSettings {
             max_pivots: Some(allowed),
-            max_attempts: 1,
+            max_attempts: Some(1),
             ..LemkeSettings::default()
         };
         let solution = with(settings, &problem);
@@ -67,7 +67,7 @@ fn an_observer_stops_at_any_pivot() {
 #[test]
 fn an_observer_stops_a_proof() {
     let problem: HorizontalLcp = families::infeasible_semidefinite(12, 1).problem.into();
-    let settings = LemkeSettings { max_attempts: 1, ..LemkeSettings::default() };
+    let settings = LemkeSettings { max_attempts: Some(1), ..LemkeSettings::default() };
     let mut calls = 0;
     let mut on_path = 0;
     let solution = Lemke::new(settings.clone())

@@ -161,7 +161,6 @@ fn names_are_short_and_read_well_in_messages() {
         (Method::QuadraticProgram, "qp", "quadratic programming"),
         (Method::GaussSeidel, "pgs", "projected Gauss-Seidel"),
         (Method::Enumeration, "enumeration", "enumeration"),
-        (Method::Smoothing, "smoothing", "the smoothed continuation"),
     ];
     for (method, short, full) in expected {
         assert_eq!((method.to_string().as_str(), short.parse()), (short, Ok(method)));

@@ -20,7 +20,7 @@ fn sparse(m: &Mat<f64>) -> Sparse {
 }
 
 fn first_attempt() -> Lemke {
-    Lemke::new(LemkeSettings { max_attempts: 1, ..LemkeSettings::default() })
+    Lemke::new(LemkeSettings { max_attempts: Some(1), ..LemkeSettings::default() })
 }
 
 /// The problem with both kinds of matrices.

@@ -11,7 +11,7 @@ use lcp::{
 type Sparse = SparseColMat<usize, f64>;
 
 fn first_attempt() -> Lemke {
-    Lemke::new(LemkeSettings { max_attempts: 1, ..LemkeSettings::default() })
+    Lemke::new(LemkeSettings { max_attempts: Some(1), ..LemkeSettings::default() })
 }
 
 fn close(a: &[f64], b: &[f64]) -> bool {

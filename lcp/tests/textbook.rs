@@ -15,7 +15,7 @@ fn lcp(m: Mat<f64>, q: &[f64]) -> HorizontalLcp {
 }
 
 fn once() -> Lemke {
-    Lemke::new(LemkeSettings { max_attempts: 1, ..LemkeSettings::default() })
+    Lemke::new(LemkeSettings { max_attempts: Some(1), ..LemkeSettings::default() })
 }
 
 fn assert_close(found: &[f64], expected: &[f64]) {
@@ -78,7 +78,7 @@ fn the_ray_is_a_direction_of_the_augmented_problem() {
     let m = mat![[-1.0, 0.5], [0.0, 1.0]];
     let problem = lcp(m, &[-1.0, -1.0]);
     let covering = Covering::Given(vec![1.0, 3.0]);
-    let settings = LemkeSettings { max_attempts: 1, covering, ..LemkeSettings::default() };
+    let settings = LemkeSettings { max_attempts: Some(1), covering, ..LemkeSettings::default() };
     let ray = Lemke::new(settings).solve(&problem).unwrap().ray().unwrap().clone();
     assert_eq!(ray.covering, [1.0, 3.0]);
     for i in 0..2 {
@@ -125,7 +125,7 @@ fn exponential_families_take_their_pivots_or_stop_at_the_limit() {
         let ones = LemkeSettings {
             start: WarmStart::Basis(Basis::all(Side::Y, n)),
             covering: Covering::Given(vec![1.0; n]),
-            max_attempts: 1,
+            max_attempts: Some(1),
             ..LemkeSettings::default()
         };
         let limited = LemkeSettings { max_pivots: Some(3), ..ones.clone() };
@@ -205,7 +205,7 @@ fn small_values_of_ill_conditioned_problems_are_kept() {
     let problem =
         lcp(mat![[1.0, 1.0], [1.0, 1.0 + 1e-9]], &[-1.0 - 2e-6, -1.0 - 2e-6 * (1.0 + 1e-9)]);
     let start = WarmStart::Basis(Basis::all(Side::T, 2));
-    let settings = LemkeSettings { start, max_attempts: 1, ..LemkeSettings::default() };
+    let settings = LemkeSettings { start, max_attempts: Some(1), ..LemkeSettings::default() };
     let solution = Lemke::new(settings).solve(&problem).unwrap();
     assert_eq!(solution.status, Status::Solved);
     assert!(solution.residuals.worst() <= 1e-14, "{:?}", solution.residuals);

@@ -95,7 +95,7 @@ fn contact_problems_have_displacements_and_forces() {
 #[test]
 fn attempts_and_covering_vectors_reach_the_pivots() {
     let folder = Folder::new("attempts");
-    // Every covering vector ends on a ray from all y; no solution.
+    // Every covering vector ends on a ray from all y.
     let file = folder.file("problem.txt", "2  0 1  1 0  -1 -1");
     let run = Run::of(&["solve", &file, "--json", "--attempts", "1", "--covering", "random:7"]);
     assert_eq!(run.json()["solver"], "lemke");
@@ -110,6 +110,9 @@ fn attempts_and_covering_vectors_reach_the_pivots() {
         assert_eq!((run.code, run.out.as_str()), (2, ""), "{option} {value}");
         assert!(run.err.contains(words), "{}", run.err);
     }
+    // The chain goes on where attempts end.
+    let run = Run::of(&["solve", &file, "--json", "--attempts", "1"]);
+    assert_eq!((run.code, &run.json()["solver"]), (0, &"enumeration".into()), "{}", run.out);
     let run = Run::of(&["solve", &file, "--attempts", "2", "--solver", "pgs"]);
     assert!(run.code == 2 && run.err.contains("--attempts is about the pivots"), "{}", run.err);
 }

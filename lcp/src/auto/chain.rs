@@ -3,8 +3,9 @@
 use std::time::{Duration, Instant};
 
 use super::AutoSettings;
-use super::constants::NEAR;
+use super::constants::{FEW_PAIRS, NEAR};
 use super::method::{Effort, Planned, attempt, chain_of};
+use crate::lemke;
 use crate::{Certificate, Error, Method, Observer, Route, RouteEnd, Solution, Status, WarmStart};
 
 /// How much an answer says; what comes first says more.
@@ -30,6 +31,9 @@ pub(super) fn run<P: Planned>(
     let mut routes = Vec::new();
     let mut best: Option<Solution> = None;
     let mut cut = None;
+    // All choices of few pairs cost less than many attempts.
+    let few = (problem.pairs() <= FEW_PAIRS).then_some(lemke::KINDS);
+    let max_attempts = settings.max_attempts.or(few);
     for step in chain_of(problem) {
         let time_limit = settings.time_limit.map(|limit| limit.saturating_sub(began.elapsed()));
         if best.is_some() && time_limit == Some(Duration::ZERO) {
@@ -42,7 +46,7 @@ pub(super) fn run<P: Planned>(
         }
         let near = best.as_ref().and_then(|best| near_point(best, settings.tolerance));
         let start = near.as_ref().unwrap_or(&settings.start);
-        let effort = Effort { tolerance: settings.tolerance, time_limit, start };
+        let effort = Effort { tolerance: settings.tolerance, time_limit, max_attempts, start };
         let route_began = Instant::now();
         let (end, solution) = match attempt(problem, step.method, &effort, observer) {
             Ok(solution) => {

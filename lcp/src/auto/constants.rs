@@ -16,16 +16,14 @@ pub(super) const TRIAL: usize = 100;
 /// A point with larger residuals is no better start than the one that was given. Chosen.
 pub(super) const NEAR: f64 = 1e-4;
 
-/// Pairs, apart from free variables, of which all choices are gone through. Chosen.
-pub(super) const MOST_PAIRS: usize = 12;
-/// Variables at most, free ones included. Chosen.
-pub(super) const MOST_VARIABLES: usize = 4 * MOST_PAIRS;
-/// Nodes of the tree. Theory: all that there can be.
-pub(super) const NODES: usize = 1 << (MOST_PAIRS + 1);
-/// Starts of the smoothed continuation. Chosen.
-pub(super) const STARTS: u64 = 6;
-/// Its steps from each. Chosen.
-pub(super) const STEPS: usize = 300;
+/// Pairs, apart from free variables, whose tree of choices comes right behind pivots. Measured on random problems: the tree
+/// takes 0.02 s on average at 18, and 0.3 s at most.
+pub(super) const FEW_PAIRS: usize = 18;
+/// Pairs at most, free variables included, whose tree is gone through. Measured: a node of 100 takes 10 ms.
+pub(super) const MOST_PAIRS: usize = 100;
+/// Nodes of the tree times the cube of the order, which is the work of a node. Measured: 5 s at 30
+/// pairs, 20 s at 60.
+pub(super) const WORK: usize = 500_000_000;
 /// More independent parts than these are small, and all of them together are one problem that is solved in the time of
 /// some small ones: they are taken one by one only where that fails. Chosen.
 pub(super) const MANY_PARTS: usize = 256;

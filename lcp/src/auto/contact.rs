@@ -89,11 +89,6 @@ impl Planned for Contact2d {
         }
     }
 
-    /// The interior-point method is the better continuation of this form.
-    fn has_smoothing(&self) -> bool {
-        false
-    }
-
     fn is_worth_a_proof(&self, method: Method) -> bool {
         let is_cheap = !matches!(method, Method::Lemke | Method::GaussSeidel);
         self.points() <= FEW_POINTS || is_cheap

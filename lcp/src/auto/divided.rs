@@ -106,9 +106,9 @@ impl<P: Planned> Divided<'_, P> {
         for part in parts {
             let left = self.settings.time_limit;
             let settings = AutoSettings {
-                tolerance: self.settings.tolerance,
                 time_limit: left.map(|limit| limit.saturating_sub(self.began.elapsed())),
                 start: part.start(&self.settings.start),
+                ..self.settings.clone()
             };
             let answer = chain::run(&part.problem, &settings, observer)?;
             let is_last = match answer.status {

@@ -2,17 +2,16 @@
 
 use std::time::Duration;
 
-use super::constants::{MOST_PAIRS, MOST_VARIABLES, NODES};
+use super::constants::{FEW_PAIRS, MOST_PAIRS, WORK};
 use crate::enumerate::{Enumerated, Limits, enumerate};
 use crate::lower::{General, judged_point};
 use crate::solve::{Monitor, is_over};
 use crate::{Certificate, Error, HorizontalLcp, Method, Observer, Solution, Solver, Status};
 
-/// Whether a problem is small enough.
-pub(super) fn is_small(general: &HorizontalLcp) -> bool {
+/// Whether a problem has so few pairs that all choices take no time.
+pub(super) fn has_few_pairs(general: &HorizontalLcp) -> bool {
     let n = general.order();
-    n <= MOST_VARIABLES
-        && (0..n).filter(|&pair| general.opposite(pair).is_none()).count() <= MOST_PAIRS
+    (0..n).filter(|&pair| general.opposite(pair).is_none()).count() <= FEW_PAIRS
 }
 
 /// All choices of sides, with proofs.
@@ -29,7 +28,8 @@ impl<P: General> Solver<P> for Enumeration {
 
     fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         let general = problem.general();
-        if !is_small(&general) {
+        let n = general.order();
+        if n > MOST_PAIRS {
             return Err(Error::NotTreated {
                 method: Method::Enumeration,
                 reason: format!("it has more than {MOST_PAIRS} pairs"),
@@ -41,9 +41,9 @@ impl<P: General> Solver<P> for Enumeration {
         let found = if is_cancelled {
             Enumerated::Open
         } else {
-            enumerate(&general, Limits { nodes: NODES, deadline })
+            enumerate(&general, Limits { nodes: WORK / n.pow(3).max(1), deadline })
         };
-        let zero = || vec![0.0; general.order()];
+        let zero = || vec![0.0; n];
         let (mut point, mut basis, mut proof) = ((zero(), zero()), None, None);
         let mut otherwise = Status::NumericalTrouble;
         match found {

@@ -2,10 +2,9 @@
 
 use std::time::Duration;
 
-use super::constants::{MOST_VARIABLES, TRIAL};
-use super::enumerated::{Enumeration, is_small};
+use super::constants::{MOST_PAIRS, TRIAL};
+use super::enumerated::{Enumeration, has_few_pairs};
 use super::memory;
-use super::smoothed::Smoothing;
 use crate::divide::Divide;
 use crate::lower::General;
 use crate::{
@@ -37,24 +36,21 @@ pub(super) fn named(problem: &str, mut steps: Vec<Step>) -> Vec<Step> {
     steps
 }
 
-/// The chain of a problem with its last resort: for small ones behind pivots, which it is as fast as.
+/// The chain of a problem with all choices of sides: behind pivots if it is as fast as these, else at the end.
 pub(super) fn chain_of<P: Planned>(problem: &P) -> Vec<Step> {
     let mut steps = problem.steps();
-    if problem.pairs() <= MOST_VARIABLES && is_small(&problem.general()) {
-        let words = format!(
-            "{} pairs, so few that all choices of sides can be gone through, with proofs",
-            problem.pairs()
-        );
-        let pivots = steps.iter().position(|step| step.method == Method::Lemke);
-        let place = pivots.map_or(steps.len(), |place| place + 1);
-        steps.insert(place, Step::new(Method::Enumeration, words));
-    } else if problem.has_smoothing() {
-        let words = format!(
-            "{} pairs: smoothed equations, from several starts, need no class of matrices either",
-            problem.pairs()
-        );
-        steps.push(Step::new(Method::Smoothing, words));
+    let pairs = problem.pairs();
+    if pairs > MOST_PAIRS {
+        return steps;
     }
+    let pivots = steps.iter().position(|step| step.method == Method::Lemke);
+    let (place, words) = match pivots {
+        Some(pivots) if has_few_pairs(&problem.general()) => {
+            (pivots + 1, "so few that all choices of sides can be gone through, with proofs")
+        }
+        _ => (steps.len(), "choices of sides are gone through as far as the work allows"),
+    };
+    steps.insert(place, Step::new(Method::Enumeration, format!("{pairs} pairs, {words}")));
     steps
 }
 
@@ -71,11 +67,6 @@ pub trait Planned: Divide {
 
     /// A method of the chain with its settings; `None` for all others.
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>>;
-
-    /// Whether the smoothed continuation is worth its time.
-    fn has_smoothing(&self) -> bool {
-        true
-    }
 
     /// Whether a method is worth its time where there is evidence, and no proof yet, that there is no
     /// solution.
@@ -109,6 +100,8 @@ pub(super) fn attempt<P: Planned>(
 pub struct Effort<'a> {
     pub(super) tolerance: f64,
     pub(super) time_limit: Option<Duration>,
+    /// Of Lemke's method.
+    pub(super) max_attempts: Option<usize>,
     pub(super) start: &'a WarmStart,
 }
 
@@ -120,15 +113,16 @@ impl Effort<'_> {
         Lemke: Solver<P>,
         InteriorPoint: Solver<P>,
     {
-        let Self { tolerance, time_limit, .. } = *self;
+        let Self { tolerance, time_limit, max_attempts, .. } = *self;
         let start = self.start.clone();
         match method {
             Method::Lemke => {
-                let settings = LemkeSettings { tolerance, time_limit, start, ..Default::default() };
+                let defaults = LemkeSettings::default();
+                let settings =
+                    LemkeSettings { tolerance, time_limit, max_attempts, start, ..defaults };
                 Some(Box::new(Lemke::new(settings)))
             }
             Method::Enumeration => Some(Box::new(Enumeration { tolerance, time_limit })),
-            Method::Smoothing => Some(Box::new(Smoothing { tolerance, time_limit })),
             Method::Interior => {
                 let defaults = InteriorPointSettings::default();
                 let settings = InteriorPointSettings { tolerance, time_limit, start, ..defaults };

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::settings::check_tolerance;
+use crate::settings::{check_attempts, check_tolerance};
 use crate::{Error, WarmStart};
 
 /// Settings of [`Auto`](crate::Auto).
@@ -13,6 +13,8 @@ pub struct AutoSettings {
     /// Wall-clock time of all methods together: every one gets what those before it have left. `None` is
     /// no limit, and then a method of the chain may take very long where those before it failed.
     pub time_limit: Option<Duration>,
+    /// Attempts of Lemke's method, as in [`LemkeSettings::max_attempts`](crate::LemkeSettings::max_attempts).
+    pub max_attempts: Option<usize>,
     /// A point or a basis, of the pairs of the general form, that may be the solution of a similar
     /// problem. It goes to the methods that can start from it.
     pub start: WarmStart,
@@ -20,7 +22,7 @@ pub struct AutoSettings {
 
 impl Default for AutoSettings {
     fn default() -> Self {
-        Self { tolerance: 1e-10, time_limit: None, start: WarmStart::None }
+        Self { tolerance: 1e-10, time_limit: None, max_attempts: None, start: WarmStart::None }
     }
 }
 
@@ -31,6 +33,7 @@ impl AutoSettings {
     /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
     pub fn validate(&self, n: usize) -> Result<(), Error> {
         check_tolerance(self.tolerance)?;
+        check_attempts(self.max_attempts)?;
         self.start.validate(n)
     }
 }

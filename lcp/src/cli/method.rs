@@ -8,7 +8,7 @@ use clap::builder::PossibleValue;
 use super::args::SolveArgs;
 use super::input::Point;
 use super::output::Failure;
-use crate::auto::{Enumeration, Smoothing, memory};
+use crate::auto::{Enumeration, memory};
 use crate::io::Problem;
 use crate::lower::judged_by;
 use crate::{
@@ -45,14 +45,16 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
         Method::Auto => {
             let defaults = AutoSettings::default();
             let tolerance = args.tol.unwrap_or(defaults.tolerance);
-            in_its_form(&Auto::new(AutoSettings { tolerance, time_limit, start }), problem)
+            let settings =
+                AutoSettings { tolerance, time_limit, max_attempts: args.attempts, start };
+            in_its_form(&Auto::new(settings), problem)
         }
         Method::Lemke => {
             let defaults = LemkeSettings::default();
             let settings = LemkeSettings {
                 tolerance: args.tol.unwrap_or(defaults.tolerance),
                 max_pivots: args.max_pivots,
-                max_attempts: args.attempts.unwrap_or(defaults.max_attempts),
+                max_attempts: args.attempts,
                 covering: args.covering.clone().unwrap_or_default(),
                 trace: args.trace.is_some(),
                 time_limit,
@@ -64,10 +66,6 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
         Method::Enumeration => {
             let tolerance = args.tol.unwrap_or(AutoSettings::default().tolerance);
             in_its_form(&Enumeration { tolerance, time_limit }, problem)
-        }
-        Method::Smoothing => {
-            let tolerance = args.tol.unwrap_or(AutoSettings::default().tolerance);
-            in_its_form(&Smoothing { tolerance, time_limit }, problem)
         }
         Method::GaussSeidel => {
             let defaults = ProjectedGaussSeidelSettings::default();
@@ -124,9 +122,9 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
 fn method(args: &SolveArgs) -> Result<Method, Failure> {
     let pivots = [
         ("--max-pivots", args.max_pivots.is_some()),
-        ("--attempts", args.attempts.is_some()),
         ("--covering", args.covering.is_some()),
         ("--trace", args.trace.is_some()),
+        ("--attempts", args.attempts.is_some()),
     ];
     let asked = pivots.iter().find_map(|&(option, is_given)| is_given.then_some(option));
     match (args.solver, asked) {
@@ -135,6 +133,7 @@ fn method(args: &SolveArgs) -> Result<Method, Failure> {
              or interior, or leave the option out; pivots of lemke have --max-pivots"
                 .into(),
         ),
+        (Method::Auto, Some("--attempts")) => Ok(Method::Auto),
         (Method::Auto, Some(_)) => Ok(Method::Lemke),
         (method, None) | (method @ Method::Lemke, _) => Ok(method),
         (method, Some(option)) => Err(format!(
@@ -210,8 +209,7 @@ impl ValueEnum for Method {
                 "Convex quadratic program: symmetric positive semidefinite matrices"
             }
             Self::GaussSeidel => "Projected Gauss-Seidel: positive diagonals; bounds, friction",
-            Self::Enumeration => "All choices of one variable per pair, with proofs: up to 12 pairs",
-            Self::Smoothing => "Newton's method on smoothed equations: problems on which pivots end on a ray",
+            Self::Enumeration => "All choices of one variable per pair, with proofs: up to 100 pairs",
         }))
     }
 }

@@ -109,9 +109,18 @@ fn route_lines(answer: &Answer<'_>) -> String {
     lines
 }
 
+/// The first attempts and the last one.
 fn attempt_lines(attempts: &[Attempt]) -> String {
+    const MOST: usize = 12;
     let mut lines = String::new();
+    let last = attempts.len().saturating_sub(1);
     for (number, attempt) in attempts.iter().enumerate() {
+        if number == MOST && number < last {
+            let _ = writeln!(lines, "... {} more attempts", last - MOST);
+        }
+        if (MOST..last).contains(&number) {
+            continue;
+        }
         let Attempt { start, covering, perturbation, end, pivots, .. } = attempt;
         let perturbation = match perturbation {
             Perturbation::None => "as given".to_owned(),

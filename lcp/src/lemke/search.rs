@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use super::Progress;
 use super::artificial::{completed, part_outside, without_artificial};
-use super::constants::{SMALL, START_ROUNDING};
+use super::constants::{ATTEMPT, KINDS, SMALL, START_ROUNDING, WORK};
 use super::crash::{Crash, find_basis};
 use super::feasibility::farkas_vector;
 use super::finish::{Point, solve_basis};
@@ -109,7 +109,9 @@ impl<'a> Search<'a> {
         let mut trial = first;
         let mut last_basis = None;
         let mut center = vec![0.0; n];
-        for number in 1..=self.settings.max_attempts {
+        let (mut number, mut had_ray) = (0, false);
+        while self.has_another(number) {
+            number += 1;
             let start = self.start_of(&mut trial, &first, &first_start, last_basis.as_ref());
             let outcome = self.attempt(&start, &trial, &center, number, observer);
             match outcome.end {
@@ -130,7 +132,8 @@ impl<'a> Search<'a> {
                 last_basis = Some(basis);
             }
             // The first ray asks the question; its answer does not depend on the attempt.
-            let is_first_ray = self.ray_count() == 1 && outcome.end == AttemptEnd::Ray;
+            let is_first_ray = outcome.end == AttemptEnd::Ray && !had_ray;
+            had_ray |= is_first_ray;
             if is_first_ray && self.settings.prove_infeasible {
                 match self.proof(&first_start, number, observer) {
                     Err(stopped) => return self.give_up(stopped),
@@ -314,6 +317,18 @@ impl<'a> Search<'a> {
         Outcome { end, basis, z }
     }
 
+    /// Whether another attempt follows so many.
+    fn has_another(&self, made: usize) -> bool {
+        if let Some(most) = self.settings.max_attempts {
+            return made < most;
+        }
+        let order = self.problem.order();
+        let work = (self.info.pivots + made * order).saturating_mul(order * order);
+        let bases = u32::try_from(order).ok().and_then(|order| 1_usize.checked_shl(order));
+        let is_spent = work.saturating_add(made * ATTEMPT) >= WORK;
+        made < KINDS || !is_spent && bases.is_none_or(|bases| made < KINDS + bases)
+    }
+
     /// A proof that there is no solution.
     fn proof(
         &self,
@@ -368,10 +383,6 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn ray_count(&self) -> usize {
-        self.info.attempts.iter().filter(|attempt| attempt.end == AttemptEnd::Ray).count()
-    }
-
     fn has_ended(&self, end: AttemptEnd) -> bool {
         self.info.attempts.iter().any(|attempt| attempt.end == end)
     }
@@ -387,7 +398,7 @@ impl<'a> Search<'a> {
     /// the attempts say.
     fn conclude(mut self) -> Solution {
         // After a ray it was searched already.
-        if self.ray_count() == 0 {
+        if !self.has_ended(AttemptEnd::Ray) {
             self.farkas = self.small_proof();
             if self.farkas.is_some() {
                 return self.give_up(Status::Infeasible);

@@ -39,7 +39,6 @@ impl Trial {
             _ => {}
         }
         let flipped = AttemptStart::Flipped { seed };
-        let random = AttemptCovering::Random { seed };
         let proximal = |weight| Self { perturbation: Perturbation::Proximal { weight }, ..*first };
         match number {
             4 => Self { covering: AttemptCovering::Column { pair: 0 }, ..*first },
@@ -48,10 +47,7 @@ impl Trial {
             6 => proximal(1e-2),
             7 => proximal(1e-4),
             8 => proximal(1e-6),
-            _ if number % 2 == 1 => {
-                Self { start: flipped, covering: AttemptCovering::Ones, perturbation: parted }
-            }
-            _ => Self { start: flipped, covering: random, perturbation: parted },
+            _ => Self { start: flipped, covering: AttemptCovering::Ones, perturbation: parted },
         }
     }
 

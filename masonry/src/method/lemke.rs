@@ -137,7 +137,7 @@ impl Search<'_> {
         let common = LemkeSettings {
             tolerance: self.request.tolerance,
             max_pivots: self.request.max_pivots,
-            max_attempts: MIXED_ATTEMPTS,
+            max_attempts: Some(MIXED_ATTEMPTS),
             prove_infeasible: false,
             ..LemkeSettings::default()
         };
@@ -148,7 +148,7 @@ impl Search<'_> {
             let settings = LemkeSettings {
                 start: WarmStart::Basis(basis(start)),
                 covering: Covering::Given(covering(form, start)),
-                max_attempts: ATTEMPTS_PER_START,
+                max_attempts: Some(ATTEMPTS_PER_START),
                 ..common.clone()
             };
             (settings, Some(start.name))

@@ -44,7 +44,7 @@ fn long() -> Case {
         start: WarmStart::Basis(Basis::all(Side::Y, N)),
         covering: Covering::Given((0..N).map(unit).collect()),
         max_pivots: Some(1 << N),
-        max_attempts: 1,
+        max_attempts: Some(1),
         ..LemkeSettings::default()
     };
     Case::new(LONG, why, standard(m, q))
