@@ -36,8 +36,8 @@ use target::{Course, Data, Rest, Taken, Target};
 /// # How a step is solved
 /// 1. By the states of the contacts in the step before, if they still hold: two or three factorisations.
 /// 2. By the exact path of interior points, from a start of its own.
-/// 3. By steps of half the length, which have twice the drag and half the change of the data. From the second one that is
-///    solved on, steps become longer again.
+/// 3. By shorter steps, which have more drag and less change of the data: half as long on the way to other data, a quarter
+///    under those that stay. From the second one that is solved on, steps become longer again.
 ///
 /// # Rest and flow
 /// [`settle`](Self::settle) leaves loads and gaps as they are, and doubles the steps of bodies without inertia until
@@ -220,7 +220,7 @@ impl Evolution {
         self.advance_observed(problem, duration, &mut |_| ControlFlow::Continue(()))
     }
 
-    /// The same, calling the observer before every factorisation; `Break` stops with
+    /// The same, calling the observer before every step and every iteration of its path; `Break` stops with
     /// [`Status::Cancelled`](crate::Status::Cancelled).
     ///
     /// # Errors
@@ -235,8 +235,8 @@ impl Evolution {
         self.observed(observer, |this, course| this.driven(problem, duration, Rest::Never, course))
     }
 
-    /// Both: bodies that do not rest under the loads, gaps and supports of `problem` are taken there evenly in a time
-    /// `duration`, and left there until they rest or flow.
+    /// Both: bodies are taken to the loads, gaps and supports of `problem`, evenly in a time `duration`, and left there until
+    /// they rest or flow.
     ///
     /// # Errors
     /// As for [`settle`](Self::settle).
@@ -254,8 +254,7 @@ impl Evolution {
         duration: f64,
         observer: &mut Observer<'_>,
     ) -> Result<Ending, Error> {
-        self.check(problem, duration)?;
-        self.check_settles()?;
+        self.check_settles(problem, duration)?;
         self.observed(observer, |this, course| this.led(problem, duration, course))
     }
 
@@ -278,8 +277,7 @@ impl Evolution {
         h: f64,
         observer: &mut Observer<'_>,
     ) -> Result<Ending, Error> {
-        self.check(problem, h)?;
-        self.check_settles()?;
+        self.check_settles(problem, h)?;
         self.observed(observer, |this, course| this.settled(problem, h, course))
     }
 
@@ -292,7 +290,8 @@ impl Evolution {
         Err(Error::Setting { name: "step", value: h, range: "above 0 and finite" })
     }
 
-    fn check_settles(&self) -> Result<(), Error> {
+    fn check_settles(&self, problem: &Contact2d, h: f64) -> Result<(), Error> {
+        self.check(problem, h)?;
         if !self.settings.inertia {
             return Ok(());
         }
@@ -309,7 +308,8 @@ impl Evolution {
         let EvolutionSettings { max_iterations, time_limit, .. } = self.settings;
         let mut forward = |at: &Iteration| observer(at);
         let mut monitor = Monitor::new(max_iterations, time_limit, &mut forward);
-        run(self, &mut Course { plan: None, monitor: &mut monitor })
+        let last = self.factorisations.saturating_add(max_iterations);
+        run(self, &mut Course { plan: None, last, monitor: &mut monitor })
     }
 }
 

@@ -53,7 +53,7 @@ impl Evolution {
         let (begin, end) = (self.data.clone(), Data::of(problem));
         let (mut done, mut part, mut growth) = (0.0, 1.0_f64, 2.0);
         while done < 1.0 {
-            if let Some(limit) = course.monitor.stop(0.0) {
+            if let Some(limit) = self.stopped(course) {
                 return Ok(Ending::Open(limit));
             }
             let next = (done + part).min(1.0);
@@ -83,13 +83,6 @@ impl Evolution {
         duration: f64,
         course: &mut Course<'_, '_>,
     ) -> Result<Ending, Error> {
-        if let Some(limit) = course.monitor.stop(0.0) {
-            return Ok(Ending::Open(limit));
-        }
-        let data = &Data::of(problem);
-        if self.holds(Target { problem, data, h: None }, course)? {
-            return Ok(Ending::Rests);
-        }
         match self.driven(problem, duration, Rest::ByPath, course)? {
             Ending::Arrived => self.settled(problem, duration, course),
             other => Ok(other),
@@ -103,16 +96,10 @@ impl Evolution {
         first: f64,
         course: &mut Course<'_, '_>,
     ) -> Result<Ending, Error> {
-        if let Some(limit) = course.monitor.stop(0.0) {
-            return Ok(Ending::Open(limit));
-        }
         let data = &Data::of(problem);
-        if self.holds(Target { problem, data, h: None }, course)? {
-            return Ok(Ending::Rests);
-        }
         let (mut h, mut growth) = (first, 2.0);
         while h >= LEAST_PART * first {
-            if let Some(limit) = course.monitor.stop(0.0) {
+            if let Some(limit) = self.stopped(course) {
                 return Ok(Ending::Open(limit));
             }
             let before = self.motion_now();
@@ -128,6 +115,12 @@ impl Evolution {
             }
         }
         Ok(Ending::Open(Status::Stalled))
+    }
+
+    /// The limit that was reached, before a step.
+    fn stopped(&self, course: &mut Course<'_, '_>) -> Option<Status> {
+        let is_spent = self.factorisations >= course.last;
+        course.monitor.stop(0.0).or_else(|| is_spent.then_some(Status::IterationLimit))
     }
 
     /// Whether bodies there are further away than the problem means anything.

@@ -1,4 +1,4 @@
-//! Settings of dynamics.
+//! Settings of evolutions.
 
 use std::time::Duration;
 
@@ -18,9 +18,9 @@ pub struct EvolutionSettings {
     /// The largest displacement up to which the problem means anything: beyond it [`advance`](crate::Evolution::advance)
     /// and [`settle`](crate::Evolution::settle) end with [`Ending::Left`](crate::Ending::Left), and no state there is rest.
     pub reach: f64,
-    /// Factorisations of one call.
+    /// Factorisations of one call; the step in which they are reached comes to its end.
     pub max_iterations: usize,
-    /// Wall-clock time of one call, looked at before every factorisation; `None` is no limit.
+    /// Wall-clock time of one call, looked at before every step and every iteration of its path; `None` is no limit.
     pub time_limit: Option<Duration>,
 }
 

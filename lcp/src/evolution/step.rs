@@ -60,19 +60,8 @@ impl Evolution {
         Ok(Taken::Yes(self.moved(target, end)))
     }
 
-    /// Whether the states of the contacts in the last step, or those that they lead to, are those of bodies that rest under
-    /// some data; then they are there.
-    pub(super) fn holds(
-        &mut self,
-        at_rest: Target<'_>,
-        course: &mut Course<'_, '_>,
-    ) -> Result<bool, Error> {
-        let contacts = self.contacts.clone().unwrap_or_default();
-        let now = End { state: self.state.clone(), contacts };
-        self.rests(at_rest, &now, &Effort::QUICK, course)
-    }
-
-    /// The same with the states of some end.
+    /// Whether the states of the contacts at the end of a step, or those that they lead to, are those of bodies that rest;
+    /// then they are there.
     fn rests(
         &mut self,
         at_rest: Target<'_>,

@@ -70,5 +70,7 @@ pub(super) enum Taken {
 /// The limits of steps that follow one another, and the plan of their factors.
 pub(super) struct Course<'a, 'b> {
     pub(super) plan: Option<Condensed>,
+    /// The number of factorisations after which no step begins.
+    pub(super) last: usize,
     pub(super) monitor: &'a mut Monitor<'b>,
 }
