@@ -27,9 +27,6 @@ use crate::scene::{Form, Route, Solver};
 const FEW: usize = 2000;
 /// Most walls are solved in so many steps of the interior points.
 pub(crate) const STEPS_BEFORE_PROOF: usize = 40;
-/// With friction, blocks move after so many steps of the interior points from their first start. Measured
-/// on walls of 1000 bricks: what that start solves it solves in up to 60.
-pub(crate) const STEPS_BEFORE_MOTION: usize = 60;
 /// How long the last route may take, which seldom has an answer where the others have none.
 const LAST_RESORT: Duration = Duration::from_secs(10);
 

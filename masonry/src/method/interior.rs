@@ -11,7 +11,7 @@ use lcp::{
 
 use super::loading::{self, Led, Loading};
 use super::sparse::Found;
-use super::{Answer, Method, Observer, Request, RouteError, Step, auto, sparse};
+use super::{Answer, Method, Observer, Request, RouteError, Step, sparse};
 use crate::method::forms::Sparse;
 use crate::method::info::{SolveInfo, Way};
 use crate::scene::Route;
@@ -32,19 +32,18 @@ pub struct Interior<'a> {
 impl Method for Interior<'_> {
     fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
         let problem = &self.sparse.problem;
-        let mut settings =
-            InteriorPointSettings { tolerance: request.tolerance, ..Default::default() };
-        settings.max_iterations = request.max_steps.unwrap_or(settings.max_iterations);
+        let Request { tolerance, max_steps, .. } = *request;
         let may_move = !problem.frictional().is_empty();
-        if may_move {
-            if self.before.is_some() {
-                return self.led(None, request, observer);
-            }
-            settings.max_iterations = settings.max_iterations.min(auto::STEPS_BEFORE_MOTION);
-            settings.openings.truncate(1);
-            settings.continuation = false;
+        if may_move && self.before.is_some() {
+            return self.led(None, request, observer);
         }
-        let solver = InteriorPoint::new(settings);
+        let solver = if may_move {
+            loading::path(tolerance, max_steps)
+        } else {
+            let defaults = InteriorPointSettings::default();
+            let max_iterations = max_steps.unwrap_or(defaults.max_iterations);
+            InteriorPoint::new(InteriorPointSettings { tolerance, max_iterations, ..defaults })
+        };
         let solution = solver.solve_observed(problem, &mut |at| observer(step(at, 0)))?;
         let path = self.answer(solution);
         let is_over =

@@ -71,10 +71,8 @@ impl Path {
     /// Warnings: what limits the meaning of the answer.
     pub(super) fn warning(&self) -> String {
         let way = "With friction other paths may end at other factors.";
-        match self.model.of_dry_joints() {
-            Some(sentence) => format!("{way} {sentence}"),
-            None => way.to_owned(),
-        }
+        let sentences = [self.model.of_dry_joints(), mass::of_unit_density(&self.model)];
+        sentences.into_iter().flatten().fold(way.to_owned(), |text, more| text + " " + &more)
     }
 }
 

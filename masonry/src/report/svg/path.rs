@@ -16,13 +16,8 @@ pub fn path(title: &str, group: &str, path: &Path) -> Option<String> {
         let points = vec![[0.0, falls], [last, falls]];
         curves.push(Curve { name: "falls".to_owned(), points });
     }
-    let what = if path.model.dry_joints() > 0 {
-        "displacement of the springs in joints"
-    } else {
-        "largest displacement"
-    };
-    let axes =
-        [format!("{what} [{}]", units.0.length_name()), format!("factor of \"{group}\" [-]")];
+    let length = units.0.length_name();
+    let axes = [format!("largest displacement [{length}]"), format!("factor of \"{group}\" [-]")];
     let chart = Chart { axes, curves, stages: Vec::new(), steps: Vec::new() };
     charts(&format!("{title}: load factor along the path"), &[chart])
 }

@@ -1,10 +1,7 @@
 //! One step of a load factor: the blocks rest, or flow.
 
-use lcp::{
-    Contact2d, ContactState, Ending, InteriorPoint, InteriorPointSettings, Observer, Solver,
-};
+use lcp::{Contact2d, ContactState, Ending, Observer, Solver};
 
-use crate::method::auto::STEPS_BEFORE_MOTION;
 use crate::method::forms::Sparse;
 use crate::method::loading::{self, Loading};
 
@@ -55,13 +52,8 @@ impl Steps<'_> {
         if let Some(from) = from {
             problem = problem.after(&from.u)?;
         } else {
-            let settings = InteriorPointSettings {
-                tolerance: self.tolerance,
-                max_iterations: STEPS_BEFORE_MOTION,
-                continuation: false,
-                ..InteriorPointSettings::default()
-            };
-            let solution = InteriorPoint::new(settings).solve_observed(&problem, observer)?;
+            let path = loading::path(self.tolerance, None);
+            let solution = path.solve_observed(&problem, observer)?;
             if let (true, Some(state)) = (solution.is_solved(), solution.contact) {
                 return Ok(End::Rests(rest(&problem, state)?.into()));
             }
