@@ -28,7 +28,7 @@ use crate::state::Reaction;
 pub(crate) mod energy;
 pub(crate) mod spread;
 
-pub use spread::Spread;
+pub use spread::{SecondLoading, Spread};
 
 /// What acts on a model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -240,8 +240,8 @@ pub struct History {
     pub steps: usize,
     /// Names of the loads, in the order of the factors.
     pub loads: Vec<String>,
-    /// How far the state after another loading is from this one, if that was [asked](crate::analysis::solve::Run::compare).
-    pub spread: Option<Spread>,
+    /// What another loading has come to, if that was [asked](crate::analysis::solve::Run::compare).
+    pub second_loading: Option<SecondLoading>,
 }
 
 impl StepRecord {

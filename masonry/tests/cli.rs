@@ -202,7 +202,7 @@ fn the_report_for_people_is_no_json() {
 fn what_is_not_solved_says_why_and_has_code_one() {
     // Walls that were prestressed could hold the panel, so that nothing proves that it falls; it moves and does not stop.
     let falls = ["falls", "no admissible forces", "The wall falls: "];
-    let moves = ["falls", "motion", "The wall falls: its blocks keep moving"];
+    let moves = ["falls", "motion", "The wall falls: its blocks do not come to rest"];
     for (name, scene, [verdict, evidence, sentence]) in
         [("tipped", block(0.21), falls), ("no_floor", NO_FLOOR.to_owned(), moves)]
     {

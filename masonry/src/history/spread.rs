@@ -9,6 +9,22 @@ use crate::state::State;
 /// a few per cent.
 const UNIQUE: f64 = 0.05;
 
+/// What another loading of the same history has come to.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum SecondLoading {
+    /// The end, this far from that of the first.
+    Ended(Spread),
+    /// No further than so many of its steps: whether the answer is unique is not known.
+    Stopped {
+        /// Steps that were solved.
+        solved: usize,
+        /// Steps of this loading.
+        steps: usize,
+    },
+}
+
 /// The differences between the state after a load history and that after another loading, relative to the first: root mean
 /// squares over all nodes, contacts and supports \[-\].
 ///
@@ -30,7 +46,7 @@ pub struct Spread {
 }
 
 /// The state after a history, as far as it is compared.
-pub(crate) struct Reached<'a> {
+pub(crate) struct AtEnd<'a> {
     pub(crate) model: &'a Model,
     pub(crate) state: &'a State,
     pub(crate) dissipation: f64,
@@ -38,14 +54,14 @@ pub(crate) struct Reached<'a> {
 
 impl Spread {
     /// Of two states of one structure.
-    pub(crate) fn of(one: &Reached<'_>, other: &Reached<'_>, steps: usize) -> Self {
-        let displacements = |it: &Reached<'_>| -> Vec<f64> {
+    pub(crate) fn of(one: &AtEnd<'_>, other: &AtEnd<'_>, steps: usize) -> Self {
+        let displacements = |it: &AtEnd<'_>| -> Vec<f64> {
             it.state.displacements.iter().flatten().flat_map(|u| [u.x, u.y]).collect()
         };
-        let openings = |it: &Reached<'_>| -> Vec<f64> {
+        let openings = |it: &AtEnd<'_>| -> Vec<f64> {
             it.state.contacts.iter().map(|contact| contact.y_n).collect()
         };
-        let reactions = |it: &Reached<'_>| -> Vec<f64> {
+        let reactions = |it: &AtEnd<'_>| -> Vec<f64> {
             let all = crate::recover::reactions(it.model, &it.state.contacts);
             all.iter().flat_map(|reaction| [reaction.fx, reaction.fy]).collect()
         };

@@ -291,7 +291,7 @@ fn why(outcome: &Outcome) -> Option<&'static str> {
              that fit them balance the loads. The proof, a Farkas vector, was checked in the data."
         }
         lcp::Status::NoEquilibrium if outcome.judgement.evidence == Evidence::Motion => {
-            "The blocks keep moving, and nothing stops them. By itself this is evidence of collapse, not a proof."
+            "The blocks do not come to rest within small displacements. By itself this is evidence of collapse, not a proof."
         }
         lcp::Status::NoEquilibrium => {
             "Springs on all blocks keep their share of the load, however soft they are. With friction \

@@ -7,12 +7,29 @@ use crate::model::{Block, Model};
 use crate::system::rigid::Modes;
 use nalgebra::Vector2;
 
+/// The density of blocks that have none, as far as they move \[kg/m^3\]. Chosen: the way hardly depends on it, since drag and
+/// mass are in proportion.
+const UNIT: f64 = 1.0;
+
+/// What a reader has to know of blocks that move without a density.
+pub(crate) fn of_unit_density(model: &Model) -> Option<String> {
+    let mut without = model.blocks.iter().filter(|block| block.density.is_none());
+    let first = &without.next()?.name;
+    let blocks = match without.count() {
+        0 => format!("Block \"{first}\" has no density"),
+        more => format!("Block \"{first}\" and {more} more have no density"),
+    };
+    Some(format!(
+        "{blocks}: no weight, and while blocks move the mass of {UNIT} kg/m3. Give `density` to the material if it is known."
+    ))
+}
+
 /// The mass \[kg\] that moves with every displacement of the blocks, in the order of the system: of a node twice, of a rigid
-/// block that of its two translations and of its rotation. A block without a density has 1 kg/m^3.
+/// block that of its two translations and of its rotation.
 pub(crate) fn lumped(model: &Model, system: &System) -> Vec<f64> {
     let mut mass = Vec::new();
     for (block, body) in model.blocks.iter().zip(&system.bodies) {
-        let density = block.density.unwrap_or(1.0);
+        let density = block.density.unwrap_or(UNIT);
         match (&block.mesh, body.stiffness) {
             (Some(mesh), Some(_)) => {
                 let first = mass.len();

@@ -23,6 +23,7 @@ use crate::model::{Body, ContactPoint, Model};
 use crate::recover;
 use crate::state::State;
 use crate::system::displaced_nodes;
+use crate::system::mass;
 use crate::system::rigid::Modes;
 
 pub(crate) use unique::circulating;
@@ -150,6 +151,8 @@ fn is_too_far(known: &Known<'_>, movement: Movement) -> bool {
 fn warnings(known: &Known<'_>, movement: Option<Movement>) -> Vec<String> {
     let mut list = known.unusual.to_vec();
     list.extend(known.model.of_dry_joints());
+    let may_move = known.history.is_some() || known.led.is_some() || known.info.way == Way::Motion;
+    list.extend(may_move.then(|| mass::of_unit_density(known.model)).flatten());
     if let Some(movement) = movement.filter(|movement| movement.is_large()) {
         list.push(format!(
             "Displacements exceed what small-displacement theory allows: {}. Contacts and lever arms of the \

@@ -10,7 +10,8 @@ use super::{Clock, Event, SolveError, check_size};
 use crate::analysis::checkpoint::{Checkpoint, CheckpointError};
 use crate::analysis::outcome::{Frame, Outcome};
 use crate::history::energy::{self, Friction, Snapshot};
-use crate::history::{self, History, Spread, Step, StepRecord};
+use crate::history::spread::AtEnd;
+use crate::history::{self, History, SecondLoading, Step, StepRecord};
 use crate::method::Request;
 use crate::method::forms::{Sparse, Start};
 use crate::method::info::SolveInfo;
@@ -72,8 +73,8 @@ pub struct Run {
     solved: usize,
     /// What they came to; empty for one step.
     records: Vec<StepRecord>,
-    /// How far another loading has led from here.
-    pub(super) spread: Option<Spread>,
+    /// What another loading has come to.
+    pub(super) second_loading: Option<SecondLoading>,
     reached: Option<Reached>,
     last: Option<Last>,
     /// Where the pivots of the next step start.
@@ -151,7 +152,7 @@ impl Run {
             with_stresses: scene.output.stresses,
             solved: 0,
             records: Vec::new(),
-            spread: None,
+            second_loading: None,
             reached: None,
             last: None,
             basis: None,
@@ -371,15 +372,12 @@ impl Run {
         Some(Frame { step, position, model: model.clone(), state: state.clone() })
     }
 
-    /// The model and the state after the last step that was solved.
-    pub(super) fn at_end(&self) -> Option<(&Model, &State)> {
-        let Reached { state, in_history, .. } = self.reached.as_ref()?;
-        Some((&in_history.as_ref()?.model, state))
-    }
-
-    /// The energy that was dissipated so far \[J\].
-    pub(super) fn dissipation(&self) -> f64 {
-        self.records.iter().map(|record| record.dissipation).sum()
+    /// What the last step of a history has come to; `None` before it is solved.
+    pub(super) fn at_end(&self) -> Option<AtEnd<'_>> {
+        let Reached { state, in_history, .. } =
+            self.reached.as_ref().filter(|_| self.solved == self.steps.len())?;
+        let dissipation = self.records.iter().map(|record| record.dissipation).sum();
+        Some(AtEnd { model: &in_history.as_ref()?.model, state, dissipation })
     }
 
     /// Everything that the next step needs; `None` before the first, and for a scene of one step.
@@ -400,8 +398,8 @@ impl Run {
             Last { info, statics: None, led: None, mechanism: None }
         });
         let steps = self.steps.len();
-        let Self { records, loads, spread, .. } = self;
-        let history = History { records, failed, steps, loads, spread };
+        let Self { records, loads, second_loading, .. } = self;
+        let history = History { records, failed, steps, loads, second_loading };
         let (model, state, checks) = match self.reached {
             Some(Reached { state, checks, in_history, .. }) => {
                 (in_history.map_or(self.model, |it| it.model), Some(state), checks)

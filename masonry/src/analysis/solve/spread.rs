@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::{Event, Run, SolveError};
-use crate::history::spread::{Reached, Spread};
+use crate::history::{SecondLoading, Spread};
 use crate::scene::Scene;
 
 /// How much faster the second loading is: the part of the loads that its drag may carry, by that of the first. Chosen: far
@@ -12,39 +12,69 @@ const FASTER: f64 = 10.0;
 
 impl Run {
     /// Loads the scene a second time, with half as many steps in every stage (two of a stage of one) and ten times as fast, and
-    /// keeps how far the two answers [differ](Spread). Nothing is done for a scene of one step, if steps of it are not solved,
-    /// or if the second loading does not come to its end.
+    /// keeps what that [came to](SecondLoading). Nothing is done for a scene of one step, or if steps of it are not solved.
     ///
     /// # Errors
-    /// As [`solve`](super::solve).
+    /// As [`Run::new`]. A step of the second loading that fails ends it.
     pub fn compare(
         &mut self,
         scene: &Scene,
         observer: &mut dyn FnMut(Event) -> ControlFlow<()>,
     ) -> Result<(), SolveError> {
-        if !self.has_history() || self.solved_steps() < self.steps() {
-            return Ok(());
-        }
+        let Some(end) = self.at_end() else { return Ok(()) };
         let mut scene = scene.clone();
         for stage in &mut scene.stages {
             stage.steps = if stage.steps == 1 { 2 } else { stage.steps / 2 };
         }
         let mut other = Self::new(&scene, observer)?;
         other.request.slowness *= FASTER;
-        while other.advance(observer)? {}
-        let reached = |run: &Self| {
-            let (model, state) = run.at_end()?;
-            Some((model.clone(), state.clone(), run.dissipation()))
-        };
-        let all = other.solved_steps() == other.steps();
-        if let (true, Some(one), Some(two)) = (all, reached(self), reached(&other)) {
-            let [one, two] = [&one, &two].map(|(model, state, dissipation)| Reached {
-                model,
-                state,
-                dissipation: *dissipation,
-            });
-            self.spread = Some(Spread::of(&one, &two, other.steps()));
-        }
+        while other.advance(observer).unwrap_or(false) {}
+        let (solved, steps) = (other.solved_steps(), other.steps());
+        self.second_loading = Some(match other.at_end() {
+            Some(other) => SecondLoading::Ended(Spread::of(&end, &other, steps)),
+            None => SecondLoading::Stopped { solved, steps },
+        });
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+
+    use super::*;
+    use crate::analysis::outcome::Outcome;
+
+    /// The differences are those to a run with as few steps that is as fast.
+    #[test]
+    fn differences_are_those_of_two_states() {
+        let go_on = &mut |_: Event| ControlFlow::Continue(());
+        let scene = include_str!("../../../../scenes/wall_settlement.toml");
+        let scene = Scene::from_toml(scene).unwrap();
+        let mut first = Run::new(&scene, go_on).unwrap();
+        while first.advance(go_on).unwrap() {}
+        first.compare(&scene, go_on).unwrap();
+        let first = first.finish();
+        let second = first.history.as_ref().unwrap().second_loading.unwrap();
+        let SecondLoading::Ended(spread) = second else { panic!("{second:?}") };
+
+        let mut fewer = scene;
+        fewer.stages[0].steps = 2;
+        fewer.stages[1].steps /= 2;
+        let mut faster = Run::new(&fewer, go_on).unwrap();
+        faster.request.slowness *= FASTER;
+        while faster.advance(go_on).unwrap() {}
+        let faster = faster.finish();
+
+        let gaps = |outcome: &Outcome| -> Vec<f64> {
+            outcome.state.as_ref().unwrap().contacts.iter().map(|contact| contact.y_n).collect()
+        };
+        let (one, two) = (gaps(&first), gaps(&faster));
+        let apart: f64 = one.iter().zip(&two).map(|(a, b)| (a - b).powi(2)).sum();
+        let openings = (apart / one.iter().map(|gap| gap.powi(2)).sum::<f64>()).sqrt();
+        assert!((spread.openings - openings).abs() < 1e-6 * openings, "{spread:?}, {openings}");
+        let told = format!("two loadings differ by {:.0} %", 100.0 * spread.largest());
+        let sentence = &first.judgement.sentence;
+        assert_eq!(sentence.contains(&told), !spread.is_unique(), "{sentence}");
     }
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{ByName, Contacts, Force, named_force};
-use crate::history::{History, Spread, Step, StepRecord};
+use crate::history::{History, SecondLoading, Step, StepRecord};
 use crate::method::info::Way;
 use crate::model::Support;
 use crate::report::format::InUnits;
@@ -17,7 +17,7 @@ pub(super) struct Report<'a> {
     failed: Option<At<'a>>,
     work: f64,
     dissipation: f64,
-    spread: Option<Spread>,
+    second_loading: Option<SecondLoading>,
     records: Vec<Record<'a>>,
 }
 
@@ -67,7 +67,7 @@ impl<'a> Report<'a> {
             failed: history.failed.as_ref().map(At::of),
             work: units.energy(history.work()),
             dissipation: units.energy(history.dissipation()),
-            spread: history.spread,
+            second_loading: history.second_loading,
             records: history.records.iter().map(record).collect(),
         }
     }

@@ -3,7 +3,7 @@
 use comfy_table::ColumnConstraint;
 
 use super::{pairs, paragraph, table};
-use crate::history::{History, Spread, Step, StepRecord};
+use crate::history::{History, SecondLoading, Spread, Step, StepRecord};
 use crate::report::format::{InUnits, aligned};
 
 /// Of longer histories only the ends of the stages are shown.
@@ -79,8 +79,8 @@ pub(super) fn history(history: &History, units: InUnits) -> String {
          moved: the largest displacement [{length}]."
     );
     let mut text = table.trim_fmt() + "\n" + &paragraph(&meanings);
-    if let Some(spread) = &history.spread {
-        text += &paragraph(&self::spread(spread));
+    if let Some(second) = &history.second_loading {
+        text += &paragraph(&second_loading(second));
     }
     if let Some(failed) = &history.failed {
         let step = format!("{} of stage \"{}\"", place(failed), failed.stage);
@@ -89,8 +89,15 @@ pub(super) fn history(history: &History, units: InUnits) -> String {
     text
 }
 
-fn spread(spread: &Spread) -> String {
-    let Spread { steps, displacements, openings, reactions, dissipation, .. } = *spread;
+fn second_loading(second: &SecondLoading) -> String {
+    let Spread { steps, displacements, openings, reactions, dissipation } = match second {
+        SecondLoading::Ended(spread) => *spread,
+        SecondLoading::Stopped { solved, steps } => {
+            return format!(
+                "Another loading, with {steps} steps and ten times as fast, stopped after {solved} of them."
+            );
+        }
+    };
     let [displacements, openings, reactions, dissipation] =
         [displacements, openings, reactions, dissipation].map(|it| format!("{:.1} %", 100.0 * it));
     format!(

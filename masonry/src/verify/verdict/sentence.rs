@@ -3,7 +3,7 @@
 use lcp::Status;
 
 use super::{Evidence, Known, Movement, Verdict};
-use crate::history::{History, Step};
+use crate::history::{History, SecondLoading, Step};
 use crate::method::statics::Statics;
 use crate::model::Model;
 use crate::scene::Movement as Place;
@@ -30,8 +30,7 @@ pub(super) fn of(
             None => "The wall stands: equilibrium found and verified.".to_owned(),
         },
         (Verdict::Falls, Evidence::Motion) => format!(
-            "The wall falls{at}: its blocks keep moving, and friction does not stop them (evidence, not a \
-             proof).{}",
+            "The wall falls{at}: its blocks do not come to rest within small displacements (evidence, not a proof).{}",
             match known.statics {
                 _ if known.led.is_some() => {
                     " Contact forces within friction that balance the loads exist, as a prestress might bring them about, \
@@ -73,12 +72,16 @@ fn in_all_steps(history: &History) -> String {
             if count == 1 { "keeps" } else { "keep" }
         ),
     };
-    match history.spread.filter(|spread| !spread.is_unique()) {
-        Some(spread) => format!(
+    match history.second_loading {
+        Some(SecondLoading::Ended(spread)) if !spread.is_unique() => format!(
             "{stands} Cracks and thrust are not unique: two loadings differ by {:.0} %.",
             100.0 * spread.largest()
         ),
-        None => stands,
+        Some(SecondLoading::Stopped { solved, steps }) => format!(
+            "{stands} Whether cracks and thrust are unique is not known: a second loading stopped after {solved} of {steps} \
+             steps."
+        ),
+        _ => stands,
     }
 }
 
