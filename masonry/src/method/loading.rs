@@ -21,9 +21,6 @@ const FIRST_DRAG: f64 = 1e-2;
 const REACH: f64 = 0.25;
 /// Steps of the path before blocks move. Measured on walls of 1000 bricks: what its first start solves it solves in up to 60.
 const STEPS_BEFORE_MOTION: usize = 60;
-/// The residual of a step, relative to that of a state: the states of single blocks are judged by their own loads, which are
-/// smaller than the largest one. Measured on settlements of 410 bricks.
-const BETTER: f64 = 1e-2;
 /// Factorisations of one loading. Measured on walls of 1000 bricks: those that fall slowly take up to 3000.
 const FACTORISATIONS: usize = 10_000;
 
@@ -86,7 +83,7 @@ impl Loading<'_> {
     ) -> Result<Led, lcp::Error> {
         let Self { before, problem, mass, reach, tolerance, .. } = *self;
         let settings = EvolutionSettings {
-            tolerance: BETTER * tolerance,
+            tolerance,
             reach,
             max_iterations: FACTORISATIONS,
             ..EvolutionSettings::default()
