@@ -7,12 +7,13 @@
 //! |---|---|---|
 //! | [`positive_definite`], [`harker_pang`], [`obstacle()`], [`Obstacle`] | positive definite | solves, unique |
 //! | [`p_matrix`], [`murty`], [`fathi`], [`kostreva_1`] | P | solves, unique |
-//! | [`positive_semidefinite`], [`ties`], [`horizontal_monotone`], [`mixed_monotone`] | monotone | solves when feasible |
+//! | [`perpetual_option`] | M | solves, unique |
+//! | [`positive_semidefinite`], [`ties`], [`horizontal_monotone`], [`mixed_monotone`], [`control`] | monotone | solves when feasible |
 //! | [`strictly_copositive`] | strictly copositive | solves |
 //! | [`copositive_plus`] | copositive-plus | solves when feasible |
 //! | [`infeasible_semidefinite`], [`kostreva_2`], [`infeasible`] | infeasible | no solution |
 //! | [`bimatrix`] | games | has a solution, may end on a ray |
-//! | [`horizontal_singular`], [`mixed_singular`] | none | may end on a ray |
+//! | [`indefinite`], [`triangular`], [`horizontal_singular`], [`mixed_singular`] | none | may end on a ray |
 //!
 //! ```
 //! use lcp::{Lemke, Solver, families};
@@ -25,18 +26,20 @@
 //! # Ok::<(), lcp::Error>(())
 //! ```
 
+mod applied;
 mod horizontal;
 mod mixed;
 mod obstacle;
 mod standard;
 mod textbook;
 
+pub use applied::{control, perpetual_option};
 pub use horizontal::{horizontal_monotone, horizontal_singular, infeasible};
 pub use mixed::{mixed_monotone, mixed_singular};
 pub use obstacle::{Ground, Obstacle};
 pub use standard::{
-    bimatrix, copositive_plus, harker_pang, infeasible_semidefinite, p_matrix, positive_definite,
-    positive_semidefinite, strictly_copositive, ties,
+    bimatrix, copositive_plus, harker_pang, indefinite, infeasible_semidefinite, p_matrix,
+    positive_definite, positive_semidefinite, strictly_copositive, ties, triangular,
 };
 pub use textbook::{fathi, kostreva_1, kostreva_2, murty, obstacle};
 

@@ -6,6 +6,7 @@
 use std::borrow::Cow;
 
 use crate::certify::Residuals;
+use crate::problem::Between;
 use crate::{
     BoxedLcp, Contact2d, ContactState, Error, Friction2d, HorizontalLcp, Lcp, MixedLcp, Solution,
     Status, WarmStart,
@@ -36,6 +37,21 @@ pub trait Lowered: General + Sized {
     fn with_far_bounds(&self, _nearer: &Self, solution: Solution, _tolerance: f64) -> Solution {
         solution
     }
+
+    /// The equations of what is between its bounds at a solution, if it has bounds.
+    fn between_bounds(&self, _solution: &Solution) -> Option<Between> {
+        None
+    }
+
+    /// The solution with the answer to these equations.
+    fn with_between(
+        &self,
+        _between: &Between,
+        _answer: &Solution,
+        solution: &Solution,
+    ) -> Solution {
+        solution.clone()
+    }
 }
 
 impl Lowered for HorizontalLcp {}
@@ -59,6 +75,21 @@ impl Lowered for BoxedLcp {
         solution.residuals = self.residuals(&z, &w);
         solution.boxed = Some((z, w));
         judged(solution, tolerance)
+    }
+
+    fn between_bounds(&self, solution: &Solution) -> Option<Between> {
+        let (z, w) = self.recover(&solution.t, &solution.y);
+        self.between(&z, &w)
+    }
+
+    fn with_between(&self, between: &Between, answer: &Solution, solution: &Solution) -> Solution {
+        let (z, _) = self.recover(&solution.t, &solution.y);
+        // All of them are free.
+        let inside: Vec<f64> = answer.t.iter().zip(&answer.y).map(|(t, y)| t - y).collect();
+        let (z, w) = self.with_inside(z, &between.variables, &inside);
+        let (t, y) = self.to_pairs(&z, &w);
+        let residuals = self.residuals(&z, &w);
+        Solution { t, y, residuals, boxed: Some((z, w)), certificate: None, ..solution.clone() }
     }
 }
 
@@ -143,7 +174,21 @@ pub(crate) fn solve_lowered<P: Lowered>(
             return Ok(solution);
         }
     }
-    Ok(judged_by(problem, solve(&problem.general(), false)?, tolerance))
+    let solution = judged_by(problem, solve(&problem.general(), false)?, tolerance);
+    if solution.is_solved() || solution.residuals.loads > tolerance {
+        return Ok(solution);
+    }
+    let Some(between) = problem.between_bounds(&solution) else { return Ok(solution) };
+    let free = vec![true; between.q.len()];
+    let Ok(equations) = MixedLcp::new(between.m.clone(), between.q.clone(), free) else {
+        return Ok(solution);
+    };
+    // A distance from a bound has lost the digits of a value that is small against the bound.
+    let answer = solve(&equations.to_general(), true)?;
+    let mut right = problem.with_between(&between, &answer, &solution);
+    right.status = right.residuals.verdict(tolerance, Status::AlmostSolved);
+    let is_better = right.residuals.worst() < solution.residuals.worst();
+    Ok(if is_better { right } else { solution })
 }
 
 /// Solves a problem in its standard form, with the start converted.

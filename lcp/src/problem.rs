@@ -10,15 +10,19 @@ mod mixed;
 mod standard;
 
 pub use bound::{ErrorBound, Monotonicity};
+pub(crate) use boxed::Between;
 pub use boxed::BoxedLcp;
 pub use contact::{
     Bedding, Contact2d, Contact2dBuilder, ContactPoint, ContactState, ContactStatus,
 };
 #[cfg(feature = "clarabel")]
 pub(crate) use contact::{check_epsilon, ratio};
-pub(crate) use contact::{column_factors, column_of, diagonal, median};
+pub(crate) use contact::{column_factors, diagonal, median};
+
+pub(crate) use crate::matrix::column_of;
 pub use disguised::StandardForm;
 pub use friction::{ContactForces, Friction2d};
 pub use horizontal::HorizontalLcp;
+pub(crate) use mixed::Groups;
 pub use mixed::MixedLcp;
 pub use standard::Lcp;

@@ -8,7 +8,7 @@ use common::cases;
 use faer::Mat;
 use lcp::exact::{EnumerationSettings, ExactVerdict, RBig, enumerate, verify_basis};
 use lcp::families::{self, Instance, Known};
-use lcp::{Basis, HorizontalLcp, Lcp, MixedLcp, Side};
+use lcp::{Auto, Basis, HorizontalLcp, Lcp, MixedLcp, Side, Solver};
 use proptest::prelude::*;
 
 fn exact(value: f64) -> RBig {
@@ -76,6 +76,8 @@ proptest! {
             families::copositive_plus,
             families::ties,
             families::harker_pang,
+            families::indefinite,
+            families::triangular,
             families::infeasible_semidefinite,
         ] {
             assert_true(&general(family(n, seed)));
@@ -126,5 +128,46 @@ fn general_families_have_singular_matrices() {
             let zero = vec![0.0; free];
             assert_singular(&HorizontalLcp::new(block.clone(), block, zero).unwrap(), Side::T);
         }
+    }
+}
+
+/// Model-predictive control of 400 systems, whose states fade away by up to thirty powers of ten.
+#[test]
+fn control_is_solved() {
+    for seed in 0..100 {
+        for steps in [5, 10, 20, 40] {
+            let problem = families::control(steps, seed).problem;
+            let solution = Auto::default().solve(&problem).unwrap();
+            assert!(solution.is_solved(), "{steps} steps, seed {seed}: {}", solution.status);
+            let (z, w) = problem.variables(&solution);
+            assert!(problem.residuals(&z, &w).worst() < 1e-10);
+        }
+    }
+}
+
+/// The boundary of exercise and the value above it approach Merton's, as the grid does.
+#[test]
+fn an_option_is_worth_what_merton_says() {
+    for (interest, volatility) in [(0.02, 0.4), (0.05, 0.2), (0.1, 0.2)] {
+        let g = 2.0 * interest / (volatility * volatility);
+        let exercise: f64 = g / (1.0 + g);
+        let error = |points: usize| {
+            let problem = families::perpetual_option(points, interest, volatility).problem;
+            let solution = Auto::default().solve(&problem).unwrap();
+            assert!(solution.is_solved(), "{}", solution.status);
+            let step = 5.0 / (points + 1) as f64;
+            let errors = solution.t.iter().enumerate().map(|(i, beyond)| {
+                let price = (exercise.ln() - 1.0 + step * (i + 1) as f64).exp();
+                let worth = if price <= exercise {
+                    1.0 - price
+                } else {
+                    (1.0 - exercise) * (price / exercise).powf(-g)
+                };
+                (beyond - (worth - (1.0 - price))).abs()
+            });
+            errors.fold(0.0, f64::max)
+        };
+        let [coarse, fine] = [200, 800].map(error);
+        assert!(fine < 2e-3 && fine < 0.35 * coarse, "{coarse:e} {fine:e}");
     }
 }

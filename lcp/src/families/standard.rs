@@ -64,6 +64,31 @@ pub fn copositive_plus(n: usize, seed: u64) -> Instance<Lcp> {
     Instance { problem: with_solution(m, &t, &y), known: Known::Solution { t, y } }
 }
 
+/// No class: random integers with a planted solution.
+pub fn indefinite(n: usize, seed: u64) -> Instance<Lcp> {
+    let mut random = Integers::new(seed);
+    let m = random.matrix(n, n, -5, 5);
+    let (t, y) = random.solution(n, Planting::Strict);
+    Instance { problem: with_solution(m, &t, &y), known: Known::Solution { t, y } }
+}
+
+/// P0 and sparse: lower triangular with zeros and ones on its diagonal, with a planted solution. A pair with a zero on
+/// the diagonal does not decide its own side, and paths of pivots end on rays.
+pub fn triangular(n: usize, seed: u64) -> Instance<Lcp> {
+    let mut random = Integers::new(seed);
+    let mut m = random.matrix(n, n, -3, 3);
+    for i in 0..n {
+        for j in 0..n {
+            if j > i || (j < i && random.index(n) >= 4) {
+                m[(i, j)] = 0.0;
+            }
+        }
+        m[(i, i)] = random.next(0, 1);
+    }
+    let (t, y) = random.solution(n, Planting::Strict);
+    Instance { problem: with_solution(m, &t, &y), known: Known::Solution { t, y } }
+}
+
 /// Nothing but ties: the pairs fall into about `n / 3` groups, `m_ij = 1` within a group and 0
 /// elsewhere, and the `z` of every group must add up to the same number.
 pub fn ties(n: usize, seed: u64) -> Instance<Lcp> {

@@ -219,6 +219,48 @@ impl BoxedLcp {
         is_changed.then(|| Self { m: self.m.clone(), q: self.q.clone(), lower, upper })
     }
 
+    /// The equations of the variables that are between their bounds at a point, with the others where they are.
+    pub(crate) fn between(&self, z: &[f64], w: &[f64]) -> Option<Between> {
+        let is_inside =
+            |j: &usize| w[*j] == 0.0 && self.lower[*j] < z[*j] && z[*j] < self.upper[*j];
+        let variables: Vec<usize> = (0..self.order()).filter(is_inside).collect();
+        let mut places = vec![None; self.order()];
+        for (k, &j) in variables.iter().enumerate() {
+            places[j] = Some(k);
+        }
+        let mut right = self.q.clone();
+        let outside = (0..self.order()).filter(|&j| places[j].is_none() && z[j] != 0.0);
+        for j in outside {
+            self.m.slice(j).add_to(z[j], &mut right);
+        }
+        let mut entries = Vec::new();
+        for (k, &j) in variables.iter().enumerate() {
+            self.m.slice(j).for_each(|i, v| entries.extend(places[i].map(|i| (i, k, v))));
+        }
+        let count = variables.len();
+        let m = Matrix::from_entries(count, count, entries.into_iter());
+        let q = variables.iter().map(|&j| right[j]).collect();
+        (count > 0).then_some(Between { m, q, variables })
+    }
+
+    /// A point with other values of the variables between their bounds, and the `w` of the others that follow.
+    pub(crate) fn with_inside(
+        &self,
+        mut z: Vec<f64>,
+        variables: &[usize],
+        inside: &[f64],
+    ) -> (Vec<f64>, Vec<f64>) {
+        variables.iter().zip(inside).for_each(|(&j, &value)| z[j] = value);
+        let mut w = self.q.clone();
+        z.iter().enumerate().for_each(|(j, &z)| self.m.slice(j).add_to(z, &mut w));
+        for (j, w) in w.iter_mut().enumerate() {
+            let (is_low, is_high) = (z[j] <= self.lower[j], z[j] >= self.upper[j]);
+            *w = if is_low { *w } else { w.min(0.0) };
+            *w = if is_high { *w } else { w.max(0.0) };
+        }
+        (z, w)
+    }
+
     /// The value nearest to zero that the bounds of a variable allow.
     fn nearest(&self, i: usize) -> f64 {
         self.lower[i].max(0.0) + self.upper[i].min(0.0)
@@ -288,6 +330,17 @@ const FAR: f64 = 1e6;
 
 fn pairs(kinds: &[Kind]) -> usize {
     kinds.len() + kinds.iter().filter(|kind| matches!(kind, Kind::Both(_))).count()
+}
+
+/// The equations `M z + q = 0` of variables that are between their bounds, in numbers without distances from these.
+#[derive(Debug, Clone)]
+pub struct Between {
+    /// Their matrix.
+    pub(crate) m: Matrix,
+    /// Their vector, with what is at its bounds.
+    pub(crate) q: Vec<f64>,
+    /// The variables of the problem with bounds that they are.
+    pub(crate) variables: Vec<usize>,
 }
 
 /// Entries of a matrix that is being put together.

@@ -1,0 +1,129 @@
+//! Complementarity problems: generated families, and published files where they are at hand.
+
+use lcp::families::{self, Instance};
+use lcp::io::{Problem, read_file};
+use lcp::{Auto, HorizontalLcp, Lcp, MixedLcp, Solver};
+
+use crate::common;
+use crate::line::Line;
+
+type Keep<'a> = &'a mut dyn FnMut(Line);
+
+/// Solves all that are chosen.
+pub(crate) fn solve(is_chosen: &dyn Fn(&str) -> bool, keep: Keep<'_>) {
+    standard(is_chosen, keep);
+    let seeds = 0..3;
+    for n in [9, 24, 60] {
+        for seed in seeds.clone() {
+            for (name, family) in HORIZONTAL {
+                one(&format!("horizontal/{name} {n} {seed}"), is_chosen, keep, || {
+                    family(n, seed).problem
+                });
+            }
+            for (name, family) in MIXED {
+                one(&format!("mixed/{name} {n} {seed}"), is_chosen, keep, || {
+                    family(n, seed).problem
+                });
+            }
+        }
+    }
+    for steps in [5, 10, 20, 40] {
+        for seed in 0..20 {
+            let control = || families::control(steps, seed).problem;
+            one(&format!("control/boxed {steps} {seed}"), is_chosen, keep, control);
+            let as_general = || control().to_general();
+            one(&format!("control/general {steps} {seed}"), is_chosen, keep, as_general);
+        }
+    }
+    for n in [10, 100, 1000] {
+        for (interest, volatility) in [(0.02, 0.4), (0.1, 0.2)] {
+            let name = format!("options/{n} {interest} {volatility}");
+            one(&name, is_chosen, keep, || {
+                families::perpetual_option(n, interest, volatility).problem
+            });
+        }
+    }
+    published(is_chosen, keep);
+}
+
+type Family<P> = fn(usize, u64) -> Instance<P>;
+
+const STANDARD: [(&str, Family<Lcp>); 10] = [
+    ("positive definite", families::positive_definite),
+    ("positive semidefinite", families::positive_semidefinite),
+    ("P", families::p_matrix),
+    ("strictly copositive", families::strictly_copositive),
+    ("copositive-plus", families::copositive_plus),
+    ("ties", families::ties),
+    ("Harker and Pang", families::harker_pang),
+    ("infeasible", families::infeasible_semidefinite),
+    ("indefinite", families::indefinite),
+    ("triangular", families::triangular),
+];
+const HORIZONTAL: [(&str, Family<HorizontalLcp>); 3] = [
+    ("monotone", families::horizontal_monotone),
+    ("singular", families::horizontal_singular),
+    ("infeasible", families::infeasible),
+];
+const MIXED: [(&str, Family<MixedLcp>); 2] =
+    [("monotone", families::mixed_monotone), ("singular", families::mixed_singular)];
+
+fn standard(is_chosen: &dyn Fn(&str) -> bool, keep: Keep<'_>) {
+    for n in [6, 12, 18, 30, 60] {
+        for seed in 0..3 {
+            for (name, family) in STANDARD {
+                let name = format!("standard/{name} {n} {seed}");
+                one(&name, is_chosen, keep, || family(n, seed).problem);
+            }
+            let game = || families::bimatrix(n / 2, n / 2, seed).problem;
+            one(&format!("games/{n} {seed}"), is_chosen, keep, game);
+        }
+    }
+    for seed in 0..6 {
+        let game = || families::bimatrix(60, 60, seed).problem;
+        one(&format!("games/120 {seed}"), is_chosen, keep, game);
+    }
+    for n in [5, 10, 15] {
+        one(&format!("textbook/Murty {n}"), is_chosen, keep, || families::murty(n).problem);
+        one(&format!("textbook/Fathi {n}"), is_chosen, keep, || families::fathi(n).problem);
+    }
+    for side in [10, 40] {
+        let obstacle = || families::obstacle(side).problem;
+        one(&format!("textbook/obstacle {side}"), is_chosen, keep, obstacle);
+    }
+}
+
+fn one<P>(name: &str, is_chosen: &dyn Fn(&str) -> bool, keep: Keep<'_>, problem: impl FnOnce() -> P)
+where
+    Auto: Solver<P>,
+{
+    if is_chosen(name) {
+        let solution = Auto::default().solve(&problem()).expect("sound data");
+        keep(Line::of_solution(name.to_owned(), &solution));
+    }
+}
+
+/// Where published problems are looked for, beside the repository.
+const FILES: &str = "../shared/lcp-problems";
+
+fn published(is_chosen: &dyn Fn(&str) -> bool, keep: Keep<'_>) {
+    let Ok(folder) = std::fs::read_dir(common::root().join(FILES)) else { return };
+    for path in folder.filter_map(|entry| entry.ok().map(|entry| entry.path())) {
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let name = format!("published/{stem}");
+        if !is_chosen(&name) {
+            continue;
+        }
+        let Ok(file) = read_file(&path, None) else { continue };
+        let solution = match &file.problem {
+            Problem::Lcp(problem) => Auto::default().solve(problem),
+            Problem::Horizontal(problem) => Auto::default().solve(problem),
+            Problem::Mixed(problem) => Auto::default().solve(problem),
+            Problem::Boxed(problem) => Auto::default().solve(problem),
+            Problem::Friction(problem) => Auto::default().solve(problem),
+            Problem::Contact(problem) => Auto::default().solve(problem),
+            other => unreachable!("{} is no kind of problem here", other.kind()),
+        };
+        keep(Line::of_solution(name, &solution.expect("sound data")));
+    }
+}
