@@ -113,6 +113,12 @@ pub enum Error {
         /// The mirrored entry.
         mirrored: f64,
     },
+    /// A matrix that must be positive semidefinite and is not.
+    #[error("{reason}: bodies would gain energy by deforming; check the signs of its springs")]
+    Indefinite {
+        /// What shows it.
+        reason: String,
+    },
     /// A variable without an admissible value.
     #[error(
         "bounds of variable {index} are {lower:?} and {upper:?}: the lower one must not exceed the upper \

@@ -125,6 +125,7 @@ mod basis;
 mod certify;
 #[cfg(feature = "cli")]
 pub mod cli;
+mod definite;
 mod divide;
 mod enumerate;
 mod error;

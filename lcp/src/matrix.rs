@@ -221,6 +221,15 @@ impl Matrix {
         unlike.next().map(|(i, j, _)| (i, j))
     }
 
+    /// Whether an entry `v` of a square matrix is its mirror image or, if not, the opposite of it, up to rounding.
+    pub(crate) fn likeness(&self, i: usize, j: usize, v: f64) -> Option<bool> {
+        let size = (self[(i, i)].abs() * self[(j, j)].abs()).sqrt();
+        let mirrored = self[(j, i)];
+        [true, false]
+            .into_iter()
+            .find(|&is_same| are_alike(v, if is_same { mirrored } else { -mirrored }, size))
+    }
+
     pub(crate) fn slice(&self, j: usize) -> Column<'_> {
         match self {
             Self::Dense(m) => Column::Dense(m.col_as_slice(j)),
@@ -455,4 +464,15 @@ impl Column<'_> {
         }
         found
     }
+}
+
+/// The entries of a column.
+#[inline]
+pub(crate) fn column_of(
+    matrix: &SparseColMat<usize, f64>,
+    j: usize,
+) -> impl Iterator<Item = (usize, f64)> + '_ {
+    let pattern = matrix.symbolic();
+    let range = pattern.col_range(j);
+    pattern.row_idx()[range.clone()].iter().copied().zip(matrix.val()[range].iter().copied())
 }

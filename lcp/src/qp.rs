@@ -4,7 +4,6 @@ mod anderson;
 mod constants;
 mod contact;
 mod coulomb;
-mod definite;
 mod farkas;
 mod form;
 mod interior;
@@ -14,8 +13,8 @@ mod scale;
 mod settings;
 mod soft;
 
+use crate::definite;
 use coulomb::solve_contact;
-use definite::indefiniteness;
 use form::Point;
 use interior::End;
 use monotone::{MixedForm, standard_form, standard_point};
@@ -224,9 +223,6 @@ impl Solver<Contact2d> for QuadraticProgram {
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         self.settings.validate(problem.order())?;
-        if let Some(reason) = indefiniteness("K", problem.stiffness()) {
-            return Err(refused(&reason));
-        }
         match self.settings.soft {
             Some(soft) => self.solve_recentred(problem, soft, observer),
             None => self.solve_plain(problem, observer),

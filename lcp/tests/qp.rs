@@ -65,6 +65,63 @@ fn product(lcp: &Lcp, z: &[f64]) -> Vec<f64> {
     mz
 }
 
+/// `min x.H x / 2 + q.x` with some `x >= 0`, equations `E x = b` and inequalities `G x >= h`, as a mixed problem in `x` and
+/// the multipliers. The sign of an equation does not matter, and changes from row to row.
+fn program() -> impl Strategy<Value = (MixedLcp, usize)> {
+    (1..=8_usize, 0..=3_usize, 0..=4_usize).prop_flat_map(|(n, equations, others)| {
+        let rows = equations + others;
+        (
+            vec(-3..=3_i8, n * n),
+            vec(-3..=3_i8, rows * n),
+            vec(-3..=3_i8, n),
+            vec(any::<bool>(), n),
+            vec((any::<bool>(), 0..3_u8), rows),
+        )
+            .prop_map(move |(c, g, q, free, kinds)| {
+                let h = gram(&c.into_iter().map(f64::from).collect::<Vec<_>>(), n, n);
+                let at = |k: usize, j: usize| f64::from(g[k * n + j]);
+                let sign = |k: usize| if k < equations && kinds[k].0 { -1.0 } else { 1.0 };
+                let m = Mat::from_fn(n + rows, n + rows, |i, j| match (i < n, j < n) {
+                    (true, true) => h[(i, j)] + if i == j { 1.0 } else { 0.0 },
+                    (true, false) => -at(j - n, i),
+                    (false, true) => sign(i - n) * at(i - n, j),
+                    (false, false) => 0.0,
+                });
+                // A point that meets all conditions.
+                let x = |j: usize| f64::from(1 + (q[j] + 3) % 3);
+                let right = |k: usize| {
+                    let value: f64 = (0..n).map(|j| at(k, j) * x(j)).sum();
+                    let slack = if k < equations { 0.0 } else { f64::from(kinds[k].1) };
+                    sign(k) * (slack - value)
+                };
+                let q = q.iter().map(|q| f64::from(*q)).chain((0..rows).map(right)).collect();
+                let is_free = (0..n + rows)
+                    .map(|i| if i < n { free[i] } else { i - n < equations })
+                    .collect();
+                (MixedLcp::new(m, q, is_free).unwrap(), n)
+            })
+    })
+}
+
+proptest! {
+    #![proptest_config(cases(256))]
+
+    #[test]
+    fn programs_as_users_write_them_agree_with_lemke((problem, n) in program()) {
+        let solution = QuadraticProgram::default().solve(&problem).unwrap();
+        prop_assert!(solution.is_solved(), "{:?}", solution.residuals);
+        let (x, w) = problem.variables(&solution);
+        prop_assert!(problem.residuals(&x, &w).worst() <= 1e-10);
+        let lemke = Lemke::default().solve(&problem).unwrap();
+        prop_assert!(lemke.is_solved(), "{:?}", lemke.status);
+        let (other, _) = problem.variables(&lemke);
+        let size = other[..n].iter().fold(1.0_f64, |max, x| max.max(x.abs()));
+        for (a, b) in x.iter().zip(&other).take(n) {
+            prop_assert!((a - b).abs() <= 1e-7 * size, "{a} {b}");
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(cases(48))]
 
@@ -210,8 +267,9 @@ fn what_is_not_convex_is_refused() {
     );
     assert!(reason(&general.unwrap()).contains("standard"));
     let mixed = |m: Mat<f64>| MixedLcp::new(m, vec![-1.0; 2], vec![true, false]).unwrap();
-    assert!(reason(&mixed(mat![[1.0, 1.0], [1.0, 1.0]])).contains("skew"));
-    assert!(reason(&mixed(mat![[-1.0, 1.0], [-1.0, 1.0]])).contains("free variables"));
+    assert!(reason(&mixed(mat![[1.0, 1.0], [2.0, 1.0]])).contains("skew"));
+    assert!(reason(&mixed(mat![[-1.0, 1.0], [-1.0, 1.0]])).contains("block of the variables"));
+    assert!(reason(&mixed(mat![[1.0, 2.0], [2.0, 1.0]])).contains("not positive semidefinite"));
     let one = || mat![[1.0, 0.0]];
     let contact = Contact2d::new(
         mat![[1.0, 2.0], [2.0, 1.0]],
@@ -222,7 +280,9 @@ fn what_is_not_convex_is_refused() {
         vec![0.0],
         vec![0.0],
     );
-    assert!(reason(&contact.unwrap()).contains("K, scaled"));
+    let refused = contact.unwrap_err();
+    assert!(matches!(refused, Error::Indefinite { .. }), "{refused}");
+    assert!(refused.to_string().starts_with("K, scaled"), "{refused}");
 }
 
 #[test]

@@ -16,6 +16,8 @@ pub(crate) use units::{column_factors, diagonal, median};
 use faer::sparse::SparseColMat;
 
 use super::HorizontalLcp;
+use crate::definite::indefiniteness;
+use crate::matrix::column_of;
 use crate::vector::{check_length, check_vector};
 use crate::{Error, Matrix};
 
@@ -78,7 +80,8 @@ impl Contact2d {
     /// # Errors
     /// [`Error::Shape`] or [`Error::Length`] when the shapes do not fit, [`Error::NotFinite`] for a
     /// NaN or an infinity, [`Error::Setting`] for a coefficient of friction that is negative or above 1e12, and
-    /// [`Error::NotSymmetric`] for a `K` that is not symmetric to rounding.
+    /// [`Error::NotSymmetric`] for a `K` that is not symmetric to rounding, [`Error::Indefinite`] for one that is not
+    /// positive semidefinite.
     pub fn new(
         k: impl Into<Matrix>,
         f: Vec<f64>,
@@ -105,6 +108,9 @@ impl Contact2d {
         k.check_symmetric("K")?;
         let friction = (0..m).filter(|&i| mu[i] > 0.0).collect();
         let [k, c_n, c_t] = [k, c_n, c_t].map(Matrix::into_sparse);
+        if let Some(reason) = indefiniteness("K", &k) {
+            return Err(Error::Indefinite { reason });
+        }
         let compliance = vec![[0.0; 2]; m];
         Ok(Self { k, f, c_n, c_t, x_0, s_0, mu, compliance, friction })
     }
@@ -368,14 +374,3 @@ impl Contact2d {
 
 /// A tangential force of the size of the normal one cannot be told from zero beside larger friction.
 const LARGEST_MU: f64 = 1e12;
-
-/// The entries of a column.
-#[inline]
-pub(crate) fn column_of(
-    matrix: &SparseColMat<usize, f64>,
-    j: usize,
-) -> impl Iterator<Item = (usize, f64)> + '_ {
-    let pattern = matrix.symbolic();
-    let range = pattern.col_range(j);
-    pattern.row_idx()[range.clone()].iter().copied().zip(matrix.val()[range].iter().copied())
-}

@@ -88,8 +88,72 @@ impl MixedLcp {
         self.m().asymmetry(|i, j| if free[i] == free[j] { 1.0 } else { -1.0 })
     }
 
+    /// The groups of a quadratic program that the variables fit into, or an entry that no groups fit.
+    pub(crate) fn groups(&self) -> Result<Groups, (usize, usize)> {
+        let (m, n, free) = (self.m(), self.order(), self.free());
+        // A free variable without an entry of its own has an equation as its row, whose sign does not matter. It is coupled
+        // to the other group alone: within its own there would be no semidefinite block.
+        let is_equation: Vec<bool> = (0..n).map(|i| free[i] && m[(i, i)] == 0.0).collect();
+        // The group, and the sign that the rows tell.
+        let mut labels: Vec<Option<[bool; 2]>> = vec![None; n];
+        let mut roots: Vec<usize> = (0..n).collect();
+        roots.sort_by_key(|&j| (is_equation[j], !free[j]));
+        for root in roots {
+            if labels[root].is_some() {
+                continue;
+            }
+            labels[root] = Some([free[root]; 2]);
+            let mut part = vec![root];
+            let mut next = 0;
+            while let Some(&j) = part.get(next) {
+                next += 1;
+                let Some([group, sign]) = labels[j] else { continue };
+                for (i, v) in m.column(j).filter(|(i, v)| *v != 0.0 && *i != j) {
+                    let Some(is_same) = m.likeness(i, j, v) else { return Err((i, j)) };
+                    let is_within = is_same && !is_equation[i] && !is_equation[j];
+                    let label = [group == is_within, sign == is_same];
+                    if !is_equation[i] && label[0] != label[1]
+                        || labels[i].is_some_and(|it| it != label)
+                    {
+                        return Err((i, j));
+                    }
+                    if labels[i].is_none() {
+                        labels[i] = Some(label);
+                        part.push(i);
+                    }
+                }
+            }
+            let has_bounded = |group: bool| {
+                part.iter().any(|&j| !free[j] && labels[j].is_some_and(|it| it[0] == group))
+            };
+            if has_bounded(true) && !has_bounded(false) {
+                for &j in &part {
+                    labels[j] = labels[j].map(|label| label.map(|it| !it));
+                }
+            }
+        }
+        let labels: Vec<[bool; 2]> = labels.into_iter().flatten().collect();
+        Ok(Groups {
+            is_x: labels.iter().map(|label| label[0]).collect(),
+            sign: labels
+                .iter()
+                .map(|[group, sign]| if group == sign { 1.0 } else { -1.0 })
+                .collect(),
+        })
+    }
+
     /// The same problem by bounds.
     pub(crate) fn boxed(&self) -> &BoxedLcp {
         &self.boxed
     }
+}
+
+/// The variables of a quadratic program and its multipliers: with signs for its rows `M` is symmetric within each of these
+/// groups, and skew between them.
+#[derive(Debug, Clone)]
+pub(crate) struct Groups {
+    /// Whether a variable is in the first group, which has only free ones where that is possible.
+    pub(crate) is_x: Vec<bool>,
+    /// The sign of every row: minus one only for equations.
+    pub(crate) sign: Vec<f64>,
 }

@@ -16,14 +16,6 @@ pub(super) const LEAST_LIMIT: f64 = 1e-9;
 pub(super) const SWEEPS: usize = 6;
 /// Above this many rows the dual program is not chosen unasked. Chosen: its matrix is dense.
 pub(super) const DUAL_ROWS: usize = 400;
-
-/// Eigenvalues down to minus this, of the matrix with a diagonal of ones, are taken for zero. Chosen.
-pub(super) const ROUNDING: f64 = 1e-10;
-/// Above this order the matrix is not looked at as a dense one to say how far it is from semidefinite. Chosen: up to
-/// it that takes no time.
-pub(super) const DENSE: usize = 300;
-/// Eigenvalues above this, likewise, make it safely nonsingular. Chosen: the root of eps.
-pub(super) const MODULUS: f64 = 1e-8;
 /// Parts of the largest entry of a proof that are set to zero one after the other until it holds. Rounding: from none
 /// to some thousand eps.
 pub(super) const NOISE: [f64; 6] = [0.0, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11];

@@ -6,11 +6,11 @@ use faer::sparse::linalg::solvers::Llt;
 use faer::{Mat, MatMut, Side};
 
 use super::constants::DUAL_ROWS;
-use super::definite::is_definite;
 use super::form::{Bounds, Form, Point, add_product};
 use super::interior::{Effort, Found, Interior};
 use super::scale::Scaled;
 use super::settings::ContactForm;
+use crate::definite::is_definite;
 use crate::problem::column_of;
 use crate::{Contact2d, ContactState, Matrix};
 

@@ -3,11 +3,10 @@
 use std::ops::ControlFlow;
 
 use super::constants::SOFT_IDLE;
-use super::definite::indefiniteness;
 use super::interior::End;
 use super::program::Run;
 use super::settings::SoftConstraints;
-use super::{QuadraticProgram, QuadraticProgramSettings, refused};
+use super::{QuadraticProgram, QuadraticProgramSettings};
 use crate::problem::ratio;
 use crate::{
     Bedding, Contact2d, ContactState, Error, Iteration, Observer, Residuals, Solution, Status,
@@ -49,9 +48,6 @@ impl QuadraticProgram {
     /// [`Solver::solve`](crate::Solver::solve).
     pub fn solve_soft(&self, contact: &Contact2d, epsilon: f64) -> Result<SoftSolution, Error> {
         self.settings.validate(contact.order())?;
-        if let Some(reason) = indefiniteness("K", contact.stiffness()) {
-            return Err(refused(&reason));
-        }
         let springs = Bedding::new(contact, epsilon)?;
         let solver = self.without_soft();
         let mut ignore = |_: &Iteration| ControlFlow::Continue(());

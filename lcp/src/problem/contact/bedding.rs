@@ -1,6 +1,7 @@
 //! Springs on all displacements of a contact problem.
 
-use super::{Contact2d, column_of, diagonal};
+use super::{Contact2d, diagonal};
+use crate::matrix::column_of;
 use crate::vector::max_abs;
 use crate::{Error, Matrix};
 

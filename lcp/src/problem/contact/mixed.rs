@@ -1,6 +1,7 @@
 //! The mixed problem of contact, which Lemke's method treats more safely than the general one.
 
-use super::{Contact2d, ContactState, column_of};
+use super::{Contact2d, ContactState};
+use crate::matrix::column_of;
 use crate::vector::max_abs;
 use crate::{Basis, Matrix, MixedLcp, Side, WarmStart};
 

@@ -2,7 +2,8 @@
 
 use faer::sparse::SparseColMat;
 
-use super::{Contact2d, column_of};
+use super::Contact2d;
+use crate::matrix::column_of;
 use crate::scaling::power_of_two;
 
 /// Factors that bring the largest coefficient of every displacement in a gap or a slip near one; those of

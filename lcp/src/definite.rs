@@ -3,16 +3,23 @@
 use faer::sparse::SparseColMat;
 use faer::{Mat, Side};
 
-use super::constants::{DENSE, MODULUS, ROUNDING};
 use crate::Matrix;
-use crate::problem::column_of;
+use crate::matrix::column_of;
+
+/// Eigenvalues down to minus this, of the matrix with a diagonal of ones, are taken for zero. Chosen.
+const ROUNDING: f64 = 1e-10;
+/// Above this order the matrix is not looked at as a dense one to say how far it is from semidefinite. Chosen: up to
+/// it that takes no time.
+const DENSE: usize = 300;
+/// Eigenvalues above this, likewise, make it safely nonsingular. Chosen: the root of eps.
+const MODULUS: f64 = 1e-8;
 
 /// What is in the way of a symmetric matrix being positive semidefinite, if anything is.
 ///
 /// By a Cholesky factorisation of the matrix, scaled to a diagonal of ones so that units do not matter,
 /// plus a small multiple of the identity: that of a semidefinite matrix goes through, whatever its
 /// kernel; that of a matrix with an eigenvalue below `-1e-10` does not.
-pub(super) fn indefiniteness(what: &str, matrix: &SparseColMat<usize, f64>) -> Option<String> {
+pub(crate) fn indefiniteness(what: &str, matrix: &SparseColMat<usize, f64>) -> Option<String> {
     let n = matrix.ncols();
     let diagonal: Vec<f64> = (0..n).map(|i| *matrix.get(i, i).unwrap_or(&0.0)).collect();
     if let Some(i) = diagonal.iter().position(|d| *d < 0.0) {
@@ -40,7 +47,7 @@ pub(super) fn indefiniteness(what: &str, matrix: &SparseColMat<usize, f64>) -> O
 }
 
 /// Whether a symmetric positive semidefinite matrix is safely nonsingular.
-pub(super) fn is_definite(matrix: &SparseColMat<usize, f64>) -> bool {
+pub(crate) fn is_definite(matrix: &SparseColMat<usize, f64>) -> bool {
     let n = matrix.ncols();
     let diagonal: Vec<f64> = (0..n).map(|i| *matrix.get(i, i).unwrap_or(&0.0)).collect();
     diagonal.iter().all(|d| *d > 0.0)
