@@ -23,6 +23,37 @@ fn standard_input_is_a_file_too() {
     );
 }
 
+/// The point that another run prints, through a pipe.
+#[test]
+fn a_point_comes_from_standard_input() {
+    let folder = Folder::new("piped");
+    let problem = folder.file("problem.txt", TEXT);
+    let solved = Run::of(&["solve", &problem, "--json"]);
+    let check = Run::with_input(&solved.out, &["check", &problem, "-"]);
+    assert_eq!(check.code, 0, "{}", check.err);
+    let wrong = Run::with_input(r#"{"z": [1, 1]}"#, &["check", &problem, "-"]);
+    assert_eq!(wrong.code, 1, "{}", wrong.err);
+    let both = Run::with_input(TEXT, &["check", "-", "-"]);
+    assert!(both.code == 2 && both.err.contains("cannot both"), "{}", both.err);
+}
+
+#[test]
+fn messages_name_what_is_wrong() {
+    let nan = Run::with_input("1 nan -1\n", &["solve", "-"]);
+    assert!(nan.err.contains("column 3") && nan.err.contains("found `nan`"), "{}", nan.err);
+    for (option, words) in [
+        ("--tol", "`tolerance` is -1"),
+        ("--attempts", "invalid value '-1' for '--attempts"),
+        ("--time-limit", "--time-limit -1"),
+    ] {
+        let run = Run::with_input(TEXT, &["solve", "-", option, "-1"]);
+        assert!(run.code == 2 && run.err.contains(words), "{}", run.err);
+    }
+    let indefinite = CONTACT.replace("[3, 0]", "[-3, 0]");
+    let run = Run::with_input(&indefinite, &["solve", "-"]);
+    assert!(run.code == 2 && run.err.contains("K is not positive semidefinite"), "{}", run.err);
+}
+
 #[test]
 fn matrix_market_has_a_file_for_every_part() {
     let folder = Folder::new("market");

@@ -34,13 +34,13 @@ pub(super) struct SolveArgs {
     #[arg(long, value_enum, default_value_t)]
     pub(super) solver: Method,
     /// Largest residual, relative to the data, of a solution; 1e-10, for pgs 1e-8.
-    #[arg(long, value_name = "T")]
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub(super) tol: Option<f64>,
     /// Pivots of one attempt of lemke; auto then uses lemke.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(super) max_pivots: Option<usize>,
     /// Attempts of lemke; auto then uses lemke.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(super) attempts: Option<usize>,
     /// Covering vector of the first attempt of lemke, `ones` or `random:SEED`; auto then uses lemke.
     #[arg(long, value_name = "D", value_parser = covering)]
@@ -49,10 +49,10 @@ pub(super) struct SolveArgs {
     #[arg(long, value_name = "START")]
     pub(super) start: Option<PathBuf>,
     /// Iterations of pgs, newton or interior; for qp, those within one program.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(super) max_iterations: Option<usize>,
     /// Time limit, in seconds.
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(super) time_limit: Option<f64>,
     /// File for the pivots of lemke, as JSON; auto then uses lemke.
     #[arg(long, value_name = "FILE")]
@@ -65,11 +65,11 @@ pub(super) struct CheckArgs {
     #[command(flatten)]
     pub(super) input: InputArgs,
     /// The point: a JSON object with `z`, and `w` unless it is M z + q; for contact problems, `contact` with `u`,
-    /// `t_n` and `t_t`. Other fields are ignored.
+    /// `t_n` and `t_t`. Other fields are ignored; `-` is standard input.
     #[arg(required = true)]
     pub(super) solution: PathBuf,
     /// Largest residual of a point that counts as a solution.
-    #[arg(long, value_name = "T", default_value_t = LemkeSettings::default().tolerance)]
+    #[arg(long, value_name = "T", allow_negative_numbers = true, default_value_t = LemkeSettings::default().tolerance)]
     pub(super) tol: f64,
 }
 

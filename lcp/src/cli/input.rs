@@ -47,6 +47,11 @@ pub(super) struct Input {
 }
 
 impl InputArgs {
+    /// Whether the problem comes from standard input.
+    pub(super) fn is_stdin(&self) -> bool {
+        self.file.as_deref().is_some_and(|file| file.as_os_str() == "-")
+    }
+
     pub(super) fn read(&self, stdin: &mut dyn Read) -> Result<Input, Failure> {
         match (&self.file, &self.m, &self.q, &self.a, &self.b, &self.c) {
             (Some(file), ..) => {
@@ -125,7 +130,17 @@ pub(super) enum Point {
 impl Point {
     pub(super) fn read(path: &Path, problem: &Problem) -> Result<Self, Failure> {
         let text = std::fs::read_to_string(path).map_err(|error| in_file(path, &error))?;
-        let file: PointFile = serde_json::from_str(&text).map_err(|error| in_file(path, &error))?;
+        Self::parse(&text, path, problem)
+    }
+
+    pub(super) fn read_stdin(stdin: &mut dyn Read, problem: &Problem) -> Result<Self, Failure> {
+        let (mut text, name) = (String::new(), Path::new("standard input"));
+        stdin.read_to_string(&mut text).map_err(|error| in_file(name, &error))?;
+        Self::parse(&text, name, problem)
+    }
+
+    fn parse(text: &str, path: &Path, problem: &Problem) -> Result<Self, Failure> {
+        let file: PointFile = serde_json::from_str(text).map_err(|error| in_file(path, &error))?;
         if let (Problem::Contact(problem), Some(forces)) = (problem, file.contact) {
             return forces.state(problem).map(Self::State).map_err(|error| in_file(path, &error));
         }

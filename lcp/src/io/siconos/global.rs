@@ -31,7 +31,7 @@ pub(in crate::io) fn read_global(text: &str) -> Result<Problem, ReadError> {
 /// The order of the matrix that comes next: its word after the storage type.
 fn order(tokens: &Tokens<'_>) -> Result<usize, ReadError> {
     let mut ahead = tokens.clone();
-    ahead.expect(|| matrix::STORAGE.to_owned())?;
+    matrix::storage(&mut ahead)?;
     ahead.count("the number of rows")
 }
 

@@ -9,18 +9,33 @@ use crate::io::tokens::{Token, Tokens};
 const SIZE: &str = "the size, as 3-by-3";
 const SIZES: &str = "sizes must agree with each other";
 
-pub(super) const STORAGE: &str = "the storage type: 0 (dense), 1 (blocks) or 2 (sparse)";
-
 /// A matrix of that size, in any storage.
 pub(super) fn read(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matrix, ReadError> {
-    let storage = tokens.expect(|| STORAGE.to_owned())?;
+    let storage = storage(tokens)?;
     tokens.fixed("the number of rows", rows)?;
     tokens.fixed("the number of columns", cols)?;
-    match storage.text {
-        "0" => read_dense(tokens, rows, cols),
-        "1" => read_blocks(tokens, rows, cols),
-        "2" => read_sparse(tokens, rows, cols),
-        _ => Err(storage.unexpected(STORAGE.to_owned(), "no other storage exists")),
+    match storage {
+        Storage::Dense => read_dense(tokens, rows, cols),
+        Storage::Blocks => read_blocks(tokens, rows, cols),
+        Storage::Sparse => read_sparse(tokens, rows, cols),
+    }
+}
+
+pub(super) enum Storage {
+    Dense,
+    Blocks,
+    Sparse,
+}
+
+/// The word with which a matrix begins.
+pub(super) fn storage(tokens: &mut Tokens<'_>) -> Result<Storage, ReadError> {
+    const STORAGE: &str = "the storage type: 0 (dense), 1 (blocks) or 2 (sparse)";
+    let token = tokens.expect(|| STORAGE.to_owned())?;
+    match token.text {
+        "0" => Ok(Storage::Dense),
+        "1" => Ok(Storage::Blocks),
+        "2" => Ok(Storage::Sparse),
+        _ => Err(token.unexpected(STORAGE.to_owned(), "no other storage exists")),
     }
 }
 
