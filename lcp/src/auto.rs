@@ -77,8 +77,7 @@ pub struct Choice {
 ///
 /// Otherwise the result is, in this order: a point with residuals below the square root of the tolerance; the
 /// evidence of [`NoEquilibrium`](crate::Status::NoEquilibrium); a ray
-/// ([`RayTermination`](crate::Status::RayTermination)); the point with the smallest residual. If a result is near a
-/// solution, the next method starts from it, unless its residuals are small and it was refused as a distant point.
+/// ([`RayTermination`](crate::Status::RayTermination)); the point with the smallest residual.
 ///
 /// # Observer
 /// It is passed to each method in turn, which counts its iterations from 0. `Break` ends the chain like the time

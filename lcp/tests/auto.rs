@@ -197,7 +197,7 @@ fn large_sparse_problems_have_their_closed_forms() {
 #[test]
 fn contact_is_solved_at_every_size() {
     for (count, mu, solver) in
-        [(4, 0.5, LEMKE), (60, 0.5, INTERIOR), (60, 0.0, INTERIOR), (600, 0.5, INTERIOR)]
+        [(4, 0.5, INTERIOR), (60, 0.5, INTERIOR), (60, 0.0, INTERIOR), (600, 0.5, INTERIOR)]
     {
         let problem = masses(count, mu, 4.0);
         let solution = auto().solve(&problem).unwrap();

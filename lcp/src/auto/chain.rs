@@ -3,10 +3,10 @@
 use std::time::{Duration, Instant};
 
 use super::AutoSettings;
-use super::constants::{FEW_PAIRS, NEAR};
+use super::constants::FEW_PAIRS;
 use super::method::{Effort, Planned, attempt, chain_of};
 use crate::lemke;
-use crate::{Certificate, Error, Method, Observer, Route, RouteEnd, Solution, Status, WarmStart};
+use crate::{Certificate, Error, Method, Observer, Route, RouteEnd, Solution, Status};
 
 /// How much an answer says; what comes first says more.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
@@ -44,9 +44,8 @@ pub(super) fn run<P: Planned>(
         if is_falling && !problem.is_worth_a_proof(step.method) {
             continue;
         }
-        let near = best.as_ref().and_then(|best| near_point(best, settings.tolerance));
-        let start = near.as_ref().unwrap_or(&settings.start);
-        let effort = Effort { tolerance: settings.tolerance, time_limit, max_attempts, start };
+        let AutoSettings { tolerance, start, .. } = settings;
+        let effort = Effort { tolerance: *tolerance, time_limit, max_attempts, start };
         let route_began = Instant::now();
         let (end, solution) = match attempt(problem, step.method, &effort, observer) {
             Ok(solution) => {
@@ -89,15 +88,6 @@ pub(super) fn is_final(solution: &Solution) -> bool {
         }
         _ => false,
     }
-}
-
-/// Where an unsolved answer is near a solution, the next method may start from it; not from one that its method
-/// refused though the residuals are small, of which another might see no more than these.
-fn near_point(solution: &Solution, tolerance: f64) -> Option<WarmStart> {
-    let Solution { t, y, .. } = solution;
-    let residual = solution.residuals.worst();
-    (tolerance < residual && residual <= NEAR)
-        .then(|| WarmStart::Point { t: t.clone(), y: y.clone() })
 }
 
 /// The one that says more; the earlier one where both say the same.

@@ -13,8 +13,6 @@ pub(super) const FEW_DENSE: usize = 200;
 pub(super) const MATRICES: usize = 5;
 /// Factorisations of active sets where they do not promise to arrive. Chosen.
 pub(super) const TRIAL: usize = 100;
-/// A point with larger residuals is no better start than the one that was given. Chosen.
-pub(super) const NEAR: f64 = 1e-4;
 
 /// Pairs, apart from free variables, whose tree of choices comes right behind pivots. Measured on random problems: the tree
 /// takes 0.02 s on average at 18, and 0.3 s at most.

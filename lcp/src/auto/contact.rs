@@ -4,6 +4,7 @@ use super::constants::{FEW_POINTS, VERY_FEW_POINTS};
 use super::facts::Facts;
 use super::method::{Effort, Planned, Step, named};
 use super::standard::{common_steps, program_step};
+use crate::definite::is_definite;
 use crate::{Contact2d, Friction2d, Method, Solver};
 
 impl Planned for Friction2d {
@@ -70,10 +71,10 @@ impl Planned for Contact2d {
         );
         let in_order = |steps: [Option<Step>; 4]| steps.into_iter().flatten().collect();
         let (pivots, inside, sweeps) = (Some(pivots), Some(inside), Some(sweeps));
-        if points <= VERY_FEW_POINTS {
+        // Bodies with mass, or held by springs, have a solution: there is no proof to be found.
+        if points <= VERY_FEW_POINTS && !is_definite(self.stiffness()) {
             in_order([pivots, inside, program, sweeps])
         } else if points <= FEW_POINTS {
-            // Where the interior point comes near, the program starts from there and need only exchange states.
             in_order([inside, program, pivots, sweeps])
         } else {
             in_order([inside, program, sweeps, pivots])

@@ -276,7 +276,10 @@ impl<'a> Search<'a> {
         let interval = settings.refactor_interval;
         let kernel = data.kernel(&covering, interval);
         let mut path = Path::new(kernel, data, &covering, data.q.clone(), interval, settings.trace);
-        let max_pivots = settings.max_pivots.unwrap_or(100 * order + 1000);
+        let max_pivots = settings.max_pivots.unwrap_or(match trial.covering {
+            AttemptCovering::Column { .. } => 10 * order + 100,
+            _ => 100 * order + 1000,
+        });
         let deadline = self.deadline;
         let began = Instant::now();
         let mut limits = |pivots, artificial| {
@@ -290,7 +293,7 @@ impl<'a> Search<'a> {
             }
         };
         let end = match trial.covering {
-            AttemptCovering::Column { pair } => path.run_driven(pair, &mut limits),
+            AttemptCovering::Column { pair } => path.run_driven(pair % order, &mut limits),
             _ => path.run(&mut limits),
         };
         self.info.pivot_seconds += began.elapsed().as_secs_f64();

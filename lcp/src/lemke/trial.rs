@@ -1,6 +1,6 @@
 //! What the attempts vary, and in which order.
 
-use super::constants::TIES;
+use super::constants::{REPAIRS, TIES};
 use super::start::Start;
 use crate::pivoting::{AttemptCovering, AttemptEnd, AttemptStart, Perturbation};
 use crate::random::SplitMix;
@@ -35,6 +35,16 @@ impl Trial {
                 let covering = other(last.covering, seed);
                 let start = AttemptStart::LastBasis;
                 return Self { start, covering, perturbation: Perturbation::None };
+            }
+            // A basis that is nearly right is worth other covering vectors: paths from there are short.
+            AttemptEnd::Ray if last.start == AttemptStart::LastBasis && number <= REPAIRS => {
+                return Self { covering: AttemptCovering::Random { seed }, ..*last };
+            }
+            // The path of a game that is long: those of other pairs lead to other solutions, or are shorter.
+            AttemptEnd::PivotLimit => {
+                if let AttemptCovering::Column { pair } = last.covering {
+                    return Self { covering: AttemptCovering::Column { pair: pair + 1 }, ..*first };
+                }
             }
             _ => {}
         }

@@ -72,7 +72,8 @@ fn other_forms_have_their_plans() {
 
 #[test]
 fn points_and_friction_decide_about_contact() {
-    assert_eq!(plan!(&masses(1, 0.5, 1.0)), [LEMKE, CHOICES, INTERIOR, PROGRAM, SWEEPS]);
+    assert_eq!(plan!(&masses(1, 0.5, 0.0)), [LEMKE, CHOICES, INTERIOR, PROGRAM, SWEEPS]);
+    assert_eq!(plan!(&masses(1, 0.5, 1.0)), [INTERIOR, PROGRAM, LEMKE, CHOICES, SWEEPS]);
     assert_eq!(plan!(&masses(60, 0.5, 1.0)), [INTERIOR, PROGRAM, LEMKE, SWEEPS]);
     assert_eq!(plan!(&masses(60, 0.0, 1.0)), [INTERIOR, PROGRAM, LEMKE, SWEEPS]);
     assert_eq!(plan!(&masses(600, 0.5, 1.0)), [INTERIOR, PROGRAM, SWEEPS, LEMKE]);
