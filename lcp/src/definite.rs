@@ -1,6 +1,7 @@
 //! Whether a symmetric matrix is positive semidefinite.
 
 use faer::sparse::SparseColMat;
+use faer::sparse::linalg::LltError;
 use faer::{Mat, Side};
 
 use crate::Matrix;
@@ -30,15 +31,16 @@ pub(crate) fn indefiniteness(what: &str, matrix: &SparseColMat<usize, f64>) -> O
     }
     let scaled = unit_diagonal(matrix, &diagonal, ROUNDING);
     match scaled.sp_cholesky(Side::Lower) {
-        Ok(_) => None,
-        Err(_) if n <= DENSE => {
+        // Without the memory nothing is known.
+        Ok(_) | Err(LltError::Generic(_)) => None,
+        Err(LltError::Numeric(_)) if n <= DENSE => {
             let least = least_eigenvalue(&scaled) - ROUNDING;
             Some(format!(
                 "{what}, scaled to a diagonal of ones, has the eigenvalue {least:.3e}, so that it is \
                  not positive semidefinite"
             ))
         }
-        Err(_) => Some(format!(
+        Err(LltError::Numeric(_)) => Some(format!(
             "{what}, scaled to a diagonal of ones, has an eigenvalue below {:.0e}, so that it is not \
              positive semidefinite",
             -ROUNDING

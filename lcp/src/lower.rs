@@ -175,7 +175,8 @@ pub(crate) fn solve_lowered<P: Lowered>(
         }
     }
     let solution = judged_by(problem, solve(&problem.general(), false)?, tolerance);
-    if solution.is_solved() || solution.residuals.loads > tolerance {
+    let is_near = matches!(solution.status, Status::AlmostSolved | Status::NumericalTrouble);
+    if !is_near || solution.residuals.loads > tolerance {
         return Ok(solution);
     }
     let Some(between) = problem.between_bounds(&solution) else { return Ok(solution) };

@@ -221,13 +221,11 @@ impl Matrix {
         unlike.next().map(|(i, j, _)| (i, j))
     }
 
-    /// Whether an entry `v` of a square matrix is its mirror image or, if not, the opposite of it, up to rounding.
-    pub(crate) fn likeness(&self, i: usize, j: usize, v: f64) -> Option<bool> {
-        let size = (self[(i, i)].abs() * self[(j, j)].abs()).sqrt();
-        let mirrored = self[(j, i)];
-        [true, false]
-            .into_iter()
-            .find(|&is_same| are_alike(v, if is_same { mirrored } else { -mirrored }, size))
+    /// Whether an entry `v` of a square matrix is like its mirror image, and whether it is like the opposite of that, up to
+    /// rounding; an entry of the size of rounding is both.
+    pub(crate) fn likeness(&self, i: usize, j: usize, v: f64) -> [bool; 2] {
+        let size = self[(i, i)].abs().sqrt() * self[(j, j)].abs().sqrt();
+        [1.0, -1.0].map(|sign| are_alike(v, sign * self[(j, i)], size))
     }
 
     pub(crate) fn slice(&self, j: usize) -> Column<'_> {

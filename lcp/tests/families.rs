@@ -5,10 +5,10 @@
 mod common;
 
 use common::cases;
-use faer::Mat;
+use faer::{Mat, mat};
 use lcp::exact::{EnumerationSettings, ExactVerdict, RBig, enumerate, verify_basis};
 use lcp::families::{self, Instance, Known};
-use lcp::{Auto, Basis, HorizontalLcp, Lcp, MixedLcp, Side, Solver};
+use lcp::{Auto, Basis, BoxedLcp, HorizontalLcp, Lcp, MixedLcp, Side, Solver, Status};
 use proptest::prelude::*;
 
 fn exact(value: f64) -> RBig {
@@ -143,6 +143,17 @@ fn control_is_solved() {
             assert!(problem.residuals(&z, &w).worst() < 1e-10);
         }
     }
+}
+
+/// Bounds that cannot be met stay a proof, whatever small there is beside them.
+#[test]
+fn bounds_that_contradict_are_proved() {
+    let m = mat![[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]];
+    let (lower, upper) = (vec![-1.0, -1.0, f64::NEG_INFINITY], vec![1.0, 1.0, f64::INFINITY]);
+    let problem = BoxedLcp::new(m, vec![0.0, 1e-12, -2.0], lower, upper).unwrap();
+    let solution = Auto::default().solve(&problem).unwrap();
+    assert_eq!(solution.status, Status::Infeasible);
+    assert!(solution.certificate.is_some());
 }
 
 /// The boundary of exercise and the value above it approach Merton's, as the grid does.

@@ -285,6 +285,20 @@ fn what_is_not_convex_is_refused() {
     assert!(refused.to_string().starts_with("K, scaled"), "{refused}");
 }
 
+/// A coupling of the size of rounding does not say which group a variable is in.
+#[test]
+fn couplings_of_rounding_do_not_matter() {
+    let m = |dust: f64| mat![[1.0, -1.0, dust], [1.0, 1.0, 0.0], [0.0, 1e-17, 1.0]];
+    let solve = |dust: f64| {
+        let free = vec![true, false, false];
+        let problem = MixedLcp::new(m(dust), vec![-1.0, 2.0, -3.0], free).unwrap();
+        problem.variables(&QuadraticProgram::default().solve(&problem).unwrap()).0
+    };
+    let z = solve(1e-17);
+    assert!((z[0] - 1.0).abs() < 1e-12 && z[1].abs() < 1e-12 && (z[2] - 3.0).abs() < 1e-12);
+    assert_eq!(z, solve(0.0));
+}
+
 #[test]
 fn settings_are_checked() {
     let lcp = Lcp::new(mat![[1.0]], vec![-1.0]).unwrap();

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use super::Progress;
 use super::artificial::{completed, part_outside, without_artificial};
-use super::constants::{ATTEMPT, KINDS, SMALL, START_ROUNDING, WORK};
+use super::constants::{ATTEMPT, FIRST_ROUND, KINDS, SMALL, START_ROUNDING, WORK};
 use super::crash::{Crash, find_basis};
 use super::feasibility::farkas_vector;
 use super::finish::{Point, solve_basis};
@@ -276,9 +276,14 @@ impl<'a> Search<'a> {
         let interval = settings.refactor_interval;
         let kernel = data.kernel(&covering, interval);
         let mut path = Path::new(kernel, data, &covering, data.q.clone(), interval, settings.trace);
-        let max_pivots = settings.max_pivots.unwrap_or(match trial.covering {
-            AttemptCovering::Column { .. } => 10 * order + 100,
-            _ => 100 * order + 1000,
+        // Every pair has its turn before the paths that begin with them may be twice as long.
+        let (round, driver) = match trial.covering {
+            AttemptCovering::Column { pair } => (pair / order, Some(pair % order)),
+            _ => (0, None),
+        };
+        let max_pivots = settings.max_pivots.unwrap_or(match driver {
+            Some(_) => (FIRST_ROUND * (order + 10)) << round.min(16),
+            None => 100 * order + 1000,
         });
         let deadline = self.deadline;
         let began = Instant::now();
@@ -292,16 +297,16 @@ impl<'a> Search<'a> {
                 observer(&progress).is_break().then_some(AttemptEnd::Cancelled)
             }
         };
-        let end = match trial.covering {
-            AttemptCovering::Column { pair } => path.run_driven(pair % order, &mut limits),
-            _ => path.run(&mut limits),
+        let end = match driver {
+            Some(pair) => path.run_driven(pair, &mut limits),
+            None => path.run(&mut limits),
         };
         self.info.pivot_seconds += began.elapsed().as_secs_f64();
         self.info.pivots += path.pivots;
         self.info.factorisations += path.factorisations;
         self.info.attempts.push(Attempt {
             start: trial.start,
-            covering: trial.covering,
+            covering: driver.map_or(trial.covering, |pair| AttemptCovering::Column { pair }),
             perturbation: trial.perturbation,
             end,
             pivots: path.pivots,

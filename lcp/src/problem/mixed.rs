@@ -109,7 +109,11 @@ impl MixedLcp {
                 next += 1;
                 let Some([group, sign]) = labels[j] else { continue };
                 for (i, v) in m.column(j).filter(|(i, v)| *v != 0.0 && *i != j) {
-                    let Some(is_same) = m.likeness(i, j, v) else { return Err((i, j)) };
+                    let is_same = match m.likeness(i, j, v) {
+                        [true, true] => continue,
+                        [false, false] => return Err((i, j)),
+                        [is_same, _] => is_same,
+                    };
                     let is_within = is_same && !is_equation[i] && !is_equation[j];
                     let label = [group == is_within, sign == is_same];
                     if !is_equation[i] && label[0] != label[1]
