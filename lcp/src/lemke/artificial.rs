@@ -60,7 +60,7 @@ pub(super) fn without_artificial(
         }
     }
     let residuals = problem.residuals(&t, &y);
-    Some(Point { t, y, basis, residuals, condition: solution.condition? })
+    Some(Point { t, y, basis, residuals, condition: solution.condition?, negative: Vec::new() })
 }
 
 /// Where no column at all reaches outside the span of those chosen, but `c` does: the part of `c`

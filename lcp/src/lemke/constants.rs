@@ -49,6 +49,9 @@ pub(super) const LARGEST_GROWTH: f64 = 1e10;
 /// Entries of a solution, and values of the parameter, below this, relative to the terms that they come from, are
 /// rounding errors. Rounding: some fifty eps.
 pub(super) const ROUNDING: f64 = 1e-14;
+/// Gaps and slips below this part of what the loads deform bodies by, or of the largest of them, are rounding errors of
+/// positions. Rounding: some hundred eps.
+pub(super) const CLOSED: f64 = 1e-13;
 /// Pivots of at least this part of their column are sound enough for another start basis. Chosen.
 pub(super) const SOUND_PIVOT: f64 = 1e-2;
 /// Pairs of a sparse problem that are drawn for one, on average. Chosen: each costs some solves.

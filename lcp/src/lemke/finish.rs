@@ -16,6 +16,17 @@ pub(super) struct Point {
     pub(super) basis: Basis,
     pub(super) residuals: Residuals,
     pub(super) condition: f64,
+    /// The pairs whose basic variable is negative, and was set to zero.
+    pub(super) negative: Vec<usize>,
+}
+
+impl Point {
+    /// The basis with the other variable of every pair whose basic one is negative.
+    pub(super) fn exchanged(&self) -> Basis {
+        let mut sides = self.basis.sides().to_vec();
+        self.negative.iter().for_each(|&pair| sides[pair] = sides[pair].complement());
+        Basis::new(sides)
+    }
 }
 
 /// Solves for the basic variables with the original columns, refines, and sets negative values to
@@ -49,8 +60,8 @@ pub(super) fn solve_basis(problem: &Equilibrated<'_>, basis: &Basis) -> Option<P
                 problem.judge.residuals(&values.t, &values.y, Precision::RoundedLoads).loads;
             residuals.loads = residuals.loads.min(exact.max(rounded));
         }
-        let Values { t, y, sides } = values;
-        Point { t, y, basis: Basis::new(sides), residuals, condition }
+        let Values { t, y, sides, negative } = values;
+        Point { t, y, basis: Basis::new(sides), residuals, condition, negative }
     };
     let mut cleared = x.clone();
     let is_changed = drop_rounding(&matrix, &right, &mut cleared);
@@ -125,6 +136,7 @@ struct Values {
     t: Vec<f64>,
     y: Vec<f64>,
     sides: Vec<Side>,
+    negative: Vec<usize>,
 }
 
 impl Values {
@@ -134,6 +146,7 @@ impl Values {
         let n = problem.order();
         let (mut t, mut y) = (vec![0.0; n], vec![0.0; n]);
         let mut sides = basis.sides().to_vec();
+        let mut negative = Vec::new();
         for (j, (side, &x)) in sides.iter_mut().zip(x).enumerate() {
             let mut value = x * problem.factor(j, *side);
             if let Some(ratio) = problem.opposite(j).filter(|_| value < 0.0) {
@@ -144,8 +157,9 @@ impl Values {
                 Side::T => t[j] = value.max(0.0),
                 Side::Y => y[j] = value.max(0.0),
             }
+            negative.extend((value < 0.0).then_some(j));
         }
-        Self { t, y, sides }
+        Self { t, y, sides, negative }
     }
 
     /// What is left of the loads with the digits of the basic variables that rounding left out.

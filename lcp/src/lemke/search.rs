@@ -120,7 +120,7 @@ impl<'a> Search<'a> {
                 _ => {}
             }
             if let Some(basis) = outcome.basis {
-                let point = solve_basis(&self.problem, &basis);
+                let point = solve_basis(&self.problem, &basis).map(|point| self.exchanged(point));
                 self.note_residual(point.as_ref());
                 match point {
                     Some(point) if point.residuals.worst() <= self.settings.tolerance => {
@@ -374,6 +374,18 @@ impl<'a> Search<'a> {
         is_wanted.then(|| enumerate::farkas_vector(self.problem.problem)).flatten()
     }
 
+    /// The point that exchanges of all pairs with negative values lead to, as long as each makes it better (Kostreva 1978).
+    /// Where rounding has told ties apart a path may end beside the basis of the solution.
+    fn exchanged(&self, mut point: Point) -> Point {
+        while point.residuals.worst() > self.settings.tolerance && !point.negative.is_empty() {
+            match solve_basis(&self.problem, &point.exchanged()) {
+                Some(next) if next.residuals.worst() < point.residuals.worst() => point = next,
+                _ => break,
+            }
+        }
+        point
+    }
+
     /// What the original data says of the last attempt's basis.
     fn note_residual(&mut self, point: Option<&Point>) {
         if let Some(attempt) = self.info.attempts.last_mut() {
@@ -431,7 +443,7 @@ impl<'a> Search<'a> {
     }
 
     fn answer(self, status: Status, point: Point) -> Solution {
-        let Point { t, y, basis, residuals, condition } = point;
+        let Point { t, y, basis, residuals, condition, .. } = point;
         Solution {
             status,
             t,
