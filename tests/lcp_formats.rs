@@ -266,6 +266,11 @@ fn a_file_that_fits_no_format_names_the_one_that_comes_furthest() {
     let error = error("2 0 2 2 2 2\n1 2\n3 4\n-5 oops");
     let ReadError::Unrecognised { format, source } = &error else { panic!("{error}") };
     assert_eq!((*format, source.position()), (Format::SiconosLcp, Some(at(4, 4))));
+    // Numbers that were read to the last one, and overflow.
+    let error = self::error("2  1e308 1e308 1 1  1e308 1");
+    let ReadError::Unrecognised { format, source } = &error else { panic!("{error}") };
+    assert_eq!(*format, Format::Text);
+    assert!(matches!(**source, ReadError::Refused { .. }), "{source}");
 }
 
 #[test]

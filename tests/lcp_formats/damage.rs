@@ -101,6 +101,8 @@ proptest! {
             (Just(n), proptest::collection::vec(proptest::num::f64::NORMAL | proptest::num::f64::ZERO, n * n + n))
         }),
     ) {
+        // Sums of entries near the largest number overflow, and are refused.
+        let values: Vec<f64> = values.into_iter().map(|v| v / 256.0).collect();
         let words: Vec<String> = values.iter().map(|v| format!("{v:e}")).collect();
         let file = read(format!("{n} {}", words.join(" ")).as_bytes(), None).unwrap();
         let (m, q) = parts(&problem(&to_json(&file.problem)));

@@ -106,14 +106,15 @@ pub enum ReadError {
 }
 
 impl ReadError {
-    /// How far a reader came: first whether to the end of what is there, in a file that is nearly
-    /// complete, then the place.
+    /// How far a reader came: first whether to the end of what is there, with numbers that are no problem or in a file
+    /// that is nearly complete, then the place.
     pub(super) fn reach(&self) -> (bool, Option<Position>) {
-        let is_nearly_complete = match self {
+        let is_to_the_end = match self {
             Self::TooShort { needed, left, .. } => *left >= needed / 2 && *needed > 0,
+            Self::Refused { .. } => true,
             _ => false,
         };
-        (is_nearly_complete, self.position())
+        (is_to_the_end, self.position())
     }
 
     /// Where in the file, if the error has a place.
