@@ -1,7 +1,4 @@
 //! Problems that methods treat in another form, and the way back: a conversion never decides.
-//!
-//! Bounds that are far away compared with what the data make of a variable lose all digits of it once they are part of
-//! the right-hand side. Such a problem is solved without them first, which is right if the answer lies between them.
 
 use std::borrow::Cow;
 
@@ -28,16 +25,6 @@ pub trait General {
 
 /// A problem that pivots treat in its general form.
 pub trait Lowered: General + Sized {
-    /// The same problem without bounds that are far away, where there are any.
-    fn without_far_bounds(&self) -> Option<Self> {
-        None
-    }
-
-    /// The answer of this problem to one of that without far bounds, by a method that has it.
-    fn with_far_bounds(&self, _nearer: &Self, solution: Solution, _tolerance: f64) -> Solution {
-        solution
-    }
-
     /// The equations of what is between its bounds at a solution, if it has bounds.
     fn between_bounds(&self, _solution: &Solution) -> Option<Between> {
         None
@@ -63,20 +50,6 @@ impl Lowered for Friction2d {}
 impl Lowered for MixedLcp {}
 
 impl Lowered for BoxedLcp {
-    fn without_far_bounds(&self) -> Option<Self> {
-        self.without_far_bounds()
-    }
-
-    fn with_far_bounds(&self, nearer: &Self, mut solution: Solution, tolerance: f64) -> Solution {
-        let (z, w) = nearer.recover(&solution.t, &solution.y);
-        (solution.t, solution.y) = self.to_pairs(&z, &w);
-        // These belong to the other pairs.
-        (solution.basis, solution.certificate) = (None, None);
-        solution.residuals = self.residuals(&z, &w);
-        solution.boxed = Some((z, w));
-        judged(solution, tolerance)
-    }
-
     fn between_bounds(&self, solution: &Solution) -> Option<Between> {
         let (z, w) = self.recover(&solution.t, &solution.y);
         self.between(&z, &w)
@@ -158,7 +131,7 @@ impl General for Contact2d {
     }
 }
 
-/// Solves a problem by its general form, without far bounds first.
+/// Solves a problem by its general form; the second argument says that it is another one, of its parts.
 ///
 /// # Errors
 /// Those of the method.
@@ -167,16 +140,8 @@ pub(crate) fn solve_lowered<P: Lowered>(
     tolerance: f64,
     mut solve: impl FnMut(&HorizontalLcp, bool) -> Result<Solution, Error>,
 ) -> Result<Solution, Error> {
-    if let Some(nearer) = problem.without_far_bounds() {
-        let solution = solve(&nearer.general(), true)?;
-        let solution = problem.with_far_bounds(&nearer, solution, tolerance);
-        if solution.is_solved() {
-            return Ok(solution);
-        }
-    }
     let solution = judged_by(problem, solve(&problem.general(), false)?, tolerance);
-    let is_near = matches!(solution.status, Status::AlmostSolved | Status::NumericalTrouble);
-    if !is_near || solution.residuals.loads > tolerance {
+    if !matches!(solution.status, Status::AlmostSolved | Status::NumericalTrouble) {
         return Ok(solution);
     }
     let Some(between) = problem.between_bounds(&solution) else { return Ok(solution) };
@@ -228,11 +193,6 @@ pub(crate) fn judged_by(
     tolerance: f64,
 ) -> Solution {
     solution.residuals = problem.residuals_of_pairs(&solution.t, &solution.y);
-    judged(solution, tolerance)
-}
-
-/// What a method called solved, or nearly, by its residuals.
-fn judged(mut solution: Solution, tolerance: f64) -> Solution {
     if matches!(solution.status, Status::Solved | Status::AlmostSolved) {
         solution.status = solution.residuals.verdict(tolerance, Status::AlmostSolved);
     }

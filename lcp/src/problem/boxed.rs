@@ -8,9 +8,8 @@ use crate::{Error, Matrix};
 /// The problem `w = M z + q`, `lower <= z <= upper` of order `n`, where `w_i >= 0` if `z_i` is at
 /// its lower bound, `w_i <= 0` if it is at its upper one, and `w_i = 0` in between.
 ///
-/// Bounds may be infinite. Methods that work on the general form first take bounds as infinite that are beyond 1e6
-/// times the size that `q` and `M` give a variable; the solution is judged by the given bounds. With `lower = 0` and
-/// `upper = inf` it is the standard problem; without bounds it is a system of equations.
+/// Bounds may be infinite. With `lower = 0` and `upper = inf` it is the standard problem; without bounds it is a system
+/// of equations.
 ///
 /// ```
 /// use faer::mat;
@@ -107,8 +106,8 @@ impl BoxedLcp {
     }
 
     /// The general problem: `n` pairs, and one more for every variable with two finite, different
-    /// bounds. Row `i` is `w - M z = q` for variable `i`; the additional rows are the distances between the two
-    /// bounds.
+    /// bounds. Row `i` is `w - M z = q` for variable `i`, with `z` as its distance from the bound that is nearer to zero; the
+    /// additional rows are the distances between the two bounds.
     pub fn to_general(&self) -> HorizontalLcp {
         let kinds = self.kinds();
         let n = self.order();
@@ -143,7 +142,11 @@ impl BoxedLcp {
                     b.one(j, j, 1.0);
                 }
                 Kind::Both(k) => {
-                    a.column(m, -1.0, j);
+                    if self.is_nearer_above(j) {
+                        a.column(m, 1.0, k);
+                    } else {
+                        a.column(m, -1.0, j);
+                    }
                     a.one(k, j, 1.0);
                     b.one(j, j, 1.0);
                     a.one(k, k, 1.0);
@@ -199,24 +202,6 @@ impl BoxedLcp {
             }
         }
         (t, y)
-    }
-
-    /// The same problem with bounds that are [far](FAR) away taken for infinite; `None` where there are none.
-    pub(crate) fn without_far_bounds(&self) -> Option<Self> {
-        let sizes = self.sizes();
-        let is_far = |bound: f64, size: f64| bound.is_finite() && bound.abs() > FAR * size;
-        let lower = |(l, size): (&f64, &f64)| {
-            if *l < 0.0 && is_far(*l, *size) { f64::NEG_INFINITY } else { *l }
-        };
-        let upper = |(u, size): (&f64, &f64)| {
-            if *u > 0.0 && is_far(*u, *size) { f64::INFINITY } else { *u }
-        };
-        let lower: Vec<f64> = self.lower.iter().zip(&sizes).map(lower).collect();
-        let upper: Vec<f64> = self.upper.iter().zip(&sizes).map(upper).collect();
-        let finite = |v: &[f64]| v.iter().filter(|v| v.is_finite()).count();
-        let count = finite(&lower) + finite(&upper);
-        let is_changed = count < finite(&self.lower) + finite(&self.upper);
-        is_changed.then(|| Self { m: self.m.clone(), q: self.q.clone(), lower, upper })
     }
 
     /// The equations of the variables that are between their bounds at a point, with the others where they are.
@@ -278,22 +263,6 @@ impl BoxedLcp {
         loads
     }
 
-    /// For every variable the largest value with which it would balance alone a right-hand side in one of its rows,
-    /// and what the bounds nearest to zero add to these.
-    fn sizes(&self) -> Vec<f64> {
-        let loads = self.loads();
-        let size = |j: usize| {
-            let mut size = self.nearest(j).abs();
-            self.m.slice(j).for_each(|i, v| {
-                if v != 0.0 {
-                    size = size.max(loads[i] / v.abs());
-                }
-            });
-            size
-        };
-        (0..self.order()).map(size).collect()
-    }
-
     /// For every variable the further pair that its two bounds have in the general problem.
     pub(crate) fn upper_pairs(&self) -> Vec<Option<usize>> {
         let pair = |kind| if let Kind::Both(pair) = kind { Some(pair) } else { None };
@@ -320,13 +289,17 @@ impl BoxedLcp {
         match kind {
             Kind::Free => 0.0,
             Kind::Upper => self.upper[i],
+            Kind::Both(_) if self.is_nearer_above(i) => self.upper[i],
             Kind::Lower | Kind::Fixed | Kind::Both(_) => self.lower[i],
         }
     }
-}
 
-/// Bounds beyond this multiple of what the data make of a variable are tried as infinite first.
-const FAR: f64 = 1e6;
+    /// Whether the upper bound is nearer to zero: a distance from it keeps more digits of the value than one from the lower
+    /// bound.
+    fn is_nearer_above(&self, i: usize) -> bool {
+        self.upper[i].abs() < self.lower[i].abs()
+    }
+}
 
 fn pairs(kinds: &[Kind]) -> usize {
     kinds.len() + kinds.iter().filter(|kind| matches!(kind, Kind::Both(_))).count()
