@@ -5,7 +5,7 @@
 use lcp::faer::mat;
 use lcp::lemke::{Parametric, ParametricPath};
 use lcp::pgs::{Constraint, RowsSolution, SweepOrder};
-use lcp::qp::{ContactForm, SoftConstraints};
+use lcp::qp::SoftConstraints;
 use lcp::refine::{ContactStatus, Margin, Refinement};
 use lcp::{
     Auto, Basis, Choice, Contact2d, ContactForces, ContactPoint, ContactState, Covering,
@@ -90,7 +90,6 @@ fn parts_of_answers_and_of_settings() {
     assert_comes_back!([ContactStatus; 2], [ContactStatus::Open, ContactStatus::Backwards]);
     assert_comes_back!([Refinement; 2], [Refinement::Plain, Refinement::Extended]);
     assert_comes_back!([SweepOrder; 2], [SweepOrder::Forward, SweepOrder::Coloured]);
-    assert_comes_back!(ContactForm, ContactForm::default());
     assert_comes_back!(SoftConstraints, SoftConstraints::default());
     let soft = QuadraticProgram::default().solve_soft(&problem, 1e-3).unwrap();
     assert_comes_back!(lcp::qp::SoftSolution, soft);

@@ -6,7 +6,5 @@ mod original;
 mod search;
 
 pub(crate) use crossover::Effort;
-#[cfg(feature = "clarabel")]
-pub(crate) use crossover::cross_over;
 pub(crate) use original::{Original, state_brought_right};
 pub(crate) use search::{Search, unplanned};

@@ -35,29 +35,24 @@ pub struct Choice {
 /// Chooses the methods for a problem by its class and size, and runs one after the other until one finds a solution.
 /// Every method checks the residuals in the given data.
 ///
-/// The choice needs no factorisation. It depends on the order, whether matrices are stored sparse, signs, symmetry,
-/// dominance of the diagonal, friction, and the number of contact points, not on units. [`plan`](Self::plan) gives
+/// The choice needs no factorisation. It depends on the order, whether matrices are stored sparse, signs, and the number
+/// of contact points, not on units. [`plan`](Self::plan) gives
 /// the choice and the reasons, and [`Info::routes`](crate::Info::routes) the methods that were tried and how they
 /// ended.
 ///
 /// | problem | chain |
 /// |---|---|
-/// | [`Lcp`](crate::Lcp), dense, or up to order 500 | semismooth Newton†, Lemke, interior point§, quadratic program\*, sweeps† |
-/// | [`Lcp`](crate::Lcp), sparse and larger | semismooth Newton†, interior point, quadratic program\*, sweeps†, Lemke |
+/// | [`Lcp`](crate::Lcp) | semismooth Newton†, then as the next lines |
+/// | dense, or up to order 500 | Lemke, interior point‡ |
+/// | sparse and larger | interior point, Lemke |
 /// | [`HorizontalLcp`](crate::HorizontalLcp) | as a standard problem if it can be converted, else Lemke |
-/// | [`MixedLcp`](crate::MixedLcp), dense, or up to order 500 | Lemke, interior point§, quadratic program\* |
-/// | [`MixedLcp`](crate::MixedLcp), sparse and larger | interior point, quadratic program\*, Lemke |
-/// | [`BoxedLcp`](crate::BoxedLcp), dense, or up to order 500 | Lemke, interior point‡§, sweeps† |
-/// | [`BoxedLcp`](crate::BoxedLcp), sparse and larger | interior point‡, sweeps†, Lemke |
-/// | [`Friction2d`](crate::Friction2d), dense, or up to order 500 | Lemke, interior point§, sweeps† |
-/// | [`Friction2d`](crate::Friction2d), sparse and larger | interior point, sweeps†, Lemke |
-/// | [`Contact2d`](crate::Contact2d), up to 40 points | Lemke, interior point, quadratic programs, sweeps |
-/// | [`Contact2d`](crate::Contact2d), up to 500 points | interior point, quadratic programs, Lemke, sweeps |
-/// | [`Contact2d`](crate::Contact2d), larger | interior point, quadratic programs, sweeps, Lemke |
+/// | [`Contact2d`](crate::Contact2d), up to 40 points and with bodies that no spring holds | Lemke, interior point |
+/// | other [`Contact2d`](crate::Contact2d) | interior point, Lemke |
 ///
-/// \* with the feature `clarabel`, where `M` is symmetric, for mixed problems within the two kinds of
-/// variables and skew between them; † where the diagonal is positive; ‡ without free variables; § sparse, or dense
-/// up to order 200.
+/// † if the diagonal is positive; ‡ sparse, or dense up to order 200, and for a [`BoxedLcp`](crate::BoxedLcp) without
+/// free variables. The lines without a class are for [`MixedLcp`](crate::MixedLcp), [`BoxedLcp`](crate::BoxedLcp) and
+/// [`Friction2d`](crate::Friction2d) too. Quadratic programs and sweeps are in no chain: they decide nothing that these
+/// methods leave open.
 ///
 /// Problems of up to 100 pairs have enumeration as well: branching over the sides of pairs, with a solution or a proof for
 /// each choice. It follows Lemke's method if there are at most 18 pairs, not counting free variables, and decides all of
@@ -72,16 +67,14 @@ pub struct Choice {
 /// # When it ends
 /// With [`Solved`](crate::Status::Solved); with [`Infeasible`](crate::Status::Infeasible) or
 /// [`NoSolution`](crate::Status::NoSolution) and a checked proof; or at the time limit. A method that does not treat
-/// the problem, or needs more memory than there is, is skipped. After [`NoEquilibrium`](crate::Status::NoEquilibrium)
-/// for more than 500 contact points only the quadratic program follows, which may find a proof.
+/// the problem, or needs more memory than there is, is skipped.
 ///
-/// Otherwise the result is, in this order: a point with residuals below the square root of the tolerance; the
-/// evidence of [`NoEquilibrium`](crate::Status::NoEquilibrium); a ray
+/// Otherwise the result is, in this order: a point with residuals below the square root of the tolerance; a ray
 /// ([`RayTermination`](crate::Status::RayTermination)); the point with the smallest residual.
 ///
 /// # Observer
 /// It is passed to each method in turn, which counts its iterations from 0. `Break` ends the chain like the time
-/// limit: with [`Cancelled`](crate::Status::Cancelled), unless a previous method found evidence or a ray.
+/// limit: with [`Cancelled`](crate::Status::Cancelled), unless a previous method found a ray.
 ///
 /// # Cost
 /// The cost is that of the methods that were tried. A method that fails may take long: set
@@ -93,7 +86,7 @@ pub struct Choice {
 /// let auto = Auto::default();
 /// let first = &auto.plan(&problem)[0];
 /// assert_eq!(first.method, Method::Newton);
-/// assert!(first.reason.starts_with("order 1600, sparse with 7840 nonzeros, symmetric"));
+/// assert!(first.reason.starts_with("order 1600, sparse with 7840 nonzeros"));
 /// let solution = auto.solve(&problem)?;
 /// assert!(solution.is_solved());
 /// assert_eq!(solution.info.method, Method::Newton);

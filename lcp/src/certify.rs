@@ -35,7 +35,7 @@ mod significance;
 mod weights;
 
 pub use certificate::{Certificate, Leaf};
-pub use evidence::{Ray, SoftSprings};
+pub use evidence::Ray;
 
 pub(crate) use boxed::BoxedJudge;
 pub(crate) use constants::ROUNDING;

@@ -14,7 +14,7 @@ use crate::parts::Parts;
 use crate::problem::column_of;
 use crate::{
     Basis, BoxedLcp, Certificate, Contact2d, ContactState, Friction2d, HorizontalLcp, Lcp, Leaf,
-    Matrix, MixedLcp, Ray, Side, SoftSprings, Solution, WarmStart,
+    Matrix, MixedLcp, Ray, Side, Solution, WarmStart,
 };
 
 /// An independent part.
@@ -25,8 +25,6 @@ pub struct Part<P> {
     pub(crate) pairs: Vec<usize>,
     /// Where its rows are.
     pub(crate) rows: Vec<usize>,
-    /// Displacements of the whole, of contact: the first of its pairs.
-    displacements: usize,
 }
 
 /// A problem that may have independent parts. Only the problems of the library are.
@@ -45,7 +43,7 @@ pub trait Divide: General + Sized {
 impl<P> Part<P> {
     /// A part whose rows are numbered as its pairs.
     fn new(problem: P, pairs: Vec<usize>) -> Self {
-        Self { problem, rows: pairs.clone(), pairs, displacements: 0 }
+        Self { problem, rows: pairs.clone(), pairs }
     }
 
     /// What a start of the whole says of this part.
@@ -68,7 +66,7 @@ impl<P> Part<P> {
     }
 
     /// What a certificate of this part says of a whole of so many pairs: a proof with zeros in all other rows is one
-    /// of the whole, and other parts stay at rest in a ray and in a motion.
+    /// of the whole, and other parts stay at rest in a ray.
     pub(crate) fn certificate(&self, certificate: &Certificate, pairs: usize) -> Certificate {
         let rows = |part: &[f64]| spread(&self.rows, part, pairs, 0.0);
         match certificate {
@@ -84,10 +82,6 @@ impl<P> Part<P> {
                 dz0: *dz0,
                 covering: rows(covering),
             }),
-            Certificate::Springs(springs) => {
-                let motion = spread(&self.pairs, &springs.motion, self.displacements, 0.0);
-                Certificate::Springs(SoftSprings { motion, ..springs.clone() })
-            }
         }
     }
 }
@@ -118,7 +112,7 @@ impl Divide for HorizontalLcp {
                 let (rows, pairs) = split(&group, n);
                 let (a, b) = (block(self.a(), &rows, &pairs), block(self.b(), &rows, &pairs));
                 let problem = Self::new(a, b, picked(self.c(), &rows)).ok()?;
-                Some(Part { problem, pairs, rows, displacements: 0 })
+                Some(Part { problem, pairs, rows })
             })
             .collect()
     }
@@ -226,7 +220,7 @@ impl Divide for Contact2d {
             let pairs = group.iter().copied();
             let pairs = pairs.chain(frictional.iter().map(|k| n + m + k));
             let pairs = pairs.chain(frictional.iter().map(|k| n + m + count + k)).collect();
-            Some(Part { displacements: n, ..Part::new(problem.ok()?, pairs) })
+            Some(Part::new(problem.ok()?, pairs))
         };
         groups_of_parts(parts)?.into_iter().map(part).collect()
     }

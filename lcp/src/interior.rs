@@ -2,7 +2,6 @@
 
 mod balance;
 mod constants;
-mod continuation;
 mod factors;
 mod homogeneous;
 mod iterate;
@@ -16,17 +15,11 @@ mod start;
 mod turn;
 mod variables;
 
-use std::ops::ControlFlow;
-
 pub use least::LeastForces;
 pub use settings::InteriorPointSettings;
 
 use balance::{Balance, balance};
-use constants::{
-    BALANCE_TOLERANCE, HELD, MORE, NEAR, NEARER, NO_STEP, OPENING_OF_STEP, PATIENCE,
-    PATIENCE_OF_START, SURE, WIDTH,
-};
-use continuation::End;
+use constants::{HELD, MORE, NEAR, NEARER, NO_STEP, OPENING_OF_STEP, PATIENCE_OF_START, SURE};
 use iterate::{Defect, Iterate};
 use path::advance;
 use start::{set_out, start_opened};
@@ -34,9 +27,7 @@ use start::{set_out, start_opened};
 use crate::active::{Effort, Original, Search};
 use crate::solve::Monitor;
 use crate::states::{Condensed, Scaled};
-use crate::{
-    Certificate, Contact2d, Error, Iteration, Method, Observer, SoftSprings, Solution, Status,
-};
+use crate::{Certificate, Contact2d, Error, Method, Observer, Solution, Status};
 
 /// An interior-point method for large sparse problems: contact with Coulomb's friction
 /// ([`Contact2d`](crate::Contact2d)), and mixed and standard problems.
@@ -55,11 +46,9 @@ use crate::{
 /// equations of these states are solved to the last digit, and contacts with contradictions are exchanged. The result
 /// is a complementary basis with residuals at rounding level.
 ///
-/// If the iteration fails, soft springs on all displacements are reduced step by step. If there is a solution, the
-/// share of the load that they carry tends to zero with their stiffness; if there is none, it tends to a constant.
-/// Then a convex program decides whether any forces inside the friction cones balance the loads. If such forces
-/// exist, they are tried. If a checked motion proves that none exist, the status is [`Status::NoEquilibrium`], with
-/// the evidence in [`Solution::certificate`].
+/// If the iteration jams on bodies in contact, a convex program decides whether any forces inside the friction cones
+/// balance the loads. If they do, bodies that have not moved are tried with them. If none do, the status is
+/// [`Status::Infeasible`], with the motion that proves it in [`Solution::certificate`].
 ///
 /// # Guarantee
 /// None is proved. For monotone problems (no friction, positive semidefinite `M`) with a strictly feasible point the
@@ -67,9 +56,8 @@ use crate::{
 /// 6e4 contact points took 30 to 70 steps for `mu` from 1/2 to 1.
 ///
 /// # Failure
-/// [`Status::Stalled`] if both the iteration and the springs fail, and if rigid bodies fall although some forces
-/// could hold them. For elastic bodies with friction [`Status::NoEquilibrium`] is evidence, not a proof: there may be
-/// a solution. It has no Farkas vector.
+/// [`Status::Stalled`] if the iteration jams, and also if bodies fall although some forces could hold them. Whether they
+/// do, an [`Evolution`](crate::Evolution) shows.
 ///
 /// # Cost
 /// One sparse factorisation and two to six solves per step. A mixed problem with a dense `M` is treated, but not
@@ -124,10 +112,10 @@ impl InteriorPoint {
         let mut search = Search::new(Method::Interior, problem, self.settings.tolerance)?;
         let settings = &self.settings;
         let run = Run { settings, problem, search: &mut search, monitor: &mut monitor };
-        let (status, springs) = run.solve();
+        let (status, proof) = run.solve();
         let mut solution = search.finish(status, monitor);
         if !solution.is_solved() {
-            solution.certificate = springs.map(Certificate::Springs);
+            solution.certificate = proof;
         }
         Ok(solution)
     }
@@ -152,96 +140,59 @@ struct Run<'r, 'a, 'b> {
     monitor: &'r mut Monitor<'b>,
 }
 
-/// A step from a point with its residuals, with the stiffness of the springs and the least product of a pair.
-type Step = fn(&Scaled, &mut Condensed, (&Iterate, &Defect), (f64, f64)) -> (Iterate, f64);
+/// A step from a point with its residuals.
+type Step = fn(&Scaled, &mut Condensed, &Iterate, &Defect) -> (Iterate, f64);
 
 impl Run<'_, '_, '_> {
     /// The path from a start that is opened by this multiple of its largest gap.
     fn path(&mut self, opening: f64) -> Status {
         let Search { scaled, condensed, .. } = &mut *self.search;
         let at = start_opened(scaled, condensed, opening);
-        self.iterate(at, PATIENCE_OF_START, set_out)
+        self.iterate(at)
     }
 
-    fn solve(mut self) -> (Status, Option<SoftSprings>) {
-        let is_tried = self.search.try_start(&self.settings.start)
-            || self.search.try_rest(self.settings.crossover);
-        let (mut status, mut springs) = (is_tried.then_some(Status::Solved), None);
-        let openings = if status.is_none() { &self.settings.openings[..] } else { &[] };
-        for &opening in openings {
-            status = Some(self.path(opening));
-            if status != Some(Status::Stalled) {
-                break;
+    fn solve(mut self) -> (Status, Option<Certificate>) {
+        if self.search.try_start(&self.settings.start)
+            || self.search.try_rest(self.settings.crossover)
+        {
+            return (Status::Solved, None);
+        }
+        for &opening in &self.settings.openings {
+            let status = self.path(opening);
+            if status != Status::Stalled {
+                return (status, None);
             }
         }
-        if status == Some(Status::Stalled) && self.settings.continuation {
-            let Self { search, monitor, .. } = &mut self;
-            let Search { scaled, condensed, .. } = &mut **search;
-            let mut limit = None;
-            let end = continuation::follow(scaled, condensed, || {
-                let last = monitor.history.last().copied().unwrap_or(f64::INFINITY);
-                limit = monitor.stop(last);
-                limit.is_none()
-            });
-            status = Some(match end {
-                End::Standing(at) => self.iterate(at, PATIENCE, advance),
-                End::Falling(path) if self.problem.has_bodies() => {
-                    let status = self.fallen();
-                    springs = (status == Status::NoEquilibrium).then_some(path);
-                    status
-                }
-                End::Falling(_) | End::Open => limit.unwrap_or(Status::Stalled),
-            });
+        match self.problem.contact() {
+            Some(contact) if self.settings.prove_infeasible => self.balanced(contact),
+            _ => (Status::Stalled, None),
         }
-        (status.unwrap_or(Status::Stalled), springs)
     }
 
-    /// What follows from bodies that fall from spring to spring.
-    ///
-    /// With friction they may come to rest elsewhere: that they cannot is proved, or else the forces that
-    /// might hold them are tried. Where these do not hold them, bodies that all have a stiffness are taken
-    /// to fall, because it says how their contacts are strained; of rigid ones nothing is known.
-    fn fallen(&mut self) -> Status {
-        let left = self.settings.max_iterations.saturating_sub(self.monitor.iterations());
+    /// Whether any forces inside the friction cones balance the loads; bodies that have not moved are tried with them.
+    fn balanced(&mut self, contact: &Contact2d) -> (Status, Option<Certificate>) {
         let Self { search, monitor, .. } = self;
-        let scaled = &search.scaled;
-        let last = monitor.history.last().copied().unwrap_or(f64::INFINITY);
-        let mut limit = None;
-        let observer = &mut |_: &Iteration| {
-            limit = monitor.stop(last);
-            if limit.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        };
-        let settings = InteriorPointSettings {
-            tolerance: BALANCE_TOLERANCE,
-            max_iterations: left,
-            continuation: false,
-            ..InteriorPointSettings::default()
-        };
-        let found = balance(scaled, |mixed| InteriorPoint::new(settings).run(mixed, observer).ok());
-        let rest = vec![0.0; scaled.order()];
+        let found = balance(contact, &search.scaled, |residual| monitor.stop(residual));
+        let (rest, _) = search.rest();
         let crossover = self.settings.crossover.then_some(&Effort::THOROUGH);
-        match (found, limit) {
-            (Balance::Impossible, _) => Status::NoEquilibrium,
-            (_, Some(status @ (Status::Cancelled | Status::TimeLimit))) => status,
-            // Bodies that have not moved.
-            (Balance::Possible(forces), _)
-                if self.search.try_point((&rest, &forces), crossover) =>
-            {
-                Status::Solved
+        match found {
+            Balance::Impossible(proof) => (Status::Infeasible, Some(proof)),
+            Balance::Possible(forces) if search.try_point((&rest, &forces), crossover) => {
+                (Status::Solved, None)
             }
-            _ if self.search.scaled.is_elastic() => Status::NoEquilibrium,
-            _ => Status::Stalled,
+            Balance::Possible(_) => (Status::Stalled, None),
+            Balance::Open(status) => (status, None),
         }
     }
 
-    /// The interior-point iteration from a point inside, with a first step of its own, until it has jammed for so many steps.
-    fn iterate(&mut self, mut at: Iterate, patience: usize, first_step: Step) -> Status {
-        let mut step = first_step;
+    /// The interior-point iteration from a point inside.
+    fn iterate(&mut self, mut at: Iterate) -> Status {
+        let mut step: Step = set_out;
         let mut tried = NEAR / NEARER;
         let (_, first) = at.sizes();
         let (mut least, mut since) = (f64::INFINITY, 0);
         let mut solved = 0;
-        let mut defect = Defect::of(&self.search.scaled, &at, 0.0);
+        let mut defect = Defect::of(&self.search.scaled, &at);
         loop {
             let forces = at.forces();
             let worst = self.search.judge(&at.u, &forces);
@@ -272,14 +223,14 @@ impl Run<'_, '_, '_> {
                 return if solved > 0 { Status::Solved } else { status };
             }
             let Search { scaled, condensed, .. } = &mut *self.search;
-            let (next, alpha) = step(scaled, condensed, (&at, &defect), (0.0, WIDTH));
+            let (next, alpha) = step(scaled, condensed, &at, &defect);
             step = advance;
-            defect = Defect::of(scaled, &next, 0.0);
+            defect = Defect::of(scaled, &next);
             let lack = defect.size();
             let merit = next.gap(scaled) + lack * lack;
             since = if merit < 0.9 * least { 0 } else { since + 1 };
             least = least.min(merit);
-            if !next.is_finite() || alpha < NO_STEP || since > patience {
+            if !next.is_finite() || alpha < NO_STEP || since > PATIENCE_OF_START {
                 // The residual is no guide where all of one side vanishes, which it is measured by.
                 let contacts = at.contacts(&self.search.scaled);
                 let is_exact = self.settings.crossover

@@ -96,8 +96,8 @@
 //! # Solutions
 //!
 //! A [`Solution`] has the point, its [`Status`], its [`Residuals`] from the original data, its complementary
-//! [`Basis`] if the method has one, and the cost ([`Info`]). If there is no solution, it has the proof, or the
-//! evidence ([`SoftSprings`]). Any point or basis is a [`WarmStart`] for any method that can use it.
+//! [`Basis`] if the method has one, and the cost ([`Info`]). If there is no solution, it has the
+//! proof. Any point or basis is a [`WarmStart`] for any method that can use it.
 //! [`Lcp::error_bound`] bounds the distance of a point of a monotone problem from the solution, and [`refine`]
 //! computes states of contacts in double-double arithmetic.
 //!
@@ -169,7 +169,7 @@ pub use faer;
 
 pub use auto::{Auto, AutoSettings, Choice};
 pub use basis::{Basis, Side};
-pub use certify::{Certificate, Leaf, Ray, Residuals, SoftSprings};
+pub use certify::{Certificate, Leaf, Ray, Residuals};
 pub use error::Error;
 pub use evolution::{Account, Ending, Evolution, EvolutionSettings};
 pub use interior::{InteriorPoint, InteriorPointSettings, LeastForces};

@@ -1,6 +1,5 @@
 //! Convex quadratic programs: an interior-point method, and the exact states that its points lead to.
 
-mod anderson;
 mod constants;
 mod contact;
 mod coulomb;
@@ -13,13 +12,12 @@ mod scale;
 mod settings;
 mod soft;
 
-use crate::definite;
 use coulomb::solve_contact;
 use form::Point;
 use interior::End;
 use monotone::{MixedForm, standard_form, standard_point};
 use program::Run;
-pub use settings::{ContactForm, QuadraticProgramSettings, SoftConstraints};
+pub use settings::{QuadraticProgramSettings, SoftConstraints};
 pub use soft::SoftSolution;
 
 use crate::lower::solve_disguised;
@@ -31,10 +29,9 @@ use crate::{Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Observer, So
 ///   [`HorizontalLcp`], where [`HorizontalLcp::to_standard`] recognises such a problem.
 /// * [`MixedLcp`] with `M = [P, -G^T; G, S]`, `P` of the free variables, both `P` and `S` symmetric
 ///   positive semidefinite: minimise `u P u / 2 + z S z / 2 + p u` for `G u + S z + r >= 0`.
-/// * [`Contact2d`]: minimise `u K u / 2 - f u` for gaps `C_n u + x_0 >= 0`, or the same in the forces
-///   ([`ContactForm`]). With friction it is a sequence of such programs: with fixed bounds `g` of the friction forces
-///   (Tresca) the work `g |C_t u + s_0|` is added, and `g` is set to `mu t_n`, with Anderson acceleration, until it
-///   converges.
+/// * [`Contact2d`]: minimise `u K u / 2 - f u` for gaps `C_n u + x_0 >= 0`. With friction it is a sequence of such
+///   programs: with fixed bounds `g` of the friction forces (Tresca) the work `g |C_t u + s_0|` is added, and `g` goes half
+///   the way to `mu t_n`, until it converges.
 ///
 /// Symmetry and semidefiniteness are checked. The problem is scaled by powers of two, and Clarabel's interior-point
 /// method finds a point near the solution. If both variables of a pair vanish, this point is accurate only to the
@@ -45,7 +42,7 @@ use crate::{Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Observer, So
 /// the system of the states open, stick and slip, so the fixed-point iteration only needs to come near.
 ///
 /// **Guarantee**: in exact arithmetic a program without friction is solved if it has a solution, and is otherwise
-/// [`Infeasible`](crate::Status::Infeasible) with a proof, which is itself the solution of a convex program. In
+/// [`Infeasible`](crate::Status::Infeasible) with a proof, by the interior-point method for least forces. In
 /// floating-point arithmetic this holds as long as the stiffnesses of one problem differ by less than about 1e6;
 /// beyond that many problems end without a solution and without a proof, see below. With friction the fixed-point
 /// iteration contracts if `mu` or the ratio of tangential to normal stiffness is small; otherwise the status is
@@ -66,9 +63,7 @@ use crate::{Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Observer, So
 ///
 /// References: P. J. Goulart and Y. Chen, *Clarabel: an interior-point solver for conic programs with
 /// quadratic objectives* (2024), arXiv:2405.12762; J. Haslinger, *Approximation of the
-/// Signorini problem with friction*, Math. Methods Appl. Sci. 5 (1983), for the fixed point; H. F. Walker and
-/// P. Ni, *Anderson acceleration for fixed-point iterations*, SIAM J. Numer. Anal. 49 (2011), DOI
-/// 10.1137/10078356X.
+/// Signorini problem with friction*, Math. Methods Appl. Sci. 5 (1983), for the fixed point.
 ///
 /// ```
 /// use faer::mat;
@@ -104,23 +99,12 @@ impl QuadraticProgram {
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         let settings = &self.settings;
-        let form = contact::primal_form(contact);
-        if settings.form == ContactForm::Dual && !definite::is_definite(&form.p) {
-            return Err(Error::NotTreated {
-                method: Method::QuadraticProgram,
-                reason:
-                    "the dual form needs a positive definite K, and this one is singular, as for \
-                         bodies that float: take the primal form"
-                        .to_owned(),
-            });
-        }
+        let form = contact::contact_form(contact);
         let general = || contact.to_general();
         let mut run = Run::new(settings, (contact, &general), settings.max_outer, observer)?;
         let end = if run.is_tried(&form) {
             run.monitor.stop(run.search.residual()).map_or(Ok(End::Point), Err)
-        } else if let Some(mut program) =
-            contact::ContactProgram::new(form, settings.form, run.effort())
-        {
+        } else if let Some(mut program) = contact::ContactProgram::new(&form, run.effort()) {
             solve_contact(&mut run, contact, &mut program)
         } else {
             Ok(End::Failed)

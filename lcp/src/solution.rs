@@ -1,6 +1,6 @@
 //! What a solver returns.
 
-use crate::certify::{Ray, SoftSprings};
+use crate::certify::Ray;
 use crate::pivoting::{Attempt, PivotRecord};
 use crate::{Basis, Certificate, ContactState, Method, Residuals, Status};
 
@@ -110,7 +110,7 @@ pub struct Solution {
     /// Residuals of `(t, y)`, from the original data.
     pub residuals: Residuals,
     /// With the statuses [`Infeasible`](Status::Infeasible) and [`NoSolution`](Status::NoSolution) the proof, checked
-    /// against the given data; with [`NoEquilibrium`](Status::NoEquilibrium) the evidence of soft springs; with
+    /// against the given data; with
     /// [`RayTermination`](Status::RayTermination) the ray of the first attempt that ended on one, without proximal
     /// attempts and those without an artificial variable. It refers to the rows and pairs of the general form of the
     /// problem.
@@ -159,14 +159,6 @@ impl Solution {
     pub fn ray(&self) -> Option<&Ray> {
         match &self.certificate {
             Some(Certificate::Ray(ray)) => Some(ray),
-            _ => None,
-        }
-    }
-
-    /// The soft springs of the certificate, if it is these.
-    pub fn springs(&self) -> Option<&SoftSprings> {
-        match &self.certificate {
-            Some(Certificate::Springs(springs)) => Some(springs),
             _ => None,
         }
     }

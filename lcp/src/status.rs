@@ -17,10 +17,8 @@ pub enum Status {
     /// There is no solution: the linear conditions can be met, but not together with complementarity.
     /// [`Solution::certificate`](crate::Solution::certificate) proves it choice by choice.
     NoSolution,
-    /// Evidence that there is no equilibrium ([`Solution::certificate`](crate::Solution::certificate)): soft springs
-    /// on all displacements keep their share of the load, however soft they are. If a body is rigid, or without
-    /// friction, it was also checked that no forces balance the loads. For elastic bodies with friction it is not a
-    /// proof.
+    /// Bodies in contact flow, or have left the displacements that the problem is for
+    /// ([`Ending::status`](crate::Ending::status)). This is evidence, and no proof that there is no equilibrium.
     NoEquilibrium,
     /// No attempt found a solution, and at least one ended on a secondary ray. This does not prove
     /// that there is none.

@@ -13,10 +13,10 @@ use std::time::Duration;
 
 use common::cases;
 use faer::{Mat, mat};
-use lcp::qp::{ContactForm, SoftConstraints};
+use lcp::qp::SoftConstraints;
 use lcp::{
-    Contact2d, ContactState, Error, Lemke, LemkeSettings, QuadraticProgram,
-    QuadraticProgramSettings, Solution, Solver, Status, families,
+    Contact2d, ContactState, Lemke, LemkeSettings, QuadraticProgram, QuadraticProgramSettings,
+    Solution, Solver, Status, families,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -36,22 +36,17 @@ fn solve_contact(
     (state, solution)
 }
 
-/// Solved at every tolerance in both forms, where there are two; the state at the last.
-fn solved_contact(contact: &Contact2d, forms: &[ContactForm]) -> ContactState {
+/// Solved at every tolerance; the state at the last.
+fn solved_contact(contact: &Contact2d) -> ContactState {
     let mut last = None;
-    for &form in forms {
-        for tolerance in TOLERANCES {
-            let settings = QuadraticProgramSettings { tolerance, form, ..Default::default() };
-            let (state, solution) = solve_contact(contact, settings);
-            assert_eq!(solution.status, Status::Solved, "{form:?} {tolerance}: {solution:?}");
-            last = Some(state);
-        }
+    for tolerance in TOLERANCES {
+        let settings = QuadraticProgramSettings { tolerance, ..Default::default() };
+        let (state, solution) = solve_contact(contact, settings);
+        assert_eq!(solution.status, Status::Solved, "{tolerance}: {solution:?}");
+        last = Some(state);
     }
     last.unwrap()
 }
-
-const BOTH: [ContactForm; 2] = [ContactForm::Primal, ContactForm::Dual];
-const PRIMAL: [ContactForm; 1] = [ContactForm::Primal];
 
 fn contact(
     (k, f): (Mat<f64>, Vec<f64>),
@@ -74,10 +69,10 @@ fn a_block_on_a_plane_sticks_or_slips() {
     for (push, t_t, slip) in
         [(0.4, -0.4, 0.0), (-0.9, 0.9, 0.0), (1.6, -1.0, 0.2), (-2.5, 1.0, -0.5), (1.0, -1.0, 0.0)]
     {
-        let state = solved_contact(&block(push, 0.0, 3.0), &PRIMAL);
+        let state = solved_contact(&block(push, 0.0, 3.0));
         assert!(near(state.t_n[0], 2.0) && near(state.t_t[0], t_t), "{push}: {state:?}");
         assert!(near(state.slip[0], slip), "{push}: {state:?}");
-        let state = solved_contact(&block(push, 5.0, 3.0), &BOTH);
+        let state = solved_contact(&block(push, 5.0, 3.0));
         assert!(near(state.t_n[0], 2.0) && near(state.slip[0], slip), "{push}: {state:?}");
     }
 }
@@ -85,7 +80,7 @@ fn a_block_on_a_plane_sticks_or_slips() {
 /// Without a spring behind it the block is held by friction alone, or not at all.
 #[test]
 fn a_block_that_nothing_holds_is_infeasible() {
-    let state = solved_contact(&block(0.9, 0.0, 0.0), &PRIMAL);
+    let state = solved_contact(&block(0.9, 0.0, 0.0));
     assert!(near(state.t_t[0], -0.9));
     let contact = block(1.1, 0.0, 0.0);
     let (_, solution) = solve_contact(&contact, settings());
@@ -106,13 +101,13 @@ fn wedge(angle: f64, weight: f64, mu: f64) -> Contact2d {
 #[test]
 fn a_wedge_is_held_by_its_walls() {
     for (angle, weight) in [(0.3, 10.0), (0.8, 1.0), (1.3, 4e3)] {
-        let state = solved_contact(&wedge(angle, weight, 0.0), &PRIMAL);
+        let state = solved_contact(&wedge(angle, weight, 0.0));
         let normal = weight / (2.0 * angle.sin());
         assert!(state.t_n.iter().all(|t| near(t / normal, 1.0)), "{state:?} {normal}");
     }
     // Friction shares the load in many ways: any exact one will do.
     for mu in [0.1, 0.5, 1.0, 3.0] {
-        solved_contact(&wedge(0.7, 3.0, mu), &PRIMAL);
+        solved_contact(&wedge(0.7, 3.0, mu));
     }
 }
 
@@ -140,7 +135,7 @@ fn pile(n: usize, mu: f64) -> Contact2d {
 #[test]
 fn a_pile_of_floating_bodies_carries_its_weight() {
     for mu in [0.0, 0.3] {
-        let state = solved_contact(&pile(9, mu), &PRIMAL);
+        let state = solved_contact(&pile(9, mu));
         for (joint, t_n) in state.t_n.iter().enumerate() {
             assert!(near(*t_n, (9 - joint) as f64), "{:?}", state.t_n);
         }
@@ -194,22 +189,20 @@ proptest! {
     fn contacts_agree_with_lemke((contact, is_smooth) in random_contact()) {
         let lemke = Solver::<Contact2d>::solve(&Lemke::default(), &contact).unwrap();
         let expected = contact.recover(&lemke.t, &lemke.y);
-        for form in [ContactForm::Auto, ContactForm::Primal, ContactForm::Dual] {
-            for tolerance in TOLERANCES {
-                let settings = QuadraticProgramSettings { tolerance, form, ..settings() };
-                let (state, solution) = solve_contact(&contact, settings);
-                if is_smooth {
-                    prop_assert_eq!(solution.status, Status::Solved);
-                    if tolerance < 1e-10 && lemke.is_solved() {
-                        let size = expected.u.iter().fold(1.0_f64, |max, u| max.max(u.abs()));
-                        for (a, b) in state.u.iter().zip(&expected.u) {
-                            prop_assert!((a - b).abs() <= 1e-9 * size, "{} {}", a, b);
-                        }
+        for tolerance in TOLERANCES {
+            let settings = QuadraticProgramSettings { tolerance, ..settings() };
+            let (state, solution) = solve_contact(&contact, settings);
+            if is_smooth {
+                prop_assert_eq!(solution.status, Status::Solved);
+                if tolerance < 1e-10 && lemke.is_solved() {
+                    let size = expected.u.iter().fold(1.0_f64, |max, u| max.max(u.abs()));
+                    for (a, b) in state.u.iter().zip(&expected.u) {
+                        prop_assert!((a - b).abs() <= 1e-9 * size, "{} {}", a, b);
                     }
-                } else {
-                    prop_assert!(solution.is_solved() || solution.status == Status::Stalled,
-                        "{:?}", solution);
                 }
+            } else {
+                prop_assert!(solution.is_solved() || solution.status == Status::Stalled,
+                    "{:?}", solution);
             }
         }
     }
@@ -219,7 +212,7 @@ proptest! {
 fn the_bias_of_springs_is_of_their_order_and_is_removed() {
     for mu in [0.0, 0.3] {
         let pile = pile(7, mu);
-        let exact = solved_contact(&pile, &PRIMAL);
+        let exact = solved_contact(&pile);
         let solver = QuadraticProgram::new(settings());
         let error = |state: &ContactState| {
             let forces = state.t_n.iter().zip(&exact.t_n).map(|(a, b)| (a - b).abs());
@@ -359,15 +352,6 @@ fn limits_and_observers_end_a_solve() {
     let short = QuadraticProgramSettings { max_iterations: 1, ..settings() };
     let solution = QuadraticProgram::new(short).solve(&families::obstacle(6).problem).unwrap();
     assert!(solution.is_solved() || solution.status == Status::IterationLimit);
-}
-
-#[test]
-fn the_dual_form_needs_a_stiffness() {
-    let dual = QuadraticProgramSettings { form: ContactForm::Dual, ..settings() };
-    match QuadraticProgram::new(dual).solve(&pile(3, 0.0)) {
-        Err(Error::NotTreated { reason, .. }) => assert!(reason.contains("primal"), "{reason}"),
-        other => panic!("{other:?}"),
-    }
 }
 
 /// An elastic bar that slides down an incline: far down, what holds it is small against the forces that

@@ -13,7 +13,6 @@
 //! All of them give an [`Answer`] to a [`Request`]. The [`Plan`](crate::plan::Plan) says which ones a scene uses.
 
 use std::ops::ControlFlow;
-use std::time::Duration;
 
 use crate::method::forms::{RowState, Start};
 use crate::method::info::SolveInfo;
@@ -50,8 +49,6 @@ pub struct Request {
     /// Stiffness of springs on all displacements, relative to that of the blocks, for the routes that
     /// have them.
     pub soft: Option<f64>,
-    /// Wall-clock time of the programs; `None` is no limit.
-    pub time_limit: Option<Duration>,
     /// The part of the loads that the drag may carry while blocks move: how slowly they are loaded.
     pub slowness: f64,
 }
@@ -65,7 +62,6 @@ impl Request {
             max_pivots: None,
             max_steps: None,
             soft: None,
-            time_limit: None,
             slowness: loading::SLOWNESS,
         }
     }

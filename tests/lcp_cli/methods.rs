@@ -102,7 +102,10 @@ fn auto_says_what_it_chose_and_why() {
     assert_eq!((&answer["solver"], routes.len()), (&"newton".into(), 1));
     assert_eq!(routes[0]["end"]["ended"]["status"], "Solved");
     let report = Run::of(&["solve", &file]).out;
-    assert!(report.contains("auto chose semismooth Newton: order 3, dense, symmetric"), "{report}");
+    assert!(
+        report.contains("auto chose semismooth Newton: order 3, dense, with no positive entry"),
+        "{report}"
+    );
     // No solution: one method stalls, the next one has the proof.
     let file = folder.file("none.txt", "2  1 -1 -1 1  -1 -1");
     let run = Run::of(&["solve", &file, "--json"]);

@@ -15,16 +15,16 @@ fn the_plan_has_no_dense_matrices_for_sparse_routes() {
     let plan = |scene: &Scene| Plan::of(scene, &Model::from_scene(scene).unwrap());
     let small = plan(&wall(3, materials()[1]));
     let routes = |plan: &Plan| -> Vec<Route> { plan.routes.iter().map(|it| it.route).collect() };
-    assert_eq!(routes(&small), [Route::Interior, Route::Forces, Route::Lemke, Route::Qp]);
+    assert_eq!(routes(&small), [Route::Interior, Route::Forces, Route::Lemke]);
     let by_pivots = &small.routes[2];
     assert!(small.dense_numbers() > 9 * by_pivots.largest_order * by_pivots.largest_order);
     assert!(by_pivots.because.contains(&by_pivots.largest_order.to_string()));
 
     let large = wall(200, materials()[1]);
     let chosen = plan(&large);
-    assert_eq!(routes(&chosen), [Route::Interior, Route::Forces, Route::Qp]);
+    assert_eq!(routes(&chosen), [Route::Interior, Route::Forces]);
     let rigid = plan(&wall(200, materials()[0]));
-    assert_eq!(routes(&rigid), [Route::Forces, Route::Interior, Route::Qp]);
+    assert_eq!(routes(&rigid), [Route::Forces, Route::Interior]);
     let pivots = plan(&large.clone().route(Route::Lemke));
     assert_eq!(routes(&pivots), [Route::Lemke]);
     for route in [Route::Interior, Route::Qp, Route::Pgs] {
@@ -85,7 +85,7 @@ fn the_next_route_follows_where_one_fails() {
     assert_eq!(outcome.solve.status, Status::Infeasible, "{:?}", outcome.solve.attempts);
     let [first, second] = &outcome.solve.routes[..] else { panic!("{:?}", outcome.solve.routes) };
     assert_eq!((first.route, second.route), (Route::Interior, Route::Forces));
-    assert!(["NoEquilibrium", "Stalled"].contains(&first.end.as_str()), "{}", first.end);
+    assert_eq!(first.end, "Stalled");
     assert_eq!(second.end, "Infeasible");
     assert_eq!(outcome.solve.attempts.len(), 2);
 }

@@ -6,8 +6,6 @@
 pub(super) const STIFF: f64 = 1e8;
 /// Steps of refinement. Chosen.
 pub(super) const REFINEMENTS: usize = 12;
-/// Residual of a row, relative to its terms, that is only rounding. Rounding: a few eps.
-pub(super) const NOISE: f64 = 4.0 * f64::EPSILON;
 /// Contradictions smaller than this part of the largest are left to what its exchange makes of them. Chosen.
 pub(super) const LARGE: f64 = 0.01;
 /// A largest contradiction below this part of those before is progress, as a smaller number is. Chosen.

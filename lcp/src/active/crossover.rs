@@ -1,8 +1,7 @@
 //! From a point inside to the exact one on the boundary: the state of every contact is guessed, the
 //! equations of these states are solved, and the few contacts that contradict change their state.
 
-use super::constants::{LARGE, NOISE, REFINEMENTS, ROUNDING, SMALLER, STIFF};
-use crate::certify::ratio;
+use super::constants::{LARGE, REFINEMENTS, ROUNDING, SMALLER, STIFF};
 use crate::problem::ContactStatus;
 use crate::states::{Condensed, PROXIMAL, Point, Scaled, Springs};
 use crate::vector::max_abs;
@@ -113,9 +112,9 @@ impl Vertex {
             [*t_n, *t_t] = contact.on_cone(*mu, [*t_n, *t_t]);
         }
         let before = max_abs(&self.u);
-        let (mut last, mut last_part) = (f64::INFINITY, f64::INFINITY);
+        let mut last = f64::INFINITY;
         for _ in 0..REFINEMENTS {
-            let mut rest = problem.unbalanced(&self.u, self.forces.iter().copied());
+            let rest = problem.unbalanced(&self.u, self.forces.iter().copied());
             let points = problem.points.iter().zip(&self.contacts).zip(&self.forces);
             let opened: Vec<(f64, f64)> = points
                 .map(|((point, contact), forces)| contact.opened(point, &self.u, *forces))
@@ -125,18 +124,10 @@ impl Vertex {
             if !size.is_finite() {
                 return None;
             }
-            if size == 0.0 {
+            if size == 0.0 || size > 0.5 * last {
                 break;
             }
-            if size > 0.5 * last {
-                // Stiff bodies are at their rounding errors. Soft ones may not be exact yet.
-                let part = self.drop_noise(problem, &mut rest);
-                if part == 0.0 || part > 0.5 * last_part {
-                    break;
-                }
-                last_part = part;
-            }
-            last = last.min(size);
+            last = size;
             let (du, changes) = condensed.step(problem, &springs, rest, opened.into_iter());
             for ((t_n, t_t), change) in self.forces.iter_mut().zip(changes) {
                 *t_n += change.0;
@@ -165,21 +156,6 @@ impl Vertex {
         }
     }
 
-    /// Drops residuals that are only rounding, and gives the largest of the others, relative to the terms of its row.
-    /// What is noise in a stiff body moves a soft one that bears on it far, and does so again in every refinement.
-    fn drop_noise(&self, problem: &Scaled, unbalanced: &mut [f64]) -> f64 {
-        let mut largest = 0.0_f64;
-        for (v, terms) in unbalanced.iter_mut().zip(problem.terms(&self.u, &self.forces)) {
-            let part = ratio(*v, terms);
-            if part <= NOISE {
-                *v = 0.0;
-            } else {
-                largest = largest.max(part);
-            }
-        }
-        largest
-    }
-
     /// The contacts that contradict their states by more than `rounding`: by how much, which, and the state that
     /// fits better.
     fn contradictions(&self, problem: &Scaled, rounding: f64) -> Vec<(f64, usize, ContactStatus)> {
@@ -194,7 +170,10 @@ impl Vertex {
             let (gap, slip) = (point.gap(&self.u, t_n), point.slip(&self.u, t_t));
             let (size, next) = match self.contacts[i] {
                 ContactStatus::Open => (relative(-gap, length), closed(point, gap, slip)),
-                _ if t_n < 0.0 => (relative(-t_n, force), ContactStatus::Open),
+                // A rounding error of the normal force must not hide a tangential one outside the cone.
+                _ if relative(-t_n, force) > rounding => {
+                    (relative(-t_n, force), ContactStatus::Open)
+                }
                 ContactStatus::Stick if point.mu == 0.0 => continue,
                 ContactStatus::Stick if t_t > 0.0 => {
                     (relative(t_t - bound, force), ContactStatus::Backwards)

@@ -57,35 +57,6 @@ pub(crate) fn judged<'a>(
     Judged { u: u.into(), forces: forces.into(), residuals }
 }
 
-/// The verdict on a point about to be called solved: with all digits, and, where large terms hide what is left of the
-/// loads, on the points that the equations of the states lead to without rounding errors.
-///
-/// From rest these lead to the nearest point, which may not be far out; that is taken in place of the given one if
-/// it is a solution. From the given point they lead to one whose rounding this is, if the problem is sound: then the
-/// loads are measured there. Of a problem without a solution no refinement brings them down.
-pub(crate) fn confirmed<'a>(
-    (judge, scaled, condensed): (&dyn Judge, &Scaled, &mut Condensed),
-    at: At<'a>,
-    contacts: &[ContactStatus],
-    tolerance: f64,
-) -> Judged<'a> {
-    let given = judged(judge, scaled, at, Precision::Exact);
-    let Residuals { equation, natural, .. } = given.residuals;
-    if given.worst() <= tolerance || equation.max(natural) > tolerance {
-        return given;
-    }
-    let rest = (vec![0.0; at.0.len()], vec![(0.0, 0.0); at.1.len()]);
-    for exact in refined_states(scaled, condensed, (&rest.0, &rest.1), contacts, ALL_DIGITS) {
-        let near = rounded(judge, scaled, &exact);
-        if near.worst() <= tolerance {
-            return near;
-        }
-    }
-    let is_sound = refined_states(scaled, condensed, at, contacts, ALL_DIGITS)
-        .any(|exact| judge.residuals_of(scaled, &exact).worst() <= tolerance);
-    if is_sound { with_rounded_loads(judge, scaled, given) } else { given }
-}
-
 /// The point that the states of contacts lead to without rounding errors, where it is better than a given one: what is
 /// small inherits the rounding errors of what is large until it is refined by itself.
 pub(crate) fn brought_right<'a>(
@@ -170,9 +141,8 @@ pub(crate) fn state_brought_right(
 
 /// A problem as it was given.
 pub(crate) trait Original {
-    /// Whether soft springs that keep their share of the load are evidence against a solution. They are none
-    /// where the stiffness may be that of no body.
-    fn has_bodies(&self) -> bool;
+    /// The contact problem that it is.
+    fn contact(&self) -> Option<&Contact2d>;
 
     fn scaled(&self) -> Scaled;
 
@@ -258,8 +228,8 @@ impl Judge for (&MixedLcp, BoxedJudge<'_>) {
 }
 
 impl Original for Contact2d {
-    fn has_bodies(&self) -> bool {
-        true
+    fn contact(&self) -> Option<&Contact2d> {
+        Some(self)
     }
 
     fn scaled(&self) -> Scaled {
@@ -323,8 +293,8 @@ impl Original for Contact2d {
 /// A mixed problem is one of contact without friction: `M z + q = w` has the stiffness `M`, the load `-q`
 /// and the contact forces `w`, and the gaps are the variables themselves.
 impl Original for MixedLcp {
-    fn has_bodies(&self) -> bool {
-        false
+    fn contact(&self) -> Option<&Contact2d> {
+        None
     }
 
     fn scaled(&self) -> Scaled {

@@ -4,7 +4,7 @@ use faer::sparse::FaerError;
 
 use super::crossover::{Effort, Vertex, cross_over};
 use super::original::{
-    Answer, At, Judge, Judged, Original, brought_right, confirmed, judged as judged_by, unrounded,
+    Answer, At, Judge, Judged, Original, brought_right, judged as judged_by, unrounded,
 };
 use crate::certify::Precision;
 use crate::problem::ContactStatus;
@@ -116,9 +116,7 @@ impl<'a> Search<'a> {
         let Self { judge, tolerance, scaled, condensed, best, .. } = self;
         let is_solution = |condensed: &mut Condensed, vertex: &Vertex, is_consistent: bool| {
             let point = (&vertex.u[..], &vertex.forces[..]);
-            let contacts = || vertex.contacts.clone();
-            let with = (judge.as_ref(), &*scaled, &mut *condensed);
-            let mut judged = judged(with, point, *tolerance, contacts);
+            let mut judged = judged(judge.as_ref(), scaled, point, *tolerance);
             if is_consistent {
                 let with = (judge.as_ref(), &*scaled, condensed);
                 judged = brought_right(with, (point, judged), &vertex.contacts, *tolerance);
@@ -171,11 +169,9 @@ impl<'a> Search<'a> {
 
     /// The worst residual of a point, which is kept if none was better.
     pub(crate) fn judge(&mut self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
-        let Self { judge, tolerance, scaled, condensed, best, .. } = self;
+        let Self { judge, tolerance, scaled, best, .. } = self;
         let (u, forces) = scaled.settled(u, forces);
-        let contacts = || nearest(scaled, &u, &forces);
-        let with = (judge.as_ref(), &*scaled, condensed);
-        let judged = judged(with, (&u, &forces), *tolerance, contacts);
+        let judged = judged(judge.as_ref(), scaled, (&u, &forces), *tolerance);
         let worst = judged.worst();
         keep_better(best, judged, None, *tolerance);
         worst
@@ -228,18 +224,13 @@ pub(crate) fn unplanned(method: Method, error: FaerError) -> Error {
 }
 
 /// Quickly, and with all digits where the point may be a solution.
-fn judged<'a>(
-    (judge, scaled, condensed): (&dyn Judge, &Scaled, &mut Condensed),
-    at: At<'a>,
-    tolerance: f64,
-    contacts: impl FnOnce() -> Vec<ContactStatus>,
-) -> Judged<'a> {
+fn judged<'a>(judge: &dyn Judge, scaled: &Scaled, at: At<'a>, tolerance: f64) -> Judged<'a> {
     let quick = judged_by(judge, scaled, at, Precision::Quick);
     // What is left of the loads is the same whatever rows matter.
     if quick.residuals.loads > tolerance {
         return quick;
     }
-    confirmed((judge, scaled, condensed), at, &contacts(), tolerance)
+    judged_by(judge, scaled, at, Precision::Exact)
 }
 
 /// An exact solution is better than a point inside, whose residuals may be smaller.

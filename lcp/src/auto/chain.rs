@@ -15,8 +15,6 @@ pub(super) enum Rank {
     Decided,
     /// With residuals below the root of the tolerance.
     Near,
-    /// There is no equilibrium, by what soft springs show.
-    Evidence,
     Ray,
     Open,
 }
@@ -39,10 +37,6 @@ pub(super) fn run<P: Planned>(
         if best.is_some() && time_limit == Some(Duration::ZERO) {
             cut = Some(Status::TimeLimit);
             break;
-        }
-        let is_falling = best.as_ref().is_some_and(|best| best.status == Status::NoEquilibrium);
-        if is_falling && !problem.is_worth_a_proof(step.method) {
-            continue;
         }
         let AutoSettings { tolerance, start, .. } = settings;
         let effort = Effort { tolerance: *tolerance, time_limit, max_attempts, start };
@@ -104,7 +98,6 @@ pub(super) fn rank(solution: &Solution, tolerance: f64) -> (Rank, f64) {
         Status::Solved | Status::Infeasible | Status::NoSolution => Rank::Decided,
         Status::AlmostSolved => Rank::Near,
         _ if residual <= tolerance.sqrt() => Rank::Near,
-        Status::NoEquilibrium if solution.springs().is_some() => Rank::Evidence,
         Status::RayTermination if solution.ray().is_some() => Rank::Ray,
         _ => Rank::Open,
     };
@@ -199,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn evidence_says_more_than_a_stall_and_less_than_a_point_that_is_near() {
+    fn a_proof_says_more_than_a_point_that_is_near_and_a_stall_less() {
         let lcp = Lcp::new(mat![[2.0]], vec![-1.0]).expect("one number each");
         let solved = Solver::<Lcp>::solve(&Auto::default(), &lcp).expect("valid settings");
         let with = |status, residual: f64| {
@@ -207,18 +200,14 @@ mod tests {
             (solution.status, solution.residuals.equation) = (status, residual);
             solution
         };
-        let mut falling = with(Status::NoEquilibrium, 0.5);
-        falling.certificate = Some(Certificate::Springs(crate::SoftSprings::default()));
-        let stalled = with(Status::Stalled, 0.1);
-        let near = with(Status::Stalled, 1e-9);
-        let status = |best: &Solution, other: &Solution| {
-            better(Some(best.clone()), other.clone(), 1e-10).status
-        };
-        assert_eq!(status(&stalled, &falling), Status::NoEquilibrium);
-        assert_eq!(status(&falling, &stalled), Status::NoEquilibrium);
-        assert_eq!(status(&falling, &near), Status::Stalled);
-        assert_eq!(status(&near, &solved), Status::Solved);
+        let (stalled, near) = (with(Status::Stalled, 0.1), with(Status::Stalled, 1e-9));
         let proved = with(Status::Infeasible, 1.0);
-        assert_eq!(status(&near, &proved), Status::Infeasible);
+        let chosen = |best: &Solution, other: &Solution| {
+            better(Some(best.clone()), other.clone(), 1e-10).residuals.equation.to_bits()
+        };
+        assert_eq!(chosen(&stalled, &near), 1e-9_f64.to_bits());
+        assert_eq!(chosen(&near, &stalled), 1e-9_f64.to_bits());
+        assert_eq!(chosen(&near, &solved), solved.residuals.equation.to_bits());
+        assert_eq!(chosen(&near, &proved), 1.0_f64.to_bits());
     }
 }

@@ -177,8 +177,6 @@ fn outcome<P>(
     let says = |(_, answer): &&(Part<P>, Solution)| match chain::rank(answer, tolerance).0 {
         _ if is_proof(answer) && answer.status == Status::Infeasible => 4,
         _ if is_proof(answer) => 3,
-        // Without an equilibrium of one part there is none of the whole.
-        Rank::Evidence => 2,
         Rank::Decided => 0,
         Rank::Near | Rank::Ray | Rank::Open => 1,
     };

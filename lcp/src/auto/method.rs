@@ -9,11 +9,8 @@ use crate::divide::Divide;
 use crate::lower::General;
 use crate::{
     Error, InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings, Method, Observer,
-    ProjectedGaussSeidel, ProjectedGaussSeidelSettings, SemismoothNewton, SemismoothNewtonSettings,
-    Solution, Solver, WarmStart,
+    SemismoothNewton, SemismoothNewtonSettings, Solution, Solver, WarmStart,
 };
-#[cfg(feature = "clarabel")]
-use crate::{QuadraticProgram, QuadraticProgramSettings};
 
 /// A method of a plan, and why it stands there.
 #[derive(Debug, Clone)]
@@ -67,12 +64,6 @@ pub trait Planned: Divide {
 
     /// A method of the chain with its settings; `None` for all others.
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>>;
-
-    /// Whether a method is worth its time where there is evidence, and no proof yet, that there is no
-    /// solution.
-    fn is_worth_a_proof(&self, _: Method) -> bool {
-        true
-    }
 }
 
 /// Solves a problem by a method of its chain.
@@ -139,32 +130,5 @@ impl Effort<'_> {
         let sure = SemismoothNewtonSettings { tolerance, time_limit, start, ..Default::default() };
         let max_iterations = if is_sure { sure.max_iterations } else { TRIAL };
         SemismoothNewton::new(SemismoothNewtonSettings { max_iterations, ..sure })
-    }
-
-    #[cfg(feature = "clarabel")]
-    pub(super) fn quadratic_program(&self) -> QuadraticProgram {
-        let Self { tolerance, time_limit, .. } = *self;
-        let start = self.start.clone();
-        QuadraticProgram::new(QuadraticProgramSettings {
-            tolerance,
-            time_limit,
-            start,
-            ..Default::default()
-        })
-    }
-
-    /// A basis says nothing about the size of `z`, so that sweeps cannot start from it.
-    pub(super) fn sweeps(&self) -> ProjectedGaussSeidel {
-        let Self { tolerance, time_limit, .. } = *self;
-        let start = match self.start {
-            WarmStart::Basis(_) => WarmStart::None,
-            other => other.clone(),
-        };
-        ProjectedGaussSeidel::new(ProjectedGaussSeidelSettings {
-            tolerance,
-            time_limit,
-            start,
-            ..Default::default()
-        })
     }
 }

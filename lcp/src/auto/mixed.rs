@@ -17,23 +17,11 @@ impl Planned for MixedLcp {
     fn steps(&self) -> Vec<Step> {
         let facts = Facts::of(self.m());
         let free = self.free().iter().filter(|free| **free).count();
-        let program = self.asymmetry().is_none().then(|| {
-            format!(
-                "{}, M = [P, -G^T; G, S]: a quadratic program, convex if P and S are positive \
-                 semidefinite",
-                facts.size()
-            )
-        });
-        let steps = common_steps(&facts, program, false);
-        named(&format!("{free} free variables"), steps)
+        named(&format!("{free} free variables"), common_steps(&facts))
     }
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
-        match method {
-            #[cfg(feature = "clarabel")]
-            Method::QuadraticProgram => Some(Box::new(effort.quadratic_program())),
-            _ => effort.common(method),
-        }
+        effort.common(method)
     }
 }
 
@@ -51,7 +39,7 @@ impl Planned for BoxedLcp {
     fn steps(&self) -> Vec<Step> {
         let facts = Facts::of(self.m());
         let general = self.to_general();
-        let mut steps = common_steps(&facts, None, facts.has_positive_diagonal);
+        let mut steps = common_steps(&facts);
         // Where a variable is free the general problem is no standard one.
         let is_standard = general.to_standard().is_some();
         steps.retain(|step| is_standard || step.method != Method::Interior);
@@ -59,9 +47,6 @@ impl Planned for BoxedLcp {
     }
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
-        match method {
-            Method::GaussSeidel => Some(Box::new(effort.sweeps())),
-            _ => effort.common(method),
-        }
+        effort.common(method)
     }
 }

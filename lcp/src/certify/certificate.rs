@@ -1,7 +1,7 @@
 //! Certificates that a problem has no solution.
 
 use super::constants::RAY_ROUNDING;
-use super::evidence::{Ray, SoftSprings};
+use super::evidence::Ray;
 use super::farkas::{is_proof, is_proof_of};
 use super::ledger::ratio;
 use crate::matrix::Column;
@@ -28,9 +28,6 @@ pub enum Certificate {
     },
     /// A secondary ray on which Lemke's method ended. It proves nothing.
     Ray(Ray),
-    /// Soft springs that keep their share of the load, however soft they are. For elastic bodies with friction this
-    /// is evidence and no proof.
-    Springs(SoftSprings),
 }
 
 /// Choices of sides for which the linear conditions have no solution.
@@ -71,7 +68,6 @@ impl Certificate {
                     && leaves.iter().all(|leaf| leaf.is_proof(problem))
             }
             Self::Ray(ray) => is_ray(problem, ray),
-            Self::Springs(springs) => keep_their_share(springs),
         }
     }
 }
@@ -128,12 +124,4 @@ fn is_ray(problem: &HorizontalLcp, ray: &Ray) -> bool {
         dt[pair] >= 0.0 && dy[pair] >= 0.0 && (is_free(pair) || dt[pair].min(dy[pair]) == 0.0)
     };
     holds && *dz0 >= 0.0 && (0..n).all(fits)
-}
-
-/// Whether the softest springs carry no less than half of what the stiffest carry.
-fn keep_their_share(springs: &SoftSprings) -> bool {
-    match (springs.shares.first(), springs.shares.last()) {
-        (Some(first), Some(last)) => *last >= 0.5 * first && *last > 0.0,
-        _ => false,
-    }
 }

@@ -56,10 +56,6 @@ fn meaning(answer: &Answer<'_>) -> Option<&'static str> {
             "The residuals are above the tolerance; the best point is printed with --json."
         }
         Status::Infeasible | Status::NoSolution => "There is no solution; --json prints the proof.",
-        Status::NoEquilibrium => {
-            "Soft springs keep their share of the load, however soft they are. This is evidence that there is no \
-             solution, not a proof; --json prints it."
-        }
         Status::RayTermination => {
             "No solution was found. This does not prove that there is none; --json prints the first ray."
         }

@@ -28,6 +28,16 @@ impl Ending {
     pub fn rests(self) -> bool {
         self == Self::Rests
     }
+
+    /// The status that it is: a solution, that there is no equilibrium, or why neither is known.
+    pub fn status(self) -> Status {
+        match self {
+            Self::Rests => Status::Solved,
+            Self::Flows | Self::Left => Status::NoEquilibrium,
+            Self::Open(status) => status,
+            Self::Arrived => Status::Stalled,
+        }
+    }
 }
 
 /// No part of a way is shorter, and no step by this part of the first. Chosen: with twenty halvings in sequence something

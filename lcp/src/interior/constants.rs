@@ -77,43 +77,11 @@ pub(super) const PIECES: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.0];
 /// See [`PIECES`]. Chosen.
 pub(super) const LONG: f64 = 0.7;
 
-/// The first springs, relative to the stiffness. Chosen.
-pub(super) const FIRST_SPRING: f64 = 0.1;
-/// The last springs. Chosen.
-pub(super) const LAST_SPRING: f64 = 1e-9;
-/// Factor from one spring to the next. Chosen.
-pub(super) const SOFTER: f64 = 0.1;
-/// Where one spring ends the pairs are too near the boundary for the next: they are lifted by this part of the largest
-/// force and gap. Chosen.
-pub(super) const LIFT: f64 = 0.1;
-/// Steps for one spring. Chosen.
-pub(super) const STEPS: usize = 60;
-/// The natural residual up to which the problem with springs is solved, relative to the largest force. Chosen: only
-/// shares are wanted.
-pub(super) const ACCURACY: f64 = 1e-5;
-/// Springs that carry less than this share of the load have nothing to say any more. Chosen.
-pub(super) const NOTHING: f64 = 1e-7;
-/// Where a tenth of the spring still carries this part of what the spring carried, several times in sequence, the
-/// share does not tend to zero. Theory: the part tends to a tenth where there is an equilibrium, else to one.
-pub(super) const CONSTANT: f64 = 0.8;
-/// How many times. Chosen.
-pub(super) const IN_SEQUENCE: usize = 4;
-/// Stiffer springs than this do not tell bodies that nothing holds from those that something soft does. Chosen.
-pub(super) const SOFT: f64 = 2e-6;
-/// Resistance of a motion, relative to that of springs of the square, which is an error of the solution: its accuracy
-/// enters by the square as well. Chosen.
-pub(super) const RESISTANCE: f64 = 1e-6;
-/// Resistance of a body, relative to the terms that it is the sum of, which is a rounding error. Rounding: errors of
-/// short sums.
+/// Sums below this, relative to their terms, are rounding errors. Rounding: errors of short sums.
 pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// Shorter steps to a point with springs are none. Chosen.
-pub(super) const LEAST_STEP: f64 = 1e-6;
-
-/// What a row of `K v` or a contact may miss in a proof, relative to its terms. Rounding: some hundred eps.
+/// What moves by less, relative to the largest motion, is at rest in a proof. Rounding: some hundred eps.
 pub(super) const ROW_ROUNDING: f64 = 1e-13;
-/// Least work of the loads on a proof, relative to the sizes of loads and motion. Chosen: far above rounding.
-pub(super) const LEAST_WORK: f64 = 1e-9;
 /// Residual of the problem that decides whether any forces balance the loads. Chosen: below all other tolerances.
 pub(super) const BALANCE_TOLERANCE: f64 = 1e-12;
 
@@ -134,3 +102,5 @@ pub(super) const PROVED: f64 = 1e-6;
 /// The error must have decreased by this factor before it is tried again. Chosen: every trial costs a pass in twice the
 /// digits.
 pub(super) const STRICTER: f64 = 0.03;
+/// What a solve leaves of products that vanish in a proof. Theory: the root of eps, so that two solves leave rounding errors.
+pub(super) const PROJECTION: f64 = 1e-8;

@@ -3,7 +3,7 @@
 
 use super::constants::{
     BACK, CENTRAL, COMPLIANCE, CORRECTORS, LEAST_AIM, LONG_ENOUGH, LONGER, NO_STEP, PATIENCE,
-    PROVED, ROUNDING, STRICTER,
+    PROJECTION, PROVED, ROUNDING, STRICTER,
 };
 use super::factors::Factors;
 use super::program::Program;
@@ -51,12 +51,10 @@ impl Accuracy {
 /// is none.
 struct Homogeneous<'a> {
     program: &'a Program,
-    /// A stiffness that comes on top of `K` on every displacement.
-    spring: f64,
     at: Variables,
     tau: f64,
     kappa: f64,
-    /// `K u`, with the springs, and `A^T u`.
+    /// `K u` and `A^T u`.
     strained: Vec<f64>,
     opened: Vec<f64>,
 }
@@ -76,39 +74,26 @@ struct Defect {
     gaps: Vec<f64>,
 }
 
-/// The solution of a program, with a spring on every displacement; or `u` and `t` that may prove that there is none, with
-/// [`Status::Infeasible`] if `is_proof` says so, which is asked wherever they are near. Springs carry any load, so with them
-/// no proof is looked for. `stop` is asked before every step, with the residual.
+/// The solution of a program; or `u` and `t` that prove that there is none, with [`Status::Infeasible`], as soon as
+/// `is_proof` says so. `stop` is asked before every step, with the residual.
 pub(super) fn solved(
     program: &Program,
     factors: &mut Factors,
-    (spring, accuracy): (f64, Accuracy),
-    stop: impl FnMut(f64) -> Option<Status>,
-    is_proof: impl FnMut(&Variables) -> bool,
-) -> (Variables, Status) {
-    let Some(at) = Variables::start(program, factors, spring) else {
-        return (Variables::zero(program), Status::Stalled);
-    };
-    solved_from(at, (program, factors), (spring, accuracy), stop, is_proof)
-}
-
-/// The same from this start.
-pub(super) fn solved_from(
-    at: Variables,
-    (program, factors): (&Program, &mut Factors),
-    (spring, accuracy): (f64, Accuracy),
+    accuracy: Accuracy,
     mut stop: impl FnMut(f64) -> Option<Status>,
     mut is_proof: impl FnMut(&Variables) -> bool,
 ) -> (Variables, Status) {
-    let Accuracy { tolerance, .. } = accuracy;
+    let Some(at) = Variables::start(program, factors) else {
+        return (Variables::zero(program), Status::Stalled);
+    };
     let kappa = at.mean_product();
-    let mut now = Homogeneous::new((program, spring), at, (1.0, kappa));
+    let mut now = Homogeneous::new(program, at, (1.0, kappa));
     let (mut least, mut since, mut provable) = ([f64::INFINITY; 3], 0, PROVED);
     loop {
         let defect = now.defect();
         let residual = now.residual(&defect, accuracy);
-        let error = if spring > 0.0 { f64::INFINITY } else { now.error_of_proof() };
-        if residual <= tolerance {
+        let error = now.error_of_proof();
+        if residual <= accuracy.tolerance {
             return (now.solution(), Status::Solved);
         }
         if error <= provable {
@@ -116,8 +101,10 @@ pub(super) fn solved_from(
             if is_proof(&now.at) {
                 return (now.at, Status::Infeasible);
             }
-            if error <= tolerance {
-                return (now.at, Status::Stalled);
+            if let Some(at) = now.projected(factors, error)
+                && is_proof(&at)
+            {
+                return (at, Status::Infeasible);
             }
         }
         if let Some(status) = stop(residual.min(error)) {
@@ -136,9 +123,9 @@ pub(super) fn solved_from(
 }
 
 impl<'a> Homogeneous<'a> {
-    fn new((program, spring): (&'a Program, f64), at: Variables, (tau, kappa): (f64, f64)) -> Self {
-        let (strained, opened) = (program.strained(&at.u, spring), program.opened(&at.u));
-        Self { program, spring, at, tau, kappa, strained, opened }
+    fn new(program: &'a Program, at: Variables, (tau, kappa): (f64, f64)) -> Self {
+        let (strained, opened) = (program.strained(&at.u), program.opened(&at.u));
+        Self { program, at, tau, kappa, strained, opened }
     }
 
     /// The solution that the point may be near to.
@@ -184,6 +171,21 @@ impl<'a> Homogeneous<'a> {
         Defect { balance, gaps }
     }
 
+    /// The point with the nearest `u` to its own that strains nothing and leaves closed the pairs that the point opens by
+    /// no more than the root of its error: a proof whose products vanish has no rounding errors there to contradict it.
+    /// Each solve takes all but a part [`PROJECTION`] of these products away.
+    fn projected(&self, factors: &mut Factors, error: f64) -> Option<Variables> {
+        let most = error.sqrt() * self.work();
+        let closed = self.opened.iter().map(|opened| f64::from(u8::from(*opened <= most)));
+        factors.factorise(self.program, closed.collect(), PROJECTION)?;
+        let mut at = self.at.clone();
+        for _ in 0..2 {
+            at.u.iter_mut().for_each(|u| *u *= PROJECTION);
+            factors.gram.solve(&mut at.u);
+        }
+        Some(at)
+    }
+
     /// `f.u - x_0.t`
     fn work(&self) -> f64 {
         dot(&self.program.f, &self.at.u) - dot(&self.program.x_0, &self.at.t)
@@ -224,7 +226,7 @@ impl<'a> Homogeneous<'a> {
         if !at.is_finite() || !(tau + kappa).is_finite() {
             return 0.0;
         }
-        *self = Self::new((self.program, self.spring), at, (tau, kappa));
+        *self = Self::new(self.program, at, (tau, kappa));
         alpha
     }
 
@@ -274,10 +276,10 @@ impl<'a> Newton<'a> {
         factors: &'a mut Factors,
         defect: Defect,
     ) -> Option<(Self, Step)> {
-        let Homogeneous { program, spring, at, tau, kappa, strained, .. } = now;
+        let Homogeneous { program, at, tau, kappa, strained, .. } = now;
         let pairs = at.t.iter().zip(&at.y).zip(&program.compliance);
         let stiffness: Vec<f64> = pairs.map(|((t, y), c)| 1.0 / (y / t + c + COMPLIANCE)).collect();
-        factors.factorise(program, stiffness, spring.max(PROXIMAL))?;
+        factors.factorise(program, stiffness, PROXIMAL)?;
         let data = program.x_0.iter().zip(&program.compliance).zip(&at.t);
         let by_u = program.f.iter().zip(strained).map(|(f, k)| f - 2.0 * k / tau).collect();
         let by_t = data.map(|((x, c), t)| x + 2.0 * c * t / tau).collect();

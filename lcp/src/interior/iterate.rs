@@ -2,7 +2,7 @@
 
 use super::constants::COMPLIANCE;
 use crate::problem::ContactStatus;
-use crate::states::{Condensed, Point, Scaled, Springs};
+use crate::states::{Condensed, PROXIMAL, Point, Scaled, Springs};
 use crate::vector::max_abs;
 
 /// A point with all forces inside their cones and all gaps open; or a step between two of them.
@@ -48,18 +48,16 @@ impl Pairs {
 
 /// The residuals of the equations at a point.
 pub(super) struct Defect {
-    /// `f + C^T t - K u`, with the springs of the continuation.
+    /// `f + C^T t - K u`.
     balance: Vec<f64>,
     /// `C_n u + x_0 + a_n t_n - g` and `C_t u + s_0 + a_t t_t - (s+ - s-)`.
     gaps: Vec<(f64, f64)>,
 }
 
 impl Defect {
-    /// `spring` is the stiffness that holds every displacement.
-    pub(super) fn of(problem: &Scaled, at: &Iterate, spring: f64) -> Self {
+    pub(super) fn of(problem: &Scaled, at: &Iterate) -> Self {
         let forces = at.points.iter().map(|pairs| (pairs.t_n, pairs.t_t));
-        let mut balance = problem.unbalanced(&at.u, forces);
-        balance.iter_mut().zip(&at.u).for_each(|(b, u)| *b -= spring * u);
+        let balance = problem.unbalanced(&at.u, forces);
         let gaps = problem.points.iter().zip(&at.points).map(|(point, pairs)| {
             let slip = if point.mu > 0.0 {
                 point.slip(&at.u, pairs.t_t) - (pairs.slip_plus - pairs.slip_minus)
@@ -95,16 +93,11 @@ pub(super) struct Tangent<'a> {
 }
 
 impl<'a> Tangent<'a> {
-    pub(super) fn new(
-        problem: &'a Scaled,
-        condensed: &'a mut Condensed,
-        at: &'a Iterate,
-        spring: f64,
-    ) -> Self {
+    pub(super) fn new(problem: &'a Scaled, condensed: &'a mut Condensed, at: &'a Iterate) -> Self {
         let points = problem.points.iter().zip(&at.points);
         let spring_of = |(point, pairs): (Point<'_>, &Pairs)| springs(point, pairs);
         let springs: Vec<Springs> = points.map(spring_of).collect();
-        condensed.factorise(problem, &springs, spring);
+        condensed.factorise(problem, &springs, PROXIMAL);
         Self { problem, condensed, at, springs }
     }
 
@@ -289,26 +282,14 @@ impl Iterate {
 
     /// All gaps and slips further inside.
     pub(super) fn opened(mut self, problem: &Scaled, by: f64) -> Self {
-        self.raise(problem, (0.0, by));
-        self
-    }
-
-    /// All pairs further inside, by a part of the largest of their kind.
-    pub(super) fn lifted(mut self, problem: &Scaled, part: f64) -> Self {
-        let (force, length) = self.sizes();
-        self.raise(problem, (part * force, part * length));
-        self
-    }
-
-    fn raise(&mut self, problem: &Scaled, (force, length): (f64, f64)) {
         for (mu, pairs) in problem.points.mu.iter().zip(&mut self.points) {
-            pairs.t_n += force;
-            pairs.gap += length;
+            pairs.gap += by;
             if *mu > 0.0 {
-                pairs.slip_plus += length;
-                pairs.slip_minus += length;
+                pairs.slip_plus += by;
+                pairs.slip_minus += by;
             }
         }
+        self
     }
 
     /// The smallest product of a pair, relative to what it should be.

@@ -87,8 +87,7 @@ impl InteriorPoint {
         let accuracy = Accuracy::of_products(settings.tolerance).of_loads(LOADS);
         let stop = |residual| monitor.stop(residual);
         let is_proof = |u: &[f64]| is_proof_of(columns(a), &loads, &against(&original(u)));
-        let (mut at, status) =
-            solved(&program, &mut factors, (0.0, accuracy), stop, |at| is_proof(&at.u));
+        let (mut at, status) = solved(&program, &mut factors, accuracy, stop, |at| is_proof(&at.u));
         if status == Status::Solved {
             factors.balance(&program, &mut at.t);
         }

@@ -2,23 +2,23 @@
 
 use super::constants::{
     BACK, CENTRAL, CORRECTORS, IS_CENTRAL, LEAST_AIM, LONG_ENOUGH, LONGER, MIXTURES, PROGRESS,
-    SHORT, SHORTER, SHORTEST,
+    SHORT, SHORTER, SHORTEST, WIDTH,
 };
 use super::iterate::{Defect, Iterate, Pairs, Tangent};
 use super::turn::turn;
-use crate::states::{Condensed, PROXIMAL, Scaled};
+use crate::states::{Condensed, Scaled};
 
 /// One step of Mehrotra's method (1992) with Gondzio's correctors (1996), which costs one factorisation.
 /// The problem is not monotone with friction: where the step is short, the best mixture of predictor and
 /// centring takes its place, and where the path turns back, a step along it. No product of a pair
-/// becomes smaller than `width` times the mean. Gives the new point and the length of the step.
+/// becomes much smaller than the mean. Gives the new point and the length of the step.
 pub(super) fn advance(
     problem: &Scaled,
     condensed: &mut Condensed,
-    (at, defect): (&Iterate, &Defect),
-    (spring, width): (f64, f64),
+    at: &Iterate,
+    defect: &Defect,
 ) -> (Iterate, f64) {
-    Ahead::of(problem, condensed, (at, defect), spring).advance(problem, at, width)
+    Ahead::of(problem, condensed, at, defect).advance(problem, at)
 }
 
 /// What lies ahead of a point.
@@ -33,23 +33,23 @@ impl<'a> Ahead<'a> {
     pub(super) fn of(
         problem: &'a Scaled,
         condensed: &'a mut Condensed,
-        (at, defect): (&'a Iterate, &'a Defect),
-        spring: f64,
+        at: &'a Iterate,
+        defect: &'a Defect,
     ) -> Self {
-        let tangent = Tangent::new(problem, condensed, at, spring.max(PROXIMAL));
+        let tangent = Tangent::new(problem, condensed, at);
         let predictor = tangent.step(defect, &targets(problem, at, 0.0, None));
         Self { tangent, defect, predictor }
     }
 
     /// The step of [`advance`].
-    pub(super) fn advance(&self, problem: &Scaled, at: &Iterate, width: f64) -> (Iterate, f64) {
+    pub(super) fn advance(&self, problem: &Scaled, at: &Iterate) -> (Iterate, f64) {
         let Self { tangent, defect, predictor } = self;
         let (step, alpha) = if tangent.is_backwards() {
             turn(problem, tangent, at, predictor)
         } else {
             forwards(problem, tangent, at, defect, predictor)
         };
-        within(problem, at, &step, (BACK * alpha).min(1.0), width)
+        within(problem, at, &step, (BACK * alpha).min(1.0))
     }
 }
 
@@ -87,14 +87,8 @@ fn forwards(
 }
 
 /// The longest part of a step that keeps the products near their mean.
-fn within(
-    problem: &Scaled,
-    at: &Iterate,
-    step: &Iterate,
-    mut alpha: f64,
-    width: f64,
-) -> (Iterate, f64) {
-    let least = width.min(0.9 * at.centrality(problem));
+fn within(problem: &Scaled, at: &Iterate, step: &Iterate, mut alpha: f64) -> (Iterate, f64) {
+    let least = WIDTH.min(0.9 * at.centrality(problem));
     while alpha > SHORTEST && at.centrality_after(problem, step, alpha) < least {
         alpha *= SHORTER;
     }

@@ -84,9 +84,9 @@ impl Program {
         (self, Units { column, force, length })
     }
 
-    /// `K u + spring u`
-    pub(super) fn strained(&self, u: &[f64], spring: f64) -> Vec<f64> {
-        let mut strained: Vec<f64> = u.iter().map(|u| spring * u).collect();
+    /// `K u`
+    pub(super) fn strained(&self, u: &[f64]) -> Vec<f64> {
+        let mut strained = vec![0.0; u.len()];
         for (j, u) in u.iter().enumerate() {
             column_of(&self.k, j).for_each(|(i, v)| strained[i] += v * u);
         }

@@ -87,7 +87,7 @@ impl<'a> Saddle<'a> {
     ) -> (Vec<f64>, Vec<f64>, Status, Option<Certificate>) {
         let is_proof = |at: &Variables| is_proof(&self.proof(at));
         let stop = |residual| monitor.stop(residual);
-        let accuracy = (0.0, Accuracy::of_all(tolerance));
+        let accuracy = Accuracy::of_all(tolerance);
         let (at, status) = solved(&self.program, factors, accuracy, stop, is_proof);
         let (z, w) = self.variables(&at);
         (

@@ -11,8 +11,7 @@ use crate::{Error, WarmStart};
 pub struct InteriorPointSettings {
     /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`.
     pub tolerance: f64,
-    /// Steps, each with one factorisation; those of the continuation count too. The systems of the crossover
-    /// come on top.
+    /// Steps, each with one factorisation. The systems of the crossover come on top.
     pub max_iterations: usize,
     /// By which multiple of the largest gap a start is opened: one attempt for each, when the one before has jammed. From
     /// wide starts easy problems take half as many steps again, but hard ones jam less often. At least one, none negative.
@@ -25,8 +24,8 @@ pub struct InteriorPointSettings {
     /// Whether the exact point on the boundary is looked for. Without it the answer is a point inside,
     /// which has no basis, and accuracy ends where Newton's method loses its digits, at about 1e-9.
     pub crossover: bool,
-    /// Whether the method goes on with soft springs on all displacements where it jams.
-    pub continuation: bool,
+    /// Whether it is asked, if the method jams on bodies in contact, if any forces balance the loads at all.
+    pub prove_infeasible: bool,
 }
 
 impl Default for InteriorPointSettings {
@@ -38,7 +37,7 @@ impl Default for InteriorPointSettings {
             time_limit: None,
             start: WarmStart::None,
             crossover: true,
-            continuation: true,
+            prove_infeasible: true,
         }
     }
 }

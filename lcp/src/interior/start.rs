@@ -11,10 +11,10 @@ use crate::problem::ContactStatus;
 use crate::states::{Condensed, PROXIMAL, Point, Scaled, Springs};
 
 /// A start from the forces that the contacts would carry if they were springs in both directions.
-pub(super) fn start(problem: &Scaled, condensed: &mut Condensed, spring: f64) -> Iterate {
+pub(super) fn start(problem: &Scaled, condensed: &mut Condensed) -> Iterate {
     let spring_of = |point: Point<'_>| ContactStatus::Stick.springs(point, 1.0);
     let springs: Vec<Springs> = problem.points.iter().map(spring_of).collect();
-    condensed.factorise(problem, &springs, spring);
+    condensed.factorise(problem, &springs, PROXIMAL);
     let mut u = problem.f.clone();
     for (point, springs) in problem.points.iter().zip(&springs) {
         point.add_forces(-springs.nn * point.x_0, -springs.tt * point.s_0, &mut u);
@@ -44,12 +44,12 @@ pub(super) fn start(problem: &Scaled, condensed: &mut Condensed, spring: f64) ->
 
 /// A start with gaps and slips wider by a multiple of the largest.
 pub(super) fn start_opened(problem: &Scaled, condensed: &mut Condensed, by: f64) -> Iterate {
-    let at = start(problem, condensed, PROXIMAL);
+    let at = start(problem, condensed);
     let (_, length) = at.sizes();
     at.opened(problem, by * length)
 }
 
-/// The first step, with the options of [`advance`], from a start that is opened first if need be.
+/// The first step, as [`advance`], from a start that is opened first if need be.
 ///
 /// A start knows how bodies are deformed, but not how far slender ones bend and loose ones turn, which may be
 /// further by many powers of ten. From gaps that are too small for the way the steps are short: some gaps
@@ -59,26 +59,26 @@ pub(super) fn start_opened(problem: &Scaled, condensed: &mut Condensed, by: f64)
 pub(super) fn set_out(
     problem: &Scaled,
     condensed: &mut Condensed,
-    (at, defect): (&Iterate, &Defect),
-    (spring, width): (f64, f64),
+    at: &Iterate,
+    defect: &Defect,
 ) -> (Iterate, f64) {
     let (mut from, mut before) = (at.clone(), (at.clone(), f64::INFINITY));
     for _ in 0..OPENINGS {
-        let of_from = Defect::of(problem, &from, spring);
-        let ahead = Ahead::of(problem, condensed, (&from, &of_from), spring);
+        let of_from = Defect::of(problem, &from);
+        let ahead = Ahead::of(problem, condensed, &from, &of_from);
         let change = ahead.predictor.largest_gap() / from.mean_gap();
         if change <= WIDE {
-            return ahead.advance(problem, &from, width);
+            return ahead.advance(problem, &from);
         }
         if change.is_nan() || change > HALF * before.1 {
-            let of_before = Defect::of(problem, &before.0, spring);
-            return advance(problem, condensed, (&before.0, &of_before), (spring, width));
+            let of_before = Defect::of(problem, &before.0);
+            return advance(problem, condensed, &before.0, &of_before);
         }
         let wider = from.clone().opened(problem, OPENED * from.mean_gap());
         before = (from, change);
         from = wider;
     }
-    advance(problem, condensed, (at, defect), (spring, width))
+    advance(problem, condensed, at, defect)
 }
 
 #[cfg(test)]
@@ -106,10 +106,10 @@ mod tests {
         }
         let problem = Scaled::of_contact(&builder.build().unwrap());
         let mut condensed = Condensed::new(&problem).unwrap();
-        let at = start(&problem, &mut condensed, PROXIMAL);
+        let at = start(&problem, &mut condensed);
         let tau = 0.1 * at.gap(&problem);
-        let defect = Defect::of(&problem, &at, 0.0);
-        let tangent = Tangent::new(&problem, &mut condensed, &at, PROXIMAL);
+        let defect = Defect::of(&problem, &at);
+        let tangent = Tangent::new(&problem, &mut condensed, &at);
         let step = tangent.step(&defect, &targets(&problem, &at, tau, None));
         let missing =
             |at: &Iterate| -> Vec<f64> { at.products(&problem).map(|it| it - tau).collect() };

@@ -15,10 +15,9 @@ pub(super) struct Variables {
 
 impl Variables {
     /// A start from the forces that the contacts would carry if they were springs in both directions.
-    pub(super) fn start(program: &Program, factors: &mut Factors, spring: f64) -> Option<Self> {
-        let spring = spring.max(PROXIMAL);
+    pub(super) fn start(program: &Program, factors: &mut Factors) -> Option<Self> {
         let stiffness: Vec<f64> = program.compliance.iter().map(|c| 1.0 / (1.0 + c)).collect();
-        factors.factorise(program, stiffness, spring)?;
+        factors.factorise(program, stiffness, PROXIMAL)?;
         let stiffness = &factors.stiffness;
         let mut u = program.f.clone();
         let forces = stiffness.iter().zip(&program.x_0).map(|(stiffness, x)| -stiffness * x);

@@ -14,26 +14,14 @@ pub(super) const WORSE: f64 = 10.0;
 pub(super) const LEAST_LIMIT: f64 = 1e-9;
 /// Times that rows and columns are brought near one. Chosen.
 pub(super) const SWEEPS: usize = 6;
-/// Above this many rows the dual program is not chosen unasked. Chosen: its matrix is dense.
-pub(super) const DUAL_ROWS: usize = 400;
-/// Parts of the largest entry of a proof that are set to zero one after the other until it holds. Rounding: from none
-/// to some thousand eps.
-pub(super) const NOISE: [f64; 6] = [0.0, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11];
-
 /// Rounds without progress after which it is asked whether there is a solution at all. Chosen.
 pub(super) const DOUBTS: usize = 4;
 /// Times that larger bounds are tried where no bounds were large enough yet. Chosen.
 pub(super) const ENLARGED: usize = 4;
-/// Steps that the acceleration remembers. Chosen.
-pub(super) const MEMORY: usize = 5;
 /// Share of the residual that is added. Theory: where more load goes into friction at one place it is missing at
 /// others, so that whole steps swing to and fro.
 pub(super) const DAMPING: f64 = 0.5;
-/// Steps without progress after which the acceleration is left off. Chosen.
-pub(super) const IDLE: usize = 8;
-/// Steps without progress, then, after which there is no hope. Chosen.
-pub(super) const PLAIN_IDLE: usize = 20;
-/// Keeps the weights small where the differences are nearly dependent. Chosen.
-pub(super) const TIKHONOV: f64 = 1e-10;
+/// Rounds without progress after which there is no hope. Chosen.
+pub(super) const IDLE: usize = 20;
 /// Times that soft springs are centred anew and let go of nothing, after which they stay. Chosen.
 pub(super) const SOFT_IDLE: usize = 6;

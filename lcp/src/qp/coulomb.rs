@@ -1,7 +1,6 @@
 //! Coulomb's friction as the fixed point of programs with frozen bounds of the friction forces.
 
-use super::anderson::Anderson;
-use super::constants::{DOUBTS, ENLARGED};
+use super::constants::{DAMPING, DOUBTS, ENLARGED, IDLE};
 use super::contact::{ContactProgram, state_of};
 use super::form::{Bounds, Form};
 use super::interior::End;
@@ -20,8 +19,9 @@ pub(super) fn solve_contact(
 ) -> Result<End, Status> {
     let has_cones = program.scaled.form.has_cones();
     let mut limits = generous(&program.scaled.form);
-    let mut anderson = Anderson::default();
-    let mut enlarged = 0;
+    // The last bounds that had a point.
+    let mut last: Option<Vec<f64>> = None;
+    let (mut least, mut idle, mut enlarged) = (f64::INFINITY, 0, 0);
     let effort = if has_cones { &active::Effort::THOROUGH } else { &active::Effort::ANCHORED };
     loop {
         if let Some(status) = run.monitor.stop(run.search.residual()) {
@@ -37,14 +37,15 @@ pub(super) fn solve_contact(
                 return Ok(End::NoPoint);
             }
             // The bounds are too small to hold the bodies.
+            End::NoPoint if idle > IDLE => return Err(Status::Stalled),
             End::NoPoint => {
-                limits = anderson.retreat(&limits).unwrap_or_else(|| {
+                limits = if let Some(last) = &last {
+                    idle += 1;
+                    towards(last, &limits, 0.5)
+                } else {
                     enlarged += 1;
                     limits.iter().map(|limit| 16.0 * limit).collect()
-                });
-                if anderson.is_stalled() {
-                    return Err(Status::Stalled);
-                }
+                };
                 continue;
             }
             End::Point | End::IterationLimit | End::TimeLimit => {}
@@ -57,13 +58,22 @@ pub(super) fn solve_contact(
             return Ok(found.end);
         }
         let image = program.scaled.form.limits(&found.point.lambda);
-        limits = anderson.next(&limits, &image);
-        if anderson.is_stalled() || (anderson.idle() >= DOUBTS && run.proof.is_found(run.effort()))
-        {
+        let change = limits.iter().zip(&image).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+        idle = if change < 0.9 * least { 0 } else { idle + 1 };
+        least = least.min(change);
+        if idle > IDLE || (idle >= DOUBTS && run.proof.is_found(run.effort())) {
             run.monitor.history.push(run.search.residual());
             return Err(Status::Stalled);
         }
+        // The first bounds are a guess, of which nothing is to be kept.
+        let next = if last.is_none() { image } else { towards(&limits, &image, DAMPING) };
+        last = Some(std::mem::replace(&mut limits, next));
     }
+}
+
+/// A part of the way between bounds.
+fn towards(from: &[f64], to: &[f64], part: f64) -> Vec<f64> {
+    from.iter().zip(to).map(|(from, to)| from + part * (to - from)).collect()
 }
 
 /// Bounds that are larger than the friction forces are likely to be: `mu` times all loads together.

@@ -3,7 +3,6 @@
 use faer::sparse::SparseColMat;
 
 use crate::problem::column_of;
-use crate::{Matrix, MixedLcp};
 
 /// What a multiplier may be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,33 +74,6 @@ impl Form {
         add_product(&self.d, &point.x, &mut sum);
         add_product(&self.s, &point.lambda, &mut sum);
         sum
-    }
-
-    /// Stationarity and slacks as one mixed problem in `(x, lambda)`; without cones.
-    pub(super) fn to_mixed(&self) -> Option<MixedLcp> {
-        let (n, order) = (self.unknowns(), self.unknowns() + self.rows());
-        let entries = (0..order).flat_map(|j| {
-            let (p, d, s) = (&self.p, &self.d, &self.s);
-            let of_x = (j < n).then(|| {
-                let rows = column_of(d, j).flat_map(move |(i, v)| [(n + i, j, v), (j, n + i, -v)]);
-                column_of(p, j).map(move |(i, v)| (i, j, v)).chain(rows)
-            });
-            let of_lambda = (j >= n).then(|| column_of(s, j - n).map(move |(i, v)| (n + i, j, v)));
-            of_x.into_iter().flatten().chain(of_lambda.into_iter().flatten())
-        });
-        let m = Matrix::from_entries(order, order, entries);
-        let q = self.linear.iter().chain(&self.offset).copied().collect();
-        let mut free = vec![true; n];
-        free.extend(self.bounds.iter().map(|bounds| *bounds == Bounds::Free));
-        MixedLcp::new(m, q, free).ok()
-    }
-
-    /// A point as one of the general problem of [`to_mixed`](Self::to_mixed).
-    pub(super) fn to_pairs(&self, mixed: &MixedLcp, point: &Point) -> (Vec<f64>, Vec<f64>) {
-        let z: Vec<f64> = point.x.iter().chain(&point.lambda).copied().collect();
-        let mut w = vec![0.0; self.unknowns()];
-        w.extend(self.slacks(point));
-        mixed.to_pairs(&z, &w)
     }
 
     /// The friction bounds that belong to the multipliers, one for every row, zero without a cone.

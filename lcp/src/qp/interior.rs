@@ -50,7 +50,7 @@ pub(super) struct Found {
 /// With `x`: minimise `x P x / 2 + v S v / 2 + linear x + sum g_i |w_i|` subject to `w_i >= 0` in the
 /// rows of nonnegative multipliers, where `w = D x + S v + offset` and the sum goes over the cones. There
 /// `g |w|` is `g w + 2 g e` with the least `e >= 0` for which `w + e >= 0`, and the multiplier is that of this
-/// condition less `g`. Without `x`: minimise `lambda S lambda / 2 + offset lambda` between the bounds.
+/// condition less `g`. Without `x` there are no cones: minimise `lambda S lambda / 2 + offset lambda`.
 pub(super) struct Interior {
     solver: DefaultSolver<f64>,
     settings: DefaultSettings<f64>,
@@ -59,8 +59,8 @@ pub(super) struct Interior {
 
 /// Where things are in Clarabel's problem.
 enum Layout {
-    /// The variables are the multipliers: rows of their lower and upper bounds for cones.
-    Multipliers { b: Vec<f64>, cones: Vec<(usize, [usize; 2])> },
+    /// The variables are the multipliers.
+    Multipliers,
     /// The variables are `x`, then those of the rows with a diagonal entry of `S`, then one for every
     /// cone; `row[i]` is the constraint of row `i`, and `curved` are the rows with a diagonal entry.
     Unknowns { row: Vec<usize>, linear: Vec<f64>, curved: Vec<usize>, cones: Vec<(usize, usize)> },
@@ -105,24 +105,13 @@ impl Interior {
         for j in 0..m {
             column_of(&form.s, j).filter(|(i, _)| *i <= j).for_each(|(i, v)| p.push(i, j, v));
         }
-        let (mut count, mut cones) = (0, Vec::new());
-        for (i, bounds) in form.bounds.iter().enumerate() {
-            match bounds {
-                Bounds::Free => continue,
-                Bounds::Nonnegative => a.push(count, i, -1.0),
-                Bounds::Cone { .. } => {
-                    a.push(count, i, -1.0);
-                    a.push(count + 1, i, 1.0);
-                    cones.push((i, [count, count + 1]));
-                    count += 1;
-                }
-            }
-            count += 1;
-        }
+        let bounded = (0..m).filter(|&i| form.bounds[i] != Bounds::Free);
+        let count = bounded.clone().count();
+        bounded.enumerate().for_each(|(row, i)| a.push(row, i, -1.0));
         let (p, a, b) = (p.finish(m, m), a.finish(count, m), vec![0.0; count]);
         let cone = [NonnegativeConeT(count)];
         let solver = DefaultSolver::new(&p, &form.offset, &a, &b, &cone, settings.clone()).ok()?;
-        Some(Self { solver, settings, layout: Layout::Multipliers { b, cones } })
+        Some(Self { solver, settings, layout: Layout::Multipliers })
     }
 
     fn of_unknowns(form: &Form, settings: DefaultSettings<f64>) -> Option<Self> {
@@ -190,7 +179,7 @@ impl Interior {
             _ => End::Point,
         };
         let point = match &self.layout {
-            Layout::Multipliers { .. } => Point { x: Vec::new(), lambda: solution.x.clone() },
+            Layout::Multipliers => Point { x: Vec::new(), lambda: solution.x.clone() },
             Layout::Unknowns { row, cones, .. } => {
                 let x = solution.x[..form.unknowns()].to_vec();
                 let mut lambda: Vec<f64> = row.iter().map(|&row| solution.z[row]).collect();
@@ -210,15 +199,6 @@ impl Interior {
     /// Puts in the bounds of the cones.
     fn update(&mut self, form: &Form, limits: &[f64]) -> Option<()> {
         match &self.layout {
-            Layout::Multipliers { b, cones } if !cones.is_empty() => {
-                let mut b = b.clone();
-                for (i, rows) in cones {
-                    for &row in rows {
-                        b[row] = limits[*i];
-                    }
-                }
-                self.solver.update_b(&b).ok()
-            }
             Layout::Unknowns { linear, curved, cones, .. } if !cones.is_empty() => {
                 let mut linear = linear.clone();
                 for (i, column) in cones {

@@ -67,22 +67,6 @@ impl Scaled {
         let times = |v: &[f64], by: &[f64]| v.iter().zip(by).map(|(v, by)| v * by).collect();
         Point { x: times(&point.x, &self.x), lambda: times(&point.lambda, &self.lambda) }
     }
-
-    /// From the units of the user.
-    pub(super) fn scaled(&self, point: &Point) -> Point {
-        let over = |v: &[f64], by: &[f64]| v.iter().zip(by).map(|(v, by)| v / by).collect();
-        Point { x: over(&point.x, &self.x), lambda: over(&point.lambda, &self.lambda) }
-    }
-
-    /// Bounds of the multipliers, from the units of the user.
-    pub(super) fn scaled_limits(&self, limits: &[f64]) -> Vec<f64> {
-        limits.iter().zip(&self.lambda).map(|(limit, by)| limit / by).collect()
-    }
-
-    /// Bounds of the multipliers, to the units of the user.
-    pub(super) fn unscaled_limits(&self, limits: &[f64]) -> Vec<f64> {
-        limits.iter().zip(&self.lambda).map(|(limit, by)| limit * by).collect()
-    }
 }
 
 impl Units {

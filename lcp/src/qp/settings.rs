@@ -6,20 +6,6 @@ use crate::problem::check_epsilon;
 use crate::settings::check_tolerance;
 use crate::{Error, WarmStart};
 
-/// Which of its two programs a contact problem becomes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub enum ContactForm {
-    /// The dual one where `K` is positive definite and there are few contacts, else the primal one.
-    #[default]
-    Auto,
-    /// In the displacements, as sparse as `K`.
-    Primal,
-    /// In the contact forces, with the dense matrix `C K^-1 C^T`: for `K` positive definite.
-    Dual,
-}
-
 /// Springs that hold the displacements of a contact problem while it is solved, and are then removed.
 ///
 /// Every displacement has a spring of the stiffness given by [`Bedding`](crate::Bedding).
@@ -56,8 +42,6 @@ pub struct QuadraticProgramSettings {
     pub time_limit: Option<Duration>,
     /// A point or a basis, in the pairs of the general form, whose states are tried first.
     pub start: WarmStart,
-    /// Which program a contact problem becomes.
-    pub form: ContactForm,
     /// Springs for contact problems; `None` is none.
     pub soft: Option<SoftConstraints>,
 }
@@ -70,7 +54,6 @@ impl Default for QuadraticProgramSettings {
             max_outer: 60,
             time_limit: None,
             start: WarmStart::None,
-            form: ContactForm::Auto,
             soft: None,
         }
     }

@@ -156,12 +156,6 @@ impl Scaled {
         (self.of_displacements(&state.u), forces.collect())
     }
 
-    /// Whether every displacement has a stiffness, and there is friction.
-    pub(crate) fn is_elastic(&self) -> bool {
-        let has_friction = self.points.mu.iter().any(|mu| *mu > 0.0);
-        has_friction && diagonal(&self.k).iter().all(|k| *k > 0.0)
-    }
-
     /// The same displacements and forces, with zeros where nothing moves and nothing is moved.
     pub(crate) fn settled<'a>(&self, u: &'a [f64], forces: &'a [(f64, f64)]) -> Settled<'a> {
         let (mut u, mut forces) = (Cow::from(u), Cow::from(forces));

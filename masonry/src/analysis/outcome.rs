@@ -3,7 +3,7 @@
 use nalgebra::Vector2;
 
 use crate::history::{History, Step};
-pub use crate::method::info::{PhaseTime, RouteEnd, SoftReport, SolveInfo, SpringShares};
+pub use crate::method::info::{PhaseTime, RouteEnd, SoftReport, SolveInfo};
 use crate::model::Model;
 use crate::plan::Plan;
 pub use crate::state::{

@@ -8,27 +8,19 @@
 //! 2. All other walls: the interior-point method, at every size. If it has no solution after [`STEPS_BEFORE_PROOF`],
 //!    that program checks whether any forces balance the loads at all; if it proves that none do, this is the result.
 //! 3. Lemke's method, for a second opinion, if its dense matrices take about a second.
-//! 4. Quadratic programs, for [`LAST_RESORT`].
-//!
-//! The last is skipped if springs keep their load in spite of friction, since it has no proof to give then.
 //!
 //! A result is final if it is a checked equilibrium, or a proof that there is none. With friction a secondary ray of
-//! Lemke's method and springs that keep their load are no proof, and the next route follows, as it does after a route
-//! that refuses the scene.
-
-use std::time::Duration;
+//! Lemke's method is no proof, and the next route follows, as it does after a route that refuses the scene.
 
 use lcp::Status;
 
-use crate::method::info::{SolveInfo, Way};
+use crate::method::info::SolveInfo;
 use crate::scene::{Form, Route, Solver};
 
 /// Pivots on dense matrices of this order take about a second; the time grows with the cube.
 const FEW: usize = 2000;
 /// Most walls are solved in so many steps of the interior points.
 pub(crate) const STEPS_BEFORE_PROOF: usize = 40;
-/// How long the last route may take, which seldom has an answer where the others have none.
-const LAST_RESORT: Duration = Duration::from_secs(10);
 
 /// What decides between the routes.
 #[derive(Debug, Clone, Copy)]
@@ -98,10 +90,6 @@ fn chosen(facts: Facts) -> Vec<(Route, String)> {
             ),
         ));
     }
-    list.push((
-        Route::Qp,
-        format!("where all others fail, for at most {} s", LAST_RESORT.as_secs()),
-    ));
     list
 }
 
@@ -113,29 +101,20 @@ pub(crate) fn max_pivots(route: Route, order: usize, routes: usize) -> Option<us
     (route == Route::Lemke && routes > 1).then_some(PIVOTS * order)
 }
 
-/// How long a route may take, of which there are so many.
-pub(crate) fn time_limit(route: Route, routes: usize) -> Option<Duration> {
-    (route == Route::Qp && routes > 1).then_some(LAST_RESORT)
-}
-
 /// Whether a route may say more than is known.
-pub(crate) fn is_asked(route: Route, known: Rank, has_friction: bool) -> bool {
-    match known {
-        // Forces that balance the loads are none that the loading leads to; that there are none is a proof.
-        Rank::Motion => route == Route::Forces,
-        _ => route != Route::Qp || !has_friction || known > Rank::Springs,
-    }
+pub(crate) fn is_asked(route: Route, known: Rank) -> bool {
+    // Forces that balance the loads are none that the loading leads to; that there are none is a proof.
+    known != Rank::Motion || route == Route::Forces
 }
 
 /// How much an attempt says; what comes first says more.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Rank {
     Solved,
-    /// There is none, with a proof, or with springs or a ray that show how it falls.
+    /// There is none, with a proof.
     Proved,
     /// Blocks with mass move on under their loads.
     Motion,
-    Springs,
     Mechanism,
     /// Something was found that does not hold.
     Almost,
@@ -147,21 +126,19 @@ impl Rank {
         match info.status {
             Status::Solved => Self::Solved,
             Status::Infeasible if info.proved => Self::Proved,
-            Status::NoEquilibrium if info.way == Way::Motion => Self::Motion,
-            Status::NoEquilibrium if info.springs.is_some() => Self::Springs,
+            Status::NoEquilibrium => Self::Motion,
             _ if has_mechanism => Self::Mechanism,
             Status::AlmostSolved => Self::Almost,
             _ => Self::Open,
         }
     }
 
-    /// Whether no other route has more to say. Without friction a ray is as good as a proof, which may still follow what
-    /// springs show.
+    /// Whether no other route has more to say. Without friction a ray is as good as a proof.
     pub(crate) fn is_final(self, has_friction: bool) -> bool {
         match self {
             Self::Solved | Self::Proved => true,
             Self::Mechanism => !has_friction,
-            Self::Motion | Self::Springs | Self::Almost | Self::Open => false,
+            Self::Motion | Self::Almost | Self::Open => false,
         }
     }
 }

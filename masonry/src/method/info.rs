@@ -53,8 +53,6 @@ pub struct SolveInfo {
     pub convergence: Vec<Iteration>,
     /// Matrices factorised.
     pub factorisations: usize,
-    /// The evidence, if springs show that there is no equilibrium.
-    pub springs: Option<SpringShares>,
     /// Whether the status `Infeasible` is proved, by a vector that was checked in the data.
     pub proved: bool,
     /// The effect of the springs of the scene.
@@ -82,7 +80,6 @@ impl SolveInfo {
             iterations: 0,
             convergence: Vec::new(),
             factorisations: 0,
-            springs: None,
             proved: false,
             soft: None,
             way: Way::Law,
@@ -126,17 +123,6 @@ pub struct RouteEnd {
     pub end: String,
     /// Wall-clock time \[s\].
     pub seconds: f64,
-}
-
-/// Springs on all displacements that are made softer and softer, and the share of the load that they carry. If the
-/// share does not tend to zero, nothing else carries it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct SpringShares {
-    /// The stiffnesses, relative to that of the blocks \[-\].
-    pub stiffness: Vec<f64>,
-    /// The share of the load that the springs of each stiffness carry \[-\].
-    pub shares: Vec<f64>,
 }
 
 /// Springs that hold the blocks while a scene is solved, and their effect before they were re-centred; the final

@@ -82,7 +82,7 @@ impl Interior<'_> {
     }
 
     fn answer_of(&self, led: Led) -> Result<Answer, RouteError> {
-        let status = loading::status(led.ending);
+        let status = led.ending.status();
         let problem = self.sparse.problem.slid(&led.slips)?;
         let residuals = problem.residuals(&led.state);
         let line = format!(
@@ -101,7 +101,6 @@ impl Interior<'_> {
             residuals,
             iterations: led.iterations,
             factorisations: led.factorisations,
-            springs: None,
             proof: None,
         };
         let mut answer = sparse::answer(Route::Interior, self.sparse, found, None);

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use lcp::{
     Account, Contact2d, ContactState, Ending, Evolution, EvolutionSettings, InteriorPoint,
-    InteriorPointSettings, Iteration, Status,
+    InteriorPointSettings, Iteration,
 };
 
 use crate::geometry;
@@ -58,7 +58,7 @@ pub(crate) struct Led {
 /// no more than so many steps.
 pub(crate) fn path(tolerance: f64, max_steps: Option<usize>) -> InteriorPoint {
     let mut settings =
-        InteriorPointSettings { tolerance, continuation: false, ..Default::default() };
+        InteriorPointSettings { tolerance, prove_infeasible: false, ..Default::default() };
     settings.max_iterations =
         max_steps.map_or(STEPS_BEFORE_MOTION, |most| most.min(STEPS_BEFORE_MOTION));
     settings.openings.truncate(1);
@@ -173,14 +173,4 @@ impl Loading<'_> {
 fn median(mut values: Vec<f64>) -> Option<f64> {
     let middle = values.len() / 2;
     (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
-}
-
-/// The status of an ending: a solution, that there is none, or why neither is known.
-pub(crate) fn status(ending: Ending) -> Status {
-    match ending {
-        Ending::Rests => Status::Solved,
-        Ending::Flows | Ending::Left => Status::NoEquilibrium,
-        Ending::Open(status) => status,
-        _ => Status::Stalled,
-    }
 }

@@ -223,7 +223,6 @@ impl<'a> Rounds<'a> {
             residuals: self.residuals,
             iterations: self.done,
             factorisations: self.factorisations,
-            springs: None,
             proof: None,
         }
     }

@@ -26,12 +26,8 @@ impl Method for Programs<'_> {
     fn solve(&self, request: &Request, observer: Observer<'_>) -> Result<Answer, RouteError> {
         let problem = &self.sparse.problem;
         let soft = request.soft.map(|epsilon| SoftConstraints { epsilon, ..Default::default() });
-        let settings = QuadraticProgramSettings {
-            tolerance: request.tolerance,
-            time_limit: request.time_limit,
-            soft,
-            ..Default::default()
-        };
+        let settings =
+            QuadraticProgramSettings { tolerance: request.tolerance, soft, ..Default::default() };
         let program = QuadraticProgram::new(settings);
         let mut is_cancelled = false;
         let solution = program.solve_observed(problem, &mut |at| {

@@ -1,10 +1,10 @@
 //! What the routes on the sparse problem have in common: answers in the shape of all routes.
 
-use lcp::{Certificate, ContactState, Residuals, SoftSprings, Solution, Status};
+use lcp::{ContactState, Residuals, Solution, Status};
 
 use super::{Answer, Motion};
 use crate::method::forms::Sparse;
-use crate::method::info::{SoftReport, SolveInfo, SpringShares};
+use crate::method::info::{SoftReport, SolveInfo};
 use crate::scene::Route;
 
 /// The name of the problem in reports, in the place of a form.
@@ -26,21 +26,14 @@ pub(crate) struct Found {
     pub(crate) residuals: Residuals,
     pub(crate) iterations: usize,
     pub(crate) factorisations: usize,
-    pub(crate) springs: Option<SoftSprings>,
     /// Farkas' vector, in the rows of the general problem.
     pub(crate) proof: Option<Vec<f64>>,
 }
 
 impl Found {
     pub(crate) fn of(sparse: &Sparse, solution: Solution) -> Self {
-        let (springs, proof) = match solution.certificate {
-            Some(Certificate::Springs(springs)) => (Some(springs), None),
-            Some(Certificate::Farkas { pi }) => (None, Some(pi)),
-            _ => (None, None),
-        };
         Self {
-            springs,
-            proof,
+            proof: solution.farkas().map(<[f64]>::to_vec),
             status: solution.status,
             state: solution
                 .contact
@@ -67,24 +60,15 @@ pub(crate) fn answer(
         attempts: vec![describe(route, &found)],
         iterations: found.iterations,
         factorisations: found.factorisations,
-        springs: found.springs.as_ref().map(|springs| SpringShares {
-            stiffness: springs.stiffness.clone(),
-            shares: springs.shares.clone(),
-        }),
         proved: found.proof.is_some(),
         soft,
         ..SolveInfo::new(found.status, found.residuals)
     };
-    let motion = match (found.springs, found.proof) {
-        (Some(springs), _) => Some(springs.motion),
-        // In the rows of the displacements a proof is a motion on which the loads do more work than
-        // the contacts can take.
-        (None, Some(mut proof)) => {
-            proof.truncate(problem.displacements());
-            Some(proof)
-        }
-        (None, None) => None,
-    };
+    // In the rows of the displacements a proof is a motion on which the loads do more work than the contacts can take.
+    let motion = found.proof.map(|mut proof| {
+        proof.truncate(problem.displacements());
+        proof
+    });
     let state = (found.status == Status::Solved).then_some(found.state);
     Answer {
         info,
@@ -100,7 +84,6 @@ pub(crate) fn answer(
 fn describe(route: Route, found: &Found) -> String {
     let end = match found.status {
         Status::Solved => "solved".to_owned(),
-        Status::NoEquilibrium => "springs keep their share of the load".to_owned(),
         Status::Infeasible => "proved to have no solution".to_owned(),
         status => status.to_string(),
     };

@@ -11,7 +11,7 @@ use super::summary::{
     largest_displacement, load_groups, reason, weight,
 };
 use crate::analysis::outcome::Outcome;
-use crate::method::info::{RouteEnd, SoftReport, SpringShares};
+use crate::method::info::{RouteEnd, SoftReport};
 use crate::model;
 use crate::paper::alm::Iteration;
 use crate::plan::Plan;
@@ -79,7 +79,6 @@ struct Report<'a> {
     max_tension: Option<Stress<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     films: Option<Films>,
-    springs: Option<&'a SpringShares>,
     proved: bool,
     soft: Option<SoftReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -307,7 +306,6 @@ impl<'a> Report<'a> {
                 tau_max: units.stress(films.shear.tau.abs()),
                 sigma_x: films.along.sigma_x.map(|stress| units.stress(stress)),
             }),
-            springs: solve.springs.as_ref(),
             proved: solve.proved,
             soft: solve.soft,
             history: outcome

@@ -290,12 +290,8 @@ fn why(outcome: &Outcome) -> Option<&'static str> {
             "There is no equilibrium (proved): no contact forces within their limits and no displacements \
              that fit them balance the loads. The proof, a Farkas vector, was checked in the data."
         }
-        lcp::Status::NoEquilibrium if outcome.judgement.evidence == Evidence::Motion => {
-            "The blocks do not come to rest within small displacements. By itself this is evidence of collapse, not a proof."
-        }
         lcp::Status::NoEquilibrium => {
-            "Springs on all blocks keep their share of the load, however soft they are. With friction \
-             this is not a proof of collapse."
+            "The blocks do not come to rest within small displacements. By itself this is evidence of collapse, not a proof."
         }
         lcp::Status::Stalled => {
             "The residuals stopped decreasing before the tolerance was reached. This says nothing about the \

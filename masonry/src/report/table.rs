@@ -11,11 +11,10 @@ use super::summary::{
     extreme_stresses, largest_displacement, reason, total_reaction, weight,
 };
 use crate::analysis::outcome::Outcome;
-use crate::method::info::{SoftReport, SpringShares};
+use crate::method::info::SoftReport;
 use crate::plan::Plan;
 use crate::scene::Route;
 use crate::state::{FilmStress, State};
-use crate::verify::verdict::Evidence;
 
 const WIDTH: u16 = 100;
 
@@ -142,11 +141,6 @@ fn solution(outcome: &Outcome) -> Vec<(&'static str, String)> {
     for (index, attempt) in solve.attempts.iter().enumerate() {
         rows.push((if index == 0 { "attempts" } else { "" }, attempt.clone()));
     }
-    // Where blocks keep moving, these are steps of their motion and no springs.
-    let springs = solve.springs.as_ref();
-    if let Some(springs) = springs.filter(|_| outcome.judgement.evidence != Evidence::Motion) {
-        rows.push(("springs", shares(springs)));
-    }
     if let Some(soft) = &solve.soft {
         rows.push(("soft springs", bias(soft)));
     }
@@ -157,17 +151,6 @@ fn solution(outcome: &Outcome) -> Vec<(&'static str, String)> {
         rows.push(("(3.27)", format!("{}, of the same solution in this form", residuals(paper))));
     }
     rows
-}
-
-/// Of the stiffest and of the softest springs.
-fn shares(springs: &SpringShares) -> String {
-    let pairs: Vec<(f64, f64)> =
-        springs.stiffness.iter().copied().zip(springs.shares.iter().copied()).collect();
-    let text = |(stiffness, share): &(f64, f64)| {
-        format!("of stiffness {stiffness:.0e} carry {} of the load", significant(*share, 3))
-    };
-    let ends = [pairs.first(), pairs.last()];
-    ends.into_iter().flatten().map(text).collect::<Vec<_>>().join(", ")
 }
 
 fn bias(soft: &SoftReport) -> String {

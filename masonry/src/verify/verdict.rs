@@ -128,18 +128,15 @@ impl Judgement {
             Some(Statics::Admissible(_)) if known.at_rest => {
                 (Verdict::Undecided, Evidence::AdmissibleForces)
             }
-            _ if flows(known.info) => (Verdict::Falls, Evidence::Motion),
+            _ if known.info.status == lcp::Status::NoEquilibrium => {
+                (Verdict::Falls, Evidence::Motion)
+            }
             Some(Statics::Admissible(_)) => (Verdict::Undecided, Evidence::AdmissibleForces),
             Some(Statics::Open) | None => (Verdict::Undecided, Evidence::None),
         };
         let sentence = sentence::of(known, (verdict, evidence), movement);
         Self { verdict, evidence, sentence, warnings: warnings(known, movement) }
     }
-}
-
-/// Whether the blocks move under their loads without coming to rest.
-fn flows(info: &SolveInfo) -> bool {
-    info.status == lcp::Status::NoEquilibrium && info.way == Way::Motion
 }
 
 /// Whether displacements are too large for the state to mean anything. One that only a motion leads to may be at the end of

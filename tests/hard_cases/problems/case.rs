@@ -202,9 +202,6 @@ impl Tried {
                     case.wrong_answer(solution, *measure)
                 }
                 Status::Infeasible => case.wrong_proof(&general, solution),
-                Status::NoEquilibrium if case.is_solvable() => {
-                    Some("there is an equilibrium".to_owned())
-                }
                 _ => None,
             };
             list.extend(wrong.map(|it| format!("{} by {}: {it}", case.name, method.name())));

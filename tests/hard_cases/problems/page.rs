@@ -18,15 +18,14 @@ HARD_CASES=write cargo test --features long-tests --test hard_cases
 
 A planted solution is exact: data and solution are numbers without rounding errors. Small problems are enumerated in rational arithmetic. The tolerance is
 1e-10. The test recomputes the residual of every solved case in double-double arithmetic, compares solutions with the known ones, checks every proof that there
-is no solution, and rejects proofs and evidence against problems that have one.
+is no solution, and rejects proofs against problems that have one.
 
 In the tables a power of ten without a status is the residual of a solution, rounded up. Otherwise the method found no solution: the cell has its status and the
 residual at which it ended. A dash means that the method does not treat the problem. In brackets is the number of pivots, sweeps, steps or programs. Lemke's
 method runs with dense and with sparse matrices, on contact problems always with sparse ones. The test does not compare powers of ten, costs, and the status of
 a failure.
 
-Only `Infeasible` and `NoSolution` are proofs that there is no solution. `NoEquilibrium` is
-[evidence](methods/soft_springs.md#soft-springs-is-there-an-equilibrium-at-all), but with friction not a proof. All other
+Only `Infeasible` and `NoSolution` are proofs that there is no solution. All other
 [statuses](lcp/solving.md#solving-and-reading-a-solution), such as `AlmostSolved`, `Stalled`, `RayTermination`, `IterationLimit` and `NumericalTrouble`, prove
 nothing: another method may find a solution. Solved means solved to the residual: with a condition number of 1e18 (Hilbert, order 14) no digit of `z` has to be
 right.

@@ -106,6 +106,20 @@ impl Contact2d {
         Basis::new(mixed)
     }
 
+    /// The vector in the rows of the general problem that belongs to a motion of the bodies. It is a Farkas vector if the
+    /// motion deforms no body, opens every contact by at least `mu` times its slip, and the loads do work on it.
+    pub(crate) fn farkas_of_motion(&self, motion: &[f64]) -> Vec<f64> {
+        let mut slips = vec![0.0; self.points()];
+        for (j, v) in motion.iter().enumerate() {
+            column_of(&self.c_t, j).for_each(|(i, c)| slips[i] += c * v);
+        }
+        let bounds = self.friction.iter().map(|&i| -0.5 * slips[i].abs());
+        let zeros = std::iter::repeat_n(0.0, self.points() + self.friction.len());
+        let pi: Vec<f64> = motion.iter().copied().chain(zeros).chain(bounds).collect();
+        let largest = max_abs(&pi);
+        pi.iter().map(|pi| pi / largest).collect()
+    }
+
     /// A Farkas vector of the general problem from one of the mixed problem in its general form.
     pub(crate) fn farkas_of_mixed(&self, pi: &[f64]) -> Vec<f64> {
         let (n, m, count) = (self.displacements(), self.points(), self.friction.len());

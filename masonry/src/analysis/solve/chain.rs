@@ -111,7 +111,7 @@ impl<'a> Chain<'a> {
         let mut refusal = None;
         for (position, choice) in routes.iter().enumerate() {
             let known = best.as_ref().map(Attempt::rank);
-            if known.is_some_and(|known| !auto::is_asked(choice.route, known, has_friction)) {
+            if known.is_some_and(|known| !auto::is_asked(choice.route, known)) {
                 continue;
             }
             let began = Instant::now();
@@ -120,7 +120,6 @@ impl<'a> Chain<'a> {
                 let because = choice.because.clone();
                 ends.push(RouteEnd { route: choice.route, because, end, seconds });
             };
-            self.request.time_limit = auto::time_limit(choice.route, routes.len());
             let limit = auto::max_pivots(choice.route, choice.largest_order, routes.len());
             self.request.max_pivots = self.request.max_pivots.or(limit);
             self.may_be_cut = routes[position + 1..].iter().any(|it| it.route == Route::Forces);

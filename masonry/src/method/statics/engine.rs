@@ -43,7 +43,7 @@ impl Engine {
             tolerance,
             max_iterations,
             crossover,
-            continuation: false,
+            prove_infeasible: false,
             ..Default::default()
         };
         InteriorPoint::new(settings).solve_observed(program, observer)

@@ -30,7 +30,6 @@ impl Method for Multipliers<'_> {
             residuals: answer.residuals,
             iterations: answer.convergence.len(),
             factorisations: answer.factorisations,
-            springs: None,
             proof: None,
         };
         let mut report = sparse::answer(Route::Alm, self.sparse, found, None);

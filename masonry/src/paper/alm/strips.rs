@@ -73,7 +73,6 @@ impl Method for Strips<'_> {
             residuals,
             iterations: answer.convergence.len(),
             factorisations: answer.factorisations,
-            springs: None,
             proof: None,
         };
         let mut report = sparse::answer(Route::Alm, self.sparse, found, None);
