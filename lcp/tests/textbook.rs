@@ -6,8 +6,8 @@ use faer::{Mat, mat};
 use lcp::families;
 use lcp::lemke::AttemptEnd;
 use lcp::{
-    Basis, Contact2d, Covering, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side, Solver, Status,
-    WarmStart,
+    Auto, Basis, Contact2d, Covering, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side, Solver,
+    Status, WarmStart,
 };
 
 fn lcp(m: Mat<f64>, q: &[f64]) -> HorizontalLcp {
@@ -288,4 +288,18 @@ fn terms_that_overflow_make_the_residuals_infinite() {
     .unwrap();
     let state = contact.state(vec![1e150], vec![0.0], vec![0.0]);
     assert!(contact.residuals(&state).worst().is_infinite());
+}
+
+/// `w_1 = 1.5e308` at the solution `z = (0, 1/2)`: the sizes of its terms add up to more than the largest number.
+#[test]
+fn solutions_near_the_largest_number_are_solved() {
+    for huge in [1e308, 8e307, 5e300] {
+        let problem = lcp(mat![[2.0, huge], [-huge, 2.0]], &[huge, -1.0]);
+        let (z, w) = ([0.0, 0.5], [1.5 * huge, 0.0]);
+        assert_eq!(problem.residuals(&z, &w).worst(), 0.0, "{huge:e}");
+        assert!(problem.residuals(&[0.0, 0.6], &w).worst() > 0.01, "{huge:e}");
+        let solution = Auto::default().solve(&problem).unwrap();
+        assert!(solution.is_solved(), "{huge:e}: {}", solution.status);
+        assert_eq!((solution.t, solution.y), (z.to_vec(), w.to_vec()));
+    }
 }

@@ -2,9 +2,10 @@
 
 use std::borrow::Cow;
 
+use super::Residuals;
 use super::ledger::{self, Digits, Entry, InRow, Ledger, Point, Precision, Rows};
 use super::significance::{Term, Terms, terms_of};
-use super::{Residuals, weights};
+use super::weights::{self, larger, smaller};
 use crate::extended::{Extended, extended};
 use crate::matrix::Column;
 use crate::{BoxedLcp, Lcp, Matrix, MixedLcp};
@@ -86,6 +87,25 @@ impl<'a> BoxedJudge<'a> {
         if z.iter().chain(w).any(|v| !v.is_finite()) {
             return Residuals::infinite();
         }
+        let residuals = self.in_range(z, w, precision);
+        if residuals.worst().is_finite() {
+            return residuals;
+        }
+        let q = smaller(self.q);
+        let bounds = self.bounds.map(|(lower, upper)| (smaller(lower), smaller(upper)));
+        let judge = BoxedJudge {
+            m: self.m,
+            q: &q,
+            bounds: bounds.as_ref().map(|(lower, upper)| (&lower[..], &upper[..])),
+            loads: smaller(&self.loads),
+            weights: larger(&self.weights),
+            length: self.length,
+        };
+        judge.in_range(&smaller(z), &smaller(w), precision)
+    }
+
+    /// The same unless a sum of terms leaves the range of numbers.
+    fn in_range(&self, z: &[f64], w: &[f64], precision: Precision) -> Residuals {
         let rows = (&self.weights[..], self.length);
         ledger::residuals_or_refined(&self.at(z, w), rows, precision, || {
             ledger::residuals(&self.at(&extended(z), &extended(w)), rows, precision)

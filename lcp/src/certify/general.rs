@@ -2,9 +2,11 @@
 
 use std::borrow::Cow;
 
+use super::Residuals;
+use super::constants::SMALLER;
 use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
 use super::significance::{Term, Terms, terms_of};
-use super::{Residuals, weights};
+use super::weights::{self, larger, smaller};
 use crate::extended::{Extended, extended};
 use crate::matrix::Column;
 use crate::scaling::equilibrate;
@@ -80,6 +82,17 @@ impl<'a> GeneralJudge<'a> {
         if t.iter().chain(y).any(|v| !v.is_finite()) {
             return Residuals::infinite();
         }
+        let residuals = self.in_range(t, y, precision);
+        if residuals.worst().is_finite() {
+            return residuals;
+        }
+        let c = self.c.iter().map(|(c, size)| (c * SMALLER, size * SMALLER)).collect();
+        let judge = Self { c, weights: larger(&self.weights), ..*self };
+        judge.in_range(&smaller(t), &smaller(y), precision)
+    }
+
+    /// The same unless a sum of terms leaves the range of numbers.
+    fn in_range(&self, t: &[f64], y: &[f64], precision: Precision) -> Residuals {
         let rows = (&self.weights[..], self.length);
         ledger::residuals_or_refined(&self.at(t, y), rows, precision, || {
             ledger::residuals(&self.at(&extended(t), &extended(y)), rows, precision)

@@ -1,6 +1,6 @@
 //! What a row counts in units of the loads.
 
-use super::constants::{ROUNDS, STRONG};
+use super::constants::{ROUNDS, SMALLER, STRONG};
 use crate::matrix::Column;
 use crate::parts::Parts;
 use crate::scaling::equilibrate;
@@ -64,4 +64,14 @@ pub(super) fn or_largest(felt: f64, largest: f64) -> f64 {
 /// One over the loads that a row feels, zero where there are none. Beyond the range of numbers it is the largest.
 pub(super) fn per_load(row: f64, felt: f64) -> f64 {
     if felt > 0.0 { (row / felt).min(f64::MAX) } else { 0.0 }
+}
+
+/// Numbers whose sums do not leave the range of numbers if those of the given ones do by little.
+pub(super) fn smaller(numbers: &[f64]) -> Vec<f64> {
+    numbers.iter().map(|v| v * SMALLER).collect()
+}
+
+/// The weights of such numbers.
+pub(super) fn larger(weights: &[f64]) -> Vec<f64> {
+    weights.iter().map(|weight| (weight / SMALLER).min(f64::MAX)).collect()
 }
