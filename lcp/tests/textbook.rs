@@ -296,7 +296,7 @@ fn solutions_near_the_largest_number_are_solved() {
     for huge in [1e308, 8e307, 5e300] {
         let problem = lcp(mat![[2.0, huge], [-huge, 2.0]], &[huge, -1.0]);
         let (z, w) = ([0.0, 0.5], [1.5 * huge, 0.0]);
-        assert_eq!(problem.residuals(&z, &w).worst(), 0.0, "{huge:e}");
+        assert!(problem.residuals(&z, &w).worst() <= 0.0, "{huge:e}");
         assert!(problem.residuals(&[0.0, 0.6], &w).worst() > 0.01, "{huge:e}");
         let solution = Auto::default().solve(&problem).unwrap();
         assert!(solution.is_solved(), "{huge:e}: {}", solution.status);
