@@ -132,7 +132,7 @@ impl General for Contact2d {
 }
 
 /// A point with larger residuals has lost digits. Rounding: some hundred eps.
-const ALL_DIGITS: f64 = 1e-13;
+const LOST_DIGITS: f64 = 1e-13;
 
 /// Solves a problem by its general form; the second argument says that it is another one, of its parts.
 ///
@@ -146,7 +146,7 @@ pub(crate) fn solve_lowered<P: Lowered>(
     let solution = judged_by(problem, solve(&problem.general(), false)?, tolerance);
     let is_near =
         matches!(solution.status, Status::Solved | Status::AlmostSolved | Status::NumericalTrouble);
-    if !is_near || solution.residuals.worst() <= ALL_DIGITS {
+    if !is_near || solution.residuals.worst() <= LOST_DIGITS {
         return Ok(solution);
     }
     let Some(between) = problem.between_bounds(&solution) else { return Ok(solution) };

@@ -430,12 +430,17 @@ fn gaps_of_rounding_are_closed() {
         }
     }
     let problem = builder.build().unwrap();
-    let solution = Auto::default().solve(&problem).unwrap();
-    assert!(solution.is_solved(), "{}", solution.status);
-    let state = problem.variables(&solution);
-    for (number, pair) in state.t_n.chunks(2).enumerate() {
-        let carried = -weight * (boxes - number) as f64;
-        assert!((pair[0] + pair[1] - carried).abs() < 1e-6 * carried, "{number}: {pair:?}");
+    let by_auto = Auto::default().solve(&problem).unwrap();
+    assert!(by_auto.info.factorisations < 60, "{}", by_auto.info.factorisations);
+    let by_pivots = Solver::<Contact2d>::solve(&Lemke::default(), &problem).unwrap();
+    for solution in [by_auto, by_pivots] {
+        assert!(solution.is_solved(), "{:?}: {}", solution.info.method, solution.status);
+        let state = problem.variables(&solution);
+        assert!(problem.residuals(&state).worst() <= 1e-10);
+        assert!(problem.residuals(&problem.recover(&solution.t, &solution.y)).worst() <= 1e-10);
+        for (number, pair) in state.t_n.chunks(2).enumerate() {
+            let carried = -weight * (boxes - number) as f64;
+            assert!((pair[0] + pair[1] - carried).abs() < 1e-6 * carried, "{number}: {pair:?}");
+        }
     }
-    assert!(solution.info.factorisations < 60, "{}", solution.info.factorisations);
 }

@@ -41,8 +41,9 @@ Each case has its parameters in brackets, and then what is known about its solut
 * A dash means that the route does not treat the scene; `not tried` means that it would take too long for a test.
 * The cost is the number of pivots of all attempts, or of sweeps, steps, programs or iterations.
 
-Only `Infeasible` is a [proof](methods/convex_programs.md#is-there-an-equilibrium-at-all) that there is no equilibrium. All other
-[statuses](lcp/solving.md#solving-and-reading-a-solution) prove nothing.
+Only `Infeasible` is a [proof](methods/convex_programs.md#is-there-an-equilibrium-at-all) that there is no equilibrium. `NoEquilibrium`, by `interior`, is
+evidence: loaded slowly, the blocks [do not come to rest](methods/evolution.md). All other [statuses](lcp/solving.md#solving-and-reading-a-solution) prove
+nothing.
 
 The test does not compare powers of ten, costs, and the status of a failure, since these may depend on the last digits. At the limit itself, where rounding
 decides, it does not compare whether there is a solution.

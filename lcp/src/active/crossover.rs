@@ -225,3 +225,31 @@ fn closed(point: Point<'_>, gap: f64, slip: f64) -> ContactStatus {
         ContactStatus::Backwards
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+mod tests {
+    use faer::mat;
+
+    use super::*;
+    use crate::Contact2d;
+
+    /// Normal forces are zero to the last digit, negative or not: what friction would have to hold is the contradiction.
+    #[test]
+    fn a_force_beside_the_tip_of_the_cone_contradicts() {
+        let (zero, mu) = (vec![0.0], vec![0.5]);
+        let (c_n, c_t) = (mat![[1.0, 0.0]], mat![[0.0, 1.0]]);
+        let k = mat![[1.0, 0.0], [0.0, 1.0]];
+        let problem = Contact2d::new(k, vec![-1.0, 1.0], c_n, c_t, zero.clone(), zero, mu).unwrap();
+        let scaled = Scaled::of_contact(&problem);
+        for t_n in [1e-15, 0.0, -1e-15] {
+            for (t_t, next) in [(1e-9, ContactStatus::Backwards), (-1e-9, ContactStatus::Forwards)]
+            {
+                let contacts = vec![ContactStatus::Stick];
+                let vertex = Vertex { u: vec![0.0; 2], forces: vec![(t_n, t_t)], contacts };
+                let found = vertex.contradictions(&scaled, ROUNDING);
+                assert!(matches!(found[..], [(_, 0, state)] if state == next), "{found:?}");
+            }
+        }
+    }
+}

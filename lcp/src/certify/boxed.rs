@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::Residuals;
 use super::ledger::{self, Digits, Entry, InRow, Ledger, Point, Precision, Rows};
 use super::significance::{Term, Terms, terms_of};
-use super::weights::{self, larger, smaller};
+use super::weights::{self, into_range, weights_in_range};
 use crate::extended::{Extended, extended};
 use crate::matrix::Column;
 use crate::{BoxedLcp, Lcp, Matrix, MixedLcp};
@@ -91,17 +91,17 @@ impl<'a> BoxedJudge<'a> {
         if residuals.worst().is_finite() {
             return residuals;
         }
-        let q = smaller(self.q);
-        let bounds = self.bounds.map(|(lower, upper)| (smaller(lower), smaller(upper)));
+        let q = into_range(self.q);
+        let bounds = self.bounds.map(|(lower, upper)| (into_range(lower), into_range(upper)));
         let judge = BoxedJudge {
             m: self.m,
             q: &q,
             bounds: bounds.as_ref().map(|(lower, upper)| (&lower[..], &upper[..])),
-            loads: smaller(&self.loads),
-            weights: larger(&self.weights),
+            loads: into_range(&self.loads),
+            weights: weights_in_range(&self.weights),
             length: self.length,
         };
-        judge.in_range(&smaller(z), &smaller(w), precision)
+        judge.in_range(&into_range(z), &into_range(w), precision)
     }
 
     /// The same unless a sum of terms leaves the range of numbers.

@@ -16,7 +16,7 @@ pub(super) const STRONG: f64 = 1.0 / (1 << 10) as f64;
 /// Rounds in which loads are passed on through weak couplings. Chosen.
 pub(super) const ROUNDS: usize = 4;
 /// By what numbers are multiplied if sums of their products leave the range of numbers. Chosen: more than any number of terms.
-pub(super) const SMALLER: f64 = 1.0 / (1_u64 << 60) as f64;
+pub(super) const INTO_RANGE: f64 = 1.0 / (1_u64 << 60) as f64;
 /// A load of this part of those around it counts in full. Chosen.
 pub(super) const FULL: f64 = 1.0 / (1 << 20) as f64;
 /// A row that is worth this counts in full. Chosen: chains are not the only way to the loads.

@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 
 use super::Residuals;
-use super::constants::SMALLER;
+use super::constants::INTO_RANGE;
 use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
 use super::significance::{Term, Terms, terms_of};
-use super::weights::{self, larger, smaller};
+use super::weights::{self, into_range, weights_in_range};
 use crate::extended::{Extended, extended};
 use crate::matrix::Column;
 use crate::scaling::equilibrate;
@@ -21,7 +21,7 @@ impl HorizontalLcp {
     /// variable. In addition `loads` compares what is left with the largest right-hand side of the connected
     /// part of the row.
     ///
-    /// A NaN in the point makes the residuals infinite, and so do terms that overflow.
+    /// A NaN in the point makes the residuals infinite, and so do terms that are far beyond the range of numbers.
     ///
     /// ```
     /// use faer::mat;
@@ -86,9 +86,9 @@ impl<'a> GeneralJudge<'a> {
         if residuals.worst().is_finite() {
             return residuals;
         }
-        let c = self.c.iter().map(|(c, size)| (c * SMALLER, size * SMALLER)).collect();
-        let judge = Self { c, weights: larger(&self.weights), ..*self };
-        judge.in_range(&smaller(t), &smaller(y), precision)
+        let c = self.c.iter().map(|(c, size)| (c * INTO_RANGE, size * INTO_RANGE)).collect();
+        let judge = Self { c, weights: weights_in_range(&self.weights), ..*self };
+        judge.in_range(&into_range(t), &into_range(y), precision)
     }
 
     /// The same unless a sum of terms leaves the range of numbers.

@@ -1,6 +1,6 @@
 //! What a row counts in units of the loads.
 
-use super::constants::{ROUNDS, SMALLER, STRONG};
+use super::constants::{INTO_RANGE, ROUNDS, STRONG};
 use crate::matrix::Column;
 use crate::parts::Parts;
 use crate::scaling::equilibrate;
@@ -67,11 +67,11 @@ pub(super) fn per_load(row: f64, felt: f64) -> f64 {
 }
 
 /// Numbers whose sums do not leave the range of numbers if those of the given ones do by little.
-pub(super) fn smaller(numbers: &[f64]) -> Vec<f64> {
-    numbers.iter().map(|v| v * SMALLER).collect()
+pub(super) fn into_range(numbers: &[f64]) -> Vec<f64> {
+    numbers.iter().map(|v| v * INTO_RANGE).collect()
 }
 
 /// The weights of such numbers.
-pub(super) fn larger(weights: &[f64]) -> Vec<f64> {
-    weights.iter().map(|weight| (weight / SMALLER).min(f64::MAX)).collect()
+pub(super) fn weights_in_range(weights: &[f64]) -> Vec<f64> {
+    weights.iter().map(|weight| (weight / INTO_RANGE).min(f64::MAX)).collect()
 }

@@ -60,11 +60,17 @@ impl Solver<Contact2d> for Lemke {
         let began = Instant::now();
         if let Some(closed) = without_rounding(problem) {
             let mut solution = self.solve_contact(&closed, observer)?;
-            if let Some(state) = &solution.contact {
-                solution.residuals = problem.residuals(state);
+            if let Some(state) = solution.contact.take_if(|_| solution.status == Status::Solved) {
+                // Gaps and slips are those of the given data.
+                let state = problem.state(state.u, state.t_n, state.t_t);
+                (solution.t, solution.y) = problem.to_pairs(&state);
+                solution.residuals = problem.residuals(&state);
+                solution.contact = Some(state);
                 if solution.residuals.worst() <= self.settings().tolerance {
                     return Ok(solution);
                 }
+            } else if solution.status == Status::Cancelled {
+                return Ok(solution);
             }
         }
         let left = |limit: Duration| limit.saturating_sub(began.elapsed());
