@@ -10,8 +10,8 @@ pub(super) const NOISE: f64 = 1e-13;
 /// Below this multiple of its first value the artificial variable is zero, and leaves. Measured on walls: 1e-12 runs
 /// past the solution onto false rays, 1e-9 stops early with residuals of 1e-10.
 pub(super) const ARTIFICIAL_ZERO: f64 = 1e-10;
-/// A step may bring basic variables this far below zero, relative to the largest. Chosen: above the rounding errors of
-/// values.
+/// A step may bring basic variables this far below zero, relative to the largest; one that moves no variable by more
+/// makes no breakpoint of a parametric path. Chosen: above the rounding errors of values.
 pub(super) const TIE_WINDOW: f64 = 1e-12;
 /// Among tied rows, pivots below this multiple of the largest are not used. Chosen.
 pub(super) const TIE_PIVOT: f64 = 1e-4;
@@ -96,6 +96,3 @@ pub(super) const NOTHING: f64 = 1e-24;
 pub(super) const SAMPLES: u64 = 5;
 /// Their size, relative to the terms. Rounding: a few eps.
 pub(super) const LEVEL: f64 = 8.0 * f64::EPSILON;
-/// A pivot that moves no variable by more than this, relative to the largest, makes no breakpoint. Rounding: some
-/// hundred eps.
-pub(super) const STANDSTILL: f64 = 1e-13;

@@ -11,7 +11,7 @@ pub use outcome::{Breakpoint, ParametricEnd, ParametricPath, ParametricRay};
 use std::time::Instant;
 
 use super::basis_matrix::BasisMatrix;
-use super::constants::{ROUNDING, STANDSTILL};
+use super::constants::{ROUNDING, TIE_WINDOW};
 use super::crash::{Crash, find_basis};
 use super::kernel::{Kernel, Var};
 use super::path::Path;
@@ -203,7 +203,7 @@ impl Tracer<'_> {
             let reach = if speed > 0.0 { (last - value) / speed } else { f64::INFINITY };
             let back = if speed < 0.0 { value / -speed } else { f64::INFINITY };
             if reach <= step && reach.is_finite() {
-                if reach * max_abs(&column) <= STANDSTILL * path.value_scale()
+                if reach * max_abs(&column) <= TIE_WINDOW * path.value_scale()
                     && out.bases.len() > 1
                 {
                     out.bases.pop();
@@ -231,7 +231,8 @@ impl Tracer<'_> {
                 return ParametricEnd::Cycle;
             }
             entering = path.exchange(row, entering, &column);
-            if step * max_abs(&column) <= STANDSTILL * path.value_scale() {
+            // Rows within this window count as tied, so that a step within it parts a tie.
+            if step * max_abs(&column) <= TIE_WINDOW * path.value_scale() {
                 out.bases.pop();
                 continue;
             }
@@ -257,33 +258,53 @@ impl Tracer<'_> {
         lambda: Option<f64>,
         out: &mut ParametricPath,
     ) -> Option<ParametricEnd> {
-        let n = self.problem.order();
+        // A solution that vanishes must not be measured by its own rounding errors. These grow with the
+        // condition of the basis, up to what counts as a tie.
+        let mut points = [ROUNDING, TIE_WINDOW].into_iter().map(|least| {
+            let point = self.point(path, place, moving, lambda, least);
+            (self.residual(&point), point)
+        });
+        let found = points.find(|(residual, _)| *residual <= self.settings.lemke.tolerance);
+        let Some((residual, point)) = found else {
+            return Some(ParametricEnd::NumericalTrouble);
+        };
+        out.breakpoints.push(point);
+        out.residual = out.residual.max(residual);
+        None
+    }
+
+    /// The present point. Values below `least`, relative to the path's, are zero.
+    fn point<K: Kernel>(
+        &self,
+        path: &Path<'_, K>,
+        place: Place<'_>,
+        moving: Option<(Var, f64)>,
+        lambda: Option<f64>,
+        least: f64,
+    ) -> Breakpoint {
         let value = |var: Var| match moving {
             Some((it, value)) if it == var => value,
             _ => path.value(var),
         };
-        // A solution that vanishes must not be measured by its own rounding errors.
-        let least = ROUNDING * (1.0 + value(path.artificial()).abs());
-        let kept = |var: Var| if value(var).abs() > least { value(var) } else { 0.0 };
-        let along: Vec<f64> = (0..2 * n).map(kept).collect();
+        let zero = least * (1.0 + value(path.artificial()).abs());
+        let kept = |var: Var| if value(var).abs() > zero { value(var) } else { 0.0 };
+        let along: Vec<f64> = (0..2 * self.problem.order()).map(kept).collect();
         let (t, y) = place.in_problem_units(&along, place.start.size);
         let direction = if self.to < self.from { -1.0 } else { 1.0 };
         let travelled = direction * place.unit * kept(path.artificial());
         let lambda = lambda.unwrap_or_else(|| {
             let lambda = self.from + travelled;
             let size = self.from.abs() + travelled.abs();
-            if lambda.abs() > ROUNDING * size { lambda } else { 0.0 }
+            if lambda.abs() > least * size { lambda } else { 0.0 }
         });
-        let terms = self.problem.c().iter().zip(self.c1).map(|(c0, c1)| (c0, lambda * c1));
+        Breakpoint { lambda, t, y }
+    }
+
+    fn residual(&self, point: &Breakpoint) -> f64 {
+        let terms = self.problem.c().iter().zip(self.c1).map(|(c0, c1)| (c0, point.lambda * c1));
         let c: Vec<_> = terms.map(|(a, b)| (a + b, a.abs() + b.abs())).collect();
         let judge = GeneralJudge::with_right_hand_side(self.problem, c);
-        let residual = judge.residuals(&t, &y, Precision::Exact).worst();
-        if residual > self.settings.lemke.tolerance {
-            return Some(ParametricEnd::NumericalTrouble);
-        }
-        out.breakpoints.push(Breakpoint { lambda, t, y });
-        out.residual = out.residual.max(residual);
-        None
+        judge.residuals(&point.t, &point.y, Precision::Exact).worst()
     }
 
     fn ray<K: Kernel>(
