@@ -1,7 +1,8 @@
 //! What the choice of the method costs on dense positive definite problems: `Auto` against the active set method
-//! alone, and against one dense Cholesky factorisation of the matrix in the same run.
+//! alone, and against one dense Cholesky factorisation of the matrix in the same run. Small problems, games of two
+//! players among them, are compared with one dense LU solve of the same order.
 //!
-//! `cargo bench --bench auto` prints a table; with `-- --write` it also puts it into `docs/methods/auto.md`.
+//! `cargo bench --bench auto` prints both tables; with `-- --write` it also puts them into `docs/methods/auto.md`.
 
 mod common;
 #[path = "common/dense.rs"]
@@ -11,11 +12,14 @@ use std::fmt::Write as _;
 use std::hint::black_box;
 use std::time::Instant;
 
-use faer::Side;
-use lcp::{Auto, Lcp, SemismoothNewton, Solver};
+use faer::linalg::solvers::Solve;
+use faer::{Mat, Side};
+use lcp::{Auto, Lcp, SemismoothNewton, Solver, families};
 
 /// Runs of each, one after the other in turn: what disturbs the machine disturbs all of them.
 const RUNS: usize = 15;
+/// Solves of a small problem in a run.
+const REPEATS: usize = 500;
 
 fn main() {
     if !common::is_bench() {
@@ -32,6 +36,37 @@ fn main() {
         let _ = writeln!(table, "{line}");
     }
     common::write_if_asked("docs/methods/auto.md", "auto", &table);
+    let mut table = String::from(
+        "| problem | order | LU solve \\[us\\] | `auto` \\[us\\] | auto / LU |\n|:--|--:|--:|--:|--:|\n",
+    );
+    println!("\n{table}");
+    let game = |order: usize| families::bimatrix(order / 2, order / 2, 1).problem;
+    let definite = [6, 12, 24].map(|n| ("positive definite", dense::positive_definite(n)));
+    for (name, problem) in definite.into_iter().chain([("game", game(24))]) {
+        let line = small_line(name, &problem);
+        println!("{line}");
+        let _ = writeln!(table, "{line}");
+    }
+    common::write_if_asked("docs/methods/auto.md", "auto_small", &table);
+}
+
+/// One solve from the data to the checked answer, against one dense solve with partial pivoting.
+fn small_line(name: &str, problem: &Lcp) -> String {
+    let auto = Auto::default();
+    let n = problem.order();
+    // The matrix of a game is singular for some numbers of choices: one of the same order stands for it.
+    let m = dense::positive_definite(n).m().to_dense();
+    let q = Mat::from_fn(n, 1, |i, _| problem.q()[i]);
+    let mut best = [f64::INFINITY; 2];
+    for _ in 0..RUNS {
+        let lu = timed(|| (0..REPEATS).for_each(|_| drop(black_box(m.partial_piv_lu().solve(&q)))));
+        let chosen = timed(|| (0..REPEATS).for_each(|_| solve(&auto, problem, &mut 0)));
+        for (best, seconds) in best.iter_mut().zip([lu, chosen]) {
+            *best = best.min(1e6 * seconds / REPEATS as f64);
+        }
+    }
+    let [lu, auto] = best;
+    format!("| {name} | {n} | {lu:.1} | {auto:.1} | {:.1} |", auto / lu)
 }
 
 fn line(problem: &Lcp) -> String {

@@ -30,7 +30,7 @@ pub(super) fn run<P: Planned>(
     let mut best: Option<Solution> = None;
     let mut cut = None;
     // All choices of few pairs cost less than many attempts.
-    let few = (problem.pairs() <= FEW_PAIRS).then_some(lemke::KINDS);
+    let few = (problem.choices() <= FEW_PAIRS).then_some(lemke::KINDS);
     let max_attempts = settings.max_attempts.or(few);
     for step in chain_of(problem) {
         let time_limit = settings.time_limit.map(|limit| limit.saturating_sub(began.elapsed()));

@@ -2,17 +2,11 @@
 
 use std::time::Duration;
 
-use super::constants::{FEW_PAIRS, MOST_PAIRS, WORK};
+use super::constants::{MOST_PAIRS, WORK};
 use crate::enumerate::{Enumerated, Limits, enumerate};
 use crate::lower::{General, judged_point};
 use crate::solve::{Monitor, is_over};
-use crate::{Certificate, Error, HorizontalLcp, Method, Observer, Solution, Solver, Status};
-
-/// Whether a problem has so few pairs that all choices take no time.
-pub(super) fn has_few_pairs(general: &HorizontalLcp) -> bool {
-    let n = general.order();
-    (0..n).filter(|&pair| general.opposite(pair).is_none()).count() <= FEW_PAIRS
-}
+use crate::{Certificate, Error, Method, Observer, Solution, Solver, Status};
 
 /// All choices of sides, with proofs.
 #[derive(Debug, Clone, Copy)]

@@ -2,8 +2,8 @@
 
 use std::time::Duration;
 
-use super::constants::{MOST_PAIRS, TRIAL};
-use super::enumerated::{Enumeration, has_few_pairs};
+use super::constants::{FEW_PAIRS, MOST_PAIRS, TRIAL};
+use super::enumerated::Enumeration;
 use super::memory;
 use crate::divide::Divide;
 use crate::lower::General;
@@ -42,7 +42,7 @@ pub(super) fn chain_of<P: Planned>(problem: &P) -> Vec<Step> {
     }
     let pivots = steps.iter().position(|step| step.method == Method::Lemke);
     let (place, words) = match pivots {
-        Some(pivots) if has_few_pairs(&problem.general()) => {
+        Some(pivots) if problem.choices() <= FEW_PAIRS => {
             (pivots + 1, "so few that all choices of sides can be gone through, with proofs")
         }
         _ => (steps.len(), "choices of sides are gone through as far as the work allows"),
@@ -55,6 +55,11 @@ pub(super) fn chain_of<P: Planned>(problem: &P) -> Vec<Step> {
 pub trait Planned: Divide {
     /// Pairs of a start.
     fn pairs(&self) -> usize;
+
+    /// Pairs apart from free variables: those of which either side may be zero.
+    fn choices(&self) -> usize {
+        self.pairs()
+    }
 
     /// Whether pivots on the problem are on sparse matrices.
     fn is_sparse(&self) -> bool;

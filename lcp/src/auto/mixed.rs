@@ -10,6 +10,10 @@ impl Planned for MixedLcp {
         self.order()
     }
 
+    fn choices(&self) -> usize {
+        self.free().iter().filter(|free| !**free).count()
+    }
+
     fn is_sparse(&self) -> bool {
         self.m().is_sparse()
     }
@@ -30,6 +34,13 @@ impl Planned for BoxedLcp {
         let bounds = self.lower().iter().zip(self.upper());
         let is_between = |l: f64, u: f64| l.is_finite() && u.is_finite() && l < u;
         self.order() + bounds.filter(|(l, u)| is_between(**l, **u)).count()
+    }
+
+    fn choices(&self) -> usize {
+        let bounds = self.lower().iter().zip(self.upper());
+        let is_open = |l: f64, u: f64| l == f64::NEG_INFINITY && u == f64::INFINITY;
+        let is_fixed = |l: f64, u: f64| l.total_cmp(&u).is_eq();
+        self.pairs() - bounds.filter(|(l, u)| is_open(**l, **u) || is_fixed(**l, **u)).count()
     }
 
     fn is_sparse(&self) -> bool {

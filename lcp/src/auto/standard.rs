@@ -62,6 +62,10 @@ impl Planned for HorizontalLcp {
         self.order()
     }
 
+    fn choices(&self) -> usize {
+        (0..self.order()).filter(|&pair| self.opposite(pair).is_none()).count()
+    }
+
     fn is_sparse(&self) -> bool {
         self.is_sparse()
     }

@@ -109,6 +109,8 @@ impl<'a> Search<'a> {
         let mut trial = first;
         let mut last_basis = None;
         let mut center = vec![0.0; n];
+        // Costs of a game are positive: no proof is to be found, and the paths of pairs are short.
+        let is_game = first_start.is_feasible_far_out();
         let (mut number, mut had_ray) = (0, false);
         while self.has_another(number) {
             number += 1;
@@ -134,7 +136,7 @@ impl<'a> Search<'a> {
             // The first ray asks the question; its answer does not depend on the attempt.
             let is_first_ray = outcome.end == AttemptEnd::Ray && !had_ray;
             had_ray |= is_first_ray;
-            if is_first_ray && self.settings.prove_infeasible {
+            if is_first_ray && self.settings.prove_infeasible && !is_game {
                 match self.proof(&first_start, number, observer) {
                     Err(stopped) => return self.give_up(stopped),
                     Ok(None) => {}
@@ -144,7 +146,7 @@ impl<'a> Search<'a> {
                     }
                 }
             }
-            trial = Trial::after(&trial, outcome.end, number + 1, &first);
+            trial = Trial::after(&trial, outcome.end, number + 1, &first, is_game);
             center = outcome.z;
         }
         self.conclude()
@@ -480,3 +482,6 @@ impl<'a> Search<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

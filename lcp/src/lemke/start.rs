@@ -13,7 +13,7 @@ use crate::vector::max_abs;
 use crate::{Basis, HorizontalLcp, Side};
 
 use super::any_kernel::AnyKernel;
-use super::constants::{LARGEST_GROWTH, MANY_FLIPS, ROUNDING, SOUND_PIVOT};
+use super::constants::{LARGEST_GROWTH, MANY_FLIPS, NOISE, ROUNDING, SOUND_PIVOT};
 use super::dense::Dense;
 use super::kernel::{Kernel, Var};
 use super::sparse::Sparse;
@@ -258,6 +258,18 @@ impl Start {
                 AnyKernel::Sparse(Box::new(Sparse::new(data, covering, interval)))
             }
         }
+    }
+
+    /// Whether all `z`, equal and large, make every `w` positive, so that the linear conditions have a solution. Sparse
+    /// problems are not asked.
+    pub(super) fn is_feasible_far_out(&self) -> bool {
+        let StartData::Dense(t) = &self.data else { return false };
+        let mut sums = vec![0.0; self.q.len()];
+        for j in 0..t.ncols() {
+            sums.iter_mut().zip(t.col_as_slice(j)).for_each(|(sum, v)| *sum += v);
+        }
+        let noise = NOISE * sums.len() as f64;
+        sums.iter().zip(&self.free).all(|(sum, is_free)| *is_free || *sum < -noise)
     }
 
     /// Adds to `q`, for the basic variable `w_k` of every pair.

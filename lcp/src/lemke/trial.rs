@@ -16,10 +16,17 @@ pub(super) struct Trial {
 impl Trial {
     /// The attempt of this number, from 2, after one that ended so. After a cycle the same once more
     /// without ties. After a basis that is not quite right in turn from there on and with random covering
-    /// vectors from the first start, since paths from there may come back to it. After a ray first another
-    /// covering vector, another start basis, a pair in place of the artificial variable, then proximal
-    /// problems of falling weight, each centered where the last one ended, then more start bases.
-    pub(super) fn after(last: &Self, end: AttemptEnd, number: usize, first: &Self) -> Self {
+    /// vectors from the first start, since paths from there may come back to it. After a ray another
+    /// covering vector, another start basis, a pair in place of the artificial variable, proximal problems of
+    /// falling weight, each centered where the last one ended, then more start bases. `is_game` says that the
+    /// pair is worth a try before the others.
+    pub(super) fn after(
+        last: &Self,
+        end: AttemptEnd,
+        number: usize,
+        first: &Self,
+        is_game: bool,
+    ) -> Self {
         let seed = number as u64;
         let parted = Perturbation::RightHandSide { seed };
         let is_proximal = matches!(last.perturbation, Perturbation::Proximal { .. });
@@ -50,14 +57,19 @@ impl Trial {
         }
         let flipped = AttemptStart::Flipped { seed };
         let proximal = |weight| Self { perturbation: Perturbation::Proximal { weight }, ..*first };
+        let pair = Self { covering: AttemptCovering::Column { pair: 0 }, ..*first };
+        let more = Self { start: flipped, covering: AttemptCovering::Ones, perturbation: parted };
+        let covering = other(first.covering, seed);
+        let other_covering = Self { covering, perturbation: parted, ..*first };
+        let kinds =
+            if is_game { [pair, other_covering, more] } else { [other_covering, more, pair] };
         match number {
-            4 => Self { covering: AttemptCovering::Column { pair: 0 }, ..*first },
-            2 => Self { covering: other(last.covering, seed), perturbation: parted, ..*first },
+            2..=4 => kinds[number - 2],
             5 => proximal(1.0),
             6 => proximal(1e-2),
             7 => proximal(1e-4),
             8 => proximal(1e-6),
-            _ => Self { start: flipped, covering: AttemptCovering::Ones, perturbation: parted },
+            _ => more,
         }
     }
 
