@@ -1,6 +1,5 @@
 //! Sparse linear algebra: columns, their order, and an LU factorisation that grows by columns.
 
-mod degree;
 mod gram;
 mod lu;
 mod multifrontal;

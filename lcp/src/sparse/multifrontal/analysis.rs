@@ -1,7 +1,6 @@
 //! The order of elimination, the supernodes, and where every entry goes.
 
 use faer::Side;
-use faer::perm::PermRef;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
@@ -9,7 +8,6 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{FaerError, SymbolicSparseColMatRef};
 
 use super::tree::Tree;
-use crate::sparse::degree::minimum_degree;
 
 /// Columns that are eliminated together, and the rows below them.
 #[derive(Debug)]
@@ -69,25 +67,20 @@ pub(super) struct Analysis {
 impl Analysis {
     /// For a symmetric pattern.
     pub(super) fn of_whole(pattern: SymbolicSparseColMatRef<'_, usize>) -> Result<Self, FaerError> {
-        Self::new(pattern, SymmetricOrdering::Amd, false)
+        Self::new(pattern, false)
     }
 
     /// For the lower triangle of one.
     pub(super) fn of_lower(pattern: SymbolicSparseColMatRef<'_, usize>) -> Result<Self, FaerError> {
-        let (order, place) = minimum_degree(pattern)?;
-        let order = PermRef::new_checked(&order, &place, order.len());
-        Self::new(pattern, SymmetricOrdering::Custom(order), true)
+        Self::new(pattern, true)
     }
 
-    fn new(
-        pattern: SymbolicSparseColMatRef<'_, usize>,
-        order: SymmetricOrdering<'_, usize>,
-        is_lower: bool,
-    ) -> Result<Self, FaerError> {
+    fn new(pattern: SymbolicSparseColMatRef<'_, usize>, is_lower: bool) -> Result<Self, FaerError> {
         let params = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..Default::default()
         };
+        let order = SymmetricOrdering::Amd;
         let symbolic = factorize_symbolic_cholesky(pattern, Side::Lower, order, params)?;
         let n = pattern.ncols();
         let mut order =
