@@ -30,7 +30,7 @@ mod evidence;
 mod farkas;
 mod friction;
 mod general;
-mod ledger;
+mod rows;
 mod significance;
 mod weights;
 
@@ -42,7 +42,7 @@ pub(crate) use constants::ROUNDING;
 pub(crate) use contact::{ContactJudge, StateOf};
 pub(crate) use farkas::{is_proof, is_proof_of, is_proof_of_mixed};
 pub(crate) use general::{GeneralJudge, right_hand_side};
-pub(crate) use ledger::{Precision, ratio};
+pub(crate) use rows::{Precision, ratio};
 
 use crate::Status;
 
@@ -52,21 +52,21 @@ use crate::Status;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Residuals {
     /// Largest `|r_i| / terms_i`, with the residual of a row and the sum of the sizes of its terms.
-    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
     pub equation: f64,
     /// The largest effect of a component that violates its sign or its bound: the largest `|a_ij x_j| / terms_i` of
     /// the change that removes the violation.
-    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
     pub feasibility: f64,
     /// The largest effect of the smaller one of a pair whose variables are both positive.
-    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
     pub complementarity: f64,
     /// Feasibility and complementarity in one number.
-    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
     pub natural: f64,
     /// The residual of a row plus the changes of feasibility and complementarity, relative to the largest right-hand
     /// side of its connected part in equilibrated units.
-    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
     pub loads: f64,
 }
 

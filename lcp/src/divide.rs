@@ -8,7 +8,7 @@ use faer::Mat;
 use faer::sparse::SparseColMat;
 
 use crate::certify::Residuals;
-use crate::lower::General;
+use crate::conversion::General;
 use crate::matrix::Column;
 use crate::parts::Parts;
 use crate::problem::column_of;

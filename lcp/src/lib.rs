@@ -125,6 +125,7 @@ mod basis;
 mod certify;
 #[cfg(feature = "cli")]
 pub mod cli;
+mod conversion;
 mod definite;
 mod divide;
 mod enumerate;
@@ -137,9 +138,10 @@ pub mod families;
 mod interior;
 #[cfg(feature = "io")]
 pub mod io;
+#[cfg(feature = "serde")]
+mod json_numbers;
 pub mod lemke;
 mod linear;
-mod lower;
 mod matrix;
 mod method;
 mod newton;
@@ -162,8 +164,6 @@ mod states;
 mod status;
 mod variables;
 mod vector;
-#[cfg(feature = "serde")]
-mod wire;
 
 pub use faer;
 

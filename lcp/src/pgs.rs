@@ -112,7 +112,7 @@ pub struct RowsSolution {
     pub w: Vec<f64>,
     /// The largest part of a `w_i` that the constraints do not allow at `z`, relative to the larger of
     /// `|q_i| + sum_j |M_ij z_j|` ([`Rows::size`]) and 2^-10 of `M_ii max|z|`.
-    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
     pub residual: f64,
     /// What it cost.
     pub info: Info,

@@ -3,11 +3,11 @@
 mod bound;
 mod boxed;
 mod contact;
-mod disguised;
 mod friction;
 mod horizontal;
 mod mixed;
 mod standard;
+mod standard_form;
 
 pub use bound::{ErrorBound, Monotonicity};
 pub(crate) use boxed::Between;
@@ -20,9 +20,9 @@ pub(crate) use contact::{check_epsilon, ratio};
 pub(crate) use contact::{column_factors, diagonal, median};
 
 pub(crate) use crate::matrix::column_of;
-pub use disguised::StandardForm;
 pub use friction::{ContactForces, Friction2d};
 pub use horizontal::HorizontalLcp;
 pub(crate) use mixed::Groups;
 pub use mixed::MixedLcp;
 pub use standard::Lcp;
+pub use standard_form::StandardForm;

@@ -20,7 +20,7 @@ use program::Run;
 pub use settings::{QuadraticProgramSettings, SoftConstraints};
 pub use soft::SoftSolution;
 
-use crate::lower::solve_disguised;
+use crate::conversion::solve_in_standard_form;
 use crate::{Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Observer, Solution, Solver};
 
 /// Complementarity problems that are the conditions of a convex quadratic program.
@@ -169,7 +169,7 @@ impl Solver<HorizontalLcp> for QuadraticProgram {
             )
         };
         let given = (&self.settings.start, self.settings.tolerance);
-        solve_disguised(problem, given, not_standard, |lcp, start| {
+        solve_in_standard_form(problem, given, not_standard, |lcp, start| {
             let solver = Self::new(QuadraticProgramSettings { start, ..self.settings.clone() });
             solver.solve_standard(lcp, &|| problem.clone(), observer)
         })

@@ -1,10 +1,10 @@
 //! The equations of given states of all contacts, solved in double-double arithmetic.
 
 mod answer;
-mod at;
 mod constants;
-mod lack;
 mod law;
+mod point;
+mod residual;
 mod solve;
 
 pub use answer::{Refined, Refinement, Verified};
@@ -15,8 +15,8 @@ pub use crate::problem::ContactStatus;
 pub(crate) use constants::{ALL_DIGITS, ROUNDED};
 pub(crate) use solve::{Exact, planned, refined_states};
 
-use at::At;
 use constants::{DOUBT, EXCHANGES};
+use point::ExtendedPoint;
 use solve::solved;
 
 use crate::problem::column_of;
@@ -33,7 +33,7 @@ impl Contact2d {
     /// If the lengths are not those of the problem.
     pub fn statuses(&self, state: &ContactState) -> Vec<ContactStatus> {
         let scaled = Scaled::of_contact(self);
-        let at = At::from(&scaled, state);
+        let at = ExtendedPoint::from(&scaled, state);
         at.nearest(&scaled)
     }
 
@@ -98,8 +98,8 @@ impl Contact2d {
     pub fn verify(&self, state: &ContactState) -> Result<Verified, Error> {
         self.check_state(state, &vec![ContactStatus::Open; self.points()])?;
         let scaled = Scaled::of_contact(self);
-        let at = At::from(&scaled, state);
-        let mut statuses = lack::without_idle(&scaled, &at.nearest(&scaled), &at);
+        let at = ExtendedPoint::from(&scaled, state);
+        let mut statuses = residual::without_idle(&scaled, &at.nearest(&scaled), &at);
         let mut best: Option<Verified> = None;
         for _ in 0..EXCHANGES {
             let (refined, slacks) = solved(&scaled, state, &statuses, Refinement::Extended)?;

@@ -18,7 +18,7 @@ pub enum RouteEnd {
         /// Its status.
         status: Status,
         /// The worst of its residuals.
-        #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
+        #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
         residual: f64,
     },
     /// It does not treat the problem.
@@ -71,7 +71,7 @@ pub struct Info {
     /// Every attempt of a pivoting method, in order.
     pub attempts: Vec<Attempt>,
     /// The residual that controls an iterative method, at its start and after every iteration.
-    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinities"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinities"))]
     pub history: Vec<f64>,
     /// The methods that [`Auto`](crate::Auto) ran, in order. The point and the other numbers here, except for the
     /// time, come from one of them. For a problem with independent parts these are the methods of all parts, the

@@ -32,25 +32,25 @@ pub(crate) struct Answer {
 }
 
 /// Displacements and forces of a contact problem in its own units.
-pub(crate) type At<'a> = (&'a [f64], &'a [(f64, f64)]);
+pub(crate) type PointRef<'a> = (&'a [f64], &'a [(f64, f64)]);
 
 /// The judge of points of a scaled problem, in the data as given.
 pub(crate) trait Judge {
     /// Residuals of the [`answer`](Self::answer) that a point is.
-    fn residuals(&self, scaled: &Scaled, at: At<'_>, precision: Precision) -> Residuals;
+    fn residuals(&self, scaled: &Scaled, at: PointRef<'_>, precision: Precision) -> Residuals;
 
     /// Residuals of displacements in units of the data and scaled forces, of twice the digits.
     fn residuals_of(&self, scaled: &Scaled, at: &Exact) -> Residuals;
 
     /// What is given back of a point.
-    fn answer(&self, scaled: &Scaled, at: At<'_>) -> Answer;
+    fn answer(&self, scaled: &Scaled, at: PointRef<'_>) -> Answer;
 }
 
 /// A point as it stands, with its residuals.
 pub(crate) fn judged<'a>(
     judge: &dyn Judge,
     scaled: &Scaled,
-    (u, forces): At<'a>,
+    (u, forces): PointRef<'a>,
     precision: Precision,
 ) -> Judged<'a> {
     let residuals = judge.residuals(scaled, (u, forces), precision);
@@ -61,7 +61,7 @@ pub(crate) fn judged<'a>(
 /// small inherits the rounding errors of what is large until it is refined by itself.
 pub(crate) fn brought_right<'a>(
     (judge, scaled, condensed): (&dyn Judge, &Scaled, &mut Condensed),
-    (at, mut best): (At<'_>, Judged<'a>),
+    (at, mut best): (PointRef<'_>, Judged<'a>),
     contacts: &[ContactStatus],
     tolerance: f64,
 ) -> Judged<'a> {
@@ -89,7 +89,7 @@ pub(crate) fn brought_right<'a>(
 /// The best point that the states of contacts lead to without rounding errors.
 pub(crate) fn unrounded(
     (judge, scaled, condensed): (&dyn Judge, &Scaled, &mut Condensed),
-    at: At<'_>,
+    at: PointRef<'_>,
     contacts: &[ContactStatus],
 ) -> Option<Judged<'static>> {
     let mut best: Option<Judged<'static>> = None;
@@ -164,7 +164,7 @@ pub(crate) trait Original {
 
 /// The state of a scaled point. What is given back are forces inside their cones: where these are large, what was cut
 /// off may be more than the loads.
-fn state(problem: &Contact2d, scaled: &Scaled, (u, forces): At<'_>) -> ContactState {
+fn state(problem: &Contact2d, scaled: &Scaled, (u, forces): PointRef<'_>) -> ContactState {
     let inside = forces.iter().zip(problem.mu()).map(|((t_n, t_t), mu)| {
         let t_n = t_n.max(0.0);
         // Forces may have overflowed.
@@ -177,7 +177,7 @@ fn state(problem: &Contact2d, scaled: &Scaled, (u, forces): At<'_>) -> ContactSt
 }
 
 impl Judge for (&Contact2d, ContactJudge<'_>) {
-    fn residuals(&self, scaled: &Scaled, at: At<'_>, precision: Precision) -> Residuals {
+    fn residuals(&self, scaled: &Scaled, at: PointRef<'_>, precision: Precision) -> Residuals {
         self.1.residuals(&state(self.0, scaled, at), precision)
     }
 
@@ -187,7 +187,7 @@ impl Judge for (&Contact2d, ContactJudge<'_>) {
         self.1.residuals_of(StateOf { u, t_n: &t_n, t_t: &t_t, openings: None })
     }
 
-    fn answer(&self, scaled: &Scaled, at: At<'_>) -> Answer {
+    fn answer(&self, scaled: &Scaled, at: PointRef<'_>) -> Answer {
         let state = state(self.0, scaled, at);
         let (t, y) = self.0.to_pairs(&state);
         Answer { t, y, contact: Some(state) }
@@ -195,7 +195,7 @@ impl Judge for (&Contact2d, ContactJudge<'_>) {
 }
 
 /// The `(z, w)` of a scaled point. As for contact, what is judged is what is given back.
-fn variables(scaled: &Scaled, (u, forces): At<'_>) -> (Vec<f64>, Vec<f64>) {
+fn variables(scaled: &Scaled, (u, forces): PointRef<'_>) -> (Vec<f64>, Vec<f64>) {
     let (mut u, mut w) = (u.to_vec(), vec![0.0; u.len()]);
     for (point, (t_n, _)) in scaled.points.iter().zip(forces) {
         let j = point.columns[0];
@@ -206,7 +206,7 @@ fn variables(scaled: &Scaled, (u, forces): At<'_>) -> (Vec<f64>, Vec<f64>) {
 }
 
 impl Judge for (&MixedLcp, BoxedJudge<'_>) {
-    fn residuals(&self, scaled: &Scaled, at: At<'_>, precision: Precision) -> Residuals {
+    fn residuals(&self, scaled: &Scaled, at: PointRef<'_>, precision: Precision) -> Residuals {
         let (z, w) = variables(scaled, at);
         self.1.residuals(&z, &w, precision)
     }
@@ -220,7 +220,7 @@ impl Judge for (&MixedLcp, BoxedJudge<'_>) {
         self.1.residuals_of(u, &w)
     }
 
-    fn answer(&self, scaled: &Scaled, at: At<'_>) -> Answer {
+    fn answer(&self, scaled: &Scaled, at: PointRef<'_>) -> Answer {
         let (z, w) = variables(scaled, at);
         let (t, y) = self.0.to_pairs(&z, &w);
         Answer { t, y, contact: None }

@@ -4,7 +4,7 @@ use faer::sparse::FaerError;
 
 use super::crossover::{Effort, Vertex, cross_over};
 use super::original::{
-    Answer, At, Judge, Judged, Original, brought_right, judged as judged_by, unrounded,
+    Answer, Judge, Judged, Original, PointRef, brought_right, judged as judged_by, unrounded,
 };
 use crate::certify::Precision;
 use crate::problem::ContactStatus;
@@ -224,7 +224,7 @@ pub(crate) fn unplanned(method: Method, error: FaerError) -> Error {
 }
 
 /// Quickly, and with all digits where the point may be a solution.
-fn judged<'a>(judge: &dyn Judge, scaled: &Scaled, at: At<'a>, tolerance: f64) -> Judged<'a> {
+fn judged<'a>(judge: &dyn Judge, scaled: &Scaled, at: PointRef<'a>, tolerance: f64) -> Judged<'a> {
     let quick = judged_by(judge, scaled, at, Precision::Quick);
     // What is left of the loads is the same whatever rows matter.
     if quick.residuals.loads > tolerance {

@@ -123,8 +123,8 @@ mod tests {
 
     use super::*;
     use crate::auto::method::Step;
+    use crate::conversion::General;
     use crate::divide::{Divide, Part};
-    use crate::lower::General;
     use crate::{Auto, HorizontalLcp, Iteration, Lcp, Residuals, Solver};
 
     /// A problem for methods that refuse.

@@ -3,8 +3,8 @@
 use std::time::Duration;
 
 use super::constants::{MOST_PAIRS, WORK};
+use crate::conversion::{General, judged_point};
 use crate::enumerate::{Enumerated, Limits, enumerate};
-use crate::lower::{General, judged_point};
 use crate::solve::{Monitor, is_over};
 use crate::{Certificate, Error, Method, Observer, Solution, Solver, Status};
 

@@ -5,8 +5,8 @@ use std::time::Duration;
 use super::constants::{FEW_PAIRS, MOST_PAIRS, TRIAL};
 use super::enumerated::Enumeration;
 use super::memory;
+use crate::conversion::General;
 use crate::divide::Divide;
-use crate::lower::General;
 use crate::{
     Error, InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings, Method, Observer,
     SemismoothNewton, SemismoothNewtonSettings, Solution, Solver, WarmStart,

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::Residuals;
-use super::ledger::{self, Digits, Entry, InRow, Ledger, Point, Precision, Rows};
+use super::rows::{self, Digits, Entry, InRow, Point, Precision, RowResiduals, Rows};
 use super::significance::{Term, Terms, terms_of};
 use super::weights::{self, into_range, weights_in_range};
 use crate::extended::{Extended, extended};
@@ -107,42 +107,42 @@ impl<'a> BoxedJudge<'a> {
     /// The same unless a sum of terms leaves the range of numbers.
     fn in_range(&self, z: &[f64], w: &[f64], precision: Precision) -> Residuals {
         let rows = (&self.weights[..], self.length);
-        ledger::residuals_or_refined(&self.at(z, w), rows, precision, || {
-            ledger::residuals(&self.at(&extended(z), &extended(w)), rows, precision)
+        rows::residuals_or_refined(&self.at(z, w), rows, precision, || {
+            rows::residuals(&self.at(&extended(z), &extended(w)), rows, precision)
         })
     }
 
     /// The same of a point of twice the digits.
     pub(crate) fn residuals_of(&self, z: &[Extended], w: &[Extended]) -> Residuals {
-        ledger::residuals(&self.at(z, w), (&self.weights, self.length), Precision::Exact)
+        rows::residuals(&self.at(z, w), (&self.weights, self.length), Precision::Exact)
     }
 
-    fn at<'b, X: Digits>(&'b self, z: &'b [X], w: &'b [X]) -> At<'b, X> {
-        At { judge: self, z, w }
+    fn at<'b, X: Digits>(&'b self, z: &'b [X], w: &'b [X]) -> JudgedPoint<'b, X> {
+        JudgedPoint { judge: self, z, w }
     }
 
-    fn conditions_of(&self, j: usize, (z, w): (f64, f64), ledger: &mut Ledger<'_>) {
+    fn conditions_of(&self, j: usize, (z, w): (f64, f64), out: &mut RowResiduals<'_>) {
         let (lower, upper) =
             self.bounds.map_or((0.0, f64::INFINITY), |(lower, upper)| (lower[j], upper[j]));
         for (distance, w) in [(z - lower, w.max(0.0)), (upper - z, (-w).max(0.0))] {
             let w = Entry { value: w, column: InRow(j) };
             if distance.is_finite() {
-                ledger.pair(Entry { value: distance, column: self.m.slice(j) }, w);
+                out.pair(Entry { value: distance, column: self.m.slice(j) }, w);
             } else {
-                ledger.zero(w);
+                out.zero(w);
             }
         }
     }
 }
 
 /// A point.
-struct At<'a, X> {
+struct JudgedPoint<'a, X> {
     judge: &'a BoxedJudge<'a>,
     z: &'a [X],
     w: &'a [X],
 }
 
-impl<X: Digits> Terms for At<'_, X> {
+impl<X: Digits> Terms for JudgedPoint<'_, X> {
     fn for_each_term(&self, mut visit: impl FnMut(Term)) {
         let n = self.z.len();
         for (i, w) in self.w.iter().enumerate().filter(|(_, w)| w.rounded() != 0.0) {
@@ -154,7 +154,7 @@ impl<X: Digits> Terms for At<'_, X> {
     }
 }
 
-impl<X: Digits> Point for At<'_, X> {
+impl<X: Digits> Point for JudgedPoint<'_, X> {
     fn rows(&self) -> (Cow<'_, [f64]>, Cow<'_, [f64]>) {
         let mut rows = Rows::<X>::new(self.judge.q.iter().map(|q| (-q, q.abs())));
         for (j, &z) in self.z.iter().enumerate().filter(|(_, z)| z.rounded() != 0.0) {
@@ -166,12 +166,12 @@ impl<X: Digits> Point for At<'_, X> {
     }
 
     fn sources(&self) -> Vec<f64> {
-        ledger::in_full(&self.judge.loads)
+        rows::in_full(&self.judge.loads)
     }
 
-    fn conditions(&self, ledger: &mut Ledger<'_>) {
+    fn conditions(&self, out: &mut RowResiduals<'_>) {
         for (j, (z, w)) in self.z.iter().zip(self.w).enumerate() {
-            self.judge.conditions_of(j, (z.rounded(), w.rounded()), ledger);
+            self.judge.conditions_of(j, (z.rounded(), w.rounded()), out);
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::constants::RAY_ROUNDING;
 use super::evidence::Ray;
 use super::farkas::{is_proof, is_proof_of};
-use super::ledger::ratio;
+use super::rows::ratio;
 use crate::matrix::Column;
 use crate::{HorizontalLcp, Side};
 

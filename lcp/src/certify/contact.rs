@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::Residuals;
 use super::constants::{FULL, ROUNDS, STRONG};
-use super::ledger::{self, Digits, Entry, InRow, Ledger, Point, Precision, Rows};
+use super::rows::{self, Digits, Entry, InRow, Point, Precision, RowResiduals, Rows};
 use super::significance::{Term, Terms};
 use super::weights::{or_largest, per_load};
 use crate::extended::{Extended, extended};
@@ -82,19 +82,19 @@ impl<'a> ContactJudge<'a> {
         }
         let rows = (&self.weights[..], self.length);
         let at = self.at(StateOf { u, t_n, t_t, openings: Some((gap, slip)) });
-        ledger::residuals_or_refined(&at, rows, precision, || {
+        rows::residuals_or_refined(&at, rows, precision, || {
             let [u, t_n, t_t, gap, slip] = &all.map(|v| extended(v));
             let at = self.at(StateOf { u, t_n, t_t, openings: Some((gap, slip)) });
-            ledger::residuals(&at, rows, precision)
+            rows::residuals(&at, rows, precision)
         })
     }
 
     /// The same of a state of twice the digits.
     pub(crate) fn residuals_of(&self, state: StateOf<'_, Extended>) -> Residuals {
-        ledger::residuals(&self.at(state), (&self.weights, self.length), Precision::Exact)
+        rows::residuals(&self.at(state), (&self.weights, self.length), Precision::Exact)
     }
 
-    fn at<'b, X: Digits>(&'b self, state: StateOf<'b, X>) -> At<'b, X> {
+    fn at<'b, X: Digits>(&'b self, state: StateOf<'b, X>) -> JudgedPoint<'b, X> {
         let problem = self.problem;
         let (n, m) = (problem.displacements(), problem.points());
         let StateOf { u, t_n, t_t, openings } = state;
@@ -116,7 +116,7 @@ impl<'a> ContactJudge<'a> {
             rows.rest[n..].fill(X::of(0.0));
             found
         };
-        At { judge: self, state, openings, rows: rows.rounded() }
+        JudgedPoint { judge: self, state, openings, rows: rows.rounded() }
     }
 
     fn conditions_of(
@@ -124,20 +124,20 @@ impl<'a> ContactJudge<'a> {
         i: usize,
         (t_n, t_t): (f64, f64),
         (gap, slip): (f64, f64),
-        ledger: &mut Ledger<'_>,
+        out: &mut RowResiduals<'_>,
     ) {
         let (n, m) = (self.problem.displacements(), self.problem.points());
         let [of_n, of_t] = [&self.normal, &self.tangent].map(|rows| rows.row(i));
         let [of_gap, of_slip] = [n + i, n + m + i].map(InRow);
-        ledger.pair(Entry { value: t_n, column: of_n }, Entry { value: gap, column: of_gap });
+        out.pair(Entry { value: t_n, column: of_n }, Entry { value: gap, column: of_gap });
         let mu = self.problem.mu()[i];
         if mu == 0.0 {
-            ledger.zero(Entry { value: t_t, column: of_t });
+            out.zero(Entry { value: t_t, column: of_t });
             return;
         }
         let bound = mu * t_n.max(0.0);
         for (force, slip) in [(bound + t_t, slip), (bound - t_t, -slip)] {
-            ledger.pair(
+            out.pair(
                 Entry { value: force, column: of_t },
                 Entry { value: slip.max(0.0), column: of_slip },
             );
@@ -146,7 +146,7 @@ impl<'a> ContactJudge<'a> {
 }
 
 /// A state with the sums of its rows.
-struct At<'a, X> {
+struct JudgedPoint<'a, X> {
     judge: &'a ContactJudge<'a>,
     state: StateOf<'a, X>,
     /// Gaps, then slips.
@@ -181,7 +181,7 @@ fn terms_of<X: Digits>(
     }
 }
 
-impl<X: Digits> Point for At<'_, X> {
+impl<X: Digits> Point for JudgedPoint<'_, X> {
     fn rows(&self) -> (Cow<'_, [f64]>, Cow<'_, [f64]>) {
         let (rest, terms) = &self.rows;
         (rest[..].into(), terms[..].into())
@@ -198,18 +198,18 @@ impl<X: Digits> Point for At<'_, X> {
         all.map(|(v, weight)| (v.abs() * weight).min(1.0)).collect()
     }
 
-    fn conditions(&self, ledger: &mut Ledger<'_>) {
+    fn conditions(&self, out: &mut RowResiduals<'_>) {
         let StateOf { t_n, t_t, .. } = self.state;
         let m = t_n.len();
         for i in 0..m {
             let forces = (t_n[i].rounded(), t_t[i].rounded());
             let openings = (self.openings[i], self.openings[m + i]);
-            self.judge.conditions_of(i, forces, openings, ledger);
+            self.judge.conditions_of(i, forces, openings, out);
         }
     }
 }
 
-impl<X: Digits> Terms for At<'_, X> {
+impl<X: Digits> Terms for JudgedPoint<'_, X> {
     fn for_each_term(&self, mut visit: impl FnMut(Term)) {
         let problem = self.judge.problem;
         let (n, m) = (problem.displacements(), problem.points());

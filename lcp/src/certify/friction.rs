@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::ledger::{self, Entry, InRow, Ledger, Point, Precision, Rows};
+use super::rows::{self, Entry, InRow, Point, Precision, RowResiduals, Rows};
 use super::significance::{Term, Terms, terms_of};
 use super::{Residuals, weights};
 use crate::extended::Extended;
@@ -45,13 +45,13 @@ impl Friction2d {
             column.for_each(|i, v| rows.add(i, v, force.into()));
         }
         let (velocities, terms) = rows.rounded();
-        let at = At { problem: self, columns, forces, velocities, terms };
-        ledger::residuals(&at, (&weights, 2.0 * contacts as f64 + 1.0), Precision::Rounded)
+        let at = JudgedPoint { problem: self, columns, forces, velocities, terms };
+        rows::residuals(&at, (&weights, 2.0 * contacts as f64 + 1.0), Precision::Rounded)
     }
 }
 
 /// Forces with the velocities that follow from them.
-struct At<'a> {
+struct JudgedPoint<'a> {
     problem: &'a Friction2d,
     columns: Vec<Column<'a>>,
     forces: Vec<f64>,
@@ -59,7 +59,7 @@ struct At<'a> {
     terms: Vec<f64>,
 }
 
-impl Terms for At<'_> {
+impl Terms for JudgedPoint<'_> {
     fn for_each_term(&self, mut visit: impl FnMut(Term)) {
         let rows = self.terms.len();
         for (row, v) in self.velocities.iter().enumerate().filter(|(_, v)| **v != 0.0) {
@@ -71,29 +71,29 @@ impl Terms for At<'_> {
     }
 }
 
-impl Point for At<'_> {
+impl Point for JudgedPoint<'_> {
     /// The velocities are defined by the rows, which hold.
     fn rows(&self) -> (Cow<'_, [f64]>, Cow<'_, [f64]>) {
         (vec![0.0; self.terms.len()].into(), self.terms[..].into())
     }
 
     fn sources(&self) -> Vec<f64> {
-        ledger::in_full(self.problem.q())
+        rows::in_full(self.problem.q())
     }
 
-    fn conditions(&self, ledger: &mut Ledger<'_>) {
+    fn conditions(&self, out: &mut RowResiduals<'_>) {
         for (i, mu) in self.problem.mu().iter().enumerate() {
             let [of_n, of_t] = [0, 1].map(|k| self.columns[2 * i + k]);
             let [of_normal, of_slip] = [0, 1].map(|k| InRow(2 * i + k));
             let (v_n, v_t) = (self.velocities[2 * i], self.velocities[2 * i + 1]);
             let (normal, tangential) = (self.forces[2 * i], self.forces[2 * i + 1]);
-            ledger.pair(
+            out.pair(
                 Entry { value: normal, column: of_n },
                 Entry { value: v_n, column: of_normal },
             );
             let bound = mu * normal.max(0.0);
             for (force, slip) in [(bound + tangential, v_t), (bound - tangential, -v_t)] {
-                ledger.pair(
+                out.pair(
                     Entry { value: force, column: of_t },
                     Entry { value: slip.max(0.0), column: of_slip },
                 );

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::Residuals;
 use super::constants::INTO_RANGE;
-use super::ledger::{self, Digits, Entry, Ledger, Point, Precision, Rows};
+use super::rows::{self, Digits, Entry, Point, Precision, RowResiduals, Rows};
 use super::significance::{Term, Terms, terms_of};
 use super::weights::{self, into_range, weights_in_range};
 use crate::extended::{Extended, extended};
@@ -94,29 +94,29 @@ impl<'a> GeneralJudge<'a> {
     /// The same unless a sum of terms leaves the range of numbers.
     fn in_range(&self, t: &[f64], y: &[f64], precision: Precision) -> Residuals {
         let rows = (&self.weights[..], self.length);
-        ledger::residuals_or_refined(&self.at(t, y), rows, precision, || {
-            ledger::residuals(&self.at(&extended(t), &extended(y)), rows, precision)
+        rows::residuals_or_refined(&self.at(t, y), rows, precision, || {
+            rows::residuals(&self.at(&extended(t), &extended(y)), rows, precision)
         })
     }
 
     /// The same of a point of twice the digits.
     pub(crate) fn residuals_of(&self, t: &[Extended], y: &[Extended]) -> Residuals {
-        ledger::residuals(&self.at(t, y), (&self.weights, self.length), Precision::Exact)
+        rows::residuals(&self.at(t, y), (&self.weights, self.length), Precision::Exact)
     }
 
-    fn at<'b, X: Digits>(&'b self, t: &'b [X], y: &'b [X]) -> At<'b, X> {
-        At { judge: self, t, y }
+    fn at<'b, X: Digits>(&'b self, t: &'b [X], y: &'b [X]) -> JudgedPoint<'b, X> {
+        JudgedPoint { judge: self, t, y }
     }
 }
 
 /// A point.
-struct At<'a, X> {
+struct JudgedPoint<'a, X> {
     judge: &'a GeneralJudge<'a>,
     t: &'a [X],
     y: &'a [X],
 }
 
-impl<X: Digits> At<'_, X> {
+impl<X: Digits> JudgedPoint<'_, X> {
     /// Every variable that is not zero, with its number and its column.
     fn variables(&self) -> impl Iterator<Item = (usize, X, Column<'_>)> {
         let sides = [(Side::T, self.t), (Side::Y, self.y)];
@@ -129,7 +129,7 @@ impl<X: Digits> At<'_, X> {
     }
 }
 
-impl<X: Digits> Terms for At<'_, X> {
+impl<X: Digits> Terms for JudgedPoint<'_, X> {
     fn for_each_term(&self, mut visit: impl FnMut(Term)) {
         for (variable, x, column) in self.variables() {
             terms_of(&mut visit, (variable, x.rounded()), column);
@@ -137,7 +137,7 @@ impl<X: Digits> Terms for At<'_, X> {
     }
 }
 
-impl<X: Digits> Point for At<'_, X> {
+impl<X: Digits> Point for JudgedPoint<'_, X> {
     fn rows(&self) -> (Cow<'_, [f64]>, Cow<'_, [f64]>) {
         let mut rows = Rows::<X>::new(self.judge.c.iter().map(|(c, size)| (-c, *size)));
         self.variables().for_each(|(_, x, column)| column.for_each(|i, v| rows.add(i, v, x)));
@@ -147,14 +147,14 @@ impl<X: Digits> Point for At<'_, X> {
 
     fn sources(&self) -> Vec<f64> {
         let loads: Vec<f64> = self.judge.c.iter().map(|(c, _)| *c).collect();
-        ledger::in_full(&loads)
+        rows::in_full(&loads)
     }
 
-    fn conditions(&self, ledger: &mut Ledger<'_>) {
+    fn conditions(&self, out: &mut RowResiduals<'_>) {
         let problem = self.judge.problem;
         for (pair, (t, y)) in self.t.iter().zip(self.y).enumerate() {
             let [of_t, of_y] = [Side::T, Side::Y].map(|side| problem.column(pair, side));
-            ledger.pair(
+            out.pair(
                 Entry { value: t.rounded(), column: of_t },
                 Entry { value: y.rounded(), column: of_y },
             );

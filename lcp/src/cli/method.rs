@@ -9,8 +9,8 @@ use super::args::SolveArgs;
 use super::input::Point;
 use super::output::Failure;
 use crate::auto::{Enumeration, memory};
+use crate::conversion::judged_by;
 use crate::io::Problem;
-use crate::lower::judged_by;
 use crate::{
     Auto, AutoSettings, Basis, BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp,
     InteriorPoint, InteriorPointSettings, Lcp, Lemke, LemkeSettings, Method, MixedLcp,

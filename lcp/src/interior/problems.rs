@@ -1,10 +1,10 @@
 //! The interior-point method on every kind of problem.
 
-use super::saddle::Saddle;
+use super::kkt::KktProgram;
 use super::{InteriorPoint, InteriorPointSettings};
 use crate::active::unplanned;
 use crate::certify::is_proof_of_mixed;
-use crate::lower::{judged_by, judged_point, solve_disguised, solve_lowered};
+use crate::conversion::{judged_by, judged_point, solve_in_general_form, solve_in_standard_form};
 use crate::solve::Monitor;
 use crate::{
     BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Method, MixedLcp, Observer,
@@ -42,17 +42,17 @@ impl Solver<MixedLcp> for InteriorPoint {
     ) -> Result<Solution, Error> {
         let InteriorPointSettings { tolerance, crossover, max_iterations, time_limit, .. } =
             self.settings;
-        let saddle = if crossover { None } else { Saddle::of(problem) };
-        let Some(saddle) = saddle else { return self.run(problem, observer) };
+        let program = if crossover { None } else { KktProgram::of(problem) };
+        let Some(program) = program else { return self.run(problem, observer) };
         self.settings.validate(problem.order())?;
         let mut monitor = Monitor::new(max_iterations, time_limit, observer);
-        let mut factors = saddle.planned().map_err(|error| unplanned(Method::Interior, error))?;
+        let mut factors = program.planned().map_err(|error| unplanned(Method::Interior, error))?;
         let is_proof = |pi: &[f64]| is_proof_of_mixed(problem, pi);
         let (z, w, status, certificate) =
-            saddle.solved(&mut factors, tolerance, &mut monitor, is_proof);
+            program.solved(&mut factors, tolerance, &mut monitor, is_proof);
         let factorisations = factors.factorisations;
         // The judge needs the space.
-        drop((saddle, factors));
+        drop((program, factors));
         let pairs = problem.to_pairs(&z, &w);
         let mut solution = judged_point(problem, pairs, tolerance, status);
         solution.certificate = certificate;
@@ -115,7 +115,7 @@ impl Solver<HorizontalLcp> for InteriorPoint {
         }
         };
         let given = (&self.settings.start, self.settings.tolerance);
-        solve_disguised(problem, given, refused, |lcp, start| {
+        solve_in_standard_form(problem, given, refused, |lcp, start| {
             let settings = InteriorPointSettings { start, ..self.settings.clone() };
             Self::new(settings).solve_observed(lcp, observer)
         })
@@ -133,7 +133,7 @@ impl Solver<BoxedLcp> for InteriorPoint {
         problem: &BoxedLcp,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        solve_lowered(problem, self.settings.tolerance, |general, is_other| {
+        solve_in_general_form(problem, self.settings.tolerance, |general, is_other| {
             let start = if is_other { WarmStart::None } else { self.settings.start.clone() };
             let settings = InteriorPointSettings { start, ..self.settings.clone() };
             Self::new(settings).solve_observed(general, observer)

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::{Position, ReadError};
-use crate::lower::General;
+use crate::conversion::General;
 use crate::{
     BoxedLcp, Contact2d, ContactState, Friction2d, HorizontalLcp, Lcp, Matrix, MixedLcp, Residuals,
     Solution,

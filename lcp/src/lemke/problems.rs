@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use super::constants::CLOSED;
 use super::{Lemke, Progress};
 use crate::active::state_brought_right;
-use crate::lower::{Lowered, solve_lowered};
+use crate::conversion::{Converted, solve_in_general_form};
 use crate::states::Scaled;
 use crate::{
     Basis, Certificate, Contact2d, Covering, Error, HorizontalLcp, Iteration, LemkeSettings,
@@ -26,13 +26,13 @@ impl Lemke {
 }
 
 /// On the general form of the problem, and judged by the problem itself.
-impl<P: Lowered> Solver<P> for Lemke {
+impl<P: Converted> Solver<P> for Lemke {
     fn method(&self) -> Method {
         Method::Lemke
     }
 
     fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
-        solve_lowered(problem, self.settings().tolerance, |general, is_other| {
+        solve_in_general_form(problem, self.settings().tolerance, |general, is_other| {
             if is_other {
                 // A start and a covering vector have the pairs of the problem as it was given.
                 let (covering, start) = (Covering::Ones, WarmStart::None);

@@ -5,7 +5,7 @@ use super::constants::{
     EXACT, EXCHANGES, FAILURES, FEW, GLUE, HARDER, INEXACT, LEAST_SPRING, LEAST_STIFFNESS, MORE,
     MOST_STIFFNESS, ROUNDS, SOFTER, SPRING, STEPS, STIFFER, STIFFNESS,
 };
-use super::proximal::{At, Proximal};
+use super::proximal::{Iterate, Proximal};
 use crate::active::{Effort, Search};
 use crate::problem::ContactStatus;
 use crate::solve::Monitor;
@@ -123,7 +123,7 @@ impl Rounds<'_, '_> {
     }
 
     /// Whether a point is the answer, or its states lead to it.
-    fn is_answer(&mut self, at: &At) -> bool {
+    fn is_answer(&mut self, at: &Iterate) -> bool {
         let is_near = self.search.judge(&at.u, &at.forces) <= self.tolerance;
         let effort = if is_near { &Effort::THOROUGH } else { &EXCHANGES };
         self.search.cross_over((&at.u, &at.forces), at.contacts.clone(), effort) || is_near
@@ -132,7 +132,7 @@ impl Rounds<'_, '_> {
 
 /// Where a round ended.
 struct Round {
-    at: At,
+    at: Iterate,
     steps: usize,
     /// Well enough.
     is_solved: bool,

@@ -24,7 +24,7 @@ pub(super) struct Proximal<'a> {
 }
 
 /// What belongs to displacements.
-pub(super) struct At {
+pub(super) struct Iterate {
     pub(super) u: Vec<f64>,
     pub(super) contacts: Vec<ContactStatus>,
     pub(super) forces: Vec<(f64, f64)>,
@@ -32,7 +32,7 @@ pub(super) struct At {
     unbalanced: Vec<f64>,
 }
 
-impl At {
+impl Iterate {
     /// The largest unbalanced force; not finite where one is not.
     pub(super) fn unbalanced(&self) -> f64 {
         let is_finite = self.unbalanced.iter().all(|v| v.is_finite());
@@ -41,7 +41,7 @@ impl At {
 }
 
 impl Proximal<'_> {
-    pub(super) fn at(&self, problem: &Scaled, u: Vec<f64>) -> At {
+    pub(super) fn at(&self, problem: &Scaled, u: Vec<f64>) -> Iterate {
         let points = problem.points.iter().zip(self.forces);
         let (contacts, forces): (Vec<_>, Vec<_>) =
             points.map(|(point, last)| project(point, *last, self.stiffness, &u)).unzip();
@@ -49,12 +49,17 @@ impl Proximal<'_> {
         for ((rest, u), centre) in unbalanced.iter_mut().zip(&u).zip(self.centre) {
             *rest -= self.spring * (u - centre);
         }
-        At { u, contacts, forces, unbalanced }
+        Iterate { u, contacts, forces, unbalanced }
     }
 
     /// Newton's step, which solves the equations of the states of all contacts, as far as the line search
     /// goes; and whether these are those of the new point, so that it is exact.
-    pub(super) fn step(&self, problem: &Scaled, condensed: &mut Condensed, at: &At) -> (At, bool) {
+    pub(super) fn step(
+        &self,
+        problem: &Scaled,
+        condensed: &mut Condensed,
+        at: &Iterate,
+    ) -> (Iterate, bool) {
         let points = problem.points.iter().zip(&at.contacts);
         let springs: Vec<Springs> =
             points.map(|(point, contact)| contact.springs(point, self.stiffness)).collect();
@@ -68,14 +73,14 @@ impl Proximal<'_> {
         (self.searched(problem, at, &step, full), false)
     }
 
-    fn moved(&self, problem: &Scaled, at: &At, step: &[f64], length: f64) -> At {
+    fn moved(&self, problem: &Scaled, at: &Iterate, step: &[f64], length: f64) -> Iterate {
         self.at(problem, at.u.iter().zip(step).map(|(u, du)| u + length * du).collect())
     }
 
     /// The point on the way of a step where what is unbalanced does no work on it. Without friction the
     /// potential energy is least there.
-    fn searched(&self, problem: &Scaled, at: &At, step: &[f64], full: At) -> At {
-        let work = |at: &At| dot(step, &at.unbalanced);
+    fn searched(&self, problem: &Scaled, at: &Iterate, step: &[f64], full: Iterate) -> Iterate {
+        let work = |at: &Iterate| dot(step, &at.unbalanced);
         let first = work(at);
         let (mut low, mut high) = ((0.0, first), (1.0, work(&full)));
         let mut found = full;

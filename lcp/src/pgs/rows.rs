@@ -84,10 +84,10 @@ pub enum Constraint {
     /// `w_i <= 0` at the upper one, and `w_i = 0` in between.
     Bounds {
         /// The lower bound.
-        #[cfg_attr(feature = "serde", serde(with = "crate::wire::minus_infinity"))]
+        #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::minus_infinity"))]
         lower: f64,
         /// The upper bound.
-        #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
+        #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
         upper: f64,
     },
     /// Unilateral contact with Coulomb's friction in the plane, `z_i` and `z_(i + 1)` being the normal and

@@ -33,7 +33,7 @@ pub struct SoftSolution {
     /// Estimate of the error of the displacements that the springs cause, relative to the displacements, in the norm
     /// `sqrt(sum k_j u_j^2)`: the change by re-centring the springs at the solution. Infinite if that problem was not
     /// solved.
-    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
     pub displacement_error: f64,
 }
 

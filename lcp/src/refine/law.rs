@@ -1,6 +1,6 @@
 //! How far the inequalities of the contact law are from being violated.
 
-use super::at::At;
+use super::point::ExtendedPoint;
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
 use crate::states::Scaled;
@@ -12,7 +12,7 @@ pub struct Margin {
     /// The least of all: of gaps of open contacts and slips of sliding ones, in units of the largest
     /// displacement; of normal forces of closed contacts and the distance of friction from its bound at sticking
     /// ones, in units of the largest force. Negative where one is violated; infinite without contacts.
-    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
     pub least: f64,
     /// The contact; `None` without contacts.
     pub contact: Option<usize>,
@@ -31,7 +31,7 @@ impl Margin {
 pub(super) fn slacks(
     scaled: &Scaled,
     statuses: &[ContactStatus],
-    at: &At,
+    at: &ExtendedPoint,
 ) -> impl Iterator<Item = (f64, ContactStatus)> {
     use ContactStatus::{Backwards, Forwards, Open, Stick};
     let (force, length) = at.sizes(scaled);

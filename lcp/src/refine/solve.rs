@@ -3,12 +3,12 @@
 use std::time::Instant;
 
 use super::answer::{Refined, Refinement};
-use super::at::At;
 use super::constants::{
     ALL_DIGITS, CONTRADICTION, DOUBT, FALLEN, PASSES, PATIENCE, WEIGHTS, Weights,
 };
-use super::lack::{self, Lack, Shifts};
 use super::law::{self, Margin};
+use super::point::ExtendedPoint;
+use super::residual::{self, EquationResidual, Shifts};
 use crate::certify::ratio;
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
@@ -26,8 +26,13 @@ pub(super) fn solved(
     let began = Instant::now();
     let mut condensed = planned(scaled)?;
     let mut solved = |weights, passes| {
-        let mut solve =
-            Solve::new(scaled, &mut condensed, At::from(scaled, state), statuses, weights);
+        let mut solve = Solve::new(
+            scaled,
+            &mut condensed,
+            ExtendedPoint::from(scaled, state),
+            statuses,
+            weights,
+        );
         solve.run(refinement);
         solve.passes += passes;
         (solve.residual(), solve.finish(began.elapsed().as_secs_f64()))
@@ -54,7 +59,7 @@ pub(crate) fn refined_states(
     statuses: &[ContactStatus],
     enough: f64,
 ) -> impl Iterator<Item = Exact> {
-    let at = At::of(u, forces);
+    let at = ExtendedPoint::of(u, forces);
     WEIGHTS.into_iter().map(move |weights| {
         let mut solve = Solve::new(scaled, &mut *condensed, at.clone(), statuses, weights);
         solve.refine(enough);
@@ -76,7 +81,7 @@ struct Solve<'a> {
     /// Displacements that stay where they are.
     floating: Vec<bool>,
     shifts: Shifts,
-    at: At,
+    at: ExtendedPoint,
     /// Of `C^T t` by the last pass, relative to the largest.
     correction: f64,
     /// The largest of these before a shift.
@@ -88,7 +93,7 @@ impl<'a> Solve<'a> {
     fn new(
         scaled: &'a Scaled,
         condensed: &'a mut Condensed,
-        mut at: At,
+        mut at: ExtendedPoint,
         statuses: &'a [ContactStatus],
         weights: Weights,
     ) -> Self {
@@ -104,7 +109,7 @@ impl<'a> Solve<'a> {
             statuses,
             springs,
             condensed,
-            floating: lack::floating(scaled, statuses),
+            floating: residual::floating(scaled, statuses),
             shifts: Shifts::new(scaled),
             at,
             correction: 0.0,
@@ -124,51 +129,52 @@ impl<'a> Solve<'a> {
     /// Passes for residuals of the usual digits.
     fn repeat(&mut self, passes: usize) {
         for _ in 0..passes {
-            let lack = Lack::usual(self.scaled, self.statuses, &self.at, &self.floating);
-            self.pass(&lack);
+            let rest =
+                EquationResidual::usual(self.scaled, self.statuses, &self.at, &self.floating);
+            self.pass(&rest);
             self.at = self.at.without_rests();
         }
     }
 
     fn refine(&mut self, enough: f64) {
         let given = self.at.clone();
-        let (mut lack, mut since) = (self.lack(), 0);
-        while self.passes < PASSES && lack.residual.is_finite() && lack.residual > enough {
-            let residual = lack.residual;
+        let (mut rest, mut since) = (self.rest(), 0);
+        while self.passes < PASSES && rest.largest.is_finite() && rest.largest > enough {
+            let residual = rest.largest;
             let before = (self.at.clone(), self.correction);
-            self.pass(&lack);
-            lack = self.lack();
-            since = if lack.residual <= 0.5 * residual { 0 } else { since + 1 };
+            self.pass(&rest);
+            rest = self.rest();
+            since = if rest.largest <= 0.5 * residual { 0 } else { since + 1 };
             if since < PATIENCE {
                 continue;
             }
-            if lack.residual > CONTRADICTION {
-                if lack.residual > residual {
+            if rest.largest > CONTRADICTION {
+                if rest.largest > residual {
                     (self.at, self.correction) = before;
                 }
                 break;
             }
             // What is left no displacements and forces can mend, and they only grow against it.
-            self.shifts.absorb(&lack);
+            self.shifts.absorb(&rest);
             self.shifted = self.shifted.max(self.correction);
             self.at = given.clone();
-            (lack, since) = (self.lack(), 0);
+            (rest, since) = (self.rest(), 0);
         }
     }
 
-    fn lack(&self) -> Lack {
+    fn rest(&self) -> EquationResidual {
         let Self { scaled, statuses, shifts, at, floating, .. } = self;
-        Lack::extended(scaled, statuses, at, shifts, floating)
+        EquationResidual::extended(scaled, statuses, at, shifts, floating)
     }
 
     fn residual(&self) -> f64 {
-        self.lack().residual
+        self.rest().largest
     }
 
     /// Solves for what is lacking.
-    fn pass(&mut self, lack: &Lack) {
-        let unbalanced = lack.unbalanced.iter().map(|v| v.rounded()).collect();
-        let opened = lack.opened.iter().map(|[gap, slip]| (gap.rounded(), slip.rounded()));
+    fn pass(&mut self, rest: &EquationResidual) {
+        let unbalanced = rest.unbalanced.iter().map(|v| v.rounded()).collect();
+        let opened = rest.opened.iter().map(|[gap, slip]| (gap.rounded(), slip.rounded()));
         let (step, of_forces) = self.condensed.step(self.scaled, &self.springs, unbalanced, opened);
         let (mut changes, mut size) = (vec![0.0; step.len()], vec![0.0; step.len()]);
         for (i, (point, change)) in self.scaled.points.iter().zip(of_forces).enumerate() {
@@ -190,7 +196,7 @@ impl<'a> Solve<'a> {
     fn finish(self, seconds: f64) -> (Refined, Vec<(f64, ContactStatus)>) {
         let (residual, correction) = (self.residual(), self.correction.max(self.shifted));
         let Self { scaled, statuses, at, shifts, floating, passes, .. } = self;
-        let floats = |i: usize| lack::touched(scaled.points.get(i)).any(|j| floating[j]);
+        let floats = |i: usize| residual::touched(scaled.points.get(i)).any(|j| floating[j]);
         let slacks: Vec<(f64, ContactStatus)> =
             law::slacks(scaled, statuses, &at)
                 .enumerate()
@@ -201,7 +207,7 @@ impl<'a> Solve<'a> {
                 .collect();
         let force = scaled.force();
         let forces = |k: usize| at.forces.iter().map(|it| it[k].scaled(force)).collect();
-        let on_bodies = lack::on_bodies(scaled, &at.forces);
+        let on_bodies = residual::on_bodies(scaled, &at.forces);
         let on_bodies = on_bodies.iter().enumerate().map(|(j, f)| f.scaled(scaled.force_of(j)));
         let refined = Refined {
             u: at.displacements(scaled),

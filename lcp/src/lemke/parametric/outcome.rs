@@ -66,7 +66,7 @@ pub struct ParametricPath {
     /// The direction of the path if it is unbounded.
     pub ray: Option<ParametricRay>,
     /// The worst residual of all breakpoints, from the original data.
-    #[cfg_attr(feature = "serde", serde(with = "crate::wire::infinity"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
     pub residual: f64,
 }
 

@@ -1,7 +1,7 @@
 //! Residuals of the equations.
 
-use super::at::At;
 use super::constants::{FLOOR, IDLE};
+use super::point::ExtendedPoint;
 use crate::certify::ratio;
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
@@ -10,13 +10,13 @@ use crate::states::{Point, Scaled};
 use crate::vector::max_abs;
 
 /// Residuals of the equations of the states.
-pub(super) struct Lack {
+pub(super) struct EquationResidual {
     /// `f + C^T t - K u`.
     pub(super) unbalanced: Vec<Extended>,
     /// Gap and slip where the states allow none.
     pub(super) opened: Vec<[Extended; 2]>,
     /// The largest, relative to the terms of its row.
-    pub(super) residual: f64,
+    pub(super) largest: f64,
 }
 
 /// What is added to loads, and to gaps and slips of closed contacts.
@@ -36,27 +36,27 @@ impl Shifts {
     }
 
     /// Takes away what is lacking.
-    pub(super) fn absorb(&mut self, lack: &Lack) {
-        self.largest = self.largest.max(lack.residual);
-        self.loads.iter_mut().zip(&lack.unbalanced).for_each(|(load, rest)| *load += -*rest);
-        for (gaps, opened) in self.gaps.iter_mut().zip(&lack.opened) {
+    pub(super) fn absorb(&mut self, rest: &EquationResidual) {
+        self.largest = self.largest.max(rest.largest);
+        self.loads.iter_mut().zip(&rest.unbalanced).for_each(|(load, rest)| *load += -*rest);
+        for (gaps, opened) in self.gaps.iter_mut().zip(&rest.opened) {
             *gaps = [gaps[0] - opened[0], gaps[1] - opened[1]];
         }
     }
 }
 
-impl Lack {
+impl EquationResidual {
     /// Computed to twice the usual digits.
     pub(super) fn extended(
         scaled: &Scaled,
         statuses: &[ContactStatus],
-        at: &At,
+        at: &ExtendedPoint,
         shifts: &Shifts,
         floating: &[bool],
     ) -> Self {
         let (u, forces) = at.rounded();
         let (force, length) = at.sizes(scaled);
-        let mut residual = 0.0_f64;
+        let mut largest = 0.0_f64;
         let mut unbalanced = on_bodies(scaled, &at.forces);
         for ((rest, f), shift) in unbalanced.iter_mut().zip(&scaled.f).zip(&shifts.loads) {
             *rest += *shift + (*f).into();
@@ -69,7 +69,7 @@ impl Lack {
             if *floats {
                 *rest = Extended::ZERO;
             }
-            residual = residual.max(ratio(rest.rounded(), terms.max(FLOOR * force)));
+            largest = largest.max(ratio(rest.rounded(), terms.max(FLOOR * force)));
         }
         let mut opened = Vec::with_capacity(statuses.len());
         let points = scaled.points.iter().zip(statuses).zip(at.forces.iter().zip(&forces));
@@ -79,7 +79,7 @@ impl Lack {
                 let terms = point.columns.iter().zip(point.coefficients);
                 let terms = terms.map(|(&j, v)| (u[j] * v[k]).abs());
                 let terms = terms.fold(first.abs() + pressed, |sum, term| sum + term);
-                residual = residual.max(ratio(sum.rounded(), terms.max(FLOOR * length)));
+                largest = largest.max(ratio(sum.rounded(), terms.max(FLOOR * length)));
                 sum
             };
             let [gap, slip] = status.is_closed(point.mu);
@@ -87,14 +87,14 @@ impl Lack {
             let slip = slip.then(|| row(shifts[1] + at.slip(point, *t_t), point.s_0, 1));
             opened.push([gap, slip].map(Option::unwrap_or_default));
         }
-        Self { unbalanced, opened, residual }
+        Self { unbalanced, opened, largest }
     }
 
     /// Computed to the usual digits; the residual is not compared with terms.
     pub(super) fn usual(
         scaled: &Scaled,
         statuses: &[ContactStatus],
-        at: &At,
+        at: &ExtendedPoint,
         floating: &[bool],
     ) -> Self {
         let (u, forces) = at.rounded();
@@ -107,9 +107,9 @@ impl Lack {
         });
         let opened: Vec<[Extended; 2]> = closed.collect();
         let closed = opened.iter().flatten().map(|it| it.rounded().abs());
-        let residual = closed.fold(max_abs(&unbalanced), f64::max);
+        let largest = closed.fold(max_abs(&unbalanced), f64::max);
         let unbalanced = unbalanced.into_iter().map(Extended::from).collect();
-        Self { unbalanced, opened, residual }
+        Self { unbalanced, opened, largest }
     }
 }
 
@@ -134,7 +134,7 @@ pub(super) fn floating(scaled: &Scaled, statuses: &[ContactStatus]) -> Vec<bool>
 pub(super) fn without_idle(
     scaled: &Scaled,
     statuses: &[ContactStatus],
-    at: &At,
+    at: &ExtendedPoint,
 ) -> Vec<ContactStatus> {
     let none = Extended::from(IDLE * at.sizes(scaled).0);
     let is_pressed = |i: usize| at.forces[i].iter().any(|t| t.abs() > none);

@@ -24,7 +24,7 @@ pub trait General {
 }
 
 /// A problem that pivots treat in its general form.
-pub trait Lowered: General + Sized {
+pub trait Converted: General + Sized {
     /// The equations of what is between its bounds at a solution, if it has bounds.
     fn between_bounds(&self, _solution: &Solution) -> Option<Between> {
         None
@@ -41,15 +41,15 @@ pub trait Lowered: General + Sized {
     }
 }
 
-impl Lowered for HorizontalLcp {}
+impl Converted for HorizontalLcp {}
 
-impl Lowered for Lcp {}
+impl Converted for Lcp {}
 
-impl Lowered for Friction2d {}
+impl Converted for Friction2d {}
 
-impl Lowered for MixedLcp {}
+impl Converted for MixedLcp {}
 
-impl Lowered for BoxedLcp {
+impl Converted for BoxedLcp {
     fn between_bounds(&self, solution: &Solution) -> Option<Between> {
         let (z, w) = self.recover(&solution.t, &solution.y);
         self.between(&z, &w)
@@ -138,7 +138,7 @@ const LOST_DIGITS: f64 = 1e-13;
 ///
 /// # Errors
 /// Those of the method.
-pub(crate) fn solve_lowered<P: Lowered>(
+pub(crate) fn solve_in_general_form<P: Converted>(
     problem: &P,
     tolerance: f64,
     mut solve: impl FnMut(&HorizontalLcp, bool) -> Result<Solution, Error>,
@@ -166,7 +166,7 @@ pub(crate) fn solve_lowered<P: Lowered>(
 ///
 /// # Errors
 /// Those of the method, and for other problems the one given.
-pub(crate) fn solve_disguised(
+pub(crate) fn solve_in_standard_form(
     problem: &HorizontalLcp,
     (start, tolerance): (&WarmStart, f64),
     refused: impl FnOnce() -> Error,

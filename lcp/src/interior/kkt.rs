@@ -16,7 +16,7 @@ use crate::{Certificate, Matrix, MixedLcp, Status};
 /// Such a problem: `K u = f + A t`, `y = A^T u + D t + x_0`, `0 <= t _|_ y >= 0`, with a diagonal `D >= 0`.
 ///
 /// A step factorises a matrix with the order of `u`, where the mixed problem as it stands has that of `u` and `t`.
-pub(super) struct Saddle<'a> {
+pub(super) struct KktProgram<'a> {
     program: Program,
     units: Units,
     /// Of every variable of the mixed problem its place among the free or the bounded ones.
@@ -24,7 +24,7 @@ pub(super) struct Saddle<'a> {
     free: &'a [bool],
 }
 
-impl<'a> Saddle<'a> {
+impl<'a> KktProgram<'a> {
     /// `None` where bounded variables act on each other, or are not acted on as they act.
     pub(super) fn of(problem: &'a MixedLcp) -> Option<Self> {
         let (q, free) = (problem.q(), problem.free());

@@ -102,7 +102,7 @@ impl<X: Digits> Rows<X> {
 }
 
 /// The residuals of a point while its conditions are gone through.
-pub(super) struct Ledger<'a> {
+pub(super) struct RowResiduals<'a> {
     /// What is left of every row.
     rest: &'a [f64],
     terms: &'a [f64],
@@ -124,7 +124,7 @@ pub(super) trait Point: Terms {
     fn sources(&self) -> Vec<f64>;
 
     /// Goes through the conditions on the variables.
-    fn conditions(&self, ledger: &mut Ledger<'_>);
+    fn conditions(&self, out: &mut RowResiduals<'_>);
 }
 
 /// The residuals of a point, or the `refined` ones of the same with twice the digits where the rounding errors of its
@@ -162,9 +162,9 @@ fn residuals_of_rows(
     precision: Precision,
 ) -> Residuals {
     let residuals = |significance| {
-        let mut ledger = Ledger::new((rest, terms), weights, significance);
-        point.conditions(&mut ledger);
-        ledger.finished(length, precision)
+        let mut out = RowResiduals::new((rest, terms), weights, significance);
+        point.conditions(&mut out);
+        out.finished(length, precision)
     };
     let strict = residuals(Vec::new());
     let Residuals { equation, natural, loads, .. } = strict;
@@ -217,18 +217,17 @@ pub(super) struct Entry<C> {
     pub(super) column: C,
 }
 
-impl<'a> Ledger<'a> {
+impl<'a> RowResiduals<'a> {
     fn new(
         (rest, terms): (&'a [f64], &'a [f64]),
         weights: &'a [f64],
         significance: Vec<f64>,
     ) -> Self {
         let residuals = Residuals::default();
-        let mut ledger =
-            Self { rest, terms, weights, significance, changes: Vec::new(), residuals };
-        let shares = rest.iter().enumerate().map(|(i, v)| ledger.share(i, *v));
-        ledger.residuals.equation = shares.fold(0.0, f64::max);
-        ledger
+        let mut out = Self { rest, terms, weights, significance, changes: Vec::new(), residuals };
+        let shares = rest.iter().enumerate().map(|(i, v)| out.share(i, *v));
+        out.residuals.equation = shares.fold(0.0, f64::max);
+        out
     }
 
     /// What a change of a row counts.

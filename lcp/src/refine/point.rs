@@ -9,12 +9,12 @@ use crate::vector::max_abs;
 
 /// Displacements and forces in the units of the scaled problem.
 #[derive(Debug, Clone)]
-pub(super) struct At {
+pub(super) struct ExtendedPoint {
     pub(super) u: Vec<Extended>,
     pub(super) forces: Vec<[Extended; 2]>,
 }
 
-impl At {
+impl ExtendedPoint {
     pub(super) fn from(scaled: &Scaled, state: &ContactState) -> Self {
         let (u, mut forces) = scaled.of_state(state);
         let smooth = forces.iter_mut().zip(&scaled.points.mu).filter(|(_, mu)| **mu <= 0.0);
