@@ -168,7 +168,8 @@ pub(crate) fn solve_in_general_form<P: Converted>(
 /// Those of the method, and for other problems the one given.
 pub(crate) fn solve_in_standard_form(
     problem: &HorizontalLcp,
-    (start, tolerance): (&WarmStart, f64),
+    start: &WarmStart,
+    tolerance: f64,
     refused: impl FnOnce() -> Error,
     solve: impl FnOnce(&Lcp, WarmStart) -> Result<Solution, Error>,
 ) -> Result<Solution, Error> {
@@ -182,13 +183,14 @@ pub(crate) fn solve_in_standard_form(
 /// A point of the general form, judged by the problem itself.
 pub(crate) fn judged_point(
     problem: &impl General,
-    (t, y): (Vec<f64>, Vec<f64>),
+    t: Vec<f64>,
+    y: Vec<f64>,
     tolerance: f64,
     otherwise: Status,
 ) -> Solution {
     let residuals = problem.residuals_of_pairs(&t, &y);
     let contact = problem.state_of_pairs(&t, &y);
-    Solution { contact, ..Solution::judged((t, y), residuals, tolerance, otherwise) }
+    Solution { contact, ..Solution::judged(t, y, residuals, tolerance, otherwise) }
 }
 
 /// The solution of another form, whose pairs were brought back, judged by the problem itself.

@@ -26,7 +26,7 @@ use start::{set_out, start_opened};
 
 use crate::active::{Effort, Original, Search};
 use crate::solve::Monitor;
-use crate::states::{Condensed, Scaled};
+use crate::states::{Condensed, PointRef, Scaled};
 use crate::{Certificate, Contact2d, Error, Method, Observer, Solution, Status};
 
 /// An interior-point method for large sparse problems: contact with Coulomb's friction
@@ -177,7 +177,9 @@ impl Run<'_, '_, '_> {
         let crossover = self.settings.crossover.then_some(&Effort::THOROUGH);
         match found {
             Balance::Impossible(proof) => (Status::Infeasible, Some(proof)),
-            Balance::Possible(forces) if search.try_point((&rest, &forces), crossover) => {
+            Balance::Possible(forces)
+                if search.try_point(PointRef { u: &rest, forces: &forces }, crossover) =>
+            {
                 (Status::Solved, None)
             }
             Balance::Possible(_) => (Status::Stalled, None),
@@ -199,9 +201,9 @@ impl Run<'_, '_, '_> {
             let is_solved = worst <= self.settings.tolerance;
             // Where nothing moves the residuals measure gaps by noise.
             let (force, length) = at.sizes();
-            let units = (force.max(1.0), length.max(first));
-            let natural = at.natural(&self.search.scaled, units);
-            let near = natural.max(defect.relative(units)).min(worst);
+            let (force, length) = (force.max(1.0), length.max(first));
+            let natural = at.natural(&self.search.scaled, force, length);
+            let near = natural.max(defect.relative(force, length)).min(worst);
             if self.settings.crossover && (is_solved || near <= NEARER * tried) {
                 tried = near;
                 let contacts = at.contacts(&self.search.scaled);
@@ -209,7 +211,11 @@ impl Run<'_, '_, '_> {
                 let is_sure = near <= SURE;
                 let held = HELD.into_iter().filter(|_| is_sure).map(Effort::held);
                 let is_exact = std::iter::once(effort).chain(held).any(|effort| {
-                    self.search.cross_over((&at.u, &forces), contacts.clone(), &effort)
+                    self.search.cross_over(
+                        PointRef { u: &at.u, forces: &forces },
+                        contacts.clone(),
+                        &effort,
+                    )
                 });
                 if is_exact {
                     return Status::Solved;
@@ -234,7 +240,11 @@ impl Run<'_, '_, '_> {
                 // The residual is no guide where all of one side vanishes, which it is measured by.
                 let contacts = at.contacts(&self.search.scaled);
                 let is_exact = self.settings.crossover
-                    && self.search.cross_over((&at.u, &forces), contacts, &Effort::THOROUGH);
+                    && self.search.cross_over(
+                        PointRef { u: &at.u, forces: &forces },
+                        contacts,
+                        &Effort::THOROUGH,
+                    );
                 return if is_exact || solved > 0 { Status::Solved } else { Status::Stalled };
             }
             at = next;

@@ -408,7 +408,7 @@ impl Column<'_> {
     }
 
     /// The same, with the sizes of what is added.
-    pub(crate) fn add_with_sizes(self, factor: f64, (out, sizes): (&mut [f64], &mut [f64])) {
+    pub(crate) fn add_with_sizes(self, factor: f64, out: &mut [f64], sizes: &mut [f64]) {
         let add = |out: &mut f64, size: &mut f64, v: f64| {
             let term = factor * v;
             *out += term;

@@ -162,7 +162,8 @@ impl SemismoothNewton {
         if !is_solved(&residuals) {
             (point, residuals) = judge(&best.z, &best.w);
         }
-        let mut solution = Solution::judged(point, residuals, settings.tolerance, status);
+        let mut solution =
+            Solution::judged(point.0, point.1, residuals, settings.tolerance, status);
         solution.basis = Some(basis_of(is_free));
         solution.info = monitor.info(Method::Newton);
         solution.info.factorisations = system.factorisations();

@@ -192,12 +192,13 @@ impl ProjectedGaussSeidel {
     /// The solution with the pairs of the best point.
     fn solution(
         &self,
-        pairs: (Vec<f64>, Vec<f64>),
+        t: Vec<f64>,
+        y: Vec<f64>,
         residuals: Residuals,
         status: Status,
         monitor: Monitor<'_>,
     ) -> Solution {
-        let mut solution = Solution::judged(pairs, residuals, self.settings.tolerance, status);
+        let mut solution = Solution::judged(t, y, residuals, self.settings.tolerance, status);
         solution.info = monitor.info(Method::GaussSeidel);
         solution
     }

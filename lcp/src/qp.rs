@@ -101,7 +101,7 @@ impl QuadraticProgram {
         let settings = &self.settings;
         let form = contact::contact_form(contact);
         let general = || contact.to_general();
-        let mut run = Run::new(settings, (contact, &general), settings.max_outer, observer)?;
+        let mut run = Run::new(settings, contact, &general, settings.max_outer, observer)?;
         let end = if run.is_tried(&form) {
             run.monitor.stop(run.search.residual()).map_or(Ok(End::Point), Err)
         } else if let Some(mut program) = contact::ContactProgram::new(&form, run.effort()) {
@@ -123,7 +123,7 @@ impl QuadraticProgram {
         let form = standard_form(problem).map_err(|reason| refused(&reason))?;
         let free = vec![false; problem.order()];
         let mixed = MixedLcp::new(problem.m().clone(), problem.q().to_vec(), free)?;
-        let mut run = Run::new(&self.settings, (&mixed, general), 1, observer)?;
+        let mut run = Run::new(&self.settings, &mixed, general, 1, observer)?;
         let end = run.solve_convex(&form, &|point: &Point| standard_point(&form, point));
         Ok(run.finish(end))
     }
@@ -168,8 +168,8 @@ impl Solver<HorizontalLcp> for QuadraticProgram {
                  in a row of its own",
             )
         };
-        let given = (&self.settings.start, self.settings.tolerance);
-        solve_in_standard_form(problem, given, not_standard, |lcp, start| {
+        let (start, tolerance) = (&self.settings.start, self.settings.tolerance);
+        solve_in_standard_form(problem, start, tolerance, not_standard, |lcp, start| {
             let solver = Self::new(QuadraticProgramSettings { start, ..self.settings.clone() });
             solver.solve_standard(lcp, &|| problem.clone(), observer)
         })
@@ -190,7 +190,7 @@ impl Solver<MixedLcp> for QuadraticProgram {
         self.settings.validate(problem.order())?;
         let mixed = MixedForm::new(problem).map_err(|reason| refused(&reason))?;
         let general = || problem.to_general();
-        let mut run = Run::new(&self.settings, (problem, &general), 1, observer)?;
+        let mut run = Run::new(&self.settings, problem, &general, 1, observer)?;
         let end = run.solve_convex(&mixed.form, &|point: &Point| mixed.to_pairs(problem, point));
         Ok(run.finish(end))
     }

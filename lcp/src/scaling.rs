@@ -77,7 +77,7 @@ impl Factors {
         let mut col = vec![0.0; self.col.len()];
         let mut sums = Sums::new(self.row.len());
         for ((column, mean), factor) in columns.iter().zip(&mut col).zip(&self.col) {
-            *mean = negative_mean(sums.add(*column, &self.row, (*factor, 0.0)));
+            *mean = negative_mean(sums.add(*column, &self.row, *factor, 0.0));
         }
         let is_full = sums.counts.iter().all(|count| *count >= columns.len() as f64);
         let mut row = sums.negative_means();
@@ -90,8 +90,8 @@ impl Factors {
             let mut sums = Sums::new(row.len());
             // Each column is read once: its own mean, then its share of the sums along rows.
             for ((column, log_col), factor) in columns.iter().zip(&mut col).zip(&self.col) {
-                *log_col = negative_column_mean(*column, (&self.row, &row), *factor);
-                sums.add(*column, &self.row, (*factor, *log_col));
+                *log_col = negative_column_mean(*column, &self.row, &row, *factor);
+                sums.add(*column, &self.row, *factor, *log_col);
             }
             let before = std::mem::replace(&mut row, sums.negative_means());
             if row.iter().zip(&before).all(|(a, b)| (a - b).abs() <= SETTLED) {
@@ -152,12 +152,7 @@ impl Sums {
 
     /// Adds the logarithms of the scaled entries of a column, each with its present correction; gives their sum,
     /// and how many they are.
-    fn add(
-        &mut self,
-        column: Column<'_>,
-        row: &[f64],
-        (col, correction): (f64, f64),
-    ) -> (f64, f64) {
+    fn add(&mut self, column: Column<'_>, row: &[f64], col: f64, correction: f64) -> [f64; 2] {
         let (mut sums, mut counts) = ([0.0; LANES], [0.0; LANES]);
         let mut add = |lane: usize, v: f64, sum: &mut f64, count: &mut f64| {
             let (log, kept) = logarithm(v * col);
@@ -186,16 +181,20 @@ impl Sums {
                 add(0, v * row[i], &mut self.sums[i], &mut self.counts[i]);
             }),
         }
-        (sums.iter().sum(), counts.iter().sum())
+        [sums.iter().sum(), counts.iter().sum()]
     }
 
     fn negative_means(self) -> Vec<f64> {
-        self.sums.into_iter().zip(self.counts).map(negative_mean).collect()
+        self.sums
+            .into_iter()
+            .zip(self.counts)
+            .map(|(sum, count)| negative_mean([sum, count]))
+            .collect()
     }
 }
 
 /// Minus the mean of the logarithms of the scaled entries, each with the correction of its row.
-fn negative_column_mean(column: Column<'_>, (row, correction): (&[f64], &[f64]), col: f64) -> f64 {
+fn negative_column_mean(column: Column<'_>, row: &[f64], correction: &[f64], col: f64) -> f64 {
     let (mut sums, mut counts) = ([0.0; LANES], [0.0; LANES]);
     let mut add = |lane: usize, v: f64, row: f64, correction: f64| {
         let (log, kept) = logarithm(v * row * col);
@@ -216,7 +215,7 @@ fn negative_column_mean(column: Column<'_>, (row, correction): (&[f64], &[f64]),
         }
         Column::Sparse { .. } => column.for_each(|i, v| add(0, v, row[i], correction[i])),
     }
-    negative_mean((sums.iter().sum(), counts.iter().sum()))
+    negative_mean([sums.iter().sum(), counts.iter().sum()])
 }
 
 fn lanes_of(values: &[f64]) -> (&[[f64; LANES]], &[f64]) {
@@ -228,7 +227,7 @@ fn lanes_of_mut(values: &mut [f64]) -> (&mut [[f64; LANES]], &mut [f64]) {
 }
 
 /// Minus the mean of so many values with that sum; zero for none.
-fn negative_mean((sum, count): (f64, f64)) -> f64 {
+fn negative_mean([sum, count]: [f64; 2]) -> f64 {
     if count > 0.0 { -sum / count } else { 0.0 }
 }
 

@@ -127,7 +127,8 @@ impl Solution {
     /// A point that is judged by residuals: [`Solved`](Status::Solved) where they are below the
     /// tolerance, else what the method says.
     pub(crate) fn judged(
-        (t, y): (Vec<f64>, Vec<f64>),
+        t: Vec<f64>,
+        y: Vec<f64>,
         residuals: Residuals,
         tolerance: f64,
         otherwise: Status,

@@ -12,3 +12,10 @@ pub(crate) use constants::PROXIMAL;
 pub(crate) use law::nearest;
 pub(crate) use points::Point;
 pub(crate) use scaled::Scaled;
+
+/// Displacements and forces in units of a [`Scaled`] problem.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PointRef<'a> {
+    pub(crate) u: &'a [f64],
+    pub(crate) forces: &'a [(f64, f64)],
+}

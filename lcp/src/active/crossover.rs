@@ -3,7 +3,7 @@
 
 use super::constants::{LARGE, REFINEMENTS, ROUNDING, SMALLER, STIFF};
 use crate::problem::ContactStatus;
-use crate::states::{Condensed, PROXIMAL, Point, Scaled, Springs};
+use crate::states::{Condensed, PROXIMAL, Point, PointRef, Scaled, Springs};
 use crate::vector::max_abs;
 
 /// How much is spent on exchanges. Every round costs a factorisation, as a step of the iteration does.
@@ -60,18 +60,18 @@ pub(crate) struct Vertex {
 pub(crate) fn cross_over(
     problem: &Scaled,
     condensed: &mut Condensed,
-    (u, forces): (&[f64], &[(f64, f64)]),
+    at: PointRef<'_>,
     contacts: Vec<ContactStatus>,
     effort: &Effort,
     mut is_solution: impl FnMut(&mut Condensed, &Vertex, bool) -> bool,
 ) -> bool {
-    let mut vertex = Vertex { u: u.to_vec(), forces: forces.to_vec(), contacts };
+    let mut vertex = Vertex { u: at.u.to_vec(), forces: at.forces.to_vec(), contacts };
     let (mut fewest, mut least, mut since) = (effort.most(problem.points.len()), f64::INFINITY, 0);
     let mut is_found = false;
     let has_friction = problem.points.mu.iter().any(|mu| *mu > 0.0);
     for _ in 0..effort.rounds {
         if effort.anchored {
-            (vertex.u, vertex.forces) = (u.to_vec(), forces.to_vec());
+            (vertex.u, vertex.forces) = (at.u.to_vec(), at.forces.to_vec());
         }
         if vertex.solve(problem, condensed, effort.proximal).is_none() {
             break;
@@ -117,7 +117,7 @@ impl Vertex {
             let rest = problem.unbalanced(&self.u, self.forces.iter().copied());
             let points = problem.points.iter().zip(&self.contacts).zip(&self.forces);
             let opened: Vec<(f64, f64)> = points
-                .map(|((point, contact), forces)| contact.opened(point, &self.u, *forces))
+                .map(|((point, contact), forces)| contact.opened(point, &self.u, (*forces).into()))
                 .collect();
             let size =
                 opened.iter().fold(max_abs(&rest), |max, (g, s)| max.max(g.abs()).max(s.abs()));

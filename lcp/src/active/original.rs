@@ -7,7 +7,7 @@ use crate::certify::{BoxedJudge, ContactJudge, Precision, StateOf};
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
 use crate::refine::{ALL_DIGITS, Exact, ROUNDED, planned, refined_states};
-use crate::states::{Condensed, Point, Scaled, nearest};
+use crate::states::{Condensed, Point, PointRef, Scaled, nearest};
 use crate::{Basis, Contact2d, ContactState, MixedLcp, Residuals, Side};
 
 /// A scaled point with its residuals.
@@ -31,9 +31,6 @@ pub(crate) struct Answer {
     pub(crate) contact: Option<ContactState>,
 }
 
-/// Displacements and forces of a contact problem in its own units.
-pub(crate) type PointRef<'a> = (&'a [f64], &'a [(f64, f64)]);
-
 /// The judge of points of a scaled problem, in the data as given.
 pub(crate) trait Judge {
     /// Residuals of the [`answer`](Self::answer) that a point is.
@@ -50,59 +47,73 @@ pub(crate) trait Judge {
 pub(crate) fn judged<'a>(
     judge: &dyn Judge,
     scaled: &Scaled,
-    (u, forces): PointRef<'a>,
+    at: PointRef<'a>,
     precision: Precision,
 ) -> Judged<'a> {
-    let residuals = judge.residuals(scaled, (u, forces), precision);
-    Judged { u: u.into(), forces: forces.into(), residuals }
+    let residuals = judge.residuals(scaled, at, precision);
+    Judged { u: at.u.into(), forces: at.forces.into(), residuals }
 }
 
-/// The point that the states of contacts lead to without rounding errors, where it is better than a given one: what is
-/// small inherits the rounding errors of what is large until it is refined by itself.
-pub(crate) fn brought_right<'a>(
-    (judge, scaled, condensed): (&dyn Judge, &Scaled, &mut Condensed),
-    (at, mut best): (PointRef<'_>, Judged<'a>),
-    contacts: &[ContactStatus],
-    tolerance: f64,
-) -> Judged<'a> {
-    if best.worst() <= EXACT {
-        return best;
-    }
-    let enough = if best.worst() <= tolerance { ROUNDED } else { ALL_DIGITS };
-    for exact in refined_states(scaled, condensed, at, contacts, enough) {
-        let mut near = rounded(judge, scaled, &exact);
-        let Residuals { equation, natural, loads, .. } = near.residuals;
-        if loads > EXACT
-            && equation.max(natural) <= tolerance
-            && judge.residuals_of(scaled, &exact).worst() <= tolerance
-        {
-            near = with_rounded_loads(judge, scaled, near);
-        }
-        best = if near.worst() < best.worst() { near } else { best };
-        if best.worst() <= tolerance {
-            break;
-        }
-    }
-    best
+/// The equations of states of contacts, and the judge of their solutions.
+pub(crate) struct Refiner<'a> {
+    pub(crate) judge: &'a dyn Judge,
+    pub(crate) scaled: &'a Scaled,
+    pub(crate) condensed: &'a mut Condensed,
 }
 
-/// The best point that the states of contacts lead to without rounding errors.
-pub(crate) fn unrounded(
-    (judge, scaled, condensed): (&dyn Judge, &Scaled, &mut Condensed),
-    at: PointRef<'_>,
-    contacts: &[ContactStatus],
-) -> Option<Judged<'static>> {
-    let mut best: Option<Judged<'static>> = None;
-    for exact in refined_states(scaled, condensed, at, contacts, ROUNDED) {
-        let near = rounded(judge, scaled, &exact);
-        if best.as_ref().is_none_or(|best| near.worst() < best.worst()) {
-            best = Some(near);
+impl Refiner<'_> {
+    /// The point that the states of contacts lead to without rounding errors, where it is better than a given one: what is
+    /// small inherits the rounding errors of what is large until it is refined by itself.
+    pub(crate) fn brought_right<'a>(
+        &mut self,
+        mut best: Judged<'a>,
+        at: PointRef<'_>,
+        contacts: &[ContactStatus],
+        tolerance: f64,
+    ) -> Judged<'a> {
+        let Self { judge, scaled, condensed } = self;
+        let judge = *judge;
+        if best.worst() <= EXACT {
+            return best;
         }
-        if best.as_ref().is_some_and(|best| best.worst() <= EXACT) {
-            break;
+        let enough = if best.worst() <= tolerance { ROUNDED } else { ALL_DIGITS };
+        for exact in refined_states(scaled, condensed, at, contacts, enough) {
+            let mut near = rounded(judge, scaled, &exact);
+            let Residuals { equation, natural, loads, .. } = near.residuals;
+            if loads > EXACT
+                && equation.max(natural) <= tolerance
+                && judge.residuals_of(scaled, &exact).worst() <= tolerance
+            {
+                near = with_rounded_loads(judge, scaled, near);
+            }
+            best = if near.worst() < best.worst() { near } else { best };
+            if best.worst() <= tolerance {
+                break;
+            }
         }
+        best
     }
-    best
+
+    /// The best point that the states of contacts lead to without rounding errors.
+    pub(crate) fn unrounded(
+        &mut self,
+        at: PointRef<'_>,
+        contacts: &[ContactStatus],
+    ) -> Option<Judged<'static>> {
+        let Self { judge, scaled, condensed } = self;
+        let judge = *judge;
+        let mut best: Option<Judged<'static>> = None;
+        for exact in refined_states(scaled, condensed, at, contacts, ROUNDED) {
+            let near = rounded(judge, scaled, &exact);
+            if best.as_ref().is_none_or(|best| near.worst() < best.worst()) {
+                best = Some(near);
+            }
+            if best.as_ref().is_some_and(|best| best.worst() <= EXACT) {
+                break;
+            }
+        }
+        best
+    }
 }
 
 fn rounded(judge: &dyn Judge, scaled: &Scaled, (u, forces): &Exact) -> Judged<'static> {
@@ -110,13 +121,14 @@ fn rounded(judge: &dyn Judge, scaled: &Scaled, (u, forces): &Exact) -> Judged<'s
     let mut u = scaled.of_displacements(&u);
     let mut forces: Vec<_> = forces.iter().map(|[n, t]| (n.rounded(), t.rounded())).collect();
     scaled.settle(&mut u, &mut forces);
-    let residuals = judge.residuals(scaled, (&u, &forces), Precision::Exact);
+    let at = PointRef { u: &u, forces: &forces };
+    let residuals = judge.residuals(scaled, at, Precision::Exact);
     Judged { u: u.into(), forces: forces.into(), residuals }
 }
 
 /// A point that is exact but for its rounding, of whose loads that is no part.
 fn with_rounded_loads<'a>(judge: &dyn Judge, scaled: &Scaled, mut point: Judged<'a>) -> Judged<'a> {
-    let at = (&point.u[..], &point.forces[..]);
+    let at = PointRef { u: &point.u, forces: &point.forces };
     point.residuals.loads = judge.residuals(scaled, at, Precision::RoundedLoads).loads;
     point
 }
@@ -131,11 +143,12 @@ pub(crate) fn state_brought_right(
     let (mut u, mut forces) = scaled.of_state(state);
     scaled.settle(&mut u, &mut forces);
     let (contacts, judge) = (nearest(&scaled, &u, &forces), Original::judge(problem));
-    let at = (&u[..], &forces[..]);
+    let at = PointRef { u: &u, forces: &forces };
     let given = judged(judge.as_ref(), &scaled, at, Precision::Exact);
-    let with = (judge.as_ref(), &scaled, &mut planned(&scaled).ok()?);
-    let Judged { u, forces, residuals } = brought_right(with, (at, given), &contacts, tolerance);
-    let Answer { contact, .. } = judge.answer(&scaled, (&u, &forces));
+    let condensed = &mut planned(&scaled).ok()?;
+    let mut refiner = Refiner { judge: judge.as_ref(), scaled: &scaled, condensed };
+    let Judged { u, forces, residuals } = refiner.brought_right(given, at, &contacts, tolerance);
+    let Answer { contact, .. } = judge.answer(&scaled, PointRef { u: &u, forces: &forces });
     contact.map(|state| (state, residuals))
 }
 
@@ -164,8 +177,8 @@ pub(crate) trait Original {
 
 /// The state of a scaled point. What is given back are forces inside their cones: where these are large, what was cut
 /// off may be more than the loads.
-fn state(problem: &Contact2d, scaled: &Scaled, (u, forces): PointRef<'_>) -> ContactState {
-    let inside = forces.iter().zip(problem.mu()).map(|((t_n, t_t), mu)| {
+fn state(problem: &Contact2d, scaled: &Scaled, at: PointRef<'_>) -> ContactState {
+    let inside = at.forces.iter().zip(problem.mu()).map(|((t_n, t_t), mu)| {
         let t_n = t_n.max(0.0);
         // Forces may have overflowed.
         let bound = if *mu > 0.0 { mu * t_n } else { 0.0 };
@@ -173,7 +186,7 @@ fn state(problem: &Contact2d, scaled: &Scaled, (u, forces): PointRef<'_>) -> Con
     });
     let (normal, tangential) =
         inside.map(|(t_n, t_t)| (t_n * scaled.force(), t_t * scaled.force())).unzip();
-    problem.state(scaled.displacements(u), normal, tangential)
+    problem.state(scaled.displacements(at.u), normal, tangential)
 }
 
 impl Judge for (&Contact2d, ContactJudge<'_>) {
@@ -195,9 +208,9 @@ impl Judge for (&Contact2d, ContactJudge<'_>) {
 }
 
 /// The `(z, w)` of a scaled point. As for contact, what is judged is what is given back.
-fn variables(scaled: &Scaled, (u, forces): PointRef<'_>) -> (Vec<f64>, Vec<f64>) {
-    let (mut u, mut w) = (u.to_vec(), vec![0.0; u.len()]);
-    for (point, (t_n, _)) in scaled.points.iter().zip(forces) {
+fn variables(scaled: &Scaled, at: PointRef<'_>) -> (Vec<f64>, Vec<f64>) {
+    let (mut u, mut w) = (at.u.to_vec(), vec![0.0; at.u.len()]);
+    for (point, (t_n, _)) in scaled.points.iter().zip(at.forces) {
         let j = point.columns[0];
         u[j] = u[j].max(0.0);
         w[j] = t_n.max(0.0) * scaled.force_of(j);

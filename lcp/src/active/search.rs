@@ -3,13 +3,11 @@
 use faer::sparse::FaerError;
 
 use super::crossover::{Effort, Vertex, cross_over};
-use super::original::{
-    Answer, Judge, Judged, Original, PointRef, brought_right, judged as judged_by, unrounded,
-};
+use super::original::{Answer, Judge, Judged, Original, Refiner, judged as judged_by};
 use crate::certify::Precision;
 use crate::problem::ContactStatus;
 use crate::solve::Monitor;
-use crate::states::{Condensed, Scaled, nearest};
+use crate::states::{Condensed, PointRef, Scaled, nearest};
 use crate::{Error, Method, Residuals, Solution, Status, WarmStart};
 
 /// A problem with the best point so far.
@@ -73,7 +71,7 @@ impl<'a> Search<'a> {
                 (u, forces, contacts)
             }
         };
-        self.cross_over((&u, &forces), contacts, &Effort::THOROUGH)
+        self.cross_over(PointRef { u: &u, forces: &forces }, contacts, &Effort::THOROUGH)
     }
 
     /// Whether nothing moves and no force acts, a point that iterations only come nearer to without end.
@@ -85,19 +83,15 @@ impl<'a> Search<'a> {
         }
         if crossover {
             let contacts = nearest(&self.scaled, &u, &forces);
-            self.cross_over((&u, &forces), contacts, &Effort::THOROUGH);
+            self.cross_over(PointRef { u: &u, forces: &forces }, contacts, &Effort::THOROUGH);
         }
         true
     }
 
     /// Whether a point is a solution, or what its contacts lead to with some effort.
-    pub(crate) fn try_point(
-        &mut self,
-        at: (&[f64], &[(f64, f64)]),
-        effort: Option<&Effort>,
-    ) -> bool {
-        let is_solved = self.judge(at.0, at.1) <= self.tolerance;
-        let contacts = nearest(&self.scaled, at.0, at.1);
+    pub(crate) fn try_point(&mut self, at: PointRef<'_>, effort: Option<&Effort>) -> bool {
+        let is_solved = self.judge(at.u, at.forces) <= self.tolerance;
+        let contacts = nearest(&self.scaled, at.u, at.forces);
         effort.is_some_and(|effort| self.cross_over(at, contacts, effort)) || is_solved
     }
 
@@ -109,17 +103,17 @@ impl<'a> Search<'a> {
     /// Whether the states of the contacts, or those that they lead to, are those of a solution.
     pub(crate) fn cross_over(
         &mut self,
-        at: (&[f64], &[(f64, f64)]),
+        at: PointRef<'_>,
         contacts: Vec<ContactStatus>,
         effort: &Effort,
     ) -> bool {
         let Self { judge, tolerance, scaled, condensed, best, .. } = self;
         let is_solution = |condensed: &mut Condensed, vertex: &Vertex, is_consistent: bool| {
-            let point = (&vertex.u[..], &vertex.forces[..]);
+            let point = PointRef { u: &vertex.u, forces: &vertex.forces };
             let mut judged = judged(judge.as_ref(), scaled, point, *tolerance);
             if is_consistent {
-                let with = (judge.as_ref(), &*scaled, condensed);
-                judged = brought_right(with, (point, judged), &vertex.contacts, *tolerance);
+                let mut refiner = Refiner { judge: judge.as_ref(), scaled, condensed };
+                judged = refiner.brought_right(judged, point, &vertex.contacts, *tolerance);
             }
             let is_solution = judged.worst() <= *tolerance;
             let contacts = is_solution.then_some((&vertex.contacts[..], is_consistent));
@@ -139,10 +133,10 @@ impl<'a> Search<'a> {
         if let Some(Best { u, forces, residuals, exact: Some((contacts, is_right)) }) = best
             && !*is_right
         {
-            let at = (&u[..], &forces[..]);
-            let given = Judged { u: at.0.into(), forces: at.1.into(), residuals: *residuals };
-            let with = (judge.as_ref(), &*scaled, condensed);
-            let right = brought_right(with, (at, given), contacts, *tolerance);
+            let at = PointRef { u, forces };
+            let given = Judged { u: at.u.into(), forces: at.forces.into(), residuals: *residuals };
+            let mut refiner = Refiner { judge: judge.as_ref(), scaled, condensed };
+            let right = refiner.brought_right(given, at, contacts, *tolerance);
             let right = (right.u.into_owned(), right.forces.into_owned(), right.residuals);
             (*u, *forces, *residuals, *is_right) = (right.0, right.1, right.2, true);
         }
@@ -158,8 +152,8 @@ impl<'a> Search<'a> {
                 Some((contacts, _)) => contacts.clone(),
                 None => nearest(scaled, u, forces),
             };
-            let with = (judge.as_ref(), &*scaled, condensed);
-            let right = unrounded(with, (u, forces), &contacts);
+            let mut refiner = Refiner { judge: judge.as_ref(), scaled, condensed };
+            let right = refiner.unrounded(PointRef { u, forces }, &contacts);
             if let Some(right) = right.filter(|right| right.worst() <= *tolerance) {
                 let right = (right.u.into_owned(), right.forces.into_owned(), right.residuals);
                 (*u, *forces, *residuals) = right;
@@ -171,7 +165,8 @@ impl<'a> Search<'a> {
     pub(crate) fn judge(&mut self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
         let Self { judge, tolerance, scaled, best, .. } = self;
         let (u, forces) = scaled.settled(u, forces);
-        let judged = judged(judge.as_ref(), scaled, (&u, &forces), *tolerance);
+        let judged =
+            judged(judge.as_ref(), scaled, PointRef { u: &u, forces: &forces }, *tolerance);
         let worst = judged.worst();
         keep_better(best, judged, None, *tolerance);
         worst
@@ -197,7 +192,7 @@ impl<'a> Search<'a> {
         let Some(Best { u, forces, mut residuals, exact }) = best else {
             unreachable!("every solve judges a point");
         };
-        let at = (&u[..], &forces[..]);
+        let at = PointRef { u: &u, forces: &forces };
         if residuals.worst() > tolerance {
             // On the way rows that matter to no load counted too. A point refused with all digits stays refused.
             let in_full = judge.residuals(&scaled, at, Precision::Usual);
@@ -211,7 +206,7 @@ impl<'a> Search<'a> {
         });
         // Steps may end with a point that is solved and another that the iteration gave up.
         let otherwise = if otherwise == Status::Solved { Status::Stalled } else { otherwise };
-        let mut solution = Solution::judged((t, y), residuals, tolerance, otherwise);
+        let mut solution = Solution::judged(t, y, residuals, tolerance, otherwise);
         solution.contact = contact;
         solution.basis = basis;
         (solution, condensed)

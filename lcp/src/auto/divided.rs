@@ -134,7 +134,7 @@ impl<P: Planned> Divided<'_, P> {
             part.put_pairs(&answer.y, &mut y);
         }
         let residuals = problem.residuals_of_pairs(&t, &y);
-        let mut whole = Solution::judged((t, y), residuals, settings.tolerance, Status::Stalled);
+        let mut whole = Solution::judged(t, y, residuals, settings.tolerance, Status::Stalled);
         whole.residuals = problem.join(&mut whole, &answers);
         let (otherwise, certificate) = outcome(&answers, settings.tolerance, pairs);
         whole.status = match otherwise {

@@ -37,11 +37,13 @@ impl<P: General> Solver<P> for Enumeration {
         } else {
             enumerate(&general, Limits { nodes: WORK / n.pow(3).max(1), deadline })
         };
-        let zero = || vec![0.0; n];
-        let (mut point, mut basis, mut proof) = ((zero(), zero()), None, None);
+        let (mut t, mut y) = (vec![0.0; n], vec![0.0; n]);
+        let (mut basis, mut proof) = (None, None);
         let mut otherwise = Status::NumericalTrouble;
         match found {
-            Enumerated::Found { t, y, basis: found } => (point, basis) = ((t, y), Some(found)),
+            Enumerated::Found { t: of_t, y: of_y, basis: found } => {
+                (t, y, basis) = (of_t, of_y, Some(found));
+            }
             Enumerated::Infeasible(pi) => {
                 proof = Some((Status::Infeasible, Certificate::Farkas { pi }));
             }
@@ -54,7 +56,7 @@ impl<P: General> Solver<P> for Enumeration {
             }
             Enumerated::Open => {}
         }
-        let mut solution = judged_point(problem, point, self.tolerance, otherwise);
+        let mut solution = judged_point(problem, t, y, self.tolerance, otherwise);
         solution.basis = basis;
         if let Some((status, certificate)) = proof.filter(|(_, it)| it.holds(&general)) {
             (solution.status, solution.certificate) = (status, Some(certificate));

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::Residuals;
-use super::rows::{self, Digits, Entry, InRow, Point, Precision, RowResiduals, Rows};
+use super::rows::{self, Digits, Entry, InRow, Measure, Point, Precision, RowResiduals, Rows};
 use super::significance::{Term, Terms, terms_of};
 use super::weights::{self, into_range, weights_in_range};
 use crate::extended::{Extended, extended};
@@ -44,12 +44,19 @@ impl BoxedLcp {
     }
 }
 
+/// Lower and upper bounds of all variables.
+#[derive(Clone, Copy)]
+struct Bounds<'a> {
+    lower: &'a [f64],
+    upper: &'a [f64],
+}
+
 /// A problem in `(z, w)` with the weights of its rows.
 pub(crate) struct BoxedJudge<'a> {
     m: &'a Matrix,
     q: &'a [f64],
     /// Lower and upper bounds; none are `0` and `inf`.
-    bounds: Option<(&'a [f64], &'a [f64])>,
+    bounds: Option<Bounds<'a>>,
     /// The sizes of the right-hand sides, with those of the bounds.
     loads: Vec<f64>,
     weights: Vec<f64>,
@@ -60,19 +67,15 @@ pub(crate) struct BoxedJudge<'a> {
 impl<'a> BoxedJudge<'a> {
     pub(crate) fn of_standard(problem: &'a Lcp) -> Self {
         let loads = problem.q().iter().map(|q| q.abs()).collect();
-        Self::new((problem.m(), problem.q()), loads, None)
+        Self::new(problem.m(), problem.q(), loads, None)
     }
 
     pub(crate) fn of_boxed(problem: &'a BoxedLcp) -> Self {
-        let bounds = (problem.lower(), problem.upper());
-        Self::new((problem.m(), problem.q()), problem.loads(), Some(bounds))
+        let bounds = Bounds { lower: problem.lower(), upper: problem.upper() };
+        Self::new(problem.m(), problem.q(), problem.loads(), Some(bounds))
     }
 
-    fn new(
-        (m, q): (&'a Matrix, &'a [f64]),
-        loads: Vec<f64>,
-        bounds: Option<(&'a [f64], &'a [f64])>,
-    ) -> Self {
+    fn new(m: &'a Matrix, q: &'a [f64], loads: Vec<f64>, bounds: Option<Bounds<'a>>) -> Self {
         let n = q.len();
         let columns: Vec<Column<'_>> = (0..n).map(|j| m.slice(j)).collect();
         let weights = weights::weights(&columns, &loads);
@@ -92,11 +95,11 @@ impl<'a> BoxedJudge<'a> {
             return residuals;
         }
         let q = into_range(self.q);
-        let bounds = self.bounds.map(|(lower, upper)| (into_range(lower), into_range(upper)));
+        let bounds = self.bounds.map(|it| (into_range(it.lower), into_range(it.upper)));
         let judge = BoxedJudge {
             m: self.m,
             q: &q,
-            bounds: bounds.as_ref().map(|(lower, upper)| (&lower[..], &upper[..])),
+            bounds: bounds.as_ref().map(|(lower, upper)| Bounds { lower, upper }),
             loads: into_range(&self.loads),
             weights: weights_in_range(&self.weights),
             length: self.length,
@@ -106,24 +109,27 @@ impl<'a> BoxedJudge<'a> {
 
     /// The same unless a sum of terms leaves the range of numbers.
     fn in_range(&self, z: &[f64], w: &[f64], precision: Precision) -> Residuals {
-        let rows = (&self.weights[..], self.length);
-        rows::residuals_or_refined(&self.at(z, w), rows, precision, || {
-            rows::residuals(&self.at(&extended(z), &extended(w)), rows, precision)
+        rows::residuals_or_refined(&self.at(z, w), self.measure(), precision, || {
+            rows::residuals(&self.at(&extended(z), &extended(w)), self.measure(), precision)
         })
     }
 
     /// The same of a point of twice the digits.
     pub(crate) fn residuals_of(&self, z: &[Extended], w: &[Extended]) -> Residuals {
-        rows::residuals(&self.at(z, w), (&self.weights, self.length), Precision::Exact)
+        rows::residuals(&self.at(z, w), self.measure(), Precision::Exact)
+    }
+
+    fn measure(&self) -> Measure<'_> {
+        Measure { weights: &self.weights, length: self.length }
     }
 
     fn at<'b, X: Digits>(&'b self, z: &'b [X], w: &'b [X]) -> JudgedPoint<'b, X> {
         JudgedPoint { judge: self, z, w }
     }
 
-    fn conditions_of(&self, j: usize, (z, w): (f64, f64), out: &mut RowResiduals<'_>) {
+    fn conditions_of(&self, j: usize, z: f64, w: f64, out: &mut RowResiduals<'_>) {
         let (lower, upper) =
-            self.bounds.map_or((0.0, f64::INFINITY), |(lower, upper)| (lower[j], upper[j]));
+            self.bounds.map_or((0.0, f64::INFINITY), |it| (it.lower[j], it.upper[j]));
         for (distance, w) in [(z - lower, w.max(0.0)), (upper - z, (-w).max(0.0))] {
             let w = Entry { value: w, column: InRow(j) };
             if distance.is_finite() {
@@ -149,7 +155,7 @@ impl<X: Digits> Terms for JudgedPoint<'_, X> {
             visit(Term { row: i, variable: n + i, value: w.rounded() });
         }
         for (variable, z) in self.z.iter().enumerate() {
-            terms_of(&mut visit, (variable, z.rounded()), self.judge.m.slice(variable));
+            terms_of(&mut visit, variable, z.rounded(), self.judge.m.slice(variable));
         }
     }
 }
@@ -171,7 +177,7 @@ impl<X: Digits> Point for JudgedPoint<'_, X> {
 
     fn conditions(&self, out: &mut RowResiduals<'_>) {
         for (j, (z, w)) in self.z.iter().zip(self.w).enumerate() {
-            self.judge.conditions_of(j, (z.rounded(), w.rounded()), out);
+            self.judge.conditions_of(j, z.rounded(), w.rounded(), out);
         }
     }
 }

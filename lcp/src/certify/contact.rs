@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::Residuals;
 use super::constants::{FULL, ROUNDS, STRONG};
-use super::rows::{self, Digits, Entry, InRow, Point, Precision, RowResiduals, Rows};
+use super::rows::{self, Digits, Entry, InRow, Measure, Point, Precision, RowResiduals, Rows};
 use super::significance::{Term, Terms};
 use super::weights::{or_largest, per_load};
 use crate::extended::{Extended, extended};
@@ -80,18 +80,22 @@ impl<'a> ContactJudge<'a> {
         if all.iter().any(|v| v.iter().any(|v| !v.is_finite())) {
             return Residuals::infinite();
         }
-        let rows = (&self.weights[..], self.length);
+        let measure = self.measure();
         let at = self.at(StateOf { u, t_n, t_t, openings: Some((gap, slip)) });
-        rows::residuals_or_refined(&at, rows, precision, || {
+        rows::residuals_or_refined(&at, measure, precision, || {
             let [u, t_n, t_t, gap, slip] = &all.map(|v| extended(v));
             let at = self.at(StateOf { u, t_n, t_t, openings: Some((gap, slip)) });
-            rows::residuals(&at, rows, precision)
+            rows::residuals(&at, measure, precision)
         })
     }
 
     /// The same of a state of twice the digits.
     pub(crate) fn residuals_of(&self, state: StateOf<'_, Extended>) -> Residuals {
-        rows::residuals(&self.at(state), (&self.weights, self.length), Precision::Exact)
+        rows::residuals(&self.at(state), self.measure(), Precision::Exact)
+    }
+
+    fn measure(&self) -> Measure<'_> {
+        Measure { weights: &self.weights, length: self.length }
     }
 
     fn at<'b, X: Digits>(&'b self, state: StateOf<'b, X>) -> JudgedPoint<'b, X> {
@@ -122,8 +126,8 @@ impl<'a> ContactJudge<'a> {
     fn conditions_of(
         &self,
         i: usize,
-        (t_n, t_t): (f64, f64),
-        (gap, slip): (f64, f64),
+        [t_n, t_t]: [f64; 2],
+        [gap, slip]: [f64; 2],
         out: &mut RowResiduals<'_>,
     ) {
         let (n, m) = (self.problem.displacements(), self.problem.points());
@@ -202,8 +206,8 @@ impl<X: Digits> Point for JudgedPoint<'_, X> {
         let StateOf { t_n, t_t, .. } = self.state;
         let m = t_n.len();
         for i in 0..m {
-            let forces = (t_n[i].rounded(), t_t[i].rounded());
-            let openings = (self.openings[i], self.openings[m + i]);
+            let forces = [t_n[i].rounded(), t_t[i].rounded()];
+            let openings = [self.openings[i], self.openings[m + i]];
             self.judge.conditions_of(i, forces, openings, out);
         }
     }

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::rows::{self, Entry, InRow, Point, Precision, RowResiduals, Rows};
+use super::rows::{self, Entry, InRow, Measure, Point, Precision, RowResiduals, Rows};
 use super::significance::{Term, Terms, terms_of};
 use super::{Residuals, weights};
 use crate::extended::Extended;
@@ -46,7 +46,8 @@ impl Friction2d {
         }
         let (velocities, terms) = rows.rounded();
         let at = JudgedPoint { problem: self, columns, forces, velocities, terms };
-        rows::residuals(&at, (&weights, 2.0 * contacts as f64 + 1.0), Precision::Rounded)
+        let length = 2.0 * contacts as f64 + 1.0;
+        rows::residuals(&at, Measure { weights: &weights, length }, Precision::Rounded)
     }
 }
 
@@ -66,7 +67,7 @@ impl Terms for JudgedPoint<'_> {
             visit(Term { row, variable: rows + row, value: *v });
         }
         for (variable, (column, force)) in self.columns.iter().zip(&self.forces).enumerate() {
-            terms_of(&mut visit, (variable, *force), *column);
+            terms_of(&mut visit, variable, *force, *column);
         }
     }
 }

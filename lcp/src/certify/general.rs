@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::Residuals;
 use super::constants::INTO_RANGE;
-use super::rows::{self, Digits, Entry, Point, Precision, RowResiduals, Rows};
+use super::rows::{self, Digits, Entry, Measure, Point, Precision, RowResiduals, Rows};
 use super::significance::{Term, Terms, terms_of};
 use super::weights::{self, into_range, weights_in_range};
 use crate::extended::{Extended, extended};
@@ -59,17 +59,18 @@ impl<'a> GeneralJudge<'a> {
     /// For another right-hand side, of which every entry comes with the size of its terms.
     pub(crate) fn with_right_hand_side(problem: &'a HorizontalLcp, c: Vec<(f64, f64)>) -> Self {
         let (row, col) = equilibrate(problem.order(), &problem.columns());
-        Self::with_factors(problem, c, (&row, &col))
+        Self::with_factors(problem, c, &row, &col)
     }
 
     /// With the factors that equilibrate the rows and all columns, of `A` and then of `B`.
     pub(crate) fn with_factors(
         problem: &'a HorizontalLcp,
         c: Vec<(f64, f64)>,
-        (row, col): (&[f64], &[f64]),
+        row: &[f64],
+        col: &[f64],
     ) -> Self {
         let loads: Vec<f64> = c.iter().map(|(_, size)| *size).collect();
-        let weights = weights::weights_of(&problem.columns(), &loads, (row, col));
+        let weights = weights::weights_of(&problem.columns(), &loads, row, col);
         let length = 2.0 * problem.order() as f64 + 1.0;
         Self { problem, c, weights, length }
     }
@@ -93,15 +94,19 @@ impl<'a> GeneralJudge<'a> {
 
     /// The same unless a sum of terms leaves the range of numbers.
     fn in_range(&self, t: &[f64], y: &[f64], precision: Precision) -> Residuals {
-        let rows = (&self.weights[..], self.length);
-        rows::residuals_or_refined(&self.at(t, y), rows, precision, || {
-            rows::residuals(&self.at(&extended(t), &extended(y)), rows, precision)
+        let measure = self.measure();
+        rows::residuals_or_refined(&self.at(t, y), measure, precision, || {
+            rows::residuals(&self.at(&extended(t), &extended(y)), measure, precision)
         })
     }
 
     /// The same of a point of twice the digits.
     pub(crate) fn residuals_of(&self, t: &[Extended], y: &[Extended]) -> Residuals {
-        rows::residuals(&self.at(t, y), (&self.weights, self.length), Precision::Exact)
+        rows::residuals(&self.at(t, y), self.measure(), Precision::Exact)
+    }
+
+    fn measure(&self) -> Measure<'_> {
+        Measure { weights: &self.weights, length: self.length }
     }
 
     fn at<'b, X: Digits>(&'b self, t: &'b [X], y: &'b [X]) -> JudgedPoint<'b, X> {
@@ -132,7 +137,7 @@ impl<X: Digits> JudgedPoint<'_, X> {
 impl<X: Digits> Terms for JudgedPoint<'_, X> {
     fn for_each_term(&self, mut visit: impl FnMut(Term)) {
         for (variable, x, column) in self.variables() {
-            terms_of(&mut visit, (variable, x.rounded()), column);
+            terms_of(&mut visit, variable, x.rounded(), column);
         }
     }
 }

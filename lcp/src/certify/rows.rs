@@ -101,6 +101,15 @@ impl<X: Digits> Rows<X> {
     }
 }
 
+/// What rows are measured by.
+#[derive(Clone, Copy)]
+pub(super) struct Measure<'a> {
+    /// One over the loads that every row feels.
+    pub(super) weights: &'a [f64],
+    /// Terms of a row at most.
+    pub(super) length: f64,
+}
+
 /// The residuals of a point while its conditions are gone through.
 pub(super) struct RowResiduals<'a> {
     /// What is left of every row.
@@ -131,40 +140,41 @@ pub(super) trait Point: Terms {
 /// terms are not small against the loads.
 pub(super) fn residuals_or_refined(
     point: &impl Point,
-    (weights, length): (&[f64], f64),
+    measure: Measure<'_>,
     precision: Precision,
     refined: impl FnOnce() -> Residuals,
 ) -> Residuals {
     let (rest, terms) = point.rows();
-    let mut sizes = terms.iter().zip(weights);
-    let is_hidden = |(terms, weight)| length * f64::EPSILON * terms * weight > SMALL;
+    let mut sizes = terms.iter().zip(measure.weights);
+    let is_hidden = |(terms, weight)| measure.length * f64::EPSILON * terms * weight > SMALL;
     if !precision.is_usual() && sizes.any(is_hidden) {
         return refined();
     }
-    residuals_of_rows(point, (&rest, &terms), (weights, length), precision)
+    residuals_of_rows(point, &rest, &terms, measure, precision)
 }
 
-/// The residuals of a point with one over the loads of its rows, of so many terms at most.
+/// The residuals of a point.
 pub(super) fn residuals(
     point: &impl Point,
-    rows: (&[f64], f64),
+    measure: Measure<'_>,
     precision: Precision,
 ) -> Residuals {
     let (rest, terms) = point.rows();
-    residuals_of_rows(point, (&rest, &terms), rows, precision)
+    residuals_of_rows(point, &rest, &terms, measure, precision)
 }
 
 /// Rows that do not matter to the loads are told only where something in them seems to be wrong.
 fn residuals_of_rows(
     point: &impl Point,
-    (rest, terms): (&[f64], &[f64]),
-    (weights, length): (&[f64], f64),
+    rest: &[f64],
+    terms: &[f64],
+    measure: Measure<'_>,
     precision: Precision,
 ) -> Residuals {
     let residuals = |significance| {
-        let mut out = RowResiduals::new((rest, terms), weights, significance);
+        let mut out = RowResiduals::new(rest, terms, measure.weights, significance);
         point.conditions(&mut out);
-        out.finished(length, precision)
+        out.finished(measure.length, precision)
     };
     let strict = residuals(Vec::new());
     let Residuals { equation, natural, loads, .. } = strict;
@@ -172,7 +182,7 @@ fn residuals_of_rows(
     if !precision.tells_rows() || apparent <= SMALL || loads > MINOR * apparent {
         return strict;
     }
-    residuals(significance(terms, &point.sources(), weights, point))
+    residuals(significance(terms, &point.sources(), measure.weights, point))
 }
 
 /// Rows with a right-hand side count in full.
@@ -218,11 +228,7 @@ pub(super) struct Entry<C> {
 }
 
 impl<'a> RowResiduals<'a> {
-    fn new(
-        (rest, terms): (&'a [f64], &'a [f64]),
-        weights: &'a [f64],
-        significance: Vec<f64>,
-    ) -> Self {
+    fn new(rest: &'a [f64], terms: &'a [f64], weights: &'a [f64], significance: Vec<f64>) -> Self {
         let residuals = Residuals::default();
         let mut out = Self { rest, terms, weights, significance, changes: Vec::new(), residuals };
         let shares = rest.iter().enumerate().map(|(i, v)| out.share(i, *v));

@@ -25,11 +25,7 @@ pub(super) trait Terms {
 }
 
 /// The terms of a variable with its column.
-pub(super) fn terms_of(
-    visit: &mut impl FnMut(Term),
-    (variable, x): (usize, f64),
-    column: Column<'_>,
-) {
+pub(super) fn terms_of(visit: &mut impl FnMut(Term), variable: usize, x: f64, column: Column<'_>) {
     if x != 0.0 {
         column.for_each(|row, v| {
             if v * x != 0.0 {

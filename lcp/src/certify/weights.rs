@@ -12,14 +12,15 @@ use crate::scaling::equilibrate;
 pub(super) fn weights(columns: &[Column<'_>], loads: &[f64]) -> Vec<f64> {
     let rows = loads.len();
     let (row, col) = equilibrate(rows, columns);
-    weights_of(columns, loads, (&row, &col))
+    weights_of(columns, loads, &row, &col)
 }
 
 /// The same with the factors of rows and columns that bring the entries near one.
 pub(super) fn weights_of(
     columns: &[Column<'_>],
     loads: &[f64],
-    (row, col): (&[f64], &[f64]),
+    row: &[f64],
+    col: &[f64],
 ) -> Vec<f64> {
     let rows = loads.len();
     let mut parts = Parts::new(rows);

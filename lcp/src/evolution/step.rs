@@ -9,7 +9,7 @@ use crate::active::{Effort, Original, Search};
 use crate::interior::follow_path;
 use crate::problem::{ContactStatus, column_of};
 use crate::solve::Monitor;
-use crate::states::nearest;
+use crate::states::{PointRef, nearest};
 use crate::vector::max_abs;
 use crate::{Contact2d, ContactState, Error, Iteration, Solution, Status};
 
@@ -124,7 +124,7 @@ impl Evolution {
             [] => nearest(&search.scaled, &u, &forces),
             contacts => contacts.to_vec(),
         };
-        let is_found = search.cross_over((&u, &forces), contacts, effort);
+        let is_found = search.cross_over(PointRef { u: &u, forces: &forces }, contacts, effort);
         Ok((search, is_found))
     }
 

@@ -136,14 +136,14 @@ impl Obstacle {
         let side = |point: usize| {
             let i = cell(1 + point % self.columns, self.columns, coarse.columns);
             let j = cell(1 + point / self.columns, self.rows, coarse.rows);
-            let is_apart = coarse.is_apart(z, (i, j), self.place(point));
+            let is_apart = coarse.is_apart(z, [i, j], self.place(point).into());
             if is_apart { Side::T } else { Side::Y }
         };
         Ok(WarmStart::Basis(Basis::new((0..self.order()).map(side).collect())))
     }
 
     /// Whether a point of the plane, in that cell, is not in contact by the gaps around it.
-    fn is_apart(&self, z: &[f64], (i, j): (usize, usize), (x, y): (f64, f64)) -> bool {
+    fn is_apart(&self, z: &[f64], [i, j]: [usize; 2], [x, y]: [f64; 2]) -> bool {
         let corners = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)];
         corners.into_iter().any(|(i, j)| {
             let (corner_x, corner_y) = self.grid_place(i, j);

@@ -29,7 +29,7 @@ impl Factors {
         spring: f64,
     ) -> Option<()> {
         let (k, a) = (program.k.as_ref(), program.a.as_ref());
-        self.gram.factorise(Some(k), a, (&stiffness, spring)).ok()?;
+        self.gram.factorise(Some(k), a, &stiffness, spring).ok()?;
         self.stiffness = stiffness;
         self.factorisations += 1;
         Some(())

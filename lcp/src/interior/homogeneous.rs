@@ -87,7 +87,7 @@ pub(super) fn solved(
         return (Variables::zero(program), Status::Stalled);
     };
     let kappa = at.mean_product();
-    let mut now = Homogeneous::new(program, at, (1.0, kappa));
+    let mut now = Homogeneous::new(program, at, 1.0, kappa);
     let (mut least, mut since, mut provable) = ([f64::INFINITY; 3], 0, PROVED);
     loop {
         let defect = now.defect();
@@ -123,7 +123,7 @@ pub(super) fn solved(
 }
 
 impl<'a> Homogeneous<'a> {
-    fn new(program: &'a Program, at: Variables, (tau, kappa): (f64, f64)) -> Self {
+    fn new(program: &'a Program, at: Variables, tau: f64, kappa: f64) -> Self {
         let (strained, opened) = (program.strained(&at.u), program.opened(&at.u));
         Self { program, at, tau, kappa, strained, opened }
     }
@@ -204,7 +204,7 @@ impl<'a> Homogeneous<'a> {
         let free = self.longest(&affine);
         let centring = (1.0 - free).powi(3).min(1.0);
         let aim = centring * mean;
-        let mut step = newton.step((1.0 - centring, aim), &affine);
+        let mut step = newton.step(1.0 - centring, aim, &affine);
         drop(affine);
         let mut alpha = self.longest(&step);
         for _ in 0..CORRECTORS {
@@ -226,7 +226,7 @@ impl<'a> Homogeneous<'a> {
         if !at.is_finite() || !(tau + kappa).is_finite() {
             return 0.0;
         }
-        *self = Self::new(self.program, at, (tau, kappa));
+        *self = Self::new(self.program, at, tau, kappa);
         alpha
     }
 
@@ -310,7 +310,7 @@ impl<'a> Newton<'a> {
         let [of_tau, affine] = newton.held(&[of_data, to_zero]);
         newton.pivot = newton.across(&of_tau) + (energy + kappa) / tau;
         newton.of_tau = of_tau;
-        let affine = newton.bordered(&affine, (newton.rest, -tau * kappa));
+        let affine = newton.bordered(&affine, newton.rest, -tau * kappa);
         Some((newton, affine))
     }
 
@@ -322,7 +322,7 @@ impl<'a> Newton<'a> {
 
     /// The step that reduces the residuals of all equations by a part, with products of an aim in the end, less the
     /// second-order term of a predictor.
-    fn step(&self, (part, aim): (f64, f64), predictor: &Step) -> Step {
+    fn step(&self, part: f64, aim: f64, predictor: &Step) -> Step {
         let Homogeneous { at, tau, kappa, .. } = self.now;
         let pairs = at.t.iter().zip(&at.y).zip(predictor.at.t.iter().zip(&predictor.at.y));
         let aims = Aim {
@@ -333,7 +333,7 @@ impl<'a> Newton<'a> {
         };
         let [held] = self.held(&[aims]);
         let second = predictor.tau * predictor.kappa;
-        self.bordered(&held, (part * self.rest, aim - tau * kappa - second))
+        self.bordered(&held, part * self.rest, aim - tau * kappa - second)
     }
 
     /// The step that brings the products back among those that are central, where another one leads, and changes nothing
@@ -360,7 +360,7 @@ impl<'a> Newton<'a> {
             targets: t.iter().zip(y).zip(step.t.iter().zip(&step.y)).map(correction).collect(),
         };
         let [held] = self.held(&[aims]);
-        self.bordered(&held, (0.0, 0.0))
+        self.bordered(&held, 0.0, 0.0)
     }
 
     /// Steps at `tau` as it is.
@@ -402,7 +402,7 @@ impl<'a> Newton<'a> {
 
     /// A step at `tau` as it is, with what it takes to make good `rest` of the equation of `kappa` and to change
     /// `tau kappa` by `target`.
-    fn bordered(&self, held: &Variables, (rest, target): (f64, f64)) -> Step {
+    fn bordered(&self, held: &Variables, rest: f64, target: f64) -> Step {
         let Homogeneous { tau, kappa, .. } = self.now;
         let change = (target / tau - rest - self.across(held)) / self.pivot;
         let at = held.moved(&self.of_tau, change);

@@ -74,11 +74,11 @@ impl Defect {
     }
 
     pub(super) fn size(&self) -> f64 {
-        self.relative((1.0, 1.0))
+        self.relative(1.0, 1.0)
     }
 
     /// The largest defect in these units of force and length.
-    pub(super) fn relative(&self, (force, length): (f64, f64)) -> f64 {
+    pub(super) fn relative(&self, force: f64, length: f64) -> f64 {
         let gaps = self.gaps.iter().fold(0.0_f64, |max, (g, s)| max.max(g.abs()).max(s.abs()));
         (max_abs(&self.balance) / force).max(gaps / length)
     }
@@ -133,8 +133,8 @@ impl<'a> Tangent<'a> {
             let (t_n, t_t) = springs.forces(moved.0, moved.1);
             let (t_n, t_t) = (fixed.0 - t_n, fixed.1 - t_t);
             let [normal, tangential] = point.compliance;
-            let opened = (moved.0 + gaps.0 + normal * t_n, moved.1 + gaps.1 + tangential * t_t);
-            at.change(point.mu, (t_n, t_t), opened, targets)
+            let opened = [moved.0 + gaps.0 + normal * t_n, moved.1 + gaps.1 + tangential * t_t];
+            at.change(point.mu, [t_n, t_t], opened, targets)
         });
         let points = points.collect();
         Iterate { u, points }
@@ -169,15 +169,9 @@ impl Pairs {
     /// The step of all variables from that of the forces and those of gap and slip by the displacements.
     /// Of the two equations for `dy`, compatibility and `y dt + t dy = target`, each pair uses the one
     /// that keeps the digits: the second where `t` is the larger one.
-    fn change(
-        &self,
-        mu: f64,
-        (t_n, t_t): (f64, f64),
-        opened: (f64, f64),
-        target: &[f64; 3],
-    ) -> Self {
+    fn change(&self, mu: f64, [t_n, t_t]: [f64; 2], opened: [f64; 2], target: &[f64; 3]) -> Self {
         let gap =
-            if self.t_n > self.gap { (target[0] - self.gap * t_n) / self.t_n } else { opened.0 };
+            if self.t_n > self.gap { (target[0] - self.gap * t_n) / self.t_n } else { opened[0] };
         if mu == 0.0 {
             return Self { t_n, gap, ..Self::default() };
         }
@@ -186,8 +180,8 @@ impl Pairs {
         let slip_minus = (target[2] - self.slip_minus * (mu * t_n - t_t)) / minus;
         let (slip_plus, slip_minus) = match self.ratios(mu) {
             (plus, minus) if plus.max(minus) < 1.0 => (slip_plus, slip_minus),
-            (plus, minus) if plus > minus => (slip_minus + opened.1, slip_minus),
-            _ => (slip_plus, slip_plus - opened.1),
+            (plus, minus) if plus > minus => (slip_minus + opened[1], slip_minus),
+            _ => (slip_plus, slip_plus - opened[1]),
         };
         Self { t_n, t_t, gap, slip_plus, slip_minus }
     }
@@ -214,7 +208,7 @@ impl Iterate {
     pub(super) fn contacts(&self, problem: &Scaled) -> Vec<ContactStatus> {
         let contact = |(mu, at): (&f64, &Pairs)| {
             let Pairs { t_n, t_t, gap, slip_plus, slip_minus } = *at;
-            ContactStatus::nearest(*mu, (t_n, t_t), (gap, slip_plus, slip_minus))
+            ContactStatus::nearest(*mu, [t_n, t_t], gap, [slip_plus, slip_minus])
         };
         problem.points.mu.iter().zip(&self.points).map(contact).collect()
     }
@@ -230,7 +224,7 @@ impl Iterate {
     }
 
     /// Largest `|min(t, y)|` over the pairs, in these units of force and length.
-    pub(super) fn natural(&self, problem: &Scaled, (force, length): (f64, f64)) -> f64 {
+    pub(super) fn natural(&self, problem: &Scaled, force: f64, length: f64) -> f64 {
         let pairs = problem.points.mu.iter().zip(&self.points);
         pairs
             .flat_map(|(mu, pairs)| pairs.pairs(*mu))

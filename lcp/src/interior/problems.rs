@@ -54,7 +54,7 @@ impl Solver<MixedLcp> for InteriorPoint {
         // The judge needs the space.
         drop((program, factors));
         let pairs = problem.to_pairs(&z, &w);
-        let mut solution = judged_point(problem, pairs, tolerance, status);
+        let mut solution = judged_point(problem, pairs.0, pairs.1, tolerance, status);
         solution.certificate = certificate;
         solution.info = monitor.info(Method::Interior);
         solution.info.factorisations = factorisations;
@@ -114,8 +114,8 @@ impl Solver<HorizontalLcp> for InteriorPoint {
                     .to_owned(),
         }
         };
-        let given = (&self.settings.start, self.settings.tolerance);
-        solve_in_standard_form(problem, given, refused, |lcp, start| {
+        let (start, tolerance) = (&self.settings.start, self.settings.tolerance);
+        solve_in_standard_form(problem, start, tolerance, refused, |lcp, start| {
             let settings = InteriorPointSettings { start, ..self.settings.clone() };
             Self::new(settings).solve_observed(lcp, observer)
         })

@@ -10,6 +10,7 @@ use serde::Deserialize;
 use serde_json::value::RawValue;
 
 use super::{Problem, ReadError};
+use crate::Contact2d;
 
 pub use write::to_json;
 
@@ -118,8 +119,8 @@ pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
             let [c_n, c_t] = ["c_n", "c_t"].map(|name| fields.matrix_of(name, mu.len(), f.len()));
             let [x_0, s_0] = ["x_0", "s_0"].map(|name| fields.list(name, mu.len()));
             let compliance = fields.list_if_any("compliance", mu.len())?;
-            let points = (x_0?, s_0?, mu);
-            Problem::contact((k, f), (c_n?, c_t?), points, compliance, fields.begin())
+            let problem = Contact2d::new(k, f, c_n?, c_t?, x_0?, s_0?, mu);
+            Problem::contact(problem, compliance, fields.begin())
         }
     }?;
     fields.none_left()?;

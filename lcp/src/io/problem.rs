@@ -185,15 +185,12 @@ impl Problem {
         refused(BoxedLcp::new(m, q, lower, upper), at).map(Self::Boxed)
     }
 
-    /// From `(K, f)`, `(C_n, C_t)`, `(x_0, s_0, mu)` and the compliances, if there are any.
+    /// From the problem of hard contacts and the compliances, if there are any.
     pub(super) fn contact(
-        (k, f): (Matrix, Vec<f64>),
-        (c_n, c_t): (Matrix, Matrix),
-        (x_0, s_0, mu): (Vec<f64>, Vec<f64>, Vec<f64>),
+        hard: Result<Contact2d, crate::Error>,
         compliance: Option<Vec<[f64; 2]>>,
         at: Position,
     ) -> Result<Self, ReadError> {
-        let hard = Contact2d::new(k, f, c_n, c_t, x_0, s_0, mu);
         let problem = match compliance {
             Some(compliance) => hard.and_then(|hard| hard.with_compliance(compliance)),
             None => hard,

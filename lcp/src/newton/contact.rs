@@ -9,7 +9,7 @@ use super::proximal::{Iterate, Proximal};
 use crate::active::{Effort, Search};
 use crate::problem::ContactStatus;
 use crate::solve::Monitor;
-use crate::states::Springs;
+use crate::states::{PointRef, Springs};
 use crate::{Contact2d, Error, Method, Observer, Solution, Solver, Status};
 
 impl Solver<Contact2d> for SemismoothNewton {
@@ -126,7 +126,11 @@ impl Rounds<'_, '_> {
     fn is_answer(&mut self, at: &Iterate) -> bool {
         let is_near = self.search.judge(&at.u, &at.forces) <= self.tolerance;
         let effort = if is_near { &Effort::THOROUGH } else { &EXCHANGES };
-        self.search.cross_over((&at.u, &at.forces), at.contacts.clone(), effort) || is_near
+        self.search.cross_over(
+            PointRef { u: &at.u, forces: &at.forces },
+            at.contacts.clone(),
+            effort,
+        ) || is_near
     }
 }
 

@@ -44,7 +44,7 @@ impl Proximal<'_> {
     pub(super) fn at(&self, problem: &Scaled, u: Vec<f64>) -> Iterate {
         let points = problem.points.iter().zip(self.forces);
         let (contacts, forces): (Vec<_>, Vec<_>) =
-            points.map(|(point, last)| project(point, *last, self.stiffness, &u)).unzip();
+            points.map(|(point, last)| project(point, (*last).into(), self.stiffness, &u)).unzip();
         let mut unbalanced = problem.unbalanced(&u, forces.iter().copied());
         for ((rest, u), centre) in unbalanced.iter_mut().zip(&u).zip(self.centre) {
             *rest -= self.spring * (u - centre);
@@ -105,7 +105,7 @@ impl Proximal<'_> {
 /// State and forces of a contact, from those of the last step.
 fn project(
     point: Point<'_>,
-    (last_n, last_t): (f64, f64),
+    [last_n, last_t]: [f64; 2],
     stiffness: f64,
     u: &[f64],
 ) -> (ContactStatus, (f64, f64)) {

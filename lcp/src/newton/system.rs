@@ -196,7 +196,7 @@ impl Image {
         let mut w = lcp.q().to_vec();
         let mut size: Vec<f64> = w.iter().map(|q| q.abs()).collect();
         for (j, &z) in z.iter().enumerate().filter(|(_, z)| **z != 0.0) {
-            lcp.m().slice(j).add_with_sizes(z, (&mut w, &mut size));
+            lcp.m().slice(j).add_with_sizes(z, &mut w, &mut size);
         }
         Self { w, size }
     }

@@ -36,8 +36,8 @@ impl Sweepable for Contact2d {
             judge.residuals(&state(point.z), Precision::Exact)
         });
         let state = state(&best.z);
-        let pairs = self.to_pairs(&state);
-        let mut solution = solver.solution(pairs, best.residuals, status, monitor);
+        let (t, y) = self.to_pairs(&state);
+        let mut solution = solver.solution(t, y, best.residuals, status, monitor);
         solution.contact = Some(state);
         solution.info.factorisations = compliance.factorisations();
         Ok(solution)

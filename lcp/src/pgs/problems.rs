@@ -164,7 +164,7 @@ impl ProjectedGaussSeidel {
         let (best, status) = sweeps
             .run(&mut monitor, &mut |point: &Point<'_>| (task.residuals)(point.z, point.allowed));
         let pairs = (task.pairs)(&best.z, &best.allowed);
-        let mut solution = self.solution(pairs, best.residuals, status, monitor);
+        let mut solution = self.solution(pairs.0, pairs.1, best.residuals, status, monitor);
         solution.boxed = task.is_boxed.then(|| (best.z.clone(), best.allowed.clone()));
         Ok(solution)
     }

@@ -5,6 +5,7 @@ use super::contact::{ContactProgram, state_of};
 use super::form::{Bounds, Form};
 use super::interior::End;
 use super::program::Run;
+use crate::states::PointRef;
 use crate::{Contact2d, Status, active};
 
 /// Solves the program, and where there is friction the sequence of programs whose bounds are `mu` times
@@ -52,7 +53,7 @@ pub(super) fn solve_contact(
         }
         let state = state_of(contact, &program.scaled.unscaled(&found.point));
         let (u, forces) = run.search.scaled.of_state(&state);
-        let is_solved = run.search.try_point((&u, &forces), Some(effort));
+        let is_solved = run.search.try_point(PointRef { u: &u, forces: &forces }, Some(effort));
         if !has_cones || is_solved || found.end != End::Point {
             run.monitor.history.push(run.search.residual());
             return Ok(found.end);

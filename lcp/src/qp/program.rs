@@ -10,6 +10,7 @@ use super::scale::Scaled;
 use super::settings::QuadraticProgramSettings;
 use crate::active::{self, Original, Search};
 use crate::solve::Monitor;
+use crate::states::PointRef;
 use crate::{Certificate, Error, HorizontalLcp, Method, Observer, Solution, Status};
 
 /// Makes the point of the general problem of the unknowns of a form.
@@ -31,7 +32,8 @@ impl<'a> Run<'a> {
     /// With so many programs at most.
     pub(super) fn new(
         settings: &'a QuadraticProgramSettings,
-        (problem, general): (&'a dyn Original, &'a dyn Fn() -> HorizontalLcp),
+        problem: &'a dyn Original,
+        general: &'a dyn Fn() -> HorizontalLcp,
         max_programs: usize,
         observer: &'a mut Observer<'_>,
     ) -> Result<Self, Error> {
@@ -59,7 +61,8 @@ impl<'a> Run<'a> {
         let is_linear = form.rows() == 0;
         if is_linear && !is_solved {
             let (u, forces) = self.search.rest();
-            self.search.try_point((&u, &forces), Some(&active::Effort::ANCHORED));
+            self.search
+                .try_point(PointRef { u: &u, forces: &forces }, Some(&active::Effort::ANCHORED));
         }
         is_solved || is_linear
     }
@@ -83,7 +86,8 @@ impl<'a> Run<'a> {
         if !matches!(found.end, End::NoPoint | End::Failed) {
             let (t, y) = pairs(&scaled.unscaled(&found.point));
             let (u, forces) = self.problem.point(&self.search.scaled, &t, &y);
-            self.search.try_point((&u, &forces), Some(&active::Effort::ANCHORED));
+            self.search
+                .try_point(PointRef { u: &u, forces: &forces }, Some(&active::Effort::ANCHORED));
         }
         self.monitor.history.push(self.search.residual());
         Ok(found.end)

@@ -84,8 +84,7 @@ impl QuadraticProgram {
     ) -> Result<Solution, Error> {
         let springs = Bedding::new(contact, soft.epsilon)?;
         let general = || contact.to_general();
-        let mut run =
-            Run::new(&self.settings, (contact, &general), soft.max_recentrings, observer)?;
+        let mut run = Run::new(&self.settings, contact, &general, soft.max_recentrings, observer)?;
         let mut centre = vec![0.0; contact.displacements()];
         let (u, forces) = run.search.rest();
         let mut residual = run.search.judge(&u, &forces);

@@ -102,7 +102,7 @@ impl EquationResidual {
         unbalanced.iter_mut().zip(floating).filter(|(_, is)| **is).for_each(|(v, _)| *v = 0.0);
         let points = scaled.points.iter().zip(statuses).zip(forces);
         let closed = points.map(|((point, status), forces)| {
-            let (gap, slip) = status.opened(point, &u, forces);
+            let (gap, slip) = status.opened(point, &u, forces.into());
             [gap, slip].map(Extended::from)
         });
         let opened: Vec<[Extended; 2]> = closed.collect();

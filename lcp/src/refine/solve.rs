@@ -12,7 +12,7 @@ use super::residual::{self, EquationResidual, Shifts};
 use crate::certify::ratio;
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
-use crate::states::{Condensed, Scaled, Springs};
+use crate::states::{Condensed, PointRef, Scaled, Springs};
 use crate::vector::max_abs;
 use crate::{ContactState, Error};
 
@@ -55,11 +55,11 @@ pub(crate) type Exact = (Vec<Extended>, Vec<[Extended; 2]>);
 pub(crate) fn refined_states(
     scaled: &Scaled,
     condensed: &mut Condensed,
-    (u, forces): (&[f64], &[(f64, f64)]),
+    at: PointRef<'_>,
     statuses: &[ContactStatus],
     enough: f64,
 ) -> impl Iterator<Item = Exact> {
-    let at = ExtendedPoint::of(u, forces);
+    let at = ExtendedPoint::of(at.u, at.forces);
     WEIGHTS.into_iter().map(move |weights| {
         let mut solve = Solve::new(scaled, &mut *condensed, at.clone(), statuses, weights);
         solve.refine(enough);

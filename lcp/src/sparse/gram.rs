@@ -91,7 +91,8 @@ impl Gram {
         &mut self,
         k: Option<SparseColMatRef<'_, usize, f64>>,
         a: SparseColMatRef<'_, usize, f64>,
-        (s, delta): (&[f64], f64),
+        s: &[f64],
+        delta: f64,
     ) -> Result<(), Error> {
         self.values.fill(0.0);
         let stiffness = k.map_or(&[][..], |k| k.val());
@@ -278,7 +279,7 @@ mod tests {
         for scale in [1.0, 1e3] {
             let s: Vec<f64> = (0..a.ncols()).map(|j| scale * (1.0 + (j % 5) as f64)).collect();
             let delta = 1e-3;
-            gram.factorise(Some(k.as_ref()), a.as_ref(), (&s, delta)).expect("finite numbers");
+            gram.factorise(Some(k.as_ref()), a.as_ref(), &s, delta).expect("finite numbers");
             let exact: Vec<f64> = (0..2 * n).map(|i| (i % 7) as f64 - 3.0).collect();
             let mut x = Vec::new();
             for exact in exact.chunks_exact(n) {
@@ -304,10 +305,10 @@ mod tests {
         let mut gram = Gram::new(Some(k.symbolic()), a.symbolic()).expect("memory");
         let mut s = vec![1.0; a.ncols()];
         s[0] = f64::INFINITY;
-        let error = gram.factorise(Some(k.as_ref()), a.as_ref(), (&s, 1e-3)).unwrap_err();
+        let error = gram.factorise(Some(k.as_ref()), a.as_ref(), &s, 1e-3).unwrap_err();
         assert!(matches!(error, Error::NotFinite { row: 0, col: 0, .. }), "{error}");
         s[0] = 1.0;
-        gram.factorise(Some(k.as_ref()), a.as_ref(), (&s, 1e-3)).expect("finite numbers");
+        gram.factorise(Some(k.as_ref()), a.as_ref(), &s, 1e-3).expect("finite numbers");
         let mut x = vec![1.0; a.nrows()];
         gram.solve(&mut x);
         assert!(x.iter().all(|x| x.is_finite()));

@@ -10,7 +10,7 @@ pub(crate) fn nearest(problem: &Scaled, u: &[f64], forces: &[(f64, f64)]) -> Vec
     let points = problem.points.iter().zip(forces).map(|(point, &forces)| {
         let gap = point.gap(u, forces.0);
         let slip = if point.mu > 0.0 { point.slip(u, forces.1) } else { 0.0 };
-        ContactStatus::nearest(point.mu, forces, (gap, slip.max(0.0), (-slip).max(0.0)))
+        ContactStatus::nearest(point.mu, forces.into(), gap, [slip.max(0.0), (-slip).max(0.0)])
     });
     points.collect()
 }
@@ -19,8 +19,9 @@ impl ContactStatus {
     /// The state that is nearest to normal and tangential force, gap, and slips forwards and backwards.
     pub(crate) fn nearest(
         mu: f64,
-        (t_n, t_t): (f64, f64),
-        (gap, slip_plus, slip_minus): (f64, f64, f64),
+        [t_n, t_t]: [f64; 2],
+        gap: f64,
+        [slip_plus, slip_minus]: [f64; 2],
     ) -> Self {
         if gap > t_n {
             return Self::Open;
@@ -36,7 +37,7 @@ impl ContactStatus {
     }
 
     /// Gap and slip of a point with these forces where the state allows none.
-    pub(crate) fn opened(self, point: Point<'_>, u: &[f64], (t_n, t_t): (f64, f64)) -> (f64, f64) {
+    pub(crate) fn opened(self, point: Point<'_>, u: &[f64], [t_n, t_t]: [f64; 2]) -> (f64, f64) {
         let [gap, slip] = self.is_closed(point.mu);
         let gap = if gap { point.gap(u, t_n) } else { 0.0 };
         (gap, if slip { point.slip(u, t_t) } else { 0.0 })

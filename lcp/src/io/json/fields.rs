@@ -103,9 +103,9 @@ impl<'a, const N: usize> Fields<'a, N> {
     ) -> Result<Matrix, ReadError> {
         let raw = self.take(name)?;
         if raw.get().starts_with('{') {
-            self.sparse(name, raw, (rows, cols))
+            self.sparse(name, raw, rows, cols)
         } else {
-            self.dense(name, raw, (rows, cols))
+            self.dense(name, raw, rows, cols)
         }
     }
 
@@ -113,7 +113,8 @@ impl<'a, const N: usize> Fields<'a, N> {
         &self,
         name: &str,
         raw: &'a RawValue,
-        (height, width): (usize, usize),
+        height: usize,
+        width: usize,
     ) -> Result<Matrix, ReadError> {
         let rows: Vec<&RawValue> = self.parse(raw)?;
         self.check_length(raw, name, "rows", rows.len(), height)?;
@@ -130,7 +131,8 @@ impl<'a, const N: usize> Fields<'a, N> {
         &self,
         name: &str,
         raw: &'a RawValue,
-        (height, width): (usize, usize),
+        height: usize,
+        width: usize,
     ) -> Result<Matrix, ReadError> {
         let Sparse { rows, cols, triplets } = self.parse(raw)?;
         self.check_length(raw, name, "rows", rows, height)?;

@@ -2,9 +2,9 @@
 //! `M v = q + H r`, `u = H^T v + b`, where the contacts have the forces `r` and the velocities `u`.
 
 use super::{frictions, matrix};
-use crate::Matrix;
 use crate::io::tokens::Tokens;
 use crate::io::{Problem, ReadError};
+use crate::{Contact2d, Matrix};
 
 /// `2`, `nc`, matrix `M` of any order `n`, matrix `H` (n x 2 nc), `q`, `b`, `mu`.
 pub(in crate::io) fn read_global(text: &str) -> Result<Problem, ReadError> {
@@ -25,7 +25,8 @@ pub(in crate::io) fn read_global(text: &str) -> Result<Problem, ReadError> {
     tokens.end("correct the sizes, or take it out")?;
     let [c_n, c_t] = [0, 1].map(|part| rows_of(&h, part));
     let of_contacts = |part: usize| b.iter().skip(part).step_by(2).copied().collect();
-    Problem::contact((m, q), (c_n, c_t), (of_contacts(0), of_contacts(1), mu), None, at)
+    let problem = Contact2d::new(m, q, c_n, c_t, of_contacts(0), of_contacts(1), mu);
+    Problem::contact(problem, None, at)
 }
 
 /// The order of the matrix that comes next: its word after the storage type.

@@ -153,8 +153,8 @@ fn read_sparse(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matr
     let nnz = Token { text: token.text.trim_end_matches(','), ..token };
     let nnz = nnz.count("the number of entries")?;
     let mut triplets = match (origin.text, is_triplets) {
-        ("1", true) => read_triplets(tokens, (rows, cols), nnz)?,
-        ("2" | "3", false) => read_columns(tokens, (written_rows, written_cols), nnz)?,
+        ("1", true) => read_triplets(tokens, rows, cols, nnz)?,
+        ("2" | "3", false) => read_columns(tokens, written_rows, written_cols, nnz)?,
         _ => return Err(origin.unexpected(what.to_owned(), "it must suit the entries that follow")),
     };
     if origin.text == "3" {
@@ -182,7 +182,8 @@ type Triplets = Vec<(usize, usize, f64)>;
 
 fn read_triplets(
     tokens: &mut Tokens<'_>,
-    (rows, cols): (usize, usize),
+    rows: usize,
+    cols: usize,
     nnz: usize,
 ) -> Result<Triplets, ReadError> {
     tokens.room_for(nnz.checked_mul(4), "the list of entries")?;
@@ -198,7 +199,8 @@ fn read_triplets(
 
 fn read_columns(
     tokens: &mut Tokens<'_>,
-    (rows, cols): (usize, usize),
+    rows: usize,
+    cols: usize,
     nnz: usize,
 ) -> Result<Triplets, ReadError> {
     tokens.word("1-norm:")?;

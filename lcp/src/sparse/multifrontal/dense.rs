@@ -69,7 +69,7 @@ pub(super) fn subtract_lower_product(
 
 /// Overwrites the lower half of a symmetric matrix with `D` on the diagonal and `L` below it. Pivots below `vanishing` are
 /// replaced by `held`; gives their number.
-pub(super) fn factorise_symmetric(block: MatMut<'_, f64>, (vanishing, held): (f64, f64)) -> usize {
+pub(super) fn factorise_symmetric(block: MatMut<'_, f64>, vanishing: f64, held: f64) -> usize {
     let n = block.nrows();
     let signs = vec![1; n];
     let regularization = LdltRegularization {

@@ -89,7 +89,7 @@ impl<F: Factor> Fronts<F> {
         let mut left: Vec<Left> = groups.iter().map(|_| Left::new()).collect();
         for_each(groups.iter_mut().zip(&mut left), |(group, left)| {
             let mut memory = spare().pop().unwrap_or_default();
-            let count = group.factorise((analysis, values), Left::new(), &mut memory);
+            let count = group.factorise(analysis, values, Left::new(), &mut memory);
             *left = memory.left::<F>(analysis);
             spare().push(memory);
             replaced.fetch_add(count, Ordering::Relaxed);
@@ -97,7 +97,7 @@ impl<F: Factor> Fronts<F> {
         let mut left: Left = left.into_iter().flatten().collect();
         left.sort_by_key(|it| it.0);
         let mut memory = spare().pop().unwrap_or_default();
-        let of_above = above.factorise((analysis, values), left, &mut memory);
+        let of_above = above.factorise(analysis, values, left, &mut memory);
         spare().push(memory);
         replaced.into_inner() + of_above
     }
@@ -172,7 +172,8 @@ impl<F: Factor> Group<F> {
     /// Takes what the roots of other groups left, in their order. What its own leave stays on the stack.
     fn factorise(
         &mut self,
-        (analysis, values): (&Analysis, &[f64]),
+        analysis: &Analysis,
+        values: &[f64],
         others: Left,
         memory: &mut Memory,
     ) -> usize {
@@ -203,7 +204,7 @@ impl<F: Factor> Group<F> {
             for child in children {
                 let places = &analysis.places[child];
                 let (update, rest) = updates.split_at(F::size(places.len()));
-                extend_add::<F>((front, order), update, places);
+                extend_add::<F>(front, order, update, places);
                 updates = rest;
             }
             stack.truncate(begin);
@@ -265,7 +266,7 @@ impl Memory {
 }
 
 /// Adds what a child left to the frontal matrix of its parent.
-fn extend_add<F: Factor>((front, order): (&mut [f64], usize), mut update: &[f64], places: &[u32]) {
+fn extend_add<F: Factor>(front: &mut [f64], order: usize, mut update: &[f64], places: &[u32]) {
     // Places that follow one another: where they begin, and up to which of them.
     let mut runs: Vec<(usize, usize)> = Vec::new();
     for (k, &place) in places.iter().enumerate() {

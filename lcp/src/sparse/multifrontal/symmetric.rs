@@ -38,7 +38,7 @@ impl Factor for Symmetric {
             let block = MatMut::from_column_major_slice_mut(columns, order, end - start);
             let (_, block) = block.split_at_row_mut(start);
             let (mut block, mut below) = block.split_at_row_mut(end - start);
-            replaced += factorise_symmetric(block.as_mut(), (VANISHING, HELD));
+            replaced += factorise_symmetric(block.as_mut(), VANISHING, HELD);
             solve_unit_lower(block.as_ref(), below.as_mut().transpose_mut());
             // `L D` stands below the block, of which `L` is kept.
             let kept = &mut self.lower[order * start..order * end];

@@ -81,7 +81,7 @@ fn projected(
     }
     let factors = factors.as_mut()?;
     let idle: Vec<f64> = is_idle.iter().map(|is_idle| f64::from(u8::from(*is_idle))).collect();
-    factors.factorise(None, columns, (&idle, shift)).ok()?;
+    factors.factorise(None, columns, &idle, shift).ok()?;
     let mut motion = motion.to_vec();
     for _ in 0..PASSES {
         for v in &mut motion {

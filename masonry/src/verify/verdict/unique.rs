@@ -94,7 +94,7 @@ fn unfelt(effects: SparseColMatRef<'_, usize, f64>) -> Option<Vec<f64>> {
         return None;
     }
     let mut factors = Gram::new(None, effects.symbolic()).ok()?;
-    factors.factorise(None, effects, (&vec![1.0; count], shift)).ok()?;
+    factors.factorise(None, effects, &vec![1.0; count], shift).ok()?;
     let mut left: Vec<f64> = (0..count).map(scattered).collect();
     // The shift is gone after the second time.
     for _ in 0..2 {
