@@ -5,7 +5,7 @@ use super::constants::{
     EXACT, EXCHANGES, FAILURES, FEW, GLUE, HARDER, INEXACT, LEAST_SPRING, LEAST_STIFFNESS, MORE,
     MOST_STIFFNESS, ROUNDS, SOFTER, SPRING, STEPS, STIFFER, STIFFNESS,
 };
-use super::proximal::{Iterate, Proximal};
+use super::proximal::{Proximal, ProximalPoint};
 use crate::active::{Effort, Search};
 use crate::problem::ContactStatus;
 use crate::solve::Monitor;
@@ -123,20 +123,17 @@ impl Rounds<'_, '_> {
     }
 
     /// Whether a point is the answer, or its states lead to it.
-    fn is_answer(&mut self, at: &Iterate) -> bool {
+    fn is_answer(&mut self, at: &ProximalPoint) -> bool {
         let is_near = self.search.judge(&at.u, &at.forces) <= self.tolerance;
         let effort = if is_near { &Effort::THOROUGH } else { &EXCHANGES };
-        self.search.cross_over(
-            PointRef { u: &at.u, forces: &at.forces },
-            at.contacts.clone(),
-            effort,
-        ) || is_near
+        let point = PointRef { u: &at.u, forces: &at.forces };
+        self.search.cross_over(point, at.contacts.clone(), effort) || is_near
     }
 }
 
 /// Where a round ended.
 struct Round {
-    at: Iterate,
+    at: ProximalPoint,
     steps: usize,
     /// Well enough.
     is_solved: bool,

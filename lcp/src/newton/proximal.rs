@@ -24,7 +24,7 @@ pub(super) struct Proximal<'a> {
 }
 
 /// What belongs to displacements.
-pub(super) struct Iterate {
+pub(super) struct ProximalPoint {
     pub(super) u: Vec<f64>,
     pub(super) contacts: Vec<ContactStatus>,
     pub(super) forces: Vec<(f64, f64)>,
@@ -32,7 +32,7 @@ pub(super) struct Iterate {
     unbalanced: Vec<f64>,
 }
 
-impl Iterate {
+impl ProximalPoint {
     /// The largest unbalanced force; not finite where one is not.
     pub(super) fn unbalanced(&self) -> f64 {
         let is_finite = self.unbalanced.iter().all(|v| v.is_finite());
@@ -41,7 +41,7 @@ impl Iterate {
 }
 
 impl Proximal<'_> {
-    pub(super) fn at(&self, problem: &Scaled, u: Vec<f64>) -> Iterate {
+    pub(super) fn at(&self, problem: &Scaled, u: Vec<f64>) -> ProximalPoint {
         let points = problem.points.iter().zip(self.forces);
         let (contacts, forces): (Vec<_>, Vec<_>) =
             points.map(|(point, last)| project(point, (*last).into(), self.stiffness, &u)).unzip();
@@ -49,7 +49,7 @@ impl Proximal<'_> {
         for ((rest, u), centre) in unbalanced.iter_mut().zip(&u).zip(self.centre) {
             *rest -= self.spring * (u - centre);
         }
-        Iterate { u, contacts, forces, unbalanced }
+        ProximalPoint { u, contacts, forces, unbalanced }
     }
 
     /// Newton's step, which solves the equations of the states of all contacts, as far as the line search
@@ -58,8 +58,8 @@ impl Proximal<'_> {
         &self,
         problem: &Scaled,
         condensed: &mut Condensed,
-        at: &Iterate,
-    ) -> (Iterate, bool) {
+        at: &ProximalPoint,
+    ) -> (ProximalPoint, bool) {
         let points = problem.points.iter().zip(&at.contacts);
         let springs: Vec<Springs> =
             points.map(|(point, contact)| contact.springs(point, self.stiffness)).collect();
@@ -73,14 +73,26 @@ impl Proximal<'_> {
         (self.searched(problem, at, &step, full), false)
     }
 
-    fn moved(&self, problem: &Scaled, at: &Iterate, step: &[f64], length: f64) -> Iterate {
+    fn moved(
+        &self,
+        problem: &Scaled,
+        at: &ProximalPoint,
+        step: &[f64],
+        length: f64,
+    ) -> ProximalPoint {
         self.at(problem, at.u.iter().zip(step).map(|(u, du)| u + length * du).collect())
     }
 
     /// The point on the way of a step where what is unbalanced does no work on it. Without friction the
     /// potential energy is least there.
-    fn searched(&self, problem: &Scaled, at: &Iterate, step: &[f64], full: Iterate) -> Iterate {
-        let work = |at: &Iterate| dot(step, &at.unbalanced);
+    fn searched(
+        &self,
+        problem: &Scaled,
+        at: &ProximalPoint,
+        step: &[f64],
+        full: ProximalPoint,
+    ) -> ProximalPoint {
+        let work = |at: &ProximalPoint| dot(step, &at.unbalanced);
         let first = work(at);
         let (mut low, mut high) = ((0.0, first), (1.0, work(&full)));
         let mut found = full;

@@ -1,7 +1,7 @@
 use faer::Mat;
 
 use super::*;
-use crate::Lcp;
+use crate::{Lcp, Lemke, Solver, families};
 
 /// A chain of springs above an obstacle: the basis that a path may end beside has one contact too few and one too many.
 #[test]
@@ -22,4 +22,18 @@ fn pairs_with_negative_values_are_exchanged_all_at_once() {
     let point = search.exchanged(beside);
     assert!(point.residuals.worst() <= f64::EPSILON);
     assert_eq!(point.t, [0.5, 0.0, 0.0, 0.0, 1.0, 1.0]);
+}
+
+/// A game has a ray for every covering vector: the column of a pair comes second, and no proof is searched.
+#[test]
+fn a_game_takes_two_attempts() {
+    for seed in 0..5 {
+        let game = families::bimatrix(4, 5, seed).problem;
+        let solution = Lemke::default().solve(&game).expect("default settings");
+        assert!(solution.is_solved(), "{}", solution.status);
+        let ends: Vec<_> = solution.info.attempts.iter().map(|it| (it.covering, it.end)).collect();
+        let pair = AttemptCovering::Column { pair: 0 };
+        let of_first = (AttemptCovering::Ones, AttemptEnd::Ray);
+        assert_eq!(ends, [of_first, (pair, AttemptEnd::Complementary)]);
+    }
 }
