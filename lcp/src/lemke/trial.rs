@@ -58,7 +58,8 @@ impl Trial {
         let flipped = AttemptStart::Flipped { seed };
         let proximal = |weight| Self { perturbation: Perturbation::Proximal { weight }, ..*first };
         let pair = Self { covering: AttemptCovering::Column { pair: 0 }, ..*first };
-        let more = Self { start: flipped, covering: AttemptCovering::Ones, perturbation: parted };
+        let more =
+            Self { start: flipped, covering: AttemptCovering::Negative, perturbation: parted };
         let covering = other(first.covering, seed);
         let other_covering = Self { covering, perturbation: parted, ..*first };
         let kinds =
@@ -79,6 +80,11 @@ impl Trial {
         let n = start.q.len();
         let mut covering: Vec<f64> = match self.covering {
             AttemptCovering::Ones | AttemptCovering::Column { .. } => vec![1.0; n],
+            AttemptCovering::Negative => {
+                let lowest = start.q.iter().fold(0.0, |lowest: f64, q| lowest.min(*q));
+                let part = |q: &f64| if *q < 0.0 { q / lowest } else { 0.0 };
+                start.q.iter().map(|q| 1.0 + part(q)).collect()
+            }
             AttemptCovering::Random { seed } => {
                 let mut random = SplitMix::new(seed);
                 (0..n).map(|_| (6.0 * random.next_f64() - 3.0).exp2()).collect()
