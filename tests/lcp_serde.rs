@@ -4,7 +4,7 @@
 
 use lcp::faer::mat;
 use lcp::lemke::{Parametric, ParametricPath};
-use lcp::pgs::{Constraint, RowsSolution, SweepOrder};
+use lcp::pgs::{Constraint, RowsSolution};
 use lcp::qp::SoftConstraints;
 use lcp::refine::{ContactStatus, Margin, Refinement};
 use lcp::{
@@ -89,7 +89,6 @@ fn parts_of_answers_and_of_settings() {
     assert_comes_back!(WarmStart, WarmStart::Point { t: vec![0.1], y: vec![1e-320] });
     assert_comes_back!([ContactStatus; 2], [ContactStatus::Open, ContactStatus::Backwards]);
     assert_comes_back!([Refinement; 2], [Refinement::Plain, Refinement::Extended]);
-    assert_comes_back!([SweepOrder; 2], [SweepOrder::Forward, SweepOrder::Coloured]);
     assert_comes_back!(SoftConstraints, SoftConstraints::default());
     let soft = QuadraticProgram::default().solve_soft(&problem, 1e-3).unwrap();
     assert_comes_back!(lcp::qp::SoftSolution, soft);

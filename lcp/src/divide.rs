@@ -295,7 +295,7 @@ fn block(m: &Matrix, rows: &[usize], cols: &[usize]) -> Matrix {
     }
 }
 
-fn sparse_block(m: &SparseColMat<usize, f64>, rows: &[usize], cols: &[usize]) -> Matrix {
+pub(crate) fn sparse_block(m: &SparseColMat<usize, f64>, rows: &[usize], cols: &[usize]) -> Matrix {
     let entries = cols.iter().enumerate().flat_map(|(k, &j)| {
         let entries = column_of(m, j).filter(|(_, v)| *v != 0.0);
         entries.filter_map(move |(i, v)| rows.binary_search(&i).ok().map(|i| (i, k, v)))

@@ -6,20 +6,26 @@
 //! solved. Where some pair has both positive, one of its variables has to be zero: two nodes more.
 //! So there is a solution, or the leaves prove together that there is none.
 //!
+//! A proof may hold with fewer choices than its node has made: it needs those whose excluded columns it does not
+//! separate. If it does not need the last one, it proves the parent, and the other node is not visited
+//! (backjumping). It is kept, and proves every node that has made the choices it needs. A node that lacks a single one of
+//! them has one side left in that pair (unit propagation, as in the search of Davis, Logemann and Loveland 1962).
+//!
 //! There are at most `2^(k+1)` nodes for `k` pairs that are not free, mostly far fewer. The arithmetic
 //! has twice the digits; what it cannot decide stays open.
 
 use std::time::Instant;
 
-use crate::certify::{Leaf, ROUNDING, is_proof_of};
+use crate::certify::{GeneralJudge, Leaf, ROUNDING, is_proof_of, right_hand_side};
 use crate::extended::{Extended, extended};
 use crate::matrix::Column;
 use crate::nonnegative::{LeastSquares, Minimum};
 use crate::scaling::equilibrate;
+use crate::solve::is_over;
 use crate::vector::max_abs;
 use crate::{Basis, HorizontalLcp, Side};
 
-/// What may be left of the right-hand side, relative to its largest entry. Chosen.
+/// What rounding may leave of the loads at a solution. Chosen.
 const NEAR: f64 = 1e-6;
 
 /// When to give up.
@@ -46,32 +52,14 @@ pub(crate) enum Enumerated {
 /// A solution, or a proof that there is none.
 pub(crate) fn enumerate(problem: &HorizontalLcp, limits: Limits) -> Enumerated {
     let n = problem.order();
-    let tree = Tree::new(problem);
-    let mut open = vec![Node { sides: vec![None; n], start: vec![Extended::ZERO; 2 * n] }];
-    let (mut leaves, mut count, mut is_proved) = (Vec::new(), 0, true);
-    while let Some(node) = open.pop() {
-        count += 1;
-        if count > limits.nodes || limits.deadline.is_some_and(|it| Instant::now() >= it) {
-            return Enumerated::Open;
-        }
-        match tree.visit(&node) {
-            Visit::Solved { t, y, basis } => return Enumerated::Found { t, y, basis },
-            Visit::Proved(pi) => leaves.push(Leaf { sides: node.sides, pi }),
-            Visit::Branch { pair, larger, values } => {
-                for side in [larger.complement(), larger] {
-                    open.push(node.child(pair, side, &values));
-                }
-            }
-            Visit::Open => is_proved = false,
-        }
-    }
-    match leaves.pop() {
-        Some(root) if is_proved && leaves.is_empty() => Enumerated::Infeasible(root.pi),
-        Some(last) if is_proved => {
-            leaves.push(last);
-            Enumerated::NoSolution(leaves)
-        }
-        _ => Enumerated::Open,
+    let mut search = Search { tree: Tree::new(problem), limits, nodes: 0, proofs: Vec::new() };
+    match search.visit(&vec![None; n], &vec![Extended::ZERO; 2 * n]) {
+        Err(end) => end,
+        Ok(None) => Enumerated::Open,
+        Ok(Some(mut leaves)) => match leaves.pop() {
+            Some(root) if leaves.is_empty() => Enumerated::Infeasible(root.pi),
+            last => Enumerated::NoSolution(leaves.into_iter().chain(last).collect()),
+        },
     }
 }
 
@@ -80,34 +68,156 @@ pub(crate) fn farkas_vector(problem: &HorizontalLcp) -> Option<Vec<f64>> {
     let n = problem.order();
     let tree = Tree::new(problem);
     let minimum = tree.linear.solve(&vec![true; 2 * n], &vec![Extended::ZERO; 2 * n])?;
-    tree.proof(&vec![None; n], &minimum)
+    tree.proof(&vec![None; n], &minimum).map(|proof| proof.pi)
 }
 
-/// Sides chosen, and nonnegative values to start from, zero for what the sides exclude.
-struct Node {
-    sides: Vec<Option<Side>>,
-    start: Vec<Extended>,
+/// The sides chosen.
+type Sides = [Option<Side>];
+
+/// The leaves that share all choices with a node, as far as they need them; `None` if something stays undecided.
+type Closed = Option<Vec<Leaf>>;
+
+/// A Farkas vector with the columns that it does not separate, first those of `t`.
+struct Proof {
+    pi: Vec<f64>,
+    needed: Vec<usize>,
 }
 
-impl Node {
-    fn child(&self, pair: usize, side: Side, values: &[Extended]) -> Self {
-        let mut child = Self { sides: self.sides.clone(), start: values.to_vec() };
-        child.sides[pair] = Some(side);
-        child.start[position(pair, side.complement(), self.sides.len())] = Extended::ZERO;
-        child
+impl Proof {
+    /// The leaf of a node that excludes all columns needed.
+    fn leaf(&self, sides: &Sides) -> Leaf {
+        let n = sides.len();
+        let mut needed = vec![None; n];
+        self.needed.iter().for_each(|column| needed[column % n] = sides[column % n]);
+        Leaf { sides: needed, pi: self.pi.clone() }
     }
 }
 
-enum Visit {
-    Solved { t: Vec<f64>, y: Vec<f64>, basis: Basis },
-    Proved(Vec<f64>),
-    Branch { pair: usize, larger: Side, values: Vec<Extended> },
-    Open,
+/// A depth-first search with the proofs found so far.
+struct Search<'a> {
+    tree: Tree<'a>,
+    limits: Limits,
+    nodes: usize,
+    proofs: Vec<Proof>,
+}
+
+impl Search<'_> {
+    /// Closes a node, from nonnegative values that are zero for what its sides exclude. A solution or a limit
+    /// ends all.
+    fn visit(&mut self, sides: &Sides, start: &[Extended]) -> Result<Closed, Enumerated> {
+        match self.known(sides) {
+            Known::Nothing => {}
+            Known::Leaf(leaf) => return Ok(Some(vec![leaf])),
+            Known::Left { pair, side, other } => {
+                let leaves = self.child(sides, pair, side, start)?;
+                return Ok(leaves.map(|leaves| joined(sides, pair, vec![other], leaves)));
+            }
+        }
+        self.nodes += 1;
+        if self.nodes > self.limits.nodes || is_over(self.limits.deadline) {
+            return Err(Enumerated::Open);
+        }
+        let tree = &self.tree;
+        let Some(minimum) = tree.minimum(sides, start) else { return Ok(None) };
+        if let Some(proof) = tree.proof(sides, &minimum) {
+            let leaf = proof.leaf(sides);
+            self.proofs.push(proof);
+            return Ok(Some(vec![leaf]));
+        }
+        let x = minimum.x;
+        if let Some(solution) = tree.solution(sides, &x) {
+            return Err(solution);
+        }
+        let Some(pair) = tree.most_violated(sides, &x) else { return Ok(None) };
+        let larger = if x[pair] > x[sides.len() + pair] { Side::T } else { Side::Y };
+        let first = self.child(sides, pair, larger, &x)?;
+        if first.as_ref().is_some_and(|leaves| !need(leaves, pair)) {
+            return Ok(first);
+        }
+        let second = self.child(sides, pair, larger.complement(), &x)?;
+        Ok(first.zip(second).map(|(first, second)| joined(sides, pair, first, second)))
+    }
+
+    /// Closes the node with one more side.
+    fn child(
+        &mut self,
+        sides: &Sides,
+        pair: usize,
+        side: Side,
+        values: &[Extended],
+    ) -> Result<Closed, Enumerated> {
+        let (mut sides, mut start) = (sides.to_vec(), values.to_vec());
+        sides[pair] = Some(side);
+        start[position(pair, side.complement(), sides.len())] = Extended::ZERO;
+        self.visit(&sides, &start)
+    }
+
+    /// What the proofs found so far say of a node.
+    fn known(&self, sides: &Sides) -> Known {
+        let n = sides.len();
+        let side_of = |column: usize| if column < n { Side::T } else { Side::Y };
+        let mut unit = None;
+        for proof in &self.proofs {
+            let is_allowed = |column: &&usize| {
+                sides[**column % n].is_none_or(|chosen| chosen == side_of(**column))
+            };
+            let mut lacking = proof.needed.iter().filter(is_allowed);
+            match (lacking.next(), lacking.next()) {
+                (None, _) => return Known::Leaf(proof.leaf(sides)),
+                (Some(&column), None) if sides[column % n].is_none() => {
+                    unit = Some((proof, column));
+                }
+                _ => {}
+            }
+        }
+        let Some((proof, column)) = unit else { return Known::Nothing };
+        let (pair, side) = (column % n, side_of(column));
+        let mut others = sides.to_vec();
+        others[pair] = Some(side.complement());
+        Known::Left { pair, side, other: proof.leaf(&others) }
+    }
+}
+
+/// What proofs of other nodes say of a node.
+enum Known {
+    Nothing,
+    /// One of them proves it.
+    Leaf(Leaf),
+    /// One of them proves it with the other side of this pair.
+    Left {
+        pair: usize,
+        side: Side,
+        other: Leaf,
+    },
+}
+
+/// Whether leaves need a side of a pair.
+fn need(leaves: &[Leaf], pair: usize) -> bool {
+    leaves.iter().any(|leaf| leaf.sides[pair].is_some())
+}
+
+/// The leaves of a node from those of its two sides of a pair: the second ones alone if they do not need their
+/// side, else all of them, each with all sides of the node that any of them needs.
+fn joined(sides: &Sides, pair: usize, first: Vec<Leaf>, second: Vec<Leaf>) -> Vec<Leaf> {
+    if !need(&second, pair) {
+        return second;
+    }
+    let mut leaves = first;
+    leaves.extend(second);
+    for (k, side) in sides.iter().enumerate().filter(|(_, side)| side.is_some()) {
+        if need(&leaves, k) {
+            for leaf in &mut leaves {
+                leaf.sides[k] = *side;
+            }
+        }
+    }
+    leaves
 }
 
 /// The problem with equilibrated rows and columns, first those of `t`.
 struct Tree<'a> {
     problem: &'a HorizontalLcp,
+    judge: GeneralJudge<'a>,
     rows: Vec<f64>,
     /// Value in the problem's units of one unit of a scaled variable.
     factors: Vec<f64>,
@@ -120,6 +230,7 @@ impl<'a> Tree<'a> {
         let n = problem.order();
         let columns: Vec<Column<'_>> = columns(problem, &vec![None; n]).collect();
         let (rows, mut factors) = equilibrate(n, &columns);
+        let judge = GeneralJudge::with_factors(problem, right_hand_side(problem), &rows, &factors);
         let scaled = columns.iter().zip(&factors).map(|(column, factor)| {
             let mut scaled = vec![0.0; n];
             column.for_each(|i, v| scaled[i] += factor * (v * rows[i]));
@@ -142,50 +253,51 @@ impl<'a> Tree<'a> {
             factors = factors.into_iter().map(|factor| factor * unit).collect();
         }
         let is_free = ratios.iter().map(Option::is_some).collect();
-        Self { problem, rows, factors, is_free, linear: LeastSquares { columns, right } }
+        Self { problem, judge, rows, factors, is_free, linear: LeastSquares { columns, right } }
     }
 
-    fn visit(&self, node: &Node) -> Visit {
-        let n = self.problem.order();
-        let sides = [Side::T, Side::Y].into_iter();
-        let is_allowed: Vec<bool> = sides
-            .flat_map(|side| node.sides.iter().map(move |it| it.is_none_or(|it| it == side)))
+    /// The least squares of the linear conditions of a node; `None` if rounding is in the way.
+    fn minimum(&self, sides: &Sides, start: &[Extended]) -> Option<Minimum> {
+        let both = [Side::T, Side::Y].into_iter();
+        let is_allowed: Vec<bool> = both
+            .flat_map(|side| sides.iter().map(move |it| it.is_none_or(|it| it == side)))
             .collect();
-        let Some(mut minimum) = self.linear.solve(&is_allowed, &node.start) else {
-            return Visit::Open;
-        };
+        let mut minimum = self.linear.solve(&is_allowed, start)?;
         minimum.drop_rounding();
-        if let Some(pi) = self.proof(&node.sides, &minimum) {
-            return Visit::Proved(pi);
-        }
-        if let Some((t, y, basis)) = self.solution(&node.sides, &minimum.x) {
-            return Visit::Solved { t, y, basis };
-        }
-        let least = |pair: usize| minimum.x[pair].rounded().min(minimum.x[n + pair].rounded());
-        // Where no pair has both positive, rounding is in the way, of which a narrower node may be free.
-        let undecided = (0..n).filter(|&pair| node.sides[pair].is_none() && !self.is_free[pair]);
-        let largest = undecided.reduce(|a, b| if least(b) > least(a) { b } else { a });
-        let Some(pair) = largest else { return Visit::Open };
-        let larger = if minimum.x[pair] > minimum.x[n + pair] { Side::T } else { Side::Y };
-        Visit::Branch { pair, larger, values: minimum.x }
+        Some(minimum)
+    }
+
+    /// The pair without a side whose smaller variable is the largest. Where no pair has both positive, rounding is in
+    /// the way, of which a narrower node may be free.
+    fn most_violated(&self, sides: &Sides, x: &[Extended]) -> Option<usize> {
+        let n = sides.len();
+        let least = |pair: usize| x[pair].rounded().min(x[n + pair].rounded());
+        let undecided = (0..n).filter(|&pair| sides[pair].is_none() && !self.is_free[pair]);
+        undecided.reduce(|a, b| if least(b) > least(a) { b } else { a })
     }
 
     /// The residual as a Farkas vector, in the rows of the problem, with a largest entry of one.
-    fn proof(&self, sides: &[Option<Side>], minimum: &Minimum) -> Option<Vec<f64>> {
+    fn proof(&self, sides: &Sides, minimum: &Minimum) -> Option<Proof> {
         let rows = minimum.residual.iter().zip(&self.rows);
         let pi: Vec<Extended> = rows.map(|(r, &row)| r.scaled(row)).collect();
         let largest =
             pi.iter().fold(Extended::ZERO, |max, pi| if pi.abs() > max { pi.abs() } else { max });
         let pi: Vec<f64> = pi.into_iter().map(|pi| (pi / largest).rounded()).collect();
-        is_proof_of(columns(self.problem, sides), self.problem.c(), &pi).then_some(pi)
+        let (problem, n) = (self.problem, sides.len());
+        if !is_proof_of(columns(problem, sides), problem.c(), &pi) {
+            return None;
+        }
+        let excluded =
+            sides.iter().enumerate().filter_map(|(k, side)| Some((k, (*side)?.complement())));
+        let needed = excluded
+            .filter(|&(pair, side)| !is_proof_of([problem.column(pair, side)], problem.c(), &pi))
+            .map(|(pair, side)| position(pair, side, n))
+            .collect();
+        Some(Proof { pi, needed })
     }
 
     /// The larger variable of every pair, if these solve the problem up to rounding.
-    fn solution(
-        &self,
-        sides: &[Option<Side>],
-        x: &[Extended],
-    ) -> Option<(Vec<f64>, Vec<f64>, Basis)> {
+    fn solution(&self, sides: &Sides, x: &[Extended]) -> Option<Enumerated> {
         let n = sides.len();
         let (mut t, mut y) = (vec![0.0; n], vec![0.0; n]);
         let mut basis = Vec::with_capacity(n);
@@ -203,34 +315,15 @@ impl<'a> Tree<'a> {
             }
             basis.push(side);
         }
-        self.holds(&t, &y).then(|| (t, y, Basis::new(basis)))
-    }
-
-    /// Whether every row of the problem holds up to rounding, and up to a small part of the right-hand
-    /// side: far enough out all rows hold compared with their terms.
-    fn holds(&self, t: &[f64], y: &[f64]) -> bool {
-        let mut rest = extended(self.problem.c());
-        let mut terms: Vec<f64> = self.problem.c().iter().map(|c| c.abs()).collect();
-        for (column, &x) in columns(self.problem, &vec![None; t.len()]).zip(t.iter().chain(y)) {
-            column.for_each(|i, v| {
-                rest[i] += -Extended::product(v, x);
-                terms[i] += (v * x).abs();
-            });
-        }
-        let rest: Vec<f64> = rest.into_iter().map(Extended::rounded).collect();
-        let largest = |v: &[f64]| {
-            v.iter().zip(&self.rows).fold(0.0_f64, |max, (v, row)| max.max((v * row).abs()))
-        };
-        largest(&rest) <= NEAR * largest(self.problem.c())
-            && rest.iter().zip(terms).all(|(rest, terms)| rest.abs() <= ROUNDING * terms)
+        // Far enough out all rows hold compared with their terms.
+        let residuals = self.judge.residuals_of(&extended(&t), &extended(&y));
+        let holds = residuals.equation <= ROUNDING && residuals.loads <= NEAR;
+        holds.then(|| Enumerated::Found { t, y, basis: Basis::new(basis) })
     }
 }
 
 /// The columns of the sides that may be positive, first those of `t`.
-fn columns<'a>(
-    problem: &'a HorizontalLcp,
-    sides: &[Option<Side>],
-) -> impl Iterator<Item = Column<'a>> {
+fn columns<'a>(problem: &'a HorizontalLcp, sides: &Sides) -> impl Iterator<Item = Column<'a>> {
     [Side::T, Side::Y].into_iter().flat_map(move |side| {
         let allowed =
             sides.iter().enumerate().filter(move |(_, it)| it.is_none_or(|it| it == side));

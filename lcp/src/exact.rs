@@ -8,8 +8,8 @@
 //! * [`feasibility`] decides whether `A t + B y = c`, `t >= 0`, `y >= 0` can be met at all, and
 //!   proves it if not.
 //!
-//! Rows and columns are first multiplied by powers of two that make the data integers; elimination
-//! is fraction-free, so that the numbers in it are minors of the data and no larger.
+//! Rows are first multiplied by powers of two that make the data integers; elimination is fraction-free, so that the
+//! numbers in it are minors of the data and no larger.
 
 mod cone;
 mod enumeration;

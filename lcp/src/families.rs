@@ -152,8 +152,6 @@ fn standard(m: impl Into<Matrix>, q: Vec<f64>) -> Lcp {
 
 fn product(m: &Matrix, x: &[f64]) -> Vec<f64> {
     let mut sum = vec![0.0; m.nrows()];
-    for (j, x) in x.iter().enumerate() {
-        m.column(j).for_each(|(i, v)| sum[i] += v * x);
-    }
+    x.iter().enumerate().for_each(|(j, x)| m.slice(j).add_to(*x, &mut sum));
     sum
 }

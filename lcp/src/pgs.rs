@@ -1,21 +1,15 @@
 //! Projected Gauss-Seidel sweeps.
 
 mod block;
-mod body;
-mod constants;
-mod contact;
 mod coulomb;
 mod delassus;
-mod matrix_rows;
-mod order;
 mod problems;
 mod rows;
 mod settings;
 mod sweep;
 
-pub use matrix_rows::MatrixRows;
-pub use rows::{Constraint, Rows};
-pub use settings::{ProjectedGaussSeidelSettings, SweepOrder};
+pub use rows::{Constraint, MatrixRows, Rows};
+pub use settings::ProjectedGaussSeidelSettings;
 
 use std::ops::ControlFlow;
 
@@ -155,9 +149,8 @@ impl ProjectedGaussSeidel {
         constraints: &[Constraint],
         observer: &mut Observer<'_>,
     ) -> Result<RowsSolution, Error> {
-        self.settings.validate(rows.order())?;
         let mut monitor = self.monitor(observer);
-        let start = self.start(|t, _| t.to_vec())?;
+        let start = self.start(rows.order(), |t, _| t.to_vec())?;
         let sweeps = Sweeps::new(&self.settings, rows, q, constraints, start)?;
         let (best, status) = sweeps.run(&mut monitor, &mut residuals_of_rows);
         let Best { z, w, residuals, .. } = best;
@@ -174,8 +167,13 @@ impl ProjectedGaussSeidel {
         Monitor::new(self.settings.max_iterations, self.settings.time_limit, observer)
     }
 
-    /// The `z` to start from, of the point `(t, y)` of the settings.
-    fn start(&self, z: impl Fn(&[f64], &[f64]) -> Vec<f64>) -> Result<Option<Vec<f64>>, Error> {
+    /// The `z` to start from, of the point `(t, y)` of the settings, which are checked for so many pairs.
+    fn start(
+        &self,
+        pairs: usize,
+        z: impl Fn(&[f64], &[f64]) -> Vec<f64>,
+    ) -> Result<Option<Vec<f64>>, Error> {
+        self.settings.validate(pairs)?;
         match &self.settings.start {
             WarmStart::None => Ok(None),
             WarmStart::Point { t, y } => Ok(Some(z(t, y))),

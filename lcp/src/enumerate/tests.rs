@@ -3,9 +3,9 @@
 use faer::{Mat, mat};
 
 use super::*;
-use crate::Lcp;
 use crate::exact::{Enumeration, EnumerationSettings, enumerate as enumerate_exactly};
 use crate::random::SplitMix;
+use crate::{Certificate, Lcp};
 
 const LIMITS: Limits = Limits { nodes: 1 << 14, deadline: None };
 
@@ -42,47 +42,6 @@ fn scaled(problem: &HorizontalLcp, unit: &mut dyn FnMut() -> f64) -> HorizontalL
     HorizontalLcp::new(a, b, c).expect("shapes fit")
 }
 
-/// Whether a point solves a problem, in plain arithmetic.
-fn solves(problem: &HorizontalLcp, t: &[f64], y: &[f64]) -> bool {
-    let n = problem.order();
-    let row = |i: usize| {
-        let terms = (0..n)
-            .flat_map(|j| [problem.a()[(i, j)] * t[j], problem.b()[(i, j)] * y[j]])
-            .chain([-problem.c()[i]]);
-        terms.fold((0.0, 0.0), |(sum, size), v: f64| (sum + v, size + v.abs()))
-    };
-    let pairs = t.iter().zip(y).all(|(&t, &y)| t >= 0.0 && y >= 0.0 && (t == 0.0 || y == 0.0));
-    pairs && (0..n).map(row).all(|(sum, size)| sum.abs() <= 1e-13 * size)
-}
-
-/// Whether the leaves are Farkas vectors of all choices of sides together.
-fn exclude_all(problem: &HorizontalLcp, leaves: &[Leaf]) -> bool {
-    let n = problem.order();
-    let product = |column: &dyn Fn(usize) -> f64, pi: &[f64]| {
-        let terms = (0..n).map(|i| column(i) * pi[i]);
-        terms.fold((0.0, 0.0), |(sum, size), v: f64| (sum + v, size + v.abs()))
-    };
-    let proves = |leaf: &Leaf| {
-        let (gap, size) = product(&|i| problem.c()[i], &leaf.pi);
-        gap > 1e-9 * size
-            && (0..n).all(|j| {
-                let t = product(&|i| problem.a()[(i, j)], &leaf.pi);
-                let y = product(&|i| problem.b()[(i, j)], &leaf.pi);
-                let is_separated = |(sum, size): (f64, f64)| sum <= 1e-14 * size;
-                (leaf.sides[j] == Some(Side::Y) || is_separated(t))
-                    && (leaf.sides[j] == Some(Side::T) || is_separated(y))
-            })
-    };
-    let covers = |leaf: &Leaf, bits: u32| {
-        leaf.sides.iter().enumerate().all(|(j, side)| match side {
-            None => true,
-            Some(side) => (*side == Side::T) == (bits >> j & 1 == 1),
-        })
-    };
-    leaves.iter().all(proves)
-        && (0..1_u32 << n).all(|bits| leaves.iter().any(|leaf| covers(leaf, bits)))
-}
-
 /// Whether the outcome is the truth about a problem, and holds in the data.
 fn is_true(outcome: &Enumerated, data: &HorizontalLcp, truth: &Enumeration) -> bool {
     match outcome {
@@ -92,14 +51,15 @@ fn is_true(outcome: &Enumerated, data: &HorizontalLcp, truth: &Enumeration) -> b
                 Side::Y => *t == 0.0,
             };
             truth.is_solvable()
-                && solves(data, t, y)
+                && data.residuals(t, y).worst() <= 1e-13
                 && basis.sides().iter().zip(t.iter().zip(y)).all(fits)
         }
         Enumerated::Infeasible(pi) => {
-            let root = Leaf { sides: vec![None; data.order()], pi: pi.clone() };
-            !truth.is_feasible() && exclude_all(data, &[root])
+            !truth.is_feasible() && Certificate::Farkas { pi: pi.clone() }.holds(data)
         }
-        Enumerated::NoSolution(leaves) => !truth.is_solvable() && exclude_all(data, leaves),
+        Enumerated::NoSolution(leaves) => {
+            !truth.is_solvable() && Certificate::Choices { leaves: leaves.clone() }.holds(data)
+        }
         Enumerated::Open => false,
     }
 }
@@ -166,7 +126,7 @@ fn proofs_of_small_problems() {
     let b = mat![[1.0, 0.0], [-1.0, 0.0]];
     let both = HorizontalLcp::new(a, b, vec![2.0, 0.0]).expect("fits");
     let Enumerated::NoSolution(leaves) = enumerate(&both, LIMITS) else { panic!("no proof") };
-    assert!(leaves.len() == 2 && exclude_all(&both, &leaves));
+    assert!(leaves.len() == 2 && Certificate::Choices { leaves }.holds(&both));
 }
 
 #[test]

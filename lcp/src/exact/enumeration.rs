@@ -109,10 +109,9 @@ pub fn enumerate(
         let what = "order of the problem to enumerate";
         return Err(Error::Limit { what, value: n, name: "max_order", limit: max_order });
     }
-    let integers = Integers::new(problem);
-    let root = Node::root(&integers);
+    let root = Node::root(problem);
     let has_basis = root.has_basis();
-    let mut faces = Faces { integers: &integers, settings, found: BTreeMap::new() };
+    let mut faces = Faces { limit: settings.max_generators, found: BTreeMap::new() };
     faces.collect(&root)?;
     let faces = faces.found.into_values().collect();
     Ok(Enumeration { faces, has_basis, feasibility: feasibility(problem) })
@@ -130,10 +129,10 @@ struct Node {
 }
 
 impl Node {
-    fn root(integers: &Integers) -> Self {
-        let n = integers.rows.len();
-        let tableau = Tableau::new(integers.rows.clone());
-        Self { tableau, basic: vec![None; n], dependent: Vec::new(), pair: 0 }
+    fn root(problem: &HorizontalLcp) -> Self {
+        let tableau = Tableau::new(Integers::new(problem).rows);
+        let basic = vec![None; problem.order()];
+        Self { tableau, basic, dependent: Vec::new(), pair: 0 }
     }
 
     fn is_leaf(&self) -> bool {
@@ -192,13 +191,13 @@ impl Node {
 
 /// The faces found so far that lie in no other, each under the set of variables that are positive in
 /// it, as bits: a face lies in another just when its set does.
-struct Faces<'a> {
-    integers: &'a Integers,
-    settings: &'a EnumerationSettings,
+struct Faces {
+    /// Largest number of vertices and rays.
+    limit: usize,
     found: BTreeMap<u64, Face>,
 }
 
-impl Faces<'_> {
+impl Faces {
     fn collect(&mut self, node: &Node) -> Result<(), Error> {
         if node.is_hopeless() {
             return Ok(());
@@ -217,24 +216,30 @@ impl Faces<'_> {
         let solved = rows.filter_map(|(basic, row)| basic.map(|variable| (variable, row)));
         let (basic, inequalities): (Vec<Variable>, Vec<Vec<IBig>>) =
             solved.map(|(variable, row)| (variable, nonnegativity(row))).unzip();
-        let limit = self.settings.max_generators;
+        let limit = self.limit;
         let generators = extreme_rays(leaf.dependent.len() + 1, &inequalities, limit)?;
         let determinant = &leaf.tableau.determinant;
         let (mut vertices, mut rays, mut support) = (Vec::new(), Vec::new(), 0);
         for generator in &generators {
             let Some((factor, dependent)) = generator.split_last() else { continue };
-            let basic_values = inequalities.iter().map(|row| product(row, generator));
-            let values: Vec<(Variable, IBig)> = (leaf.dependent.iter().copied())
-                .zip(dependent.iter().map(|v| v * determinant))
-                .chain(basic.iter().copied().zip(basic_values))
+            let of_basic = inequalities.iter().map(|row| product(row, generator));
+            let values = dependent.iter().map(|v| v * determinant).chain(of_basic);
+            let values: Vec<(Variable, IBig)> = leaf
+                .dependent
+                .iter()
+                .chain(&basic)
+                .copied()
+                .zip(values)
                 .filter(|(_, value)| !value.is_zero())
                 .collect();
             support |= values.iter().fold(0, |bits, (variable, _)| bits | 1 << variable.index());
-            if factor.is_zero() {
-                rays.push(self.ray(&values));
+            // A ray has one as its largest entry.
+            let (points, unit) = if factor.is_zero() {
+                (&mut rays, values.iter().map(|(_, v)| v).max().cloned().unwrap_or(IBig::ONE))
             } else {
-                vertices.push(self.vertex(&values, &(factor * determinant)));
-            }
+                (&mut vertices, factor * determinant)
+            };
+            points.push(ExactPoint::new(leaf.basic.len(), values, &unit));
         }
         let lies_in = |inner: u64, outer: u64| inner & outer == inner;
         if vertices.is_empty() || self.found.keys().any(|&other| lies_in(support, other)) {
@@ -251,24 +256,6 @@ impl Faces<'_> {
             return Err(Error::Limit { what, value, name: "max_generators", limit });
         }
         Ok(())
-    }
-
-    fn vertex(&self, values: &[(Variable, IBig)], denominator: &IBig) -> ExactPoint {
-        let value = |(variable, numerator): &(Variable, IBig)| {
-            (*variable, self.integers.value(*variable, numerator, denominator))
-        };
-        self.integers.point(values.iter().map(value))
-    }
-
-    fn ray(&self, values: &[(Variable, IBig)]) -> ExactPoint {
-        let entry = |(variable, value): &(Variable, IBig)| {
-            (*variable, self.integers.direction(*variable, value))
-        };
-        let mut ray = self.integers.point(values.iter().map(entry));
-        if let Some(largest) = ray.t.iter().chain(&ray.y).max().cloned() {
-            ray.t.iter_mut().chain(&mut ray.y).for_each(|v| *v /= &largest);
-        }
-        ray
     }
 }
 

@@ -37,84 +37,51 @@ pub enum Feasibility {
 /// ```
 pub fn feasibility(problem: &HorizontalLcp) -> Feasibility {
     let n = problem.order();
-    let integers = Integers::new(problem);
-    let mut phase = PhaseOne::new(&integers);
-    phase.minimise();
-    if phase.objective().last().is_none_or(IBig::is_zero) {
-        let variables: Vec<Variable> = Variable::all(n).collect();
-        let basic = phase.basic.iter().enumerate().filter(|(_, column)| **column < 2 * n);
-        let values = basic.map(|(row, &column)| {
-            let numerator = phase.right_hand_side(row);
-            let value = integers.value(variables[column], numerator, &phase.tableau.determinant);
-            (variables[column], value)
+    let Integers { rows, factors } = Integers::new(problem);
+    let signs: Vec<IBig> = rows.iter().map(|row| sign(&row[2 * n])).collect();
+    // `A B | 1 | c` with `c >= 0`, and below the reduced costs of the sum of the artificial variables.
+    let mut costs = vec![IBig::ZERO; 3 * n + 1];
+    let mut signed = Vec::with_capacity(n + 1);
+    for (i, (row, sign)) in rows.iter().zip(&signs).enumerate() {
+        let mut row: Vec<IBig> = row.iter().map(|v| v * sign).collect();
+        row.splice(2 * n..2 * n, (0..n).map(|_| IBig::ZERO));
+        costs.iter_mut().zip(&row).for_each(|(sum, v)| *sum += v);
+        row[2 * n + i] = IBig::ONE;
+        signed.push(row);
+    }
+    signed.push(costs);
+    let mut tableau = Tableau::new(signed);
+    let mut basic: Vec<usize> = (2 * n..3 * n).collect();
+    while let Some(entering) = (0..2 * n).find(|&j| tableau.rows[n][j] > IBig::ZERO) {
+        let rows = &tableau.rows;
+        let blocking = (0..n).filter(|&i| rows[i][entering] > IBig::ZERO);
+        let row = blocking.min_by(|&i, &k| {
+            let left = &rows[i][3 * n] * &rows[k][entering];
+            let right = &rows[k][3 * n] * &rows[i][entering];
+            left.cmp(&right).then(basic[i].cmp(&basic[k]))
         });
-        return Feasibility::Feasible(integers.point(values));
+        // The sum of the artificial variables is not negative, so that some row blocks.
+        let Some(row) = row else { break };
+        tableau.pivot(row, entering);
+        basic[row] = entering;
     }
-    let farkas = (0..n).map(|row| integers.multiplier(row, &phase.multiplier(row))).collect();
-    Feasibility::Infeasible { farkas }
+    let Tableau { rows, determinant } = &tableau;
+    if rows[n][3 * n].is_zero() {
+        let variables: Vec<Variable> = Variable::all(n).collect();
+        let values = basic.iter().zip(rows).filter_map(|(&column, row)| {
+            variables.get(column).map(|variable| (*variable, row[3 * n].clone()))
+        });
+        return Feasibility::Feasible(ExactPoint::new(n, values, determinant));
+    }
+    // The simplex multiplier of a row: its artificial variable costs one more than its reduced cost.
+    let multiplier = |i: usize| {
+        let value = (&rows[n][2 * n + i] + determinant) * &signs[i];
+        RBig::from_parts_signed(value, determinant.clone()) * &factors[i]
+    };
+    Feasibility::Infeasible { farkas: (0..n).map(multiplier).collect() }
 }
 
-/// The tableau `A B | 1 | c`, rows negated where `c` is negative, with the sum of the rows below: the
-/// reduced costs of the sum of the artificial variables.
-struct PhaseOne {
-    tableau: Tableau,
-    /// Column of the basic variable of every row.
-    basic: Vec<usize>,
-    is_negated: Vec<bool>,
-}
-
-impl PhaseOne {
-    fn new(integers: &Integers) -> Self {
-        let n = integers.rows.len();
-        let is_negative = |row: &Vec<IBig>| row.last().is_some_and(|c| *c < IBig::ZERO);
-        let is_negated: Vec<bool> = integers.rows.iter().map(is_negative).collect();
-        let mut rows: Vec<Vec<IBig>> = integers.rows.clone();
-        for (row, _) in rows.iter_mut().zip(&is_negated).filter(|(_, negated)| **negated) {
-            *row = row.iter().map(|v| -v).collect();
-        }
-        let sum = |j: usize| rows.iter().fold(IBig::ZERO, |sum, row| sum + &row[j]);
-        let mut objective: Vec<IBig> = (0..=2 * n).map(sum).collect();
-        for (i, row) in rows.iter_mut().enumerate() {
-            row.splice(2 * n..2 * n, (0..n).map(|k| IBig::from(u8::from(k == i))));
-        }
-        objective.splice(2 * n..2 * n, (0..n).map(|_| IBig::ZERO));
-        rows.push(objective);
-        Self { tableau: Tableau::new(rows), basic: (2 * n..3 * n).collect(), is_negated }
-    }
-
-    fn minimise(&mut self) {
-        let n = self.basic.len();
-        while let Some(entering) = (0..2 * n).find(|&j| self.objective()[j] > IBig::ZERO) {
-            // The sum of the artificial variables is not negative, so that some row blocks.
-            let Some(row) = self.blocking_row(entering) else { return };
-            self.tableau.pivot(row, entering);
-            self.basic[row] = entering;
-        }
-    }
-
-    fn blocking_row(&self, entering: usize) -> Option<usize> {
-        let entry = |row: usize| &self.tableau.rows[row][entering];
-        let blocking = (0..self.basic.len()).filter(|&row| *entry(row) > IBig::ZERO);
-        blocking.min_by(|&i, &k| {
-            let left = self.right_hand_side(i) * entry(k);
-            let right = self.right_hand_side(k) * entry(i);
-            left.cmp(&right).then(self.basic[i].cmp(&self.basic[k]))
-        })
-    }
-
-    fn right_hand_side(&self, row: usize) -> &IBig {
-        &self.tableau.rows[row][3 * self.basic.len()]
-    }
-
-    fn objective(&self) -> &[IBig] {
-        &self.tableau.rows[self.basic.len()]
-    }
-
-    /// The simplex multiplier of a row: its artificial variable costs one more than its reduced cost.
-    fn multiplier(&self, row: usize) -> RBig {
-        let reduced = self.objective()[2 * self.basic.len() + row].clone();
-        let determinant = &self.tableau.determinant;
-        let value = RBig::from_parts_signed(reduced + determinant, determinant.clone());
-        if self.is_negated[row] { -value } else { value }
-    }
+/// Minus one for negative numbers, else one.
+fn sign(value: &IBig) -> IBig {
+    if *value < IBig::ZERO { -IBig::ONE } else { IBig::ONE }
 }

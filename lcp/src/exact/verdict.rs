@@ -1,7 +1,9 @@
 //! One complementary basis in rational arithmetic.
 
+use dashu_int::ops::Abs;
 use dashu_ratio::RBig;
 
+use super::ExactPoint;
 use super::integers::{Integers, Variable};
 use super::tableau::{Tableau, eliminate};
 use crate::{Basis, HorizontalLcp, Side};
@@ -65,29 +67,28 @@ pub fn verify_basis(problem: &HorizontalLcp, basis: &Basis) -> ExactVerdict {
     if rows.len() < n {
         return ExactVerdict::Singular { rank: rows.len() };
     }
-    let value = |(&variable, &row): (&Variable, &usize)| {
-        (variable, integers.value(variable, &tableau.rows[row][n], &tableau.determinant))
-    };
-    let values: Vec<(Variable, RBig)> = variables.iter().zip(&rows).map(value).collect();
-    if let Some((Variable { pair, side }, relative)) = most_negative(&values) {
+    let value = |(&variable, &row): (&Variable, &usize)| (variable, tableau.rows[row][n].clone());
+    let values = variables.iter().zip(&rows).map(value);
+    let point = ExactPoint::new(n, values, &tableau.determinant);
+    let both = [most_negative(Side::T, &point.t), most_negative(Side::Y, &point.y)];
+    let worst = both.into_iter().flatten().min_by(|a, b| a.relative.cmp(&b.relative));
+    if let Some(Negative { pair, side, relative }) = worst {
         return ExactVerdict::Infeasible { pair, side, relative: relative.to_f64().value() };
     }
-    let (t, y) = integers.point(values).rounded();
+    let (t, y) = point.rounded();
     ExactVerdict::Solution { t, y }
 }
 
-/// The most negative value relative to the largest of its side, if any is negative.
-fn most_negative(values: &[(Variable, RBig)]) -> Option<(Variable, RBig)> {
-    let magnitude = |v: &RBig| if *v < RBig::ZERO { -v.clone() } else { v.clone() };
-    let largest = |side| {
-        let of_side = values.iter().filter(|(variable, _)| variable.side == side);
-        of_side.map(|(_, v)| magnitude(v)).max().unwrap_or(RBig::ZERO)
-    };
-    let (largest_t, largest_y) = (largest(Side::T), largest(Side::Y));
-    let negative = values.iter().filter(|(_, v)| *v < RBig::ZERO);
-    let relative = negative.map(|(variable, v)| match variable.side {
-        Side::T => (*variable, v / &largest_t),
-        Side::Y => (*variable, v / &largest_y),
-    });
-    relative.min_by(|(_, a), (_, b)| a.cmp(b))
+/// A negative value in units of the largest magnitude of its side.
+struct Negative {
+    pair: usize,
+    side: Side,
+    relative: RBig,
+}
+
+/// The most negative value of a side, if any is negative.
+fn most_negative(side: Side, values: &[RBig]) -> Option<Negative> {
+    let largest = values.iter().cloned().map(Abs::abs).max()?;
+    let (pair, least) = values.iter().enumerate().min_by(|(_, a), (_, b)| a.cmp(b))?;
+    (*least < RBig::ZERO).then(|| Negative { pair, side, relative: least / largest })
 }

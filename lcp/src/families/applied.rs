@@ -35,11 +35,9 @@ pub fn control(steps: usize, seed: u64) -> Instance<BoxedLcp> {
     let upper: Vec<f64> = (0..3 * n).map(bound).collect();
     let lower = upper.iter().map(|upper| -upper).collect();
     let m = Matrix::from_entries(3 * n, 3 * n, entries.into_iter());
-    Instance { problem: boxed(m, q, lower, upper), known: Known::Solvable }
-}
-
-fn boxed(m: Matrix, q: Vec<f64>, lower: Vec<f64>, upper: Vec<f64>) -> BoxedLcp {
-    BoxedLcp::new(m, q, lower, upper).expect("finite and of one order")
+    let problem = BoxedLcp::new(m, q, lower, upper);
+    let problem = problem.unwrap_or_else(|e| unreachable!("finite and of one order: {e}"));
+    Instance { problem, known: Known::Solvable }
 }
 
 /// A perpetual American put option with a strike of one, on a grid of `points` in the logarithm of the price: `z` is what

@@ -2,7 +2,7 @@
 
 use faer::Mat;
 
-use super::{Instance, Integers, Known, Planting, product};
+use super::{Instance, Integers, Known, Planting};
 use crate::MixedLcp;
 
 /// The conditions of a convex quadratic program with equations: `M = [0 E; -E^T C C^T]`, monotone and
@@ -44,9 +44,9 @@ fn with_solution(m: Mat<f64>, free: usize, random: &mut Integers) -> Instance<Mi
     let (mut t, mut y) = random.solution(n, Planting::Strict);
     t[..free].copy_from_slice(&random.vector(free, -3, 3));
     y[..free].fill(0.0);
-    let m = m.into();
-    let q = product(&m, &t).iter().zip(&y).map(|(mz, w)| w - mz).collect();
+    let planted = super::with_solution(m, &t, &y);
     let is_free = (0..n).map(|i| i < free).collect();
-    let problem = MixedLcp::new(m, q, is_free).expect("finite and of one order");
+    let problem = MixedLcp::new(planted.m().clone(), planted.q().to_vec(), is_free);
+    let problem = problem.expect("finite and of one order");
     Instance { problem, known: Known::Solution { t, y } }
 }

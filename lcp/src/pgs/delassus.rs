@@ -1,81 +1,97 @@
 //! The matrix `C K^-1 C^T + D` of contacts between elastic bodies, by its rows. `D` is diagonal: the compliances of the
-//! contacts themselves.
+//! contacts themselves. Every contact has a normal row and after it a tangential one, which is empty without friction.
 
-use faer::sparse::SparseColMat;
+use faer::linalg::solvers::Solve;
+use faer::sparse::linalg::solvers::Llt;
+use faer::{MatMut, Side as Triangle};
 
-use super::body::{Body, coupled_displacements};
-use super::constants::LARGEST;
 use super::{ProjectedGaussSeidel, Rows};
-use crate::Error;
+use crate::definite::is_definite;
+use crate::divide::sparse_block;
+use crate::matrix::column_of;
+use crate::parts::Parts;
 use crate::sparse::Columns;
+use crate::{Contact2d, Error};
 
 /// `K^-1 C^T`. Bodies that `K` does not couple are factorised one by one, so that a column has entries for
 /// the bodies at its contact only.
 #[derive(Debug)]
-pub(super) struct Compliance {
+pub(super) struct Compliance<'a> {
+    problem: &'a Contact2d,
     bodies: Vec<Body>,
     /// The rows of `C`.
     c: Columns,
-    /// The rows of `C` that have an entry for a displacement.
-    contacts: Columns,
     columns: Columns,
-    /// The diagonal of `D`.
-    own: Vec<f64>,
+}
+
+/// Displacements that `K` couples, with the Cholesky factor of their block.
+#[derive(Debug)]
+struct Body {
+    displacements: Vec<usize>,
+    factor: Llt<usize, f64>,
 }
 
 /// The rows of `C K^-1 C^T + D`, with the displacements `K^-1 C^T z` as the state.
 #[derive(Debug)]
 pub(super) struct Delassus<'a> {
-    compliance: &'a Compliance,
+    compliance: &'a Compliance<'a>,
     u: Vec<f64>,
 }
 
-impl Compliance {
-    /// From `K`, the rows of `C`, none of which is empty, and the diagonal of `D`.
-    pub(super) fn new(
-        k: &SparseColMat<usize, f64>,
-        c: Columns,
-        own: Vec<f64>,
-    ) -> Result<Self, Error> {
-        let n = k.ncols();
-        let coupled = coupled_displacements(k);
+impl Body {
+    /// Overwrites the loads on the body, among those on all bodies, with its displacements.
+    fn solve(&self, loads: &mut [f64]) {
+        let mut x: Vec<f64> = self.displacements.iter().map(|&j| loads[j]).collect();
+        let n = x.len();
+        self.factor.solve_in_place(MatMut::from_column_major_slice_mut(&mut x, n, 1));
+        self.displacements.iter().zip(x).for_each(|(&j, x)| loads[j] = x);
+    }
+}
+
+impl<'a> Compliance<'a> {
+    pub(super) fn new(problem: &'a Contact2d) -> Result<Self, Error> {
+        let (k, n) = (problem.stiffness(), problem.displacements());
+        let indefinite = || {
+            ProjectedGaussSeidel::not_treated(
+                "K is not positive definite: take Lemke's method, which lets bodies float",
+            )
+        };
+        if !is_definite(k) {
+            return Err(indefinite());
+        }
+        let mut parts = Parts::new(n);
+        for j in 0..n {
+            let coupled = column_of(k, j).filter(|(_, v)| *v != 0.0);
+            parts.join_all(coupled.map(|(i, _)| i).chain([j]));
+        }
+        let body = |displacements: Vec<usize>| {
+            let block = sparse_block(k, &displacements, &displacements).into_sparse();
+            let factor = block.sp_cholesky(Triangle::Lower).map_err(|_| indefinite())?;
+            Ok(Body { displacements, factor })
+        };
+        let bodies: Vec<Body> =
+            parts.groups().into_iter().map(body).collect::<Result<_, Error>>()?;
         let mut body_of = vec![0; n];
-        for (body, displacements) in coupled.iter().enumerate() {
-            for &j in displacements {
-                body_of[j] = body;
-            }
+        for (number, body) in bodies.iter().enumerate() {
+            body.displacements.iter().for_each(|&j| body_of[j] = number);
         }
-        let touched: Vec<Vec<usize>> = (0..c.len())
-            .map(|row| {
-                let mut bodies: Vec<usize> = c.entries(row).map(|(j, _)| body_of[j]).collect();
-                bodies.sort_unstable();
-                bodies.dedup();
-                bodies
-            })
-            .collect();
-        let size: usize = touched.iter().flatten().map(|&body| coupled[body].len()).sum();
-        if size > LARGEST {
-            return Err(ProjectedGaussSeidel::not_treated(format!(
-                "the {} rows of its contacts act on bodies of so many displacements that K^-1 C^T has \
-                 {size} numbers, above the limit of {LARGEST}: take Lemke's method",
-                c.len()
-            )));
-        }
-        let bodies = coupled.into_iter().map(|displacements| Body::new(k, displacements));
-        let bodies: Vec<Body> = bodies.collect::<Result<_, _>>()?;
+        let c = rows_of_contacts(problem);
         let (mut columns, mut column) = (Columns::default(), vec![0.0; n]);
-        for (row, touched) in touched.iter().enumerate() {
-            c.entries(row).for_each(|(j, v)| column[j] = v);
-            for &body in touched {
-                bodies[body].solve(&mut column);
-                for &j in bodies[body].displacements() {
+        for row in 0..c.len() {
+            c.add_to(row, 1.0, &mut column);
+            let mut touched: Vec<usize> = c.entries(row).map(|(j, _)| body_of[j]).collect();
+            touched.sort_unstable();
+            touched.dedup();
+            for body in touched.into_iter().map(|number| &bodies[number]) {
+                body.solve(&mut column);
+                for &j in &body.displacements {
                     columns.push(j, column[j]);
                     column[j] = 0.0;
                 }
             }
             columns.close();
         }
-        Ok(Self { bodies, contacts: c.transposed(n), c, columns, own })
+        Ok(Self { problem, bodies, c, columns })
     }
 
     /// Number of factorisations.
@@ -84,17 +100,35 @@ impl Compliance {
     }
 
     /// The displacements `K^-1 (f + C^T z)`.
-    pub(super) fn displacements(&self, f: &[f64], z: &[f64]) -> Vec<f64> {
-        let mut u = f.to_vec();
+    pub(super) fn displacements(&self, z: &[f64]) -> Vec<f64> {
+        let mut u = self.problem.loads().to_vec();
         z.iter().enumerate().for_each(|(row, z)| self.c.add_to(row, *z, &mut u));
         self.bodies.iter().for_each(|body| body.solve(&mut u));
         u
     }
+
+    /// The displacement of a contact by the force in its own row.
+    fn own(&self, row: usize, z: &[f64]) -> f64 {
+        self.problem.compliance()[row / 2][row % 2] * z[row]
+    }
+}
+
+/// `C`, of which the tangential rows without friction are empty.
+fn rows_of_contacts(problem: &Contact2d) -> Columns {
+    let mut columns = Columns::default();
+    for j in 0..problem.displacements() {
+        let normal = column_of(problem.normal(), j).map(|(i, v)| (2 * i, v));
+        let tangent = column_of(problem.tangent(), j).filter(|(i, _)| problem.mu()[*i] > 0.0);
+        let both = normal.chain(tangent.map(|(i, v)| (2 * i + 1, v)));
+        both.for_each(|(row, v)| columns.push(row, v));
+        columns.close();
+    }
+    columns.transposed(2 * problem.points())
 }
 
 impl<'a> Delassus<'a> {
-    pub(super) fn new(compliance: &'a Compliance) -> Self {
-        Self { compliance, u: vec![0.0; compliance.contacts.len()] }
+    pub(super) fn new(compliance: &'a Compliance<'a>) -> Self {
+        Self { compliance, u: vec![0.0; compliance.problem.displacements()] }
     }
 }
 
@@ -104,7 +138,7 @@ impl Rows for Delassus<'_> {
     }
 
     fn product(&self, i: usize, z: &[f64]) -> f64 {
-        self.compliance.c.dot(i, &self.u) + self.compliance.own[i] * z[i]
+        self.compliance.c.dot(i, &self.u) + self.compliance.own(i, z)
     }
 
     fn moved(&mut self, i: usize, change: f64) {
@@ -117,15 +151,6 @@ impl Rows for Delassus<'_> {
 
     fn size(&self, i: usize, z: &[f64]) -> f64 {
         let of_bodies: f64 = self.compliance.c.entries(i).map(|(j, v)| (v * self.u[j]).abs()).sum();
-        of_bodies + (self.compliance.own[i] * z[i]).abs()
-    }
-
-    fn neighbours(&self, i: usize) -> Option<Vec<usize>> {
-        let displacements = self.compliance.columns.rows(i).iter();
-        let rows = displacements.flat_map(|&j| self.compliance.contacts.rows(j as usize));
-        let mut rows: Vec<usize> = rows.map(|&row| row as usize).collect();
-        rows.sort_unstable();
-        rows.dedup();
-        Some(rows)
+        of_bodies + self.compliance.own(i, z).abs()
     }
 }

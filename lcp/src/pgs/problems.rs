@@ -1,32 +1,11 @@
-//! Problems with a matrix.
+//! The problems of the library.
 
+use super::delassus::{Compliance, Delassus};
 use super::{Constraint, MatrixRows, Point, ProjectedGaussSeidel, Sweepable, Sweeps};
-use crate::certify::{BoxedJudge, GeneralJudge, Precision};
+use crate::certify::{BoxedJudge, ContactJudge, GeneralJudge, Precision};
 use crate::{
-    BoxedLcp, ContactForces, Error, Friction2d, HorizontalLcp, Lcp, Matrix, Observer, Residuals,
-    Solution,
+    BoxedLcp, Contact2d, ContactForces, Error, Friction2d, HorizontalLcp, Lcp, Observer, Solution,
 };
-
-type Pairs = (Vec<f64>, Vec<f64>);
-type Start<'a> = dyn Fn(&[f64], &[f64]) -> Vec<f64> + 'a;
-type PairsOf<'a> = dyn Fn(&[f64], &[f64]) -> Pairs + 'a;
-
-/// A matrix problem, and how its points are judged.
-struct Task<'a> {
-    /// Pairs of the general form.
-    order: usize,
-    /// Of `z` and the part of `w` that the constraints allow.
-    residuals: &'a dyn Fn(&[f64], &[f64]) -> Residuals,
-    /// Whether the point is that of a boxed problem.
-    is_boxed: bool,
-    matrix: &'a Matrix,
-    q: &'a [f64],
-    constraints: &'a [Constraint],
-    /// `z` from a point of the general problem.
-    start: &'a Start<'a>,
-    /// The point of the general problem, from `z` and the part of `w` that the constraints allow.
-    pairs: &'a PairsOf<'a>,
-}
 
 impl Sweepable for Lcp {
     fn solve_by(
@@ -34,18 +13,9 @@ impl Sweepable for Lcp {
         solver: &ProjectedGaussSeidel,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        let judge = BoxedJudge::of_standard(self);
-        let task = Task {
-            is_boxed: false,
-            order: self.order(),
-            residuals: &|z, w| judge.residuals(z, w, Precision::Exact),
-            matrix: self.m(),
-            q: self.q(),
-            constraints: &vec![Constraint::NONNEGATIVE; self.order()],
-            start: &|t, _| t.to_vec(),
-            pairs: &|z, w| (z.to_vec(), w.to_vec()),
-        };
-        solver.sweep_matrix(&task, observer)
+        let (lower, upper) = (vec![0.0; self.order()], vec![f64::INFINITY; self.order()]);
+        let boxed = BoxedLcp::new(self.m().clone(), self.q().to_vec(), lower, upper)?;
+        Ok(Solution { boxed: None, ..boxed.solve_by(solver, observer)? })
     }
 }
 
@@ -62,22 +32,19 @@ impl Sweepable for HorizontalLcp {
                  another row: take Lemke's method",
             )
         })?;
+        let mut monitor = solver.monitor(observer);
+        let start = solver.start(self.order(), |t, y| standard.from_pairs(t, y).0)?;
+        let mut rows = MatrixRows::new(standard.lcp().m());
+        let constraints = vec![Constraint::NONNEGATIVE; self.order()];
+        let q = standard.lcp().q();
+        let sweeps = Sweeps::new(&solver.settings, &mut rows, q, &constraints, start)?;
         let judge = GeneralJudge::new(self);
-        let residuals = |z: &[f64], w: &[f64]| {
-            let (t, y) = standard.to_pairs(z, w);
+        let (best, status) = sweeps.run(&mut monitor, &mut |point: &Point<'_>| {
+            let (t, y) = standard.to_pairs(point.z, point.allowed);
             judge.residuals(&t, &y, Precision::Exact)
-        };
-        let task = Task {
-            is_boxed: false,
-            order: self.order(),
-            residuals: &residuals,
-            matrix: standard.lcp().m(),
-            q: standard.lcp().q(),
-            constraints: &vec![Constraint::NONNEGATIVE; self.order()],
-            start: &|t, y| standard.from_pairs(t, y).0,
-            pairs: &|z, w| standard.to_pairs(z, w),
-        };
-        solver.sweep_matrix(&task, observer)
+        });
+        let (t, y) = standard.to_pairs(&best.z, &best.allowed);
+        Ok(solver.solution(t, y, best.residuals, status, monitor))
     }
 }
 
@@ -88,21 +55,20 @@ impl Sweepable for BoxedLcp {
         solver: &ProjectedGaussSeidel,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
+        let mut monitor = solver.monitor(observer);
+        let start = solver.start(self.pairs(), |t, y| self.recover(t, y).0)?;
         let bounds = self.lower().iter().zip(self.upper());
         let constraints: Vec<Constraint> =
             bounds.map(|(&lower, &upper)| Constraint::Bounds { lower, upper }).collect();
+        let mut rows = MatrixRows::new(self.m());
+        let sweeps = Sweeps::new(&solver.settings, &mut rows, self.q(), &constraints, start)?;
         let judge = BoxedJudge::of_boxed(self);
-        let task = Task {
-            is_boxed: true,
-            order: self.to_general().order(),
-            residuals: &|z, w| judge.residuals(z, w, Precision::Exact),
-            matrix: self.m(),
-            q: self.q(),
-            constraints: &constraints,
-            start: &|t, y| self.recover(t, y).0,
-            pairs: &|z, w| self.to_pairs(z, w),
-        };
-        solver.sweep_matrix(&task, observer)
+        let (best, status) = sweeps.run(&mut monitor, &mut |point: &Point<'_>| {
+            judge.residuals(point.z, point.allowed, Precision::Exact)
+        });
+        let (t, y) = self.to_pairs(&best.z, &best.allowed);
+        let solution = solver.solution(t, y, best.residuals, status, monitor);
+        Ok(Solution { boxed: Some((best.z, best.allowed)), ..solution })
     }
 }
 
@@ -113,59 +79,68 @@ impl Sweepable for Friction2d {
         solver: &ProjectedGaussSeidel,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        let constraints: Vec<Constraint> =
-            self.mu().iter().map(|&mu| Constraint::Friction { mu }).collect();
-        let residuals = |r: &[f64], _: &[f64]| {
-            let [normal, tangential] =
-                [0, 1].map(|k| r.iter().skip(k).step_by(2).copied().collect::<Vec<f64>>());
+        let mut monitor = solver.monitor(observer);
+        let start = solver.start(self.order(), |t, _| {
+            let ContactForces { normal, tangential } = self.forces(t);
+            interleaved(&normal, &tangential)
+        })?;
+        let mut rows = MatrixRows::new(self.w());
+        let constraints = cones(self.mu());
+        let sweeps = Sweeps::new(&solver.settings, &mut rows, self.q(), &constraints, start)?;
+        let (best, status) = sweeps.run(&mut monitor, &mut |point: &Point<'_>| {
+            let [normal, tangential] = parted(point.z);
             self.residuals(&ContactForces { normal, tangential })
-        };
-        let task = Task {
-            is_boxed: false,
-            order: self.order(),
-            residuals: &residuals,
-            matrix: self.w(),
-            q: self.q(),
-            constraints: &constraints,
-            start: &|t, _| {
-                let forces = self.forces(t);
-                let both = forces.normal.into_iter().zip(forces.tangential);
-                both.flat_map(|(normal, tangential)| [normal, tangential]).collect()
-            },
-            pairs: &|r, v| standard_pairs(self.mu(), r, v),
-        };
-        solver.sweep_matrix(&task, observer)
+        });
+        let (t, y) = self.to_pairs(&best.z, &best.allowed);
+        Ok(solver.solution(t, y, best.residuals, status, monitor))
     }
 }
 
-/// The variables of the standard problem, from forces within the cones and the velocities that they
-/// allow: sliding is what the velocity is at the border of the cone.
-fn standard_pairs(mu: &[f64], r: &[f64], v: &[f64]) -> Pairs {
-    let contacts = r.chunks_exact(2).zip(v.chunks_exact(2)).zip(mu);
-    let pairs = contacts.flat_map(|((r, v), mu)| {
-        let bound = mu * r[0];
-        let (shifted, rest) = (r[1] + bound, bound - r[1]);
-        [(r[0], v[0]), (shifted, v[1].max(0.0)), ((-v[1]).max(0.0), rest)]
-    });
-    pairs.unzip()
-}
-
-impl ProjectedGaussSeidel {
-    fn sweep_matrix(
+/// On the forces, in the pairs of [`Contact2d::to_general`]: the displacements follow from them if `K`
+/// is positive definite, and the compliances of the contacts are on the diagonal. Bodies that `K` does not couple are
+/// eliminated one by one.
+impl Sweepable for Contact2d {
+    fn solve_by(
         &self,
-        task: &Task<'_>,
+        solver: &ProjectedGaussSeidel,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        self.settings.validate(task.order)?;
-        let mut monitor = self.monitor(observer);
-        let start = self.start(task.start)?;
-        let mut rows = MatrixRows::new(task.matrix);
-        let sweeps = Sweeps::new(&self.settings, &mut rows, task.q, task.constraints, start)?;
-        let (best, status) = sweeps
-            .run(&mut monitor, &mut |point: &Point<'_>| (task.residuals)(point.z, point.allowed));
-        let pairs = (task.pairs)(&best.z, &best.allowed);
-        let mut solution = self.solution(pairs.0, pairs.1, best.residuals, status, monitor);
-        solution.boxed = task.is_boxed.then(|| (best.z.clone(), best.allowed.clone()));
-        Ok(solution)
+        let mut monitor = solver.monitor(observer);
+        let start = solver.start(self.order(), |t, y| {
+            let state = self.recover(t, y);
+            interleaved(&state.t_n, &state.t_t)
+        })?;
+        let compliance = Compliance::new(self)?;
+        let state = |forces: &[f64]| {
+            let [t_n, t_t] = parted(forces);
+            self.state(compliance.displacements(forces), t_n, t_t)
+        };
+        let free = state(&vec![0.0; 2 * self.points()]);
+        let q = interleaved(&free.gap, &free.slip);
+        let mut rows = Delassus::new(&compliance);
+        let constraints = cones(self.mu());
+        let sweeps = Sweeps::new(&solver.settings, &mut rows, &q, &constraints, start)?;
+        let judge = ContactJudge::new(self);
+        let (best, status) = sweeps.run(&mut monitor, &mut |point: &Point<'_>| {
+            judge.residuals(&state(point.z), Precision::Exact)
+        });
+        let state = state(&best.z);
+        let (t, y) = self.to_pairs(&state);
+        let mut solution = solver.solution(t, y, best.residuals, status, monitor);
+        solution.info.factorisations = compliance.factorisations();
+        Ok(Solution { contact: Some(state), ..solution })
     }
+}
+
+fn cones(mu: &[f64]) -> Vec<Constraint> {
+    mu.iter().map(|&mu| Constraint::Friction { mu }).collect()
+}
+
+/// The normal and the tangential row of one contact after the other.
+fn interleaved(normal: &[f64], tangential: &[f64]) -> Vec<f64> {
+    normal.iter().zip(tangential).flat_map(|(n, t)| [*n, *t]).collect()
+}
+
+fn parted(rows: &[f64]) -> [Vec<f64>; 2] {
+    [0, 1].map(|k| rows.iter().skip(k).step_by(2).copied().collect())
 }

@@ -1,5 +1,9 @@
 //! Problems given by the products of their rows.
 
+use faer::ColRef;
+
+use crate::Matrix;
+
 /// A square matrix `M` given by the products of its rows with a vector `z`, which may be represented by a state
 /// instead.
 ///
@@ -68,11 +72,6 @@ pub trait Rows {
     fn size(&self, i: usize, z: &[f64]) -> f64 {
         self.product(i, z).abs()
     }
-
-    /// The rows `j` with `M_ij != 0`, for the colouring; `None` where that is not known.
-    fn neighbours(&self, _i: usize) -> Option<Vec<usize>> {
-        None
-    }
 }
 
 /// The constraint on the entries of `z` that one relaxation changes together, in the order of the rows: every bound
@@ -111,5 +110,52 @@ impl Constraint {
             Self::Bounds { .. } => 1,
             Self::Friction { .. } => 2,
         }
+    }
+}
+
+/// The rows of a square [`Matrix`], stored by rows.
+///
+/// ```
+/// use faer::mat;
+/// use lcp::pgs::{MatrixRows, Rows};
+/// let rows = MatrixRows::new(&mat![[2.0, -1.0], [1.0, 3.0]].into());
+/// assert_eq!(rows.product(0, &[1.0, 4.0]), -2.0);
+/// assert_eq!(rows.size(0, &[1.0, 4.0]), 6.0);
+/// ```
+#[derive(Debug, Clone)]
+pub struct MatrixRows {
+    transposed: Matrix,
+}
+
+impl MatrixRows {
+    /// The rows of a matrix.
+    ///
+    /// # Panics
+    /// If the matrix is not square.
+    pub fn new(matrix: &Matrix) -> Self {
+        let n = matrix.ncols();
+        assert_eq!(matrix.nrows(), n, "a square matrix");
+        let entries = (0..n).flat_map(|j| matrix.column(j).map(move |(i, v)| (j, i, v)));
+        Self { transposed: Matrix::assembled(n, matrix.is_sparse(), entries) }
+    }
+}
+
+impl Rows for MatrixRows {
+    fn order(&self) -> usize {
+        self.transposed.ncols()
+    }
+
+    fn product(&self, i: usize, z: &[f64]) -> f64 {
+        match &self.transposed {
+            // Summed in lanes, which does not wait for its own additions.
+            Matrix::Dense(m) => m.col(i).transpose() * ColRef::from_slice(z),
+            Matrix::Sparse(_) => self.transposed.slice(i).dot(z),
+        }
+    }
+
+    fn size(&self, i: usize, z: &[f64]) -> f64 {
+        let mut size = 0.0;
+        self.transposed.slice(i).for_each(|j, v| size += (v * z[j]).abs());
+        size
     }
 }

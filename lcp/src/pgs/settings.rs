@@ -2,32 +2,15 @@
 
 use std::time::Duration;
 
+use crate::settings::check_tolerance;
 use crate::{Error, WarmStart};
-
-/// The order in which a sweep goes over the rows, or over the contacts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum SweepOrder {
-    /// From the first to the last.
-    #[default]
-    Forward,
-    /// Every second sweep from the last to the first.
-    Symmetric,
-    /// By colours, so that no two rows of one colour are coupled: red-black for the five-point Laplacian. Colours are
-    /// assigned greedily, in the order of the rows. A dense matrix has as many colours as rows, which is the same as
-    /// [`Forward`](Self::Forward), and so is a matrix whose [`neighbours`](crate::pgs::Rows::neighbours) are not
-    /// known. The rows of a colour could be relaxed in parallel; they are relaxed on one thread.
-    Coloured,
-}
 
 /// Settings of [`ProjectedGaussSeidel`](crate::ProjectedGaussSeidel).
 ///
 /// ```
-/// use lcp::pgs::SweepOrder;
 /// use lcp::{ProjectedGaussSeidel, ProjectedGaussSeidelSettings};
 /// let settings = ProjectedGaussSeidelSettings {
 ///     relaxation: 1.5,
-///     order: SweepOrder::Coloured,
 ///     ..ProjectedGaussSeidelSettings::default()
 /// };
 /// let solver = ProjectedGaussSeidel::new(settings);
@@ -46,19 +29,6 @@ pub struct ProjectedGaussSeidelSettings {
     /// The over-relaxation `omega`: the diagonal is divided by it. In `(0, 2)`, outside of which the
     /// sweeps do not converge even for symmetric positive definite matrices.
     pub relaxation: f64,
-    /// The order of the rows.
-    pub order: SweepOrder,
-    /// Sweeps between two evaluations of the residual, each of which costs as much as several sweeps. It is evaluated
-    /// earlier if the changes of a sweep are below the tolerance. In between the history repeats the last value. At
-    /// least 1.
-    pub residual_interval: usize,
-    /// Number of sweeps in which the best residual must decrease by the factor `stall_factor`; otherwise the status
-    /// is [`Stalled`](crate::Status::Stalled). `None` is 2000, or the number of rows if that is more. Information
-    /// spreads from row to row, so the largest residual may be constant for a while and decrease later: along a chain
-    /// of `n` bodies this takes about `n^2` sweeps without over-relaxation. At least 1.
-    pub stall_window: Option<usize>,
-    /// See `stall_window`. In `(0, 1]`.
-    pub stall_factor: f64,
 }
 
 impl Default for ProjectedGaussSeidelSettings {
@@ -69,10 +39,6 @@ impl Default for ProjectedGaussSeidelSettings {
             time_limit: None,
             start: WarmStart::None,
             relaxation: 1.0,
-            order: SweepOrder::Forward,
-            residual_interval: 20,
-            stall_window: None,
-            stall_factor: 0.9,
         }
     }
 }
@@ -83,28 +49,10 @@ impl ProjectedGaussSeidelSettings {
     /// # Errors
     /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
     pub fn validate(&self, n: usize) -> Result<(), Error> {
-        let Self { tolerance, relaxation, stall_factor, .. } = *self;
-        let ranges = [
-            ("tolerance", tolerance, tolerance > 0.0 && tolerance < 1.0, "between 0 and 1"),
-            ("relaxation", relaxation, relaxation > 0.0 && relaxation < 2.0, "between 0 and 2"),
-            (
-                "stall_factor",
-                stall_factor,
-                stall_factor > 0.0 && stall_factor <= 1.0,
-                "above 0 and at most 1",
-            ),
-        ];
-        if let Some(&(name, value, _, range)) =
-            ranges.iter().find(|(_, _, is_within, _)| !is_within)
-        {
-            return Err(Error::Setting { name, value, range });
-        }
-        let counts = [
-            ("residual_interval", Some(self.residual_interval)),
-            ("stall_window", self.stall_window),
-        ];
-        if let Some((name, _)) = counts.into_iter().find(|(_, count)| *count == Some(0)) {
-            return Err(Error::Setting { name, value: 0.0, range: "at least 1" });
+        check_tolerance(self.tolerance)?;
+        if !(self.relaxation > 0.0 && self.relaxation < 2.0) {
+            let (name, value) = ("relaxation", self.relaxation);
+            return Err(Error::Setting { name, value, range: "between 0 and 2" });
         }
         self.start.validate(n)
     }

@@ -1,12 +1,19 @@
 //! The sweeps, and when they end.
 
 use super::block::Block;
-use super::constants::{FLOOR, LEAST_WINDOW};
-use super::order::order;
-use super::{Constraint, ProjectedGaussSeidelSettings, Rows, SweepOrder};
+use super::{Constraint, ProjectedGaussSeidelSettings, Rows};
 use crate::solve::Monitor;
 use crate::vector::{check_length, check_vector, max_abs};
-use crate::{Error, Method, Residuals, Status};
+use crate::{Error, Residuals, Status};
+
+/// Sweeps between two evaluations of the residual, each of which costs as much as several sweeps. Chosen.
+const INTERVAL: usize = 20;
+/// Least number of sweeps in which the residual has to fall by a tenth. Chosen: along a chain of `n` bodies information
+/// spreads for `n` sweeps before the largest residual decreases.
+const PATIENCE: usize = 2000;
+/// A row whose terms are all at the rounding level of the point is measured by this part of the largest term that it
+/// could have. Chosen.
+const FLOOR: f64 = 1.0 / (1 << 10) as f64;
 
 /// Rows with their constraints, and a point that meets them.
 pub(super) struct Sweeps<'a, R: ?Sized> {
@@ -14,7 +21,6 @@ pub(super) struct Sweeps<'a, R: ?Sized> {
     rows: &'a mut R,
     q: &'a [f64],
     blocks: Vec<Block>,
-    order: Vec<usize>,
     diagonals: Vec<f64>,
     z: Vec<f64>,
     /// The size of every row at the last evaluation.
@@ -53,14 +59,13 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
         let n = rows.order();
         check_length("q", q.len(), n)?;
         check_vector("q", q)?;
-        let blocks = Block::all(rows, constraints, Method::GaussSeidel)?;
-        let order = order(rows, &blocks, settings.order);
+        let blocks = Block::all(rows, constraints)?;
         let diagonals = blocks.iter().flat_map(Block::diagonals).collect();
         let mut z = start.unwrap_or_else(|| vec![0.0; n]);
         for block in &blocks {
             block.project(&mut z);
         }
-        Ok(Self { settings, rows, q, blocks, order, diagonals, z, sizes: vec![0.0; n] })
+        Ok(Self { settings, rows, q, blocks, diagonals, z, sizes: vec![0.0; n] })
     }
 
     /// Sweeps until `judge` finds residuals below the tolerance, or something else ends them.
@@ -69,55 +74,48 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
         monitor: &mut Monitor<'_>,
         judge: &mut dyn FnMut(&Point<'_>) -> Residuals,
     ) -> (Best, Status) {
-        let ProjectedGaussSeidelSettings { tolerance, residual_interval, .. } = *self.settings;
-        let mut best = self.first();
-        let mut stall = Stall::new(self.settings, self.z.len());
-        let (mut sweep, mut change) = (0, f64::INFINITY);
-        let mut residual = f64::INFINITY;
+        let tolerance = self.settings.tolerance;
+        let zero = vec![0.0; self.z.len()];
+        let residuals = Residuals::infinite();
+        let mut best = Best { z: self.z.clone(), w: zero.clone(), allowed: zero, residuals };
+        let (mut last_fall, mut merit) = (0, f64::INFINITY);
+        let (mut sweep, mut change, mut residual) = (0, f64::INFINITY, f64::INFINITY);
         // Below which changes the residual may be small.
         let mut small = tolerance;
-        let (status, is_judged) = loop {
-            let is_due = sweep % residual_interval == 0 || change < small;
+        let status = loop {
+            let is_due = sweep % INTERVAL == 0 || change < small;
+            let mut is_lost = false;
             if is_due {
                 small = small.min(0.5 * change);
-                let residuals = self.judged(judge, &mut best);
-                residual = residuals.map_or(residual, |residuals| residuals.worst());
-                if residuals.is_none() {
-                    // Nothing gets finite again: the best point stays.
-                    let _ = monitor.stop(residual);
-                    break (Status::Stalled, true);
-                }
+                let worst = self.judged(judge, &mut best).worst();
+                // Nothing gets finite again: the best point stays.
+                is_lost = !worst.is_finite();
+                residual = if is_lost { residual } else { worst };
             }
             let limit = monitor.stop(residual);
-            if is_due && residual <= tolerance {
-                break (Status::Solved, true);
+            if is_due && !is_lost && residual <= tolerance {
+                break Status::Solved;
             }
             if let Some(status) = limit {
-                break (status, is_due);
+                break status;
             }
-            if is_due && stall.is_stalled(sweep, best.residuals.merit()) {
-                break (Status::Stalled, true);
+            if best.residuals.merit() < 0.9 * merit {
+                (last_fall, merit) = (sweep, best.residuals.merit());
             }
-            change = self.sweep(sweep % 2 == 1);
+            if is_lost || sweep - last_fall >= PATIENCE.max(self.z.len()) {
+                break Status::Stalled;
+            }
+            change = self.sweep();
             sweep += 1;
         };
-        if !is_judged
-            && let Some(residuals) = self.judged(judge, &mut best)
-            && let Some(last) = monitor.history.last_mut()
-        {
-            *last = residuals.worst();
-        }
         (best, status)
     }
 
     /// Relaxes every block once. The largest change, each times its diagonal entry in units of its row.
-    fn sweep(&mut self, is_odd: bool) -> f64 {
-        let Self { settings, rows, q, blocks, order, diagonals, z, sizes } = self;
-        let is_backward = is_odd && settings.order == SweepOrder::Symmetric;
-        let last = order.len().saturating_sub(1);
+    fn sweep(&mut self) -> f64 {
+        let Self { settings, rows, q, blocks, diagonals, z, sizes } = self;
         let mut largest = 0.0_f64;
-        for k in 0..order.len() {
-            let block = &blocks[order[if is_backward { last - k } else { k }]];
+        for block in blocks {
             let values = block.relaxed(&**rows, q, z, settings.relaxation);
             for (row, value) in block.rows().zip(values) {
                 let change = value - z[row];
@@ -131,26 +129,23 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
         largest
     }
 
-    /// Residuals of the present point, all computed anew; `None` if it or they are not finite. Keeps the
-    /// point if it is the best one.
+    /// Residuals of the present point, all computed anew. Keeps the point if it is the best one.
     fn judged(
         &mut self,
         judge: &mut dyn FnMut(&Point<'_>) -> Residuals,
         best: &mut Best,
-    ) -> Option<Residuals> {
+    ) -> Residuals {
         let w = self.measure();
-        let is_finite = [&self.z, &w, &self.sizes].iter().all(|v| v.iter().all(|x| x.is_finite()));
-        if !is_finite {
-            return None;
+        if [&self.z, &w, &self.sizes].into_iter().flatten().any(|v| !v.is_finite()) {
+            return Residuals::infinite();
         }
         let mut allowed = w.clone();
         self.blocks.iter().for_each(|block| block.allowed(&self.z, &mut allowed));
-        let point = Point { z: &self.z, w: &w, allowed: &allowed, sizes: &self.sizes };
-        let residuals = judge(&point);
+        let residuals = judge(&Point { z: &self.z, w: &w, allowed: &allowed, sizes: &self.sizes });
         if residuals.is_better_than(&best.residuals, self.settings.tolerance) {
             *best = Best { z: self.z.clone(), w, allowed, residuals };
         }
-        Some(residuals)
+        residuals
     }
 
     /// `M z + q` and the sizes of the rows, free of the rounding errors of a state.
@@ -167,34 +162,5 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
             product + q
         };
         q.iter().enumerate().map(row).collect()
-    }
-
-    /// The first point, before it is judged.
-    fn first(&self) -> Best {
-        let zero = vec![0.0; self.z.len()];
-        let residuals = Residuals::infinite();
-        Best { z: self.z.clone(), w: zero.clone(), allowed: zero, residuals }
-    }
-}
-
-/// Whether the best point still gets better.
-struct Stall {
-    window: usize,
-    factor: f64,
-    since: usize,
-    merit: f64,
-}
-
-impl Stall {
-    fn new(settings: &ProjectedGaussSeidelSettings, rows: usize) -> Self {
-        let window = settings.stall_window.unwrap_or(LEAST_WINDOW.max(rows));
-        Self { window, factor: settings.stall_factor, since: 0, merit: f64::INFINITY }
-    }
-
-    fn is_stalled(&mut self, sweep: usize, best: f64) -> bool {
-        if best < self.factor * self.merit {
-            (self.since, self.merit) = (sweep, best);
-        }
-        sweep - self.since >= self.window
     }
 }

@@ -93,10 +93,7 @@ impl Lcp {
         let mut w = self.q().to_vec();
         let mut size: Vec<f64> = w.iter().map(|q| q.abs()).collect();
         for (j, &z) in z.iter().enumerate() {
-            self.m().slice(j).for_each(|i, v| {
-                w[i] += v * z;
-                size[i] += (v * z).abs();
-            });
+            self.m().slice(j).add_with_sizes(z, &mut w, &mut size);
         }
         let rounding = (n as f64 + 2.0) * f64::EPSILON;
         let largest = |j| {
@@ -131,10 +128,5 @@ impl Lcp {
 
 /// Euclidean, without overflow.
 fn norm(v: &[f64]) -> f64 {
-    let largest = max_abs(v);
-    if largest > 0.0 {
-        largest * v.iter().map(|x| (x / largest) * (x / largest)).sum::<f64>().sqrt()
-    } else {
-        0.0
-    }
+    v.iter().fold(0.0, |norm: f64, x| norm.hypot(*x))
 }

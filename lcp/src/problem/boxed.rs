@@ -1,7 +1,7 @@
 //! Variables between bounds.
 
 use super::HorizontalLcp;
-use crate::matrix::{Column, check_sums};
+use crate::matrix::check_sums;
 use crate::vector::{check_length, check_vector};
 use crate::{Error, Matrix};
 
@@ -121,41 +121,39 @@ impl BoxedLcp {
             both.filter(|((kind, _), _)| matches!(kind, Kind::Both(_))).map(|((_, l), u)| u - l),
         );
 
-        let (mut a, mut b) = (Entries::default(), Entries::default());
+        let (mut a, mut b) = (Vec::new(), Vec::new());
         for (j, &kind) in kinds.iter().enumerate() {
-            let m = self.m.slice(j);
+            let times_m = |sign: f64, pair: usize| {
+                let nonzero = self.m.column(j).filter(|(_, v)| *v != 0.0);
+                nonzero.map(move |(i, v)| (i, pair, sign * v))
+            };
             match kind {
                 Kind::Free => {
-                    a.column(m, -1.0, j);
-                    b.column(m, 1.0, j);
+                    a.extend(times_m(-1.0, j));
+                    b.extend(times_m(1.0, j));
                 }
                 Kind::Lower => {
-                    a.column(m, -1.0, j);
-                    b.one(j, j, 1.0);
+                    a.extend(times_m(-1.0, j));
+                    b.push((j, j, 1.0));
                 }
                 Kind::Upper => {
-                    a.column(m, 1.0, j);
-                    b.one(j, j, -1.0);
+                    a.extend(times_m(1.0, j));
+                    b.push((j, j, -1.0));
                 }
                 Kind::Fixed => {
-                    a.one(j, j, -1.0);
-                    b.one(j, j, 1.0);
+                    a.push((j, j, -1.0));
+                    b.push((j, j, 1.0));
                 }
-                Kind::Both(k) => {
-                    if self.is_nearer_above(j) {
-                        a.column(m, 1.0, k);
-                    } else {
-                        a.column(m, -1.0, j);
-                    }
-                    a.one(k, j, 1.0);
-                    b.one(j, j, 1.0);
-                    a.one(k, k, 1.0);
-                    b.one(j, k, -1.0);
-                }
+                Kind::Both(k) if self.is_nearer_above(j) => a.extend(times_m(1.0, k)),
+                Kind::Both(_) => a.extend(times_m(-1.0, j)),
+            }
+            if let Kind::Both(k) = kind {
+                a.extend([(k, j, 1.0), (k, k, 1.0)]);
+                b.extend([(j, j, 1.0), (j, k, -1.0)]);
             }
         }
-        let a = Matrix::assembled(c.len(), self.m.is_sparse(), a.0.into_iter());
-        HorizontalLcp::from_parts(a, Matrix::from_entries(c.len(), c.len(), b.0.into_iter()), c)
+        let a = Matrix::assembled(c.len(), self.m.is_sparse(), a.into_iter());
+        HorizontalLcp::from_parts(a, Matrix::from_entries(c.len(), c.len(), b.into_iter()), c)
     }
 
     /// `(z, w)` from a point of the general problem.
@@ -163,8 +161,7 @@ impl BoxedLcp {
     /// # Panics
     /// If `t` or `y` does not have one entry for every pair of the general problem.
     pub fn recover(&self, t: &[f64], y: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let kinds = self.kinds();
-        let pairs = pairs(&kinds);
+        let (kinds, pairs) = (self.kinds(), self.pairs());
         assert!(t.len() == pairs && y.len() == pairs, "a point has one entry for every pair");
         let value = |(i, &kind): (usize, &Kind)| match kind {
             Kind::Free => (t[i] - y[i], 0.0),
@@ -185,8 +182,7 @@ impl BoxedLcp {
     pub fn to_pairs(&self, z: &[f64], w: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let n = self.order();
         assert!(z.len() == n && w.len() == n, "one entry for every variable");
-        let kinds = self.kinds();
-        let pairs = pairs(&kinds);
+        let (kinds, pairs) = (self.kinds(), self.pairs());
         let (mut t, mut y) = (vec![0.0; pairs], vec![0.0; pairs]);
         for (i, &kind) in kinds.iter().enumerate() {
             let (z, w) = (z[i], w[i]);
@@ -263,6 +259,11 @@ impl BoxedLcp {
         loads
     }
 
+    /// Number of pairs of the general problem.
+    pub(crate) fn pairs(&self) -> usize {
+        self.order() + self.upper_pairs().into_iter().flatten().count()
+    }
+
     /// For every variable the further pair that its two bounds have in the general problem.
     pub(crate) fn upper_pairs(&self) -> Vec<Option<usize>> {
         let pair = |kind| if let Kind::Both(pair) = kind { Some(pair) } else { None };
@@ -301,10 +302,6 @@ impl BoxedLcp {
     }
 }
 
-fn pairs(kinds: &[Kind]) -> usize {
-    kinds.len() + kinds.iter().filter(|kind| matches!(kind, Kind::Both(_))).count()
-}
-
 /// The equations `M z + q = 0` of variables that are between their bounds, in numbers without distances from these.
 #[derive(Debug, Clone)]
 pub struct Between {
@@ -314,22 +311,4 @@ pub struct Between {
     pub(crate) q: Vec<f64>,
     /// The variables of the problem with bounds that they are.
     pub(crate) variables: Vec<usize>,
-}
-
-/// Entries of a matrix that is being put together.
-#[derive(Default)]
-struct Entries(Vec<(usize, usize, f64)>);
-
-impl Entries {
-    fn one(&mut self, i: usize, j: usize, value: f64) {
-        self.0.push((i, j, value));
-    }
-
-    fn column(&mut self, column: Column<'_>, factor: f64, j: usize) {
-        column.for_each(|i, v| {
-            if v != 0.0 {
-                self.0.push((i, j, factor * v));
-            }
-        });
-    }
 }

@@ -9,6 +9,7 @@ mod units;
 pub use bedding::Bedding;
 #[cfg(feature = "clarabel")]
 pub(crate) use bedding::{check_epsilon, ratio};
+use builder::check_sizes;
 pub use builder::{Contact2dBuilder, ContactPoint};
 pub use status::ContactStatus;
 pub(crate) use units::{column_factors, diagonal, median};
@@ -137,14 +138,8 @@ impl Contact2d {
     /// negative or not finite.
     pub fn with_compliance(self, compliance: Vec<[f64; 2]>) -> Result<Self, Error> {
         check_length("compliance", compliance.len(), self.points())?;
-        for (name, k) in [("normal compliance", 0), ("tangential compliance", 1)] {
-            let values = compliance.iter().map(|it| it[k]).enumerate();
-            let wrong = |(_, value): &(usize, f64)| !(*value >= 0.0 && value.is_finite());
-            if let Some((point, value)) = values.into_iter().find(wrong) {
-                let range = "at least zero and finite";
-                return Err(Error::PointValue { point, name, value, range });
-            }
-        }
+        check_sizes("normal compliance", compliance.iter().map(|it| it[0]))?;
+        check_sizes("tangential compliance", compliance.iter().map(|it| it[1]))?;
         Ok(Self { compliance, ..self })
     }
 

@@ -109,6 +109,18 @@ impl Friction2d {
         let tangential = z.chunks_exact(3).zip(&self.mu).map(|(z, mu)| z[1] - mu * z[0]).collect();
         ContactForces { normal, tangential }
     }
+
+    /// The point of the standard problem that belongs to forces within the cones and the velocities that they allow, two
+    /// for every contact: sliding is what the velocity is at the border of the cone.
+    pub(crate) fn to_pairs(&self, r: &[f64], v: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let contacts = r.chunks_exact(2).zip(v.chunks_exact(2)).zip(&self.mu);
+        let pairs = contacts.flat_map(|((r, v), mu)| {
+            let bound = mu * r[0];
+            let (shifted, rest) = (r[1] + bound, bound - r[1]);
+            [(r[0], v[0]), (shifted, v[1].max(0.0)), ((-v[1]).max(0.0), rest)]
+        });
+        pairs.unzip()
+    }
 }
 
 /// Of `r_T = l - mu r_N` a larger coefficient leaves fewer than ten digits.

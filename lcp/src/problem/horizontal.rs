@@ -97,39 +97,25 @@ impl HorizontalLcp {
         [Side::T, Side::Y].into_iter().flat_map(of_side).collect()
     }
 
-    /// For a free pair the positive `r` with `B_j = -r A_j`: one unit of `y` is `r` units of `-t`.
+    /// For a free pair the positive `r` with `B_j = -r A_j`, entry by entry up to rounding: one unit of `y` is `r` units
+    /// of `-t`.
     pub(crate) fn opposite(&self, pair: usize) -> Option<f64> {
-        opposite(self.column(pair, Side::T), self.column(pair, Side::Y))
-    }
-}
-
-/// The positive `r` with `b = -r a`, entry by entry up to rounding.
-fn opposite(a: Column<'_>, b: Column<'_>) -> Option<f64> {
-    const ROUNDING: f64 = 4.0 * f64::EPSILON;
-    let nonzero = |column: Column<'_>| {
-        let mut entries = Vec::new();
-        column.for_each(|i, v| {
-            if v != 0.0 {
-                entries.push((i, v));
-            }
-        });
-        entries
-    };
-    // Most pairs are told apart by their first entries, without a pass over the others.
-    let first = |column: Column<'_>| match column {
-        Column::Dense(values) => values.iter().copied().enumerate().find(|(_, v)| *v != 0.0),
-        Column::Sparse { rows, values } => {
-            rows.iter().copied().zip(values.iter().copied()).find(|(_, v)| *v != 0.0)
+        const ROUNDING: f64 = 4.0 * f64::EPSILON;
+        let mut a = self.a.column(pair).filter(|(_, v)| *v != 0.0);
+        let mut b = self.b.column(pair).filter(|(_, v)| *v != 0.0);
+        // Most pairs are told apart by their first entries, without a pass over the others.
+        let ((i, a_first), (j, b_first)) = (a.next()?, b.next()?);
+        let ratio = -b_first / a_first;
+        if i != j || ratio <= 0.0 {
+            return None;
         }
-    };
-    let ((i, a_first), (j, b_first)) = (first(a)?, first(b)?);
-    let ratio = -b_first / a_first;
-    if i != j || ratio <= 0.0 {
-        return None;
+        loop {
+            match (a.next(), b.next()) {
+                (None, None) => return Some(ratio),
+                (Some((i, a)), Some((j, b)))
+                    if i == j && (b + ratio * a).abs() <= ROUNDING * b.abs() => {}
+                _ => return None,
+            }
+        }
     }
-    let (a, b) = (nonzero(a), nonzero(b));
-    let is_opposite = |((i, a), (j, b)): (&(usize, f64), &(usize, f64))| {
-        i == j && (b + ratio * a).abs() <= ROUNDING * b.abs()
-    };
-    (a.len() == b.len() && a.iter().zip(&b).all(is_opposite)).then_some(ratio)
 }

@@ -202,10 +202,10 @@ fn floating_bodies_are_not_treated() {
         other => panic!("{other:?}"),
     };
     let (zero, unit) = (mat![[1.0, 0.0], [0.0, 0.0]], Mat::<f64>::identity(2, 2));
-    assert!(reason(contact(zero, mat![[0.0, 1.0]])).contains("K[1, 1] is 0"));
+    assert!(reason(contact(zero, mat![[0.0, 1.0]])).contains("not positive definite"));
     let spring = mat![[1.0, -1.0], [-1.0, 1.0]];
     assert!(reason(contact(spring, mat![[0.0, 1.0]])).contains("not positive definite"));
     let nearly = mat![[3.0, -1.0 / 3.0], [-1.0 / 3.0, 1.0 / 27.0 + 1e-18]];
     assert!(reason(contact(nearly, mat![[0.0, 1.0]])).contains("not positive definite"));
-    assert!(reason(contact(unit, mat![[0.0, 0.0]])).contains("gap of contact point 0"));
+    assert!(reason(contact(unit, mat![[0.0, 0.0]])).contains("row 0 has the diagonal entry 0"));
 }

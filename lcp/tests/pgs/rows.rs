@@ -1,10 +1,10 @@
 //! Problems known by the products of their rows.
 
 use faer::Mat;
-use lcp::pgs::{Constraint, MatrixRows, Rows, SweepOrder};
+use lcp::pgs::{Constraint, MatrixRows, Rows};
 use lcp::{Error, Friction2d, ProjectedGaussSeidel, ProjectedGaussSeidelSettings, Solver, Status};
 
-use super::{by, distance, settings, to};
+use super::{distance, settings, to};
 
 /// `J M^-1 J^T` with the velocities as the state.
 struct Impulses {
@@ -80,16 +80,6 @@ fn rows_without_a_matrix_are_as_good() {
         let product: f64 = (0..2 * count).map(|k| w[(i, k)] * free.z[k]).sum();
         assert!((product + q[i] - w_i).abs() <= 1e-13);
     }
-}
-
-/// Without neighbours there is nothing to colour.
-#[test]
-fn rows_of_unknown_couplings_have_one_order() {
-    let constraints = [Constraint::Friction { mu: 0.3 }; 5];
-    let q: Vec<f64> = (0..10).map(|i| if i == 0 { -1.0 } else { 0.1 * f64::from(i % 2) }).collect();
-    let [forward, coloured] = [SweepOrder::Forward, SweepOrder::Coloured]
-        .map(|order| by(order, 1.0).solve_rows(&mut pile(5), &q, &constraints).unwrap());
-    assert!(forward.status == Status::Solved && forward.z == coloured.z);
 }
 
 /// A state that drifts does not spoil the residual: it is set anew for it.

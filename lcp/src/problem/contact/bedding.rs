@@ -49,22 +49,15 @@ impl Bedding {
     /// The problem with springs that are at rest at `centre`.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] where the springs overflow.
-    ///
-    /// # Panics
-    /// If there are fewer entries in `centre` than displacements.
+    /// [`Error::Length`] if `centre` does not have an entry for every displacement, [`Error::NotFinite`] if the forces
+    /// of the springs overflow.
     pub fn attached(&self, contact: &Contact2d, centre: &[f64]) -> Result<Contact2d, Error> {
-        let n = contact.displacements();
-        let stiffness = |j: usize| self.epsilon * self.unit[j];
-        let k = contact.stiffness();
-        let entries = (0..n).flat_map(|j| column_of(k, j).map(move |(i, v)| (i, j, v)));
-        let k = Matrix::from_entries(n, n, entries.chain((0..n).map(|j| (j, j, stiffness(j)))));
-        let f = contact.loads().iter().zip(centre).enumerate();
-        let f = f.map(|(j, (f, u))| f + stiffness(j) * u).collect();
-        let [c_n, c_t] = [contact.normal(), contact.tangent()].map(|c| Matrix::from(c.clone()));
-        let (x_0, s_0) = (contact.initial_gaps().to_vec(), contact.initial_slips().to_vec());
-        Contact2d::new(k, f, c_n, c_t, x_0, s_0, contact.mu().to_vec())?
-            .with_compliance(contact.compliance().to_vec())
+        let stiffness: Vec<f64> = self.unit.iter().map(|unit| self.epsilon * unit).collect();
+        let springs = stiffness.iter().enumerate().map(|(j, k)| (j, j, *k));
+        let n = stiffness.len();
+        let bedded = contact.resisted(&Matrix::from_entries(n, n, springs).into_sparse(), 1.0);
+        let f = contact.loads().iter().zip(centre).zip(stiffness);
+        bedded.with_loads(f.map(|((f, u), k)| f + k * u).collect())
     }
 
     /// The forces of springs that are at rest at `centre`, for displacements `u`.

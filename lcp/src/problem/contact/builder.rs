@@ -34,16 +34,15 @@ pub struct ContactPoint<'a> {
 pub struct Contact2dBuilder {
     k: Matrix,
     f: Vec<f64>,
-    normal: Rows,
-    tangent: Rows,
-    gaps: Vec<f64>,
-    slips: Vec<f64>,
-    mu: Vec<f64>,
-    compliance: Vec<[f64; 2]>,
+    /// The entries of `C_n` and `C_t`.
+    normal: Entries,
+    tangent: Entries,
+    /// The points without their rows.
+    points: Vec<ContactPoint<'static>>,
 }
 
-/// Rows of a matrix as triplets.
-type Rows = Vec<(usize, usize, f64)>;
+/// Entries of a matrix: row, column, value.
+type Entries = Vec<(usize, usize, f64)>;
 
 impl Contact2d {
     /// A problem with the stiffness or mass `K` (n x n) and the loads `f` (n), to which contact points are added.
@@ -65,30 +64,19 @@ impl Contact2d {
     /// # Ok::<(), lcp::Error>(())
     /// ```
     pub fn builder(k: impl Into<Matrix>, f: Vec<f64>) -> Contact2dBuilder {
-        Contact2dBuilder {
-            k: k.into(),
-            f,
-            normal: Vec::new(),
-            tangent: Vec::new(),
-            gaps: Vec::new(),
-            slips: Vec::new(),
-            mu: Vec::new(),
-            compliance: Vec::new(),
-        }
+        let k = k.into();
+        Contact2dBuilder { k, f, normal: Vec::new(), tangent: Vec::new(), points: Vec::new() }
     }
 }
 
 impl Contact2dBuilder {
     /// Adds a contact point and returns its number, which is its index in the solution.
     pub fn add_point(&mut self, point: ContactPoint<'_>) -> usize {
-        let number = self.mu.len();
+        let number = self.points.len();
         let ContactPoint { normal, tangent, gap, slip, mu, compliance } = point;
         self.normal.extend(normal.iter().map(|&(index, value)| (number, index, value)));
         self.tangent.extend(tangent.iter().map(|&(index, value)| (number, index, value)));
-        self.gaps.push(gap);
-        self.slips.push(slip);
-        self.mu.push(mu);
-        self.compliance.push(compliance);
+        self.points.push(ContactPoint { normal: &[], tangent: &[], gap, slip, mu, compliance });
         number
     }
 
@@ -98,21 +86,24 @@ impl Contact2dBuilder {
     /// [`Error::PointEntry`] or [`Error::PointValue`] with the number of a point whose data are wrong, and those
     /// of [`Contact2d::new`] for `K` and `f`.
     pub fn build(self) -> Result<Contact2d, Error> {
-        let Self { k, f, normal, tangent, gaps, slips, mu, compliance } = self;
-        let (n, m) = (f.len(), mu.len());
+        let Self { k, f, normal, tangent, points } = self;
+        let (n, m) = (f.len(), points.len());
         for (row, entries) in [("normal", &normal), ("tangent", &tangent)] {
             check_entries(row, entries, n)?;
         }
-        for (name, values) in [("gap", &gaps), ("slip", &slips)] {
-            check_values(name, values, "finite", f64::is_finite)?;
-        }
-        check_values("mu", &mu, "at least zero and finite", |mu| mu >= 0.0 && mu.is_finite())?;
+        let gaps: Vec<f64> = points.iter().map(|point| point.gap).collect();
+        let slips: Vec<f64> = points.iter().map(|point| point.slip).collect();
+        let mu: Vec<f64> = points.iter().map(|point| point.mu).collect();
+        check_points("gap", gaps.iter().copied(), "finite", f64::is_finite)?;
+        check_points("slip", slips.iter().copied(), "finite", f64::is_finite)?;
+        check_sizes("mu", mu.iter().copied())?;
+        let compliance = points.iter().map(|point| point.compliance).collect();
         let [c_n, c_t] = [normal, tangent].map(|rows| Matrix::from_entries(m, n, rows.into_iter()));
         Contact2d::new(k, f, c_n, c_t, gaps, slips, mu)?.with_compliance(compliance)
     }
 }
 
-fn check_entries(row: &'static str, entries: &Rows, displacements: usize) -> Result<(), Error> {
+fn check_entries(row: &'static str, entries: &Entries, displacements: usize) -> Result<(), Error> {
     let wrong = entries.iter().find(|(_, index, v)| *index >= displacements || !v.is_finite());
     match wrong {
         Some(&(point, index, value)) => {
@@ -122,14 +113,23 @@ fn check_entries(row: &'static str, entries: &Rows, displacements: usize) -> Res
     }
 }
 
-fn check_values(
+/// That a value of every point is at least zero and finite.
+pub(super) fn check_sizes(
     name: &'static str,
-    values: &[f64],
+    values: impl Iterator<Item = f64>,
+) -> Result<(), Error> {
+    check_points(name, values, "at least zero and finite", |v| v >= 0.0 && v.is_finite())
+}
+
+fn check_points(
+    name: &'static str,
+    values: impl Iterator<Item = f64>,
     range: &'static str,
     fits: impl Fn(f64) -> bool,
 ) -> Result<(), Error> {
-    match values.iter().position(|&value| !fits(value)) {
-        Some(point) => Err(Error::PointValue { point, name, value: values[point], range }),
+    let mut values = values.enumerate();
+    match values.find(|(_, value)| !fits(*value)) {
+        Some((point, value)) => Err(Error::PointValue { point, name, value, range }),
         None => Ok(()),
     }
 }
