@@ -22,27 +22,22 @@
 //! Residuals are computed in `f64`, and in double-double arithmetic where rounding errors of the terms are not small
 //! compared with the loads.
 
-mod boxed;
 mod certificate;
 mod constants;
 mod contact;
-mod evidence;
 mod farkas;
-mod friction;
-mod general;
-mod rows;
+mod judge;
+mod problems;
 mod significance;
 mod weights;
 
-pub use certificate::{Certificate, Leaf};
-pub use evidence::Ray;
+pub use certificate::{Certificate, Leaf, Ray};
 
-pub(crate) use boxed::BoxedJudge;
 pub(crate) use constants::ROUNDING;
-pub(crate) use contact::{ContactJudge, StateOf};
+pub(crate) use contact::ContactJudge;
 pub(crate) use farkas::{is_proof, is_proof_of, is_proof_of_mixed};
-pub(crate) use general::{GeneralJudge, right_hand_side};
-pub(crate) use rows::{Precision, ratio};
+pub(crate) use judge::{Precision, ratio};
+pub(crate) use problems::{BoxedJudge, GeneralJudge};
 
 use crate::Status;
 

@@ -16,7 +16,7 @@
 
 use std::time::Instant;
 
-use crate::certify::{GeneralJudge, Leaf, ROUNDING, is_proof_of, right_hand_side};
+use crate::certify::{GeneralJudge, Leaf, ROUNDING, is_proof_of};
 use crate::extended::{Extended, extended};
 use crate::matrix::Column;
 use crate::nonnegative::{LeastSquares, Minimum};
@@ -230,7 +230,7 @@ impl<'a> Tree<'a> {
         let n = problem.order();
         let columns: Vec<Column<'_>> = columns(problem, &vec![None; n]).collect();
         let (rows, mut factors) = equilibrate(n, &columns);
-        let judge = GeneralJudge::with_factors(problem, right_hand_side(problem), &rows, &factors);
+        let judge = GeneralJudge::with_factors(problem, &rows, &factors);
         let scaled = columns.iter().zip(&factors).map(|(column, factor)| {
             let mut scaled = vec![0.0; n];
             column.for_each(|i, v| scaled[i] += factor * (v * rows[i]));
@@ -316,7 +316,7 @@ impl<'a> Tree<'a> {
             basis.push(side);
         }
         // Far enough out all rows hold compared with their terms.
-        let residuals = self.judge.residuals_of(&extended(&t), &extended(&y));
+        let residuals = self.judge.residuals_of(&[&extended(&t), &extended(&y)]);
         let holds = residuals.equation <= ROUNDING && residuals.loads <= NEAR;
         holds.then(|| Enumerated::Found { t, y, basis: Basis::new(basis) })
     }

@@ -72,6 +72,13 @@ impl From<f64> for Extended {
     }
 }
 
+impl From<Extended> for f64 {
+    /// The nearest `f64`.
+    fn from(v: Extended) -> Self {
+        v.high
+    }
+}
+
 impl Add for Extended {
     type Output = Self;
 

@@ -469,7 +469,7 @@ impl Column<'_> {
 pub(crate) fn column_of(
     matrix: &SparseColMat<usize, f64>,
     j: usize,
-) -> impl Iterator<Item = (usize, f64)> + '_ {
+) -> impl Iterator<Item = (usize, f64)> + Clone + '_ {
     let pattern = matrix.symbolic();
     let range = pattern.col_range(j);
     pattern.row_idx()[range.clone()].iter().copied().zip(matrix.val()[range].iter().copied())

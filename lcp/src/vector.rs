@@ -13,6 +13,24 @@ pub(crate) fn check_vector(what: &'static str, v: &[f64]) -> Result<(), Error> {
     }
 }
 
+/// That a value of every contact point is at least zero and finite.
+pub(crate) fn check_sizes(
+    name: &'static str,
+    values: impl Iterator<Item = f64>,
+) -> Result<(), Error> {
+    check_points(name, values, "at least zero and finite", |v| v >= 0.0 && v.is_finite())
+}
+
+pub(crate) fn check_points(
+    name: &'static str,
+    values: impl Iterator<Item = f64>,
+    range: &'static str,
+    fits: impl Fn(f64) -> bool,
+) -> Result<(), Error> {
+    let wrong = values.enumerate().find(|(_, value)| !fits(*value));
+    wrong.map_or(Ok(()), |(point, value)| Err(Error::PointValue { point, name, value, range }))
+}
+
 pub(crate) fn check_length(name: &'static str, len: usize, expected: usize) -> Result<(), Error> {
     if len == expected { Ok(()) } else { Err(Error::Length { name, len, expected }) }
 }

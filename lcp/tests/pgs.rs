@@ -76,7 +76,7 @@ fn two_by_two() {
 
 /// A triangular matrix is solved by one sweep in its order.
 #[test]
-fn triangular_problems_take_one_sweep() {
+fn triangular_problems_take_two_sweeps() {
     for n in [1, 5, 20] {
         let families::Instance { problem, known } = families::murty(n);
         let solution = to(1e-8).solve(&problem).unwrap();

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use super::constants::EXACT;
-use crate::certify::{BoxedJudge, ContactJudge, Precision, StateOf};
+use crate::certify::{BoxedJudge, ContactJudge, Precision};
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
 use crate::refine::{ALL_DIGITS, Exact, ROUNDED, planned, refined_states};
@@ -129,7 +129,7 @@ fn rounded(judge: &dyn Judge, scaled: &Scaled, (u, forces): &Exact) -> Judged<'s
 /// A point that is exact but for its rounding, of whose loads that is no part.
 fn with_rounded_loads<'a>(judge: &dyn Judge, scaled: &Scaled, mut point: Judged<'a>) -> Judged<'a> {
     let at = PointRef { u: &point.u, forces: &point.forces };
-    point.residuals.loads = judge.residuals(scaled, at, Precision::RoundedLoads).loads;
+    point.residuals.loads = judge.residuals(scaled, at, Precision::Rounded).loads;
     point
 }
 
@@ -191,13 +191,13 @@ fn state(problem: &Contact2d, scaled: &Scaled, at: PointRef<'_>) -> ContactState
 
 impl Judge for (&Contact2d, ContactJudge<'_>) {
     fn residuals(&self, scaled: &Scaled, at: PointRef<'_>, precision: Precision) -> Residuals {
-        self.1.residuals(&state(self.0, scaled, at), precision)
+        self.1.residuals(&state(self.0, scaled, at).parts(), precision)
     }
 
     fn residuals_of(&self, scaled: &Scaled, (u, forces): &Exact) -> Residuals {
         let part = |k: usize| forces.iter().map(move |it| it[k].scaled(scaled.force()));
         let [t_n, t_t] = [0, 1].map(|k| part(k).collect::<Vec<_>>());
-        self.1.residuals_of(StateOf { u, t_n: &t_n, t_t: &t_t, openings: None })
+        self.1.residuals_of(&[u, &t_n, &t_t])
     }
 
     fn answer(&self, scaled: &Scaled, at: PointRef<'_>) -> Answer {
@@ -221,7 +221,7 @@ fn variables(scaled: &Scaled, at: PointRef<'_>) -> (Vec<f64>, Vec<f64>) {
 impl Judge for (&MixedLcp, BoxedJudge<'_>) {
     fn residuals(&self, scaled: &Scaled, at: PointRef<'_>, precision: Precision) -> Residuals {
         let (z, w) = variables(scaled, at);
-        self.1.residuals(&z, &w, precision)
+        self.1.residuals(&[&z, &w], precision)
     }
 
     fn residuals_of(&self, scaled: &Scaled, (u, forces): &Exact) -> Residuals {
@@ -230,7 +230,7 @@ impl Judge for (&MixedLcp, BoxedJudge<'_>) {
             let j = point.columns[0];
             w[j] = force.scaled(scaled.force_of(j));
         }
-        self.1.residuals_of(u, &w)
+        self.1.residuals_of(&[u, &w])
     }
 
     fn answer(&self, scaled: &Scaled, at: PointRef<'_>) -> Answer {

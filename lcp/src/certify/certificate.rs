@@ -1,10 +1,9 @@
 //! Certificates that a problem has no solution.
 
-use super::constants::RAY_ROUNDING;
-use super::evidence::Ray;
+use super::Residuals;
 use super::farkas::{is_proof, is_proof_of};
-use super::rows::ratio;
-use crate::matrix::Column;
+use super::judge::Precision;
+use super::problems::GeneralJudge;
 use crate::{HorizontalLcp, Side};
 
 /// Shows that there is no solution, or what was found instead of one. See
@@ -38,6 +37,25 @@ pub struct Leaf {
     pub sides: Vec<Option<Side>>,
     /// A Farkas vector for the columns of these sides.
     pub pi: Vec<f64>,
+}
+
+/// The secondary ray on which an attempt ended.
+///
+/// `A dt + B dy = covering dz0` with `dt, dy, dz0 >= 0` and `dt.dy = 0`: for every `s >= 0` the last
+/// point of the attempt plus `s (dt, dy, dz0)` satisfies `A t + B y = c + covering z0`, so that along
+/// the ray the artificial variable `z0` does not decrease.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct Ray {
+    /// Direction in `t`.
+    pub dt: Vec<f64>,
+    /// Direction in `y`.
+    pub dy: Vec<f64>,
+    /// Rate of the artificial variable.
+    pub dz0: f64,
+    /// The covering vector in the rows of the problem.
+    pub covering: Vec<f64>,
 }
 
 impl Certificate {
@@ -107,18 +125,12 @@ fn is_ray(problem: &HorizontalLcp, ray: &Ray) -> bool {
     if [dt, dy, covering].iter().any(|v| v.len() != n) {
         return false;
     }
-    let mut rest: Vec<f64> = covering.iter().map(|d| -d * dz0).collect();
-    let mut terms: Vec<f64> = rest.iter().map(|v| v.abs()).collect();
-    for (side, x) in [(Side::T, dt), (Side::Y, dy)] {
-        for (pair, x) in x.iter().enumerate().filter(|(_, x)| **x != 0.0) {
-            let column: Column<'_> = problem.column(pair, side);
-            column.for_each(|i, v| {
-                rest[i] += v * x;
-                terms[i] += (v * x).abs();
-            });
-        }
-    }
-    let holds = rest.iter().zip(&terms).all(|(rest, terms)| ratio(*rest, *terms) <= RAY_ROUNDING);
+    let c: Vec<f64> = covering.iter().map(|d| d * dz0).collect();
+    let sizes = c.iter().map(|c| c.abs()).collect();
+    let judge = GeneralJudge::with_right_hand_side(problem, c, sizes);
+    let Residuals { equation, .. } = judge.residuals(&[dt, dy], Precision::Quick);
+    // It proves nothing: half of the digits are enough.
+    let holds = equation <= f64::EPSILON.sqrt();
     let is_free = |pair: usize| problem.opposite(pair).is_some();
     let fits = |pair: usize| {
         dt[pair] >= 0.0 && dy[pair] >= 0.0 && (is_free(pair) || dt[pair].min(dy[pair]) == 0.0)

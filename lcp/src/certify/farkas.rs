@@ -3,7 +3,7 @@
 //! By Farkas' lemma `A t + B y = c` has no solution with `t >= 0` and `y >= 0` exactly if some `pi` has
 //! `A^T pi <= 0`, `B^T pi <= 0` and `c.pi > 0`.
 
-use super::constants::{CLEAR, LARGEST_OF_VECTOR, SUM_ROUNDING};
+use super::constants::{LARGEST_OF_VECTOR, WEAK};
 use crate::extended::Extended;
 use crate::matrix::Column;
 use crate::{HorizontalLcp, MixedLcp};
@@ -13,62 +13,72 @@ pub(crate) fn is_proof(problem: &HorizontalLcp, pi: &[f64]) -> bool {
     is_proof_of(problem.columns(), problem.c(), pi)
 }
 
-/// The same for the general form of a mixed problem, which is not put together.
-pub(crate) fn is_proof_of_mixed(problem: &MixedLcp, pi: &[f64]) -> bool {
-    let places: Vec<usize> = (0..problem.order()).collect();
-    // `w - M z = q`, where the positive and the negative part of a free `z` take the place of `z` and `w`.
-    let columns = problem.free().iter().enumerate().flat_map(|(j, is_free)| {
-        let m = problem.m().slice(j);
-        let unit = Column::Sparse { rows: &places[j..=j], values: &[1.0] };
-        [(-1.0, m), (1.0, if *is_free { m } else { unit })]
-    });
-    separates(columns, problem.q(), pi)
-}
-
 /// Whether `pi . a <= 0` for all columns and `pi . c > 0`, so that no nonnegative combination of the
 /// columns gives `c` (Farkas 1902).
-///
-/// The products are summed in twice the digits. Those with the columns may be positive by rounding errors of `pi`,
-/// relative to their terms, and `pi . c` has to be far above that.
 pub(crate) fn is_proof_of<'a>(
     columns: impl IntoIterator<Item = Column<'a>>,
     c: &[f64],
     pi: &[f64],
 ) -> bool {
-    separates(columns.into_iter().map(|column| (1.0, column)), c, pi)
+    separates(columns.into_iter().map(|column| Product::of(column, pi)), c, pi)
 }
 
-/// The same for columns with a sign.
-fn separates<'a>(columns: impl Iterator<Item = (f64, Column<'a>)>, c: &[f64], pi: &[f64]) -> bool {
+/// The same for the general form of a mixed problem, which is not put together.
+pub(crate) fn is_proof_of_mixed(problem: &MixedLcp, pi: &[f64]) -> bool {
+    // `w - M z = q`, and the positive and the negative part of a free `z` take the place of `z` and `w`.
+    let products = problem.free().iter().enumerate().flat_map(|(j, is_free)| {
+        let of_z = Product::of(problem.m().slice(j), pi);
+        let of_w = Product { sum: pi[j], size: pi[j].abs(), terms: 1.0 };
+        [Product { sum: -of_z.sum, ..of_z }, if *is_free { of_z } else { of_w }]
+    });
+    separates(products, problem.q(), pi)
+}
+
+/// The same by the products with the columns. These may be positive by rounding errors of `pi`, relative to their terms, and
+/// `pi . c` has to be far above that.
+fn separates(products: impl Iterator<Item = Product>, c: &[f64], pi: &[f64]) -> bool {
     if pi.len() != c.len() || pi.iter().any(|pi| !pi.is_finite()) {
         return false;
     }
-    let (gap, size, terms) = product(Column::Dense(c), pi);
-    let mut rounding = SUM_ROUNDING * terms;
-    for (sign, column) in columns {
-        let (sum, size, terms) = product(column, pi);
-        let sum = sign * sum;
-        if !size.is_finite() || sum > LARGEST_OF_VECTOR.max(SUM_ROUNDING * terms) * size {
+    let gap = Product::of(Column::Dense(c), pi);
+    let mut rounding = gap.rounding();
+    for product in products {
+        let Product { sum, size, .. } = product;
+        if !size.is_finite() || sum > LARGEST_OF_VECTOR.max(product.rounding()) * size {
             return false;
         }
         if sum > 0.0 {
             rounding = rounding.max(sum / size);
         }
     }
-    size.is_finite() && gap > CLEAR * rounding * size
+    gap.size.is_finite() && WEAK * gap.sum > rounding * gap.size
 }
 
-/// The product with a column, the sum of the sizes of its terms, and their number.
-fn product(column: Column<'_>, pi: &[f64]) -> (f64, f64, f64) {
-    let (mut sum, mut size, mut terms) = (Extended::ZERO, 0.0, 0.0);
-    column.for_each(|i, v| {
-        if v != 0.0 && pi[i] != 0.0 {
-            sum += Extended::product(v, pi[i]);
-            size += (v * pi[i]).abs();
-            terms += 1.0;
-        }
-    });
-    (sum.rounded(), size, terms)
+/// The product with a column in twice the digits, the sum of the sizes of its terms, and their number.
+#[derive(Clone, Copy)]
+struct Product {
+    sum: f64,
+    size: f64,
+    terms: f64,
+}
+
+impl Product {
+    fn of(column: Column<'_>, pi: &[f64]) -> Self {
+        let (mut sum, mut size, mut terms) = (Extended::ZERO, 0.0, 0.0);
+        column.for_each(|i, v| {
+            if v != 0.0 && pi[i] != 0.0 {
+                sum += Extended::product(v, pi[i]);
+                size += (v * pi[i]).abs();
+                terms += 1.0;
+            }
+        });
+        Self { sum: sum.rounded(), size, terms }
+    }
+
+    /// What rounding of the numbers of a vector makes at most, relative to the size.
+    fn rounding(self) -> f64 {
+        f64::EPSILON * self.terms
+    }
 }
 
 #[cfg(test)]

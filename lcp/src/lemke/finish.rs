@@ -46,18 +46,18 @@ pub(super) fn solve_basis(problem: &Equilibrated<'_>, basis: &Basis) -> Option<P
     }
     let judged = |x: &[f64]| {
         let mut values = Values::new(problem, basis, x);
-        let mut residuals = problem.judge.residuals(&values.t, &values.y, Precision::Exact);
+        let mut residuals = problem.judge.residuals(&[&values.t, &values.y], Precision::Exact);
         if residuals.loads > HIDDEN && residuals.equation.max(residuals.natural) <= HIDDEN {
             let mut low = low.clone();
             if !is_accurate {
                 let completed;
                 (completed, low) = with_rest(&matrix, &right, x);
                 values = Values::new(problem, basis, &completed);
-                residuals = problem.judge.residuals(&values.t, &values.y, Precision::Exact);
+                residuals = problem.judge.residuals(&[&values.t, &values.y], Precision::Exact);
             }
             let exact = values.exact_loads(problem, basis, &low);
             let rounded =
-                problem.judge.residuals(&values.t, &values.y, Precision::RoundedLoads).loads;
+                problem.judge.residuals(&[&values.t, &values.y], Precision::Rounded).loads;
             residuals.loads = residuals.loads.min(exact.max(rounded));
         }
         let Values { t, y, sides, negative } = values;
@@ -180,6 +180,6 @@ impl Values {
                 *value += Extended::from(low);
             }
         }
-        problem.judge.residuals_of(&t, &y).loads
+        problem.judge.residuals_of(&[&t, &y]).loads
     }
 }

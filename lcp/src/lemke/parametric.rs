@@ -302,9 +302,9 @@ impl Tracer<'_> {
 
     fn residual(&self, point: &Breakpoint) -> f64 {
         let terms = self.problem.c().iter().zip(self.c1).map(|(c0, c1)| (c0, point.lambda * c1));
-        let c: Vec<_> = terms.map(|(a, b)| (a + b, a.abs() + b.abs())).collect();
-        let judge = GeneralJudge::with_right_hand_side(self.problem, c);
-        judge.residuals(&point.t, &point.y, Precision::Exact).worst()
+        let (c, sizes) = terms.map(|(a, b)| (a + b, a.abs() + b.abs())).unzip();
+        let judge = GeneralJudge::with_right_hand_side(self.problem, c, sizes);
+        judge.residuals(&[&point.t, &point.y], Precision::Exact).worst()
     }
 
     fn ray<K: Kernel>(

@@ -464,7 +464,7 @@ impl<'a> Search<'a> {
     /// Without a point there is still an answer: zero, with its residuals.
     fn give_up(self, status: Status) -> Solution {
         let zero = vec![0.0; self.problem.order()];
-        let residuals = self.problem.judge.residuals(&zero, &zero, Precision::Exact);
+        let residuals = self.problem.judge.residuals(&[&zero, &zero], Precision::Exact);
         let proof = self.farkas.map(|pi| Certificate::Farkas { pi });
         let ray = self.ray.filter(|_| status == Status::RayTermination).map(Certificate::Ray);
         Solution {

@@ -4,7 +4,7 @@ mod sparse;
 
 use faer::Mat;
 
-use crate::certify::{GeneralJudge, right_hand_side};
+use crate::certify::GeneralJudge;
 use crate::linear::{Lu, all_finite};
 use crate::matrix::Column;
 use crate::random::SplitMix;
@@ -36,7 +36,7 @@ impl<'a> Equilibrated<'a> {
         let (row, factors) = equilibrate(n, &problem.columns());
         let (t_factor, y_factor) = (factors[..n].to_vec(), factors[n..].to_vec());
         let opposite = (0..n).map(|pair| problem.opposite(pair)).collect();
-        let judge = GeneralJudge::with_factors(problem, right_hand_side(problem), &row, &factors);
+        let judge = GeneralJudge::with_factors(problem, &row, &factors);
         Self { problem, row, t_factor, y_factor, opposite, judge }
     }
 

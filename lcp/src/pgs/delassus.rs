@@ -13,6 +13,9 @@ use crate::parts::Parts;
 use crate::sparse::Columns;
 use crate::{Contact2d, Error};
 
+/// Most numbers of `K^-1 C^T` that are kept. Chosen: a quarter of a GB.
+const LARGEST: usize = 1 << 25;
+
 /// `K^-1 C^T`. Bodies that `K` does not couple are factorised one by one, so that a column has entries for
 /// the bodies at its contact only.
 #[derive(Debug)]
@@ -76,13 +79,20 @@ impl<'a> Compliance<'a> {
             body.displacements.iter().for_each(|&j| body_of[j] = number);
         }
         let c = rows_of_contacts(problem);
-        let (mut columns, mut column) = (Columns::default(), vec![0.0; n]);
+        let (mut columns, mut column, mut size) = (Columns::default(), vec![0.0; n], 0);
         for row in 0..c.len() {
             c.add_to(row, 1.0, &mut column);
             let mut touched: Vec<usize> = c.entries(row).map(|(j, _)| body_of[j]).collect();
             touched.sort_unstable();
             touched.dedup();
             for body in touched.into_iter().map(|number| &bodies[number]) {
+                size += body.displacements.len();
+                if size > LARGEST {
+                    return Err(ProjectedGaussSeidel::not_treated(format!(
+                        "contacts act on bodies of so many displacements that K^-1 C^T has more than \
+                         {LARGEST} numbers: take Lemke's method"
+                    )));
+                }
                 body.solve(&mut column);
                 for &j in &body.displacements {
                     columns.push(j, column[j]);

@@ -41,7 +41,7 @@ impl Sweepable for HorizontalLcp {
         let judge = GeneralJudge::new(self);
         let (best, status) = sweeps.run(&mut monitor, &mut |point: &Point<'_>| {
             let (t, y) = standard.to_pairs(point.z, point.allowed);
-            judge.residuals(&t, &y, Precision::Exact)
+            judge.residuals(&[&t, &y], Precision::Exact)
         });
         let (t, y) = standard.to_pairs(&best.z, &best.allowed);
         Ok(solver.solution(t, y, best.residuals, status, monitor))
@@ -64,7 +64,7 @@ impl Sweepable for BoxedLcp {
         let sweeps = Sweeps::new(&solver.settings, &mut rows, self.q(), &constraints, start)?;
         let judge = BoxedJudge::of_boxed(self);
         let (best, status) = sweeps.run(&mut monitor, &mut |point: &Point<'_>| {
-            judge.residuals(point.z, point.allowed, Precision::Exact)
+            judge.residuals(&[point.z, point.allowed], Precision::Exact)
         });
         let (t, y) = self.to_pairs(&best.z, &best.allowed);
         let solution = solver.solution(t, y, best.residuals, status, monitor);
@@ -122,7 +122,7 @@ impl Sweepable for Contact2d {
         let sweeps = Sweeps::new(&solver.settings, &mut rows, &q, &constraints, start)?;
         let judge = ContactJudge::new(self);
         let (best, status) = sweeps.run(&mut monitor, &mut |point: &Point<'_>| {
-            judge.residuals(&state(point.z), Precision::Exact)
+            judge.residuals(&state(point.z).parts(), Precision::Exact)
         });
         let state = state(&best.z);
         let (t, y) = self.to_pairs(&state);

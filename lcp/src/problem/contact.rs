@@ -9,7 +9,6 @@ mod units;
 pub use bedding::Bedding;
 #[cfg(feature = "clarabel")]
 pub(crate) use bedding::{check_epsilon, ratio};
-use builder::check_sizes;
 pub use builder::{Contact2dBuilder, ContactPoint};
 pub use status::ContactStatus;
 pub(crate) use units::{column_factors, diagonal, median};
@@ -19,7 +18,7 @@ use faer::sparse::SparseColMat;
 use super::HorizontalLcp;
 use crate::definite::indefiniteness;
 use crate::matrix::column_of;
-use crate::vector::{check_length, check_vector};
+use crate::vector::{check_length, check_sizes, check_vector};
 use crate::{Error, Matrix};
 
 /// Unilateral contact with Coulomb's friction between elastic or rigid bodies in the plane:

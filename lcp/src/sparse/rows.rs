@@ -12,35 +12,23 @@ pub(crate) struct ByRows {
 
 impl ByRows {
     pub(crate) fn of(matrix: &SparseColMat<usize, f64>) -> Self {
-        let mut starts = vec![0; matrix.nrows() + 1];
-        for j in 0..matrix.ncols() {
-            column_of(matrix, j).for_each(|(i, _)| starts[i + 1] += 1);
-        }
-        for i in 0..matrix.nrows() {
+        let columns = 0..matrix.ncols();
+        let entries = columns.flat_map(|j| column_of(matrix, j).map(move |(i, v)| (i, j, v)));
+        Self::new(matrix.nrows(), entries)
+    }
+
+    /// From entries `(row, column, value)`; those of a row stay in their order.
+    pub(crate) fn new(rows: usize, all: impl Iterator<Item = (usize, usize, f64)> + Clone) -> Self {
+        let mut starts = vec![0; rows + 1];
+        all.clone().for_each(|(i, _, _)| starts[i + 1] += 1);
+        for i in 0..rows {
             starts[i + 1] += starts[i];
         }
         let mut next = starts.clone();
-        let mut entries = vec![(0, 0.0); starts[matrix.nrows()]];
-        for j in 0..matrix.ncols() {
-            for (i, v) in column_of(matrix, j) {
-                entries[next[i]] = (j, v);
-                next[i] += 1;
-            }
-        }
-        Self { starts, entries }
-    }
-
-    /// The same with one more entry, behind the others, in the rows that have one.
-    pub(crate) fn with(
-        matrix: &SparseColMat<usize, f64>,
-        other: impl Fn(usize) -> Option<(usize, f64)>,
-    ) -> Self {
-        let all = Self::of(matrix);
-        let (mut starts, mut entries) = (vec![0], Vec::with_capacity(all.entries.len()));
-        for i in 0..matrix.nrows() {
-            entries.extend_from_slice(all.row(i));
-            entries.extend(other(i));
-            starts.push(entries.len());
+        let mut entries = vec![(0, 0.0); starts[rows]];
+        for (i, j, v) in all {
+            entries[next[i]] = (j, v);
+            next[i] += 1;
         }
         Self { starts, entries }
     }

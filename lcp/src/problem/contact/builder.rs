@@ -1,6 +1,7 @@
 //! Contact problems point by point.
 
 use super::Contact2d;
+use crate::vector::{check_points, check_sizes};
 use crate::{Error, Matrix};
 
 /// A contact point with the displacements that open it and make it slip. A row is a list of pairs
@@ -109,27 +110,6 @@ fn check_entries(row: &'static str, entries: &Entries, displacements: usize) -> 
         Some(&(point, index, value)) => {
             Err(Error::PointEntry { point, row, index, value, displacements })
         }
-        None => Ok(()),
-    }
-}
-
-/// That a value of every point is at least zero and finite.
-pub(super) fn check_sizes(
-    name: &'static str,
-    values: impl Iterator<Item = f64>,
-) -> Result<(), Error> {
-    check_points(name, values, "at least zero and finite", |v| v >= 0.0 && v.is_finite())
-}
-
-fn check_points(
-    name: &'static str,
-    values: impl Iterator<Item = f64>,
-    range: &'static str,
-    fits: impl Fn(f64) -> bool,
-) -> Result<(), Error> {
-    let mut values = values.enumerate();
-    match values.find(|(_, value)| !fits(*value)) {
-        Some((point, value)) => Err(Error::PointValue { point, name, value, range }),
         None => Ok(()),
     }
 }
