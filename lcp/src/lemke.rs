@@ -1,6 +1,5 @@
 //! Lemke's method on the general form: records of its pivots, and solutions along a line of right-hand sides.
 
-mod any_kernel;
 mod artificial;
 mod basis_matrix;
 mod constants;

@@ -3,7 +3,7 @@
 use faer::{Mat, MatRef};
 
 use super::kernel::{Kernel, Var};
-use super::tableau::{Row, Tableau};
+use super::tableau::Tableau;
 use crate::linear::{Lu, add_product, all_finite};
 
 /// A tableau with the start data that it came from.
@@ -43,8 +43,6 @@ impl<'a> Dense<'a> {
 }
 
 impl Kernel for Dense<'_> {
-    type Row = Row;
-
     fn right_hand_side(&self) -> &[f64] {
         self.q
     }
@@ -71,12 +69,12 @@ impl Kernel for Dense<'_> {
         self.col_of[leaving] = col;
     }
 
-    fn row(&self, row: usize) -> Row {
+    fn row(&self, row: usize) -> Vec<f64> {
         self.tableau.row(row)
     }
 
-    fn entry(&self, row: &Row, var: Var) -> f64 {
-        self.tableau.entry(row, self.col_of[var])
+    fn entry(&self, row: usize, factors: &[f64], var: Var) -> f64 {
+        self.tableau.entry(row, factors, self.col_of[var])
     }
 
     fn parting(&self, _ties: usize) -> Option<Vec<f64>> {

@@ -7,7 +7,7 @@
 
 use super::basis_matrix::BasisMatrix;
 use super::constants::COST_TOLERANCE;
-use super::kernel::{Kernel, Var};
+use super::kernel::Var;
 use super::path::Path;
 use super::start::{Equilibrated, Start};
 use crate::Side;
@@ -16,10 +16,10 @@ use crate::vector::max_abs;
 
 /// A checked Farkas vector, if one is found along a path that has not begun. `is_over` is asked before
 /// every pivot.
-pub(super) fn farkas_vector<K: Kernel>(
+pub(super) fn farkas_vector(
     problem: &Equilibrated<'_>,
     start: &Start,
-    mut path: Path<'_, K>,
+    mut path: Path<'_>,
     is_over: &mut dyn FnMut(usize, f64) -> bool,
 ) -> Option<Vec<f64>> {
     let n = problem.order();
@@ -45,12 +45,12 @@ pub(super) fn farkas_vector<K: Kernel>(
 }
 
 /// The nonbasic variable that lowers the artificial one the fastest.
-fn descending_variable<K: Kernel>(path: &Path<'_, K>, row: usize, n: usize) -> Option<Var> {
+fn descending_variable(path: &Path<'_>, row: usize, n: usize) -> Option<Var> {
     let inverse_row = path.kernel.row(row);
     let mut largest = 1.0_f64;
     let mut best = (0.0, None);
     for var in (0..2 * n).filter(|&var| path.is_nonbasic(var)) {
-        let cost = path.kernel.entry(&inverse_row, var);
+        let cost = path.kernel.entry(row, &inverse_row, var);
         largest = largest.max(cost.abs());
         if cost > best.0 {
             best = (cost, Some(var));

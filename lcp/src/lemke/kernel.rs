@@ -8,9 +8,6 @@ pub(super) type Var = usize;
 /// Start coordinates are those in which the data are held: for the dense kernel the basic variables
 /// of the start basis, for the sparse one the equilibrated rows of the problem.
 pub(super) trait Kernel {
-    /// One row of the inverse of the basis.
-    type Row;
-
     /// `q` in start coordinates.
     fn right_hand_side(&self) -> &[f64];
 
@@ -23,11 +20,11 @@ pub(super) trait Kernel {
     /// The variable `entering` takes the place of `leaving` in `row`; `column` is its column.
     fn exchange(&mut self, row: usize, entering: Var, leaving: Var, column: &[f64]);
 
-    /// A row of the inverse of the basis.
-    fn row(&self, row: usize) -> Self::Row;
+    /// A row of the inverse of the basis, as factors that [`entry`](Self::entry) understands.
+    fn row(&self, row: usize) -> Vec<f64>;
 
-    /// The entry of that row in the column of a nonbasic variable.
-    fn entry(&self, row: &Self::Row, var: Var) -> f64;
+    /// The entry of a row with these factors in the column of a nonbasic variable.
+    fn entry(&self, row: usize, factors: &[f64], var: Var) -> f64;
 
     /// Where rows cost more: in terms of the present basis a vector, always the same in start
     /// coordinates, that parts so many ties as adding a little of it to the right-hand side would.

@@ -10,10 +10,9 @@ pub use outcome::{Breakpoint, ParametricEnd, ParametricPath, ParametricRay};
 
 use std::time::Instant;
 
-use super::basis_matrix::BasisMatrix;
 use super::constants::{ROUNDING, TIE_WINDOW};
 use super::crash::{Crash, find_basis};
-use super::kernel::{Kernel, Var};
+use super::kernel::Var;
 use super::path::Path;
 use super::start::{Equilibrated, Start};
 use crate::certify::{GeneralJudge, Precision};
@@ -86,7 +85,7 @@ impl Parametric {
         let deadline = deadline_of(Instant::now(), self.settings.lemke.time_limit);
         let at_start = problem.with_right_hand_side(right_hand_side(problem, c1, from))?;
         let solution = Lemke::new(self.settings.lemke.clone()).solve(&at_start)?;
-        let mut path = ParametricPath {
+        let mut out = ParametricPath {
             end: ParametricEnd::NoStart(solution.status),
             breakpoints: Vec::new(),
             bases: Vec::new(),
@@ -94,33 +93,42 @@ impl Parametric {
             residual: solution.residuals.worst(),
         };
         if !solution.is_solved() {
-            return Ok(path);
+            return Ok(out);
         }
-        path.breakpoints.push(Breakpoint { lambda: from, t: solution.t, y: solution.y });
+        out.breakpoints.push(Breakpoint { lambda: from, t: solution.t, y: solution.y });
         let equilibrated = Equilibrated::new(&at_start);
         let found = solution.basis.map(Crash::Complete);
-        let found = found.unwrap_or_else(|| find_basis(&equilibrated, None, deadline));
-        let basis = match found {
+        let basis = match found.unwrap_or_else(|| find_basis(&equilibrated, None, deadline)) {
             Crash::Complete(basis) => basis,
             Crash::Partial { .. } => {
-                path.end = ParametricEnd::NoStart(Status::NoComplementaryBasis);
-                return Ok(path);
+                out.end = ParametricEnd::NoStart(Status::NoComplementaryBasis);
+                return Ok(out);
             }
             Crash::Late => {
-                path.end = ParametricEnd::NoStart(Status::TimeLimit);
-                return Ok(path);
+                out.end = ParametricEnd::NoStart(Status::TimeLimit);
+                return Ok(out);
             }
         };
-        let Some(start) = equilibrated.start(&basis).map(Start::bounded) else {
-            path.end = ParametricEnd::NumericalTrouble;
-            return Ok(path);
+        let rates = problem.with_right_hand_side(c1.to_vec())?;
+        let starts = (equilibrated.start(&basis), Equilibrated::new(&rates).start(&basis));
+        let (Some(start), Some(rates)) = starts else {
+            out.end = ParametricEnd::NumericalTrouble;
+            return Ok(out);
         };
-        Tracer { settings: &self.settings, deadline, problem, c1, from, to }.follow(
-            &equilibrated,
-            &start,
-            &mut path,
-        );
-        Ok(path)
+        // Rates of the basic variables in a unit of the parameter that points to its last value.
+        let direction = if to < from { -1.0 } else { 1.0 };
+        let rate: Vec<f64> = rates.q.iter().map(|rate| direction * rate).collect();
+        let start = start.bounded();
+        let interval = self.settings.lemke.refactor_interval;
+        let kernel = start.kernel(&rate, interval);
+        let values = start.q.iter().map(|q| q.max(0.0)).collect();
+        let path = Path::parametric(kernel, &start, &rate, values, interval);
+        let unit = direction * start.size / rates.size;
+        let (settings, equilibrated, start) = (&self.settings, &equilibrated, &start);
+        let tracer =
+            Tracer { settings, deadline, problem, c1, equilibrated, start, from, to, unit };
+        out.end = tracer.follow(path, &mut out);
+        Ok(out)
     }
 }
 
@@ -129,53 +137,18 @@ struct Tracer<'a> {
     deadline: Option<Instant>,
     problem: &'a HorizontalLcp,
     c1: &'a [f64],
+    equilibrated: &'a Equilibrated<'a>,
+    start: &'a Start,
     from: f64,
     to: f64,
+    /// One unit of the parameter of the path, which starts at zero.
+    unit: f64,
 }
 
 impl Tracer<'_> {
-    fn follow(&self, equilibrated: &Equilibrated<'_>, start: &Start, out: &mut ParametricPath) {
-        let Some(rate) = self.start_rate(equilibrated, start) else {
-            out.end = ParametricEnd::NumericalTrouble;
-            return;
-        };
-        let size = max_abs(&rate);
-        let unit = if size > 0.0 { 1.0 / size } else { 1.0 };
-        let rate: Vec<f64> = rate.iter().map(|rate| rate * unit).collect();
-        let kernel = start.kernel(&rate, self.settings.lemke.refactor_interval);
-        let values = start.q.iter().map(|q| q.max(0.0)).collect();
-        let interval = self.settings.lemke.refactor_interval;
-        let path = Path::parametric(kernel, start, &rate, values, interval);
-        out.end = self.run(path, equilibrated, start, unit, out);
-    }
-
-    /// The rates of the basic variables of the start, in their units, for one unit of the parameter
-    /// towards its last value.
-    fn start_rate(&self, equilibrated: &Equilibrated<'_>, start: &Start) -> Option<Vec<f64>> {
-        let matrix = BasisMatrix::new(equilibrated, &start.basis)?;
-        let direction = if self.to < self.from { -1.0 } else { 1.0 };
-        let rows = self.c1.iter().zip(&equilibrated.row);
-        let mut rate: Vec<f64> = rows.map(|(c1, row)| direction * c1 * row).collect();
-        matrix.solve(&mut rate);
-        for (pair, rate) in rate.iter_mut().enumerate() {
-            let side = start.basis.sides()[pair];
-            *rate *= equilibrated.factor(pair, side) * start.row_factor[pair] / start.size;
-        }
-        rate.iter().all(|rate| rate.is_finite()).then_some(rate)
-    }
-
-    /// `unit` is the size of the parameter's unit along the path, which starts at zero.
-    fn run<K: Kernel>(
-        &self,
-        mut path: Path<'_, K>,
-        equilibrated: &Equilibrated<'_>,
-        start: &Start,
-        unit: f64,
-        out: &mut ParametricPath,
-    ) -> ParametricEnd {
+    fn follow(&self, mut path: Path<'_>, out: &mut ParametricPath) -> ParametricEnd {
         let n = self.problem.order();
         let limit = self.settings.max_breakpoints.unwrap_or(100 * n + 1000);
-        let last = (self.to - self.from).abs() / unit;
         let parameter = path.artificial();
         let mut entering = parameter;
         let mut column = vec![0.0; n];
@@ -190,109 +163,75 @@ impl Tracer<'_> {
                 return ParametricEnd::NumericalTrouble;
             }
             path.kernel.column(entering, &mut column);
-            out.bases.push(present_basis(&path, start, entering));
             let row = path.leaving_row(&column);
             let step = row.map_or(f64::INFINITY, |row| path.values[row].max(0.0) / column[row]);
-            let value = path.value(parameter);
             let speed = match path.artificial_row() {
                 Some(row) if column[row].abs() <= ROUNDING * max_abs(&column) => 0.0,
                 Some(row) => -column[row],
                 None => 1.0,
             };
-            let place = Place { equilibrated, start, unit };
-            let reach = if speed > 0.0 { (last - value) / speed } else { f64::INFINITY };
-            let back = if speed < 0.0 { value / -speed } else { f64::INFINITY };
-            if reach <= step && reach.is_finite() {
-                if reach * max_abs(&column) <= TIE_WINDOW * path.value_scale()
-                    && out.bases.len() > 1
-                {
-                    out.bases.pop();
-                    if let Some(last) = out.breakpoints.last_mut() {
-                        last.lambda = self.to;
-                    }
-                    return ParametricEnd::Reached;
-                }
-                path.advance(reach, &column);
-                return self
-                    .note(&path, place, Some((entering, reach)), Some(self.to), out)
-                    .unwrap_or(ParametricEnd::Reached);
-            }
-            if back < step {
-                path.advance(back, &column);
-                return self
-                    .note(&path, place, Some((entering, back)), Some(self.from), out)
-                    .unwrap_or(ParametricEnd::TurnedBack);
-            }
-            let Some(row) = row else {
-                out.ray = Some(self.ray(place, &path, entering, &column, speed));
+            let is_back = speed < 0.0;
+            let goal = if is_back { self.from } else { self.to };
+            let reach = ((goal - self.from) / self.unit - path.value(parameter)) / speed;
+            // A step that ends on the first value may go on from there.
+            let is_last = if is_back { reach < step } else { reach <= step && reach.is_finite() };
+            if !is_last && row.is_none() {
+                out.bases.push(self.basis(&path, entering));
+                out.ray = Some(self.ray(&path, entering, &column, speed));
                 return ParametricEnd::Ray;
-            };
-            if !path.is_new() {
-                return ParametricEnd::Cycle;
             }
-            entering = path.exchange(row, entering, &column);
+            let step = if is_last { reach } else { step };
             // Rows within this window count as tied, so that a step within it parts a tie.
-            if step * max_abs(&column) <= TIE_WINDOW * path.value_scale() {
-                out.bases.pop();
-                continue;
+            if step * max_abs(&column) > TIE_WINDOW * path.value_scale()
+                || is_last && out.bases.is_empty()
+            {
+                let along = path.values_at(entering, step, &column);
+                if !self.note(&along, is_last.then_some(goal), out) {
+                    if path.is_rebuilt() || !path.rebuild() {
+                        return ParametricEnd::NumericalTrouble;
+                    }
+                    continue;
+                }
+                out.bases.push(self.basis(&path, entering));
+            } else if is_last && let Some(last) = out.breakpoints.last_mut() {
+                last.lambda = goal;
             }
-            let is_good = self.note(&path, place, None, None, out).is_none();
-            if !is_good {
-                if !path.rebuild() {
-                    return ParametricEnd::NumericalTrouble;
-                }
-                if let Some(end) = self.note(&path, place, None, None, out) {
-                    return end;
-                }
+            match row.filter(|_| !is_last) {
+                None if is_back => return ParametricEnd::TurnedBack,
+                None => return ParametricEnd::Reached,
+                Some(_) if !path.is_new() => return ParametricEnd::Cycle,
+                Some(row) => entering = path.exchange(row, entering, &column),
             }
         }
     }
 
-    /// Adds the present point, and says so where the original data do not vouch for it. `moving` is a
-    /// nonbasic variable with a value; `lambda` replaces the path's own value where it is known.
-    fn note<K: Kernel>(
-        &self,
-        path: &Path<'_, K>,
-        place: Place<'_>,
-        moving: Option<(Var, f64)>,
-        lambda: Option<f64>,
-        out: &mut ParametricPath,
-    ) -> Option<ParametricEnd> {
+    /// Adds the point with these values of all variables of the path, if the original data vouch for it. `lambda`
+    /// replaces the value of the path where it is known.
+    fn note(&self, along: &[f64], lambda: Option<f64>, out: &mut ParametricPath) -> bool {
         // A solution that vanishes must not be measured by its own rounding errors. These grow with the
         // condition of the basis, up to what counts as a tie.
         let mut points = [ROUNDING, TIE_WINDOW].into_iter().map(|least| {
-            let point = self.point(path, place, moving, lambda, least);
+            let point = self.point(along, lambda, least);
             (self.residual(&point), point)
         });
         let found = points.find(|(residual, _)| *residual <= self.settings.lemke.tolerance);
-        let Some((residual, point)) = found else {
-            return Some(ParametricEnd::NumericalTrouble);
-        };
-        out.breakpoints.push(point);
-        out.residual = out.residual.max(residual);
-        None
+        if let Some((residual, point)) = found {
+            out.breakpoints.push(point);
+            out.residual = out.residual.max(residual);
+            return true;
+        }
+        false
     }
 
-    /// The present point. Values below `least`, relative to the path's, are zero.
-    fn point<K: Kernel>(
-        &self,
-        path: &Path<'_, K>,
-        place: Place<'_>,
-        moving: Option<(Var, f64)>,
-        lambda: Option<f64>,
-        least: f64,
-    ) -> Breakpoint {
-        let value = |var: Var| match moving {
-            Some((it, value)) if it == var => value,
-            _ => path.value(var),
-        };
-        let zero = least * (1.0 + value(path.artificial()).abs());
-        let kept = |var: Var| if value(var).abs() > zero { value(var) } else { 0.0 };
-        let along: Vec<f64> = (0..2 * self.problem.order()).map(kept).collect();
-        let (t, y) = place.in_problem_units(&along, place.start.size);
-        let direction = if self.to < self.from { -1.0 } else { 1.0 };
-        let travelled = direction * place.unit * kept(path.artificial());
+    /// A point. Values below `least`, relative to the path's, are zero.
+    fn point(&self, along: &[f64], lambda: Option<f64>, least: f64) -> Breakpoint {
+        let parameter = along[along.len() - 1];
+        let zero = least * (1.0 + parameter.abs());
+        let kept = |value: f64| if value.abs() > zero { value } else { 0.0 };
+        let kept_values: Vec<f64> = along.iter().copied().map(kept).collect();
+        let (t, y) = self.start.in_problem_units(self.equilibrated, &kept_values);
         let lambda = lambda.unwrap_or_else(|| {
+            let travelled = self.unit * kept(parameter);
             let lambda = self.from + travelled;
             let size = self.from.abs() + travelled.abs();
             if lambda.abs() > least * size { lambda } else { 0.0 }
@@ -307,54 +246,21 @@ impl Tracer<'_> {
         judge.residuals(&[&point.t, &point.y], Precision::Exact).worst()
     }
 
-    fn ray<K: Kernel>(
-        &self,
-        place: Place<'_>,
-        path: &Path<'_, K>,
-        entering: Var,
-        column: &[f64],
-        speed: f64,
-    ) -> ParametricRay {
+    fn ray(&self, path: &Path<'_>, entering: Var, column: &[f64], speed: f64) -> ParametricRay {
+        let along = path.direction(entering, column);
+        let (dt, dy) = self.start.in_problem_units(self.equilibrated, &along);
+        ParametricRay { dlambda: self.unit * speed, dt, dy }
+    }
+
+    /// Of every pair the variable that is basic or entering.
+    fn basis(&self, path: &Path<'_>, entering: Var) -> Basis {
         let n = self.problem.order();
-        let mut along = path.direction(entering, column);
-        along.truncate(2 * n);
-        let (dt, dy) = place.in_problem_units(&along, place.start.size);
-        let direction = if self.to < self.from { -1.0 } else { 1.0 };
-        ParametricRay { dlambda: direction * place.unit * speed, dt, dy }
-    }
-}
-
-/// What leads from the path back to the problem.
-#[derive(Clone, Copy)]
-struct Place<'a> {
-    equilibrated: &'a Equilibrated<'a>,
-    start: &'a Start,
-    unit: f64,
-}
-
-impl Place<'_> {
-    /// `(t, y)` from values of all `w` and `z`.
-    fn in_problem_units(self, along: &[f64], size: f64) -> (Vec<f64>, Vec<f64>) {
-        let n = self.start.q.len();
-        let (mut t, mut y) = (vec![0.0; n], vec![0.0; n]);
-        for pair in 0..n {
-            let w = size * along[pair] / self.start.row_factor[pair];
-            let z = size * along[n + pair] * self.start.col_factor[pair];
-            (t[pair], y[pair]) =
-                self.equilibrated.sides(pair, self.start.nonbasic_side(pair), w, z);
+        let mut z_is_basic = path.z_is_basic();
+        if (n..2 * n).contains(&entering) {
+            z_is_basic[entering - n] = true;
         }
-        (t, y)
+        self.start.basis_with(&z_is_basic)
     }
-}
-
-/// Of every pair the variable that is basic or entering.
-fn present_basis<K: Kernel>(path: &Path<'_, K>, start: &Start, entering: Var) -> Basis {
-    let n = start.q.len();
-    let mut z_is_basic = path.z_is_basic();
-    if (n..2 * n).contains(&entering) {
-        z_is_basic[entering - n] = true;
-    }
-    start.basis_with(&z_is_basic)
 }
 
 /// `c0 + lambda c1`, where what cancels up to rounding is zero.

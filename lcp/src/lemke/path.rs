@@ -31,8 +31,8 @@ pub(super) struct Exchange {
 pub(super) type Limits<'a> = &'a mut dyn FnMut(usize, f64) -> Option<AttemptEnd>;
 
 /// The state of a path.
-pub(super) struct Path<'a, K> {
-    pub(super) kernel: K,
+pub(super) struct Path<'a> {
+    pub(super) kernel: Box<dyn Kernel + 'a>,
     start: &'a Start,
     covering: &'a [f64],
     /// Values of the basic variables, row by row.
@@ -60,10 +60,10 @@ pub(super) struct Path<'a, K> {
     rebuilt_at: Option<usize>,
 }
 
-impl<'a, K: Kernel> Path<'a, K> {
+impl<'a> Path<'a> {
     /// `values` are those of the start basis. Rows of free variables have a covering of zero.
     pub(super) fn new(
-        kernel: K,
+        kernel: Box<dyn Kernel + 'a>,
         start: &'a Start,
         covering: &'a [f64],
         values: Vec<f64>,
@@ -96,7 +96,7 @@ impl<'a, K: Kernel> Path<'a, K> {
     /// A path along which the artificial variable is a parameter: it may have any value, and does not
     /// leave when it is zero.
     pub(super) fn parametric(
-        kernel: K,
+        kernel: Box<dyn Kernel + 'a>,
         start: &'a Start,
         rate: &'a [f64],
         values: Vec<f64>,
@@ -149,7 +149,7 @@ impl<'a, K: Kernel> Path<'a, K> {
     pub(super) fn leaving_row(&self, column: &[f64]) -> Option<usize> {
         let driven = self.artificial_row().filter(|_| !self.is_parametric);
         let basic = Basic {
-            kernel: &self.kernel,
+            kernel: &*self.kernel,
             values: &self.values,
             row_of: &self.row_of,
             is_bounded: |row| self.is_bounded(row),
@@ -248,7 +248,7 @@ impl<'a, K: Kernel> Path<'a, K> {
                 None if self.is_true_column(entering, column) => {
                     return self.at_ray(entering, column);
                 }
-                None if self.rebuilt_at == Some(self.pivots) => return AttemptEnd::Singular,
+                None if self.is_rebuilt() => return AttemptEnd::Singular,
                 None if !self.rebuild() => return AttemptEnd::Singular,
                 None => {}
             }
@@ -359,12 +359,15 @@ impl<'a, K: Kernel> Path<'a, K> {
         direction
     }
 
-    /// Moves the basic variables by a step of the entering one, given its column, without a pivot.
-    pub(super) fn advance(&mut self, step: f64, column: &[f64]) {
-        for (row, a) in column.iter().enumerate() {
+    /// Values of all variables after a step of the entering one, given its column.
+    pub(super) fn values_at(&self, entering: Var, step: f64, column: &[f64]) -> Vec<f64> {
+        let mut values = vec![0.0; 2 * self.order() + 1];
+        for (row, (&var, a)) in self.basic.iter().zip(column).enumerate() {
             let value = self.values[row] - step * a;
-            self.values[row] = if self.is_bounded(row) { value.max(0.0) } else { value };
+            values[var] = if self.is_bounded(row) { value.max(0.0) } else { value };
         }
+        values[entering] = step;
+        values
     }
 
     /// Remembers the present basis; `false` if it was met before.
@@ -377,6 +380,11 @@ impl<'a, K: Kernel> Path<'a, K> {
         let last = self.rebuilt_at.unwrap_or(0);
         let is_due = self.interval.is_some_and(|interval| self.pivots >= last + interval);
         if !self.kernel.apply() || is_due || self.has_drifted() { self.rebuild() } else { true }
+    }
+
+    /// Whether the tableau was rebuilt after the last pivot.
+    pub(super) fn is_rebuilt(&self) -> bool {
+        self.rebuilt_at == Some(self.pivots)
     }
 
     pub(super) fn rebuild(&mut self) -> bool {

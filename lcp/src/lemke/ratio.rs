@@ -4,8 +4,8 @@ use super::constants::{ARTIFICIAL_ZERO, NOISE, PIVOT_TOLERANCE, TIE_PIVOT, TIE_W
 use super::kernel::Kernel;
 
 /// What the test looks at: the basic variables, row by row.
-pub(super) struct Basic<'a, K, B> {
-    pub(super) kernel: &'a K,
+pub(super) struct Basic<'a, B> {
+    pub(super) kernel: &'a dyn Kernel,
     pub(super) values: &'a [f64],
     /// Row of every variable, where it is basic.
     pub(super) row_of: &'a [Option<usize>],
@@ -17,7 +17,7 @@ pub(super) struct Basic<'a, K, B> {
     pub(super) scale: f64,
 }
 
-impl<K: Kernel, B: Fn(usize) -> bool> Basic<'_, K, B> {
+impl<B: Fn(usize) -> bool> Basic<'_, B> {
     /// The row that leaves, or `None` when nothing blocks the entering variable. In two passes: the
     /// longest step that brings no variable below zero by more than the window, then among the rows that
     /// block within it those with sound pivots.
@@ -57,7 +57,7 @@ impl<K: Kernel, B: Fn(usize) -> bool> Basic<'_, K, B> {
             return tied[0];
         }
         let mut is_out = vec![false; column.len()];
-        let mut rows: Option<Vec<K::Row>> = None;
+        let mut rows: Option<Vec<Vec<f64>>> = None;
         for k in 0..column.len() {
             if left == 1 {
                 break;
@@ -77,7 +77,7 @@ impl<K: Kernel, B: Fn(usize) -> bool> Basic<'_, K, B> {
             tied.retain(|&i| !is_out[i]);
             let kernel = self.kernel;
             let rows = rows.get_or_insert_with(|| tied.iter().map(|&i| kernel.row(i)).collect());
-            let key = |(&i, row): (&usize, &K::Row)| kernel.entry(row, k) / column[i];
+            let key = |(&i, row): (&usize, &Vec<f64>)| kernel.entry(i, row, k) / column[i];
             let keys: Vec<f64> = tied.iter().zip(rows.iter()).map(key).collect();
             let least = keys.iter().copied().fold(f64::INFINITY, f64::min);
             // Entries of an equilibrated tableau are of order one: where all keys are rounding errors of

@@ -215,8 +215,6 @@ impl<'a> Factored<'a> {
 }
 
 impl Kernel for Sparse<'_> {
-    type Row = Vec<f64>;
-
     fn right_hand_side(&self) -> &[f64] {
         &self.start.right
     }
@@ -266,8 +264,8 @@ impl Kernel for Sparse<'_> {
         out
     }
 
-    fn entry(&self, row: &Vec<f64>, var: Var) -> f64 {
-        self.start_dot(var, row)
+    fn entry(&self, _row: usize, factors: &[f64], var: Var) -> f64 {
+        self.start_dot(var, factors)
     }
 
     fn parting(&self, ties: usize) -> Option<Vec<f64>> {

@@ -12,7 +12,6 @@ use crate::scaling::{equilibrate, equilibrate_computed};
 use crate::vector::max_abs;
 use crate::{Basis, HorizontalLcp, Side};
 
-use super::any_kernel::AnyKernel;
 use super::constants::{LARGEST_GROWTH, MANY_FLIPS, NOISE, ROUNDING, SOUND_PIVOT};
 use super::dense::Dense;
 use super::kernel::{Kernel, Var};
@@ -237,6 +236,21 @@ impl Start {
         self.basis.sides()[pair].complement()
     }
 
+    /// `(t, y)` from values of all `w` and `z` of a path.
+    pub(super) fn in_problem_units(
+        &self,
+        problem: &Equilibrated<'_>,
+        along: &[f64],
+    ) -> (Vec<f64>, Vec<f64>) {
+        let n = self.q.len();
+        let pair = |k: usize| {
+            let w = self.size * along[k] / self.row_factor[k];
+            let z = self.size * along[n + k] * self.col_factor[k];
+            problem.sides(k, self.nonbasic_side(k), w, z)
+        };
+        (0..n).map(pair).unzip()
+    }
+
     /// The complementary basis in which these `z` are basic.
     pub(super) fn basis_with(&self, z_is_basic: &[bool]) -> Basis {
         let sides = self.basis.sides().iter().zip(z_is_basic);
@@ -249,14 +263,10 @@ impl Start {
         &'a self,
         covering: &'a [f64],
         interval: Option<usize>,
-    ) -> AnyKernel<'a> {
+    ) -> Box<dyn Kernel + 'a> {
         match &self.data {
-            StartData::Dense(t) => {
-                AnyKernel::Dense(Box::new(Dense::new(t.as_ref(), covering, &self.q)))
-            }
-            StartData::Sparse(data) => {
-                AnyKernel::Sparse(Box::new(Sparse::new(data, covering, interval)))
-            }
+            StartData::Dense(t) => Box::new(Dense::new(t.as_ref(), covering, &self.q)),
+            StartData::Sparse(data) => Box::new(Sparse::new(data, covering, interval)),
         }
     }
 
@@ -341,7 +351,7 @@ impl Start {
             }
         }
         if !is_sparse {
-            self.descend(&mut kernel, &mut basic, &mut flipped);
+            self.descend(kernel.as_mut(), &mut basic, &mut flipped);
         }
         self.basis_with(&flipped)
     }
@@ -349,7 +359,7 @@ impl Start {
     /// Principal pivots on single pairs, each the one after which the negative values add up to least, until none makes
     /// the sum smaller. Paths from a basis with few and small negative values end at a solution more often: of planted
     /// indefinite problems of order 40 one path in 15 instead of one in 200. A step takes the columns of all pairs.
-    fn descend(&self, kernel: &mut AnyKernel<'_>, basic: &mut [Var], flipped: &mut [bool]) {
+    fn descend(&self, kernel: &mut dyn Kernel, basic: &mut [Var], flipped: &mut [bool]) {
         let n = self.q.len();
         let mut values = vec![0.0; n];
         if !kernel.rebuild(basic, &mut values) {
@@ -364,7 +374,7 @@ impl Start {
             let mut best = None;
             for row in (0..n).filter(|&row| !self.is_free(basic[row] % n)) {
                 kernel.column(other_of_pair(basic[row]), &mut column);
-                let pivot = column[row];
+                let pivot: f64 = column[row];
                 if pivot == 0.0 || pivot.abs() < SOUND_PIVOT * max_abs(&column) {
                     continue;
                 }

@@ -42,15 +42,6 @@ struct PivotRow {
     last: usize,
 }
 
-/// One row of `T` in terms of the stored matrix.
-#[derive(Debug)]
-pub(super) struct Row {
-    /// Factors of the stored rows.
-    factors: Vec<(usize, f64)>,
-    /// Entry in the column that the held pivot of this number exchanged.
-    exchanged: Vec<f64>,
-}
-
 impl Tableau {
     pub(super) fn new(t: Mat<f64>) -> Self {
         let block = block(t.nrows());
@@ -97,37 +88,35 @@ impl Tableau {
         }
     }
 
-    /// One row of `T`, whose entries [`entry`](Self::entry) gives: the held pivots, transposed, in
-    /// the opposite order.
-    pub(super) fn row(&self, r: usize) -> Row {
-        let held = self.held.len();
-        // The row itself, then the pivot rows.
-        let mut own = 1.0;
-        let mut of_rows = vec![0.0; self.rows.len()];
-        if let Some(at) = self.rows.iter().position(|it| it.row == r) {
-            (own, of_rows[at]) = (0.0, 1.0);
+    /// One row of `T`, as factors of the stored pivot rows, to which a row without a pivot is added, and the entries
+    /// in the columns that the held pivots exchanged: the held pivots, transposed, in the opposite order.
+    pub(super) fn row(&self, r: usize) -> Vec<f64> {
+        let count = self.rows.len();
+        let mut factors = vec![0.0; count + self.held.len()];
+        let pivoted = self.rows.iter().position(|it| it.row == r);
+        if let Some(at) = pivoted {
+            factors[at] = 1.0;
         }
-        let mut exchanged = vec![0.0; held];
         for (k, Held { at, .. }) in self.held.iter().enumerate().rev() {
-            let met = of_rows.iter().enumerate().map(|(i, factor)| factor * self.u_rows[(k, i)]);
-            let value = own * self.u[(r, k)] + met.sum::<f64>();
-            exchanged[k] = value;
-            of_rows[*at] = value;
+            let own = if pivoted.is_none() { self.u[(r, k)] } else { 0.0 };
+            let met = factors[..count].iter().enumerate().map(|(i, it)| it * self.u_rows[(k, i)]);
+            let value = own + met.sum::<f64>();
+            factors[count + k] = value;
+            factors[*at] = value;
         }
-        let mut factors = vec![(r, own)];
-        factors.extend(self.rows.iter().zip(of_rows).map(|(it, factor)| (it.row, factor)));
-        Row { factors, exchanged }
+        factors
     }
 
-    /// The entry of a row in column `s`.
-    pub(super) fn entry(&self, row: &Row, s: usize) -> f64 {
-        match self.since[s] {
-            0 => {
-                let column = self.stored.col_as_slice(s);
-                row.factors.iter().map(|&(i, factor)| factor * column[i]).sum()
-            }
-            since => row.exchanged[since - 1],
+    /// The entry of row `r`, with these factors, in column `s`.
+    pub(super) fn entry(&self, r: usize, factors: &[f64], s: usize) -> f64 {
+        if self.since[s] > 0 {
+            return factors[self.rows.len() + self.since[s] - 1];
         }
+        let column = self.stored.col_as_slice(s);
+        let is_pivoted = self.rows.iter().any(|it| it.row == r);
+        let own = if is_pivoted { 0.0 } else { column[r] };
+        let pivoted = self.rows.iter().zip(factors).map(|(it, factor)| factor * column[it.row]);
+        own + pivoted.sum::<f64>()
     }
 
     /// Exchanges the basic variable of row `r` with the nonbasic one of column `s`, given that
@@ -214,7 +203,7 @@ mod tests {
     use super::*;
 
     fn entry(tableau: &Tableau, i: usize, j: usize) -> f64 {
-        tableau.entry(&tableau.row(i), j)
+        tableau.entry(i, &tableau.row(i), j)
     }
 
     /// Pivoting twice on the same place undoes the exchange.

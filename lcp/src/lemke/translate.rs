@@ -1,6 +1,6 @@
 //! From the variables of a path to those of the problem.
 
-use super::kernel::{Kernel, Var};
+use super::kernel::Var;
 use super::path::{Exchange, Path};
 use super::start::{Equilibrated, Start};
 use crate::pivoting::{AttemptStart, PivotRecord, Variable};
@@ -46,21 +46,16 @@ pub(super) fn record(exchange: Exchange, attempt: usize, start: &Start) -> Pivot
     PivotRecord { attempt, entering, leaving, step, artificial }
 }
 
-pub(super) fn in_problem_units<K: Kernel>(
-    path: &Path<'_, K>,
+pub(super) fn in_problem_units(
+    path: &Path<'_>,
     start: &Start,
     covering: &[f64],
     problem: &Equilibrated<'_>,
 ) -> Ray {
     let n = start.q.len();
     let along = path.ray();
-    let (mut dt, mut dy) = (vec![0.0; n], vec![0.0; n]);
-    for pair in 0..n {
-        let dw = along[pair] / start.row_factor[pair];
-        let dz = along[n + pair] * start.col_factor[pair];
-        (dt[pair], dy[pair]) = problem.sides(pair, start.nonbasic_side(pair), dw, dz);
-    }
-    let dz0 = along[2 * n];
+    let (dt, dy) = start.in_problem_units(problem, &along);
+    let dz0 = start.size * along[2 * n];
     let mut in_rows = vec![0.0; n];
     for (pair, (d, row)) in covering.iter().zip(&start.row_factor).enumerate() {
         let column = problem.problem.column(pair, start.basis.sides()[pair]);

@@ -10,7 +10,7 @@ use std::time::Instant;
 use super::found::{Crash, beginnings, exchanged};
 use super::matching::matched_sides;
 use crate::lemke::constants::{DEPENDENCE, ENLARGED, GAIN, RANK_TOLERANCE, SOLVES};
-use crate::lemke::kernel::{Kernel, Var};
+use crate::lemke::kernel::Var;
 use crate::lemke::start::Equilibrated;
 use crate::solve::is_over;
 use crate::sparse::{Columns, Growing, SparseLu, elimination_order, row_counts};
