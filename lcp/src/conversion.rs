@@ -2,11 +2,11 @@
 
 use std::borrow::Cow;
 
-use crate::certify::Residuals;
+use crate::certify::{Residuals, SMALL};
 use crate::problem::Between;
 use crate::{
-    BoxedLcp, Contact2d, ContactState, Error, Friction2d, HorizontalLcp, Lcp, MixedLcp, Solution,
-    Status, WarmStart,
+    BoxedLcp, Certificate, Contact2d, ContactState, Error, Friction2d, HorizontalLcp, Lcp,
+    MixedLcp, Solution, Status, WarmStart,
 };
 
 /// A problem with a general form. Only the problems of the library are.
@@ -131,9 +131,6 @@ impl General for Contact2d {
     }
 }
 
-/// A point with larger residuals has lost digits. Rounding: some hundred eps.
-const LOST_DIGITS: f64 = 1e-13;
-
 /// Solves a problem by its general form; the second argument says that it is another one, of its parts.
 ///
 /// # Errors
@@ -144,9 +141,42 @@ pub(crate) fn solve_in_general_form<P: Converted>(
     mut solve: impl FnMut(&HorizontalLcp, bool) -> Result<Solution, Error>,
 ) -> Result<Solution, Error> {
     let solution = judged_by(problem, solve(&problem.general(), false)?, tolerance);
+    with_all_digits(problem, solution, tolerance, |equations| solve(&equations.to_general(), true))
+}
+
+/// Solves a problem with bounds in its mixed form, with the start converted. The last argument solves equations.
+///
+/// # Errors
+/// Those of the method, and [`Error::Overflow`].
+pub(crate) fn solve_in_mixed_form(
+    problem: &BoxedLcp,
+    start: &WarmStart,
+    tolerance: f64,
+    mut solve: impl FnMut(&MixedLcp, WarmStart) -> Result<Solution, Error>,
+) -> Result<Solution, Error> {
+    start.validate(problem.pairs())?;
+    let form = problem.to_mixed()?;
+    let mut solution = solve(form.mixed(), form.start(start))?;
+    (solution.t, solution.y) = form.to_pairs(&solution.t, &solution.y);
+    solution.basis = solution.basis.map(|basis| form.basis(&basis, &solution.y));
+    if let Some(Certificate::Farkas { pi }) = &mut solution.certificate {
+        *pi = form.farkas(pi);
+    }
+    let solution = judged_by(problem, solution, tolerance);
+    with_all_digits(problem, solution, tolerance, |equations| solve(equations, WarmStart::None))
+}
+
+/// A solution with the digits of what is between its bounds: a distance from a bound has lost those of a value that is
+/// small against the bound.
+fn with_all_digits<P: Converted>(
+    problem: &P,
+    solution: Solution,
+    tolerance: f64,
+    solve: impl FnOnce(&MixedLcp) -> Result<Solution, Error>,
+) -> Result<Solution, Error> {
     let is_near =
         matches!(solution.status, Status::Solved | Status::AlmostSolved | Status::NumericalTrouble);
-    if !is_near || solution.residuals.worst() <= LOST_DIGITS {
+    if !is_near || solution.residuals.worst() <= SMALL {
         return Ok(solution);
     }
     let Some(between) = problem.between_bounds(&solution) else { return Ok(solution) };
@@ -154,9 +184,7 @@ pub(crate) fn solve_in_general_form<P: Converted>(
     let Ok(equations) = MixedLcp::new(between.m.clone(), between.q.clone(), free) else {
         return Ok(solution);
     };
-    // A distance from a bound has lost the digits of a value that is small against the bound.
-    let answer = solve(&equations.to_general(), true)?;
-    let mut right = problem.with_between(&between, &answer, &solution);
+    let mut right = problem.with_between(&between, &solve(&equations)?, &solution);
     right.status = right.residuals.verdict(tolerance, Status::AlmostSolved);
     let is_better = right.residuals.worst() < solution.residuals.worst();
     Ok(if is_better { right } else { solution })

@@ -17,7 +17,7 @@ use faer::sparse::SparseColMat;
 use crate::problem::ContactStatus;
 use crate::solve::Monitor;
 use crate::vector::{check_length, check_vector};
-use crate::{Contact2d, ContactState, Error, Iteration, Matrix, Method, Observer, Status};
+use crate::{Contact2d, ContactState, Error, Iteration, Matrix, Observer, Status};
 use target::{Course, Data, Rest, Taken, Target};
 
 /// Bodies with mass in contact, on their way through loads, gaps and supports that change.
@@ -312,6 +312,3 @@ impl Evolution {
         run(self, &mut Course { plan: None, last, monitor: &mut monitor })
     }
 }
-
-/// The method that the steps are solved by.
-const METHOD: Method = Method::Interior;

@@ -12,6 +12,7 @@ mod problems;
 mod program;
 mod settings;
 mod start;
+mod step;
 mod turn;
 mod variables;
 
@@ -21,12 +22,12 @@ pub use settings::InteriorPointSettings;
 use balance::{Balance, balance};
 use constants::{HELD, MORE, NEAR, NEARER, NO_STEP, OPENING_OF_STEP, PATIENCE_OF_START, SURE};
 use iterate::{Defect, Iterate};
-use path::advance;
+use path::Ahead;
 use start::{set_out, start_opened};
 
 use crate::active::{Effort, Original, Search};
 use crate::solve::Monitor;
-use crate::states::{Condensed, PointRef, Scaled};
+use crate::states::PointRef;
 use crate::{Certificate, Contact2d, Error, Method, Observer, Solution, Status};
 
 /// An interior-point method for large sparse problems: contact with Coulomb's friction
@@ -140,9 +141,6 @@ struct Run<'r, 'a, 'b> {
     monitor: &'r mut Monitor<'b>,
 }
 
-/// A step from a point with its residuals.
-type Step = fn(&Scaled, &mut Condensed, &Iterate, &Defect) -> (Iterate, f64);
-
 impl Run<'_, '_, '_> {
     /// The path from a start that is opened by this multiple of its largest gap.
     fn path(&mut self, opening: f64) -> Status {
@@ -189,11 +187,10 @@ impl Run<'_, '_, '_> {
 
     /// The interior-point iteration from a point inside.
     fn iterate(&mut self, mut at: Iterate) -> Status {
-        let mut step: Step = set_out;
         let mut tried = NEAR / NEARER;
         let (_, first) = at.sizes();
         let (mut least, mut since) = (f64::INFINITY, 0);
-        let mut solved = 0;
+        let (mut is_first, mut solved) = (true, 0);
         let mut defect = Defect::of(&self.search.scaled, &at);
         loop {
             let forces = at.forces();
@@ -202,11 +199,11 @@ impl Run<'_, '_, '_> {
             // Where nothing moves the residuals measure gaps by noise.
             let (force, length) = at.sizes();
             let (force, length) = (force.max(1.0), length.max(first));
-            let natural = at.natural(&self.search.scaled, force, length);
+            let natural = at.natural(force, length);
             let near = natural.max(defect.relative(force, length)).min(worst);
             if self.settings.crossover && (is_solved || near <= NEARER * tried) {
                 tried = near;
-                let contacts = at.contacts(&self.search.scaled);
+                let contacts = at.contacts();
                 let effort = if is_solved { Effort::THOROUGH } else { Effort::QUICK };
                 let is_sure = near <= SURE;
                 let held = HELD.into_iter().filter(|_| is_sure).map(Effort::held);
@@ -229,16 +226,20 @@ impl Run<'_, '_, '_> {
                 return if solved > 0 { Status::Solved } else { status };
             }
             let Search { scaled, condensed, .. } = &mut *self.search;
-            let (next, alpha) = step(scaled, condensed, &at, &defect);
-            step = advance;
+            let (next, alpha) = if is_first {
+                set_out(scaled, condensed, &at, &defect)
+            } else {
+                Ahead::of(scaled, condensed, &at, &defect).advance()
+            };
+            is_first = false;
             defect = Defect::of(scaled, &next);
             let lack = defect.size();
-            let merit = next.gap(scaled) + lack * lack;
+            let merit = next.mean_product() + lack * lack;
             since = if merit < 0.9 * least { 0 } else { since + 1 };
             least = least.min(merit);
             if !next.is_finite() || alpha < NO_STEP || since > PATIENCE_OF_START {
                 // The residual is no guide where all of one side vanishes, which it is measured by.
-                let contacts = at.contacts(&self.search.scaled);
+                let contacts = at.contacts();
                 let is_exact = self.settings.crossover
                     && self.search.cross_over(
                         PointRef { u: &at.u, forces: &forces },

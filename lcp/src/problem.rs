@@ -6,6 +6,7 @@ mod contact;
 mod friction;
 mod horizontal;
 mod mixed;
+mod mixed_form;
 mod standard;
 mod standard_form;
 

@@ -232,17 +232,13 @@ fn negative_mean([sum, count]: [f64; 2]) -> f64 {
 }
 
 /// The logarithm to base 2 of the size of a number, to within 0.09, and one, or zero for noise. Exponent
-/// and mantissa as they stand in memory are nearly the logarithm; they become a number by being
-/// put below the exponent of 2^52. The factors are rounded to powers of two in the end.
+/// and mantissa as they stand in memory are nearly the logarithm in units of 2^-52. All but the last twelve bits of them
+/// become a number by being put below the exponent of 2^52. The factors are rounded to powers of two in the end.
 fn logarithm(v: f64) -> (f64, f64) {
-    const DROPPED: u32 = 12;
-    const UNIT: f64 = 1.0 / (1_u64 << (52 - DROPPED)) as f64;
-    const BIAS: f64 = 1023.0;
-    const SHIFT: f64 = (1_u64 << 52) as f64;
-    let v = v.abs();
-    let digits = f64::from_bits(SHIFT.to_bits() | v.to_bits() >> DROPPED) - SHIFT;
+    let (v, shift) = (v.abs(), (1_u64 << 52) as f64);
+    let digits = f64::from_bits(shift.to_bits() | v.to_bits() >> 12) - shift;
     let kept = if v > NOISE { 1.0 } else { 0.0 };
-    (digits * UNIT - BIAS, kept)
+    (digits / (1_u64 << 40) as f64 - 1023.0, kept)
 }
 
 /// The power of two nearest to a positive number, on a logarithmic scale: as a factor it costs no accuracy.

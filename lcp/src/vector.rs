@@ -2,6 +2,9 @@
 
 use crate::Error;
 
+/// A sum below this, relative to its terms, is a rounding error. Rounding: errors of short sums.
+pub(crate) const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 pub(crate) fn max_abs(v: &[f64]) -> f64 {
     v.iter().fold(0.0, |max, x| max.max(x.abs()))
 }

@@ -4,7 +4,7 @@ use super::target::{Course, Data, Rest, Taken, Target};
 use super::{Account, Evolution};
 use crate::parts::Parts;
 use crate::problem::column_of;
-use crate::vector::max_abs;
+use crate::vector::{ROUNDING, max_abs};
 use crate::{Contact2d, Error, Status};
 
 /// How steps of a [`Evolution`](crate::Evolution) have ended.
@@ -47,9 +47,6 @@ const LEAST_PART: f64 = 1e-6;
 /// more if that would take a smaller part of the work of the loads before the bodies are out of reach; gaps that it
 /// closes by a smaller part of what moves do not close. Chosen: far below what the limits of a structure depend on.
 const SETTLED: f64 = 1e-2;
-/// What strains a body by less, relative to the terms that it is the sum of, strains it by nothing. Rounding: errors of short
-/// sums.
-pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Evolution {
     /// To the data of `problem`, which change evenly in a time; and to rest there, if they are to rest and do.

@@ -2,16 +2,15 @@
 
 use std::ops::ControlFlow;
 
-use super::motion::ROUNDING;
 use super::target::{Course, Data, Rest, Taken, Target};
-use super::{Account, Evolution, EvolutionSettings, METHOD};
+use super::{Account, Evolution, EvolutionSettings};
 use crate::active::{Effort, Original, Search};
 use crate::interior::follow_path;
 use crate::problem::{ContactStatus, column_of};
 use crate::solve::Monitor;
 use crate::states::{PointRef, nearest};
-use crate::vector::max_abs;
-use crate::{Contact2d, ContactState, Error, Iteration, Solution, Status};
+use crate::vector::{ROUNDING, max_abs};
+use crate::{Contact2d, ContactState, Error, Iteration, Method, Solution, Status};
 
 /// Steps of the path of interior points in one try. Measured on settlements of 410 rigid bricks with a friction of one, where
 /// most tries fail: with 40 half as many tries again are made, with 60 as many, and a third of the tries fail.
@@ -117,7 +116,7 @@ impl Evolution {
         course: &mut Course<'_, '_>,
     ) -> Result<(Search<'a>, bool), Error> {
         let (tolerance, plan) = (self.settings.tolerance, course.plan.take());
-        let mut search = Search::planned(METHOD, problem, tolerance, plan)?;
+        let mut search = Search::planned(Method::Interior, problem, tolerance, plan)?;
         let (u, forces) = search.scaled.of_state(&from.state);
         search.judge(&u, &forces);
         let contacts = match &from.contacts[..] {

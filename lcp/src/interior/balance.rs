@@ -1,12 +1,10 @@
 //! Whether any contact forces balance the loads, wherever the bodies are.
 
-use super::constants::{BALANCE_TOLERANCE, LOADS, ROW_ROUNDING};
-use super::factors::Factors;
-use super::homogeneous::{Accuracy, solved};
-use super::program::{self, Program};
+use super::constants::BALANCE_TOLERANCE;
+use super::homogeneous::Accuracy;
+use super::program::{Program, without_noise};
 use crate::states::Scaled;
-use crate::vector::max_abs;
-use crate::{Certificate, Contact2d, Status};
+use crate::{Certificate, Contact2d, Matrix, Status};
 
 /// What is known of forces that balance the loads.
 pub(super) enum Balance {
@@ -29,39 +27,27 @@ pub(super) fn balance(
     problem: &Scaled,
     stop: impl FnMut(f64) -> Option<Status>,
 ) -> Balance {
-    let edges = program::edges(problem);
-    let count = edges.ncols();
-    let program = Program {
-        k: problem.k.clone(),
-        f: problem.f.clone(),
-        a: edges,
-        x_0: vec![0.0; count],
-        compliance: vec![1.0; count],
-    };
-    let (program, units) = program.scaled();
-    let Ok(mut factors) = Factors::of(&program) else { return Balance::Open(Status::Stalled) };
+    let edges = problem.edges().enumerate().flat_map(|(j, (point, mu))| {
+        let terms = point.columns.iter().zip(point.coefficients);
+        terms.map(move |(&i, [n, t])| (i, j, n + mu * t))
+    });
+    let edges = Matrix::from_entries(problem.order(), problem.edges().count(), edges);
+    let program =
+        Program::of_least_forces(problem.k.clone(), problem.f.clone(), edges.into_sparse());
     let general = contact.to_general();
     let mut proof = None;
-    let mut is_proof = |u: &[f64]| {
-        let motion = without_noise(u.iter().zip(&units.column).map(|(u, d)| u * d).collect());
-        let pi = contact.farkas_of_motion(&problem.displacements(&motion));
-        proof = Some(Certificate::Farkas { pi }).filter(|it| it.holds(&general));
+    let is_proof = |u: &[f64], _: &[f64]| {
+        let motion = problem.displacements(&without_noise(u.to_vec()));
+        let farkas = Certificate::Farkas { pi: contact.farkas_of_motion(&motion) };
+        proof = Some(farkas).filter(|it| it.holds(&general));
         proof.is_some()
     };
-    let accuracy = Accuracy::of_products(BALANCE_TOLERANCE).of_loads(LOADS);
-    let (mut at, status) = solved(&program, &mut factors, accuracy, stop, |at| is_proof(&at.u));
-    match (status, proof) {
+    let found = program.solve(Accuracy::OfForces(BALANCE_TOLERANCE), stop, is_proof);
+    match (found.map(|it| (it.status, it.t)), proof) {
         (_, Some(proof)) => Balance::Impossible(proof),
-        (Status::Solved, None) => {
-            factors.balance(&program, &mut at.t);
-            Balance::Possible(problem.of_edges(at.t.iter().map(|t| t * units.force)))
-        }
-        (status, None) => Balance::Open(status),
+        (Ok((Status::Solved, t)), None) => Balance::Possible(problem.of_edges(t.into_iter())),
+        (Ok((status, _)), None) => Balance::Open(status),
+        // Memory does not suffice.
+        (Err(_), None) => Balance::Open(Status::Stalled),
     }
-}
-
-/// What does not move except for rounding errors is at rest: errors of their own size would contradict a proof.
-fn without_noise(v: Vec<f64>) -> Vec<f64> {
-    let noise = ROW_ROUNDING * max_abs(&v);
-    v.into_iter().map(|v| if v.abs() <= noise { 0.0 } else { v }).collect()
 }

@@ -77,11 +77,6 @@ pub(super) const PIECES: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.0];
 /// See [`PIECES`]. Chosen.
 pub(super) const LONG: f64 = 0.7;
 
-/// Sums below this, relative to their terms, are rounding errors. Rounding: errors of short sums.
-pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
-
-/// What moves by less, relative to the largest motion, is at rest in a proof. Rounding: some hundred eps.
-pub(super) const ROW_ROUNDING: f64 = 1e-13;
 /// Residual of the problem that decides whether any forces balance the loads. Chosen: below all other tolerances.
 pub(super) const BALANCE_TOLERANCE: f64 = 1e-12;
 

@@ -2,10 +2,10 @@
 
 use faer::sparse::FaerError;
 
-use super::constants::{BALANCINGS, ROUNDING};
+use super::constants::BALANCINGS;
 use super::program::Program;
 use crate::sparse::Gram;
-use crate::vector::max_abs;
+use crate::vector::{ROUNDING, max_abs};
 
 /// The matrix of the steps of a program: order, pattern and factors.
 pub(super) struct Factors {

@@ -1,8 +1,9 @@
 //! Points inside the cone, and Newton's steps between them.
 
 use super::constants::COMPLIANCE;
+use super::step::longest;
 use crate::problem::ContactStatus;
-use crate::states::{Condensed, PROXIMAL, Point, Scaled, Springs};
+use crate::states::{Condensed, PROXIMAL, Scaled, Springs};
 use crate::vector::max_abs;
 
 /// A point with all forces inside their cones and all gaps open; or a step between two of them.
@@ -15,6 +16,8 @@ pub(super) struct Iterate {
 /// The variables of a contact point. Those of friction are zero where there is none.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Pairs {
+    /// The coefficient of friction, which belongs to the point.
+    pub(super) mu: f64,
     pub(super) t_n: f64,
     pub(super) t_t: f64,
     pub(super) gap: f64,
@@ -24,25 +27,64 @@ pub(super) struct Pairs {
 
 impl Pairs {
     /// `(t, y)` of the pairs: one without friction, else three.
-    pub(super) fn pairs(self, mu: f64) -> impl Iterator<Item = (f64, f64)> {
-        let (plus, minus) = (mu * self.t_n + self.t_t, mu * self.t_n - self.t_t);
+    pub(super) fn pairs(self) -> impl Iterator<Item = (f64, f64)> {
+        let (plus, minus) = self.strengths();
         let all = [(self.t_n, self.gap), (plus, self.slip_plus), (minus, self.slip_minus)];
-        all.into_iter().take(if mu > 0.0 { 3 } else { 1 })
-    }
-
-    /// `(1 - share) self + share other`.
-    pub(super) fn mixed(&self, other: &Self, share: f64) -> Self {
-        Self::default().plus(self, 1.0 - share).plus(other, share)
+        all.into_iter().take(if self.mu > 0.0 { 3 } else { 1 })
     }
 
     fn plus(&self, step: &Self, alpha: f64) -> Self {
         Self {
+            mu: self.mu,
             t_n: self.t_n + alpha * step.t_n,
             t_t: self.t_t + alpha * step.t_t,
             gap: self.gap + alpha * step.gap,
             slip_plus: self.slip_plus + alpha * step.slip_plus,
             slip_minus: self.slip_minus + alpha * step.slip_minus,
         }
+    }
+
+    /// `mu t_n + t_t` and `mu t_n - t_t`.
+    fn strengths(&self) -> (f64, f64) {
+        (self.mu * self.t_n + self.t_t, self.mu * self.t_n - self.t_t)
+    }
+
+    /// Slips to either side, each relative to what is left of the friction that resists it.
+    fn ratios(&self) -> (f64, f64) {
+        let (plus, minus) = self.strengths();
+        (self.slip_plus / plus, self.slip_minus / minus)
+    }
+
+    /// The springs that Newton's method puts in the place of the contact.
+    fn springs(&self, compliance: [f64; 2]) -> Springs {
+        let nn = 1.0 / (self.gap / self.t_n + compliance[0] + COMPLIANCE);
+        if self.mu == 0.0 {
+            return Springs { nn, ..Springs::default() };
+        }
+        let (plus, minus) = self.ratios();
+        let tt = 1.0 / (plus + minus + compliance[1] + COMPLIANCE);
+        Springs { nn, tn: -self.mu * (plus - minus) * tt * nn, tt }
+    }
+
+    /// The step of all variables from that of the forces and those of gap and slip by the displacements.
+    /// Of the two equations for `dy`, compatibility and `y dt + t dy = target`, each pair uses the one
+    /// that keeps the digits: the second where `t` is the larger one.
+    fn change(&self, [t_n, t_t]: [f64; 2], opened: [f64; 2], target: &[f64; 3]) -> Self {
+        let mu = self.mu;
+        let gap =
+            if self.t_n > self.gap { (target[0] - self.gap * t_n) / self.t_n } else { opened[0] };
+        if mu == 0.0 {
+            return Self { t_n, gap, ..Self::default() };
+        }
+        let (plus, minus) = self.strengths();
+        let slip_plus = (target[1] - self.slip_plus * (mu * t_n + t_t)) / plus;
+        let slip_minus = (target[2] - self.slip_minus * (mu * t_n - t_t)) / minus;
+        let (slip_plus, slip_minus) = match self.ratios() {
+            (plus, minus) if plus.max(minus) < 1.0 => (slip_plus, slip_minus),
+            (plus, minus) if plus > minus => (slip_minus + opened[1], slip_minus),
+            _ => (slip_plus, slip_plus - opened[1]),
+        };
+        Self { mu, t_n, t_t, gap, slip_plus, slip_minus }
     }
 }
 
@@ -69,10 +111,6 @@ impl Defect {
         Self { balance, gaps: gaps.collect() }
     }
 
-    pub(super) fn none(problem: &Scaled) -> Self {
-        Self { balance: vec![0.0; problem.order()], gaps: vec![(0.0, 0.0); problem.points.len()] }
-    }
-
     pub(super) fn size(&self) -> f64 {
         self.relative(1.0, 1.0)
     }
@@ -95,8 +133,8 @@ pub(super) struct Tangent<'a> {
 impl<'a> Tangent<'a> {
     pub(super) fn new(problem: &'a Scaled, condensed: &'a mut Condensed, at: &'a Iterate) -> Self {
         let points = problem.points.iter().zip(&at.points);
-        let spring_of = |(point, pairs): (Point<'_>, &Pairs)| springs(point, pairs);
-        let springs: Vec<Springs> = points.map(spring_of).collect();
+        let springs = points.map(|(point, pairs)| pairs.springs(point.compliance));
+        let springs: Vec<Springs> = springs.collect();
         condensed.factorise(problem, &springs, PROXIMAL);
         Self { problem, condensed, at, springs }
     }
@@ -105,6 +143,12 @@ impl<'a> Tangent<'a> {
     /// [`turn`](super::turn::turn).
     pub(super) fn is_backwards(&self) -> bool {
         self.condensed.is_negative()
+    }
+
+    /// The step that changes the products of the pairs by `targets`, to first order, and nothing else.
+    pub(super) fn correction(&self, targets: &[[f64; 3]]) -> Iterate {
+        let balance = vec![0.0; self.problem.order()];
+        self.step(&Defect { balance, gaps: vec![(0.0, 0.0); targets.len()] }, targets)
     }
 
     /// The step that makes good the defect and changes the products of the pairs by `targets`, to first
@@ -118,7 +162,7 @@ impl<'a> Tangent<'a> {
         for ((((point, at), springs), targets), gaps) in points.clone() {
             let normal = targets[0] / at.t_n - gaps.0;
             let along = if point.mu > 0.0 {
-                let (plus, minus) = at.strengths(point.mu);
+                let (plus, minus) = at.strengths();
                 targets[1] / plus - targets[2] / minus - gaps.1
             } else {
                 0.0
@@ -134,67 +178,10 @@ impl<'a> Tangent<'a> {
             let (t_n, t_t) = (fixed.0 - t_n, fixed.1 - t_t);
             let [normal, tangential] = point.compliance;
             let opened = [moved.0 + gaps.0 + normal * t_n, moved.1 + gaps.1 + tangential * t_t];
-            at.change(point.mu, [t_n, t_t], opened, targets)
+            at.change([t_n, t_t], opened, targets)
         });
         let points = points.collect();
         Iterate { u, points }
-    }
-}
-
-impl Pairs {
-    /// The stiffness of friction against slip, as Newton's method has it at a gap that does not change.
-    pub(super) fn resistance(&self, point: Point<'_>) -> f64 {
-        if point.mu == 0.0 {
-            return 0.0;
-        }
-        let (plus, minus) = self.ratios(point.mu);
-        1.0 / (plus + minus + point.compliance[1] + COMPLIANCE)
-    }
-}
-
-/// The springs that Newton's method puts in the place of a contact.
-fn springs(point: Point<'_>, pairs: &Pairs) -> Springs {
-    let Point { mu, compliance, .. } = point;
-    let nn = 1.0 / (pairs.gap / pairs.t_n + compliance[0] + COMPLIANCE);
-    if mu == 0.0 {
-        return Springs { nn, ..Springs::default() };
-    }
-    let tt = pairs.resistance(point);
-    let (plus, minus) = pairs.ratios(mu);
-    let along = plus - minus;
-    Springs { nn, tn: -mu * along * tt * nn, tt }
-}
-
-impl Pairs {
-    /// The step of all variables from that of the forces and those of gap and slip by the displacements.
-    /// Of the two equations for `dy`, compatibility and `y dt + t dy = target`, each pair uses the one
-    /// that keeps the digits: the second where `t` is the larger one.
-    fn change(&self, mu: f64, [t_n, t_t]: [f64; 2], opened: [f64; 2], target: &[f64; 3]) -> Self {
-        let gap =
-            if self.t_n > self.gap { (target[0] - self.gap * t_n) / self.t_n } else { opened[0] };
-        if mu == 0.0 {
-            return Self { t_n, gap, ..Self::default() };
-        }
-        let (plus, minus) = self.strengths(mu);
-        let slip_plus = (target[1] - self.slip_plus * (mu * t_n + t_t)) / plus;
-        let slip_minus = (target[2] - self.slip_minus * (mu * t_n - t_t)) / minus;
-        let (slip_plus, slip_minus) = match self.ratios(mu) {
-            (plus, minus) if plus.max(minus) < 1.0 => (slip_plus, slip_minus),
-            (plus, minus) if plus > minus => (slip_minus + opened[1], slip_minus),
-            _ => (slip_plus, slip_plus - opened[1]),
-        };
-        Self { t_n, t_t, gap, slip_plus, slip_minus }
-    }
-
-    /// `mu t_n + t_t` and `mu t_n - t_t`.
-    fn strengths(&self, mu: f64) -> (f64, f64) {
-        (mu * self.t_n + self.t_t, mu * self.t_n - self.t_t)
-    }
-
-    /// Slips to either side, each relative to what is left of the friction that resists it.
-    fn ratios(&self, mu: f64) -> (f64, f64) {
-        let (plus, minus) = self.strengths(mu);
-        (self.slip_plus / plus, self.slip_minus / minus)
     }
 }
 
@@ -205,30 +192,37 @@ impl Iterate {
     }
 
     /// The states that the contacts are nearest to.
-    pub(super) fn contacts(&self, problem: &Scaled) -> Vec<ContactStatus> {
-        let contact = |(mu, at): (&f64, &Pairs)| {
-            let Pairs { t_n, t_t, gap, slip_plus, slip_minus } = *at;
-            ContactStatus::nearest(*mu, [t_n, t_t], gap, [slip_plus, slip_minus])
+    pub(super) fn contacts(&self) -> Vec<ContactStatus> {
+        let contact = |at: &Pairs| {
+            let Pairs { mu, t_n, t_t, gap, slip_plus, slip_minus } = *at;
+            ContactStatus::nearest(mu, [t_n, t_t], gap, [slip_plus, slip_minus])
         };
-        problem.points.mu.iter().zip(&self.points).map(contact).collect()
+        self.points.iter().map(contact).collect()
+    }
+
+    /// `(t, y)` of all pairs.
+    pub(super) fn pairs(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.points.iter().flat_map(|pairs| pairs.pairs())
     }
 
     /// The mean of the products of the pairs.
-    pub(super) fn gap(&self, problem: &Scaled) -> f64 {
-        mean_product(problem, self.points.iter().copied())
+    pub(super) fn mean_product(&self) -> f64 {
+        let (mut sum, mut count) = (0.0, 0_usize);
+        for (t, y) in self.pairs() {
+            (sum, count) = (sum + t * y, count + 1);
+        }
+        sum / count.max(1) as f64
     }
 
-    /// The same after a part of a step.
-    pub(super) fn gap_after(&self, problem: &Scaled, step: &Iterate, alpha: f64) -> f64 {
-        mean_product(problem, self.pairs_after(step, alpha))
+    /// The smallest product of a pair, relative to the mean.
+    pub(super) fn centrality(&self) -> f64 {
+        let mean = self.mean_product();
+        self.pairs().map(|(t, y)| t * y / mean).fold(f64::INFINITY, f64::min)
     }
 
     /// Largest `|min(t, y)|` over the pairs, in these units of force and length.
-    pub(super) fn natural(&self, problem: &Scaled, force: f64, length: f64) -> f64 {
-        let pairs = problem.points.mu.iter().zip(&self.points);
-        pairs
-            .flat_map(|(mu, pairs)| pairs.pairs(*mu))
-            .fold(0.0, |max, (t, y)| max.max((t / force).min(y / length).abs()))
+    pub(super) fn natural(&self, force: f64, length: f64) -> f64 {
+        self.pairs().fold(0.0, |max, (t, y)| max.max((t / force).min(y / length).abs()))
     }
 
     pub(super) fn is_finite(&self) -> bool {
@@ -238,24 +232,9 @@ impl Iterate {
     }
 
     /// The largest step, at most one, that leaves all pairs positive.
-    pub(super) fn longest(&self, problem: &Scaled, step: &Iterate) -> f64 {
-        self.longest_of(problem, step.points.iter().copied())
-    }
-
-    /// The same for the steps of the points.
-    pub(super) fn longest_of(&self, problem: &Scaled, steps: impl Iterator<Item = Pairs>) -> f64 {
-        let mut alpha = 1.0_f64;
-        for (mu, (at, step)) in problem.points.mu.iter().zip(self.points.iter().zip(steps)) {
-            for ((t, y), (dt, dy)) in at.pairs(*mu).zip(step.pairs(*mu)) {
-                if dt < 0.0 {
-                    alpha = alpha.min(-t / dt);
-                }
-                if dy < 0.0 {
-                    alpha = alpha.min(-y / dy);
-                }
-            }
-        }
-        alpha
+    pub(super) fn longest(&self, step: &Self) -> f64 {
+        let both = self.pairs().zip(step.pairs());
+        longest(both.flat_map(|((t, y), (dt, dy))| [(t, dt), (y, dy)]))
     }
 
     /// The largest normal force, and the largest gap or slip.
@@ -275,10 +254,10 @@ impl Iterate {
     }
 
     /// All gaps and slips further inside.
-    pub(super) fn opened(mut self, problem: &Scaled, by: f64) -> Self {
-        for (mu, pairs) in problem.points.mu.iter().zip(&mut self.points) {
+    pub(super) fn opened(mut self, by: f64) -> Self {
+        for pairs in &mut self.points {
             pairs.gap += by;
-            if *mu > 0.0 {
+            if pairs.mu > 0.0 {
                 pairs.slip_plus += by;
                 pairs.slip_minus += by;
             }
@@ -286,63 +265,18 @@ impl Iterate {
         self
     }
 
-    /// The smallest product of a pair, relative to what it should be.
-    pub(super) fn centrality(&self, problem: &Scaled) -> f64 {
-        centrality(problem, self.points.iter().copied())
-    }
-
-    /// The same after a part of a step.
-    pub(super) fn centrality_after(&self, problem: &Scaled, step: &Iterate, alpha: f64) -> f64 {
-        centrality(problem, self.pairs_after(step, alpha))
-    }
-
-    /// The products of all pairs.
-    pub(super) fn products(&self, problem: &Scaled) -> impl Iterator<Item = f64> {
-        products(problem, self.points.iter().copied())
-    }
-
-    /// The pairs of the points after a part of a step.
-    pub(super) fn pairs_after(
-        &self,
-        step: &Iterate,
-        alpha: f64,
-    ) -> impl Iterator<Item = Pairs> + Clone {
-        self.points.iter().zip(&step.points).map(move |(pairs, step)| pairs.plus(step, alpha))
-    }
-
-    pub(super) fn moved(&self, step: &Iterate, alpha: f64) -> Self {
+    pub(super) fn moved(&self, step: &Self, alpha: f64) -> Self {
         let u = self.u.iter().zip(&step.u).map(|(u, du)| u + alpha * du).collect();
-        Self { u, points: self.pairs_after(step, alpha).collect() }
+        let points = self.points.iter().zip(&step.points);
+        Self { u, points: points.map(|(pairs, step)| pairs.plus(step, alpha)).collect() }
     }
 
     /// `(1 - share) self + share other`.
-    pub(super) fn mixed(&self, other: &Iterate, share: f64) -> Self {
+    pub(super) fn mixed(&self, other: &Self, share: f64) -> Self {
         let u = self.u.iter().zip(&other.u).map(|(a, b)| (1.0 - share) * a + share * b).collect();
-        let points =
-            self.points.iter().zip(&other.points).map(|(a, b)| a.mixed(b, share)).collect();
-        Self { u, points }
+        let mixed = |(a, b): (&Pairs, &Pairs)| {
+            Pairs { mu: a.mu, ..Pairs::default() }.plus(a, 1.0 - share).plus(b, share)
+        };
+        Self { u, points: self.points.iter().zip(&other.points).map(mixed).collect() }
     }
-}
-
-/// The mean of the products of the pairs.
-fn mean_product(problem: &Scaled, points: impl Iterator<Item = Pairs>) -> f64 {
-    let (mut sum, mut count) = (0.0, 0_usize);
-    for (pairs, mu) in points.zip(&problem.points.mu) {
-        for (t, y) in pairs.pairs(*mu) {
-            (sum, count) = (sum + t * y, count + 1);
-        }
-    }
-    sum / count.max(1) as f64
-}
-
-/// The least product of a pair, relative to the mean.
-fn centrality(problem: &Scaled, points: impl Iterator<Item = Pairs> + Clone) -> f64 {
-    let mean = mean_product(problem, points.clone());
-    products(problem, points).map(|product| product / mean).fold(f64::INFINITY, f64::min)
-}
-
-/// The products of all pairs.
-fn products(problem: &Scaled, points: impl Iterator<Item = Pairs>) -> impl Iterator<Item = f64> {
-    let products = |(pairs, mu): (Pairs, &f64)| pairs.pairs(*mu).map(|(t, y)| t * y);
-    points.zip(&problem.points.mu).flat_map(products)
 }

@@ -1,131 +1,103 @@
 //! Mixed problems whose bounded variables are forces on the free ones: those of convex programs in few variables with
 //! many inequalities, or the other way round.
 
-use faer::sparse::{FaerError, SparseColMat};
+use faer::sparse::SparseColMat;
 
-use super::constants::ROW_ROUNDING;
-use super::factors::Factors;
-use super::homogeneous::{Accuracy, solved};
-use super::program::{Program, Units, assembled};
-use super::variables::Variables;
+use super::homogeneous::{Accuracy, Outcome};
+use super::program::{Program, against};
+use super::{InteriorPoint, InteriorPointSettings};
+use crate::active::unplanned;
+use crate::certify::is_proof_of_mixed;
+use crate::conversion::judged_point;
 use crate::problem::column_of;
 use crate::solve::Monitor;
-use crate::vector::max_abs;
-use crate::{Certificate, Matrix, MixedLcp, Status};
+use crate::{Certificate, Error, Matrix, Method, MixedLcp, Observer, Solution, Status};
 
-/// Such a problem: `K u = f + A t`, `y = A^T u + D t + x_0`, `0 <= t _|_ y >= 0`, with a diagonal `D >= 0`.
-///
-/// A step factorises a matrix with the order of `u`, where the mixed problem as it stands has that of `u` and `t`.
-pub(super) struct KktProgram<'a> {
-    program: Program,
-    units: Units,
-    /// Of every variable of the mixed problem its place among the free or the bounded ones.
-    places: Vec<usize>,
-    free: &'a [bool],
+impl InteriorPoint {
+    /// The solution of a convex program, or a proof that there is none; `None` where bounded variables act on each other,
+    /// or are not acted on as they act.
+    pub(super) fn solve_convex(
+        &self,
+        problem: &MixedLcp,
+        observer: &mut Observer<'_>,
+    ) -> Result<Option<Solution>, Error> {
+        let InteriorPointSettings { tolerance, max_iterations, time_limit, .. } = self.settings;
+        self.settings.validate(problem.order())?;
+        let Some((program, places)) = program_of(problem) else { return Ok(None) };
+        let is_none = |j: usize| !problem.free()[j] && program.compliance[places[j]] > 0.0;
+        let is_none: Vec<bool> = (0..places.len()).map(is_none).collect();
+        let proof = |u: &[f64], t: &[f64]| {
+            let value = |(j, &place): (usize, &usize)| match (problem.free()[j], is_none[j]) {
+                (true, _) => u[place],
+                (false, false) => t[place],
+                (false, true) => 0.0,
+            };
+            against(places.iter().enumerate().map(value).collect())
+        };
+        let mut monitor = Monitor::new(max_iterations, time_limit, observer);
+        let found = program.solve(
+            Accuracy::OfAll(tolerance),
+            |residual| monitor.stop(residual),
+            |u, t| is_proof_of_mixed(problem, &proof(u, t)),
+        );
+        let Outcome { status, u, t, y, factorisations } =
+            found.map_err(|error| unplanned(Method::Interior, error))?;
+        let of = |(&place, free): (&usize, &bool)| {
+            if *free { (u[place], 0.0) } else { (t[place], y[place]) }
+        };
+        let (z, w): (Vec<f64>, Vec<f64>) = places.iter().zip(problem.free()).map(of).unzip();
+        let pairs = problem.to_pairs(&z, &w);
+        let mut solution = judged_point(problem, pairs.0, pairs.1, tolerance, status);
+        solution.certificate =
+            (status == Status::Infeasible).then(|| Certificate::Farkas { pi: proof(&u, &t) });
+        solution.info = monitor.info(Method::Interior);
+        solution.info.factorisations = factorisations;
+        Ok(Some(solution))
+    }
 }
 
-impl<'a> KktProgram<'a> {
-    /// `None` where bounded variables act on each other, or are not acted on as they act.
-    pub(super) fn of(problem: &'a MixedLcp) -> Option<Self> {
-        let (q, free) = (problem.q(), problem.free());
-        let dense;
-        let m = match problem.m() {
-            Matrix::Sparse(m) => m,
-            m @ Matrix::Dense(_) => {
-                dense = m.clone().into_sparse();
-                &dense
-            }
-        };
-        let mut counts = [0; 2];
-        let place = |is_free: &bool| {
-            let count = &mut counts[usize::from(*is_free)];
-            *count += 1;
-            *count - 1
-        };
-        let places: Vec<usize> = free.iter().map(place).collect();
-        let order = counts[1];
-        let among_free = |j: usize| {
-            let entries = column_of(m, j).filter(|(i, v)| free[*i] && *v != 0.0);
-            entries.map(|(i, v)| (places[i], v))
-        };
-        let matrix_of = |is_free: bool, sign: f64| {
-            let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
-            for j in (0..free.len()).filter(|&j| free[j] == is_free) {
-                for (i, v) in among_free(j) {
-                    rows.push(i);
-                    values.push(sign * v);
-                }
-                starts.push(rows.len());
-            }
-            assembled(order, starts, rows, values)
-        };
-        let bounded = || (0..free.len()).filter(|&j| !free[j]);
-        let compliance = bounded().map(|j| own_compliance(m, free, j));
-        let compliance = compliance.collect::<Option<Vec<f64>>>()?;
-        if problem.asymmetry().is_some() {
-            return None;
+/// The program that a mixed problem is, whose steps factorise a matrix with the order of the free variables; and of every
+/// variable its place among the free or the bounded ones.
+fn program_of(problem: &MixedLcp) -> Option<(Program, Vec<usize>)> {
+    let (q, free) = (problem.q(), problem.free());
+    let dense;
+    let m = match problem.m() {
+        Matrix::Sparse(m) => m,
+        m @ Matrix::Dense(_) => {
+            dense = m.clone().into_sparse();
+            &dense
         }
-        let program = Program {
-            k: matrix_of(true, 1.0),
-            f: q.iter().zip(free).filter(|(_, free)| **free).map(|(q, _)| -q).collect(),
-            a: matrix_of(false, -1.0),
-            x_0: bounded().map(|j| q[j]).collect(),
-            compliance,
-        };
-        let (program, units) = program.scaled();
-        Some(Self { program, units, places, free })
+    };
+    let mut counts = [0; 2];
+    let place = |is_free: &bool| {
+        let count = &mut counts[usize::from(*is_free)];
+        *count += 1;
+        *count - 1
+    };
+    let places: Vec<usize> = free.iter().map(place).collect();
+    let bounded = || (0..free.len()).filter(|&j| !free[j]);
+    let compliance = bounded().map(|j| own_compliance(m, free, j));
+    let compliance = compliance.collect::<Option<Vec<f64>>>()?;
+    if problem.asymmetry().is_some() {
+        return None;
     }
-
-    /// `(z, w)` of a solution to the tolerance, or where a limit is reached; or along a motion that may prove that there is
-    /// none. The last is the Farkas vector that `is_proof` has confirmed.
-    pub(super) fn solved(
-        &self,
-        factors: &mut Factors,
-        tolerance: f64,
-        monitor: &mut Monitor<'_>,
-        mut is_proof: impl FnMut(&[f64]) -> bool,
-    ) -> (Vec<f64>, Vec<f64>, Status, Option<Certificate>) {
-        let is_proof = |at: &Variables| is_proof(&self.proof(at));
-        let stop = |residual| monitor.stop(residual);
-        let accuracy = Accuracy::of_all(tolerance);
-        let (at, status) = solved(&self.program, factors, accuracy, stop, is_proof);
-        let (z, w) = self.variables(&at);
-        (
-            z,
-            w,
-            status,
-            (status == Status::Infeasible).then(|| Certificate::Farkas { pi: self.proof(&at) }),
-        )
-    }
-
-    /// A Farkas vector with a largest entry of one.
-    fn proof(&self, at: &Variables) -> Vec<f64> {
-        let (z, _) = self.variables(at);
-        let compliance = &self.program.compliance;
-        let is_none = |j: usize| !self.free[j] && compliance[self.places[j]] > 0.0;
-        let kept = z.iter().enumerate().map(|(j, v)| if is_none(j) { 0.0 } else { -v });
-        let kept: Vec<f64> = kept.collect();
-        let largest = max_abs(&kept);
-        // What hardly moves is at rest: rounding errors would contradict each other.
-        let noise = |v: &f64| if v.abs() <= ROW_ROUNDING * largest { 0.0 } else { v / largest };
-        kept.iter().map(noise).collect()
-    }
-
-    pub(super) fn planned(&self) -> Result<Factors, FaerError> {
-        Factors::of(&self.program)
-    }
-
-    fn variables(&self, at: &Variables) -> (Vec<f64>, Vec<f64>) {
-        let Units { column, force, length } = &self.units;
-        let of = |(&place, free): (&usize, &bool)| {
-            if *free {
-                (at.u[place] * column[place] * length, 0.0)
-            } else {
-                (at.t[place] * force, at.y[place] * length)
-            }
-        };
-        self.places.iter().zip(self.free).map(of).unzip()
-    }
+    let on_free = |is_free: bool, sign: f64| {
+        let columns = (0..free.len()).filter(|&j| free[j] == is_free);
+        let entries = columns.flat_map(|j| {
+            let nonzero = column_of(m, j).filter(|(i, v)| free[*i] && *v != 0.0);
+            nonzero.map(move |(i, v)| (i, j, sign * v))
+        });
+        let entries = entries.map(|(i, j, v)| (places[i], places[j], v));
+        Matrix::from_entries(counts[1], counts[usize::from(is_free)], entries).into_sparse()
+    };
+    let program = Program {
+        k: on_free(true, 1.0),
+        f: q.iter().zip(free).filter(|(_, free)| **free).map(|(q, _)| -q).collect(),
+        a: on_free(false, -1.0),
+        x_0: bounded().map(|j| q[j]).collect(),
+        compliance,
+    };
+    Some((program, places))
 }
 
 /// How far a bounded variable of one opens its own gap; `None` if it acts on that of another one.

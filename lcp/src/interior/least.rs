@@ -3,16 +3,14 @@
 use faer::sparse::SparseColMat;
 
 use super::InteriorPoint;
-use super::constants::{LOADS, ROW_ROUNDING};
-use super::factors::Factors;
-use super::homogeneous::{Accuracy, solved};
-use super::program::Program;
+use super::homogeneous::{Accuracy, Outcome};
+use super::program::{Program, against};
 use crate::active::unplanned;
 use crate::certify::is_proof_of;
 use crate::matrix::Column;
 use crate::solve::Monitor;
-use crate::vector::{check_length, check_vector, max_abs};
-use crate::{Error, Info, Method, Observer, Status};
+use crate::vector::{check_length, check_vector};
+use crate::{Error, Info, Matrix, Method, Observer, Status};
 
 /// Forces that are the least of all that balance loads, or a proof that there are none.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,34 +67,21 @@ impl InteriorPoint {
         check_vector("A", a.val())?;
         let observer = &mut |at: &_| observer(at);
         let mut monitor = Monitor::new(settings.max_iterations, settings.time_limit, observer);
-        let program = Program {
-            k: SparseColMat::try_new_from_triplets(n, n, &[])
-                .unwrap_or_else(|_| unreachable!("it has no entries")),
-            f: f.to_vec(),
-            a: a.clone(),
-            x_0: vec![0.0; m],
-            compliance: vec![1.0; m],
-        };
-        let (program, units) = program.scaled();
-        let planned = Factors::of(&program);
-        let mut factors = planned.map_err(|error| unplanned(Method::Interior, error))?;
+        let no_stiffness = Matrix::from_entries(n, n, std::iter::empty()).into_sparse();
+        let program = Program::of_least_forces(no_stiffness, f.to_vec(), a.clone());
         let loads: Vec<f64> = f.iter().map(|f| -f).collect();
-        let original = |u: &[f64]| -> Vec<f64> {
-            u.iter().zip(&units.column).map(|(u, d)| u * d * units.length).collect()
-        };
-        let accuracy = Accuracy::of_products(settings.tolerance).of_loads(LOADS);
-        let stop = |residual| monitor.stop(residual);
-        let is_proof = |u: &[f64]| is_proof_of(columns(a), &loads, &against(&original(u)));
-        let (mut at, status) = solved(&program, &mut factors, accuracy, stop, |at| is_proof(&at.u));
-        if status == Status::Solved {
-            factors.balance(&program, &mut at.t);
+        let found = program.solve(
+            Accuracy::OfForces(settings.tolerance),
+            |residual| monitor.stop(residual),
+            |u, _| is_proof_of(columns(a), &loads, &against(u.to_vec())),
+        );
+        let Outcome { status, mut u, t, factorisations, .. } =
+            found.map_err(|error| unplanned(Method::Interior, error))?;
+        if status == Status::Infeasible {
+            u = against(u).into_iter().map(|u| -u).collect();
         }
-        let u = original(&at.u);
-        let is_proved = status == Status::Infeasible;
-        let u = if is_proved { against(&u).iter().map(|v| -v).collect() } else { u };
-        let t = at.t.iter().map(|t| t * units.force).collect();
         let mut info = monitor.info(Method::Interior);
-        info.factorisations = factors.factorisations;
+        info.factorisations = factorisations;
         Ok(LeastForces { status, t, u, info })
     }
 }
@@ -105,11 +90,4 @@ fn columns(a: &SparseColMat<usize, f64>) -> impl Iterator<Item = Column<'_>> {
     let a = a.as_ref();
     (0..a.ncols())
         .map(move |j| Column::Sparse { rows: a.row_idx_of_col_raw(j), values: a.val_of_col(j) })
-}
-
-/// The opposite of a motion, with a largest component of one. What hardly moves is at rest: rounding errors would
-/// contradict each other.
-fn against(u: &[f64]) -> Vec<f64> {
-    let largest = max_abs(u);
-    u.iter().map(|v| if v.abs() <= ROW_ROUNDING * largest { 0.0 } else { -v / largest }).collect()
 }

@@ -1,14 +1,10 @@
 //! The interior-point method on every kind of problem.
 
-use super::kkt::KktProgram;
 use super::{InteriorPoint, InteriorPointSettings};
-use crate::active::unplanned;
-use crate::certify::is_proof_of_mixed;
-use crate::conversion::{judged_by, judged_point, solve_in_general_form, solve_in_standard_form};
-use crate::solve::Monitor;
+use crate::conversion::{judged_by, solve_in_mixed_form, solve_in_standard_form};
 use crate::{
     BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Method, MixedLcp, Observer,
-    Solution, Solver, WarmStart,
+    Solution, Solver,
 };
 
 impl Solver<Contact2d> for InteriorPoint {
@@ -40,25 +36,12 @@ impl Solver<MixedLcp> for InteriorPoint {
         problem: &MixedLcp,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        let InteriorPointSettings { tolerance, crossover, max_iterations, time_limit, .. } =
-            self.settings;
-        let program = if crossover { None } else { KktProgram::of(problem) };
-        let Some(program) = program else { return self.run(problem, observer) };
-        self.settings.validate(problem.order())?;
-        let mut monitor = Monitor::new(max_iterations, time_limit, observer);
-        let mut factors = program.planned().map_err(|error| unplanned(Method::Interior, error))?;
-        let is_proof = |pi: &[f64]| is_proof_of_mixed(problem, pi);
-        let (z, w, status, certificate) =
-            program.solved(&mut factors, tolerance, &mut monitor, is_proof);
-        let factorisations = factors.factorisations;
-        // The judge needs the space.
-        drop((program, factors));
-        let pairs = problem.to_pairs(&z, &w);
-        let mut solution = judged_point(problem, pairs.0, pairs.1, tolerance, status);
-        solution.certificate = certificate;
-        solution.info = monitor.info(Method::Interior);
-        solution.info.factorisations = factorisations;
-        Ok(solution)
+        if !self.settings.crossover
+            && let Some(solution) = self.solve_convex(problem, observer)?
+        {
+            return Ok(solution);
+        }
+        self.run(problem, observer)
     }
 }
 
@@ -122,7 +105,7 @@ impl Solver<HorizontalLcp> for InteriorPoint {
     }
 }
 
-/// Problems without free variables, by [`BoxedLcp::to_general`].
+/// In mixed form, by the distances from bounds.
 impl Solver<BoxedLcp> for InteriorPoint {
     fn method(&self) -> Method {
         Method::Interior
@@ -133,10 +116,10 @@ impl Solver<BoxedLcp> for InteriorPoint {
         problem: &BoxedLcp,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        solve_in_general_form(problem, self.settings.tolerance, |general, is_other| {
-            let start = if is_other { WarmStart::None } else { self.settings.start.clone() };
+        let InteriorPointSettings { start, tolerance, .. } = &self.settings;
+        solve_in_mixed_form(problem, start, *tolerance, |mixed, start| {
             let settings = InteriorPointSettings { start, ..self.settings.clone() };
-            Self::new(settings).solve_observed(general, observer)
+            Self::new(settings).solve_observed(mixed, observer)
         })
     }
 }

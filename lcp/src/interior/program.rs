@@ -1,10 +1,10 @@
 //! Convex programs in few free variables with many forces on them.
 
-use faer::sparse::{SparseColMat, SymbolicSparseColMat};
+use faer::sparse::SparseColMat;
 
+use crate::certify::SMALL;
 use crate::problem::{column_of, diagonal};
 use crate::scaling::power_of_two;
-use crate::states::{Point, Scaled};
 use crate::vector::max_abs;
 
 /// `K u = f + A t`, `y = A^T u + D t + x_0`, `0 <= t _|_ y >= 0`, with a diagonal `D >= 0`.
@@ -19,43 +19,29 @@ pub(super) struct Program {
 
 /// What the variables of a program were measured in.
 pub(super) struct Units {
-    pub(super) column: Vec<f64>,
+    column: Vec<f64>,
     pub(super) force: f64,
     pub(super) length: f64,
 }
 
-/// The forces of one along the edges of all friction cones.
-pub(super) fn edges(problem: &Scaled) -> SparseColMat<usize, f64> {
-    along(problem.order(), problem.edges())
-}
-
-/// The forces of one along edges of friction cones: points, each with a coefficient of friction and its sign.
-pub(super) fn along<'a>(
-    order: usize,
-    edges: impl Iterator<Item = (Point<'a>, f64)>,
-) -> SparseColMat<usize, f64> {
-    let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
-    for (point, mu) in edges {
-        rows.extend(point.columns);
-        values.extend(point.coefficients.iter().map(|[n, t]| n + mu * t));
-        starts.push(rows.len());
+impl Units {
+    /// The free variables in the units of the program as it was given.
+    pub(super) fn displacements(&self, u: &[f64]) -> Vec<f64> {
+        u.iter().zip(&self.column).map(|(u, d)| u * d * self.length).collect()
     }
-    assembled(order, starts, rows, values)
-}
-
-/// A matrix of this number of rows from its columns.
-pub(super) fn assembled(
-    count: usize,
-    starts: Vec<usize>,
-    rows: Vec<usize>,
-    values: Vec<f64>,
-) -> SparseColMat<usize, f64> {
-    let columns = starts.len() - 1;
-    let pattern = SymbolicSparseColMat::new_checked(count, columns, starts, None, rows);
-    SparseColMat::new(pattern, values)
 }
 
 impl Program {
+    /// Forces of least size along these columns that balance the loads `f` on the free variables, beside stiffness.
+    pub(super) fn of_least_forces(
+        k: SparseColMat<usize, f64>,
+        f: Vec<f64>,
+        a: SparseColMat<usize, f64>,
+    ) -> Self {
+        let count = a.ncols();
+        Self { k, f, a, x_0: vec![0.0; count], compliance: vec![1.0; count] }
+    }
+
     /// The same with variables of order one, and what they are measured in.
     pub(super) fn scaled(mut self) -> (Self, Units) {
         let mut largest = vec![0.0_f64; self.f.len()];
@@ -115,4 +101,18 @@ fn multiply(matrix: &mut SparseColMat<usize, f64>, factor: impl Fn(usize, usize)
         let rows = pattern.row_idx_of_col_raw(j);
         values[range].iter_mut().zip(rows).for_each(|(v, &i)| *v *= factor(i, j));
     }
+}
+
+/// A proof with zeros for what hardly moves beside the rest: rounding errors would contradict each other.
+pub(super) fn without_noise(mut v: Vec<f64>) -> Vec<f64> {
+    let noise = SMALL * max_abs(&v);
+    v.iter_mut().filter(|v| v.abs() <= noise).for_each(|v| *v = 0.0);
+    v
+}
+
+/// The opposite of a motion, with a largest component of one.
+pub(super) fn against(motion: Vec<f64>) -> Vec<f64> {
+    let motion = without_noise(motion);
+    let largest = max_abs(&motion);
+    motion.into_iter().map(|v| -v / largest).collect()
 }

@@ -4,9 +4,9 @@ use super::constants::{HALF, OPENED, OPENINGS, WIDE};
 #[cfg(test)]
 use super::iterate::Tangent;
 use super::iterate::{Defect, Iterate, Pairs};
+use super::path::Ahead;
 #[cfg(test)]
 use super::path::targets;
-use super::path::{Ahead, advance};
 use crate::problem::ContactStatus;
 use crate::states::{Condensed, PROXIMAL, Point, Scaled, Springs};
 
@@ -27,7 +27,7 @@ pub(super) fn start(problem: &Scaled, condensed: &mut Condensed) -> Iterate {
     let shift = if mean > 0.0 && mean.is_finite() { mean } else { 1.0 };
     let points = problem.points.iter().zip(&springs).zip(&gaps).map(|((point, springs), gap)| {
         let t_n = (-gap).max(0.0) + shift;
-        let pairs = Pairs { t_n, gap: gap.max(0.0) + shift, ..Pairs::default() };
+        let pairs = Pairs { mu: point.mu, t_n, gap: gap.max(0.0) + shift, ..Pairs::default() };
         if point.mu == 0.0 {
             return pairs;
         }
@@ -46,10 +46,10 @@ pub(super) fn start(problem: &Scaled, condensed: &mut Condensed) -> Iterate {
 pub(super) fn start_opened(problem: &Scaled, condensed: &mut Condensed, by: f64) -> Iterate {
     let at = start(problem, condensed);
     let (_, length) = at.sizes();
-    at.opened(problem, by * length)
+    at.opened(by * length)
 }
 
-/// The first step, as [`advance`], from a start that is opened first if need be.
+/// The first step, from a start that is opened first if need be.
 ///
 /// A start knows how bodies are deformed, but not how far slender ones bend and loose ones turn, which may be
 /// further by many powers of ten. From gaps that are too small for the way the steps are short: some gaps
@@ -68,17 +68,17 @@ pub(super) fn set_out(
         let ahead = Ahead::of(problem, condensed, &from, &of_from);
         let change = ahead.predictor.largest_gap() / from.mean_gap();
         if change <= WIDE {
-            return ahead.advance(problem, &from);
+            return ahead.advance();
         }
         if change.is_nan() || change > HALF * before.1 {
             let of_before = Defect::of(problem, &before.0);
-            return advance(problem, condensed, &before.0, &of_before);
+            return Ahead::of(problem, condensed, &before.0, &of_before).advance();
         }
-        let wider = from.clone().opened(problem, OPENED * from.mean_gap());
+        let wider = from.clone().opened(OPENED * from.mean_gap());
         before = (from, change);
         from = wider;
     }
-    advance(problem, condensed, at, defect)
+    Ahead::of(problem, condensed, at, defect).advance()
 }
 
 #[cfg(test)]
@@ -107,12 +107,11 @@ mod tests {
         let problem = Scaled::of_contact(&builder.build().unwrap());
         let mut condensed = Condensed::new(&problem).unwrap();
         let at = start(&problem, &mut condensed);
-        let tau = 0.1 * at.gap(&problem);
+        let tau = 0.1 * at.mean_product();
         let defect = Defect::of(&problem, &at);
         let tangent = Tangent::new(&problem, &mut condensed, &at);
-        let step = tangent.step(&defect, &targets(&problem, &at, tau, None));
-        let missing =
-            |at: &Iterate| -> Vec<f64> { at.products(&problem).map(|it| it - tau).collect() };
+        let step = tangent.step(&defect, &targets(&at, tau, None));
+        let missing = |at: &Iterate| -> Vec<f64> { at.pairs().map(|(t, y)| t * y - tau).collect() };
         let part = 1e-4;
         let (before, after) = (missing(&at), missing(&at.moved(&step, part)));
         let size = before.iter().fold(0.0_f64, |max, v| max.max(v.abs()));

@@ -1,8 +1,7 @@
 //! Where the central path turns back.
 
 use super::constants::{LONG, PIECES};
-use super::iterate::{Defect, Iterate, Tangent};
-use crate::states::Scaled;
+use super::iterate::{Iterate, Tangent};
 
 /// A step along the central path where it turns, or nearly.
 ///
@@ -13,36 +12,30 @@ use crate::states::Scaled;
 /// general). Near a turn the equations for a fixed `tau` have no solution or two, so that corrections at
 /// a fixed `tau` grow beyond bounds. The correction here leaves the place along the path alone: `tau`
 /// becomes whatever belongs to it. To that comes a piece of the path.
-pub(super) fn turn(
-    problem: &Scaled,
-    tangent: &Tangent<'_>,
-    at: &Iterate,
-    predictor: &Iterate,
-) -> (Iterate, f64) {
-    let along = tangent.step(&Defect::none(problem), &vec![[1.0; 3]; problem.points.len()]);
+pub(super) fn turn(tangent: &Tangent<'_>, at: &Iterate, predictor: &Iterate) -> (Iterate, f64) {
+    let along = tangent.correction(&vec![[1.0; 3]; at.points.len()]);
     let (mut product, mut square, mut largest) = (0.0, 0.0, 0.0_f64);
-    for (i, mu) in problem.points.mu.iter().enumerate() {
-        let [at, along, predictor] = [at, &along, predictor].map(|it| it.points[i].pairs(*mu));
-        for (((t, y), (t_along, y_along)), (dt, dy)) in at.zip(along).zip(predictor) {
-            for (along, change) in [(t_along / t, dt / t), (y_along / y, dy / y)] {
-                product += along * change;
-                square += along * along;
-                largest = largest.max(along.abs());
-            }
+    for (((t, y), (t_along, y_along)), (dt, dy)) in
+        at.pairs().zip(along.pairs()).zip(predictor.pairs())
+    {
+        for (along, change) in [(t_along / t, dt / t), (y_along / y, dy / y)] {
+            product += along * change;
+            square += along * along;
+            largest = largest.max(along.abs());
         }
     }
     let aim = -product / square;
     let sense = if tangent.is_backwards() { 1.0 } else { -1.0 };
-    let mut best: Option<(Iterate, f64)> = None;
+    let mut best = (predictor.clone(), 0.0);
     for piece in PIECES {
         let step = predictor.moved(&along, aim + sense * piece / largest);
-        let alpha = at.longest(problem, &step);
-        if best.as_ref().is_none_or(|(_, longest)| alpha > *longest) {
-            best = Some((step, alpha));
+        let alpha = at.longest(&step);
+        if alpha > best.1 {
+            best = (step, alpha);
         }
         if alpha > LONG {
             break;
         }
     }
-    best.unwrap_or_else(|| unreachable!("there are pieces"))
+    best
 }

@@ -1,16 +1,20 @@
-//! The variables of convex programs, inside their bounds, and where they start.
+//! The variables of the homogeneous problem of a convex program, inside their bounds, and where they start.
 
 use super::constants::AWAY;
 use super::factors::Factors;
 use super::program::Program;
+use super::step::longest;
 use crate::states::PROXIMAL;
 
-/// The variables of a program inside their bounds, or a step of them.
+/// The variables inside their bounds, or a step of them.
 #[derive(Debug, Clone)]
 pub(super) struct Variables {
     pub(super) u: Vec<f64>,
     pub(super) t: Vec<f64>,
     pub(super) y: Vec<f64>,
+    /// The pair that tells a solution from a proof that there is none.
+    pub(super) tau: f64,
+    pub(super) kappa: f64,
 }
 
 impl Variables {
@@ -33,43 +37,53 @@ impl Variables {
         let pull = gaps.iter().fold(0.0, |max, gap| gap.max(max));
         let shift = mean.max(AWAY * pull);
         let shift = if shift > 0.0 && shift.is_finite() { shift } else { 1.0 };
-        let t = gaps.iter().map(|gap| (-gap).max(0.0) + shift).collect();
-        let y = gaps.iter().map(|gap| gap.max(0.0) + shift).collect();
-        Some(Self { u, t, y })
+        let t: Vec<f64> = gaps.iter().map(|gap| (-gap).max(0.0) + shift).collect();
+        let y: Vec<f64> = gaps.iter().map(|gap| gap.max(0.0) + shift).collect();
+        let kappa = dot(&t, &y) / t.len().max(1) as f64;
+        Some(Self { u, t, y, tau: 1.0, kappa })
     }
 
     pub(super) fn zero(program: &Program) -> Self {
         let pairs = vec![0.0; program.x_0.len()];
-        Self { u: vec![0.0; program.f.len()], t: pairs.clone(), y: pairs }
+        Self { u: vec![0.0; program.f.len()], t: pairs.clone(), y: pairs, tau: 0.0, kappa: 0.0 }
     }
 
+    /// The mean of the products of all pairs.
     pub(super) fn mean_product(&self) -> f64 {
-        dot(&self.t, &self.y) / self.t.len().max(1) as f64
+        (dot(&self.t, &self.y) + self.tau * self.kappa) / (self.t.len() + 1) as f64
     }
 
     pub(super) fn moved(&self, step: &Self, alpha: f64) -> Self {
-        self.with(step, |v, step| v + alpha * step)
-    }
-
-    fn with(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
+        let of = |v: f64, step: f64| v + alpha * step;
         let with = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| of(*a, *b)).collect();
-        Self { u: with(&self.u, &other.u), t: with(&self.t, &other.t), y: with(&self.y, &other.y) }
+        Self {
+            u: with(&self.u, &step.u),
+            t: with(&self.t, &step.t),
+            y: with(&self.y, &step.y),
+            tau: of(self.tau, step.tau),
+            kappa: of(self.kappa, step.kappa),
+        }
     }
 
     pub(super) fn is_finite(&self) -> bool {
-        [&self.u, &self.t, &self.y].iter().map(|v| v.iter().sum::<f64>()).sum::<f64>().is_finite()
+        let sums = [&self.u, &self.t, &self.y].map(|v| v.iter().sum::<f64>());
+        (sums.iter().sum::<f64>() + self.tau + self.kappa).is_finite()
     }
 
     /// The largest step, at most one, that leaves all bounded variables positive.
     pub(super) fn longest(&self, step: &Self) -> f64 {
         let pairs = self.t.iter().zip(&step.t).chain(self.y.iter().zip(&step.y));
+        let pairs = pairs.chain([(&self.tau, &step.tau), (&self.kappa, &step.kappa)]);
         longest(pairs.map(|(v, change)| (*v, *change)))
     }
-}
 
-/// The largest step, at most one, that leaves numbers positive that change.
-pub(super) fn longest(pairs: impl Iterator<Item = (f64, f64)>) -> f64 {
-    pairs.filter(|(_, change)| *change < 0.0).map(|(v, change)| -v / change).fold(1.0, f64::min)
+    /// The solution that the point may be near to.
+    pub(super) fn solution(mut self) -> Self {
+        let by = 1.0 / self.tau.max(f64::MIN_POSITIVE);
+        let Self { u, t, y, .. } = &mut self;
+        u.iter_mut().chain(t).chain(y).for_each(|v| *v *= by);
+        self
+    }
 }
 
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -31,7 +31,7 @@ pub struct BoxedLcp {
 
 /// What the bounds make of a variable, and its pairs `(t, y)` in the general form.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Kind {
+pub(super) enum Kind {
     /// `z = t - y`, `w = 0`.
     Free,
     /// `z = lower + t`, `w = y`.
@@ -232,14 +232,26 @@ impl BoxedLcp {
         inside: &[f64],
     ) -> (Vec<f64>, Vec<f64>) {
         variables.iter().zip(inside).for_each(|(&j, &value)| z[j] = value);
-        let mut w = self.q.clone();
-        z.iter().enumerate().for_each(|(j, &z)| self.m.slice(j).add_to(z, &mut w));
+        let mut w = self.image(&z);
         for (j, w) in w.iter_mut().enumerate() {
             let (is_low, is_high) = (z[j] <= self.lower[j], z[j] >= self.upper[j]);
             *w = if is_low { *w } else { w.min(0.0) };
             *w = if is_high { *w } else { w.max(0.0) };
         }
         (z, w)
+    }
+
+    /// `M z + q`
+    pub(super) fn image(&self, z: &[f64]) -> Vec<f64> {
+        let mut w = self.q.clone();
+        z.iter().enumerate().for_each(|(j, &z)| self.m.slice(j).add_to(z, &mut w));
+        w
+    }
+
+    /// The variables with one value only.
+    pub(super) fn fixed(&self) -> Vec<usize> {
+        let kinds = self.kinds();
+        (0..self.order()).filter(|&i| kinds[i] == Kind::Fixed).collect()
     }
 
     /// The value nearest to zero that the bounds of a variable allow.
@@ -270,7 +282,7 @@ impl BoxedLcp {
         self.kinds().into_iter().map(pair).collect()
     }
 
-    fn kinds(&self) -> Vec<Kind> {
+    pub(super) fn kinds(&self) -> Vec<Kind> {
         let mut next = self.order();
         let kind = |(&lower, &upper): (&f64, &f64)| match (lower.is_finite(), upper.is_finite()) {
             (false, false) => Kind::Free,
@@ -286,7 +298,7 @@ impl BoxedLcp {
     }
 
     /// `z` where its pairs are zero.
-    fn shift(&self, i: usize, kind: Kind) -> f64 {
+    pub(super) fn shift(&self, i: usize, kind: Kind) -> f64 {
         match kind {
             Kind::Free => 0.0,
             Kind::Upper => self.upper[i],
@@ -297,7 +309,7 @@ impl BoxedLcp {
 
     /// Whether the upper bound is nearer to zero: a distance from it keeps more digits of the value than one from the lower
     /// bound.
-    fn is_nearer_above(&self, i: usize) -> bool {
+    pub(super) fn is_nearer_above(&self, i: usize) -> bool {
         self.upper[i].abs() < self.lower[i].abs()
     }
 }

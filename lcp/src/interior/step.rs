@@ -1,0 +1,44 @@
+//! What the steps of both iterations have in common: how far they go, and correctors that bring products together.
+
+use super::constants::{CENTRAL, CORRECTORS, LONG_ENOUGH, LONGER};
+
+/// The largest step, at most one, that leaves numbers positive that change.
+pub(super) fn longest(numbers: impl Iterator<Item = (f64, f64)>) -> f64 {
+    numbers.filter(|(_, change)| *change < 0.0).map(|(v, change)| -v / change).fold(1.0, f64::min)
+}
+
+/// A step with its length, made longer by correctors of centrality (Gondzio 1996), each of which costs a solve. It gets the
+/// step and the part of it at which products are looked at, and gives the corrected step.
+pub(super) fn lengthened<S>(
+    mut step: S,
+    longest: impl Fn(&S) -> f64,
+    corrector: impl Fn(&S, f64) -> S,
+) -> (S, f64) {
+    let mut alpha = longest(&step);
+    for _ in 0..CORRECTORS {
+        if alpha >= LONG_ENOUGH {
+            break;
+        }
+        let corrected = corrector(&step, (1.5 * alpha + 0.3).min(1.0));
+        let reached = longest(&corrected);
+        if reached < alpha + LONGER {
+            break;
+        }
+        (step, alpha) = (corrected, reached);
+    }
+    (step, alpha)
+}
+
+/// What brings the product of a pair back among those that are central, if they are to be `tau`.
+pub(super) fn correction(t: f64, y: f64, tau: f64) -> f64 {
+    let (low, high) = (CENTRAL.0 * tau, CENTRAL.1 * tau);
+    // Two negative values are as far outside as one.
+    let product = if t < 0.0 && y < 0.0 { -t * y } else { t * y };
+    if product < low {
+        low - product
+    } else if product > high {
+        (high - product).max(-high)
+    } else {
+        0.0
+    }
+}
