@@ -8,27 +8,30 @@ mod form;
 mod interior;
 mod monotone;
 mod program;
-mod scale;
 mod settings;
 mod soft;
 
+use contact::contact_form;
 use coulomb::solve_contact;
-use form::Point;
-use interior::End;
-use monotone::{MixedForm, standard_form, standard_point};
+use interior::{End, Interior};
+use monotone::MixedProgram;
 use program::Run;
 pub use settings::{QuadraticProgramSettings, SoftConstraints};
 pub use soft::SoftSolution;
 
-use crate::conversion::solve_in_standard_form;
-use crate::{Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Observer, Solution, Solver};
+use crate::conversion::{solve_in_mixed_form, solve_in_standard_form};
+use crate::{
+    BoxedLcp, Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Observer, Solution, Solver,
+};
 
 /// Complementarity problems that are the conditions of a convex quadratic program.
 ///
 /// * [`Lcp`] with `M` symmetric positive semidefinite: minimise `z M z / 2 + q z` for `z >= 0`;
 ///   [`HorizontalLcp`], where [`HorizontalLcp::to_standard`] recognises such a problem.
-/// * [`MixedLcp`] with `M = [P, -G^T; G, S]`, `P` of the free variables, both `P` and `S` symmetric
-///   positive semidefinite: minimise `u P u / 2 + z S z / 2 + p u` for `G u + S z + r >= 0`.
+/// * [`MixedLcp`] with `M = [P, -G^T; G, S]`, both `P` and `S` symmetric positive semidefinite, whatever is free: minimise
+///   `u P u / 2 + z S z / 2 + p u` for `G u + S z + r >= 0`, or `= 0` if the variable of the row is free. Such an [`Lcp`] is
+///   treated, too.
+/// * [`BoxedLcp`] with such an `M`: its bounds become rows of a mixed problem.
 /// * [`Contact2d`]: minimise `u K u / 2 - f u` for gaps `C_n u + x_0 >= 0`. With friction it is a sequence of such
 ///   programs: with fixed bounds `g` of the friction forces (Tresca) the work `g |C_t u + s_0|` is added, and `g` goes half
 ///   the way to `mu t_n`, until it converges.
@@ -99,33 +102,42 @@ impl QuadraticProgram {
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         let settings = &self.settings;
-        let form = contact::contact_form(contact);
         let general = || contact.to_general();
         let mut run = Run::new(settings, contact, &general, settings.max_outer, observer)?;
+        let form = contact_form(&run.search.scaled);
         let end = if run.is_tried(&form) {
             run.monitor.stop(run.search.residual()).map_or(Ok(End::Point), Err)
-        } else if let Some(mut program) = contact::ContactProgram::new(&form, run.effort()) {
-            solve_contact(&mut run, contact, &mut program)
+        } else if let Some(mut program) = Interior::new(form, settings.max_iterations) {
+            solve_contact(&mut run, &mut program)
         } else {
             Ok(End::Failed)
         };
         Ok(run.finish(end))
     }
 
-    /// A standard problem, with a proof in the rows of a general one.
+    /// A mixed problem, with a proof in the rows of a general one.
+    fn solve_mixed(
+        &self,
+        problem: &MixedLcp,
+        general: &dyn Fn() -> HorizontalLcp,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
+        self.settings.validate(problem.order())?;
+        let mut run = Run::new(&self.settings, problem, general, 1, observer)?;
+        let form = MixedProgram::new(problem, &run.search.scaled).map_err(|it| refused(&it))?;
+        let end = run.solve_convex(&form);
+        Ok(run.finish(end))
+    }
+
     fn solve_standard(
         &self,
         problem: &Lcp,
         general: &dyn Fn() -> HorizontalLcp,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        self.settings.validate(problem.order())?;
-        let form = standard_form(problem).map_err(|reason| refused(&reason))?;
         let free = vec![false; problem.order()];
         let mixed = MixedLcp::new(problem.m().clone(), problem.q().to_vec(), free)?;
-        let mut run = Run::new(&self.settings, &mixed, general, 1, observer)?;
-        let end = run.solve_convex(&form, &|point: &Point| standard_point(&form, point));
-        Ok(run.finish(end))
+        self.solve_mixed(&mixed, general, observer)
     }
 }
 
@@ -187,12 +199,26 @@ impl Solver<MixedLcp> for QuadraticProgram {
         problem: &MixedLcp,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        self.settings.validate(problem.order())?;
-        let mixed = MixedForm::new(problem).map_err(|reason| refused(&reason))?;
-        let general = || problem.to_general();
-        let mut run = Run::new(&self.settings, problem, &general, 1, observer)?;
-        let end = run.solve_convex(&mixed.form, &|point: &Point| mixed.to_pairs(problem, point));
-        Ok(run.finish(end))
+        self.solve_mixed(problem, &|| problem.to_general(), observer)
+    }
+}
+
+/// In mixed form, by the distances from bounds.
+impl Solver<BoxedLcp> for QuadraticProgram {
+    fn method(&self) -> Method {
+        Method::QuadraticProgram
+    }
+
+    fn solve_observed(
+        &self,
+        problem: &BoxedLcp,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
+        let QuadraticProgramSettings { start, tolerance, .. } = &self.settings;
+        solve_in_mixed_form(problem, start, *tolerance, |mixed, start| {
+            let solver = Self::new(QuadraticProgramSettings { start, ..self.settings.clone() });
+            solver.solve_observed(mixed, observer)
+        })
     }
 }
 

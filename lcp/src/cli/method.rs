@@ -89,7 +89,7 @@ pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Fai
                 ..defaults
             };
             let solver = QuadraticProgram::new(settings);
-            in_a_form!(solver, problem, Lcp | Mixed | Contact, standard of Friction)
+            in_a_form!(solver, problem, Lcp | Mixed | Boxed | Contact, standard of Friction)
         }
         Method::Newton => {
             let defaults = SemismoothNewtonSettings::default();

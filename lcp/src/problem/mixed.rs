@@ -97,16 +97,14 @@ impl MixedLcp {
         // The group, and the sign that the rows tell.
         let mut labels: Vec<Option<[bool; 2]>> = vec![None; n];
         let mut roots: Vec<usize> = (0..n).collect();
-        roots.sort_by_key(|&j| (is_equation[j], !free[j]));
+        roots.sort_by_key(|&j| (is_equation[j], !free[j], m[(j, j)] == 0.0));
         for root in roots {
             if labels[root].is_some() {
                 continue;
             }
-            labels[root] = Some([free[root]; 2]);
-            let mut part = vec![root];
-            let mut next = 0;
-            while let Some(&j) = part.get(next) {
-                next += 1;
+            labels[root] = Some([true; 2]);
+            let mut next = vec![root];
+            while let Some(j) = next.pop() {
                 let Some([group, sign]) = labels[j] else { continue };
                 for (i, v) in m.column(j).filter(|(i, v)| *v != 0.0 && *i != j) {
                     let is_same = match m.likeness(i, j, v) {
@@ -123,16 +121,8 @@ impl MixedLcp {
                     }
                     if labels[i].is_none() {
                         labels[i] = Some(label);
-                        part.push(i);
+                        next.push(i);
                     }
-                }
-            }
-            let has_bounded = |group: bool| {
-                part.iter().any(|&j| !free[j] && labels[j].is_some_and(|it| it[0] == group))
-            };
-            if has_bounded(true) && !has_bounded(false) {
-                for &j in &part {
-                    labels[j] = labels[j].map(|label| label.map(|it| !it));
                 }
             }
         }
@@ -156,7 +146,7 @@ impl MixedLcp {
 /// groups, and skew between them.
 #[derive(Debug, Clone)]
 pub(crate) struct Groups {
-    /// Whether a variable is in the first group, which has only free ones where that is possible.
+    /// Whether a variable is one of the program, and no multiplier.
     pub(crate) is_x: Vec<bool>,
     /// The sign of every row: minus one only for equations.
     pub(crate) sign: Vec<f64>,

@@ -12,8 +12,6 @@ pub(super) const WORSE: f64 = 10.0;
 /// Least bound of friction, relative to the largest: a bound of zero leaves the program without an interior. Chosen:
 /// what this changes the exchange of states puts right.
 pub(super) const LEAST_LIMIT: f64 = 1e-9;
-/// Times that rows and columns are brought near one. Chosen.
-pub(super) const SWEEPS: usize = 6;
 /// Rounds without progress after which it is asked whether there is a solution at all. Chosen.
 pub(super) const DOUBTS: usize = 4;
 /// Times that larger bounds are tried where no bounds were large enough yet. Chosen.

@@ -1,25 +1,21 @@
 //! Coulomb's friction as the fixed point of programs with frozen bounds of the friction forces.
 
 use super::constants::{DAMPING, DOUBTS, ENLARGED, IDLE};
-use super::contact::{ContactProgram, state_of};
+use super::contact::forces;
 use super::form::{Bounds, Form};
-use super::interior::End;
+use super::interior::{End, Interior};
 use super::program::Run;
 use crate::states::PointRef;
-use crate::{Contact2d, Status, active};
+use crate::{Status, active};
 
 /// Solves the program, and where there is friction the sequence of programs whose bounds are `mu` times
 /// the normal forces of the one before. Of every solution the states of the contacts are solved with Coulomb's
 /// own law, which ends the sequence as soon as they are right.
 ///
 /// Says why it ended, where the best point is not good enough.
-pub(super) fn solve_contact(
-    run: &mut Run<'_>,
-    contact: &Contact2d,
-    program: &mut ContactProgram,
-) -> Result<End, Status> {
-    let has_cones = program.scaled.form.has_cones();
-    let mut limits = generous(&program.scaled.form);
+pub(super) fn solve_contact(run: &mut Run<'_>, program: &mut Interior) -> Result<End, Status> {
+    let has_cones = program.form.has_cones();
+    let mut limits = generous(&program.form);
     // The last bounds that had a point.
     let mut last: Option<Vec<f64>> = None;
     let (mut least, mut idle, mut enlarged) = (f64::INFINITY, 0, 0);
@@ -28,13 +24,11 @@ pub(super) fn solve_contact(
         if let Some(status) = run.monitor.stop(run.search.residual()) {
             return Err(status);
         }
-        let found = program.solve(&limits, run.effort());
+        let found = program.solve(&limits, run.time());
         run.steps += found.iterations;
         match found.end {
             End::Failed => return Ok(End::Failed),
-            End::NoPoint
-                if !has_cones || enlarged >= ENLARGED || run.proof.is_found(run.effort()) =>
-            {
+            End::NoPoint if !has_cones || enlarged >= ENLARGED || run.proof().is_some() => {
                 return Ok(End::NoPoint);
             }
             // The bounds are too small to hold the bodies.
@@ -51,18 +45,18 @@ pub(super) fn solve_contact(
             }
             End::Point | End::IterationLimit | End::TimeLimit => {}
         }
-        let state = state_of(contact, &program.scaled.unscaled(&found.point));
-        let (u, forces) = run.search.scaled.of_state(&state);
-        let is_solved = run.search.try_point(PointRef { u: &u, forces: &forces }, Some(effort));
+        let forces = forces(&run.search.scaled, &found.point);
+        let at = PointRef { u: &found.point.x, forces: &forces };
+        let is_solved = run.search.try_point(at, Some(effort));
         if !has_cones || is_solved || found.end != End::Point {
             run.monitor.history.push(run.search.residual());
             return Ok(found.end);
         }
-        let image = program.scaled.form.limits(&found.point.lambda);
+        let image = program.form.limits(&found.point.lambda);
         let change = limits.iter().zip(&image).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
         idle = if change < 0.9 * least { 0 } else { idle + 1 };
         least = least.min(change);
-        if idle > IDLE || (idle >= DOUBTS && run.proof.is_found(run.effort())) {
+        if idle > IDLE || (idle >= DOUBTS && run.proof().is_some()) {
             run.monitor.history.push(run.search.residual());
             return Err(Status::Stalled);
         }

@@ -9,19 +9,10 @@ use clarabel::solver::{
     DefaultInfo, DefaultSettings, DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus,
 };
 
-use super::constants::{LEAST_LIMIT, NEAR, WORSE};
+use super::constants::{INTERIOR, LEAST_LIMIT, NEAR, WORSE};
 use super::form::{Bounds, Form, Point};
 use crate::problem::column_of;
 use crate::vector::max_abs;
-
-/// How exact and how long.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Effort {
-    pub(super) tolerance: f64,
-    pub(super) max_iterations: usize,
-    /// What is left of the time.
-    pub(super) time: Option<Duration>,
-}
 
 /// How a run of the interior-point method ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,25 +36,24 @@ pub(super) struct Found {
     pub(super) iterations: usize,
 }
 
-/// A form handed over to Clarabel, to be solved for several bounds of its cones.
+/// A form handed over to Clarabel, to be solved for several bounds of its cones: minimise
+/// `x P x / 2 + v S v / 2 + linear x + sum g_i |w_i|` subject to `w_i >= 0` in the rows of nonnegative multipliers, where
+/// `w = D x + S v + offset` and the sum goes over the cones. There `g |w|` is `g w + 2 g e` with the least `e >= 0` for which
+/// `w + e >= 0`, and the multiplier is that of this condition less `g`.
 ///
-/// With `x`: minimise `x P x / 2 + v S v / 2 + linear x + sum g_i |w_i|` subject to `w_i >= 0` in the
-/// rows of nonnegative multipliers, where `w = D x + S v + offset` and the sum goes over the cones. There
-/// `g |w|` is `g w + 2 g e` with the least `e >= 0` for which `w + e >= 0`, and the multiplier is that of this
-/// condition less `g`. Without `x` there are no cones: minimise `lambda S lambda / 2 + offset lambda`.
+/// Clarabel's variables are `x`, then those of the rows with a diagonal entry of `S`, then one for every cone.
 pub(super) struct Interior {
+    pub(super) form: Form,
     solver: DefaultSolver<f64>,
     settings: DefaultSettings<f64>,
-    layout: Layout,
-}
-
-/// Where things are in Clarabel's problem.
-enum Layout {
-    /// The variables are the multipliers.
-    Multipliers,
-    /// The variables are `x`, then those of the rows with a diagonal entry of `S`, then one for every
-    /// cone; `row[i]` is the constraint of row `i`, and `curved` are the rows with a diagonal entry.
-    Unknowns { row: Vec<usize>, linear: Vec<f64>, curved: Vec<usize>, cones: Vec<(usize, usize)> },
+    /// The constraint of every row.
+    row: Vec<usize>,
+    /// The linear part of the objective without cones.
+    linear: Vec<f64>,
+    /// The rows with a diagonal entry of `S`.
+    curved: Vec<usize>,
+    /// The rows with cones.
+    cones: Vec<usize>,
 }
 
 /// A matrix in the making, by entries.
@@ -87,41 +77,18 @@ impl Entries {
 }
 
 impl Interior {
-    /// Takes over a scaled form. None where Clarabel refuses it.
-    pub(super) fn new(form: &Form, effort: Effort) -> Option<Self> {
-        let settings = settings(effort)?;
-        let mut interior = if form.unknowns() == 0 {
-            Self::of_multipliers(form, settings)?
-        } else {
-            Self::of_unknowns(form, settings)?
-        };
-        interior.solver.set_termination_callback(is_past_best());
-        Some(interior)
-    }
-
-    fn of_multipliers(form: &Form, settings: DefaultSettings<f64>) -> Option<Self> {
-        let m = form.rows();
-        let (mut p, mut a) = (Entries::default(), Entries::default());
-        for j in 0..m {
-            column_of(&form.s, j).filter(|(i, _)| *i <= j).for_each(|(i, v)| p.push(i, j, v));
-        }
-        let bounded = (0..m).filter(|&i| form.bounds[i] != Bounds::Free);
-        let count = bounded.clone().count();
-        bounded.enumerate().for_each(|(row, i)| a.push(row, i, -1.0));
-        let (p, a, b) = (p.finish(m, m), a.finish(count, m), vec![0.0; count]);
-        let cone = [NonnegativeConeT(count)];
-        let solver = DefaultSolver::new(&p, &form.offset, &a, &b, &cone, settings.clone()).ok()?;
-        Some(Self { solver, settings, layout: Layout::Multipliers })
-    }
-
-    fn of_unknowns(form: &Form, settings: DefaultSettings<f64>) -> Option<Self> {
+    /// None where Clarabel refuses the form.
+    pub(super) fn new(form: Form, max_iterations: usize) -> Option<Self> {
+        let settings = settings(max_iterations)?;
         let (n, m) = (form.unknowns(), form.rows());
         let curved: Vec<usize> =
             (0..m).filter(|&i| form.s.get(i, i).is_some_and(|v| *v > 0.0)).collect();
-        let of = |kind: fn(&Bounds) -> bool| (0..m).filter(move |&i| kind(&form.bounds[i]));
-        let free: Vec<usize> = of(|bounds| *bounds == Bounds::Free).collect();
-        let bounded: Vec<usize> = of(|bounds| *bounds != Bounds::Free).collect();
-        let cones: Vec<usize> = of(|bounds| matches!(bounds, Bounds::Cone { .. })).collect();
+        let of = |kind: fn(&Bounds) -> bool| -> Vec<usize> {
+            (0..m).filter(|&i| kind(&form.bounds[i])).collect()
+        };
+        let free = of(|bounds| *bounds == Bounds::Free);
+        let bounded = of(|bounds| *bounds != Bounds::Free);
+        let cones = of(|bounds| matches!(bounds, Bounds::Cone { .. }));
         let mut row = vec![0; m];
         free.iter().chain(&bounded).enumerate().for_each(|(k, &i)| row[i] = k);
         let columns = n + curved.len() + cones.len();
@@ -153,23 +120,28 @@ impl Interior {
 
         let (p, a) = (p.finish(columns, columns), a.finish(b.len(), columns));
         let cone = [ZeroConeT(free.len()), NonnegativeConeT(bounded.len() + cones.len())];
-        let solver = DefaultSolver::new(&p, &linear, &a, &b, &cone, settings.clone()).ok()?;
-        let cones = cones.iter().enumerate().map(|(k, &i)| (i, first + k)).collect();
-        Some(Self { solver, settings, layout: Layout::Unknowns { row, linear, curved, cones } })
+        let mut solver = DefaultSolver::new(&p, &linear, &a, &b, &cone, settings.clone()).ok()?;
+        solver.set_termination_callback(is_past_best());
+        Some(Self { form, solver, settings, row, linear, curved, cones })
     }
 
-    /// Solves for these bounds of the multipliers of cones, one for every row of the form. On failure of
-    /// the update the former bounds would be meant, so that there is no point then.
-    pub(super) fn solve(&mut self, form: &Form, limits: &[f64], time: Option<Duration>) -> Found {
-        let failed = || Found { end: End::Failed, point: Point::zero(form), iterations: 0 };
-        let floor = least_limit(limits);
+    /// Solves for these bounds of the multipliers of cones, one for every row of the form, within a time.
+    pub(super) fn solve(&mut self, limits: &[f64], time: Option<Duration>) -> Found {
+        // A bound of zero leaves the program without an interior.
+        let largest = max_abs(limits);
+        let floor = if largest > 0.0 { LEAST_LIMIT * largest } else { LEAST_LIMIT };
         let limits: Vec<f64> = limits.iter().map(|limit| limit.max(floor)).collect();
-        if self.update(form, &limits).is_none() || self.allow(time).is_none() {
-            return failed();
+        if self.update(&limits, time).is_none() {
+            return Found { end: End::Failed, point: Point::zero(&self.form), iterations: 0 };
         }
         self.solver.solve();
         let solution = &self.solver.solution;
+        let x = solution.x[..self.form.unknowns()].to_vec();
+        let mut lambda: Vec<f64> = self.row.iter().map(|&row| solution.z[row]).collect();
+        self.cones.iter().for_each(|&i| lambda[i] -= limits[i]);
+        let point = Point { x, lambda };
         let end = match solution.status {
+            _ if !point.is_finite() => End::Failed,
             SolverStatus::PrimalInfeasible
             | SolverStatus::DualInfeasible
             | SolverStatus::AlmostPrimalInfeasible
@@ -178,60 +150,36 @@ impl Interior {
             SolverStatus::MaxTime => End::TimeLimit,
             _ => End::Point,
         };
-        let point = match &self.layout {
-            Layout::Multipliers => Point { x: Vec::new(), lambda: solution.x.clone() },
-            Layout::Unknowns { row, cones, .. } => {
-                let x = solution.x[..form.unknowns()].to_vec();
-                let mut lambda: Vec<f64> = row.iter().map(|&row| solution.z[row]).collect();
-                for (i, _) in cones {
-                    lambda[*i] -= limits[*i];
-                }
-                Point { x, lambda }
-            }
-        };
-        if !point.is_finite() {
-            return failed();
-        }
         let iterations = usize::try_from(solution.iterations).unwrap_or(usize::MAX);
         Found { end, point, iterations }
     }
 
-    /// Puts in the bounds of the cones.
-    fn update(&mut self, form: &Form, limits: &[f64]) -> Option<()> {
-        match &self.layout {
-            Layout::Unknowns { linear, curved, cones, .. } if !cones.is_empty() => {
-                let mut linear = linear.clone();
-                for (i, column) in cones {
-                    linear[*column] = 2.0 * limits[*i];
-                }
-                let of_curved = curved.iter().map(|&j| (&form.s, j));
-                let columns = (0..form.unknowns()).map(|j| (&form.d, j)).chain(of_curved);
-                for ((matrix, j), linear) in columns.zip(&mut linear) {
-                    column_of(matrix, j).for_each(|(i, v)| {
-                        if matches!(form.bounds[i], Bounds::Cone { .. }) {
-                            *linear += limits[i] * v;
-                        }
-                    });
-                }
-                self.solver.update_q(&linear).ok()
-            }
-            _ => Some(()),
-        }
-    }
-
-    fn allow(&mut self, time: Option<Duration>) -> Option<()> {
+    /// Puts in the bounds of the cones and the time; if that fails the former ones would be meant.
+    fn update(&mut self, limits: &[f64], time: Option<Duration>) -> Option<()> {
         if let Some(time) = time {
             self.settings.time_limit = time.as_secs_f64();
             self.solver.update_settings(self.settings.clone()).ok()?;
         }
-        Some(())
+        if self.cones.is_empty() {
+            return Some(());
+        }
+        let Form { d, s, bounds, .. } = &self.form;
+        let mut linear = self.linear.clone();
+        let first = linear.len() - self.cones.len();
+        for (linear, &i) in linear[first..].iter_mut().zip(&self.cones) {
+            *linear = 2.0 * limits[i];
+        }
+        let of_curved = self.curved.iter().map(|&j| (s, j));
+        let columns = (0..d.ncols()).map(|j| (d, j)).chain(of_curved);
+        for ((matrix, j), linear) in columns.zip(&mut linear) {
+            column_of(matrix, j).for_each(|(i, v)| {
+                if matches!(bounds[i], Bounds::Cone { .. }) {
+                    *linear += limits[i] * v;
+                }
+            });
+        }
+        self.solver.update_q(&linear).ok()
     }
-}
-
-/// A bound of zero leaves the program without an interior. What this changes the exchange of states puts right.
-fn least_limit(limits: &[f64]) -> f64 {
-    let largest = max_abs(limits);
-    if largest > 0.0 { LEAST_LIMIT * largest } else { LEAST_LIMIT }
 }
 
 /// Whether a run was near a solution once and is on its way away from it: where the tolerance is below what
@@ -245,14 +193,13 @@ fn is_past_best() -> impl FnMut(&DefaultInfo<f64>) -> bool {
     }
 }
 
-fn settings(effort: Effort) -> Option<DefaultSettings<f64>> {
+fn settings(max_iterations: usize) -> Option<DefaultSettings<f64>> {
     DefaultSettingsBuilder::default()
         .verbose(false)
-        .max_iter(u32::try_from(effort.max_iterations).unwrap_or(u32::MAX))
-        .time_limit(effort.time.map_or(f64::INFINITY, |time| time.as_secs_f64()))
-        .tol_gap_abs(effort.tolerance)
-        .tol_gap_rel(effort.tolerance)
-        .tol_feas(effort.tolerance)
+        .max_iter(u32::try_from(max_iterations).unwrap_or(u32::MAX))
+        .tol_gap_abs(INTERIOR)
+        .tol_gap_rel(INTERIOR)
+        .tol_feas(INTERIOR)
         .presolve_enable(false)
         .max_threads(1)
         .direct_solve_method("qdldl".to_string())

@@ -1,39 +1,17 @@
-//! Standard and mixed problems that are the conditions of a convex quadratic program.
+//! Mixed problems that are the conditions of a convex quadratic program.
+
+use faer::sparse::SparseColMat;
 
 use super::form::{Bounds, Form, Point};
 use crate::definite::indefiniteness;
-use crate::problem::Groups;
-use crate::{Error, Lcp, Matrix, MixedLcp};
-
-/// `min z M z / 2 + q z` subject to `z >= 0`, or what is in the way.
-pub(super) fn standard_form(lcp: &Lcp) -> Result<Form, String> {
-    lcp.m().check_symmetric("M").map_err(not_symmetric)?;
-    let s = lcp.m().clone().into_sparse();
-    if let Some(reason) = indefiniteness("M", &s) {
-        return Err(reason);
-    }
-    let n = lcp.order();
-    let empty = |rows, cols| Matrix::from_entries(rows, cols, std::iter::empty()).into_sparse();
-    Ok(Form {
-        p: empty(0, 0),
-        d: empty(n, 0),
-        s,
-        linear: Vec::new(),
-        offset: lcp.q().to_vec(),
-        bounds: vec![Bounds::Nonnegative; n],
-    })
-}
-
-/// `(z, w)` of a point.
-pub(super) fn standard_point(form: &Form, point: &Point) -> (Vec<f64>, Vec<f64>) {
-    let positive = |v: &[f64]| v.iter().map(|v| v.max(0.0)).collect();
-    (positive(&point.lambda), positive(&form.slacks(point)))
-}
+use crate::problem::{Groups, column_of};
+use crate::states::Scaled;
+use crate::{Matrix, MixedLcp};
 
 /// A mixed problem `[P, -G^T; G, S]` as a form, with the variables that are its `x` and its rows. One that is not free
 /// among the `x` has a further row, which is the variable itself.
 #[derive(Debug)]
-pub(super) struct MixedForm {
+pub(super) struct MixedProgram {
     pub(super) form: Form,
     x: Vec<usize>,
     rows: Vec<usize>,
@@ -41,36 +19,42 @@ pub(super) struct MixedForm {
     bounded: Vec<usize>,
 }
 
-impl MixedForm {
-    /// The form, or what is in the way of the blocks being as they must.
-    pub(super) fn new(mixed: &MixedLcp) -> Result<Self, String> {
+impl MixedProgram {
+    /// The form in scaled units, or what is in the way of the blocks being as they must.
+    pub(super) fn new(mixed: &MixedLcp, scaled: &Scaled) -> Result<Self, String> {
         let (m, free) = (mixed.m(), mixed.free());
         let Groups { is_x, sign } = mixed.groups().map_err(|(i, j)| no_groups(m, i, j))?;
-        let sign = &sign;
         let (x, rows): (Vec<usize>, Vec<usize>) = (0..mixed.order()).partition(|&i| is_x[i]);
         let bounded: Vec<usize> = (0..x.len()).filter(|&k| !free[x[k]]).collect();
         let count = rows.len() + bounded.len();
-        let block = |of: &'_ [usize], cols: &'_ [usize]| -> Vec<(usize, usize, f64)> {
-            let entries = cols.iter().enumerate().flat_map(|(k, &j)| {
-                let nonzero = m.column(j).filter(|(_, v)| *v != 0.0);
-                nonzero.filter_map(move |(i, v)| Some((of.binary_search(&i).ok()?, k, sign[i] * v)))
-            });
-            entries.collect()
+        let block = |m: &SparseColMat<usize, f64>, of: &[usize], cols: &[usize]| {
+            let mut entries = Vec::new();
+            for (k, &j) in cols.iter().enumerate() {
+                let nonzero = column_of(m, j).filter(|(_, v)| *v != 0.0);
+                entries.extend(
+                    nonzero.filter_map(|(i, v)| Some((of.binary_search(&i).ok()?, k, sign[i] * v))),
+                );
+            }
+            entries
         };
         let sparse = |rows, cols, entries: Vec<(usize, usize, f64)>| {
             Matrix::from_entries(rows, cols, entries.into_iter()).into_sparse()
         };
-        let p = sparse(x.len(), x.len(), block(&x, &x));
-        let own = bounded.iter().enumerate().map(|(row, &k)| (rows.len() + row, k, 1.0));
-        let d = sparse(count, x.len(), block(&rows, &x).into_iter().chain(own).collect());
-        let s = sparse(count, count, block(&rows, &rows));
-        for (what, block) in [("the block of the variables", &p), ("that of the multipliers", &s)] {
-            if let Some(reason) = indefiniteness(what, block) {
+        let given = m.clone().into_sparse();
+        let of_x = if rows.is_empty() { "M" } else { "the block of the variables" };
+        for (what, group) in [(of_x, &x), ("that of the multipliers", &rows)] {
+            let block = sparse(group.len(), group.len(), block(&given, group, group));
+            if let Some(reason) = indefiniteness(what, &block) {
                 return Err(reason);
             }
         }
+        let own = bounded.iter().enumerate().map(|(row, &k)| (rows.len() + row, k, 1.0));
+        let d = block(&scaled.k, &rows, &x).into_iter().chain(own).collect();
+        let (p, d) = (block(&scaled.k, &x, &x), sparse(count, x.len(), d));
+        let s = sparse(count, count, block(&scaled.k, &rows, &rows));
+        let p = sparse(x.len(), x.len(), p);
         let of = |indices: &[usize]| -> Vec<f64> {
-            indices.iter().map(|&i| sign[i] * mixed.q()[i]).collect()
+            indices.iter().map(|&i| -sign[i] * scaled.f[i]).collect()
         };
         let (linear, mut offset) = (of(&x), of(&rows));
         offset.resize(count, 0.0);
@@ -80,41 +64,33 @@ impl MixedForm {
         Ok(Self { form: Form { p, d, s, linear, offset, bounds }, x, rows, bounded })
     }
 
-    /// The point of the general problem.
-    pub(super) fn to_pairs(&self, mixed: &MixedLcp, point: &Point) -> (Vec<f64>, Vec<f64>) {
+    /// Displacements and forces of the scaled problem: the variables, and what bounds exert on them.
+    pub(super) fn to_scaled(&self, scaled: &Scaled, point: &Point) -> (Vec<f64>, Vec<(f64, f64)>) {
         let slacks = self.form.slacks(point);
-        let (mut z, mut w) = (vec![0.0; mixed.order()], vec![0.0; mixed.order()]);
+        let (mut z, mut w) = (vec![0.0; scaled.order()], vec![0.0; scaled.order()]);
         self.x.iter().zip(&point.x).for_each(|(&i, x)| z[i] = *x);
         for (k, &i) in self.rows.iter().enumerate() {
-            z[i] = point.lambda[k];
-            if !mixed.free()[i] {
-                (z[i], w[i]) = (z[i].max(0.0), slacks[k].max(0.0));
-            }
+            (z[i], w[i]) = (point.lambda[k], slacks[k]);
         }
         for (k, &place) in self.bounded.iter().enumerate() {
-            let i = self.x[place];
-            (z[i], w[i]) = (z[i].max(0.0), point.lambda[self.rows.len() + k].max(0.0));
+            w[self.x[place]] = point.lambda[self.rows.len() + k];
         }
-        mixed.to_pairs(&z, &w)
+        let mut forces = Vec::with_capacity(scaled.points.len());
+        for at in scaled.points.iter() {
+            let j = at.columns[0];
+            z[j] = z[j].max(0.0);
+            forces.push((w[j].max(0.0), 0.0));
+        }
+        (z, forces)
     }
 }
 
 /// That there are no groups within which `M` is symmetric, and between which it is skew.
 fn no_groups(m: &Matrix, i: usize, j: usize) -> String {
     format!(
-        "M must be symmetric within the variables and within the multipliers of a program, and skew between them, which \
-         M[{i}, {j}] = {} and M[{j}, {i}] = {} do not allow",
+        "M must be symmetric within the variables and within the multipliers of a program, and skew between them, but \
+         M[{i}, {j}] is {} and M[{j}, {i}] is {}",
         m[(i, j)],
         m[(j, i)]
     )
-}
-
-fn not_symmetric(error: Error) -> String {
-    match error {
-        Error::NotSymmetric { what, row, col, value, mirrored } => format!(
-            "{what} is not symmetric: {what}[{row}, {col}] is {value} and {what}[{col}, {row}] is \
-             {mirrored}"
-        ),
-        other => other.to_string(),
-    }
 }

@@ -1,28 +1,25 @@
 //! A problem while it is solved: interior points of programs, and the exact states that they lead to.
 
-use std::time::Instant;
+use std::cell::OnceCell;
+use std::time::{Duration, Instant};
 
-use super::constants::INTERIOR;
-use super::farkas::Proof;
-use super::form::{Form, Point};
-use super::interior::{Effort, End, Interior};
-use super::scale::Scaled;
+use super::farkas::farkas_vector;
+use super::form::Form;
+use super::interior::{End, Interior};
+use super::monotone::MixedProgram;
 use super::settings::QuadraticProgramSettings;
 use crate::active::{self, Original, Search};
 use crate::solve::Monitor;
 use crate::states::PointRef;
 use crate::{Certificate, Error, HorizontalLcp, Method, Observer, Solution, Status};
 
-/// Makes the point of the general problem of the unknowns of a form.
-pub(super) type ToPairs<'a> = dyn Fn(&Point) -> (Vec<f64>, Vec<f64>) + 'a;
-
 /// The best point so far, what it cost, and the proof that there is none.
 pub(super) struct Run<'a> {
     pub(super) settings: &'a QuadraticProgramSettings,
-    pub(super) problem: &'a dyn Original,
     pub(super) search: Search<'a>,
     pub(super) monitor: Monitor<'a>,
-    pub(super) proof: Proof<'a>,
+    general: &'a dyn Fn() -> HorizontalLcp,
+    proof: OnceCell<Option<Vec<f64>>>,
     /// Steps of the interior-point method, each of which takes a factorisation.
     pub(super) steps: usize,
     began: Instant,
@@ -39,19 +36,19 @@ impl<'a> Run<'a> {
     ) -> Result<Self, Error> {
         let monitor = Monitor::new(max_programs, settings.time_limit, observer);
         let search = Search::new(Method::QuadraticProgram, problem, settings.tolerance)?;
-        let proof = Proof::new(general);
-        let began = Instant::now();
-        Ok(Self { settings, problem, search, monitor, proof, steps: 0, began })
+        let (proof, began) = (OnceCell::new(), Instant::now());
+        Ok(Self { settings, search, monitor, general, proof, steps: 0, began })
     }
 
-    /// How exact the interior points have to be.
-    pub(super) fn effort(&self) -> Effort {
-        let settings = self.settings;
-        Effort {
-            tolerance: INTERIOR,
-            max_iterations: settings.max_iterations,
-            time: settings.time_limit.map(|limit| limit.saturating_sub(self.began.elapsed())),
-        }
+    /// What is left of the time.
+    pub(super) fn time(&self) -> Option<Duration> {
+        self.settings.time_limit.map(|limit| limit.saturating_sub(self.began.elapsed()))
+    }
+
+    /// The proof that there is no solution, which is looked for at most once.
+    pub(super) fn proof(&self) -> Option<&Vec<f64>> {
+        let search = || farkas_vector(&(self.general)(), self.settings.max_iterations, self.time());
+        self.proof.get_or_init(search).as_ref()
     }
 
     /// Whether there is nothing left for a program: the start of the settings, or the point where nothing moves
@@ -68,24 +65,22 @@ impl<'a> Run<'a> {
     }
 
     /// Solves a form without cones by one run of the interior-point method.
-    pub(super) fn solve_convex(&mut self, form: &Form, pairs: &ToPairs<'_>) -> Result<End, Status> {
-        let is_tried = self.is_tried(form);
+    pub(super) fn solve_convex(&mut self, mixed: &MixedProgram) -> Result<End, Status> {
+        let is_tried = self.is_tried(&mixed.form);
         if let Some(status) = self.monitor.stop(self.search.residual()) {
             return Err(status);
         }
         if is_tried {
             return Ok(End::Point);
         }
-        let scaled = Scaled::new(form);
-        let limits = vec![0.0; form.rows()];
-        let Some(mut interior) = Interior::new(&scaled.form, self.effort()) else {
+        let Some(mut interior) = Interior::new(mixed.form.clone(), self.settings.max_iterations)
+        else {
             return Ok(End::Failed);
         };
-        let found = interior.solve(&scaled.form, &limits, self.effort().time);
+        let found = interior.solve(&vec![0.0; mixed.form.rows()], self.time());
         self.steps += found.iterations;
         if !matches!(found.end, End::NoPoint | End::Failed) {
-            let (t, y) = pairs(&scaled.unscaled(&found.point));
-            let (u, forces) = self.problem.point(&self.search.scaled, &t, &y);
+            let (u, forces) = mixed.to_scaled(&self.search.scaled, &found.point);
             self.search
                 .try_point(PointRef { u: &u, forces: &forces }, Some(&active::Effort::ANCHORED));
         }
@@ -96,7 +91,6 @@ impl<'a> Run<'a> {
     /// The best point, or the proof that there is none.
     pub(super) fn finish(self, end: Result<End, Status>) -> Solution {
         let is_solved = self.search.residual() <= self.settings.tolerance;
-        let effort = self.effort();
         let mut farkas = None;
         let otherwise = match end {
             Err(status @ (Status::Cancelled | Status::TimeLimit)) => status,
@@ -104,7 +98,7 @@ impl<'a> Run<'a> {
             Ok(End::IterationLimit) => Status::IterationLimit,
             _ if is_solved => Status::Stalled,
             Ok(End::Point | End::NoPoint | End::Failed) | Err(_) => {
-                farkas = self.proof.into_farkas(effort);
+                farkas = self.proof().cloned();
                 match end {
                     _ if farkas.is_some() => Status::Infeasible,
                     Err(status) => status,

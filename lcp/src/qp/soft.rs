@@ -99,7 +99,7 @@ impl QuadraticProgram {
             }
             let sprung = springs.attached(contact, &centre)?;
             let mut solver = self.without_soft();
-            solver.settings.time_limit = run.effort().time;
+            solver.settings.time_limit = run.time();
             let solution = solver.solve_plain(&sprung, &mut |_| ControlFlow::Continue(()))?;
             run.steps += solution.info.factorisations;
             if !solution.is_solved() {
