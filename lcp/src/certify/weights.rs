@@ -34,12 +34,23 @@ pub(super) fn weights(columns: &[Column<'_>], loads: &[f64], row: &[f64], col: &
     if !parts.is_one() {
         let mut links = Vec::new();
         for (j, (column, col)) in columns.iter().zip(col).enumerate() {
+            // A column within one part brings no load to another.
+            let from = links.len();
+            let mut is_within_one = true;
             column.for_each(|i, v| {
                 let (part, hub, share) = (parts.of(i), rows + j, coupling(i, v, *col));
-                links.extend([(part, hub, share), (hub, part, share)]);
+                if share > 0.0 {
+                    links.extend([(part, hub, share), (hub, part, share)]);
+                    is_within_one &= links[from].0 == part;
+                }
             });
+            if is_within_one {
+                links.truncate(from);
+            }
         }
-        spread(&ByRows::new(felt.len(), links.iter().copied()), &mut felt);
+        if !links.is_empty() {
+            spread(&ByRows::new(felt.len(), links.iter().copied()), &mut felt);
+        }
     }
     felt.truncate(rows);
     let largest = felt.iter().fold(0.0_f64, |max, v| max.max(*v));
