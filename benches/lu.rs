@@ -17,7 +17,7 @@ use faer::prelude::Solve;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, Par};
-use lcp::{Contact2d, Matrix, Multifrontal, families};
+use lcp::{Contact2d, Multifrontal, families};
 use walls::wall;
 
 const RUNS: usize = 5;
@@ -34,9 +34,7 @@ fn main() {
          faer LU / lcp LU | lcp LU / faer Cholesky |\n|---|--:|--:|--:|--:|--:|--:|--:|"
     );
     for side in [50, 100, 200] {
-        let Matrix::Sparse(membrane) = families::obstacle(side).problem.m().clone() else {
-            unreachable!("obstacle problems are sparse")
-        };
+        let membrane = families::obstacle(side).problem.m().to_sparse();
         line(&format!("membrane, {side} x {side}"), &membrane, true);
     }
     for (width, courses) in [(5.0, 20), (10.0, 40), (20.0, 100)] {

@@ -13,7 +13,7 @@ use std::fmt::Write as _;
 use std::time::Instant;
 
 use lcp::families::{Ground, Obstacle};
-use lcp::{Matrix, SemismoothNewton, SemismoothNewtonSettings, Solution, Solver, WarmStart};
+use lcp::{SemismoothNewton, SemismoothNewtonSettings, Solution, Solver, WarmStart};
 
 const GROUNDS: [(&str, Ground); 2] =
     [("disc", Ground::Disc { radius: 0.6 }), ("hills", Ground::Hills { count: 3 })];
@@ -41,9 +41,9 @@ fn main() {
 fn line(name: &str, ground: Ground, side: usize) -> String {
     let runs = if side < 500 { 5 } else { 2 };
     let problem = Obstacle::new(side, side, ground).problem();
-    let Matrix::Sparse(m) = problem.m() else { panic!("obstacle problems are sparse") };
+    let m = problem.m().to_sparse();
     let (symbolic, numeric) =
-        sparse::fastest(runs, |(s, n): &(f64, f64)| s + n, || sparse::cholesky(m));
+        sparse::fastest(runs, |(s, n): &(f64, f64)| s + n, || sparse::cholesky(&m));
     drop(problem);
     sparse::forget_peak();
     let (seconds, levels) = sparse::fastest(runs, |(seconds, _)| *seconds, || nested(side, ground));

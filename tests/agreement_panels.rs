@@ -112,7 +112,7 @@ impl Case {
             old.tangent().clone(),
             old.initial_gaps().to_vec(),
             old.initial_slips().to_vec(),
-            old.mu().iter().map(|given| mu.unwrap_or(*given)).collect(),
+            old.mu().iter().map(|given| mu.unwrap_or(*given)).collect::<Vec<f64>>(),
         );
         Self { model, sparse, problem: problem.unwrap() }
     }

@@ -8,9 +8,11 @@ use lcp::pgs::{Constraint, RowsSolution};
 use lcp::qp::SoftConstraints;
 use lcp::refine::{ContactStatus, Margin, Refinement};
 use lcp::{
-    Auto, Basis, Choice, Contact2d, ContactForces, ContactPoint, ContactState, Covering,
-    ErrorBound, Friction2d, Lcp, Lemke, LemkeSettings, Method, QuadraticProgram, Residuals, Side,
-    Solution, Solver, Status, WarmStart, families,
+    Auto, AutoSettings, Basis, Choice, Contact2d, ContactForces, ContactPoint, ContactState,
+    Covering, ErrorBound, EvolutionSettings, Friction2d, InteriorPointSettings, Lcp, Lemke,
+    LemkeSettings, Method, ProjectedGaussSeidelSettings, QuadraticProgram,
+    QuadraticProgramSettings, Residuals, SemismoothNewtonSettings, Side, Solution, Solver, Status,
+    WarmStart, families,
 };
 use serde_json::{from_str, to_string};
 
@@ -107,4 +109,21 @@ fn answers_of_sweeps_over_rows() {
     let solution =
         solver.solve_rows(&mut rows, lcp.q(), &vec![Constraint::NONNEGATIVE; 9]).unwrap();
     assert_comes_back!(RowsSolution, solution);
+}
+
+#[test]
+fn settings_of_all_methods() {
+    let time_limit = Some(std::time::Duration::from_millis(2500));
+    assert_comes_back!(AutoSettings, AutoSettings { time_limit, ..Default::default() });
+    assert_comes_back!(LemkeSettings, LemkeSettings { time_limit, ..Default::default() });
+    assert_comes_back!(SemismoothNewtonSettings, SemismoothNewtonSettings::default());
+    assert_comes_back!(InteriorPointSettings, InteriorPointSettings::default());
+    assert_comes_back!(ProjectedGaussSeidelSettings, ProjectedGaussSeidelSettings::default());
+    assert_comes_back!(QuadraticProgramSettings, QuadraticProgramSettings::default());
+    assert_comes_back!(EvolutionSettings, EvolutionSettings::default());
+    // What is not given is the default, and what does not exist is refused.
+    let given: LemkeSettings = from_str(r#"{"tolerance": 1e-8}"#).unwrap();
+    assert_eq!(given, LemkeSettings { tolerance: 1e-8, ..Default::default() });
+    let error = from_str::<LemkeSettings>(r#"{"tolerence": 1e-8}"#).unwrap_err().to_string();
+    assert!(error.contains("unknown field `tolerence`, expected one of `tolerance`"), "{error}");
 }

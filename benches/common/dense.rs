@@ -7,7 +7,7 @@ use lcp::Lcp;
 pub(crate) fn positive_definite(n: usize) -> Lcp {
     let c = Mat::from_fn(n, n, |i, j| wave(i * n + j));
     let m = &c * c.transpose() + Mat::<f64>::identity(n, n);
-    let q = (0..n).map(|i| wave(n * n + i)).collect();
+    let q: Vec<f64> = (0..n).map(|i| wave(n * n + i)).collect();
     Lcp::new(m, q).expect("finite data")
 }
 

@@ -9,7 +9,7 @@ use faer::sparse::SparseColMat;
 
 use crate::certify::Residuals;
 use crate::conversion::General;
-use crate::matrix::Column;
+use crate::matrix::{Column, Storage};
 use crate::parts::Parts;
 use crate::problem::column_of;
 use crate::{
@@ -287,11 +287,11 @@ fn split(group: &[usize], n: usize) -> (Vec<usize>, Vec<usize>) {
 
 /// Rows and columns of a matrix, ascending, where those columns have no entries in other rows.
 fn block(m: &Matrix, rows: &[usize], cols: &[usize]) -> Matrix {
-    match m {
-        Matrix::Dense(m) => {
+    match m.storage() {
+        Storage::Dense(m) => {
             Mat::from_fn(rows.len(), cols.len(), |i, j| m[(rows[i], cols[j])]).into()
         }
-        Matrix::Sparse(m) => sparse_block(m, rows, cols),
+        Storage::Sparse(m) => sparse_block(m, rows, cols),
     }
 }
 

@@ -14,7 +14,7 @@
 //! There are at most `2^(k+1)` nodes for `k` pairs that are not free, mostly far fewer. The arithmetic
 //! has twice the digits; what it cannot decide stays open.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use crate::certify::{GeneralJudge, Leaf, ROUNDING, is_proof_of};
 use crate::extended::{Extended, extended};

@@ -31,7 +31,7 @@ pub use crate::pivoting::{
 };
 
 use std::ops::ControlFlow;
-use std::time::Instant;
+use web_time::Instant;
 
 pub(crate) use constants::KINDS;
 use search::Search;

@@ -75,8 +75,8 @@
 //! | [`BoxedLcp`] | the same with bounds, `lower <= z <= upper` | `(z, w)` |
 //! | [`HorizontalLcp`] | the general form | `t` and `y` of the solution |
 //!
-//! Matrices are made from arrays, rows, triplets, matrices of `faer` and, with the feature `nalgebra`, of `nalgebra`:
-//! see [`Matrix`].
+//! Matrices and vectors are made from arrays, rows, triplets, those of `faer` and, with the feature `nalgebra`, of
+//! `nalgebra`: see [`Matrix`] and [`Vector`].
 //!
 //! # Methods
 //!
@@ -99,7 +99,8 @@
 //! [`Basis`] if the method has one, and the cost ([`Info`]). If there is no solution, it has the
 //! proof. Any point or basis is a [`WarmStart`] for any method that can use it.
 //! [`Lcp::error_bound`] bounds the distance of a point of a monotone problem from the solution, and [`refine`]
-//! computes states of contacts in double-double arithmetic.
+//! computes states of contacts in double-double arithmetic. [`Solution::into_result`] makes an error of every end without
+//! a solution, and [`Solver::solve_all`] solves many problems on all cores.
 //!
 //! A status is a mathematical outcome; an [`Error`] is a mistake in the input. The status is
 //! [`Status::Solved`] only after the residuals were computed from the given data. All tolerances are relative to that
@@ -111,7 +112,7 @@
 //! |---|---|
 //! | `clarabel` (default) | `QuadraticProgram` |
 //! | `nalgebra` | problems from matrices of `nalgebra` |
-//! | `serde` | results that can be written and read back |
+//! | `serde` | results and settings that can be written and read back |
 //! | `io` | problems in files: the module `io` |
 //! | `cli` | the command `lcp`: the module `cli` |
 //! | `exact` | all solutions of a small problem in rational arithmetic: the module `exact` |
@@ -188,12 +189,13 @@ pub use problem::{
 #[doc(inline)]
 pub use qp::{QuadraticProgram, QuadraticProgramSettings};
 pub use settings::{Covering, LemkeSettings, WarmStart};
-pub use solution::{Info, Route, RouteEnd, Solution};
+pub use solution::{Info, Route, RouteEnd, Solution, Unsolved};
 pub use solve::{Iteration, Observer, Solver};
 /// For the benches of the workspace, and for masonry.
 #[doc(hidden)]
 pub use sparse::{Gram, Multifrontal};
 pub use status::Status;
+pub use vector::Vector;
 
 /// The programs of the README are compiled and run with the tests.
 #[cfg(doctest)]

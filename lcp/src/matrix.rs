@@ -14,7 +14,7 @@ pub(crate) const DATA_ROUNDING: f64 = 1e-12;
 /// A matrix of a problem, dense or sparse.
 ///
 /// Problems take anything that converts into a matrix: an array of rows, a `Mat` or a `SparseColMat` of `faer`, and,
-/// with the feature `nalgebra`, a `DMatrix`. Constructors for lists report mistakes:
+/// with the feature `nalgebra`, a matrix of `nalgebra` of fixed or variable size. Constructors for lists report mistakes:
 /// [`from_triplets`](Self::from_triplets) and [`from_rows`](Self::from_rows).
 ///
 /// ```
@@ -34,7 +34,11 @@ pub(crate) const DATA_ROUNDING: f64 = 1e-12;
 /// # Ok::<(), lcp::Error>(())
 /// ```
 #[derive(Debug, Clone)]
-pub enum Matrix {
+pub struct Matrix(Storage);
+
+/// The entries of a matrix.
+#[derive(Debug, Clone)]
+pub(crate) enum Storage {
     /// All entries.
     Dense(Mat<f64>),
     /// The nonzero entries, by columns.
@@ -91,7 +95,7 @@ impl Matrix {
                 return Err(Error::RowLength { row, len, expected });
             }
         }
-        Ok(Self::Dense(Mat::from_fn(rows.len(), expected, |i, j| rows[i].as_ref()[j])))
+        Ok(Mat::from_fn(rows.len(), expected, |i, j| rows[i].as_ref()[j]).into())
     }
 
     /// `value` times the identity of order `n`, sparse.
@@ -119,37 +123,35 @@ impl Matrix {
         cols: usize,
         entries: impl Iterator<Item = (usize, usize, f64)>,
     ) -> Self {
-        let triplets: Vec<_> = entries.map(|(i, j, v)| Triplet::new(i, j, v)).collect();
-        let built = SparseColMat::try_new_from_triplets(rows, cols, &triplets);
-        Self::Sparse(built.unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}")))
+        sparse_of(rows, cols, entries).into()
     }
 
     /// Number of rows.
     pub fn nrows(&self) -> usize {
-        match self {
-            Self::Dense(m) => m.nrows(),
-            Self::Sparse(m) => m.nrows(),
+        match &self.0 {
+            Storage::Dense(m) => m.nrows(),
+            Storage::Sparse(m) => m.nrows(),
         }
     }
 
     /// Number of columns.
     pub fn ncols(&self) -> usize {
-        match self {
-            Self::Dense(m) => m.ncols(),
-            Self::Sparse(m) => m.ncols(),
+        match &self.0 {
+            Storage::Dense(m) => m.ncols(),
+            Storage::Sparse(m) => m.ncols(),
         }
     }
 
     /// Whether only nonzero entries are stored.
     pub fn is_sparse(&self) -> bool {
-        matches!(self, Self::Sparse(_))
+        matches!(self.0, Storage::Sparse(_))
     }
 
     /// Number of stored entries.
     pub fn stored(&self) -> usize {
-        match self {
-            Self::Dense(m) => m.nrows() * m.ncols(),
-            Self::Sparse(m) => m.compute_nnz(),
+        match &self.0 {
+            Storage::Dense(m) => m.nrows() * m.ncols(),
+            Storage::Sparse(m) => m.compute_nnz(),
         }
     }
 
@@ -169,29 +171,31 @@ impl Matrix {
 
     /// The same matrix with all entries stored.
     pub fn to_dense(&self) -> Mat<f64> {
-        match self {
-            Self::Dense(m) => m.clone(),
-            Self::Sparse(m) => m.to_dense(),
+        match &self.0 {
+            Storage::Dense(m) => m.clone(),
+            Storage::Sparse(m) => m.to_dense(),
         }
     }
 
     /// The same matrix with only its nonzero entries stored.
+    pub fn to_sparse(&self) -> SparseColMat<usize, f64> {
+        self.clone().into_sparse()
+    }
+
     pub(crate) fn into_sparse(self) -> SparseColMat<usize, f64> {
-        if let Self::Sparse(m) = self {
-            return m;
-        }
-        let (rows, cols) = (self.nrows(), self.ncols());
-        let entries = (0..cols).flat_map(|j| self.column(j).map(move |(i, v)| (i, j, v)));
-        match Self::from_entries(rows, cols, entries.filter(|(_, _, v)| *v != 0.0)) {
-            Self::Sparse(m) => m,
-            Self::Dense(_) => unreachable!("made of entries"),
-        }
+        let m = match self.0 {
+            Storage::Dense(m) => m,
+            Storage::Sparse(m) => return m,
+        };
+        let entries = (0..m.ncols()).flat_map(|j| (0..m.nrows()).map(move |i| (i, j)));
+        let entries = entries.filter(|place| m[*place] != 0.0);
+        sparse_of(m.nrows(), m.ncols(), entries.map(|(i, j)| (i, j, m[(i, j)])))
     }
 
     /// That a square matrix is symmetric to rounding, measured by the roots of its diagonal entries, as
     /// fits one that is positive semidefinite.
     pub(crate) fn check_symmetric(&self, what: &'static str) -> Result<(), Error> {
-        if let Self::Dense(m) = self
+        if let Storage::Dense(m) = &self.0
             && is_symmetric(m)
         {
             return Ok(());
@@ -211,7 +215,7 @@ impl Matrix {
         let is_alike = |i: usize, j: usize, v: f64, mirrored: f64| {
             are_alike(v, sign(i, j) * mirrored, size[i] * size[j])
         };
-        if let Self::Sparse(m) = self
+        if let Storage::Sparse(m) = &self.0
             && is_mirrored(m, is_alike)
         {
             return None;
@@ -228,10 +232,14 @@ impl Matrix {
         [1.0, -1.0].map(|sign| are_alike(v, sign * self[(j, i)], size))
     }
 
+    pub(crate) fn storage(&self) -> &Storage {
+        &self.0
+    }
+
     pub(crate) fn slice(&self, j: usize) -> Column<'_> {
-        match self {
-            Self::Dense(m) => Column::Dense(m.col_as_slice(j)),
-            Self::Sparse(m) => {
+        match &self.0 {
+            Storage::Dense(m) => Column::Dense(m.col_as_slice(j)),
+            Storage::Sparse(m) => {
                 let m = m.as_ref();
                 Column::Sparse { rows: m.row_idx_of_col_raw(j), values: m.val_of_col(j) }
             }
@@ -241,14 +249,14 @@ impl Matrix {
     /// All entries, with the sign changed.
     #[must_use]
     pub(crate) fn negated(self) -> Self {
-        match self {
-            Self::Dense(m) => Self::Dense(-m),
-            Self::Sparse(m) => {
+        match self.0 {
+            Storage::Dense(m) => (-m).into(),
+            Storage::Sparse(m) => {
                 let (symbolic, mut values) = m.into_parts();
                 for v in &mut values {
                     *v = -*v;
                 }
-                Self::Sparse(SparseColMat::new(symbolic, values))
+                SparseColMat::new(symbolic, values).into()
             }
         }
     }
@@ -287,9 +295,9 @@ impl Index<(usize, usize)> for Matrix {
     type Output = f64;
 
     fn index(&self, (i, j): (usize, usize)) -> &f64 {
-        match self {
-            Self::Dense(m) => &m[(i, j)],
-            Self::Sparse(m) => {
+        match &self.0 {
+            Storage::Dense(m) => &m[(i, j)],
+            Storage::Sparse(m) => {
                 assert!(i < m.nrows(), "row {i} of a matrix of {} rows", m.nrows());
                 m.get(i, j).unwrap_or(&0.0)
             }
@@ -299,13 +307,13 @@ impl Index<(usize, usize)> for Matrix {
 
 impl From<Mat<f64>> for Matrix {
     fn from(m: Mat<f64>) -> Self {
-        Self::Dense(m)
+        Self(Storage::Dense(m))
     }
 }
 
 impl From<SparseColMat<usize, f64>> for Matrix {
     fn from(m: SparseColMat<usize, f64>) -> Self {
-        Self::Sparse(m)
+        Self(Storage::Sparse(m))
     }
 }
 
@@ -317,22 +325,43 @@ impl<const ROWS: usize, const COLS: usize> From<[[f64; COLS]; ROWS]> for Matrix 
 
 impl<const ROWS: usize, const COLS: usize> From<&[[f64; COLS]; ROWS]> for Matrix {
     fn from(rows: &[[f64; COLS]; ROWS]) -> Self {
-        Self::Dense(Mat::from_fn(ROWS, COLS, |i, j| rows[i][j]))
+        Mat::from_fn(ROWS, COLS, |i, j| rows[i][j]).into()
     }
 }
 
 #[cfg(feature = "nalgebra")]
-impl From<nalgebra::DMatrix<f64>> for Matrix {
-    fn from(m: nalgebra::DMatrix<f64>) -> Self {
+impl<R, C, S> From<nalgebra::Matrix<f64, R, C, S>> for Matrix
+where
+    R: nalgebra::Dim,
+    C: nalgebra::Dim,
+    S: nalgebra::RawStorage<f64, R, C>,
+{
+    fn from(m: nalgebra::Matrix<f64, R, C, S>) -> Self {
         Self::from(&m)
     }
 }
 
 #[cfg(feature = "nalgebra")]
-impl From<&nalgebra::DMatrix<f64>> for Matrix {
-    fn from(m: &nalgebra::DMatrix<f64>) -> Self {
-        Self::Dense(Mat::from_fn(m.nrows(), m.ncols(), |i, j| m[(i, j)]))
+impl<R, C, S> From<&nalgebra::Matrix<f64, R, C, S>> for Matrix
+where
+    R: nalgebra::Dim,
+    C: nalgebra::Dim,
+    S: nalgebra::RawStorage<f64, R, C>,
+{
+    fn from(m: &nalgebra::Matrix<f64, R, C, S>) -> Self {
+        Mat::from_fn(m.nrows(), m.ncols(), |i, j| m[(i, j)]).into()
     }
+}
+
+/// A sparse matrix from entries `(row, column, value)`, which add up where they coincide.
+fn sparse_of(
+    rows: usize,
+    cols: usize,
+    entries: impl Iterator<Item = (usize, usize, f64)>,
+) -> SparseColMat<usize, f64> {
+    let triplets: Vec<_> = entries.map(|(i, j, v)| Triplet::new(i, j, v)).collect();
+    let built = SparseColMat::try_new_from_triplets(rows, cols, &triplets);
+    built.unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}"))
 }
 
 /// Whether entries on both sides of the diagonal differ by rounding errors of their own size, or of that of the diagonal.

@@ -31,6 +31,11 @@ use system::{Point, System};
 /// let solver = SemismoothNewton::new(settings);
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct SemismoothNewtonSettings {
     /// Largest residual, dimensionless, of a solution with status `Solved`. In `(0, 1)`. The method ends with the
     /// signs of all variables right up to rounding errors, whatever the tolerance; the tolerance is used only if the

@@ -52,6 +52,11 @@ pub enum WarmStart {
 /// let solver = Lemke::new(settings);
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct LemkeSettings {
     /// Largest residual, dimensionless, of a solution with status `Solved`. In `(0, 1)`.
     pub tolerance: f64,

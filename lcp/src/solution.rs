@@ -168,4 +168,35 @@ impl Solution {
     pub fn is_solved(&self) -> bool {
         self.status == Status::Solved
     }
+
+    /// The solution if it is one, for callers to whom every other end is an error.
+    ///
+    /// ```
+    /// use lcp::{Auto, Lcp, Solver, Status};
+    /// fn largest(q: [f64; 2]) -> Result<f64, Box<dyn std::error::Error>> {
+    ///     let lcp = Lcp::new([[2.0, 1.0], [1.0, 2.0]], q)?;
+    ///     let solution = Auto::default().solve(&lcp)?.into_result()?;
+    ///     Ok(solution.t[0].max(solution.t[1]))
+    /// }
+    /// assert_eq!(largest([-5.0, -4.0])?, 2.0);
+    /// let none = Lcp::new([[-1.0]], [-1.0])?;
+    /// let unsolved = Auto::default().solve(&none)?.into_result().unwrap_err();
+    /// assert_eq!(unsolved.solution.status, Status::Infeasible);
+    /// assert!(unsolved.to_string().starts_with("the problem is not solved: Infeasible"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Unsolved`] with all that was found, if the status is not [`Status::Solved`].
+    pub fn into_result(self) -> Result<Self, Unsolved> {
+        if self.is_solved() { Ok(self) } else { Err(Unsolved { solution: Box::new(self) }) }
+    }
+}
+
+/// The end of a solve without a solution, as an error.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("the problem is not solved: {}, residual {:.1e}", .solution.status, .solution.residuals.worst())]
+pub struct Unsolved {
+    /// What was found: the best point, and the proof that there is no solution if there is one.
+    pub solution: Box<Solution>,
 }

@@ -1,8 +1,9 @@
 //! What all solvers have in common.
 
 use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
+use crate::parallel::for_each;
 use crate::{Error, Info, Method, Solution, Status};
 
 /// A method that treats problems of type `P`.
@@ -44,6 +45,31 @@ pub trait Solver<P> {
     /// As for [`solve_observed`](Self::solve_observed).
     fn solve(&self, problem: &P) -> Result<Solution, Error> {
         self.solve_observed(problem, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// Solves many problems on all cores. The answers are those of [`solve`](Self::solve), in the order of the problems.
+    ///
+    /// ```
+    /// use lcp::{Auto, Lcp, Solver};
+    /// let problems = (1..=100).map(|k| Lcp::new([[2.0, 1.0], [1.0, 2.0]], [-f64::from(k), -1.0]));
+    /// let problems = problems.collect::<Result<Vec<_>, _>>()?;
+    /// let answers = Auto::default().solve_all(&problems);
+    /// assert_eq!(answers.len(), 100);
+    /// for (problem, answer) in problems.iter().zip(answers) {
+    ///     assert_eq!(answer?.t, Auto::default().solve(problem)?.t);
+    /// }
+    /// # Ok::<(), lcp::Error>(())
+    /// ```
+    fn solve_all(&self, problems: &[P]) -> Vec<Result<Solution, Error>>
+    where
+        Self: Sized + Sync,
+        P: Sync,
+    {
+        let mut answers: Vec<_> = problems.iter().map(|_| None).collect();
+        for_each(problems.iter().zip(&mut answers), |(problem, answer)| {
+            *answer = Some(self.solve(problem));
+        });
+        answers.into_iter().flatten().collect()
     }
 }
 

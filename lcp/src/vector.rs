@@ -1,9 +1,78 @@
-//! Vectors: how large they are, and whether they can be taken as data.
+//! Vectors: what they are made from, how large they are, and whether they can be taken as data.
 
 use crate::Error;
 
 /// A sum below this, relative to its terms, is a rounding error. Rounding: errors of short sums.
 pub(crate) const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// A vector of a problem.
+///
+/// Problems take anything that converts into a vector: a `Vec`, a slice, an array, a `Col` of `faer`, and, with the
+/// feature `nalgebra`, a column vector of `nalgebra` of fixed or variable size.
+///
+/// ```
+/// use lcp::Lcp;
+/// // The same problem three times
+/// Lcp::new([[2.0, 1.0], [1.0, 2.0]], [-5.0, -6.0])?;
+/// Lcp::new([[2.0, 1.0], [1.0, 2.0]], vec![-5.0, -6.0])?;
+/// Lcp::new([[2.0, 1.0], [1.0, 2.0]], faer::col![-5.0, -6.0])?;
+/// # Ok::<(), lcp::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Vector(Vec<f64>);
+
+impl Vector {
+    pub(crate) fn into_entries(self) -> Vec<f64> {
+        self.0
+    }
+}
+
+impl From<Vec<f64>> for Vector {
+    fn from(v: Vec<f64>) -> Self {
+        Self(v)
+    }
+}
+
+impl From<&Vec<f64>> for Vector {
+    fn from(v: &Vec<f64>) -> Self {
+        Self(v.clone())
+    }
+}
+
+impl From<&[f64]> for Vector {
+    fn from(v: &[f64]) -> Self {
+        Self(v.to_vec())
+    }
+}
+
+impl<const N: usize> From<[f64; N]> for Vector {
+    fn from(v: [f64; N]) -> Self {
+        Self(v.to_vec())
+    }
+}
+
+impl<const N: usize> From<&[f64; N]> for Vector {
+    fn from(v: &[f64; N]) -> Self {
+        Self(v.to_vec())
+    }
+}
+
+impl From<faer::Col<f64>> for Vector {
+    fn from(v: faer::Col<f64>) -> Self {
+        Self(v.iter().copied().collect())
+    }
+}
+
+#[cfg(feature = "nalgebra")]
+impl<R, S> From<nalgebra::Vector<f64, R, S>> for Vector
+where
+    R: nalgebra::Dim,
+    S: nalgebra::RawStorage<f64, R>,
+{
+    fn from(v: nalgebra::Vector<f64, R, S>) -> Self {
+        Self(v.iter().copied().collect())
+    }
+}
 
 pub(crate) fn max_abs(v: &[f64]) -> f64 {
     v.iter().fold(0.0, |max, x| max.max(x.abs()))

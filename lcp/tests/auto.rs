@@ -88,7 +88,7 @@ fn masses(count: usize, mu: f64, spring: f64) -> Contact2d {
     let select = |part: usize| {
         Matrix::from(Mat::from_fn(count, n, |i, j| f64::from(u8::from(j == 2 * i + part))))
     };
-    let f = (0..n).map(|j| [-2.0, 0.4, -2.0, 1.4][j % 4]).collect();
+    let f: Vec<f64> = (0..n).map(|j| [-2.0, 0.4, -2.0, 1.4][j % 4]).collect();
     let zeros = vec![0.0; count];
     Contact2d::new(k, f, select(0), select(1), zeros.clone(), zeros, vec![mu; count]).unwrap()
 }
@@ -177,7 +177,7 @@ fn large_sparse_problems_have_their_closed_forms() {
     assert_eq!((solution.status, solution.info.method), (Status::Solved, NEWTON));
     assert!((0..n).all(|i| (solution.t[i] - expected(i)).abs() < 1e-9));
     // The same with bounds, of which the first is in the way: z1 <= 1, so w1 < 0.
-    let upper = (0..n).map(|i| if i % 4 == 0 { 1.0 } else { 8.0 }).collect();
+    let upper: Vec<f64> = (0..n).map(|i| if i % 4 == 0 { 1.0 } else { 8.0 }).collect();
     let boxed = BoxedLcp::new(problem.m().clone(), q, vec![0.0; n], upper).unwrap();
     let solution = auto().solve(&boxed).unwrap();
     assert!(solution.is_solved());
@@ -242,7 +242,7 @@ fn problems_of_no_class_end_with_pivots() {
         if i / 30 == j / 30 { block.m()[(i % 30, j % 30)] } else { 0.0 }
     };
     let offsets: Vec<usize> = (1..30).collect();
-    let q = (0..n).map(|i| block.q()[i % 30]).collect();
+    let q: Vec<f64> = (0..n).map(|i| block.q()[i % 30]).collect();
     let problem = Lcp::new(sparse(n, entry, &offsets), q).unwrap();
     let solution = auto().solve(&problem).unwrap();
     assert!(solution.is_solved(), "{}", solution.status);
@@ -290,7 +290,7 @@ fn methods_that_fail_are_followed_by_pivots() {
         }
     };
     let offsets: Vec<usize> = (1..30).collect();
-    let q = (0..600).map(|i| block.q()[i % 30]).collect();
+    let q: Vec<f64> = (0..600).map(|i| block.q()[i % 30]).collect();
     let problem = Lcp::new(sparse(600, entry, &offsets), q).unwrap();
     let solution = auto().solve(&problem).unwrap();
     assert_eq!((solution.status, solution.info.method), (Status::Solved, LEMKE));
@@ -369,7 +369,7 @@ proptest! {
         q in proptest::collection::vec(-3..=3_i32, 4),
     ) {
         let m = Mat::from_fn(4, 4, |i, j| f64::from(entries[4 * i + j]));
-        let problem = Lcp::new(m, q.into_iter().map(f64::from).collect()).unwrap();
+        let problem = Lcp::new(m, q.into_iter().map(f64::from).collect::<Vec<f64>>()).unwrap();
         let solution = auto().solve(&problem).unwrap();
         let worst = problem.residuals(&solution.t, &solution.y).worst();
         prop_assert!(!solution.is_solved() || worst <= 1e-10, "{worst:e}");

@@ -12,7 +12,7 @@ use proptest::prelude::*;
 
 fn problem(n: usize, entries: &[i32], q: &[i32]) -> Lcp {
     let m = Mat::from_fn(n, n, |i, j| f64::from(entries[n * i + j]));
-    Lcp::new(m, q[..n].iter().map(|q| f64::from(*q)).collect()).unwrap()
+    Lcp::new(m, q[..n].iter().map(|q| f64::from(*q)).collect::<Vec<f64>>()).unwrap()
 }
 
 /// `M` with `q` such that a point solves it: `z_i` is `pairs[i]` if that is positive, else `w_i` is `-pairs[i]`.
@@ -21,7 +21,7 @@ fn planted(m: Mat<f64>, pairs: &[i32]) -> Lcp {
     let z: Vec<f64> = pairs.iter().map(side(1.0)).collect();
     let w: Vec<f64> = pairs.iter().map(side(-1.0)).collect();
     let product = |i: usize| z.iter().enumerate().map(|(j, z)| m[(i, j)] * z).sum::<f64>();
-    let q = w.iter().enumerate().map(|(i, w)| w - product(i)).collect();
+    let q: Vec<f64> = w.iter().enumerate().map(|(i, w)| w - product(i)).collect();
     Lcp::new(m, q).unwrap()
 }
 

@@ -237,7 +237,7 @@ fn stacks() -> impl Strategy<Value = Contact2d> {
             let load = |j: usize| {
                 inertia(j) * f64::from(velocities[j]) - if j % 3 == 1 { 1.0 } else { 0.0 }
             };
-            let (f, zero) = ((0..n).map(load).collect(), vec![0.0; m]);
+            let (f, zero) = ((0..n).map(load).collect::<Vec<f64>>(), vec![0.0; m]);
             Contact2d::new(k, f, c_n, c_t, zero.clone(), zero, vec![mu; m])
                 .expect("a valid problem")
         },
@@ -378,7 +378,7 @@ proptest! {
             (dense(problem.stiffness()), dense(problem.normal()), dense(problem.tangent()));
         let other = Contact2d::new(
             Mat::from_fn(n, n, |i, j| force / length * k[(i, j)] * unit[i] * unit[j]),
-            problem.loads().iter().zip(&unit).map(|(f, unit)| force * f * unit).collect(),
+            problem.loads().iter().zip(&unit).map(|(f, unit)| force * f * unit).collect::<Vec<f64>>(),
             Mat::from_fn(m, n, |i, j| c_n[(i, j)] * unit[j]),
             Mat::from_fn(m, n, |i, j| c_t[(i, j)] * unit[j]),
             scaled(problem.initial_gaps(), length),
@@ -406,7 +406,7 @@ fn gaps_of_rounding_are_closed() {
     let (mass, inertia, weight) = (2e4, 3e3, -20.0);
     let diagonal = |i: usize| if i % 3 == 2 { inertia } else { mass };
     let k = Mat::from_fn(3 * boxes, 3 * boxes, |i, j| if i == j { diagonal(i) } else { 0.0 });
-    let f = (0..3 * boxes).map(|i| if i % 3 == 1 { weight } else { 0.0 }).collect();
+    let f: Vec<f64> = (0..3 * boxes).map(|i| if i % 3 == 1 { weight } else { 0.0 }).collect();
     let mut builder = Contact2d::builder(k, f);
     for number in 0..boxes {
         for (corner, side) in [-0.5, 0.5].into_iter().enumerate() {

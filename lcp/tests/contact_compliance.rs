@@ -301,7 +301,7 @@ fn problems() -> impl Strategy<Value = Contact2d> {
         let compliance = prop_oneof![vec([hard.clone(), hard], m), vec([soft.clone(), soft], m)];
         let all = (matrices, entries(n, 6), offsets, mu, compliance);
         all.prop_map(move |((r, c_n, c_t), f, offsets, (largest, with), compliance)| {
-            let mu = with.iter().map(|with| if *with { largest } else { 0.0 }).collect();
+            let mu: Vec<f64> = with.iter().map(|with| if *with { largest } else { 0.0 }).collect();
             let r = Mat::from_fn(n, n, |i, j| r[i * n + j]);
             let k = &r * r.transpose() + Mat::<f64>::identity(n, n);
             // Rows without any entry are refused by sweeps.
@@ -311,7 +311,7 @@ fn problems() -> impl Strategy<Value = Contact2d> {
             };
             let c_n = Mat::from_fn(m, n, |i, j| row(&c_n, i, j));
             let c_t = Mat::from_fn(m, n, |i, j| row(&c_t, i, j));
-            let (x_0, s_0) = offsets.into_iter().unzip();
+            let (x_0, s_0): (Vec<f64>, Vec<f64>) = offsets.into_iter().unzip();
             let hard = Contact2d::new(k, f, c_n, c_t, x_0, s_0, mu).unwrap();
             hard.with_compliance(compliance).unwrap()
         })

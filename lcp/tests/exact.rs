@@ -188,7 +188,7 @@ fn problems() -> impl Strategy<Value = HorizontalLcp> {
                     f64::from(values[i * n + j]) * power(0, i) * power(group, j)
                 })
             };
-            let c = (0..n).map(|i| f64::from(c[i]) * power(0, i)).collect();
+            let c: Vec<f64> = (0..n).map(|i| f64::from(c[i]) * power(0, i)).collect();
             HorizontalLcp::new(of(&a, 1), of(&b, 2), c).unwrap()
         })
     })

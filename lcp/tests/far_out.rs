@@ -63,7 +63,7 @@ proptest! {
         prop_assert!(!is_solved(Auto::default().solve(&standard)));
         prop_assert!(!is_solved(Auto::default().solve(&mixed)));
         // Gaps are the displacements themselves: the same problem.
-        let loads = q.iter().map(|q| -q).collect();
+        let loads: Vec<f64> = q.iter().map(|q| -q).collect();
         let (one, none) = (Mat::identity(n, n), vec![0.0; n]);
         let contact = Contact2d::new(m, loads, one, Mat::zeros(n, n), none.clone(), none.clone(), none);
         let contact = contact.unwrap();

@@ -5,7 +5,8 @@
 use faer::mat;
 use faer::sparse::{SparseColMat, Triplet};
 use lcp::{
-    BoxedLcp, Contact2d, ContactPoint, Error, Friction2d, Lcp, Lemke, Matrix, MixedLcp, Solver,
+    Auto, AutoSettings, BoxedLcp, Contact2d, ContactPoint, Error, Friction2d, Lcp, Lemke, Matrix,
+    MixedLcp, Solver, Vector, families,
 };
 
 fn entries(matrix: &Matrix) -> Vec<Vec<f64>> {
@@ -96,6 +97,8 @@ fn matrices_come_from_many_things() {
         (nalgebra::DMatrix::from_row_slice(2, 2, &[2.0, 0.0, 1.0, 3.0]).into(), false),
         #[cfg(feature = "nalgebra")]
         ((&nalgebra::DMatrix::from_row_slice(2, 2, &[2.0, 0.0, 1.0, 3.0])).into(), false),
+        #[cfg(feature = "nalgebra")]
+        (nalgebra::Matrix2::new(2.0, 0.0, 1.0, 3.0).into(), false),
     ] {
         assert_eq!((entries(&matrix), matrix.is_sparse()), (expected.clone(), is_sparse));
     }
@@ -157,4 +160,37 @@ fn answers_are_read_in_the_terms_of_their_problem() {
     near(&[state.u[1], state.gap[0]], &[-0.1, 0.0]);
     // The slip of -0.2 is taken back until the spring and friction balance: 3 u = 0.4 + t_t, |t_t| <= 1
     near(&[state.u[0], state.slip[0], state.t_t[0]], &[0.2, 0.0, 0.2]);
+}
+
+#[test]
+fn vectors_are_made_from_what_callers_have() {
+    let entries = vec![-1.0, 2.0];
+    let vectors: Vec<Vector> = vec![
+        [-1.0, 2.0].into(),
+        (&[-1.0, 2.0]).into(),
+        entries[..].into(),
+        (&entries).into(),
+        faer::col![-1.0, 2.0].into(),
+        #[cfg(feature = "nalgebra")]
+        nalgebra::Vector2::new(-1.0, 2.0).into(),
+        #[cfg(feature = "nalgebra")]
+        nalgebra::DVector::from_column_slice(&entries).into(),
+    ];
+    for vector in vectors {
+        assert_eq!(Lcp::new(Matrix::identity(2), vector).unwrap().q(), entries);
+    }
+}
+
+#[test]
+fn many_problems_come_back_in_their_order() {
+    let problems: Vec<Lcp> = (0..40).map(|seed| families::p_matrix(9, seed).problem).collect();
+    let all = Auto::default().solve_all(&problems);
+    assert_eq!(all.len(), problems.len());
+    for (problem, answer) in problems.iter().zip(all) {
+        let alone = Auto::default().solve(problem).unwrap();
+        let answer = answer.unwrap();
+        assert_eq!((answer.t, answer.status), (alone.t, alone.status));
+    }
+    let wrong = Auto::new(AutoSettings { tolerance: 2.0, ..Default::default() });
+    assert!(wrong.solve_all(&problems).into_iter().all(|answer| answer.is_err()));
 }

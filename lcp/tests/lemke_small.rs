@@ -37,7 +37,7 @@ fn random_problem(random: &mut Random) -> HorizontalLcp {
         2 if j % 2 == 0 => -a[(i, j)],
         _ => random.entry(),
     });
-    let c = (0..n).map(|_| random.entry()).collect();
+    let c: Vec<f64> = (0..n).map(|_| random.entry()).collect();
     HorizontalLcp::new(a, b, c).unwrap()
 }
 

@@ -123,7 +123,7 @@ proptest! {
         let (rows, cols): (Vec<f64>, Vec<f64>) =
             (0..n).map(|i| (f64::from(exponents[2 * i]).exp2(), f64::from(exponents[2 * i + 1]).exp2())).unzip();
         let m = Mat::from_fn(n, n, |i, j| rows[i] * lcp.m()[(i, j)] * cols[j]);
-        let q = lcp.q().iter().zip(&rows).map(|(q, row)| q * row).collect();
+        let q: Vec<f64> = lcp.q().iter().zip(&rows).map(|(q, row)| q * row).collect();
         let scaled = solve(&Lcp::new(m, q).unwrap());
         prop_assert_eq!(scaled.status, Status::Solved);
         let back: Vec<f64> = scaled.t.iter().zip(&cols).map(|(z, col)| z * col).collect();
@@ -131,7 +131,7 @@ proptest! {
         // One factor for all is exact and changes no step.
         for factor in [2.0_f64.powi(100), 2.0_f64.powi(-100)] {
             let m = Mat::from_fn(n, n, |i, j| factor * lcp.m()[(i, j)]);
-            let other = solve(&Lcp::new(m, lcp.q().iter().map(|q| q * factor).collect()).unwrap());
+            let other = solve(&Lcp::new(m, lcp.q().iter().map(|q| q * factor).collect::<Vec<f64>>()).unwrap());
             let same = solve(&Lcp::new(lcp.m().to_dense(), lcp.q().to_vec()).unwrap());
             prop_assert_eq!(other.info.history, same.info.history);
             prop_assert_eq!(other.t, same.t);
@@ -161,7 +161,7 @@ proptest! {
         };
         let a = Mat::from_fn(n, n, |i, j| entry(i, j, !swaps[j]));
         let b = Mat::from_fn(n, n, |i, j| entry(i, j, swaps[j]));
-        let c = (0..n).map(|i| factor(i) * lcp.q()[rows[i]]).collect();
+        let c: Vec<f64> = (0..n).map(|i| factor(i) * lcp.q()[rows[i]]).collect();
         let problem = HorizontalLcp::new(a, b, c).unwrap();
         let found = SemismoothNewton::default().solve(&problem).unwrap();
         prop_assert_eq!(found.status, Status::Solved);
@@ -219,7 +219,7 @@ proptest! {
         let z: Vec<f64> = (0..n).map(|i| if states[i] == 0 { unit / 3.0 } else { 0.0 }).collect();
         let w: Vec<f64> = (0..n).map(|i| if states[i] == 1 { unit / 7.0 } else { 0.0 }).collect();
         let row = |i: usize| w[i] - (0..n).map(|j| m[(i, j)] * z[j]).sum::<f64>();
-        let lcp = Lcp::new(m.clone(), (0..n).map(row).collect()).unwrap();
+        let lcp = Lcp::new(m.clone(), (0..n).map(row).collect::<Vec<f64>>()).unwrap();
         for lcp in [sparse(&lcp), lcp] {
             let found = solve(&lcp);
             prop_assert_eq!(found.status, Status::Solved);
@@ -351,7 +351,7 @@ fn convection() {
         }
     };
     let m = Mat::from_fn(n, n, entry);
-    let q = (0..n).map(|i| (i as f64 * 0.37).sin() + 0.3).collect();
+    let q: Vec<f64> = (0..n).map(|i| (i as f64 * 0.37).sin() + 0.3).collect();
     let dense = Lcp::new(m, q).unwrap();
     let sparse = sparse(&dense);
     let (first, second) = (solve(&dense), solve(&sparse));

@@ -24,7 +24,7 @@ fn scaled(a: &Integers, b: &Integers, c: &[i8], exponents: &[i32]) -> Horizontal
     let entry = |v: i8| f64::from(v);
     let a = Mat::from_fn(n, n, |i, j| entry(a[i][j]) * power(0, i) * power(1, j));
     let b = Mat::from_fn(n, n, |i, j| entry(b[i][j]) * power(0, i) * power(2, j));
-    let c = (0..n).map(|i| entry(c[i]) * power(0, i)).collect();
+    let c: Vec<f64> = (0..n).map(|i| entry(c[i]) * power(0, i)).collect();
     HorizontalLcp::new(a, b, c).unwrap()
 }
 

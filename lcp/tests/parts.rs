@@ -20,13 +20,13 @@ where
 /// Blocks on the diagonal, then rows and columns in another order.
 fn joined(blocks: &[(Mat<f64>, Vec<f64>)], order: &[usize]) -> Lcp {
     let n = order.len();
-    let (mut m, mut q) = (Mat::zeros(n, n), Vec::new());
+    let (mut m, mut q) = (Mat::zeros(n, n), Vec::<f64>::new());
     for (block, rhs) in blocks {
         m.submatrix_mut(q.len(), q.len(), rhs.len(), rhs.len()).copy_from(block);
         q.extend(rhs);
     }
     let m = Mat::from_fn(n, n, |i, j| m[(order[i], order[j])]);
-    Lcp::new(m, order.iter().map(|&i| q[i]).collect()).unwrap()
+    Lcp::new(m, order.iter().map(|&i| q[i]).collect::<Vec<f64>>()).unwrap()
 }
 
 /// The same problem in units a trillion times larger: all digits of both.

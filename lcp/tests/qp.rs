@@ -51,7 +51,7 @@ fn symmetric_lcp(is_definite: bool) -> impl Strategy<Value = Lcp> {
                 };
                 let z = Mat::from_fn(n, 1, |i, _| of(0, i));
                 let mz = &m * &z;
-                let q = (0..n).map(|i| of(1, i) - mz[(i, 0)]).collect();
+                let q: Vec<f64> = (0..n).map(|i| of(1, i) - mz[(i, 0)]).collect();
                 Lcp::new(m, q).unwrap()
             },
         )
@@ -95,7 +95,8 @@ fn program() -> impl Strategy<Value = (MixedLcp, usize)> {
                     let slack = if k < equations { 0.0 } else { f64::from(kinds[k].1) };
                     sign(k) * (slack - value)
                 };
-                let q = q.iter().map(|q| f64::from(*q)).chain((0..rows).map(right)).collect();
+                let q: Vec<f64> =
+                    q.iter().map(|q| f64::from(*q)).chain((0..rows).map(right)).collect();
                 let is_free = (0..n + rows)
                     .map(|i| if i < n { free[i] } else { i - n < equations })
                     .collect();
@@ -167,7 +168,7 @@ proptest! {
     ) {
         let n = q.len();
         let entries: Vec<f64> = entries.into_iter().map(f64::from).collect();
-        let q = q.into_iter().map(f64::from).collect();
+        let q: Vec<f64> = q.into_iter().map(f64::from).collect();
         let lcp = Lcp::new(gram(&entries, n, n.div_ceil(2)), q).unwrap();
         let problem: HorizontalLcp = lcp.clone().into();
         let lemke = Lemke::default().solve(&problem).unwrap();
@@ -184,7 +185,7 @@ proptest! {
     fn units_do_not_matter(lcp in symmetric_lcp(true), [a, b] in [-40..40_i32, -40..40_i32]) {
         let (m, n) = (lcp.m().to_dense(), lcp.order());
         let (a, b) = (f64::from(a).exp2(), f64::from(b).exp2());
-        let q = lcp.q().iter().map(|q| b * q).collect();
+        let q: Vec<f64> = lcp.q().iter().map(|q| b * q).collect();
         let scaled = Lcp::new(Mat::from_fn(n, n, |i, j| a * m[(i, j)]), q).unwrap();
         let [first, second] = [&lcp, &scaled].map(|lcp| solve_lcp(lcp, 1e-12));
         prop_assert_eq!(first.status, second.status);
@@ -195,7 +196,7 @@ proptest! {
         let unit = |i: usize| if i.is_multiple_of(2) { a.sqrt() } else { 1.0 };
         let paired = Lcp::new(
             Mat::from_fn(n, n, |i, j| unit(i) * m[(i, j)] * unit(j)),
-            lcp.q().iter().enumerate().map(|(i, q)| unit(i) * q).collect(),
+            lcp.q().iter().enumerate().map(|(i, q)| unit(i) * q).collect::<Vec<f64>>(),
         )
         .unwrap();
         let third = solve_lcp(&paired, 1e-12);
@@ -390,7 +391,7 @@ proptest! {
         order.sort_by_key(|i| (i * 7919 + seed) % 101);
         let permuted = Lcp::new(
             Mat::from_fn(n, n, |i, j| m[(order[i], order[j])]),
-            order.iter().map(|&i| lcp.q()[i]).collect(),
+            order.iter().map(|&i| lcp.q()[i]).collect::<Vec<f64>>(),
         )
         .unwrap();
         let [first, second] = [&lcp, &permuted].map(|lcp| solve_lcp(lcp, 1e-12));

@@ -223,10 +223,10 @@ proptest! {
         let root = mat![[2.0, of(0), of(1)], [0.0, 3.0, of(2)], [0.0, 0.0, 2.0]];
         let problem = Contact2d::new(
             root.transpose() * &root,
-            load.iter().map(|f| f64::from(*f)).collect(),
+            load.iter().map(|f| f64::from(*f)).collect::<Vec<f64>>(),
             Mat::from_fn(2, 3, |i, j| of(3 + 3 * i + j)),
             Mat::from_fn(2, 3, |i, j| of(6 + 3 * (1 - i) + j)),
-            gaps.iter().map(|x| f64::from(*x)).collect(),
+            gaps.iter().map(|x| f64::from(*x)).collect::<Vec<f64>>(),
             vec![0.0; 2],
             vec![mu; 2],
         ).expect("valid");

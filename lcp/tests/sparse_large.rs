@@ -215,7 +215,7 @@ fn empty_pairs_are_left_out() {
     };
     let problem = string.problem();
     for (last, status) in [(0.0, Status::Solved), (1.0, Status::Infeasible)] {
-        let c = problem.c().iter().copied().chain([last]).collect();
+        let c: Vec<f64> = problem.c().iter().copied().chain([last]).collect();
         let grown = HorizontalLcp::new(grown(problem.a()), grown(problem.b()), c).unwrap();
         let solution = Lemke::default().solve(&grown).unwrap();
         assert_eq!(solution.status, status);

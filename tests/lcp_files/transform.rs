@@ -51,7 +51,7 @@ pub fn scaled(problem: &HorizontalLcp, s: f64, r: f64) -> Equivalent {
     let scaled = HorizontalLcp::new(
         Mat::from_fn(n, n, |i, j| s * a[(i, j)]),
         Mat::from_fn(n, n, |i, j| y_factor[j] * b[(i, j)]),
-        problem.c().iter().map(|c| r * c).collect(),
+        problem.c().iter().map(|c| r * c).collect::<Vec<f64>>(),
     );
     Equivalent {
         are_rows_mixed: false,
@@ -76,7 +76,7 @@ pub fn rescaled(problem: &HorizontalLcp, rows: &[f64], t: Vec<f64>, mut y: Vec<f
     let rescaled = HorizontalLcp::new(
         Mat::from_fn(n, n, |i, j| rows[i] * a[(i, j)] * t[j]),
         Mat::from_fn(n, n, |i, j| rows[i] * b[(i, j)] * y[j]),
-        problem.c().iter().zip(rows).map(|(c, row)| row * c).collect(),
+        problem.c().iter().zip(rows).map(|(c, row)| row * c).collect::<Vec<f64>>(),
     );
     let times = |v: &[f64], units: &[f64]| v.iter().zip(units).map(|(v, unit)| v * unit).collect();
     Equivalent {
@@ -94,7 +94,7 @@ pub fn permuted(problem: &HorizontalLcp, order: Vec<usize>) -> Equivalent {
     let permuted = HorizontalLcp::new(
         Mat::from_fn(n, n, |i, j| a[(order[i], order[j])]),
         Mat::from_fn(n, n, |i, j| b[(order[i], order[j])]),
-        order.iter().map(|&i| problem.c()[i]).collect(),
+        order.iter().map(|&i| problem.c()[i]).collect::<Vec<f64>>(),
     );
     Equivalent {
         are_rows_mixed: false,
@@ -138,7 +138,7 @@ pub fn premultiplied(problem: &HorizontalLcp, matrix: &Mat<f64>) -> Equivalent {
     let multiplied = HorizontalLcp::new(
         matrix * problem.a().to_dense(),
         matrix * problem.b().to_dense(),
-        (0..n).map(|i| c[(i, 0)]).collect(),
+        (0..n).map(|i| c[(i, 0)]).collect::<Vec<f64>>(),
     );
     Equivalent {
         are_rows_mixed: true,
@@ -158,7 +158,7 @@ pub fn extended(problem: &HorizontalLcp, size: f64) -> Equivalent {
             _ => 0.0,
         })
     };
-    let c = problem.c().iter().copied().chain([-size]).collect();
+    let c: Vec<f64> = problem.c().iter().copied().chain([-size]).collect();
     let (a, b) = (corner(problem.a().to_dense(), -1.0), corner(problem.b().to_dense(), 1.0));
     Equivalent {
         are_rows_mixed: false,

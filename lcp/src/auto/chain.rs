@@ -1,6 +1,6 @@
 //! One method after the other.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use super::AutoSettings;
 use super::constants::FEW_PAIRS;

@@ -7,6 +7,11 @@ use crate::{Error, WarmStart};
 
 /// Settings of [`Auto`](crate::Auto).
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct AutoSettings {
     /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`. Every method gets it.
     pub tolerance: f64,

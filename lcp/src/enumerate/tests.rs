@@ -27,7 +27,7 @@ fn random_problem(random: &mut SplitMix) -> HorizontalLcp {
             _ => {}
         }
     }
-    let c = (0..n).map(|_| entry(random)).collect();
+    let c: Vec<f64> = (0..n).map(|_| entry(random)).collect();
     HorizontalLcp::new(a, b, c).expect("shapes fit")
 }
 
@@ -38,7 +38,7 @@ fn scaled(problem: &HorizontalLcp, unit: &mut dyn FnMut() -> f64) -> HorizontalL
     let (rows, t, y) = (units(), units(), units());
     let a = Mat::from_fn(n, n, |i, j| problem.a()[(i, j)] * (rows[i] * t[j]));
     let b = Mat::from_fn(n, n, |i, j| problem.b()[(i, j)] * (rows[i] * y[j]));
-    let c = problem.c().iter().zip(&rows).map(|(c, row)| c * row).collect();
+    let c: Vec<f64> = problem.c().iter().zip(&rows).map(|(c, row)| c * row).collect();
     HorizontalLcp::new(a, b, c).expect("shapes fit")
 }
 

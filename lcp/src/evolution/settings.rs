@@ -7,6 +7,11 @@ use crate::settings::check_tolerance;
 
 /// Settings of [`Evolution`](crate::Evolution).
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct EvolutionSettings {
     /// Largest residual, dimensionless, of every step and of the state at rest. In `(0, 1)`.
     pub tolerance: f64,

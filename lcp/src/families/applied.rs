@@ -33,7 +33,7 @@ pub fn control(steps: usize, seed: u64) -> Instance<BoxedLcp> {
     }
     let bound = |k: usize| if (n..2 * n).contains(&k) { 1.0 } else { f64::INFINITY };
     let upper: Vec<f64> = (0..3 * n).map(bound).collect();
-    let lower = upper.iter().map(|upper| -upper).collect();
+    let lower: Vec<f64> = upper.iter().map(|upper| -upper).collect();
     let m = Matrix::from_entries(3 * n, 3 * n, entries.into_iter());
     let problem = BoxedLcp::new(m, q, lower, upper);
     let problem = problem.unwrap_or_else(|e| unreachable!("finite and of one order: {e}"));

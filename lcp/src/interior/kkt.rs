@@ -9,9 +9,10 @@ use super::{InteriorPoint, InteriorPointSettings};
 use crate::active::unplanned;
 use crate::certify::is_proof_of_mixed;
 use crate::conversion::judged_point;
+use crate::matrix::Storage;
 use crate::problem::column_of;
 use crate::solve::Monitor;
-use crate::{Certificate, Error, Matrix, Method, MixedLcp, Observer, Solution, Status};
+use crate::{Certificate, Error, Method, MixedLcp, Observer, Solution, Status};
 
 impl InteriorPoint {
     /// The solution of a convex program, or a proof that there is none; `None` where bounded variables act on each other,
@@ -61,10 +62,10 @@ impl InteriorPoint {
 fn program_of(problem: &MixedLcp) -> Option<(Program, Vec<usize>)> {
     let (q, free) = (problem.q(), problem.free());
     let dense;
-    let m = match problem.m() {
-        Matrix::Sparse(m) => m,
-        m @ Matrix::Dense(_) => {
-            dense = m.clone().into_sparse();
+    let m = match problem.m().storage() {
+        Storage::Sparse(m) => m,
+        Storage::Dense(_) => {
+            dense = problem.m().to_sparse();
             &dense
         }
     };

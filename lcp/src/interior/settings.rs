@@ -8,6 +8,11 @@ use crate::{Error, WarmStart};
 
 /// Settings of [`InteriorPoint`](crate::InteriorPoint).
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct InteriorPointSettings {
     /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`.
     pub tolerance: f64,

@@ -35,7 +35,7 @@ pub(super) fn completed(
             let out = dense.col_as_slice_mut(pair);
             complement.column(k).for_each(|(i, e)| out[i] = e / problem.row[i]);
         }
-        Matrix::Dense(dense)
+        dense.into()
     };
     let c = problem.problem.c().to_vec();
     match side {

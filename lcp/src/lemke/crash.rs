@@ -4,7 +4,7 @@ mod found;
 mod matching;
 mod sparse;
 
-use std::time::Instant;
+use web_time::Instant;
 
 use faer::{Mat, MatRef};
 

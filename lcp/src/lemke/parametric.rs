@@ -8,7 +8,7 @@ mod outcome;
 
 pub use outcome::{Breakpoint, ParametricEnd, ParametricPath, ParametricRay};
 
-use std::time::Instant;
+use web_time::Instant;
 
 use super::constants::{ROUNDING, TIE_WINDOW};
 use super::crash::{Crash, find_basis};

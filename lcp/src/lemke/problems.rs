@@ -1,6 +1,6 @@
 //! Lemke's method on every kind of problem.
 
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use super::constants::CLOSED;
 use super::{Lemke, Progress};

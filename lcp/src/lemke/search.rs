@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 use std::ops::ControlFlow;
-use std::time::Instant;
+use web_time::Instant;
 
 use super::Progress;
 use super::artificial::{completed, part_outside, without_artificial};

@@ -14,6 +14,7 @@ use faer::{Conj, MatMut, Par, Side};
 use super::forest::{NONE, postordered};
 use super::kernel::{Kernel, Outcome, is_vanishing};
 use crate::Matrix;
+use crate::matrix::Storage;
 
 /// Cholesky's method in an order of the whole matrix, by supernodes where these are large.
 pub(super) struct SparseCholesky<'a> {
@@ -143,7 +144,7 @@ impl Upper {
 }
 
 fn minimum_degree(m: &Matrix) -> Option<Vec<usize>> {
-    let Matrix::Sparse(m) = m else { return None };
+    let Storage::Sparse(m) = m.storage() else { return None };
     let (n, stored) = (m.ncols(), m.compute_nnz());
     let (mut order, mut inverse) = (vec![0_usize; n], vec![0_usize; n]);
     let mut memory = MemBuffer::try_new(amd::order_scratch::<usize>(n, stored)).ok()?;

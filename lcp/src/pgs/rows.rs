@@ -3,6 +3,7 @@
 use faer::ColRef;
 
 use crate::Matrix;
+use crate::matrix::Storage;
 
 /// A square matrix `M` given by the products of its rows with a vector `z`, which may be represented by a state
 /// instead.
@@ -146,10 +147,10 @@ impl Rows for MatrixRows {
     }
 
     fn product(&self, i: usize, z: &[f64]) -> f64 {
-        match &self.transposed {
+        match self.transposed.storage() {
             // Summed in lanes, which does not wait for its own additions.
-            Matrix::Dense(m) => m.col(i).transpose() * ColRef::from_slice(z),
-            Matrix::Sparse(_) => self.transposed.slice(i).dot(z),
+            Storage::Dense(m) => m.col(i).transpose() * ColRef::from_slice(z),
+            Storage::Sparse(_) => self.transposed.slice(i).dot(z),
         }
     }
 

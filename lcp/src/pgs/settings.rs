@@ -16,6 +16,11 @@ use crate::{Error, WarmStart};
 /// let solver = ProjectedGaussSeidel::new(settings);
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct ProjectedGaussSeidelSettings {
     /// Largest residual, dimensionless, of a solution with status `Solved`. In `(0, 1)`. The default is `1e-8`: every
     /// further digit costs the same number of sweeps.

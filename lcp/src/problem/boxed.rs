@@ -3,7 +3,7 @@
 use super::HorizontalLcp;
 use crate::matrix::check_sums;
 use crate::vector::{check_length, check_vector};
-use crate::{Error, Matrix};
+use crate::{Error, Matrix, Vector};
 
 /// The problem `w = M z + q`, `lower <= z <= upper` of order `n`, where `w_i >= 0` if `z_i` is at
 /// its lower bound, `w_i <= 0` if it is at its upper one, and `w_i = 0` in between.
@@ -54,11 +54,13 @@ impl BoxedLcp {
     /// the range of numbers.
     pub fn new(
         m: impl Into<Matrix>,
-        q: Vec<f64>,
-        lower: Vec<f64>,
-        upper: Vec<f64>,
+        q: impl Into<Vector>,
+        lower: impl Into<Vector>,
+        upper: impl Into<Vector>,
     ) -> Result<Self, Error> {
-        let (m, n) = (m.into(), q.len());
+        let (m, q) = (m.into(), q.into().into_entries());
+        let [lower, upper] = [lower.into(), upper.into()].map(Vector::into_entries);
+        let n = q.len();
         m.check("M", n, n)?;
         check_vector("q", &q)?;
         check_length("lower", lower.len(), n)?;

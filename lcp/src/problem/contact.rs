@@ -19,7 +19,7 @@ use super::HorizontalLcp;
 use crate::definite::indefiniteness;
 use crate::matrix::column_of;
 use crate::vector::{check_length, check_sizes, check_vector};
-use crate::{Error, Matrix};
+use crate::{Error, Matrix, Vector};
 
 /// Unilateral contact with Coulomb's friction between elastic or rigid bodies in the plane:
 ///
@@ -84,13 +84,15 @@ impl Contact2d {
     /// positive semidefinite.
     pub fn new(
         k: impl Into<Matrix>,
-        f: Vec<f64>,
+        f: impl Into<Vector>,
         c_n: impl Into<Matrix>,
         c_t: impl Into<Matrix>,
-        x_0: Vec<f64>,
-        s_0: Vec<f64>,
-        mu: Vec<f64>,
+        x_0: impl Into<Vector>,
+        s_0: impl Into<Vector>,
+        mu: impl Into<Vector>,
     ) -> Result<Self, Error> {
+        let [f, x_0, s_0, mu] =
+            [f.into(), x_0.into(), s_0.into(), mu.into()].map(Vector::into_entries);
         let (k, c_n, c_t) = (k.into(), c_n.into(), c_t.into());
         let (n, m) = (f.len(), mu.len());
         for (what, matrix, rows) in [("K", &k, n), ("C_n", &c_n, m), ("C_t", &c_t, m)] {

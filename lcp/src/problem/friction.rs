@@ -1,7 +1,7 @@
 //! Contact with friction in the plane.
 
 use crate::vector::{check_length, check_vector};
-use crate::{Error, Lcp, Matrix};
+use crate::{Error, Lcp, Matrix, Vector};
 
 /// Plane contact with Coulomb friction, reduced to the contacts: the relative velocities are `W r + q` for forces
 /// `r`. Every contact has a normal and a tangential component, in this order.
@@ -53,8 +53,12 @@ impl Friction2d {
     /// # Errors
     /// [`Error::Shape`] or [`Error::Length`] when the shapes do not fit, [`Error::NotFinite`] for a NaN
     /// or an infinity, [`Error::Setting`] for a coefficient of friction that is negative or above 1e6.
-    pub fn new(w: impl Into<Matrix>, q: Vec<f64>, mu: Vec<f64>) -> Result<Self, Error> {
-        let w = w.into();
+    pub fn new(
+        w: impl Into<Matrix>,
+        q: impl Into<Vector>,
+        mu: impl Into<Vector>,
+    ) -> Result<Self, Error> {
+        let (w, q, mu) = (w.into(), q.into().into_entries(), mu.into().into_entries());
         check_length("q", q.len(), 2 * mu.len())?;
         w.check("W", q.len(), q.len())?;
         check_vector("q", &q)?;
@@ -142,6 +146,6 @@ fn standard_form(w: &Matrix, q: &[f64], mu: &[f64]) -> Result<Lcp, Error> {
         entries.push((sliding, shifted, -1.0));
     }
     let matrix = Matrix::assembled(order, w.is_sparse(), entries.into_iter());
-    let vector = q.chunks_exact(2).flat_map(|q| [q[0], q[1], 0.0]).collect();
+    let vector: Vec<f64> = q.chunks_exact(2).flat_map(|q| [q[0], q[1], 0.0]).collect();
     Lcp::new(matrix, vector)
 }

@@ -2,7 +2,7 @@
 
 use crate::matrix::Column;
 use crate::vector::{check_length, check_vector};
-use crate::{Error, Matrix, Side};
+use crate::{Error, Matrix, Side, Vector};
 
 /// The general (horizontal) linear complementarity problem
 /// `A t + B y = c`, `t >= 0`, `y >= 0`, `t.y = 0`, with square `A` and `B` of order `n`.
@@ -35,8 +35,13 @@ impl HorizontalLcp {
     ///
     /// # Errors
     /// [`Error::Shape`] when the shapes do not fit, [`Error::NotFinite`] for a NaN or an infinity.
-    pub fn new(a: impl Into<Matrix>, b: impl Into<Matrix>, c: Vec<f64>) -> Result<Self, Error> {
-        let (a, b, n) = (a.into(), b.into(), c.len());
+    pub fn new(
+        a: impl Into<Matrix>,
+        b: impl Into<Matrix>,
+        c: impl Into<Vector>,
+    ) -> Result<Self, Error> {
+        let (a, b, c) = (a.into(), b.into(), c.into().into_entries());
+        let n = c.len();
         a.check("A", n, n)?;
         b.check("B", n, n)?;
         check_vector("c", &c)?;

@@ -2,7 +2,7 @@
 
 use super::{BoxedLcp, HorizontalLcp};
 use crate::vector::check_length;
-use crate::{Error, Matrix};
+use crate::{Error, Matrix, Vector};
 
 /// The mixed problem `w = M z + q` of order `n`, where every `z_i` is either free, with `w_i = 0`,
 /// or complementary: `z_i >= 0`, `w_i >= 0`, `z_i w_i = 0`.
@@ -31,10 +31,11 @@ impl MixedLcp {
     /// # Errors
     /// [`Error::Shape`] or [`Error::Length`] when the shapes do not fit, [`Error::NotFinite`] for a
     /// NaN or an infinity.
-    pub fn new(m: impl Into<Matrix>, q: Vec<f64>, free: Vec<bool>) -> Result<Self, Error> {
+    pub fn new(m: impl Into<Matrix>, q: impl Into<Vector>, free: Vec<bool>) -> Result<Self, Error> {
+        let q = q.into().into_entries();
         check_length("free", free.len(), q.len())?;
         let bound = |&free: &bool| if free { f64::NEG_INFINITY } else { 0.0 };
-        let lower = free.iter().map(bound).collect();
+        let lower: Vec<f64> = free.iter().map(bound).collect();
         let upper = vec![f64::INFINITY; free.len()];
         Ok(Self { boxed: BoxedLcp::new(m, q, lower, upper)?, free })
     }

@@ -2,7 +2,7 @@
 
 use super::HorizontalLcp;
 use crate::vector::check_vector;
-use crate::{Error, Matrix};
+use crate::{Error, Matrix, Vector};
 
 /// The standard linear complementarity problem `w = M z + q`, `z >= 0`, `w >= 0`, `z.w = 0`.
 ///
@@ -28,8 +28,8 @@ impl Lcp {
     ///
     /// # Errors
     /// [`Error::Shape`] when the shapes do not fit, [`Error::NotFinite`] for a NaN or an infinity.
-    pub fn new(m: impl Into<Matrix>, q: Vec<f64>) -> Result<Self, Error> {
-        let m = m.into();
+    pub fn new(m: impl Into<Matrix>, q: impl Into<Vector>) -> Result<Self, Error> {
+        let (m, q) = (m.into(), q.into().into_entries());
         m.check("M", q.len(), q.len())?;
         check_vector("q", &q)?;
         Ok(Self { m, q })

@@ -1,7 +1,7 @@
 //! A problem while it is solved: interior points of programs, and the exact states that they lead to.
 
 use std::cell::OnceCell;
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use super::farkas::farkas_vector;
 use super::form::Form;

@@ -26,6 +26,11 @@ impl Default for SoftConstraints {
 
 /// Settings of [`QuadraticProgram`](crate::QuadraticProgram).
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct QuadraticProgramSettings {
     /// Largest residual, dimensionless, of a solution with status `Solved`. In `(0, 1)`. The exchange of states
     /// usually reaches 1e-14, so a tolerance of 1e-12 costs nothing.

@@ -1,6 +1,6 @@
 //! Passes with one factorisation, and when they end.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use super::answer::{Refined, Refinement};
 use super::constants::{

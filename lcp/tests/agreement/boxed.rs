@@ -34,7 +34,7 @@ fn planted() -> impl Strategy<Value = (BoxedLcp, Vec<f64>, Vec<f64>)> {
                     }
                 }
             }
-            let q = times(&m, &z).iter().zip(&w).map(|(mz, w)| w - mz).collect();
+            let q: Vec<f64> = times(&m, &z).iter().zip(&w).map(|(mz, w)| w - mz).collect();
             let m = if is_sparse { sparse(&m) } else { m.into() };
             (BoxedLcp::new(m, q, lower, upper).unwrap(), z, w)
         })

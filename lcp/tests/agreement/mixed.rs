@@ -54,7 +54,7 @@ fn planted() -> impl Strategy<Value = Planted> {
             let z: Vec<f64> = pairs.iter().enumerate().map(|(i, pair)| value(i, *pair)).collect();
             let w =
                 |i: usize| if i >= free && pairs[i].0 == 1 { f64::from(pairs[i].1) } else { 0.0 };
-            let q = times(&m, &z).iter().enumerate().map(|(i, mz)| w(i) - mz).collect();
+            let q: Vec<f64> = times(&m, &z).iter().enumerate().map(|(i, mz)| w(i) - mz).collect();
             let mixed = MixedLcp::new(m.clone(), q, (0..n).map(|i| i < free).collect()).unwrap();
             Planted { mixed, m, z, is_definite, is_symmetric }
         })

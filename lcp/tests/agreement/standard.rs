@@ -176,7 +176,7 @@ fn planted(both: bool) -> impl Strategy<Value = Planted> {
             let of = |state: u8| pairs.iter().map(move |&(it, v)| (it == state, f64::from(v)));
             let z: Vec<f64> = of(0).map(|(is_it, v)| if is_it { v } else { 0.0 }).collect();
             let w: Vec<f64> = of(1).map(|(is_it, v)| if is_it { v } else { 0.0 }).collect();
-            let q = times(&m, &z).iter().zip(&w).map(|(mz, w)| w - mz).collect();
+            let q: Vec<f64> = times(&m, &z).iter().zip(&w).map(|(mz, w)| w - mz).collect();
             let lcp = Lcp::new(if is_sparse { sparse(&m) } else { m.into() }, q).unwrap();
             Planted { class, lcp, z, w, units }
         })
@@ -303,7 +303,7 @@ proptest! {
         let matrix = |is_b: bool| Mat::from_fn(n, n, |i, j| entry(i, j, swaps[j] != is_b));
         let [a, b] = [false, true].map(matrix);
         let c = order.iter().map(|&i| f64::from(exponents[i]).exp2() * planted.lcp.q()[i]);
-        let general = HorizontalLcp::new(a, b, c.collect()).unwrap();
+        let general = HorizontalLcp::new(a, b, c.collect::<Vec<f64>>()).unwrap();
         let restore = |solution: &Solution| {
             let pairs = solution.t.iter().zip(&solution.y).zip(&swaps);
             pairs.map(|((t, y), swap)| if *swap { (*y, *t) } else { (*t, *y) }).unzip()
@@ -340,7 +340,7 @@ proptest! {
 /// Makes `z` and `w` the solution, which every method must find that owes one.
 fn check_vanishing(mut planted: Planted) {
     let m = planted.lcp.m().to_dense();
-    let q = times(&m, &planted.z).iter().zip(&planted.w).map(|(mz, w)| w - mz).collect();
+    let q: Vec<f64> = times(&m, &planted.z).iter().zip(&planted.w).map(|(mz, w)| w - mz).collect();
     planted.lcp = Lcp::new(planted.lcp.m().clone(), q).unwrap();
     let general: HorizontalLcp = planted.lcp.clone().into();
     for tolerance in TOLERANCES {

@@ -108,7 +108,7 @@ proptest! {
             } else {
                 m.into()
             };
-            let q = problem.q().iter().enumerate().map(|(i, q)| rows(i) * q).collect();
+            let q: Vec<f64> = problem.q().iter().enumerate().map(|(i, q)| rows(i) * q).collect();
             Lcp::new(m, q).unwrap()
         };
         let names = |problem: &Lcp| plan!(problem);

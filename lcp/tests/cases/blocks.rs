@@ -94,7 +94,7 @@ proptest! {
         let exact = only(&HorizontalLcp::from(Lcp::new(m.clone(), q.clone()).unwrap()));
         let row: Vec<f64> = (0..n).map(|_| draw.power(46)).collect();
         let scaled = Mat::from_fn(n, n, |i, j| row[i] * m[(i, j)]);
-        let lcp = Lcp::new(scaled, q.iter().zip(&row).map(|(q, row)| q * row).collect()).unwrap();
+        let lcp = Lcp::new(scaled, q.iter().zip(&row).map(|(q, row)| q * row).collect::<Vec<f64>>()).unwrap();
         for (name, solution) in solved(&lcp) {
             assert_near(name, &solution.t, &exact, 1.0);
         }

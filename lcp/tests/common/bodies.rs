@@ -31,7 +31,7 @@ pub(crate) fn in_units(problem: &Contact2d, force: f64, length: f64, unit: &[f64
     let scaled = |v: &[f64], by: f64| -> Vec<f64> { v.iter().map(|v| v * by).collect() };
     Contact2d::new(
         Mat::from_fn(n, n, |i, j| force / length * k[(i, j)] * unit[i] * unit[j]),
-        problem.loads().iter().zip(unit).map(|(f, unit)| force * f * unit).collect(),
+        problem.loads().iter().zip(unit).map(|(f, unit)| force * f * unit).collect::<Vec<f64>>(),
         Mat::from_fn(m, n, |i, j| c_n[(i, j)] * unit[j]),
         Mat::from_fn(m, n, |i, j| c_t[(i, j)] * unit[j]),
         scaled(problem.initial_gaps(), length),

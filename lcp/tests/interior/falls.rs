@@ -76,7 +76,7 @@ fn rigid(random: &mut Integers) -> Contact2d {
             }
         }
     }
-    let load = (0..6).map(|_| random.next(-3.0, 6)).collect();
+    let load: Vec<f64> = (0..6).map(|_| random.next(-3.0, 6)).collect();
     let mu = vec![[0.5, 1.0, 2.0][random.below(3)]; m];
     let zero = vec![0.0; m];
     Contact2d::new(Mat::zeros(6, 6), load, c_n, c_t, zero.clone(), zero, mu).unwrap()

@@ -144,7 +144,7 @@ fn reversed(problem: &Contact2d) -> Contact2d {
     let (n, m) = (problem.displacements(), problem.points());
     let [k, c_n, c_t] = [problem.stiffness(), problem.normal(), problem.tangent()]
         .map(faer::sparse::SparseColMat::to_dense);
-    let back = |v: &[f64]| v.iter().rev().copied().collect();
+    let back = |v: &[f64]| v.iter().rev().copied().collect::<Vec<f64>>();
     Contact2d::new(
         Mat::from_fn(n, n, |i, j| k[(n - 1 - i, n - 1 - j)]),
         back(problem.loads()),

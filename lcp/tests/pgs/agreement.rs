@@ -80,7 +80,7 @@ proptest! {
         };
         let a = Mat::from_fn(n, n, |i, j| entry(i, j, swaps[j]));
         let b = Mat::from_fn(n, n, |i, j| entry(i, j, !swaps[j]));
-        let c = lcp.q().iter().map(|q| q * factor).collect();
+        let c: Vec<f64> = lcp.q().iter().map(|q| q * factor).collect();
         let general = HorizontalLcp::new(a, b, c).unwrap();
         let (found, expected) = (to(1e-10).solve(&general).unwrap(), to(1e-10).solve(&lcp).unwrap());
         check_honest(&found, &general, 1e-10);
@@ -97,7 +97,7 @@ proptest! {
     fn units(lcp in easy(), force in -300..300_i32, stiffness in -300..300_i32) {
         let (force, stiffness) = (f64::from(force).exp2(), f64::from(stiffness).exp2());
         let m = lcp.m().to_dense() * faer::Scale(stiffness);
-        let q = lcp.q().iter().map(|q| q * force * stiffness).collect();
+        let q: Vec<f64> = lcp.q().iter().map(|q| q * force * stiffness).collect();
         let scaled = Lcp::new(m, q).unwrap();
         let dense = Lcp::new(lcp.m().to_dense(), lcp.q().to_vec()).unwrap();
         let (found, expected) = (to(1e-9).solve(&scaled).unwrap(), to(1e-9).solve(&dense).unwrap());
@@ -121,7 +121,7 @@ proptest! {
         let m = Mat::from_fn(n, n, |i, j| {
             unit(order[i]) * dense[(order[i], order[j])] * unit(LARGEST + order[j])
         });
-        let q = order.iter().map(|&i| unit(i) * lcp.q()[i]).collect();
+        let q: Vec<f64> = order.iter().map(|&i| unit(i) * lcp.q()[i]).collect();
         let scaled = Lcp::new(m, q).unwrap();
         let (found, expected) = (to(1e-11).solve(&scaled).unwrap(), to(1e-11).solve(&lcp).unwrap());
         prop_assert!(found.is_solved() && expected.is_solved());
@@ -153,7 +153,7 @@ proptest! {
             let upper = lower + f64::from(width);
             (if below { lower } else { -INF }, if above { upper } else { INF })
         });
-        let (lower, upper) = bounds.unzip();
+        let (lower, upper): (Vec<f64>, Vec<f64>) = bounds.unzip();
         let boxed = BoxedLcp::new(lcp.m().clone(), lcp.q().to_vec(), lower, upper).unwrap();
         let general = boxed.to_general();
         let expected = Lemke::default().solve(&general).unwrap();

@@ -160,7 +160,7 @@ fn elastic(nodes: usize, q: &[f64]) -> Contact2d {
     }
     let normal = Mat::from_fn(nodes, n, |i, j| f64::from(u8::from(j == 2 * i + 1)));
     let tangent = Mat::from_fn(nodes, n, |i, j| f64::from(u8::from(j == 2 * i)));
-    let mu = (0..nodes).map(|i| if i % 2 == 0 { 0.3 } else { 0.0 }).collect();
+    let mu: Vec<f64> = (0..nodes).map(|i| if i % 2 == 0 { 0.3 } else { 0.0 }).collect();
     let gaps = vec![0.1; nodes];
     Contact2d::new(k, q.to_vec(), normal, tangent, gaps, vec![0.0; nodes], mu).unwrap()
 }

@@ -139,7 +139,7 @@ impl Case {
         let (row, t, y) = (powers(), powers(), powers());
         let a = Mat::from_fn(n, n, |i, j| row[i] * integers.a()[(i, j)] * t[j]);
         let b = Mat::from_fn(n, n, |i, j| row[i] * integers.b()[(i, j)] * y[j]);
-        let c = integers.c().iter().zip(&row).map(|(c, row)| c * row).collect();
+        let c: Vec<f64> = integers.c().iter().zip(&row).map(|(c, row)| c * row).collect();
         let general = HorizontalLcp::new(a, b, c).unwrap();
         let largest = integers.c().iter().fold(0.0, |max: f64, c| max.max(c.abs()));
         let problem = Problem::General(general.clone());

@@ -36,7 +36,7 @@ mod thickness;
 mod watch;
 
 use std::ops::ControlFlow;
-use std::time::Instant;
+use web_time::Instant;
 
 pub use associative::{Answer, Associative};
 pub use error::LimitError;

@@ -8,7 +8,7 @@ mod run;
 mod spread;
 
 use std::ops::ControlFlow;
-use std::time::Instant;
+use web_time::Instant;
 
 pub use run::Run;
 

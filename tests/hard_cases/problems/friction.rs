@@ -74,7 +74,7 @@ pub(super) fn chain(bits: i32) -> Case {
     let at = |i: usize| [1.0, 1.0, 0.0, 0.0, 2.0, 2.0, 3.0, 0.0][i];
     let force = |i: usize| if at(i) > 0.0 { 0.0 } else { 1.0 };
     let pull = |i: usize| (0..N).map(|j| k[(i, j)] * at(j)).sum::<f64>() - force(i);
-    let load = (0..N).map(pull).collect();
+    let load: Vec<f64> = (0..N).map(pull).collect();
     let (one, none) = (Mat::identity(N, N), vec![0.0; N]);
     let problem =
         Contact2d::new(k, load, one, Mat::zeros(N, N), none.clone(), none.clone(), none).unwrap();

@@ -24,7 +24,8 @@ pub(in crate::io) fn read_global(text: &str) -> Result<Problem, ReadError> {
     let mu = frictions(&mut tokens, contacts)?;
     tokens.end("correct the sizes, or take it out")?;
     let [c_n, c_t] = [0, 1].map(|part| rows_of(&h, part));
-    let of_contacts = |part: usize| b.iter().skip(part).step_by(2).copied().collect();
+    let of_contacts =
+        |part: usize| -> Vec<f64> { b.iter().skip(part).step_by(2).copied().collect() };
     let problem = Contact2d::new(m, q, c_n, c_t, of_contacts(0), of_contacts(1), mu);
     Problem::contact(problem, None, at)
 }

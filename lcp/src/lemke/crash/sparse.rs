@@ -5,7 +5,7 @@
 //! without a column the sides of a structural matching are tried in the same way, and at last
 //! exchanges.
 
-use std::time::Instant;
+use web_time::Instant;
 
 use super::found::{Crash, beginnings, exchanged};
 use super::matching::matched_sides;

@@ -2,7 +2,7 @@
 
 use super::Contact2d;
 use crate::vector::{check_points, check_sizes};
-use crate::{Error, Matrix};
+use crate::{Error, Matrix, Vector};
 
 /// A contact point with the displacements that open it and make it slip. A row is a list of pairs
 /// `(displacement, coefficient)`; coefficients of the same displacement are added.
@@ -64,8 +64,8 @@ impl Contact2d {
     /// assert!((state.t_n[foot] - 2.0).abs() < 1e-14 && (state.t_t[foot] + 0.4).abs() < 1e-14);
     /// # Ok::<(), lcp::Error>(())
     /// ```
-    pub fn builder(k: impl Into<Matrix>, f: Vec<f64>) -> Contact2dBuilder {
-        let k = k.into();
+    pub fn builder(k: impl Into<Matrix>, f: impl Into<Vector>) -> Contact2dBuilder {
+        let (k, f) = (k.into(), f.into().into_entries());
         Contact2dBuilder { k, f, normal: Vec::new(), tangent: Vec::new(), points: Vec::new() }
     }
 }

@@ -1,7 +1,7 @@
 //! One route after the other, each with what it is built on, until one has the answer.
 
 use std::ops::ControlFlow;
-use std::time::Instant;
+use web_time::Instant;
 
 use lcp::{Contact2d, Status};
 use nalgebra::Vector2;

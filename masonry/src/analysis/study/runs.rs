@@ -1,7 +1,7 @@
 //! Solves of a scene within a limit of time, each measured.
 
 use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
+use web_time::{Duration, Instant};
 
 use lcp::Status;
 
