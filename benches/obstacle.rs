@@ -13,7 +13,7 @@ use std::fmt::Write as _;
 use std::time::Instant;
 
 use lcp::families::{Ground, Obstacle};
-use lcp::{SemismoothNewton, SemismoothNewtonSettings, Solution, Solver, WarmStart};
+use lcp::{Lcp, SemismoothNewton, SemismoothNewtonSettings, Solution, Solver, WarmStart};
 
 const GROUNDS: [(&str, Ground); 2] =
     [("disc", Ground::Disc { radius: 0.6 }), ("hills", Ground::Hills { count: 3 })];
@@ -63,12 +63,12 @@ fn line(name: &str, ground: Ground, side: usize) -> String {
 }
 
 /// Seconds of the whole, and the solution on every grid, the first of about 30 points on a side.
-fn nested(side: usize, ground: Ground) -> (f64, Vec<Solution>) {
+fn nested(side: usize, ground: Ground) -> (f64, Vec<Solution<Lcp>>) {
     let began = Instant::now();
     let halves = std::iter::successors(Some(side), |side| Some(side / 2));
     let mut sides: Vec<usize> = halves.take_while(|side| *side >= 25).collect();
     sides.reverse();
-    let mut levels: Vec<Solution> = Vec::new();
+    let mut levels: Vec<Solution<Lcp>> = Vec::new();
     let mut coarse: Option<Obstacle> = None;
     for side in sides {
         let grid = Obstacle::new(side, side, ground);

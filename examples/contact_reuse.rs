@@ -174,7 +174,7 @@ fn velocity_problem(discs: &[Disc], contacts: &[Contact]) -> Result<Contact2d, l
 /// A solved step.
 struct Step {
     contacts: Vec<Contact>,
-    solution: Solution,
+    solution: Solution<Contact2d>,
     state: ContactState,
 }
 

@@ -44,17 +44,17 @@ fn answers_of_every_end() {
     let settings = LemkeSettings { trace: true, ..Default::default() };
     let lemke = Lemke::new(settings);
     let solved = lemke.solve(&families::positive_definite(6, 1).problem).unwrap();
-    let text = assert_comes_back!(Solution, solved);
+    let text = assert_comes_back!(Solution<Lcp>, solved);
     assert!(text.contains(r#""solver":"lemke""#), "{text}");
     let infeasible = lemke.solve(&families::kostreva_2().problem).unwrap();
     assert_eq!(infeasible.status, Status::Infeasible);
-    assert_comes_back!(Solution, infeasible);
-    assert_comes_back!(Solution, Auto::default().solve(&contact()).unwrap());
+    assert_comes_back!(Solution<Lcp>, infeasible);
+    assert_comes_back!(Solution<Contact2d>, Auto::default().solve(&contact()).unwrap());
     // Pushed up, with a chain of methods and their evidence.
     let falls = Lcp::new([[1.0, -1.0], [-1.0, 1.0]], vec![-1.0, -1.0]).unwrap();
     let solution = Auto::default().solve(&falls).unwrap();
     assert!(solution.info.routes.len() > 1);
-    assert_comes_back!(Solution, solution);
+    assert_comes_back!(Solution<Lcp>, solution);
 }
 
 #[test]
@@ -67,7 +67,7 @@ fn residuals_that_are_infinite() {
     );
     let mut solution = Lemke::default().solve(&families::fathi(3).problem).unwrap();
     solution.info.history = vec![inf, 1.0];
-    assert_comes_back!(Solution, solution);
+    assert_comes_back!(Solution<Lcp>, solution);
     assert_comes_back!(Constraint, Constraint::Bounds { lower: -inf, upper: inf });
     assert_comes_back!(Margin, Margin { least: inf, contact: None });
 }

@@ -20,7 +20,7 @@ pub(crate) struct Line {
 }
 
 impl Line {
-    pub(crate) fn of_solution(case: String, solution: &Solution) -> Self {
+    pub(crate) fn of_solution<P>(case: String, solution: &Solution<P>) -> Self {
         // A proof makes its verdict another one.
         let proof = if solution.certificate.is_some() { ", proved" } else { "" };
         let is_proved = solution.status != Status::Solved && !proof.is_empty();

@@ -2,7 +2,7 @@
 
 use lcp::families::{self, Instance};
 use lcp::io::{Problem, read_file};
-use lcp::{Auto, HorizontalLcp, Lcp, MixedLcp, Solver};
+use lcp::{Auto, HorizontalLcp, Lcp, MixedLcp, Solution, Solver};
 
 use crate::common;
 use crate::line::Line;
@@ -116,12 +116,12 @@ fn published(is_chosen: &dyn Fn(&str) -> bool, keep: Keep<'_>) {
         }
         let Ok(file) = read_file(&path, None) else { continue };
         let solution = match &file.problem {
-            Problem::Lcp(problem) => Auto::default().solve(problem),
+            Problem::Lcp(problem) => Auto::default().solve(problem).map(Solution::of_pairs),
             Problem::Horizontal(problem) => Auto::default().solve(problem),
-            Problem::Mixed(problem) => Auto::default().solve(problem),
-            Problem::Boxed(problem) => Auto::default().solve(problem),
-            Problem::Friction(problem) => Auto::default().solve(problem),
-            Problem::Contact(problem) => Auto::default().solve(problem),
+            Problem::Mixed(problem) => Auto::default().solve(problem).map(Solution::of_pairs),
+            Problem::Boxed(problem) => Auto::default().solve(problem).map(Solution::of_pairs),
+            Problem::Friction(problem) => Auto::default().solve(problem).map(Solution::of_pairs),
+            Problem::Contact(problem) => Auto::default().solve(problem).map(Solution::of_pairs),
             other => unreachable!("{} is no kind of problem here", other.kind()),
         };
         keep(Line::of_solution(name, &solution.expect("sound data")));

@@ -121,7 +121,7 @@ impl<P: Planned> Solver<P> for Auto {
         Method::Auto
     }
 
-    fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
+    fn solve_pairs(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         divided::run(problem, &self.settings, observer)
     }
 }

@@ -286,11 +286,7 @@ impl Solver<Lcp> for SemismoothNewton {
         Method::Newton
     }
 
-    fn solve_observed(
-        &self,
-        problem: &Lcp,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
+    fn solve_pairs(&self, problem: &Lcp, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         self.solve_judged(problem, observer, |z, w| {
             ((z.to_vec(), w.to_vec()), problem.residuals(z, w))
         })
@@ -303,7 +299,7 @@ impl Solver<HorizontalLcp> for SemismoothNewton {
         Method::Newton
     }
 
-    fn solve_observed(
+    fn solve_pairs(
         &self,
         problem: &HorizontalLcp,
         observer: &mut Observer<'_>,

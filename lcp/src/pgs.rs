@@ -207,7 +207,7 @@ impl<P: Sweepable> Solver<P> for ProjectedGaussSeidel {
         Method::GaussSeidel
     }
 
-    fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
+    fn solve_pairs(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         problem.solve_by(self, observer)
     }
 }

@@ -153,11 +153,7 @@ impl Solver<Lcp> for QuadraticProgram {
         Method::QuadraticProgram
     }
 
-    fn solve_observed(
-        &self,
-        problem: &Lcp,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
+    fn solve_pairs(&self, problem: &Lcp, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         self.solve_standard(problem, &|| problem.clone().into(), observer)
     }
 }
@@ -168,7 +164,7 @@ impl Solver<HorizontalLcp> for QuadraticProgram {
         Method::QuadraticProgram
     }
 
-    fn solve_observed(
+    fn solve_pairs(
         &self,
         problem: &HorizontalLcp,
         observer: &mut Observer<'_>,
@@ -194,7 +190,7 @@ impl Solver<MixedLcp> for QuadraticProgram {
         Method::QuadraticProgram
     }
 
-    fn solve_observed(
+    fn solve_pairs(
         &self,
         problem: &MixedLcp,
         observer: &mut Observer<'_>,
@@ -209,7 +205,7 @@ impl Solver<BoxedLcp> for QuadraticProgram {
         Method::QuadraticProgram
     }
 
-    fn solve_observed(
+    fn solve_pairs(
         &self,
         problem: &BoxedLcp,
         observer: &mut Observer<'_>,
@@ -217,7 +213,7 @@ impl Solver<BoxedLcp> for QuadraticProgram {
         let QuadraticProgramSettings { start, tolerance, .. } = &self.settings;
         solve_in_mixed_form(problem, start, *tolerance, |mixed, start| {
             let solver = Self::new(QuadraticProgramSettings { start, ..self.settings.clone() });
-            solver.solve_observed(mixed, observer)
+            solver.solve_pairs(mixed, observer)
         })
     }
 }
@@ -227,7 +223,7 @@ impl Solver<Contact2d> for QuadraticProgram {
         Method::QuadraticProgram
     }
 
-    fn solve_observed(
+    fn solve_pairs(
         &self,
         problem: &Contact2d,
         observer: &mut Observer<'_>,

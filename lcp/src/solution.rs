@@ -1,8 +1,12 @@
 //! What a solver returns.
 
+use std::marker::PhantomData;
+
+use derive_where::derive_where;
+
 use crate::certify::Ray;
 use crate::pivoting::{Attempt, PivotRecord};
-use crate::{Basis, Certificate, ContactState, Method, Residuals, Status};
+use crate::{Basis, Certificate, ContactState, HorizontalLcp, Method, Residuals, Status};
 
 /// How a method that [`Auto`](crate::Auto) ran ended.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,11 +88,23 @@ pub struct Info {
     pub pivot_seconds: f64,
 }
 
-/// The result of a solver, always with the residuals of its point.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+/// The result of a solver for a problem of type `P`, always with the residuals of its point.
+///
+/// The pairs are those of the general form of the problem: `problem.variables(&solution)` gives the answer in its own
+/// variables, and takes no solution of a problem of another type.
+///
+/// ```compile_fail
+/// use lcp::{Auto, BoxedLcp, Lcp, Solver};
+/// let lcp = Lcp::new([[1.0]], [-1.0])?;
+/// let boxed = BoxedLcp::new([[1.0]], [-1.0], [0.0], [0.5])?;
+/// let solution = Auto::default().solve(&boxed)?;
+/// let (z, w) = lcp.variables(&solution); // a solution of `boxed`
+/// # Ok::<(), lcp::Error>(())
+/// ```
+#[derive_where(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(bound = ""))]
 #[non_exhaustive]
-pub struct Solution {
+pub struct Solution<P = HorizontalLcp> {
     /// What the solver found.
     pub status: Status,
     /// The first variable of every pair.
@@ -121,6 +137,8 @@ pub struct Solution {
     pub trace: Vec<PivotRecord>,
     /// What it cost.
     pub info: Info,
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(crate) problem: PhantomData<fn() -> P>,
 }
 
 impl Solution {
@@ -145,9 +163,12 @@ impl Solution {
             condition: None,
             trace: Vec::new(),
             info: Info::default(),
+            problem: PhantomData,
         }
     }
+}
 
+impl<P> Solution<P> {
     /// The Farkas vector of the certificate, if it is one.
     pub fn farkas(&self) -> Option<&[f64]> {
         match &self.certificate {
@@ -161,6 +182,43 @@ impl Solution {
         match &self.certificate {
             Some(Certificate::Ray(ray)) => Some(ray),
             _ => None,
+        }
+    }
+
+    /// The same as a solution of the general form of the problem, whose pairs it has.
+    pub fn of_pairs(self) -> Solution {
+        self.of()
+    }
+
+    /// The same as the solution of a problem of which this is the general form.
+    pub(crate) fn of<Q>(self) -> Solution<Q> {
+        let Self {
+            status,
+            t,
+            y,
+            contact,
+            boxed,
+            basis,
+            residuals,
+            certificate,
+            condition,
+            trace,
+            info,
+            ..
+        } = self;
+        Solution {
+            status,
+            t,
+            y,
+            contact,
+            boxed,
+            basis,
+            residuals,
+            certificate,
+            condition,
+            trace,
+            info,
+            problem: PhantomData,
         }
     }
 
@@ -178,7 +236,7 @@ impl Solution {
     ///     let solution = Auto::default().solve(&lcp)?.into_result()?;
     ///     Ok(solution.t[0].max(solution.t[1]))
     /// }
-    /// assert_eq!(largest([-5.0, -4.0])?, 2.0);
+    /// assert!((largest([-5.0, -4.0])? - 2.0).abs() < 1e-15);
     /// let none = Lcp::new([[-1.0]], [-1.0])?;
     /// let unsolved = Auto::default().solve(&none)?.into_result().unwrap_err();
     /// assert_eq!(unsolved.solution.status, Status::Infeasible);
@@ -189,7 +247,11 @@ impl Solution {
     /// # Errors
     /// [`Unsolved`] with all that was found, if the status is not [`Status::Solved`].
     pub fn into_result(self) -> Result<Self, Unsolved> {
-        if self.is_solved() { Ok(self) } else { Err(Unsolved { solution: Box::new(self) }) }
+        if self.is_solved() {
+            Ok(self)
+        } else {
+            Err(Unsolved { solution: Box::new(self.of_pairs()) })
+        }
     }
 }
 

@@ -31,19 +31,32 @@ pub trait Solver<P> {
     /// The method.
     fn method(&self) -> Method;
 
+    /// Solves a problem for the pairs of its general form: what a method implements, and
+    /// [`solve_observed`](Self::solve_observed) gives as a solution of the problem.
+    ///
+    /// # Errors
+    /// As for [`solve_observed`](Self::solve_observed).
+    fn solve_pairs(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error>;
+
     /// Solves a problem, calling the observer before every sweep, step, program or pivot; `Break` stops with
     /// [`Status::Cancelled`], unless the point at hand is a solution.
     ///
     /// # Errors
     /// [`Error::NotTreated`] for a problem that the method cannot treat, and errors of the settings.
     /// Mathematical outcomes are in [`Solution::status`].
-    fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error>;
+    fn solve_observed(
+        &self,
+        problem: &P,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution<P>, Error> {
+        self.solve_pairs(problem, observer).map(Solution::of)
+    }
 
     /// Solves a problem.
     ///
     /// # Errors
     /// As for [`solve_observed`](Self::solve_observed).
-    fn solve(&self, problem: &P) -> Result<Solution, Error> {
+    fn solve(&self, problem: &P) -> Result<Solution<P>, Error> {
         self.solve_observed(problem, &mut |_| ControlFlow::Continue(()))
     }
 
@@ -60,7 +73,7 @@ pub trait Solver<P> {
     /// }
     /// # Ok::<(), lcp::Error>(())
     /// ```
-    fn solve_all(&self, problems: &[P]) -> Vec<Result<Solution, Error>>
+    fn solve_all(&self, problems: &[P]) -> Vec<Result<Solution<P>, Error>>
     where
         Self: Sized + Sync,
         P: Sync,

@@ -9,7 +9,7 @@ impl Lcp {
     ///
     /// # Panics
     /// If the answer is that of a problem of another size.
-    pub fn variables(&self, solution: &Solution) -> (Vec<f64>, Vec<f64>) {
+    pub fn variables(&self, solution: &Solution<Self>) -> (Vec<f64>, Vec<f64>) {
         let (t, y) = (&solution.t, &solution.y);
         assert!(t.len() == self.order() && y.len() == self.order(), "an answer of this problem");
         (t.clone(), y.clone())
@@ -21,7 +21,7 @@ impl MixedLcp {
     ///
     /// # Panics
     /// If the answer is that of a problem of another size.
-    pub fn variables(&self, solution: &Solution) -> (Vec<f64>, Vec<f64>) {
+    pub fn variables(&self, solution: &Solution<Self>) -> (Vec<f64>, Vec<f64>) {
         self.recover(&solution.t, &solution.y)
     }
 }
@@ -31,7 +31,7 @@ impl BoxedLcp {
     ///
     /// # Panics
     /// If the answer is that of a problem of another size.
-    pub fn variables(&self, solution: &Solution) -> (Vec<f64>, Vec<f64>) {
+    pub fn variables(&self, solution: &Solution<Self>) -> (Vec<f64>, Vec<f64>) {
         let recovered = || self.recover(&solution.t, &solution.y);
         solution.boxed.clone().unwrap_or_else(recovered)
     }
@@ -42,7 +42,7 @@ impl Friction2d {
     ///
     /// # Panics
     /// If the answer is that of a problem of another size.
-    pub fn variables(&self, solution: &Solution) -> ContactForces {
+    pub fn variables(&self, solution: &Solution<Self>) -> ContactForces {
         self.forces(&solution.t)
     }
 }
@@ -52,7 +52,7 @@ impl Contact2d {
     ///
     /// # Panics
     /// If the answer is that of a problem of another size.
-    pub fn variables(&self, solution: &Solution) -> ContactState {
+    pub fn variables(&self, solution: &Solution<Self>) -> ContactState {
         match &solution.contact {
             Some(state) => state.clone(),
             None => self.recover(&solution.t, &solution.y),

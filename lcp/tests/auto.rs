@@ -43,7 +43,7 @@ macro_rules! plan {
 mod plans;
 
 /// That the routes are those of the plan, as far as they go, and say what the solution says.
-fn assert_routes(solution: &Solution, plan: &[Method]) {
+fn assert_routes<P>(solution: &Solution<P>, plan: &[Method]) {
     let routes = &solution.info.routes;
     let names: Vec<_> = routes.iter().map(|route| route.method).collect();
     assert_eq!(names, plan[..names.len()]);
@@ -93,7 +93,7 @@ fn masses(count: usize, mu: f64, spring: f64) -> Contact2d {
     Contact2d::new(k, f, select(0), select(1), zeros.clone(), zeros, vec![mu; count]).unwrap()
 }
 
-fn assert_known(instance: &Known, solution: &Solution) {
+fn assert_known<P>(instance: &Known, solution: &Solution<P>) {
     match instance {
         Known::Unique { t, y } => {
             let pairs = t.iter().zip(&solution.t).chain(y.iter().zip(&solution.y));

@@ -24,7 +24,7 @@ use lcp::{HorizontalLcp, Solution};
 use methods::{AUTO, Treated};
 
 /// The answers that are called solved, by the name of their method. That of `Auto` must be one of them.
-fn solved<P: Treated>(problem: &P) -> Vec<(&'static str, Solution)> {
+fn solved<P: Treated>(problem: &P) -> Vec<(&'static str, Solution<P>)> {
     let mut solved = Vec::new();
     for (name, answer) in problem.answers() {
         match answer {

@@ -15,7 +15,7 @@ use proptest::prelude::*;
 fn found(problem: &Contact2d) -> [Option<ContactState>; 2] {
     let mixed = Solver::<Contact2d>::solve(&Lemke::default(), problem).expect("valid settings");
     let general = Lemke::default().solve(&problem.to_general()).expect("valid settings");
-    [mixed, general].map(|solution| {
+    [mixed.of_pairs(), general].map(|solution| {
         let state = problem.recover(&solution.t, &solution.y);
         let worst = problem.residuals(&state).worst();
         assert!(!solution.is_solved() || worst < 1e-12, "{worst}");

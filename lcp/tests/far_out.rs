@@ -45,7 +45,7 @@ fn contradictions() -> impl Strategy<Value = Contradiction> {
     })
 }
 
-fn is_solved(solution: Result<Solution, Error>) -> bool {
+fn is_solved<P>(solution: Result<Solution<P>, Error>) -> bool {
     solution.unwrap().is_solved()
 }
 

@@ -26,7 +26,7 @@ fn default() -> InteriorPointSettings {
     InteriorPointSettings::default()
 }
 
-fn solve(problem: &Contact2d) -> Solution {
+fn solve(problem: &Contact2d) -> Solution<Contact2d> {
     InteriorPoint::default().solve(problem).unwrap()
 }
 
@@ -280,7 +280,7 @@ fn a_membrane_over_an_obstacle() {
     let general = HorizontalLcp::from(problem.clone());
     let free = vec![false; problem.order()];
     let mixed = MixedLcp::new(problem.m().clone(), problem.q().to_vec(), free).unwrap();
-    for other in [route.solve(&general).unwrap(), route.solve(&mixed).unwrap()] {
+    for other in [route.solve(&general).unwrap(), route.solve(&mixed).unwrap().of_pairs()] {
         assert!(other.is_solved());
         assert_close(&other.t, &solution.t);
     }

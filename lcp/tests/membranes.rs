@@ -11,7 +11,7 @@ use lcp::{
 const GROUNDS: [Ground; 3] =
     [Ground::Disc { radius: 0.6 }, Ground::Hills { count: 1 }, Ground::Hills { count: 3 }];
 
-fn solve(problem: &Lcp, start: WarmStart) -> Solution {
+fn solve(problem: &Lcp, start: WarmStart) -> Solution<Lcp> {
     let settings = SemismoothNewtonSettings { start, ..Default::default() };
     let solution = SemismoothNewton::new(settings).solve(problem).unwrap();
     assert_eq!(solution.status, Status::Solved);
@@ -19,8 +19,8 @@ fn solve(problem: &Lcp, start: WarmStart) -> Solution {
 }
 
 /// On grids of these sizes, each from the solution on the one before.
-fn nested(sides: &[(usize, usize)], ground: Ground) -> Vec<(Obstacle, Solution)> {
-    let mut levels: Vec<(Obstacle, Solution)> = Vec::new();
+fn nested(sides: &[(usize, usize)], ground: Ground) -> Vec<(Obstacle, Solution<Lcp>)> {
+    let mut levels: Vec<(Obstacle, Solution<Lcp>)> = Vec::new();
     for &(columns, rows) in sides {
         let grid = Obstacle::new(columns, rows, ground);
         let start = levels.last().map_or(WarmStart::None, |(coarse, solution)| {

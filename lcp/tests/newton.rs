@@ -27,7 +27,7 @@ fn with_start(start: WarmStart) -> SemismoothNewton {
     SemismoothNewton::new(SemismoothNewtonSettings { start, ..Default::default() })
 }
 
-fn solve(lcp: &Lcp) -> Solution {
+fn solve(lcp: &Lcp) -> Solution<Lcp> {
     SemismoothNewton::default().solve(lcp).unwrap()
 }
 
@@ -43,7 +43,7 @@ fn difference(found: &[f64], expected: &[f64]) -> f64 {
 }
 
 /// What every answer owes: finite, and solved only with small residuals and no sign wrong.
-fn assert_honest(lcp: &Lcp, solution: &Solution, tolerance: f64) {
+fn assert_honest<P>(lcp: &Lcp, solution: &Solution<P>, tolerance: f64) {
     let (z, w) = (&solution.t, &solution.y);
     assert!(z.iter().chain(w).all(|v| v.is_finite()));
     let residuals = lcp.residuals(z, w);

@@ -10,7 +10,7 @@ use lcp::{
 };
 use proptest::prelude::*;
 
-fn auto<P>(problem: &P) -> Solution
+fn auto<P>(problem: &P) -> Solution<P>
 where
     Auto: Solver<P>,
 {

@@ -54,7 +54,7 @@ fn sparse(m: &Mat<f64>) -> Matrix {
 }
 
 /// A point that is called solved must be one, and none may hold anything but numbers.
-fn check_honest(solution: &Solution, problem: &HorizontalLcp, tolerance: f64) {
+fn check_honest<P>(solution: &Solution<P>, problem: &HorizontalLcp, tolerance: f64) {
     let residuals = problem.residuals(&solution.t, &solution.y);
     assert!(solution.t.iter().chain(&solution.y).all(|v| v.is_finite()));
     let worst = solution.residuals.worst();
@@ -206,10 +206,12 @@ fn growth_ends_in_numbers() {
 
 #[test]
 fn rows_that_cannot_be_relaxed_are_named() {
-    let reason = |result: Result<Solution, Error>| match result {
-        Err(Error::NotTreated { method: Method::GaussSeidel, reason }) => reason,
-        other => panic!("{other:?}"),
-    };
+    fn reason<P>(result: Result<Solution<P>, Error>) -> String {
+        match result {
+            Err(Error::NotTreated { method: Method::GaussSeidel, reason }) => reason,
+            other => panic!("{other:?}"),
+        }
+    }
     let zero = Lcp::new(mat![[1.0, 1.0], [-1.0, 0.0]], vec![-1.0, 1.0]).unwrap();
     assert!(reason(to(1e-8).solve(&zero)).starts_with("row 1 has the diagonal entry 0"));
     let negative = Lcp::new(mat![[-2.0]], vec![1.0]).unwrap();

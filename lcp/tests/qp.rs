@@ -25,12 +25,12 @@ fn with_tolerance(tolerance: f64) -> QuadraticProgram {
     QuadraticProgram::new(QuadraticProgramSettings { tolerance, ..Default::default() })
 }
 
-fn solve_lcp(lcp: &Lcp, tolerance: f64) -> Solution {
+fn solve_lcp(lcp: &Lcp, tolerance: f64) -> Solution<Lcp> {
     with_tolerance(tolerance).solve(lcp).unwrap()
 }
 
 /// Solved, by residuals computed anew.
-fn assert_solved(problem: &HorizontalLcp, solution: &Solution, tolerance: f64) {
+fn assert_solved<P>(problem: &HorizontalLcp, solution: &Solution<P>, tolerance: f64) {
     assert_eq!(solution.status, Status::Solved, "{:?} {:?}", solution.residuals, solution.info);
     assert!(problem.residuals(&solution.t, &solution.y).worst() <= tolerance);
 }

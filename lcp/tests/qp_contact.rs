@@ -25,7 +25,7 @@ use quadratic::{TOLERANCES, assert_proof, gram, near, settings};
 fn solve_contact(
     contact: &Contact2d,
     settings: QuadraticProgramSettings,
-) -> (ContactState, Solution) {
+) -> (ContactState, Solution<Contact2d>) {
     let tolerance = settings.tolerance;
     let solution = QuadraticProgram::new(settings).solve(contact).unwrap();
     let state = contact.recover(&solution.t, &solution.y);

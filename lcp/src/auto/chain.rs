@@ -173,7 +173,7 @@ mod tests {
             self.0
         }
 
-        fn solve_observed(&self, _: &Refused, _: &mut Observer<'_>) -> Result<Solution, Error> {
+        fn solve_pairs(&self, _: &Refused, _: &mut Observer<'_>) -> Result<Solution, Error> {
             let reason = format!("{} is not at home", self.method());
             Err(Error::NotTreated { method: self.method(), reason })
         }
@@ -194,7 +194,8 @@ mod tests {
     #[test]
     fn a_proof_says_more_than_a_point_that_is_near_and_a_stall_less() {
         let lcp = Lcp::new(mat![[2.0]], vec![-1.0]).expect("one number each");
-        let solved = Solver::<Lcp>::solve(&Auto::default(), &lcp).expect("valid settings");
+        let solved =
+            Solver::<Lcp>::solve(&Auto::default(), &lcp).expect("valid settings").of_pairs();
         let with = |status, residual: f64| {
             let mut solution = solved.clone();
             (solution.status, solution.residuals.equation) = (status, residual);

@@ -20,7 +20,7 @@ impl<P: General> Solver<P> for Enumeration {
         Method::Enumeration
     }
 
-    fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
+    fn solve_pairs(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         let general = problem.general();
         let n = general.order();
         if n > MOST_PAIRS {

@@ -88,7 +88,7 @@ pub(super) fn attempt<P: Planned>(
         method,
         reason: "it is not in the chain of this problem".to_owned(),
     })?;
-    solver.solve_observed(problem, observer)
+    solver.solve_pairs(problem, observer)
 }
 
 /// What a method gets.

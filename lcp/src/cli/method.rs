@@ -23,10 +23,10 @@ use crate::{
 macro_rules! in_a_form {
     ($solver:expr, $problem:expr, $($own:ident)|+ $(, standard of $standard:ident)?) => {
         match $problem {
-            $(Problem::$own(problem) => $solver.solve(problem),)+
+            $(Problem::$own(problem) => $solver.solve(problem).map(Solution::of_pairs),)+
             $(Problem::$standard(problem) => {
                 let solution = $solver.solve(problem.standard());
-                solution.map(|it| judged_by(problem, it, $solver.settings().tolerance))
+                solution.map(|it| judged_by(problem, it.of_pairs(), $solver.settings().tolerance))
             })?
             other => {
                 let solution = $solver.solve(&other.to_general());
@@ -183,12 +183,12 @@ where
         + Solver<Contact2d>,
 {
     match problem {
-        Problem::Lcp(problem) => solver.solve(problem),
+        Problem::Lcp(problem) => solver.solve(problem).map(Solution::of_pairs),
         Problem::Horizontal(problem) => solver.solve(problem),
-        Problem::Mixed(problem) => solver.solve(problem),
-        Problem::Boxed(problem) => solver.solve(problem),
-        Problem::Friction(problem) => solver.solve(problem),
-        Problem::Contact(problem) => solver.solve(problem),
+        Problem::Mixed(problem) => solver.solve(problem).map(Solution::of_pairs),
+        Problem::Boxed(problem) => solver.solve(problem).map(Solution::of_pairs),
+        Problem::Friction(problem) => solver.solve(problem).map(Solution::of_pairs),
+        Problem::Contact(problem) => solver.solve(problem).map(Solution::of_pairs),
     }
 }
 

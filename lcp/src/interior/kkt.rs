@@ -132,7 +132,7 @@ mod tests {
         MixedLcp::new(m, q, vec![true, true, false, false, false]).unwrap()
     }
 
-    fn solved(problem: &MixedLcp) -> Solution {
+    fn solved(problem: &MixedLcp) -> Solution<MixedLcp> {
         let settings = InteriorPointSettings { crossover: false, ..Default::default() };
         InteriorPoint::new(settings).solve(problem).unwrap()
     }

@@ -12,7 +12,7 @@ impl Solver<Contact2d> for InteriorPoint {
         Method::Interior
     }
 
-    fn solve_observed(
+    fn solve_pairs(
         &self,
         problem: &Contact2d,
         observer: &mut Observer<'_>,
@@ -31,7 +31,7 @@ impl Solver<MixedLcp> for InteriorPoint {
         Method::Interior
     }
 
-    fn solve_observed(
+    fn solve_pairs(
         &self,
         problem: &MixedLcp,
         observer: &mut Observer<'_>,
@@ -50,11 +50,7 @@ impl Solver<Lcp> for InteriorPoint {
         Method::Interior
     }
 
-    fn solve_observed(
-        &self,
-        problem: &Lcp,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
+    fn solve_pairs(&self, problem: &Lcp, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         let free = vec![false; problem.order()];
         let mixed = MixedLcp::new(problem.m().clone(), problem.q().to_vec(), free)?;
         self.run(&mixed, observer)
@@ -66,12 +62,12 @@ impl Solver<Friction2d> for InteriorPoint {
         Method::Interior
     }
 
-    fn solve_observed(
+    fn solve_pairs(
         &self,
         problem: &Friction2d,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        let solution = self.solve_observed(problem.standard(), observer)?;
+        let solution = self.solve_pairs(problem.standard(), observer)?;
         Ok(judged_by(problem, solution, self.settings.tolerance))
     }
 }
@@ -82,7 +78,7 @@ impl Solver<HorizontalLcp> for InteriorPoint {
         Method::Interior
     }
 
-    fn solve_observed(
+    fn solve_pairs(
         &self,
         problem: &HorizontalLcp,
         observer: &mut Observer<'_>,
@@ -100,7 +96,7 @@ impl Solver<HorizontalLcp> for InteriorPoint {
         let (start, tolerance) = (&self.settings.start, self.settings.tolerance);
         solve_in_standard_form(problem, start, tolerance, refused, |lcp, start| {
             let settings = InteriorPointSettings { start, ..self.settings.clone() };
-            Self::new(settings).solve_observed(lcp, observer)
+            Self::new(settings).solve_pairs(lcp, observer)
         })
     }
 }
@@ -111,7 +107,7 @@ impl Solver<BoxedLcp> for InteriorPoint {
         Method::Interior
     }
 
-    fn solve_observed(
+    fn solve_pairs(
         &self,
         problem: &BoxedLcp,
         observer: &mut Observer<'_>,
@@ -119,7 +115,7 @@ impl Solver<BoxedLcp> for InteriorPoint {
         let InteriorPointSettings { start, tolerance, .. } = &self.settings;
         solve_in_mixed_form(problem, start, *tolerance, |mixed, start| {
             let settings = InteriorPointSettings { start, ..self.settings.clone() };
-            Self::new(settings).solve_observed(mixed, observer)
+            Self::new(settings).solve_pairs(mixed, observer)
         })
     }
 }

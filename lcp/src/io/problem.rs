@@ -116,7 +116,7 @@ impl Problem {
     /// The state of an answer, of the kind that has one.
     pub(crate) fn state(&self, solution: &Solution) -> Option<ContactState> {
         match self {
-            Self::Contact(problem) => Some(problem.variables(solution)),
+            Self::Contact(problem) => Some(problem.variables(&solution.clone().of())),
             _ => None,
         }
     }

@@ -31,7 +31,7 @@ impl<P: Converted> Solver<P> for Lemke {
         Method::Lemke
     }
 
-    fn solve_observed(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
+    fn solve_pairs(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         solve_in_general_form(problem, self.settings().tolerance, |general, is_other| {
             if is_other {
                 // A start and a covering vector have the pairs of the problem as it was given.
@@ -52,7 +52,7 @@ impl Solver<Contact2d> for Lemke {
         Method::Lemke
     }
 
-    fn solve_observed(
+    fn solve_pairs(
         &self,
         problem: &Contact2d,
         observer: &mut Observer<'_>,

@@ -1,6 +1,7 @@
 //! The attempts on one problem, and what they come to.
 
 use std::borrow::Cow;
+use std::marker::PhantomData;
 use std::ops::ControlFlow;
 use web_time::Instant;
 
@@ -458,6 +459,7 @@ impl<'a> Search<'a> {
             condition: Some(condition),
             trace: self.trace,
             info: self.info,
+            problem: PhantomData,
         }
     }
 
@@ -479,6 +481,7 @@ impl<'a> Search<'a> {
             condition: None,
             trace: self.trace,
             info: self.info,
+            problem: PhantomData,
         }
     }
 }

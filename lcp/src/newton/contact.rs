@@ -17,7 +17,7 @@ impl Solver<Contact2d> for SemismoothNewton {
         Method::Newton
     }
 
-    fn solve_observed(
+    fn solve_pairs(
         &self,
         problem: &Contact2d,
         observer: &mut Observer<'_>,

@@ -2,7 +2,7 @@
 //! and the interior-point method.
 
 use faer::Mat;
-use lcp::{Error, HorizontalLcp, InteriorPoint, MixedLcp, Solver};
+use lcp::{Error, HorizontalLcp, InteriorPoint, MixedLcp, Solution, Solver};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -79,7 +79,8 @@ proptest! {
             routes.push((Route::Program, Box::new(super::routes::program(tolerance))));
             for route in &routes {
                 let is_refused = route.0 == Route::Program && !is_symmetric;
-                found.extend(solved(route, &mixed, if is_refused { Refusal } else { Solves }));
+                let owes = if is_refused { Refusal } else { Solves };
+                found.extend(solved(route, &mixed, owes).map(Solution::of_pairs));
             }
             for solution in found {
                 let solver = solution.info.method;

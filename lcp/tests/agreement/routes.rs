@@ -101,7 +101,7 @@ pub(crate) fn solved<P>(
     (route, solver): &(Route, Box<dyn Solver<P>>),
     problem: &P,
     owes: Owes,
-) -> Option<Solution> {
+) -> Option<Solution<P>> {
     let solution = match (solver.solve(problem), owes) {
         (Err(Error::NotTreated { .. }), Owes::Refusal) => return None,
         (Ok(solution), Owes::Solution | Owes::Honesty) => solution,

@@ -242,7 +242,7 @@ fn error_of_unique_part(planted: &Planted, z: &[f64]) -> f64 {
 fn check<P>(
     planted: &Planted,
     problem: &P,
-    restore: impl Fn(&Solution) -> Pairs,
+    restore: impl Fn(&Solution<P>) -> Pairs,
     routes: impl Fn(f64) -> Routes<P>,
 ) {
     let m = planted.lcp.m().to_dense();

@@ -34,7 +34,7 @@ fn a_ray_beside_a_solution() {
 
 /// The proof in exact arithmetic: `-pi.M <= 0`, `pi <= 0` and `pi.q > 0`. What the first misses by rounding leaves no
 /// room for points within a million times the right-hand side.
-fn assert_proved(lcp: &Lcp, solution: &Solution) {
+fn assert_proved(lcp: &Lcp, solution: &Solution<Lcp>) {
     let pi: Vec<RBig> = solution.farkas().unwrap().iter().map(|pi| exact(*pi)).collect();
     let n = pi.len();
     let product = |entry: &dyn Fn(usize) -> f64| {

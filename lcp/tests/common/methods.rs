@@ -19,7 +19,7 @@ pub(crate) trait Treated: Sized {
     fn methods() -> Vec<Named<Self>>;
 
     /// The answers of all methods.
-    fn answers(&self) -> Vec<(&'static str, Result<Solution, Error>)> {
+    fn answers(&self) -> Vec<(&'static str, Result<Solution<Self>, Error>)> {
         Self::methods().into_iter().map(|(name, method)| (name, method.solve(self))).collect()
     }
 }

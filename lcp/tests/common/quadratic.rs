@@ -19,7 +19,7 @@ pub(crate) fn gram(entries: &[f64], n: usize, rank: usize) -> Mat<f64> {
     &c * c.transpose()
 }
 
-pub(crate) fn assert_proof(problem: &HorizontalLcp, solution: &Solution) {
+pub(crate) fn assert_proof<P>(problem: &HorizontalLcp, solution: &Solution<P>) {
     let pi = solution.farkas().unwrap();
     for matrix in [problem.a(), problem.b()] {
         for j in 0..problem.order() {

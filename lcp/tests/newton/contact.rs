@@ -17,7 +17,7 @@ fn settings() -> SemismoothNewtonSettings {
     SemismoothNewtonSettings::default()
 }
 
-fn by(problem: &Contact2d, settings: SemismoothNewtonSettings) -> Solution {
+fn by(problem: &Contact2d, settings: SemismoothNewtonSettings) -> Solution<Contact2d> {
     SemismoothNewton::new(settings).solve(problem).unwrap()
 }
 

@@ -45,13 +45,17 @@ pub(crate) enum Problem {
 impl Problem {
     /// The answers of all methods.
     pub(crate) fn answers(&self) -> Vec<(&'static str, Result<Solution, Error>)> {
+        fn in_pairs<P: Treated>(problem: &P) -> Vec<(&'static str, Result<Solution, Error>)> {
+            let answers = problem.answers().into_iter();
+            answers.map(|(name, answer)| (name, answer.map(Solution::of_pairs))).collect()
+        }
         match self {
-            Self::General(problem) => problem.answers(),
-            Self::Standard(problem) => problem.answers(),
-            Self::Mixed(problem) => problem.answers(),
-            Self::Boxed(problem) => problem.answers(),
-            Self::Friction(problem) => problem.answers(),
-            Self::Contact(problem) => problem.answers(),
+            Self::General(problem) => in_pairs(problem),
+            Self::Standard(problem) => in_pairs(problem),
+            Self::Mixed(problem) => in_pairs(problem),
+            Self::Boxed(problem) => in_pairs(problem),
+            Self::Friction(problem) => in_pairs(problem),
+            Self::Contact(problem) => in_pairs(problem),
         }
     }
 

@@ -53,7 +53,7 @@ impl Method for Interior<'_> {
 }
 
 impl Interior<'_> {
-    fn answer(&self, solution: Solution) -> Answer {
+    fn answer(&self, solution: Solution<Contact2d>) -> Answer {
         sparse::answer(Route::Interior, self.sparse, Found::of(self.sparse, solution), None)
     }
 

@@ -1,6 +1,6 @@
 //! What the routes on the sparse problem have in common: answers in the shape of all routes.
 
-use lcp::{ContactState, Residuals, Solution, Status};
+use lcp::{Contact2d, ContactState, Residuals, Solution, Status};
 
 use super::{Answer, Motion};
 use crate::method::forms::Sparse;
@@ -31,7 +31,7 @@ pub(crate) struct Found {
 }
 
 impl Found {
-    pub(crate) fn of(sparse: &Sparse, solution: Solution) -> Self {
+    pub(crate) fn of(sparse: &Sparse, solution: Solution<Contact2d>) -> Self {
         Self {
             proof: solution.farkas().map(<[f64]>::to_vec),
             status: solution.status,

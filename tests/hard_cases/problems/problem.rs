@@ -79,12 +79,12 @@ impl Problem {
             _ => self.clone(),
         };
         Some(match &stored {
-            Self::Standard(problem) => solver(method, lemke)?.solve(problem),
-            Self::General(problem) => solver(method, lemke)?.solve(problem),
-            Self::Mixed(problem) => solver(method, lemke)?.solve(problem),
-            Self::Boxed(problem) => solver(method, lemke)?.solve(problem),
-            Self::Contact(problem) => solver(method, lemke)?.solve(problem),
-            Self::Friction(problem) => solver(method, lemke)?.solve(problem),
+            Self::Standard(problem) => in_pairs(&*solver(method, lemke)?, problem),
+            Self::General(problem) => in_pairs(&*solver(method, lemke)?, problem),
+            Self::Mixed(problem) => in_pairs(&*solver(method, lemke)?, problem),
+            Self::Boxed(problem) => in_pairs(&*solver(method, lemke)?, problem),
+            Self::Contact(problem) => in_pairs(&*solver(method, lemke)?, problem),
+            Self::Friction(problem) => in_pairs(&*solver(method, lemke)?, problem),
         })
     }
 
@@ -111,6 +111,10 @@ impl Problem {
             ),
         })
     }
+}
+
+fn in_pairs<P>(solver: &dyn Solver<P>, problem: &P) -> Result<Solution, Error> {
+    solver.solve(problem).map(Solution::of_pairs)
 }
 
 fn stored(matrix: &Matrix, sparse: bool) -> Matrix {

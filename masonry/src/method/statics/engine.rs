@@ -28,7 +28,7 @@ impl Engine {
         program: &MixedLcp,
         max_iterations: usize,
         observer: &mut Observer<'_>,
-    ) -> Result<Solution, lcp::Error> {
+    ) -> Result<Solution<MixedLcp>, lcp::Error> {
         let observer = &mut |at: &Iteration| observer(at);
         let (tolerance, crossover) = match self {
             Self::Inside => (INSIDE, false),
