@@ -15,6 +15,7 @@ pub(crate) struct Line {
     pub(crate) residual: f64,
     /// The method that found the answer.
     pub(crate) method: String,
+    /// Of all methods that were tried.
     pub(crate) pivots: usize,
     pub(crate) factorisations: usize,
 }
@@ -24,13 +25,14 @@ impl Line {
         // A proof makes its verdict another one.
         let proof = if solution.certificate.is_some() { ", proved" } else { "" };
         let is_proved = solution.status != Status::Solved && !proof.is_empty();
+        let routes = &solution.info.routes;
         Self {
             case,
             end: format!("{}{}", solution.status, if is_proved { proof } else { "" }),
             residual: solution.residuals.worst(),
             method: format!("{:?}", solution.info.method),
-            pivots: solution.info.pivots,
-            factorisations: solution.info.factorisations,
+            pivots: routes.iter().map(|route| route.pivots).sum(),
+            factorisations: routes.iter().map(|route| route.factorisations).sum(),
         }
     }
 

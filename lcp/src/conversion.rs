@@ -185,7 +185,7 @@ fn with_all_digits<P: Converted>(
         return Ok(solution);
     };
     let mut right = problem.with_between(&between, &solve(&equations)?, &solution);
-    right.status = right.residuals.verdict(tolerance, Status::AlmostSolved);
+    right.judge_again(right.residuals, tolerance);
     let is_better = right.residuals.worst() < solution.residuals.worst();
     Ok(if is_better { right } else { solution })
 }
@@ -227,9 +227,6 @@ pub(crate) fn judged_by(
     mut solution: Solution,
     tolerance: f64,
 ) -> Solution {
-    solution.residuals = problem.residuals_of_pairs(&solution.t, &solution.y);
-    if matches!(solution.status, Status::Solved | Status::AlmostSolved) {
-        solution.status = solution.residuals.verdict(tolerance, Status::AlmostSolved);
-    }
+    solution.judge_again(problem.residuals_of_pairs(&solution.t, &solution.y), tolerance);
     solution
 }

@@ -33,11 +33,18 @@ pub trait Divide: General + Sized {
     /// they connect all of it.
     fn parts(&self) -> Option<Vec<Part<Self>>>;
 
-    /// Gives the answer of the whole, whose pairs are those of its parts, what else it has of them: variables with
-    /// all their digits. Returns its residuals.
-    fn join(&self, whole: &mut Solution, _answers: &[(Part<Self>, Solution)]) -> Residuals {
-        self.residuals_of_pairs(&whole.t, &whole.y)
+    /// The point of the whole with these pairs, which are those of its parts.
+    fn join(&self, t: &[f64], y: &[f64], _answers: &[(Part<Self>, Solution)]) -> Joined {
+        let residuals = self.residuals_of_pairs(t, y);
+        Joined { residuals, contact: None, boxed: None }
     }
+}
+
+/// A point of the whole: its variables with all their digits, as a [`Solution`] has them.
+pub struct Joined {
+    pub(crate) residuals: Residuals,
+    pub(crate) contact: Option<ContactState>,
+    pub(crate) boxed: Option<(Vec<f64>, Vec<f64>)>,
 }
 
 impl<P> Part<P> {
@@ -156,8 +163,8 @@ impl Divide for BoxedLcp {
         groups_of(self.m())?.into_iter().map(part).collect()
     }
 
-    fn join(&self, whole: &mut Solution, answers: &[(Part<Self>, Solution)]) -> Residuals {
-        let (mut z, mut w) = self.recover(&whole.t, &whole.y);
+    fn join(&self, t: &[f64], y: &[f64], answers: &[(Part<Self>, Solution)]) -> Joined {
+        let (mut z, mut w) = self.recover(t, y);
         for (part, answer) in answers {
             let variables = &part.pairs[..part.problem.order()];
             let recovered = || part.problem.recover(&answer.t, &answer.y);
@@ -165,9 +172,7 @@ impl Divide for BoxedLcp {
             put(variables, &of_z, &mut z);
             put(variables, &of_w, &mut w);
         }
-        let residuals = self.residuals(&z, &w);
-        whole.boxed = Some((z, w));
-        residuals
+        Joined { residuals: self.residuals(&z, &w), contact: None, boxed: Some((z, w)) }
     }
 }
 
@@ -225,15 +230,13 @@ impl Divide for Contact2d {
         groups_of_parts(parts)?.into_iter().map(part).collect()
     }
 
-    fn join(&self, whole: &mut Solution, answers: &[(Part<Self>, Solution)]) -> Residuals {
-        let mut state = self.recover(&whole.t, &whole.y);
+    fn join(&self, t: &[f64], y: &[f64], answers: &[(Part<Self>, Solution)]) -> Joined {
+        let mut state = self.recover(t, y);
         for (part, answer) in answers {
             let recovered = || part.problem.recover(&answer.t, &answer.y);
             part.put_state(&answer.contact.clone().unwrap_or_else(recovered), &mut state);
         }
-        let residuals = self.residuals(&state);
-        whole.contact = Some(state);
-        residuals
+        Joined { residuals: self.residuals(&state), contact: Some(state), boxed: None }
     }
 }
 

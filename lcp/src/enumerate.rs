@@ -31,9 +31,16 @@ const NEAR: f64 = 1e-6;
 /// When to give up.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Limits {
-    /// Nodes of the tree.
-    pub(crate) nodes: usize,
+    /// Exchanges of columns in the least squares of all nodes.
+    pub(crate) exchanges: usize,
     pub(crate) deadline: Option<Instant>,
+}
+
+/// What was found, and after how many exchanges.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Outcome {
+    pub(crate) found: Enumerated,
+    pub(crate) exchanges: usize,
 }
 
 /// What was found.
@@ -50,17 +57,18 @@ pub(crate) enum Enumerated {
 }
 
 /// A solution, or a proof that there is none.
-pub(crate) fn enumerate(problem: &HorizontalLcp, limits: Limits) -> Enumerated {
+pub(crate) fn enumerate(problem: &HorizontalLcp, limits: Limits) -> Outcome {
     let n = problem.order();
-    let mut search = Search { tree: Tree::new(problem), limits, nodes: 0, proofs: Vec::new() };
-    match search.visit(&vec![None; n], &vec![Extended::ZERO; 2 * n]) {
+    let mut search = Search { tree: Tree::new(problem), limits, proofs: Vec::new() };
+    let found = match search.visit(&vec![None; n], &vec![Extended::ZERO; 2 * n]) {
         Err(end) => end,
         Ok(None) => Enumerated::Open,
         Ok(Some(mut leaves)) => match leaves.pop() {
             Some(root) if leaves.is_empty() => Enumerated::Infeasible(root.pi),
             last => Enumerated::NoSolution(leaves.into_iter().chain(last).collect()),
         },
-    }
+    };
+    Outcome { found, exchanges: search.tree.linear.exchanges.get() }
 }
 
 /// A checked Farkas vector of the linear conditions, by the first node alone.
@@ -97,7 +105,6 @@ impl Proof {
 struct Search<'a> {
     tree: Tree<'a>,
     limits: Limits,
-    nodes: usize,
     proofs: Vec<Proof>,
 }
 
@@ -113,11 +120,11 @@ impl Search<'_> {
                 return Ok(leaves.map(|leaves| joined(sides, pair, vec![other], leaves)));
             }
         }
-        self.nodes += 1;
-        if self.nodes > self.limits.nodes || is_over(self.limits.deadline) {
+        let tree = &self.tree;
+        let Limits { exchanges, deadline } = self.limits;
+        if tree.linear.exchanges.get() > exchanges || is_over(deadline) {
             return Err(Enumerated::Open);
         }
-        let tree = &self.tree;
         let Some(minimum) = tree.minimum(sides, start) else { return Ok(None) };
         if let Some(proof) = tree.proof(sides, &minimum) {
             let leaf = proof.leaf(sides);
@@ -253,7 +260,7 @@ impl<'a> Tree<'a> {
             factors = factors.into_iter().map(|factor| factor * unit).collect();
         }
         let is_free = ratios.iter().map(Option::is_some).collect();
-        Self { problem, judge, rows, factors, is_free, linear: LeastSquares { columns, right } }
+        Self { problem, judge, rows, factors, is_free, linear: LeastSquares::new(columns, right) }
     }
 
     /// The least squares of the linear conditions of a node; `None` if rounding is in the way.

@@ -6,6 +6,8 @@
 //! `r = c - sum x_j a_j` has `r . a_j <= 0` for all columns and `r . c = |r|^2`: where it is not zero, it
 //! proves that `c` is no nonnegative combination of the columns.
 
+use std::cell::Cell;
+
 use crate::extended::{Extended, extended};
 
 /// Rounding of sums in [`Extended`], relative to the sizes of what they come from.
@@ -17,6 +19,8 @@ const STEPS: usize = 10;
 pub(crate) struct LeastSquares {
     pub(crate) columns: Vec<Vec<f64>>,
     pub(crate) right: Vec<f64>,
+    /// Columns that were made orthogonal to others so far, which is what the work is proportional to.
+    pub(crate) exchanges: Cell<usize>,
 }
 
 /// The minimum.
@@ -29,6 +33,10 @@ pub(crate) struct Minimum {
 }
 
 impl LeastSquares {
+    pub(crate) fn new(columns: Vec<Vec<f64>>, right: Vec<f64>) -> Self {
+        Self { columns, right, exchanges: Cell::new(0) }
+    }
+
     /// The minimum over the allowed columns, from nonnegative values that are zero for the others. `None`
     /// where rounding errors keep it from ending.
     pub(crate) fn solve(&self, is_allowed: &[bool], start: &[Extended]) -> Option<Minimum> {
@@ -40,11 +48,16 @@ impl LeastSquares {
             let Some(entering) = self.entering(is_allowed, &passive, &x, &residual) else {
                 return Some(Minimum { x, residual });
             };
-            if !passive.add(entering, &self.columns[entering]) {
+            if !self.add(&mut passive, entering) {
                 return None;
             }
         }
         None
+    }
+
+    fn add(&self, passive: &mut Passive, j: usize) -> bool {
+        self.exchanges.set(self.exchanges.get() + 1);
+        passive.add(j, &self.columns[j])
     }
 
     /// To the minimum over the passive columns without a bound, or as far as all values stay
@@ -73,8 +86,8 @@ impl LeastSquares {
     /// The columns with positive values, where these depend on each other as many as are independent.
     fn take(&self, passive: &mut Passive, x: &mut [Extended]) {
         *passive = Passive::default();
-        for (j, (x, column)) in x.iter_mut().zip(&self.columns).enumerate() {
-            if *x > Extended::ZERO && !passive.add(j, column) {
+        for (j, x) in x.iter_mut().enumerate() {
+            if *x > Extended::ZERO && !self.add(passive, j) {
                 *x = Extended::ZERO;
             }
         }
@@ -228,10 +241,8 @@ mod tests {
     use super::*;
 
     fn minimum(columns: &[&[f64]], right: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let problem = LeastSquares {
-            columns: columns.iter().map(|column| column.to_vec()).collect(),
-            right: right.to_vec(),
-        };
+        let columns_of = columns.iter().map(|column| column.to_vec()).collect();
+        let problem = LeastSquares::new(columns_of, right.to_vec());
         let count = columns.len();
         let found = problem.solve(&vec![true; count], &vec![Extended::ZERO; count]);
         let Minimum { x, residual } = found.expect("it ends");

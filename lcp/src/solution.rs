@@ -53,6 +53,12 @@ pub struct Route {
     pub reason: String,
     /// How it ended.
     pub end: RouteEnd,
+    /// Its pivots, as in [`Info::pivots`].
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub pivots: usize,
+    /// Its factorisations, as in [`Info::factorisations`].
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub factorisations: usize,
     /// Wall-clock time \[s\].
     pub seconds: f64,
 }
@@ -65,7 +71,7 @@ pub struct Info {
     /// The method that found the point.
     #[cfg_attr(feature = "serde", serde(rename = "solver"))]
     pub method: Method,
-    /// Pivots over all attempts.
+    /// Pivots over all attempts; of enumeration the exchanges of columns in its least squares problems.
     pub pivots: usize,
     /// Sweeps, steps, or programs of a method that has no pivots. For `QuadraticProgram` these are programs, or
     /// re-centrings of soft springs, not the iterations within a program, which its `max_iterations` limits.
@@ -165,6 +171,32 @@ impl Solution {
             info: Info::default(),
             problem: PhantomData,
         }
+    }
+
+    /// Judges by the residuals of the given problem the point of a method that solved another form of it. A limit, a
+    /// proof or a ray stays.
+    pub(crate) fn judge_again(&mut self, residuals: Residuals, tolerance: f64) {
+        self.residuals = residuals;
+        let is_of_point =
+            matches!(self.status, Status::Solved | Status::AlmostSolved | Status::NumericalTrouble);
+        if is_of_point {
+            self.status = residuals.verdict(tolerance, Status::AlmostSolved);
+        }
+    }
+
+    /// The best answer of methods that a limit or the observer stopped.
+    pub(crate) fn stopped(self, status: Status) -> Self {
+        Self { status, ..self }
+    }
+
+    /// With a checked proof, which says more than the point.
+    pub(crate) fn proved(self, proof: Certificate) -> Self {
+        let status = match proof {
+            Certificate::Farkas { .. } => Status::Infeasible,
+            Certificate::Choices { .. } => Status::NoSolution,
+            Certificate::Ray(_) => Status::RayTermination,
+        };
+        Self { status, certificate: Some(proof), ..self }
     }
 }
 

@@ -41,17 +41,26 @@ pub(super) fn run<P: Planned>(
         let AutoSettings { tolerance, start, .. } = settings;
         let effort = Effort { tolerance: *tolerance, time_limit, max_attempts, start };
         let route_began = Instant::now();
-        let (end, solution) = match attempt(problem, step.method, &effort, observer) {
-            Ok(solution) => {
-                let residual = solution.residuals.worst();
-                (RouteEnd::Ended { status: solution.status, residual }, Some(solution))
-            }
-            Err(Error::NotTreated { reason, .. }) => (RouteEnd::Refused { reason }, None),
-            Err(error) => return Err(error),
+        let answer = match attempt(problem, step.method, &effort, observer) {
+            Err(Error::NotTreated { reason, .. }) => Err(reason),
+            answer => Ok(answer?),
         };
-        let seconds = route_began.elapsed().as_secs_f64();
-        routes.push(Route { method: step.method, reason: step.reason, end, seconds });
-        let Some(solution) = solution else { continue };
+        let end = match &answer {
+            Ok(Solution { status, residuals, .. }) => {
+                RouteEnd::Ended { status: *status, residual: residuals.worst() }
+            }
+            Err(reason) => RouteEnd::Refused { reason: reason.clone() },
+        };
+        let info = answer.as_ref().map(|it| &it.info);
+        routes.push(Route {
+            method: step.method,
+            reason: step.reason,
+            end,
+            pivots: info.map_or(0, |it| it.pivots),
+            factorisations: info.map_or(0, |it| it.factorisations),
+            seconds: route_began.elapsed().as_secs_f64(),
+        });
+        let Ok(solution) = answer else { continue };
         let (is_last, status) = (is_final(&solution), solution.status);
         best = Some(better(best, solution, settings.tolerance));
         if is_last {
@@ -66,7 +75,7 @@ pub(super) fn run<P: Planned>(
         && is_open
         && solution.status != Status::AlmostSolved
     {
-        solution.status = status;
+        solution = solution.stopped(status);
     }
     solution.info.routes = routes;
     solution.info.seconds = began.elapsed().as_secs_f64();

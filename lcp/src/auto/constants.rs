@@ -19,9 +19,8 @@ pub(super) const TRIAL: usize = 100;
 pub(super) const FEW_PAIRS: usize = 18;
 /// Pairs at most, free variables included, whose tree is gone through. Measured: a node of 100 takes 10 ms.
 pub(super) const MOST_PAIRS: usize = 100;
-/// Nodes of the tree times the cube of the order, which is the work of a node. Measured: 5 s at 30
-/// pairs, 20 s at 60.
-pub(super) const WORK: usize = 500_000_000;
+/// Exchanges of columns times the square of the order, which is the work of an exchange. Measured: 3 s.
+pub(super) const WORK: usize = 200_000_000;
 /// More independent parts than these are small, and all of them together are one problem that is solved in the time of
 /// some small ones: they are taken one by one only where that fails. Chosen.
 pub(super) const MANY_PARTS: usize = 256;

@@ -6,7 +6,7 @@ use super::AutoSettings;
 use super::chain::{self, Rank};
 use super::constants::MANY_PARTS;
 use super::method::{Planned, Step, chain_of};
-use crate::divide::Part;
+use crate::divide::{Joined, Part};
 use crate::{Basis, Certificate, Error, Observer, Route, RouteEnd, Side, Solution, Status};
 
 /// Solves a problem by its parts, where it has several.
@@ -83,8 +83,10 @@ fn is_same_end(a: &Route, b: &Route) -> bool {
     a.method == b.method && status(a) == status(b)
 }
 
-/// The time of both, and the larger residual.
+/// The work of both, and the larger residual.
 fn add_route(first: &mut Route, other: &Route) {
+    first.pivots += other.pivots;
+    first.factorisations += other.factorisations;
     first.seconds += other.seconds;
     if let RouteEnd::Ended { residual: largest, .. } = &mut first.end
         && let RouteEnd::Ended { residual, .. } = &other.end
@@ -133,14 +135,10 @@ impl<P: Planned> Divided<'_, P> {
             part.put_pairs(&answer.t, &mut t);
             part.put_pairs(&answer.y, &mut y);
         }
-        let residuals = problem.residuals_of_pairs(&t, &y);
-        let mut whole = Solution::judged(t, y, residuals, settings.tolerance, Status::Stalled);
-        whole.residuals = problem.join(&mut whole, &answers);
         let (otherwise, certificate) = outcome(&answers, settings.tolerance, pairs);
-        whole.status = match otherwise {
-            Status::Infeasible | Status::NoSolution | Status::Cancelled => otherwise,
-            _ => whole.residuals.verdict(settings.tolerance, otherwise),
-        };
+        let Joined { residuals, contact, boxed } = problem.join(&t, &y, &answers);
+        let whole = Solution::judged(t, y, residuals, settings.tolerance, otherwise);
+        let mut whole = Solution { contact, boxed, ..whole };
         whole.certificate = certificate.filter(|_| whole.status == otherwise);
         whole.basis = joined_basis(&answers, pairs);
         whole.condition = joined_condition(&answers);

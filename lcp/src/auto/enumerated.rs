@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::constants::{MOST_PAIRS, WORK};
 use crate::conversion::{General, judged_point};
-use crate::enumerate::{Enumerated, Limits, enumerate};
+use crate::enumerate::{Enumerated, Limits, Outcome, enumerate};
 use crate::solve::{Monitor, is_over};
 use crate::{Certificate, Error, Method, Observer, Solution, Solver, Status};
 
@@ -32,10 +32,10 @@ impl<P: General> Solver<P> for Enumeration {
         let mut monitor = Monitor::new(usize::MAX, self.time_limit, observer);
         let is_cancelled = monitor.stop(f64::INFINITY) == Some(Status::Cancelled);
         let deadline = monitor.deadline();
-        let found = if is_cancelled {
-            Enumerated::Open
+        let Outcome { found, exchanges } = if is_cancelled {
+            Outcome { found: Enumerated::Open, exchanges: 0 }
         } else {
-            enumerate(&general, Limits { nodes: WORK / n.pow(3).max(1), deadline })
+            enumerate(&general, Limits { exchanges: WORK / n.pow(2).max(1), deadline })
         };
         let (mut t, mut y) = (vec![0.0; n], vec![0.0; n]);
         let (mut basis, mut proof) = (None, None);
@@ -45,10 +45,10 @@ impl<P: General> Solver<P> for Enumeration {
                 (t, y, basis) = (of_t, of_y, Some(found));
             }
             Enumerated::Infeasible(pi) => {
-                proof = Some((Status::Infeasible, Certificate::Farkas { pi }));
+                proof = Some(Certificate::Farkas { pi });
             }
             Enumerated::NoSolution(leaves) => {
-                proof = Some((Status::NoSolution, Certificate::Choices { leaves }));
+                proof = Some(Certificate::Choices { leaves });
             }
             Enumerated::Open if is_cancelled => otherwise = Status::Cancelled,
             Enumerated::Open if is_over(deadline) => {
@@ -58,10 +58,11 @@ impl<P: General> Solver<P> for Enumeration {
         }
         let mut solution = judged_point(problem, t, y, self.tolerance, otherwise);
         solution.basis = basis;
-        if let Some((status, certificate)) = proof.filter(|(_, it)| it.holds(&general)) {
-            (solution.status, solution.certificate) = (status, Some(certificate));
+        if let Some(proof) = proof.filter(|it| it.holds(&general)) {
+            solution = solution.proved(proof);
         }
         solution.info.method = Method::Enumeration;
+        solution.info.pivots = exchanges;
         solution.info.seconds = monitor.seconds();
         Ok(solution)
     }

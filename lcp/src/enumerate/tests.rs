@@ -7,7 +7,11 @@ use crate::exact::{Enumeration, EnumerationSettings, enumerate as enumerate_exac
 use crate::random::SplitMix;
 use crate::{Certificate, Lcp};
 
-const LIMITS: Limits = Limits { nodes: 1 << 14, deadline: None };
+const LIMITS: Limits = Limits { exchanges: 1 << 16, deadline: None };
+
+fn enumerated(problem: &HorizontalLcp) -> Enumerated {
+    enumerate(problem, LIMITS).found
+}
 
 /// Entries -2 to 2, about half of them zero; some pairs free, some columns single.
 fn random_problem(random: &mut SplitMix) -> HorizontalLcp {
@@ -78,7 +82,7 @@ fn small_integers_are_decided_as_in_rational_arithmetic() {
     let mut random = SplitMix::new(1);
     for _ in 0..count() {
         let problem = random_problem(&mut random);
-        let (outcome, truth) = (enumerate(&problem, LIMITS), truth(&problem));
+        let (outcome, truth) = (enumerated(&problem), truth(&problem));
         assert!(is_true(&outcome, &problem, &truth), "{outcome:?} of {problem:?}");
         assert_eq!(matches!(outcome, Enumerated::Infeasible(_)), !truth.is_feasible());
     }
@@ -91,7 +95,7 @@ fn units_do_not_matter() {
     for _ in 0..count() {
         let problem = random_problem(&mut random);
         let data = scaled(&problem, &mut || (40.0 * random.next_f64() - 20.0).round().exp2());
-        let outcome = enumerate(&data, LIMITS);
+        let outcome = enumerated(&data);
         assert!(is_true(&outcome, &data, &truth(&problem)), "{outcome:?} of {data:?}");
     }
 }
@@ -105,7 +109,7 @@ fn rounded_data_are_not_judged_wrongly() {
     for _ in 0..count() {
         let problem = random_problem(&mut random);
         let data = scaled(&problem, &mut || 10.0_f64.powf(12.0 * random.next_f64() - 6.0));
-        let outcome = enumerate(&data, LIMITS);
+        let outcome = enumerated(&data);
         let said = [&data, &problem].map(|it| is_true(&outcome, &data, &truth(it)));
         match outcome {
             Enumerated::Open => open += 1,
@@ -119,13 +123,13 @@ fn rounded_data_are_not_judged_wrongly() {
 #[test]
 fn proofs_of_small_problems() {
     let near = Lcp::new(mat![[1.0, -1.0], [-1.0, 1.0]], vec![-1.0, 1.0 - 1e-9]).expect("fits");
-    let outcome = enumerate(&near.into(), LIMITS);
+    let outcome = enumerated(&near.into());
     assert_eq!(outcome, Enumerated::Infeasible(vec![-1.0, -1.0]));
     // t1 + y1 = 2 and t1 - y1 = 0 can be met by (1, 1) alone.
     let a = mat![[1.0, 0.0], [1.0, 0.0]];
     let b = mat![[1.0, 0.0], [-1.0, 0.0]];
     let both = HorizontalLcp::new(a, b, vec![2.0, 0.0]).expect("fits");
-    let Enumerated::NoSolution(leaves) = enumerate(&both, LIMITS) else { panic!("no proof") };
+    let Enumerated::NoSolution(leaves) = enumerated(&both) else { panic!("no proof") };
     assert!(leaves.len() == 2 && Certificate::Choices { leaves }.holds(&both));
 }
 
@@ -136,6 +140,6 @@ fn a_limit_leaves_it_open() {
         mat![[1.0, 0.0], [-1.0, 0.0]],
         vec![2.0, 0.0],
     );
-    let limits = Limits { nodes: 2, ..LIMITS };
-    assert_eq!(enumerate(&both.expect("fits"), limits), Enumerated::Open);
+    let limits = Limits { exchanges: 1, ..LIMITS };
+    assert_eq!(enumerate(&both.expect("fits"), limits).found, Enumerated::Open);
 }

@@ -118,16 +118,15 @@ impl Lemke {
         let mut solution = Self::new(settings).solve_iterating(&mixed.to_general(), observer)?;
         let (z, _) = mixed.recover(&solution.t, &solution.y);
         let mut state = problem.from_mixed(&z);
-        solution.residuals = problem.residuals(&state);
-        if matches!(solution.status, Status::Solved | Status::AlmostSolved) {
-            let tolerance = self.settings().tolerance;
-            if solution.residuals.worst() > tolerance
-                && let Some((right, residuals)) = state_brought_right(problem, &state, tolerance)
-            {
-                (state, solution.residuals) = (right, residuals);
-            }
-            solution.status = solution.residuals.verdict(tolerance, Status::AlmostSolved);
+        let mut residuals = problem.residuals(&state);
+        let tolerance = self.settings().tolerance;
+        if matches!(solution.status, Status::Solved | Status::AlmostSolved)
+            && residuals.worst() > tolerance
+            && let Some(right) = state_brought_right(problem, &state, tolerance)
+        {
+            (state, residuals) = right;
         }
+        solution.judge_again(residuals, tolerance);
         (solution.t, solution.y) = problem.to_pairs(&state);
         solution.contact = Some(state);
         // These belong to the pairs of the mixed problem.
