@@ -17,7 +17,7 @@ use faer::prelude::Solve;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, Par};
-use lcp::{Contact2d, Multifrontal, families};
+use lcp::{Contact2d, SupernodalLu, families};
 use walls::wall;
 
 const RUNS: usize = 5;
@@ -49,7 +49,7 @@ fn main() {
 }
 
 fn line(name: &str, matrix: &SparseColMat<usize, f64>, is_symmetric: bool) {
-    let (ours, faers) = (best(|| multifrontal(matrix)), best(|| lu(matrix)));
+    let (ours, faers) = (best(|| supernodal(matrix)), best(|| lu(matrix)));
     let cholesky = is_symmetric.then(|| best(|| sparse::cholesky(matrix)));
     let times = |(symbolic, numeric): (f64, f64)| format!("{symbolic:.4} + {numeric:.4}");
     println!(
@@ -68,9 +68,9 @@ fn best(run: impl Fn() -> (f64, f64)) -> (f64, f64) {
     sparse::fastest(RUNS, |(_, numeric)| *numeric, run)
 }
 
-fn multifrontal(matrix: &SparseColMat<usize, f64>) -> (f64, f64) {
+fn supernodal(matrix: &SparseColMat<usize, f64>) -> (f64, f64) {
     let began = Instant::now();
-    let mut factors = Multifrontal::new(matrix.symbolic()).expect("memory suffices");
+    let mut factors = SupernodalLu::new(matrix.symbolic()).expect("memory suffices");
     let symbolic = began.elapsed().as_secs_f64();
     let began = Instant::now();
     factors.factorise(matrix.val());

@@ -147,7 +147,6 @@ mod matrix;
 mod method;
 mod newton;
 mod nonnegative;
-mod parallel;
 mod parts;
 pub mod pgs;
 mod pivoting;
@@ -193,7 +192,7 @@ pub use solution::{Info, Route, RouteEnd, Solution, Unsolved};
 pub use solve::{Iteration, Observer, Solver};
 /// For the benches of the workspace, and for masonry.
 #[doc(hidden)]
-pub use sparse::{Gram, Multifrontal};
+pub use sparse::{Gram, SupernodalLu};
 pub use status::Status;
 pub use vector::Vector;
 

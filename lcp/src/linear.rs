@@ -94,15 +94,15 @@ pub(crate) fn solve_upper(matrix: MatRef<'_, f64>, rhs: MatMut<'_, f64>) {
     solve_upper_triangular_in_place(matrix, rhs, Par::Seq);
 }
 
-/// LU factorisation in place of a block with row exchanges, which `beside` follows: row `i` becomes what
-/// was row `rows[i]`. Pivots below `vanishing` times the largest entry of their column are replaced by that
+/// LU factorisation in place of a block with row exchanges, which `beside` follows: at step `k` rows `k` and
+/// `exchanges[k]`. Pivots below `vanishing` times the largest entry of their column are replaced by that
 /// bound; gives their number. (A column by itself may be small against others and exact nevertheless.)
 ///
 /// Blocks of sparse problems are narrow, for which this is as fast as anything blocked.
 pub(crate) fn factorise_block(
     mut block: MatMut<'_, f64>,
     mut beside: MatMut<'_, f64>,
-    rows: &mut [usize],
+    exchanges: &mut [usize],
     vanishing: f64,
 ) -> usize {
     const PANEL: usize = 32;
@@ -112,7 +112,6 @@ pub(crate) fn factorise_block(
     let least: Vec<f64> =
         block.rb().col_iter().map(|column| vanishing * column.iter().fold(0.0, largest)).collect();
     let mut replaced = 0;
-    rows.iter_mut().enumerate().for_each(|(i, row)| *row = i);
     for start in (0..n).step_by(PANEL) {
         let end = n.min(start + PANEL);
         for k in start..end {
@@ -124,8 +123,8 @@ pub(crate) fn factorise_block(
                     if column[i].abs() > column[best].abs() { i } else { best }
                 },
             );
+            exchanges[k] = pivot;
             if pivot != k {
-                rows.swap(k, pivot);
                 swap_rows(block.rb_mut(), k, pivot);
                 swap_rows(beside.rb_mut(), k, pivot);
             }

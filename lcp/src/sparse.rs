@@ -1,16 +1,24 @@
-//! Sparse linear algebra: columns, their order, and an LU factorisation that grows by columns.
+//! Sparse linear algebra: columns and their order, and factorisations: LU that grows by columns, and for one pattern and many
+//! values LU and Cholesky's.
 
+mod cholesky;
 mod gram;
 mod lu;
-mod multifrontal;
 mod order;
 mod rows;
+mod supernodal;
+#[cfg(test)]
+mod tests;
 
 pub use gram::Gram;
 pub(crate) use lu::{Growing, SparseLu, row_counts};
-pub use multifrontal::Multifrontal;
 pub(crate) use order::{Turn, elimination_order};
 pub(crate) use rows::ByRows;
+pub use supernodal::SupernodalLu;
+
+/// Pivots below this multiple of what they are measured by, the largest entry of their column or a diagonal of order one, are
+/// rounding errors. Rounding: some eps.
+const VANISHING: f64 = 1e-15;
 
 /// Columns of nonzero entries, one after the other.
 #[derive(Debug, Clone)]

@@ -2,7 +2,7 @@
 
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 
-use super::multifrontal::Cholesky;
+use super::cholesky::Cholesky;
 use super::{groups_of_rows, index};
 use crate::Error;
 use crate::scaling::power_of_two;
@@ -75,11 +75,6 @@ impl Gram {
         Ok(Self { starts, rows, values, of_stiffness, ends, places, units, factors })
     }
 
-    /// How many numbers the factors have.
-    pub fn stored(&self) -> usize {
-        self.factors.stored()
-    }
-
     /// Factorises for these values of `K`, of which the lower triangle counts, `A`, `S` and `delta`.
     ///
     /// # Errors
@@ -131,7 +126,8 @@ impl Gram {
             let entries = self.rows[range.clone()].iter().zip(&mut scaled[range]);
             entries.for_each(|(&i, v)| *v *= self.units[i] * unit);
         }
-        self.factors.factorise(&scaled);
+        let pattern = SymbolicSparseColMatRef::new_checked(n, n, &self.starts, None, &self.rows);
+        self.factors.factorise(SparseColMatRef::new(pattern, &scaled));
         Ok(())
     }
 

@@ -5,7 +5,7 @@ use faer::sparse::{FaerError, SymbolicSparseColMatRef};
 use super::constants::{ENOUGH, REFINEMENTS};
 use super::scaled::Scaled;
 use crate::problem::column_of;
-use crate::sparse::{Multifrontal, groups_of_rows};
+use crate::sparse::{SupernodalLu, groups_of_rows};
 use crate::vector::max_abs;
 
 /// The stiffness `s` with which a contact point answers to changes of its gap and slip:
@@ -35,7 +35,7 @@ pub(crate) struct Condensed {
     of_diagonal: Vec<usize>,
     /// Places of the terms of the points, one after the other, and of each columns one after the other.
     of_points: Vec<u32>,
-    factors: Multifrontal,
+    factors: SupernodalLu,
     pub(crate) factorisations: usize,
 }
 
@@ -65,7 +65,7 @@ impl Condensed {
             .map(|(i, j)| index(place(i, j)))
             .collect();
         let pattern = SymbolicSparseColMatRef::new_checked(n, n, &starts, None, &rows);
-        let factors = Multifrontal::new(pattern)?;
+        let factors = SupernodalLu::new(pattern)?;
         let values = vec![0.0; rows.len()];
         Ok(Self {
             starts,
