@@ -147,6 +147,7 @@ mod matrix;
 mod method;
 mod newton;
 mod nonnegative;
+mod parallel;
 mod parts;
 pub mod pgs;
 mod pivoting;

@@ -442,7 +442,7 @@ fn in_standard_form(mixed: &MixedLcp) -> Lcp {
     let m = Mat::from_fn(n, n, |i, j| {
         columns[i].1 * mixed.m()[(columns[i].0, columns[j].0)] * columns[j].1
     });
-    Lcp::new(m, columns.iter().map(|(j, sign)| sign * mixed.q()[*j]).collect()).unwrap()
+    Lcp::new(m, columns.iter().map(|(j, sign)| sign * mixed.q()[*j]).collect::<Vec<f64>>()).unwrap()
 }
 
 /// Free states and multipliers, equations and bounds, in every form that they can be written in.

@@ -12,7 +12,7 @@ use crate::conversion::judged_point;
 use crate::matrix::Storage;
 use crate::problem::column_of;
 use crate::solve::Monitor;
-use crate::{Certificate, Error, Method, MixedLcp, Observer, Solution, Status};
+use crate::{Certificate, Error, Matrix, Method, MixedLcp, Observer, Solution, Status};
 
 impl InteriorPoint {
     /// The solution of a convex program, or a proof that there is none; `None` where bounded variables act on each other,

@@ -51,7 +51,8 @@ impl Class {
 
 /// What every method owes, by the guarantees of its documentation. A row without a positive diagonal
 /// entry is refused by the sweeps and by Newton's method, whatever the class. For semidefinite matrices the
-/// sweeps converge, but at a rate without a bound, so that they may run into their limits.
+/// sweeps converge, but at a rate without a bound, so that they may run into their limits. Programs are refused unless the
+/// matrix is that of the variables and multipliers of one.
 ///
 /// | class | Lemke | sweeps | program | interior | Newton |
 /// |---|---|---|---|---|---|
@@ -74,7 +75,34 @@ fn owes(class: Class, route: Route, m: &Mat<f64>) -> Owes {
     if needs_diagonal && (0..m.nrows()).any(|i| m[(i, i)] <= 0.0) {
         return Refusal;
     }
-    by_route[route as usize]
+    // The conditions of a program are skew between its variables and its multipliers.
+    if route == Route::Program && has_groups(m) { Solves } else { by_route[route as usize] }
+}
+
+/// Whether the variables are of two groups, within which the matrix is symmetric, and skew between them.
+fn has_groups(m: &Mat<f64>) -> bool {
+    let n = m.nrows();
+    let mut groups: Vec<Option<bool>> = vec![None; n];
+    for first in 0..n {
+        let mut waiting = vec![first];
+        groups[first].get_or_insert(true);
+        while let Some(i) = waiting.pop() {
+            for j in (0..n).filter(|&j| m[(i, j)] != 0.0 || m[(j, i)] != 0.0) {
+                let is_symmetric = m[(i, j)].total_cmp(&m[(j, i)]).is_eq();
+                if !is_symmetric && m[(i, j)].total_cmp(&-m[(j, i)]).is_ne() {
+                    return false;
+                }
+                let group = groups[i].map(|group| group == is_symmetric);
+                if groups[j].is_none() {
+                    groups[j] = group;
+                    waiting.push(j);
+                } else if groups[j] != group {
+                    return false;
+                }
+            }
+        }
+    }
+    true
 }
 
 #[derive(Debug, Clone)]
