@@ -299,12 +299,12 @@ fn json_says_what_is_wrong_and_where() {
         ("{", at(1, 1), "EOF"),
         ("{\"kind\": \"lpc\"}", at(1, 14), "unknown variant `lpc`"),
         ("{\"kind\": \"lcp\",\n \"M\": [[1]]}", at(2, 4), "unknown field `M`"),
-        ("{\"kind\": \"lcp\", \"m\": [[1]]}", at(1, 1), "must have the field `q`"),
+        ("{\"kind\": \"lcp\", \"m\": [[1]]}", at(1, 27), "missing field `q`"),
         ("{\"m\": [[1]], \"q\": [1]}", at(1, 22), "missing field `kind`"),
         (
             "{\"kind\": \"lcp\", \"m\": [[1]],\n \"q\": [1], \"b\": 2}",
-            at(2, 17),
-            "the kind lcp has no field `b`",
+            at(2, 14),
+            "unknown field `b`, expected one of `kind`, `m`, `q`",
         ),
         ("{\"kind\": \"lcp\", \"q\": [1, 2],\n \"m\": [\n  [1, 2],\n  [3]]}", at(4, 3), "row 1"),
         (
@@ -323,7 +323,11 @@ fn json_says_what_is_wrong_and_where() {
             at(2, 43),
             "outside 1 x 1",
         ),
-        ("{\"kind\": \"friction\", \"w\": [], \"q\": [],\n \"mu\": [-1]}", at(2, 8), "negative"),
+        (
+            "{\"kind\": \"friction\", \"w\": [[1, 0], [0, 1]], \"q\": [0, 0],\n \"mu\": [-1]}",
+            at(2, 8),
+            "`mu` is -1, but must be from 0",
+        ),
         (
             "{\"kind\": \"lcp\", \"m\": [[1]], \"m\": [[1]], \"q\": [1]}",
             at(1, 31),
@@ -340,7 +344,7 @@ fn json_says_what_is_wrong_and_where() {
 fn what_problems_refuse_has_a_place_too() {
     let text = r#" {"kind": "boxed", "m": [[2]], "q": [1], "lower": [1], "upper": [0]}"#;
     let ReadError::Refused { at: place, source } = error(text) else { panic!("not refused") };
-    assert_eq!(place, at(1, 2));
+    assert_eq!(place, at(1, 51));
     assert_eq!(source, lcp::Error::Bounds { index: 0, lower: 1.0, upper: 0.0 });
 }
 

@@ -49,6 +49,8 @@ pub use error::{Position, ReadError};
 pub use format::Format;
 pub use json::to_json;
 pub use problem::Problem;
+#[cfg(feature = "cli")]
+pub(crate) use problem::{each, pairs_of_forces};
 
 impl Format {
     fn parse(self, text: &str) -> Result<Problem, ReadError> {

@@ -42,9 +42,9 @@ fn messages_name_what_is_wrong() {
     let nan = Run::with_input("1 nan -1\n", &["solve", "-"]);
     assert!(nan.err.contains("column 3") && nan.err.contains("found `nan`"), "{}", nan.err);
     for (option, words) in [
-        ("--tol", "`tolerance` is -1"),
-        ("--attempts", "invalid value '-1' for '--attempts"),
-        ("--time-limit", "--time-limit -1"),
+        ("--tol", "'-1' for '--tol <T>': a tolerance is a number between 0 and 1"),
+        ("--attempts", "'-1' for '--attempts <N>': it is a whole number, not negative"),
+        ("--time-limit", "'-1' for '--time-limit <S>': it is a number of seconds, not negative"),
     ] {
         let run = Run::with_input(TEXT, &["solve", "-", option, "-1"]);
         assert!(run.code == 2 && run.err.contains(words), "{}", run.err);
@@ -52,6 +52,28 @@ fn messages_name_what_is_wrong() {
     let indefinite = CONTACT.replace("[3, 0]", "[-3, 0]");
     let run = Run::with_input(&indefinite, &["solve", "-"]);
     assert!(run.code == 2 && run.err.contains("K is not positive semidefinite"), "{}", run.err);
+}
+
+/// Of contacts reduced to themselves: one that sticks, one that slides, and too much friction.
+#[test]
+fn forces_at_contacts_are_checked() {
+    let folder = Folder::new("forces");
+    let file = r#"{"kind": "friction", "w": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]],
+        "q": [-2, -0.25, -2, -3], "mu": [0.5, 0.5]}"#;
+    let file = folder.file("friction.json", file);
+    let check = |forces: &str| Run::with_input(forces, &["check", &file, "-", "--json"]);
+    let right = check(r#"{"contacts": {"normal": [2, 2], "tangential": [0.25, 1]}}"#);
+    assert_eq!((right.code, &right.json()["solves"]), (0, &true.into()));
+    let wrong = check(r#"{"contacts": {"normal": [2, 2], "tangential": [0.25, 3]}}"#);
+    assert_eq!((wrong.code, &wrong.json()["solves"]), (1, &false.into()));
+    let short = check(r#"{"contacts": {"normal": [2], "tangential": [0.25, 1]}}"#);
+    assert!(short.code == 2, "{}", short.out);
+    assert!(short.err.contains("standard input: `contacts.normal` has 1 entries"), "{}", short.err);
+    // The forces are a start, too: that of the solution takes no pivot.
+    let start =
+        folder.file("start.json", r#"{"contacts": {"normal": [2, 2], "tangential": [0.25, 1]}}"#);
+    let solved = Run::of(&["solve", &file, "--solver", "lemke", "--start", &start, "--json"]);
+    assert_eq!((solved.code, &solved.json()["pivots"]), (0, &0.into()));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! What the command line may say.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand};
 
@@ -34,13 +35,13 @@ pub(super) struct SolveArgs {
     #[arg(long, value_enum, default_value_t)]
     pub(super) solver: Method,
     /// Largest residual, relative to the data, of a solution; 1e-10, for pgs 1e-8.
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = tolerance)]
     pub(super) tol: Option<f64>,
     /// Pivots of one attempt of lemke; auto then uses lemke.
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = count)]
     pub(super) max_pivots: Option<usize>,
     /// Attempts of lemke; auto then uses lemke.
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = count)]
     pub(super) attempts: Option<usize>,
     /// Covering vector of the first attempt of lemke, `ones` or `random:SEED`; auto then uses lemke.
     #[arg(long, value_name = "D", value_parser = covering)]
@@ -49,11 +50,11 @@ pub(super) struct SolveArgs {
     #[arg(long, value_name = "START")]
     pub(super) start: Option<PathBuf>,
     /// Iterations of pgs, newton or interior; for qp, those within one program.
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = count)]
     pub(super) max_iterations: Option<usize>,
     /// Time limit, in seconds.
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
-    pub(super) time_limit: Option<f64>,
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = seconds)]
+    pub(super) time_limit: Option<Duration>,
     /// File for the pivots of lemke, as JSON; auto then uses lemke.
     #[arg(long, value_name = "FILE")]
     pub(super) trace: Option<PathBuf>,
@@ -64,12 +65,13 @@ pub(super) struct SolveArgs {
 pub(super) struct CheckArgs {
     #[command(flatten)]
     pub(super) input: InputArgs,
-    /// The point: a JSON object with `z`, and `w` unless it is M z + q; for contact problems, `contact` with `u`,
-    /// `t_n` and `t_t`. Other fields are ignored; `-` is standard input.
+    /// The point: a JSON object with `z`, and `w` unless it is M z + q; for friction, `contacts` with `normal` and
+    /// `tangential` forces; for contact problems, `contact` with `u`, `t_n` and `t_t`. Other fields are ignored; `-` is
+    /// standard input.
     #[arg(required = true)]
     pub(super) solution: PathBuf,
     /// Largest residual of a point that counts as a solution.
-    #[arg(long, value_name = "T", allow_negative_numbers = true, default_value_t = LemkeSettings::default().tolerance)]
+    #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = tolerance, default_value_t = LemkeSettings::default().tolerance)]
     pub(super) tol: f64,
 }
 
@@ -80,11 +82,24 @@ pub(super) struct InfoArgs {
 }
 
 /// `ones` or `random:SEED`.
-fn covering(text: &str) -> Result<Covering, String> {
-    if text == "ones" {
-        return Ok(Covering::Ones);
-    }
+fn covering(text: &str) -> Result<Covering, &'static str> {
     let seed = text.strip_prefix("random:").and_then(|seed| seed.parse().ok());
-    seed.map(|seed| Covering::Random { seed })
-        .ok_or_else(|| "it is `ones`, or `random:SEED` with a whole number".to_owned())
+    let random = seed.map(|seed| Covering::Random { seed });
+    random
+        .or((text == "ones").then_some(Covering::Ones))
+        .ok_or("it is `ones`, or `random:SEED` with a whole number")
+}
+
+fn tolerance(text: &str) -> Result<f64, &'static str> {
+    let value = text.parse().ok().filter(|value| *value > 0.0 && *value < 1.0);
+    value.ok_or("a tolerance is a number between 0 and 1, as 1e-10")
+}
+
+fn count(text: &str) -> Result<usize, &'static str> {
+    text.parse().map_err(|_| "it is a whole number, not negative")
+}
+
+fn seconds(text: &str) -> Result<Duration, &'static str> {
+    let limit = text.parse().ok().and_then(|it| Duration::try_from_secs_f64(it).ok());
+    limit.ok_or("it is a number of seconds, not negative, as 2.5")
 }

@@ -23,20 +23,11 @@ pub(super) fn run(
     input: &mut dyn Read,
     out: &mut dyn Write,
 ) -> Result<u8, Failure> {
-    if !(args.tol > 0.0 && args.tol < 1.0) {
-        return Err(format!("--tol is {}, but must be between 0 and 1", args.tol).into());
-    }
-    let is_piped = args.solution.as_os_str() == "-";
-    if is_piped && args.input.is_stdin() {
+    if args.solution.as_os_str() == "-" && args.input.is_stdin() {
         return Err("problem and point cannot both come from standard input".into());
     }
     let problem = args.input.read(input)?.problem;
-    let point = if is_piped {
-        Point::read_stdin(input, &problem)?
-    } else {
-        Point::read(&args.solution, &problem)?
-    };
-    let residuals = point.residuals(&problem);
+    let Point { residuals, .. } = Point::read(&args.solution, input, &problem)?;
     let solves = residuals.worst() <= args.tol;
     if args.input.json {
         print_json(out, &Verdict { solves, n: problem.order(), tolerance: args.tol, residuals })?;

@@ -1,5 +1,6 @@
 //! The problem and the points that the command line names.
 
+use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -8,8 +9,10 @@ use clap::builder::PossibleValuesParser;
 use serde::Deserialize;
 
 use super::output::{Failure, in_file};
-use crate::io::{Format, Problem, ProblemFile, ReadError, market, read, read_file};
-use crate::{Contact2d, ContactState, HorizontalLcp, Lcp, Residuals};
+use crate::io::{
+    Format, Problem, ProblemFile, ReadError, market, pairs_of_forces, read, read_file,
+};
+use crate::{ContactForces, HorizontalLcp, Lcp, Residuals};
 
 #[derive(Debug, Args)]
 pub(super) struct InputArgs {
@@ -83,25 +86,33 @@ impl InputArgs {
                 _ => in_file(file, &error),
             });
         }
-        let mut content = Vec::new();
-        let name = Path::new("standard input");
-        stdin.read_to_end(&mut content).map_err(|error| in_file(name, &error))?;
-        read(&content, format).map_err(|error| in_file(name, &error))
+        read(&content(file, stdin)?, format).map_err(|error| in_file(file, &error))
     }
 }
 
 fn vector(path: &Path) -> Result<Vec<f64>, Failure> {
-    market::read_vector(&content(path)?).map_err(|error| in_file(path, &error))
+    let content = content(path, &mut std::io::empty())?;
+    market::read_vector(&content).map_err(|error| in_file(path, &error))
 }
 
 fn matrix(path: &Path, order: usize) -> Result<crate::Matrix, Failure> {
-    market::read_matrix(&content(path)?, order, order).map_err(|error| in_file(path, &error))
+    let content = content(path, &mut std::io::empty())?;
+    market::read_matrix(&content, order, order).map_err(|error| in_file(path, &error))
 }
 
-fn content(path: &Path) -> Result<Vec<u8>, Failure> {
-    std::fs::read(path).map_err(|error| {
-        ReadError::File { path: path.to_owned(), reason: error.to_string() }.into()
-    })
+/// What is in a file, of which `-` is standard input.
+fn content(path: &Path, stdin: &mut dyn Read) -> Result<Vec<u8>, Failure> {
+    let mut content = Vec::new();
+    let read = if path.as_os_str() == "-" {
+        stdin.read_to_end(&mut content)
+    } else {
+        File::open(path).and_then(|mut file| file.read_to_end(&mut content))
+    };
+    let refused = |error: std::io::Error| ReadError::File {
+        path: path.to_owned(),
+        reason: error.to_string(),
+    };
+    read.map(|_| content).map_err(|error| refused(error).into())
 }
 
 /// A point in a file, as `lcp solve --json` writes it; other fields do not matter.
@@ -109,80 +120,63 @@ fn content(path: &Path) -> Result<Vec<u8>, Failure> {
 struct PointFile {
     z: Option<Vec<f64>>,
     w: Option<Vec<f64>>,
-    contact: Option<Forces>,
+    contacts: Option<ContactForces>,
+    contact: Option<State>,
 }
 
 /// Displacements and forces of a contact problem.
 #[derive(Debug, Deserialize)]
-struct Forces {
+struct State {
     u: Vec<f64>,
     t_n: Vec<f64>,
     t_t: Vec<f64>,
 }
 
-/// A point in the variables of its problem.
+/// A point of its problem.
 #[derive(Debug)]
-pub(super) enum Point {
-    Variables { z: Vec<f64>, w: Vec<f64> },
-    State(ContactState),
+pub(super) struct Point {
+    /// Residuals in the variables of the problem.
+    pub(super) residuals: Residuals,
+    /// `(t, y)` of the general problem.
+    pub(super) pairs: (Vec<f64>, Vec<f64>),
 }
 
 impl Point {
-    pub(super) fn read(path: &Path, problem: &Problem) -> Result<Self, Failure> {
-        let text = std::fs::read_to_string(path).map_err(|error| in_file(path, &error))?;
-        Self::parse(&text, path, problem)
+    /// From a file, of which `-` is standard input.
+    pub(super) fn read(
+        path: &Path,
+        stdin: &mut dyn Read,
+        problem: &Problem,
+    ) -> Result<Self, Failure> {
+        let content = content(path, stdin)?;
+        let file = serde_json::from_slice(&content).map_err(|error| in_file(path, &error))?;
+        Self::of(file, problem).map_err(|error| in_file(path, &error))
     }
 
-    pub(super) fn read_stdin(stdin: &mut dyn Read, problem: &Problem) -> Result<Self, Failure> {
-        let (mut text, name) = (String::new(), Path::new("standard input"));
-        stdin.read_to_string(&mut text).map_err(|error| in_file(name, &error))?;
-        Self::parse(&text, name, problem)
-    }
-
-    fn parse(text: &str, path: &Path, problem: &Problem) -> Result<Self, Failure> {
-        let file: PointFile = serde_json::from_str(text).map_err(|error| in_file(path, &error))?;
-        if let (Problem::Contact(problem), Some(forces)) = (problem, file.contact) {
-            return forces.state(problem).map(Self::State).map_err(|error| in_file(path, &error));
+    fn of(file: PointFile, problem: &Problem) -> Result<Self, String> {
+        match (problem, file) {
+            (Problem::Contact(problem), PointFile { contact: Some(State { u, t_n, t_t }), .. }) => {
+                check("contact.u", &u, problem.displacements())?;
+                check("contact.t_n", &t_n, problem.points())?;
+                check("contact.t_t", &t_t, problem.points())?;
+                let state = problem.state(u, t_n, t_t);
+                Ok(Self { residuals: problem.residuals(&state), pairs: problem.to_pairs(&state) })
+            }
+            (Problem::Friction(problem), PointFile { contacts: Some(forces), .. }) => {
+                check("contacts.normal", &forces.normal, problem.contacts())?;
+                check("contacts.tangential", &forces.tangential, problem.contacts())?;
+                let pairs = pairs_of_forces(problem, &forces);
+                Ok(Self { residuals: problem.residuals(&forces), pairs })
+            }
+            (problem, PointFile { z, w, .. }) => {
+                let z = z.ok_or("missing field `z`")?;
+                check("z", &z, problem.order())?;
+                let missing = "`w` is missing, which the general form and contact need";
+                let w = w.or_else(|| problem.w_of(&z)).ok_or(missing)?;
+                check("w", &w, problem.order())?;
+                Ok(Self { residuals: problem.residuals(&z, &w), pairs: problem.to_pairs(&z, &w) })
+            }
         }
-        let z = file.z.ok_or_else(|| in_file(path, &"missing field `z`"))?;
-        let n = problem.order();
-        check("z", &z, n).map_err(|error| in_file(path, &error))?;
-        let w = match file.w {
-            Some(w) => w,
-            None => problem.w_of(&z).ok_or_else(|| {
-                in_file(path, &"`w` is missing, which the general form and contact need")
-            })?,
-        };
-        check("w", &w, n).map_err(|error| in_file(path, &error))?;
-        Ok(Self::Variables { z, w })
-    }
-
-    /// Residuals in the variables of the problem.
-    pub(super) fn residuals(&self, problem: &Problem) -> Residuals {
-        match (self, problem) {
-            (Self::State(state), Problem::Contact(problem)) => problem.residuals(state),
-            (Self::Variables { z, w }, _) => problem.residuals(z, w),
-            (Self::State(_), _) => unreachable!("only contact problems have states"),
-        }
-    }
-
-    /// The pairs of the general problem.
-    pub(super) fn to_pairs(&self, problem: &Problem) -> (Vec<f64>, Vec<f64>) {
-        match (self, problem) {
-            (Self::State(state), Problem::Contact(problem)) => problem.to_pairs(state),
-            (Self::Variables { z, w }, _) => problem.to_pairs(z, w),
-            (Self::State(_), _) => unreachable!("only contact problems have states"),
-        }
-    }
-}
-
-impl Forces {
-    fn state(self, problem: &Contact2d) -> Result<ContactState, String> {
-        let Self { u, t_n, t_t } = self;
-        check("contact.u", &u, problem.displacements())?;
-        check("contact.t_n", &t_n, problem.points())?;
-        check("contact.t_t", &t_t, problem.points())?;
-        Ok(problem.state(u, t_n, t_t))
     }
 }
 

@@ -1,6 +1,6 @@
 //! The method that the command line asks for, on the problem of the file.
 
-use std::time::Duration;
+use std::io::Read;
 
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
@@ -10,7 +10,7 @@ use super::input::Point;
 use super::output::Failure;
 use crate::auto::{Enumeration, memory};
 use crate::conversion::judged_by;
-use crate::io::Problem;
+use crate::io::{Problem, each};
 use crate::{
     Auto, AutoSettings, Basis, BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp,
     InteriorPoint, InteriorPointSettings, Lcp, Lemke, LemkeSettings, Method, MixedLcp,
@@ -38,80 +38,82 @@ macro_rules! in_a_form {
 
 /// Every method gets the problem in its own form where it treats that, else in the general form, whose
 /// pairs the solution has in any case.
-pub(super) fn solve(args: &SolveArgs, problem: &Problem) -> Result<Solution, Failure> {
-    let time_limit = time_limit(args)?;
-    let start = start(args, problem)?;
+pub(super) fn solve(
+    args: &SolveArgs,
+    stdin: &mut dyn Read,
+    problem: &Problem,
+) -> Result<Solution, Failure> {
+    let SolveArgs { time_limit, max_pivots, attempts: max_attempts, .. } = *args;
+    let start = start(args, stdin, problem)?;
+    let tolerance = |default| args.tol.unwrap_or(default);
+    let max_iterations = |default| args.max_iterations.unwrap_or(default);
     let solution = match method(args)? {
         Method::Auto => {
-            let defaults = AutoSettings::default();
-            let tolerance = args.tol.unwrap_or(defaults.tolerance);
-            let settings =
-                AutoSettings { tolerance, time_limit, max_attempts: args.attempts, start };
+            let tolerance = tolerance(AutoSettings::default().tolerance);
+            let settings = AutoSettings { tolerance, time_limit, max_attempts, start };
             in_its_form(&Auto::new(settings), problem)
         }
         Method::Lemke => {
             let defaults = LemkeSettings::default();
             let settings = LemkeSettings {
-                tolerance: args.tol.unwrap_or(defaults.tolerance),
-                max_pivots: args.max_pivots,
-                max_attempts: args.attempts,
+                tolerance: tolerance(defaults.tolerance),
+                max_pivots,
+                max_attempts,
                 covering: args.covering.clone().unwrap_or_default(),
                 trace: args.trace.is_some(),
                 time_limit,
                 start,
                 ..defaults
             };
-            lemke(&Lemke::new(settings), problem)
+            let general = problem.to_general();
+            memory::check(general.is_sparse(), general.order())
+                .and_then(|()| in_its_form(&Lemke::new(settings), problem))
         }
         Method::Enumeration => {
-            let tolerance = args.tol.unwrap_or(AutoSettings::default().tolerance);
+            let tolerance = tolerance(AutoSettings::default().tolerance);
             in_its_form(&Enumeration { tolerance, time_limit }, problem)
         }
         Method::GaussSeidel => {
             let defaults = ProjectedGaussSeidelSettings::default();
-            let settings = ProjectedGaussSeidelSettings {
-                tolerance: args.tol.unwrap_or(defaults.tolerance),
-                max_iterations: args.max_iterations.unwrap_or(defaults.max_iterations),
+            let solver = ProjectedGaussSeidel::new(ProjectedGaussSeidelSettings {
+                tolerance: tolerance(defaults.tolerance),
+                max_iterations: max_iterations(defaults.max_iterations),
                 time_limit,
                 start,
                 ..defaults
-            };
-            let solver = ProjectedGaussSeidel::new(settings);
+            });
             in_a_form!(solver, problem, Lcp | Horizontal | Boxed | Friction | Contact)
         }
         Method::QuadraticProgram => {
             let defaults = QuadraticProgramSettings::default();
-            let settings = QuadraticProgramSettings {
-                tolerance: args.tol.unwrap_or(defaults.tolerance),
-                max_iterations: args.max_iterations.unwrap_or(defaults.max_iterations),
+            let solver = QuadraticProgram::new(QuadraticProgramSettings {
+                tolerance: tolerance(defaults.tolerance),
+                max_iterations: max_iterations(defaults.max_iterations),
                 time_limit,
                 start,
                 ..defaults
-            };
-            let solver = QuadraticProgram::new(settings);
+            });
             in_a_form!(solver, problem, Lcp | Mixed | Boxed | Contact, standard of Friction)
         }
         Method::Newton => {
             let defaults = SemismoothNewtonSettings::default();
-            let settings = SemismoothNewtonSettings {
-                tolerance: args.tol.unwrap_or(defaults.tolerance),
-                max_iterations: args.max_iterations.unwrap_or(defaults.max_iterations),
+            let solver = SemismoothNewton::new(SemismoothNewtonSettings {
+                tolerance: tolerance(defaults.tolerance),
+                max_iterations: max_iterations(defaults.max_iterations),
                 time_limit,
                 start,
-            };
-            let solver = SemismoothNewton::new(settings);
+            });
             in_a_form!(solver, problem, Lcp | Contact, standard of Friction)
         }
         Method::Interior => {
             let defaults = InteriorPointSettings::default();
-            let settings = InteriorPointSettings {
-                tolerance: args.tol.unwrap_or(defaults.tolerance),
-                max_iterations: args.max_iterations.unwrap_or(defaults.max_iterations),
+            let solver = InteriorPoint::new(InteriorPointSettings {
+                tolerance: tolerance(defaults.tolerance),
+                max_iterations: max_iterations(defaults.max_iterations),
                 time_limit,
                 start,
                 ..defaults
-            };
-            let solver = InteriorPoint::new(settings);
+            });
             in_a_form!(solver, problem, Lcp | Mixed | Boxed | Friction | Contact)
         }
     };
@@ -145,31 +147,17 @@ fn method(args: &SolveArgs) -> Result<Method, Failure> {
     }
 }
 
-fn time_limit(args: &SolveArgs) -> Result<Option<Duration>, Failure> {
-    let limit = |seconds| {
-        Duration::try_from_secs_f64(seconds)
-            .map_err(|error| format!("--time-limit {seconds}: {error}").into())
-    };
-    args.time_limit.map(limit).transpose()
-}
-
-fn start(args: &SolveArgs, problem: &Problem) -> Result<WarmStart, Failure> {
+fn start(args: &SolveArgs, stdin: &mut dyn Read, problem: &Problem) -> Result<WarmStart, Failure> {
     let Some(start) = &args.start else { return Ok(WarmStart::None) };
     let all = |side| WarmStart::Basis(Basis::all(side, problem.to_general().order()));
     match start.to_str() {
         Some("all-y") => Ok(all(Side::Y)),
         Some("all-t") => Ok(all(Side::T)),
         _ => {
-            let (t, y) = Point::read(start, problem)?.to_pairs(problem);
+            let (t, y) = Point::read(start, stdin, problem)?.pairs;
             Ok(WarmStart::Point { t, y })
         }
     }
-}
-
-fn lemke(solver: &Lemke, problem: &Problem) -> Result<Solution, Error> {
-    let general = problem.to_general();
-    memory::check(general.is_sparse(), general.order())?;
-    in_its_form(solver, problem)
 }
 
 /// By a method that treats every form.
@@ -182,14 +170,7 @@ where
         + Solver<Friction2d>
         + Solver<Contact2d>,
 {
-    match problem {
-        Problem::Lcp(problem) => solver.solve(problem).map(Solution::of_pairs),
-        Problem::Horizontal(problem) => solver.solve(problem),
-        Problem::Mixed(problem) => solver.solve(problem).map(Solution::of_pairs),
-        Problem::Boxed(problem) => solver.solve(problem).map(Solution::of_pairs),
-        Problem::Friction(problem) => solver.solve(problem).map(Solution::of_pairs),
-        Problem::Contact(problem) => solver.solve(problem).map(Solution::of_pairs),
-    }
+    each!(problem, problem => solver.solve(problem).map(Solution::of_pairs))
 }
 
 impl ValueEnum for Method {

@@ -14,7 +14,8 @@ pub(super) const BAD_INPUT: u8 = 2;
 
 /// The failure with the name of the file, which the error of a place in it does not have.
 pub(super) fn in_file(path: &Path, error: &dyn std::fmt::Display) -> Failure {
-    format!("{}: {error}", path.display()).into()
+    let name = if path.as_os_str() == "-" { Path::new("standard input") } else { path };
+    format!("{}: {error}", name.display()).into()
 }
 
 pub(super) fn residual_lines(residuals: &Residuals) -> String {

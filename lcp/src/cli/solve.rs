@@ -53,9 +53,10 @@ pub(super) fn run(
     input: &mut dyn Read,
     out: &mut dyn Write,
 ) -> Result<u8, Failure> {
-    let input = args.input.read(input)?;
+    let stdin = input;
+    let input = args.input.read(stdin)?;
     let began = ProcessTime::try_now();
-    let solution = method::solve(args, &input.problem)?;
+    let solution = method::solve(args, stdin, &input.problem)?;
     let cpu_s = began.and_then(|began| began.try_elapsed()).map(|time| time.as_secs_f64());
     if let Some(path) = &args.trace {
         let trace = serde_json::to_string(&solution.trace)? + "\n";

@@ -1,128 +1,202 @@
-//! Our JSON.
+//! Our JSON: one object with a `kind` and the fields of that kind.
 
-mod fields;
-mod kind;
-mod write;
+mod array;
+mod wrong;
 
-use fields::Fields;
-use kind::Kind;
-use serde::Deserialize;
-use serde_json::value::RawValue;
+use faer::sparse::SparseColMat;
+use serde::{Deserialize, Serialize};
+use serde_json::from_str;
 
 use super::{Problem, ReadError};
-use crate::Contact2d;
+use crate::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, MixedLcp};
+use array::Array;
+use wrong::Wrong;
 
-pub use write::to_json;
+/// The field `kind`.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Kind {
+    Lcp,
+    Horizontal,
+    Mixed,
+    Boxed,
+    Friction,
+    Contact,
+}
 
-/// The fields of all kinds, as they stand in the text, so that every error has its place.
+/// What says which of the following a document is.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Document<'a> {
+struct Tag {
     kind: Kind,
-    #[serde(borrow)]
-    m: Option<&'a RawValue>,
-    #[serde(borrow)]
-    q: Option<&'a RawValue>,
-    #[serde(borrow)]
-    a: Option<&'a RawValue>,
-    #[serde(borrow)]
-    b: Option<&'a RawValue>,
-    #[serde(borrow)]
-    c: Option<&'a RawValue>,
-    #[serde(borrow)]
-    free: Option<&'a RawValue>,
-    #[serde(borrow)]
-    lower: Option<&'a RawValue>,
-    #[serde(borrow)]
-    upper: Option<&'a RawValue>,
-    #[serde(borrow)]
-    w: Option<&'a RawValue>,
-    #[serde(borrow)]
-    mu: Option<&'a RawValue>,
-    #[serde(borrow)]
-    k: Option<&'a RawValue>,
-    #[serde(borrow)]
-    f: Option<&'a RawValue>,
-    #[serde(borrow)]
-    c_n: Option<&'a RawValue>,
-    #[serde(borrow)]
-    c_t: Option<&'a RawValue>,
-    #[serde(borrow)]
-    x_0: Option<&'a RawValue>,
-    #[serde(borrow)]
-    s_0: Option<&'a RawValue>,
-    #[serde(borrow)]
-    compliance: Option<&'a RawValue>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Standard {
+    kind: Kind,
+    m: Array,
+    q: Vec<f64>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Horizontal {
+    kind: Kind,
+    a: Array,
+    b: Array,
+    c: Vec<f64>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Mixed {
+    kind: Kind,
+    m: Array,
+    q: Vec<f64>,
+    free: Vec<bool>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Boxed {
+    kind: Kind,
+    m: Array,
+    q: Vec<f64>,
+    lower: Bounds,
+    upper: Bounds,
+}
+
+/// Where there is no bound, it is `null`.
+type Bounds = Vec<Option<f64>>;
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Friction {
+    kind: Kind,
+    w: Array,
+    q: Vec<f64>,
+    mu: Vec<f64>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Contact {
+    kind: Kind,
+    k: Array,
+    f: Vec<f64>,
+    c_n: Array,
+    c_t: Array,
+    x_0: Vec<f64>,
+    s_0: Vec<f64>,
+    mu: Vec<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    compliance: Option<Vec<[f64; 2]>>,
 }
 
 pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
-    let document: Document<'_> =
-        serde_json::from_str(text).map_err(|error| fields::whole(&error))?;
-    let mut fields = Fields::new(
-        text,
-        document.kind,
-        [
-            ("m", document.m),
-            ("q", document.q),
-            ("a", document.a),
-            ("b", document.b),
-            ("c", document.c),
-            ("free", document.free),
-            ("lower", document.lower),
-            ("upper", document.upper),
-            ("w", document.w),
-            ("mu", document.mu),
-            ("k", document.k),
-            ("f", document.f),
-            ("c_n", document.c_n),
-            ("c_t", document.c_t),
-            ("x_0", document.x_0),
-            ("s_0", document.s_0),
-            ("compliance", document.compliance),
-        ],
-    );
-    let problem = match document.kind {
+    problem(text).map_err(|wrong| wrong.in_text(text))
+}
+
+fn problem(text: &str) -> Result<Problem, Wrong> {
+    let Tag { kind } = from_str(text)?;
+    Ok(match kind {
         Kind::Lcp => {
-            let q = fields.vector("q")?;
-            let m = fields.matrix("m", q.len())?;
-            Problem::lcp(m, q, fields.begin())
+            let Standard { m, q, .. } = from_str(text)?;
+            Problem::Lcp(Lcp::new(m.square("m", q.len())?, q)?)
         }
         Kind::Horizontal => {
-            let c = fields.vector("c")?;
-            let a = fields.matrix("a", c.len())?;
-            let b = fields.matrix("b", c.len())?;
-            Problem::horizontal(a, b, c, fields.begin())
+            let Horizontal { a, b, c, .. } = from_str(text)?;
+            let (a, b) = (a.square("a", c.len())?, b.square("b", c.len())?);
+            Problem::Horizontal(HorizontalLcp::new(a, b, c)?)
         }
         Kind::Mixed => {
-            let q = fields.vector("q")?;
-            let m = fields.matrix("m", q.len())?;
-            let free = fields.list("free", q.len())?;
-            Problem::mixed(m, q, free, fields.begin())
+            let Mixed { m, q, free, .. } = from_str(text)?;
+            Problem::Mixed(MixedLcp::new(m.square("m", q.len())?, q, free)?)
         }
         Kind::Boxed => {
-            let q = fields.vector("q")?;
-            let m = fields.matrix("m", q.len())?;
-            let lower = fields.bounds("lower", q.len(), f64::NEG_INFINITY)?;
-            let upper = fields.bounds("upper", q.len(), f64::INFINITY)?;
-            Problem::boxed(m, q, lower, upper, fields.begin())
+            let Boxed { m, q, lower, upper, .. } = from_str(text)?;
+            let (lower, upper) = (or(lower, f64::NEG_INFINITY), or(upper, f64::INFINITY));
+            Problem::Boxed(BoxedLcp::new(m.square("m", q.len())?, q, lower, upper)?)
         }
         Kind::Friction => {
-            let mu = fields.frictions("mu")?;
-            let q = fields.list("q", 2 * mu.len())?;
-            let w = fields.matrix("w", q.len())?;
-            Problem::friction(w, q, mu, fields.begin())
+            let Friction { w, q, mu, .. } = from_str(text)?;
+            Problem::Friction(Friction2d::new(w.square("w", q.len())?, q, mu)?)
         }
         Kind::Contact => {
-            let f = fields.vector("f")?;
-            let mu = fields.frictions("mu")?;
-            let k = fields.matrix("k", f.len())?;
-            let [c_n, c_t] = ["c_n", "c_t"].map(|name| fields.matrix_of(name, mu.len(), f.len()));
-            let [x_0, s_0] = ["x_0", "s_0"].map(|name| fields.list(name, mu.len()));
-            let compliance = fields.list_if_any("compliance", mu.len())?;
-            let problem = Contact2d::new(k, f, c_n?, c_t?, x_0?, s_0?, mu);
-            Problem::contact(problem, compliance, fields.begin())
+            let Contact { k, f, c_n, c_t, x_0, s_0, mu, compliance, .. } = from_str(text)?;
+            let (n, points) = (f.len(), mu.len());
+            let (c_n, c_t) = (c_n.sized("c_n", points, n)?, c_t.sized("c_t", points, n)?);
+            let hard = Contact2d::new(k.square("k", n)?, f, c_n, c_t, x_0, s_0, mu)?;
+            Problem::Contact(match compliance {
+                Some(compliance) => hard.with_compliance(compliance)?,
+                None => hard,
+            })
         }
-    }?;
-    fields.none_left()?;
-    Ok(problem)
+    })
+}
+
+/// A problem as JSON text that [`read`](crate::io::read) gives back, to the last digit.
+///
+/// ```
+/// use lcp::io::{read, to_json};
+/// let file = read(b"1  2  -1", None)?;
+/// let json = to_json(&file.problem);
+/// assert_eq!(json, r#"{"kind":"lcp","m":[[2.0]],"q":[-1.0]}"#);
+/// assert_eq!(to_json(&read(json.as_bytes(), None)?.problem), json);
+/// # Ok::<(), lcp::io::ReadError>(())
+/// ```
+pub fn to_json(problem: &Problem) -> String {
+    serde_json::to_string(problem).unwrap_or_else(|e| unreachable!("numbers and lists: {e}"))
+}
+
+/// In the form of our JSON.
+impl Serialize for Problem {
+    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Lcp(it) => {
+                Standard { kind: Kind::Lcp, m: it.m().into(), q: it.q().into() }.serialize(to)
+            }
+            Self::Horizontal(it) => {
+                let (a, b) = (it.a().into(), it.b().into());
+                Horizontal { kind: Kind::Horizontal, a, b, c: it.c().into() }.serialize(to)
+            }
+            Self::Mixed(it) => {
+                let (m, q) = (it.m().into(), it.q().into());
+                Mixed { kind: Kind::Mixed, m, q, free: it.free().into() }.serialize(to)
+            }
+            Self::Boxed(it) => {
+                let [lower, upper] = [it.lower(), it.upper()].map(finite);
+                Boxed { kind: Kind::Boxed, m: it.m().into(), q: it.q().into(), lower, upper }
+                    .serialize(to)
+            }
+            Self::Friction(it) => {
+                let (w, mu) = (it.w().into(), it.mu().into());
+                Friction { kind: Kind::Friction, w, q: it.q().into(), mu }.serialize(to)
+            }
+            Self::Contact(it) => {
+                let array = |m: &SparseColMat<usize, f64>| Array::from(&m.clone().into());
+                let is_compliant = it.compliance().iter().flatten().any(|a| *a > 0.0);
+                Contact {
+                    kind: Kind::Contact,
+                    k: array(it.stiffness()),
+                    f: it.loads().into(),
+                    c_n: array(it.normal()),
+                    c_t: array(it.tangent()),
+                    x_0: it.initial_gaps().into(),
+                    s_0: it.initial_slips().into(),
+                    mu: it.mu().into(),
+                    compliance: is_compliant.then(|| it.compliance().into()),
+                }
+                .serialize(to)
+            }
+        }
+    }
+}
+
+fn or(bounds: Bounds, none: f64) -> Vec<f64> {
+    bounds.into_iter().map(|bound| bound.unwrap_or(none)).collect()
+}
+
+fn finite(bounds: &[f64]) -> Bounds {
+    bounds.iter().map(|bound| Some(*bound).filter(|bound| bound.is_finite())).collect()
 }

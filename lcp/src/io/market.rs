@@ -17,7 +17,7 @@
 
 use faer::Mat;
 
-use super::tokens::{Token, Tokens};
+use super::tokens::Tokens;
 use super::{Position, ReadError};
 use crate::Matrix;
 
@@ -28,7 +28,6 @@ const LINE: &str =
     "the first line is, for instance, `%%MatrixMarket matrix coordinate real general`";
 /// A vector with zeros may be longer than its file by this factor; beyond it is a mistake.
 const ZEROS: usize = 1000;
-const SIZES: &str = "the matrix must fit the other parts of the problem";
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Symmetry {
@@ -54,18 +53,31 @@ pub fn read_matrix(content: &[u8], rows: usize, cols: usize) -> Result<Matrix, R
     let header = Header::of(&text)?;
     let mut tokens = Tokens::with_comments(&text, '%');
     for (what, expected) in [("the number of rows", rows), ("the number of columns", cols)] {
-        let token = tokens.expect(|| what.to_owned())?;
-        if token.count(what)? != expected {
-            return Err(token.unexpected(format!("{what} {expected}"), SIZES));
-        }
+        let remedy = "the matrix must fit the other parts of the problem";
+        tokens.count_if(format_args!("{what} {expected}"), remedy, |size| size == expected)?;
     }
-    let matrix = if header.is_array {
+    header.symmetry.check(rows, cols, tokens.position())?;
+    let entries = if header.is_array {
         array(&mut tokens, header.symmetry, rows, cols)?
     } else {
         coordinates(&mut tokens, header, rows, cols)?
     };
     tokens.end("correct the sizes, or take it out")?;
-    Ok(matrix)
+    let is_off = |entry: &&(usize, usize, f64)| entry.0 != entry.1;
+    let sign = match header.symmetry {
+        Symmetry::General => None,
+        Symmetry::Symmetric => Some(1.0),
+        Symmetry::Skew => Some(-1.0),
+    };
+    let mirrored =
+        sign.map(|sign| entries.iter().filter(is_off).map(move |&(i, j, v)| (j, i, sign * v)));
+    let all = entries.iter().copied().chain(mirrored.into_iter().flatten());
+    if !header.is_array {
+        return Ok(Matrix::from_entries(rows, cols, all));
+    }
+    let mut matrix = Mat::zeros(rows, cols);
+    all.for_each(|(i, j, v)| matrix[(i, j)] = v);
+    Ok(matrix.into())
 }
 
 /// Reads a vector: a matrix of one column.
@@ -95,10 +107,10 @@ impl Header {
         let line = text.lines().next().unwrap_or_default();
         let mut words = Tokens::new(line);
         let mut word = |known: &[&'static str]| -> Result<&'static str, ReadError> {
-            let expected = || format!("`{}`", known.join("` or `"));
-            let token: Token<'_> = words.expect(expected)?;
+            let expected = format!("`{}`", known.join("` or `"));
+            let token = words.expect(&expected)?;
             let found = known.iter().find(|word| word.eq_ignore_ascii_case(token.text));
-            found.copied().ok_or_else(|| token.unexpected(expected(), LINE))
+            found.copied().ok_or_else(|| token.unexpected(expected, LINE))
         };
         word(&[BANNER])?;
         word(&["matrix"])?;
@@ -126,15 +138,6 @@ impl Symmetry {
         }
     }
 
-    /// The value of the mirrored entry, of a place off the diagonal.
-    fn mirrored(self, value: f64) -> Option<f64> {
-        match self {
-            Self::General => None,
-            Self::Symmetric => Some(value),
-            Self::Skew => Some(-value),
-        }
-    }
-
     fn check(self, rows: usize, cols: usize, at: Position) -> Result<(), ReadError> {
         if self == Self::General || rows == cols {
             return Ok(());
@@ -154,9 +157,7 @@ fn array(
     symmetry: Symmetry,
     rows: usize,
     cols: usize,
-) -> Result<Matrix, ReadError> {
-    let at = tokens.position();
-    symmetry.check(rows, cols, at)?;
+) -> Result<Vec<(usize, usize, f64)>, ReadError> {
     let all = rows.checked_mul(cols);
     let needed = match symmetry {
         Symmetry::General => all,
@@ -164,17 +165,8 @@ fn array(
         Symmetry::Skew => all.map(|all| (all - rows) / 2),
     };
     tokens.room_for(needed, "the matrix")?;
-    let mut matrix = Mat::zeros(rows, cols);
-    for col in 0..cols {
-        for row in symmetry.first_row(col)..rows {
-            let value = tokens.number("an entry of the matrix")?;
-            matrix[(row, col)] = value;
-            if let Some(mirrored) = symmetry.mirrored(value).filter(|_| row != col) {
-                matrix[(col, row)] = mirrored;
-            }
-        }
-    }
-    Ok(matrix.into())
+    let places = (0..cols).flat_map(|j| (symmetry.first_row(j)..rows).map(move |i| (i, j)));
+    places.map(|(i, j)| Ok((i, j, tokens.number("an entry of the matrix")?))).collect()
 }
 
 /// The number of entries, then row and column of each, from 1, with its value, which a pattern has not.
@@ -183,39 +175,31 @@ fn coordinates(
     header: Header,
     rows: usize,
     cols: usize,
-) -> Result<Matrix, ReadError> {
+) -> Result<Vec<(usize, usize, f64)>, ReadError> {
     let Header { is_pattern, symmetry, .. } = header;
-    symmetry.check(rows, cols, tokens.position())?;
     let count = tokens.count("the number of entries")?;
     tokens.room_for(count.checked_mul(if is_pattern { 2 } else { 3 }), "the list of entries")?;
-    let mut entries = Vec::with_capacity(count);
-    for _ in 0..count {
+    let entry = |_| {
         let at = tokens.position();
-        let row = place(tokens, rows, "a row")?;
-        let col = place(tokens, cols, "a column")?;
+        let (row, col) = (place(tokens, rows, "a row")?, place(tokens, cols, "a column")?);
         let value = if is_pattern { 1.0 } else { tokens.number("the value of an entry")? };
-        if row < symmetry.first_row(col) {
-            return Err(ReadError::Unexpected {
-                at,
-                expected: "an entry of the lower triangle".to_owned(),
-                found: format!("the place ({}, {})", row + 1, col + 1),
-                remedy: "a symmetric matrix is written without its upper triangle, a skew-symmetric one \
-                         without its diagonal too",
-            });
+        if row >= symmetry.first_row(col) {
+            return Ok((row, col, value));
         }
-        entries.push((row, col, value));
-        if let Some(mirrored) = symmetry.mirrored(value).filter(|_| row != col) {
-            entries.push((col, row, mirrored));
-        }
-    }
-    Ok(Matrix::from_entries(rows, cols, entries.into_iter()))
+        Err(ReadError::Unexpected {
+            at,
+            expected: "an entry of the lower triangle".to_owned(),
+            found: format!("the place ({}, {})", row + 1, col + 1),
+            remedy: "a symmetric matrix is written without its upper triangle, a skew-symmetric one \
+                     without its diagonal too",
+        })
+    };
+    (0..count).map(entry).collect()
 }
 
 /// A row or column, from 1 in the file and from 0 here.
 fn place(tokens: &mut Tokens<'_>, size: usize, what: &'static str) -> Result<usize, ReadError> {
-    let token = tokens.expect(|| what.to_owned())?;
-    match token.count(what)?.checked_sub(1) {
-        Some(index) if index < size => Ok(index),
-        _ => Err(token.unexpected(format!("{what} from 1 to {size}"), "indices begin at 1")),
-    }
+    let expected = format_args!("{what} from 1 to {size}");
+    let place = tokens.count_if(expected, "indices begin at 1", |it| (1..=size).contains(&it))?;
+    Ok(place - 1)
 }

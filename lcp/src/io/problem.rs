@@ -5,9 +5,25 @@ use std::borrow::Cow;
 use super::{Position, ReadError};
 use crate::conversion::General;
 use crate::{
-    BoxedLcp, Contact2d, ContactState, Friction2d, HorizontalLcp, Lcp, Matrix, MixedLcp, Residuals,
-    Solution,
+    BoxedLcp, Contact2d, ContactForces, ContactState, Friction2d, HorizontalLcp, Lcp, Matrix,
+    MixedLcp, Residuals, Solution,
 };
+
+/// The same of a problem of every kind.
+macro_rules! each {
+    ($of:expr, $problem:ident => $what:expr) => {
+        match $of {
+            $crate::io::Problem::Lcp($problem) => $what,
+            $crate::io::Problem::Horizontal($problem) => $what,
+            $crate::io::Problem::Mixed($problem) => $what,
+            $crate::io::Problem::Boxed($problem) => $what,
+            $crate::io::Problem::Friction($problem) => $what,
+            $crate::io::Problem::Contact($problem) => $what,
+        }
+    };
+}
+#[cfg(feature = "cli")]
+pub(crate) use each;
 
 /// A problem of any kind that files hold.
 ///
@@ -45,14 +61,7 @@ impl Problem {
 
     /// Number of entries of `z` and of `w`.
     pub fn order(&self) -> usize {
-        match self {
-            Self::Lcp(problem) => problem.order(),
-            Self::Horizontal(problem) => problem.order(),
-            Self::Mixed(problem) => problem.order(),
-            Self::Boxed(problem) => problem.order(),
-            Self::Friction(problem) => problem.order(),
-            Self::Contact(problem) => problem.order(),
-        }
+        each!(self, problem => problem.order())
     }
 
     /// The matrices, with their names.
@@ -79,14 +88,7 @@ impl Problem {
 
     /// The general problem, for a solver.
     pub fn to_general(&self) -> HorizontalLcp {
-        match self {
-            Self::Lcp(problem) => problem.clone().into(),
-            Self::Horizontal(problem) => problem.clone(),
-            Self::Mixed(problem) => problem.to_general(),
-            Self::Boxed(problem) => problem.to_general(),
-            Self::Friction(problem) => problem.standard().clone().into(),
-            Self::Contact(problem) => problem.to_general(),
-        }
+        self.general().into_owned()
     }
 
     /// `(z, w)` from a point of the general problem.
@@ -131,8 +133,7 @@ impl Problem {
             Self::Mixed(problem) => Some(affine(problem.m(), z, problem.q())),
             Self::Boxed(problem) => Some(affine(problem.m(), z, problem.q())),
             Self::Friction(problem) => {
-                let problem = problem.standard();
-                Some(affine(problem.m(), z, problem.q()))
+                Some(affine(problem.standard().m(), z, problem.standard().q()))
             }
             Self::Horizontal(_) | Self::Contact(_) => None,
         }
@@ -152,72 +153,38 @@ impl Problem {
             Self::Contact(problem) => problem.residuals(&problem.recover(z, w)),
         }
     }
+}
 
-    pub(super) fn lcp(m: Matrix, q: Vec<f64>, at: Position) -> Result<Self, ReadError> {
-        refused(Lcp::new(m, q), at).map(Self::Lcp)
-    }
-
-    pub(super) fn horizontal(
-        a: Matrix,
-        b: Matrix,
-        c: Vec<f64>,
-        at: Position,
-    ) -> Result<Self, ReadError> {
-        refused(HorizontalLcp::new(a, b, c), at).map(Self::Horizontal)
-    }
-
-    pub(super) fn mixed(
-        m: Matrix,
-        q: Vec<f64>,
-        free: Vec<bool>,
-        at: Position,
-    ) -> Result<Self, ReadError> {
-        refused(MixedLcp::new(m, q, free), at).map(Self::Mixed)
-    }
-
-    pub(super) fn boxed(
-        m: Matrix,
-        q: Vec<f64>,
-        lower: Vec<f64>,
-        upper: Vec<f64>,
-        at: Position,
-    ) -> Result<Self, ReadError> {
-        refused(BoxedLcp::new(m, q, lower, upper), at).map(Self::Boxed)
-    }
-
-    /// From the problem of hard contacts and the compliances, if there are any.
-    pub(super) fn contact(
-        hard: Result<Contact2d, crate::Error>,
-        compliance: Option<Vec<[f64; 2]>>,
-        at: Position,
-    ) -> Result<Self, ReadError> {
-        let problem = match compliance {
-            Some(compliance) => hard.and_then(|hard| hard.with_compliance(compliance)),
-            None => hard,
-        };
-        refused(problem, at).map(Self::Contact)
-    }
-
-    pub(super) fn friction(
-        w: Matrix,
-        q: Vec<f64>,
-        mu: Vec<f64>,
-        at: Position,
-    ) -> Result<Self, ReadError> {
-        refused(Friction2d::new(w, q, mu), at).map(Self::Friction)
-    }
+/// The problem of data that end a file, or what is wrong with them.
+pub(super) fn posed<P>(
+    problem: Result<P, crate::Error>,
+    kind: impl FnOnce(P) -> Problem,
+    at: Position,
+) -> Result<Problem, ReadError> {
+    problem.map(kind).map_err(|source| ReadError::Refused { at, source })
 }
 
 /// Of the kind that the file holds.
 impl General for Problem {
     fn general(&self) -> Cow<'_, HorizontalLcp> {
-        Cow::Owned(self.to_general())
+        each!(self, problem => problem.general())
     }
 
     fn residuals_of_pairs(&self, t: &[f64], y: &[f64]) -> Residuals {
         let (z, w) = self.recover(t, y);
         self.residuals(&z, &w)
     }
+}
+
+/// The point of the general problem that belongs to forces at contacts.
+#[cfg(feature = "cli")]
+pub(crate) fn pairs_of_forces(
+    problem: &Friction2d,
+    forces: &ContactForces,
+) -> (Vec<f64>, Vec<f64>) {
+    let both = forces.normal.iter().zip(&forces.tangential);
+    let r: Vec<f64> = both.flat_map(|(normal, tangential)| [*normal, *tangential]).collect();
+    problem.to_pairs(&r, &affine(problem.w(), &r, problem.q()))
 }
 
 /// `M z + q`, where what cancels up to rounding is zero.
@@ -233,8 +200,4 @@ fn affine(m: &Matrix, z: &[f64], q: &[f64]) -> Vec<f64> {
     }
     let kept = |(sum, size): (f64, f64)| if sum.abs() > ROUNDING * size { sum } else { 0.0 };
     terms.into_iter().map(kept).collect()
-}
-
-fn refused<T>(result: Result<T, crate::Error>, at: Position) -> Result<T, ReadError> {
-    result.map_err(|source| ReadError::Refused { at, source })
 }

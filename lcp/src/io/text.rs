@@ -2,8 +2,10 @@
 
 use faer::Mat;
 
+use super::problem::posed;
 use super::tokens::Tokens;
 use super::{Problem, ReadError};
+use crate::Lcp;
 
 pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
     let mut tokens = Tokens::new(text);
@@ -13,5 +15,5 @@ pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
     let by_rows = tokens.numbers(n * n, "M")?;
     let q = tokens.numbers(n, "q")?;
     tokens.end("there are n numbers of q after the n x n numbers of M, and nothing else")?;
-    Problem::lcp(Mat::from_fn(n, n, |i, j| by_rows[i * n + j]).into(), q, at)
+    posed(Lcp::new(Mat::from_fn(n, n, |i, j| by_rows[i * n + j]), q), Problem::Lcp, at)
 }

@@ -1,8 +1,12 @@
 //! Words of a text file, with their places.
 
+use std::fmt::Display;
+
 use super::{Position, ReadError};
 
 const END: &str = "the end of the file";
+/// What sizes in a file are to be.
+pub(super) const SIZES: &str = "sizes must agree with each other";
 
 /// A word and its place.
 #[derive(Debug, Clone, Copy)]
@@ -12,22 +16,31 @@ pub(super) struct Token<'a> {
 }
 
 impl Token<'_> {
-    pub(super) fn unexpected(&self, expected: String, remedy: &'static str) -> ReadError {
-        ReadError::Unexpected { at: self.at, expected, found: quoted(self.text), remedy }
+    pub(super) fn unexpected(&self, expected: impl Display, remedy: &'static str) -> ReadError {
+        let (expected, found) = (expected.to_string(), quoted(self.text));
+        ReadError::Unexpected { at: self.at, expected, found, remedy }
     }
 
     /// The word as a finite number.
-    pub(super) fn number(&self, expected: impl FnOnce() -> String) -> Result<f64, ReadError> {
-        match self.text.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(value),
-            _ => Err(self.unexpected(expected(), "every value is a finite decimal number")),
-        }
+    pub(super) fn number(&self, what: impl Display) -> Result<f64, ReadError> {
+        let value = self.text.parse().ok().filter(|value: &f64| value.is_finite());
+        value.ok_or_else(|| self.unexpected(what, "every value is a finite decimal number"))
     }
 
-    /// The word as a count or an index.
-    pub(super) fn count(&self, what: &str) -> Result<usize, ReadError> {
-        let remedy = "counts and indices are whole numbers without sign";
-        self.text.parse().map_err(|_| self.unexpected(what.to_owned(), remedy))
+    /// The word as a count or an index that is allowed.
+    pub(super) fn count_if(
+        &self,
+        what: impl Display,
+        remedy: &'static str,
+        is_allowed: impl FnOnce(usize) -> bool,
+    ) -> Result<usize, ReadError> {
+        match self.text.parse() {
+            Ok(count) if is_allowed(count) => Ok(count),
+            Ok(_) => Err(self.unexpected(what, remedy)),
+            Err(_) => {
+                Err(self.unexpected(what, "counts and indices are whole numbers without sign"))
+            }
+        }
     }
 }
 
@@ -81,53 +94,62 @@ impl<'a> Tokens<'a> {
     }
 
     /// The next word, which the format calls for.
-    pub(super) fn expect(
-        &mut self,
-        expected: impl FnOnce() -> String,
-    ) -> Result<Token<'a>, ReadError> {
+    pub(super) fn expect(&mut self, what: impl Display) -> Result<Token<'a>, ReadError> {
         self.next().ok_or_else(|| ReadError::Unexpected {
             at: self.next,
-            expected: expected(),
+            expected: what.to_string(),
             found: END.to_owned(),
             remedy: "complete the file",
         })
     }
 
     /// The next word as a count or an index.
-    pub(super) fn count(&mut self, what: &'static str) -> Result<usize, ReadError> {
-        self.expect(|| what.to_owned())?.count(what)
+    pub(super) fn count(&mut self, what: impl Display) -> Result<usize, ReadError> {
+        self.count_if(what, "", |_| true)
+    }
+
+    /// The next word as a count or an index that is allowed.
+    pub(super) fn count_if(
+        &mut self,
+        what: impl Display,
+        remedy: &'static str,
+        is_allowed: impl FnOnce(usize) -> bool,
+    ) -> Result<usize, ReadError> {
+        self.expect(&what)?.count_if(what, remedy, is_allowed)
     }
 
     /// A count that the format fixes.
     pub(super) fn fixed(&mut self, what: &str, value: usize) -> Result<(), ReadError> {
-        let token = self.expect(|| format!("{what} = {value}"))?;
-        if token.count(what)? == value {
-            return Ok(());
-        }
-        Err(token.unexpected(format!("{what} = {value}"), "sizes must agree with each other"))
+        self.count_if(format_args!("{what} = {value}"), SIZES, |count| count == value).map(drop)
     }
 
     /// An index below a bound.
-    pub(super) fn index(&mut self, bound: usize, what: &'static str) -> Result<usize, ReadError> {
-        let token = self.expect(|| what.to_owned())?;
-        match token.count(what)? {
-            index if index < bound => Ok(index),
-            _ => Err(token.unexpected(format!("{what}, below {bound}"), "indices begin at 0")),
-        }
+    pub(super) fn index(&mut self, bound: usize, what: &str) -> Result<usize, ReadError> {
+        let expected = format_args!("{what}, below {bound}");
+        self.count_if(expected, "indices begin at 0", |index| index < bound)
     }
 
-    /// That word.
-    pub(super) fn word(&mut self, word: &'static str) -> Result<(), ReadError> {
-        let token = self.expect(|| format!("`{word}`"))?;
-        if token.text == word {
-            return Ok(());
-        }
-        Err(token.unexpected(format!("`{word}`"), "the words between the numbers are fixed"))
+    /// One of these words, by its number.
+    pub(super) fn one_of(&mut self, words: &[&str], what: &str) -> Result<usize, ReadError> {
+        let token = self.expect(what)?;
+        let found = words.iter().position(|word| *word == token.text);
+        found.ok_or_else(|| token.unexpected(what, "nothing else exists"))
+    }
+
+    /// These words.
+    pub(super) fn words(&mut self, words: &str) -> Result<(), ReadError> {
+        words.split(' ').try_for_each(|word| {
+            let token = self.expect(format_args!("`{word}`"))?;
+            if token.text == word {
+                return Ok(());
+            }
+            Err(token.unexpected(format_args!("`{word}`"), "the words between numbers are fixed"))
+        })
     }
 
     /// One number.
-    pub(super) fn number(&mut self, what: &'static str) -> Result<f64, ReadError> {
-        self.expect(|| what.to_owned())?.number(|| what.to_owned())
+    pub(super) fn number(&mut self, what: impl Display) -> Result<f64, ReadError> {
+        self.expect(&what)?.number(what)
     }
 
     /// That many numbers.
@@ -137,45 +159,27 @@ impl<'a> Tokens<'a> {
         what: &'static str,
     ) -> Result<Vec<f64>, ReadError> {
         self.room_for(Some(count), what)?;
-        let mut values = Vec::with_capacity(count);
-        for index in 1..=count {
-            let expected = || format!("number {index} of {count} of {what}");
-            values.push(self.expect(expected)?.number(expected)?);
-        }
-        Ok(values)
+        (1..=count).map(|k| self.number(format_args!("number {k} of {count} of {what}"))).collect()
     }
 
     /// Refuses numbers where the format has none left. Words may follow, which are for people, and before them
     /// up to `known` numbers of an answer that is known.
     pub(super) fn end_of_numbers(&mut self, known: usize) -> Result<(), ReadError> {
+        let number = |token: &Token<'_>| token.text.parse::<f64>().is_ok();
         for _ in 0..known {
-            match self.next() {
-                Some(token) if token.text.parse::<f64>().is_ok() => {}
-                _ => return Ok(()),
+            if !self.next().is_some_and(|token| number(&token)) {
+                return Ok(());
             }
         }
-        match self.next().filter(|token| token.text.parse::<f64>().is_ok()) {
-            Some(token) => {
-                Err(token.unexpected(END.to_owned(), "correct the sizes, or take it out"))
-            }
+        match self.next().filter(number) {
+            Some(token) => Err(token.unexpected(END, "correct the sizes, or take it out")),
             None => Ok(()),
-        }
-    }
-
-    /// Passes over 0 or 1, if that comes next.
-    pub(super) fn flag(&mut self) {
-        let mut ahead = self.clone();
-        if ahead.next().is_some_and(|token| matches!(token.text, "0" | "1")) {
-            *self = ahead;
         }
     }
 
     /// Refuses whatever is left.
     pub(super) fn end(&mut self, remedy: &'static str) -> Result<(), ReadError> {
-        match self.next() {
-            Some(token) => Err(token.unexpected(END.to_owned(), remedy)),
-            None => Ok(()),
-        }
+        self.next().map_or(Ok(()), |token| Err(token.unexpected(END, remedy)))
     }
 
     /// Where the next word is looked for.

@@ -4,44 +4,39 @@ use faer::Mat;
 
 use crate::Matrix;
 use crate::io::ReadError;
-use crate::io::tokens::{Token, Tokens};
-
-const SIZE: &str = "the size, as 3-by-3";
-const SIZES: &str = "sizes must agree with each other";
+use crate::io::tokens::{SIZES, Token, Tokens};
 
 /// A matrix of that size, in any storage.
 pub(super) fn read(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matrix, ReadError> {
     let storage = storage(tokens)?;
-    tokens.fixed("the number of rows", rows)?;
-    tokens.fixed("the number of columns", cols)?;
+    sizes(tokens, rows, cols)?;
     match storage {
-        Storage::Dense => read_dense(tokens, rows, cols),
-        Storage::Blocks => read_blocks(tokens, rows, cols),
-        Storage::Sparse => read_sparse(tokens, rows, cols),
+        0 => read_dense(tokens, rows, cols),
+        1 => read_blocks(tokens, rows, cols),
+        _ => read_sparse(tokens, rows, cols),
     }
 }
 
-pub(super) enum Storage {
-    Dense,
-    Blocks,
-    Sparse,
+/// The number of rows of the matrix that comes next.
+pub(super) fn rows_ahead(tokens: &Tokens<'_>) -> Result<usize, ReadError> {
+    let mut ahead = tokens.clone();
+    storage(&mut ahead)?;
+    ahead.count("the number of rows")
 }
 
 /// The word with which a matrix begins.
-pub(super) fn storage(tokens: &mut Tokens<'_>) -> Result<Storage, ReadError> {
-    const STORAGE: &str = "the storage type: 0 (dense), 1 (blocks) or 2 (sparse)";
-    let token = tokens.expect(|| STORAGE.to_owned())?;
-    match token.text {
-        "0" => Ok(Storage::Dense),
-        "1" => Ok(Storage::Blocks),
-        "2" => Ok(Storage::Sparse),
-        _ => Err(token.unexpected(STORAGE.to_owned(), "no other storage exists")),
-    }
+fn storage(tokens: &mut Tokens<'_>) -> Result<usize, ReadError> {
+    let what = "the storage type: 0 (dense), 1 (blocks) or 2 (sparse)";
+    tokens.one_of(&["0", "1", "2"], what)
+}
+
+fn sizes(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<(), ReadError> {
+    tokens.fixed("the number of rows", rows)?;
+    tokens.fixed("the number of columns", cols)
 }
 
 fn read_dense(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matrix, ReadError> {
-    tokens.fixed("the number of rows", rows)?;
-    tokens.fixed("the number of columns", cols)?;
+    sizes(tokens, rows, cols)?;
     tokens.room_for(rows.checked_mul(cols), "the matrix")?;
     let by_columns = tokens.numbers(rows * cols, "the matrix")?;
     Ok(Mat::from_fn(rows, cols, |i, j| by_columns[j * rows + i]).into())
@@ -53,12 +48,12 @@ fn read_blocks(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matr
     let block_cols = tokens.count("the number of block columns")?;
     let row_ends = read_ends(tokens, block_rows, rows)?;
     let col_ends = read_ends(tokens, block_cols, cols)?;
-    let pointer_count = tokens.expect(|| "the number of block row pointers".to_owned())?;
-    let pointers = pointer_count.count("the number of block row pointers")?;
-    if pointers == 0 || pointers > block_rows + 1 {
-        let expected = format!("1 to {} block row pointers", block_rows + 1);
-        return Err(pointer_count.unexpected(expected, SIZES));
-    }
+    let most = block_rows + 1;
+    let pointers = tokens.count_if(
+        format_args!("1 to {most}, the number of block row pointers"),
+        SIZES,
+        |count| (1..=most).contains(&count),
+    )?;
     tokens.fixed("the number of block columns that follow", blocks)?;
     let block_row = read_block_rows(tokens, pointers, blocks)?;
     let block_col = (0..blocks).map(|_| tokens.index(block_cols, "a block column"));
@@ -78,8 +73,6 @@ fn read_blocks(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matr
 /// Where every block ends: increasing up to the number of rows or columns.
 fn read_ends(tokens: &mut Tokens<'_>, count: usize, size: usize) -> Result<Vec<usize>, ReadError> {
     tokens.room_for(Some(count), "the ends of the blocks")?;
-    let mut ends = Vec::with_capacity(count);
-    let mut last = 0;
     if count == 0 && size > 0 {
         return Err(ReadError::Unexpected {
             at: tokens.position(),
@@ -88,18 +81,16 @@ fn read_ends(tokens: &mut Tokens<'_>, count: usize, size: usize) -> Result<Vec<u
             remedy: SIZES,
         });
     }
-    for index in 0..count {
-        let token = tokens.expect(|| "the end of a block".to_owned())?;
-        let end = token.count("the end of a block")?;
+    let mut last = 0;
+    let end = |index: usize| {
         let is_last = index + 1 == count;
-        if end <= last || end > size || (is_last && end != size) {
-            let expected = format!("an end of a block above {last}, the last one {size}");
-            return Err(token.unexpected(expected, SIZES));
-        }
-        ends.push(end);
-        last = end;
-    }
-    Ok(ends)
+        let expected = format_args!("an end of a block above {last}, the last one {size}");
+        last = tokens.count_if(expected, SIZES, |end| {
+            end > last && if is_last { end == size } else { end <= size }
+        })?;
+        Ok(last)
+    };
+    (0..count).map(end).collect()
 }
 
 /// The block row of every block, from the pointers to the first block of every block row.
@@ -112,21 +103,15 @@ fn read_block_rows(
     tokens.room_for(Some(blocks), "the block columns")?;
     let mut rows = Vec::with_capacity(blocks);
     for index in 0..pointers {
-        let token = tokens.expect(|| "a block row pointer".to_owned())?;
-        let pointer = token.count("a block row pointer")?;
-        let begun = rows.len();
-        let is_last = index + 1 == pointers;
-        if pointer < begun || pointer > blocks || (is_last && pointer != blocks) {
-            let expected = format!("a block row pointer of {begun} or more, the last one {blocks}");
-            return Err(token.unexpected(expected, SIZES));
-        }
-        match index.checked_sub(1) {
-            Some(row) => rows.resize(pointer, row),
-            None if pointer != 0 => {
-                return Err(token.unexpected("0, the first block row pointer".to_owned(), SIZES));
-            }
-            None => {}
-        }
+        let (begun, is_last) = (rows.len(), index + 1 == pointers);
+        let expected = format_args!(
+            "a block row pointer of {begun} or more, the first one 0 and the last one {blocks}"
+        );
+        let pointer = tokens.count_if(expected, SIZES, |pointer| {
+            let fits = (begun..=blocks).contains(&pointer) && (index > 0 || pointer == 0);
+            fits && (!is_last || pointer == blocks)
+        })?;
+        rows.resize(pointer, index.saturating_sub(1));
     }
     Ok(rows)
 }
@@ -138,7 +123,7 @@ fn range(ends: &[usize], index: usize) -> std::ops::Range<usize> {
 
 fn read_sparse(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matrix, ReadError> {
     let what = "the origin: 1 (triplets), 2 (by columns) or 3 (by rows)";
-    let origin = tokens.expect(|| what.to_owned())?;
+    let origin = tokens.expect(what)?;
     let (size, is_triplets) = skip_banner(tokens)?;
     // Rows are written as the columns of the transpose.
     let (written_rows, written_cols) = if origin.text == "3" { (cols, rows) } else { (rows, cols) };
@@ -146,16 +131,16 @@ fn read_sparse(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matr
     if size.text.trim_end_matches(',') != expected {
         return Err(size.unexpected(expected, SIZES));
     }
-    tokens.word("nzmax:")?;
+    tokens.words("nzmax:")?;
     tokens.count("nzmax")?;
-    tokens.word("nnz:")?;
-    let token = tokens.expect(|| "the number of entries".to_owned())?;
+    tokens.words("nnz:")?;
+    let token = tokens.expect("the number of entries")?;
     let nnz = Token { text: token.text.trim_end_matches(','), ..token };
-    let nnz = nnz.count("the number of entries")?;
+    let nnz = nnz.count_if("the number of entries", "", |_| true)?;
     let mut triplets = match (origin.text, is_triplets) {
         ("1", true) => read_triplets(tokens, rows, cols, nnz)?,
         ("2" | "3", false) => read_columns(tokens, written_rows, written_cols, nnz)?,
-        _ => return Err(origin.unexpected(what.to_owned(), "it must suit the entries that follow")),
+        _ => return Err(origin.unexpected(what, "it must suit the entries that follow")),
     };
     if origin.text == "3" {
         for (i, j, _) in &mut triplets {
@@ -167,12 +152,13 @@ fn read_sparse(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matr
 
 /// The word with the size, and whether triplets follow.
 fn skip_banner<'a>(tokens: &mut Tokens<'a>) -> Result<(Token<'a>, bool), ReadError> {
-    let first = tokens.expect(|| SIZE.to_owned())?;
+    let what = "the size, as 3-by-3";
+    let first = tokens.expect(what)?;
     let (mut token, mut is_triplets) = (first, false);
     while !token.text.contains("-by-") {
         is_triplets = token.text == "triplet:";
         // Without a size the file went wrong where the banner should begin, and not at its end.
-        let missing = || first.unexpected(SIZE.to_owned(), "it follows a line about the library");
+        let missing = || first.unexpected(what, "it follows a line about the library");
         token = tokens.next().ok_or_else(missing)?;
     }
     Ok((token, is_triplets))
@@ -187,14 +173,12 @@ fn read_triplets(
     nnz: usize,
 ) -> Result<Triplets, ReadError> {
     tokens.room_for(nnz.checked_mul(4), "the list of entries")?;
-    let mut triplets = Vec::with_capacity(nnz);
-    for _ in 0..nnz {
-        let row = tokens.index(rows, "a row")?;
-        let col = tokens.index(cols, "a column")?;
-        tokens.word(":")?;
-        triplets.push((row, col, tokens.number("the value of an entry")?));
-    }
-    Ok(triplets)
+    let entry = |_| {
+        let (row, col) = (tokens.index(rows, "a row")?, tokens.index(cols, "a column")?);
+        tokens.words(":")?;
+        Ok((row, col, tokens.number("the value of an entry")?))
+    };
+    (0..nnz).map(entry).collect()
 }
 
 fn read_columns(
@@ -203,29 +187,26 @@ fn read_columns(
     cols: usize,
     nnz: usize,
 ) -> Result<Triplets, ReadError> {
-    tokens.word("1-norm:")?;
-    tokens.expect(|| "the norm".to_owned())?;
+    tokens.words("1-norm:")?;
+    tokens.expect("the norm")?;
     tokens.room_for(nnz.checked_mul(3), "the list of entries")?;
     let mut triplets = Vec::with_capacity(nnz);
     for col in 0..cols {
-        tokens.word("col")?;
+        tokens.words("col")?;
         tokens.fixed("the column", col)?;
-        tokens.word(":")?;
-        tokens.word("locations")?;
+        tokens.words(": locations")?;
         tokens.fixed("the first location", triplets.len())?;
-        tokens.word("to")?;
-        let last = tokens.expect(|| "the last location".to_owned())?;
-        let end = last
-            .text
-            .parse::<i64>()
-            .ok()
-            .and_then(|last| usize::try_from(last.checked_add(1)?).ok());
+        tokens.words("to")?;
+        let last = tokens.expect("the last location")?;
+        // The last location of an empty first column is -1.
+        let end = last.text.parse::<i64>().ok().and_then(|last| last.checked_add(1));
+        let end = end.and_then(|end| usize::try_from(end).ok());
         let Some(end) = end.filter(|end| (triplets.len()..=nnz).contains(end)) else {
-            return Err(last.unexpected("the last location of the column".to_owned(), SIZES));
+            return Err(last.unexpected("the last location of the column", SIZES));
         };
         while triplets.len() < end {
             let row = tokens.index(rows, "a row")?;
-            tokens.word(":")?;
+            tokens.words(":")?;
             triplets.push((row, col, tokens.number("the value of an entry")?));
         }
     }

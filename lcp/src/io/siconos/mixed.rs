@@ -4,9 +4,10 @@
 use faer::Mat;
 
 use super::matrix;
-use crate::Matrix;
+use crate::io::problem::posed;
 use crate::io::tokens::Tokens;
 use crate::io::{Position, Problem, ReadError};
+use crate::{Matrix, MixedLcp};
 
 /// Two flags, which of two representations follow; `n` equalities and `m` complementarities; then
 /// the representations.
@@ -40,16 +41,11 @@ pub(in crate::io) fn read_mlcp(text: &str) -> Result<Problem, ReadError> {
     // Some files end with the known values of the variables and of w.
     tokens.end_of_numbers(n + 2 * m)?;
     let Mixed { m, q, free } = mixed;
-    Problem::mixed(m, q, free, at)
+    posed(MixedLcp::new(m, q, free), Problem::Mixed, at)
 }
 
 fn flag(tokens: &mut Tokens<'_>, what: &'static str) -> Result<bool, ReadError> {
-    let token = tokens.expect(|| what.to_owned())?;
-    match token.text {
-        "0" => Ok(false),
-        "1" => Ok(true),
-        _ => Err(token.unexpected(what.to_owned(), "it is one of these two")),
-    }
+    Ok(tokens.one_of(&["0", "1"], what)? == 1)
 }
 
 /// `w = M z + q`, where `free[i]`: `z_i` free and `w_i = 0`.
@@ -67,14 +63,9 @@ impl Mixed {
         let mut ends = Vec::new();
         let mut end = 0;
         while end < order {
-            let token = tokens.expect(|| "the end of a block".to_owned())?;
-            let next = token.count("the end of a block")?;
-            if next <= end || next > order {
-                let expected = format!("an end of a block above {end} and up to {order}");
-                let remedy = "the blocks together have n + m rows";
-                return Err(token.unexpected(expected, remedy));
-            }
-            end = next;
+            let expected = format_args!("an end of a block above {end} and up to {order}");
+            let remedy = "the blocks together have n + m rows";
+            end = tokens.count_if(expected, remedy, |next| next > end && next <= order)?;
             ends.push(end);
         }
         let at = tokens.position();
