@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
+#[path = "lcp_cli/enumerate.rs"]
+mod enumerate;
 #[path = "lcp_cli/input.rs"]
 mod input;
 #[path = "lcp_cli/methods.rs"]

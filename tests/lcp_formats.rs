@@ -8,8 +8,8 @@ mod contact;
 mod damage;
 #[path = "lcp_formats/market.rs"]
 mod market;
-use lcp::Matrix;
 use lcp::io::{Format, Position, Problem, ReadError, read, to_json};
+use lcp::{Lemke, Matrix, Solver};
 
 fn problem(text: &str) -> Problem {
     read(text.as_bytes(), None).unwrap().problem
@@ -177,6 +177,30 @@ fn mixed_problems_are_read_from_either_representation() {
     assert_eq!(parts(&swapped), (vec![vec![6.0, 5.0], vec![3.0, 2.0]], vec![7.0, 4.0]));
 }
 
+/// `w = M z + q` with `M = [[2, 1], [0, 2]]`, `q = (-1, 4)` and `-1 <= z1 <= 1`, `z2 <= 3`.
+#[test]
+fn relays_are_variables_between_bounds() {
+    let text = "2  0 2 2 2 2  2 0 1 2  -1 4  -1 -inf  1 3  words";
+    let file = read(text.as_bytes(), None).unwrap();
+    assert_eq!(file.format, Format::SiconosRelay);
+    let Problem::Boxed(relay) = &file.problem else { panic!("not boxed") };
+    assert_eq!(rows(relay.m()), [[2.0, 1.0], [0.0, 2.0]]);
+    assert_eq!((relay.q(), relay.upper()), (&[-1.0, 4.0][..], &[1.0, 3.0][..]));
+    assert_eq!(relay.lower(), [-1.0, f64::NEG_INFINITY]);
+    let (z, w) = relay.variables(&Lemke::default().solve(relay).unwrap());
+    assert_eq!((z, w), (vec![1.0, -2.0], vec![-1.0, 0.0]));
+    for marked in [
+        "2  0 2 2 2 2  2 0 1 2  -1 4  -1 !nan  1 3",
+        "2  0 2 2 2 2  2 0 1 2  -1 4  -1 -2  1 3 !4",
+        // No number between the bounds of the second variable.
+        "2!  0 2 2 2 2  2 0 1 2  -1 4  -1 4  1 3",
+    ] {
+        let error = error_as(Format::SiconosRelay, &marked.replace('!', ""));
+        let column = marked.find('!').unwrap() + 1;
+        assert_eq!(error.position(), Some(at(1, column)), "{marked}: {error}");
+    }
+}
+
 #[test]
 fn mixed_problems_that_contradict_themselves_are_refused() {
     let one = "0 1 2  0 1  0 2 2 2 2  2 5 3 6  4 7";
@@ -250,7 +274,8 @@ fn more_numbers_than_announced_are_refused() {
 
 #[test]
 fn unknown_formats_name_the_known_ones() {
-    let names = "json, text, siconos-lcp, siconos-mlcp, siconos-friction, siconos-global-friction";
+    let names = "json, text, siconos-lcp, siconos-mlcp, siconos-relay, siconos-friction, \
+                 siconos-global-friction";
     let message = "xml".parse::<Format>().unwrap_err().to_string();
     assert_eq!(message, format!("there is no format `xml`: take one of {names}"));
     let message = error("<lcp>").to_string();

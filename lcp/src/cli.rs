@@ -5,6 +5,7 @@
 
 mod args;
 mod check;
+mod enumerate;
 mod info;
 mod input;
 mod method;
@@ -48,6 +49,7 @@ fn execute(command: &Command, input: &mut dyn Read, out: &mut dyn Write) -> Resu
     match command {
         Command::Solve(args) => solve::run(args, input, out),
         Command::Check(args) => check::run(args, input, out),
+        Command::Enumerate(args) => enumerate::run(args, input, out),
         Command::Info(args) => info::run(args, input, out),
     }
 }

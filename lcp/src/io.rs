@@ -23,8 +23,8 @@
 //! space; `#` begins a comment. The problem is an [`Lcp`].
 //!
 //! # Siconos
-//! The `.dat` files of that library for linear complementarity problems, mixed ones, and plane contact with friction,
-//! reduced to the contacts (`FrictionContactProblem`) or with the velocities of the bodies
+//! The `.dat` files of that library for linear complementarity problems, mixed ones, relays (variables between bounds,
+//! `inf` where there is none: the problem is a [`BoxedLcp`]), and plane contact with friction, reduced to the contacts (`FrictionContactProblem`) or with the velocities of the bodies
 //! (`GlobalFrictionContactProblem`, `M v = q + H r`, `u = H^T v + b`: the problem is a [`Contact2d`] of velocities
 //! and impulses); dense, in sparse blocks, or sparse. Text may follow the last number, except for contact problems.
 //!
@@ -59,6 +59,7 @@ impl Format {
             Self::Text => text::read(text),
             Self::SiconosLcp => siconos::read_lcp(text),
             Self::SiconosMlcp => siconos::read_mlcp(text),
+            Self::SiconosRelay => siconos::read_relay(text),
             Self::SiconosFriction => siconos::read_friction(text),
             Self::SiconosGlobalFriction => siconos::read_global(text),
         }

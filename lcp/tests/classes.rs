@@ -52,7 +52,7 @@ fn assert_right(problem: &HorizontalLcp, solution: &Solution) {
 }
 
 fn all_solutions(problem: &HorizontalLcp) -> Enumeration {
-    let limits = EnumerationSettings { max_order: 16, max_generators: 1_000_000 };
+    let limits = EnumerationSettings { max_order: 16, max_generators: 1_000_000, time_limit: None };
     enumerate(problem, &limits).unwrap()
 }
 

@@ -8,7 +8,8 @@ use proptest::test_runner::TestCaseError;
 use super::{parts, problem};
 
 /// Valid files of every kind, to be damaged.
-const VALID: [&str; 12] = [
+const VALID: [&str; 13] = [
+    "2  0 2 2 2 2  2 0 1 2  -1 4  -1 -inf  1 3  words",
     "2\n1 2 # row\n3 4\n-5 -6e0\n",
     "2\n0\n2\n2\n2\t2\n1 2\n3 4\n-5 -6\n\nSome words",
     "3 1 3 3 3 2 2  1 3  1 3  3 3  0 2 3  0 1 1  0 1  1 0 2  2 3 0 4 5\n-1 -2 -3",

@@ -1,4 +1,4 @@
-//! The command-line program: `lcp solve`, `check`, `info`.
+//! The command-line program: `lcp solve`, `check`, `enumerate`, `info`.
 
 use std::io::{stderr, stdin, stdout};
 use std::process::ExitCode;

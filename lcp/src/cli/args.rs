@@ -23,6 +23,8 @@ pub(super) enum Command {
     Solve(SolveArgs),
     /// Check whether a point solves a problem.
     Check(CheckArgs),
+    /// Print all solutions of a small problem, in rational numbers.
+    Enumerate(EnumerateArgs),
     /// Show the contents of a file.
     Info(InfoArgs),
 }
@@ -73,6 +75,15 @@ pub(super) struct CheckArgs {
     /// Largest residual of a point that counts as a solution.
     #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = tolerance, default_value_t = LemkeSettings::default().tolerance)]
     pub(super) tol: f64,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct EnumerateArgs {
+    #[command(flatten)]
+    pub(super) input: InputArgs,
+    /// Time limit, in seconds; what was found until then is printed.
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = seconds, default_value = "60")]
+    pub(super) time_limit: Duration,
 }
 
 #[derive(Debug, Args)]

@@ -3,13 +3,16 @@
 use dashu_int::ops::{Gcd, UnsignedAbs};
 use dashu_int::{IBig, UBig};
 
-use crate::Error;
+use super::budget::{Budget, Stop};
 
 /// A generator of a cone with the inequalities that it meets with equality, as bits.
 struct Generator {
     entries: Vec<IBig>,
     tight: u64,
 }
+
+/// What is counted.
+const GENERATORS: &str = "number of vertices and rays of a face";
 
 /// The extreme rays, as primitive integer vectors, of `{x >= 0 : g.x >= 0 for every g}`.
 ///
@@ -19,31 +22,33 @@ struct Generator {
 /// of the orthant included.
 ///
 /// # Errors
-/// When there are more than `limit` rays on the way.
+/// When the budget is at its end.
 pub(super) fn extreme_rays(
     dimension: usize,
     inequalities: &[Vec<IBig>],
-    limit: usize,
-) -> Result<Vec<Vec<IBig>>, Error> {
+    budget: &Budget,
+) -> Result<Vec<Vec<IBig>>, Stop> {
     let unit = |k: usize| {
         let entries = (0..dimension).map(|j| IBig::from(u8::from(j == k))).collect();
         Generator { entries, tight: ((1 << dimension) - 1) & !(1 << k) }
     };
     let mut rays: Vec<Generator> = (0..dimension).map(unit).collect();
     for (k, inequality) in inequalities.iter().enumerate() {
-        rays = cut(rays, inequality, 1 << (dimension + k));
-        if rays.len() > limit {
-            let what = "number of vertices and rays of a face";
-            return Err(Error::Limit { what, value: rays.len(), name: "max_generators", limit });
-        }
+        rays = cut(rays, inequality, 1 << (dimension + k), budget)?;
     }
     Ok(rays.into_iter().map(|ray| ray.entries).collect())
 }
 
-fn cut(rays: Vec<Generator>, inequality: &[IBig], bit: u64) -> Vec<Generator> {
+fn cut(
+    rays: Vec<Generator>,
+    inequality: &[IBig],
+    bit: u64,
+    budget: &Budget,
+) -> Result<Vec<Generator>, Stop> {
     let values: Vec<IBig> = rays.iter().map(|ray| product(inequality, &ray.entries)).collect();
     let mut new = Vec::new();
     for (above, a) in rays.iter().zip(&values).filter(|(_, a)| **a > IBig::ZERO) {
+        budget.check(GENERATORS, new.len())?;
         for (below, b) in rays.iter().zip(&values).filter(|(_, b)| **b < IBig::ZERO) {
             let shared = above.tight & below.tight;
             if rays.iter().filter(|ray| ray.tight & shared == shared).count() == 2 {
@@ -57,7 +62,8 @@ fn cut(rays: Vec<Generator>, inequality: &[IBig], bit: u64) -> Vec<Generator> {
         ray.tight |= if value.is_zero() { bit } else { 0 };
         new.push(ray);
     }
-    new
+    budget.check(GENERATORS, new.len())?;
+    Ok(new)
 }
 
 pub(super) fn product(a: &[IBig], b: &[IBig]) -> IBig {

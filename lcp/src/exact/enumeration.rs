@@ -1,13 +1,16 @@
 //! All solutions of a small problem.
 
 use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
 
 use dashu_int::IBig;
 
+use super::budget::{Budget, Stop};
 use super::cone::{extreme_rays, product};
 use super::integers::{Integers, Variable};
 use super::tableau::{Tableau, eliminate};
 use super::{ExactPoint, Feasibility, feasibility};
+use crate::solve::{deadline_of, is_over};
 use crate::{Error, HorizontalLcp, Side};
 
 /// Limits of [`enumerate`].
@@ -17,11 +20,18 @@ pub struct EnumerationSettings {
     pub max_order: usize,
     /// Largest number of vertices and rays, over all faces.
     pub max_generators: usize,
+    /// Wall-clock time; `None` is no limit. What was found until then is given.
+    pub time_limit: Option<Duration>,
+}
+
+impl EnumerationSettings {
+    /// The largest order that [`max_order`](Self::max_order) may be.
+    pub const LARGEST_ORDER: usize = 32;
 }
 
 impl Default for EnumerationSettings {
     fn default() -> Self {
-        Self { max_order: 16, max_generators: 10_000 }
+        Self { max_order: 16, max_generators: 10_000, time_limit: None }
     }
 }
 
@@ -31,7 +41,9 @@ pub struct Enumeration {
     /// The solutions as a union of polyhedra, none of which lies in another; they may touch. Ordered
     /// by the variables that are positive in them.
     pub faces: Vec<Face>,
-    /// Whether some complementary basis is nonsingular.
+    /// Whether these are all solutions: the time sufficed.
+    pub is_complete: bool,
+    /// Whether some complementary basis is nonsingular, as far as the time sufficed to find one.
     pub has_basis: bool,
     /// Whether the conditions can be met without complementarity.
     pub feasibility: Feasibility,
@@ -95,13 +107,13 @@ pub struct Face {
 ///
 /// # Errors
 /// [`Error::Limit`] when the problem or its set of solutions is larger than the settings allow,
-/// [`Error::Setting`] for a limit on the order above 32.
+/// [`Error::Setting`] for a limit on the order above [`EnumerationSettings::LARGEST_ORDER`].
 pub fn enumerate(
     problem: &HorizontalLcp,
     settings: &EnumerationSettings,
 ) -> Result<Enumeration, Error> {
     let (n, max_order) = (problem.order(), settings.max_order);
-    if max_order > 32 {
+    if max_order > EnumerationSettings::LARGEST_ORDER {
         let range = "at most 32";
         return Err(Error::Setting { name: "max_order", value: max_order as f64, range });
     }
@@ -109,12 +121,21 @@ pub fn enumerate(
         let what = "order of the problem to enumerate";
         return Err(Error::Limit { what, value: n, name: "max_order", limit: max_order });
     }
+    let deadline = deadline_of(Instant::now(), settings.time_limit);
+    let budget = Budget { deadline, generators: settings.max_generators };
     let root = Node::root(problem);
-    let has_basis = root.has_basis();
-    let mut faces = Faces { limit: settings.max_generators, found: BTreeMap::new() };
-    faces.collect(&root)?;
-    let faces = faces.found.into_values().collect();
-    Ok(Enumeration { faces, has_basis, feasibility: feasibility(problem) })
+    let mut faces = Faces { budget, found: BTreeMap::new() };
+    let is_complete = match faces.collect(&root) {
+        Ok(()) => true,
+        Err(Stop::Time) => false,
+        Err(Stop::Limit(error)) => return Err(error),
+    };
+    Ok(Enumeration {
+        faces: faces.found.into_values().collect(),
+        is_complete,
+        has_basis: root.has_basis(deadline),
+        feasibility: feasibility(problem),
+    })
 }
 
 /// A node of the tree: a side chosen for every pair before `pair`.
@@ -176,29 +197,36 @@ impl Node {
     }
 
     /// Whether the other pairs can choose so that all columns are independent.
-    fn has_basis(&self) -> bool {
+    fn has_basis(&self, deadline: Option<Instant>) -> bool {
         let has_support = |(basic, row): (&Option<Variable>, &Vec<IBig>)| {
             basic.is_some() || row[..row.len() - 1].iter().any(|v| !v.is_zero())
         };
+        if is_over(deadline) {
+            return false;
+        }
         if self.is_leaf() || !self.basic.iter().zip(&self.tableau.rows).all(has_support) {
             return self.is_leaf();
         }
         [Side::T, Side::Y].into_iter().any(|side| {
-            self.free_row(usize::from(side == Side::Y)).is_some() && self.child(side).has_basis()
+            self.free_row(usize::from(side == Side::Y)).is_some()
+                && self.child(side).has_basis(deadline)
         })
     }
 }
 
+/// What is counted.
+const GENERATORS: &str = "number of vertices and rays of all faces";
+
 /// The faces found so far that lie in no other, each under the set of variables that are positive in
 /// it, as bits: a face lies in another just when its set does.
 struct Faces {
-    /// Largest number of vertices and rays.
-    limit: usize,
+    budget: Budget,
     found: BTreeMap<u64, Face>,
 }
 
 impl Faces {
-    fn collect(&mut self, node: &Node) -> Result<(), Error> {
+    fn collect(&mut self, node: &Node) -> Result<(), Stop> {
+        self.budget.check(GENERATORS, 0)?;
         if node.is_hopeless() {
             return Ok(());
         }
@@ -211,13 +239,12 @@ impl Faces {
 
     /// The face of a complementary choice: nonnegative dependent variables that leave the basic ones
     /// nonnegative. With a factor for `c` as one more variable it is a cone.
-    fn add(&mut self, leaf: &Node) -> Result<(), Error> {
+    fn add(&mut self, leaf: &Node) -> Result<(), Stop> {
         let rows = leaf.basic.iter().zip(&leaf.tableau.rows);
         let solved = rows.filter_map(|(basic, row)| basic.map(|variable| (variable, row)));
         let (basic, inequalities): (Vec<Variable>, Vec<Vec<IBig>>) =
             solved.map(|(variable, row)| (variable, nonnegativity(row))).unzip();
-        let limit = self.limit;
-        let generators = extreme_rays(leaf.dependent.len() + 1, &inequalities, limit)?;
+        let generators = extreme_rays(leaf.dependent.len() + 1, &inequalities, &self.budget)?;
         let determinant = &leaf.tableau.determinant;
         let (mut vertices, mut rays, mut support) = (Vec::new(), Vec::new(), 0);
         for generator in &generators {
@@ -251,11 +278,7 @@ impl Faces {
         self.found.retain(|&other, _| !lies_in(other, support));
         self.found.insert(support, Face { vertices, rays, dimension });
         let value = self.found.values().map(|face| face.vertices.len() + face.rays.len()).sum();
-        if value > limit {
-            let what = "number of vertices and rays of all faces";
-            return Err(Error::Limit { what, value, name: "max_generators", limit });
-        }
-        Ok(())
+        self.budget.check(GENERATORS, value)
     }
 }
 

@@ -12,6 +12,8 @@ pub enum Format {
     SiconosLcp,
     /// A mixed linear complementarity problem of Siconos.
     SiconosMlcp,
+    /// A relay of Siconos: variables between bounds.
+    SiconosRelay,
     /// A contact problem of Siconos with friction in the plane, reduced to the contacts.
     SiconosFriction,
     /// A contact problem of Siconos with friction in the plane, with the velocities of the bodies.
@@ -20,11 +22,12 @@ pub enum Format {
 
 impl Format {
     /// All formats.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Json,
         Self::Text,
         Self::SiconosLcp,
         Self::SiconosMlcp,
+        Self::SiconosRelay,
         Self::SiconosFriction,
         Self::SiconosGlobalFriction,
     ];
@@ -36,6 +39,7 @@ impl Format {
             Self::Text => "text",
             Self::SiconosLcp => "siconos-lcp",
             Self::SiconosMlcp => "siconos-mlcp",
+            Self::SiconosRelay => "siconos-relay",
             Self::SiconosFriction => "siconos-friction",
             Self::SiconosGlobalFriction => "siconos-global-friction",
         }

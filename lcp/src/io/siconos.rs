@@ -10,7 +10,7 @@ mod mixed;
 use super::problem::posed;
 use super::tokens::Tokens;
 use super::{Problem, ReadError};
-use crate::Lcp;
+use crate::{BoxedLcp, Lcp};
 
 pub(super) use contact::{read_friction, read_global};
 pub(super) use mixed::read_mlcp;
@@ -25,4 +25,20 @@ pub(super) fn read_lcp(text: &str) -> Result<Problem, ReadError> {
     let q = tokens.numbers(n, "q")?;
     tokens.end_of_numbers(0)?;
     posed(Lcp::new(m, q), Problem::Lcp, at)
+}
+
+/// A relay: `n`, matrix `M`, `q`, the bounds `lb` and `ub` of `z`, and `-w` in their normal cone.
+pub(super) fn read_relay(text: &str) -> Result<Problem, ReadError> {
+    let mut tokens = Tokens::new(text);
+    let n = tokens.count("the order n")?;
+    tokens.room_for(Some(n), "q")?;
+    let at = tokens.position();
+    let m = matrix::read(&mut tokens, n, n)?;
+    let q = tokens.numbers(n, "q")?;
+    let [lower, upper] = ["a lower bound", "an upper bound"].map(|what| {
+        (0..n).map(|_| tokens.expect(what)?.bound(what)).collect::<Result<Vec<f64>, _>>()
+    });
+    let (lower, upper) = (lower?, upper?);
+    tokens.end_of_numbers(0)?;
+    posed(BoxedLcp::new(m, q, lower, upper), Problem::Boxed, at)
 }

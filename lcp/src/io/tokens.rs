@@ -27,6 +27,15 @@ impl Token<'_> {
         value.ok_or_else(|| self.unexpected(what, "every value is a finite decimal number"))
     }
 
+    /// The word as a bound: a number, or infinity where there is none.
+    pub(super) fn bound(&self, what: impl Display) -> Result<f64, ReadError> {
+        match self.text.to_ascii_lowercase().trim_start_matches('+') {
+            "inf" | "infinity" => Ok(f64::INFINITY),
+            "-inf" | "-infinity" => Ok(f64::NEG_INFINITY),
+            _ => self.number(what),
+        }
+    }
+
     /// The word as a count or an index that is allowed.
     pub(super) fn count_if(
         &self,

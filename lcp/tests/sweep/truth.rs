@@ -29,7 +29,7 @@ pub(crate) enum Worth {
 }
 
 pub(crate) fn truth(problem: &HorizontalLcp) -> Enumeration {
-    let limits = EnumerationSettings { max_order: 8, max_generators: 1_000_000 };
+    let limits = EnumerationSettings { max_order: 8, max_generators: 1_000_000, time_limit: None };
     enumerate(problem, &limits).unwrap()
 }
 

@@ -1,0 +1,30 @@
+//! What an enumeration may cost.
+
+use std::time::Instant;
+
+use crate::Error;
+use crate::solve::is_over;
+
+/// What an enumeration may cost.
+pub(super) struct Budget {
+    pub(super) deadline: Option<Instant>,
+    /// Number of vertices and rays.
+    pub(super) generators: usize,
+}
+
+/// Why an enumeration ends early.
+pub(super) enum Stop {
+    Time,
+    Limit(Error),
+}
+
+impl Budget {
+    /// That there is time left, and that there are not more vertices and rays than allowed.
+    pub(super) fn check(&self, what: &'static str, value: usize) -> Result<(), Stop> {
+        let limit = self.generators;
+        if value > limit {
+            return Err(Stop::Limit(Error::Limit { what, value, name: "max_generators", limit }));
+        }
+        if is_over(self.deadline) { Err(Stop::Time) } else { Ok(()) }
+    }
+}
