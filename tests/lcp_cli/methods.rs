@@ -85,7 +85,7 @@ fn a_method_says_what_it_does_not_treat() {
         (&mixed, "pgs", "projected Gauss-Seidel cannot treat this problem"),
         (&games, "newton", "M[0, 0] is 0, but every diagonal entry must be positive: take Lemke"),
         (&games, "pgs", "row 0 has the diagonal entry 0"),
-        (&games, "qp", "M is not symmetric: M[1, 0] is 1 and M[0, 1] is 2"),
+        (&games, "qp", "skew between them, but M[1, 0] is 1 and M[0, 1] is 2"),
     ] {
         let run = Run::of(&["solve", file, "--json", "--solver", option]);
         assert_eq!((run.code, run.out.as_str()), (2, ""), "{option}");

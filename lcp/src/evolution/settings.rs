@@ -22,6 +22,7 @@ pub struct EvolutionSettings {
     pub inertia: bool,
     /// The largest displacement up to which the problem means anything: beyond it [`advance`](crate::Evolution::advance)
     /// and [`settle`](crate::Evolution::settle) end with [`Ending::Left`](crate::Ending::Left), and no state there is rest.
+    #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
     pub reach: f64,
     /// Factorisations of one call; the step in which they are reached comes to its end.
     pub max_iterations: usize,
