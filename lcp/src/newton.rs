@@ -1,13 +1,9 @@
 //! A primal-dual active set method, which is a semismooth Newton method, with a safeguard.
 
-mod cholesky;
 mod constants;
 mod contact;
-mod dense;
 mod exchange;
-mod forest;
-mod kernel;
-mod lu;
+mod factors;
 mod proximal;
 mod system;
 
@@ -72,8 +68,7 @@ impl SemismoothNewtonSettings {
 /// In every pair one variable is zero. The method solves `M_FF z_F = -q_F` for the free `z`, computes the other `w`,
 /// and exchanges all pairs whose variable is negative, until there is none. This is Newton's method for
 /// `min(z, w) = 0`, which ends with the exact solution after finitely many steps. A symmetric positive definite
-/// `M_FF` is factorised by Cholesky's method, any other one by LU, dense or sparse like `M`. The fill-reducing order
-/// of a sparse matrix is computed once and restricted to every free set. Every solve is followed by a step of
+/// `M_FF` is factorised by Cholesky's method, any other one by LU, dense or sparse like `M`. Solves are followed by
 /// iterative refinement.
 ///
 /// If the number of negative variables has not decreased for some steps, or a free set is repeated, only half as many

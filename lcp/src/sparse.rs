@@ -10,6 +10,7 @@ mod supernodal;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use cholesky::Cholesky;
 pub use gram::Gram;
 pub(crate) use lu::{Growing, SparseLu, row_counts};
 pub(crate) use order::{Turn, elimination_order};

@@ -1,10 +1,7 @@
 //! The points that belong to free sets.
 
-use super::cholesky::SparseCholesky;
 use super::constants::{MAY_VANISH, NOISE, REFINEMENTS, ROUNDING, USABLE, VANISHING};
-use super::dense::{DenseCholesky, DenseLu};
-use super::kernel::{Kernel, Outcome};
-use super::lu::RestrictedLu;
+use super::factors::Factors;
 use crate::Lcp;
 use crate::random::SplitMix;
 use crate::vector::max_abs;
@@ -28,29 +25,18 @@ pub(super) struct System<'a> {
     lcp: &'a Lcp,
     is_z_matrix: bool,
     diagonal: Vec<f64>,
-    kernel: Box<dyn Kernel + 'a>,
-    /// For what is not positive definite, made when there is such a thing.
-    general: Option<Box<dyn Kernel + 'a>>,
-    factorisations: usize,
+    factors: Factors<'a>,
 }
 
 impl<'a> System<'a> {
     pub(super) fn new(lcp: &'a Lcp) -> Self {
         let (m, n) = (lcp.m(), lcp.order());
         let is_off_diagonal_nonpositive = |j: usize| m.column(j).all(|(i, v)| i == j || v <= 0.0);
-        let is_symmetric = m.check_symmetric("M").is_ok();
-        let kernel: Box<dyn Kernel + 'a> = match (is_symmetric, m.is_sparse()) {
-            (true, true) => Box::new(SparseCholesky::new(m)),
-            (true, false) => Box::new(DenseCholesky::new(m)),
-            (false, _) => general(lcp),
-        };
         Self {
             lcp,
             is_z_matrix: (0..n).all(is_off_diagonal_nonpositive),
             diagonal: (0..n).map(|i| m[(i, i)]).collect(),
-            kernel,
-            general: None,
-            factorisations: 0,
+            factors: Factors::new(m),
         }
     }
 
@@ -60,7 +46,7 @@ impl<'a> System<'a> {
     }
 
     pub(super) fn factorisations(&self) -> usize {
-        self.factorisations
+        self.factors.count
     }
 
     /// The point after the exchange of so many of the pairs with a negative variable, the first ones.
@@ -93,18 +79,10 @@ impl<'a> System<'a> {
             let image = Image::new(self.lcp, &z);
             return Some(self.judged(is_free.to_vec(), z, image));
         }
-        let mut kernel = &mut self.kernel;
-        self.factorisations += 1;
-        let mut outcome = kernel.factorise(is_free);
-        if outcome == Outcome::Unsuited {
-            kernel = self.general.get_or_insert_with(|| general(self.lcp));
-            self.factorisations += 1;
-            outcome = kernel.factorise(is_free);
-        }
-        if outcome != Outcome::Regular {
+        if !self.factors.factorise(is_free) {
             return None;
         }
-        let (z, image) = solved(self.lcp, kernel.as_mut(), is_free)?;
+        let (z, image) = solved(self.lcp, &self.factors, is_free)?;
         Some(self.judged(is_free.to_vec(), z, image))
     }
 
@@ -134,10 +112,10 @@ impl<'a> System<'a> {
 }
 
 /// `M_FF z_F = -q_F`, with refinement; none where it cannot be solved.
-fn solved(lcp: &Lcp, kernel: &mut dyn Kernel, is_free: &[bool]) -> Option<(Vec<f64>, Image)> {
+fn solved(lcp: &Lcp, factors: &Factors<'_>, is_free: &[bool]) -> Option<(Vec<f64>, Image)> {
     let mut z = vec![0.0; is_free.len()];
     free_entries(&mut z, lcp.q(), is_free);
-    kernel.solve(&mut z);
+    factors.solve(&mut z);
     let mut image = Image::new(lcp, &z);
     let mut error = image.error(is_free);
     for _ in 0..REFINEMENTS {
@@ -146,7 +124,7 @@ fn solved(lcp: &Lcp, kernel: &mut dyn Kernel, is_free: &[bool]) -> Option<(Vec<f
         }
         let mut refined = vec![0.0; z.len()];
         free_entries(&mut refined, &image.w, is_free);
-        kernel.solve(&mut refined);
+        factors.solve(&mut refined);
         refined.iter_mut().zip(&z).for_each(|(refined, z)| *refined += z);
         let refined_image = Image::new(lcp, &refined);
         let refined_error = refined_image.error(is_free);
@@ -160,14 +138,6 @@ fn solved(lcp: &Lcp, kernel: &mut dyn Kernel, is_free: &[bool]) -> Option<(Vec<f
     }
     let is_solved = error <= USABLE && !is_in_kernel(lcp, is_free, &image.size);
     is_solved.then_some((z, image))
-}
-
-fn general<'a>(lcp: &'a Lcp) -> Box<dyn Kernel + 'a> {
-    if lcp.m().is_sparse() {
-        Box::new(RestrictedLu::new(lcp.m()))
-    } else {
-        Box::new(DenseLu::new(lcp.m()))
-    }
 }
 
 /// Whether `q` has no share in the equations of a solution: then that is in the kernel of `M_FF`, for which

@@ -1,9 +1,10 @@
-//! Factors `L D L^T` of sparse symmetric positive definite matrices.
+//! Factors `L D L^T` of sparse symmetric matrices.
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
+use faer::sparse::linalg::cholesky::supernodal::SupernodalLdltRef;
 use faer::sparse::linalg::cholesky::{
-    LdltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+    LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
 };
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side, Spec};
@@ -14,52 +15,85 @@ use super::VANISHING;
 const HELD: f64 = 1e60;
 
 /// Factors of matrices with one pattern, again and again for other values, in an order of approximate minimum degree.
-pub(super) struct Cholesky {
+pub(crate) struct Cholesky {
     symbolic: SymbolicCholesky<usize>,
     values: Vec<f64>,
 }
 
 impl Cholesky {
     /// For the pattern of the lower triangle.
-    pub(super) fn new(lower: SymbolicSparseColMatRef<'_, usize>) -> Result<Self, FaerError> {
+    pub(crate) fn new(lower: SymbolicSparseColMatRef<'_, usize>) -> Result<Self, FaerError> {
         let order = SymmetricOrdering::Amd;
         let symbolic = factorize_symbolic_cholesky(lower, Side::Lower, order, <_>::default())?;
         let values = vec![0.0; symbolic.len_val()];
         Ok(Self { symbolic, values })
     }
 
-    /// Factorises a matrix of finite numbers whose diagonal is of order one. The variables of pivots that vanish will be
+    /// Factorises a symmetric matrix without exchanges; `None` where a pivot is zero, or numbers overflow.
+    pub(crate) fn factorise(&mut self, lower: SparseColMatRef<'_, usize, f64>) -> Option<()> {
+        self.numeric(lower, LdltRegularization::default())
+    }
+
+    /// Factorises a positive semidefinite matrix with a diagonal of order one. Variables of pivots that vanish will be
     /// zero, which iterative refinement of the caller has to make good.
-    pub(super) fn factorise(&mut self, lower: SparseColMatRef<'_, usize, f64>) {
+    pub(super) fn factorise_semidefinite(&mut self, lower: SparseColMatRef<'_, usize, f64>) {
         let signs = vec![1; lower.ncols()];
-        let regularization = LdltRegularization {
+        let held = LdltRegularization {
             dynamic_regularization_signs: Some(&signs),
             dynamic_regularization_delta: HELD,
             dynamic_regularization_epsilon: VANISHING,
         };
-        let (par, spec) = (Par::Seq, Spec::default());
-        let scratch = self.symbolic.factorize_numeric_ldlt_scratch::<f64>(par, spec);
-        let (mut memory, values) = (MemBuffer::new(scratch), &mut self.values);
-        let stack = MemStack::new(&mut memory);
-        let side = Side::Lower;
-        let outcome = self.symbolic.factorize_numeric_ldlt(
-            values,
-            lower,
-            side,
-            regularization,
-            par,
-            stack,
-            spec,
-        );
-        let outcome = outcome.map(|_| ());
-        if outcome.is_err() {
+        if self.numeric(lower, held).is_none() {
             // Numbers that overflow leave none in the solutions.
             self.values.fill(f64::NAN);
         }
     }
 
+    fn numeric(
+        &mut self,
+        lower: SparseColMatRef<'_, usize, f64>,
+        regularization: LdltRegularization<'_, f64>,
+    ) -> Option<()> {
+        let (par, spec) = (Par::Seq, Spec::default());
+        let scratch = self.symbolic.factorize_numeric_ldlt_scratch::<f64>(par, spec);
+        let mut memory = MemBuffer::try_new(scratch).ok()?;
+        let outcome = self.symbolic.factorize_numeric_ldlt(
+            &mut self.values,
+            lower,
+            Side::Lower,
+            regularization,
+            par,
+            MemStack::new(&mut memory),
+            spec,
+        );
+        outcome.ok().map(|_| ())
+    }
+
+    /// The pivot of every variable.
+    pub(crate) fn pivots(&self) -> Vec<f64> {
+        let n = self.symbolic.nrows();
+        let mut ordered = Vec::with_capacity(n);
+        match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Simplicial(raw) => {
+                ordered.extend(raw.col_ptr()[..n].iter().map(|&start| self.values[start]));
+            }
+            SymbolicCholeskyRaw::Supernodal(raw) => {
+                let factors = SupernodalLdltRef::new(raw, &self.values);
+                for s in 0..raw.n_supernodes() {
+                    let block = factors.supernode(s).val();
+                    ordered.extend((0..block.ncols()).map(|k| block[(k, k)]));
+                }
+            }
+        }
+        let mut pivots = ordered.clone();
+        if let Some(order) = self.symbolic.perm() {
+            ordered.iter().zip(order.arrays().0).for_each(|(pivot, &i)| pivots[i] = *pivot);
+        }
+        pivots
+    }
+
     /// Overwrites right-hand sides, one after the other, with the solutions.
-    pub(super) fn solve(&self, x: &mut [f64]) {
+    pub(crate) fn solve(&self, x: &mut [f64]) {
         let order = self.symbolic.nrows();
         let count = x.len() / order.max(1);
         let scratch: StackReq = self.symbolic.solve_in_place_scratch::<f64>(count, Par::Seq);

@@ -127,7 +127,7 @@ impl Gram {
             entries.for_each(|(&i, v)| *v *= self.units[i] * unit);
         }
         let pattern = SymbolicSparseColMatRef::new_checked(n, n, &self.starts, None, &self.rows);
-        self.factors.factorise(SparseColMatRef::new(pattern, &scaled));
+        self.factors.factorise_semidefinite(SparseColMatRef::new(pattern, &scaled));
         Ok(())
     }
 
