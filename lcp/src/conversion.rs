@@ -3,7 +3,6 @@
 use std::borrow::Cow;
 
 use crate::certify::{Residuals, SMALL};
-use crate::problem::Between;
 use crate::{
     BoxedLcp, Certificate, Contact2d, ContactState, Error, Friction2d, HorizontalLcp, Lcp,
     MixedLcp, Solution, Status, WarmStart,
@@ -21,50 +20,21 @@ pub trait General {
     fn state_of_pairs(&self, _: &[f64], _: &[f64]) -> Option<ContactState> {
         None
     }
+
+    /// The problem itself if it is one with bounds, whose general form has distances from these.
+    fn with_bounds(&self) -> Option<&BoxedLcp> {
+        None
+    }
 }
 
 /// A problem that pivots treat in its general form.
-pub trait Converted: General + Sized {
-    /// The equations of what is between its bounds at a solution, if it has bounds.
-    fn between_bounds(&self, _solution: &Solution) -> Option<Between> {
-        None
-    }
-
-    /// The solution with the answer to these equations.
-    fn with_between(
-        &self,
-        _between: &Between,
-        _answer: &Solution,
-        solution: &Solution,
-    ) -> Solution {
-        solution.clone()
-    }
-}
+pub trait Converted: General {}
 
 impl Converted for HorizontalLcp {}
-
 impl Converted for Lcp {}
-
 impl Converted for Friction2d {}
-
 impl Converted for MixedLcp {}
-
-impl Converted for BoxedLcp {
-    fn between_bounds(&self, solution: &Solution) -> Option<Between> {
-        let (z, w) = self.recover(&solution.t, &solution.y);
-        self.between(&z, &w)
-    }
-
-    fn with_between(&self, between: &Between, answer: &Solution, solution: &Solution) -> Solution {
-        let (z, _) = self.recover(&solution.t, &solution.y);
-        // All of them are free.
-        let inside: Vec<f64> = answer.t.iter().zip(&answer.y).map(|(t, y)| t - y).collect();
-        let (z, w) = self.with_inside(z, &between.variables, &inside);
-        let (t, y) = self.to_pairs(&z, &w);
-        let residuals = self.residuals(&z, &w);
-        Solution { t, y, residuals, boxed: Some((z, w)), certificate: None, ..solution.clone() }
-    }
-}
+impl Converted for BoxedLcp {}
 
 impl General for HorizontalLcp {
     fn general(&self) -> Cow<'_, HorizontalLcp> {
@@ -115,6 +85,10 @@ impl General for BoxedLcp {
         let (z, w) = self.recover(t, y);
         self.residuals(&z, &w)
     }
+
+    fn with_bounds(&self) -> Option<&BoxedLcp> {
+        Some(self)
+    }
 }
 
 impl General for Contact2d {
@@ -141,7 +115,8 @@ pub(crate) fn solve_in_general_form<P: Converted>(
     mut solve: impl FnMut(&HorizontalLcp, bool) -> Result<Solution, Error>,
 ) -> Result<Solution, Error> {
     let solution = judged_by(problem, solve(&problem.general(), false)?, tolerance);
-    with_all_digits(problem, solution, tolerance, |equations| solve(&equations.to_general(), true))
+    let Some(boxed) = problem.with_bounds() else { return Ok(solution) };
+    with_all_digits(boxed, solution, tolerance, |equations| solve(&equations.to_general(), true))
 }
 
 /// Solves a problem with bounds in its mixed form, with the start converted. The last argument solves equations.
@@ -168,9 +143,9 @@ pub(crate) fn solve_in_mixed_form(
 
 /// A solution with the digits of what is between its bounds: a distance from a bound has lost those of a value that is
 /// small against the bound.
-fn with_all_digits<P: Converted>(
-    problem: &P,
-    solution: Solution,
+fn with_all_digits(
+    problem: &BoxedLcp,
+    mut solution: Solution,
     tolerance: f64,
     solve: impl FnOnce(&MixedLcp) -> Result<Solution, Error>,
 ) -> Result<Solution, Error> {
@@ -179,15 +154,20 @@ fn with_all_digits<P: Converted>(
     if !is_near || solution.residuals.worst() <= SMALL {
         return Ok(solution);
     }
-    let Some(between) = problem.between_bounds(&solution) else { return Ok(solution) };
-    let free = vec![true; between.q.len()];
-    let Ok(equations) = MixedLcp::new(between.m.clone(), between.q.clone(), free) else {
-        return Ok(solution);
-    };
-    let mut right = problem.with_between(&between, &solve(&equations)?, &solution);
-    right.judge_again(right.residuals, tolerance);
-    let is_better = right.residuals.worst() < solution.residuals.worst();
-    Ok(if is_better { right } else { solution })
+    let (z, w) = problem.recover(&solution.t, &solution.y);
+    let Some(held) = problem.held(&z, &w) else { return Ok(solution) };
+    let Ok(equations) = held.to_mixed() else { return Ok(solution) };
+    let answer = solve(equations.mixed())?;
+    let (t, y) = equations.to_pairs(&answer.t, &answer.y);
+    let (z, _) = held.recover(&t, &y);
+    let w = problem.forces(&z);
+    let residuals = problem.residuals(&z, &w);
+    if residuals.worst() < solution.residuals.worst() {
+        (solution.t, solution.y) = problem.to_pairs(&z, &w);
+        (solution.boxed, solution.certificate) = (Some((z, w)), None);
+        solution.judge_again(residuals, tolerance);
+    }
+    Ok(solution)
 }
 
 /// Solves a problem in its standard form, with the start converted.

@@ -11,7 +11,6 @@ mod standard;
 mod standard_form;
 
 pub use bound::{ErrorBound, Monotonicity};
-pub(crate) use boxed::Between;
 pub use boxed::BoxedLcp;
 pub use contact::{
     Bedding, Contact2d, Contact2dBuilder, ContactPoint, ContactState, ContactStatus,

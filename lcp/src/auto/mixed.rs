@@ -48,13 +48,8 @@ impl Planned for BoxedLcp {
     }
 
     fn steps(&self) -> Vec<Step> {
-        let facts = Facts::of(self.m());
-        let general = self.to_general();
-        let mut steps = common_steps(&facts);
-        // Where a variable is free the general problem is no standard one.
-        let is_standard = general.to_standard().is_some();
-        steps.retain(|step| is_standard || step.method != Method::Interior);
-        named(&format!("{} pairs with those of the bounds", general.order()), steps)
+        let steps = common_steps(&Facts::of(self.m()));
+        named(&format!("{} pairs with those of the bounds", self.pairs()), steps)
     }
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {

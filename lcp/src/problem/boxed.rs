@@ -202,45 +202,27 @@ impl BoxedLcp {
         (t, y)
     }
 
-    /// The equations of the variables that are between their bounds at a point, with the others where they are.
-    pub(crate) fn between(&self, z: &[f64], w: &[f64]) -> Option<Between> {
-        let is_inside =
-            |j: &usize| w[*j] == 0.0 && self.lower[*j] < z[*j] && z[*j] < self.upper[*j];
-        let variables: Vec<usize> = (0..self.order()).filter(is_inside).collect();
-        let mut places = vec![None; self.order()];
-        for (k, &j) in variables.iter().enumerate() {
-            places[j] = Some(k);
+    /// The same problem with what is at a bound fixed there, and what is between its bounds free; `None` if nothing is.
+    pub(crate) fn held(&self, z: &[f64], w: &[f64]) -> Option<Self> {
+        let is_inside = |j: usize| w[j] == 0.0 && self.lower[j] < z[j] && z[j] < self.upper[j];
+        let mut held = Self { lower: z.to_vec(), upper: z.to_vec(), ..self.clone() };
+        let mut has_any = false;
+        for j in (0..self.order()).filter(|&j| is_inside(j)) {
+            (held.lower[j], held.upper[j]) = (f64::NEG_INFINITY, f64::INFINITY);
+            has_any = true;
         }
-        let mut right = self.q.clone();
-        let outside = (0..self.order()).filter(|&j| places[j].is_none() && z[j] != 0.0);
-        for j in outside {
-            self.m.slice(j).add_to(z[j], &mut right);
-        }
-        let mut entries = Vec::new();
-        for (k, &j) in variables.iter().enumerate() {
-            self.m.slice(j).for_each(|i, v| entries.extend(places[i].map(|i| (i, k, v))));
-        }
-        let count = variables.len();
-        let m = Matrix::from_entries(count, count, entries.into_iter());
-        let q = variables.iter().map(|&j| right[j]).collect();
-        (count > 0).then_some(Between { m, q, variables })
+        has_any.then_some(held)
     }
 
-    /// A point with other values of the variables between their bounds, and the `w` of the others that follow.
-    pub(crate) fn with_inside(
-        &self,
-        mut z: Vec<f64>,
-        variables: &[usize],
-        inside: &[f64],
-    ) -> (Vec<f64>, Vec<f64>) {
-        variables.iter().zip(inside).for_each(|(&j, &value)| z[j] = value);
-        let mut w = self.image(&z);
+    /// `M z + q`, without what the bounds do not allow.
+    pub(crate) fn forces(&self, z: &[f64]) -> Vec<f64> {
+        let mut w = self.image(z);
         for (j, w) in w.iter_mut().enumerate() {
             let (is_low, is_high) = (z[j] <= self.lower[j], z[j] >= self.upper[j]);
             *w = if is_low { *w } else { w.min(0.0) };
             *w = if is_high { *w } else { w.max(0.0) };
         }
-        (z, w)
+        w
     }
 
     /// `M z + q`
@@ -314,15 +296,4 @@ impl BoxedLcp {
     pub(super) fn is_nearer_above(&self, i: usize) -> bool {
         self.upper[i].abs() < self.lower[i].abs()
     }
-}
-
-/// The equations `M z + q = 0` of variables that are between their bounds, in numbers without distances from these.
-#[derive(Debug, Clone)]
-pub struct Between {
-    /// Their matrix.
-    pub(crate) m: Matrix,
-    /// Their vector, with what is at its bounds.
-    pub(crate) q: Vec<f64>,
-    /// The variables of the problem with bounds that they are.
-    pub(crate) variables: Vec<usize>,
 }

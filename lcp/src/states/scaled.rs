@@ -75,20 +75,13 @@ impl Scaled {
     pub(crate) fn of_mixed(problem: &MixedLcp) -> Self {
         let m = problem.m().clone().into_sparse();
         let n = problem.order();
-        let mut largest = vec![0.0_f64; n];
-        for j in 0..n {
-            for (i, v) in column_of(&m, j) {
-                let size = if i == j { v.abs() } else { 0.0 };
-                largest[j] = largest[j].max(size);
-            }
-        }
+        let diagonal = diagonal(&m);
+        let mut largest: Vec<f64> = diagonal.iter().map(|v| v.abs()).collect();
         // Without a diagonal entry the others have to do.
         for j in 0..n {
             for (i, v) in column_of(&m, j) {
-                for k in [i, j] {
-                    if m.get(k, k).is_none_or(|d| *d == 0.0) {
-                        largest[k] = largest[k].max(v.abs());
-                    }
+                for k in [i, j].into_iter().filter(|&k| diagonal[k] == 0.0) {
+                    largest[k] = largest[k].max(v.abs());
                 }
             }
         }

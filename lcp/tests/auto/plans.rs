@@ -62,7 +62,7 @@ fn other_forms_have_their_plans() {
         vec![f64::NEG_INFINITY, 0.0],
         vec![f64::INFINITY, 1.0],
     );
-    assert_eq!(plan!(&free.unwrap()), [LEMKE, CHOICES]);
+    assert_eq!(plan!(&free.unwrap()), [LEMKE, CHOICES, INTERIOR]);
     let friction = Friction2d::new(mat![[2.0, 0.0], [0.0, 1.0]], vec![-2.0, -0.25], vec![0.5]);
     assert_eq!(plan!(&friction.unwrap()), [LEMKE, CHOICES, INTERIOR]);
 }
