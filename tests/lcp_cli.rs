@@ -8,6 +8,8 @@ mod enumerate;
 mod input;
 #[path = "lcp_cli/methods.rs"]
 mod methods;
+#[path = "lcp_cli/programs.rs"]
+mod programs;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -272,7 +274,10 @@ fn bad_input_is_reported_on_standard_error_alone() {
         ),
         (vec!["solve", &missing, "--json"], "missing.dat"),
         (vec!["info", &missing], "cannot read"),
-        (vec!["solve", &damaged, "--format", "xml"], "possible values: json, text, siconos-lcp"),
+        (
+            vec!["solve", &damaged, "--format", "xml"],
+            "possible values: json, text, qps, siconos-lcp",
+        ),
         (vec!["solve"], "required"),
         (vec!["slove", &damaged], "unrecognized subcommand"),
         (vec![], "Usage"),

@@ -8,6 +8,8 @@ mod contact;
 mod damage;
 #[path = "lcp_formats/market.rs"]
 mod market;
+#[path = "lcp_formats/qps.rs"]
+mod qps;
 use lcp::io::{Format, Position, Problem, ReadError, read, to_json};
 use lcp::{Lemke, Matrix, Solver};
 
@@ -274,7 +276,7 @@ fn more_numbers_than_announced_are_refused() {
 
 #[test]
 fn unknown_formats_name_the_known_ones() {
-    let names = "json, text, siconos-lcp, siconos-mlcp, siconos-relay, siconos-friction, \
+    let names = "json, text, qps, siconos-lcp, siconos-mlcp, siconos-relay, siconos-friction, \
                  siconos-global-friction";
     let message = "xml".parse::<Format>().unwrap_err().to_string();
     assert_eq!(message, format!("there is no format `xml`: take one of {names}"));

@@ -132,6 +132,27 @@ pub enum Error {
         /// Its upper bound.
         upper: f64,
     },
+    /// A row or a variable of a program that nothing is between the bounds of.
+    #[error(
+        "{what} {index} is to be between {lower:?} and {upper:?}: the lower number must not exceed the upper \
+         one, and -inf or inf is for no bound"
+    )]
+    Between {
+        /// Whether it is a row or a variable.
+        what: &'static str,
+        /// Its number, from 0.
+        index: usize,
+        /// The lower bound.
+        lower: f64,
+        /// The upper bound.
+        upper: f64,
+    },
+    /// A program that is not convex.
+    #[error("{reason}: its minimum is beyond methods for convex programs")]
+    NotConvex {
+        /// What shows it.
+        reason: String,
+    },
     /// A setting outside its range.
     #[error("setting `{name}` is {value}, but must be {range}")]
     Setting {

@@ -14,6 +14,7 @@
 //! | `"boxed"` | `m`, `q`, `lower`, `upper` (`null`: no bound) | [`BoxedLcp`] |
 //! | `"friction"` | `w`, `q`, `mu` | [`Friction2d`] |
 //! | `"contact"` | `k`, `f`, `c_n`, `c_t`, `x_0`, `s_0`, `mu`, and `compliance` if there is any | [`Contact2d`] |
+//! | `"qp"` | `p`, `q`, `a`, `l`, `u` (`null`: no bound), and `lower`, `upper`, `constant` if there are any | [`Qp`] |
 //!
 //! A matrix is an array of its rows, or `{"rows": 2, "cols": 2, "triplets": [[0, 1, 2.5]]}` with indices from 0;
 //! values at the same place are added. [`to_json`] writes this form, with all digits.
@@ -22,11 +23,18 @@
 //! `n`, then the `n x n` numbers of `M` by rows, then the `n` numbers of `q`, separated by white
 //! space; `#` begins a comment. The problem is an [`Lcp`].
 //!
+//! # QPS
+//! Convex quadratic programs, in free or fixed format: the sections `NAME`, `OBJSENSE` (`MIN`), `ROWS`, `COLUMNS`, `RHS`,
+//! `RANGES`, `BOUNDS`, and `QUADOBJ` or `QSECTION` (one triangle of `P`) or `QMATRIX` (all its entries). The objective has
+//! minus its right-hand side as constant. Lines of `RHS`, `RANGES` and `BOUNDS` may leave out the name of the set. Bounds
+//! from 1e20 on are none. A negative `UP` without `LO` frees its variable below; `BV` is between 0 and 1, integer or not.
+//!
 //! # Siconos
 //! The `.dat` files of that library for linear complementarity problems, mixed ones, relays (variables between bounds,
-//! `inf` where there is none: the problem is a [`BoxedLcp`]), and plane contact with friction, reduced to the contacts (`FrictionContactProblem`) or with the velocities of the bodies
-//! (`GlobalFrictionContactProblem`, `M v = q + H r`, `u = H^T v + b`: the problem is a [`Contact2d`] of velocities
-//! and impulses); dense, in sparse blocks, or sparse. Text may follow the last number, except for contact problems.
+//! `inf` where there is none: the problem is a [`BoxedLcp`]), and plane contact with friction, reduced to the contacts
+//! (`FrictionContactProblem`) or with the velocities of the bodies (`GlobalFrictionContactProblem`,
+//! `M v = q + H r`, `u = H^T v + b`: the problem is a [`Contact2d`] of velocities and impulses); dense, in sparse
+//! blocks, or sparse. Text may follow the last number, except for contact problems.
 //!
 //! # Matrix Market
 //! [`market`] reads the matrices and vectors of a problem one by one.
@@ -36,6 +44,7 @@ mod format;
 mod json;
 pub mod market;
 mod problem;
+mod qps;
 mod siconos;
 mod text;
 mod tokens;
@@ -43,7 +52,7 @@ mod tokens;
 use std::path::Path;
 
 #[cfg(doc)]
-use crate::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, MixedLcp};
+use crate::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, MixedLcp, Qp};
 
 pub use error::{Position, ReadError};
 pub use format::Format;
@@ -57,6 +66,7 @@ impl Format {
         match self {
             Self::Json => json::read(text),
             Self::Text => text::read(text),
+            Self::Qps => qps::read(text),
             Self::SiconosLcp => siconos::read_lcp(text),
             Self::SiconosMlcp => siconos::read_mlcp(text),
             Self::SiconosRelay => siconos::read_relay(text),
@@ -76,15 +86,20 @@ pub struct ProblemFile {
     pub problem: Problem,
 }
 
-/// Reads a file. A name that ends in `.json` names the format, like `format` does.
+/// Reads a file. A name that ends in `.json`, `.qps` or `.mps` names the format, like `format` does.
 ///
 /// # Errors
 /// [`ReadError`], with the place in the file.
 pub fn read_file(path: &Path, format: Option<Format>) -> Result<ProblemFile, ReadError> {
-    let is_json = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+    let ending = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
+    let named = match ending.as_deref().and_then(|ending| ending.to_str()) {
+        Some("json") => Some(Format::Json),
+        Some("qps" | "mps") => Some(Format::Qps),
+        _ => None,
+    };
     let bytes = std::fs::read(path)
         .map_err(|error| ReadError::File { path: path.to_owned(), reason: error.to_string() })?;
-    read(&bytes, format.or(is_json.then_some(Format::Json)))
+    read(&bytes, format.or(named))
 }
 
 /// Reads the content of a file, in that format or in the one that it fits.

@@ -73,6 +73,7 @@
 //! | [`Lcp`] | `w = M z + q`, `z >= 0`, `w >= 0`, `z . w = 0` | `(z, w)` |
 //! | [`MixedLcp`] | the same with free variables | `(z, w)` |
 //! | [`BoxedLcp`] | the same with bounds, `lower <= z <= upper` | `(z, w)` |
+//! | [`Qp`] | convex quadratic programs; their [conditions](Qp::mixed) are solved | [`QpPoint`]: variables, multipliers, objective |
 //! | [`HorizontalLcp`] | the general form | `t` and `y` of the solution |
 //!
 //! Matrices and vectors are made from arrays, rows, triplets, those of `faer` and, with the feature `nalgebra`, of
@@ -183,7 +184,7 @@ pub use newton::{SemismoothNewton, SemismoothNewtonSettings};
 pub use pgs::{ProjectedGaussSeidel, ProjectedGaussSeidelSettings};
 pub use problem::{
     Bedding, BoxedLcp, Contact2d, Contact2dBuilder, ContactForces, ContactPoint, ContactState,
-    ErrorBound, Friction2d, HorizontalLcp, Lcp, MixedLcp, Monotonicity, StandardForm,
+    ErrorBound, Friction2d, HorizontalLcp, Lcp, MixedLcp, Monotonicity, Qp, QpPoint, StandardForm,
 };
 #[cfg(feature = "clarabel")]
 #[doc(inline)]

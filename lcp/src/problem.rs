@@ -7,6 +7,7 @@ mod friction;
 mod horizontal;
 mod mixed;
 mod mixed_form;
+mod quadratic;
 mod standard;
 mod standard_form;
 
@@ -24,5 +25,6 @@ pub use friction::{ContactForces, Friction2d};
 pub use horizontal::HorizontalLcp;
 pub(crate) use mixed::Groups;
 pub use mixed::MixedLcp;
+pub use quadratic::{Qp, QpPoint};
 pub use standard::Lcp;
 pub use standard_form::StandardForm;

@@ -1,7 +1,8 @@
 //! Answers in the variables of the problem as it was posed.
 
 use crate::{
-    BoxedLcp, Contact2d, ContactForces, ContactState, Friction2d, Lcp, MixedLcp, Solution,
+    BoxedLcp, Contact2d, ContactForces, ContactState, Friction2d, Lcp, MixedLcp, Qp, QpPoint,
+    Solution,
 };
 
 impl Lcp {
@@ -34,6 +35,17 @@ impl BoxedLcp {
     pub fn variables(&self, solution: &Solution<Self>) -> (Vec<f64>, Vec<f64>) {
         let recovered = || self.recover(&solution.t, &solution.y);
         solution.boxed.clone().unwrap_or_else(recovered)
+    }
+}
+
+impl Qp {
+    /// The variables, multipliers and objective of an answer to its [conditions](Self::mixed).
+    ///
+    /// # Panics
+    /// If the answer is that of a problem of another size.
+    pub fn variables(&self, solution: &Solution<MixedLcp>) -> QpPoint {
+        let (z, w) = self.mixed().variables(solution);
+        self.point(z, w)
     }
 }
 

@@ -8,7 +8,9 @@ use proptest::test_runner::TestCaseError;
 use super::{parts, problem};
 
 /// Valid files of every kind, to be damaged.
-const VALID: [&str; 13] = [
+const VALID: [&str; 15] = [
+    "NAME\nROWS\n N f\n L r\nCOLUMNS\n x f -5 r 1\n y f -5 r 1\nRHS\n RHS r 3 f 1\nRANGES\n r 1\nBOUNDS\n UP B x 4\n FR y\nQUADOBJ\n x x 1\n y y 1\nENDATA\n",
+    r#"{"kind": "qp", "p": [[2, 0], [0, 2]], "q": [-2, -5], "a": [[1, -2]], "l": [-2], "u": [null], "lower": [0, null], "constant": 3}"#,
     "2  0 2 2 2 2  2 0 1 2  -1 4  -1 -inf  1 3  words",
     "2\n1 2 # row\n3 4\n-5 -6e0\n",
     "2\n0\n2\n2\n2\t2\n1 2\n3 4\n-5 -6\n\nSome words",

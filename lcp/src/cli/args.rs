@@ -20,6 +20,7 @@ pub(super) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Solve a problem.
+    #[command(visible_alias = "qp")]
     Solve(SolveArgs),
     /// Check whether a point solves a problem.
     Check(CheckArgs),

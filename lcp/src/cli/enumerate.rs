@@ -151,6 +151,7 @@ impl Point {
         let (z, w): (Vec<RBig>, Vec<RBig>) = match problem {
             Problem::Boxed(boxed) => variables(boxed, point, is_place),
             Problem::Mixed(mixed) => variables(mixed.boxed(), point, is_place),
+            Problem::Qp(program) => variables(program.mixed().boxed(), point, is_place),
             _ => (point.t.clone(), point.y.clone()),
         };
         let text = |values: Vec<RBig>| values.iter().map(ToString::to_string).collect();

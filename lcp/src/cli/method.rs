@@ -43,6 +43,9 @@ pub(super) fn solve(
     stdin: &mut dyn Read,
     problem: &Problem,
 ) -> Result<Solution, Failure> {
+    if let Problem::Qp(program) = problem {
+        return solve(args, stdin, &Problem::Mixed(program.mixed().clone()));
+    }
     let SolveArgs { time_limit, max_pivots, attempts: max_attempts, .. } = *args;
     let start = start(args, stdin, problem)?;
     let tolerance = |default| args.tol.unwrap_or(default);

@@ -135,11 +135,16 @@ fn attempt_lines(attempts: &[Attempt]) -> String {
 /// The first entries of the answer.
 fn point_lines(answer: &Answer<'_>) -> String {
     const LONGEST: usize = 40;
-    let (names, columns) = match &answer.contacts {
-        Some(forces) => (["normal", "tangential"], [&forces.normal, &forces.tangential]),
-        None => (["z", "w"], [&answer.z, &answer.w]),
+    let mut lines = String::new();
+    let (names, columns) = match (&answer.contacts, &answer.program) {
+        (Some(forces), _) => (["normal", "tangential"], [&forces.normal, &forces.tangential]),
+        (_, Some(program)) => {
+            let _ = writeln!(lines, "\nobjective: {:.8e}", program.objective);
+            (["x", "multiplier"], [&program.x, &program.bounds])
+        }
+        _ => (["z", "w"], [&answer.z, &answer.w]),
     };
-    let mut lines = format!("\n{:>5} {:>16} {:>16}\n", "", names[0], names[1]);
+    let _ = writeln!(lines, "\n{:>5} {:>16} {:>16}", "", names[0], names[1]);
     for (i, (first, second)) in columns[0].iter().zip(columns[1]).enumerate().take(LONGEST) {
         let _ = writeln!(lines, "{i:>5} {first:>16.8e} {second:>16.8e}");
     }

@@ -11,7 +11,8 @@ use super::output::{Failure, NOT_SOLVED, SOLVED, in_file, print, print_json};
 use crate::io::Problem;
 use crate::pivoting::Attempt;
 use crate::{
-    Certificate, ContactForces, ContactState, Info, Method, Residuals, Route, Solution, Status,
+    Certificate, ContactForces, ContactState, Info, Method, QpPoint, Residuals, Route, Solution,
+    Status,
 };
 
 /// What `--json` prints.
@@ -34,6 +35,8 @@ pub(super) struct Answer<'a> {
     pub(super) contacts: Option<ContactForces>,
     #[serde(skip_serializing_if = "Option::is_none")]
     contact: Option<ContactState>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) program: Option<QpPoint>,
     certificate: Option<&'a Certificate>,
     pub(super) attempts: &'a [Attempt],
     #[serde(skip_serializing_if = "<[Route]>::is_empty")]
@@ -82,6 +85,10 @@ fn answer<'a>(problem: &Problem, solution: &'a Solution, cpu_s: Option<f64>) -> 
         }
         _ => None,
     };
+    let program = match problem {
+        Problem::Qp(program) => Some(program.point(z.clone(), w.clone())),
+        _ => None,
+    };
     let info = &solution.info;
     Answer {
         status: solution.status,
@@ -96,6 +103,7 @@ fn answer<'a>(problem: &Problem, solution: &'a Solution, cpu_s: Option<f64>) -> 
         w,
         contacts,
         contact,
+        program,
         certificate: solution.certificate.as_ref(),
         attempts: &info.attempts,
         routes: &info.routes,

@@ -8,6 +8,8 @@ pub enum Format {
     Json,
     /// Plain text: `n`, `M` by rows, `q`.
     Text,
+    /// QPS, of convex quadratic programs.
+    Qps,
     /// A linear complementarity problem of Siconos.
     SiconosLcp,
     /// A mixed linear complementarity problem of Siconos.
@@ -22,9 +24,10 @@ pub enum Format {
 
 impl Format {
     /// All formats.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Json,
         Self::Text,
+        Self::Qps,
         Self::SiconosLcp,
         Self::SiconosMlcp,
         Self::SiconosRelay,
@@ -37,6 +40,7 @@ impl Format {
         match self {
             Self::Json => "json",
             Self::Text => "text",
+            Self::Qps => "qps",
             Self::SiconosLcp => "siconos-lcp",
             Self::SiconosMlcp => "siconos-mlcp",
             Self::SiconosRelay => "siconos-relay",

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::from_str;
 
 use super::{Problem, ReadError};
-use crate::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, MixedLcp};
+use crate::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, MixedLcp, Qp};
 use array::Array;
 use wrong::Wrong;
 
@@ -22,6 +22,7 @@ enum Kind {
     Boxed,
     Friction,
     Contact,
+    Qp,
 }
 
 /// What says which of the following a document is.
@@ -93,6 +94,21 @@ struct Contact {
     compliance: Option<Vec<[f64; 2]>>,
 }
 
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Program {
+    kind: Kind,
+    p: Array,
+    q: Vec<f64>,
+    a: Array,
+    l: Bounds,
+    u: Bounds,
+    lower: Option<Bounds>,
+    upper: Option<Bounds>,
+    #[serde(default)]
+    constant: f64,
+}
+
 pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
     problem(text).map_err(|wrong| wrong.in_text(text))
 }
@@ -131,6 +147,14 @@ fn problem(text: &str) -> Result<Problem, Wrong> {
                 Some(compliance) => hard.with_compliance(compliance)?,
                 None => hard,
             })
+        }
+        Kind::Qp => {
+            let Program { p, q, a, l, u, lower, upper, constant, .. } = from_str(text)?;
+            let (p, a) = (p.square("p", q.len())?, a.sized("a", l.len(), q.len())?);
+            let [lower, upper] = [lower, upper].map(|it| it.unwrap_or(vec![None; q.len()]));
+            let program = Qp::new(p, q, a, or(l, f64::NEG_INFINITY), or(u, f64::INFINITY))?;
+            let (lower, upper) = (or(lower, f64::NEG_INFINITY), or(upper, f64::INFINITY));
+            Problem::Qp(program.with_bounds(lower, upper)?.with_constant(constant))
         }
     })
 }
@@ -172,6 +196,22 @@ impl Serialize for Problem {
             Self::Friction(it) => {
                 let (w, mu) = (it.w().into(), it.mu().into());
                 Friction { kind: Kind::Friction, w, q: it.q().into(), mu }.serialize(to)
+            }
+            Self::Qp(it) => {
+                let [l, u] = it.row_bounds().map(finite);
+                let [lower, upper] = it.bounds().map(finite).map(Some);
+                Program {
+                    kind: Kind::Qp,
+                    p: it.p().into(),
+                    q: it.q().into(),
+                    a: it.a().into(),
+                    l,
+                    u,
+                    lower,
+                    upper,
+                    constant: it.constant(),
+                }
+                .serialize(to)
             }
             Self::Contact(it) => {
                 let array = |m: &SparseColMat<usize, f64>| Array::from(&m.clone().into());

@@ -6,7 +6,7 @@ use super::{Position, ReadError};
 use crate::conversion::General;
 use crate::{
     BoxedLcp, Contact2d, ContactForces, ContactState, Friction2d, HorizontalLcp, Lcp, Matrix,
-    MixedLcp, Residuals, Solution,
+    MixedLcp, Qp, Residuals, Solution,
 };
 
 /// The same of a problem of every kind.
@@ -19,6 +19,10 @@ macro_rules! each {
             $crate::io::Problem::Boxed($problem) => $what,
             $crate::io::Problem::Friction($problem) => $what,
             $crate::io::Problem::Contact($problem) => $what,
+            $crate::io::Problem::Qp(program) => {
+                let $problem = program.mixed();
+                $what
+            }
         }
     };
 }
@@ -28,7 +32,7 @@ pub(crate) use each;
 /// A problem of any kind that files hold.
 ///
 /// All kinds have the vectors `z` and `w`: in the general form `z = t` and `w = y`; of [`Friction2d`] those of its
-/// standard form, and of [`Contact2d`] the pairs of its general form.
+/// standard form, of [`Contact2d`] the pairs of its general form, and of [`Qp`] those of its conditions.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub enum Problem {
@@ -44,6 +48,8 @@ pub enum Problem {
     Friction(Friction2d),
     /// Contact with friction in the plane, with the displacements as unknowns.
     Contact(Contact2d),
+    /// A convex quadratic program.
+    Qp(Qp),
 }
 
 impl Problem {
@@ -56,6 +62,7 @@ impl Problem {
             Self::Boxed(_) => "boxed",
             Self::Friction(_) => "friction",
             Self::Contact(_) => "contact",
+            Self::Qp(_) => "qp",
         }
     }
 
@@ -75,6 +82,7 @@ impl Problem {
             Self::Mixed(problem) => vec![borrowed("M", problem.m())],
             Self::Boxed(problem) => vec![borrowed("M", problem.m())],
             Self::Friction(problem) => vec![borrowed("W", problem.w())],
+            Self::Qp(problem) => vec![borrowed("P", problem.p()), borrowed("A", problem.a())],
             Self::Contact(problem) => {
                 let named = [
                     ("K", problem.stiffness()),
@@ -98,6 +106,7 @@ impl Problem {
     pub fn recover(&self, t: &[f64], y: &[f64]) -> (Vec<f64>, Vec<f64>) {
         match self {
             Self::Mixed(problem) => problem.recover(t, y),
+            Self::Qp(problem) => problem.mixed().recover(t, y),
             Self::Boxed(problem) => problem.recover(t, y),
             _ => (t.to_vec(), y.to_vec()),
         }
@@ -110,6 +119,7 @@ impl Problem {
     pub fn to_pairs(&self, z: &[f64], w: &[f64]) -> (Vec<f64>, Vec<f64>) {
         match self {
             Self::Mixed(problem) => problem.to_pairs(z, w),
+            Self::Qp(problem) => problem.mixed().to_pairs(z, w),
             Self::Boxed(problem) => problem.to_pairs(z, w),
             _ => (z.to_vec(), w.to_vec()),
         }
@@ -131,6 +141,7 @@ impl Problem {
         match self {
             Self::Lcp(problem) => Some(affine(problem.m(), z, problem.q())),
             Self::Mixed(problem) => Some(affine(problem.m(), z, problem.q())),
+            Self::Qp(problem) => Some(affine(problem.mixed().m(), z, problem.mixed().q())),
             Self::Boxed(problem) => Some(affine(problem.m(), z, problem.q())),
             Self::Friction(problem) => {
                 Some(affine(problem.standard().m(), z, problem.standard().q()))
@@ -147,6 +158,7 @@ impl Problem {
         match self {
             Self::Horizontal(problem) => problem.residuals(z, w),
             Self::Mixed(problem) => problem.residuals(z, w),
+            Self::Qp(problem) => problem.mixed().residuals(z, w),
             Self::Boxed(problem) => problem.residuals(z, w),
             Self::Lcp(problem) => problem.residuals(z, w),
             Self::Friction(problem) => problem.residuals(&problem.forces(z)),

@@ -5,6 +5,8 @@ use std::fmt::Display;
 use super::{Position, ReadError};
 
 const END: &str = "the end of the file";
+/// From this size on a bound is none, by the convention of MPS.
+const NO_BOUND: f64 = 1e20;
 /// What sizes in a file are to be.
 pub(super) const SIZES: &str = "sizes must agree with each other";
 
@@ -27,12 +29,16 @@ impl Token<'_> {
         value.ok_or_else(|| self.unexpected(what, "every value is a finite decimal number"))
     }
 
-    /// The word as a bound: a number, or infinity where there is none.
+    /// The word as a bound: a number, or infinity where there is none, as it is written or by a size from 1e20 on, the
+    /// convention of files with programs.
     pub(super) fn bound(&self, what: impl Display) -> Result<f64, ReadError> {
         match self.text.to_ascii_lowercase().trim_start_matches('+') {
             "inf" | "infinity" => Ok(f64::INFINITY),
             "-inf" | "-infinity" => Ok(f64::NEG_INFINITY),
-            _ => self.number(what),
+            _ => match self.number(what)? {
+                value if value.abs() >= NO_BOUND => Ok(value.signum() * f64::INFINITY),
+                value => Ok(value),
+            },
         }
     }
 

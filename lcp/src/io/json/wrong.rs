@@ -63,16 +63,18 @@ impl Wrong {
 }
 
 /// The fields that the data of errors are.
-const FIELDS: [&str; 10] =
-    ["k", "m", "q", "mu", "x_0", "s_0", "free", "lower", "upper", "compliance"];
+const FIELDS: [&str; 13] =
+    ["k", "m", "p", "q", "mu", "x_0", "s_0", "free", "u", "l", "lower", "upper", "compliance"];
 
 /// The field that an error is about.
 fn field_of(error: &Error) -> Option<&'static str> {
     let datum = match error {
         Error::NotFinite { what, .. } | Error::NotSymmetric { what, .. } => what,
         Error::Setting { name, .. } | Error::Length { name, .. } => name,
-        Error::Bounds { .. } => "lower",
+        Error::Between { what: "row", .. } => "l",
+        Error::Bounds { .. } | Error::Between { .. } => "lower",
         Error::Indefinite { .. } => "k",
+        Error::NotConvex { .. } => "p",
         _ => return None,
     };
     FIELDS.into_iter().find(|field| field.eq_ignore_ascii_case(datum))

@@ -1,0 +1,85 @@
+//! QPS, the format of convex quadratic programs: MPS with a section for the quadratic terms.
+//!
+//! Words are separated by white space (free format). Where that does not fit they stand in columns (fixed format), so
+//! that names may have spaces.
+
+mod line;
+mod program;
+
+use super::problem::posed;
+use super::tokens::Token;
+use super::{Position, Problem, ReadError};
+use line::Layout;
+use program::{Program, Section};
+
+const SECTIONS: [(&str, Section); 9] = [
+    ("OBJSENSE", Section::Sense),
+    ("ROWS", Section::Rows),
+    ("COLUMNS", Section::Columns),
+    ("RHS", Section::Right),
+    ("RANGES", Section::Ranges),
+    ("BOUNDS", Section::Bounds),
+    ("QUADOBJ", Section::Triangle),
+    ("QSECTION", Section::Triangle),
+    ("QMATRIX", Section::Quadratic),
+];
+
+/// In the format in which it can be read, or the error of the one that comes further.
+pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
+    parse(text, Layout::Free).or_else(|free| {
+        parse(text, Layout::Fixed)
+            .map_err(|fixed| if fixed.reach() > free.reach() { fixed } else { free })
+    })
+}
+
+fn parse(text: &str, layout: Layout) -> Result<Problem, ReadError> {
+    let mut program = Program::default();
+    let mut section = None;
+    let mut at = Position { line: 1, column: 1 };
+    for (number, line) in text.lines().enumerate() {
+        at = Position { line: number + 1, column: 1 };
+        if line.trim().is_empty() || line.starts_with('*') {
+            continue;
+        }
+        if line.starts_with(char::is_whitespace) {
+            let words = layout.words(line, at.line);
+            let (Some(section), Some(first)) = (section, words.first()) else {
+                return Err(unexpected_end(at, "a header, as NAME or ROWS, where a line begins"));
+            };
+            program.line(section, *first, &words[1..])?;
+            continue;
+        }
+        let words = Layout::Free.words(line, at.line);
+        let [header, rest @ ..] = words.as_slice() else { continue };
+        section = match header.text {
+            "NAME" => None,
+            "ENDATA" => return posed(program.finish(), Problem::Qp, at),
+            name => Some(section_of(name, header)?),
+        };
+        match (section, rest) {
+            (Some(Section::Sense), [sense]) => program.line(Section::Sense, *sense, &[])?,
+            (Some(Section::Triangle | Section::Quadratic), [row]) => {
+                program.check_objective(*row)?;
+            }
+            (Some(_), [word, ..]) => {
+                return Err(word.unexpected("a header alone", "lines of data begin with a space"));
+            }
+            _ => {}
+        }
+    }
+    Err(unexpected_end(at, "the line ENDATA"))
+}
+
+fn unexpected_end(at: Position, expected: &str) -> ReadError {
+    let (expected, found) = (expected.to_owned(), "a line without it".to_owned());
+    ReadError::Unexpected { at, expected, found, remedy: "complete the file" }
+}
+
+fn section_of(name: &str, header: &Token<'_>) -> Result<Section, ReadError> {
+    let found = SECTIONS.iter().find(|(section, _)| *section == name);
+    found.map(|(_, section)| *section).ok_or_else(|| {
+        let names = SECTIONS.map(|(name, _)| name).join(", ");
+        let remedy = "of other sections, as those of integers and cones, there are no solvers here";
+        header.unexpected(format!("one of NAME, {names}, ENDATA"), remedy)
+    })
+}
