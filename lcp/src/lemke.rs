@@ -33,7 +33,6 @@ pub use crate::pivoting::{
 use std::ops::ControlFlow;
 use web_time::Instant;
 
-pub(crate) use constants::KINDS;
 use search::Search;
 
 use crate::solve::deadline_of;

@@ -54,7 +54,7 @@ fn assert_routes<P>(solution: &Solution<P>, plan: &[Method]) {
         matches!(end, RouteEnd::Ended { status, residual } if *status == solution.status
             && (is_divided || residual.total_cmp(&solution.residuals.worst()).is_eq()))
     };
-    let source = routes.iter().find(|route| route.method == solution.info.method).unwrap();
+    let source = routes.iter().rfind(|route| route.method == solution.info.method).unwrap();
     assert!(is_from(&source.end), "{source:?} but {}", solution.status);
 }
 

@@ -3,9 +3,8 @@
 use web_time::{Duration, Instant};
 
 use super::AutoSettings;
-use super::constants::FEW_PAIRS;
+use super::constants::{FEW_ATTEMPTS, SHARE};
 use super::method::{Effort, Planned, attempt, chain_of};
-use crate::lemke;
 use crate::{Certificate, Error, Method, Observer, Route, RouteEnd, Solution, Status};
 
 /// How much an answer says; what comes first says more.
@@ -29,17 +28,23 @@ pub(super) fn run<P: Planned>(
     let mut routes = Vec::new();
     let mut best: Option<Solution> = None;
     let mut cut = None;
-    // All choices of few pairs cost less than many attempts.
-    let few = (problem.choices() <= FEW_PAIRS).then_some(lemke::KINDS);
-    let max_attempts = settings.max_attempts.or(few);
-    for step in chain_of(problem) {
-        let time_limit = settings.time_limit.map(|limit| limit.saturating_sub(began.elapsed()));
-        if best.is_some() && time_limit == Some(Duration::ZERO) {
+    let steps = chain_of(problem, settings.max_attempts);
+    let count = steps.len();
+    for (place, step) in steps.into_iter().enumerate() {
+        let left = settings.time_limit.map(|limit| limit.saturating_sub(began.elapsed()));
+        if best.is_some() && left == Some(Duration::ZERO) {
             cut = Some(Status::TimeLimit);
             break;
         }
-        let AutoSettings { tolerance, start, .. } = settings;
-        let effort = Effort { tolerance: *tolerance, time_limit, max_attempts, start };
+        let share = if place + 1 < count { SHARE } else { 1.0 };
+        let most = settings.max_attempts.unwrap_or(usize::MAX);
+        let few = step.is_brief.then_some(most.min(FEW_ATTEMPTS));
+        let effort = Effort {
+            tolerance: settings.tolerance,
+            time_limit: left.map(|left| left.mul_f64(share)),
+            max_attempts: few.or(settings.max_attempts),
+            start: &settings.start,
+        };
         let route_began = Instant::now();
         let answer = match attempt(problem, step.method, &effort, observer) {
             Err(Error::NotTreated { reason, .. }) => Err(reason),
@@ -63,8 +68,10 @@ pub(super) fn run<P: Planned>(
         let Ok(solution) = answer else { continue };
         let (is_last, status) = (is_final(&solution), solution.status);
         best = Some(better(best, solution, settings.tolerance));
+        if matches!(status, Status::Cancelled | Status::TimeLimit) {
+            cut = Some(status);
+        }
         if is_last {
-            cut = Some(status).filter(|it| matches!(it, Status::Cancelled | Status::TimeLimit));
             break;
         }
     }
@@ -85,7 +92,7 @@ pub(super) fn run<P: Planned>(
 /// After these no other method is asked.
 pub(super) fn is_final(solution: &Solution) -> bool {
     match solution.status {
-        Status::Solved | Status::Cancelled | Status::TimeLimit => true,
+        Status::Solved | Status::Cancelled => true,
         Status::Infeasible | Status::NoSolution => {
             solution.certificate.as_ref().is_some_and(Certificate::is_proof)
         }

@@ -1,10 +1,12 @@
 //! Independent parts one by one: each has a chain, units and limits of its own.
 
+use std::time::Duration;
+
 use web_time::Instant;
 
 use super::AutoSettings;
 use super::chain::{self, Rank};
-use super::constants::MANY_PARTS;
+use super::constants::{MANY_PARTS, SHARE};
 use super::method::{Planned, Step, chain_of};
 use crate::divide::{Joined, Part};
 use crate::{Basis, Certificate, Error, Observer, Route, RouteEnd, Side, Solution, Status};
@@ -20,7 +22,9 @@ pub(super) fn run<P: Planned>(
     let began = Instant::now();
     let mut tried = None;
     if parts.len() > MANY_PARTS {
-        let solution = chain::run(problem, settings, observer)?;
+        let time_limit = settings.time_limit.map(|limit| limit.mul_f64(SHARE));
+        let settings = AutoSettings { time_limit, ..settings.clone() };
+        let solution = chain::run(problem, &settings, observer)?;
         if chain::is_final(&solution) {
             return Ok(solution);
         }
@@ -34,11 +38,11 @@ pub(super) fn run<P: Planned>(
 }
 
 /// The plans of the parts; a method that stands at the same place of several plans stands there once.
-pub(super) fn steps<P: Planned>(problem: &P) -> Vec<Step> {
+pub(super) fn steps<P: Planned>(problem: &P, max_attempts: Option<usize>) -> Vec<Step> {
     let Some(parts) = problem.parts().filter(|parts| parts.len() <= MANY_PARTS) else {
-        return chain_of(problem);
+        return chain_of(problem, max_attempts);
     };
-    let plans = parts.iter().map(|part| chain_of(&part.problem));
+    let plans = parts.iter().map(|part| chain_of(&part.problem, max_attempts));
     let is_same = |a: &Step, b: &Step| a.method == b.method;
     merged(plans, is_same, |_, _| {})
         .into_iter()
@@ -103,12 +107,17 @@ struct Divided<'a, P> {
 }
 
 impl<P: Planned> Divided<'_, P> {
-    /// Solves one part after the other, until one of them proves that the linear conditions have no solution.
+    /// Solves one part after the other, until one of them proves that the linear conditions have no solution. Of the time
+    /// left all remaining parts have the same share: the smallest come first and leave theirs to the others.
     fn solve(&mut self, parts: Vec<Part<P>>, observer: &mut Observer<'_>) -> Result<(), Error> {
-        for part in parts {
-            let left = self.settings.time_limit;
+        let mut order: Vec<(usize, Part<P>)> = parts.into_iter().enumerate().collect();
+        order.sort_by_key(|(_, part)| part.pairs.len());
+        let mut places = Vec::with_capacity(order.len());
+        let count = u32::try_from(order.len()).unwrap_or(u32::MAX);
+        for ((place, part), remaining) in order.into_iter().zip((1..=count).rev()) {
+            let left = |limit: Duration| limit.saturating_sub(self.began.elapsed());
             let settings = AutoSettings {
-                time_limit: left.map(|limit| limit.saturating_sub(self.began.elapsed())),
+                time_limit: self.settings.time_limit.map(|limit| left(limit) / remaining),
                 start: part.start(&self.settings.start),
                 ..self.settings.clone()
             };
@@ -118,10 +127,14 @@ impl<P: Planned> Divided<'_, P> {
                 status => status == Status::Cancelled,
             };
             self.answers.push((part, answer));
+            places.push(place);
             if is_last {
                 break;
             }
         }
+        let mut answers: Vec<_> = places.into_iter().zip(self.answers.drain(..)).collect();
+        answers.sort_by_key(|(place, _)| *place);
+        self.answers = answers.into_iter().map(|(_, answer)| answer).collect();
         Ok(())
     }
 

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::constants::{FEW_PAIRS, MOST_PAIRS, TRIAL};
+use super::constants::{FEW_ATTEMPTS, FEW_PAIRS, MOST_PAIRS, TRIAL};
 use super::enumerated::Enumeration;
 use super::memory;
 use crate::conversion::General;
@@ -17,11 +17,13 @@ use crate::{
 pub struct Step {
     pub(super) method: Method,
     pub(super) reason: String,
+    /// Whether pivots end after a few attempts, because another method follows that may take less.
+    pub(super) is_brief: bool,
 }
 
 impl Step {
     pub(super) fn new(method: Method, reason: impl Into<String>) -> Self {
-        Self { method, reason: reason.into() }
+        Self { method, reason: reason.into(), is_brief: false }
     }
 }
 
@@ -33,21 +35,29 @@ pub(super) fn named(problem: &str, mut steps: Vec<Step>) -> Vec<Step> {
     steps
 }
 
-/// The chain of a problem with all choices of sides: behind pivots if it is as fast as these, else at the end.
-pub(super) fn chain_of<P: Planned>(problem: &P) -> Vec<Step> {
+/// The chain of a problem with all choices of sides: behind a few attempts of pivots if it takes no longer than these, else
+/// at the end.
+pub(super) fn chain_of<P: Planned>(problem: &P, max_attempts: Option<usize>) -> Vec<Step> {
     let mut steps = problem.steps();
     let pairs = problem.pairs();
-    if pairs > MOST_PAIRS {
+    let pivots = steps.iter().position(|step| step.method == Method::Lemke);
+    let Some(pivots) = pivots.filter(|_| pairs <= MOST_PAIRS) else { return steps };
+    let step = |method, words: &str| Step::new(method, format!("{pairs} pairs, {words}"));
+    let choices = problem.choices();
+    if choices > FEW_PAIRS {
+        let words = "choices of sides are gone through as far as the work allows";
+        steps.push(step(Method::Enumeration, words));
         return steps;
     }
-    let pivots = steps.iter().position(|step| step.method == Method::Lemke);
-    let (place, words) = match pivots {
-        Some(pivots) if problem.choices() <= FEW_PAIRS => {
-            (pivots + 1, "so few that all choices of sides can be gone through, with proofs")
-        }
-        _ => (steps.len(), "choices of sides are gone through as far as the work allows"),
-    };
-    steps.insert(place, Step::new(Method::Enumeration, format!("{pairs} pairs, {words}")));
+    steps[pivots].is_brief = true;
+    let words = format!(
+        "at most {choices} of which depend on each other in turn: so few that choices of sides can be gone \
+         through, with proofs"
+    );
+    steps.insert(pivots + 1, step(Method::Enumeration, &words));
+    if pairs > FEW_PAIRS && max_attempts.is_none_or(|most| most > FEW_ATTEMPTS) {
+        steps.push(step(Method::Lemke, "pivots from as many starts as some seconds allow"));
+    }
     steps
 }
 
@@ -56,7 +66,8 @@ pub trait Planned: Divide {
     /// Pairs of a start.
     fn pairs(&self) -> usize;
 
-    /// Pairs apart from free variables: those of which either side may be zero.
+    /// Pairs of which either side may be zero, in the largest block of variables that depend on each other in turn. The
+    /// blocks can be decided one after the other.
     fn choices(&self) -> usize {
         self.pairs()
     }

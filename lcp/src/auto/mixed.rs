@@ -1,6 +1,6 @@
 //! The chains of problems with free and with bounded variables.
 
-use super::facts::Facts;
+use super::facts::{Facts, largest_block};
 use super::method::{Effort, Planned, Step, named};
 use super::standard::common_steps;
 use crate::{BoxedLcp, Method, MixedLcp, Solver};
@@ -11,7 +11,7 @@ impl Planned for MixedLcp {
     }
 
     fn choices(&self) -> usize {
-        self.free().iter().filter(|free| !**free).count()
+        largest_block(self.m(), |i| usize::from(!self.free()[i]))
     }
 
     fn is_sparse(&self) -> bool {
@@ -37,10 +37,11 @@ impl Planned for BoxedLcp {
     }
 
     fn choices(&self) -> usize {
-        let bounds = self.lower().iter().zip(self.upper());
-        let is_open = |l: f64, u: f64| l == f64::NEG_INFINITY && u == f64::INFINITY;
-        let is_fixed = |l: f64, u: f64| l.total_cmp(&u).is_eq();
-        self.pairs() - bounds.filter(|(l, u)| is_open(**l, **u) || is_fixed(**l, **u)).count()
+        let (lower, upper) = (self.lower(), self.upper());
+        let has = |bound: f64| usize::from(bound.is_finite());
+        let is_fixed = |i: usize| lower[i] >= upper[i];
+        let sides = |i: usize| if is_fixed(i) { 0 } else { has(lower[i]) + has(upper[i]) };
+        largest_block(self.m(), sides)
     }
 
     fn is_sparse(&self) -> bool {

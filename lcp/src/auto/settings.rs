@@ -15,8 +15,8 @@ use crate::{Error, WarmStart};
 pub struct AutoSettings {
     /// Largest residual, dimensionless, of an answer called `Solved`. In `(0, 1)`. Every method gets it.
     pub tolerance: f64,
-    /// Wall-clock time of all methods together: every one gets what those before it have left. `None` is
-    /// no limit, and then a method of the chain may take very long where those before it failed.
+    /// Wall-clock time of all methods together: each gets three quarters of what those before it have left, the last one
+    /// all of it. `None` is no limit, and then a method of the chain may take long if those before it failed.
     pub time_limit: Option<Duration>,
     /// Attempts of Lemke's method, as in [`LemkeSettings::max_attempts`](crate::LemkeSettings::max_attempts).
     pub max_attempts: Option<usize>,

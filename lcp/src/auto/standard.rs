@@ -1,7 +1,7 @@
 //! The chain of standard problems, and of general ones that can be converted to the standard form.
 
 use super::constants::{FEW, FEW_DENSE};
-use super::facts::{Facts, is_z_matrix};
+use super::facts::{Facts, is_z_matrix, largest_block};
 use super::method::{Effort, Planned, Step};
 use crate::{HorizontalLcp, Lcp, Method, Solver};
 
@@ -41,6 +41,10 @@ impl Planned for Lcp {
         self.order()
     }
 
+    fn choices(&self) -> usize {
+        largest_block(self.m(), |_| 1)
+    }
+
     fn is_sparse(&self) -> bool {
         self.m().is_sparse()
     }
@@ -63,7 +67,10 @@ impl Planned for HorizontalLcp {
     }
 
     fn choices(&self) -> usize {
-        (0..self.order()).filter(|&pair| self.opposite(pair).is_none()).count()
+        match self.to_standard() {
+            Some(standard) => standard.lcp().choices(),
+            None => (0..self.order()).filter(|&pair| self.opposite(pair).is_none()).count(),
+        }
     }
 
     fn is_sparse(&self) -> bool {

@@ -68,7 +68,7 @@ pub(super) const REPAIRS: usize = 8;
 pub(super) const FIRST_ROUND: usize = 10;
 /// Attempts at least. Theory: all kinds of [`Trial::after`](super::trial::Trial::after), with some of the one that chance
 /// decides.
-pub(crate) const KINDS: usize = 12;
+pub(super) const KINDS: usize = 12;
 /// Attempts go on while their pivots have changed fewer entries of tableaus of the order of the problem; a new start basis
 /// counts as a tableau with as many pivots as the order. Measured: that takes four seconds, and finds the solutions of most
 /// random indefinite problems of order 60.

@@ -12,6 +12,8 @@ fn signs_and_size_decide_about_standard_problems() {
     // The active set method wherever the diagonal is positive, then pivots where they are cheap.
     let dense = families::positive_definite(30, 1).problem;
     assert_eq!(plan!(&dense), [NEWTON, LEMKE, INTERIOR, CHOICES]);
+    let triangular = families::triangular(30, 1).problem;
+    assert_eq!(plan!(&triangular)[..2], [LEMKE, CHOICES]);
     let symmetric = families::fathi(10).problem;
     assert_eq!(plan!(&symmetric), [NEWTON, LEMKE, CHOICES, INTERIOR]);
     let games = families::bimatrix(4, 5, 1).problem;
