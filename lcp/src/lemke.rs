@@ -15,7 +15,6 @@ mod progress;
 mod ratio;
 mod search;
 mod sparse;
-mod sparse_start;
 mod start;
 mod tableau;
 mod translate;
@@ -52,7 +51,7 @@ use crate::{Error, HorizontalLcp, LemkeSettings, Method, Solution};
 /// # Guarantee
 /// In exact arithmetic it finds a solution, or a proof that there is none, for copositive-plus `M` (for example
 /// positive semidefinite `M`) in the standard form. For other classes the path may end on a secondary ray although a
-/// solution exists. Then other covering vectors, start bases and proximal perturbations are tried, and every attempt
+/// solution exists. Then other covering vectors, start bases and perturbed right-hand sides are tried, and every attempt
 /// is recorded in [`Info::attempts`](crate::Info::attempts). After the last one the status is
 /// [`Infeasible`](crate::Status::Infeasible), with a proof, or [`RayTermination`](crate::Status::RayTermination),
 /// which is none.

@@ -95,7 +95,7 @@ impl std::fmt::Display for AttemptCovering {
 
 /// What an attempt changed in the data of its path. The basis on which it ends is always judged by
 /// the data as given.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Perturbation {
@@ -106,12 +106,6 @@ pub enum Perturbation {
         /// Seed of the generator.
         seed: u64,
     },
-    /// The proximal problem `w = M z + q + weight (z - center)` instead of `w = M z + q`, where the
-    /// center is zero or the point on which the proximal attempt before ended.
-    Proximal {
-        /// The weight, in equilibrated units.
-        weight: f64,
-    },
 }
 
 impl std::fmt::Display for Perturbation {
@@ -119,7 +113,6 @@ impl std::fmt::Display for Perturbation {
         match self {
             Self::None => f.write_str("none"),
             Self::RightHandSide { .. } => f.write_str("perturbed"),
-            Self::Proximal { weight } => write!(f, "proximal, weight {weight:.0e}"),
         }
     }
 }

@@ -133,9 +133,8 @@ pub struct Solution<P = HorizontalLcp> {
     pub residuals: Residuals,
     /// With the statuses [`Infeasible`](Status::Infeasible) and [`NoSolution`](Status::NoSolution) the proof, checked
     /// against the given data; with
-    /// [`RayTermination`](Status::RayTermination) the ray of the first attempt that ended on one, without proximal
-    /// attempts and those without an artificial variable. It refers to the rows and pairs of the general form of the
-    /// problem.
+    /// [`RayTermination`](Status::RayTermination) the ray of the first attempt that ended on one, without those that
+    /// have no artificial variable. It refers to the rows and pairs of the general form of the problem.
     pub certificate: Option<Certificate>,
     /// Estimate of the condition number, in the 1-norm, of the equilibrated matrix of the basis.
     pub condition: Option<f64>,

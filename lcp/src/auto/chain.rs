@@ -133,6 +133,7 @@ fn all_refused(routes: &[Route]) -> Error {
 #[cfg(test)]
 mod tests {
     use std::borrow::Cow;
+    use std::cell::RefCell;
     use std::ops::ControlFlow;
 
     use faer::mat;
@@ -143,8 +144,9 @@ mod tests {
     use crate::divide::{Divide, Part};
     use crate::{Auto, HorizontalLcp, Iteration, Lcp, Residuals, Solver};
 
-    /// A problem for methods that refuse.
-    struct Refused;
+    /// A problem for methods that refuse, with the time that each was given.
+    #[derive(Default)]
+    struct Refused(RefCell<Vec<Option<Duration>>>);
 
     impl General for Refused {
         fn general(&self) -> Cow<'_, HorizontalLcp> {
@@ -177,7 +179,8 @@ mod tests {
                 .into()
         }
 
-        fn solver(&self, method: Method, _: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
+        fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
+            self.0.borrow_mut().push(effort.time_limit);
             (method != Method::Newton).then(|| Box::new(Refusing(method)) as _)
         }
     }
@@ -198,13 +201,28 @@ mod tests {
     #[test]
     fn where_all_refuse_all_reasons_are_given() {
         let ignore = &mut |_: &Iteration| ControlFlow::Continue(());
-        let error = run(&Refused, &AutoSettings::default(), ignore).map(|it| it.status);
+        let settings = AutoSettings::default();
+        let error = run(&Refused::default(), &settings, ignore).map(|it| it.status);
         let Err(Error::NotTreated { method: Method::Auto, reason }) = error else {
             panic!("{error:?}");
         };
         assert!(reason.contains("Lemke's method: lemke is not at home"), "{reason}");
         assert!(reason.contains("projected Gauss-Seidel: pgs is not at home"), "{reason}");
         assert!(reason.contains("semismooth Newton: it is not in the chain"), "{reason}");
+    }
+
+    /// Each method leaves time for those behind it, and the last one has all that is left.
+    #[test]
+    fn methods_share_the_time() {
+        let hour = Duration::from_secs(3600);
+        let settings = AutoSettings { time_limit: Some(hour), ..AutoSettings::default() };
+        let problem = Refused::default();
+        let ignore = &mut |_: &Iteration| ControlFlow::Continue(());
+        assert!(run(&problem, &settings, ignore).is_err());
+        let given = problem.0.into_inner();
+        let (last, others) = given.split_last().expect("several methods");
+        assert!(others.iter().all(|given| *given <= Some(hour.mul_f64(SHARE))));
+        assert!(others.len() == 3 && *last > Some(hour.mul_f64(SHARE)));
     }
 
     #[test]

@@ -1,8 +1,6 @@
 //! Independent parts one by one: each has a chain, units and limits of its own.
 
-use std::time::Duration;
-
-use web_time::Instant;
+use web_time::{Duration, Instant};
 
 use super::AutoSettings;
 use super::chain::{self, Rank};

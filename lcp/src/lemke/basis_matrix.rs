@@ -87,15 +87,8 @@ impl BasisMatrix {
         }
     }
 
-    /// `right - M x`.
-    pub(super) fn residual(&self, right: &[f64], x: &[f64]) -> Vec<f64> {
-        let mut residual = right.to_vec();
-        self.for_each(|j, i, v| residual[i] -= v * x[j]);
-        residual
-    }
-
     /// `right - M (x + low)` with twice the working precision (Ogita, Rump and Oishi 2005).
-    pub(super) fn accurate_residual(&self, right: &[f64], x: &[f64], low: &[f64]) -> Vec<f64> {
+    pub(super) fn residual(&self, right: &[f64], x: &[f64], low: &[f64]) -> Vec<f64> {
         let mut high = right.to_vec();
         let mut error = vec![0.0; right.len()];
         let mut add = |i: usize, a: f64, b: f64| {
@@ -108,7 +101,9 @@ impl BasisMatrix {
         };
         self.for_each(|j, i, v| {
             add(i, -v, x[j]);
-            add(i, -v, low[j]);
+            if low[j] != 0.0 {
+                add(i, -v, low[j]);
+            }
         });
         high.iter().zip(&error).map(|(high, error)| high + error).collect()
     }

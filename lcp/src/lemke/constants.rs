@@ -36,13 +36,10 @@ pub(super) const DENSE_SEARCH: usize = 2000;
 pub(super) const GAIN: f64 = 1.0 + 1e-6;
 /// Times that all pairs are gone through for such exchanges. Chosen.
 pub(super) const GAIN_SWEEPS: usize = 8;
-/// Solves that the sparse search for exchanges may take. Chosen.
+/// Solves that such exchanges of a sparse problem may take. Chosen.
 pub(super) const SOLVES: usize = 5000;
 /// Up to this order sparse bases are enlarged, which takes several times as many solves. Chosen.
 pub(super) const ENLARGED: usize = 1000;
-/// A sparse column depends on another if its coordinate exceeds this multiple of its largest one. Chosen: the middle
-/// one of the three tolerances of the dense search.
-pub(super) const DEPENDENCE: f64 = 1e-8;
 /// Entries of an equilibrated inverse basis beyond this betray a nearly singular basis. Chosen: some six digits are
 /// left.
 pub(super) const LARGEST_GROWTH: f64 = 1e10;
@@ -57,9 +54,6 @@ pub(super) const SOUND_PIVOT: f64 = 1e-2;
 /// Pairs of a sparse problem that are drawn for one, on average. Chosen: each costs some solves.
 pub(super) const MANY_FLIPS: f64 = 500.0;
 
-/// Negative values of a start basis that had to be factorised below this part of the largest are zeros with rounding
-/// errors. Chosen.
-pub(super) const START_ROUNDING: f64 = 1e-12;
 /// Attempts up to which the last basis is started from again, with another covering vector. Measured on a published
 /// problem of 1056 pairs in other units: the seventh attempt finds the solution, with two pivots.
 pub(super) const REPAIRS: usize = 8;
@@ -78,10 +72,8 @@ pub(super) const ATTEMPT: usize = 40_000;
 /// Up to this order a proof is also searched by least squares in twice the digits, which singular bases and ties do
 /// not disturb. Chosen: it takes no time there.
 pub(super) const SMALL: usize = 40;
-/// Steps of iterative refinement of the final basis. Chosen: each gains the digits that the condition number leaves.
+/// Steps of iterative refinement of the final basis at most. Chosen: each gains the digits that the condition number leaves.
 pub(super) const REFINEMENTS: usize = 3;
-/// With a condition number above this, residuals are computed with twice the working precision. Chosen.
-pub(super) const ILL_CONDITIONED: f64 = 1e6;
 /// Residuals that are rounding errors; loads above are measured with all digits. Chosen: a hundredth of the tolerance.
 pub(super) const HIDDEN: f64 = 1e-12;
 /// Reduced costs below this multiple of the largest entry of their row are taken for zero. Chosen: a vector found is

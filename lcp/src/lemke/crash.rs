@@ -10,7 +10,6 @@ use faer::{Mat, MatRef};
 
 pub(super) use found::Crash;
 
-use found::{beginnings, exchanged};
 use matching::matched_sides;
 use sparse::find_sparse;
 
@@ -180,9 +179,11 @@ impl Search<'_> {
             x
         };
 
-        // Breadth first over columns (pair, side); `from` remembers how a pair's column came up.
+        // Breadth first over columns (pair, side), each with the place in the queue of the one that it takes the place of.
         let open = (0..n).filter(|&k| chosen[k].is_none());
-        let mut queue = beginnings(open, self.preferred);
+        let both = |k: usize| [self.preferred[k], self.preferred[k].complement()].map(|it| (k, it));
+        let mut queue: Vec<(usize, Side, Option<usize>)> =
+            open.flat_map(both).map(|(k, side)| (k, side, None)).collect();
         let mut seen = vec![false; n];
         let mut head = 0;
         while head < queue.len() && !is_over(self.deadline) {
@@ -190,7 +191,14 @@ impl Search<'_> {
             let x = coordinates(pair, side);
             let tolerance = tolerance * max_abs(&x);
             if max_abs(&x[picked.len()..]) > tolerance {
-                return Some(exchanged(chosen, &queue, head));
+                let mut next = chosen.to_vec();
+                let mut at = Some(head);
+                while let Some(i) = at {
+                    let (pair, side, from) = queue[i];
+                    next[pair] = Some(side);
+                    at = from;
+                }
+                return Some(next);
             }
             for (j, &other) in picked.iter().enumerate() {
                 if x[j].abs() > tolerance && !seen[other] {

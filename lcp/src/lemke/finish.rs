@@ -1,7 +1,7 @@
 //! From a complementary basis to a point that the original data vouches for.
 
 use super::basis_matrix::BasisMatrix;
-use super::constants::{HIDDEN, ILL_CONDITIONED, REFINEMENTS};
+use super::constants::{HIDDEN, REFINEMENTS};
 use super::start::Equilibrated;
 use crate::certify::Precision;
 use crate::extended::{Extended, extended};
@@ -39,25 +39,17 @@ pub(super) fn solve_basis(problem: &Equilibrated<'_>, basis: &Basis) -> Option<P
     let matrix = BasisMatrix::new(problem, basis)?;
     let right = problem.right_hand_side();
     let condition = matrix.condition();
-    let is_accurate = condition > ILL_CONDITIONED;
-    let (x, low) = refined(&matrix, &right, is_accurate);
+    let (x, low) = refined(&matrix, &right);
     if !condition.is_finite() || x.iter().any(|x| !x.is_finite()) {
         return None;
     }
     let judged = |x: &[f64]| {
-        let mut values = Values::new(problem, basis, x);
-        let mut residuals = problem.judge.residuals(&[&values.t, &values.y], Precision::Exact);
+        let values = Values::new(problem, basis, x);
+        let point = [&values.t[..], &values.y];
+        let mut residuals = problem.judge.residuals(&point, Precision::Exact);
         if residuals.loads > HIDDEN && residuals.equation.max(residuals.natural) <= HIDDEN {
-            let mut low = low.clone();
-            if !is_accurate {
-                let completed;
-                (completed, low) = with_rest(&matrix, &right, x);
-                values = Values::new(problem, basis, &completed);
-                residuals = problem.judge.residuals(&[&values.t, &values.y], Precision::Exact);
-            }
             let exact = values.exact_loads(problem, basis, &low);
-            let rounded =
-                problem.judge.residuals(&[&values.t, &values.y], Precision::Rounded).loads;
+            let rounded = problem.judge.residuals(&point, Precision::Rounded).loads;
             residuals.loads = residuals.loads.min(exact.max(rounded));
         }
         let Values { t, y, sides, negative } = values;
@@ -91,44 +83,25 @@ fn drop_rounding(matrix: &BasisMatrix, right: &[f64], x: &mut [f64]) -> bool {
     is_changed
 }
 
-/// The solution, and what its rounding to `f64` leaves out where residuals are accurate.
-fn refined(matrix: &BasisMatrix, right: &[f64], accurate: bool) -> (Vec<f64>, Vec<f64>) {
+/// The solution, and what its rounding to `f64` leaves out, from residuals with twice the digits.
+fn refined(matrix: &BasisMatrix, right: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let mut x = right.to_vec();
     matrix.solve(&mut x);
     let mut low = vec![0.0; x.len()];
     for _ in 0..REFINEMENTS {
-        let mut step = if accurate {
-            matrix.accurate_residual(right, &x, &low)
-        } else {
-            matrix.residual(right, &x)
-        };
-        let size = max_abs(&step);
-        if !size.is_finite() || size == 0.0 {
-            break;
-        }
+        let mut step = matrix.residual(right, &x, &low);
         matrix.solve(&mut step);
         for ((x, low), step) in x.iter_mut().zip(&mut low).zip(&step) {
             let sum = *x + (*low + step);
-            *low = if accurate { (*low + step) - (sum - *x) } else { 0.0 };
+            *low = (*low + step) - (sum - *x);
             *x = sum;
+        }
+        let size = max_abs(&step);
+        if !size.is_finite() || size <= f64::EPSILON * max_abs(&x) {
+            break;
         }
     }
     (x, low)
-}
-
-/// A solution that was refined in `f64` with all its digits, and what rounding it leaves out. Zeros stay.
-fn with_rest(matrix: &BasisMatrix, right: &[f64], x: &[f64]) -> (Vec<f64>, Vec<f64>) {
-    let mut low = vec![0.0; x.len()];
-    for _ in 0..REFINEMENTS {
-        let mut step = matrix.accurate_residual(right, x, &low);
-        matrix.solve(&mut step);
-        low.iter_mut().zip(&step).for_each(|(low, step)| *low += step);
-    }
-    let sums = x.iter().zip(&low).map(|(x, low)| {
-        let sum = if *x == 0.0 { 0.0 } else { x + low };
-        (sum, low - (sum - x))
-    });
-    sums.unzip()
 }
 
 /// The pairs of a basis, in units of the problem.

@@ -332,12 +332,6 @@ impl<'a> Path<'a> {
         (0..n).map(|k| self.row_of[n + k].is_some()).collect()
     }
 
-    /// Values of `z`, in equilibrated units.
-    pub(super) fn z(&self) -> Vec<f64> {
-        let n = self.order();
-        (n..2 * n).map(|var| self.value(var)).collect()
-    }
-
     /// Value of a variable, in equilibrated units.
     pub(super) fn value(&self, var: Var) -> f64 {
         self.row_of[var].map_or(0.0, |row| self.values[row])

@@ -1,13 +1,12 @@
 //! The attempts on one problem, and what they come to.
 
 use std::borrow::Cow;
-use std::marker::PhantomData;
 use std::ops::ControlFlow;
 use web_time::Instant;
 
 use super::Progress;
 use super::artificial::{completed, part_outside, without_artificial};
-use super::constants::{ATTEMPT, FIRST_ROUND, KINDS, SMALL, START_ROUNDING, WORK};
+use super::constants::{ATTEMPT, FIRST_ROUND, KINDS, NOISE, SMALL, WORK};
 use super::crash::{Crash, find_basis};
 use super::feasibility::farkas_vector;
 use super::finish::{Point, solve_basis};
@@ -37,7 +36,6 @@ pub(super) struct Search<'a> {
     /// The best complementary point so far that is above the tolerance.
     almost: Option<Point>,
     ray: Option<Ray>,
-    farkas: Option<Vec<f64>>,
     /// Whether the problem has artificial columns already.
     is_completed: bool,
 }
@@ -45,9 +43,8 @@ pub(super) struct Search<'a> {
 /// How an attempt ended, with what it ended on.
 struct Outcome {
     end: AttemptEnd,
+    /// The complementary basis, if it ended on one.
     basis: Option<Basis>,
-    /// Values of `z`, in equilibrated units.
-    z: Vec<f64>,
 }
 
 /// The first start basis.
@@ -78,13 +75,11 @@ impl<'a> Search<'a> {
             trace: Vec::new(),
             almost: None,
             ray: None,
-            farkas: None,
             is_completed: false,
         }
     }
 
     pub(super) fn run(mut self, observer: Observer<'_>) -> Solution {
-        let n = self.problem.order();
         if self.problem.problem.c().iter().all(|&c| c == 0.0) {
             return self.give_up(Status::Solved);
         }
@@ -100,7 +95,7 @@ impl<'a> Search<'a> {
             }
         };
         if let Some(point) = self.solution_at(&first_start) {
-            return self.answer(Status::Solved, point);
+            return self.answer(point);
         }
         let first = Trial {
             start: kind,
@@ -109,14 +104,13 @@ impl<'a> Search<'a> {
         };
         let mut trial = first;
         let mut last_basis = None;
-        let mut center = vec![0.0; n];
         // Costs of a game are positive: no proof is to be found, and the paths of pairs are short.
         let is_game = first_start.is_feasible_far_out();
         let (mut number, mut had_ray) = (0, false);
         while self.has_another(number) {
             number += 1;
             let start = self.start_of(&mut trial, &first, &first_start, last_basis.as_ref());
-            let outcome = self.attempt(&start, &trial, &center, number, observer);
+            let outcome = self.attempt(&start, &trial, number, observer);
             match outcome.end {
                 AttemptEnd::Cancelled => return self.give_up(Status::Cancelled),
                 AttemptEnd::TimeLimit => return self.give_up(Status::TimeLimit),
@@ -127,7 +121,7 @@ impl<'a> Search<'a> {
                 self.note_residual(point.as_ref());
                 match point {
                     Some(point) if point.residuals.worst() <= self.settings.tolerance => {
-                        return self.answer(Status::Solved, point);
+                        return self.answer(point);
                     }
                     Some(point) => self.keep_better(point),
                     None => {}
@@ -141,14 +135,10 @@ impl<'a> Search<'a> {
                 match self.proof(&first_start, number, observer) {
                     Err(stopped) => return self.give_up(stopped),
                     Ok(None) => {}
-                    Ok(proof) => {
-                        self.farkas = proof;
-                        return self.give_up(Status::Infeasible);
-                    }
+                    Ok(Some(pi)) => return self.infeasible(pi),
                 }
             }
             trial = Trial::after(&trial, outcome.end, number + 1, &first, is_game);
-            center = outcome.z;
         }
         self.conclude()
     }
@@ -161,9 +151,8 @@ impl<'a> Search<'a> {
         complement: &Matrix,
         observer: Observer<'_>,
     ) -> Solution {
-        self.farkas = part_outside(&self.problem, complement);
-        if self.farkas.is_some() {
-            return self.give_up(Status::Infeasible);
+        if let Some(pi) = part_outside(&self.problem, complement) {
+            return self.infeasible(pi);
         }
         let settings = LemkeSettings { start: WarmStart::None, ..self.settings.clone() };
         for side in [Side::Y, Side::T] {
@@ -180,14 +169,13 @@ impl<'a> Search<'a> {
             match (solution.status, point) {
                 (Status::Cancelled | Status::TimeLimit, _) => return self.give_up(solution.status),
                 (_, Some(point)) if point.residuals.worst() <= self.settings.tolerance => {
-                    return self.answer(Status::Solved, point);
+                    return self.answer(point);
                 }
                 _ => {}
             }
             self.trace.extend(solution.trace);
-            self.farkas = proof;
-            if self.farkas.is_some() {
-                return self.give_up(Status::Infeasible);
+            if let Some(pi) = proof {
+                return self.infeasible(pi);
             }
         }
         self.prove_or(Status::NoComplementaryBasis)
@@ -217,7 +205,7 @@ impl<'a> Search<'a> {
     /// The point of the start basis where it solves the problem. The values of a basis that had to be
     /// factorised are not zero where they should be, so that a path would start at rounding errors.
     fn solution_at(&self, start: &Start) -> Option<Point> {
-        let is_negative = |(k, &q): (usize, &f64)| q < -START_ROUNDING && !start.is_free(k);
+        let is_negative = |(k, &q): (usize, &f64)| q < -NOISE && !start.is_free(k);
         if start.q.iter().enumerate().any(is_negative) {
             return None;
         }
@@ -246,7 +234,9 @@ impl<'a> Search<'a> {
         last_basis: Option<&Basis>,
     ) -> Cow<'b, Start> {
         let other = match trial.start {
-            AttemptStart::Flipped { seed } => self.problem.start(&first_start.flipped(seed)),
+            AttemptStart::Flipped { seed } => {
+                self.problem.start(&first_start.flipped(seed, self.deadline))
+            }
             AttemptStart::LastBasis => last_basis.and_then(|basis| self.problem.start(basis)),
             _ => return Cow::Borrowed(first_start),
         };
@@ -263,7 +253,6 @@ impl<'a> Search<'a> {
         &mut self,
         start: &Start,
         trial: &Trial,
-        center: &[f64],
         number: usize,
         observer: Observer<'_>,
     ) -> Outcome {
@@ -274,7 +263,7 @@ impl<'a> Search<'a> {
             _ => &[],
         };
         let covering = trial.covering(start, given);
-        let perturbed = trial.perturbed(start, center);
+        let perturbed = trial.perturbed(start);
         let data = perturbed.as_ref().unwrap_or(start);
         let interval = settings.refactor_interval;
         let kernel = data.kernel(&covering, interval);
@@ -318,14 +307,12 @@ impl<'a> Search<'a> {
         let exchanges = path.trace.take().unwrap_or_default();
         self.trace.extend(exchanges.into_iter().map(|it| record(it, number, start)));
         let has_artificial = path.artificial_row().is_some();
-        let is_proximal = matches!(trial.perturbation, Perturbation::Proximal { .. });
-        if end == AttemptEnd::Ray && self.ray.is_none() && has_artificial && !is_proximal {
+        if end == AttemptEnd::Ray && self.ray.is_none() && has_artificial {
             self.ray = Some(in_problem_units(&path, start, &covering, &self.problem));
         }
         let is_complementary = end == AttemptEnd::Complementary;
         let basis = is_complementary.then(|| start.basis_with(&path.z_is_basic()));
-        let z = if is_complementary { path.z() } else { vec![0.0; order] };
-        Outcome { end, basis, z }
+        Outcome { end, basis }
     }
 
     /// Whether another attempt follows so many.
@@ -411,78 +398,56 @@ impl<'a> Search<'a> {
     }
 
     /// Infeasible where that can be proved, else this status.
-    fn prove_or(mut self, status: Status) -> Solution {
-        self.farkas = self.small_proof();
-        let status = if self.farkas.is_some() { Status::Infeasible } else { status };
-        self.give_up(status)
+    fn prove_or(self, status: Status) -> Solution {
+        match self.small_proof() {
+            Some(pi) => self.infeasible(pi),
+            None => self.give_up(status),
+        }
     }
 
     /// No attempt reached the tolerance: a proof that none can, the best point if it is near, else what
     /// the attempts say.
     fn conclude(mut self) -> Solution {
         // After a ray it was searched already.
-        if !self.has_ended(AttemptEnd::Ray) {
-            self.farkas = self.small_proof();
-            if self.farkas.is_some() {
-                return self.give_up(Status::Infeasible);
-            }
+        if !self.has_ended(AttemptEnd::Ray)
+            && let Some(pi) = self.small_proof()
+        {
+            return self.infeasible(pi);
         }
         let nearly = self.settings.tolerance.sqrt();
-        if let Some(point) = self.almost.take()
-            && point.residuals.worst() <= nearly
-        {
-            return self.answer(Status::AlmostSolved, point);
+        if let Some(point) = self.almost.take_if(|point| point.residuals.worst() <= nearly) {
+            return self.answer(point);
         }
-        let status = if self.has_ended(AttemptEnd::Ray) {
-            Status::RayTermination
-        } else if self.has_ended(AttemptEnd::PivotLimit) {
-            Status::PivotLimit
-        } else if self.has_ended(AttemptEnd::Cycle) {
-            Status::Cycling
-        } else {
-            Status::NumericalTrouble
-        };
-        self.give_up(status)
+        let statuses = [
+            (AttemptEnd::Ray, Status::RayTermination),
+            (AttemptEnd::PivotLimit, Status::PivotLimit),
+            (AttemptEnd::Cycle, Status::Cycling),
+        ];
+        let said = statuses.into_iter().find(|(end, _)| self.has_ended(*end));
+        self.give_up(said.map_or(Status::NumericalTrouble, |(_, status)| status))
     }
 
-    fn answer(self, status: Status, point: Point) -> Solution {
+    fn answer(self, point: Point) -> Solution {
         let Point { t, y, basis, residuals, condition, .. } = point;
-        Solution {
-            status,
-            t,
-            y,
-            contact: None,
-            boxed: None,
-            basis: Some(basis),
-            residuals,
-            certificate: None,
-            condition: Some(condition),
-            trace: self.trace,
-            info: self.info,
-            problem: PhantomData,
-        }
+        let tolerance = self.settings.tolerance;
+        let judged = Solution::judged(t, y, residuals, tolerance, Status::AlmostSolved);
+        let (basis, condition) = (Some(basis), Some(condition));
+        Solution { basis, condition, trace: self.trace, info: self.info, ..judged }
+    }
+
+    fn infeasible(self, pi: Vec<f64>) -> Solution {
+        self.give_up(Status::Infeasible).proved(Certificate::Farkas { pi })
     }
 
     /// Without a point there is still an answer: zero, with its residuals.
     fn give_up(self, status: Status) -> Solution {
         let zero = vec![0.0; self.problem.order()];
         let residuals = self.problem.judge.residuals(&[&zero, &zero], Precision::Exact);
-        let proof = self.farkas.map(|pi| Certificate::Farkas { pi });
-        let ray = self.ray.filter(|_| status == Status::RayTermination).map(Certificate::Ray);
-        Solution {
-            status,
-            t: zero.clone(),
-            y: zero,
-            contact: None,
-            boxed: None,
-            basis: None,
-            residuals,
-            certificate: proof.or(ray),
-            condition: None,
-            trace: self.trace,
-            info: self.info,
-            problem: PhantomData,
-        }
+        let tolerance = self.settings.tolerance;
+        let judged = Solution::judged(zero.clone(), zero, residuals, tolerance, status);
+        let ray = self.ray.filter(|_| status == Status::RayTermination);
+        let certificate = ray.map(Certificate::Ray);
+        Solution { certificate, trace: self.trace, info: self.info, ..judged }
     }
 }
 

@@ -17,9 +17,8 @@ impl Trial {
     /// The attempt of this number, from 2, after one that ended so. After a cycle the same once more
     /// without ties. After a basis that is not quite right in turn from there on and with random covering
     /// vectors from the first start, since paths from there may come back to it. After a ray another
-    /// covering vector, another start basis, a pair in place of the artificial variable, proximal problems of
-    /// falling weight, each centered where the last one ended, then more start bases. `is_game` says that the
-    /// pair is worth a try before the others.
+    /// covering vector, another start basis, a pair in place of the artificial variable, then more start bases. `is_game`
+    /// says that the pair is worth a try before the others.
     pub(super) fn after(
         last: &Self,
         end: AttemptEnd,
@@ -29,7 +28,6 @@ impl Trial {
     ) -> Self {
         let seed = number as u64;
         let parted = Perturbation::RightHandSide { seed };
-        let is_proximal = matches!(last.perturbation, Perturbation::Proximal { .. });
         match end {
             AttemptEnd::Cycle if last.perturbation == Perturbation::None => {
                 return Self { perturbation: parted, ..*last };
@@ -38,7 +36,7 @@ impl Trial {
                 let covering = AttemptCovering::Random { seed };
                 return Self { covering, perturbation: Perturbation::None, ..*first };
             }
-            AttemptEnd::Complementary if !is_proximal => {
+            AttemptEnd::Complementary => {
                 let covering = other(last.covering, seed);
                 let start = AttemptStart::LastBasis;
                 return Self { start, covering, perturbation: Perturbation::None };
@@ -56,7 +54,6 @@ impl Trial {
             _ => {}
         }
         let flipped = AttemptStart::Flipped { seed };
-        let proximal = |weight| Self { perturbation: Perturbation::Proximal { weight }, ..*first };
         let pair = Self { covering: AttemptCovering::Column { pair: 0 }, ..*first };
         let more =
             Self { start: flipped, covering: AttemptCovering::Negative, perturbation: parted };
@@ -66,10 +63,6 @@ impl Trial {
             if is_game { [pair, other_covering, more] } else { [other_covering, more, pair] };
         match number {
             2..=4 => kinds[number - 2],
-            5 => proximal(1.0),
-            6 => proximal(1e-2),
-            7 => proximal(1e-4),
-            8 => proximal(1e-6),
             _ => more,
         }
     }
@@ -97,30 +90,15 @@ impl Trial {
         covering
     }
 
-    /// The start data that the path follows, where they are not those of the start basis. `center` is
-    /// that of a proximal problem.
-    pub(super) fn perturbed(&self, start: &Start, center: &[f64]) -> Option<Start> {
-        let n = start.q.len();
-        match self.perturbation {
-            Perturbation::None => None,
-            Perturbation::RightHandSide { seed } => {
-                let mut random = SplitMix::new(seed);
-                let mut start = start.clone();
-                let increase: Vec<f64> = (0..n).map(|_| TIES * (0.5 + random.next_f64())).collect();
-                start.add_to_values(&increase);
-                Some(start)
-            }
-            Perturbation::Proximal { weight } => {
-                let mut start = start.clone();
-                let weights: Vec<f64> =
-                    (0..n).map(|k| if start.is_free(k) { 0.0 } else { -weight }).collect();
-                start.add_to_diagonal(&weights);
-                let increase: Vec<f64> =
-                    weights.iter().zip(center).map(|(weight, z)| weight * z).collect();
-                start.add_to_values(&increase);
-                Some(start)
-            }
-        }
+    /// The start data that the path follows, where they are not those of the start basis.
+    pub(super) fn perturbed(&self, start: &Start) -> Option<Start> {
+        let Perturbation::RightHandSide { seed } = self.perturbation else { return None };
+        let mut random = SplitMix::new(seed);
+        let mut start = start.clone();
+        let increase: Vec<f64> =
+            (0..start.q.len()).map(|_| TIES * (0.5 + random.next_f64())).collect();
+        start.add_to_values(&increase);
+        Some(start)
     }
 }
 

@@ -2,19 +2,17 @@
 //!
 //! Columns are offered to a factorisation that refuses those that depend on the ones before: first
 //! those of the preferred sides, then the others of the pairs that have none yet. Where pairs stay
-//! without a column the sides of a structural matching are tried in the same way, and at last
-//! exchanges.
+//! without a column the sides of a structural matching are tried in the same way.
 
 use web_time::Instant;
 
-use super::found::{Crash, beginnings, exchanged};
+use super::found::Crash;
 use super::matching::matched_sides;
-use crate::lemke::constants::{DEPENDENCE, ENLARGED, GAIN, RANK_TOLERANCE, SOLVES};
+use crate::lemke::constants::{ENLARGED, GAIN, RANK_TOLERANCE, SOLVES};
 use crate::lemke::kernel::Var;
 use crate::lemke::start::Equilibrated;
 use crate::solve::is_over;
-use crate::sparse::{Columns, Growing, SparseLu, elimination_order, row_counts};
-use crate::vector::max_abs;
+use crate::sparse::{Columns, Growing, elimination_order, row_counts};
 use crate::{Basis, Matrix, Side};
 
 /// A complementary basis, or as many columns as were found, completed by unit columns.
@@ -30,41 +28,25 @@ pub(super) fn find_sparse(
         if is_over(deadline) {
             return Crash::Late;
         }
-        let search = Search::new(problem, sides.unwrap_or(preferred.sides()), deadline);
+        let search = Search::new(problem, sides.unwrap_or(preferred.sides()));
         let first = if sides.is_none() {
             matched_sides(&search.columns, search.preferred)
         } else {
             search.preferred.iter().copied().map(Some).collect()
         };
         let found = search.independent(&first);
-        if found.missing.is_empty() {
-            best = Some(found);
-            break;
-        }
+        let is_complete = found.missing.is_empty();
         if best.as_ref().is_none_or(|best| found.missing.len() < best.missing.len()) {
             best = Some(found);
         }
-    }
-    let search = Search::new(problem, preferred.sides(), deadline);
-    let mut chosen = best.unwrap_or_else(|| search.independent(&vec![None; n]));
-    let mut solves = 0;
-    while !chosen.missing.is_empty() {
-        match search.exchange(&chosen, &mut solves) {
-            Some(sides) => {
-                let next = search.independent(&sides);
-                if next.missing.len() >= chosen.missing.len() {
-                    break;
-                }
-                chosen = next;
-            }
-            None => break,
+        if is_complete {
+            break;
         }
     }
-    match chosen.into_crash(n) {
+    match best.map_or(Crash::Late, |best| best.into_crash(n)) {
         Crash::Complete(basis) if n <= ENLARGED => {
             Crash::Complete(enlarged(problem, basis, deadline))
         }
-        Crash::Partial { .. } if is_over(deadline) => Crash::Late,
         found => found,
     }
 }
@@ -99,7 +81,6 @@ struct Chosen {
     sides: Vec<Option<Side>>,
     /// The pairs without a column, and rows whose unit columns take their places.
     missing: Vec<(usize, usize)>,
-    lu: SparseLu,
 }
 
 impl Chosen {
@@ -117,14 +98,13 @@ struct Search<'a> {
     preferred: &'a [Side],
     /// The columns of the preferred sides, then the others.
     columns: Columns,
-    deadline: Option<Instant>,
 }
 
 impl<'a> Search<'a> {
-    fn new(problem: &Equilibrated<'_>, preferred: &'a [Side], deadline: Option<Instant>) -> Self {
+    fn new(problem: &Equilibrated<'_>, preferred: &'a [Side]) -> Self {
         let own = preferred.iter().copied().enumerate();
         let others = own.clone().map(|(pair, side)| (pair, side.complement()));
-        Self { preferred, columns: problem.sparse_columns(own.chain(others)), deadline }
+        Self { preferred, columns: problem.sparse_columns(own.chain(others)) }
     }
 
     fn order(&self) -> usize {
@@ -162,37 +142,7 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        let (lu, missing) = growing.finish();
-        Chosen { sides, missing, lu }
-    }
-
-    /// One more pair with a column, through the shortest chain of exchanges, as for dense problems.
-    fn exchange(&self, chosen: &Chosen, solves: &mut usize) -> Option<Vec<Option<Side>>> {
-        let n = self.order();
-        let open = chosen.missing.iter().map(|&(pair, _)| pair);
-        let mut queue = beginnings(open, self.preferred);
-        let mut seen = vec![false; n];
-        let mut work = Vec::new();
-        let mut head = 0;
-        while head < queue.len() && *solves < SOLVES && !is_over(self.deadline) {
-            let (pair, side, _) = queue[head];
-            let mut x = vec![0.0; n];
-            self.columns.add_to(self.position(pair, side), 1.0, &mut x);
-            chosen.lu.solve(&mut x, &mut work);
-            *solves += 1;
-            let tolerance = DEPENDENCE * max_abs(&x);
-            if chosen.missing.iter().any(|&(slot, _)| x[slot].abs() > tolerance) {
-                return Some(exchanged(&chosen.sides, &queue, head));
-            }
-            for other in (0..n).filter(|&k| x[k].abs() > tolerance) {
-                if let Some(side) = chosen.sides[other]
-                    && !std::mem::replace(&mut seen[other], true)
-                {
-                    queue.push((other, side.complement(), Some(head)));
-                }
-            }
-            head += 1;
-        }
-        None
+        let (_, missing) = growing.finish();
+        Chosen { sides, missing }
     }
 }

@@ -37,3 +37,15 @@ fn a_game_takes_two_attempts() {
         assert_eq!(ends, [of_first, (pair, AttemptEnd::Complementary)]);
     }
 }
+
+/// A step of the descent takes the columns of all pairs, which in large problems is minutes for all steps.
+#[test]
+fn flips_end_when_the_time_is_over() {
+    let problem = HorizontalLcp::from(families::indefinite(12, 1).problem);
+    let settings = LemkeSettings::default();
+    let search = Search::new(&settings, &problem, None);
+    let all_y = Basis::all(Side::Y, 12);
+    let start = search.problem.start(&all_y).expect("the unit matrix");
+    assert_ne!(start.flipped(3, None), all_y);
+    assert_eq!(start.flipped(3, Some(Instant::now())), all_y);
+}

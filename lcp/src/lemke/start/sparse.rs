@@ -2,7 +2,7 @@
 
 use super::{Equilibrated, Start, StartData};
 use crate::lemke::constants::LARGEST_GROWTH;
-use crate::lemke::sparse_start::SparseStart;
+use crate::lemke::sparse::SparseStart;
 use crate::linear::inverse_norm;
 use crate::sparse::{Columns, SparseLu};
 use crate::vector::max_abs;
