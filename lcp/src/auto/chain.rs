@@ -3,7 +3,7 @@
 use web_time::{Duration, Instant};
 
 use super::AutoSettings;
-use super::constants::{FEW_ATTEMPTS, SHARE};
+use super::constants::{FEW_ATTEMPTS, KEPT};
 use super::method::{Effort, Planned, attempt, chain_of};
 use crate::{Certificate, Error, Method, Observer, Route, RouteEnd, Solution, Status};
 
@@ -36,12 +36,12 @@ pub(super) fn run<P: Planned>(
             cut = Some(Status::TimeLimit);
             break;
         }
-        let share = if place + 1 < count { SHARE } else { 1.0 };
+        let share = |left: Duration| if place + 1 < count { left - left / KEPT } else { left };
         let most = settings.max_attempts.unwrap_or(usize::MAX);
         let few = step.is_brief.then_some(most.min(FEW_ATTEMPTS));
         let effort = Effort {
             tolerance: settings.tolerance,
-            time_limit: left.map(|left| left.mul_f64(share)),
+            time_limit: left.map(share),
             max_attempts: few.or(settings.max_attempts),
             start: &settings.start,
         };
@@ -221,8 +221,9 @@ mod tests {
         assert!(run(&problem, &settings, ignore).is_err());
         let given = problem.0.into_inner();
         let (last, others) = given.split_last().expect("several methods");
-        assert!(others.iter().all(|given| *given <= Some(hour.mul_f64(SHARE))));
-        assert!(others.len() == 3 && *last > Some(hour.mul_f64(SHARE)));
+        let share = hour - hour / KEPT;
+        assert!(others.iter().all(|given| *given <= Some(share)));
+        assert!(others.len() == 3 && *last > Some(share));
     }
 
     #[test]

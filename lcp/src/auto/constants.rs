@@ -25,8 +25,9 @@ pub(super) const MOST_PAIRS: usize = 100;
 /// Exchanges of columns times the square of the order, which is the work of an exchange, over the whole tree. Measured: this
 /// takes 1.5 s; triangular problems of 60 pairs take a tenth of it, those of 100 a quarter.
 pub(super) const WORK: usize = 100_000_000;
-/// The part of the time left that a method may take if others follow. Chosen: the first one is the most likely to answer.
-pub(super) const SHARE: f64 = 0.75;
+/// Of the time left one part in so many is kept for the methods that follow. Chosen: the first one is the most likely to
+/// answer.
+pub(super) const KEPT: u32 = 4;
 /// More independent parts than these are small, and all of them together are one problem that is solved in the time of
 /// some small ones: they are taken one by one only where that fails. Chosen.
 pub(super) const MANY_PARTS: usize = 256;

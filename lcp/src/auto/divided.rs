@@ -4,7 +4,7 @@ use web_time::{Duration, Instant};
 
 use super::AutoSettings;
 use super::chain::{self, Rank};
-use super::constants::{MANY_PARTS, SHARE};
+use super::constants::{KEPT, MANY_PARTS};
 use super::method::{Planned, Step, chain_of};
 use crate::divide::{Joined, Part};
 use crate::{Basis, Certificate, Error, Observer, Route, RouteEnd, Side, Solution, Status};
@@ -20,7 +20,7 @@ pub(super) fn run<P: Planned>(
     let began = Instant::now();
     let mut tried = None;
     if parts.len() > MANY_PARTS {
-        let time_limit = settings.time_limit.map(|limit| limit.mul_f64(SHARE));
+        let time_limit = settings.time_limit.map(|limit| limit - limit / KEPT);
         let settings = AutoSettings { time_limit, ..settings.clone() };
         let solution = chain::run(problem, &settings, observer)?;
         if chain::is_final(&solution) {
