@@ -164,7 +164,11 @@ fn ranges_are_on_the_side_of_their_rows() {
         for right in [" RHS r 3", " r 3"] {
             let program = program(&small(kind, right, ranges, ""));
             let [lower, upper] = program.row_bounds();
-            assert_eq!([lower[0], upper[0]], limits, "{kind} {ranges}");
+            assert_eq!(
+                [lower, upper].map(<[f64]>::to_vec),
+                limits.map(|it| vec![it]),
+                "{kind} {ranges}"
+            );
             let x = optimum(&program).x;
             let sum = 10.0_f64.clamp(limits[0], limits[1]);
             assert!((x[0] + x[1] - sum).abs() < 1e-9, "{kind} {ranges}: {x:?}");

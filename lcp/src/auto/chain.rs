@@ -36,7 +36,9 @@ pub(super) fn run<P: Planned>(
             cut = Some(Status::TimeLimit);
             break;
         }
-        let share = |left: Duration| if place + 1 < count { left - left / KEPT } else { left };
+        let share = |left: Duration| {
+            if place + 1 < count { left.saturating_sub(left / KEPT) } else { left }
+        };
         let most = settings.max_attempts.unwrap_or(usize::MAX);
         let few = step.is_brief.then_some(most.min(FEW_ATTEMPTS));
         let effort = Effort {
@@ -221,7 +223,7 @@ mod tests {
         assert!(run(&problem, &settings, ignore).is_err());
         let given = problem.0.into_inner();
         let (last, others) = given.split_last().expect("several methods");
-        let share = hour - hour / KEPT;
+        let share = hour.saturating_sub(hour / KEPT);
         assert!(others.iter().all(|given| *given <= Some(share)));
         assert!(others.len() == 3 && *last > Some(share));
     }

@@ -20,7 +20,7 @@ pub(super) fn run<P: Planned>(
     let began = Instant::now();
     let mut tried = None;
     if parts.len() > MANY_PARTS {
-        let time_limit = settings.time_limit.map(|limit| limit - limit / KEPT);
+        let time_limit = settings.time_limit.map(|limit| limit.saturating_sub(limit / KEPT));
         let settings = AutoSettings { time_limit, ..settings.clone() };
         let solution = chain::run(problem, &settings, observer)?;
         if chain::is_final(&solution) {
