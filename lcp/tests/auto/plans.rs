@@ -12,8 +12,10 @@ fn signs_and_size_decide_about_standard_problems() {
     // The active set method wherever the diagonal is positive, then pivots where they are cheap.
     let dense = families::positive_definite(30, 1).problem;
     assert_eq!(plan!(&dense), [NEWTON, LEMKE, INTERIOR, CHOICES]);
-    let triangular = families::triangular(30, 1).problem;
-    assert_eq!(plan!(&triangular)[..2], [LEMKE, CHOICES]);
+    // One after the other decides the sides of a triangular matrix.
+    let triangular = Mat::from_fn(30, 30, |i, j| f64::from(u8::from(i > j)));
+    let triangular = Lcp::new(triangular, vec![1.0; 30]).unwrap();
+    assert_eq!(plan!(&triangular), [LEMKE, CHOICES, INTERIOR, LEMKE]);
     let symmetric = families::fathi(10).problem;
     assert_eq!(plan!(&symmetric), [NEWTON, LEMKE, CHOICES, INTERIOR]);
     let games = families::bimatrix(4, 5, 1).problem;
