@@ -1,4 +1,7 @@
-//! The only place that decides how good a point is, and whether a proof is valid.
+//! How good the point of a solution is, and whether a proof is valid.
+//!
+//! Three answers have measures of their own, since they are no points of one of the problems: sweeps over rows without a
+//! matrix, least forces, and problems with soft springs.
 //!
 //! A point is measured by the rows of the given problem, each relative to its own terms, so the result does not
 //! depend on the scaling of rows or variables, and a large entry in one row does not hide an error in another:

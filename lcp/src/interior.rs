@@ -33,8 +33,11 @@ use crate::{Certificate, Contact2d, Error, Method, Observer, Solution, Status};
 /// An interior-point method for large sparse problems: contact with Coulomb's friction
 /// ([`Contact2d`](crate::Contact2d)), and mixed and standard problems.
 ///
-/// Newton's method on `K u = f + C^T t`, `y = C u + x`, `t_i y_i = tau`, with `tau` driven to zero by Mehrotra's
-/// predictor and corrector (1992) and Gondzio's correctors of centrality (1996). Everything but the displacements is
+/// Newton's method on `K u = f + C^T t`, the gaps and slips of `u`, and for every point
+/// `t_n g = (mu t_n + t_t) s+ = (mu t_n - t_t) s- = m` with the slip `s+ - s-`, where the mean product `m` is driven to zero by
+/// Mehrotra's predictor and corrector (1992) and Gondzio's correctors of centrality (1996). All of `t_n`,
+/// `mu t_n + t_t`, `mu t_n - t_t`, `g`, `s+` and `s-` stay positive; the page `docs/methods/interior_point.md` has the whole.
+/// Everything but the displacements is
 /// eliminated point by point, so every step factorises one matrix with the pattern of `K + C^T C`. Its order and
 /// structure are found once; friction makes its values unsymmetric. Small proximal terms keep floating bodies and
 /// redundant contacts regular, and vanish with the steps.
@@ -238,7 +241,7 @@ impl Run<'_, '_, '_> {
             since = if merit < 0.9 * least { 0 } else { since + 1 };
             least = least.min(merit);
             if !next.is_finite() || alpha < NO_STEP || since > PATIENCE_OF_START {
-                // The residual is no guide where all of one side vanishes, which it is measured by.
+                // Residuals are relative: if all gaps or all forces vanish, they cannot become small.
                 let contacts = at.contacts();
                 let is_exact = self.settings.crossover
                     && self.search.cross_over(

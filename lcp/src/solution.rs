@@ -129,7 +129,7 @@ pub struct Solution<P = HorizontalLcp> {
     /// The complementary basis of the point, for methods that end on one: Lemke's method, active sets, and the
     /// interior-point method after a crossover.
     pub basis: Option<Basis>,
-    /// Residuals of `(t, y)`, from the original data.
+    /// Residuals from the original data: of `contact` or `boxed` if there is one, else of `(t, y)`.
     pub residuals: Residuals,
     /// With the statuses [`Infeasible`](Status::Infeasible) and [`NoSolution`](Status::NoSolution) the proof, checked
     /// against the given data; with

@@ -31,7 +31,7 @@ pub trait Solver<P> {
     /// The method.
     fn method(&self) -> Method;
 
-    /// Solves a problem for the pairs of its general form: what a method implements, and
+    /// Solves a problem for the pairs of its general form: what a method of this library implements, and
     /// [`solve_observed`](Self::solve_observed) gives as a solution of the problem.
     ///
     /// # Errors

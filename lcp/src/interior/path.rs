@@ -32,7 +32,8 @@ impl<'a> Ahead<'a> {
     /// One step of Mehrotra's method (1992) with Gondzio's correctors (1996), which costs one factorisation.
     /// The problem is not monotone with friction: where the step is short, the best mixture of predictor and
     /// centring takes its place, and where the path turns back, a step along it. No product of a pair
-    /// becomes much smaller than the mean. Gives the new point and the length of the step.
+    /// becomes much smaller than the mean, unless that would make the step shorter than what counts as none. Gives the
+    /// new point and the length of the step.
     pub(super) fn advance(&self) -> (Iterate, f64) {
         let Self { tangent, at, predictor, .. } = self;
         let (step, alpha) =

@@ -96,6 +96,7 @@ impl<'a> Run<'a> {
             Err(status @ (Status::Cancelled | Status::TimeLimit)) => status,
             Ok(End::TimeLimit) => Status::TimeLimit,
             Ok(End::IterationLimit) => Status::IterationLimit,
+            // Judged by its residuals the point becomes `Solved`.
             _ if is_solved => Status::Stalled,
             Ok(End::Point | End::NoPoint | End::Failed) | Err(_) => {
                 farkas = self.proof().cloned();
