@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use lcp::{Solution, Status};
+use lcp::{Info, Method, Solution, Status};
 
 /// What a case came to.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,7 +13,7 @@ pub(crate) struct Line {
     pub(crate) end: String,
     /// The largest residual; NaN if there is none.
     pub(crate) residual: f64,
-    /// The method that found the answer.
+    /// The method that found the answer, and the kind of its last attempt.
     pub(crate) method: String,
     /// Of all methods that were tried.
     pub(crate) pivots: usize,
@@ -30,7 +30,7 @@ impl Line {
             case,
             end: format!("{}{}", solution.status, if is_proved { proof } else { "" }),
             residual: solution.residuals.worst(),
-            method: format!("{:?}", solution.info.method),
+            method: method(&solution.info),
             pivots: routes.iter().map(|route| route.pivots).sum(),
             factorisations: routes.iter().map(|route| route.factorisations).sum(),
         }
@@ -85,4 +85,19 @@ impl fmt::Display for Line {
         let Self { case, end, residual, method, pivots, factorisations } = self;
         write!(f, "{case} | {end} | {residual:.0e} | {method} | {pivots} | {factorisations}")
     }
+}
+
+/// The method, and of Lemke's method the kind of the last attempt, without seeds and pairs.
+fn method(info: &Info) -> String {
+    let method = format!("{:?}", info.method);
+    let Some(attempt) = info.attempts.last().filter(|_| info.method == Method::Lemke) else {
+        return method;
+    };
+    let kind = |text: String| text.split([',', ' ']).next().unwrap_or_default().to_owned();
+    let kinds = [
+        format!("{:?}", attempt.start),
+        format!("{:?}", attempt.covering),
+        format!("{:?}", attempt.perturbation),
+    ];
+    format!("{method} {}", kinds.map(kind).join(" "))
 }

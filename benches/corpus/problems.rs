@@ -35,6 +35,10 @@ pub(crate) fn solve(is_chosen: &dyn Fn(&str) -> bool, keep: Keep<'_>) {
             one(&format!("control/general {steps} {seed}"), is_chosen, keep, as_general);
         }
     }
+    for seed in 0..3 {
+        let control = || families::control(400, seed).problem;
+        one(&format!("control/boxed 400 {seed}"), is_chosen, keep, control);
+    }
     for n in [10, 100, 1000] {
         for (interest, volatility) in [(0.02, 0.4), (0.1, 0.2)] {
             let name = format!("options/{n} {interest} {volatility}");
