@@ -6,14 +6,13 @@ use faer::{Mat, Side};
 
 use crate::Matrix;
 use crate::matrix::column_of;
+use crate::vector::HALF_DIGITS;
 
 /// Eigenvalues down to minus this, of the matrix with a diagonal of ones, are taken for zero. Chosen.
 const ROUNDING: f64 = 1e-10;
 /// Above this order the matrix is not looked at as a dense one to say how far it is from semidefinite. Chosen: up to
 /// it that takes no time.
 const DENSE: usize = 300;
-/// Eigenvalues above this, likewise, make it safely nonsingular. Chosen: the root of eps.
-const MODULUS: f64 = 1e-8;
 
 /// What is in the way of a symmetric matrix being positive semidefinite, if anything is.
 ///
@@ -53,7 +52,7 @@ pub(crate) fn is_definite(matrix: &SparseColMat<usize, f64>) -> bool {
     let n = matrix.ncols();
     let diagonal: Vec<f64> = (0..n).map(|i| *matrix.get(i, i).unwrap_or(&0.0)).collect();
     diagonal.iter().all(|d| *d > 0.0)
-        && unit_diagonal(matrix, &diagonal, -MODULUS).sp_cholesky(Side::Lower).is_ok()
+        && unit_diagonal(matrix, &diagonal, -HALF_DIGITS).sp_cholesky(Side::Lower).is_ok()
 }
 
 /// The matrix with rows and columns divided by the roots of its diagonal, and `shift` on the diagonal.

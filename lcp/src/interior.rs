@@ -20,7 +20,7 @@ pub use least::LeastForces;
 pub use settings::InteriorPointSettings;
 
 use balance::{Balance, balance};
-use constants::{HELD, MORE, NEAR, NEARER, NO_STEP, OPENING_OF_STEP, PATIENCE_OF_START, SURE};
+use constants::{HELD, MORE, NEAR, NEARER, NO_STEP, OPENING_OF_STEP, PATIENCE_OF_START};
 use iterate::{Defect, Iterate};
 use path::Ahead;
 use start::{set_out, start_opened};
@@ -28,6 +28,7 @@ use start::{set_out, start_opened};
 use crate::active::{Effort, Original, Search};
 use crate::solve::Monitor;
 use crate::states::PointRef;
+use crate::vector::HALF_DIGITS;
 use crate::{Certificate, Contact2d, Error, Method, Observer, Solution, Status};
 
 /// An interior-point method for large sparse problems: contact with Coulomb's friction
@@ -208,7 +209,7 @@ impl Run<'_, '_, '_> {
                 tried = near;
                 let contacts = at.contacts();
                 let effort = if is_solved { Effort::THOROUGH } else { Effort::QUICK };
-                let is_sure = near <= SURE;
+                let is_sure = near <= HALF_DIGITS;
                 let held = HELD.into_iter().filter(|_| is_sure).map(Effort::held);
                 let is_exact = std::iter::once(effort).chain(held).any(|effort| {
                     self.search.cross_over(

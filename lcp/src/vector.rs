@@ -4,6 +4,9 @@ use crate::Error;
 
 /// A sum below this, relative to its terms, is a rounding error. Rounding: errors of short sums.
 pub(crate) const ROUNDING: f64 = 64.0 * f64::EPSILON;
+/// Half of all digits, about the root of eps. Theory: what is right to this is wrong in its square by rounding, and what this
+/// is added to for regularity loses no more than a step of refinement brings back.
+pub(crate) const HALF_DIGITS: f64 = 1e-8;
 
 /// A vector of a problem.
 ///

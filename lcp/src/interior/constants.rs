@@ -3,12 +3,12 @@
 
 /// Residuals above which no crossover is tried. Chosen: every trial costs factorisations.
 pub(super) const NEAR: f64 = 3e-6;
-/// The residual must have decreased by this factor before it is tried again. Chosen.
+/// The residual must have decreased by this factor before a crossover or a proof is tried again. Chosen: a crossover costs
+/// factorisations, a proof a pass in twice the digits.
 pub(super) const NEARER: f64 = 0.03;
-/// Natural residual below which what the states of the contacts leave free is held where it is. Measured on a settlement
-/// of 105 bricks, whose states are found from 7e-10.
-pub(super) const SURE: f64 = 1e-8;
-/// Proximal terms that hold it, one after the other. Measured there: 1e-12 lets it go anywhere, 1e-10 finds the states.
+/// Proximal terms that hold what the states of the contacts leave free, one after the other, once the point has half of its
+/// digits. Measured on a settlement of 105 bricks, whose states are found from 7e-10: 1e-12 lets it go anywhere, 1e-10 finds
+/// them.
 pub(super) const HELD: [f64; 2] = [1e-10, 1e-8];
 /// Steps without a reduction of the products by a tenth after which the iteration has jammed. Measured on walls: one
 /// that was stuck for some 40 steps was better left; where the path turns back products grow for a while.
@@ -39,8 +39,9 @@ pub(super) const OPENING_OF_STEP: f64 = 1.0;
 /// Steps without a reduction after which an attempt is left. Measured there: with 12 an open base is lost that the path solves
 /// with 15; with 20 and 30 those that jam take 5 to 15 more, and no other is solved.
 pub(super) const PATIENCE_OF_START: usize = 15;
-/// Least product of a pair, relative to the mean. Measured on walls: with 0.01 and 0.3 some are solved and others not.
-pub(super) const WIDTH: f64 = 0.1;
+/// The least that a product of a pair may be, relative to the mean; products from there to the inverse of it are central.
+/// Theory: the box of Gondzio (1996). Measured on walls: with 0.01 and 0.3 some are solved and others not.
+pub(super) const CENTRAL: f64 = 0.1;
 /// Part of the longest step that is taken. Theory: it must stay inside; the usual value of predictor and corrector.
 pub(super) const BACK: f64 = 0.995;
 /// A step that makes a product smaller than it may be is shortened by this. Chosen.
@@ -53,9 +54,6 @@ pub(super) const CORRECTORS: usize = 2;
 pub(super) const LONG_ENOUGH: f64 = 0.9;
 /// A corrector has to make the step longer by this. Chosen.
 pub(super) const LONGER: f64 = 0.03;
-/// Products of the pairs, relative to what they should be, that correctors leave alone. Theory: the box of Gondzio
-/// (1996).
-pub(super) const CENTRAL: (f64, f64) = (0.1, 10.0);
 /// Products are not driven below this part of their mean by a corrector. Chosen.
 pub(super) const LEAST_AIM: f64 = 0.01;
 /// Below this length a step is replaced by a mixture of the predictor and of centring. Chosen.
@@ -67,10 +65,6 @@ pub(super) const MIXTURES: [f64; 12] =
 pub(super) const PROGRESS: f64 = 0.05;
 /// Products between these multiples of their mean make a point central. Chosen.
 pub(super) const IS_CENTRAL: (f64, f64) = (0.3, 3.0);
-/// Compliance of a contact, relative to that of the bodies, below which a step does not go. Rounding: forces are
-/// differences of gaps times a stiffness, and lose their digits when that is too large. A step is a proximal one then,
-/// which changes nothing where the iteration ends.
-pub(super) const COMPLIANCE: f64 = 1e-8;
 /// Largest relative change of a variable by a piece of the path; the first that leaves a step of length [`LONG`] is
 /// taken. Chosen.
 pub(super) const PIECES: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.0];
@@ -94,8 +88,3 @@ pub(super) const LOADS: f64 = 100.0;
 pub(super) const BALANCINGS: usize = 6;
 /// Error of a proof, relative to what it shows, at which it is tried. Chosen.
 pub(super) const PROVED: f64 = 1e-6;
-/// The error must have decreased by this factor before it is tried again. Chosen: every trial costs a pass in twice the
-/// digits.
-pub(super) const STRICTER: f64 = 0.03;
-/// What a solve leaves of products that vanish in a proof. Theory: the root of eps, so that two solves leave rounding errors.
-pub(super) const PROJECTION: f64 = 1e-8;

@@ -3,16 +3,14 @@
 
 use faer::sparse::FaerError;
 
-use super::constants::{
-    BACK, COMPLIANCE, LEAST_AIM, LOADS, NO_STEP, PATIENCE, PROJECTION, PROVED, STRICTER,
-};
+use super::constants::{BACK, LEAST_AIM, LOADS, NEARER, NO_STEP, PATIENCE, PROVED};
 use super::factors::Factors;
 use super::program::Program;
 use super::step::{correction, lengthened};
 use super::variables::{Variables, dot};
 use crate::Status;
 use crate::states::PROXIMAL;
-use crate::vector::{ROUNDING, max_abs};
+use crate::vector::{HALF_DIGITS, ROUNDING, max_abs};
 
 /// How exact a solution has to be.
 #[derive(Debug, Clone, Copy)]
@@ -113,7 +111,7 @@ fn iterate(
             return (now.at.solution(), Status::Solved);
         }
         if error <= provable {
-            provable = STRICTER * error;
+            provable = NEARER * error;
             if is_proof(&now.at) {
                 return (now.at, Status::Infeasible);
             }
@@ -187,14 +185,14 @@ impl<'a> Homogeneous<'a> {
 
     /// The point with the nearest `u` to its own that strains nothing and leaves closed the pairs that the point opens by
     /// no more than the root of its error: a proof whose products vanish has no rounding errors there to contradict it.
-    /// Each solve takes all but a part [`PROJECTION`] of these products away.
+    /// Each solve takes all but a part [`HALF_DIGITS`] of these products away.
     fn projected(&self, factors: &mut Factors, error: f64) -> Option<Variables> {
         let most = error.sqrt() * self.work();
         let closed = self.opened.iter().map(|opened| f64::from(u8::from(*opened <= most)));
-        factors.factorise(self.program, closed.collect(), PROJECTION)?;
+        factors.factorise(self.program, closed.collect(), HALF_DIGITS)?;
         let mut at = self.at.clone();
         for _ in 0..2 {
-            at.u.iter_mut().for_each(|u| *u *= PROJECTION);
+            at.u.iter_mut().for_each(|u| *u *= HALF_DIGITS);
             factors.gram.solve(&mut at.u);
         }
         Some(at)
@@ -265,7 +263,8 @@ impl<'a> Newton<'a> {
         let Homogeneous { program, at, strained, .. } = now;
         let Variables { u, t, y, tau, kappa } = at;
         let pairs = t.iter().zip(y).zip(&program.compliance);
-        let stiffness: Vec<f64> = pairs.map(|((t, y), c)| 1.0 / (y / t + c + COMPLIANCE)).collect();
+        let stiffness: Vec<f64> =
+            pairs.map(|((t, y), c)| 1.0 / (y / t + c + HALF_DIGITS)).collect();
         factors.factorise(program, stiffness, PROXIMAL)?;
         let data = program.x_0.iter().zip(&program.compliance).zip(t);
         let by_u = program.f.iter().zip(strained).map(|(f, k)| f - 2.0 * k / tau).collect();

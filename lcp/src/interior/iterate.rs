@@ -1,10 +1,9 @@
 //! Points inside the cone, and Newton's steps between them.
 
-use super::constants::COMPLIANCE;
 use super::step::longest;
 use crate::problem::ContactStatus;
 use crate::states::{Condensed, PROXIMAL, Scaled, Springs};
-use crate::vector::max_abs;
+use crate::vector::{HALF_DIGITS, max_abs};
 
 /// A point with all forces inside their cones and all gaps open; or a step between two of them.
 #[derive(Debug, Clone)]
@@ -55,14 +54,15 @@ impl Pairs {
         (self.slip_plus / plus, self.slip_minus / minus)
     }
 
-    /// The springs that Newton's method puts in the place of the contact.
+    /// The springs that Newton's method puts in the place of the contact, no stiffer than leaves their forces half of the
+    /// digits: a step is a proximal one then, which changes nothing where the iteration ends.
     fn springs(&self, compliance: [f64; 2]) -> Springs {
-        let nn = 1.0 / (self.gap / self.t_n + compliance[0] + COMPLIANCE);
+        let nn = 1.0 / (self.gap / self.t_n + compliance[0] + HALF_DIGITS);
         if self.mu == 0.0 {
             return Springs { nn, ..Springs::default() };
         }
         let (plus, minus) = self.ratios();
-        let tt = 1.0 / (plus + minus + compliance[1] + COMPLIANCE);
+        let tt = 1.0 / (plus + minus + compliance[1] + HALF_DIGITS);
         Springs { nn, tn: -self.mu * (plus - minus) * tt * nn, tt }
     }
 

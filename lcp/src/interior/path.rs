@@ -1,7 +1,7 @@
 //! The interior-point iteration: predictor, correctors, and what to do when they get nowhere.
 
 use super::constants::{
-    BACK, IS_CENTRAL, LEAST_AIM, MIXTURES, PROGRESS, SHORT, SHORTER, SHORTEST, WIDTH,
+    BACK, CENTRAL, IS_CENTRAL, LEAST_AIM, MIXTURES, PROGRESS, SHORT, SHORTER, SHORTEST,
 };
 use super::iterate::{Defect, Iterate, Pairs, Tangent};
 use super::step::{correction, lengthened};
@@ -63,7 +63,7 @@ impl<'a> Ahead<'a> {
 
 /// The longest part of a step that keeps the products near their mean.
 fn within(at: &Iterate, step: &Iterate, mut alpha: f64) -> (Iterate, f64) {
-    let least = WIDTH.min(0.9 * at.centrality());
+    let least = CENTRAL.min(0.9 * at.centrality());
     let mut next = at.moved(step, alpha);
     while alpha > SHORTEST && next.centrality() < least {
         alpha *= SHORTER;

@@ -31,7 +31,7 @@ pub(super) fn lengthened<S>(
 
 /// What brings the product of a pair back among those that are central, if they are to be `tau`.
 pub(super) fn correction(t: f64, y: f64, tau: f64) -> f64 {
-    let (low, high) = (CENTRAL.0 * tau, CENTRAL.1 * tau);
+    let (low, high) = (CENTRAL * tau, (1.0 / CENTRAL) * tau);
     // Two negative values are as far outside as one.
     let product = if t < 0.0 && y < 0.0 { -t * y } else { t * y };
     if product < low {

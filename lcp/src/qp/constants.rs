@@ -4,10 +4,8 @@
 /// Tolerance of an interior point, whatever that of the answer. Theory: where both variables of a pair vanish it is
 /// good to the root of this, and they must not be taken for some that do not.
 pub(super) const INTERIOR: f64 = 1e-11;
-/// A run that was within this and is on its way away from it ends. Chosen: where the tolerance is below what rounding
-/// errors allow, the iteration goes on and ends anywhere.
-pub(super) const NEAR: f64 = 1e-8;
-/// It is on its way away once it is this many times farther off. Chosen.
+/// A run that had half of the digits is on its way away from them once it is this many times farther off. Chosen: where the
+/// tolerance is below what rounding errors allow, the iteration goes on and ends anywhere.
 pub(super) const WORSE: f64 = 10.0;
 /// Least bound of friction, relative to the largest: a bound of zero leaves the program without an interior. Chosen:
 /// what this changes the exchange of states puts right.
@@ -16,9 +14,6 @@ pub(super) const LEAST_LIMIT: f64 = 1e-9;
 pub(super) const DOUBTS: usize = 4;
 /// Times that larger bounds are tried where no bounds were large enough yet. Chosen.
 pub(super) const ENLARGED: usize = 4;
-/// Share of the residual that is added. Theory: where more load goes into friction at one place it is missing at
-/// others, so that whole steps swing to and fro.
-pub(super) const DAMPING: f64 = 0.5;
 /// Rounds without progress after which there is no hope. Chosen.
 pub(super) const IDLE: usize = 20;
 /// Times that soft springs are centred anew and let go of nothing, after which they stay. Chosen.

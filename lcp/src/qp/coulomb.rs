@@ -1,6 +1,6 @@
 //! Coulomb's friction as the fixed point of programs with frozen bounds of the friction forces.
 
-use super::constants::{DAMPING, DOUBTS, ENLARGED, IDLE};
+use super::constants::{DOUBTS, ENLARGED, IDLE};
 use super::contact::forces;
 use super::form::{Bounds, Form};
 use super::interior::{End, Interior};
@@ -36,7 +36,7 @@ pub(super) fn solve_contact(run: &mut Run<'_>, program: &mut Interior) -> Result
             End::NoPoint => {
                 limits = if let Some(last) = &last {
                     idle += 1;
-                    towards(last, &limits, 0.5)
+                    halfway(last, &limits)
                 } else {
                     enlarged += 1;
                     limits.iter().map(|limit| 16.0 * limit).collect()
@@ -60,15 +60,16 @@ pub(super) fn solve_contact(run: &mut Run<'_>, program: &mut Interior) -> Result
             run.monitor.history.push(run.search.residual());
             return Err(Status::Stalled);
         }
-        // The first bounds are a guess, of which nothing is to be kept.
-        let next = if last.is_none() { image } else { towards(&limits, &image, DAMPING) };
+        // The first bounds are a guess, of which nothing is to be kept. Later whole steps would swing to and fro: where more
+        // load goes into friction at one place it is missing at others.
+        let next = if last.is_none() { image } else { halfway(&limits, &image) };
         last = Some(std::mem::replace(&mut limits, next));
     }
 }
 
-/// A part of the way between bounds.
-fn towards(from: &[f64], to: &[f64], part: f64) -> Vec<f64> {
-    from.iter().zip(to).map(|(from, to)| from + part * (to - from)).collect()
+/// Half the way between bounds.
+fn halfway(from: &[f64], to: &[f64]) -> Vec<f64> {
+    from.iter().zip(to).map(|(from, to)| from + 0.5 * (to - from)).collect()
 }
 
 /// Bounds that are larger than the friction forces are likely to be: `mu` times all loads together.

@@ -9,10 +9,10 @@ use clarabel::solver::{
     DefaultInfo, DefaultSettings, DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus,
 };
 
-use super::constants::{INTERIOR, LEAST_LIMIT, NEAR, WORSE};
+use super::constants::{INTERIOR, LEAST_LIMIT, WORSE};
 use super::form::{Bounds, Form, Point};
 use crate::problem::column_of;
-use crate::vector::max_abs;
+use crate::vector::{HALF_DIGITS, max_abs};
 
 /// How a run of the interior-point method ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -189,7 +189,7 @@ fn is_past_best() -> impl FnMut(&DefaultInfo<f64>) -> bool {
     move |info| {
         let error = info.gap_abs.min(info.gap_rel).max(info.res_primal).max(info.res_dual);
         best = if info.iterations == 0 { error } else { best.min(error) };
-        best <= NEAR && error > WORSE * best
+        best <= HALF_DIGITS && error > WORSE * best
     }
 }
 
