@@ -59,7 +59,8 @@ pub(crate) enum Enumerated {
 /// A solution, or a proof that there is none.
 pub(crate) fn enumerate(problem: &HorizontalLcp, limits: Limits) -> Outcome {
     let n = problem.order();
-    let mut search = Search { tree: Tree::new(problem), limits, proofs: Vec::new() };
+    let mut search =
+        Search { tree: Tree::new(problem, limits.deadline), limits, proofs: Vec::new() };
     let found = match search.visit(&vec![None; n], &vec![Extended::ZERO; 2 * n]) {
         Err(end) => end,
         Ok(None) => Enumerated::Open,
@@ -74,7 +75,7 @@ pub(crate) fn enumerate(problem: &HorizontalLcp, limits: Limits) -> Outcome {
 /// A checked Farkas vector of the linear conditions, by the first node alone.
 pub(crate) fn farkas_vector(problem: &HorizontalLcp) -> Option<Vec<f64>> {
     let n = problem.order();
-    let tree = Tree::new(problem);
+    let tree = Tree::new(problem, None);
     let minimum = tree.linear.solve(&vec![true; 2 * n], &vec![Extended::ZERO; 2 * n])?;
     tree.proof(&vec![None; n], &minimum).map(|proof| proof.pi)
 }
@@ -233,7 +234,7 @@ struct Tree<'a> {
 }
 
 impl<'a> Tree<'a> {
-    fn new(problem: &'a HorizontalLcp) -> Self {
+    fn new(problem: &'a HorizontalLcp, deadline: Option<Instant>) -> Self {
         let n = problem.order();
         let columns: Vec<Column<'_>> = columns(problem, &vec![None; n]).collect();
         let (rows, mut factors) = equilibrate(n, &columns);
@@ -260,7 +261,14 @@ impl<'a> Tree<'a> {
             factors = factors.into_iter().map(|factor| factor * unit).collect();
         }
         let is_free = ratios.iter().map(Option::is_some).collect();
-        Self { problem, judge, rows, factors, is_free, linear: LeastSquares::new(columns, right) }
+        Self {
+            problem,
+            judge,
+            rows,
+            factors,
+            is_free,
+            linear: LeastSquares::new(columns, right, deadline),
+        }
     }
 
     /// The least squares of the linear conditions of a node; `None` if rounding is in the way.

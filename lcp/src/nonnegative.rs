@@ -8,7 +8,10 @@
 
 use std::cell::Cell;
 
+use web_time::Instant;
+
 use crate::extended::{Extended, extended};
+use crate::solve::is_over;
 
 /// Rounding of sums in [`Extended`], relative to the sizes of what they come from.
 const ROUNDING: f64 = f64::EPSILON * f64::EPSILON * 256.0;
@@ -21,6 +24,7 @@ pub(crate) struct LeastSquares {
     pub(crate) right: Vec<f64>,
     /// Columns that were made orthogonal to others so far, which is what the work is proportional to.
     pub(crate) exchanges: Cell<usize>,
+    deadline: Option<Instant>,
 }
 
 /// The minimum.
@@ -33,12 +37,12 @@ pub(crate) struct Minimum {
 }
 
 impl LeastSquares {
-    pub(crate) fn new(columns: Vec<Vec<f64>>, right: Vec<f64>) -> Self {
-        Self { columns, right, exchanges: Cell::new(0) }
+    pub(crate) fn new(columns: Vec<Vec<f64>>, right: Vec<f64>, deadline: Option<Instant>) -> Self {
+        Self { columns, right, exchanges: Cell::new(0), deadline }
     }
 
     /// The minimum over the allowed columns, from nonnegative values that are zero for the others. `None`
-    /// where rounding errors keep it from ending.
+    /// where rounding errors keep it from ending, or the time is over first.
     pub(crate) fn solve(&self, is_allowed: &[bool], start: &[Extended]) -> Option<Minimum> {
         let mut x = start.to_vec();
         let mut passive = Passive::default();
@@ -48,7 +52,7 @@ impl LeastSquares {
             let Some(entering) = self.entering(is_allowed, &passive, &x, &residual) else {
                 return Some(Minimum { x, residual });
             };
-            if !self.add(&mut passive, entering) {
+            if is_over(self.deadline) || !self.add(&mut passive, entering) {
                 return None;
             }
         }
@@ -242,7 +246,7 @@ mod tests {
 
     fn minimum(columns: &[&[f64]], right: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let columns_of = columns.iter().map(|column| column.to_vec()).collect();
-        let problem = LeastSquares::new(columns_of, right.to_vec());
+        let problem = LeastSquares::new(columns_of, right.to_vec(), None);
         let count = columns.len();
         let found = problem.solve(&vec![true; count], &vec![Extended::ZERO; count]);
         let Minimum { x, residual } = found.expect("it ends");
