@@ -148,11 +148,9 @@ impl Set {
 impl Point {
     /// In the variables of the problem; without the bounds, where it is a direction.
     fn of(problem: &Problem, point: &ExactPoint, is_place: bool) -> Self {
-        let (z, w): (Vec<RBig>, Vec<RBig>) = match problem {
-            Problem::Boxed(boxed) => variables(boxed, point, is_place),
-            Problem::Mixed(mixed) => variables(mixed.boxed(), point, is_place),
-            Problem::Qp(program) => variables(program.mixed().boxed(), point, is_place),
-            _ => (point.t.clone(), point.y.clone()),
+        let (z, w) = match problem.boxed() {
+            Some(boxed) => variables(boxed, point, is_place),
+            None => (point.t.clone(), point.y.clone()),
         };
         let text = |values: Vec<RBig>| values.iter().map(ToString::to_string).collect();
         Self { z: text(z), w: text(w) }

@@ -69,26 +69,18 @@ pub(super) fn run(
 impl Facts {
     fn of(input: &Input) -> Self {
         let problem = &input.problem;
-        let free = match problem {
-            Problem::Mixed(mixed) => Some(mixed.free().iter().filter(|free| **free).count()),
-            Problem::Boxed(boxed) => {
-                let bounds = boxed.lower().iter().zip(boxed.upper());
-                Some(bounds.filter(|(l, u)| l.is_infinite() && u.is_infinite()).count())
-            }
-            _ => None,
-        };
-        let contacts = match problem {
-            Problem::Friction(friction) => Some(friction.contacts()),
-            Problem::Contact(contact) => Some(contact.points()),
-            _ => None,
-        };
-        let compliant_contacts = match problem {
+        let free = problem.boxed().map(|boxed| {
+            let bounds = boxed.lower().iter().zip(boxed.upper());
+            bounds.filter(|(l, u)| l.is_infinite() && u.is_infinite()).count()
+        });
+        let (contacts, compliant_contacts) = match problem {
+            Problem::Friction(friction) => (Some(friction.contacts()), None),
             Problem::Contact(contact) => {
                 let all = contact.compliance().iter();
                 let count = all.filter(|pair| pair.iter().any(|a| *a > 0.0)).count();
-                (count > 0).then_some(count)
+                (Some(contact.points()), Some(count).filter(|count| *count > 0))
             }
-            _ => None,
+            _ => (None, None),
         };
         Self {
             format: input.format,
@@ -105,14 +97,13 @@ impl Facts {
     fn report(&self) -> String {
         let mut text = format!("{} of order {}, read as {}\n", self.kind, self.n, self.format);
         let _ = writeln!(text, "pairs of the general form: {}", self.pairs);
-        if let Some(free) = self.free {
-            let _ = writeln!(text, "free variables: {free}");
-        }
-        if let Some(contacts) = self.contacts {
-            let _ = writeln!(text, "contacts: {contacts}");
-        }
-        if let Some(contacts) = self.compliant_contacts {
-            let _ = writeln!(text, "compliant contacts: {contacts}");
+        let counts = [
+            ("free variables", self.free),
+            ("contacts", self.contacts),
+            ("compliant contacts", self.compliant_contacts),
+        ];
+        for (what, count) in counts {
+            let _ = count.map(|count| writeln!(text, "{what}: {count}"));
         }
         self.matrices.iter().for_each(|matrix| text += &matrix.report());
         text

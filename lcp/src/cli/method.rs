@@ -49,7 +49,16 @@ pub(super) fn solve(
     let SolveArgs { time_limit, max_pivots, attempts: max_attempts, .. } = *args;
     let start = start(args, stdin, problem)?;
     let tolerance = |default| args.tol.unwrap_or(default);
-    let max_iterations = |default| args.max_iterations.unwrap_or(default);
+    /// A method with these options, and its own defaults for the others.
+    macro_rules! iterative {
+        ($method:ident, $settings:ident) => {{
+            let mut settings = $settings::default();
+            settings.tolerance = tolerance(settings.tolerance);
+            settings.max_iterations = args.max_iterations.unwrap_or(settings.max_iterations);
+            (settings.time_limit, settings.start) = (time_limit, start);
+            $method::new(settings)
+        }};
+    }
     let solution = match method(args)? {
         Method::Auto => {
             let tolerance = tolerance(AutoSettings::default().tolerance);
@@ -77,46 +86,19 @@ pub(super) fn solve(
             in_its_form(&Enumeration { tolerance, time_limit }, problem)
         }
         Method::GaussSeidel => {
-            let defaults = ProjectedGaussSeidelSettings::default();
-            let solver = ProjectedGaussSeidel::new(ProjectedGaussSeidelSettings {
-                tolerance: tolerance(defaults.tolerance),
-                max_iterations: max_iterations(defaults.max_iterations),
-                time_limit,
-                start,
-                ..defaults
-            });
+            let solver = iterative!(ProjectedGaussSeidel, ProjectedGaussSeidelSettings);
             in_a_form!(solver, problem, Lcp | Horizontal | Boxed | Friction | Contact)
         }
         Method::QuadraticProgram => {
-            let defaults = QuadraticProgramSettings::default();
-            let solver = QuadraticProgram::new(QuadraticProgramSettings {
-                tolerance: tolerance(defaults.tolerance),
-                max_iterations: max_iterations(defaults.max_iterations),
-                time_limit,
-                start,
-                ..defaults
-            });
+            let solver = iterative!(QuadraticProgram, QuadraticProgramSettings);
             in_a_form!(solver, problem, Lcp | Mixed | Boxed | Contact, standard of Friction)
         }
         Method::Newton => {
-            let defaults = SemismoothNewtonSettings::default();
-            let solver = SemismoothNewton::new(SemismoothNewtonSettings {
-                tolerance: tolerance(defaults.tolerance),
-                max_iterations: max_iterations(defaults.max_iterations),
-                time_limit,
-                start,
-            });
+            let solver = iterative!(SemismoothNewton, SemismoothNewtonSettings);
             in_a_form!(solver, problem, Lcp | Contact, standard of Friction)
         }
         Method::Interior => {
-            let defaults = InteriorPointSettings::default();
-            let solver = InteriorPoint::new(InteriorPointSettings {
-                tolerance: tolerance(defaults.tolerance),
-                max_iterations: max_iterations(defaults.max_iterations),
-                time_limit,
-                start,
-                ..defaults
-            });
+            let solver = iterative!(InteriorPoint, InteriorPointSettings);
             in_a_form!(solver, problem, Lcp | Mixed | Boxed | Friction | Contact)
         }
     };

@@ -99,17 +99,22 @@ impl Problem {
         self.general().into_owned()
     }
 
+    /// The problem with bounds that the kind is, or is a case of.
+    pub(crate) fn boxed(&self) -> Option<&BoxedLcp> {
+        match self {
+            Self::Mixed(problem) => Some(problem.boxed()),
+            Self::Boxed(problem) => Some(problem),
+            Self::Qp(problem) => Some(problem.mixed().boxed()),
+            _ => None,
+        }
+    }
+
     /// `(z, w)` from a point of the general problem.
     ///
     /// # Panics
     /// If `t` or `y` does not have one entry for every pair of the general problem.
     pub fn recover(&self, t: &[f64], y: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        match self {
-            Self::Mixed(problem) => problem.recover(t, y),
-            Self::Qp(problem) => problem.mixed().recover(t, y),
-            Self::Boxed(problem) => problem.recover(t, y),
-            _ => (t.to_vec(), y.to_vec()),
-        }
+        self.boxed().map_or_else(|| (t.to_vec(), y.to_vec()), |boxed| boxed.recover(t, y))
     }
 
     /// The point of the general problem that belongs to `(z, w)`.
@@ -117,12 +122,7 @@ impl Problem {
     /// # Panics
     /// If `z` or `w` does not have one entry for every variable.
     pub fn to_pairs(&self, z: &[f64], w: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        match self {
-            Self::Mixed(problem) => problem.to_pairs(z, w),
-            Self::Qp(problem) => problem.mixed().to_pairs(z, w),
-            Self::Boxed(problem) => problem.to_pairs(z, w),
-            _ => (z.to_vec(), w.to_vec()),
-        }
+        self.boxed().map_or_else(|| (z.to_vec(), w.to_vec()), |boxed| boxed.to_pairs(z, w))
     }
 
     /// The state of an answer, of the kind that has one.
@@ -138,16 +138,13 @@ impl Problem {
     /// # Panics
     /// If `z` does not have one entry for every variable.
     pub fn w_of(&self, z: &[f64]) -> Option<Vec<f64>> {
-        match self {
-            Self::Lcp(problem) => Some(affine(problem.m(), z, problem.q())),
-            Self::Mixed(problem) => Some(affine(problem.m(), z, problem.q())),
-            Self::Qp(problem) => Some(affine(problem.mixed().m(), z, problem.mixed().q())),
-            Self::Boxed(problem) => Some(affine(problem.m(), z, problem.q())),
-            Self::Friction(problem) => {
-                Some(affine(problem.standard().m(), z, problem.standard().q()))
-            }
-            Self::Horizontal(_) | Self::Contact(_) => None,
-        }
+        let (m, q) = match (self, self.boxed()) {
+            (_, Some(boxed)) => (boxed.m(), boxed.q()),
+            (Self::Lcp(problem), _) => (problem.m(), problem.q()),
+            (Self::Friction(problem), _) => (problem.standard().m(), problem.standard().q()),
+            _ => return None,
+        };
+        Some(affine(m, z, q))
     }
 
     /// Residuals of a point in the variables of the problem.
@@ -155,15 +152,8 @@ impl Problem {
     /// # Panics
     /// If `z` or `w` does not have one entry for every variable.
     pub fn residuals(&self, z: &[f64], w: &[f64]) -> Residuals {
-        match self {
-            Self::Horizontal(problem) => problem.residuals(z, w),
-            Self::Mixed(problem) => problem.residuals(z, w),
-            Self::Qp(problem) => problem.mixed().residuals(z, w),
-            Self::Boxed(problem) => problem.residuals(z, w),
-            Self::Lcp(problem) => problem.residuals(z, w),
-            Self::Friction(problem) => problem.residuals(&problem.forces(z)),
-            Self::Contact(problem) => problem.residuals(&problem.recover(z, w)),
-        }
+        // The variables of the others are their pairs.
+        self.boxed().map_or_else(|| self.residuals_of_pairs(z, w), |boxed| boxed.residuals(z, w))
     }
 }
 
@@ -183,8 +173,7 @@ impl General for Problem {
     }
 
     fn residuals_of_pairs(&self, t: &[f64], y: &[f64]) -> Residuals {
-        let (z, w) = self.recover(t, y);
-        self.residuals(&z, &w)
+        each!(self, problem => problem.residuals_of_pairs(t, y))
     }
 }
 
