@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 /// The methods of the chains of `Auto`, and the kinds of attempts of Lemke's method: start, covering vector, perturbation.
-const DECIDE: [&str; 9] = [
+const DECIDE: [&str; 10] = [
     "Newton",
     "Interior",
     "Enumeration",
@@ -11,6 +11,7 @@ const DECIDE: [&str; 9] = [
     "Lemke Found Ones None",
     "Lemke AllY Column None",
     "Lemke Found Random RightHandSide",
+    "Lemke LastBasis Random None",
     "Lemke Flipped Negative RightHandSide",
     "Lemke",
 ];

@@ -107,14 +107,18 @@ where
     }
 }
 
-/// Where published problems are looked for, beside the repository.
-const FILES: &str = "../shared/lcp-problems";
+/// Where published problems, and those that once went wrong, are looked for, beside the repository.
+const FILES: [(&str, &str); 2] =
+    [("published", "../shared/lcp-problems"), ("cases", "../shared/cases")];
 
 fn published(is_chosen: &dyn Fn(&str) -> bool, keep: Keep<'_>) {
-    let Ok(folder) = std::fs::read_dir(common::root().join(FILES)) else { return };
-    for path in folder.filter_map(|entry| entry.ok().map(|entry| entry.path())) {
+    let files = FILES.into_iter().flat_map(|(group, folder)| {
+        let folder = std::fs::read_dir(common::root().join(folder)).into_iter().flatten();
+        folder.filter_map(move |entry| Some((group, entry.ok()?.path())))
+    });
+    for (group, path) in files {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        let name = format!("published/{stem}");
+        let name = format!("{group}/{stem}");
         if !is_chosen(&name) {
             continue;
         }
