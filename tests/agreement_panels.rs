@@ -359,26 +359,29 @@ fn rigid_blocks() {
 /// Without friction it can be proved.
 #[test]
 fn without_a_floor_and_friction_nothing_is_solved() {
-    assert_unsolved(0.0, Status::Infeasible, Status::Infeasible);
+    assert_unsolved(0.0, Status::Infeasible, &[Status::Infeasible]);
 }
 
 /// All attempts of dense pivots take seconds.
 #[cfg(feature = "long-tests")]
 #[test]
 fn without_a_floor_nothing_is_solved() {
-    assert_unsolved(1.0, Status::RayTermination, Status::Stalled);
+    // Programs of friction that come to no fixed point end by their number, or when they bring nothing more.
+    assert_unsolved(1.0, Status::RayTermination, &[Status::Stalled, Status::IterationLimit]);
 }
 
 /// Friction at the walls alone cannot carry the panel, and without friction nothing does: it falls without a bound,
 /// and no method may take that for a solution.
 #[track_caller]
-fn assert_unsolved(mu: f64, by_lemke: Status, by_program: Status) {
+fn assert_unsolved(mu: f64, by_lemke: Status, by_program: &[Status]) {
     let case = Case::new("panel_no_floor").changed(Some(mu), 0.0);
     let solution = Solver::<Contact2d>::solve(&lemke(1e-4), &case.problem).unwrap();
     assert_eq!(solution.status, by_lemke);
     for tolerance in TOLERANCES {
         let solution = program(tolerance).solve(&case.problem).unwrap();
-        assert_eq!(solution.status, by_program, "{mu}, {tolerance:e}");
+        let status = solution.status;
+        assert!(by_program.contains(&status), "{mu}, {tolerance:e}: {status}");
+        assert_eq!(solution.certificate.is_some(), status == Status::Infeasible);
     }
 }
 
