@@ -1,9 +1,13 @@
 //! Matrices of problems: dense or sparse, by columns.
 
+mod column;
+
 use std::ops::Index;
 
 use faer::Mat;
 use faer::sparse::{SparseColMat, Triplet};
+
+pub(crate) use column::{Column, column_of};
 
 use crate::Error;
 
@@ -414,92 +418,4 @@ fn is_symmetric(m: &Mat<f64>) -> bool {
         })
     };
     starts().all(|cols| starts().filter(|rows| *rows >= cols).all(|rows| is_mirrored(rows, cols)))
-}
-
-/// One column of a matrix.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Column<'a> {
-    Dense(&'a [f64]),
-    Sparse { rows: &'a [usize], values: &'a [f64] },
-}
-
-impl Column<'_> {
-    /// `out += factor * column`.
-    pub(crate) fn add_to(self, factor: f64, out: &mut [f64]) {
-        match self {
-            Self::Dense(values) => {
-                out.iter_mut().zip(values).for_each(|(out, v)| *out += factor * v);
-            }
-            Self::Sparse { rows, values } => {
-                rows.iter().zip(values).for_each(|(&i, v)| out[i] += factor * v);
-            }
-        }
-    }
-
-    /// The same, with the sizes of what is added.
-    pub(crate) fn add_with_sizes(self, factor: f64, out: &mut [f64], sizes: &mut [f64]) {
-        let add = |out: &mut f64, size: &mut f64, v: f64| {
-            let term = factor * v;
-            *out += term;
-            *size += term.abs();
-        };
-        match self {
-            Self::Dense(values) => {
-                let entries = out.iter_mut().zip(sizes).zip(values);
-                entries.for_each(|((out, size), v)| add(out, size, *v));
-            }
-            Self::Sparse { rows, values } => {
-                let entries = rows.iter().zip(values);
-                entries.for_each(|(&i, v)| add(&mut out[i], &mut sizes[i], *v));
-            }
-        }
-    }
-
-    /// The scalar product with a vector.
-    pub(crate) fn dot(self, x: &[f64]) -> f64 {
-        match self {
-            Self::Dense(values) => values.iter().zip(x).map(|(v, x)| v * x).sum(),
-            Self::Sparse { rows, values } => rows.iter().zip(values).map(|(&i, v)| v * x[i]).sum(),
-        }
-    }
-
-    pub(crate) fn for_each(self, mut f: impl FnMut(usize, f64)) {
-        match self {
-            Self::Dense(values) => values.iter().enumerate().for_each(|(i, &v)| f(i, v)),
-            Self::Sparse { rows, values } => rows.iter().zip(values).for_each(|(&i, &v)| f(i, v)),
-        }
-    }
-
-    /// The only nonzero entry, if there is only one.
-    pub(crate) fn single(self) -> Option<(usize, f64)> {
-        let mut found = None;
-        match self {
-            Self::Dense(values) => {
-                for (i, &v) in values.iter().enumerate().filter(|(_, v)| **v != 0.0) {
-                    if found.replace((i, v)).is_some() {
-                        return None;
-                    }
-                }
-            }
-            Self::Sparse { rows, values } => {
-                for (&i, &v) in rows.iter().zip(values).filter(|(_, v)| **v != 0.0) {
-                    if found.replace((i, v)).is_some() {
-                        return None;
-                    }
-                }
-            }
-        }
-        found
-    }
-}
-
-/// The entries of a column.
-#[inline]
-pub(crate) fn column_of(
-    matrix: &SparseColMat<usize, f64>,
-    j: usize,
-) -> impl Iterator<Item = (usize, f64)> + Clone + '_ {
-    let pattern = matrix.symbolic();
-    let range = pattern.col_range(j);
-    pattern.row_idx()[range.clone()].iter().copied().zip(matrix.val()[range].iter().copied())
 }

@@ -223,32 +223,18 @@ impl<P> Solution<P> {
 
     /// The same as the solution of a problem of which this is the general form.
     pub(crate) fn of<Q>(self) -> Solution<Q> {
-        let Self {
-            status,
-            t,
-            y,
-            contact,
-            boxed,
-            basis,
-            residuals,
-            certificate,
-            condition,
-            trace,
-            info,
-            ..
-        } = self;
         Solution {
-            status,
-            t,
-            y,
-            contact,
-            boxed,
-            basis,
-            residuals,
-            certificate,
-            condition,
-            trace,
-            info,
+            status: self.status,
+            t: self.t,
+            y: self.y,
+            contact: self.contact,
+            boxed: self.boxed,
+            basis: self.basis,
+            residuals: self.residuals,
+            certificate: self.certificate,
+            condition: self.condition,
+            trace: self.trace,
+            info: self.info,
             problem: PhantomData,
         }
     }
