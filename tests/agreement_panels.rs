@@ -366,7 +366,7 @@ fn without_a_floor_and_friction_nothing_is_solved() {
 #[cfg(feature = "long-tests")]
 #[test]
 fn without_a_floor_nothing_is_solved() {
-    // Programs of friction that come to no fixed point end by their number, or when they bring nothing more.
+    // The sequence ends when programs bring nothing more, or with one that comes to its own limit on iterations.
     assert_unsolved(1.0, Status::RayTermination, &[Status::Stalled, Status::IterationLimit]);
 }
 
