@@ -335,6 +335,36 @@ fn a_fixed_point_that_is_none_is_reported() {
     assert_eq!(solution.info.iterations, 3);
 }
 
+/// A point that touches with a force without effect, which only bounds friction: programs may leave it as large as
+/// numbers are, and then the two `t` of friction do not tell its force any more.
+#[test]
+fn normal_forces_without_effect_do_not_hide_friction() {
+    for load in [1.0, 3.0, 7.0] {
+        let stiffness = mat![[4.0, -4.0], [-4.0, 4.0]];
+        let (normal, tangent) = (mat![[0.0, 0.0], [0.0, 0.0]], mat![[0.0, 1.0], [3.0, -1.0]]);
+        let zeros = || vec![0.0; 2];
+        let contact = Contact2d::new(
+            stiffness,
+            vec![0.0, load],
+            normal,
+            tangent,
+            zeros(),
+            zeros(),
+            vec![0.0, 1.0],
+        );
+        let contact = contact.unwrap();
+        let (t, y) = {
+            let solution = QuadraticProgram::default().solve(&contact).unwrap();
+            if !solution.is_solved() {
+                continue;
+            }
+            (solution.t, solution.y)
+        };
+        let loads = contact.to_general().residuals(&t, &y).loads;
+        assert!(loads <= 1e-10, "{loads:e} of {load}: {t:?}");
+    }
+}
+
 #[test]
 fn limits_and_observers_end_a_solve() {
     let late = QuadraticProgramSettings { time_limit: Some(Duration::ZERO), ..settings() };

@@ -5,9 +5,9 @@
 //! of what is feasible, or gives a proof that is none. `Auto` must decide every problem, with a proof where
 //! the linear conditions alone cannot be met.
 //!
-//! The environment variable `LCP_SWEEP` is the number of problems of every kind, 100 without it:
+//! The environment variable `LCP_SWEEP` gives the seeds of the problems of every kind, 0 to 100 without it:
 //! ```text
-//! LCP_SWEEP=3000 cargo test -p lcp --test sweep -- --nocapture
+//! LCP_SWEEP=5000..8000 cargo test --release -p lcp --test sweep -- --nocapture
 //! ```
 //! is 21 000 problems and prints the table, with the smallest problem of every kind of failure.
 
@@ -43,8 +43,11 @@ fn assert_decided(tally: &Tally) {
 
 #[test]
 fn random_problems() {
-    let count = std::env::var("LCP_SWEEP").map_or(100, |count| count.parse().unwrap());
-    assert_decided(&Tally::sweep(count));
+    let seeds = std::env::var("LCP_SWEEP").map_or(0..100, |seeds| {
+        let (from, to) = seeds.split_once("..").expect("LCP_SWEEP is a range such as 5000..8000");
+        from.parse().unwrap()..to.parse().unwrap()
+    });
+    assert_decided(&Tally::sweep(seeds));
 }
 
 /// All numbers of `n` digits with these values.

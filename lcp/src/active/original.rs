@@ -29,6 +29,9 @@ pub(crate) struct Answer {
     pub(crate) y: Vec<f64>,
     /// The state that it is, of a contact problem.
     pub(crate) contact: Option<ContactState>,
+    /// What rounding to `t` and `y` leaves of the loads: friction is a difference of two `t`, which loses it if normal
+    /// forces are too large.
+    pub(crate) loads: f64,
 }
 
 /// The judge of points of a scaled problem, in the data as given.
@@ -203,7 +206,9 @@ impl Judge for (&Contact2d, ContactJudge<'_>) {
     fn answer(&self, scaled: &Scaled, at: PointRef<'_>) -> Answer {
         let state = state(self.0, scaled, at);
         let (t, y) = self.0.to_pairs(&state);
-        Answer { t, y, contact: Some(state) }
+        let recovered = self.0.recover(&t, &y);
+        let loads = self.1.residuals(&recovered.parts(), Precision::Rounded).loads;
+        Answer { t, y, contact: Some(state), loads }
     }
 }
 
@@ -236,7 +241,7 @@ impl Judge for (&MixedLcp, BoxedJudge<'_>) {
     fn answer(&self, scaled: &Scaled, at: PointRef<'_>) -> Answer {
         let (z, w) = variables(scaled, at);
         let (t, y) = self.0.to_pairs(&z, &w);
-        Answer { t, y, contact: None }
+        Answer { t, y, contact: None, loads: 0.0 }
     }
 }
 

@@ -7,8 +7,6 @@ pub(super) const FEW: usize = 500;
 pub(super) const FEW_POINTS: usize = 500;
 /// Up to so many they take no time. Chosen.
 pub(super) const VERY_FEW_POINTS: usize = 40;
-/// Up to this order the interior-point method, which factorises sparse matrices, takes no time on dense ones. Chosen.
-pub(super) const FEW_DENSE: usize = 200;
 /// Dense matrices that the pivots of a dense problem take at the peak. Measured.
 pub(super) const MATRICES: usize = 5;
 /// Factorisations of active sets where they do not promise to arrive. Chosen.

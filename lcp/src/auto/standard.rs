@@ -1,6 +1,6 @@
 //! The chain of standard problems, and of general ones that can be converted to the standard form.
 
-use super::constants::{FEW, FEW_DENSE};
+use super::constants::FEW;
 use super::facts::{Facts, is_z_matrix, largest_block};
 use super::method::{Effort, Planned, Step};
 use crate::{HorizontalLcp, Lcp, Method, Solver};
@@ -32,8 +32,7 @@ pub(super) fn common_steps(facts: &Facts) -> Vec<Step> {
         return vec![inside, step(Method::Lemke, words)];
     }
     let words = "pivots need no class of matrices and end with a basis, a proof or a ray";
-    let inside = Some(inside).filter(|_| facts.is_sparse || facts.order <= FEW_DENSE);
-    std::iter::once(step(Method::Lemke, words)).chain(inside).collect()
+    vec![step(Method::Lemke, words), inside]
 }
 
 impl Planned for Lcp {

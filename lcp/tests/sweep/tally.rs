@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::ops::Range;
 
 use lcp::Error;
 
@@ -44,11 +45,11 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    /// So many problems of every kind.
-    pub(crate) fn sweep(count: u64) -> Self {
+    /// The problems of every kind that belong to these seeds.
+    pub(crate) fn sweep(seeds: Range<u64>) -> Self {
         let mut tally = Self::default();
         for kind in Kind::ALL {
-            for seed in 0..count {
+            for seed in seeds.clone() {
                 tally.add(&format!("{kind:?}"), &Case::draw(kind, seed));
             }
         }
