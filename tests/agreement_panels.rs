@@ -19,7 +19,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use lcp::{
     Contact2d, ContactState, Error, InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings,
     Method, ProjectedGaussSeidel, ProjectedGaussSeidelSettings, QuadraticProgram,
-    QuadraticProgramSettings, SemismoothNewton, SemismoothNewtonSettings, Solver, Status,
+    QuadraticProgramSettings, Solver, Status,
 };
 use masonry::method::forms::Sparse;
 use masonry::model::{Body, Model};
@@ -48,17 +48,8 @@ fn lemke(tolerance: f64) -> Lemke {
     Lemke::new(LemkeSettings { tolerance, max_attempts: Some(2), ..Default::default() })
 }
 
-fn newton(tolerance: f64) -> SemismoothNewton {
-    SemismoothNewton::new(SemismoothNewtonSettings { tolerance, ..Default::default() })
-}
-
-fn routes(tolerance: f64) -> [Box<dyn Solver<Contact2d>>; 4] {
-    [
-        Box::new(lemke(tolerance)),
-        Box::new(interior(tolerance)),
-        Box::new(newton(tolerance)),
-        Box::new(program(tolerance)),
-    ]
+fn routes(tolerance: f64) -> [Box<dyn Solver<Contact2d>>; 3] {
+    [Box::new(lemke(tolerance)), Box::new(interior(tolerance)), Box::new(program(tolerance))]
 }
 
 /// A scene as a sparse problem.
@@ -273,7 +264,7 @@ fn all(tolerance: f64) -> Vec<Box<dyn Solver<Contact2d>>> {
 
 /// Without pivoting, which gives the reference.
 fn without_lemke(tolerance: f64) -> Vec<Box<dyn Solver<Contact2d>>> {
-    vec![Box::new(interior(tolerance)), Box::new(newton(tolerance)), Box::new(program(tolerance))]
+    vec![Box::new(interior(tolerance)), Box::new(program(tolerance))]
 }
 
 /// The bricks of the lowest course in the middle have room between their neighbours.

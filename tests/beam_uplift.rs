@@ -54,7 +54,7 @@ fn slender_beams_obey_beam_theory() {
 #[test]
 fn rows_and_routes_do_not_matter() {
     let program = uplift(20, 4, 1, Route::Qp);
-    for route in [Route::Lemke, Route::Interior, Route::Newton] {
+    for route in [Route::Lemke, Route::Interior] {
         let other = uplift(20, 4, 1, route);
         assert_close(program.lift, other.lift, 1e-9);
         assert_close(program.length, other.length, 1e-9);
@@ -77,7 +77,7 @@ fn a_smooth_stop_that_nothing_presses_on() {
             beam.uplift(&solved_by(&scene, route)).unwrap()
         };
         let pivots = with_stop(Route::Lemke);
-        for route in [Route::Qp, Route::Interior, Route::Newton] {
+        for route in [Route::Qp, Route::Interior] {
             let other = with_stop(route);
             assert_close(other.lift, pivots.lift, 1e-8);
             assert_close(other.length, pivots.length, 1e-9);

@@ -244,7 +244,7 @@ fn a_panel_without_a_floor() {
         assert_eq!(outcome.mechanism.is_some(), falls, "{route:?}");
     }
     let reference = solved(&hanging(2.5, elastic), Route::Lemke);
-    for route in [Route::Interior, Route::Newton, Route::Qp] {
+    for route in [Route::Interior, Route::Qp] {
         assert_agree(route, &solved(&hanging(2.5, elastic), route), &reference);
     }
 }

@@ -105,7 +105,7 @@ fn a_push_above_friction_loads_the_spring() {
 /// without the equations of the answer stall: one body is 1e4 to 1e7 times as stiff as the other.
 #[test]
 fn a_stiff_shoe_slides_like_a_rigid_one() {
-    for route in [Route::Lemke, Route::Interior, Route::Newton, Route::Qp] {
+    for route in [Route::Lemke, Route::Interior, Route::Qp] {
         let error = |young: f64| {
             let outcome = solved_by(&shoe(Material::elastic(young, 0.0), 181.8), route);
             let points = on_plane(&outcome);

@@ -87,7 +87,7 @@
 //! |---|---|---|
 //! | [`Auto`] | chooses a method by class and size, and tries the next one if it fails | all |
 //! | [`Lemke`] | Lemke's method (complementary pivoting) | all; proves infeasibility |
-//! | [`SemismoothNewton`] | active sets | obstacle problems, M- and P-matrices, contact |
+//! | [`SemismoothNewton`] | active sets | obstacle problems, M- and P-matrices |
 //! | `QuadraticProgram` | convex programs; a sequence of them with friction (feature `clarabel`, on by default) | symmetric positive semidefinite matrices, contact, soft constraints |
 //! | [`Evolution`] | implicit steps in time, with velocities and energies | load histories, moving supports; bodies with mass that slide, fall, settle or flow |
 //! | [`InteriorPoint`] | interior-point method on the sparse form | large contact problems, mixed problems |

@@ -1,10 +1,8 @@
 //! A primal-dual active set method, which is a semismooth Newton method, with a safeguard.
 
 mod constants;
-mod contact;
 mod exchange;
 mod factors;
-mod proximal;
 mod system;
 
 use std::time::Duration;
@@ -42,7 +40,7 @@ pub struct SemismoothNewtonSettings {
     /// Wall-clock time, checked before every step; `None` is no limit.
     pub time_limit: Option<Duration>,
     /// The `z` that are free at the start: those that are basic. If the matrix of the free ones is singular, the
-    /// method uses its own start. For contact with friction: states that are tried before the first step.
+    /// method uses its own start.
     pub start: WarmStart,
 }
 
@@ -84,19 +82,9 @@ impl SemismoothNewtonSettings {
 ///   many steps.
 /// * Others with a positive diagonal: often solves, without a guarantee. Otherwise the status is
 ///   [`Cycling`](Status::Cycling), [`Stalled`](Status::Stalled) if every next matrix is singular, or one of the
-///   limits. Friction makes it cycle.
+///   limits.
 /// * Refused: a diagonal entry that is not positive, and a general problem that is not a standard one in another form
 ///   ([`HorizontalLcp::to_standard`]).
-///
-/// # Contact with friction
-/// A [`Contact2d`](crate::Contact2d) is solved by its own active sets: the contacts that are open, stick and slide
-/// (Alart and Curnier 1991; Hüeber, Stadler and Wohlmuth 2008). Floating bodies and redundant contacts are held by
-/// springs and by a compliance of the contacts. These are re-centred at the last point, round after round, so they do
-/// not change the final result. Steps are shortened to where the unbalanced forces do no work on them. Every round is
-/// followed by exchanges of states without springs, until the solution is a complementary basis. Without friction
-/// every round ends; with friction nothing is proved, and the status may be [`Stalled`](Status::Stalled), as it is if
-/// there is no equilibrium. A step costs the same as a step of [`InteriorPoint`](crate::InteriorPoint), and fewer are
-/// needed if few contacts open or slide.
 ///
 /// # Cost
 /// A step costs one factorisation of `M_FF`. Without a start the first free set has all pairs if `M` has no positive
@@ -104,10 +92,7 @@ impl SemismoothNewtonSettings {
 ///
 /// References: Hintermüller, Ito, Kunisch, SIAM J. Optim. 13 (2003), doi:10.1137/S1052623401383558;
 /// Júdice, Pires, Computers & Operations Research 21 (1994);
-/// Murty, Linear Algebra and its Applications 9 (1974); Chandrasekaran, Opsearch 7 (1970);
-/// Alart, Curnier, Computer Methods in Applied Mechanics and Engineering 92 (1991),
-/// doi:10.1016/0045-7825(91)90022-X; Hüeber, Stadler, Wohlmuth, SIAM J. Sci. Comput. 30 (2008),
-/// doi:10.1137/060671061.
+/// Murty, Linear Algebra and its Applications 9 (1974); Chandrasekaran, Opsearch 7 (1970).
 ///
 /// ```
 /// use faer::mat;

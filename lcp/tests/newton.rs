@@ -2,11 +2,7 @@
 
 #![allow(clippy::unwrap_used)] // a test may panic
 
-#[path = "common/bodies.rs"]
-mod bodies;
 mod common;
-#[path = "newton/contact.rs"]
-mod contact;
 
 use std::ops::ControlFlow;
 use std::time::Duration;

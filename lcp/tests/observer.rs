@@ -90,7 +90,7 @@ fn every_method_lets_itself_be_watched_on_all_that_it_treats() {
     let auto = Auto::default();
     check_all::<Lcp>(&[&lemke, &pgs, &newton, &interior, &auto], &lcp);
     check_all::<HorizontalLcp>(&[&lemke, &pgs, &newton, &interior, &auto], &general);
-    check_all::<Contact2d>(&[&lemke, &pgs, &newton, &interior, &auto], &contact());
+    check_all::<Contact2d>(&[&lemke, &pgs, &interior, &auto], &contact());
     check_all::<Friction2d>(&[&lemke, &pgs, &interior, &auto], &friction());
     check_all::<MixedLcp>(&[&interior, &auto], &mixed());
     check_all::<BoxedLcp>(&[&pgs, &auto], &boxed());

@@ -5,7 +5,6 @@
 //! | [`forces`] | [`System`](crate::system::System) | admissible forces, by one convex program, or the proof that there are none |
 //! | [`lemke`] | [`Reduction`](crate::method::reduction::Reduction), dense | Lemke's method |
 //! | [`interior`] | [`Sparse`](crate::method::forms::Sparse) | interior-point method, with evidence if there is no equilibrium |
-//! | [`newton`] | [`Sparse`](crate::method::forms::Sparse) | active sets: the states of the contacts are exchanged until none contradicts |
 //! | [`qp`] | [`Sparse`](crate::method::forms::Sparse) | convex quadratic programs, with proofs if there is no equilibrium |
 //! | [`pgs`] | [`Sparse`](crate::method::forms::Sparse) | projected Gauss-Seidel on the contacts of blocks on springs |
 //! | [`alm`](crate::paper::alm) | [`Sparse`](crate::method::forms::Sparse), or whole films | the augmented Lagrangian method of the paper |
@@ -26,7 +25,6 @@ pub mod info;
 pub mod interior;
 pub mod lemke;
 pub(crate) mod loading;
-pub mod newton;
 pub mod pgs;
 pub mod qp;
 pub mod reduction;

@@ -103,10 +103,6 @@ fn solver(route: Route, form: Form, frictional_points: usize) -> (&'static str, 
             "interior points",
             "every step factorises one sparse matrix of the order of the displacements",
         ),
-        (Route::Newton, _) => (
-            "Newton's method on the states of the contacts",
-            "every step factorises one sparse matrix of the order of the displacements",
-        ),
         (Route::Qp, _) if has_friction => (
             "quadratic programs",
             "every program has fixed bounds of friction; the fixed point of the bounds is the solution",

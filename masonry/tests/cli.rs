@@ -238,7 +238,6 @@ fn a_route_can_be_chosen() {
         ("forces", "forces"),
         ("lemke", "lemke"),
         ("interior", "interior"),
-        ("newton", "newton"),
         ("qp", "qp"),
         ("pgs", "pgs"),
     ] {

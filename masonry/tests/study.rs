@@ -23,8 +23,7 @@ use masonry::scene::{
 };
 use masonry::units::Units;
 
-const ROUTES: [Route; 6] =
-    [Route::Lemke, Route::Interior, Route::Newton, Route::Qp, Route::Pgs, Route::Alm];
+const ROUTES: [Route; 5] = [Route::Lemke, Route::Interior, Route::Qp, Route::Pgs, Route::Alm];
 
 /// Two courses of elastic bricks between a floor and a load that leans.
 fn wall() -> Scene {

@@ -8,13 +8,11 @@ use masonry::scene::{Route, Scene};
 use super::assert_sound;
 
 /// All routes.
-pub const ROUTES: [Route; 6] =
-    [Route::Lemke, Route::Interior, Route::Newton, Route::Qp, Route::Pgs, Route::Alm];
+pub const ROUTES: [Route; 5] = [Route::Lemke, Route::Interior, Route::Qp, Route::Pgs, Route::Alm];
 
 /// Those that treat rigid blocks too; the augmented Lagrangian method has its penalties from their
 /// stiffness.
-pub const OF_RIGID_BLOCKS: [Route; 5] =
-    [Route::Lemke, Route::Interior, Route::Newton, Route::Qp, Route::Pgs];
+pub const OF_RIGID_BLOCKS: [Route; 4] = [Route::Lemke, Route::Interior, Route::Qp, Route::Pgs];
 
 /// The routes that treat a scene; the others refuse it.
 #[track_caller]

@@ -11,8 +11,7 @@ pub const TITLE: &str = "Growth";
 
 pub fn cases() -> Vec<Case> {
     let mut list: Vec<Case> = SIZES.map(grown).into();
-    // Newton's method takes a quarter of a minute, and gives up.
-    list.push(grown([52, 39]).slow_by(&[Route::Newton]));
+    list.push(grown([52, 39]));
     list.push(settled(0.004));
     list
 }

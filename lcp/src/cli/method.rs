@@ -95,7 +95,7 @@ pub(super) fn solve(
         }
         Method::Newton => {
             let solver = iterative!(SemismoothNewton, SemismoothNewtonSettings);
-            in_a_form!(solver, problem, Lcp | Contact, standard of Friction)
+            in_a_form!(solver, problem, Lcp, standard of Friction)
         }
         Method::Interior => {
             let solver = iterative!(InteriorPoint, InteriorPointSettings);

@@ -57,7 +57,7 @@ impl Treated for Friction2d {
 
 impl Treated for Contact2d {
     fn methods() -> Vec<Named<Self>> {
-        let methods = vec![auto(), lemke(), newton(), interior(), sweeps()];
+        let methods = vec![auto(), lemke(), interior(), sweeps()];
         [methods, program()].into_iter().flatten().collect()
     }
 }

@@ -319,7 +319,7 @@ fn style_of_method(method: Method) -> usize {
         Method::Interior => style(Route::Interior),
         Method::Quadratic => style(Route::Qp),
         Method::Sweeps => style(Route::Pgs),
-        Method::Newton => style(Route::Newton),
+        Method::Newton => 5,
         Method::LemkeSparse => style(Route::Alm),
         Method::Auto => 6,
     }

@@ -84,14 +84,7 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            routes: vec![
-                Route::Lemke,
-                Route::Interior,
-                Route::Newton,
-                Route::Qp,
-                Route::Pgs,
-                Route::Alm,
-            ],
+            routes: vec![Route::Lemke, Route::Interior, Route::Qp, Route::Pgs, Route::Alm],
             tolerances: vec![1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12],
             meshes: vec![1, 2, 4],
             mesh_names: Vec::new(),

@@ -45,7 +45,7 @@ pub struct SolveInfo {
     pub attempts: Vec<String>,
     /// Pivots over all attempts.
     pub pivots: usize,
-    /// Steps of the interior-point or Newton's method, programs, re-centrings of springs, or iterations of the
+    /// Steps of the interior-point method, programs, re-centrings of springs, or iterations of the
     /// augmented Lagrangian method.
     pub iterations: usize,
     /// Every iteration of the augmented Lagrangian method; empty on the other routes.

@@ -195,7 +195,7 @@ impl Sizes {
         };
         match route {
             Route::Auto | Route::Lemke => self.lemke(form),
-            Route::Interior | Route::Newton => sparse,
+            Route::Interior => sparse,
             // An edge of the cone for every normal force, and one more with friction; a force between two bounds for
             // cohesion.
             Route::Forces => {

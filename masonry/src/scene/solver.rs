@@ -59,8 +59,6 @@ pub enum Route {
     Lemke,
     /// The interior-point method on the sparse problem with all displacements.
     Interior,
-    /// Active sets (Newton's method on the states of the contacts), on the sparse problem.
-    Newton,
     /// Convex quadratic programs on the sparse problem; a sequence of them for friction.
     Qp,
     /// Projected Gauss-Seidel on the sparse problem; springs hold the blocks, and are re-centred until they carry
@@ -78,7 +76,6 @@ impl Route {
             Self::Forces => "forces",
             Self::Lemke => "lemke",
             Self::Interior => "interior",
-            Self::Newton => "newton",
             Self::Qp => "qp",
             Self::Pgs => "pgs",
             Self::Alm => "alm",

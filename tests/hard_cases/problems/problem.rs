@@ -232,10 +232,6 @@ impl Kind for BoxedLcp {
 }
 
 impl Kind for Contact2d {
-    fn newton() -> Boxed<Self> {
-        Some(newton())
-    }
-
     fn quadratic() -> Boxed<Self> {
         Some(quadratic())
     }

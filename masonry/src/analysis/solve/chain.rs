@@ -14,7 +14,6 @@ use crate::method::info::{RouteEnd, SolveInfo};
 use crate::method::interior::Interior;
 use crate::method::lemke::Pivots;
 use crate::method::loading;
-use crate::method::newton::Newton;
 use crate::method::pgs::Sweeps;
 use crate::method::qp::Programs;
 use crate::method::reduction::Reduction;
@@ -306,7 +305,6 @@ impl<'a> Chain<'a> {
         let sparse =
             if has_compliances { self.sparse()? } else { Sparse::with_free_faces(system)? };
         let answer = match route {
-            Route::Newton => self.timed(&Newton { sparse: &sparse }),
             Route::Qp => self.timed(&Programs { sparse: &sparse }),
             Route::Pgs => self.timed(&Sweeps { sparse: &sparse }),
             Route::Alm if Strips::are_in(model) => {

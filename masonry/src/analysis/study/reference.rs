@@ -12,7 +12,7 @@ use crate::verify::checks::Checks;
 
 /// Routes that end on a basis, and so at rounding; and one that does not, for what is too large for the
 /// others. The first two that have an answer are compared.
-const ROUTES: [Route; 5] = [Route::Interior, Route::Lemke, Route::Newton, Route::Alm, Route::Qp];
+const ROUTES: [Route; 4] = [Route::Interior, Route::Lemke, Route::Alm, Route::Qp];
 /// Tolerances of a reference: the first that is reached.
 const TOLERANCES: [f64; 4] = [1e-13, 1e-12, 1e-11, 1e-10];
 /// That of a route that converges to a residual: enough to tell the states of the contacts.

@@ -50,6 +50,5 @@ pub fn style(route: Route) -> usize {
         Route::Qp => 2,
         Route::Pgs => 3,
         Route::Alm => 4,
-        Route::Newton => 5,
     }
 }
