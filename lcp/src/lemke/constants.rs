@@ -13,8 +13,6 @@ pub(super) const ARTIFICIAL_ZERO: f64 = 1e-10;
 /// A step may bring basic variables this far below zero, relative to the largest; one that moves no variable by more
 /// makes no breakpoint of a parametric path. Chosen: above the rounding errors of values.
 pub(super) const TIE_WINDOW: f64 = 1e-12;
-/// Among tied rows, pivots below this multiple of the largest are not used. Chosen.
-pub(super) const TIE_PIVOT: f64 = 1e-4;
 /// Drift of the basic values, or of a column, against the start data above which the tableau is rebuilt, relative to
 /// their size. Chosen: the tolerance of answers.
 pub(super) const DRIFT: f64 = 1e-10;
@@ -23,8 +21,6 @@ pub(super) const TIES: f64 = 1e-8;
 
 /// Residual of the values of a factorised basis above which it is taken for singular, relative to their size. Chosen.
 pub(super) const SINGULAR: f64 = 1e-9;
-/// Ties up to this number are resolved by rows of the inverse. Chosen: each row costs a solve.
-pub(super) const FEW_TIES: usize = 8;
 
 /// Columns whose part outside the span of those chosen before is below this multiple of the largest are taken for
 /// dependent. Chosen.

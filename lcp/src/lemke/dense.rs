@@ -77,7 +77,7 @@ impl Kernel for Dense<'_> {
         self.tableau.entry(row, factors, self.col_of[var])
     }
 
-    fn parting(&self, _ties: usize) -> Option<Vec<f64>> {
+    fn parting(&self) -> Option<Vec<f64>> {
         None
     }
 

@@ -26,9 +26,9 @@ pub(super) trait Kernel {
     /// The entry of a row with these factors in the column of a nonbasic variable.
     fn entry(&self, row: usize, factors: &[f64], var: Var) -> f64;
 
-    /// Where rows cost more: in terms of the present basis a vector, always the same in start
-    /// coordinates, that parts so many ties as adding a little of it to the right-hand side would.
-    fn parting(&self, ties: usize) -> Option<Vec<f64>>;
+    /// Where rows cost much: in terms of the present basis a vector, always the same in start
+    /// coordinates, that parts ties as adding a little of it to the right-hand side would.
+    fn parting(&self) -> Option<Vec<f64>>;
 
     /// Whether the exchanges held back should be dealt with.
     fn is_due(&self) -> bool;

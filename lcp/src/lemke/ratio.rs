@@ -1,6 +1,6 @@
 //! The ratio test: which basic variable leaves.
 
-use super::constants::{ARTIFICIAL_ZERO, NOISE, PIVOT_TOLERANCE, TIE_PIVOT, TIE_WINDOW};
+use super::constants::{ARTIFICIAL_ZERO, NOISE, PIVOT_TOLERANCE, TIE_WINDOW};
 use super::kernel::Kernel;
 
 /// What the test looks at: the basic variables, row by row.
@@ -19,8 +19,7 @@ pub(super) struct Basic<'a, B> {
 
 impl<B: Fn(usize) -> bool> Basic<'_, B> {
     /// The row that leaves, or `None` when nothing blocks the entering variable. In two passes: the
-    /// longest step that brings no variable below zero by more than the window, then among the rows that
-    /// block within it those with sound pivots.
+    /// longest step that brings no variable below zero by more than the window, then the rows that block within it.
     pub(super) fn leaving_row(&self, column: &[f64]) -> Option<usize> {
         let largest = column.iter().fold(0.0_f64, |max, a| max.max(a.abs()));
         let smallest_pivot = (PIVOT_TOLERANCE * largest).max(NOISE);
@@ -40,12 +39,12 @@ impl<B: Fn(usize) -> bool> Basic<'_, B> {
             .filter(blocks)
             .filter(|&i| value(i) - shortest * column[i] <= window)
             .collect();
-        let best = tied.iter().fold(0.0_f64, |max, &i| max.max(column[i]));
-        let safe: Vec<usize> =
-            tied.into_iter().filter(|&i| column[i] >= TIE_PIVOT * best).collect();
-        match self.kernel.parting(safe.len()) {
-            Some(parting) => first_parted(&parting, column, &safe),
-            None => Some(self.lexicographic_minimum(column, safe)),
+        if let [only] = tied[..] {
+            return Some(only);
+        }
+        match self.kernel.parting() {
+            Some(parting) => first_parted(&parting, column, &tied),
+            None => Some(self.lexicographic_minimum(column, tied)),
         }
     }
 
@@ -53,9 +52,6 @@ impl<B: Fn(usize) -> bool> Basic<'_, B> {
     /// lexicographic order. In exact arithmetic no basis comes back along a path of such choices.
     fn lexicographic_minimum(&self, column: &[f64], mut tied: Vec<usize>) -> usize {
         let mut left = tied.len();
-        if left == 1 {
-            return tied[0];
-        }
         let mut is_out = vec![false; column.len()];
         let mut rows: Option<Vec<Vec<f64>>> = None;
         for k in 0..column.len() {
@@ -93,7 +89,7 @@ impl<B: Fn(usize) -> bool> Basic<'_, B> {
     }
 }
 
-/// Of many tied rows the one that a small change of the right-hand side, the same all along the path,
+/// Of tied rows the one that a small change of the right-hand side, the same all along the path,
 /// would make the first; in exact arithmetic that parts them all, unless by chance.
 fn first_parted(parting: &[f64], column: &[f64], tied: &[usize]) -> Option<usize> {
     let key = |&i: &usize| parting[i] / column[i];

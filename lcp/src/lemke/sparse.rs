@@ -16,7 +16,7 @@ use std::borrow::Cow;
 
 use faer::Mat;
 
-use super::constants::{FEW_TIES, SINGULAR};
+use super::constants::SINGULAR;
 use super::kernel::{Kernel, Var};
 use crate::linear::Lu;
 use crate::random::SplitMix;
@@ -47,7 +47,7 @@ pub(super) struct Sparse<'a> {
     start: &'a SparseStart,
     /// The column of the artificial variable.
     artificial: Vec<f64>,
-    /// What parts many ties.
+    /// What parts ties.
     parting: Vec<f64>,
     factored: Factored<'a>,
     /// Pivots since the factorisation, and how many are allowed.
@@ -286,12 +286,10 @@ impl Kernel for Sparse<'_> {
         self.start_dot(var, factors)
     }
 
-    fn parting(&self, ties: usize) -> Option<Vec<f64>> {
-        (ties > FEW_TIES).then(|| {
-            let mut out = self.parting.clone();
-            self.solve(&self.factored, &mut out, &mut Vec::new());
-            out
-        })
+    fn parting(&self) -> Option<Vec<f64>> {
+        let mut out = self.parting.clone();
+        self.solve(&self.factored, &mut out, &mut Vec::new());
+        Some(out)
     }
 
     fn is_due(&self) -> bool {
