@@ -108,20 +108,6 @@ impl BasisMatrix {
         high.iter().zip(&error).map(|(high, error)| high + error).collect()
     }
 
-    /// `|right| + |M||x|`.
-    pub(super) fn sizes(&self, right: &[f64], x: &[f64]) -> Vec<f64> {
-        let mut size: Vec<f64> = right.iter().map(|c| c.abs()).collect();
-        self.for_each(|j, i, v| size[i] += (v * x[j]).abs());
-        size
-    }
-
-    /// How large the error of every value `x` can be that relative errors of a few `eps` in the data
-    /// make: the largest of some samples with random signs (a Monte Carlo estimate of
-    /// `|M^-1| (|M||x| + |right|)`, to within the root of the order).
-    pub(super) fn errors(&self, right: &[f64], x: &[f64]) -> Vec<f64> {
-        sampled(&self.sizes(right, x), |sample| self.solve(sample))
-    }
-
     /// Row `position` of the inverse, refined, without the rounding errors in place of zeros.
     pub(super) fn inverse_row(&self, position: usize) -> Vec<f64> {
         let n = self.order();

@@ -70,8 +70,6 @@ pub(super) const ATTEMPT: usize = 40_000;
 pub(super) const SMALL: usize = 40;
 /// Steps of iterative refinement of the final basis at most. Chosen: each gains the digits that the condition number leaves.
 pub(super) const REFINEMENTS: usize = 3;
-/// Residuals that are rounding errors; loads above are measured with all digits. Chosen: a hundredth of the tolerance.
-pub(super) const HIDDEN: f64 = 1e-12;
 /// Reduced costs below this multiple of the largest entry of their row are taken for zero. Chosen: a vector found is
 /// checked.
 pub(super) const COST_TOLERANCE: f64 = 1e-9;
