@@ -65,8 +65,8 @@ pub(super) const KINDS: usize = 12;
 pub(super) const WORK: usize = 4_000_000_000;
 /// What an attempt costs by itself, in the same unit. Measured: 40 microseconds.
 pub(super) const ATTEMPT: usize = 40_000;
-/// Up to this order a proof is also searched by least squares in twice the digits, which singular bases and ties do
-/// not disturb. Chosen: it takes no time there.
+/// Up to this order a problem without a start basis is searched for a proof by least squares. Chosen: it takes no time
+/// there.
 pub(super) const SMALL: usize = 40;
 /// Steps of iterative refinement of the final basis at most. Chosen: each gains the digits that the condition number leaves.
 pub(super) const REFINEMENTS: usize = 3;

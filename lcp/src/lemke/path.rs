@@ -245,9 +245,7 @@ impl<'a> Path<'a> {
                     entering = self.exchange(row, entering, column);
                 }
                 // What looks like a ray may be drift: only a column that the data confirm counts.
-                None if self.is_true_column(entering, column) => {
-                    return self.at_ray(entering, column);
-                }
+                None if !self.has_drifted(entering) => return self.at_ray(entering, column),
                 None if self.is_rebuilt() => return AttemptEnd::Singular,
                 None if !self.rebuild() => return AttemptEnd::Singular,
                 None => {}
@@ -373,7 +371,13 @@ impl<'a> Path<'a> {
     pub(super) fn tidy(&mut self) -> bool {
         let last = self.rebuilt_at.unwrap_or(0);
         let is_due = self.interval.is_some_and(|interval| self.pivots >= last + interval);
-        if !self.kernel.apply() || is_due || self.has_drifted() { self.rebuild() } else { true }
+        let nonbasic = (0..=2 * self.order()).filter(|&var| self.is_nonbasic(var));
+        let probe = nonbasic.cycle().nth(self.pivots % (self.order() + 1));
+        let is_sound = self.kernel.apply() && !is_due;
+        if is_sound && probe.is_some_and(|probe| !self.has_drifted(probe)) {
+            return true;
+        }
+        self.rebuild()
     }
 
     /// Whether the tableau was rebuilt after the last pivot.
@@ -390,10 +394,7 @@ impl<'a> Path<'a> {
     }
 
     /// Compares the basic values, together with one column of the tableau, with the start data.
-    fn has_drifted(&mut self) -> bool {
-        let nonbasic = (0..=2 * self.order()).filter(|&var| self.row_of[var].is_none());
-        let mut around = nonbasic.cycle();
-        let Some(probe) = around.nth(self.pivots % (self.order() + 1)) else { return false };
+    fn has_drifted(&mut self, probe: Var) -> bool {
         let mut sum = vec![0.0; self.order()];
         self.kernel.column(probe, &mut sum);
         let size = self.scale.max(1.0);
@@ -401,30 +402,12 @@ impl<'a> Path<'a> {
         sum.iter_mut().zip(&self.values).for_each(|(sum, value)| *sum = weight * *sum + value);
         let mut residual: Vec<f64> = self.kernel.right_hand_side().iter().map(|q| -q).collect();
         self.kernel.add_start_column(probe, -weight, &mut residual);
-        self.add_basis_product(&sum, &mut residual);
-        !is_small(&residual, size)
-    }
-
-    /// Whether a column of the tableau, times the basis, is what it was in the start data.
-    fn is_true_column(&self, var: Var, column: &[f64]) -> bool {
-        let mut residual = vec![0.0; self.order()];
-        self.kernel.add_start_column(var, -1.0, &mut residual);
-        self.add_basis_product(column, &mut residual);
-        is_small(&residual, max_abs(column).max(1.0))
-    }
-
-    fn add_basis_product(&self, factors: &[f64], out: &mut [f64]) {
-        for (&var, &factor) in self.basic.iter().zip(factors) {
-            if factor != 0.0 {
-                self.kernel.add_start_column(var, factor, out);
-            }
+        for (&var, &factor) in self.basic.iter().zip(&sum).filter(|(_, factor)| **factor != 0.0) {
+            self.kernel.add_start_column(var, factor, &mut residual);
         }
+        // Written so that a NaN has drifted.
+        !residual.iter().all(|r| r.abs() <= DRIFT * size)
     }
-}
-
-/// Whether all entries are rounding errors of the given size; a NaN is not.
-fn is_small(residual: &[f64], size: f64) -> bool {
-    residual.iter().all(|r| r.abs() <= DRIFT * size)
 }
 
 /// A fixed pseudo-random key for every variable: the exclusive or over a basis is its signature.

@@ -354,14 +354,7 @@ impl<'a> Search<'a> {
             }
             stop.is_some() || pivots > 20 * order + 100
         });
-        stop.map_or_else(|| Ok(found.or_else(|| self.small_proof())), Err)
-    }
-
-    /// A proof by least squares, of a small problem.
-    fn small_proof(&self) -> Option<Vec<f64>> {
-        let is_small = self.problem.order() <= SMALL && !self.is_completed;
-        let is_wanted = is_small && self.settings.prove_infeasible;
-        is_wanted.then(|| enumerate::farkas_vector(self.problem.problem)).flatten()
+        stop.map_or(Ok(found), Err)
     }
 
     /// The point that exchanges of all pairs with negative values lead to, as long as each makes it better (Kostreva 1978).
@@ -397,23 +390,18 @@ impl<'a> Search<'a> {
         self.info.attempts.iter().any(|attempt| attempt.end == end)
     }
 
-    /// Infeasible where that can be proved, else this status.
+    /// Without a start basis: a proof by least squares, of a small problem, else this status.
     fn prove_or(self, status: Status) -> Solution {
-        match self.small_proof() {
+        let is_small = self.problem.order() <= SMALL && !self.is_completed;
+        let is_wanted = is_small && self.settings.prove_infeasible;
+        match is_wanted.then(|| enumerate::farkas_vector(self.problem.problem)).flatten() {
             Some(pi) => self.infeasible(pi),
             None => self.give_up(status),
         }
     }
 
-    /// No attempt reached the tolerance: a proof that none can, the best point if it is near, else what
-    /// the attempts say.
+    /// No attempt reached the tolerance: the best point if it is near, else what the attempts say.
     fn conclude(mut self) -> Solution {
-        // After a ray it was searched already.
-        if !self.has_ended(AttemptEnd::Ray)
-            && let Some(pi) = self.small_proof()
-        {
-            return self.infeasible(pi);
-        }
         let nearly = self.settings.tolerance.sqrt();
         if let Some(point) = self.almost.take_if(|point| point.residuals.worst() <= nearly) {
             return self.answer(point);

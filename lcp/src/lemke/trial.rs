@@ -14,11 +14,10 @@ pub(super) struct Trial {
 }
 
 impl Trial {
-    /// The attempt of this number, from 2, after one that ended so. After a cycle the same once more
-    /// without ties. After a basis that is not quite right in turn from there on and with random covering
-    /// vectors from the first start, since paths from there may come back to it. After a ray another
-    /// covering vector, another start basis, a pair in place of the artificial variable, then more start bases. `is_game`
-    /// says that the pair is worth a try before the others.
+    /// The attempt of this number, from 2, after one that ended so. After a basis that is not quite right in turn from
+    /// there on and with random covering vectors from the first start, since paths from there may come back to it. After
+    /// a ray another covering vector, another start basis, a pair in place of the artificial variable, then more start
+    /// bases. `is_game` says that the pair is worth a try before the others.
     pub(super) fn after(
         last: &Self,
         end: AttemptEnd,
@@ -29,9 +28,6 @@ impl Trial {
         let seed = number as u64;
         let parted = Perturbation::RightHandSide { seed };
         match end {
-            AttemptEnd::Cycle if last.perturbation == Perturbation::None => {
-                return Self { perturbation: parted, ..*last };
-            }
             AttemptEnd::Complementary if last.start == AttemptStart::LastBasis => {
                 let covering = AttemptCovering::Random { seed };
                 return Self { covering, perturbation: Perturbation::None, ..*first };
