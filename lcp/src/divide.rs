@@ -113,7 +113,7 @@ impl Divide for HorizontalLcp {
                 parts.join(*odd.get_or_insert(group[0]), group[0]);
             }
         }
-        several(parts.groups())?
+        groups_of_parts(parts)?
             .into_iter()
             .map(|group| {
                 let (rows, pairs) = split(&group, n);
@@ -264,11 +264,7 @@ fn groups_of(m: &Matrix) -> Option<Vec<Vec<usize>>> {
 }
 
 fn groups_of_parts(mut parts: Parts) -> Option<Vec<Vec<usize>>> {
-    if parts.is_one() { None } else { several(parts.groups()) }
-}
-
-fn several(groups: Vec<Vec<usize>>) -> Option<Vec<Vec<usize>>> {
-    (groups.len() > 1).then_some(groups)
+    (!parts.is_one()).then(|| parts.groups())
 }
 
 /// Joins the rows in which a column is not zero, as `element` numbers them, with one more element.

@@ -6,7 +6,8 @@ mod common;
 
 use faer::{Mat, mat};
 use lcp::{
-    Auto, BoxedLcp, Contact2d, HorizontalLcp, Lcp, Matrix, Method, Solution, Solver, Status,
+    Auto, BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, Lemke, Matrix, Method, MixedLcp,
+    Solution, Solver, Status,
 };
 use proptest::prelude::*;
 
@@ -120,6 +121,85 @@ fn a_body_that_falls_beside_one_that_stands_is_a_mechanism_of_both() {
     assert_eq!(solution.status, Status::Infeasible);
     let certificate = solution.certificate.unwrap();
     assert!(certificate.is_proof() && certificate.holds(&falling.to_general()));
+}
+
+/// Numbers between -1 and 1.
+fn number(i: usize, j: usize) -> f64 {
+    (7.0 * i as f64 + 13.0 * j as f64 + 1.0).sin()
+}
+
+/// Blocks with dominant diagonals, their rows and columns in other orders.
+fn shuffled(sizes: &[usize], rows: &[usize], cols: &[usize]) -> Mat<f64> {
+    let n: usize = sizes.iter().sum();
+    let mut m = Mat::<f64>::zeros(n, n);
+    let mut at = 0;
+    for &size in sizes {
+        let diagonal = |i, j| if i == j { n as f64 + 1.0 } else { number(i + at, j) };
+        m.submatrix_mut(at, at, size, size).copy_from(Mat::from_fn(size, size, diagonal));
+        at += size;
+    }
+    Mat::from_fn(n, n, |i, j| m[(rows[i], cols[j])])
+}
+
+/// The parts, so many, have together the answer of the whole.
+fn assert_joined<P>(problem: &P, count: usize)
+where
+    Auto: Solver<P>,
+    Lemke: Solver<P>,
+{
+    let (parts, whole) = (auto(problem), Lemke::default().solve(problem).unwrap());
+    assert!(parts.is_solved() && whole.is_solved());
+    let reason = &parts.info.routes[0].reason;
+    assert!(reason.contains(&format!("of {count} independent parts")), "{reason}");
+    for (a, b) in whole.t.iter().chain(&whole.y).zip(parts.t.iter().chain(&parts.y)) {
+        assert!((a - b).abs() <= 1e-11 * a.abs().max(1.0), "{a} {b}");
+    }
+    if let (Some(whole), Some(parts)) = (whole.basis, parts.basis) {
+        assert_eq!(whole, parts);
+    }
+}
+
+#[test]
+fn every_form_falls_into_blocks() {
+    let order = [3, 9, 0, 6, 2, 8, 5, 1, 7, 4];
+    let m = shuffled(&[3, 1, 4, 2], &order, &order);
+    let q: Vec<f64> = (0..10).map(|i| number(i, 3)).collect();
+    let lcp = Lcp::new(m.clone(), q.clone()).unwrap();
+    assert_joined(&lcp, 4);
+    assert_joined(&Lcp::new(Matrix::from(m.clone()).to_sparse(), q.clone()).unwrap(), 4);
+    let free: Vec<bool> = order.iter().map(|i| i % 3 == 0).collect();
+    assert_joined(&MixedLcp::new(m.clone(), q.clone(), free).unwrap(), 4);
+    let upper = |i: &usize| if i.is_multiple_of(2) { 0.1 } else { f64::INFINITY };
+    let upper: Vec<f64> = order.iter().map(upper).collect();
+    assert_joined(&BoxedLcp::new(m.clone(), q.clone(), vec![0.0; 10], upper).unwrap(), 4);
+    // Rows and pairs in different orders.
+    let pairs = [5, 2, 8, 0, 9, 4, 7, 1, 3, 6];
+    let a = shuffled(&[2, 5, 3], &order, &pairs);
+    let b = Mat::from_fn(10, 10, |i, j| -a[(i, j)] * if i % 2 == j % 3 { 1.0 } else { 0.9 });
+    assert_joined(&HorizontalLcp::new(a, b, q).unwrap(), 3);
+}
+
+#[test]
+fn contacts_fall_into_bodies() {
+    let order = [4, 5, 0, 1, 6, 7, 2, 3];
+    let w = shuffled(&[4, 2, 2], &order, &order);
+    // All pressed, so that the forces are unique.
+    let q: Vec<f64> =
+        (0..8).map(|i| if usize::is_multiple_of(i, 2) { -2.0 } else { number(i, 2) }).collect();
+    assert_joined(&Friction2d::new(w, q, vec![0.1, 0.2, 0.3, 0.4]).unwrap(), 3);
+    // Two bodies with the points 0, 2 and 1, of which one has no friction.
+    let k = mat![
+        [2.0, 0.0, 0.0, 0.0],
+        [0.0, 3.0, 0.0, -1.0],
+        [0.0, 0.0, 1.0, 0.0],
+        [0.0, -1.0, 0.0, 2.0]
+    ];
+    let c_n = mat![[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+    let c_t = mat![[0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 0.0]];
+    let loads = vec![-1.0, -2.0, 0.8, 0.5];
+    let gaps = vec![0.0, 0.1, 0.0];
+    let contact = Contact2d::new(k, loads, c_n, c_t, gaps, vec![0.0; 3], vec![0.5, 0.3, 0.0]);
+    assert_joined(&contact.unwrap(), 2);
 }
 
 /// Integers, with zeros: solvable or not, and often degenerate.
