@@ -1,18 +1,43 @@
 //! Extreme rays of a polyhedral cone, by the double description method.
 
+use std::time::Instant;
+
 use dashu_int::ops::{Gcd, UnsignedAbs};
 use dashu_int::{IBig, UBig};
 
-use super::budget::{Budget, Stop};
+use crate::Error;
+use crate::solve::is_over;
+
+/// What an enumeration may cost.
+pub(super) struct Budget {
+    pub(super) deadline: Option<Instant>,
+    /// Number of vertices and rays.
+    pub(super) generators: usize,
+}
+
+/// Why an enumeration ends early.
+pub(super) enum Stop {
+    Time,
+    Limit(Error),
+}
+
+impl Budget {
+    /// That there is time left, and that so many vertices and rays are not more than allowed.
+    pub(super) fn check(&self, value: usize) -> Result<(), Stop> {
+        let limit = self.generators;
+        if value > limit {
+            let what = "number of vertices and rays";
+            return Err(Stop::Limit(Error::Limit { what, value, name: "max_generators", limit }));
+        }
+        if is_over(self.deadline) { Err(Stop::Time) } else { Ok(()) }
+    }
+}
 
 /// A generator of a cone with the inequalities that it meets with equality, as bits.
 struct Generator {
     entries: Vec<IBig>,
     tight: u64,
 }
-
-/// What is counted.
-const GENERATORS: &str = "number of vertices and rays of a face";
 
 /// The extreme rays, as primitive integer vectors, of `{x >= 0 : g.x >= 0 for every g}`.
 ///
@@ -48,7 +73,7 @@ fn cut(
     let values: Vec<IBig> = rays.iter().map(|ray| product(inequality, &ray.entries)).collect();
     let mut new = Vec::new();
     for (above, a) in rays.iter().zip(&values).filter(|(_, a)| **a > IBig::ZERO) {
-        budget.check(GENERATORS, new.len())?;
+        budget.check(new.len())?;
         for (below, b) in rays.iter().zip(&values).filter(|(_, b)| **b < IBig::ZERO) {
             let shared = above.tight & below.tight;
             if rays.iter().filter(|ray| ray.tight & shared == shared).count() == 2 {
@@ -62,7 +87,7 @@ fn cut(
         ray.tight |= if value.is_zero() { bit } else { 0 };
         new.push(ray);
     }
-    budget.check(GENERATORS, new.len())?;
+    budget.check(new.len())?;
     Ok(new)
 }
 

@@ -5,8 +5,7 @@ use std::time::{Duration, Instant};
 
 use dashu_int::IBig;
 
-use super::budget::{Budget, Stop};
-use super::cone::{extreme_rays, product};
+use super::cone::{Budget, Stop, extreme_rays, product};
 use super::integers::{Integers, Variable};
 use super::tableau::{Tableau, eliminate};
 use super::{ExactPoint, Feasibility, feasibility};
@@ -214,9 +213,6 @@ impl Node {
     }
 }
 
-/// What is counted.
-const GENERATORS: &str = "number of vertices and rays of all faces";
-
 /// The faces found so far that lie in no other, each under the set of variables that are positive in
 /// it, as bits: a face lies in another just when its set does.
 struct Faces {
@@ -226,7 +222,7 @@ struct Faces {
 
 impl Faces {
     fn collect(&mut self, node: &Node) -> Result<(), Stop> {
-        self.budget.check(GENERATORS, 0)?;
+        self.budget.check(0)?;
         if node.is_hopeless() {
             return Ok(());
         }
@@ -278,7 +274,7 @@ impl Faces {
         self.found.retain(|&other, _| !lies_in(other, support));
         self.found.insert(support, Face { vertices, rays, dimension });
         let value = self.found.values().map(|face| face.vertices.len() + face.rays.len()).sum();
-        self.budget.check(GENERATORS, value)
+        self.budget.check(value)
     }
 }
 
