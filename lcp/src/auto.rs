@@ -6,7 +6,6 @@ mod contact;
 mod divided;
 mod enumerated;
 mod facts;
-pub(crate) mod memory;
 mod method;
 mod mixed;
 mod settings;

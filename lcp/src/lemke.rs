@@ -17,7 +17,6 @@ mod search;
 mod sparse;
 mod start;
 mod tableau;
-mod translate;
 mod trial;
 
 pub use parametric::{
@@ -32,6 +31,7 @@ pub use crate::pivoting::{
 use std::ops::ControlFlow;
 use web_time::Instant;
 
+use constants::MATRICES;
 use search::Search;
 
 use crate::solve::deadline_of;
@@ -84,18 +84,51 @@ impl Lemke {
     /// needs the attempt and the order.
     ///
     /// # Errors
-    /// For settings out of range. Mathematical outcomes are in [`Solution::status`].
+    /// For settings out of range, and [`Error::NotTreated`] for dense problems that need more memory than there is.
+    /// Mathematical outcomes are in [`Solution::status`].
     pub fn solve_with_progress(
         &self,
         problem: &HorizontalLcp,
         observer: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
     ) -> Result<Solution, Error> {
         self.settings.validate(problem.order())?;
+        if !problem.is_sparse() {
+            check_memory(problem.order())?;
+        }
         let began = Instant::now();
         let deadline = deadline_of(began, self.settings.time_limit);
         let mut solution = Search::new(&self.settings, problem, deadline).run(observer);
         solution.info.method = Method::Lemke;
         solution.info.seconds = began.elapsed().as_secs_f64();
         Ok(solution)
+    }
+}
+
+/// Refuses orders of dense problems for which the system has not the memory, before it is taken.
+fn check_memory(order: usize) -> Result<(), Error> {
+    let entries = order.checked_mul(order).and_then(|square| square.checked_mul(MATRICES));
+    let mut trial: Vec<f64> = Vec::new();
+    let reserved = trial.try_reserve_exact(std::hint::black_box(entries.unwrap_or(usize::MAX)));
+    reserved.map_err(|_| {
+        let gigabytes = (MATRICES * size_of::<f64>()) as f64 * (order as f64).powi(2) / 1e9;
+        let reason = format!(
+            "order {order} takes about {gigabytes:.0} GB, which the system does not have: the method works with \
+             {MATRICES} dense matrices of this order"
+        );
+        Error::NotTreated { method: Method::Lemke, reason }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three million unknowns: five dense matrices of them are more than any memory.
+    #[test]
+    fn an_order_beyond_the_memory_is_refused() {
+        let message = check_memory(3_000_000).map_err(|error| error.to_string());
+        let expected = "order 3000000 takes about 360000 GB, which the system does not have";
+        assert!(message.is_err_and(|message| message.contains(expected)));
+        assert!(check_memory(10).is_ok());
     }
 }

@@ -171,10 +171,6 @@ mod tests {
             1
         }
 
-        fn is_sparse(&self) -> bool {
-            true
-        }
-
         fn steps(&self) -> Vec<Step> {
             [Method::Lemke, Method::GaussSeidel, Method::Newton]
                 .map(|it| Step::new(it, "a test"))

@@ -1,14 +1,11 @@
 //! The sizes that the choice of methods goes by, each with where it comes from.
 //! What is "chosen" is so by judgement: no measurement is kept.
 
-/// Up to this order pivots on a sparse matrix are as fast as factorisations, and say more. Chosen.
+/// Up to this order, or so many contact points, pivots on a sparse matrix are as fast as factorisations, and say more.
+/// Chosen.
 pub(super) const FEW: usize = 500;
-/// Up to so many contact points they are fast. Chosen.
-pub(super) const FEW_POINTS: usize = 500;
-/// Up to so many they take no time. Chosen.
+/// Up to so many contact points they take no time. Chosen.
 pub(super) const VERY_FEW_POINTS: usize = 40;
-/// Dense matrices that the pivots of a dense problem take at the peak. Measured.
-pub(super) const MATRICES: usize = 5;
 /// Factorisations of active sets where they do not promise to arrive. Chosen.
 pub(super) const TRIAL: usize = 100;
 

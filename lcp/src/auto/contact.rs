@@ -1,6 +1,6 @@
 //! The chains of contact with friction.
 
-use super::constants::{FEW_POINTS, VERY_FEW_POINTS};
+use super::constants::{FEW, VERY_FEW_POINTS};
 use super::facts::Facts;
 use super::method::{Effort, Planned, Step, named};
 use super::standard::common_steps;
@@ -10,10 +10,6 @@ use crate::{Contact2d, Friction2d, Method, Solver};
 impl Planned for Friction2d {
     fn pairs(&self) -> usize {
         self.order()
-    }
-
-    fn is_sparse(&self) -> bool {
-        self.standard().m().is_sparse()
     }
 
     fn steps(&self) -> Vec<Step> {
@@ -31,10 +27,6 @@ impl Planned for Contact2d {
         self.order()
     }
 
-    fn is_sparse(&self) -> bool {
-        true
-    }
-
     fn steps(&self) -> Vec<Step> {
         let (points, friction) = (self.points(), self.frictional().len());
         let text = format!(
@@ -48,7 +40,7 @@ impl Planned for Contact2d {
         );
         let pivots = step(
             Method::Lemke,
-            if points <= FEW_POINTS {
+            if points <= FEW {
                 "pivots are fast, need no convergence and may find a proof"
             } else {
                 "pivots take long at this number, but need no convergence"

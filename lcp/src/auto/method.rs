@@ -4,7 +4,6 @@ use std::time::Duration;
 
 use super::constants::{FEW_ATTEMPTS, FEW_PAIRS, MOST_PAIRS, TRIAL};
 use super::enumerated::Enumeration;
-use super::memory;
 use crate::conversion::General;
 use crate::divide::Divide;
 use crate::{
@@ -72,9 +71,6 @@ pub trait Planned: Divide {
         self.pairs()
     }
 
-    /// Whether pivots on the problem are on sparse matrices.
-    fn is_sparse(&self) -> bool;
-
     /// The chain.
     fn steps(&self) -> Vec<Step>;
 
@@ -85,16 +81,13 @@ pub trait Planned: Divide {
 /// Solves a problem by a method of its chain.
 ///
 /// # Errors
-/// Those of the method, and [`Error::NotTreated`] where the memory does not suffice for dense pivots.
+/// Those of the method.
 pub(super) fn attempt<P: Planned>(
     problem: &P,
     method: Method,
     effort: &Effort<'_>,
     observer: &mut Observer<'_>,
 ) -> Result<Solution, Error> {
-    if method == Method::Lemke {
-        memory::check(problem.is_sparse(), problem.pairs())?;
-    }
     let solver = problem.solver(method, effort).ok_or_else(|| Error::NotTreated {
         method,
         reason: "it is not in the chain of this problem".to_owned(),

@@ -14,10 +14,6 @@ impl Planned for MixedLcp {
         largest_block(self.m(), |i| usize::from(!self.free()[i]))
     }
 
-    fn is_sparse(&self) -> bool {
-        self.m().is_sparse()
-    }
-
     fn steps(&self) -> Vec<Step> {
         let facts = Facts::of(self.m());
         let free = self.free().iter().filter(|free| **free).count();
@@ -42,10 +38,6 @@ impl Planned for BoxedLcp {
         let is_fixed = |i: usize| lower[i] >= upper[i];
         let sides = |i: usize| if is_fixed(i) { 0 } else { has(lower[i]) + has(upper[i]) };
         largest_block(self.m(), sides)
-    }
-
-    fn is_sparse(&self) -> bool {
-        self.m().is_sparse()
     }
 
     fn steps(&self) -> Vec<Step> {

@@ -44,10 +44,6 @@ impl Planned for Lcp {
         largest_block(self.m(), |_| 1)
     }
 
-    fn is_sparse(&self) -> bool {
-        self.m().is_sparse()
-    }
-
     fn steps(&self) -> Vec<Step> {
         standard_steps(&Facts::of(self.m()))
     }
@@ -70,10 +66,6 @@ impl Planned for HorizontalLcp {
             Some(standard) => standard.lcp().choices(),
             None => (0..self.order()).filter(|&pair| self.opposite(pair).is_none()).count(),
         }
-    }
-
-    fn is_sparse(&self) -> bool {
-        self.is_sparse()
     }
 
     fn steps(&self) -> Vec<Step> {

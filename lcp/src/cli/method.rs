@@ -8,7 +8,7 @@ use clap::builder::PossibleValue;
 use super::args::SolveArgs;
 use super::input::Point;
 use super::output::Failure;
-use crate::auto::{Enumeration, memory};
+use crate::auto::Enumeration;
 use crate::conversion::judged_by;
 use crate::io::{Problem, each};
 use crate::{
@@ -77,9 +77,7 @@ pub(super) fn solve(
                 start,
                 ..defaults
             };
-            let general = problem.to_general();
-            memory::check(general.is_sparse(), general.order())
-                .and_then(|()| in_its_form(&Lemke::new(settings), problem))
+            in_its_form(&Lemke::new(settings), problem)
         }
         Method::Enumeration => {
             let tolerance = tolerance(AutoSettings::default().tolerance);

@@ -47,7 +47,7 @@ impl BasisMatrix {
         columns: &[Option<(usize, Side)>],
     ) -> Option<Self> {
         if problem.problem.is_sparse() {
-            let sparse = problem.sparse_columns_or_right(columns);
+            let sparse = problem.sparse_columns(columns.iter().copied());
             let (lu, replaced) = SparseLu::new(&sparse);
             return replaced.is_empty().then_some(Self::Sparse { columns: sparse, lu });
         }

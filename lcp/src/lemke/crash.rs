@@ -1,30 +1,40 @@
 //! Start bases: one column of every pair, together nonsingular.
+//!
+//! Sparse columns are offered to a factorisation that refuses those that depend on the ones before: first those of the
+//! preferred sides, then the others of the pairs that have none yet. If pairs stay without a column, the sides of a
+//! structural matching are tried in the same way. Dense ones are chosen by pivoted QR factorisations, then by exchanges.
 
-mod found;
 mod matching;
-mod sparse;
 
 use web_time::Instant;
 
 use faer::{Mat, MatRef};
 
-pub(super) use found::Crash;
-
 use matching::matched_sides;
-use sparse::find_sparse;
 
-use super::constants::{DENSE_SEARCH, GAIN, GAIN_SWEEPS, RANK_TOLERANCE};
+use super::constants::{DENSE_SEARCH, GAIN, GAIN_SWEEPS, PIVOT_TOLERANCE};
+use super::dense::Dense;
+use super::kernel::{Kernel, Var};
 use super::start::Equilibrated;
-use super::tableau::Tableau;
 use crate::linear::Lu;
 use crate::solve::is_over;
-use crate::sparse::Columns;
+use crate::sparse::{Columns, Growing, elimination_order, row_counts};
 use crate::vector::max_abs;
-use crate::{Basis, Side};
+use crate::{Basis, Matrix, Side};
+
+/// As many independent columns as there are, at most one of every pair.
+pub(super) enum Crash {
+    /// One of every pair.
+    Complete(Basis),
+    /// Pairs without a column, as many as there are columns that complete the chosen ones: an
+    /// orthonormal basis of what these leave out, or unit columns.
+    Partial { chosen: Vec<Option<Side>>, complement: Box<Matrix> },
+    /// The time was over first.
+    Late,
+}
 
 /// A nonsingular complementary basis: the preferred sides or all `y` or all `t` where these are
-/// diagonal, one of columns with a single entry, or one grown from independent columns of the preferred
-/// sides, of the others, and exchanges.
+/// diagonal, one of columns with a single entry, or one grown from independent columns.
 pub(super) fn find_basis(
     problem: &Equilibrated<'_>,
     preferred: Option<&Basis>,
@@ -38,12 +48,15 @@ pub(super) fn find_basis(
             return Crash::Complete(basis.clone());
         }
     }
-    let preferred = preferred.unwrap_or(&all_y);
+    let preferred = preferred.unwrap_or(&all_y).sides();
     if let Some(basis) = single_entries(problem, preferred) {
         return Crash::Complete(basis);
     }
     if problem.problem.is_sparse() {
-        match find_sparse(problem, preferred, deadline) {
+        match grown(problem, preferred, deadline) {
+            Crash::Complete(basis) if n <= DENSE_SEARCH => {
+                return Crash::Complete(enlarged(problem, basis, deadline));
+            }
             Crash::Partial { .. } if n <= DENSE_SEARCH => {}
             found => return found,
         }
@@ -51,109 +64,183 @@ pub(super) fn find_basis(
     if is_over(deadline) {
         return Crash::Late;
     }
-    let search = Search { problem, preferred: preferred.sides(), deadline };
-    let (mut chosen, mut complement) = search.independent_columns();
+    let exchanges = Exchanges { problem, preferred, deadline };
+    let (mut chosen, mut complement) = exchanges.independent_columns();
     while complement.ncols() > 0 {
         let tolerances = [1e-5, 1e-8, 4.0 * n as f64 * f64::EPSILON];
-        match tolerances.iter().find_map(|&it| search.exchange(&chosen, &complement, it)) {
-            Some(next) => chosen = next,
-            None if is_over(deadline) => return Crash::Late,
-            None => return Crash::Partial { chosen, complement: complement.into() },
-        }
+        let next = tolerances.iter().find_map(|&it| exchanges.next(&chosen, &complement, it));
         if is_over(deadline) {
             return Crash::Late;
         }
-        complement = orthogonal_complement(search.partial(&chosen).as_ref());
+        let Some(next) = next else { break };
+        chosen = next;
+        complement = orthogonal_complement(exchanges.columns(&chosen).as_ref());
     }
     match chosen.iter().copied().collect::<Option<Vec<Side>>>() {
         Some(sides) => Crash::Complete(enlarged(problem, Basis::new(sides), deadline)),
-        None => Crash::Partial { chosen, complement: complement.into() },
+        None => Crash::Partial { chosen, complement: Box::new(complement.into()) },
     }
 }
 
 /// The basis that the structure of the problem offers, as slack variables do: of every pair a column with
 /// a single entry, all in different rows.
-fn single_entries(problem: &Equilibrated<'_>, preferred: &Basis) -> Option<Basis> {
+fn single_entries(problem: &Equilibrated<'_>, preferred: &[Side]) -> Option<Basis> {
     let mut singles = Columns::default();
-    let own = preferred.sides().iter().copied().enumerate();
-    let others = own.clone().map(|(pair, side)| (pair, side.complement()));
-    for (pair, side) in own.chain(others) {
+    for (pair, side) in both_sides(preferred) {
         if let Some((row, v)) = problem.problem.column(pair, side).single() {
             singles.push(row, v);
         }
         singles.close();
     }
-    let sides = matched_sides(&singles, preferred.sides());
+    let sides = matched_sides(&singles, preferred);
     sides.into_iter().collect::<Option<Vec<Side>>>().map(Basis::new)
+}
+
+/// All variables, those of the preferred sides first.
+fn both_sides(preferred: &[Side]) -> impl Iterator<Item = (usize, Side)> + '_ {
+    let own = preferred.iter().copied().enumerate();
+    own.clone().chain(own.map(|(pair, side)| (pair, side.complement())))
+}
+
+/// As many independent columns, completed by unit columns, as are found from the preferred sides, all `t`, or the sides
+/// of a matching.
+fn grown(problem: &Equilibrated<'_>, preferred: &[Side], deadline: Option<Instant>) -> Crash {
+    let n = preferred.len();
+    let all_t = vec![Side::T; n];
+    let mut best: Option<(Vec<Option<Side>>, Vec<usize>)> = None;
+    for (preferred, is_matched) in [(preferred, false), (&all_t, false), (preferred, true)] {
+        if is_over(deadline) {
+            return Crash::Late;
+        }
+        let columns = problem.sparse_columns(both_sides(preferred).map(Some));
+        let first = if is_matched {
+            matched_sides(&columns, preferred)
+        } else {
+            preferred.iter().copied().map(Some).collect()
+        };
+        let (sides, missing) = independent(&columns, preferred, &first);
+        if let Some(sides) = sides.iter().copied().collect::<Option<Vec<Side>>>() {
+            return Crash::Complete(Basis::new(sides));
+        }
+        if best.as_ref().is_none_or(|best| missing.len() < best.1.len()) {
+            best = Some((sides, missing));
+        }
+    }
+    let (chosen, missing) = best.unwrap_or_default();
+    let units = missing.iter().enumerate().map(|(k, &row)| (row, k, 1.0));
+    let complement = Box::new(Matrix::from_entries(n, missing.len(), units));
+    Crash::Partial { chosen, complement }
+}
+
+/// As many of the first columns as are independent, then other columns of the pairs without one, and the rows that stay
+/// without a column. `columns` are those of [`both_sides`].
+fn independent(
+    columns: &Columns,
+    preferred: &[Side],
+    first: &[Option<Side>],
+) -> (Vec<Option<Side>>, Vec<usize>) {
+    let n = preferred.len();
+    let given = (0..n).filter_map(|pair| Some((pair, first[pair]?)));
+    let others = |pair: usize| match first[pair] {
+        Some(side) => vec![(pair, side.complement())],
+        None => vec![(pair, preferred[pair]), (pair, preferred[pair].complement())],
+    };
+    let mut sides = vec![None; n];
+    let mut growing = Growing::new(row_counts(n, columns));
+    for candidates in [given.collect::<Vec<_>>(), (0..n).flat_map(others).collect()] {
+        let open = candidates.into_iter().filter(|&(pair, _)| sides[pair].is_none());
+        let open: Vec<(usize, Side)> = open.collect();
+        let mut offered = Columns::default();
+        for &(pair, side) in &open {
+            let position = if side == preferred[pair] { pair } else { n + pair };
+            columns.entries(position).for_each(|(i, v)| offered.push(i, v));
+            offered.close();
+        }
+        for turn in elimination_order(n, &offered) {
+            let (pair, side) = open[turn.column];
+            if sides[pair].is_none() && growing.offer(pair, &offered, turn, PIVOT_TOLERANCE) {
+                sides[pair] = Some(side);
+            }
+        }
+    }
+    let (_, missing) = growing.finish();
+    (sides, missing.into_iter().map(|(_, row)| row).collect())
 }
 
 /// A basis whose determinant no exchange of a single pair makes larger: those found by independence
 /// alone may be so poor that every path from them ends on a ray.
 fn enlarged(problem: &Equilibrated<'_>, basis: Basis, deadline: Option<Instant>) -> Basis {
     let n = problem.order();
-    let pick = |complement: bool| -> Vec<(usize, Side)> {
-        let sides = basis.sides().iter().copied().enumerate();
-        sides.map(|(k, side)| (k, if complement { side.complement() } else { side })).collect()
-    };
-    let Some(lu) = Lu::new(problem.columns(&pick(false)).as_ref()) else { return basis };
-    let mut t = problem.columns(&pick(true));
-    lu.solve_in_place(t.as_mut());
-    let mut tableau = Tableau::new(t);
-    let mut column = vec![0.0; n];
+    let zeros = vec![0.0; n];
     let mut sides = basis.sides().to_vec();
-    for _ in 0..GAIN_SWEEPS {
-        let mut is_settled = true;
-        for (k, side) in sides.iter_mut().enumerate() {
-            tableau.column(k, &mut column);
-            if column[k].abs() > GAIN {
-                tableau.pivot(k, k, &column);
-                *side = side.complement();
-                is_settled = false;
-            }
-        }
-        if is_settled || is_over(deadline) {
+    let columns = |sides: &[Side]| -> Mat<f64> {
+        problem.columns(&sides.iter().copied().enumerate().collect::<Vec<_>>())
+    };
+    let (start, mut t);
+    let mut kernel: Box<dyn Kernel> = if problem.problem.is_sparse() {
+        start = problem.start(&basis);
+        let Some(start) = &start else { return basis };
+        start.kernel(&zeros, None)
+    } else {
+        let Some(lu) = Lu::new(columns(&sides).as_ref()) else { return basis };
+        let others: Vec<Side> = sides.iter().map(|side| side.complement()).collect();
+        t = columns(&others);
+        lu.solve_in_place(t.as_mut());
+        Box::new(Dense::new(t.as_ref(), &zeros, &zeros))
+    };
+    let (mut column, mut values) = (vec![0.0; n], vec![0.0; n]);
+    let mut basic: Vec<Var> = (0..n).collect();
+    let mut settled = 0;
+    for k in (0..n).cycle().take(GAIN_SWEEPS * n) {
+        if settled == n || is_over(deadline) || !kernel.tidy(&basic, &mut values) {
             break;
+        }
+        settled += 1;
+        let entering = if basic[k] == k { n + k } else { k };
+        kernel.column(entering, &mut column);
+        if column[k].abs() > GAIN {
+            kernel.exchange(k, entering, basic[k], &column);
+            basic[k] = entering;
+            sides[k] = sides[k].complement();
+            settled = 0;
         }
     }
     Basis::new(sides)
 }
 
-struct Search<'a> {
+struct Exchanges<'a> {
     problem: &'a Equilibrated<'a>,
     preferred: &'a [Side],
     deadline: Option<Instant>,
 }
 
-impl Search<'_> {
+impl Exchanges<'_> {
+    fn columns(&self, chosen: &[Option<Side>]) -> Mat<f64> {
+        let picked: Vec<(usize, Side)> =
+            chosen.iter().enumerate().filter_map(|(k, side)| Some((k, (*side)?))).collect();
+        self.problem.columns(&picked)
+    }
+
     /// As many independent columns as two pivoted QR factorisations find, first among the preferred
     /// sides, then among the other columns of the other pairs outside the span of the first, with an
     /// orthonormal basis of what they leave out.
     fn independent_columns(&self) -> (Vec<Option<Side>>, Mat<f64>) {
-        let n = self.problem.order();
+        let n = self.preferred.len();
         let mut chosen = vec![None; n];
-        let picked: Vec<_> = (0..n).map(|k| (k, self.preferred[k])).collect();
-        let (independent, complement) = pivot_columns(&self.problem.columns(&picked), 0.0);
-        for k in independent {
+        let own: Vec<_> = self.preferred.iter().copied().enumerate().collect();
+        let (independent, complement) = pivot_columns(&self.problem.columns(&own), 0.0);
+        for &k in &independent {
             chosen[k] = Some(self.preferred[k]);
         }
-        let others: Vec<(usize, Side)> = (0..n)
-            .filter(|&k| chosen[k].is_none())
-            .map(|k| (k, self.preferred[k].complement()))
-            .collect();
+        let open = own.into_iter().filter(|&(k, _)| chosen[k].is_none());
+        let others: Vec<_> = open.map(|(k, side)| (k, side.complement())).collect();
         let columns = self.problem.columns(&others);
         let outside = complement.transpose() * &columns;
         let (independent, rest) = pivot_columns(&outside, columns.norm_max());
-        for j in independent {
-            let (k, side) = others[j];
+        for (k, side) in independent.into_iter().map(|j| others[j]) {
             chosen[k] = Some(side);
         }
         (chosen, complement * rest)
-    }
-
-    fn partial(&self, chosen: &[Option<Side>]) -> Mat<f64> {
-        let picked: Vec<(usize, Side)> =
-            chosen.iter().enumerate().filter_map(|(k, side)| side.map(|side| (k, side))).collect();
-        self.problem.columns(&picked)
     }
 
     /// Raises the number of pairs with a chosen column by one, through the shortest chain of
@@ -161,7 +248,7 @@ impl Search<'_> {
     /// takes the next place, until one of them reaches outside the present span (an augmenting
     /// path of the matroid intersection of independence and pairs; Edmonds 1970). None too where the time is
     /// over.
-    fn exchange(
+    fn next(
         &self,
         chosen: &[Option<Side>],
         complement: &Mat<f64>,
@@ -169,7 +256,7 @@ impl Search<'_> {
     ) -> Option<Vec<Option<Side>>> {
         let n = self.problem.order();
         let picked: Vec<usize> = (0..n).filter(|&k| chosen[k].is_some()).collect();
-        let mut spanning = self.partial(chosen);
+        let mut spanning = self.columns(chosen);
         spanning.resize_with(n, n, |i, j| complement[(i, j - picked.len())]);
         let lu = Lu::new(spanning.as_ref())?;
         let coordinates = |pair: usize, side: Side| {
@@ -224,7 +311,7 @@ fn pivot_columns(m: &Mat<f64>, reference: f64) -> (Vec<usize>, Mat<f64>) {
     }
     let qr = m.col_piv_qr();
     let r = qr.R();
-    let least = RANK_TOLERANCE * r[(0, 0)].abs().max(reference);
+    let least = PIVOT_TOLERANCE * r[(0, 0)].abs().max(reference);
     let rank = (0..size).take_while(|&k| r[(k, k)].abs() > least).count();
     let columns = qr.P().arrays().0[..rank].to_vec();
     if rank == rows {

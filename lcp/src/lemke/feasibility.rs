@@ -8,40 +8,45 @@
 use super::basis_matrix::BasisMatrix;
 use super::constants::COST_TOLERANCE;
 use super::kernel::Var;
-use super::path::Path;
+use super::path::{Limits, Path};
 use super::start::{Equilibrated, Start};
-use crate::Side;
 use crate::certify::is_proof;
+use crate::pivoting::AttemptEnd;
 use crate::vector::max_abs;
 
-/// A checked Farkas vector, if one is found along a path that has not begun. `is_over` is asked before
-/// every pivot.
+/// A checked Farkas vector, if one is found along a path that has not begun.
 pub(super) fn farkas_vector(
     problem: &Equilibrated<'_>,
     start: &Start,
     mut path: Path<'_>,
-    is_over: &mut dyn FnMut(usize, f64) -> bool,
-) -> Option<Vec<f64>> {
+    limits: Limits<'_>,
+) -> Result<Option<Vec<f64>>, AttemptEnd> {
     let n = problem.order();
     let mut column = vec![0.0; n];
-    path.enter_artificial(&mut column)?;
-    loop {
-        if is_over(path.pivots, path.artificial_left()) || (path.kernel.is_due() && !path.tidy()) {
-            return None;
+    if path.enter_artificial(&mut column).is_none() {
+        return Ok(None);
+    }
+    while let Some(row) = path.artificial_row() {
+        if let Some(end) = limits(path.pivots, path.artificial_left()) {
+            return Err(end);
         }
-        let row = path.artificial_row()?;
+        if path.kernel.is_due() && !path.tidy() {
+            break;
+        }
         let Some(entering) = descending_variable(&path, row, n) else {
-            let basis: Vec<_> = path.basic().map(|var| side_of(start, var, n)).collect();
-            let pi = multipliers(problem, &basis, row)?;
-            return is_proof(problem.problem, &pi).then_some(pi);
+            // Orthogonal to all basic columns except the artificial one, whose place the right-hand side takes.
+            let basis: Vec<_> = path.basic().map(|var| start.variable(var)).collect();
+            let matrix = BasisMatrix::from_columns(problem, &basis);
+            let pi = matrix.map(|matrix| in_problem_rows(problem, &matrix.inverse_row(row)));
+            return Ok(pi.filter(|pi| is_proof(problem.problem, pi)));
         };
         path.kernel.column(entering, &mut column);
-        let leaving = path.leaving_row(&column)?;
-        if !path.is_new() {
-            return None;
-        }
-        path.exchange(leaving, entering, &column);
+        match path.leaving_row(&column) {
+            Some(leaving) if path.is_new() => path.exchange(leaving, entering, &column),
+            _ => break,
+        };
     }
+    Ok(None)
 }
 
 /// The nonbasic variable that lowers the artificial one the fastest.
@@ -57,25 +62,6 @@ fn descending_variable(path: &Path<'_>, row: usize, n: usize) -> Option<Var> {
         }
     }
     best.1.filter(|_| best.0 > COST_TOLERANCE * largest)
-}
-
-/// Pair and side of a variable; none for the artificial one.
-fn side_of(start: &Start, var: Var, n: usize) -> Option<(usize, Side)> {
-    (var < 2 * n).then(|| {
-        let nonbasic = start.nonbasic_side(var % n);
-        (var % n, if var < n { nonbasic.complement() } else { nonbasic })
-    })
-}
-
-/// The vector that is orthogonal to all basic columns but the artificial one, in the rows of the
-/// problem, with `c.pi > 0` and a largest entry of one.
-fn multipliers(
-    problem: &Equilibrated<'_>,
-    basis: &[Option<(usize, Side)>],
-    row: usize,
-) -> Option<Vec<f64>> {
-    let matrix = BasisMatrix::from_columns(problem, basis)?;
-    Some(in_problem_rows(problem, &matrix.inverse_row(row)))
 }
 
 /// From equilibrated rows, with a largest entry of one.

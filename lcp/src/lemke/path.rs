@@ -10,21 +10,11 @@ use std::collections::HashSet;
 use super::constants::{ARTIFICIAL_ZERO, DRIFT};
 use super::kernel::{Kernel, Var};
 use super::ratio::Basic;
-use super::start::Start;
-use crate::pivoting::AttemptEnd;
+use super::start::{Equilibrated, Start};
+use crate::pivoting::{AttemptEnd, PivotRecord, Variable};
 use crate::random::SplitMix;
 use crate::vector::max_abs;
-
-/// One exchange.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Exchange {
-    pub(super) entering: Var,
-    pub(super) leaving: Var,
-    /// Value of the entering variable after the exchange, in equilibrated units.
-    pub(super) step: f64,
-    /// Value of the artificial variable after the exchange, relative to its first one.
-    pub(super) artificial: f64,
-}
+use crate::{Ray, Side};
 
 /// Called before every pivot with the number of those done and the artificial variable
 /// ([`Path::artificial_left`]); may end the path.
@@ -50,7 +40,7 @@ pub(super) struct Path<'a> {
     /// Pivots after which the tableau is rebuilt in any case.
     interval: Option<usize>,
     /// Every exchange, if the settings record them.
-    pub(super) trace: Option<Vec<Exchange>>,
+    pub(super) trace: Option<Vec<PivotRecord>>,
     visited: HashSet<u64>,
     signature: u64,
     column: Vec<f64>,
@@ -159,37 +149,25 @@ impl<'a> Path<'a> {
         basic.leaving_row(column)
     }
 
-    /// Follows the path to its end.
-    pub(super) fn run(&mut self, limits: Limits<'_>) -> AttemptEnd {
+    /// Follows the path to its end. Without an artificial variable that of a pair, the driver, takes its place, and the
+    /// path ends when it, or its complement, leaves (Lemke and Howson 1964).
+    pub(super) fn run(&mut self, driver: Option<usize>, limits: Limits<'_>) -> AttemptEnd {
+        if let Some(end) = limits(self.pivots, self.artificial_left()) {
+            return end;
+        }
         let mut column = std::mem::take(&mut self.column);
-        let end = match limits(self.pivots, self.artificial_left()) {
-            Some(end) => end,
-            None => match self.enter_artificial(&mut column) {
-                Some(entering) => self.follow(entering, &mut column, limits),
-                None => AttemptEnd::Complementary,
-            },
+        let entering = match driver {
+            Some(pair) => self.lift(self.order() + pair, &mut column, limits),
+            None => self.enter_artificial(&mut column).ok_or(AttemptEnd::Complementary),
         };
+        let end =
+            entering.map_or_else(|end| end, |entering| self.follow(entering, &mut column, limits));
         self.column = column;
         end
     }
 
-    /// The same without an artificial variable: that of a pair takes its place, and the path ends when
-    /// it, or its complement, leaves (Lemke and Howson 1964). It, and those that follow it, must
+    /// Exchanges until no value is negative; gives the variable that follows. The driver, and those that follow it, must
     /// lift every negative value without lowering others below zero, or there is no such path.
-    pub(super) fn run_driven(&mut self, pair: usize, limits: Limits<'_>) -> AttemptEnd {
-        let mut column = std::mem::take(&mut self.column);
-        let end = match limits(self.pivots, self.artificial_left()) {
-            Some(end) => end,
-            None => match self.lift(self.order() + pair, &mut column, limits) {
-                Ok(entering) => self.follow(entering, &mut column, limits),
-                Err(end) => end,
-            },
-        };
-        self.column = column;
-        end
-    }
-
-    /// Exchanges until no value is negative. Returns the variable that follows.
     fn lift(
         &mut self,
         driver: Var,
@@ -294,7 +272,13 @@ impl<'a> Path<'a> {
         let artificial =
             self.artificial_row().map_or(0.0, |row| self.values[row] / self.artificial_start);
         if let Some(trace) = &mut self.trace {
-            trace.push(Exchange { entering, leaving, step, artificial });
+            let [entering, leaving] =
+                [entering, leaving].map(|var| match self.start.variable(var) {
+                    None => Variable::Artificial,
+                    Some((pair, Side::T)) => Variable::T(pair),
+                    Some((pair, Side::Y)) => Variable::Y(pair),
+                });
+            trace.push(PivotRecord { attempt: 0, entering, leaving, step, artificial });
         }
         self.complement(leaving)
     }
@@ -335,13 +319,21 @@ impl<'a> Path<'a> {
         self.row_of[var].map_or(0.0, |row| self.values[row])
     }
 
-    /// The direction of the ray, `(w, z, z0)` one after the other, in equilibrated units; for a free
-    /// variable with its sign.
-    pub(super) fn ray(&self) -> Vec<f64> {
-        self.direction(self.unblocked, &self.column)
+    /// The ray on which the path has ended, in units of the problem.
+    pub(super) fn ray(&self, problem: &Equilibrated<'_>) -> Ray {
+        let (n, start) = (self.order(), self.start);
+        let along = self.direction(self.unblocked, &self.column);
+        let (dt, dy) = start.in_problem_units(problem, &along);
+        let dz0 = start.size * along[2 * n];
+        let mut covering = vec![0.0; n];
+        for (pair, (d, row)) in self.covering.iter().zip(&start.row_factor).enumerate() {
+            let column = problem.problem.column(pair, start.basis.sides()[pair]);
+            column.add_to(d / row, &mut covering);
+        }
+        Ray { dt, dy, dz0, covering }
     }
 
-    /// Rates of all variables for one unit of the entering one, given its column.
+    /// Rates of all variables, `(w, z, z0)` one after the other, for one unit of the entering one, given its column.
     pub(super) fn direction(&self, entering: Var, column: &[f64]) -> Vec<f64> {
         let mut direction = vec![0.0; 2 * self.order() + 1];
         for (row, (&var, a)) in self.basic.iter().zip(column).enumerate() {

@@ -12,14 +12,14 @@ use super::feasibility::farkas_vector;
 use super::finish::{Point, solve_basis};
 use super::path::Path;
 use super::start::{Equilibrated, Start};
-use super::translate::{basis_of, in_problem_units, kind_of, record};
-use super::trial::Trial;
+use super::trial::{Trial, covering_vector};
 use crate::certify::{Precision, is_proof};
 use crate::enumerate;
 use crate::pivoting::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Perturbation, PivotRecord,
 };
 use crate::solve::is_over;
+use crate::vector::max_abs;
 use crate::{
     Basis, Certificate, Covering, HorizontalLcp, Info, LemkeSettings, Matrix, Ray, Side, Solution,
     Status, WarmStart,
@@ -38,27 +38,6 @@ pub(super) struct Search<'a> {
     ray: Option<Ray>,
     /// Whether the problem has artificial columns already.
     is_completed: bool,
-}
-
-/// How an attempt ended, with what it ended on.
-struct Outcome {
-    end: AttemptEnd,
-    /// The complementary basis, if it ended on one.
-    basis: Option<Basis>,
-}
-
-/// The first start basis.
-enum First {
-    Found(Start, AttemptStart),
-    /// One was found that is nonsingular, but not to working precision.
-    Singular,
-    /// Some pairs have no column that reaches outside the span of the others.
-    Incomplete {
-        chosen: Vec<Option<Side>>,
-        complement: Matrix,
-    },
-    /// The time was over before one was found.
-    Late,
 }
 
 impl<'a> Search<'a> {
@@ -84,13 +63,14 @@ impl<'a> Search<'a> {
             return self.give_up(Status::Solved);
         }
         let (first_start, kind) = match self.first_start() {
-            First::Found(start, kind) => (start, kind),
-            First::Singular => return self.prove_or(Status::NumericalTrouble),
-            First::Late => return self.give_up(Status::TimeLimit),
-            First::Incomplete { .. } if self.is_completed => {
+            Ok(start) => start,
+            // Nonsingular, but not to working precision.
+            Err(Crash::Complete(_)) => return self.prove_or(Status::NumericalTrouble),
+            Err(Crash::Late) => return self.give_up(Status::TimeLimit),
+            Err(Crash::Partial { .. }) if self.is_completed => {
                 return self.give_up(Status::NoComplementaryBasis);
             }
-            First::Incomplete { chosen, complement } => {
+            Err(Crash::Partial { chosen, complement }) => {
                 return self.completed(&chosen, &complement, observer);
             }
         };
@@ -110,35 +90,36 @@ impl<'a> Search<'a> {
         while self.has_another(number) {
             number += 1;
             let start = self.start_of(&mut trial, &first, &first_start, last_basis.as_ref());
-            let outcome = self.attempt(&start, &trial, number, observer);
-            match outcome.end {
-                AttemptEnd::Cancelled => return self.give_up(Status::Cancelled),
-                AttemptEnd::TimeLimit => return self.give_up(Status::TimeLimit),
-                _ => {}
+            let (mut attempt, basis) = self.attempt(&start, &trial, number, observer);
+            let end = attempt.end;
+            let point = basis.as_ref().and_then(|basis| solve_basis(&self.problem, basis));
+            let point = point.map(|point| self.exchanged(point));
+            match &point {
+                Some(point) => attempt.residual = Some(point.residuals.worst()),
+                None if basis.is_some() => attempt.end = AttemptEnd::Singular,
+                None => {}
             }
-            if let Some(basis) = outcome.basis {
-                let point = solve_basis(&self.problem, &basis).map(|point| self.exchanged(point));
-                self.note_residual(point.as_ref());
-                match point {
-                    Some(point) if point.residuals.worst() <= self.settings.tolerance => {
-                        return self.answer(point);
-                    }
-                    Some(point) => self.keep_better(point),
-                    None => {}
-                }
-                last_basis = Some(basis);
+            self.info.attempts.push(attempt);
+            if let Some(status) = stopped(end) {
+                return self.give_up(status);
             }
+            match point {
+                Some(point) if self.is_solved(&point) => return self.answer(point),
+                Some(point) => self.keep_better(point),
+                None => {}
+            }
+            last_basis = basis.or(last_basis);
             // The first ray asks the question; its answer does not depend on the attempt.
-            let is_first_ray = outcome.end == AttemptEnd::Ray && !had_ray;
+            let is_first_ray = end == AttemptEnd::Ray && !had_ray;
             had_ray |= is_first_ray;
             if is_first_ray && self.settings.prove_infeasible && !is_game {
                 match self.proof(&first_start, number, observer) {
-                    Err(stopped) => return self.give_up(stopped),
+                    Err(status) => return self.give_up(status),
                     Ok(None) => {}
                     Ok(Some(pi)) => return self.infeasible(pi),
                 }
             }
-            trial = Trial::after(&trial, outcome.end, number + 1, &first, is_game);
+            trial = Trial::after(&trial, end, number + 1, &first, is_game);
         }
         self.conclude()
     }
@@ -168,9 +149,7 @@ impl<'a> Search<'a> {
             self.info.attempts.extend(solution.info.attempts);
             match (solution.status, point) {
                 (Status::Cancelled | Status::TimeLimit, _) => return self.give_up(solution.status),
-                (_, Some(point)) if point.residuals.worst() <= self.settings.tolerance => {
-                    return self.answer(point);
-                }
+                (_, Some(point)) if self.is_solved(&point) => return self.answer(point),
                 _ => {}
             }
             self.trace.extend(solution.trace);
@@ -181,7 +160,8 @@ impl<'a> Search<'a> {
         self.prove_or(Status::NoComplementaryBasis)
     }
 
-    fn first_start(&self) -> First {
+    /// The first start basis, or why there is none.
+    fn first_start(&self) -> Result<(Start, AttemptStart), Crash> {
         let preferred = match &self.settings.start {
             WarmStart::None => None,
             WarmStart::Basis(basis) => Some(basis.clone()),
@@ -190,16 +170,19 @@ impl<'a> Search<'a> {
         if let Some(given) = &preferred
             && let Some(start) = self.problem.start(given)
         {
-            return First::Found(start, AttemptStart::Given);
+            return Ok((start, AttemptStart::Given));
         }
-        match find_basis(&self.problem, preferred.as_ref(), self.deadline) {
-            Crash::Complete(basis) => match self.problem.start(&basis) {
-                Some(start) => First::Found(start, kind_of(&basis)),
-                None => First::Singular,
-            },
-            Crash::Partial { chosen, complement } => First::Incomplete { chosen, complement },
-            Crash::Late => First::Late,
-        }
+        let found = find_basis(&self.problem, preferred.as_ref(), self.deadline);
+        let Crash::Complete(basis) = &found else { return Err(found) };
+        let is_all = |side| basis.sides().iter().all(|&it| it == side);
+        let kind = if is_all(Side::Y) {
+            AttemptStart::AllY
+        } else if is_all(Side::T) {
+            AttemptStart::AllT
+        } else {
+            AttemptStart::Found
+        };
+        self.problem.start(basis).map(|start| (start, kind)).ok_or(found)
     }
 
     /// The point of the start basis where it solves the problem. The values of a basis that had to be
@@ -209,8 +192,7 @@ impl<'a> Search<'a> {
         if start.q.iter().enumerate().any(is_negative) {
             return None;
         }
-        let point = solve_basis(&self.problem, &start.basis)?;
-        (point.residuals.worst() <= self.settings.tolerance).then_some(point)
+        solve_basis(&self.problem, &start.basis).filter(|point| self.is_solved(point))
     }
 
     /// The covering vector of the settings; one that was given refers to the rows of the start basis that
@@ -249,20 +231,21 @@ impl<'a> Search<'a> {
         )
     }
 
+    /// Follows one path; gives the complementary basis as well, if it ended on one.
     fn attempt(
         &mut self,
         start: &Start,
         trial: &Trial,
         number: usize,
         observer: Observer<'_>,
-    ) -> Outcome {
+    ) -> (Attempt, Option<Basis>) {
         let order = self.problem.order();
         let settings = self.settings;
         let given: &[f64] = match &settings.covering {
             Covering::Given(d) => d,
             _ => &[],
         };
-        let covering = trial.covering(start, given);
+        let covering = covering_vector(trial.covering, start, given);
         let perturbed = trial.perturbed(start);
         let data = perturbed.as_ref().unwrap_or(start);
         let interval = settings.refactor_interval;
@@ -277,10 +260,40 @@ impl<'a> Search<'a> {
             Some(_) => (FIRST_ROUND * (order + 10)) << round.min(16),
             None => 100 * order + 1000,
         });
-        let deadline = self.deadline;
         let began = Instant::now();
-        let mut limits = |pivots, artificial| {
-            let progress = Progress { attempt: number, pivots, order, artificial };
+        let end = path.run(driver, &mut self.limits(number, max_pivots, observer));
+        self.info.pivot_seconds += began.elapsed().as_secs_f64();
+        self.info.pivots += path.pivots;
+        self.info.factorisations += path.factorisations;
+        let records = path.trace.take().unwrap_or_default();
+        self.trace.extend(records.into_iter().map(|it| PivotRecord { attempt: number, ..it }));
+        let has_artificial = path.artificial_row().is_some();
+        if end == AttemptEnd::Ray && self.ray.is_none() && has_artificial {
+            self.ray = Some(path.ray(&self.problem));
+        }
+        let is_complementary = end == AttemptEnd::Complementary;
+        let basis = is_complementary.then(|| start.basis_with(&path.z_is_basic()));
+        let attempt = Attempt {
+            start: trial.start,
+            covering: driver.map_or(trial.covering, |pair| AttemptCovering::Column { pair }),
+            perturbation: trial.perturbation,
+            end,
+            pivots: path.pivots,
+            residual: None,
+        };
+        (attempt, basis)
+    }
+
+    /// What ends a path, asked before every pivot.
+    fn limits<'o>(
+        &self,
+        attempt: usize,
+        max_pivots: usize,
+        observer: Observer<'o>,
+    ) -> impl FnMut(usize, f64) -> Option<AttemptEnd> + use<'o> {
+        let (order, deadline) = (self.problem.order(), self.deadline);
+        move |pivots, artificial| {
+            let progress = Progress { attempt, pivots, order, artificial };
             if pivots >= max_pivots {
                 Some(AttemptEnd::PivotLimit)
             } else if is_over(deadline) {
@@ -288,31 +301,7 @@ impl<'a> Search<'a> {
             } else {
                 observer(&progress).is_break().then_some(AttemptEnd::Cancelled)
             }
-        };
-        let end = match driver {
-            Some(pair) => path.run_driven(pair, &mut limits),
-            None => path.run(&mut limits),
-        };
-        self.info.pivot_seconds += began.elapsed().as_secs_f64();
-        self.info.pivots += path.pivots;
-        self.info.factorisations += path.factorisations;
-        self.info.attempts.push(Attempt {
-            start: trial.start,
-            covering: driver.map_or(trial.covering, |pair| AttemptCovering::Column { pair }),
-            perturbation: trial.perturbation,
-            end,
-            pivots: path.pivots,
-            residual: None,
-        });
-        let exchanges = path.trace.take().unwrap_or_default();
-        self.trace.extend(exchanges.into_iter().map(|it| record(it, number, start)));
-        let has_artificial = path.artificial_row().is_some();
-        if end == AttemptEnd::Ray && self.ray.is_none() && has_artificial {
-            self.ray = Some(in_problem_units(&path, start, &covering, &self.problem));
         }
-        let is_complementary = end == AttemptEnd::Complementary;
-        let basis = is_complementary.then(|| start.basis_with(&path.z_is_basic()));
-        Outcome { end, basis }
     }
 
     /// Whether another attempt follows so many.
@@ -327,40 +316,27 @@ impl<'a> Search<'a> {
         made < KINDS || !is_spent && bases.is_none_or(|bases| made < KINDS + bases)
     }
 
-    /// A proof that there is no solution.
+    /// A proof that there is no solution, or the status of a limit.
     fn proof(
         &self,
         start: &Start,
         number: usize,
         observer: Observer<'_>,
     ) -> Result<Option<Vec<f64>>, Status> {
-        let trial = Trial {
-            start: AttemptStart::Found,
-            covering: AttemptCovering::Ones,
-            perturbation: Perturbation::None,
-        };
-        let covering = trial.covering(start, &[]);
+        let covering = covering_vector(AttemptCovering::Ones, start, &[]);
         let kernel = start.kernel(&covering, None);
         let path = Path::new(kernel, start, &covering, start.q.clone(), None, false);
-        let order = self.problem.order();
-        let deadline = self.deadline;
-        let mut stop = None;
-        let found = farkas_vector(&self.problem, start, path, &mut |pivots, artificial| {
-            let progress = Progress { attempt: number, pivots, order, artificial };
-            if is_over(deadline) {
-                stop = Some(Status::TimeLimit);
-            } else if observer(&progress).is_break() {
-                stop = Some(Status::Cancelled);
-            }
-            stop.is_some() || pivots > 20 * order + 100
-        });
-        stop.map_or(Ok(found), Err)
+        let mut limits = self.limits(number, 20 * self.problem.order() + 100, observer);
+        match farkas_vector(&self.problem, start, path, &mut limits) {
+            Ok(found) => Ok(found),
+            Err(end) => stopped(end).map_or(Ok(None), Err),
+        }
     }
 
     /// The point that exchanges of all pairs with negative values lead to, as long as each makes it better (Kostreva 1978).
     /// Where rounding has told ties apart a path may end beside the basis of the solution.
     fn exchanged(&self, mut point: Point) -> Point {
-        while point.residuals.worst() > self.settings.tolerance && !point.negative.is_empty() {
+        while !self.is_solved(&point) && !point.negative.is_empty() {
             match solve_basis(&self.problem, &point.exchanged()) {
                 Some(next) if next.residuals.worst() < point.residuals.worst() => point = next,
                 _ => break,
@@ -369,14 +345,8 @@ impl<'a> Search<'a> {
         point
     }
 
-    /// What the original data says of the last attempt's basis.
-    fn note_residual(&mut self, point: Option<&Point>) {
-        if let Some(attempt) = self.info.attempts.last_mut() {
-            match point {
-                Some(point) => attempt.residual = Some(point.residuals.worst()),
-                None => attempt.end = AttemptEnd::Singular,
-            }
-        }
+    fn is_solved(&self, point: &Point) -> bool {
+        point.residuals.worst() <= self.settings.tolerance
     }
 
     fn keep_better(&mut self, point: Point) {
@@ -436,6 +406,25 @@ impl<'a> Search<'a> {
         let ray = self.ray.filter(|_| status == Status::RayTermination);
         let certificate = ray.map(Certificate::Ray);
         Solution { certificate, trace: self.trace, info: self.info, ..judged }
+    }
+}
+
+/// Of every pair the variable that is larger, in units of the largest of its vector.
+fn basis_of(t: &[f64], y: &[f64]) -> Basis {
+    let (t_max, y_max) = (max_abs(t), max_abs(y));
+    let share = |v: f64, max: f64| if max > 0.0 { v / max } else { 0.0 };
+    let side = |(&t, &y): (&f64, &f64)| {
+        if share(t, t_max) > share(y, y_max) { Side::T } else { Side::Y }
+    };
+    Basis::new(t.iter().zip(y).map(side).collect())
+}
+
+/// The status of a limit that ends all attempts.
+fn stopped(end: AttemptEnd) -> Option<Status> {
+    match end {
+        AttemptEnd::Cancelled => Some(Status::Cancelled),
+        AttemptEnd::TimeLimit => Some(Status::TimeLimit),
+        _ => None,
     }
 }
 

@@ -1,20 +1,20 @@
 //! From a complementary basis to the problem `w + T z = q` that a path follows.
 
 mod flip;
-mod sparse;
 
 use faer::Mat;
 
 use crate::certify::GeneralJudge;
-use crate::linear::{Lu, all_finite};
+use crate::linear::{Lu, all_finite, inverse_norm};
 use crate::matrix::Column;
 use crate::scaling::{equilibrate, equilibrate_computed};
+use crate::sparse::{Columns, SparseLu};
 use crate::vector::max_abs;
 use crate::{Basis, HorizontalLcp, Side};
 
 use super::constants::{LARGEST_GROWTH, NOISE, ROUNDING};
 use super::dense::Dense;
-use super::kernel::Kernel;
+use super::kernel::{Kernel, Var};
 use super::sparse::{Sparse, SparseStart};
 
 /// The problem with equilibrated rows and columns: `row * A * t_factor`, `row * B * y_factor`.
@@ -84,19 +84,34 @@ impl<'a> Equilibrated<'a> {
 
     /// Equilibrated columns, one beside the other.
     pub(super) fn columns(&self, picked: &[(usize, Side)]) -> Mat<f64> {
-        let dense = |&(pair, side): &(usize, Side)| match self.problem.column(pair, side) {
-            Column::Dense(values) => Some((values, self.factor(pair, side))),
-            Column::Sparse { .. } => None,
-        };
-        if let Some(dense) = picked.iter().map(dense).collect::<Option<Vec<_>>>() {
-            let scaled = |i: usize, k: usize| dense[k].1 * (dense[k].0[i] * self.row[i]);
-            return Mat::from_fn(self.order(), picked.len(), scaled);
-        }
         let mut m = Mat::zeros(self.order(), picked.len());
         for (k, &(pair, side)) in picked.iter().enumerate() {
             self.add_column(pair, side, 1.0, m.col_as_slice_mut(k));
         }
         m
+    }
+
+    /// The same without zeros; none is the right-hand side.
+    pub(super) fn sparse_columns(
+        &self,
+        picked: impl IntoIterator<Item = Option<(usize, Side)>>,
+    ) -> Columns {
+        let mut columns = Columns::default();
+        for column in picked {
+            if let Some((pair, side)) = column {
+                let factor = self.factor(pair, side);
+                self.problem.column(pair, side).for_each(|i, v| {
+                    if v != 0.0 {
+                        columns.push(i, factor * (v * self.row[i]));
+                    }
+                });
+            } else {
+                let right = self.right_hand_side().into_iter().enumerate();
+                right.filter(|(_, v)| *v != 0.0).for_each(|(i, v)| columns.push(i, v));
+            }
+            columns.close();
+        }
+        columns
     }
 
     pub(super) fn right_hand_side(&self) -> Vec<f64> {
@@ -118,30 +133,20 @@ impl<'a> Equilibrated<'a> {
         if self.problem.is_sparse() { self.sparse_start(basis) } else { self.dense_start(basis) }
     }
 
-    /// `row_factor`, `col_factor` where `rows` and `cols` have been multiplied with the equilibrated
-    /// rows and columns of `T`.
-    fn factors(&self, basis: &Basis, rows: &[f64], cols: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let side = |j: usize| basis.sides()[j];
-        let n = self.order();
-        let row_factor = (0..n).map(|i| rows[i] / self.factor(i, side(i)));
-        let col_factor = (0..n).map(|i| cols[i] * self.factor(i, side(i).complement()));
-        (row_factor.collect(), col_factor.collect())
-    }
-
     fn dense_start(&self, basis: &Basis) -> Option<Start> {
         let n = self.order();
         let side = |j: usize| basis.sides()[j];
         let others: Vec<_> = (0..n).map(|j| (j, side(j).complement())).collect();
         let mut t = self.columns(&others);
         let mut q = self.right_hand_side();
-        let (rows, cols) = if let Some(diagonal) = self.diagonal(side) {
+        let (mut rows, mut cols) = (vec![1.0; n], vec![1.0; n]);
+        if let Some(diagonal) = self.diagonal(side) {
             // Already equilibrated: the entries of such columns are near one, if not one.
             let is_identity = diagonal.iter().all(|d| d.total_cmp(&1.0).is_eq());
             for j in (0..n).filter(|_| !is_identity) {
                 t.col_as_slice_mut(j).iter_mut().zip(&diagonal).for_each(|(v, d)| *v /= d);
             }
             q.iter_mut().zip(&diagonal).for_each(|(v, d)| *v /= d);
-            (vec![1.0; n], vec![1.0; n])
         } else {
             let picked: Vec<_> = (0..n).map(|j| (j, side(j))).collect();
             let lu = Lu::new(self.columns(&picked).as_ref())?;
@@ -152,35 +157,40 @@ impl<'a> Equilibrated<'a> {
                 return None;
             }
             let columns: Vec<_> = (0..n).map(|j| Column::Dense(t.col_as_slice(j))).collect();
-            let (rows, cols) = equilibrate_computed(n, &columns);
+            (rows, cols) = equilibrate_computed(n, &columns);
             for (j, col) in cols.iter().enumerate() {
                 let column = t.col_as_slice_mut(j);
                 column.iter_mut().zip(&rows).for_each(|(v, row)| *v *= row * col);
             }
-            (rows, cols)
-        };
-        q.iter_mut().zip(&rows).for_each(|(q, r)| *q *= r);
-        if q.iter().any(|q| !q.is_finite()) {
-            return None;
+            q.iter_mut().zip(&rows).for_each(|(q, r)| *q *= r);
         }
-        let q_size = max_abs(&q);
-        if q_size > 0.0 {
-            q = q.into_iter().map(|q| q / q_size).collect();
+        for j in 0..n {
+            rows[j] /= self.factor(j, side(j));
+            cols[j] *= self.factor(j, side(j).complement());
         }
-        let (row_factor, col_factor) = self.factors(basis, &rows, &cols);
-        Some(Start {
-            basis: basis.clone(),
-            free: self.free(),
-            row_factor,
-            col_factor,
-            size: if q_size > 0.0 { q_size } else { 1.0 },
-            q,
-            data: StartData::Dense(t),
-        })
+        Start::new(self, basis, q, StartData::Dense(t), [rows, cols])
     }
 
-    fn free(&self) -> Vec<bool> {
-        self.opposite.iter().map(Option::is_some).collect()
+    fn sparse_start(&self, basis: &Basis) -> Option<Start> {
+        let n = self.order();
+        let own = basis.sides().iter().copied().enumerate();
+        let others = own.clone().map(|(j, side)| (j, side.complement()));
+        let (lu, replaced) = SparseLu::new(&self.sparse_columns(own.clone().map(Some)));
+        let mut work = Vec::new();
+        let norm = inverse_norm(n, |x, is_transposed| {
+            if is_transposed { lu.solve_transpose(x, &mut work) } else { lu.solve(x, &mut work) }
+        });
+        if !replaced.is_empty() || norm.is_nan() || norm > LARGEST_GROWTH {
+            return None;
+        }
+        let right = self.right_hand_side();
+        let mut q = right.clone();
+        lu.solve(&mut q, &mut work);
+        let rows = own.clone().map(|(j, side)| 1.0 / self.factor(j, side)).collect();
+        let cols = others.clone().map(|(j, side)| self.factor(j, side)).collect();
+        let columns = self.sparse_columns(own.chain(others).map(Some));
+        let data = StartData::Sparse(Box::new(SparseStart { columns, right, lu }));
+        Start::new(self, basis, q, data, [rows, cols])
     }
 }
 
@@ -218,6 +228,28 @@ enum StartData {
 }
 
 impl Start {
+    /// From the values of the basis, which become multiples of the largest, and the factors of rows and columns.
+    fn new(
+        problem: &Equilibrated<'_>,
+        basis: &Basis,
+        mut q: Vec<f64>,
+        mut data: StartData,
+        [row_factor, col_factor]: [Vec<f64>; 2],
+    ) -> Option<Self> {
+        if q.iter().any(|q| !q.is_finite()) {
+            return None;
+        }
+        let largest = max_abs(&q);
+        let size = if largest > 0.0 { largest } else { 1.0 };
+        let right = match &mut data {
+            StartData::Sparse(data) => &mut data.right[..],
+            StartData::Dense(_) => &mut [],
+        };
+        q.iter_mut().chain(right).for_each(|value| *value /= size);
+        let free = problem.opposite.iter().map(Option::is_some).collect();
+        Some(Self { basis: basis.clone(), free, q, size, row_factor, col_factor, data })
+    }
+
     /// Whether the pair is the two parts of a free variable.
     pub(super) fn is_free(&self, pair: usize) -> bool {
         self.free[pair]
@@ -230,9 +262,11 @@ impl Start {
         self
     }
 
-    /// Side of the problem on which `z_k` of a pair lies.
-    pub(super) fn nonbasic_side(&self, pair: usize) -> Side {
-        self.basis.sides()[pair].complement()
+    /// Pair and side of a variable; none for the artificial one.
+    pub(super) fn variable(&self, var: Var) -> Option<(usize, Side)> {
+        let n = self.q.len();
+        let side = *self.basis.sides().get(var % n.max(1)).filter(|_| var < 2 * n)?;
+        Some((var % n, if var < n { side } else { side.complement() }))
     }
 
     /// `(t, y)` from values of all `w` and `z` of a path.
@@ -245,7 +279,7 @@ impl Start {
         let pair = |k: usize| {
             let w = self.size * along[k] / self.row_factor[k];
             let z = self.size * along[n + k] * self.col_factor[k];
-            problem.sides(k, self.nonbasic_side(k), w, z)
+            problem.sides(k, self.basis.sides()[k].complement(), w, z)
         };
         (0..n).map(pair).unzip()
     }

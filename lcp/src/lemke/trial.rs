@@ -63,29 +63,6 @@ impl Trial {
         }
     }
 
-    /// The covering vector in the rows of a start basis; zero for free variables. `given` is that of
-    /// the settings, in units of the basic variables.
-    pub(super) fn covering(&self, start: &Start, given: &[f64]) -> Vec<f64> {
-        let n = start.q.len();
-        let mut covering: Vec<f64> = match self.covering {
-            AttemptCovering::Ones | AttemptCovering::Column { .. } => vec![1.0; n],
-            AttemptCovering::Negative => {
-                let lowest = start.q.iter().fold(0.0, |lowest: f64, q| lowest.min(*q));
-                let part = |q: &f64| if *q < 0.0 { q / lowest } else { 0.0 };
-                start.q.iter().map(|q| 1.0 + part(q)).collect()
-            }
-            AttemptCovering::Random { seed } => {
-                let mut random = SplitMix::new(seed);
-                (0..n).map(|_| (6.0 * random.next_f64() - 3.0).exp2()).collect()
-            }
-            AttemptCovering::Given => {
-                given.iter().zip(&start.row_factor).map(|(d, row)| d * row).collect()
-            }
-        };
-        (0..n).filter(|&k| start.is_free(k)).for_each(|k| covering[k] = 0.0);
-        covering
-    }
-
     /// The start data that the path follows, where they are not those of the start basis.
     pub(super) fn perturbed(&self, start: &Start) -> Option<Start> {
         let Perturbation::RightHandSide { seed } = self.perturbation else { return None };
@@ -96,6 +73,29 @@ impl Trial {
         start.add_to_values(&increase);
         Some(start)
     }
+}
+
+/// The covering vector in the rows of a start basis; zero for free variables. `given` is that of
+/// the settings, in units of the basic variables.
+pub(super) fn covering_vector(kind: AttemptCovering, start: &Start, given: &[f64]) -> Vec<f64> {
+    let n = start.q.len();
+    let mut covering: Vec<f64> = match kind {
+        AttemptCovering::Ones | AttemptCovering::Column { .. } => vec![1.0; n],
+        AttemptCovering::Negative => {
+            let lowest = start.q.iter().fold(0.0, |lowest: f64, q| lowest.min(*q));
+            let part = |q: &f64| if *q < 0.0 { q / lowest } else { 0.0 };
+            start.q.iter().map(|q| 1.0 + part(q)).collect()
+        }
+        AttemptCovering::Random { seed } => {
+            let mut random = SplitMix::new(seed);
+            (0..n).map(|_| (6.0 * random.next_f64() - 3.0).exp2()).collect()
+        }
+        AttemptCovering::Given => {
+            given.iter().zip(&start.row_factor).map(|(d, row)| d * row).collect()
+        }
+    };
+    (0..n).filter(|&k| start.is_free(k)).for_each(|k| covering[k] = 0.0);
+    covering
 }
 
 fn other(covering: AttemptCovering, seed: u64) -> AttemptCovering {
