@@ -1,19 +1,16 @@
 //! Our JSON: one object with a `kind` and the fields of that kind.
 
-mod array;
-mod wrong;
+mod document;
 
-use faer::sparse::SparseColMat;
-use serde::{Deserialize, Serialize};
-use serde_json::from_str;
+use serde::Deserialize;
+use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::{Problem, ReadError};
-use crate::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, MixedLcp, Qp};
-use array::Array;
-use wrong::Wrong;
+use crate::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, Matrix, MixedLcp, Qp};
+use document::{Document, Sparse};
 
 /// The field `kind`.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(rename_all = "lowercase")]
 enum Kind {
     Lcp,
@@ -25,138 +22,75 @@ enum Kind {
     Qp,
 }
 
-/// What says which of the following a document is.
-#[derive(Deserialize)]
-struct Tag {
-    kind: Kind,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Standard {
-    kind: Kind,
-    m: Array,
-    q: Vec<f64>,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Horizontal {
-    kind: Kind,
-    a: Array,
-    b: Array,
-    c: Vec<f64>,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Mixed {
-    kind: Kind,
-    m: Array,
-    q: Vec<f64>,
-    free: Vec<bool>,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Boxed {
-    kind: Kind,
-    m: Array,
-    q: Vec<f64>,
-    lower: Bounds,
-    upper: Bounds,
+impl Kind {
+    fn fields(self) -> &'static [&'static str] {
+        match self {
+            Self::Lcp => &["kind", "m", "q"],
+            Self::Horizontal => &["kind", "a", "b", "c"],
+            Self::Mixed => &["kind", "m", "q", "free"],
+            Self::Boxed => &["kind", "m", "q", "lower", "upper"],
+            Self::Friction => &["kind", "w", "q", "mu"],
+            Self::Contact => &["kind", "k", "f", "c_n", "c_t", "x_0", "s_0", "mu", "compliance"],
+            Self::Qp => &["kind", "p", "q", "a", "l", "u", "lower", "upper", "constant"],
+        }
+    }
 }
 
 /// Where there is no bound, it is `null`.
 type Bounds = Vec<Option<f64>>;
 
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Friction {
-    kind: Kind,
-    w: Array,
-    q: Vec<f64>,
-    mu: Vec<f64>,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Contact {
-    kind: Kind,
-    k: Array,
-    f: Vec<f64>,
-    c_n: Array,
-    c_t: Array,
-    x_0: Vec<f64>,
-    s_0: Vec<f64>,
-    mu: Vec<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    compliance: Option<Vec<[f64; 2]>>,
-}
-
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Program {
-    kind: Kind,
-    p: Array,
-    q: Vec<f64>,
-    a: Array,
-    l: Bounds,
-    u: Bounds,
-    lower: Option<Bounds>,
-    upper: Option<Bounds>,
-    #[serde(default)]
-    constant: f64,
-}
-
 pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
-    problem(text).map_err(|wrong| wrong.in_text(text))
-}
-
-fn problem(text: &str) -> Result<Problem, Wrong> {
-    let Tag { kind } = from_str(text)?;
-    Ok(match kind {
+    let (kind, it) = Document::of(text, Kind::fields)?;
+    let vector = |name| it.value::<Vec<f64>>(name);
+    let or = |bounds: Bounds, none: f64| -> Vec<f64> {
+        bounds.into_iter().map(|bound| bound.unwrap_or(none)).collect()
+    };
+    let lower = |bounds| or(bounds, f64::NEG_INFINITY);
+    let upper = |bounds| or(bounds, f64::INFINITY);
+    let problem = match kind {
         Kind::Lcp => {
-            let Standard { m, q, .. } = from_str(text)?;
-            Problem::Lcp(Lcp::new(m.square("m", q.len())?, q)?)
+            let q = vector("q")?;
+            Lcp::new(it.square("m", q.len())?, q).map(Problem::Lcp)
         }
         Kind::Horizontal => {
-            let Horizontal { a, b, c, .. } = from_str(text)?;
-            let (a, b) = (a.square("a", c.len())?, b.square("b", c.len())?);
-            Problem::Horizontal(HorizontalLcp::new(a, b, c)?)
+            let c = vector("c")?;
+            let (a, b) = (it.square("a", c.len())?, it.square("b", c.len())?);
+            HorizontalLcp::new(a, b, c).map(Problem::Horizontal)
         }
         Kind::Mixed => {
-            let Mixed { m, q, free, .. } = from_str(text)?;
-            Problem::Mixed(MixedLcp::new(m.square("m", q.len())?, q, free)?)
+            let q = vector("q")?;
+            MixedLcp::new(it.square("m", q.len())?, q, it.value("free")?).map(Problem::Mixed)
         }
         Kind::Boxed => {
-            let Boxed { m, q, lower, upper, .. } = from_str(text)?;
-            let (lower, upper) = (or(lower, f64::NEG_INFINITY), or(upper, f64::INFINITY));
-            Problem::Boxed(BoxedLcp::new(m.square("m", q.len())?, q, lower, upper)?)
+            let q = vector("q")?;
+            let (l, u) = (lower(it.value("lower")?), upper(it.value("upper")?));
+            BoxedLcp::new(it.square("m", q.len())?, q, l, u).map(Problem::Boxed)
         }
         Kind::Friction => {
-            let Friction { w, q, mu, .. } = from_str(text)?;
-            Problem::Friction(Friction2d::new(w.square("w", q.len())?, q, mu)?)
+            let q = vector("q")?;
+            Friction2d::new(it.square("w", q.len())?, q, vector("mu")?).map(Problem::Friction)
         }
         Kind::Contact => {
-            let Contact { k, f, c_n, c_t, x_0, s_0, mu, compliance, .. } = from_str(text)?;
+            let (f, mu) = (vector("f")?, vector("mu")?);
             let (n, points) = (f.len(), mu.len());
-            let (c_n, c_t) = (c_n.sized("c_n", points, n)?, c_t.sized("c_t", points, n)?);
-            let hard = Contact2d::new(k.square("k", n)?, f, c_n, c_t, x_0, s_0, mu)?;
-            Problem::Contact(match compliance {
-                Some(compliance) => hard.with_compliance(compliance)?,
-                None => hard,
-            })
+            let (c_n, c_t) = (it.matrix("c_n", points, n)?, it.matrix("c_t", points, n)?);
+            let (k, x_0, s_0) = (it.square("k", n)?, vector("x_0")?, vector("s_0")?);
+            let compliance = it.optional("compliance")?.unwrap_or(vec![[0.0; 2]; points]);
+            let hard = Contact2d::new(k, f, c_n, c_t, x_0, s_0, mu);
+            hard.and_then(|hard| hard.with_compliance(compliance)).map(Problem::Contact)
         }
         Kind::Qp => {
-            let Program { p, q, a, l, u, lower, upper, constant, .. } = from_str(text)?;
-            let (p, a) = (p.square("p", q.len())?, a.sized("a", l.len(), q.len())?);
-            let [lower, upper] = [lower, upper].map(|it| it.unwrap_or(vec![None; q.len()]));
-            let program = Qp::new(p, q, a, or(l, f64::NEG_INFINITY), or(u, f64::INFINITY))?;
-            let (lower, upper) = (or(lower, f64::NEG_INFINITY), or(upper, f64::INFINITY));
-            Problem::Qp(program.with_bounds(lower, upper)?.with_constant(constant))
+            let (q, l, u) = (vector("q")?, lower(it.value("l")?), upper(it.value("u")?));
+            let (n, m) = (q.len(), l.len());
+            let bounds = |name| Ok(it.optional(name)?.unwrap_or(vec![None; n]));
+            let (least, most) = (lower(bounds("lower")?), upper(bounds("upper")?));
+            let constant = it.optional("constant")?.unwrap_or(0.0);
+            let program = Qp::new(it.square("p", n)?, q, it.matrix("a", m, n)?, l, u);
+            let program = program.and_then(|program| program.with_bounds(least, most));
+            program.map(|program| Problem::Qp(program.with_constant(constant)))
         }
-    })
+    };
+    problem.map_err(|source| it.refused(source))
 }
 
 /// A problem as JSON text that [`read`](crate::io::read) gives back, to the last digit.
@@ -175,68 +109,34 @@ pub fn to_json(problem: &Problem) -> String {
 
 /// In the form of our JSON.
 impl Serialize for Problem {
-    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Lcp(it) => {
-                Standard { kind: Kind::Lcp, m: it.m().into(), q: it.q().into() }.serialize(to)
-            }
-            Self::Horizontal(it) => {
-                let (a, b) = (it.a().into(), it.b().into());
-                Horizontal { kind: Kind::Horizontal, a, b, c: it.c().into() }.serialize(to)
-            }
-            Self::Mixed(it) => {
-                let (m, q) = (it.m().into(), it.q().into());
-                Mixed { kind: Kind::Mixed, m, q, free: it.free().into() }.serialize(to)
-            }
-            Self::Boxed(it) => {
-                let [lower, upper] = [it.lower(), it.upper()].map(finite);
-                Boxed { kind: Kind::Boxed, m: it.m().into(), q: it.q().into(), lower, upper }
-                    .serialize(to)
-            }
-            Self::Friction(it) => {
-                let (w, mu) = (it.w().into(), it.mu().into());
-                Friction { kind: Kind::Friction, w, q: it.q().into(), mu }.serialize(to)
-            }
-            Self::Qp(it) => {
-                let [l, u] = it.row_bounds().map(finite);
-                let [lower, upper] = it.bounds().map(finite).map(Some);
-                Program {
-                    kind: Kind::Qp,
-                    p: it.p().into(),
-                    q: it.q().into(),
-                    a: it.a().into(),
-                    l,
-                    u,
-                    lower,
-                    upper,
-                    constant: it.constant(),
-                }
-                .serialize(to)
-            }
-            Self::Contact(it) => {
-                let array = |m: &SparseColMat<usize, f64>| Array::from(&m.clone().into());
-                let is_compliant = it.compliance().iter().flatten().any(|a| *a > 0.0);
-                Contact {
-                    kind: Kind::Contact,
-                    k: array(it.stiffness()),
-                    f: it.loads().into(),
-                    c_n: array(it.normal()),
-                    c_t: array(it.tangent()),
-                    x_0: it.initial_gaps().into(),
-                    s_0: it.initial_slips().into(),
-                    mu: it.mu().into(),
-                    compliance: is_compliant.then(|| it.compliance().into()),
-                }
-                .serialize(to)
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut object = to.serialize_map(None)?;
+        object.serialize_entry("kind", self.kind())?;
+        for (name, matrix) in self.matrices() {
+            let name = name.to_ascii_lowercase();
+            if matrix.is_sparse() {
+                object.serialize_entry(&name, &Sparse::of(&matrix))?;
+            } else {
+                object.serialize_entry(&name, &rows(&matrix))?;
             }
         }
+        for (name, vector) in self.vectors() {
+            let finite = vector.iter().map(|v| Some(*v).filter(|v| v.is_finite()));
+            object.serialize_entry(name, &finite.collect::<Bounds>())?;
+        }
+        match self {
+            Self::Mixed(it) => object.serialize_entry("free", it.free())?,
+            Self::Qp(it) => object.serialize_entry("constant", &it.constant())?,
+            Self::Contact(it) if it.compliance().iter().flatten().any(|a| *a > 0.0) => {
+                object.serialize_entry("compliance", it.compliance())?;
+            }
+            _ => {}
+        }
+        object.end()
     }
 }
 
-fn or(bounds: Bounds, none: f64) -> Vec<f64> {
-    bounds.into_iter().map(|bound| bound.unwrap_or(none)).collect()
-}
-
-fn finite(bounds: &[f64]) -> Bounds {
-    bounds.iter().map(|bound| Some(*bound).filter(|bound| bound.is_finite())).collect()
+fn rows(matrix: &Matrix) -> Vec<Vec<f64>> {
+    let row = |i| (0..matrix.ncols()).map(|j| matrix[(i, j)]).collect();
+    (0..matrix.nrows()).map(row).collect()
 }

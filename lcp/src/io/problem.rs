@@ -94,6 +94,25 @@ impl Problem {
         }
     }
 
+    /// The vectors of numbers, with their names in JSON.
+    pub(super) fn vectors(&self) -> Vec<(&'static str, &[f64])> {
+        match self {
+            Self::Lcp(it) => vec![("q", it.q())],
+            Self::Horizontal(it) => vec![("c", it.c())],
+            Self::Mixed(it) => vec![("q", it.q())],
+            Self::Boxed(it) => vec![("q", it.q()), ("lower", it.lower()), ("upper", it.upper())],
+            Self::Friction(it) => vec![("q", it.q()), ("mu", it.mu())],
+            Self::Contact(it) => {
+                let (x_0, s_0) = (it.initial_gaps(), it.initial_slips());
+                vec![("f", it.loads()), ("x_0", x_0), ("s_0", s_0), ("mu", it.mu())]
+            }
+            Self::Qp(it) => {
+                let ([l, u], [lower, upper]) = (it.row_bounds(), it.bounds());
+                vec![("q", it.q()), ("l", l), ("u", u), ("lower", lower), ("upper", upper)]
+            }
+        }
+    }
+
     /// The general problem, for a solver.
     pub fn to_general(&self) -> HorizontalLcp {
         self.general().into_owned()
