@@ -1,5 +1,6 @@
 //! Why a file was not read.
 
+use std::fmt::Display;
 use std::path::PathBuf;
 
 use super::format::Format;
@@ -13,7 +14,7 @@ pub struct Position {
     pub column: usize,
 }
 
-impl std::fmt::Display for Position {
+impl Display for Position {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "line {}, column {}", self.line, self.column)
     }
@@ -106,13 +107,21 @@ pub enum ReadError {
 }
 
 impl ReadError {
+    pub(super) fn unexpected(
+        at: Position,
+        expected: impl Display,
+        found: impl Display,
+        remedy: &'static str,
+    ) -> Self {
+        Self::Unexpected { at, expected: expected.to_string(), found: found.to_string(), remedy }
+    }
+
     /// How far a reader came: first whether to the end of what is there, with numbers that are no problem or in a file
     /// that is nearly complete, then the place.
     pub(super) fn reach(&self) -> (bool, Option<Position>) {
         let is_to_the_end = match self {
             Self::TooShort { needed, left, .. } => *left >= needed / 2 && *needed > 0,
-            Self::Refused { .. } => true,
-            _ => false,
+            _ => matches!(self, Self::Refused { .. }),
         };
         (is_to_the_end, self.position())
     }
@@ -125,10 +134,7 @@ impl ReadError {
             | Self::Json { at, .. }
             | Self::Refused { at, .. } => Some(*at),
             Self::Unrecognised { source, .. } => source.position(),
-            Self::UnknownFormat { .. }
-            | Self::OneMatrix
-            | Self::Ambiguous { .. }
-            | Self::File { .. } => None,
+            _ => None,
         }
     }
 }

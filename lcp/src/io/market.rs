@@ -17,8 +17,8 @@
 
 use faer::Mat;
 
+use super::ReadError;
 use super::tokens::Tokens;
-use super::{Position, ReadError};
 use crate::Matrix;
 
 /// How a file of this format begins.
@@ -29,19 +29,13 @@ const LINE: &str =
 /// A vector with zeros may be longer than its file by this factor; beyond it is a mistake.
 const ZEROS: usize = 1000;
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Symmetry {
-    General,
-    Symmetric,
-    Skew,
-}
-
 /// What the first line says.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 struct Header {
     is_array: bool,
     is_pattern: bool,
-    symmetry: Symmetry,
+    /// The sign of the mirror image of an entry, if only one of the two is written.
+    mirrored: Option<f64>,
 }
 
 /// Reads a matrix of that size: dense from an `array`, sparse from coordinates.
@@ -56,22 +50,21 @@ pub fn read_matrix(content: &[u8], rows: usize, cols: usize) -> Result<Matrix, R
         let remedy = "the matrix must fit the other parts of the problem";
         tokens.count_if(format_args!("{what} {expected}"), remedy, |size| size == expected)?;
     }
-    header.symmetry.check(rows, cols, tokens.position())?;
+    if header.mirrored.is_some() && rows != cols {
+        let remedy = "only square matrices are symmetric or skew-symmetric";
+        let (at, found) = (tokens.position(), format_args!("{rows} x {cols}"));
+        return Err(ReadError::unexpected(at, "as many rows as columns", found, remedy));
+    }
     let entries = if header.is_array {
-        array(&mut tokens, header.symmetry, rows, cols)?
+        array(&mut tokens, header, rows, cols)?
     } else {
         coordinates(&mut tokens, header, rows, cols)?
     };
     tokens.end("correct the sizes, or take it out")?;
-    let is_off = |entry: &&(usize, usize, f64)| entry.0 != entry.1;
-    let sign = match header.symmetry {
-        Symmetry::General => None,
-        Symmetry::Symmetric => Some(1.0),
-        Symmetry::Skew => Some(-1.0),
-    };
-    let mirrored =
-        sign.map(|sign| entries.iter().filter(is_off).map(move |&(i, j, v)| (j, i, sign * v)));
-    let all = entries.iter().copied().chain(mirrored.into_iter().flatten());
+    let all = entries.into_iter().flat_map(|(i, j, v)| {
+        let mirrored = header.mirrored.filter(|_| i != j).map(|sign| (j, i, sign * v));
+        [(i, j, v)].into_iter().chain(mirrored)
+    });
     if !header.is_array {
         return Ok(Matrix::from_entries(rows, cols, all));
     }
@@ -118,54 +111,40 @@ impl Header {
         let numbers: &[_] =
             if is_array { &["real", "integer"] } else { &["real", "integer", "pattern"] };
         let is_pattern = word(numbers)? == "pattern";
-        let symmetry = match word(&["general", "symmetric", "skew-symmetric"])? {
-            "general" => Symmetry::General,
-            "symmetric" => Symmetry::Symmetric,
-            _ => Symmetry::Skew,
+        let mirrored = match word(&["general", "symmetric", "skew-symmetric"])? {
+            "general" => None,
+            "symmetric" => Some(1.0),
+            _ => Some(-1.0),
         };
         words.end(LINE)?;
-        Ok(Self { is_array, is_pattern, symmetry })
+        Ok(Self { is_array, is_pattern, mirrored })
     }
-}
 
-impl Symmetry {
     /// The first row that is written of a column.
     fn first_row(self, col: usize) -> usize {
-        match self {
-            Self::General => 0,
-            Self::Symmetric => col,
-            Self::Skew => col + 1,
+        match self.mirrored {
+            None => 0,
+            Some(sign) if sign > 0.0 => col,
+            Some(_) => col + 1,
         }
-    }
-
-    fn check(self, rows: usize, cols: usize, at: Position) -> Result<(), ReadError> {
-        if self == Self::General || rows == cols {
-            return Ok(());
-        }
-        Err(ReadError::Unexpected {
-            at,
-            expected: "as many rows as columns".to_owned(),
-            found: format!("{rows} x {cols}"),
-            remedy: "only square matrices are symmetric or skew-symmetric",
-        })
     }
 }
 
 /// All entries by columns, of a symmetric matrix its lower triangle.
 fn array(
     tokens: &mut Tokens<'_>,
-    symmetry: Symmetry,
+    header: Header,
     rows: usize,
     cols: usize,
 ) -> Result<Vec<(usize, usize, f64)>, ReadError> {
     let all = rows.checked_mul(cols);
-    let needed = match symmetry {
-        Symmetry::General => all,
-        Symmetry::Symmetric => all.map(|all| all.midpoint(rows)),
-        Symmetry::Skew => all.map(|all| (all - rows) / 2),
+    let needed = match header.mirrored {
+        None => all,
+        Some(sign) if sign > 0.0 => all.map(|all| all.midpoint(rows)),
+        Some(_) => all.map(|all| (all - rows) / 2),
     };
     tokens.room_for(needed, "the matrix")?;
-    let places = (0..cols).flat_map(|j| (symmetry.first_row(j)..rows).map(move |i| (i, j)));
+    let places = (0..cols).flat_map(|j| (header.first_row(j)..rows).map(move |i| (i, j)));
     places.map(|(i, j)| Ok((i, j, tokens.number("an entry of the matrix")?))).collect()
 }
 
@@ -176,23 +155,20 @@ fn coordinates(
     rows: usize,
     cols: usize,
 ) -> Result<Vec<(usize, usize, f64)>, ReadError> {
-    let Header { is_pattern, symmetry, .. } = header;
+    let is_pattern = header.is_pattern;
     let count = tokens.count("the number of entries")?;
     tokens.room_for(count.checked_mul(if is_pattern { 2 } else { 3 }), "the list of entries")?;
     let entry = |_| {
         let at = tokens.position();
         let (row, col) = (place(tokens, rows, "a row")?, place(tokens, cols, "a column")?);
         let value = if is_pattern { 1.0 } else { tokens.number("the value of an entry")? };
-        if row >= symmetry.first_row(col) {
+        if row >= header.first_row(col) {
             return Ok((row, col, value));
         }
-        Err(ReadError::Unexpected {
-            at,
-            expected: "an entry of the lower triangle".to_owned(),
-            found: format!("the place ({}, {})", row + 1, col + 1),
-            remedy: "a symmetric matrix is written without its upper triangle, a skew-symmetric one \
-                     without its diagonal too",
-        })
+        let found = format_args!("the place ({}, {})", row + 1, col + 1);
+        let remedy = "a symmetric matrix is written without its upper triangle, a skew-symmetric one \
+                      without its diagonal too";
+        Err(ReadError::unexpected(at, "an entry of the lower triangle", found, remedy))
     };
     (0..count).map(entry).collect()
 }

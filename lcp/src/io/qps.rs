@@ -43,10 +43,10 @@ fn parse(text: &str, layout: Layout) -> Result<Problem, ReadError> {
         }
         if line.starts_with(char::is_whitespace) {
             let words = layout.words(line, at.line);
-            let (Some(section), Some(first)) = (section, words.first()) else {
+            let Some(section) = section.filter(|_| !words.is_empty()) else {
                 return Err(unexpected_end(at, "a header, as NAME or ROWS, where a line begins"));
             };
-            program.line(section, *first, &words[1..])?;
+            program.line(section, &words)?;
             continue;
         }
         let words = Layout::Free.words(line, at.line);
@@ -57,7 +57,7 @@ fn parse(text: &str, layout: Layout) -> Result<Problem, ReadError> {
             name => Some(section_of(name, header)?),
         };
         match (section, rest) {
-            (Some(Section::Sense), [sense]) => program.line(Section::Sense, *sense, &[])?,
+            (Some(Section::Sense), [_]) => program.line(Section::Sense, rest)?,
             (Some(Section::Triangle | Section::Quadratic), [row]) => {
                 program.check_objective(*row)?;
             }
@@ -71,8 +71,7 @@ fn parse(text: &str, layout: Layout) -> Result<Problem, ReadError> {
 }
 
 fn unexpected_end(at: Position, expected: &str) -> ReadError {
-    let (expected, found) = (expected.to_owned(), "a line without it".to_owned());
-    ReadError::Unexpected { at, expected, found, remedy: "complete the file" }
+    ReadError::unexpected(at, expected, "a line without it", "complete the file")
 }
 
 fn section_of(name: &str, header: &Token<'_>) -> Result<Section, ReadError> {

@@ -19,8 +19,7 @@ pub(super) struct Token<'a> {
 
 impl Token<'_> {
     pub(super) fn unexpected(&self, expected: impl Display, remedy: &'static str) -> ReadError {
-        let (expected, found) = (expected.to_string(), quoted(self.text));
-        ReadError::Unexpected { at: self.at, expected, found, remedy }
+        ReadError::unexpected(self.at, expected, quoted(self.text), remedy)
     }
 
     /// The word as a finite number.
@@ -110,12 +109,7 @@ impl<'a> Tokens<'a> {
 
     /// The next word, which the format calls for.
     pub(super) fn expect(&mut self, what: impl Display) -> Result<Token<'a>, ReadError> {
-        self.next().ok_or_else(|| ReadError::Unexpected {
-            at: self.next,
-            expected: what.to_string(),
-            found: END.to_owned(),
-            remedy: "complete the file",
-        })
+        self.next().ok_or_else(|| ReadError::unexpected(self.next, what, END, "complete the file"))
     }
 
     /// The next word as a count or an index.

@@ -76,33 +76,26 @@ pub(super) struct Program<'a> {
 const INTEGERS: &str = "there are no integer variables in a convex program";
 
 impl<'a> Program<'a> {
-    /// A line of data.
-    pub(super) fn line(
-        &mut self,
-        section: Section,
-        first: Token<'a>,
-        rest: &[Token<'a>],
-    ) -> Result<(), ReadError> {
+    /// A line of data, which has a word at least.
+    pub(super) fn line(&mut self, section: Section, words: &[Token<'a>]) -> Result<(), ReadError> {
         match section {
-            Section::Sense => {
-                match first.text {
-                    "MIN" | "MINIMIZE" => Ok(()),
-                    _ => Err(first
-                        .unexpected("MIN", "write a maximum as the minimum of what is negative")),
-                }
-            }
-            Section::Rows => self.row(first, rest),
-            Section::Columns => self.column(first, rest),
-            Section::Right | Section::Ranges => self.right(section, first, rest),
-            Section::Bounds => self.bound(first, rest),
-            Section::Triangle | Section::Quadratic => self.quadratic(section, first, rest),
+            Section::Sense => match words[0].text {
+                "MIN" | "MINIMIZE" => Ok(()),
+                _ => Err(words[0]
+                    .unexpected("MIN", "write a maximum as the minimum of what is negative")),
+            },
+            Section::Rows => self.row(words),
+            Section::Columns => self.column(words),
+            Section::Right | Section::Ranges => self.right(section, words),
+            Section::Bounds => self.bound(words),
+            Section::Triangle | Section::Quadratic => self.quadratic(section, words),
         }
     }
 
     /// `KIND name`
-    fn row(&mut self, kind: Token<'a>, rest: &[Token<'a>]) -> Result<(), ReadError> {
-        let [name] = rest else {
-            return Err(kind.unexpected("a kind of rows and one name", "every row has a line"));
+    fn row(&mut self, words: &[Token<'a>]) -> Result<(), ReadError> {
+        let [kind, name] = words else {
+            return Err(words[0].unexpected("a kind of rows and one name", "every row has a line"));
         };
         let comparison = match kind.text {
             "N" => None,
@@ -129,20 +122,18 @@ impl<'a> Program<'a> {
     }
 
     /// `column row value [row value]`
-    fn column(&mut self, name: Token<'a>, rest: &[Token<'a>]) -> Result<(), ReadError> {
-        if let Some(marker) = rest.iter().find(|word| word.text == "'MARKER'") {
+    fn column(&mut self, words: &[Token<'a>]) -> Result<(), ReadError> {
+        if let Some(marker) = words[1..].iter().find(|word| word.text == "'MARKER'") {
             return Err(marker.unexpected("a row with its number", INTEGERS));
         }
         let next = self.q.len();
-        let column = *self.columns.entry(name.text).or_insert(next);
+        let column = *self.columns.entry(words[0].text).or_insert(next);
         if column == next {
             self.q.push(0.0);
             self.bounds.push(Bounds { lower: 0.0, upper: f64::INFINITY, has_lower: false });
         }
-        for [row, value] in pairs(&name, rest)? {
-            let place = self.row_of(&row)?;
-            let value = value.number("a number")?;
-            match place {
+        for (_, row, value) in pairs(words, 1, |row| self.row_of(row))? {
+            match row {
                 Row::Objective => self.q[column] += value,
                 Row::Unused => {}
                 Row::Constraint(row) => self.a.push((row, column, value)),
@@ -152,26 +143,17 @@ impl<'a> Program<'a> {
     }
 
     /// `[set] row value [row value]`
-    fn right(
-        &mut self,
-        section: Section,
-        first: Token<'a>,
-        rest: &[Token<'a>],
-    ) -> Result<(), ReadError> {
-        let all: Vec<Token<'a>> = std::iter::once(first).chain(rest.iter().copied()).collect();
-        let of_rows = if all.len() % 2 == 1 {
-            self.one_set(section, first)?;
-            rest
-        } else {
-            &all
-        };
-        for [row, value] in pairs(&first, of_rows)? {
-            let place = self.row_of(&row)?;
-            let value = value.number("a number")?;
-            match (section, place) {
+    fn right(&mut self, section: Section, words: &[Token<'a>]) -> Result<(), ReadError> {
+        let has_set = words.len() % 2 == 1;
+        if has_set {
+            self.one_set(section, words[0])?;
+        }
+        let first = usize::from(has_set);
+        for (name, row, value) in pairs(words, first, |row| self.row_of(row))? {
+            match (section, row) {
                 (Section::Ranges, Row::Constraint(k)) => self.constraints[k].range = Some(value),
                 (Section::Ranges, _) => {
-                    return Err(row.unexpected("a constraint", "other rows have no range"));
+                    return Err(name.unexpected("a constraint", "other rows have no range"));
                 }
                 (_, Row::Constraint(k)) => self.constraints[k].right = value,
                 (_, Row::Objective) => self.constant = -value,
@@ -182,7 +164,8 @@ impl<'a> Program<'a> {
     }
 
     /// `KIND [set] column [value]`, of which some kinds need no value.
-    fn bound(&mut self, kind: Token<'a>, rest: &[Token<'a>]) -> Result<(), ReadError> {
+    fn bound(&mut self, words: &[Token<'a>]) -> Result<(), ReadError> {
+        let (kind, rest) = (words[0], &words[1..]);
         let needs_value = match kind.text {
             "UP" | "LO" | "FX" => true,
             "FR" | "MI" | "PL" | "BV" => false,
@@ -195,11 +178,9 @@ impl<'a> Program<'a> {
             [column, value] => (None, column, Some(value)),
             [column] if !needs_value => (None, column, None),
             _ => {
-                let expected = if needs_value { "a variable and its bound" } else { "a variable" };
-                return Err(kind.unexpected(
-                    format!("`{}`, perhaps the name of the set, {expected}", kind.text),
-                    "every bound has a line",
-                ));
+                let what = if needs_value { "a variable and its bound" } else { "a variable" };
+                let expected = format_args!("`{}`, perhaps the name of the set, {what}", kind.text);
+                return Err(kind.unexpected(expected, "every bound has a line"));
             }
         };
         if let Some(set) = set {
@@ -227,15 +208,9 @@ impl<'a> Program<'a> {
     }
 
     /// `column column value [column value]`
-    fn quadratic(
-        &mut self,
-        section: Section,
-        first: Token<'a>,
-        rest: &[Token<'a>],
-    ) -> Result<(), ReadError> {
-        let i = self.column_of(&first)?;
-        for [name, value] in pairs(&first, rest)? {
-            let (j, value) = (self.column_of(&name)?, value.number("a number")?);
+    fn quadratic(&mut self, section: Section, words: &[Token<'a>]) -> Result<(), ReadError> {
+        let i = self.column_of(&words[0])?;
+        for (name, j, value) in pairs(words, 1, |column| self.column_of(column))? {
             self.p.push((i, j, value));
             if section == Section::Quadratic {
                 continue;
@@ -294,29 +269,30 @@ impl Constraint {
     /// What the row is between.
     fn limits(&self) -> (f64, f64) {
         let Self { comparison, right, range } = *self;
-        match (comparison, range) {
-            (Comparison::Equal, range) => {
+        let range_size = range.map_or(f64::INFINITY, f64::abs);
+        match comparison {
+            Comparison::Equal => {
                 let other = right + range.unwrap_or(0.0);
                 (right.min(other), right.max(other))
             }
-            (Comparison::AtLeast, range) => {
-                (right, range.map_or(f64::INFINITY, |range| right + range.abs()))
-            }
-            (Comparison::AtMost, range) => {
-                (range.map_or(f64::NEG_INFINITY, |range| right - range.abs()), right)
-            }
+            Comparison::AtLeast => (right, right + range_size),
+            Comparison::AtMost => (right - range_size, right),
         }
     }
 }
 
-/// Names with what follows each of them.
-fn pairs<'a>(first: &Token<'a>, words: &[Token<'a>]) -> Result<Vec<[Token<'a>; 2]>, ReadError> {
-    let missing = |word: &Token<'a>| {
-        word.unexpected("a name with its number", "every name is followed by its number")
-    };
-    if words.is_empty() {
-        return Err(missing(first));
-    }
-    let pair = |words: &[Token<'a>]| <[_; 2]>::try_from(words).map_err(|_| missing(&words[0]));
-    words.chunks(2).map(pair).collect()
+/// Names, what they are, and the number after each of them, from the first of these words on.
+fn pairs<'a, T>(
+    words: &[Token<'a>],
+    first: usize,
+    meant: impl Fn(&Token<'a>) -> Result<T, ReadError>,
+) -> Result<Vec<(Token<'a>, T, f64)>, ReadError> {
+    let pair =
+        |words: &[Token<'a>]| match *words {
+            [name, value] => Ok((name, meant(&name)?, value.number("a number")?)),
+            _ => Err(words[0]
+                .unexpected("a name with its number", "every name is followed by its number")),
+        };
+    // A line without any is one name too short.
+    words[first.min(words.len() - 1)..].chunks(2).map(pair).collect()
 }

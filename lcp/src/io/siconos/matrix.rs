@@ -74,12 +74,8 @@ fn read_blocks(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matr
 fn read_ends(tokens: &mut Tokens<'_>, count: usize, size: usize) -> Result<Vec<usize>, ReadError> {
     tokens.room_for(Some(count), "the ends of the blocks")?;
     if count == 0 && size > 0 {
-        return Err(ReadError::Unexpected {
-            at: tokens.position(),
-            expected: format!("blocks that cover {size} rows or columns"),
-            found: "no block".to_owned(),
-            remedy: SIZES,
-        });
+        let expected = format_args!("blocks that cover {size} rows or columns");
+        return Err(ReadError::unexpected(tokens.position(), expected, "no block", SIZES));
     }
     let mut last = 0;
     let end = |index: usize| {

@@ -30,12 +30,9 @@ pub(in crate::io) fn read_mlcp(text: &str) -> Result<Problem, ReadError> {
             mixed
         }
         (false, false) => {
-            return Err(ReadError::Unexpected {
-                at,
-                expected: "one of the two representations".to_owned(),
-                found: "storage types 0 and 0".to_owned(),
-                remedy: "set one of the storage types to 1",
-            });
+            let (expected, found) = ("one of the two representations", "storage types 0 and 0");
+            let remedy = "set one of the storage types to 1";
+            return Err(ReadError::unexpected(at, expected, found, remedy));
         }
     };
     // Some files end with the known values of the variables and of w.
@@ -76,12 +73,9 @@ impl Mixed {
         }
         let equalities = free.iter().filter(|&&free| free).count();
         if equalities != n {
-            return Err(ReadError::Unexpected {
-                at,
-                expected: format!("blocks with {n} equalities"),
-                found: equalities.to_string(),
-                remedy: "the kinds of the blocks must agree with n and m",
-            });
+            let expected = format_args!("blocks with {n} equalities");
+            let remedy = "the kinds of the blocks must agree with n and m";
+            return Err(ReadError::unexpected(at, expected, equalities, remedy));
         }
         Ok(Self { m: matrix::read(tokens, order, order)?, q: tokens.numbers(order, "q")?, free })
     }
@@ -114,33 +108,23 @@ impl Mixed {
     ///
     /// `again` has the equalities first.
     fn check_against(&self, again: &Self, at: Position) -> Result<(), ReadError> {
-        let (first, second) = (&self.m, &again.m);
-        let order = self.q.len();
-        let equalities = (0..order).filter(|&row| self.free[row]);
-        let place: Vec<usize> =
-            equalities.chain((0..order).filter(|&row| !self.free[row])).collect();
-        let differs = |name: String, first: f64, second: f64| ReadError::Unexpected {
-            at,
-            expected: format!("{name} = {first}, as in the first representation"),
-            found: second.to_string(),
-            remedy: "the two representations of the problem must agree",
+        let mut place: Vec<usize> = (0..self.q.len()).collect();
+        place.sort_by_key(|&row| !self.free[row]);
+        let agree = |name: std::fmt::Arguments<'_>, first: f64, second: f64| {
+            // Up to the six digits with which some files are written.
+            if (first - second).abs() <= 1e-5 * first.abs().max(second.abs()) {
+                return Ok(());
+            }
+            let expected = format_args!("{name} = {first}, as in the first representation");
+            let remedy = "the two representations of the problem must agree";
+            Err(ReadError::unexpected(at, expected, second, remedy))
         };
         for (i, &row) in place.iter().enumerate() {
-            if !agree(self.q[row], again.q[i]) {
-                return Err(differs(format!("q[{row}]"), self.q[row], again.q[i]));
-            }
+            agree(format_args!("q[{row}]"), self.q[row], again.q[i])?;
             for (j, &col) in place.iter().enumerate() {
-                let values = (first[(row, col)], second[(i, j)]);
-                if !agree(values.0, values.1) {
-                    return Err(differs(format!("M[{row}, {col}]"), values.0, values.1));
-                }
+                agree(format_args!("M[{row}, {col}]"), self.m[(row, col)], again.m[(i, j)])?;
             }
         }
         Ok(())
     }
-}
-
-/// Up to the six digits with which some files are written.
-fn agree(x: f64, y: f64) -> bool {
-    (x - y).abs() <= 1e-5 * x.abs().max(y.abs())
 }
