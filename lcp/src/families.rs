@@ -83,10 +83,14 @@ pub enum Known {
     },
 }
 
-/// How much of a planted solution is degenerate, with both variables of a pair zero.
+/// What a planted solution is like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Planting {
+    /// Without a degenerate pair, and the only one.
+    Unique,
+    /// Without a degenerate pair.
     Strict,
+    /// In half of the pairs both variables are zero.
     Degenerate,
 }
 
@@ -126,7 +130,7 @@ impl Integers {
 
     /// A complementary pair of nonnegative vectors.
     fn solution(&mut self, n: usize, planting: Planting) -> (Vec<f64>, Vec<f64>) {
-        let states = if planting == Planting::Strict { 2 } else { 4 };
+        let states = if planting == Planting::Degenerate { 4 } else { 2 };
         let pair = |_| {
             let value = self.next(1, 3);
             match self.index(states) {
@@ -137,6 +141,14 @@ impl Integers {
         };
         (0..n).map(pair).unzip()
     }
+}
+
+fn planted(m: Mat<f64>, random: &mut Integers, planting: Planting) -> Instance<Lcp> {
+    let (t, y) = random.solution(m.nrows(), planting);
+    let problem = with_solution(m, &t, &y);
+    let is_unique = planting == Planting::Unique;
+    let known = if is_unique { Known::Unique { t, y } } else { Known::Solution { t, y } };
+    Instance { problem, known }
 }
 
 /// `w = M z + q` with `q` such that `z` and `w` solve it.

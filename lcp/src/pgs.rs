@@ -13,7 +13,7 @@ pub use settings::ProjectedGaussSeidelSettings;
 
 use std::ops::ControlFlow;
 
-use sweep::{Best, Point, Sweeps};
+use sweep::{Point, Sweeps};
 
 use crate::solve::Monitor;
 use crate::{Error, Info, Method, Observer, Residuals, Solution, Solver, Status, WarmStart};
@@ -153,14 +153,9 @@ impl ProjectedGaussSeidel {
         let start = self.start(rows.order(), |t, _| t.to_vec())?;
         let sweeps = Sweeps::new(&self.settings, rows, q, constraints, start)?;
         let (best, status) = sweeps.run(&mut monitor, &mut residuals_of_rows);
-        let Best { z, w, residuals, .. } = best;
-        Ok(RowsSolution {
-            status,
-            z,
-            w,
-            residual: residuals.worst(),
-            info: monitor.info(Method::GaussSeidel),
-        })
+        let Point { z, w, residuals, .. } = best;
+        let info = monitor.info(Method::GaussSeidel);
+        Ok(RowsSolution { status, z, w, residual: residuals.worst(), info })
     }
 
     fn monitor<'a>(&self, observer: &'a mut Observer<'a>) -> Monitor<'a> {
@@ -213,8 +208,8 @@ impl<P: Sweepable> Solver<P> for ProjectedGaussSeidel {
 }
 
 /// See [`RowsSolution::residual`].
-fn residuals_of_rows(point: &Point<'_>) -> Residuals {
-    let rows = point.w.iter().zip(point.allowed).zip(point.sizes);
+fn residuals_of_rows(point: &Point) -> Residuals {
+    let rows = point.w.iter().zip(&point.allowed).zip(&point.sizes);
     let relative = rows.map(|((w, allowed), size)| {
         let error = (w - allowed).abs();
         if error > 0.0 { error / size } else { 0.0 }

@@ -111,11 +111,8 @@ impl Obstacle {
     /// that of the grid differs by `O(h^2)`, up to a logarithm.
     pub fn exact_gap(&self) -> Option<Vec<f64>> {
         let Ground::Disc { .. } = self.ground else { return None };
-        let gap = |point| {
-            let (x, y) = self.place(point);
-            self.frame(x, y)
-        };
-        Some((0..self.order()).map(gap).collect())
+        let places = (0..self.order()).map(|point| self.place(point));
+        Some(places.map(|(x, y)| self.frame(x, y)).collect())
     }
 
     /// A start from the solution on a coarser grid, of about half as many points in both directions: the
@@ -146,11 +143,11 @@ impl Obstacle {
     fn is_apart(&self, z: &[f64], [i, j]: [usize; 2], [x, y]: [f64; 2]) -> bool {
         let corners = [(i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1)];
         corners.into_iter().any(|(i, j)| {
-            let (corner_x, corner_y) = self.grid_place(i, j);
+            let corner = self.grid_place(i, j);
             let is_inside = self.is_inside(i, j);
-            let gap = if is_inside { z[self.number(i, j)] } else { self.frame(corner_x, corner_y) };
-            let distance_squared = (x - corner_x).powi(2) + (y - corner_y).powi(2);
-            gap > 0.5 * self.pressure(corner_x, corner_y) * distance_squared
+            let gap = if is_inside { z[self.number(i, j)] } else { self.frame(corner.0, corner.1) };
+            let distance_squared = (x - corner.0).powi(2) + (y - corner.1).powi(2);
+            gap > 0.5 * self.pressure(corner.0, corner.1) * distance_squared
         })
     }
 

@@ -2,15 +2,14 @@
 
 use faer::Mat;
 
-use super::{Instance, Integers, Known, Planting, standard, with_solution};
+use super::{Instance, Integers, Known, Planting, planted, standard, with_solution};
 use crate::Lcp;
 
 /// Positive definite and not symmetric: `M = C C^T + K - K^T + 1`, with its one solution planted.
 pub fn positive_definite(n: usize, seed: u64) -> Instance<Lcp> {
     let mut random = Integers::new(seed);
     let m = gram(&random.matrix(n, n, -2, 2)) + random.skew(n) + Mat::<f64>::identity(n, n);
-    let (t, y) = random.solution(n, Planting::Strict);
-    Instance { problem: with_solution(m, &t, &y), known: Known::Unique { t, y } }
+    planted(m, &mut random, Planting::Unique)
 }
 
 /// Positive semidefinite, not symmetric, `C C^T` of half the order, with a planted solution in which
@@ -18,8 +17,7 @@ pub fn positive_definite(n: usize, seed: u64) -> Instance<Lcp> {
 pub fn positive_semidefinite(n: usize, seed: u64) -> Instance<Lcp> {
     let mut random = Integers::new(seed);
     let m = gram(&random.matrix(n, n / 2, -2, 2)) + random.skew(n);
-    let (t, y) = random.solution(n, Planting::Degenerate);
-    Instance { problem: with_solution(m, &t, &y), known: Known::Solution { t, y } }
+    planted(m, &mut random, Planting::Degenerate)
 }
 
 /// A P-matrix that is far from positive definite: rows in which the diagonal outweighs the rest, with
@@ -37,8 +35,7 @@ pub fn p_matrix(n: usize, seed: u64) -> Instance<Lcp> {
     let rows = random.vector(n, -5, 5);
     let columns = random.vector(n, -5, 5);
     let m = Mat::from_fn(n, n, |i, j| (rows[i] + columns[j]).exp2() * m[(i, j)]);
-    let (t, y) = random.solution(n, Planting::Strict);
-    Instance { problem: with_solution(m, &t, &y), known: Known::Unique { t, y } }
+    planted(m, &mut random, Planting::Unique)
 }
 
 /// Strictly copositive, neither symmetric nor semidefinite: nonnegative entries, positive on the
@@ -60,16 +57,14 @@ pub fn copositive_plus(n: usize, seed: u64) -> Instance<Lcp> {
     let m = gram(&random.matrix(n, n / 4, -2, 2)) + random.skew(n);
     let m =
         Mat::from_fn(n, n, |i, j| m[(i, j)] + if i.max(j) < n / 2 { block[(i, j)] } else { 0.0 });
-    let (t, y) = random.solution(n, Planting::Degenerate);
-    Instance { problem: with_solution(m, &t, &y), known: Known::Solution { t, y } }
+    planted(m, &mut random, Planting::Degenerate)
 }
 
 /// No class: random integers with a planted solution.
 pub fn indefinite(n: usize, seed: u64) -> Instance<Lcp> {
     let mut random = Integers::new(seed);
     let m = random.matrix(n, n, -5, 5);
-    let (t, y) = random.solution(n, Planting::Strict);
-    Instance { problem: with_solution(m, &t, &y), known: Known::Solution { t, y } }
+    planted(m, &mut random, Planting::Strict)
 }
 
 /// P0 and sparse: lower triangular with zeros and ones on its diagonal, with a planted solution. A pair with a zero on
@@ -85,8 +80,7 @@ pub fn triangular(n: usize, seed: u64) -> Instance<Lcp> {
         }
         m[(i, i)] = random.next(0, 1);
     }
-    let (t, y) = random.solution(n, Planting::Strict);
-    Instance { problem: with_solution(m, &t, &y), known: Known::Solution { t, y } }
+    planted(m, &mut random, Planting::Strict)
 }
 
 /// Nothing but ties: the pairs fall into about `n / 3` groups, `m_ij = 1` within a group and 0

@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use super::coulomb::Coulomb;
-use super::{Constraint, Rows};
+use super::{Constraint, ProjectedGaussSeidel, Rows};
+use crate::Error;
 use crate::vector::check_length;
-use crate::{Error, Method};
 
 /// A constraint with its first row and the entries of the matrix in its own rows and columns.
 #[derive(Debug, Clone, Copy)]
@@ -30,18 +30,26 @@ impl Block {
         let mut row = 0;
         for (index, &constraint) in constraints.iter().enumerate() {
             constraint.check(index)?;
-            let mut w = [[0.0; 2]; 2];
-            for (j, i) in
-                (0..constraint.rows()).flat_map(|j| (0..constraint.rows()).map(move |i| (j, i)))
-            {
-                w[i][j] = entry(rows, &mut unit, row + i, row + j);
+            let mut block = Self { row, constraint, w: [[0.0; 2]; 2] };
+            for j in 0..constraint.rows() {
+                unit[row + j] = 1.0;
+                rows.moved(row + j, 1.0);
+                for i in 0..constraint.rows() {
+                    block.w[i][j] = rows.product(row + i, &unit);
+                }
+                unit[row + j] = 0.0;
+                rows.moved(row + j, -1.0);
             }
-            let mut block = Self { row, constraint, w };
             for i in 0..constraint.rows() {
                 if block.is_fixed(i) {
                     block.w[i][i] = 1.0;
                 } else if !(block.w[i][i] > 0.0 && block.w[i][i].is_finite()) {
-                    return Err(not_relaxed(row + i, block.w[i][i]));
+                    return Err(ProjectedGaussSeidel::not_treated(format!(
+                        "row {} has the diagonal entry {}, and only rows with a positive one can be \
+                         relaxed: take Lemke's method",
+                        row + i,
+                        block.w[i][i]
+                    )));
                 }
             }
             blocks.push(block);
@@ -138,23 +146,4 @@ impl Constraint {
             _ => Ok(()),
         }
     }
-}
-
-/// An entry of the matrix, from the product with a unit vector. The vector and the state of the rows are zero before and
-/// after.
-fn entry<R: Rows + ?Sized>(rows: &mut R, unit: &mut [f64], i: usize, j: usize) -> f64 {
-    unit[j] = 1.0;
-    rows.moved(j, 1.0);
-    let entry = rows.product(i, unit);
-    unit[j] = 0.0;
-    rows.moved(j, -1.0);
-    entry
-}
-
-fn not_relaxed(row: usize, diagonal: f64) -> Error {
-    let reason = format!(
-        "row {row} has the diagonal entry {diagonal}, and only rows with a positive one can be \
-         relaxed: take Lemke's method"
-    );
-    Error::NotTreated { method: Method::GaussSeidel, reason }
 }

@@ -1,7 +1,7 @@
 //! The problems of the library.
 
 use super::delassus::{Compliance, Delassus};
-use super::{Constraint, MatrixRows, Point, ProjectedGaussSeidel, Sweepable, Sweeps};
+use super::{Constraint, MatrixRows, ProjectedGaussSeidel, Sweepable, Sweeps};
 use crate::certify::{BoxedJudge, ContactJudge, GeneralJudge, Precision};
 use crate::{
     BoxedLcp, Contact2d, ContactForces, Error, Friction2d, HorizontalLcp, Lcp, Observer, Solution,
@@ -39,8 +39,8 @@ impl Sweepable for HorizontalLcp {
         let q = standard.lcp().q();
         let sweeps = Sweeps::new(&solver.settings, &mut rows, q, &constraints, start)?;
         let judge = GeneralJudge::new(self);
-        let (best, status) = sweeps.run(&mut monitor, &mut |point: &Point<'_>| {
-            let (t, y) = standard.to_pairs(point.z, point.allowed);
+        let (best, status) = sweeps.run(&mut monitor, &mut |point| {
+            let (t, y) = standard.to_pairs(&point.z, &point.allowed);
             judge.residuals(&[&t, &y], Precision::Exact)
         });
         let (t, y) = standard.to_pairs(&best.z, &best.allowed);
@@ -63,8 +63,8 @@ impl Sweepable for BoxedLcp {
         let mut rows = MatrixRows::new(self.m());
         let sweeps = Sweeps::new(&solver.settings, &mut rows, self.q(), &constraints, start)?;
         let judge = BoxedJudge::of_boxed(self);
-        let (best, status) = sweeps.run(&mut monitor, &mut |point: &Point<'_>| {
-            judge.residuals(&[point.z, point.allowed], Precision::Exact)
+        let (best, status) = sweeps.run(&mut monitor, &mut |point| {
+            judge.residuals(&[&point.z, &point.allowed], Precision::Exact)
         });
         let (t, y) = self.to_pairs(&best.z, &best.allowed);
         let solution = solver.solution(t, y, best.residuals, status, monitor);
@@ -87,8 +87,8 @@ impl Sweepable for Friction2d {
         let mut rows = MatrixRows::new(self.w());
         let constraints = cones(self.mu());
         let sweeps = Sweeps::new(&solver.settings, &mut rows, self.q(), &constraints, start)?;
-        let (best, status) = sweeps.run(&mut monitor, &mut |point: &Point<'_>| {
-            let [normal, tangential] = parted(point.z);
+        let (best, status) = sweeps.run(&mut monitor, &mut |point| {
+            let [normal, tangential] = parted(&point.z);
             self.residuals(&ContactForces { normal, tangential })
         });
         let (t, y) = self.to_pairs(&best.z, &best.allowed);
@@ -121,8 +121,8 @@ impl Sweepable for Contact2d {
         let constraints = cones(self.mu());
         let sweeps = Sweeps::new(&solver.settings, &mut rows, &q, &constraints, start)?;
         let judge = ContactJudge::new(self);
-        let (best, status) = sweeps.run(&mut monitor, &mut |point: &Point<'_>| {
-            judge.residuals(&state(point.z).parts(), Precision::Exact)
+        let (best, status) = sweeps.run(&mut monitor, &mut |point| {
+            judge.residuals(&state(&point.z).parts(), Precision::Exact)
         });
         let state = state(&best.z);
         let (t, y) = self.to_pairs(&state);

@@ -23,27 +23,19 @@ pub(super) struct Sweeps<'a, R: ?Sized> {
     blocks: Vec<Block>,
     diagonals: Vec<f64>,
     z: Vec<f64>,
-    /// The size of every row at the last evaluation.
+    /// The size of the terms of every row at the last evaluation.
     sizes: Vec<f64>,
 }
 
 /// A point with what the residual is made of.
-pub(super) struct Point<'a> {
-    pub(super) z: &'a [f64],
-    /// `M z + q`.
-    pub(super) w: &'a [f64],
-    /// The part of `w` that the constraints allow at `z`.
-    pub(super) allowed: &'a [f64],
-    /// The size of the terms of every row.
-    pub(super) sizes: &'a [f64],
-}
-
-/// The best point of a run.
-#[derive(Debug, Clone)]
-pub(super) struct Best {
+pub(super) struct Point {
     pub(super) z: Vec<f64>,
+    /// `M z + q`.
     pub(super) w: Vec<f64>,
+    /// The part of `w` that the constraints allow at `z`.
     pub(super) allowed: Vec<f64>,
+    /// The size of the terms of every row.
+    pub(super) sizes: Vec<f64>,
     pub(super) residuals: Residuals,
 }
 
@@ -72,12 +64,10 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
     pub(super) fn run(
         mut self,
         monitor: &mut Monitor<'_>,
-        judge: &mut dyn FnMut(&Point<'_>) -> Residuals,
-    ) -> (Best, Status) {
+        judge: &mut dyn FnMut(&Point) -> Residuals,
+    ) -> (Point, Status) {
         let tolerance = self.settings.tolerance;
-        let zero = vec![0.0; self.z.len()];
-        let residuals = Residuals::infinite();
-        let mut best = Best { z: self.z.clone(), w: zero.clone(), allowed: zero, residuals };
+        let mut best = self.point(vec![0.0; self.z.len()]);
         let (mut last_fall, mut merit) = (0, f64::INFINITY);
         let (mut sweep, mut change, mut residual) = (0, f64::INFINITY, f64::INFINITY);
         // Below which changes the residual may be small.
@@ -132,20 +122,27 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
     /// Residuals of the present point, all computed anew. Keeps the point if it is the best one.
     fn judged(
         &mut self,
-        judge: &mut dyn FnMut(&Point<'_>) -> Residuals,
-        best: &mut Best,
+        judge: &mut dyn FnMut(&Point) -> Residuals,
+        best: &mut Point,
     ) -> Residuals {
         let w = self.measure();
         if [&self.z, &w, &self.sizes].into_iter().flatten().any(|v| !v.is_finite()) {
             return Residuals::infinite();
         }
-        let mut allowed = w.clone();
-        self.blocks.iter().for_each(|block| block.allowed(&self.z, &mut allowed));
-        let residuals = judge(&Point { z: &self.z, w: &w, allowed: &allowed, sizes: &self.sizes });
+        let mut point = self.point(w);
+        self.blocks.iter().for_each(|block| block.allowed(&point.z, &mut point.allowed));
+        point.residuals = judge(&point);
+        let residuals = point.residuals;
         if residuals.is_better_than(&best.residuals, self.settings.tolerance) {
-            *best = Best { z: self.z.clone(), w, allowed, residuals };
+            *best = point;
         }
         residuals
+    }
+
+    /// The present point before it is judged.
+    fn point(&self, w: Vec<f64>) -> Point {
+        let (z, allowed, sizes) = (self.z.clone(), w.clone(), self.sizes.clone());
+        Point { z, w, allowed, sizes, residuals: Residuals::infinite() }
     }
 
     /// `M z + q` and the sizes of the rows, free of the rounding errors of a state.
