@@ -43,6 +43,14 @@ impl Basis {
         Self(vec![side; n])
     }
 
+    /// The sides of these pairs, whose variables may be exchanged.
+    pub(crate) fn of_pairs(&self, pairs: impl Iterator<Item = (usize, bool)>) -> Self {
+        let side = |(pair, is_exchanged): (usize, bool)| {
+            if is_exchanged { self.0[pair].complement() } else { self.0[pair] }
+        };
+        Self(pairs.map(side).collect())
+    }
+
     /// The basic side of every pair.
     pub fn sides(&self) -> &[Side] {
         &self.0

@@ -121,6 +121,24 @@ fn check_count(name: &'static str, count: Option<usize>) -> Result<(), Error> {
 }
 
 impl WarmStart {
+    /// The start of a problem with these pairs of another one, whose variables may be exchanged.
+    pub(crate) fn of_pairs(&self, pairs: impl Iterator<Item = (usize, bool)>) -> Self {
+        match self {
+            Self::None => Self::None,
+            Self::Basis(basis) => Self::Basis(basis.of_pairs(pairs)),
+            Self::Point { t, y } => {
+                let point =
+                    pairs.map(
+                        |(pair, is_exchanged)| {
+                            if is_exchanged { (y[pair], t[pair]) } else { (t[pair], y[pair]) }
+                        },
+                    );
+                let (t, y) = point.unzip();
+                Self::Point { t, y }
+            }
+        }
+    }
+
     /// Checks a start for a problem of `n` pairs.
     pub(crate) fn validate(&self, n: usize) -> Result<(), Error> {
         match self {

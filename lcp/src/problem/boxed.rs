@@ -1,5 +1,7 @@
 //! Variables between bounds.
 
+use std::ops::{Add, Neg, Sub};
+
 use super::HorizontalLcp;
 use crate::matrix::check_sums;
 use crate::vector::{check_length, check_vector};
@@ -42,6 +44,14 @@ pub(super) enum Kind {
     Fixed,
     /// `z = lower + t`, `w = y - y'`, with the pair `(t', y')` of this index and `t + t' = upper - lower`.
     Both(usize),
+}
+
+/// `z = shift + sign t` with the pair of `t`, and the pair of the distance from the other bound.
+pub(super) struct Distance {
+    pub(super) shift: f64,
+    pub(super) sign: f64,
+    pub(super) pair: usize,
+    pub(super) other: Option<usize>,
 }
 
 impl BoxedLcp {
@@ -111,47 +121,30 @@ impl BoxedLcp {
     /// bounds. Row `i` is `w - M z = q` for variable `i`, with `z` as its distance from the bound that is nearer to zero; the
     /// additional rows are the distances between the two bounds.
     pub fn to_general(&self) -> HorizontalLcp {
-        let kinds = self.kinds();
-        let n = self.order();
-        let shift: Vec<f64> = (0..n).map(|i| self.shift(i, kinds[i])).collect();
         let mut c = self.q.clone();
-        for (j, &shift) in shift.iter().enumerate().filter(|(_, shift)| **shift != 0.0) {
-            self.m.slice(j).add_to(shift, &mut c);
-        }
-        let both = kinds.iter().zip(&self.lower).zip(&self.upper);
-        c.extend(
-            both.filter(|((kind, _), _)| matches!(kind, Kind::Both(_))).map(|((_, l), u)| u - l),
-        );
-
         let (mut a, mut b) = (Vec::new(), Vec::new());
-        for (j, &kind) in kinds.iter().enumerate() {
-            let times_m = |sign: f64, pair: usize| {
-                let nonzero = self.m.column(j).filter(|(_, v)| *v != 0.0);
-                nonzero.map(move |(i, v)| (i, pair, sign * v))
-            };
-            match kind {
-                Kind::Free => {
-                    a.extend(times_m(-1.0, j));
-                    b.extend(times_m(1.0, j));
-                }
-                Kind::Lower => {
-                    a.extend(times_m(-1.0, j));
-                    b.push((j, j, 1.0));
-                }
-                Kind::Upper => {
-                    a.extend(times_m(1.0, j));
-                    b.push((j, j, -1.0));
-                }
-                Kind::Fixed => {
-                    a.push((j, j, -1.0));
-                    b.push((j, j, 1.0));
-                }
-                Kind::Both(k) if self.is_nearer_above(j) => a.extend(times_m(1.0, k)),
-                Kind::Both(_) => a.extend(times_m(-1.0, j)),
+        for (j, kind) in self.kinds().into_iter().enumerate() {
+            let Distance { shift, sign, pair, other } = self.distance(j, kind);
+            if shift != 0.0 {
+                self.m.slice(j).add_to(shift, &mut c);
             }
-            if let Kind::Both(k) = kind {
-                a.extend([(k, j, 1.0), (k, k, 1.0)]);
-                b.extend([(j, j, 1.0), (j, k, -1.0)]);
+            if kind == Kind::Fixed {
+                a.push((j, j, -1.0));
+                b.push((j, j, 1.0));
+                continue;
+            }
+            let column = || self.m.column(j).filter(|(_, v)| *v != 0.0);
+            a.extend(column().map(|(i, v)| (i, pair, -sign * v)));
+            if kind == Kind::Free {
+                b.extend(column().map(|(i, v)| (i, pair, v)));
+            } else {
+                b.push((j, pair, sign));
+            }
+            if let Some(other) = other {
+                let row = pair.max(other);
+                a.extend([(row, pair, 1.0), (row, other, 1.0)]);
+                b.push((j, other, -sign));
+                c.push(self.upper[j] - self.lower[j]);
             }
         }
         let a = Matrix::assembled(c.len(), self.m.is_sparse(), a.into_iter());
@@ -163,18 +156,33 @@ impl BoxedLcp {
     /// # Panics
     /// If `t` or `y` does not have one entry for every pair of the general problem.
     pub fn recover(&self, t: &[f64], y: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let (kinds, pairs) = (self.kinds(), self.pairs());
+        let pairs = self.pairs();
         assert!(t.len() == pairs && y.len() == pairs, "a point has one entry for every pair");
-        let value = |(i, &kind): (usize, &Kind)| match kind {
-            Kind::Free => (t[i] - y[i], 0.0),
-            Kind::Lower => (self.lower[i] + t[i], y[i]),
-            Kind::Upper => (self.upper[i] - t[i], -y[i]),
-            Kind::Fixed => (self.lower[i], y[i] - t[i]),
+        self.recover_in(t, y, |bound| bound)
+    }
+
+    /// The same in numbers of any kind.
+    pub(crate) fn recover_in<T>(
+        &self,
+        t: &[T],
+        y: &[T],
+        number: impl Fn(f64) -> T,
+    ) -> (Vec<T>, Vec<T>)
+    where
+        T: Clone + PartialOrd + Add<Output = T> + Sub<Output = T> + Neg<Output = T>,
+    {
+        let [lower, upper] = [&self.lower, &self.upper].map(|bounds| |i: usize| number(bounds[i]));
+        let (t, y) = (|i: usize| t[i].clone(), |i: usize| y[i].clone());
+        let value = |(i, kind): (usize, Kind)| match kind {
+            Kind::Free => (t(i) - y(i), number(0.0)),
+            Kind::Lower => (lower(i) + t(i), y(i)),
+            Kind::Upper => (upper(i) - t(i), -y(i)),
+            Kind::Fixed => (lower(i), y(i) - t(i)),
             // From the bound that is nearer, so that it is met exactly.
-            Kind::Both(k) if t[k] < t[i] => (self.upper[i] - t[k], y[i] - y[k]),
-            Kind::Both(k) => (self.lower[i] + t[i], y[i] - y[k]),
+            Kind::Both(k) if t(k) < t(i) => (upper(i) - t(k), y(i) - y(k)),
+            Kind::Both(k) => (lower(i) + t(i), y(i) - y(k)),
         };
-        kinds.iter().enumerate().map(value).unzip()
+        self.kinds().into_iter().enumerate().map(value).unzip()
     }
 
     /// The point of the general problem that belongs to `(z, w)`.
@@ -281,19 +289,17 @@ impl BoxedLcp {
         self.lower.iter().zip(&self.upper).map(kind).collect()
     }
 
-    /// `z` where its pairs are zero.
-    pub(super) fn shift(&self, i: usize, kind: Kind) -> f64 {
-        match kind {
-            Kind::Free => 0.0,
-            Kind::Upper => self.upper[i],
-            Kind::Both(_) if self.is_nearer_above(i) => self.upper[i],
-            Kind::Lower | Kind::Fixed | Kind::Both(_) => self.lower[i],
-        }
-    }
-
-    /// Whether the upper bound is nearer to zero: a distance from it keeps more digits of the value than one from the lower
-    /// bound.
-    pub(super) fn is_nearer_above(&self, i: usize) -> bool {
-        self.upper[i].abs() < self.lower[i].abs()
+    /// A variable by its distance from the bound that is nearer to zero, which keeps more digits of the value than the
+    /// other one.
+    pub(super) fn distance(&self, j: usize, kind: Kind) -> Distance {
+        let (lower, upper) = (self.lower[j], self.upper[j]);
+        let (shift, sign, pair, other) = match kind {
+            Kind::Free => (0.0, 1.0, j, None),
+            Kind::Lower | Kind::Fixed => (lower, 1.0, j, None),
+            Kind::Upper => (upper, -1.0, j, None),
+            Kind::Both(second) if upper.abs() < lower.abs() => (upper, -1.0, second, Some(j)),
+            Kind::Both(second) => (lower, 1.0, j, Some(second)),
+        };
+        Distance { shift, sign, pair, other }
     }
 }

@@ -1,6 +1,6 @@
 //! Problems with bounds that are mixed problems in another form.
 
-use super::boxed::Kind;
+use super::boxed::{Distance, Kind};
 use super::{BoxedLcp, MixedLcp};
 use crate::{Basis, Error, Matrix, Side, WarmStart};
 
@@ -27,23 +27,14 @@ impl BoxedLcp {
         let (mut pairs, mut rows, mut places) = (Vec::new(), Vec::new(), vec![None; kinds.len()]);
         let (mut seconds, mut free) = (Vec::new(), Vec::new());
         for (j, &kind) in kinds.iter().enumerate() {
-            let shift = self.shift(j, kind);
+            let Distance { shift, sign, pair, other } = self.distance(j, kind);
             if shift != 0.0 {
                 self.m().slice(j).add_to(shift, &mut right);
             }
-            let (pair, sign) = match kind {
-                Kind::Fixed => continue,
-                Kind::Free | Kind::Lower => (j, 1.0),
-                Kind::Upper => (j, -1.0),
-                Kind::Both(second) if self.is_nearer_above(j) => {
-                    seconds.push((j, second, j));
-                    (second, -1.0)
-                }
-                Kind::Both(second) => {
-                    seconds.push((j, second, second));
-                    (j, 1.0)
-                }
-            };
+            if kind == Kind::Fixed {
+                continue;
+            }
+            seconds.extend(other.map(|other| (j, pair.max(other), other)));
             places[j] = Some(pairs.len());
             pairs.push((pair, false));
             rows.push((j, sign));
@@ -79,23 +70,7 @@ impl MixedForm<'_> {
 
     /// The start for the mixed problem that belongs to one for the problem with bounds.
     pub(crate) fn start(&self, start: &WarmStart) -> WarmStart {
-        match start {
-            WarmStart::None => WarmStart::None,
-            WarmStart::Basis(basis) => {
-                let side = |&(pair, is_exchanged): &(usize, bool)| {
-                    let side = basis.sides()[pair];
-                    if is_exchanged { side.complement() } else { side }
-                };
-                WarmStart::Basis(Basis::new(self.pairs.iter().map(side).collect()))
-            }
-            WarmStart::Point { t, y } => {
-                let pairs = self.pairs.iter().map(|&(pair, is_exchanged)| {
-                    if is_exchanged { (y[pair], t[pair]) } else { (t[pair], y[pair]) }
-                });
-                let (t, y) = pairs.unzip();
-                WarmStart::Point { t, y }
-            }
-        }
+        start.of_pairs(self.pairs.iter().copied())
     }
 
     /// The point of the general form of the problem with bounds.

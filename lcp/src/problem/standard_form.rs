@@ -101,23 +101,17 @@ impl StandardForm {
 
     /// The start for the standard problem that belongs to one for the general problem.
     pub(crate) fn start(&self, start: &WarmStart) -> WarmStart {
-        match start {
-            WarmStart::None => WarmStart::None,
-            WarmStart::Basis(basis) => WarmStart::Basis(self.basis(basis)),
-            WarmStart::Point { t, y } => {
-                let (t, y) = self.from_pairs(t, y);
-                WarmStart::Point { t, y }
-            }
-        }
+        start.of_pairs(self.pairs())
     }
 
     /// A basis of the one problem as one of the other.
     pub(crate) fn basis(&self, basis: &Basis) -> Basis {
-        let exchanged = |(side, w): (&Side, &Side)| match w {
-            Side::Y => *side,
-            Side::T => side.complement(),
-        };
-        Basis::new(basis.sides().iter().zip(&self.sides).map(exchanged).collect())
+        basis.of_pairs(self.pairs())
+    }
+
+    /// All pairs, and whether their `t` is `w`.
+    fn pairs(&self) -> impl Iterator<Item = (usize, bool)> {
+        self.sides.iter().map(|side| *side == Side::T).enumerate()
     }
 
     /// Exchanges the entries of the pairs whose `t` is `w`, which is its own inverse.
