@@ -17,7 +17,7 @@ use faer::sparse::SparseColMat;
 use crate::problem::ContactStatus;
 use crate::solve::Monitor;
 use crate::vector::{check_length, check_vector};
-use crate::{Contact2d, ContactState, Error, Iteration, Matrix, Observer, Status};
+use crate::{Contact2d, ContactState, Error, Iteration, Matrix, Method, Observer, Status};
 use target::{Course, Data, Rest, Taken, Target};
 
 /// Bodies with mass in contact, on their way through loads, gaps and supports that change.
@@ -307,7 +307,7 @@ impl Evolution {
     ) -> Result<T, Error> {
         let EvolutionSettings { max_iterations, time_limit, .. } = self.settings;
         let mut forward = |at: &Iteration| observer(at);
-        let mut monitor = Monitor::new(max_iterations, time_limit, &mut forward);
+        let mut monitor = Monitor::new(Method::Interior, max_iterations, time_limit, &mut forward);
         let last = self.factorisations.saturating_add(max_iterations);
         run(self, &mut Course { plan: None, last, monitor: &mut monitor })
     }

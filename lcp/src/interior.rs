@@ -112,8 +112,12 @@ impl InteriorPoint {
 
     fn run(&self, problem: &dyn Original, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         self.settings.validate(problem.order())?;
-        let mut monitor =
-            Monitor::new(self.settings.max_iterations, self.settings.time_limit, observer);
+        let mut monitor = Monitor::new(
+            Method::Interior,
+            self.settings.max_iterations,
+            self.settings.time_limit,
+            observer,
+        );
         let mut search = Search::new(Method::Interior, problem, self.settings.tolerance)?;
         let settings = &self.settings;
         let run = Run { settings, problem, search: &mut search, monitor: &mut monitor };
@@ -194,7 +198,7 @@ impl Run<'_, '_, '_> {
         let mut tried = NEAR / NEARER;
         let (_, first) = at.sizes();
         let (mut least, mut since) = (f64::INFINITY, 0);
-        let (mut is_first, mut solved) = (true, 0);
+        let (mut before, mut solved) = (None, 0);
         let mut defect = Defect::of(&self.search.scaled, &at);
         loop {
             let forces = at.forces();
@@ -226,22 +230,22 @@ impl Run<'_, '_, '_> {
             if is_solved && (!self.settings.crossover || solved > MORE) {
                 return Status::Solved;
             }
-            if let Some(status) = self.monitor.stop(worst) {
+            if let Some(status) = self.monitor.stop_after(worst, before) {
                 return if solved > 0 { Status::Solved } else { status };
             }
             let Search { scaled, condensed, .. } = &mut *self.search;
-            let (next, alpha) = if is_first {
+            let (next, step) = if before.is_none() {
                 set_out(scaled, condensed, &at, &defect)
             } else {
                 Ahead::of(scaled, condensed, &at, &defect).advance()
             };
-            is_first = false;
+            before = Some(step);
             defect = Defect::of(scaled, &next);
             let lack = defect.size();
-            let merit = next.mean_product() + lack * lack;
+            let merit = step.mean_product + lack * lack;
             since = if merit < 0.9 * least { 0 } else { since + 1 };
             least = least.min(merit);
-            if !next.is_finite() || alpha < NO_STEP || since > PATIENCE_OF_START {
+            if !next.is_finite() || step.length < NO_STEP || since > PATIENCE_OF_START {
                 // Residuals are relative: if all gaps or all forces vanish, they cannot become small.
                 let contacts = at.contacts();
                 let is_exact = self.settings.crossover

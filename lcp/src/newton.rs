@@ -129,7 +129,8 @@ impl SemismoothNewton {
         let settings = &self.settings;
         settings.validate(lcp.order())?;
         check_diagonal(lcp)?;
-        let mut monitor = Monitor::new(settings.max_iterations, settings.time_limit, observer);
+        let mut monitor =
+            Monitor::new(Method::Newton, settings.max_iterations, settings.time_limit, observer);
         let mut system = System::new(lcp);
         let (status, best) = self.run(lcp, &mut system, &mut monitor);
         let clipped = |v: &[f64]| v.iter().map(|v| v.max(0.0)).collect::<Vec<_>>();
@@ -150,7 +151,7 @@ impl SemismoothNewton {
         let mut solution =
             Solution::judged(point.0, point.1, residuals, settings.tolerance, status);
         solution.basis = Some(basis_of(is_free));
-        solution.info = monitor.info(Method::Newton);
+        solution.info = monitor.info();
         solution.info.factorisations = system.factorisations();
         Ok(solution)
     }

@@ -154,12 +154,17 @@ impl ProjectedGaussSeidel {
         let sweeps = Sweeps::new(&self.settings, rows, q, constraints, start)?;
         let (best, status) = sweeps.run(&mut monitor, &mut residuals_of_rows);
         let Point { z, w, residuals, .. } = best;
-        let info = monitor.info(Method::GaussSeidel);
+        let info = monitor.info();
         Ok(RowsSolution { status, z, w, residual: residuals.worst(), info })
     }
 
     fn monitor<'a>(&self, observer: &'a mut Observer<'a>) -> Monitor<'a> {
-        Monitor::new(self.settings.max_iterations, self.settings.time_limit, observer)
+        Monitor::new(
+            Method::GaussSeidel,
+            self.settings.max_iterations,
+            self.settings.time_limit,
+            observer,
+        )
     }
 
     /// The `z` to start from, of the point `(t, y)` of the settings, which are checked for so many pairs.
@@ -192,7 +197,7 @@ impl ProjectedGaussSeidel {
         monitor: Monitor<'_>,
     ) -> Solution {
         let mut solution = Solution::judged(t, y, residuals, self.settings.tolerance, status);
-        solution.info = monitor.info(Method::GaussSeidel);
+        solution.info = monitor.info();
         solution
     }
 }

@@ -97,6 +97,34 @@ pub struct Iteration {
     /// artificial variable relative to its first value, which is zero at a solution
     /// ([`Progress::artificial`](crate::lemke::Progress::artificial)).
     pub residual: f64,
+    /// The method, of which [`Auto`](crate::Auto) runs several one after the other.
+    pub method: Method,
+    /// The step of the interior-point method that has led here; `None` at a start, and of other methods.
+    pub step: Option<Step>,
+}
+
+/// A step of the interior-point method.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Step {
+    /// How its direction was found.
+    pub kind: StepKind,
+    /// The part of it that was taken, up to one.
+    pub length: f64,
+    /// The mean product of the pairs after it, in units of the scaled problem.
+    pub mean_product: f64,
+}
+
+/// How the direction of a step of the interior-point method was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum StepKind {
+    /// Predictor and correctors.
+    Corrected,
+    /// A mixture of the predictor and of centring.
+    Mixed,
+    /// Along the central path, where that turns back.
+    Turn,
 }
 
 /// Called while a method runs; the result decides whether it continues.
@@ -113,6 +141,7 @@ pub(crate) fn is_over(deadline: Option<Instant>) -> bool {
 
 /// Watches over the iterations of a method: limits, history, observer.
 pub(crate) struct Monitor<'a> {
+    method: Method,
     began: Instant,
     deadline: Option<Instant>,
     max_iterations: usize,
@@ -125,6 +154,7 @@ pub(crate) struct Monitor<'a> {
 
 impl<'a> Monitor<'a> {
     pub(crate) fn new(
+        method: Method,
         max_iterations: usize,
         time_limit: Option<Duration>,
         observer: &'a mut Observer<'a>,
@@ -132,15 +162,20 @@ impl<'a> Monitor<'a> {
         let began = Instant::now();
         let deadline = deadline_of(began, time_limit);
         let (is_cancelled, history) = (false, Vec::new());
-        Self { began, deadline, max_iterations, observer, is_cancelled, history }
+        Self { method, began, deadline, max_iterations, observer, is_cancelled, history }
     }
 
     /// Notes the residual before an iteration; a status where there must be none.
     pub(crate) fn stop(&mut self, residual: f64) -> Option<Status> {
-        let iteration = self.history.len();
+        self.stop_after(residual, None)
+    }
+
+    /// The same with the step before.
+    pub(crate) fn stop_after(&mut self, residual: f64, step: Option<Step>) -> Option<Status> {
+        let (iteration, method) = (self.history.len(), self.method);
         self.history.push(residual);
-        self.is_cancelled =
-            self.is_cancelled || (self.observer)(&Iteration { iteration, residual }).is_break();
+        let at = Iteration { iteration, residual, method, step };
+        self.is_cancelled = self.is_cancelled || (self.observer)(&at).is_break();
         if self.is_cancelled {
             return Some(Status::Cancelled);
         }
@@ -164,9 +199,9 @@ impl<'a> Monitor<'a> {
         self.began.elapsed().as_secs_f64()
     }
 
-    /// What it all cost, by a method.
-    pub(crate) fn info(self, method: Method) -> Info {
-        let (iterations, seconds) = (self.iterations(), self.seconds());
+    /// What it all cost.
+    pub(crate) fn info(self) -> Info {
+        let (method, iterations, seconds) = (self.method, self.iterations(), self.seconds());
         Info { method, iterations, seconds, history: self.history, ..Info::default() }
     }
 }

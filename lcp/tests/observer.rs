@@ -9,7 +9,8 @@ use faer::mat;
 use lcp::qp::SoftConstraints;
 use lcp::{
     Auto, BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, InteriorPoint, Iteration, Lcp,
-    Lemke, Method, MixedLcp, ProjectedGaussSeidel, SemismoothNewton, Solver, Status, families,
+    Lemke, Method, MixedLcp, ProjectedGaussSeidel, SemismoothNewton, Solver, Status, Step,
+    StepKind, families,
 };
 use lcp::{QuadraticProgram, QuadraticProgramSettings};
 
@@ -73,6 +74,14 @@ fn check<P>(solver: &dyn Solver<P>, problem: &P) {
     assert_eq!((stopped.status, calls), (Status::Cancelled, 1), "{name}");
     let source = observed.info.routes.last().map_or(name, |route| route.method);
     assert_eq!(observed.info.method, source);
+    assert!(seen.iter().any(|at| at.method == source), "{name}: {seen:?}");
+    for pair in seen.windows(2).filter(|pair| pair[1].method == Method::Interior) {
+        if let Some(step) = pair[1].step {
+            assert!(step.length > 0.0 && step.length <= 1.0, "{name}: {step:?}");
+            let before = pair[0].step.map_or(f64::INFINITY, |step| step.mean_product);
+            assert!(step.kind == StepKind::Turn || step.mean_product < before, "{name}: {seen:?}");
+        }
+    }
 }
 
 fn check_all<P>(solvers: &[&dyn Solver<P>], problem: &P) {
@@ -94,6 +103,21 @@ fn every_method_lets_itself_be_watched_on_all_that_it_treats() {
     check_all::<Friction2d>(&[&lemke, &pgs, &interior, &auto], &friction());
     check_all::<MixedLcp>(&[&interior, &auto], &mixed());
     check_all::<BoxedLcp>(&[&pgs, &auto], &boxed());
+}
+
+/// A log of the path to a contact problem's solution: what every step was, and how far it went.
+#[test]
+fn interior_points_tell_their_steps() {
+    let mut log: Vec<Step> = Vec::new();
+    let solution = InteriorPoint::default().solve_observed(&contact(), &mut |at| {
+        log.extend(at.step);
+        ControlFlow::Continue(())
+    });
+    let solution = solution.unwrap();
+    assert_eq!(log.len(), solution.info.iterations);
+    assert!(log.iter().all(|step| step.kind == StepKind::Corrected), "{log:?}");
+    let products: Vec<f64> = log.iter().map(|step| step.mean_product).collect();
+    assert!(products.is_sorted_by(|a, b| a > b), "{products:?}");
 }
 
 #[cfg(feature = "clarabel")]

@@ -12,7 +12,6 @@ use crate::{Error, Method, Residuals, Solution, Status, WarmStart};
 
 /// A problem with the best point so far.
 pub(crate) struct Search<'a> {
-    method: Method,
     problem: &'a dyn Original,
     judge: Box<dyn Judge + 'a>,
     tolerance: f64,
@@ -54,7 +53,7 @@ impl<'a> Search<'a> {
             None => Condensed::new(&scaled).map_err(|error| unplanned(method, error))?,
         };
         let judge = problem.judge();
-        Ok(Self { method, problem, judge, tolerance, scaled, condensed, best: None })
+        Ok(Self { problem, judge, tolerance, scaled, condensed, best: None })
     }
 
     /// Whether the states of the contacts of a given start, if there is one, are the answer.
@@ -179,9 +178,8 @@ impl<'a> Search<'a> {
 
     /// The best point, with this status unless it is a solution.
     pub(crate) fn finish(self, otherwise: Status, monitor: Monitor<'_>) -> Solution {
-        let method = self.method;
         let (mut solution, condensed) = self.ended(otherwise);
-        solution.info = monitor.info(method);
+        solution.info = monitor.info();
         solution.info.factorisations = condensed.factorisations;
         solution
     }

@@ -29,7 +29,7 @@ impl<P: General> Solver<P> for Enumeration {
                 reason: format!("it has more than {MOST_PAIRS} pairs"),
             });
         }
-        let mut monitor = Monitor::new(usize::MAX, self.time_limit, observer);
+        let mut monitor = Monitor::new(Method::Enumeration, usize::MAX, self.time_limit, observer);
         let is_cancelled = monitor.stop(f64::INFINITY) == Some(Status::Cancelled);
         let deadline = monitor.deadline();
         let Outcome { found, exchanges } = if is_cancelled {

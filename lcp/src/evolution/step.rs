@@ -32,11 +32,11 @@ impl Evolution {
             Status::Solved
         } else {
             let mut observer = |at: &Iteration| {
-                limit = course.monitor.stop(at.residual);
+                limit = course.monitor.stop_after(at.residual, at.step);
                 if limit.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
             let tolerance = self.settings.tolerance;
-            let mut own = Monitor::new(PATH, None, &mut observer);
+            let mut own = Monitor::new(Method::Interior, PATH, None, &mut observer);
             follow_path(&stepped, tolerance, &mut search, &mut own)
         };
         let solution = self.concluded(search, status, course);

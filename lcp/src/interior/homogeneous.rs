@@ -51,8 +51,11 @@ impl Program {
         let is_proof =
             |at: &Variables| is_proof(&units.displacements(&at.u), &times(&at.t, units.force));
         let (mut at, status) = iterate(&program, &mut factors, accuracy, stop, is_proof);
-        if matches!((status, accuracy), (Status::Solved, Accuracy::OfForces(_))) {
-            factors.balance(&program, &mut at.t);
+        if let (Status::Solved, Accuracy::OfForces(tolerance)) = (status, accuracy) {
+            let balanced = Homogeneous::new(&program, factors.balanced(&program, &at));
+            if balanced.residual(&balanced.defect(), accuracy) <= tolerance {
+                at = balanced.at;
+            }
         }
         Ok(Outcome {
             status,

@@ -2,6 +2,7 @@
 
 use super::step::longest;
 use crate::problem::ContactStatus;
+use crate::solve::StepKind;
 use crate::states::{Condensed, PROXIMAL, Scaled, Springs};
 use crate::vector::{HALF_DIGITS, max_abs};
 
@@ -10,6 +11,13 @@ use crate::vector::{HALF_DIGITS, max_abs};
 pub(super) struct Iterate {
     pub(super) u: Vec<f64>,
     pub(super) points: Vec<Pairs>,
+}
+
+/// A step, the most of it that stays inside, and how it was found.
+pub(super) struct Direction {
+    pub(super) step: Iterate,
+    pub(super) alpha: f64,
+    pub(super) kind: StepKind,
 }
 
 /// The variables of a contact point. Those of friction are zero where there is none.

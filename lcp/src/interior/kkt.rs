@@ -35,7 +35,7 @@ impl InteriorPoint {
             };
             against(places.iter().enumerate().map(value).collect())
         };
-        let mut monitor = Monitor::new(max_iterations, time_limit, observer);
+        let mut monitor = Monitor::new(Method::Interior, max_iterations, time_limit, observer);
         let found = program.solve(
             Accuracy::OfAll(tolerance),
             |residual| monitor.stop(residual),
@@ -51,7 +51,7 @@ impl InteriorPoint {
         let mut solution = judged_point(problem, pairs.0, pairs.1, tolerance, status);
         solution.certificate =
             (status == Status::Infeasible).then(|| Certificate::Farkas { pi: proof(&u, &t) });
-        solution.info = monitor.info(Method::Interior);
+        solution.info = monitor.info();
         solution.info.factorisations = factorisations;
         Ok(Some(solution))
     }

@@ -66,7 +66,8 @@ impl InteriorPoint {
         check_vector("f", f)?;
         check_vector("A", a.val())?;
         let observer = &mut |at: &_| observer(at);
-        let mut monitor = Monitor::new(settings.max_iterations, settings.time_limit, observer);
+        let mut monitor =
+            Monitor::new(Method::Interior, settings.max_iterations, settings.time_limit, observer);
         let no_stiffness = Matrix::from_entries(n, n, std::iter::empty()).into_sparse();
         let program = Program::of_least_forces(no_stiffness, f.to_vec(), a.clone());
         let loads: Vec<f64> = f.iter().map(|f| -f).collect();
@@ -80,7 +81,7 @@ impl InteriorPoint {
         if status == Status::Infeasible {
             u = against(u).into_iter().map(|u| -u).collect();
         }
-        let mut info = monitor.info(Method::Interior);
+        let mut info = monitor.info();
         info.factorisations = factorisations;
         Ok(LeastForces { status, t, u, info })
     }

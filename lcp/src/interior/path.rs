@@ -3,9 +3,10 @@
 use super::constants::{
     BACK, CENTRAL, IS_CENTRAL, LEAST_AIM, MIXTURES, PROGRESS, SHORT, SHORTER, SHORTEST,
 };
-use super::iterate::{Defect, Iterate, Pairs, Tangent};
+use super::iterate::{Defect, Direction, Iterate, Pairs, Tangent};
 use super::step::{correction, lengthened};
 use super::turn::turn;
+use crate::solve::{Step, StepKind};
 use crate::states::{Condensed, Scaled};
 
 /// What lies ahead of a point.
@@ -33,16 +34,18 @@ impl<'a> Ahead<'a> {
     /// The problem is not monotone with friction: where the step is short, the best mixture of predictor and
     /// centring takes its place, and where the path turns back, a step along it. No product of a pair
     /// becomes much smaller than the mean, unless that would make the step shorter than what counts as none. Gives the
-    /// new point and the length of the step.
-    pub(super) fn advance(&self) -> (Iterate, f64) {
+    /// new point, and the step that leads there.
+    pub(super) fn advance(&self) -> (Iterate, Step) {
         let Self { tangent, at, predictor, .. } = self;
-        let (step, alpha) =
+        let Direction { step, alpha, kind } =
             if tangent.is_backwards() { turn(tangent, at, predictor) } else { self.forwards() };
-        within(at, &step, (BACK * alpha).min(1.0))
+        let (next, length) = within(at, &step, (BACK * alpha).min(1.0));
+        let mean_product = next.mean_product();
+        (next, Step { kind, length, mean_product })
     }
 
     /// A step that makes the products smaller.
-    fn forwards(&self) -> (Iterate, f64) {
+    fn forwards(&self) -> Direction {
         let Self { tangent, at, defect, predictor } = self;
         let mean = at.mean_product();
         let left = at.moved(predictor, at.longest(predictor)).mean_product();
@@ -52,12 +55,13 @@ impl<'a> Ahead<'a> {
             let corrections = corrections(&at.moved(step, trial), aim.max(LEAST_AIM * mean));
             step.moved(&tangent.correction(&corrections), 1.0)
         };
-        let (mut step, mut alpha) = lengthened(step, |step| at.longest(step), corrector);
-        if alpha < SHORT {
-            let centring = tangent.step(defect, &targets(at, mean, None));
-            (step, alpha) = mixture(at, predictor, centring);
+        let (step, alpha) = lengthened(step, |step| at.longest(step), corrector);
+        if alpha >= SHORT {
+            return Direction { step, alpha, kind: StepKind::Corrected };
         }
-        if alpha < SHORT { turn(tangent, at, predictor) } else { (step, alpha) }
+        let centring = tangent.step(defect, &targets(at, mean, None));
+        let mixed = mixture(at, predictor, centring);
+        if mixed.alpha < SHORT { turn(tangent, at, predictor) } else { mixed }
     }
 }
 
@@ -73,14 +77,14 @@ fn within(at: &Iterate, step: &Iterate, mut alpha: f64) -> (Iterate, f64) {
 }
 
 /// The mixture that reduces the products most, or centring alone where none reduces them much.
-fn mixture(at: &Iterate, predictor: &Iterate, centring: Iterate) -> (Iterate, f64) {
+fn mixture(at: &Iterate, predictor: &Iterate, centring: Iterate) -> Direction {
     let reduction = |share: f64| (1.0 - share) * at.longest(&predictor.mixed(&centring, share));
     let tried = MIXTURES.map(|share| (reduction(share), share));
     let (best, share) = tried.into_iter().fold((0.0, 1.0), |a, b| if b.0 > a.0 { b } else { a });
     let is_little = best < PROGRESS && !is_central(at);
     let step = if is_little { centring } else { predictor.mixed(&centring, share) };
     let alpha = at.longest(&step);
-    (step, alpha)
+    Direction { step, alpha, kind: StepKind::Mixed }
 }
 
 fn is_central(at: &Iterate) -> bool {

@@ -8,6 +8,7 @@ use super::path::Ahead;
 #[cfg(test)]
 use super::path::targets;
 use crate::problem::ContactStatus;
+use crate::solve::Step;
 use crate::states::{Condensed, PROXIMAL, Point, Scaled, Springs};
 
 /// A start from the forces that the contacts would carry if they were springs in both directions.
@@ -61,7 +62,7 @@ pub(super) fn set_out(
     condensed: &mut Condensed,
     at: &Iterate,
     defect: &Defect,
-) -> (Iterate, f64) {
+) -> (Iterate, Step) {
     let (mut from, mut before) = (at.clone(), (at.clone(), f64::INFINITY));
     for _ in 0..OPENINGS {
         let of_from = Defect::of(problem, &from);

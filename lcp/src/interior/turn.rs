@@ -1,7 +1,8 @@
 //! Where the central path turns back.
 
 use super::constants::{LONG, PIECES};
-use super::iterate::{Iterate, Tangent};
+use super::iterate::{Direction, Iterate, Tangent};
+use crate::solve::StepKind;
 
 /// A step along the central path where it turns, or nearly.
 ///
@@ -12,7 +13,7 @@ use super::iterate::{Iterate, Tangent};
 /// general). Near a turn the equations for a fixed `tau` have no solution or two, so that corrections at
 /// a fixed `tau` grow beyond bounds. The correction here leaves the place along the path alone: `tau`
 /// becomes whatever belongs to it. To that comes a piece of the path.
-pub(super) fn turn(tangent: &Tangent<'_>, at: &Iterate, predictor: &Iterate) -> (Iterate, f64) {
+pub(super) fn turn(tangent: &Tangent<'_>, at: &Iterate, predictor: &Iterate) -> Direction {
     let along = tangent.correction(&vec![[1.0; 3]; at.points.len()]);
     let (mut product, mut square, mut largest) = (0.0, 0.0, 0.0_f64);
     for (((t, y), (t_along, y_along)), (dt, dy)) in
@@ -26,12 +27,12 @@ pub(super) fn turn(tangent: &Tangent<'_>, at: &Iterate, predictor: &Iterate) -> 
     }
     let aim = -product / square;
     let sense = if tangent.is_backwards() { 1.0 } else { -1.0 };
-    let mut best = (predictor.clone(), 0.0);
+    let mut best = Direction { step: predictor.clone(), alpha: 0.0, kind: StepKind::Turn };
     for piece in PIECES {
         let step = predictor.moved(&along, aim + sense * piece / largest);
         let alpha = at.longest(&step);
-        if alpha > best.1 {
-            best = (step, alpha);
+        if alpha > best.alpha {
+            best = Direction { step, alpha, kind: StepKind::Turn };
         }
         if alpha > LONG {
             break;

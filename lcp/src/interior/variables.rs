@@ -82,6 +82,7 @@ impl Variables {
         let by = 1.0 / self.tau.max(f64::MIN_POSITIVE);
         let Self { u, t, y, .. } = &mut self;
         u.iter_mut().chain(t).chain(y).for_each(|v| *v *= by);
+        (self.tau, self.kappa) = (1.0, by * self.kappa);
         self
     }
 }

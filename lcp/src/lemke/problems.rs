@@ -20,7 +20,12 @@ impl Lemke {
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         self.solve_with_progress(problem, &mut |at: &Progress| {
-            observer(&Iteration { iteration: at.pivots, residual: at.artificial })
+            observer(&Iteration {
+                iteration: at.pivots,
+                residual: at.artificial,
+                method: Method::Lemke,
+                step: None,
+            })
         })
     }
 }

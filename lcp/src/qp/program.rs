@@ -34,7 +34,8 @@ impl<'a> Run<'a> {
         max_programs: usize,
         observer: &'a mut Observer<'_>,
     ) -> Result<Self, Error> {
-        let monitor = Monitor::new(max_programs, settings.time_limit, observer);
+        let monitor =
+            Monitor::new(Method::QuadraticProgram, max_programs, settings.time_limit, observer);
         let search = Search::new(Method::QuadraticProgram, problem, settings.tolerance)?;
         let (proof, began) = (OnceCell::new(), Instant::now());
         Ok(Self { settings, search, monitor, general, proof, steps: 0, began })
