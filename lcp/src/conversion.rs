@@ -2,7 +2,8 @@
 
 use std::borrow::Cow;
 
-use crate::certify::{Residuals, SMALL};
+use crate::certify::Residuals;
+use crate::vector::SMALL;
 use crate::{
     BoxedLcp, Certificate, Contact2d, ContactState, Error, Friction2d, HorizontalLcp, Lcp,
     MixedLcp, Solution, Status, WarmStart,

@@ -15,13 +15,13 @@ pub use crate::problem::ContactStatus;
 pub(crate) use constants::{ALL_DIGITS, ROUNDED};
 pub(crate) use solve::{Exact, planned, refined_states};
 
-use constants::{DOUBT, EXCHANGES};
+use constants::EXCHANGES;
 use point::ExtendedPoint;
 use solve::solved;
 
 use crate::problem::column_of;
 use crate::states::Scaled;
-use crate::vector::{check_length, check_vector};
+use crate::vector::{HALF_DIGITS, check_length, check_vector};
 use crate::{Contact2d, ContactState, Error};
 
 impl Contact2d {
@@ -108,7 +108,7 @@ impl Contact2d {
                 break;
             }
             best = Some(Verified { statuses: statuses.clone(), refined });
-            if !(-DOUBT..0.0).contains(&least) {
+            if !(-HALF_DIGITS..0.0).contains(&least) {
                 break;
             }
             for (status, (slack, next)) in statuses.iter_mut().zip(slacks) {

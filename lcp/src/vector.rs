@@ -4,6 +4,12 @@ use crate::Error;
 
 /// A sum below this, relative to its terms, is a rounding error. Rounding: errors of short sums.
 pub(crate) const ROUNDING: f64 = 64.0 * f64::EPSILON;
+/// What a solved system leaves of its right-hand side, and of what vanishes at its solution. Rounding: some hundred eps.
+pub(crate) const SMALL: f64 = 1e-13;
+/// What is below this part of another number hardly counts beside it: a coupling beside the strongest one of its row, once
+/// rows and columns are equilibrated; a term beside the largest one of its row, or of the problem; the errors of a proof
+/// beside what they must leave positive. Chosen.
+pub(crate) const WEAK: f64 = 1.0 / 1024.0;
 /// Half of all digits, about the root of eps. Theory: what is right to this is wrong in its square by rounding, and what this
 /// is added to for regularity loses no more than a step of refinement brings back.
 pub(crate) const HALF_DIGITS: f64 = 1e-8;

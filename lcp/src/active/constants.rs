@@ -10,8 +10,5 @@ pub(super) const REFINEMENTS: usize = 12;
 pub(super) const LARGE: f64 = 0.01;
 /// A largest contradiction below this part of those before is progress, as a smaller number is. Chosen.
 pub(super) const SMALLER: f64 = 0.1;
-/// Contradictions up to this part of the largest force or displacement are rounding errors. Rounding: some hundred
-/// eps.
-pub(super) const ROUNDING: f64 = 1e-13;
 /// Residuals that leave nothing to refine. Rounding: some fifty eps.
 pub(super) const EXACT: f64 = 1e-14;

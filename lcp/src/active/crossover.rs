@@ -1,10 +1,10 @@
 //! From a point inside to the exact one on the boundary: the state of every contact is guessed, the
 //! equations of these states are solved, and the few contacts that contradict change their state.
 
-use super::constants::{LARGE, REFINEMENTS, ROUNDING, SMALLER, STIFF};
+use super::constants::{LARGE, REFINEMENTS, SMALLER, STIFF};
 use crate::problem::ContactStatus;
 use crate::states::{Condensed, PROXIMAL, Point, PointRef, Scaled, Springs};
-use crate::vector::max_abs;
+use crate::vector::{SMALL, max_abs};
 
 /// How much is spent on exchanges. Every round costs a factorisation, as a step of the iteration does.
 pub(crate) struct Effort {
@@ -77,7 +77,7 @@ pub(crate) fn cross_over(
             break;
         }
         problem.settle(&mut vertex.u, &mut vertex.forces);
-        let mut contradictions = vertex.contradictions(problem, ROUNDING);
+        let mut contradictions = vertex.contradictions(problem, SMALL);
         is_found |= is_solution(condensed, &vertex, contradictions.is_empty());
         let is_dust = contradictions.is_empty();
         if is_dust && !is_found {
@@ -136,7 +136,7 @@ impl Vertex {
             self.u.iter_mut().zip(&du).for_each(|(u, du)| *u += du);
         }
         self.close(problem);
-        if max_abs(&self.u) <= ROUNDING * before.max(1.0) {
+        if max_abs(&self.u) <= SMALL * before.max(1.0) {
             // Bodies at rest: what is left is noise, by which nothing should be measured.
             self.u.fill(0.0);
         }
@@ -247,7 +247,7 @@ mod tests {
             {
                 let contacts = vec![ContactStatus::Stick];
                 let vertex = Vertex { u: vec![0.0; 2], forces: vec![(t_n, t_t)], contacts };
-                let found = vertex.contradictions(&scaled, ROUNDING);
+                let found = vertex.contradictions(&scaled, SMALL);
                 assert!(matches!(found[..], [(_, 0, state)] if state == next), "{found:?}");
             }
         }

@@ -1,14 +1,10 @@
 //! The numbers that the judge goes by, each with where it comes from.
 //! What is "chosen" is so by judgement: no measurement is kept.
 
+use crate::vector::WEAK;
+
 /// The rounding error of a row whose variables are rounded, relative to its terms. Rounding: errors of short sums.
 pub(crate) const ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// Residuals above this may be due to rows that do not matter, or need twice the digits. Rounding: some hundred eps.
-pub(crate) const SMALL: f64 = 1e-13;
-/// What is below this part of another number hardly counts beside it: a coupling beside the strongest one of its row, once
-/// rows and columns are equilibrated; a term beside the largest one of its row; the errors of a proof beside what they
-/// must leave positive. Chosen.
-pub(super) const WEAK: f64 = 1.0 / 1024.0;
 /// A row that is worth this counts in full. Chosen: chains are not the only way to the loads.
 pub(super) const IN_FULL: f64 = 1.0 / 32.0;
 /// The smallest load beside others, and the largest rounding error beside loads, however large the terms are. Chosen.

@@ -1,13 +1,14 @@
 //! Displacements, forces, gaps and slips of contact.
 
 use super::Residuals;
-use super::constants::{MILLIONTH, WEAK};
+use super::constants::MILLIONTH;
 use super::judge::{Conditions, Entry, Precision, RowJudge, Rows};
 use super::significance::spread;
 use super::weights::per_load;
 use crate::parts::Parts;
 use crate::problem::{column_factors, column_of, diagonal, median};
 use crate::sparse::ByRows;
+use crate::vector::WEAK;
 use crate::{Contact2d, ContactState};
 
 impl Contact2d {

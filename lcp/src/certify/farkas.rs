@@ -3,9 +3,10 @@
 //! By Farkas' lemma `A t + B y = c` has no solution with `t >= 0` and `y >= 0` exactly if some `pi` has
 //! `A^T pi <= 0`, `B^T pi <= 0` and `c.pi > 0`.
 
-use super::constants::{LARGEST_OF_VECTOR, WEAK};
+use super::constants::LARGEST_OF_VECTOR;
 use crate::extended::Extended;
 use crate::matrix::Column;
+use crate::vector::WEAK;
 use crate::{HorizontalLcp, MixedLcp};
 
 /// Whether a vector proves that the linear conditions of a problem have no solution.

@@ -3,9 +3,10 @@
 use std::ops::{AddAssign, Mul};
 
 use super::Residuals;
-use super::constants::{INTO_RANGE, MILLIONTH, ROUNDING, SMALL};
+use super::constants::{INTO_RANGE, MILLIONTH, ROUNDING};
 use super::significance::{Term, significance};
 use crate::extended::{Extended, extended};
+use crate::vector::SMALL;
 
 /// The rows of a problem, `sum_j a_ij x_j = c_i`, and the conditions on their variables.
 pub(crate) trait Rows {

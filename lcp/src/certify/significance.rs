@@ -8,8 +8,9 @@
 
 use std::collections::BinaryHeap;
 
-use super::constants::{IN_FULL, WEAK};
+use super::constants::IN_FULL;
 use crate::sparse::ByRows;
+use crate::vector::WEAK;
 
 /// The size of a coefficient times the value of its variable at a point, above zero.
 pub(super) struct Term {

@@ -1,10 +1,10 @@
 //! What a row counts in units of the loads.
 
-use super::constants::WEAK;
 use super::significance::spread;
 use crate::matrix::Column;
 use crate::parts::Parts;
 use crate::sparse::ByRows;
+use crate::vector::WEAK;
 
 /// For every row one over the loads that it feels, in units of the row: the largest right-hand side of its
 /// connected part, and of others by how weakly they are coupled to it. `loads` are the sizes of the right-hand

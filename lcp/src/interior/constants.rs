@@ -56,13 +56,12 @@ pub(super) const LONG_ENOUGH: f64 = 0.9;
 pub(super) const LONGER: f64 = 0.03;
 /// Products are not driven below this part of their mean by a corrector. Chosen.
 pub(super) const LEAST_AIM: f64 = 0.01;
-/// Below this length a step is replaced by a mixture of the predictor and of centring. Chosen.
+/// Below this length a step is replaced by a mixture of the predictor and of centring; a mixture must reduce the products by
+/// as much, except at points that are central already. Chosen.
 pub(super) const SHORT: f64 = 0.05;
 /// Shares of centring that are tried. Chosen.
 pub(super) const MIXTURES: [f64; 12] =
     [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98];
-/// A mixture must reduce the products by this part, except at points that are central already. Chosen.
-pub(super) const PROGRESS: f64 = 0.05;
 /// Products between these multiples of their mean make a point central. Chosen.
 pub(super) const IS_CENTRAL: (f64, f64) = (0.3, 3.0);
 /// Largest relative change of a variable by a piece of the path; the first that leaves a step of length [`LONG`] is

@@ -1,8 +1,6 @@
 //! The interior-point iteration: predictor, correctors, and what to do when they get nowhere.
 
-use super::constants::{
-    BACK, CENTRAL, IS_CENTRAL, LEAST_AIM, MIXTURES, PROGRESS, SHORT, SHORTER, SHORTEST,
-};
+use super::constants::{BACK, CENTRAL, IS_CENTRAL, LEAST_AIM, MIXTURES, SHORT, SHORTER, SHORTEST};
 use super::iterate::{Defect, Direction, Iterate, Pairs, Tangent};
 use super::step::{correction, lengthened};
 use super::turn::turn;
@@ -81,7 +79,7 @@ fn mixture(at: &Iterate, predictor: &Iterate, centring: Iterate) -> Direction {
     let reduction = |share: f64| (1.0 - share) * at.longest(&predictor.mixed(&centring, share));
     let tried = MIXTURES.map(|share| (reduction(share), share));
     let (best, share) = tried.into_iter().fold((0.0, 1.0), |a, b| if b.0 > a.0 { b } else { a });
-    let is_little = best < PROGRESS && !is_central(at);
+    let is_little = best < SHORT && !is_central(at);
     let step = if is_little { centring } else { predictor.mixed(&centring, share) };
     let alpha = at.longest(&step);
     Direction { step, alpha, kind: StepKind::Mixed }

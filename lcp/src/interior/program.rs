@@ -2,10 +2,9 @@
 
 use faer::sparse::SparseColMat;
 
-use crate::certify::SMALL;
 use crate::problem::{column_of, diagonal};
 use crate::scaling::power_of_two;
-use crate::vector::max_abs;
+use crate::vector::{SMALL, max_abs};
 
 /// `K u = f + A t`, `y = A^T u + D t + x_0`, `0 <= t _|_ y >= 0`, with a diagonal `D >= 0`.
 pub(super) struct Program {

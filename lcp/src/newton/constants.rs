@@ -8,8 +8,6 @@ pub(super) const REDUCED_PATIENCE: usize = 4;
 /// Pivots, and right-hand sides, below this relative to the terms that they come from are rounding errors. Rounding:
 /// errors of long sums.
 pub(super) const VANISHING: f64 = 1024.0 * f64::EPSILON;
-/// Signs below this, relative to the terms of their row, are rounding errors. Rounding: errors of short sums.
-pub(super) const NOISE: f64 = 64.0 * f64::EPSILON;
 /// Largest residual, relative to the terms of its row, of a system that counts as solved. Chosen.
 pub(super) const USABLE: f64 = 1e-6;
 /// A variable below this, relative to the largest, may be one that vanishes. Chosen.

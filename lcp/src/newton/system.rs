@@ -1,10 +1,10 @@
 //! The points that belong to free sets.
 
-use super::constants::{MAY_VANISH, NOISE, REFINEMENTS, ROUNDING, USABLE, VANISHING};
+use super::constants::{MAY_VANISH, REFINEMENTS, ROUNDING, USABLE, VANISHING};
 use super::factors::Factors;
 use crate::Lcp;
 use crate::random::SplitMix;
-use crate::vector::max_abs;
+use crate::vector::{self, max_abs};
 
 /// A complementary point: `z` is free for some pairs, `w` for the others.
 #[derive(Debug, Clone)]
@@ -97,7 +97,7 @@ impl<'a> System<'a> {
             } else {
                 w[i]
             };
-            if value < -NOISE * size[i] {
+            if value < -vector::ROUNDING * size[i] {
                 violated.push(i);
             } else if value < 0.0 {
                 (z[i], w[i]) = (0.0, 0.0);

@@ -3,7 +3,7 @@
 use super::block::Block;
 use super::{Constraint, ProjectedGaussSeidelSettings, Rows};
 use crate::solve::Monitor;
-use crate::vector::{check_length, check_vector, max_abs};
+use crate::vector::{WEAK, check_length, check_vector, max_abs};
 use crate::{Error, Residuals, Status};
 
 /// Sweeps between two evaluations of the residual, each of which costs as much as several sweeps. Chosen.
@@ -11,9 +11,6 @@ const INTERVAL: usize = 20;
 /// Least number of sweeps in which the residual has to fall by a tenth. Chosen: along a chain of `n` bodies information
 /// spreads for `n` sweeps before the largest residual decreases.
 const PATIENCE: usize = 2000;
-/// A row whose terms are all at the rounding level of the point is measured by this part of the largest term that it
-/// could have. Chosen.
-const FLOOR: f64 = 1.0 / (1 << 10) as f64;
 
 /// Rows with their constraints, and a point that meets them.
 pub(super) struct Sweeps<'a, R: ?Sized> {
@@ -155,7 +152,7 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
             let product = rows.product(i, z);
             let own = diagonals[i] * z[i].abs();
             let size = q.abs() + rows.size(i, z).max(product.abs()).max(own);
-            sizes[i] = size.max(FLOOR * diagonals[i] * largest);
+            sizes[i] = size.max(WEAK * diagonals[i] * largest);
             product + q
         };
         q.iter().enumerate().map(row).collect()

@@ -10,10 +10,9 @@ pub(super) const WORSE: f64 = 10.0;
 /// Least bound of friction, relative to the largest: a bound of zero leaves the program without an interior. Chosen:
 /// what this changes the exchange of states puts right.
 pub(super) const LEAST_LIMIT: f64 = 1e-9;
-/// Rounds without progress after which it is asked whether there is a solution at all. Chosen.
+/// Rounds without progress after which it is asked whether there is a solution at all, and times that larger bounds are
+/// tried where none were large enough yet. Chosen.
 pub(super) const DOUBTS: usize = 4;
-/// Times that larger bounds are tried where no bounds were large enough yet. Chosen.
-pub(super) const ENLARGED: usize = 4;
 /// Rounds without progress after which there is no hope. Chosen.
 pub(super) const IDLE: usize = 20;
 /// Times that soft springs are centred anew and let go of nothing, after which they stay. Chosen.

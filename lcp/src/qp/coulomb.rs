@@ -1,6 +1,6 @@
 //! Coulomb's friction as the fixed point of programs with frozen bounds of the friction forces.
 
-use super::constants::{DOUBTS, ENLARGED, IDLE};
+use super::constants::{DOUBTS, IDLE};
 use super::contact::forces;
 use super::form::{Bounds, Form};
 use super::interior::{End, Interior};
@@ -28,7 +28,7 @@ pub(super) fn solve_contact(run: &mut Run<'_>, program: &mut Interior) -> Result
         run.steps += found.iterations;
         match found.end {
             End::Failed => return Ok(End::Failed),
-            End::NoPoint if !has_cones || enlarged >= ENLARGED || run.proof().is_some() => {
+            End::NoPoint if !has_cones || enlarged >= DOUBTS || run.proof().is_some() => {
                 return Ok(End::NoPoint);
             }
             // The bounds are too small to hold the bodies.

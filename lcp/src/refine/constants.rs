@@ -13,15 +13,6 @@ pub(super) struct Weights {
 
 /// Rounds of exchanges. Chosen.
 pub(super) const EXCHANGES: usize = 10;
-/// Inequalities that are violated by less than this part of the largest force or displacement may hold but for
-/// rounding errors of the answer. Chosen: the root of eps.
-pub(super) const DOUBT: f64 = 1e-8;
-/// Gaps and slips below this part of the largest are those of a closed contact, whatever its force. Rounding: some
-/// hundred eps.
-pub(super) const CLOSED: f64 = 1e-13;
-/// Rows of smaller terms than this part of the largest force or displacement are measured by that: of a body at rest
-/// between others all terms are rounding errors. Chosen.
-pub(super) const FLOOR: f64 = 1.0 / (1 << 10) as f64;
 /// Forces below this part of the largest are none to a body without loads. Chosen: the tolerance of answers.
 pub(super) const IDLE: f64 = 1e-10;
 /// Stiffness of closed contacts and springs on all displacements, one after the other. Theory: the first converge

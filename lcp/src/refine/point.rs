@@ -1,11 +1,10 @@
 //! Displacements and forces while they are refined.
 
-use super::constants::CLOSED;
 use crate::ContactState;
 use crate::extended::{Extended, extended};
 use crate::problem::ContactStatus;
 use crate::states::{Point, Scaled};
-use crate::vector::max_abs;
+use crate::vector::{SMALL, max_abs};
 
 /// Displacements and forces in the units of the scaled problem.
 #[derive(Debug, Clone)]
@@ -80,9 +79,9 @@ impl ExtendedPoint {
             let (gap, slip) = (point.gap(&u, t_n), point.slip(&u, t_t));
             let (gap, slip) = (part(gap, length), part(slip, length));
             let margin = part(point.mu * t_n - t_t.abs(), force);
-            if gap > part(t_n, force).max(CLOSED) {
+            if gap > part(t_n, force).max(SMALL) {
                 ContactStatus::Open
-            } else if point.mu > 0.0 && slip.abs() > margin.max(CLOSED) {
+            } else if point.mu > 0.0 && slip.abs() > margin.max(SMALL) {
                 if slip > 0.0 { ContactStatus::Forwards } else { ContactStatus::Backwards }
             } else {
                 ContactStatus::Stick

@@ -1,13 +1,13 @@
 //! Residuals of the equations.
 
-use super::constants::{FLOOR, IDLE};
+use super::constants::IDLE;
 use super::point::ExtendedPoint;
 use crate::certify::ratio;
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
 use crate::problem::column_of;
 use crate::states::{Point, Scaled};
-use crate::vector::max_abs;
+use crate::vector::{WEAK, max_abs};
 
 /// Residuals of the equations of the states.
 pub(super) struct EquationResidual {
@@ -69,7 +69,7 @@ impl EquationResidual {
             if *floats {
                 *rest = Extended::ZERO;
             }
-            largest = largest.max(ratio(rest.rounded(), terms.max(FLOOR * force)));
+            largest = largest.max(ratio(rest.rounded(), terms.max(WEAK * force)));
         }
         let mut opened = Vec::with_capacity(statuses.len());
         let points = scaled.points.iter().zip(statuses).zip(at.forces.iter().zip(&forces));
@@ -79,7 +79,7 @@ impl EquationResidual {
                 let terms = point.columns.iter().zip(point.coefficients);
                 let terms = terms.map(|(&j, v)| (u[j] * v[k]).abs());
                 let terms = terms.fold(first.abs() + pressed, |sum, term| sum + term);
-                largest = largest.max(ratio(sum.rounded(), terms.max(FLOOR * length)));
+                largest = largest.max(ratio(sum.rounded(), terms.max(WEAK * length)));
                 sum
             };
             let [gap, slip] = status.is_closed(point.mu);

@@ -3,9 +3,7 @@
 use web_time::Instant;
 
 use super::answer::{Refined, Refinement};
-use super::constants::{
-    ALL_DIGITS, CONTRADICTION, DOUBT, FALLEN, PASSES, PATIENCE, WEIGHTS, Weights,
-};
+use super::constants::{ALL_DIGITS, CONTRADICTION, FALLEN, PASSES, PATIENCE, WEIGHTS, Weights};
 use super::law::{self, Margin};
 use super::point::ExtendedPoint;
 use super::residual::{self, EquationResidual, Shifts};
@@ -13,7 +11,7 @@ use crate::certify::ratio;
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
 use crate::states::{Condensed, PointRef, Scaled, Springs};
-use crate::vector::max_abs;
+use crate::vector::{HALF_DIGITS, max_abs};
 use crate::{ContactState, Error};
 
 /// The answer, and what the inequalities of every contact leave.
@@ -197,14 +195,17 @@ impl<'a> Solve<'a> {
         let (residual, correction) = (self.residual(), self.correction.max(self.shifted));
         let Self { scaled, statuses, at, shifts, floating, passes, .. } = self;
         let floats = |i: usize| residual::touched(scaled.points.get(i)).any(|j| floating[j]);
-        let slacks: Vec<(f64, ContactStatus)> =
-            law::slacks(scaled, statuses, &at)
-                .enumerate()
-                // A body that floats can be moved aside by a rounding error.
-                .map(|(i, (slack, next))| {
-                    if slack > -DOUBT && floats(i) { (f64::INFINITY, next) } else { (slack, next) }
-                })
-                .collect();
+        let slacks: Vec<(f64, ContactStatus)> = law::slacks(scaled, statuses, &at)
+            .enumerate()
+            // A body that floats can be moved aside by a rounding error.
+            .map(|(i, (slack, next))| {
+                if slack > -HALF_DIGITS && floats(i) {
+                    (f64::INFINITY, next)
+                } else {
+                    (slack, next)
+                }
+            })
+            .collect();
         let force = scaled.force();
         let forces = |k: usize| at.forces.iter().map(|it| it[k].scaled(force)).collect();
         let on_bodies = residual::on_bodies(scaled, &at.forces);
