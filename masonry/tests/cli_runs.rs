@@ -341,7 +341,7 @@ mod interrupted {
         let result = object(&output);
         assert_eq!(result["interrupted"], true);
         // Routes, tolerances and meshes.
-        assert_eq!(result["records"].as_array().unwrap().len(), 6 * 6 * 3);
+        assert_eq!(result["records"].as_array().unwrap().len(), 5 * 6 * 3);
         assert!(result["summary"][0].as_str().unwrap().starts_with("Interrupted: "));
         assert!(out.join("study.json").exists());
     }

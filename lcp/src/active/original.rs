@@ -29,9 +29,6 @@ pub(crate) struct Answer {
     pub(crate) y: Vec<f64>,
     /// The state that it is, of a contact problem.
     pub(crate) contact: Option<ContactState>,
-    /// What rounding to `t` and `y` leaves of the loads: friction is a difference of two `t`, which loses it if normal
-    /// forces are too large.
-    pub(crate) loads: f64,
 }
 
 /// The judge of points of a scaled problem, in the data as given.
@@ -181,15 +178,23 @@ pub(crate) trait Original {
 /// The state of a scaled point. What is given back are forces inside their cones: where these are large, what was cut
 /// off may be more than the loads.
 fn state(problem: &Contact2d, scaled: &Scaled, at: PointRef<'_>) -> ContactState {
-    let inside = at.forces.iter().zip(problem.mu()).map(|((t_n, t_t), mu)| {
+    let points = scaled.points.iter().zip(at.forces).zip(problem.mu());
+    let inside = points.map(|((point, (t_n, t_t)), mu)| {
         let t_n = t_n.max(0.0);
         // Forces may have overflowed.
         let bound = if *mu > 0.0 { mu * t_n } else { 0.0 };
-        (t_n, t_t.clamp(-bound, bound))
+        let t_t = t_t.clamp(-bound, bound);
+        let acts = point.compliance[0] > 0.0 || point.coefficients.iter().any(|v| v[0] != 0.0);
+        (if acts { t_n } else { least_bound(t_n, t_t, *mu) }, t_t)
     });
     let (normal, tangential) =
         inside.map(|(t_n, t_t)| (t_n * scaled.force(), t_t * scaled.force())).unzip();
     problem.state(scaled.displacements(at.u), normal, tangential)
+}
+
+/// What is left of a normal force that acts on nothing, and may be as large as numbers are: what friction needs.
+fn least_bound(t_n: f64, t_t: f64, mu: f64) -> f64 {
+    if t_t == 0.0 { 0.0 } else { t_n.min((1.0 + f64::EPSILON) * t_t.abs() / mu) }
 }
 
 impl Judge for (&Contact2d, ContactJudge<'_>) {
@@ -206,9 +211,7 @@ impl Judge for (&Contact2d, ContactJudge<'_>) {
     fn answer(&self, scaled: &Scaled, at: PointRef<'_>) -> Answer {
         let state = state(self.0, scaled, at);
         let (t, y) = self.0.to_pairs(&state);
-        let recovered = self.0.recover(&t, &y);
-        let loads = self.1.residuals(&recovered.parts(), Precision::Rounded).loads;
-        Answer { t, y, contact: Some(state), loads }
+        Answer { t, y, contact: Some(state) }
     }
 }
 
@@ -241,7 +244,7 @@ impl Judge for (&MixedLcp, BoxedJudge<'_>) {
     fn answer(&self, scaled: &Scaled, at: PointRef<'_>) -> Answer {
         let (z, w) = variables(scaled, at);
         let (t, y) = self.0.to_pairs(&z, &w);
-        Answer { t, y, contact: None, loads: 0.0 }
+        Answer { t, y, contact: None }
     }
 }
 

@@ -195,8 +195,7 @@ impl<'a> Search<'a> {
             // On the way rows that matter to no load counted too.
             residuals = judge.residuals(&scaled, at, Precision::Exact);
         }
-        let Answer { t, y, contact, loads } = judge.answer(&scaled, at);
-        residuals.loads = residuals.loads.max(loads);
+        let Answer { t, y, contact } = judge.answer(&scaled, at);
         let basis = exact.map(|(contacts, _)| {
             let points = scaled.points.iter().zip(&forces);
             let slips: Vec<f64> = points.map(|(point, (_, t_t))| point.slip(&u, *t_t)).collect();

@@ -42,13 +42,15 @@ fn long() -> Case {
     let q: Vec<f64> = (0..N).map(|i| -unit(i)).collect();
     let settings = LemkeSettings {
         start: WarmStart::Basis(Basis::all(Side::Y, N)),
-        covering: Covering::Given((0..N).map(unit).collect()),
+        covering: Covering::Given(
+            (0..N).map(|i| unit(i) * (1.0 + 0.5_f64.powf(i as f64) / 100.0)).collect(),
+        ),
         max_pivots: Some(1 << N),
         max_attempts: Some(1),
         ..LemkeSettings::default()
     };
     Case::new(LONG, why, standard(m, q))
-        .parameters("`d_i m_ij d_j` with `m_ij` of Murty, `d_i = 1 + i / 7`, order 16, all `w` as the start, `d` as the covering vector")
+        .parameters("`d_i m_ij d_j` with `m_ij` of Murty, `d_i = 1 + i / 7`, order 16, all `w` as the start, `(1 + 2^-i / 100) d` as the covering vector, with which no rows tie")
         .solvable("one solution, near the first unit vector")
         .lemke(settings)
 }
