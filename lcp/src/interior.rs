@@ -20,7 +20,7 @@ pub use least::LeastForces;
 pub use settings::InteriorPointSettings;
 
 use balance::{Balance, balance};
-use constants::{HELD, MORE, NEAR, NEARER, NO_STEP, OPENING_OF_STEP, PATIENCE_OF_START};
+use constants::{HELD, MORE, NEAR, NEARER, OPENING_OF_STEP, PATIENCE};
 use iterate::{Defect, Iterate};
 use path::Ahead;
 use start::{set_out, start_opened};
@@ -245,7 +245,7 @@ impl Run<'_, '_, '_> {
             let merit = step.mean_product + lack * lack;
             since = if merit < 0.9 * least { 0 } else { since + 1 };
             least = least.min(merit);
-            if !next.is_finite() || step.length < NO_STEP || since > PATIENCE_OF_START {
+            if !next.is_finite() || step.length < HALF_DIGITS || since > PATIENCE {
                 // Residuals are relative: if all gaps or all forces vanish, they cannot become small.
                 let contacts = at.contacts();
                 let is_exact = self.settings.crossover

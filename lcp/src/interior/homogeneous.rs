@@ -3,7 +3,7 @@
 
 use faer::sparse::FaerError;
 
-use super::constants::{BACK, LEAST_AIM, LOADS, NEARER, NO_STEP, PATIENCE, PROVED};
+use super::constants::{BACK, LEAST_AIM, LOADS, NEAR, NEARER, PATIENCE};
 use super::factors::Factors;
 use super::program::Program;
 use super::step::{correction, lengthened};
@@ -105,7 +105,7 @@ fn iterate(
     };
     let mut now = Homogeneous::new(program, at);
     let (Accuracy::OfAll(tolerance) | Accuracy::OfForces(tolerance)) = accuracy;
-    let (mut least, mut since, mut provable) = ([f64::INFINITY; 3], 0, PROVED);
+    let (mut least, mut since, mut provable) = ([f64::INFINITY; 3], 0, NEAR);
     loop {
         let defect = now.defect();
         let residual = now.residual(&defect, accuracy);
@@ -133,7 +133,7 @@ fn iterate(
         since = if is_better { 0 } else { since + 1 };
         least = [0, 1, 2].map(|k| least[k].min(merits[k]));
         let alpha = now.advance(factors, defect);
-        if alpha < NO_STEP || since > PATIENCE {
+        if alpha < HALF_DIGITS || since > PATIENCE {
             return (now.at.solution(), Status::Stalled);
         }
     }

@@ -5,13 +5,8 @@
 pub(super) const PATIENCE: usize = 10;
 /// The same once fewer than all are exchanged. Chosen.
 pub(super) const REDUCED_PATIENCE: usize = 4;
-/// Pivots, and right-hand sides, below this relative to the terms that they come from are rounding errors. Rounding:
-/// errors of long sums.
-pub(super) const VANISHING: f64 = 1024.0 * f64::EPSILON;
 /// Largest residual, relative to the terms of its row, of a system that counts as solved. Chosen.
 pub(super) const USABLE: f64 = 1e-6;
-/// A variable below this, relative to the largest, may be one that vanishes. Chosen.
-pub(super) const MAY_VANISH: f64 = 1e-11;
 /// Residuals that a step of refinement would not decrease. Rounding: a few eps.
 pub(super) const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// Steps of refinement at most. Chosen.

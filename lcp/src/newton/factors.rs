@@ -3,12 +3,12 @@
 use faer::Mat;
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 
-use super::constants::VANISHING;
 use crate::Matrix;
 use crate::linear::{Lu, factorise_cholesky, solve_cholesky};
 use crate::matrix::Column;
 use crate::scaling::equilibrate;
 use crate::sparse::{Cholesky, Columns, Growing, SparseLu, Turn, elimination_order, row_counts};
+use crate::vector::SMALL;
 
 const NONE: usize = usize::MAX;
 
@@ -56,7 +56,7 @@ impl<'a> Factors<'a> {
             self.count += 1;
             if let Some(pivots) = self.cholesky() {
                 let mut pivots = self.free.iter().zip(pivots);
-                return pivots.all(|(&i, pivot)| pivot > VANISHING * self.m[(i, i)]);
+                return pivots.all(|(&i, pivot)| pivot > SMALL * self.m[(i, i)]);
             }
         }
         self.count += 1;
@@ -189,7 +189,7 @@ impl General {
         let is_regular = turns.all(|turn| {
             let column = number[turn.column];
             let row = turn.row.map(|row| number[row]).filter(|row| *row != NONE);
-            growing.offer(column, &block, Turn { column, row }, VANISHING)
+            growing.offer(column, &block, Turn { column, row }, SMALL)
         });
         is_regular.then(|| growing.finish().0)
     }

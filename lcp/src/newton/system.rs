@@ -1,10 +1,10 @@
 //! The points that belong to free sets.
 
-use super::constants::{MAY_VANISH, REFINEMENTS, ROUNDING, USABLE, VANISHING};
+use super::constants::{REFINEMENTS, ROUNDING, USABLE};
 use super::factors::Factors;
 use crate::Lcp;
 use crate::random::SplitMix;
-use crate::vector::{self, max_abs};
+use crate::vector::{self, SMALL, max_abs};
 
 /// A complementary point: `z` is free for some pairs, `w` for the others.
 #[derive(Debug, Clone)]
@@ -62,7 +62,7 @@ impl<'a> System<'a> {
     pub(super) fn without_noise(&mut self, point: &Point) -> Option<Point> {
         let roots = self.diagonal.iter().zip(&point.z).map(|(d, z)| d.sqrt() * z.abs());
         let size: Vec<f64> = roots.collect();
-        let noise = MAY_VANISH * max_abs(&size);
+        let noise = SMALL * max_abs(&size);
         let is_kept: Vec<bool> = point
             .is_free
             .iter()
@@ -145,7 +145,7 @@ fn solved(lcp: &Lcp, factors: &Factors<'_>, is_free: &[bool]) -> Option<(Vec<f64
 fn is_in_kernel(lcp: &Lcp, is_free: &[bool], size: &[f64]) -> bool {
     let mut rows = lcp.q().iter().zip(size).zip(is_free).filter(|(_, is_free)| **is_free);
     lcp.q().iter().zip(is_free).any(|(q, is_free)| *is_free && *q != 0.0)
-        && rows.all(|((q, size), _)| q.abs() <= VANISHING * size)
+        && rows.all(|((q, size), _)| q.abs() <= SMALL * size)
 }
 
 /// Minus the entries of the free pairs.
