@@ -39,23 +39,21 @@ impl<P: General> Solver<P> for Enumeration {
         };
         let (mut t, mut y) = (vec![0.0; n], vec![0.0; n]);
         let (mut basis, mut proof) = (None, None);
-        let mut otherwise = Status::NumericalTrouble;
         match found {
             Enumerated::Found { t: of_t, y: of_y, basis: found } => {
                 (t, y, basis) = (of_t, of_y, Some(found));
             }
-            Enumerated::Infeasible(pi) => {
-                proof = Some(Certificate::Farkas { pi });
-            }
-            Enumerated::NoSolution(leaves) => {
-                proof = Some(Certificate::Choices { leaves });
-            }
-            Enumerated::Open if is_cancelled => otherwise = Status::Cancelled,
-            Enumerated::Open if is_over(deadline) => {
-                otherwise = Status::TimeLimit;
-            }
+            Enumerated::Infeasible(pi) => proof = Some(Certificate::Farkas { pi }),
+            Enumerated::NoSolution(leaves) => proof = Some(Certificate::Choices { leaves }),
             Enumerated::Open => {}
         }
+        let otherwise = if is_cancelled {
+            Status::Cancelled
+        } else if is_over(deadline) {
+            Status::TimeLimit
+        } else {
+            Status::NumericalTrouble
+        };
         let mut solution = judged_point(problem, t, y, self.tolerance, otherwise);
         solution.basis = basis;
         if let Some(proof) = proof.filter(|it| it.holds(&general)) {

@@ -70,25 +70,15 @@ pub fn verify_basis(problem: &HorizontalLcp, basis: &Basis) -> ExactVerdict {
     let value = |(&variable, &row): (&Variable, &usize)| (variable, tableau.rows[row][n].clone());
     let values = variables.iter().zip(&rows).map(value);
     let point = ExactPoint::new(n, values, &tableau.determinant);
-    let both = [most_negative(Side::T, &point.t), most_negative(Side::Y, &point.y)];
-    let worst = both.into_iter().flatten().min_by(|a, b| a.relative.cmp(&b.relative));
-    if let Some(Negative { pair, side, relative }) = worst {
+    let both = [(Side::T, &point.t), (Side::Y, &point.y)].into_iter();
+    let relative = both.filter_map(|(side, values)| {
+        let largest = values.iter().cloned().map(Abs::abs).max()?;
+        let (pair, least) = values.iter().enumerate().min_by(|(_, a), (_, b)| a.cmp(b))?;
+        (*least < RBig::ZERO).then(|| (least / largest, pair, side))
+    });
+    if let Some((relative, pair, side)) = relative.min_by(|a, b| a.0.cmp(&b.0)) {
         return ExactVerdict::Infeasible { pair, side, relative: relative.to_f64().value() };
     }
     let (t, y) = point.rounded();
     ExactVerdict::Solution { t, y }
-}
-
-/// A negative value in units of the largest magnitude of its side.
-struct Negative {
-    pair: usize,
-    side: Side,
-    relative: RBig,
-}
-
-/// The most negative value of a side, if any is negative.
-fn most_negative(side: Side, values: &[RBig]) -> Option<Negative> {
-    let largest = values.iter().cloned().map(Abs::abs).max()?;
-    let (pair, least) = values.iter().enumerate().min_by(|(_, a), (_, b)| a.cmp(b))?;
-    (*least < RBig::ZERO).then(|| Negative { pair, side, relative: least / largest })
 }

@@ -17,7 +17,7 @@ pub(super) trait Kernel {
     /// The column of a nonbasic variable in the present basis.
     fn column(&mut self, var: Var, out: &mut [f64]);
 
-    /// The variable `entering` takes the place of `leaving` in `row`; `column` is its column.
+    /// The variable `entering` takes the place of `leaving` in `row`; `column` is its column, the last one asked for.
     fn exchange(&mut self, row: usize, entering: Var, leaving: Var, column: &[f64]);
 
     /// A row of the inverse of the basis, as factors that [`entry`](Self::entry) understands.

@@ -335,23 +335,22 @@ impl<'a> Path<'a> {
 
     /// Rates of all variables, `(w, z, z0)` one after the other, for one unit of the entering one, given its column.
     pub(super) fn direction(&self, entering: Var, column: &[f64]) -> Vec<f64> {
-        let mut direction = vec![0.0; 2 * self.order() + 1];
-        for (row, (&var, a)) in self.basic.iter().zip(column).enumerate() {
-            direction[var] = if self.is_bounded(row) { (-a).max(0.0) } else { -a };
-        }
-        direction[entering] = 1.0;
-        direction
+        self.moved(&vec![0.0; self.order()], entering, 1.0, column)
     }
 
     /// Values of all variables after a step of the entering one, given its column.
     pub(super) fn values_at(&self, entering: Var, step: f64, column: &[f64]) -> Vec<f64> {
-        let mut values = vec![0.0; 2 * self.order() + 1];
-        for (row, (&var, a)) in self.basic.iter().zip(column).enumerate() {
-            let value = self.values[row] - step * a;
-            values[var] = if self.is_bounded(row) { value.max(0.0) } else { value };
+        self.moved(&self.values, entering, step, column)
+    }
+
+    fn moved(&self, values: &[f64], entering: Var, step: f64, column: &[f64]) -> Vec<f64> {
+        let mut moved = vec![0.0; 2 * self.order() + 1];
+        for (row, ((&var, value), a)) in self.basic.iter().zip(values).zip(column).enumerate() {
+            let value = value - step * a;
+            moved[var] = if self.is_bounded(row) { value.max(0.0) } else { value };
         }
-        values[entering] = step;
-        values
+        moved[entering] = step;
+        moved
     }
 
     /// Remembers the present basis; `false` if it was met before.

@@ -44,48 +44,39 @@ impl<B: Fn(usize) -> bool> Basic<'_, B> {
         }
         match self.kernel.parting() {
             Some(parting) => first_parted(&parting, column, &tied),
-            None => Some(self.lexicographic_minimum(column, tied)),
+            None => Some(self.lexicographic_minimum(column, &tied)),
         }
     }
 
     /// Of tied rows the one whose row of the inverse basis, divided by its pivot, comes first in
     /// lexicographic order. In exact arithmetic no basis comes back along a path of such choices.
-    fn lexicographic_minimum(&self, column: &[f64], mut tied: Vec<usize>) -> usize {
-        let mut left = tied.len();
-        let mut is_out = vec![false; column.len()];
-        let mut rows: Option<Vec<Vec<f64>>> = None;
+    fn lexicographic_minimum(&self, column: &[f64], tied: &[usize]) -> usize {
+        // With their rows, which are computed where they are first looked at.
+        let mut left: Vec<(usize, Option<Vec<f64>>)> = tied.iter().map(|&i| (i, None)).collect();
         for k in 0..column.len() {
-            if left == 1 {
+            if left.len() == 1 {
                 break;
             }
             // Where `w_k` is basic its column of the inverse is a unit column: among zeros the one of
             // that row, which is positive, is not the least.
             if let Some(at) = self.row_of[k] {
-                if !is_out[at] && tied.binary_search(&at).is_ok() {
-                    is_out[at] = true;
-                    left -= 1;
-                }
+                left.retain(|(i, _)| *i != at);
                 continue;
             }
-            if let Some(rows) = &mut rows {
-                retain(rows, tied.iter().map(|&i| !is_out[i]));
-            }
-            tied.retain(|&i| !is_out[i]);
-            let kernel = self.kernel;
-            let rows = rows.get_or_insert_with(|| tied.iter().map(|&i| kernel.row(i)).collect());
-            let key = |(&i, row): (&usize, &Vec<f64>)| kernel.entry(i, row, k) / column[i];
-            let keys: Vec<f64> = tied.iter().zip(rows.iter()).map(key).collect();
+            let key = |(i, row): &mut (usize, Option<Vec<f64>>)| {
+                let row = row.get_or_insert_with(|| self.kernel.row(*i));
+                self.kernel.entry(*i, row, k) / column[*i]
+            };
+            let keys: Vec<f64> = left.iter_mut().map(key).collect();
             let least = keys.iter().copied().fold(f64::INFINITY, f64::min);
             // Entries of an equilibrated tableau are of order one: where all keys are rounding errors of
             // zero they must not be measured against each other.
-            let smallest_pivot = tied.iter().fold(f64::INFINITY, |min, &i| min.min(column[i]));
+            let smallest_pivot = left.iter().fold(f64::INFINITY, |min, (i, _)| min.min(column[*i]));
             let scale = keys.iter().fold(1.0 / smallest_pivot, |max, key| max.max(key.abs()));
-            for (&i, key) in tied.iter().zip(&keys) {
-                is_out[i] = key - least > TIE_WINDOW * scale;
-            }
-            left = tied.iter().filter(|&&i| !is_out[i]).count();
+            let mut is_least = keys.iter().map(|key| key - least <= TIE_WINDOW * scale);
+            left.retain(|_| is_least.next() == Some(true));
         }
-        tied.iter().copied().find(|&i| !is_out[i]).unwrap_or(tied[0])
+        left.first().map_or(tied[0], |(i, _)| *i)
     }
 }
 
@@ -98,9 +89,4 @@ fn first_parted(parting: &[f64], column: &[f64], tied: &[usize]) -> Option<usize
     let is_first = |i: &&usize| key(i) - least <= TIE_WINDOW * scale;
     let first = tied.iter().filter(is_first);
     first.max_by(|&&i, &&j| column[i].total_cmp(&column[j])).copied()
-}
-
-fn retain<T>(items: &mut Vec<T>, keep: impl Iterator<Item = bool>) {
-    let mut keep = keep;
-    items.retain(|_| keep.next().unwrap_or(true));
 }

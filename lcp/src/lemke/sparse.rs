@@ -16,7 +16,7 @@ use std::borrow::Cow;
 
 use faer::Mat;
 
-use super::constants::SINGULAR;
+use super::constants::DRIFT;
 use super::kernel::{Kernel, Var};
 use crate::linear::Lu;
 use crate::random::SplitMix;
@@ -54,8 +54,8 @@ pub(super) struct Sparse<'a> {
     pivots: usize,
     limit: usize,
     interval: Option<usize>,
-    /// The last column computed in terms of `B0`.
-    last: (Option<Var>, Vec<f64>),
+    /// The last column computed, in terms of `B0`.
+    last: Vec<f64>,
     work: Vec<f64>,
 }
 
@@ -95,7 +95,7 @@ impl<'a> Sparse<'a> {
             limit: pivot_limit(factored.lu.stored(), interval),
             factored,
             interval,
-            last: (None, vec![0.0; n]),
+            last: Vec::new(),
             work: Vec::new(),
         }
     }
@@ -130,21 +130,8 @@ impl<'a> Sparse<'a> {
         }
     }
 
-    /// The column of a variable in terms of `B0`.
-    fn in_base(&mut self, var: Var) -> Vec<f64> {
-        let (last, column) = std::mem::take(&mut self.last);
-        if last == Some(var) {
-            return column;
-        }
-        let mut column = vec![0.0; self.order()];
-        self.add_start_column(var, 1.0, &mut column);
-        self.factored.lu.solve(&mut column, &mut self.work);
-        column
-    }
-
     /// Row and column of `S` for a variable that takes a row.
     fn extend_schur(&mut self, row: usize, var: Var) {
-        let column = self.in_base(var);
         if self.factored.place[row].is_none() {
             let mut unit = vec![0.0; self.order()];
             unit[row] = 1.0;
@@ -154,7 +141,7 @@ impl<'a> Sparse<'a> {
                 self.factored.schur[k].push(entry);
             }
         }
-        self.factored.change(row, var, &column);
+        self.factored.change(row, var, &self.last);
     }
 
     /// The factors of a basis, with its values, refined once; `None` when it is singular.
@@ -189,7 +176,7 @@ impl<'a> Sparse<'a> {
         let error = max_abs(&self.residual(basic, &values));
         let size = max_abs(&values).max(max_abs(&self.start.right));
         // Written so that a NaN is refused.
-        (size.is_finite() && error <= SINGULAR * size).then_some((factored, values))
+        (size.is_finite() && error <= DRIFT * size).then_some((factored, values))
     }
 
     fn residual(&self, basic: &[Var], values: &[f64]) -> Vec<f64> {
@@ -251,7 +238,7 @@ impl Kernel for Sparse<'_> {
         let mut work = std::mem::take(&mut self.work);
         let in_base = self.solve(&self.factored, out, &mut work);
         self.work = work;
-        self.last = (Some(var), in_base);
+        self.last = in_base;
     }
 
     fn exchange(&mut self, row: usize, entering: Var, _leaving: Var, _column: &[f64]) {
@@ -307,7 +294,6 @@ impl Kernel for Sparse<'_> {
         self.factored = factored;
         self.pivots = 0;
         self.limit = pivot_limit(self.factored.lu.stored(), self.interval);
-        self.last.0 = None;
         true
     }
 }
