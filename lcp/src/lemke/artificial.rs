@@ -5,7 +5,7 @@
 //! basis. A solution in which all artificial variables are zero solves the problem as given, which
 //! the residuals of the original data decide.
 
-use super::constants::{LEAST_PART, NOISE};
+use super::constants::NOISE;
 use super::feasibility::in_problem_rows;
 use super::finish::Point;
 use super::start::Equilibrated;
@@ -71,9 +71,6 @@ pub(super) fn part_outside(problem: &Equilibrated<'_>, complement: &Matrix) -> O
     for k in 0..complement.ncols() {
         let column = complement.slice(k);
         column.add_to(column.dot(&right), &mut outside);
-    }
-    if max_abs(&outside) <= LEAST_PART * max_abs(&right) {
-        return None;
     }
     let least = NOISE * max_abs(&outside);
     outside.iter_mut().filter(|part| part.abs() < least).for_each(|part| *part = 0.0);

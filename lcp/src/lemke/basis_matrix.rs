@@ -2,7 +2,7 @@
 
 use faer::Mat;
 
-use super::constants::{LEVEL, NOTHING, SAMPLES};
+use super::constants::{LEVEL, SAMPLES};
 use super::start::Equilibrated;
 use crate::linear::{Lu, inverse_norm};
 use crate::random::SplitMix;
@@ -123,7 +123,7 @@ impl BasisMatrix {
         self.solve_transpose(&mut step);
         let errors = sampled(&sizes, |sample| self.solve_transpose(sample));
         // What refinement has made smaller and smaller is below the error of nothing.
-        let least = NOTHING * max_abs(&y);
+        let least = f64::EPSILON * f64::EPSILON * max_abs(&y);
         let refined = y.iter().zip(&step).map(|(y, step)| y + step);
         refined
             .zip(errors)

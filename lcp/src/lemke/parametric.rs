@@ -10,7 +10,7 @@ pub use outcome::{Breakpoint, ParametricEnd, ParametricPath, ParametricRay};
 
 use web_time::Instant;
 
-use super::constants::{ROUNDING, TIE_WINDOW};
+use super::constants::{NOISE, TIE_WINDOW};
 use super::crash::{Crash, find_basis};
 use super::kernel::Var;
 use super::path::Path;
@@ -166,7 +166,7 @@ impl Tracer<'_> {
             let row = path.leaving_row(&column);
             let step = row.map_or(f64::INFINITY, |row| path.values[row].max(0.0) / column[row]);
             let speed = match path.artificial_row() {
-                Some(row) if column[row].abs() <= ROUNDING * max_abs(&column) => 0.0,
+                Some(row) if column[row].abs() <= NOISE * max_abs(&column) => 0.0,
                 Some(row) => -column[row],
                 None => 1.0,
             };
@@ -208,25 +208,9 @@ impl Tracer<'_> {
     /// Adds the point with these values of all variables of the path, if the original data vouch for it. `lambda`
     /// replaces the value of the path where it is known.
     fn note(&self, along: &[f64], lambda: Option<f64>, out: &mut ParametricPath) -> bool {
-        // A solution that vanishes must not be measured by its own rounding errors. These grow with the
-        // condition of the basis, up to what counts as a tie.
-        let mut points = [ROUNDING, TIE_WINDOW].into_iter().map(|least| {
-            let point = self.point(along, lambda, least);
-            (self.residual(&point), point)
-        });
-        let found = points.find(|(residual, _)| *residual <= self.settings.lemke.tolerance);
-        if let Some((residual, point)) = found {
-            out.breakpoints.push(point);
-            out.residual = out.residual.max(residual);
-            return true;
-        }
-        false
-    }
-
-    /// A point. Values below `least`, relative to the path's, are zero.
-    fn point(&self, along: &[f64], lambda: Option<f64>, least: f64) -> Breakpoint {
         let parameter = along[along.len() - 1];
-        let zero = least * (1.0 + parameter.abs());
+        // A solution that vanishes must not be measured by its own rounding errors.
+        let zero = NOISE * (1.0 + parameter.abs());
         let kept = |value: f64| if value.abs() > zero { value } else { 0.0 };
         let kept_values: Vec<f64> = along.iter().copied().map(kept).collect();
         let (t, y) = self.start.in_problem_units(self.equilibrated, &kept_values);
@@ -234,9 +218,16 @@ impl Tracer<'_> {
             let travelled = self.unit * kept(parameter);
             let lambda = self.from + travelled;
             let size = self.from.abs() + travelled.abs();
-            if lambda.abs() > least * size { lambda } else { 0.0 }
+            if lambda.abs() > NOISE * size { lambda } else { 0.0 }
         });
-        Breakpoint { lambda, t, y }
+        let point = Breakpoint { lambda, t, y };
+        let residual = self.residual(&point);
+        let is_solution = residual <= self.settings.lemke.tolerance;
+        if is_solution {
+            out.breakpoints.push(point);
+            out.residual = out.residual.max(residual);
+        }
+        is_solution
     }
 
     fn residual(&self, point: &Breakpoint) -> f64 {

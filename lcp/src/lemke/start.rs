@@ -12,7 +12,7 @@ use crate::sparse::{Columns, SparseLu};
 use crate::vector::max_abs;
 use crate::{Basis, HorizontalLcp, Side};
 
-use super::constants::{LARGEST_GROWTH, NOISE, ROUNDING};
+use super::constants::{NOISE, PIVOT_TOLERANCE};
 use super::dense::Dense;
 use super::kernel::{Kernel, Var};
 use super::sparse::{Sparse, SparseStart};
@@ -153,7 +153,7 @@ impl<'a> Equilibrated<'a> {
             lu.solve_in_place(t.as_mut());
             lu.solve_vector(&mut q);
             drop_rounding(&mut t);
-            if !all_finite(&t) || t.norm_max() > LARGEST_GROWTH {
+            if !all_finite(&t) || t.norm_max() > 1.0 / PIVOT_TOLERANCE {
                 return None;
             }
             let columns: Vec<_> = (0..n).map(|j| Column::Dense(t.col_as_slice(j))).collect();
@@ -180,7 +180,7 @@ impl<'a> Equilibrated<'a> {
         let norm = inverse_norm(n, |x, is_transposed| {
             if is_transposed { lu.solve_transpose(x, &mut work) } else { lu.solve(x, &mut work) }
         });
-        if !replaced.is_empty() || norm.is_nan() || norm > LARGEST_GROWTH {
+        if !replaced.is_empty() || norm.is_nan() || norm > 1.0 / PIVOT_TOLERANCE {
             return None;
         }
         let right = self.right_hand_side();
@@ -199,7 +199,7 @@ impl<'a> Equilibrated<'a> {
 fn drop_rounding(t: &mut Mat<f64>) {
     for j in 0..t.ncols() {
         let column = t.col_as_slice_mut(j);
-        let least = ROUNDING * max_abs(column).max(1.0);
+        let least = NOISE * max_abs(column).max(1.0);
         column.iter_mut().filter(|v| v.abs() < least).for_each(|v| *v = 0.0);
     }
 }
