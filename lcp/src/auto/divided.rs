@@ -7,7 +7,10 @@ use super::chain::{self, Rank};
 use super::constants::{KEPT, MANY_PARTS};
 use super::method::{Planned, Step, chain_of};
 use crate::divide::{Joined, Part};
-use crate::{Basis, Certificate, Error, Observer, Route, RouteEnd, Side, Solution, Status};
+use crate::{Basis, Certificate, Error, Method, Observer, Route, RouteEnd, Side, Solution, Status};
+
+/// A part and its answer.
+type Answer<P> = (Part<P>, Solution);
 
 /// Solves a problem by its parts, where it has several.
 pub(super) fn run<P: Planned>(
@@ -28,9 +31,12 @@ pub(super) fn run<P: Planned>(
         }
         tried = Some(solution);
     }
-    let mut divided = Divided { settings, began, answers: Vec::new() };
-    match divided.solve(parts, observer) {
-        Ok(()) => Ok(chain::better(tried, divided.join(problem), settings.tolerance)),
+    match solve(parts, settings, began, observer) {
+        Ok(answers) => {
+            let mut whole = join(problem, answers, settings.tolerance);
+            whole.info.seconds = began.elapsed().as_secs_f64();
+            Ok(chain::better(tried, whole, settings.tolerance))
+        }
         Err(error) => tried.ok_or(error),
     }
 }
@@ -97,80 +103,74 @@ fn add_route(first: &mut Route, other: &Route) {
     }
 }
 
-/// The answers of the parts.
-struct Divided<'a, P> {
-    settings: &'a AutoSettings,
+/// Solves one part after the other, until one of them proves that the linear conditions have no solution. Of the time
+/// left all remaining parts have the same share: the smallest come first and leave theirs to the others.
+fn solve<P: Planned>(
+    parts: Vec<Part<P>>,
+    settings: &AutoSettings,
     began: Instant,
-    answers: Vec<(Part<P>, Solution)>,
+    observer: &mut Observer<'_>,
+) -> Result<Vec<Answer<P>>, Error> {
+    let mut answers: Vec<Option<Answer<P>>> = parts.iter().map(|_| None).collect();
+    let mut order: Vec<(usize, Part<P>)> = parts.into_iter().enumerate().collect();
+    order.sort_by_key(|(_, part)| part.pairs.len());
+    let count = u32::try_from(order.len()).unwrap_or(u32::MAX);
+    for ((place, part), remaining) in order.into_iter().zip((1..=count).rev()) {
+        let left = |limit: Duration| limit.saturating_sub(began.elapsed());
+        let settings = AutoSettings {
+            time_limit: settings.time_limit.map(|limit| left(limit) / remaining),
+            start: part.start(&settings.start),
+            ..settings.clone()
+        };
+        let answer = chain::run(&part.problem, &settings, observer)?;
+        let is_last = match answer.status {
+            Status::Infeasible => is_proof(&answer),
+            status => status == Status::Cancelled,
+        };
+        answers[place] = Some((part, answer));
+        if is_last {
+            break;
+        }
+    }
+    Ok(answers.into_iter().flatten().collect())
 }
 
-impl<P: Planned> Divided<'_, P> {
-    /// Solves one part after the other, until one of them proves that the linear conditions have no solution. Of the time
-    /// left all remaining parts have the same share: the smallest come first and leave theirs to the others.
-    fn solve(&mut self, parts: Vec<Part<P>>, observer: &mut Observer<'_>) -> Result<(), Error> {
-        let mut order: Vec<(usize, Part<P>)> = parts.into_iter().enumerate().collect();
-        order.sort_by_key(|(_, part)| part.pairs.len());
-        let mut places = Vec::with_capacity(order.len());
-        let count = u32::try_from(order.len()).unwrap_or(u32::MAX);
-        for ((place, part), remaining) in order.into_iter().zip((1..=count).rev()) {
-            let left = |limit: Duration| limit.saturating_sub(self.began.elapsed());
-            let settings = AutoSettings {
-                time_limit: self.settings.time_limit.map(|limit| left(limit) / remaining),
-                start: part.start(&self.settings.start),
-                ..self.settings.clone()
-            };
-            let answer = chain::run(&part.problem, &settings, observer)?;
-            let is_last = match answer.status {
-                Status::Infeasible => is_proof(&answer),
-                status => status == Status::Cancelled,
-            };
-            self.answers.push((part, answer));
-            places.push(place);
-            if is_last {
-                break;
-            }
-        }
-        let mut answers: Vec<_> = places.into_iter().zip(self.answers.drain(..)).collect();
-        answers.sort_by_key(|(place, _)| *place);
-        self.answers = answers.into_iter().map(|(_, answer)| answer).collect();
-        Ok(())
+/// The answer of the whole: the part that says least decides what is said of it, unless one proves that there
+/// is no solution.
+fn join<P: Planned>(problem: &P, mut answers: Vec<Answer<P>>, tolerance: f64) -> Solution {
+    let pairs = problem.general().order();
+    let (mut t, mut y) = (vec![0.0; pairs], vec![0.0; pairs]);
+    for (part, answer) in &answers {
+        part.put_pairs(&answer.t, &mut t);
+        part.put_pairs(&answer.y, &mut y);
     }
-
-    /// The answer of the whole: the part that says least decides what is said of it, unless one proves that there
-    /// is no solution.
-    fn join(self, problem: &P) -> Solution {
-        let Self { settings, began, mut answers } = self;
-        let pairs = problem.general().order();
-        let (mut t, mut y) = (vec![0.0; pairs], vec![0.0; pairs]);
-        for (part, answer) in &answers {
-            part.put_pairs(&answer.t, &mut t);
-            part.put_pairs(&answer.y, &mut y);
-        }
-        let (otherwise, certificate) = outcome(&answers, settings.tolerance, pairs);
-        let Joined { residuals, contact, boxed } = problem.join(&t, &y, &answers);
-        let whole = Solution::judged(t, y, residuals, settings.tolerance, otherwise);
-        let mut whole = Solution { contact, boxed, ..whole };
-        whole.certificate = certificate.filter(|_| whole.status == otherwise);
-        whole.basis = joined_basis(&answers, pairs);
-        whole.condition = joined_condition(&answers);
-        whole.info.method = largest(&answers).info.method;
-        for (_, answer) in &mut answers {
-            let info = &mut answer.info;
-            whole.info.pivots += info.pivots;
-            whole.info.iterations += info.iterations;
-            whole.info.factorisations += info.factorisations;
-            whole.info.pivot_seconds += info.pivot_seconds;
-            whole.info.attempts.append(&mut info.attempts);
-        }
-        let count = answers.len();
-        let routes = answers.into_iter().map(|(_, answer)| answer.info.routes);
-        for (mut route, of_parts) in merged(routes, is_same_end, add_route) {
-            route.reason = named(&route.reason, of_parts, count);
-            whole.info.routes.push(route);
-        }
-        whole.info.seconds = began.elapsed().as_secs_f64();
-        whole
+    let (otherwise, certificate) = outcome(&answers, tolerance, pairs);
+    let Joined { residuals, contact, boxed } = problem.join(&t, &y, &answers);
+    let whole = Solution::judged(t, y, residuals, tolerance, otherwise);
+    let mut whole = Solution { contact, boxed, ..whole };
+    whole.certificate = certificate.filter(|_| whole.status == otherwise);
+    whole.basis = joined_basis(&answers, pairs);
+    // Blocks are equilibrated, so that their norms are alike.
+    let mut conditions = answers.iter().map(|(_, answer)| answer.condition);
+    whole.condition = conditions.try_fold(0.0_f64, |largest, it| Some(largest.max(it?)));
+    // The first of the largest parts stands for all.
+    let largest = answers.iter().rev().max_by_key(|(part, _)| part.pairs.len());
+    whole.info.method = largest.map_or(Method::Auto, |(_, answer)| answer.info.method);
+    for (_, answer) in &mut answers {
+        let info = &mut answer.info;
+        whole.info.pivots += info.pivots;
+        whole.info.iterations += info.iterations;
+        whole.info.factorisations += info.factorisations;
+        whole.info.pivot_seconds += info.pivot_seconds;
+        whole.info.attempts.append(&mut info.attempts);
     }
+    let count = answers.len();
+    let routes = answers.into_iter().map(|(_, answer)| answer.info.routes);
+    for (mut route, of_parts) in merged(routes, is_same_end, add_route) {
+        route.reason = named(&route.reason, of_parts, count);
+        whole.info.routes.push(route);
+    }
+    whole
 }
 
 fn is_proof(answer: &Solution) -> bool {
@@ -179,11 +179,11 @@ fn is_proof(answer: &Solution) -> bool {
 
 /// What the parts say of the whole.
 fn outcome<P>(
-    answers: &[(Part<P>, Solution)],
+    answers: &[Answer<P>],
     tolerance: f64,
     pairs: usize,
 ) -> (Status, Option<Certificate>) {
-    let says = |(_, answer): &&(Part<P>, Solution)| match chain::rank(answer, tolerance).0 {
+    let says = |(_, answer): &&Answer<P>| match chain::rank(answer, tolerance).0 {
         _ if is_proof(answer) && answer.status == Status::Infeasible => 4,
         _ if is_proof(answer) => 3,
         Rank::Decided => 0,
@@ -197,28 +197,11 @@ fn outcome<P>(
 }
 
 /// The basis of the whole, where all parts have one.
-fn joined_basis<P>(answers: &[(Part<P>, Solution)], pairs: usize) -> Option<Basis> {
+fn joined_basis<P>(answers: &[Answer<P>], pairs: usize) -> Option<Basis> {
     let mut sides = vec![Side::T; pairs];
     for (part, answer) in answers {
         part.put_pairs(answer.basis.as_ref()?.sides(), &mut sides);
     }
     let covered: usize = answers.iter().map(|(part, _)| part.pairs.len()).sum();
     (covered == pairs).then(|| Basis::new(sides))
-}
-
-/// That of the part with the largest, where all are known: blocks are equilibrated, so that their norms are alike.
-fn joined_condition<P>(answers: &[(Part<P>, Solution)]) -> Option<f64> {
-    let mut conditions = answers.iter().map(|(_, answer)| answer.condition);
-    conditions.try_fold(0.0_f64, |largest, condition| Some(largest.max(condition?)))
-}
-
-/// The answer of the first of the largest parts, whose method stands for all.
-fn largest<P>(answers: &[(Part<P>, Solution)]) -> &Solution {
-    let mut largest = &answers[0];
-    for answer in answers {
-        if answer.0.pairs.len() > largest.0.pairs.len() {
-            largest = answer;
-        }
-    }
-    &largest.1
 }

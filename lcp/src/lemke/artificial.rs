@@ -22,21 +22,13 @@ pub(super) fn completed(
 ) -> HorizontalLcp {
     let (a, b) = (problem.problem.a(), problem.problem.b());
     let matrix = if side == Side::T { a } else { b };
-    let completed = if problem.problem.is_sparse() {
-        let kept = (0..chosen.len()).filter(|&pair| chosen[pair].is_some());
-        let kept = kept.flat_map(|pair| matrix.column(pair).map(move |(i, v)| (i, pair, v)));
-        let artificial = missing(chosen).zip(0..complement.ncols()).flat_map(|(pair, k)| {
-            complement.column(k).map(move |(i, e)| (i, pair, e / problem.row[i]))
-        });
-        Matrix::from_entries(chosen.len(), chosen.len(), kept.chain(artificial))
-    } else {
-        let mut dense = matrix.to_dense();
-        for (pair, k) in missing(chosen).zip(0..complement.ncols()) {
-            let out = dense.col_as_slice_mut(pair);
-            complement.column(k).for_each(|(i, e)| out[i] = e / problem.row[i]);
-        }
-        dense.into()
-    };
+    let kept = (0..chosen.len()).filter(|&pair| chosen[pair].is_some());
+    let kept = kept.flat_map(|pair| matrix.column(pair).map(move |(i, v)| (i, pair, v)));
+    let artificial = missing(chosen).zip(0..complement.ncols()).flat_map(|(pair, k)| {
+        complement.column(k).map(move |(i, e)| (i, pair, e / problem.row[i]))
+    });
+    let entries = kept.chain(artificial);
+    let completed = Matrix::assembled(chosen.len(), problem.problem.is_sparse(), entries);
     let c = problem.problem.c().to_vec();
     match side {
         Side::T => HorizontalLcp::from_parts(completed, b.clone(), c),

@@ -14,14 +14,15 @@ use crate::certify::is_proof;
 use crate::pivoting::AttemptEnd;
 use crate::vector::max_abs;
 
-/// A checked Farkas vector, if one is found along a path that has not begun.
+/// A checked Farkas vector, if one is found from a start basis.
 pub(super) fn farkas_vector(
     problem: &Equilibrated<'_>,
     start: &Start,
-    mut path: Path<'_>,
+    covering: &[f64],
     limits: Limits<'_>,
 ) -> Result<Option<Vec<f64>>, AttemptEnd> {
     let n = problem.order();
+    let mut path = Path::new(start, covering, None);
     let mut column = vec![0.0; n];
     if path.enter_artificial(&mut column).is_none() {
         return Ok(None);

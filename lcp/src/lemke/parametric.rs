@@ -120,9 +120,7 @@ impl Parametric {
         let rate: Vec<f64> = rates.q.iter().map(|rate| direction * rate).collect();
         let start = start.bounded();
         let interval = self.settings.lemke.refactor_interval;
-        let kernel = start.kernel(&rate, interval);
-        let values = start.q.iter().map(|q| q.max(0.0)).collect();
-        let path = Path::parametric(kernel, &start, &rate, values, interval);
+        let path = Path::parametric(&start, &rate, interval);
         let unit = direction * start.size / rates.size;
         let (settings, equilibrated, start) = (&self.settings, &equilibrated, &start);
         let tracer =
@@ -182,8 +180,7 @@ impl Tracer<'_> {
             }
             let step = if is_last { reach } else { step };
             // Rows within this window count as tied, so that a step within it parts a tie.
-            if step * max_abs(&column) > TIE_WINDOW * path.value_scale()
-                || is_last && out.bases.is_empty()
+            if step * max_abs(&column) > TIE_WINDOW * path.scale || is_last && out.bases.is_empty()
             {
                 let along = path.values_at(entering, step, &column);
                 if !self.note(&along, is_last.then_some(goal), out) {

@@ -9,7 +9,6 @@ use std::collections::HashSet;
 
 use super::constants::{ARTIFICIAL_ZERO, DRIFT};
 use super::kernel::{Kernel, Var};
-use super::ratio::Basic;
 use super::start::{Equilibrated, Start};
 use crate::pivoting::{AttemptEnd, PivotRecord, Variable};
 use crate::random::SplitMix;
@@ -29,12 +28,13 @@ pub(super) struct Path<'a> {
     pub(super) values: Vec<f64>,
     basic: Vec<Var>,
     /// Row of every variable, where it is basic.
-    row_of: Vec<Option<usize>>,
+    pub(super) row_of: Vec<Option<usize>>,
     /// Whether the artificial variable is a parameter, which may have any value.
-    is_parametric: bool,
+    pub(super) is_parametric: bool,
     /// First value of the artificial variable.
-    artificial_start: f64,
-    scale: f64,
+    pub(super) artificial_start: f64,
+    /// Size of the basic values, against which a tie is judged.
+    pub(super) scale: f64,
     pub(super) pivots: usize,
     pub(super) factorisations: usize,
     /// Pivots after which the tableau is rebuilt in any case.
@@ -51,22 +51,15 @@ pub(super) struct Path<'a> {
 }
 
 impl<'a> Path<'a> {
-    /// `values` are those of the start basis. Rows of free variables have a covering of zero.
-    pub(super) fn new(
-        kernel: Box<dyn Kernel + 'a>,
-        start: &'a Start,
-        covering: &'a [f64],
-        values: Vec<f64>,
-        interval: Option<usize>,
-        with_trace: bool,
-    ) -> Self {
-        let n = values.len();
+    /// Rows of free variables have a covering of zero.
+    pub(super) fn new(start: &'a Start, covering: &'a [f64], interval: Option<usize>) -> Self {
+        let n = start.q.len();
         Self {
-            kernel,
+            kernel: start.kernel(covering, interval),
             start,
             covering,
-            scale: max_abs(&values),
-            values,
+            scale: max_abs(&start.q),
+            values: start.q.clone(),
             basic: (0..n).collect(),
             row_of: (0..=2 * n).map(|var| (var < n).then_some(var)).collect(),
             is_parametric: false,
@@ -74,7 +67,7 @@ impl<'a> Path<'a> {
             pivots: 0,
             factorisations: 0,
             interval,
-            trace: with_trace.then(Vec::new),
+            trace: None,
             visited: HashSet::new(),
             signature: (0..n).map(key).fold(0, |a, b| a ^ b),
             column: vec![0.0; n],
@@ -85,15 +78,10 @@ impl<'a> Path<'a> {
 
     /// A path along which the artificial variable is a parameter: it may have any value, and does not
     /// leave when it is zero.
-    pub(super) fn parametric(
-        kernel: Box<dyn Kernel + 'a>,
-        start: &'a Start,
-        rate: &'a [f64],
-        values: Vec<f64>,
-        interval: Option<usize>,
-    ) -> Self {
-        let path = Self::new(kernel, start, rate, values, interval, false);
-        Self { is_parametric: true, artificial_start: 1.0, ..path }
+    pub(super) fn parametric(start: &'a Start, rate: &'a [f64], interval: Option<usize>) -> Self {
+        let mut path = Self::new(start, rate, interval);
+        path.values.iter_mut().for_each(|value| *value = value.max(0.0));
+        Self { is_parametric: true, artificial_start: 1.0, scale: max_abs(&path.values), ..path }
     }
 
     fn order(&self) -> usize {
@@ -124,29 +112,10 @@ impl<'a> Path<'a> {
     }
 
     /// Whether the basic variable of a row must not be negative. A free variable, once basic, stays.
-    fn is_bounded(&self, row: usize) -> bool {
+    pub(super) fn is_bounded(&self, row: usize) -> bool {
         let n = self.order();
         let var = self.basic[row];
         if var == 2 * n { !self.is_parametric } else { !self.start.is_free(var % n) }
-    }
-
-    /// Size of the basic values, against which a tie is judged.
-    pub(super) fn value_scale(&self) -> f64 {
-        self.scale
-    }
-
-    /// The row that leaves for a column that enters.
-    pub(super) fn leaving_row(&self, column: &[f64]) -> Option<usize> {
-        let driven = self.artificial_row().filter(|_| !self.is_parametric);
-        let basic = Basic {
-            kernel: &*self.kernel,
-            values: &self.values,
-            row_of: &self.row_of,
-            is_bounded: |row| self.is_bounded(row),
-            driven: driven.map(|row| (row, self.artificial_start)),
-            scale: self.scale,
-        };
-        basic.leaving_row(column)
     }
 
     /// Follows the path to its end. Without an artificial variable that of a pair, the driver, takes its place, and the

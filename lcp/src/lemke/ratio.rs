@@ -1,36 +1,22 @@
 //! The ratio test: which basic variable leaves.
 
 use super::constants::{ARTIFICIAL_ZERO, NOISE, PIVOT_TOLERANCE, TIE_WINDOW};
-use super::kernel::Kernel;
+use super::path::Path;
+use crate::vector::max_abs;
 
-/// What the test looks at: the basic variables, row by row.
-pub(super) struct Basic<'a, B> {
-    pub(super) kernel: &'a dyn Kernel,
-    pub(super) values: &'a [f64],
-    /// Row of every variable, where it is basic.
-    pub(super) row_of: &'a [Option<usize>],
-    /// Whether the variable of a row must not be negative.
-    pub(super) is_bounded: B,
-    /// The row of the variable that stands to become zero, with its first value.
-    pub(super) driven: Option<(usize, f64)>,
-    /// Size of the values, against which a tie is judged.
-    pub(super) scale: f64,
-}
-
-impl<B: Fn(usize) -> bool> Basic<'_, B> {
+impl Path<'_> {
     /// The row that leaves, or `None` when nothing blocks the entering variable. In two passes: the
     /// longest step that brings no variable below zero by more than the window, then the rows that block within it.
     pub(super) fn leaving_row(&self, column: &[f64]) -> Option<usize> {
-        let largest = column.iter().fold(0.0_f64, |max, a| max.max(a.abs()));
-        let smallest_pivot = (PIVOT_TOLERANCE * largest).max(NOISE);
-        let blocks = |&i: &usize| column[i] > smallest_pivot && (self.is_bounded)(i);
+        let smallest_pivot = (PIVOT_TOLERANCE * max_abs(column)).max(NOISE);
+        let blocks = |&i: &usize| column[i] > smallest_pivot && self.is_bounded(i);
         let value = |i: usize| self.values[i].max(0.0);
 
         let shortest =
             (0..column.len()).filter(blocks).map(|i| value(i) / column[i]).reduce(f64::min)?;
-        if let Some((row, first)) = self.driven {
+        if let Some(row) = self.artificial_row().filter(|_| !self.is_parametric) {
             let after = self.values[row] - shortest * column[row];
-            if column[row] > NOISE && after <= ARTIFICIAL_ZERO * first {
+            if column[row] > NOISE && after <= ARTIFICIAL_ZERO * self.artificial_start {
                 return Some(row);
             }
         }

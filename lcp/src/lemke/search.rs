@@ -248,9 +248,8 @@ impl<'a> Search<'a> {
         let covering = covering_vector(trial.covering, start, given);
         let perturbed = trial.perturbed(start);
         let data = perturbed.as_ref().unwrap_or(start);
-        let interval = settings.refactor_interval;
-        let kernel = data.kernel(&covering, interval);
-        let mut path = Path::new(kernel, data, &covering, data.q.clone(), interval, settings.trace);
+        let mut path = Path::new(data, &covering, settings.refactor_interval);
+        path.trace = settings.trace.then(Vec::new);
         // Every pair has its turn before the paths that begin with them may be twice as long.
         let (round, driver) = match trial.covering {
             AttemptCovering::Column { pair } => (pair / order, Some(pair % order)),
@@ -324,10 +323,8 @@ impl<'a> Search<'a> {
         observer: Observer<'_>,
     ) -> Result<Option<Vec<f64>>, Status> {
         let covering = covering_vector(AttemptCovering::Ones, start, &[]);
-        let kernel = start.kernel(&covering, None);
-        let path = Path::new(kernel, start, &covering, start.q.clone(), None, false);
         let mut limits = self.limits(number, 20 * self.problem.order() + 100, observer);
-        match farkas_vector(&self.problem, start, path, &mut limits) {
+        match farkas_vector(&self.problem, start, &covering, &mut limits) {
             Ok(found) => Ok(found),
             Err(end) => stopped(end).map_or(Ok(None), Err),
         }
