@@ -11,6 +11,7 @@ mod mixed;
 mod settings;
 mod standard;
 
+pub use method::Choice;
 pub use settings::AutoSettings;
 
 #[cfg(feature = "cli")]
@@ -18,18 +19,6 @@ pub(crate) use enumerated::Enumeration;
 use method::Planned;
 
 use crate::{Error, Method, Observer, Solution, Solver};
-
-/// A method of a plan, and the reason for it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub struct Choice {
-    /// The method.
-    #[cfg_attr(feature = "serde", serde(rename = "solver"))]
-    pub method: Method,
-    /// The reason for this method at this place, with the numbers on which it is based.
-    pub reason: String,
-}
 
 /// Chooses the methods for a problem by its class and size, and runs one after the other until one finds a solution.
 /// Every method checks the residuals in the given data.
@@ -112,8 +101,7 @@ impl Auto {
 
     /// The methods for a problem, in order.
     pub fn plan<P: Planned>(&self, problem: &P) -> Vec<Choice> {
-        let steps = divided::steps(problem, self.settings.max_attempts).into_iter();
-        steps.map(|step| Choice { method: step.method, reason: step.reason }).collect()
+        divided::steps(problem, self.settings.max_attempts)
     }
 }
 

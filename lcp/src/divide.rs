@@ -13,8 +13,8 @@ use crate::matrix::{Column, Storage};
 use crate::parts::Parts;
 use crate::problem::column_of;
 use crate::{
-    Basis, BoxedLcp, Certificate, Contact2d, ContactState, Friction2d, HorizontalLcp, Lcp, Leaf,
-    Matrix, MixedLcp, Ray, Side, Solution, WarmStart,
+    Basis, BoxedLcp, Certificate, Contact2d, ContactState, Error, Friction2d, HorizontalLcp, Lcp,
+    Leaf, Matrix, MixedLcp, Ray, Side, Solution, WarmStart,
 };
 
 /// An independent part.
@@ -127,40 +127,31 @@ impl Divide for HorizontalLcp {
 
 impl Divide for Lcp {
     fn parts(&self) -> Option<Vec<Part<Self>>> {
-        let part = |group: Vec<usize>| {
-            let problem =
-                Self::new(block(self.m(), &group, &group), picked(self.q(), &group)).ok()?;
-            Some(Part::new(problem, group))
-        };
-        groups_of(self.m())?.into_iter().map(part).collect()
+        parts_of(self.m(), |m, group| Self::new(m, picked(self.q(), group)))
     }
 }
 
 impl Divide for MixedLcp {
     fn parts(&self) -> Option<Vec<Part<Self>>> {
-        let part = |group: Vec<usize>| {
-            let m = block(self.m(), &group, &group);
-            let problem =
-                Self::new(m, picked(self.q(), &group), picked(self.free(), &group)).ok()?;
-            Some(Part::new(problem, group))
-        };
-        groups_of(self.m())?.into_iter().map(part).collect()
+        parts_of(self.m(), |m, group| {
+            Self::new(m, picked(self.q(), group), picked(self.free(), group))
+        })
     }
 }
 
 impl Divide for BoxedLcp {
     fn parts(&self) -> Option<Vec<Part<Self>>> {
-        let upper_pairs = self.upper_pairs();
-        let part = |mut group: Vec<usize>| {
-            let m = block(self.m(), &group, &group);
+        let mut parts = parts_of(self.m(), |m, group| {
             let [q, lower, upper] =
-                [self.q(), self.lower(), self.upper()].map(|v| picked(v, &group));
-            let problem = Self::new(m, q, lower, upper).ok()?;
-            let upper: Vec<usize> = group.iter().filter_map(|&i| upper_pairs[i]).collect();
-            group.extend(upper);
-            Some(Part::new(problem, group))
-        };
-        groups_of(self.m())?.into_iter().map(part).collect()
+                [self.q(), self.lower(), self.upper()].map(|v| picked(v, group));
+            Self::new(m, q, lower, upper)
+        })?;
+        let upper_pairs = self.upper_pairs();
+        for part in &mut parts {
+            part.pairs.extend(part.rows.iter().filter_map(|&i| upper_pairs[i]));
+            part.rows.clone_from(&part.pairs);
+        }
+        Some(parts)
     }
 
     fn join(&self, t: &[f64], y: &[f64], answers: &[(Part<Self>, Solution)]) -> Joined {
@@ -254,13 +245,18 @@ impl Part<Contact2d> {
     }
 }
 
-/// The parts of a matrix whose rows belong to its columns, where there are several.
-fn groups_of(m: &Matrix) -> Option<Vec<Vec<usize>>> {
+/// The parts of a problem with this matrix, whose rows belong to its columns, from their blocks and variables.
+fn parts_of<P>(
+    m: &Matrix,
+    problem: impl Fn(Matrix, &[usize]) -> Result<P, Error>,
+) -> Option<Vec<Part<P>>> {
     let mut parts = Parts::new(m.ncols());
     for j in 0..m.ncols() {
         connect(&mut parts, m.slice(j), |i| i, j);
     }
-    groups_of_parts(parts)
+    let part =
+        |group: Vec<usize>| Some(Part::new(problem(block(m, &group, &group), &group).ok()?, group));
+    groups_of_parts(parts)?.into_iter().map(part).collect()
 }
 
 fn groups_of_parts(mut parts: Parts) -> Option<Vec<Vec<usize>>> {

@@ -36,14 +36,12 @@ pub(crate) struct Limits {
     pub(crate) deadline: Option<Instant>,
 }
 
-/// What was found, and after how many exchanges.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Outcome {
     pub(crate) found: Enumerated,
     pub(crate) exchanges: usize,
 }
 
-/// What was found.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Enumerated {
     /// A solution, up to rounding.

@@ -27,7 +27,6 @@ pub(crate) struct LeastSquares {
     deadline: Option<Instant>,
 }
 
-/// The minimum.
 #[derive(Debug, Clone)]
 pub(crate) struct Minimum {
     /// Of every column, at least zero.

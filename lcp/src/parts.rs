@@ -7,7 +7,6 @@ pub(crate) struct Parts {
 }
 
 impl Parts {
-    /// Every element by itself.
     pub(crate) fn new(count: usize) -> Self {
         Self { parent: (0..count).collect(), count }
     }
@@ -35,7 +34,6 @@ impl Parts {
         }
     }
 
-    /// Joins all elements of an iterator.
     pub(crate) fn join_all(&mut self, mut elements: impl Iterator<Item = usize>) {
         if self.is_one() {
             return;

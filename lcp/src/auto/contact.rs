@@ -2,7 +2,7 @@
 
 use super::constants::{FEW, VERY_FEW_POINTS};
 use super::facts::Facts;
-use super::method::{Effort, Planned, Step, named};
+use super::method::{Choice, Effort, Planned, named};
 use super::standard::common_steps;
 use crate::definite::is_definite;
 use crate::{Contact2d, Friction2d, Method, Solver};
@@ -12,7 +12,7 @@ impl Planned for Friction2d {
         self.order()
     }
 
-    fn steps(&self) -> Vec<Step> {
+    fn steps(&self) -> Vec<Choice> {
         let steps = common_steps(&Facts::of(self.standard().m()));
         named(&format!("{} contacts", self.contacts()), steps)
     }
@@ -27,13 +27,13 @@ impl Planned for Contact2d {
         self.order()
     }
 
-    fn steps(&self) -> Vec<Step> {
+    fn steps(&self) -> Vec<Choice> {
         let (points, friction) = (self.points(), self.frictional().len());
         let text = format!(
             "{points} contact points, {friction} of them with friction, {} displacements",
             self.displacements()
         );
-        let step = |method, words: &str| Step::new(method, format!("{text}: {words}"));
+        let step = |method, words: &str| Choice::new(method, format!("{text}: {words}"));
         let inside = step(
             Method::Interior,
             "the interior-point method for contact takes tens of sparse factorisations",

@@ -4,8 +4,8 @@ use web_time::{Duration, Instant};
 
 use super::AutoSettings;
 use super::chain::{self, Rank};
-use super::constants::{KEPT, MANY_PARTS};
-use super::method::{Planned, Step, chain_of};
+use super::constants::MANY_PARTS;
+use super::method::{Choice, Planned, chain_of};
 use crate::divide::{Joined, Part};
 use crate::{Basis, Certificate, Error, Method, Observer, Route, RouteEnd, Side, Solution, Status};
 
@@ -23,7 +23,7 @@ pub(super) fn run<P: Planned>(
     let began = Instant::now();
     let mut tried = None;
     if parts.len() > MANY_PARTS {
-        let time_limit = settings.time_limit.map(|limit| limit.saturating_sub(limit / KEPT));
+        let time_limit = settings.time_limit.map(|limit| chain::share(limit, 1));
         let settings = AutoSettings { time_limit, ..settings.clone() };
         let solution = chain::run(problem, &settings, observer)?;
         if chain::is_final(&solution) {
@@ -42,15 +42,15 @@ pub(super) fn run<P: Planned>(
 }
 
 /// The plans of the parts; a method that stands at the same place of several plans stands there once.
-pub(super) fn steps<P: Planned>(problem: &P, max_attempts: Option<usize>) -> Vec<Step> {
+pub(super) fn steps<P: Planned>(problem: &P, max_attempts: Option<usize>) -> Vec<Choice> {
     let Some(parts) = problem.parts().filter(|parts| parts.len() <= MANY_PARTS) else {
         return chain_of(problem, max_attempts);
     };
     let plans = parts.iter().map(|part| chain_of(&part.problem, max_attempts));
-    let is_same = |a: &Step, b: &Step| a.method == b.method;
+    let is_same = |a: &Choice, b: &Choice| a.method == b.method;
     merged(plans, is_same, |_, _| {})
         .into_iter()
-        .map(|(step, count)| Step { reason: named(&step.reason, count, parts.len()), ..step })
+        .map(|(step, count)| Choice { reason: named(&step.reason, count, parts.len()), ..step })
         .collect()
 }
 
@@ -82,7 +82,6 @@ fn merged<T>(
     places.into_iter().flatten().collect()
 }
 
-/// Whether methods came to the same end.
 fn is_same_end(a: &Route, b: &Route) -> bool {
     let status = |route: &Route| match &route.end {
         RouteEnd::Ended { status, .. } => Some(*status),
@@ -177,7 +176,6 @@ fn is_proof(answer: &Solution) -> bool {
     answer.certificate.as_ref().is_some_and(Certificate::is_proof)
 }
 
-/// What the parts say of the whole.
 fn outcome<P>(
     answers: &[Answer<P>],
     tolerance: f64,

@@ -8,7 +8,6 @@ use crate::enumerate::{Enumerated, Limits, Outcome, enumerate};
 use crate::solve::{Monitor, is_over};
 use crate::{Certificate, Error, Method, Observer, Solution, Solver, Status};
 
-/// All choices of sides, with proofs.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Enumeration {
     pub(crate) tolerance: f64,

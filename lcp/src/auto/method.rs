@@ -11,23 +11,29 @@ use crate::{
     SemismoothNewton, SemismoothNewtonSettings, Solution, Solver, WarmStart,
 };
 
-/// A method of a plan, and why it stands there.
-#[derive(Debug, Clone)]
-pub struct Step {
-    pub(super) method: Method,
-    pub(super) reason: String,
+/// A method of a plan, and the reason for it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct Choice {
+    /// The method.
+    #[cfg_attr(feature = "serde", serde(rename = "solver"))]
+    pub method: Method,
+    /// The reason for this method at this place, with the numbers on which it is based.
+    pub reason: String,
     /// Whether pivots end after a few attempts, because another method follows that may take less.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) is_brief: bool,
 }
 
-impl Step {
+impl Choice {
     pub(super) fn new(method: Method, reason: impl Into<String>) -> Self {
         Self { method, reason: reason.into(), is_brief: false }
     }
 }
 
 /// The same steps, whose reasons say first what problem it is.
-pub(super) fn named(problem: &str, mut steps: Vec<Step>) -> Vec<Step> {
+pub(super) fn named(problem: &str, mut steps: Vec<Choice>) -> Vec<Choice> {
     for step in &mut steps {
         step.reason = format!("{problem}, {}", step.reason);
     }
@@ -36,12 +42,12 @@ pub(super) fn named(problem: &str, mut steps: Vec<Step>) -> Vec<Step> {
 
 /// The chain of a problem with all choices of sides: behind a few attempts of pivots if it takes no longer than these, else
 /// at the end.
-pub(super) fn chain_of<P: Planned>(problem: &P, max_attempts: Option<usize>) -> Vec<Step> {
+pub(super) fn chain_of<P: Planned>(problem: &P, max_attempts: Option<usize>) -> Vec<Choice> {
     let mut steps = problem.steps();
     let pairs = problem.pairs();
     let pivots = steps.iter().position(|step| step.method == Method::Lemke);
     let Some(pivots) = pivots.filter(|_| pairs <= MOST_PAIRS) else { return steps };
-    let step = |method, words: &str| Step::new(method, format!("{pairs} pairs, {words}"));
+    let step = |method, words: &str| Choice::new(method, format!("{pairs} pairs, {words}"));
     let choices = problem.choices();
     if choices > FEW_PAIRS {
         let words = "choices of sides are gone through as far as the work allows";
@@ -72,7 +78,7 @@ pub trait Planned: Divide {
     }
 
     /// The chain.
-    fn steps(&self) -> Vec<Step>;
+    fn steps(&self) -> Vec<Choice>;
 
     /// A method of the chain with its settings; `None` for all others.
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>>;

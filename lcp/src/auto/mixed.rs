@@ -1,7 +1,7 @@
 //! The chains of problems with free and with bounded variables.
 
 use super::facts::{Facts, largest_block};
-use super::method::{Effort, Planned, Step, named};
+use super::method::{Choice, Effort, Planned, named};
 use super::standard::common_steps;
 use crate::{BoxedLcp, Method, MixedLcp, Solver};
 
@@ -14,7 +14,7 @@ impl Planned for MixedLcp {
         largest_block(self.m(), |i| usize::from(!self.free()[i]))
     }
 
-    fn steps(&self) -> Vec<Step> {
+    fn steps(&self) -> Vec<Choice> {
         let facts = Facts::of(self.m());
         let free = self.free().iter().filter(|free| **free).count();
         named(&format!("{free} free variables"), common_steps(&facts))
@@ -40,7 +40,7 @@ impl Planned for BoxedLcp {
         largest_block(self.m(), sides)
     }
 
-    fn steps(&self) -> Vec<Step> {
+    fn steps(&self) -> Vec<Choice> {
         let steps = common_steps(&Facts::of(self.m()));
         named(&format!("{} pairs with those of the bounds", self.pairs()), steps)
     }

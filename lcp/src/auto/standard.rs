@@ -2,11 +2,11 @@
 
 use super::constants::FEW;
 use super::facts::{Facts, is_z_matrix, largest_block};
-use super::method::{Effort, Planned, Step};
+use super::method::{Choice, Effort, Planned};
 use crate::{HorizontalLcp, Lcp, Method, Solver};
 
 /// The class of the matrix decides whether the active set method is the first.
-pub(super) fn standard_steps(facts: &Facts) -> Vec<Step> {
+pub(super) fn standard_steps(facts: &Facts) -> Vec<Choice> {
     let mut steps = common_steps(facts);
     if facts.has_positive_diagonal {
         let words = if facts.is_z_matrix {
@@ -15,14 +15,14 @@ pub(super) fn standard_steps(facts: &Facts) -> Vec<Step> {
         } else {
             "with a positive diagonal: the active set method takes few factorisations, or soon gives up"
         };
-        steps.insert(0, Step::new(Method::Newton, format!("{}, {words}", facts.size())));
+        steps.insert(0, Choice::new(Method::Newton, format!("{}, {words}", facts.size())));
     }
     steps
 }
 
 /// The methods that need no class of matrices.
-pub(super) fn common_steps(facts: &Facts) -> Vec<Step> {
-    let step = |method, words: &str| Step::new(method, format!("{}: {words}", facts.size()));
+pub(super) fn common_steps(facts: &Facts) -> Vec<Choice> {
+    let step = |method, words: &str| Choice::new(method, format!("{}: {words}", facts.size()));
     let inside = step(
         Method::Interior,
         "the interior-point method takes tens of factorisations at any order",
@@ -44,7 +44,7 @@ impl Planned for Lcp {
         largest_block(self.m(), |_| 1)
     }
 
-    fn steps(&self) -> Vec<Step> {
+    fn steps(&self) -> Vec<Choice> {
         standard_steps(&Facts::of(self.m()))
     }
 
@@ -68,7 +68,7 @@ impl Planned for HorizontalLcp {
         }
     }
 
-    fn steps(&self) -> Vec<Step> {
+    fn steps(&self) -> Vec<Choice> {
         if let Some(standard) = self.to_standard() {
             let mut steps = standard_steps(&Facts::of(standard.lcp().m()));
             for step in &mut steps {
@@ -81,7 +81,7 @@ impl Planned for HorizontalLcp {
             "order {}, {storage}, and no standard problem: Lemke's method treats the general form",
             self.order()
         );
-        vec![Step::new(Method::Lemke, reason)]
+        vec![Choice::new(Method::Lemke, reason)]
     }
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {

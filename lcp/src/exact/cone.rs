@@ -8,7 +8,6 @@ use dashu_int::{IBig, UBig};
 use crate::Error;
 use crate::solve::is_over;
 
-/// What an enumeration may cost.
 pub(super) struct Budget {
     pub(super) deadline: Option<Instant>,
     /// Number of vertices and rays.

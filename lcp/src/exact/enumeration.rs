@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use dashu_int::IBig;
 
 use super::cone::{Budget, Stop, extreme_rays, product};
-use super::integers::{Integers, Variable};
+use super::integers::{Integers, number};
 use super::tableau::{Tableau, eliminate};
 use super::{ExactPoint, Feasibility, feasibility};
 use crate::solve::{deadline_of, is_over};
@@ -142,9 +142,9 @@ struct Node {
     /// Columns: the dependent variables, both variables of every pair from `pair` on, and `c`.
     tableau: Tableau,
     /// The variable of every row that has been solved for one.
-    basic: Vec<Option<Variable>>,
+    basic: Vec<Option<usize>>,
     /// Chosen variables whose columns depend on those of the basic ones.
-    dependent: Vec<Variable>,
+    dependent: Vec<usize>,
     pair: usize,
 }
 
@@ -161,7 +161,7 @@ impl Node {
 
     /// The node in which the next pair has chosen.
     fn child(&self, side: Side) -> Self {
-        let variable = Variable { pair: self.pair, side };
+        let variable = number(self.pair, side);
         let column = self.dependent.len();
         let mut tableau = match side {
             Side::T => self.tableau.without_column(column + 1),
@@ -197,7 +197,7 @@ impl Node {
 
     /// Whether the other pairs can choose so that all columns are independent.
     fn has_basis(&self, deadline: Option<Instant>) -> bool {
-        let has_support = |(basic, row): (&Option<Variable>, &Vec<IBig>)| {
+        let has_support = |(basic, row): (&Option<usize>, &Vec<IBig>)| {
             basic.is_some() || row[..row.len() - 1].iter().any(|v| !v.is_zero())
         };
         if is_over(deadline) {
@@ -238,7 +238,7 @@ impl Faces {
     fn add(&mut self, leaf: &Node) -> Result<(), Stop> {
         let rows = leaf.basic.iter().zip(&leaf.tableau.rows);
         let solved = rows.filter_map(|(basic, row)| basic.map(|variable| (variable, row)));
-        let (basic, inequalities): (Vec<Variable>, Vec<Vec<IBig>>) =
+        let (basic, inequalities): (Vec<usize>, Vec<Vec<IBig>>) =
             solved.map(|(variable, row)| (variable, nonnegativity(row))).unzip();
         let generators = extreme_rays(leaf.dependent.len() + 1, &inequalities, &self.budget)?;
         let determinant = &leaf.tableau.determinant;
@@ -247,7 +247,7 @@ impl Faces {
             let Some((factor, dependent)) = generator.split_last() else { continue };
             let of_basic = inequalities.iter().map(|row| product(row, generator));
             let values = dependent.iter().map(|v| v * determinant).chain(of_basic);
-            let values: Vec<(Variable, IBig)> = leaf
+            let values: Vec<(usize, IBig)> = leaf
                 .dependent
                 .iter()
                 .chain(&basic)
@@ -255,7 +255,7 @@ impl Faces {
                 .zip(values)
                 .filter(|(_, value)| !value.is_zero())
                 .collect();
-            support |= values.iter().fold(0, |bits, (variable, _)| bits | 1 << variable.index());
+            support |= values.iter().fold(0, |bits, (variable, _)| bits | 1 << variable);
             // A ray has one as its largest entry.
             let (points, unit) = if factor.is_zero() {
                 (&mut rays, values.iter().map(|(_, v)| v).max().cloned().unwrap_or(IBig::ONE))

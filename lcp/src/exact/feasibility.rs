@@ -4,7 +4,7 @@ use dashu_int::IBig;
 use dashu_ratio::RBig;
 
 use super::ExactPoint;
-use super::integers::{Integers, Variable};
+use super::integers::Integers;
 use super::tableau::Tableau;
 use crate::HorizontalLcp;
 
@@ -67,10 +67,8 @@ pub fn feasibility(problem: &HorizontalLcp) -> Feasibility {
     }
     let Tableau { rows, determinant } = &tableau;
     if rows[n][3 * n].is_zero() {
-        let variables: Vec<Variable> = Variable::all(n).collect();
-        let values = basic.iter().zip(rows).filter_map(|(&column, row)| {
-            variables.get(column).map(|variable| (*variable, row[3 * n].clone()))
-        });
+        let original = basic.iter().zip(rows).filter(|(column, _)| **column < 2 * n);
+        let values = original.map(|(&column, row)| (column, row[3 * n].clone()));
         return Feasibility::Feasible(ExactPoint::new(n, values, determinant));
     }
     // The simplex multiplier of a row: its artificial variable costs one more than its reduced cost.

@@ -6,29 +6,15 @@ use dashu_ratio::RBig;
 use super::ExactPoint;
 use crate::{HorizontalLcp, Side};
 
-/// A variable of the problem: pair and side.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Variable {
-    pub(super) pair: usize,
-    pub(super) side: Side,
-}
-
-impl Variable {
-    /// All variables of `n` pairs, `t` before `y` in each.
-    pub(super) fn all(n: usize) -> impl Iterator<Item = Self> {
-        (0..n).flat_map(|pair| [Side::T, Side::Y].map(|side| Self { pair, side }))
-    }
-
-    /// Position among [`all`](Self::all).
-    pub(super) fn index(self) -> usize {
-        2 * self.pair + usize::from(self.side == Side::Y)
-    }
+/// The number of a variable: `t` before `y` in every pair.
+pub(super) fn number(pair: usize, side: Side) -> usize {
+    2 * pair + usize::from(side == Side::Y)
 }
 
 /// `A`, `B` and `c` with every row multiplied by a power of two.
 #[derive(Debug)]
 pub(super) struct Integers {
-    /// Rows, with the columns in the order of [`Variable::all`] and `c` at the end.
+    /// Rows, with the columns in the order of [`number`] and `c` at the end.
     pub(super) rows: Vec<Vec<IBig>>,
     /// What the rows of the problem were multiplied by.
     pub(super) factors: Vec<UBig>,
@@ -38,10 +24,7 @@ impl Integers {
     pub(super) fn new(problem: &HorizontalLcp) -> Self {
         let n = problem.order();
         let row = |i: usize| {
-            let entries = Variable::all(n).map(|Variable { pair, side }| match side {
-                Side::T => problem.a()[(i, pair)],
-                Side::Y => problem.b()[(i, pair)],
-            });
+            let entries = (0..n).flat_map(|j| [problem.a()[(i, j)], problem.b()[(i, j)]]);
             let entries: Vec<RBig> = entries.chain([problem.c()[i]]).map(exact).collect();
             // The largest power of two is a multiple of the others.
             let factor = entries.iter().map(RBig::denominator).max().cloned().unwrap_or(UBig::ONE);
@@ -53,10 +36,10 @@ impl Integers {
     }
 
     /// The row `columns | c` of a system in some of the variables only.
-    pub(super) fn system(&self, variables: &[Variable]) -> Vec<Vec<IBig>> {
+    pub(super) fn system(&self, variables: &[usize]) -> Vec<Vec<IBig>> {
         let rows = self.rows.iter();
         rows.map(|row| {
-            let columns = variables.iter().map(|v| row[v.index()].clone());
+            let columns = variables.iter().map(|&v| row[v].clone());
             columns.chain(row.last().cloned()).collect()
         })
         .collect()
@@ -67,16 +50,13 @@ impl ExactPoint {
     /// A point or direction of `n` pairs from integers over a common denominator; other variables are zero.
     pub(super) fn new(
         n: usize,
-        values: impl IntoIterator<Item = (Variable, IBig)>,
+        values: impl IntoIterator<Item = (usize, IBig)>,
         denominator: &IBig,
     ) -> Self {
         let mut point = Self { t: vec![RBig::ZERO; n], y: vec![RBig::ZERO; n] };
-        for (Variable { pair, side }, numerator) in values {
-            let value = RBig::from_parts_signed(numerator, denominator.clone());
-            match side {
-                Side::T => point.t[pair] = value,
-                Side::Y => point.y[pair] = value,
-            }
+        for (variable, numerator) in values {
+            let side = if variable.is_multiple_of(2) { &mut point.t } else { &mut point.y };
+            side[variable / 2] = RBig::from_parts_signed(numerator, denominator.clone());
         }
         point
     }

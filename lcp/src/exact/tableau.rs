@@ -35,7 +35,6 @@ impl Tableau {
         }
     }
 
-    /// The tableau without some of its columns.
     pub(super) fn without_column(&self, column: usize) -> Self {
         let kept = |row: &Vec<IBig>| {
             let entries = row.iter().enumerate().filter(|(j, _)| *j != column);
@@ -44,7 +43,6 @@ impl Tableau {
         Self { rows: self.rows.iter().map(kept).collect(), determinant: self.determinant.clone() }
     }
 
-    /// Removes a column.
     pub(super) fn drop_column(&mut self, column: usize) {
         self.rows.iter_mut().for_each(|row| {
             row.remove(column);

@@ -4,7 +4,7 @@ use dashu_int::ops::Abs;
 use dashu_ratio::RBig;
 
 use super::ExactPoint;
-use super::integers::{Integers, Variable};
+use super::integers::{Integers, number};
 use super::tableau::{Tableau, eliminate};
 use crate::{Basis, HorizontalLcp, Side};
 
@@ -61,13 +61,13 @@ pub fn verify_basis(problem: &HorizontalLcp, basis: &Basis) -> ExactVerdict {
     assert!(basis.len() == n, "a basis has one side for every pair");
     let integers = Integers::new(problem);
     let sides = basis.sides().iter().enumerate();
-    let variables: Vec<Variable> = sides.map(|(pair, &side)| Variable { pair, side }).collect();
+    let variables: Vec<usize> = sides.map(|(pair, &side)| number(pair, side)).collect();
     let mut tableau = Tableau::new(integers.system(&variables));
     let rows: Vec<usize> = eliminate(&mut tableau, n).into_iter().flatten().collect();
     if rows.len() < n {
         return ExactVerdict::Singular { rank: rows.len() };
     }
-    let value = |(&variable, &row): (&Variable, &usize)| (variable, tableau.rows[row][n].clone());
+    let value = |(&variable, &row): (&usize, &usize)| (variable, tableau.rows[row][n].clone());
     let values = variables.iter().zip(&rows).map(value);
     let point = ExactPoint::new(n, values, &tableau.determinant);
     let both = [(Side::T, &point.t), (Side::Y, &point.y)].into_iter();

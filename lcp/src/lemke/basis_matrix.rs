@@ -61,7 +61,6 @@ impl BasisMatrix {
         }
     }
 
-    /// Overwrites a right-hand side with the solution.
     pub(super) fn solve(&self, x: &mut [f64]) {
         match self {
             Self::Dense(it) => it.solve(x),
@@ -69,7 +68,6 @@ impl BasisMatrix {
         }
     }
 
-    /// Overwrites a right-hand side with the solution of the transposed system.
     pub(super) fn solve_transpose(&self, x: &mut [f64]) {
         match self {
             Self::Dense(it) => it.solve_transpose(x),

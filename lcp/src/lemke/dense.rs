@@ -6,7 +6,6 @@ use super::kernel::{Kernel, Var};
 use super::tableau::Tableau;
 use crate::linear::{Lu, add_product, all_finite};
 
-/// A tableau with the start data that it came from.
 pub(super) struct Dense<'a> {
     /// `T` of the start.
     start: MatRef<'a, f64>,

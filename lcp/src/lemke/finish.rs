@@ -7,7 +7,6 @@ use crate::certify::Precision;
 use crate::vector::max_abs;
 use crate::{Basis, Residuals, Side};
 
-/// A point and what the original data says of it.
 #[derive(Debug, Clone)]
 pub(super) struct Point {
     pub(super) t: Vec<f64>,

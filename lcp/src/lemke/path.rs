@@ -19,7 +19,6 @@ use crate::{Ray, Side};
 /// ([`Path::artificial_left`]); may end the path.
 pub(super) type Limits<'a> = &'a mut dyn FnMut(usize, f64) -> Option<AttemptEnd>;
 
-/// The state of a path.
 pub(super) struct Path<'a> {
     pub(super) kernel: Box<dyn Kernel + 'a>,
     start: &'a Start,
@@ -92,7 +91,6 @@ impl<'a> Path<'a> {
         2 * self.order()
     }
 
-    /// The basic variables, row by row.
     pub(super) fn basic(&self) -> impl Iterator<Item = Var> + '_ {
         self.basic.iter().copied()
     }
@@ -101,7 +99,6 @@ impl<'a> Path<'a> {
         self.row_of[var].is_none()
     }
 
-    /// The row in which the artificial variable is basic.
     pub(super) fn artificial_row(&self) -> Option<usize> {
         self.row_of[self.artificial()]
     }
@@ -277,7 +274,6 @@ impl<'a> Path<'a> {
         AttemptEnd::Ray
     }
 
-    /// For every pair whether its `z` is basic.
     pub(super) fn z_is_basic(&self) -> Vec<bool> {
         let n = self.order();
         (0..n).map(|k| self.row_of[n + k].is_some()).collect()
@@ -340,7 +336,6 @@ impl<'a> Path<'a> {
         self.rebuild()
     }
 
-    /// Whether the tableau was rebuilt after the last pivot.
     pub(super) fn is_rebuilt(&self) -> bool {
         self.rebuilt_at == Some(self.pivots)
     }

@@ -55,19 +55,6 @@ impl<'a> Equilibrated<'a> {
         self.opposite[pair]
     }
 
-    /// `(t, y)` of a pair from its basic and its nonbasic variable. A free variable is put on the side
-    /// that its sign asks for.
-    pub(super) fn sides(&self, pair: usize, nonbasic: Side, w: f64, z: f64) -> (f64, f64) {
-        let (t, y) = if nonbasic == Side::T { (z, w) } else { (w, z) };
-        match self.opposite[pair] {
-            Some(ratio) => {
-                let net = t - ratio * y;
-                (net.max(0.0), (-net / ratio).max(0.0))
-            }
-            None => (t, y),
-        }
-    }
-
     /// Adds an equilibrated column, times a factor.
     pub(super) fn add_column(&self, pair: usize, side: Side, factor: f64, out: &mut [f64]) {
         let factor = factor * self.factor(pair, side);
@@ -279,7 +266,12 @@ impl Start {
         let pair = |k: usize| {
             let w = self.size * along[k] / self.row_factor[k];
             let z = self.size * along[n + k] * self.col_factor[k];
-            problem.sides(k, self.basis.sides()[k].complement(), w, z)
+            let (t, y) = if self.basis.sides()[k] == Side::T { (w, z) } else { (z, w) };
+            // A free variable is put on the side that its sign asks for.
+            problem.opposite[k].map_or((t, y), |ratio| {
+                let net = t - ratio * y;
+                (net.max(0.0), (-net / ratio).max(0.0))
+            })
         };
         (0..n).map(pair).unzip()
     }
