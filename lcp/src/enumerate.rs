@@ -28,20 +28,7 @@ use crate::{Basis, HorizontalLcp, Side};
 /// What rounding may leave of the loads at a solution. Chosen.
 const NEAR: f64 = 1e-6;
 
-/// When to give up.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Limits {
-    /// Exchanges of columns in the least squares of all nodes.
-    pub(crate) exchanges: usize,
-    pub(crate) deadline: Option<Instant>,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Outcome {
-    pub(crate) found: Enumerated,
-    pub(crate) exchanges: usize,
-}
-
+/// What was found.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Enumerated {
     /// A solution, up to rounding.
@@ -54,11 +41,16 @@ pub(crate) enum Enumerated {
     Open,
 }
 
-/// A solution, or a proof that there is none.
-pub(crate) fn enumerate(problem: &HorizontalLcp, limits: Limits) -> Outcome {
+/// A solution, or a proof that there is none, unless so many exchanges of columns in the least squares of all nodes or the
+/// time end it before; and how many exchanges it took.
+pub(crate) fn enumerate(
+    problem: &HorizontalLcp,
+    most: usize,
+    deadline: Option<Instant>,
+) -> (Enumerated, usize) {
     let n = problem.order();
-    let mut search =
-        Search { tree: Tree::new(problem, limits.deadline), limits, proofs: Vec::new() };
+    let tree = Tree::new(problem, deadline);
+    let mut search = Search { tree, most, deadline, proofs: Vec::new() };
     let found = match search.visit(&vec![None; n], &vec![Extended::ZERO; 2 * n]) {
         Err(end) => end,
         Ok(None) => Enumerated::Open,
@@ -67,7 +59,7 @@ pub(crate) fn enumerate(problem: &HorizontalLcp, limits: Limits) -> Outcome {
             last => Enumerated::NoSolution(leaves.into_iter().chain(last).collect()),
         },
     };
-    Outcome { found, exchanges: search.tree.linear.exchanges.get() }
+    (found, search.tree.linear.exchanges.get())
 }
 
 /// A checked Farkas vector of the linear conditions, by the first node alone.
@@ -103,7 +95,9 @@ impl Proof {
 /// A depth-first search with the proofs found so far.
 struct Search<'a> {
     tree: Tree<'a>,
-    limits: Limits,
+    /// Exchanges at most.
+    most: usize,
+    deadline: Option<Instant>,
     proofs: Vec<Proof>,
 }
 
@@ -120,8 +114,7 @@ impl Search<'_> {
             }
         }
         let tree = &self.tree;
-        let Limits { exchanges, deadline } = self.limits;
-        if tree.linear.exchanges.get() > exchanges || is_over(deadline) {
+        if tree.linear.exchanges.get() > self.most || is_over(self.deadline) {
             return Err(Enumerated::Open);
         }
         let Some(minimum) = tree.minimum(sides, start) else { return Ok(None) };

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::constants::{MOST_PAIRS, WORK};
 use crate::conversion::{General, judged_point};
-use crate::enumerate::{Enumerated, Limits, Outcome, enumerate};
+use crate::enumerate::{Enumerated, enumerate};
 use crate::solve::{Monitor, is_over};
 use crate::{Certificate, Error, Method, Observer, Solution, Solver, Status};
 
@@ -31,10 +31,10 @@ impl<P: General> Solver<P> for Enumeration {
         let mut monitor = Monitor::new(Method::Enumeration, usize::MAX, self.time_limit, observer);
         let is_cancelled = monitor.stop(f64::INFINITY) == Some(Status::Cancelled);
         let deadline = monitor.deadline();
-        let Outcome { found, exchanges } = if is_cancelled {
-            Outcome { found: Enumerated::Open, exchanges: 0 }
+        let (found, exchanges) = if is_cancelled {
+            (Enumerated::Open, 0)
         } else {
-            enumerate(&general, Limits { exchanges: WORK / n.pow(2).max(1), deadline })
+            enumerate(&general, WORK / n.pow(2).max(1), deadline)
         };
         let (mut t, mut y) = (vec![0.0; n], vec![0.0; n]);
         let (mut basis, mut proof) = (None, None);

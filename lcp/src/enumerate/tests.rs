@@ -7,10 +7,8 @@ use crate::exact::{Enumeration, EnumerationSettings, enumerate as enumerate_exac
 use crate::random::SplitMix;
 use crate::{Certificate, Lcp};
 
-const LIMITS: Limits = Limits { exchanges: 1 << 16, deadline: None };
-
 fn enumerated(problem: &HorizontalLcp) -> Enumerated {
-    enumerate(problem, LIMITS).found
+    enumerate(problem, 1 << 16, None).0
 }
 
 /// Entries -2 to 2, about half of them zero; some pairs free, some columns single.
@@ -140,6 +138,5 @@ fn a_limit_leaves_it_open() {
         mat![[1.0, 0.0], [-1.0, 0.0]],
         vec![2.0, 0.0],
     );
-    let limits = Limits { exchanges: 1, ..LIMITS };
-    assert_eq!(enumerate(&both.expect("fits"), limits).found, Enumerated::Open);
+    assert_eq!(enumerate(&both.expect("fits"), 1, None).0, Enumerated::Open);
 }
