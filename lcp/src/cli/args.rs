@@ -27,7 +27,7 @@ pub(super) enum Command {
     /// Print all solutions of a small problem, in rational numbers.
     Enumerate(EnumerateArgs),
     /// Show the contents of a file.
-    Info(InfoArgs),
+    Info(InputArgs),
 }
 
 #[derive(Debug, Args)]
@@ -85,12 +85,6 @@ pub(super) struct EnumerateArgs {
     /// Time limit, in seconds; what was found until then is printed.
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = seconds, default_value = "60")]
     pub(super) time_limit: Duration,
-}
-
-#[derive(Debug, Args)]
-pub(super) struct InfoArgs {
-    #[command(flatten)]
-    pub(super) input: InputArgs,
 }
 
 /// `ones` or `random:SEED`.

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::args::CheckArgs;
 use super::input::Point;
-use super::output::{Failure, NOT_SOLVED, SOLVED, print, print_json, residual_lines};
+use super::output::{Failure, NOT_SOLVED, SOLVED, residual_lines, show};
 use crate::Residuals;
 
 /// What `--json` prints.
@@ -29,13 +29,11 @@ pub(super) fn run(
     let problem = args.input.read(input)?.problem;
     let Point { residuals, .. } = Point::read(&args.solution, input, &problem)?;
     let solves = residuals.worst() <= args.tol;
-    if args.input.json {
-        print_json(out, &Verdict { solves, n: problem.order(), tolerance: args.tol, residuals })?;
-    } else {
-        let verdict =
-            if solves { "the point is a solution" } else { "the point is not a solution" };
+    let verdict = Verdict { solves, n: problem.order(), tolerance: args.tol, residuals };
+    show(out, args.input.json, &verdict, || {
+        let not = if solves { "" } else { "not " };
         let lines = residual_lines(&residuals);
-        print(out, &format!("{lines}{verdict} to {:.1e}\n", args.tol))?;
-    }
+        format!("{lines}the point is {not}a solution to {:.1e}\n", args.tol)
+    })?;
     Ok(if solves { SOLVED } else { NOT_SOLVED })
 }

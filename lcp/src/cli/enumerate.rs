@@ -6,9 +6,8 @@ use std::io::{Read, Write};
 use serde::Serialize;
 
 use super::args::EnumerateArgs;
-use super::output::{Failure, NOT_SOLVED, SOLVED, print, print_json};
-use crate::BoxedLcp;
-use crate::exact::{Enumeration, EnumerationSettings, ExactPoint, Face, RBig, enumerate};
+use super::output::{Failure, NOT_SOLVED, SOLVED, show};
+use crate::exact::{EnumerationSettings, ExactPoint, Face, RBig, enumerate};
 use crate::io::Problem;
 
 /// What `--json` prints.
@@ -53,26 +52,18 @@ pub(super) fn run(
         time_limit: Some(args.time_limit),
     };
     let all = enumerate(&problem.to_general(), &settings)?;
-    let solutions = Solutions::of(&problem, &all);
-    if args.input.json {
-        print_json(out, &solutions)?;
-    } else {
-        print(out, &solutions.report(args.time_limit.as_secs_f64()))?;
-    }
+    let solutions = Solutions {
+        kind: problem.kind(),
+        n: problem.order(),
+        complete: all.is_complete,
+        feasible: all.is_feasible(),
+        faces: all.faces.iter().map(|face| Set::of(&problem, face)).collect(),
+    };
+    show(out, args.input.json, &solutions, || solutions.report(args.time_limit.as_secs_f64()))?;
     Ok(if all.is_complete && all.is_solvable() { SOLVED } else { NOT_SOLVED })
 }
 
 impl Solutions {
-    fn of(problem: &Problem, all: &Enumeration) -> Self {
-        Self {
-            kind: problem.kind(),
-            n: problem.order(),
-            complete: all.is_complete,
-            feasible: all.is_feasible(),
-            faces: all.faces.iter().map(|face| Set::of(problem, face)).collect(),
-        }
-    }
-
     fn report(&self, seconds: f64) -> String {
         let Self { kind, n, complete, feasible, faces } = self;
         let mut text = format!("{kind} of order {n}\n");
@@ -83,40 +74,31 @@ impl Solutions {
         let isolated = faces.iter().filter(|face| face.dimension == 0).count();
         let _ = writeln!(text, "\nisolated solutions: {isolated}");
         let _ = writeln!(text, "polyhedra of infinitely many: {}", faces.len() - isolated);
-        text += match (complete, faces.is_empty(), feasible) {
-            (false, ..) => "",
-            (true, false, _) => "These are all solutions.\n",
+        let verdict = match (complete, faces.is_empty(), feasible) {
+            (false, ..) => &format!(
+                "The search was cut after {seconds} s, so that there may be more; --time-limit raises it."
+            ),
+            (true, false, _) => "These are all solutions.",
             (true, true, true) => {
-                "There is no solution, although the conditions can be met without complementarity.\n"
+                "There is no solution, although the conditions can be met without complementarity."
             }
             (true, true, false) => {
-                "There is no solution: the conditions cannot be met, even without complementarity.\n"
+                "There is no solution: the conditions cannot be met, even without complementarity."
             }
         };
-        if !complete {
-            let _ = writeln!(
-                text,
-                "The search was cut after {seconds} s, so that there may be more; --time-limit raises it."
-            );
-        }
-        text
+        text + verdict + "\n"
     }
 }
 
 impl Set {
     fn of(problem: &Problem, face: &Face) -> Self {
-        let points = || face.vertices.iter().chain(&face.rays);
-        let is_positive = |values: &dyn Fn(&ExactPoint) -> bool| points().any(values);
-        let side = |i: usize| {
-            let t = is_positive(&|point| point.t[i] > RBig::ZERO);
-            let y = is_positive(&|point| point.y[i] > RBig::ZERO);
-            if t {
-                't'
-            } else if y {
-                'y'
-            } else {
-                '0'
-            }
+        let is_positive = |values: &dyn Fn(&ExactPoint) -> bool| {
+            face.vertices.iter().chain(&face.rays).any(values)
+        };
+        let side = |i: usize| match i {
+            _ if is_positive(&|point| point.t[i] > RBig::ZERO) => 't',
+            _ if is_positive(&|point| point.y[i] > RBig::ZERO) => 'y',
+            _ => '0',
         };
         let pairs = face.vertices.first().map_or(0, |vertex| vertex.t.len());
         Self {
@@ -148,8 +130,11 @@ impl Set {
 impl Point {
     /// In the variables of the problem; without the bounds, where it is a direction.
     fn of(problem: &Problem, point: &ExactPoint, is_place: bool) -> Self {
+        let origin = |bound: f64| RBig::try_from(bound).ok().filter(|_| is_place);
         let (z, w) = match problem.boxed() {
-            Some(boxed) => variables(boxed, point, is_place),
+            Some(boxed) => {
+                boxed.recover_in(&point.t, &point.y, |bound| origin(bound).unwrap_or_default())
+            }
             None => (point.t.clone(), point.y.clone()),
         };
         let text = |values: Vec<RBig>| values.iter().map(ToString::to_string).collect();
@@ -163,23 +148,4 @@ impl Point {
         }
         lines
     }
-}
-
-/// `(z, w)` from the pairs, as [`BoxedLcp::recover`] but in rational numbers.
-fn variables(boxed: &BoxedLcp, point: &ExactPoint, is_place: bool) -> (Vec<RBig>, Vec<RBig>) {
-    let ExactPoint { t, y } = point;
-    let bound = |value: f64| RBig::try_from(value).ok();
-    let origin = |bound: RBig| if is_place { bound } else { RBig::ZERO };
-    let value = |(i, upper_pair): (usize, Option<usize>)| match (
-        bound(boxed.lower()[i]),
-        bound(boxed.upper()[i]),
-        upper_pair,
-    ) {
-        (None, None, _) => (&t[i] - &y[i], RBig::ZERO),
-        (None, Some(upper), _) => (origin(upper) - &t[i], -y[i].clone()),
-        (Some(lower), None, _) => (origin(lower) + &t[i], y[i].clone()),
-        (Some(lower), Some(_), Some(k)) => (origin(lower) + &t[i], &y[i] - &y[k]),
-        (Some(fixed), Some(_), None) => (origin(fixed), &y[i] - &t[i]),
-    };
-    boxed.upper_pairs().into_iter().enumerate().map(value).unzip()
 }

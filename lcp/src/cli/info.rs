@@ -5,9 +5,8 @@ use std::io::{Read, Write};
 
 use serde::Serialize;
 
-use super::args::InfoArgs;
-use super::input::Input;
-use super::output::{Failure, SOLVED, print, print_json};
+use super::input::{Input, InputArgs};
+use super::output::{Failure, SOLVED, show};
 use crate::Matrix;
 use crate::io::Problem;
 
@@ -53,16 +52,12 @@ struct SquareFacts {
 }
 
 pub(super) fn run(
-    args: &InfoArgs,
+    args: &InputArgs,
     input: &mut dyn Read,
     out: &mut dyn Write,
 ) -> Result<u8, Failure> {
-    let facts = Facts::of(&args.input.read(input)?);
-    if args.input.json {
-        print_json(out, &facts)?;
-    } else {
-        print(out, &facts.report())?;
-    }
+    let facts = Facts::of(&args.read(input)?);
+    show(out, args.json, &facts, || facts.report())?;
     Ok(SOLVED)
 }
 
@@ -113,8 +108,19 @@ impl Facts {
 impl MatrixFacts {
     fn of(name: &'static str, matrix: &Matrix) -> Self {
         let (rows, cols) = (matrix.nrows(), matrix.ncols());
-        let sizes = || entries(matrix).map(|(_, _, v)| v.abs()).filter(|&v| v > 0.0);
+        let entries = || (0..cols).flat_map(|j| matrix.column(j).map(move |(i, v)| (i, j, v)));
+        let sizes = || entries().map(|(_, _, v)| v.abs()).filter(|&v| v > 0.0);
         let largest = sizes().fold(0.0, f64::max);
+        let square = (rows == cols).then(|| {
+            let unlike = |(i, j, v)| f64::abs(v / largest - matrix[(j, i)] / largest);
+            let diagonal = || (0..rows).map(|i| matrix[(i, i)]);
+            SquareFacts {
+                order: rows,
+                asymmetry: entries().map(unlike).fold(0.0, f64::max),
+                zero_diagonal: diagonal().filter(|&v| v == 0.0).count(),
+                negative_diagonal: diagonal().filter(|&v| v < 0.0).count(),
+            }
+        });
         Self {
             name,
             storage: if matrix.is_sparse() { "sparse" } else { "dense" },
@@ -123,48 +129,25 @@ impl MatrixFacts {
             nonzeros: sizes().count(),
             smallest: sizes().reduce(f64::min).unwrap_or(0.0),
             largest,
-            square: (rows == cols).then(|| SquareFacts::of(matrix, largest)),
+            square,
         }
     }
 
     fn report(&self) -> String {
         let Self { name, storage, rows, cols, nonzeros, smallest, largest, square } = self;
-        let square = square.as_ref().map_or_else(String::new, SquareFacts::report);
-        format!(
-            "{name}: {rows} x {cols}, {storage}, {nonzeros} nonzeros of size {smallest:.1e} to \
-             {largest:.1e}{square}\n"
-        )
-    }
-}
-
-impl SquareFacts {
-    fn of(matrix: &Matrix, largest: f64) -> Self {
-        let order = matrix.ncols();
-        let asymmetry = entries(matrix)
-            .map(|(i, j, v)| (v / largest - matrix[(j, i)] / largest).abs())
-            .fold(0.0, f64::max);
-        let diagonal = || (0..order).map(|i| matrix[(i, i)]);
-        Self {
-            order,
-            asymmetry,
-            zero_diagonal: diagonal().filter(|&v| v == 0.0).count(),
-            negative_diagonal: diagonal().filter(|&v| v < 0.0).count(),
+        let mut text = format!(
+            "{name}: {rows} x {cols}, {storage}, {nonzeros} nonzeros of size {smallest:.1e} to {largest:.1e}"
+        );
+        if let Some(SquareFacts { asymmetry, zero_diagonal, negative_diagonal, .. }) = square {
+            let symmetry = match *asymmetry {
+                a if a <= f64::EPSILON => "symmetric".to_owned(),
+                a => format!("not symmetric, by {a:.1e} of its largest entry"),
+            };
+            let _ = write!(
+                text,
+                ", {symmetry}; on the diagonal {zero_diagonal} zeros and {negative_diagonal} negative entries"
+            );
         }
+        text + "\n"
     }
-
-    fn report(&self) -> String {
-        let symmetry = match self.asymmetry {
-            a if a <= f64::EPSILON => "symmetric".to_owned(),
-            a => format!("not symmetric, by {a:.1e} of its largest entry"),
-        };
-        format!(
-            ", {symmetry}; on the diagonal {} zeros and {} negative entries",
-            self.zero_diagonal, self.negative_diagonal
-        )
-    }
-}
-
-/// The stored entries with their places.
-fn entries(matrix: &Matrix) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
-    (0..matrix.ncols()).flat_map(|j| matrix.column(j).map(move |(i, v)| (i, j, v)))
 }

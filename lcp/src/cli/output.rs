@@ -33,11 +33,14 @@ pub(super) fn residual_lines(residuals: &Residuals) -> String {
     })
 }
 
-pub(super) fn print_json(
+/// Prints the object as JSON, or the report for people.
+pub(super) fn show(
     out: &mut dyn Write,
+    is_json: bool,
     object: &impl serde::Serialize,
+    report: impl FnOnce() -> String,
 ) -> Result<(), Failure> {
-    print(out, &(serde_json::to_string(object)? + "\n"))
+    print(out, &if is_json { serde_json::to_string(object)? + "\n" } else { report() })
 }
 
 /// A closed pipe is the reader's choice, not a failure of ours.

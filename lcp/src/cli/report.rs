@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use super::output::residual_lines;
 use super::solve::{Answer, Work};
-use crate::Status;
 use crate::pivoting::{Attempt, Perturbation};
+use crate::{Route, Status};
 
 impl Answer<'_> {
     /// For people.
@@ -83,23 +83,12 @@ fn meaning(answer: &Answer<'_>) -> Option<&'static str> {
 /// What the choice of the method was, and how it ended where it was not the only one.
 fn route_lines(answer: &Answer<'_>) -> String {
     let mut lines = String::new();
-    match answer.routes {
-        [] => {}
-        [only] => {
-            let _ = writeln!(lines, "auto chose {}: {}", only.method.full_name(), only.reason);
-        }
-        routes => {
-            for (number, route) in routes.iter().enumerate() {
-                let verb = if number == 0 { "auto chose" } else { "then" };
-                let _ = writeln!(
-                    lines,
-                    "{verb} {}: {}\n  {}, {:.3} s",
-                    route.method.full_name(),
-                    route.reason,
-                    route.end,
-                    route.seconds
-                );
-            }
+    for (number, route) in answer.routes.iter().enumerate() {
+        let verb = if number == 0 { "auto chose" } else { "then" };
+        let Route { method, reason, end, seconds, .. } = route;
+        let _ = writeln!(lines, "{verb} {}: {reason}", method.full_name());
+        if answer.routes.len() > 1 {
+            let _ = writeln!(lines, "  {end}, {seconds:.3} s");
         }
     }
     lines
@@ -111,21 +100,19 @@ fn attempt_lines(attempts: &[Attempt]) -> String {
     let mut lines = String::new();
     let last = attempts.len().saturating_sub(1);
     for (number, attempt) in attempts.iter().enumerate() {
-        if number == MOST && number < last {
-            let _ = writeln!(lines, "... {} more attempts", last - MOST);
-        }
         if (MOST..last).contains(&number) {
+            if number == MOST {
+                let _ = writeln!(lines, "... {} more attempts", last - MOST);
+            }
             continue;
         }
         let Attempt { start, covering, perturbation, end, pivots, .. } = attempt;
-        let perturbation = match perturbation {
-            Perturbation::None => "as given".to_owned(),
-            other => other.to_string(),
-        };
+        let is_given = *perturbation == Perturbation::None;
+        let data = if is_given { "as given".to_owned() } else { perturbation.to_string() };
         let number = number + 1;
         let _ = writeln!(
             lines,
-            "attempt {number}: start {start}, covering {covering}, data {perturbation}: {end:?} after \
+            "attempt {number}: start {start}, covering {covering}, data {data}: {end:?} after \
              {pivots} pivots"
         );
     }

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::args::SolveArgs;
 use super::method;
-use super::output::{Failure, NOT_SOLVED, SOLVED, in_file, print, print_json};
+use super::output::{Failure, NOT_SOLVED, SOLVED, in_file, show};
 use crate::io::Problem;
 use crate::pivoting::Attempt;
 use crate::{
@@ -66,11 +66,7 @@ pub(super) fn run(
         std::fs::write(path, trace).map_err(|error| in_file(path, &error))?;
     }
     let answer = answer(&input.problem, &solution, cpu_s.ok());
-    if args.input.json {
-        print_json(out, &answer)?;
-    } else {
-        print(out, &answer.report(input.format))?;
-    }
+    show(out, args.input.json, &answer, || answer.report(input.format))?;
     Ok(if solution.is_solved() { SOLVED } else { NOT_SOLVED })
 }
 
