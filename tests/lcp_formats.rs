@@ -372,7 +372,7 @@ fn what_problems_refuse_has_a_place_too() {
     let text = r#" {"kind": "boxed", "m": [[2]], "q": [1], "lower": [1], "upper": [0]}"#;
     let ReadError::Refused { at: place, source } = error(text) else { panic!("not refused") };
     assert_eq!(place, at(1, 51));
-    assert_eq!(source, lcp::Error::Bounds { index: 0, lower: 1.0, upper: 0.0 });
+    assert_eq!(source, lcp::Error::Bounds { what: "variable", index: 0, lower: 1.0, upper: 0.0 });
 }
 
 #[test]

@@ -119,25 +119,12 @@ pub enum Error {
         /// What shows it.
         reason: String,
     },
-    /// A variable without an admissible value.
+    /// A variable, or a row of a program, without an admissible value.
     #[error(
-        "bounds of variable {index} are {lower:?} and {upper:?}: the lower one must not exceed the upper \
+        "bounds of {what} {index} are {lower:?} and {upper:?}: the lower one must not exceed the upper \
          one, their distance must be a finite number, and -inf or inf is for no bound"
     )]
     Bounds {
-        /// The variable, from 0.
-        index: usize,
-        /// Its lower bound.
-        lower: f64,
-        /// Its upper bound.
-        upper: f64,
-    },
-    /// A row or a variable of a program that nothing is between the bounds of.
-    #[error(
-        "{what} {index} is to be between {lower:?} and {upper:?}: the lower number must not exceed the upper \
-         one, and -inf or inf is for no bound"
-    )]
-    Between {
         /// Whether it is a row or a variable.
         what: &'static str,
         /// Its number, from 0.

@@ -52,7 +52,7 @@ pub(crate) enum Storage {
 impl Matrix {
     /// The identity of order `n`, sparse.
     pub fn identity(n: usize) -> Self {
-        Self::diagonal(n, 1.0)
+        Self::from_entries(n, n, (0..n).map(|i| (i, i, 1.0)))
     }
 
     /// A sparse matrix from triplets `(row, column, value)`, with indices from 0. Values at the same place are added.
@@ -100,11 +100,6 @@ impl Matrix {
             }
         }
         Ok(Mat::from_fn(rows.len(), expected, |i, j| rows[i].as_ref()[j]).into())
-    }
-
-    /// `value` times the identity of order `n`, sparse.
-    pub(crate) fn diagonal(n: usize, value: f64) -> Self {
-        Self::from_entries(n, n, (0..n).map(|i| (i, i, value)))
     }
 
     /// A square matrix from entries `(row, column, value)`, which add up where they coincide.
@@ -164,13 +159,7 @@ impl Matrix {
     /// # Panics
     /// If there is no such column.
     pub fn column(&self, j: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
-        let (dense, sparse) = match self.slice(j) {
-            Column::Dense(values) => (Some(values.iter().copied().enumerate()), None),
-            Column::Sparse { rows, values } => {
-                (None, Some(rows.iter().copied().zip(values.iter().copied())))
-            }
-        };
-        dense.into_iter().flatten().chain(sparse.into_iter().flatten())
+        self.slice(j).entries()
     }
 
     /// The same matrix with all entries stored.

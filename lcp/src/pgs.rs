@@ -16,7 +16,7 @@ use std::ops::ControlFlow;
 use sweep::{Point, Sweeps};
 
 use crate::solve::Monitor;
-use crate::{Error, Info, Method, Observer, Residuals, Solution, Solver, Status, WarmStart};
+use crate::{Error, Info, Method, Observer, Residuals, Solution, Status, WarmStart};
 
 /// Projected Gauss-Seidel, with over-relaxation: for `w = M z + q` with bounds on `z`, and for contact
 /// with friction.
@@ -79,20 +79,6 @@ pub struct ProjectedGaussSeidel {
     settings: ProjectedGaussSeidelSettings,
 }
 
-/// A problem that [`ProjectedGaussSeidel`] treats.
-pub trait Sweepable {
-    /// Solves the problem, calling the observer before every sweep.
-    ///
-    /// # Errors
-    /// [`Error::NotTreated`] for a row without a positive diagonal entry, and what else cannot be swept;
-    /// errors of the settings.
-    fn solve_by(
-        &self,
-        solver: &ProjectedGaussSeidel,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error>;
-}
-
 /// The solution of a problem given by its [`Rows`].
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -128,7 +114,8 @@ impl ProjectedGaussSeidel {
     ///
     /// # Errors
     /// [`Error::Length`] where `q` or the constraints do not fit, [`Error::Bounds`] or [`Error::Setting`]
-    /// for a constraint that nothing meets, and as for [`Sweepable::solve_by`].
+    /// for a constraint that nothing meets, [`Error::NotTreated`] for a row without a positive diagonal entry, and
+    /// errors of the settings.
     pub fn solve_rows<R: Rows + ?Sized>(
         &self,
         rows: &mut R,
@@ -199,16 +186,6 @@ impl ProjectedGaussSeidel {
         let mut solution = Solution::judged(t, y, residuals, self.settings.tolerance, status);
         solution.info = monitor.info();
         solution
-    }
-}
-
-impl<P: Sweepable> Solver<P> for ProjectedGaussSeidel {
-    fn method(&self) -> Method {
-        Method::GaussSeidel
-    }
-
-    fn solve_pairs(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
-        problem.solve_by(self, observer)
     }
 }
 

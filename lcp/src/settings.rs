@@ -108,12 +108,8 @@ pub(crate) fn check_tolerance(tolerance: f64) -> Result<(), Error> {
     Err(Error::Setting { name: "tolerance", value: tolerance, range: "between 0 and 1" })
 }
 
-/// Checks the number of attempts of Lemke's method.
-pub(crate) fn check_attempts(max_attempts: Option<usize>) -> Result<(), Error> {
-    check_count("max_attempts", max_attempts)
-}
-
-fn check_count(name: &'static str, count: Option<usize>) -> Result<(), Error> {
+/// Checks a number that must not be zero.
+pub(crate) fn check_count(name: &'static str, count: Option<usize>) -> Result<(), Error> {
     if count == Some(0) {
         return Err(Error::Setting { name, value: 0.0, range: "at least 1" });
     }
@@ -162,7 +158,7 @@ impl LemkeSettings {
     /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
     pub fn validate(&self, n: usize) -> Result<(), Error> {
         check_tolerance(self.tolerance)?;
-        check_attempts(self.max_attempts)?;
+        check_count("max_attempts", self.max_attempts)?;
         check_count("refactor_interval", self.refactor_interval)?;
         self.start.validate(n)?;
         if let Covering::Given(d) = &self.covering {

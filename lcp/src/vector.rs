@@ -94,6 +94,11 @@ pub(crate) fn check_vector(what: &'static str, v: &[f64]) -> Result<(), Error> {
     }
 }
 
+/// Whether a number is between the bounds, either of which may be infinite.
+pub(crate) fn is_interval(lower: f64, upper: f64) -> bool {
+    lower <= upper && lower < f64::INFINITY && upper > f64::NEG_INFINITY
+}
+
 /// That a value of every contact point is at least zero and finite.
 pub(crate) fn check_sizes(
     name: &'static str,

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::settings::{check_attempts, check_tolerance};
+use crate::settings::{check_count, check_tolerance};
 use crate::{Error, WarmStart};
 
 /// Settings of [`Auto`](crate::Auto).
@@ -38,7 +38,7 @@ impl AutoSettings {
     /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
     pub fn validate(&self, n: usize) -> Result<(), Error> {
         check_tolerance(self.tolerance)?;
-        check_attempts(self.max_attempts)?;
+        check_count("max_attempts", self.max_attempts)?;
         self.start.validate(n)
     }
 }

@@ -1,6 +1,5 @@
 //! The problem and the points that the command line names.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -102,17 +101,14 @@ fn matrix(path: &Path, order: usize) -> Result<crate::Matrix, Failure> {
 
 /// What is in a file, of which `-` is standard input.
 fn content(path: &Path, stdin: &mut dyn Read) -> Result<Vec<u8>, Failure> {
-    let mut content = Vec::new();
-    let read = if path.as_os_str() == "-" {
-        stdin.read_to_end(&mut content)
+    let content = if path.as_os_str() == "-" {
+        let mut content = Vec::new();
+        stdin.read_to_end(&mut content).map(|_| content)
     } else {
-        File::open(path).and_then(|mut file| file.read_to_end(&mut content))
+        std::fs::read(path)
     };
-    let refused = |error: std::io::Error| ReadError::File {
-        path: path.to_owned(),
-        reason: error.to_string(),
-    };
-    read.map(|_| content).map_err(|error| refused(error).into())
+    let path = path.to_owned();
+    content.map_err(|error| ReadError::File { path, reason: error.to_string() }.into())
 }
 
 /// A point in a file, as `lcp solve --json` writes it; other fields do not matter.

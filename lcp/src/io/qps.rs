@@ -12,18 +12,6 @@ use super::{Position, Problem, ReadError};
 use line::Layout;
 use program::{Program, Section};
 
-const SECTIONS: [(&str, Section); 9] = [
-    ("OBJSENSE", Section::Sense),
-    ("ROWS", Section::Rows),
-    ("COLUMNS", Section::Columns),
-    ("RHS", Section::Right),
-    ("RANGES", Section::Ranges),
-    ("BOUNDS", Section::Bounds),
-    ("QUADOBJ", Section::Triangle),
-    ("QSECTION", Section::Triangle),
-    ("QMATRIX", Section::Quadratic),
-];
-
 /// In the format in which it can be read, or the error of the one that comes further.
 pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
     parse(text, Layout::Free).or_else(|free| {
@@ -54,7 +42,7 @@ fn parse(text: &str, layout: Layout) -> Result<Problem, ReadError> {
         section = match header.text {
             "NAME" => None,
             "ENDATA" => return posed(program.finish(), Problem::Qp, at),
-            name => Some(section_of(name, header)?),
+            _ => Some(section_of(header)?),
         };
         match (section, rest) {
             (Some(Section::Sense), [_]) => program.line(Section::Sense, rest)?,
@@ -74,11 +62,22 @@ fn unexpected_end(at: Position, expected: &str) -> ReadError {
     ReadError::unexpected(at, expected, "a line without it", "complete the file")
 }
 
-fn section_of(name: &str, header: &Token<'_>) -> Result<Section, ReadError> {
-    let found = SECTIONS.iter().find(|(section, _)| *section == name);
-    found.map(|(_, section)| *section).ok_or_else(|| {
-        let names = SECTIONS.map(|(name, _)| name).join(", ");
-        let remedy = "of other sections, as those of integers and cones, there are no solvers here";
-        header.unexpected(format!("one of NAME, {names}, ENDATA"), remedy)
+fn section_of(header: &Token<'_>) -> Result<Section, ReadError> {
+    Ok(match header.text {
+        "OBJSENSE" => Section::Sense,
+        "ROWS" => Section::Rows,
+        "COLUMNS" => Section::Columns,
+        "RHS" => Section::Right,
+        "RANGES" => Section::Ranges,
+        "BOUNDS" => Section::Bounds,
+        "QUADOBJ" | "QSECTION" => Section::Triangle,
+        "QMATRIX" => Section::Quadratic,
+        _ => {
+            let expected = "one of NAME, OBJSENSE, ROWS, COLUMNS, RHS, RANGES, BOUNDS, QUADOBJ, QSECTION, \
+                            QMATRIX, ENDATA";
+            let remedy =
+                "of other sections, as those of integers and cones, there are no solvers here";
+            return Err(header.unexpected(expected, remedy));
+        }
     })
 }

@@ -9,7 +9,18 @@ pub(crate) enum Column<'a> {
     Sparse { rows: &'a [usize], values: &'a [f64] },
 }
 
-impl Column<'_> {
+impl<'a> Column<'a> {
+    /// The entries with their rows.
+    pub(crate) fn entries(self) -> impl Iterator<Item = (usize, f64)> + 'a {
+        let (dense, sparse) = match self {
+            Self::Dense(values) => (Some(values.iter().copied().enumerate()), None),
+            Self::Sparse { rows, values } => {
+                (None, Some(rows.iter().copied().zip(values.iter().copied())))
+            }
+        };
+        dense.into_iter().flatten().chain(sparse.into_iter().flatten())
+    }
+
     /// `out += factor * column`.
     pub(crate) fn add_to(self, factor: f64, out: &mut [f64]) {
         match self {
@@ -58,24 +69,9 @@ impl Column<'_> {
 
     /// The only nonzero entry, if there is only one.
     pub(crate) fn single(self) -> Option<(usize, f64)> {
-        let mut found = None;
-        match self {
-            Self::Dense(values) => {
-                for (i, &v) in values.iter().enumerate().filter(|(_, v)| **v != 0.0) {
-                    if found.replace((i, v)).is_some() {
-                        return None;
-                    }
-                }
-            }
-            Self::Sparse { rows, values } => {
-                for (&i, &v) in rows.iter().zip(values).filter(|(_, v)| **v != 0.0) {
-                    if found.replace((i, v)).is_some() {
-                        return None;
-                    }
-                }
-            }
-        }
-        found
+        let mut nonzero = self.entries().filter(|(_, v)| *v != 0.0);
+        let first = nonzero.next()?;
+        nonzero.next().is_none().then_some(first)
     }
 }
 

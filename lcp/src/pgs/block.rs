@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::coulomb::Coulomb;
 use super::{Constraint, ProjectedGaussSeidel, Rows};
 use crate::Error;
-use crate::vector::check_length;
+use crate::vector::{check_length, is_interval};
 
 /// A constraint with its first row and the entries of the matrix in its own rows and columns.
 #[derive(Debug, Clone, Copy)]
@@ -135,10 +135,8 @@ impl Constraint {
     /// That something meets the constraint, which has this number.
     fn check(self, index: usize) -> Result<(), Error> {
         match self {
-            Self::Bounds { lower, upper }
-                if !(lower <= upper && lower < f64::INFINITY && upper > f64::NEG_INFINITY) =>
-            {
-                Err(Error::Bounds { index, lower, upper })
+            Self::Bounds { lower, upper } if !is_interval(lower, upper) => {
+                Err(Error::Bounds { what: "variable", index, lower, upper })
             }
             Self::Friction { mu } if !(mu >= 0.0 && mu.is_finite()) => {
                 Err(Error::Setting { name: "mu", value: mu, range: "at least zero and finite" })

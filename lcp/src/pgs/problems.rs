@@ -1,132 +1,149 @@
 //! The problems of the library.
 
 use super::delassus::{Compliance, Delassus};
-use super::{Constraint, MatrixRows, ProjectedGaussSeidel, Sweepable, Sweeps};
+use super::{Constraint, MatrixRows, ProjectedGaussSeidel, Sweeps};
 use crate::certify::{BoxedJudge, ContactJudge, GeneralJudge, Precision};
 use crate::{
-    BoxedLcp, Contact2d, ContactForces, Error, Friction2d, HorizontalLcp, Lcp, Observer, Solution,
+    BoxedLcp, Contact2d, ContactForces, Error, Friction2d, HorizontalLcp, Lcp, Method, Observer,
+    Solution, Solver,
 };
 
-impl Sweepable for Lcp {
-    fn solve_by(
-        &self,
-        solver: &ProjectedGaussSeidel,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
-        let (lower, upper) = (vec![0.0; self.order()], vec![f64::INFINITY; self.order()]);
-        let boxed = BoxedLcp::new(self.m().clone(), self.q().to_vec(), lower, upper)?;
-        Ok(Solution { boxed: None, ..boxed.solve_by(solver, observer)? })
+impl Solver<Lcp> for ProjectedGaussSeidel {
+    fn method(&self) -> Method {
+        Method::GaussSeidel
+    }
+
+    fn solve_pairs(&self, problem: &Lcp, observer: &mut Observer<'_>) -> Result<Solution, Error> {
+        let (lower, upper) = (vec![0.0; problem.order()], vec![f64::INFINITY; problem.order()]);
+        let boxed = BoxedLcp::new(problem.m().clone(), problem.q().to_vec(), lower, upper)?;
+        Ok(Solution { boxed: None, ..self.solve_pairs(&boxed, observer)? })
     }
 }
 
 /// Judged on the problem as it stands.
-impl Sweepable for HorizontalLcp {
-    fn solve_by(
+impl Solver<HorizontalLcp> for ProjectedGaussSeidel {
+    fn method(&self) -> Method {
+        Method::GaussSeidel
+    }
+
+    fn solve_pairs(
         &self,
-        solver: &ProjectedGaussSeidel,
+        problem: &HorizontalLcp,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        let standard = self.to_standard().ok_or_else(|| {
+        let standard = problem.to_standard().ok_or_else(|| {
             ProjectedGaussSeidel::not_treated(
                 "it is not in the standard form, with a column of a single entry in every pair, each in \
                  another row: take Lemke's method",
             )
         })?;
-        let mut monitor = solver.monitor(observer);
-        let start = solver.start(self.order(), |t, y| standard.from_pairs(t, y).0)?;
+        let mut monitor = self.monitor(observer);
+        let start = self.start(problem.order(), |t, y| standard.from_pairs(t, y).0)?;
         let mut rows = MatrixRows::new(standard.lcp().m());
-        let constraints = vec![Constraint::NONNEGATIVE; self.order()];
+        let constraints = vec![Constraint::NONNEGATIVE; problem.order()];
         let q = standard.lcp().q();
-        let sweeps = Sweeps::new(&solver.settings, &mut rows, q, &constraints, start)?;
-        let judge = GeneralJudge::new(self);
+        let sweeps = Sweeps::new(&self.settings, &mut rows, q, &constraints, start)?;
+        let judge = GeneralJudge::new(problem);
         let (best, status) = sweeps.run(&mut monitor, &mut |point| {
             let (t, y) = standard.to_pairs(&point.z, &point.allowed);
             judge.residuals(&[&t, &y], Precision::Exact)
         });
         let (t, y) = standard.to_pairs(&best.z, &best.allowed);
-        Ok(solver.solution(t, y, best.residuals, status, monitor))
+        Ok(self.solution(t, y, best.residuals, status, monitor))
     }
 }
 
 /// In the pairs of [`BoxedLcp::to_general`].
-impl Sweepable for BoxedLcp {
-    fn solve_by(
+impl Solver<BoxedLcp> for ProjectedGaussSeidel {
+    fn method(&self) -> Method {
+        Method::GaussSeidel
+    }
+
+    fn solve_pairs(
         &self,
-        solver: &ProjectedGaussSeidel,
+        problem: &BoxedLcp,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        let mut monitor = solver.monitor(observer);
-        let start = solver.start(self.pairs(), |t, y| self.recover(t, y).0)?;
-        let bounds = self.lower().iter().zip(self.upper());
+        let mut monitor = self.monitor(observer);
+        let start = self.start(problem.pairs(), |t, y| problem.recover(t, y).0)?;
+        let bounds = problem.lower().iter().zip(problem.upper());
         let constraints: Vec<Constraint> =
             bounds.map(|(&lower, &upper)| Constraint::Bounds { lower, upper }).collect();
-        let mut rows = MatrixRows::new(self.m());
-        let sweeps = Sweeps::new(&solver.settings, &mut rows, self.q(), &constraints, start)?;
-        let judge = BoxedJudge::of_boxed(self);
+        let mut rows = MatrixRows::new(problem.m());
+        let sweeps = Sweeps::new(&self.settings, &mut rows, problem.q(), &constraints, start)?;
+        let judge = BoxedJudge::of_boxed(problem);
         let (best, status) = sweeps.run(&mut monitor, &mut |point| {
             judge.residuals(&[&point.z, &point.allowed], Precision::Exact)
         });
-        let (t, y) = self.to_pairs(&best.z, &best.allowed);
-        let solution = solver.solution(t, y, best.residuals, status, monitor);
+        let (t, y) = problem.to_pairs(&best.z, &best.allowed);
+        let solution = self.solution(t, y, best.residuals, status, monitor);
         Ok(Solution { boxed: Some((best.z, best.allowed)), ..solution })
     }
 }
 
 /// In the pairs of [`Friction2d::standard`].
-impl Sweepable for Friction2d {
-    fn solve_by(
+impl Solver<Friction2d> for ProjectedGaussSeidel {
+    fn method(&self) -> Method {
+        Method::GaussSeidel
+    }
+
+    fn solve_pairs(
         &self,
-        solver: &ProjectedGaussSeidel,
+        problem: &Friction2d,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        let mut monitor = solver.monitor(observer);
-        let start = solver.start(self.order(), |t, _| {
-            let ContactForces { normal, tangential } = self.forces(t);
+        let mut monitor = self.monitor(observer);
+        let start = self.start(problem.order(), |t, _| {
+            let ContactForces { normal, tangential } = problem.forces(t);
             interleaved(&normal, &tangential)
         })?;
-        let mut rows = MatrixRows::new(self.w());
-        let constraints = cones(self.mu());
-        let sweeps = Sweeps::new(&solver.settings, &mut rows, self.q(), &constraints, start)?;
+        let mut rows = MatrixRows::new(problem.w());
+        let constraints = cones(problem.mu());
+        let sweeps = Sweeps::new(&self.settings, &mut rows, problem.q(), &constraints, start)?;
         let (best, status) = sweeps.run(&mut monitor, &mut |point| {
             let [normal, tangential] = parted(&point.z);
-            self.residuals(&ContactForces { normal, tangential })
+            problem.residuals(&ContactForces { normal, tangential })
         });
-        let (t, y) = self.to_pairs(&best.z, &best.allowed);
-        Ok(solver.solution(t, y, best.residuals, status, monitor))
+        let (t, y) = problem.to_pairs(&best.z, &best.allowed);
+        Ok(self.solution(t, y, best.residuals, status, monitor))
     }
 }
 
 /// On the forces, in the pairs of [`Contact2d::to_general`]: the displacements follow from them if `K`
 /// is positive definite, and the compliances of the contacts are on the diagonal. Bodies that `K` does not couple are
 /// eliminated one by one.
-impl Sweepable for Contact2d {
-    fn solve_by(
+impl Solver<Contact2d> for ProjectedGaussSeidel {
+    fn method(&self) -> Method {
+        Method::GaussSeidel
+    }
+
+    fn solve_pairs(
         &self,
-        solver: &ProjectedGaussSeidel,
+        problem: &Contact2d,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        let mut monitor = solver.monitor(observer);
-        let start = solver.start(self.order(), |t, y| {
-            let state = self.recover(t, y);
+        let mut monitor = self.monitor(observer);
+        let start = self.start(problem.order(), |t, y| {
+            let state = problem.recover(t, y);
             interleaved(&state.t_n, &state.t_t)
         })?;
-        let compliance = Compliance::new(self)?;
+        let compliance = Compliance::new(problem)?;
         let state = |forces: &[f64]| {
             let [t_n, t_t] = parted(forces);
-            self.state(compliance.displacements(forces), t_n, t_t)
+            problem.state(compliance.displacements(forces), t_n, t_t)
         };
-        let free = state(&vec![0.0; 2 * self.points()]);
+        let free = state(&vec![0.0; 2 * problem.points()]);
         let q = interleaved(&free.gap, &free.slip);
         let mut rows = Delassus::new(&compliance);
-        let constraints = cones(self.mu());
-        let sweeps = Sweeps::new(&solver.settings, &mut rows, &q, &constraints, start)?;
-        let judge = ContactJudge::new(self);
+        let constraints = cones(problem.mu());
+        let sweeps = Sweeps::new(&self.settings, &mut rows, &q, &constraints, start)?;
+        let judge = ContactJudge::new(problem);
         let (best, status) = sweeps.run(&mut monitor, &mut |point| {
             judge.residuals(&state(&point.z).parts(), Precision::Exact)
         });
         let state = state(&best.z);
-        let (t, y) = self.to_pairs(&state);
-        let mut solution = solver.solution(t, y, best.residuals, status, monitor);
+        let (t, y) = problem.to_pairs(&state);
+        let mut solution = self.solution(t, y, best.residuals, status, monitor);
         solution.info.factorisations = compliance.factorisations();
         Ok(Solution { contact: Some(state), ..solution })
     }

@@ -96,11 +96,7 @@ impl Lcp {
             self.m().slice(j).add_with_sizes(z, &mut w, &mut size);
         }
         let rounding = (n as f64 + 2.0) * f64::EPSILON;
-        let largest = |j| {
-            let mut largest = 0.0_f64;
-            self.m().slice(j).for_each(|_, v| largest = largest.max(v.abs()));
-            largest
-        };
+        let largest = |j| self.m().column(j).map(|(_, v)| v.abs()).fold(0.0, f64::max);
         let stiffness: Vec<f64> = (0..n).map(largest).collect();
         let (mut r, mut v) = (vec![0.0; n], vec![0.0; n]);
         for i in 0..n {

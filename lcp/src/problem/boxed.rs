@@ -4,7 +4,7 @@ use std::ops::{Add, Neg, Sub};
 
 use super::HorizontalLcp;
 use crate::matrix::check_sums;
-use crate::vector::{check_length, check_vector};
+use crate::vector::{check_length, check_vector, is_interval};
 use crate::{Error, Matrix, Vector};
 
 /// The problem `w = M z + q`, `lower <= z <= upper` of order `n`, where `w_i >= 0` if `z_i` is at
@@ -76,12 +76,9 @@ impl BoxedLcp {
         check_length("lower", lower.len(), n)?;
         check_length("upper", upper.len(), n)?;
         for (index, (&lower, &upper)) in lower.iter().zip(&upper).enumerate() {
-            let is_ordered = lower <= upper && lower < f64::INFINITY && upper > f64::NEG_INFINITY;
-            let distance = upper - lower;
-            let fits =
-                is_ordered && (distance.is_finite() || lower.is_infinite() || upper.is_infinite());
-            if !fits {
-                return Err(Error::Bounds { index, lower, upper });
+            let is_bounded = lower.is_finite() && upper.is_finite();
+            if !is_interval(lower, upper) || is_bounded && !(upper - lower).is_finite() {
+                return Err(Error::Bounds { what: "variable", index, lower, upper });
             }
         }
         let problem = Self { m, q, lower, upper };

@@ -2,7 +2,7 @@
 
 use super::MixedLcp;
 use crate::definite::indefiniteness;
-use crate::vector::{check_length, check_vector};
+use crate::vector::{check_length, check_vector, is_interval};
 use crate::{Error, Matrix, Vector};
 
 /// The convex quadratic program `min x.P x / 2 + q.x + constant` subject to `l <= A x <= u` and `lower <= x <= upper`.
@@ -55,19 +55,14 @@ struct Bounds {
     upper: Vec<f64>,
 }
 
-/// A bound with a multiplier of its own: `w = sign (g - bound)`, where `g` is a row of `A x` or a variable.
+/// A bound with a multiplier of its own: `w = sign (g - bound)`, where `g` is one of the rows of `A x` or, after these,
+/// of the variables.
 #[derive(Debug, Clone, Copy)]
 struct Limit {
-    of: Of,
+    of: usize,
     sign: f64,
     bound: f64,
     is_equation: bool,
-}
-
-#[derive(Debug, Clone, Copy)]
-enum Of {
-    Row(usize),
-    Variable(usize),
 }
 
 impl Qp {
@@ -75,7 +70,7 @@ impl Qp {
     ///
     /// # Errors
     /// [`Error::Shape`] or [`Error::Length`] when the shapes do not fit, [`Error::NotFinite`] for a NaN, or an infinity
-    /// other than those of bounds, [`Error::Between`] for bounds without a number between them,
+    /// other than those of bounds, [`Error::Bounds`] for bounds without a number between them,
     /// [`Error::NotSymmetric`] and [`Error::NotConvex`] for a `P` that is not symmetric positive semidefinite.
     pub fn new(
         p: impl Into<Matrix>,
@@ -102,7 +97,7 @@ impl Qp {
     /// The same program with bounds of its variables, which may be infinite.
     ///
     /// # Errors
-    /// [`Error::Length`] and [`Error::Between`] as [`new`](Self::new).
+    /// [`Error::Length`] and [`Error::Bounds`] as [`new`](Self::new).
     pub fn with_bounds(
         self,
         lower: impl Into<Vector>,
@@ -129,10 +124,8 @@ impl Qp {
         rows: Bounds,
         variables: Bounds,
     ) -> Result<Self, Error> {
-        let of_rows = (0..rows.lower.len()).flat_map(|i| rows.limits(Of::Row(i), i));
-        let of_variables = (0..q.len()).flat_map(|j| variables.limits(Of::Variable(j), j));
-        let limits: Vec<Limit> =
-            of_rows.chain(of_variables.filter(|limit| !limit.is_sign())).collect();
+        let of_variables = variables.limits(a.nrows()).filter(|limit| !limit.is_sign());
+        let limits: Vec<Limit> = rows.limits(0).chain(of_variables).collect();
         let mixed = conditions(&p, &q, &a, &variables, &limits)?;
         Ok(Self { p, q, a, rows, variables, constant: 0.0, limits, mixed })
     }
@@ -177,13 +170,12 @@ impl Qp {
     pub(crate) fn point(&self, mut x: Vec<f64>, mut w: Vec<f64>) -> QpPoint {
         let multipliers = x.split_off(self.q.len());
         w.truncate(self.q.len());
-        let (mut rows, mut bounds) = (vec![0.0; self.rows.lower.len()], w);
+        let mut rows = vec![0.0; self.a.nrows()];
+        rows.append(&mut w);
         for (limit, multiplier) in self.limits.iter().zip(multipliers) {
-            match limit.of {
-                Of::Row(i) => rows[i] += limit.sign * multiplier,
-                Of::Variable(j) => bounds[j] += limit.sign * multiplier,
-            }
+            rows[limit.of] += limit.sign * multiplier;
         }
+        let bounds = rows.split_off(self.a.nrows());
         QpPoint { objective: self.objective(&x), x, rows, bounds }
     }
 
@@ -202,22 +194,22 @@ impl Qp {
 impl Bounds {
     fn check(self, what: &'static str) -> Result<Self, Error> {
         for (index, (&lower, &upper)) in self.lower.iter().zip(&self.upper).enumerate() {
-            let is_ordered = lower <= upper && lower < f64::INFINITY && upper > f64::NEG_INFINITY;
-            if !is_ordered {
-                return Err(Error::Between { what, index, lower, upper });
+            if !is_interval(lower, upper) {
+                return Err(Error::Bounds { what, index, lower, upper });
             }
         }
         Ok(self)
     }
 
-    /// The finite bounds of one of them.
-    fn limits(&self, of: Of, index: usize) -> impl Iterator<Item = Limit> + use<> {
-        let (lower, upper) = (self.lower[index], self.upper[index]);
-        let is_equation = lower >= upper;
-        let limit = |sign, bound: f64| Limit { of, sign, bound, is_equation };
-        let lower = Some(limit(1.0, lower)).filter(|limit| limit.bound.is_finite());
-        let upper = Some(limit(-1.0, upper)).filter(|it| it.bound.is_finite() && !is_equation);
-        lower.into_iter().chain(upper)
+    /// The finite bounds, of which the first ones have this number.
+    fn limits(&self, first: usize) -> impl Iterator<Item = Limit> {
+        self.lower.iter().zip(&self.upper).enumerate().flat_map(move |(index, (lower, upper))| {
+            let (of, is_equation) = (first + index, lower >= upper);
+            let limit = |sign, bound| Limit { of, sign, bound, is_equation };
+            let upper = Some(limit(-1.0, *upper)).filter(|_| !is_equation);
+            let both = [limit(1.0, *lower)].into_iter().chain(upper);
+            both.filter(|limit| limit.bound.is_finite())
+        })
     }
 }
 
@@ -237,16 +229,11 @@ fn conditions(
     limits: &[Limit],
 ) -> Result<MixedLcp, Error> {
     let n = q.len();
-    let mut of_row = vec![Vec::new(); a.nrows()];
+    let mut of_row = vec![Vec::new(); a.nrows() + n];
+    limits.iter().enumerate().for_each(|(k, limit)| of_row[limit.of].push(k));
     let mut rows = Vec::new();
-    for (k, limit) in limits.iter().enumerate() {
-        match limit.of {
-            Of::Row(i) => of_row[i].push(k),
-            Of::Variable(j) => rows.push((k, j, limit.sign)),
-        }
-    }
     for j in 0..n {
-        for (i, v) in a.column(j) {
+        for (i, v) in a.column(j).chain([(a.nrows() + j, 1.0)]) {
             rows.extend(of_row[i].iter().map(|&k| (k, j, limits[k].sign * v)));
         }
     }

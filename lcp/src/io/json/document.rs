@@ -100,8 +100,8 @@ impl<'a> Document<'a> {
         let datum = match &source {
             Error::NotFinite { what, .. } | Error::NotSymmetric { what, .. } => what,
             Error::Setting { name, .. } | Error::Length { name, .. } => name,
-            Error::Between { what: "row", .. } => "l",
-            Error::Bounds { .. } | Error::Between { .. } => "lower",
+            Error::Bounds { what: "row", .. } => "l",
+            Error::Bounds { .. } => "lower",
             Error::Indefinite { .. } => "k",
             Error::NotConvex { .. } => "p",
             _ => "",
