@@ -5,12 +5,11 @@
 //! basis. A solution in which all artificial variables are zero solves the problem as given, which
 //! the residuals of the original data decide.
 
-use super::constants::NOISE;
 use super::feasibility::in_problem_rows;
 use super::finish::Point;
 use super::start::Equilibrated;
 use crate::certify::is_proof;
-use crate::vector::max_abs;
+use crate::vector::{SMALL, max_abs};
 use crate::{Basis, HorizontalLcp, Matrix, Side, Solution};
 
 /// The problem in which the missing pairs have an artificial column instead of that of `side`.
@@ -64,7 +63,7 @@ pub(super) fn part_outside(problem: &Equilibrated<'_>, complement: &Matrix) -> O
         let column = complement.slice(k);
         column.add_to(column.dot(&right), &mut outside);
     }
-    let least = NOISE * max_abs(&outside);
+    let least = SMALL * max_abs(&outside);
     outside.iter_mut().filter(|part| part.abs() < least).for_each(|part| *part = 0.0);
     let pi = in_problem_rows(problem, &outside);
     is_proof(problem.problem, &pi).then_some(pi)

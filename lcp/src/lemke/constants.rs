@@ -5,9 +5,6 @@
 /// whose part outside the span of others is. Entries of an equilibrated inverse beyond its reciprocal betray a nearly
 /// singular basis. Measured on 25 problems in five scalings, all solved.
 pub(super) const PIVOT_TOLERANCE: f64 = 1e-10;
-/// Entries of an equilibrated tableau, or of a vector relative to its largest, below this are rounding errors.
-/// Rounding: some hundred eps.
-pub(super) const NOISE: f64 = 1e-13;
 /// Below this multiple of its first value the artificial variable is zero, and leaves. Measured on walls: 1e-12 runs
 /// past the solution onto false rays, 1e-9 stops early with residuals of 1e-10.
 pub(super) const ARTIFICIAL_ZERO: f64 = 1e-10;
@@ -17,8 +14,6 @@ pub(super) const TIE_WINDOW: f64 = 1e-12;
 /// Drift of the basic values, or of a column, against the start data above which the tableau is rebuilt, relative to
 /// their size. Chosen: the tolerance of answers.
 pub(super) const DRIFT: f64 = 1e-10;
-/// Size of the perturbation that parts ties, relative to the largest entry of `q`. Chosen: about the root of eps.
-pub(super) const TIES: f64 = 1e-8;
 
 /// Up to this order bases of sparse problems are searched with dense matrices where columns alone give none, and
 /// enlarged. Chosen: memory and time are small.
@@ -27,8 +22,9 @@ pub(super) const DENSE_SEARCH: usize = 2000;
 pub(super) const GAIN: f64 = 1.0 + 1e-6;
 /// Times that all pairs are gone through for such exchanges. Chosen.
 pub(super) const GAIN_SWEEPS: usize = 8;
-/// Pivots of at least this part of their column are sound enough for another start basis. Chosen.
-pub(super) const SOUND_PIVOT: f64 = 1e-2;
+/// Pivots of at least this part of their column are sound enough for another start basis. Measured on the problems of the
+/// corpus: with 0.01 pivots are twice as many.
+pub(super) const SOUND_PIVOT: f64 = 0.1;
 /// Pairs of a sparse problem that are drawn for one, on average. Chosen: each costs some solves.
 pub(super) const MANY_FLIPS: f64 = 500.0;
 
@@ -46,12 +42,8 @@ pub(super) const WORK: usize = 4_000_000_000;
 pub(super) const ATTEMPT: usize = 40_000;
 /// Up to this order a problem without a start basis is searched for a proof by least squares. Chosen: it takes no time
 /// there.
-pub(super) const SMALL: usize = 40;
+pub(super) const LEAST_SQUARES: usize = 40;
 /// Dense matrices of the order of the problem at the peak. Measured.
 pub(super) const MATRICES: usize = 5;
-/// Steps of iterative refinement of the final basis at most. Chosen: each gains the digits that the condition number leaves.
-pub(super) const REFINEMENTS: usize = 3;
-/// Random right-hand sides of rounding size that are solved for to see which entries are rounding errors. Chosen.
+/// Random right-hand sides of the size of rounding errors that are solved for to see which entries are rounding errors. Chosen.
 pub(super) const SAMPLES: u64 = 5;
-/// Their size, relative to the terms. Rounding: a few eps.
-pub(super) const LEVEL: f64 = 8.0 * f64::EPSILON;

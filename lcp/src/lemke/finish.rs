@@ -1,10 +1,9 @@
 //! From a complementary basis to a point that the original data vouches for.
 
 use super::basis_matrix::BasisMatrix;
-use super::constants::REFINEMENTS;
 use super::start::Equilibrated;
 use crate::certify::Precision;
-use crate::vector::max_abs;
+use crate::vector::{REFINEMENTS, max_abs};
 use crate::{Basis, Residuals, Side};
 
 #[derive(Debug, Clone)]

@@ -10,14 +10,14 @@ pub use outcome::{Breakpoint, ParametricEnd, ParametricPath, ParametricRay};
 
 use web_time::Instant;
 
-use super::constants::{NOISE, TIE_WINDOW};
+use super::constants::TIE_WINDOW;
 use super::crash::{Crash, find_basis};
 use super::kernel::Var;
 use super::path::Path;
 use super::start::{Equilibrated, Start};
 use crate::certify::{GeneralJudge, Precision};
 use crate::solve::{deadline_of, is_over};
-use crate::vector::{check_length, check_vector, max_abs};
+use crate::vector::{SMALL, check_length, check_vector, max_abs};
 use crate::{Basis, Error, HorizontalLcp, Lemke, LemkeSettings, Solver, Status};
 
 /// Settings of [`Parametric`].
@@ -164,7 +164,7 @@ impl Tracer<'_> {
             let row = path.leaving_row(&column);
             let step = row.map_or(f64::INFINITY, |row| path.values[row].max(0.0) / column[row]);
             let speed = match path.artificial_row() {
-                Some(row) if column[row].abs() <= NOISE * max_abs(&column) => 0.0,
+                Some(row) if column[row].abs() <= SMALL * max_abs(&column) => 0.0,
                 Some(row) => -column[row],
                 None => 1.0,
             };
@@ -207,7 +207,7 @@ impl Tracer<'_> {
     fn note(&self, along: &[f64], lambda: Option<f64>, out: &mut ParametricPath) -> bool {
         let parameter = along[along.len() - 1];
         // A solution that vanishes must not be measured by its own rounding errors.
-        let zero = NOISE * (1.0 + parameter.abs());
+        let zero = SMALL * (1.0 + parameter.abs());
         let kept = |value: f64| if value.abs() > zero { value } else { 0.0 };
         let kept_values: Vec<f64> = along.iter().copied().map(kept).collect();
         let (t, y) = self.start.in_problem_units(self.equilibrated, &kept_values);
@@ -215,7 +215,7 @@ impl Tracer<'_> {
             let travelled = self.unit * kept(parameter);
             let lambda = self.from + travelled;
             let size = self.from.abs() + travelled.abs();
-            if lambda.abs() > NOISE * size { lambda } else { 0.0 }
+            if lambda.abs() > SMALL * size { lambda } else { 0.0 }
         });
         let point = Breakpoint { lambda, t, y };
         let residual = self.residual(&point);

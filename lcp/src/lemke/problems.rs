@@ -2,11 +2,11 @@
 
 use web_time::{Duration, Instant};
 
-use super::constants::NOISE;
 use super::{Lemke, Progress};
 use crate::active::state_brought_right;
 use crate::conversion::{Converted, solve_in_general_form};
 use crate::states::Scaled;
+use crate::vector::SMALL;
 use crate::{
     Basis, Certificate, Contact2d, Covering, Error, HorizontalLcp, Iteration, LemkeSettings,
     Method, Observer, Side, Solution, Solver, Status, WarmStart,
@@ -93,7 +93,7 @@ fn without_rounding(problem: &Contact2d) -> Option<Contact2d> {
     let mut cleared = |given: &[f64], scaled: &[f64]| -> Vec<f64> {
         let both = given.iter().zip(scaled);
         both.map(|(given, scaled)| {
-            let is_rounding = *given != 0.0 && scaled.abs() <= NOISE;
+            let is_rounding = *given != 0.0 && scaled.abs() <= SMALL;
             has_any |= is_rounding;
             if is_rounding { 0.0 } else { *given }
         })

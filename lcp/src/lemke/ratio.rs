@@ -1,14 +1,14 @@
 //! The ratio test: which basic variable leaves.
 
-use super::constants::{ARTIFICIAL_ZERO, NOISE, PIVOT_TOLERANCE, TIE_WINDOW};
+use super::constants::{ARTIFICIAL_ZERO, PIVOT_TOLERANCE, TIE_WINDOW};
 use super::path::Path;
-use crate::vector::max_abs;
+use crate::vector::{SMALL, max_abs};
 
 impl Path<'_> {
     /// The row that leaves, or `None` when nothing blocks the entering variable. In two passes: the
     /// longest step that brings no variable below zero by more than the window, then the rows that block within it.
     pub(super) fn leaving_row(&self, column: &[f64]) -> Option<usize> {
-        let smallest_pivot = (PIVOT_TOLERANCE * max_abs(column)).max(NOISE);
+        let smallest_pivot = (PIVOT_TOLERANCE * max_abs(column)).max(SMALL);
         let blocks = |&i: &usize| column[i] > smallest_pivot && self.is_bounded(i);
         let value = |i: usize| self.values[i].max(0.0);
 
@@ -16,7 +16,7 @@ impl Path<'_> {
             (0..column.len()).filter(blocks).map(|i| value(i) / column[i]).reduce(f64::min)?;
         if let Some(row) = self.artificial_row().filter(|_| !self.is_parametric) {
             let after = self.values[row] - shortest * column[row];
-            if column[row] > NOISE && after <= ARTIFICIAL_ZERO * self.artificial_start {
+            if column[row] > SMALL && after <= ARTIFICIAL_ZERO * self.artificial_start {
                 return Some(row);
             }
         }

@@ -6,7 +6,7 @@ use web_time::Instant;
 
 use super::Progress;
 use super::artificial::{completed, part_outside, without_artificial};
-use super::constants::{ATTEMPT, FIRST_ROUND, KINDS, NOISE, SMALL, WORK};
+use super::constants::{ATTEMPT, FIRST_ROUND, KINDS, LEAST_SQUARES, WORK};
 use super::crash::{Crash, find_basis};
 use super::feasibility::farkas_vector;
 use super::finish::{Point, solve_basis};
@@ -19,7 +19,7 @@ use crate::pivoting::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Perturbation, PivotRecord,
 };
 use crate::solve::is_over;
-use crate::vector::max_abs;
+use crate::vector::{SMALL, max_abs};
 use crate::{
     Basis, Certificate, Covering, HorizontalLcp, Info, LemkeSettings, Matrix, Ray, Side, Solution,
     Status, WarmStart,
@@ -188,7 +188,7 @@ impl<'a> Search<'a> {
     /// The point of the start basis where it solves the problem. The values of a basis that had to be
     /// factorised are not zero where they should be, so that a path would start at rounding errors.
     fn solution_at(&self, start: &Start) -> Option<Point> {
-        let is_negative = |(k, &q): (usize, &f64)| q < -NOISE && !start.is_free(k);
+        let is_negative = |(k, &q): (usize, &f64)| q < -SMALL && !start.is_free(k);
         if start.q.iter().enumerate().any(is_negative) {
             return None;
         }
@@ -359,7 +359,7 @@ impl<'a> Search<'a> {
 
     /// Without a start basis: a proof by least squares, of a small problem, else this status.
     fn prove_or(self, status: Status) -> Solution {
-        let is_small = self.problem.order() <= SMALL && !self.is_completed;
+        let is_small = self.problem.order() <= LEAST_SQUARES && !self.is_completed;
         let is_wanted = is_small && self.settings.prove_infeasible;
         match is_wanted.then(|| enumerate::farkas_vector(self.problem.problem)).flatten() {
             Some(pi) => self.infeasible(pi),

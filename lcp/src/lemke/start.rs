@@ -9,10 +9,10 @@ use crate::linear::{Lu, all_finite, inverse_norm};
 use crate::matrix::Column;
 use crate::scaling::{equilibrate, equilibrate_computed};
 use crate::sparse::{Columns, SparseLu};
-use crate::vector::max_abs;
+use crate::vector::{SMALL, max_abs};
 use crate::{Basis, HorizontalLcp, Side};
 
-use super::constants::{NOISE, PIVOT_TOLERANCE};
+use super::constants::PIVOT_TOLERANCE;
 use super::dense::Dense;
 use super::kernel::{Kernel, Var};
 use super::sparse::{Sparse, SparseStart};
@@ -186,7 +186,7 @@ impl<'a> Equilibrated<'a> {
 fn drop_rounding(t: &mut Mat<f64>) {
     for j in 0..t.ncols() {
         let column = t.col_as_slice_mut(j);
-        let least = NOISE * max_abs(column).max(1.0);
+        let least = SMALL * max_abs(column).max(1.0);
         column.iter_mut().filter(|v| v.abs() < least).for_each(|v| *v = 0.0);
     }
 }
@@ -303,7 +303,7 @@ impl Start {
         for j in 0..t.ncols() {
             sums.iter_mut().zip(t.col_as_slice(j)).for_each(|(sum, v)| *sum += v);
         }
-        let noise = NOISE * sums.len() as f64;
+        let noise = SMALL * sums.len() as f64;
         sums.iter().zip(&self.free).all(|(sum, is_free)| *is_free || *sum < -noise)
     }
 

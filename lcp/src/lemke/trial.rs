@@ -1,9 +1,10 @@
 //! What the attempts vary, and in which order.
 
-use super::constants::{KINDS, TIES};
+use super::constants::KINDS;
 use super::start::Start;
 use crate::pivoting::{AttemptCovering, AttemptEnd, AttemptStart, Perturbation};
 use crate::random::SplitMix;
+use crate::vector::HALF_DIGITS;
 
 /// One attempt before it is made.
 #[derive(Debug, Clone, Copy)]
@@ -69,7 +70,7 @@ impl Trial {
         let mut random = SplitMix::new(seed);
         let mut start = start.clone();
         let increase: Vec<f64> =
-            (0..start.q.len()).map(|_| TIES * (0.5 + random.next_f64())).collect();
+            (0..start.q.len()).map(|_| HALF_DIGITS * (0.5 + random.next_f64())).collect();
         start.add_to_values(&increase);
         Some(start)
     }

@@ -9,5 +9,3 @@ pub(super) const REDUCED_PATIENCE: usize = 4;
 pub(super) const USABLE: f64 = 1e-6;
 /// Residuals that a step of refinement would not decrease. Rounding: a few eps.
 pub(super) const ROUNDING: f64 = 8.0 * f64::EPSILON;
-/// Steps of refinement at most. Chosen.
-pub(super) const REFINEMENTS: usize = 3;

@@ -1,10 +1,10 @@
 //! The points that belong to free sets.
 
-use super::constants::{REFINEMENTS, ROUNDING, USABLE};
+use super::constants::{ROUNDING, USABLE};
 use super::factors::Factors;
 use crate::Lcp;
 use crate::random::SplitMix;
-use crate::vector::{self, SMALL, max_abs};
+use crate::vector::{self, REFINEMENTS, SMALL, max_abs};
 
 /// A complementary point: `z` is free for some pairs, `w` for the others.
 #[derive(Debug, Clone)]

@@ -2,11 +2,11 @@
 
 use faer::sparse::{FaerError, SymbolicSparseColMatRef};
 
-use super::constants::{ENOUGH, REFINEMENTS};
+use super::constants::ENOUGH;
 use super::scaled::Scaled;
 use crate::problem::column_of;
 use crate::sparse::{SupernodalLu, groups_of_rows};
-use crate::vector::max_abs;
+use crate::vector::{REFINEMENTS, max_abs};
 
 /// The stiffness `s` with which a contact point answers to changes of its gap and slip:
 /// `dt_n = -nn dg`, `dt_t = -tn dg - tt ds`.
