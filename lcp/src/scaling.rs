@@ -5,6 +5,8 @@
     reason = "a loop is compiled for wide vectors only where it is inlined"
 )]
 
+use std::f64::consts::SQRT_2;
+
 use crate::matrix::Column;
 
 /// Entries below this, once the largest of their row and column is near one, are below the rounding errors of the
@@ -241,9 +243,13 @@ fn logarithm(v: f64) -> (f64, f64) {
     (digits / (1_u64 << 40) as f64 - 1023.0, kept)
 }
 
-/// The power of two nearest to a positive number, on a logarithmic scale: as a factor it costs no accuracy.
+/// The power of two nearest to a positive number, on a logarithmic scale, between `2^-1000` and `2^1000`: as a factor it
+/// costs no accuracy.
 pub(crate) fn power_of_two(x: f64) -> f64 {
-    x.log2().round().clamp(-1000.0, 1000.0).exp2()
+    let power = |exponent: u64| f64::from_bits((1023 + exponent) << 52);
+    // The exponent of a number, without its mantissa, is that of the largest power that is not above it.
+    let below = f64::from_bits((x * SQRT_2).to_bits() & f64::INFINITY.to_bits());
+    below.clamp(1.0 / power(1000), power(1000))
 }
 
 #[cfg(test)]
@@ -261,6 +267,18 @@ mod tests {
         let columns: Vec<_> = (0..8).map(|j| Column::Dense(inverse.col_as_slice(j))).collect();
         let (rows, cols) = equilibrate_computed(8, &columns);
         assert_eq!((rows, cols), (vec![1.0; 8], vec![1.0; 8]));
+    }
+
+    #[test]
+    fn the_nearest_power_of_two() {
+        let limits = [1e-310, 0.0, f64::INFINITY].map(power_of_two);
+        assert_eq!(limits.map(f64::log2), [-1000.0, -1000.0, 1000.0]);
+        for exponent in [-1000, -3, 0, 1, 52, 1000] {
+            let power = f64::from(exponent).exp2();
+            for part in [0.7072, 1.0, 1.414] {
+                assert_eq!(power_of_two(part * power), power);
+            }
+        }
     }
 
     /// The block that maxima alone would leave at its units comes near one, dense or sparse.
