@@ -8,11 +8,11 @@ use lcp::pgs::{Constraint, RowsSolution};
 use lcp::qp::SoftConstraints;
 use lcp::refine::{ContactStatus, Margin, Refinement};
 use lcp::{
-    Auto, AutoSettings, Basis, Choice, Contact2d, ContactForces, ContactPoint, ContactState,
-    Covering, ErrorBound, EvolutionSettings, Friction2d, InteriorPointSettings, Lcp, Lemke,
-    LemkeSettings, Method, ProjectedGaussSeidelSettings, QuadraticProgram,
-    QuadraticProgramSettings, Residuals, SemismoothNewtonSettings, Side, Solution, Solver, Status,
-    WarmStart, families,
+    Auto, AutoSettings, Basis, BoxedLcp, Choice, Contact2d, ContactForces, ContactPoint,
+    ContactState, Covering, ErrorBound, EvolutionSettings, Friction2d, HorizontalLcp,
+    InteriorPointSettings, Lcp, Lemke, LemkeSettings, Method, MixedLcp,
+    ProjectedGaussSeidelSettings, Qp, QuadraticProgram, QuadraticProgramSettings, Residuals,
+    SemismoothNewtonSettings, Side, Solution, Solver, Status, WarmStart, families,
 };
 use serde_json::{from_str, to_string};
 
@@ -37,6 +37,40 @@ fn contact() -> Contact2d {
         ..Default::default()
     });
     builder.build().unwrap()
+}
+
+/// Problems come back with the same answers, and what is no problem is refused as if it were made by hand.
+#[test]
+fn problems_of_every_kind() {
+    macro_rules! assert_same_answer {
+        ($type:ty, $problem:expr) => {{
+            let problem: $type = $problem;
+            let text = to_string(&problem).unwrap();
+            let again: $type = from_str(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
+            assert_eq!(to_string(&again).unwrap(), text);
+            let [first, second] = [&problem, &again].map(|it| Auto::default().solve(it).unwrap());
+            assert!(first.is_solved() && (first.t, first.y) == (second.t, second.y), "{text}");
+        }};
+    }
+    let lcp = families::positive_definite(6, 3).problem;
+    assert_same_answer!(Lcp, lcp);
+    assert_same_answer!(Lcp, families::obstacle(4).problem);
+    assert_same_answer!(HorizontalLcp, families::horizontal_monotone(6, 3).problem);
+    assert_same_answer!(MixedLcp, families::mixed_monotone(6, 3).problem);
+    assert_same_answer!(BoxedLcp, families::control(3, 3).problem);
+    assert_same_answer!(Contact2d, contact());
+    assert_same_answer!(Contact2d, contact().with_compliance(vec![[0.1, 0.2]]).unwrap());
+    let friction = Friction2d::new(mat![[2.0, 0.0], [0.0, 1.0]], vec![-2.0, -0.25], vec![0.5]);
+    assert_same_answer!(Friction2d, friction.unwrap());
+    let program = Qp::new([[2.0]], [-4.0], [[1.0]], [f64::NEG_INFINITY], [3.0]).unwrap();
+    let program = program.with_bounds([0.0], [1.0]).unwrap().with_constant(2.0);
+    let text = to_string(&program).unwrap();
+    assert_eq!(to_string(&from_str::<Qp>(&text).unwrap()).unwrap(), text);
+    let wrong = text.replace(r#""entries":[[0,0,2.0]]"#, r#""entries":[[0,0,-2.0]]"#);
+    let error = from_str::<Qp>(&wrong).unwrap_err().to_string();
+    assert!(error.contains("semidefinite"), "{error}");
+    let outside = text.replace("[0,0,2.0]", "[0,1,2.0]");
+    assert!(from_str::<Qp>(&outside).is_err());
 }
 
 #[test]

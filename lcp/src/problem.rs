@@ -3,6 +3,8 @@
 mod bound;
 mod boxed;
 mod contact;
+#[cfg(feature = "serde")]
+mod data;
 mod friction;
 mod horizontal;
 mod mixed;
