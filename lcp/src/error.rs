@@ -121,8 +121,8 @@ pub enum Error {
     },
     /// A variable, or a row of a program, without an admissible value.
     #[error(
-        "bounds of {what} {index} are {lower:?} and {upper:?}: the lower one must not exceed the upper \
-         one, their distance must be a finite number, and -inf or inf is for no bound"
+        "{what} {index} is to be between {lower:?} and {upper:?}: the lower number must not exceed the upper \
+         one, their distance must be finite, and -inf or inf is for no bound"
     )]
     Bounds {
         /// Whether it is a row or a variable.

@@ -102,13 +102,11 @@ impl Integers {
         Self(SplitMix::new(seed))
     }
 
-    /// An integer of `low..=high`.
     fn next(&mut self, low: i8, high: i8) -> f64 {
         let width = f64::from(high) - f64::from(low) + 1.0;
         f64::from(low) + (width * self.0.next_f64()).floor()
     }
 
-    /// An index below `n`.
     fn index(&mut self, n: usize) -> usize {
         let n = n as u64;
         usize::try_from(self.0.next_u64() % n.max(1)).unwrap_or(0)

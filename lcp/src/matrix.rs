@@ -239,7 +239,6 @@ impl Matrix {
         }
     }
 
-    /// All entries, with the sign changed.
     #[must_use]
     pub(crate) fn negated(self) -> Self {
         match self.0 {

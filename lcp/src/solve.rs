@@ -190,7 +190,6 @@ impl<'a> Monitor<'a> {
         self.deadline
     }
 
-    /// Iterations done.
     pub(crate) fn iterations(&self) -> usize {
         self.history.len().saturating_sub(1)
     }

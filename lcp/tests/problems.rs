@@ -170,7 +170,7 @@ fn misuse_is_an_error() {
         assert!(matches!(with(lower, upper), Err(Error::Bounds { index: 0, .. })));
     }
     let message = with(1.0, 0.0).unwrap_err().to_string();
-    assert!(message.starts_with("bounds of variable 0 are 1.0 and 0.0"), "{message}");
+    assert!(message.starts_with("variable 0 is to be between 1.0 and 0.0"), "{message}");
     assert!(MixedLcp::new(one(), vec![0.0], vec![]).is_err());
 }
 

@@ -8,7 +8,6 @@ use crate::pivoting::{Attempt, Perturbation};
 use crate::{Route, Status};
 
 impl Answer<'_> {
-    /// For people.
     pub(super) fn report(&self, format: &str) -> String {
         let Answer { status, solver, n, work, time_s, cpu_s, .. } = self;
         let cpu = cpu_s.map_or_else(String::new, |cpu| format!(", {cpu:.3} s of processor time"));

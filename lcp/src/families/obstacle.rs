@@ -151,7 +151,6 @@ impl Obstacle {
         })
     }
 
-    /// Distances of the points.
     fn steps(&self) -> (f64, f64) {
         (2.0 / (self.columns as f64 + 1.0), 2.0 / (self.rows as f64 + 1.0))
     }
@@ -178,7 +177,6 @@ impl Obstacle {
         }
     }
 
-    /// Height of the ground.
     fn ground(&self, x: f64, y: f64) -> f64 {
         match self.ground {
             Ground::Disc { .. } => 0.0,

@@ -10,7 +10,6 @@ const NO_BOUND: f64 = 1e20;
 /// What sizes in a file are to be.
 pub(super) const SIZES: &str = "sizes must agree with each other";
 
-/// A word and its place.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Token<'a> {
     pub(super) text: &'a str,
@@ -112,7 +111,6 @@ impl<'a> Tokens<'a> {
         self.next().ok_or_else(|| ReadError::unexpected(self.next, what, END, "complete the file"))
     }
 
-    /// The next word as a count or an index.
     pub(super) fn count(&mut self, what: impl Display) -> Result<usize, ReadError> {
         self.count_if(what, "", |_| true)
     }
@@ -145,7 +143,6 @@ impl<'a> Tokens<'a> {
         found.ok_or_else(|| token.unexpected(what, "nothing else exists"))
     }
 
-    /// These words.
     pub(super) fn words(&mut self, words: &str) -> Result<(), ReadError> {
         words.split(' ').try_for_each(|word| {
             let token = self.expect(format_args!("`{word}`"))?;
@@ -156,12 +153,10 @@ impl<'a> Tokens<'a> {
         })
     }
 
-    /// One number.
     pub(super) fn number(&mut self, what: impl Display) -> Result<f64, ReadError> {
         self.expect(&what)?.number(what)
     }
 
-    /// That many numbers.
     pub(super) fn numbers(
         &mut self,
         count: usize,

@@ -52,7 +52,6 @@ impl<'a> Column<'a> {
         }
     }
 
-    /// The scalar product with a vector.
     pub(crate) fn dot(self, x: &[f64]) -> f64 {
         match self {
             Self::Dense(values) => values.iter().zip(x).map(|(v, x)| v * x).sum(),
@@ -67,7 +66,6 @@ impl<'a> Column<'a> {
         }
     }
 
-    /// The only nonzero entry, if there is only one.
     pub(crate) fn single(self) -> Option<(usize, f64)> {
         let mut nonzero = self.entries().filter(|(_, v)| *v != 0.0);
         let first = nonzero.next()?;

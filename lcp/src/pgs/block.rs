@@ -3,9 +3,9 @@
 use std::ops::Range;
 
 use super::coulomb::Coulomb;
-use super::{Constraint, ProjectedGaussSeidel, Rows};
-use crate::Error;
+use super::{Constraint, Rows};
 use crate::vector::{check_length, is_interval};
+use crate::{Error, Method};
 
 /// A constraint with its first row and the entries of the matrix in its own rows and columns.
 #[derive(Debug, Clone, Copy)]
@@ -44,12 +44,13 @@ impl Block {
                 if block.is_fixed(i) {
                     block.w[i][i] = 1.0;
                 } else if !(block.w[i][i] > 0.0 && block.w[i][i].is_finite()) {
-                    return Err(ProjectedGaussSeidel::not_treated(format!(
+                    let reason = format!(
                         "row {} has the diagonal entry {}, and only rows with a positive one can be \
                          relaxed: take Lemke's method",
                         row + i,
                         block.w[i][i]
-                    )));
+                    );
+                    return Err(Error::NotTreated { method: Method::GaussSeidel, reason });
                 }
             }
             blocks.push(block);
@@ -58,12 +59,10 @@ impl Block {
         Ok(blocks)
     }
 
-    /// Its rows.
     pub(super) fn rows(&self) -> Range<usize> {
         self.row..self.row + self.constraint.rows()
     }
 
-    /// The diagonal entries of its rows.
     pub(super) fn diagonals(&self) -> impl Iterator<Item = f64> + use<> {
         let w = self.w;
         (0..self.constraint.rows()).map(move |i| w[i][i])

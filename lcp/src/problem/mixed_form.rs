@@ -63,7 +63,6 @@ impl BoxedLcp {
 }
 
 impl MixedForm<'_> {
-    /// The mixed problem.
     pub(crate) fn mixed(&self) -> &MixedLcp {
         &self.mixed
     }

@@ -49,7 +49,6 @@ pub(in crate::io) fn read_global(text: &str) -> Result<Problem, ReadError> {
     posed(problem, Problem::Contact, at)
 }
 
-/// The coefficients of friction.
 fn frictions(tokens: &mut Tokens<'_>, contacts: usize) -> Result<Vec<f64>, ReadError> {
     let coefficient = |_| {
         let token = tokens.expect("a coefficient of friction")?;

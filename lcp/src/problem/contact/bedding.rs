@@ -79,7 +79,6 @@ impl Bedding {
     }
 }
 
-/// See [`Bedding`].
 fn units(contact: &Contact2d) -> Vec<f64> {
     let n = contact.displacements();
     let diagonal = diagonal(contact.stiffness());

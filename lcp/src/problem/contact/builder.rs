@@ -42,7 +42,6 @@ pub struct Contact2dBuilder {
     points: Vec<ContactPoint<'static>>,
 }
 
-/// Entries of a matrix: row, column, value.
 type Entries = Vec<(usize, usize, f64)>;
 
 impl Contact2d {

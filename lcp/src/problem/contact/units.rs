@@ -48,7 +48,6 @@ impl Contact2d {
     }
 }
 
-/// The diagonal entries.
 pub(crate) fn diagonal(k: &SparseColMat<usize, f64>) -> Vec<f64> {
     (0..k.ncols()).map(|j| k.get(j, j).copied().unwrap_or(0.0)).collect()
 }
