@@ -106,9 +106,9 @@ impl Search<'_> {
     /// ends all.
     fn visit(&mut self, sides: &Sides, start: &[Extended]) -> Result<Closed, Enumerated> {
         match self.known(sides) {
-            Known::Nothing => {}
-            Known::Leaf(leaf) => return Ok(Some(vec![leaf])),
-            Known::Left { pair, side, other } => {
+            None => {}
+            Some((leaf, None)) => return Ok(Some(vec![leaf])),
+            Some((other, Some((pair, side)))) => {
                 let leaves = self.child(sides, pair, side, start)?;
                 return Ok(leaves.map(|leaves| joined(sides, pair, vec![other], leaves)));
             }
@@ -151,8 +151,8 @@ impl Search<'_> {
         self.visit(&sides, &start)
     }
 
-    /// What the proofs found so far say of a node.
-    fn known(&self, sides: &Sides) -> Known {
+    /// A leaf by which one of the proofs found so far closes a node, except for this side of a pair if there is one.
+    fn known(&self, sides: &Sides) -> Option<(Leaf, Option<(usize, Side)>)> {
         let n = sides.len();
         let side_of = |column: usize| if column < n { Side::T } else { Side::Y };
         let mut unit = None;
@@ -162,32 +162,19 @@ impl Search<'_> {
             };
             let mut lacking = proof.needed.iter().filter(is_allowed);
             match (lacking.next(), lacking.next()) {
-                (None, _) => return Known::Leaf(proof.leaf(sides)),
+                (None, _) => return Some((proof.leaf(sides), None)),
                 (Some(&column), None) if sides[column % n].is_none() => {
                     unit = Some((proof, column));
                 }
                 _ => {}
             }
         }
-        let Some((proof, column)) = unit else { return Known::Nothing };
+        let (proof, column) = unit?;
         let (pair, side) = (column % n, side_of(column));
         let mut others = sides.to_vec();
         others[pair] = Some(side.complement());
-        Known::Left { pair, side, other: proof.leaf(&others) }
+        Some((proof.leaf(&others), Some((pair, side))))
     }
-}
-
-/// What proofs of other nodes say of a node.
-enum Known {
-    Nothing,
-    /// One of them proves it.
-    Leaf(Leaf),
-    /// One of them proves it with the other side of this pair.
-    Left {
-        pair: usize,
-        side: Side,
-        other: Leaf,
-    },
 }
 
 /// Whether leaves need a side of a pair.

@@ -88,7 +88,7 @@ pub(super) fn run<P: Planned>(
     Ok(solution)
 }
 
-/// What a method gets of the time left, if so many others follow.
+/// Share of a method in the time left, if so many others follow.
 pub(super) fn share(left: Duration, others: usize) -> Duration {
     if others > 0 { left.saturating_sub(left / KEPT) } else { left }
 }

@@ -34,10 +34,9 @@ impl Path<'_> {
         }
     }
 
-    /// Of tied rows the one whose row of the inverse basis, divided by its pivot, comes first in
-    /// lexicographic order. In exact arithmetic no basis comes back along a path of such choices.
+    /// The tied row whose row of the inverse basis, divided by its pivot, comes first in lexicographic order. In exact arithmetic no basis comes back along a path of such choices.
     fn lexicographic_minimum(&self, column: &[f64], tied: &[usize]) -> usize {
-        // With their rows, which are computed where they are first looked at.
+        // Rows are computed where they are first looked at.
         let mut left: Vec<(usize, Option<Vec<f64>>)> = tied.iter().map(|&i| (i, None)).collect();
         for k in 0..column.len() {
             if left.len() == 1 {
@@ -66,8 +65,7 @@ impl Path<'_> {
     }
 }
 
-/// Of tied rows the one that a small change of the right-hand side, the same all along the path,
-/// would make the first; in exact arithmetic that parts them all, unless by chance.
+/// The tied row that a small change of the right-hand side, the same all along the path, would make the first; in exact arithmetic that parts them all, unless by chance.
 fn first_parted(parting: &[f64], column: &[f64], tied: &[usize]) -> Option<usize> {
     let key = |&i: &usize| parting[i] / column[i];
     let least = tied.iter().map(key).fold(f64::INFINITY, f64::min);

@@ -283,7 +283,7 @@ impl<'a> Search<'a> {
         (attempt, basis)
     }
 
-    /// What ends a path, asked before every pivot.
+    /// Limits of a path, asked before every pivot.
     fn limits<'o>(
         &self,
         attempt: usize,
@@ -357,7 +357,7 @@ impl<'a> Search<'a> {
         self.info.attempts.iter().any(|attempt| attempt.end == end)
     }
 
-    /// Without a start basis: a proof by least squares, of a small problem, else this status.
+    /// Gives a proof by least squares for a small problem without a start basis, else this status.
     fn prove_or(self, status: Status) -> Solution {
         let is_small = self.problem.order() <= LEAST_SQUARES && !self.is_completed;
         let is_wanted = is_small && self.settings.prove_infeasible;
@@ -406,7 +406,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Of every pair the variable that is larger, in units of the largest of its vector.
+/// The basis of the larger variable of every pair, in units of the largest of its vector.
 fn basis_of(t: &[f64], y: &[f64]) -> Basis {
     let (t_max, y_max) = (max_abs(t), max_abs(y));
     let share = |v: f64, max: f64| if max > 0.0 { v / max } else { 0.0 };

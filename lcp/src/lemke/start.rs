@@ -78,7 +78,7 @@ impl<'a> Equilibrated<'a> {
         m
     }
 
-    /// The same without zeros; none is the right-hand side.
+    /// The columns without zeros; none is the right-hand side.
     pub(super) fn sparse_columns(
         &self,
         picked: impl IntoIterator<Item = Option<(usize, Side)>>,
@@ -215,7 +215,8 @@ enum StartData {
 }
 
 impl Start {
-    /// From the values of the basis, which become multiples of the largest, and the factors of rows and columns.
+    /// Makes a start from the values of the basis, which become multiples of the largest, and the factors of rows and
+    /// columns; `None` for values that are not finite.
     fn new(
         problem: &Equilibrated<'_>,
         basis: &Basis,
