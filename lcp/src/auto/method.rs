@@ -22,8 +22,7 @@ pub struct Choice {
     /// The reason for this method at this place, with the numbers on which it is based.
     pub reason: String,
     /// Whether pivots end after a few attempts, because another method follows that may take less.
-    #[cfg_attr(feature = "serde", serde(skip))]
-    pub(super) is_brief: bool,
+    pub is_brief: bool,
 }
 
 impl Choice {

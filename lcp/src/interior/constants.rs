@@ -19,6 +19,9 @@ pub(super) const WIDE: f64 = 2.0;
 /// A start that is not is opened by this many times its mean gap. Measured on a beam that is lifted at its end: two or
 /// three times are enough.
 pub(super) const OPENED: f64 = 100.0;
+/// That must bring the change down by this. Measured on a rigid wedge that is pulled out: if any decrease will do, its path
+/// jams.
+pub(super) const HALF: f64 = 0.5;
 /// No start is opened more often. Chosen.
 pub(super) const OPENINGS: usize = 8;
 

@@ -3,7 +3,7 @@
 
 use faer::sparse::FaerError;
 
-use super::constants::{BACK, LEAST_AIM, LOADS, NEAR, NEARER, PATIENCE};
+use super::constants::{BACK, BALANCINGS, LEAST_AIM, LOADS, NEAR, NEARER, PATIENCE};
 use super::factors::Factors;
 use super::program::Program;
 use super::step::{correction, lengthened};
@@ -52,7 +52,7 @@ impl Program {
             |at: &Variables| is_proof(&units.displacements(&at.u), &times(&at.t, units.force));
         let (mut at, status) = iterate(&program, &mut factors, accuracy, stop, is_proof);
         if let (Status::Solved, Accuracy::OfForces(tolerance)) = (status, accuracy) {
-            let balanced = Homogeneous::new(&program, factors.balanced(&program, &at));
+            let balanced = Homogeneous::new(&program, balanced(&program, &factors, &at));
             if balanced.residual(&balanced.defect(), accuracy) <= tolerance {
                 at = balanced.at;
             }
@@ -65,6 +65,36 @@ impl Program {
             factorisations: factors.factorisations,
         })
     }
+}
+
+/// A solution of a program without stiffness whose forces balance its loads to the last digit of every row, by those of the
+/// springs of the last step: displacements of these change forces so that products of pairs stay.
+fn balanced(program: &Program, factors: &Factors, at: &Variables) -> Variables {
+    let lack = |t: &[f64]| {
+        let mut rest = program.f.clone();
+        program.add_forces(t, &mut rest);
+        rest
+    };
+    let mut at = at.clone();
+    let mut rest = lack(&at.t);
+    // The largest does not grow but for rounding; the others are made good beside it.
+    let most = max_abs(&rest).max(ROUNDING * max_abs(&at.t));
+    for _ in 0..BALANCINGS {
+        factors.gram.solve(&mut rest);
+        let u: Vec<f64> = at.u.iter().zip(&rest).map(|(u, change)| u + change).collect();
+        let pairs = at.t.iter().zip(&factors.stiffness).zip(program.opened(&rest));
+        let t: Vec<f64> = pairs.map(|((t, s), change)| (t - s * change).max(0.0)).collect();
+        rest = lack(&t);
+        let left = max_abs(&rest);
+        if left.is_nan() || left > most {
+            break;
+        }
+        (at.u, at.t) = (u, t);
+    }
+    let forces = program.compliance.iter().zip(&at.t);
+    let gaps = program.opened(&at.u).into_iter().zip(&program.x_0).zip(forces);
+    at.y = gaps.map(|((opened, x), (c, t))| (opened + x + c * t).max(0.0)).collect();
+    at
 }
 
 /// A point of the homogeneous problem of Andersen and Ye (1999),

@@ -1,6 +1,6 @@
 //! Where the iteration starts, and how it finds out how far bodies move.
 
-use super::constants::{OPENED, OPENINGS, WIDE};
+use super::constants::{HALF, OPENED, OPENINGS, WIDE};
 #[cfg(test)]
 use super::iterate::Tangent;
 use super::iterate::{Defect, Iterate, Pairs};
@@ -71,7 +71,7 @@ pub(super) fn set_out(
         if change <= WIDE {
             return ahead.advance();
         }
-        if change.is_nan() || change > before.1 {
+        if change.is_nan() || change > HALF * before.1 {
             let of_before = Defect::of(problem, &before.0);
             return Ahead::of(problem, condensed, &before.0, &of_before).advance();
         }
