@@ -113,7 +113,7 @@
 //! |---|---|
 //! | `clarabel` (default) | `QuadraticProgram` |
 //! | `nalgebra` | problems from matrices of `nalgebra` |
-//! | `serde` | results and settings that can be written and read back |
+//! | `serde` | problems, settings and results that can be written and read back |
 //! | `io` | problems in files: the module `io` |
 //! | `cli` | the command `lcp`: the module `cli` |
 //! | `exact` | all solutions of a small problem in rational arithmetic: the module `exact` |
