@@ -139,7 +139,7 @@ impl ProjectedGaussSeidel {
         let mut monitor = self.monitor(observer);
         let start = self.start(rows.order(), |t, _| t.to_vec())?;
         let sweeps = Sweeps::new(&self.settings, rows, q, constraints, start)?;
-        let (best, status) = sweeps.run(&mut monitor, &mut residuals_of_rows);
+        let (best, status) = sweeps.run(&mut monitor, &mut |point, _| residuals_of_rows(point));
         let Point { z, w, residuals, .. } = best;
         let info = monitor.info();
         Ok(RowsSolution { status, z, w, residual: residuals.worst(), info })

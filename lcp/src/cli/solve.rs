@@ -73,19 +73,22 @@ pub(super) fn run(
 fn answer<'a>(problem: &Problem, solution: &'a Solution, cpu_s: Option<f64>) -> Answer<'a> {
     let recovered = || problem.recover(&solution.t, &solution.y);
     let (z, w) = solution.boxed.clone().unwrap_or_else(recovered);
-    let contact = problem.state(solution);
-    let contacts = match (problem, &contact) {
-        (Problem::Friction(problem), _) => Some(problem.forces(&z)),
-        (_, Some(ContactState { t_n, t_t, .. })) => {
-            Some(ContactForces { normal: t_n.clone(), tangential: t_t.clone() })
+    let (contacts, contact, program) = match problem {
+        Problem::Friction(friction) => (Some(friction.forces(&z)), None, None),
+        Problem::Contact(contact) => {
+            let state = contact.variables(&solution.clone().of());
+            let (normal, tangential) = (state.t_n.clone(), state.t_t.clone());
+            (Some(ContactForces { normal, tangential }), Some(state), None)
         }
-        _ => None,
-    };
-    let program = match problem {
-        Problem::Qp(program) => Some(program.point(z.clone(), w.clone())),
-        _ => None,
+        Problem::Qp(program) => (None, None, Some(program.point(z.clone(), w.clone()))),
+        _ => (None, None, None),
     };
     let info = &solution.info;
+    let Info { pivots, iterations, factorisations, .. } = *info;
+    let work = match info.method {
+        Method::Lemke => Work::Pivots { pivots },
+        _ => Work::Iterations { iterations, factorisations },
+    };
     Answer {
         status: solution.status,
         kind: problem.kind(),
@@ -93,7 +96,7 @@ fn answer<'a>(problem: &Problem, solution: &'a Solution, cpu_s: Option<f64>) -> 
         n: problem.order(),
         time_s: info.seconds,
         cpu_s,
-        work: Work::of(info),
+        work,
         residuals: solution.residuals,
         z,
         w,
@@ -103,16 +106,5 @@ fn answer<'a>(problem: &Problem, solution: &'a Solution, cpu_s: Option<f64>) -> 
         certificate: solution.certificate.as_ref(),
         attempts: &info.attempts,
         routes: &info.routes,
-    }
-}
-
-impl Work {
-    fn of(info: &Info) -> Self {
-        let Info { pivots, iterations, factorisations, .. } = *info;
-        if info.method == Method::Lemke {
-            Self::Pivots { pivots }
-        } else {
-            Self::Iterations { iterations, factorisations }
-        }
     }
 }

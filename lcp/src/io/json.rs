@@ -7,9 +7,14 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::{Problem, ReadError};
 use crate::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, Matrix, MixedLcp, Qp};
-use document::{Document, Sparse};
+use document::{Document, Sparse, parsed};
 
-/// The field `kind`.
+/// What says which fields a document has.
+#[derive(Deserialize)]
+struct Tag {
+    kind: Kind,
+}
+
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(rename_all = "lowercase")]
 enum Kind {
@@ -40,7 +45,8 @@ impl Kind {
 type Bounds = Vec<Option<f64>>;
 
 pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
-    let (kind, it) = Document::of(text, Kind::fields)?;
+    let Tag { kind } = parsed(text, text)?;
+    let it = Document::of(text, kind.fields())?;
     let vector = |name| it.value::<Vec<f64>>(name);
     let or = |bounds: Bounds, none: f64| -> Vec<f64> {
         bounds.into_iter().map(|bound| bound.unwrap_or(none)).collect()

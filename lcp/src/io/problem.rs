@@ -5,8 +5,8 @@ use std::borrow::Cow;
 use super::{Position, ReadError};
 use crate::conversion::General;
 use crate::{
-    BoxedLcp, Contact2d, ContactForces, ContactState, Friction2d, HorizontalLcp, Lcp, Matrix,
-    MixedLcp, Qp, Residuals, Solution,
+    BoxedLcp, Contact2d, ContactForces, Friction2d, HorizontalLcp, Lcp, Matrix, MixedLcp, Qp,
+    Residuals,
 };
 
 /// The same of a problem of every kind.
@@ -144,14 +144,6 @@ impl Problem {
         self.boxed().map_or_else(|| (z.to_vec(), w.to_vec()), |boxed| boxed.to_pairs(z, w))
     }
 
-    /// The state of an answer, of the kind that has one.
-    pub(crate) fn state(&self, solution: &Solution) -> Option<ContactState> {
-        match self {
-            Self::Contact(problem) => Some(problem.variables(&solution.clone().of())),
-            _ => None,
-        }
-    }
-
     /// `w = M z + q`, for the kinds that have it so: all but the general form and contact.
     ///
     /// # Panics
@@ -211,13 +203,10 @@ pub(crate) fn pairs_of_forces(
 fn affine(m: &Matrix, z: &[f64], q: &[f64]) -> Vec<f64> {
     const ROUNDING: f64 = 8.0 * f64::EPSILON;
     assert_eq!(z.len(), q.len(), "one entry for every variable");
-    let mut terms: Vec<(f64, f64)> = q.iter().map(|q| (*q, q.abs())).collect();
+    let (mut sums, mut sizes) = (q.to_vec(), q.iter().map(|q| q.abs()).collect::<Vec<f64>>());
     for (j, z) in z.iter().enumerate() {
-        m.column(j).for_each(|(i, v)| {
-            terms[i].0 += v * z;
-            terms[i].1 += (v * z).abs();
-        });
+        m.slice(j).add_with_sizes(*z, &mut sums, &mut sizes);
     }
     let kept = |(sum, size): (f64, f64)| if sum.abs() > ROUNDING * size { sum } else { 0.0 };
-    terms.into_iter().map(kept).collect()
+    sums.into_iter().zip(sizes).map(kept).collect()
 }

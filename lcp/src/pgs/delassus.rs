@@ -5,26 +5,29 @@ use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::Llt;
 use faer::{MatMut, Side as Triangle};
 
+use super::rows::parted;
 use super::{ProjectedGaussSeidel, Rows};
 use crate::definite::is_definite;
 use crate::divide::sparse_block;
 use crate::matrix::column_of;
 use crate::parts::Parts;
 use crate::sparse::Columns;
-use crate::{Contact2d, Error};
+use crate::{Contact2d, ContactState, Error};
 
 /// Most numbers of `K^-1 C^T` that are kept. Chosen: a quarter of a GB.
 const LARGEST: usize = 1 << 25;
 
-/// `K^-1 C^T`. Bodies that `K` does not couple are factorised one by one, so that a column has entries for
-/// the bodies at its contact only.
+/// The rows of `C K^-1 C^T + D`. Bodies that `K` does not couple are factorised one by one, so that a column of
+/// `K^-1 C^T` has entries for the bodies at its contact only.
 #[derive(Debug)]
-pub(super) struct Compliance<'a> {
+pub(super) struct Delassus<'a> {
     problem: &'a Contact2d,
     bodies: Vec<Body>,
-    /// The rows of `C`.
     c: Columns,
+    /// `K^-1 C^T`.
     columns: Columns,
+    /// The displacements `K^-1 C^T z`, as the state.
+    u: Vec<f64>,
 }
 
 /// Displacements that `K` couples, with the Cholesky factor of their block.
@@ -32,13 +35,6 @@ pub(super) struct Compliance<'a> {
 struct Body {
     displacements: Vec<usize>,
     factor: Llt<usize, f64>,
-}
-
-/// The rows of `C K^-1 C^T + D`, with the displacements `K^-1 C^T z` as the state.
-#[derive(Debug)]
-pub(super) struct Delassus<'a> {
-    compliance: &'a Compliance<'a>,
-    u: Vec<f64>,
 }
 
 impl Body {
@@ -51,7 +47,7 @@ impl Body {
     }
 }
 
-impl<'a> Compliance<'a> {
+impl<'a> Delassus<'a> {
     pub(super) fn new(problem: &'a Contact2d) -> Result<Self, Error> {
         let (k, n) = (problem.stiffness(), problem.displacements());
         let indefinite = || {
@@ -101,20 +97,20 @@ impl<'a> Compliance<'a> {
             }
             columns.close();
         }
-        Ok(Self { problem, bodies, c, columns })
+        Ok(Self { problem, bodies, c, columns, u: vec![0.0; n] })
     }
 
-    /// Number of factorisations.
     pub(super) fn factorisations(&self) -> usize {
         self.bodies.len()
     }
 
-    /// The displacements `K^-1 (f + C^T z)`.
-    pub(super) fn displacements(&self, z: &[f64]) -> Vec<f64> {
+    /// The state of these forces, with the displacements `K^-1 (f + C^T z)`.
+    pub(super) fn state(&self, z: &[f64]) -> ContactState {
         let mut u = self.problem.loads().to_vec();
         z.iter().enumerate().for_each(|(row, z)| self.c.add_to(row, *z, &mut u));
         self.bodies.iter().for_each(|body| body.solve(&mut u));
-        u
+        let [t_n, t_t] = parted(z);
+        self.problem.state(u, t_n, t_t)
     }
 
     /// The displacement of a contact by the force in its own row.
@@ -136,23 +132,17 @@ fn rows_of_contacts(problem: &Contact2d) -> Columns {
     columns.transposed(2 * problem.points())
 }
 
-impl<'a> Delassus<'a> {
-    pub(super) fn new(compliance: &'a Compliance<'a>) -> Self {
-        Self { compliance, u: vec![0.0; compliance.problem.displacements()] }
-    }
-}
-
 impl Rows for Delassus<'_> {
     fn order(&self) -> usize {
-        self.compliance.c.len()
+        self.c.len()
     }
 
     fn product(&self, i: usize, z: &[f64]) -> f64 {
-        self.compliance.c.dot(i, &self.u) + self.compliance.own(i, z)
+        self.c.dot(i, &self.u) + self.own(i, z)
     }
 
     fn moved(&mut self, i: usize, change: f64) {
-        self.compliance.columns.add_to(i, change, &mut self.u);
+        self.columns.add_to(i, change, &mut self.u);
     }
 
     fn clear(&mut self) {
@@ -160,7 +150,7 @@ impl Rows for Delassus<'_> {
     }
 
     fn size(&self, i: usize, z: &[f64]) -> f64 {
-        let of_bodies: f64 = self.compliance.c.entries(i).map(|(j, v)| (v * self.u[j]).abs()).sum();
-        of_bodies + self.compliance.own(i, z).abs()
+        let of_bodies: f64 = self.c.entries(i).map(|(j, v)| (v * self.u[j]).abs()).sum();
+        of_bodies + self.own(i, z).abs()
     }
 }

@@ -1,6 +1,7 @@
 //! The problems of the library.
 
-use super::delassus::{Compliance, Delassus};
+use super::delassus::Delassus;
+use super::rows::{interleaved, parted};
 use super::{Constraint, MatrixRows, ProjectedGaussSeidel, Sweeps};
 use crate::certify::{BoxedJudge, ContactJudge, GeneralJudge, Precision};
 use crate::{
@@ -44,7 +45,7 @@ impl Solver<HorizontalLcp> for ProjectedGaussSeidel {
         let q = standard.lcp().q();
         let sweeps = Sweeps::new(&self.settings, &mut rows, q, &constraints, start)?;
         let judge = GeneralJudge::new(problem);
-        let (best, status) = sweeps.run(&mut monitor, &mut |point| {
+        let (best, status) = sweeps.run(&mut monitor, &mut |point, _| {
             let (t, y) = standard.to_pairs(&point.z, &point.allowed);
             judge.residuals(&[&t, &y], Precision::Exact)
         });
@@ -72,7 +73,7 @@ impl Solver<BoxedLcp> for ProjectedGaussSeidel {
         let mut rows = MatrixRows::new(problem.m());
         let sweeps = Sweeps::new(&self.settings, &mut rows, problem.q(), &constraints, start)?;
         let judge = BoxedJudge::of_boxed(problem);
-        let (best, status) = sweeps.run(&mut monitor, &mut |point| {
+        let (best, status) = sweeps.run(&mut monitor, &mut |point, _| {
             judge.residuals(&[&point.z, &point.allowed], Precision::Exact)
         });
         let (t, y) = problem.to_pairs(&best.z, &best.allowed);
@@ -100,7 +101,7 @@ impl Solver<Friction2d> for ProjectedGaussSeidel {
         let mut rows = MatrixRows::new(problem.w());
         let constraints = cones(problem.mu());
         let sweeps = Sweeps::new(&self.settings, &mut rows, problem.q(), &constraints, start)?;
-        let (best, status) = sweeps.run(&mut monitor, &mut |point| {
+        let (best, status) = sweeps.run(&mut monitor, &mut |point, _| {
             let [normal, tangential] = parted(&point.z);
             problem.residuals(&ContactForces { normal, tangential })
         });
@@ -127,37 +128,23 @@ impl Solver<Contact2d> for ProjectedGaussSeidel {
             let state = problem.recover(t, y);
             interleaved(&state.t_n, &state.t_t)
         })?;
-        let compliance = Compliance::new(problem)?;
-        let state = |forces: &[f64]| {
-            let [t_n, t_t] = parted(forces);
-            problem.state(compliance.displacements(forces), t_n, t_t)
-        };
-        let free = state(&vec![0.0; 2 * problem.points()]);
+        let mut rows = Delassus::new(problem)?;
+        let free = rows.state(&vec![0.0; 2 * problem.points()]);
         let q = interleaved(&free.gap, &free.slip);
-        let mut rows = Delassus::new(&compliance);
         let constraints = cones(problem.mu());
         let sweeps = Sweeps::new(&self.settings, &mut rows, &q, &constraints, start)?;
         let judge = ContactJudge::new(problem);
-        let (best, status) = sweeps.run(&mut monitor, &mut |point| {
-            judge.residuals(&state(&point.z).parts(), Precision::Exact)
+        let (best, status) = sweeps.run(&mut monitor, &mut |point, rows| {
+            judge.residuals(&rows.state(&point.z).parts(), Precision::Exact)
         });
-        let state = state(&best.z);
+        let state = rows.state(&best.z);
         let (t, y) = problem.to_pairs(&state);
         let mut solution = self.solution(t, y, best.residuals, status, monitor);
-        solution.info.factorisations = compliance.factorisations();
+        solution.info.factorisations = rows.factorisations();
         Ok(Solution { contact: Some(state), ..solution })
     }
 }
 
 fn cones(mu: &[f64]) -> Vec<Constraint> {
     mu.iter().map(|&mu| Constraint::Friction { mu }).collect()
-}
-
-/// The normal and the tangential row of one contact after the other.
-fn interleaved(normal: &[f64], tangential: &[f64]) -> Vec<f64> {
-    normal.iter().zip(tangential).flat_map(|(n, t)| [*n, *t]).collect()
-}
-
-fn parted(rows: &[f64]) -> [Vec<f64>; 2] {
-    [0, 1].map(|k| rows.iter().skip(k).step_by(2).copied().collect())
 }

@@ -160,3 +160,12 @@ impl Rows for MatrixRows {
         size
     }
 }
+
+/// The normal and the tangential row of one contact after the other.
+pub(super) fn interleaved(normal: &[f64], tangential: &[f64]) -> Vec<f64> {
+    normal.iter().zip(tangential).flat_map(|(n, t)| [*n, *t]).collect()
+}
+
+pub(super) fn parted(rows: &[f64]) -> [Vec<f64>; 2] {
+    [0, 1].map(|k| rows.iter().skip(k).step_by(2).copied().collect())
+}

@@ -61,7 +61,7 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
     pub(super) fn run(
         mut self,
         monitor: &mut Monitor<'_>,
-        judge: &mut dyn FnMut(&Point) -> Residuals,
+        judge: &mut dyn FnMut(&Point, &R) -> Residuals,
     ) -> (Point, Status) {
         let tolerance = self.settings.tolerance;
         let mut best = self.point(vec![0.0; self.z.len()]);
@@ -119,7 +119,7 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
     /// Residuals of the present point, all computed anew. Keeps the point if it is the best one.
     fn judged(
         &mut self,
-        judge: &mut dyn FnMut(&Point) -> Residuals,
+        judge: &mut dyn FnMut(&Point, &R) -> Residuals,
         best: &mut Point,
     ) -> Residuals {
         let w = self.measure();
@@ -128,7 +128,7 @@ impl<'a, R: Rows + ?Sized> Sweeps<'a, R> {
         }
         let mut point = self.point(w);
         self.blocks.iter().for_each(|block| block.allowed(&point.z, &mut point.allowed));
-        point.residuals = judge(&point);
+        point.residuals = judge(&point, self.rows);
         let residuals = point.residuals;
         if residuals.is_better_than(&best.residuals, self.settings.tolerance) {
             *best = point;

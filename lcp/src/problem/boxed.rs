@@ -231,7 +231,7 @@ impl BoxedLcp {
     }
 
     /// `M z + q`
-    pub(super) fn image(&self, z: &[f64]) -> Vec<f64> {
+    pub(crate) fn image(&self, z: &[f64]) -> Vec<f64> {
         let mut w = self.q.clone();
         z.iter().enumerate().for_each(|(j, &z)| self.m.slice(j).add_to(z, &mut w));
         w

@@ -15,7 +15,6 @@ pub(super) struct Document<'a> {
     fields: BTreeMap<&'static str, &'a RawValue>,
 }
 
-/// A sparse matrix.
 #[derive(serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Sparse<T = Vec<(usize, usize, f64)>> {
@@ -25,26 +24,12 @@ pub(super) struct Sparse<T = Vec<(usize, usize, f64)>> {
 }
 
 impl<'a> Document<'a> {
-    /// The kind, which tells the names of the fields, and the document.
-    pub(super) fn of<K>(
-        text: &'a str,
-        names: fn(K) -> &'static [&'static str],
-    ) -> Result<(K, Self), ReadError>
-    where
-        K: Deserialize<'a> + Copy,
-    {
-        #[derive(serde::Deserialize)]
-        struct Tag<K> {
-            kind: K,
-        }
-        let syntax = |error| syntax(text, text, &error);
-        let Tag { kind } = from_str(text).map_err(syntax)?;
-        let mut document = serde_json::Deserializer::from_str(text);
-        let fields = document.deserialize_map(Names(names(kind))).map_err(syntax)?;
-        Ok((kind, Self { text, fields }))
+    /// The document with some of these fields, and no others.
+    pub(super) fn of(text: &'a str, names: &'static [&'static str]) -> Result<Self, ReadError> {
+        let fields = serde_json::Deserializer::from_str(text).deserialize_map(Names(names));
+        Ok(Self { text, fields: fields.map_err(|error| syntax(text, text, &error))? })
     }
 
-    /// The value of a field.
     pub(super) fn value<T: DeserializeOwned>(&self, name: &str) -> Result<T, ReadError> {
         self.parsed(self.field(name)?)
     }
@@ -120,7 +105,7 @@ impl<'a> Document<'a> {
     }
 
     fn parsed<T: Deserialize<'a>>(&self, part: &'a str) -> Result<T, ReadError> {
-        from_str(part).map_err(|error| syntax(self.text, part, &error))
+        parsed(self.text, part)
     }
 
     fn wrong(&self, part: &str, message: String) -> ReadError {
@@ -136,7 +121,7 @@ impl Sparse {
     }
 }
 
-/// Reads an object with some of these fields, and no others.
+/// The names of the fields.
 struct Names(&'static [&'static str]);
 
 impl<'de> Visitor<'de> for Names {
@@ -160,13 +145,16 @@ impl<'de> Visitor<'de> for Names {
     }
 }
 
-/// An item of a list.
 fn item(list: &str, k: usize) -> &str {
     let items: Vec<&RawValue> = from_str(list).unwrap_or_default();
     items.get(k).map_or(list, |item| item.get())
 }
 
-/// The error of a part of a document.
+/// The value of a part of a document.
+pub(super) fn parsed<'a, T: Deserialize<'a>>(text: &'a str, part: &'a str) -> Result<T, ReadError> {
+    from_str(part).map_err(|error| syntax(text, part, &error))
+}
+
 fn syntax(text: &str, part: &str, error: &serde_json::Error) -> ReadError {
     let (line, column) = (error.line(), error.column());
     // Its message ends with the place where it has one.

@@ -46,8 +46,8 @@ fn read_blocks(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matr
     let blocks = tokens.count("the number of blocks")?;
     let block_rows = tokens.count("the number of block rows")?;
     let block_cols = tokens.count("the number of block columns")?;
-    let row_ends = read_ends(tokens, block_rows, rows)?;
-    let col_ends = read_ends(tokens, block_cols, cols)?;
+    let row_ends = ascending(tokens, block_rows, 1, rows, "an end of a block")?;
+    let col_ends = ascending(tokens, block_cols, 1, cols, "an end of a block")?;
     let most = block_rows + 1;
     let pointers = tokens.count_if(
         format_args!("1 to {most}, the number of block row pointers"),
@@ -55,7 +55,11 @@ fn read_blocks(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matr
         |count| (1..=most).contains(&count),
     )?;
     tokens.fixed("the number of block columns that follow", blocks)?;
-    let block_row = read_block_rows(tokens, pointers, blocks)?;
+    tokens.room_for(Some(blocks), "the block columns")?;
+    tokens.fixed("the first block row pointer", 0)?;
+    let mut block_row = Vec::with_capacity(blocks);
+    let ends = ascending(tokens, pointers - 1, 0, blocks, "a block row pointer")?;
+    ends.into_iter().enumerate().for_each(|(row, end)| block_row.resize(end, row));
     let block_col = (0..blocks).map(|_| tokens.index(block_cols, "a block column"));
     let block_col = block_col.collect::<Result<Vec<_>, _>>()?;
     let mut triplets = Vec::new();
@@ -70,46 +74,30 @@ fn read_blocks(tokens: &mut Tokens<'_>, rows: usize, cols: usize) -> Result<Matr
     Ok(Matrix::from_entries(rows, cols, triplets.into_iter()))
 }
 
-/// Where every block ends: increasing up to the number of rows or columns.
-fn read_ends(tokens: &mut Tokens<'_>, count: usize, size: usize) -> Result<Vec<usize>, ReadError> {
-    tokens.room_for(Some(count), "the ends of the blocks")?;
-    if count == 0 && size > 0 {
-        let expected = format_args!("blocks that cover {size} rows or columns");
-        return Err(ReadError::unexpected(tokens.position(), expected, "no block", SIZES));
-    }
-    let mut last = 0;
-    let end = |index: usize| {
-        let is_last = index + 1 == count;
-        let expected = format_args!("an end of a block above {last}, the last one {size}");
-        last = tokens.count_if(expected, SIZES, |end| {
-            end > last && if is_last { end == size } else { end <= size }
-        })?;
-        Ok(last)
-    };
-    (0..count).map(end).collect()
-}
-
-/// The block row of every block, from the pointers to the first block of every block row.
-fn read_block_rows(
+/// So many numbers, the next of which is larger by `step` at least, up to the last one.
+fn ascending(
     tokens: &mut Tokens<'_>,
-    pointers: usize,
-    blocks: usize,
+    count: usize,
+    step: usize,
+    last: usize,
+    what: &'static str,
 ) -> Result<Vec<usize>, ReadError> {
-    tokens.room_for(Some(pointers), "the block row pointers")?;
-    tokens.room_for(Some(blocks), "the block columns")?;
-    let mut rows = Vec::with_capacity(blocks);
-    for index in 0..pointers {
-        let (begun, is_last) = (rows.len(), index + 1 == pointers);
-        let expected = format_args!(
-            "a block row pointer of {begun} or more, the first one 0 and the last one {blocks}"
-        );
-        let pointer = tokens.count_if(expected, SIZES, |pointer| {
-            let fits = (begun..=blocks).contains(&pointer) && (index > 0 || pointer == 0);
-            fits && (!is_last || pointer == blocks)
-        })?;
-        rows.resize(pointer, index.saturating_sub(1));
+    tokens.room_for(Some(count), what)?;
+    if count == 0 && last > 0 {
+        let expected = format_args!("{what} up to {last}");
+        return Err(ReadError::unexpected(tokens.position(), expected, "none", SIZES));
     }
-    Ok(rows)
+    let mut least = step;
+    let number = |index| {
+        let is_last = index + 1 == count;
+        let expected = format_args!("{what} of {least} or more, the last one {last}");
+        let number = tokens.count_if(expected, SIZES, |it| {
+            it >= least && if is_last { it == last } else { it <= last }
+        })?;
+        least = number + step;
+        Ok(number)
+    };
+    (0..count).map(number).collect()
 }
 
 fn range(ends: &[usize], index: usize) -> std::ops::Range<usize> {

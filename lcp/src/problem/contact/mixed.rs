@@ -66,10 +66,7 @@ impl Contact2d {
             WarmStart::None => WarmStart::None,
             WarmStart::Point { t, y } => {
                 let z = self.mixed_variables(&self.recover(t, y));
-                let mut w = mixed.q().to_vec();
-                for (j, z) in z.iter().enumerate() {
-                    mixed.m().column(j).for_each(|(i, v)| w[i] += v * z);
-                }
+                let w = mixed.boxed().image(&z);
                 // Beyond the range of numbers there is nothing to start from.
                 if z.iter().chain(&w).any(|v| !v.is_finite()) {
                     return WarmStart::None;
@@ -82,13 +79,11 @@ impl Contact2d {
     }
 
     fn mixed_variables(&self, state: &ContactState) -> Vec<f64> {
-        let part = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
-            self.friction.iter().map(|&i| value(i)).collect()
-        };
+        let friction = || self.friction.iter();
         let mut z = [state.u.clone(), state.t_n.clone()].concat();
-        z.extend(part(&|i| state.t_t[i].max(0.0)));
-        z.extend(part(&|i| (-state.t_t[i]).max(0.0)));
-        z.extend(part(&|i| state.slip[i].abs()));
+        z.extend(friction().map(|&i| state.t_t[i].max(0.0)));
+        z.extend(friction().map(|&i| (-state.t_t[i]).max(0.0)));
+        z.extend(friction().map(|&i| state.slip[i].abs()));
         z
     }
 
