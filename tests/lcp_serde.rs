@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 use lcp::faer::mat;
+use lcp::io::{read, to_json};
 use lcp::lemke::{Parametric, ParametricPath};
 use lcp::pgs::{Constraint, RowsSolution};
 use lcp::qp::SoftConstraints;
@@ -39,13 +40,15 @@ fn contact() -> Contact2d {
     builder.build().unwrap()
 }
 
-/// Problems come back with the same answers, and what is no problem is refused as if it were made by hand.
+/// Problems come back with the same answers, as files do, and what is no problem is refused as if it were made by hand.
 #[test]
 fn problems_of_every_kind() {
     macro_rules! assert_same_answer {
-        ($type:ty, $problem:expr) => {{
+        ($kind:expr, $type:ty, $problem:expr) => {{
             let problem: $type = $problem;
             let text = to_string(&problem).unwrap();
+            let file = text.replacen('{', &format!(r#"{{"kind":"{}","#, $kind), 1);
+            assert_eq!(to_json(&read(file.as_bytes(), None).unwrap().problem), file);
             let again: $type = from_str(&text).unwrap_or_else(|error| panic!("{text}: {error}"));
             assert_eq!(to_string(&again).unwrap(), text);
             let [first, second] = [&problem, &again].map(|it| Auto::default().solve(it).unwrap());
@@ -53,24 +56,34 @@ fn problems_of_every_kind() {
         }};
     }
     let lcp = families::positive_definite(6, 3).problem;
-    assert_same_answer!(Lcp, lcp);
-    assert_same_answer!(Lcp, families::obstacle(4).problem);
-    assert_same_answer!(HorizontalLcp, families::horizontal_monotone(6, 3).problem);
-    assert_same_answer!(MixedLcp, families::mixed_monotone(6, 3).problem);
-    assert_same_answer!(BoxedLcp, families::control(3, 3).problem);
-    assert_same_answer!(Contact2d, contact());
-    assert_same_answer!(Contact2d, contact().with_compliance(vec![[0.1, 0.2]]).unwrap());
+    assert_same_answer!("lcp", Lcp, lcp);
+    assert_same_answer!("lcp", Lcp, families::obstacle(4).problem);
+    assert_same_answer!("horizontal", HorizontalLcp, families::horizontal_monotone(6, 3).problem);
+    assert_same_answer!("mixed", MixedLcp, families::mixed_monotone(6, 3).problem);
+    assert_same_answer!("boxed", BoxedLcp, families::control(3, 3).problem);
+    assert_same_answer!("contact", Contact2d, contact());
+    assert_same_answer!("contact", Contact2d, contact().with_compliance(vec![[0.1, 0.2]]).unwrap());
     let friction = Friction2d::new(mat![[2.0, 0.0], [0.0, 1.0]], vec![-2.0, -0.25], vec![0.5]);
-    assert_same_answer!(Friction2d, friction.unwrap());
+    assert_same_answer!("friction", Friction2d, friction.unwrap());
     let program = Qp::new([[2.0]], [-4.0], [[1.0]], [f64::NEG_INFINITY], [3.0]).unwrap();
     let program = program.with_bounds([0.0], [1.0]).unwrap().with_constant(2.0);
     let text = to_string(&program).unwrap();
     assert_eq!(to_string(&from_str::<Qp>(&text).unwrap()).unwrap(), text);
-    let wrong = text.replace(r#""entries":[[0,0,2.0]]"#, r#""entries":[[0,0,-2.0]]"#);
+    let wrong = text.replace(r#""p":[[2.0]]"#, r#""p":[[-2.0]]"#);
     let error = from_str::<Qp>(&wrong).unwrap_err().to_string();
     assert!(error.contains("semidefinite"), "{error}");
-    let outside = text.replace("[0,0,2.0]", "[0,1,2.0]");
-    assert!(from_str::<Qp>(&outside).is_err());
+    let open = r#"{"p":[[2.0]],"a":[],"q":[-4.0],"l":[],"u":[]}"#;
+    assert_eq!(from_str::<Qp>(open).unwrap().bounds(), [[f64::NEG_INFINITY], [f64::INFINITY]]);
+    // Of a matrix that does not fit nothing is allocated.
+    for matrix in [
+        r#"{"rows":1,"cols":1000000000000000,"triplets":[]}"#,
+        r#"{"rows":1,"cols":1,"triplets":[[0,1,2.0]]}"#,
+        "[[1.0,2.0]]",
+        "[[1.0],[2.0]]",
+    ] {
+        let text = format!(r#"{{"m":{matrix},"q":[1.0]}}"#);
+        assert!(from_str::<Lcp>(&text).is_err(), "{text}");
+    }
 }
 
 #[test]

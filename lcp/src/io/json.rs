@@ -3,11 +3,10 @@
 mod document;
 
 use serde::Deserialize;
-use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::{Problem, ReadError};
-use crate::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, Matrix, MixedLcp, Qp};
-use document::{Document, Sparse, parsed};
+use crate::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, MixedLcp, Qp};
+use document::{Document, parsed};
 
 /// What says which fields a document has.
 #[derive(Deserialize)]
@@ -111,38 +110,4 @@ pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
 /// ```
 pub fn to_json(problem: &Problem) -> String {
     serde_json::to_string(problem).unwrap_or_else(|e| unreachable!("numbers and lists: {e}"))
-}
-
-/// In the form of our JSON.
-impl Serialize for Problem {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let mut object = to.serialize_map(None)?;
-        object.serialize_entry("kind", self.kind())?;
-        for (name, matrix) in self.matrices() {
-            let name = name.to_ascii_lowercase();
-            if matrix.is_sparse() {
-                object.serialize_entry(&name, &Sparse::of(&matrix))?;
-            } else {
-                object.serialize_entry(&name, &rows(&matrix))?;
-            }
-        }
-        for (name, vector) in self.vectors() {
-            let finite = vector.iter().map(|v| Some(*v).filter(|v| v.is_finite()));
-            object.serialize_entry(name, &finite.collect::<Bounds>())?;
-        }
-        match self {
-            Self::Mixed(it) => object.serialize_entry("free", it.free())?,
-            Self::Qp(it) => object.serialize_entry("constant", &it.constant())?,
-            Self::Contact(it) if it.compliance().iter().flatten().any(|a| *a > 0.0) => {
-                object.serialize_entry("compliance", it.compliance())?;
-            }
-            _ => {}
-        }
-        object.end()
-    }
-}
-
-fn rows(matrix: &Matrix) -> Vec<Vec<f64>> {
-    let row = |i| (0..matrix.ncols()).map(|j| matrix[(i, j)]).collect();
-    (0..matrix.nrows()).map(row).collect()
 }

@@ -33,7 +33,8 @@ pub(crate) use each;
 ///
 /// All kinds have the vectors `z` and `w`: in the general form `z = t` and `w = y`; of [`Friction2d`] those of its
 /// standard form, of [`Contact2d`] the pairs of its general form, and of [`Qp`] those of its conditions.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum Problem {
     /// The standard form.
@@ -90,25 +91,6 @@ impl Problem {
                     ("C_t", problem.tangent()),
                 ];
                 named.map(|(name, m)| (name, Cow::Owned(m.clone().into()))).into()
-            }
-        }
-    }
-
-    /// The vectors of numbers, with their names in JSON.
-    pub(super) fn vectors(&self) -> Vec<(&'static str, &[f64])> {
-        match self {
-            Self::Lcp(it) => vec![("q", it.q())],
-            Self::Horizontal(it) => vec![("c", it.c())],
-            Self::Mixed(it) => vec![("q", it.q())],
-            Self::Boxed(it) => vec![("q", it.q()), ("lower", it.lower()), ("upper", it.upper())],
-            Self::Friction(it) => vec![("q", it.q()), ("mu", it.mu())],
-            Self::Contact(it) => {
-                let (x_0, s_0) = (it.initial_gaps(), it.initial_slips());
-                vec![("f", it.loads()), ("x_0", x_0), ("s_0", s_0), ("mu", it.mu())]
-            }
-            Self::Qp(it) => {
-                let ([l, u], [lower, upper]) = (it.row_bounds(), it.bounds());
-                vec![("q", it.q()), ("l", l), ("u", u), ("lower", lower), ("upper", upper)]
             }
         }
     }

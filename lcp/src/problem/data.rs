@@ -1,35 +1,46 @@
-//! Problems as data: serialised as what they were made from, and checked again when they are read.
+//! Problems as data: serialised as what they were made from, and checked again when they are read. In JSON this is the form
+//! of the files of the feature `io`, without the `kind`.
 
-use serde::de::Error;
+use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, MixedLcp, Qp};
-use crate::Matrix;
+use crate::{Error, Matrix};
 
-/// The entries of a matrix, of a dense one all but zeros.
+/// A matrix by its rows if it is dense, or by its entries.
 #[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Stored {
-    rows: usize,
-    columns: usize,
-    is_sparse: bool,
-    entries: Vec<(usize, usize, f64)>,
+#[serde(untagged)]
+enum Stored {
+    Rows(Vec<Vec<f64>>),
+    Sparse { rows: usize, cols: usize, triplets: Vec<(usize, usize, f64)> },
 }
 
-impl Serialize for Matrix {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let (rows, columns, is_sparse) = (self.nrows(), self.ncols(), self.is_sparse());
-        let column = |j| self.column(j).map(move |(i, v)| (i, j, v));
-        let entries = (0..columns).flat_map(column).filter(|(_, _, v)| is_sparse || *v != 0.0);
-        Stored { rows, columns, is_sparse, entries: entries.collect() }.serialize(to)
+impl Stored {
+    fn of(matrix: &Matrix) -> Self {
+        let (rows, cols) = (matrix.nrows(), matrix.ncols());
+        if matrix.is_sparse() {
+            let column = |j| matrix.column(j).map(move |(i, v)| (i, j, v));
+            return Self::Sparse { rows, cols, triplets: (0..cols).flat_map(column).collect() };
+        }
+        let row = |i| (0..cols).map(|j| matrix[(i, j)]).collect();
+        Self::Rows((0..rows).map(row).collect())
     }
-}
 
-impl<'de> Deserialize<'de> for Matrix {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let Stored { rows, columns, is_sparse, entries } = Stored::deserialize(from)?;
-        let sparse = Self::from_triplets(rows, columns, &entries).map_err(D::Error::custom)?;
-        Ok(if is_sparse { sparse } else { sparse.to_dense().into() })
+    /// The matrix, which must have this size; nothing is allocated for another one.
+    fn sized(self, what: &'static str, height: usize, width: usize) -> Result<Matrix, Error> {
+        let (rows, cols) = match &self {
+            Self::Rows(rows) => (rows.len(), rows.first().map_or(width, Vec::len)),
+            Self::Sparse { rows, cols, .. } => (*rows, *cols),
+        };
+        if (rows, cols) != (height, width) {
+            let (expected_rows, expected_cols) = (height, width);
+            return Err(Error::Shape { what, rows, cols, expected_rows, expected_cols });
+        }
+        match self {
+            Self::Rows(rows) if rows.is_empty() => Ok(faer::Mat::zeros(0, width).into()),
+            Self::Rows(rows) => Matrix::from_rows(&rows),
+            Self::Sparse { triplets, .. } => Matrix::from_triplets(height, width, &triplets),
+        }
     }
 }
 
@@ -40,21 +51,24 @@ fn finite(bounds: &[f64]) -> Bounds {
     bounds.iter().map(|bound| Some(*bound).filter(|bound| bound.is_finite())).collect()
 }
 
-fn or(none: f64, bounds: Bounds) -> Vec<f64> {
-    bounds.into_iter().map(|bound| bound.unwrap_or(none)).collect()
+fn without_lower(bounds: Bounds) -> Vec<f64> {
+    bounds.into_iter().map(|bound| bound.unwrap_or(f64::NEG_INFINITY)).collect()
 }
 
-const LOWER: f64 = f64::NEG_INFINITY;
-const UPPER: f64 = f64::INFINITY;
+fn without_upper(bounds: Bounds) -> Vec<f64> {
+    bounds.into_iter().map(|bound| bound.unwrap_or(f64::INFINITY)).collect()
+}
 
 /// Serialises a problem as these fields, and makes it from them.
 macro_rules! serialised {
-    ($problem:ident { $($field:ident: $type:ty = $get:expr),+ $(,)? } by $new:expr) => {
+    ($problem:ident {
+        $($(#[$attribute:meta])* $field:ident: $type:ty = $get:expr),+ $(,)?
+    } by $new:expr) => {
         const _: () = {
             #[derive(Serialize, Deserialize)]
             #[serde(deny_unknown_fields)]
             struct Data {
-                $($field: $type),+
+                $($(#[$attribute])* $field: $type),+
             }
 
             impl Serialize for $problem {
@@ -68,8 +82,11 @@ macro_rules! serialised {
 
             impl<'de> Deserialize<'de> for $problem {
                 fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-                    let Data { $($field),+ } = Data::deserialize(from)?;
-                    $new.map_err(D::Error::custom)
+                    let make = |data: Data| -> Result<Self, Error> {
+                        let Data { $($field),+ } = data;
+                        $new
+                    };
+                    make(Data::deserialize(from)?).map_err(D::Error::custom)
                 }
             }
         };
@@ -77,55 +94,75 @@ macro_rules! serialised {
 }
 
 serialised!(Lcp {
-    m: Matrix = |it| it.m().clone(),
+    m: Stored = |it| Stored::of(it.m()),
     q: Vec<f64> = |it| it.q().to_vec(),
-} by Lcp::new(m, q));
+} by Lcp::new(m.sized("M", q.len(), q.len())?, q));
 
 serialised!(HorizontalLcp {
-    a: Matrix = |it| it.a().clone(),
-    b: Matrix = |it| it.b().clone(),
+    a: Stored = |it| Stored::of(it.a()),
+    b: Stored = |it| Stored::of(it.b()),
     c: Vec<f64> = |it| it.c().to_vec(),
-} by HorizontalLcp::new(a, b, c));
+} by HorizontalLcp::new(a.sized("A", c.len(), c.len())?, b.sized("B", c.len(), c.len())?, c));
 
 serialised!(MixedLcp {
-    m: Matrix = |it| it.m().clone(),
+    m: Stored = |it| Stored::of(it.m()),
     q: Vec<f64> = |it| it.q().to_vec(),
     free: Vec<bool> = |it| it.free().to_vec(),
-} by MixedLcp::new(m, q, free));
+} by MixedLcp::new(m.sized("M", q.len(), q.len())?, q, free));
 
 serialised!(BoxedLcp {
-    m: Matrix = |it| it.m().clone(),
+    m: Stored = |it| Stored::of(it.m()),
     q: Vec<f64> = |it| it.q().to_vec(),
     lower: Bounds = |it| finite(it.lower()),
     upper: Bounds = |it| finite(it.upper()),
-} by BoxedLcp::new(m, q, or(LOWER, lower), or(UPPER, upper)));
+} by BoxedLcp::new(m.sized("M", q.len(), q.len())?, q, without_lower(lower), without_upper(upper)));
 
 serialised!(Friction2d {
-    w: Matrix = |it| it.w().clone(),
+    w: Stored = |it| Stored::of(it.w()),
     q: Vec<f64> = |it| it.q().to_vec(),
     mu: Vec<f64> = |it| it.mu().to_vec(),
-} by Friction2d::new(w, q, mu));
+} by Friction2d::new(w.sized("W", q.len(), q.len())?, q, mu));
 
 serialised!(Contact2d {
-    k: Matrix = |it| it.stiffness().clone().into(),
+    k: Stored = |it| Stored::of(&it.stiffness().clone().into()),
+    c_n: Stored = |it| Stored::of(&it.normal().clone().into()),
+    c_t: Stored = |it| Stored::of(&it.tangent().clone().into()),
     f: Vec<f64> = |it| it.loads().to_vec(),
-    c_n: Matrix = |it| it.normal().clone().into(),
-    c_t: Matrix = |it| it.tangent().clone().into(),
     x_0: Vec<f64> = |it| it.initial_gaps().to_vec(),
     s_0: Vec<f64> = |it| it.initial_slips().to_vec(),
     mu: Vec<f64> = |it| it.mu().to_vec(),
-    compliance: Vec<[f64; 2]> = |it| it.compliance().to_vec(),
-} by Contact2d::new(k, f, c_n, c_t, x_0, s_0, mu).and_then(|it| it.with_compliance(compliance)));
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    compliance: Option<Vec<[f64; 2]>> = |it| {
+        let is_compliant = it.compliance().iter().flatten().any(|a| *a > 0.0);
+        is_compliant.then(|| it.compliance().to_vec())
+    },
+} by {
+    let (n, points) = (f.len(), mu.len());
+    let [c_n, c_t] = [c_n.sized("C_n", points, n)?, c_t.sized("C_t", points, n)?];
+    let hard = Contact2d::new(k.sized("K", n, n)?, f, c_n, c_t, x_0, s_0, mu)?;
+    match compliance {
+        Some(compliance) => hard.with_compliance(compliance),
+        None => Ok(hard),
+    }
+});
 
 serialised!(Qp {
-    p: Matrix = |it| it.p().clone(),
+    p: Stored = |it| Stored::of(it.p()),
+    a: Stored = |it| Stored::of(it.a()),
     q: Vec<f64> = |it| it.q().to_vec(),
-    a: Matrix = |it| it.a().clone(),
     l: Bounds = |it| finite(it.row_bounds()[0]),
     u: Bounds = |it| finite(it.row_bounds()[1]),
-    lower: Bounds = |it| finite(it.bounds()[0]),
-    upper: Bounds = |it| finite(it.bounds()[1]),
+    #[serde(default)]
+    lower: Option<Bounds> = |it| Some(finite(it.bounds()[0])),
+    #[serde(default)]
+    upper: Option<Bounds> = |it| Some(finite(it.bounds()[1])),
+    #[serde(default)]
     constant: f64 = Qp::constant,
-} by Qp::new(p, q, a, or(LOWER, l), or(UPPER, u))
-    .and_then(|it| it.with_bounds(or(LOWER, lower), or(UPPER, upper)))
-    .map(|it| it.with_constant(constant)));
+} by {
+    let (n, rows) = (q.len(), l.len());
+    let (p, a) = (p.sized("P", n, n)?, a.sized("A", rows, n)?);
+    let program = Qp::new(p, q, a, without_lower(l), without_upper(u))?;
+    let [lower, upper] = [lower, upper].map(|bounds| bounds.unwrap_or(vec![None; n]));
+    let program = program.with_bounds(without_lower(lower), without_upper(upper))?;
+    Ok(program.with_constant(constant))
+});

@@ -15,12 +15,13 @@ pub(super) struct Document<'a> {
     fields: BTreeMap<&'static str, &'a RawValue>,
 }
 
-#[derive(serde::Serialize, serde::Deserialize)]
+#[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Sparse<T = Vec<(usize, usize, f64)>> {
+struct Sparse<'a> {
     rows: usize,
     cols: usize,
-    triplets: T,
+    #[serde(borrow)]
+    triplets: &'a RawValue,
 }
 
 impl<'a> Document<'a> {
@@ -65,7 +66,7 @@ impl<'a> Document<'a> {
             }
             return Ok(faer::Mat::from_fn(height, width, |i, j| rows[i][j]).into());
         }
-        let Sparse::<&RawValue> { rows, cols, triplets } = self.parsed(part)?;
+        let Sparse { rows, cols, triplets } = self.parsed(part)?;
         fits(part, "rows", rows, height)?;
         fits(part, "columns", cols, width)?;
         let entries: Vec<(usize, usize, f64)> = self.parsed(triplets.get())?;
@@ -110,14 +111,6 @@ impl<'a> Document<'a> {
 
     fn wrong(&self, part: &str, message: String) -> ReadError {
         ReadError::Json { at: position(self.text, part), message }
-    }
-}
-
-impl Sparse {
-    pub(super) fn of(matrix: &Matrix) -> Self {
-        let (rows, cols) = (matrix.nrows(), matrix.ncols());
-        let of_column = |j| matrix.column(j).map(move |(i, v)| (i, j, v));
-        Self { rows, cols, triplets: (0..cols).flat_map(of_column).collect() }
     }
 }
 
