@@ -66,7 +66,7 @@ fn problems_of_every_kind() {
     let friction = Friction2d::new(mat![[2.0, 0.0], [0.0, 1.0]], vec![-2.0, -0.25], vec![0.5]);
     assert_same_answer!("friction", Friction2d, friction.unwrap());
     let program = Qp::new([[2.0]], [-4.0], [[1.0]], [f64::NEG_INFINITY], [3.0]).unwrap();
-    let program = program.with_bounds([0.0], [1.0]).unwrap().with_constant(2.0);
+    let program = program.with_bounds([0.0], [1.0]).unwrap().with_constant(2.0).unwrap();
     let text = to_string(&program).unwrap();
     assert_eq!(to_string(&from_str::<Qp>(&text).unwrap()).unwrap(), text);
     let wrong = text.replace(r#""p":[[2.0]]"#, r#""p":[[-2.0]]"#);

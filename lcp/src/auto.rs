@@ -36,9 +36,8 @@ use crate::{Error, Method, Observer, Solution, Solver};
 /// | [`Contact2d`](crate::Contact2d), up to 40 points and with bodies that no spring holds | Lemke, interior point |
 /// | other [`Contact2d`](crate::Contact2d) | interior point, Lemke |
 ///
-/// † if the diagonal is positive; ‡ sparse, or dense up to order 200, and for a [`BoxedLcp`](crate::BoxedLcp) without
-/// free variables. The lines without a class are for [`MixedLcp`](crate::MixedLcp), [`BoxedLcp`](crate::BoxedLcp) and
-/// [`Friction2d`](crate::Friction2d) too. Quadratic programs and sweeps are in no chain: they alone decide no case of the
+/// † if the diagonal is positive; ‡ if sparse, or dense up to order 200. The lines without a class are for [`MixedLcp`](crate::MixedLcp),
+/// [`BoxedLcp`](crate::BoxedLcp) and [`Friction2d`](crate::Friction2d) too. Quadratic programs and sweeps are in no chain: they alone decide no case of the
 /// bench `corpus`.
 ///
 /// Problems of up to 100 pairs have enumeration as well: branching over the sides of pairs, with a solution or a proof for
@@ -101,7 +100,7 @@ impl Auto {
 
     /// The methods for a problem, in order.
     pub fn plan<P: Planned>(&self, problem: &P) -> Vec<Choice> {
-        divided::steps(problem, self.settings.max_attempts)
+        divided::plan(problem, self.settings.max_attempts)
     }
 }
 

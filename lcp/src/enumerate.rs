@@ -107,8 +107,8 @@ impl Search<'_> {
     fn visit(&mut self, sides: &Sides, start: &[Extended]) -> Result<Closed, Enumerated> {
         match self.known(sides) {
             None => {}
-            Some((leaf, None)) => return Ok(Some(vec![leaf])),
-            Some((other, Some((pair, side)))) => {
+            Some(Known::Leaf(leaf)) => return Ok(Some(vec![leaf])),
+            Some(Known::Left { pair, side, other }) => {
                 let leaves = self.child(sides, pair, side, start)?;
                 return Ok(leaves.map(|leaves| joined(sides, pair, vec![other], leaves)));
             }
@@ -151,8 +151,8 @@ impl Search<'_> {
         self.visit(&sides, &start)
     }
 
-    /// A leaf by which one of the proofs found so far closes a node, except for this side of a pair if there is one.
-    fn known(&self, sides: &Sides) -> Option<(Leaf, Option<(usize, Side)>)> {
+    /// What one of the proofs found so far says of a node.
+    fn known(&self, sides: &Sides) -> Option<Known> {
         let n = sides.len();
         let side_of = |column: usize| if column < n { Side::T } else { Side::Y };
         let mut unit = None;
@@ -162,7 +162,7 @@ impl Search<'_> {
             };
             let mut lacking = proof.needed.iter().filter(is_allowed);
             match (lacking.next(), lacking.next()) {
-                (None, _) => return Some((proof.leaf(sides), None)),
+                (None, _) => return Some(Known::Leaf(proof.leaf(sides))),
                 (Some(&column), None) if sides[column % n].is_none() => {
                     unit = Some((proof, column));
                 }
@@ -173,8 +173,16 @@ impl Search<'_> {
         let (pair, side) = (column % n, side_of(column));
         let mut others = sides.to_vec();
         others[pair] = Some(side.complement());
-        Some((proof.leaf(&others), Some((pair, side))))
+        Some(Known::Left { pair, side, other: proof.leaf(&others) })
     }
+}
+
+/// What a proof of another node says of a node.
+enum Known {
+    /// It proves it.
+    Leaf(Leaf),
+    /// It proves it with the other side of this pair.
+    Left { pair: usize, side: Side, other: Leaf },
 }
 
 /// Whether leaves need a side of a pair.

@@ -99,7 +99,8 @@ pub struct Iteration {
     pub residual: f64,
     /// The method, of which [`Auto`](crate::Auto) runs several one after the other.
     pub method: Method,
-    /// The step of the interior-point method that has led here; `None` at a start, and of other methods.
+    /// The step of the interior-point method that has led here; `None` at a start, for convex programs, which have an iteration
+    /// of their own, and for other methods.
     pub step: Option<Step>,
 }
 

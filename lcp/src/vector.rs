@@ -4,14 +4,16 @@ use crate::Error;
 
 /// A sum below this, relative to its terms, is a rounding error. Rounding: errors of short sums.
 pub(crate) const ROUNDING: f64 = 64.0 * f64::EPSILON;
-/// What a solved system leaves of its right-hand side, and of what vanishes at its solution. Rounding: some hundred eps.
+/// What a solved system leaves of its right-hand side, and of what vanishes at its solution: pivots of a singular matrix, gaps
+/// of closed contacts, entries of a tableau. Rounding: some hundred eps.
 pub(crate) const SMALL: f64 = 1e-13;
 /// What is below this part of another number hardly counts beside it: a coupling beside the strongest one of its row, once
 /// rows and columns are equilibrated; a term beside the largest one of its row, or of the problem; the errors of a proof
 /// beside what they must leave positive. Chosen.
 pub(crate) const WEAK: f64 = 1.0 / 1024.0;
 /// Half of all digits, about the root of eps. Theory: what is right to this is wrong in its square by rounding, and what this
-/// is added to for regularity loses no more than a step of refinement brings back.
+/// is added to for regularity loses no more than a step of refinement brings back. Chosen where it is the shortest step, the
+/// size of what parts ties, or a slack that is in doubt.
 pub(crate) const HALF_DIGITS: f64 = 1e-8;
 /// Steps of iterative refinement of a solution of linear equations at most. Chosen: each gains the digits that the condition
 /// number leaves.
@@ -97,9 +99,13 @@ pub(crate) fn check_vector(what: &'static str, v: &[f64]) -> Result<(), Error> {
     }
 }
 
-/// Whether a number is between the bounds, either of which may be infinite.
+/// Whether a number is between the bounds, either of which may be infinite; the distance of others is finite.
 pub(crate) fn is_interval(lower: f64, upper: f64) -> bool {
-    lower <= upper && lower < f64::INFINITY && upper > f64::NEG_INFINITY
+    let is_bounded = lower.is_finite() && upper.is_finite();
+    lower <= upper
+        && lower < f64::INFINITY
+        && upper > f64::NEG_INFINITY
+        && (!is_bounded || (upper - lower).is_finite())
 }
 
 /// That a value of every contact point is at least zero and finite.

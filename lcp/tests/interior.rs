@@ -371,3 +371,17 @@ fn the_smallest_problems() {
     let none = Lcp::new(Mat::zeros(0, 0), Vec::new()).unwrap();
     assert!(route.solve(&none).unwrap().is_solved());
 }
+
+/// Two bodies far from the floor, one below the other: both fall, with nothing but springs to stop them, and the
+/// upper one lands on the lower.
+#[test]
+fn bodies_land_on_each_other_across_gaps() {
+    let k = mat![[1e-3, 0.0], [0.0, 0.0]];
+    let c_n = mat![[1.0, 0.0], [-1.0, 1.0]];
+    let c_t = mat![[0.0, 0.0], [0.0, 0.0]];
+    let (gaps, none) = (vec![1e4, 1e2], vec![0.0; 2]);
+    let problem = Contact2d::new(k, vec![-5.0, -7.0], c_n, c_t, gaps, none.clone(), none).unwrap();
+    let ContactState { u, t_n, .. } = state(&problem);
+    assert_close(&u, &[-1e4, -1.01e4]);
+    assert_close(&t_n, &[2.0, 7.0]);
+}

@@ -141,8 +141,14 @@ fn shuffled(sizes: &[usize], rows: &[usize], cols: &[usize]) -> Mat<f64> {
     Mat::from_fn(n, n, |i, j| m[(rows[i], cols[j])])
 }
 
-/// The parts, so many, have together the answer of the whole.
-fn assert_joined<P>(problem: &P, count: usize)
+fn assert_close(found: &[f64], expected: &[f64]) {
+    let is_close = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-11 * a.abs().max(1.0);
+    let is_all = found.len() == expected.len() && found.iter().zip(expected).all(is_close);
+    assert!(is_all, "{found:?} instead of {expected:?}");
+}
+
+/// The parts, so many, have together the answer of the whole. Both answers.
+fn assert_joined<P>(problem: &P, count: usize) -> [Solution<P>; 2]
 where
     Auto: Solver<P>,
     Lemke: Solver<P>,
@@ -151,12 +157,12 @@ where
     assert!(parts.is_solved() && whole.is_solved());
     let reason = &parts.info.routes[0].reason;
     assert!(reason.contains(&format!("of {count} independent parts")), "{reason}");
-    for (a, b) in whole.t.iter().chain(&whole.y).zip(parts.t.iter().chain(&parts.y)) {
-        assert!((a - b).abs() <= 1e-11 * a.abs().max(1.0), "{a} {b}");
-    }
-    if let (Some(whole), Some(parts)) = (whole.basis, parts.basis) {
+    assert_close(&parts.t, &whole.t);
+    assert_close(&parts.y, &whole.y);
+    if let (Some(whole), Some(parts)) = (&whole.basis, &parts.basis) {
         assert_eq!(whole, parts);
     }
+    [parts, whole]
 }
 
 #[test]
@@ -171,7 +177,11 @@ fn every_form_falls_into_blocks() {
     assert_joined(&MixedLcp::new(m.clone(), q.clone(), free).unwrap(), 4);
     let upper = |i: &usize| if i.is_multiple_of(2) { 0.1 } else { f64::INFINITY };
     let upper: Vec<f64> = order.iter().map(upper).collect();
-    assert_joined(&BoxedLcp::new(m.clone(), q.clone(), vec![0.0; 10], upper).unwrap(), 4);
+    let boxed = BoxedLcp::new(m.clone(), q.clone(), vec![0.0; 10], upper).unwrap();
+    let [(z, w), (z_of_whole, w_of_whole)] =
+        assert_joined(&boxed, 4).map(|it| boxed.variables(&it));
+    assert_close(&z, &z_of_whole);
+    assert_close(&w, &w_of_whole);
     // Rows and pairs in different orders.
     let pairs = [5, 2, 8, 0, 9, 4, 7, 1, 3, 6];
     let a = shuffled(&[2, 5, 3], &order, &pairs);
@@ -199,7 +209,17 @@ fn contacts_fall_into_bodies() {
     let loads = vec![-1.0, -2.0, 0.8, 0.5];
     let gaps = vec![0.0, 0.1, 0.0];
     let contact = Contact2d::new(k, loads, c_n, c_t, gaps, vec![0.0; 3], vec![0.5, 0.3, 0.0]);
-    assert_joined(&contact.unwrap(), 2);
+    let contact = contact.unwrap();
+    let [parts, whole] = assert_joined(&contact, 2).map(|it| contact.variables(&it));
+    for (parts, whole) in [
+        (parts.u, whole.u),
+        (parts.t_n, whole.t_n),
+        (parts.t_t, whole.t_t),
+        (parts.gap, whole.gap),
+        (parts.slip, whole.slip),
+    ] {
+        assert_close(&parts, &whole);
+    }
 }
 
 /// Integers, with zeros: solvable or not, and often degenerate.

@@ -5,7 +5,7 @@
 //! of what is feasible, or gives a proof that is none. `Auto` must decide every problem, with a proof where
 //! the linear conditions alone cannot be met.
 //!
-//! The environment variable `LCP_SWEEP` gives the seeds of the problems of every kind, 0 to 100 without it:
+//! The environment variable `LCP_SWEEP` gives the seeds of the problems of every kind, `0..100` without it:
 //! ```text
 //! LCP_SWEEP=5000..8000 cargo test --release -p lcp --test sweep -- --nocapture
 //! ```
@@ -47,6 +47,7 @@ fn random_problems() {
         let (from, to) = seeds.split_once("..").expect("LCP_SWEEP is a range such as 5000..8000");
         from.parse().unwrap()..to.parse().unwrap()
     });
+    assert!(!seeds.is_empty(), "LCP_SWEEP is an empty range");
     assert_decided(&Tally::sweep(seeds));
 }
 

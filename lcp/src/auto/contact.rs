@@ -3,7 +3,7 @@
 use super::constants::{FEW, VERY_FEW_POINTS};
 use super::facts::Facts;
 use super::method::{Choice, Effort, Planned, named};
-use super::standard::common_steps;
+use super::standard::common_chain;
 use crate::definite::is_definite;
 use crate::{Contact2d, Friction2d, Method, Solver};
 
@@ -12,8 +12,8 @@ impl Planned for Friction2d {
         self.order()
     }
 
-    fn steps(&self) -> Vec<Choice> {
-        let steps = common_steps(&Facts::of(self.standard().m()));
+    fn chain(&self) -> Vec<Choice> {
+        let steps = common_chain(&Facts::of(self.standard().m()));
         named(&format!("{} contacts", self.contacts()), steps)
     }
 
@@ -27,7 +27,7 @@ impl Planned for Contact2d {
         self.order()
     }
 
-    fn steps(&self) -> Vec<Choice> {
+    fn chain(&self) -> Vec<Choice> {
         let (points, friction) = (self.points(), self.frictional().len());
         let text = format!(
             "{points} contact points, {friction} of them with friction, {} displacements",

@@ -42,7 +42,7 @@ pub(super) fn run<P: Planned>(
 }
 
 /// The plans of the parts; a method that stands at the same place of several plans stands there once.
-pub(super) fn steps<P: Planned>(problem: &P, max_attempts: Option<usize>) -> Vec<Choice> {
+pub(super) fn plan<P: Planned>(problem: &P, max_attempts: Option<usize>) -> Vec<Choice> {
     let Some(parts) = problem.parts().filter(|parts| parts.len() <= MANY_PARTS) else {
         return chain_of(problem, max_attempts);
     };

@@ -22,6 +22,7 @@ pub struct Choice {
     /// The reason for this method at this place, with the numbers on which it is based.
     pub reason: String,
     /// Whether pivots end after a few attempts, because another method follows that may take less.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub is_brief: bool,
 }
 
@@ -42,7 +43,7 @@ pub(super) fn named(problem: &str, mut steps: Vec<Choice>) -> Vec<Choice> {
 /// The chain of a problem with all choices of sides: behind a few attempts of pivots if it takes no longer than these, else
 /// at the end.
 pub(super) fn chain_of<P: Planned>(problem: &P, max_attempts: Option<usize>) -> Vec<Choice> {
-    let mut steps = problem.steps();
+    let mut steps = problem.chain();
     let pairs = problem.pairs();
     let pivots = steps.iter().position(|step| step.method == Method::Lemke);
     let Some(pivots) = pivots.filter(|_| pairs <= MOST_PAIRS) else { return steps };
@@ -77,7 +78,7 @@ pub trait Planned: Divide {
     }
 
     /// The chain.
-    fn steps(&self) -> Vec<Choice>;
+    fn chain(&self) -> Vec<Choice>;
 
     /// A method of the chain with its settings; `None` for all others.
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>>;

@@ -2,7 +2,7 @@
 
 use super::facts::{Facts, largest_block};
 use super::method::{Choice, Effort, Planned, named};
-use super::standard::common_steps;
+use super::standard::common_chain;
 use crate::{BoxedLcp, Method, MixedLcp, Solver};
 
 impl Planned for MixedLcp {
@@ -14,10 +14,10 @@ impl Planned for MixedLcp {
         largest_block(self.m(), |i| usize::from(!self.free()[i]))
     }
 
-    fn steps(&self) -> Vec<Choice> {
+    fn chain(&self) -> Vec<Choice> {
         let facts = Facts::of(self.m());
         let free = self.free().iter().filter(|free| **free).count();
-        named(&format!("{free} free variables"), common_steps(&facts))
+        named(&format!("{free} free variables"), common_chain(&facts))
     }
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
@@ -40,8 +40,8 @@ impl Planned for BoxedLcp {
         largest_block(self.m(), sides)
     }
 
-    fn steps(&self) -> Vec<Choice> {
-        let steps = common_steps(&Facts::of(self.m()));
+    fn chain(&self) -> Vec<Choice> {
+        let steps = common_chain(&Facts::of(self.m()));
         named(&format!("{} pairs with those of the bounds", self.pairs()), steps)
     }
 

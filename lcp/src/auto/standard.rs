@@ -1,13 +1,13 @@
 //! The chain of standard problems, and of general ones that can be converted to the standard form.
 
-use super::constants::FEW;
+use super::constants::{FEW, FEW_DENSE};
 use super::facts::{Facts, is_z_matrix, largest_block};
 use super::method::{Choice, Effort, Planned};
 use crate::{HorizontalLcp, Lcp, Method, Solver};
 
 /// The class of the matrix decides whether the active set method is the first.
-pub(super) fn standard_steps(facts: &Facts) -> Vec<Choice> {
-    let mut steps = common_steps(facts);
+pub(super) fn standard_chain(facts: &Facts) -> Vec<Choice> {
+    let mut steps = common_chain(facts);
     if facts.has_positive_diagonal {
         let words = if facts.is_z_matrix {
             "with no positive entry off the positive diagonal, as M-matrices: the active set method solves \
@@ -21,7 +21,7 @@ pub(super) fn standard_steps(facts: &Facts) -> Vec<Choice> {
 }
 
 /// The methods that need no class of matrices.
-pub(super) fn common_steps(facts: &Facts) -> Vec<Choice> {
+pub(super) fn common_chain(facts: &Facts) -> Vec<Choice> {
     let step = |method, words: &str| Choice::new(method, format!("{}: {words}", facts.size()));
     let inside = step(
         Method::Interior,
@@ -32,7 +32,8 @@ pub(super) fn common_steps(facts: &Facts) -> Vec<Choice> {
         return vec![inside, step(Method::Lemke, words)];
     }
     let words = "pivots need no class of matrices and end with a basis, a proof or a ray";
-    vec![step(Method::Lemke, words), inside]
+    let inside = Some(inside).filter(|_| facts.is_sparse || facts.order <= FEW_DENSE);
+    std::iter::once(step(Method::Lemke, words)).chain(inside).collect()
 }
 
 impl Planned for Lcp {
@@ -44,8 +45,8 @@ impl Planned for Lcp {
         largest_block(self.m(), |_| 1)
     }
 
-    fn steps(&self) -> Vec<Choice> {
-        standard_steps(&Facts::of(self.m()))
+    fn chain(&self) -> Vec<Choice> {
+        standard_chain(&Facts::of(self.m()))
     }
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
@@ -68,9 +69,9 @@ impl Planned for HorizontalLcp {
         }
     }
 
-    fn steps(&self) -> Vec<Choice> {
+    fn chain(&self) -> Vec<Choice> {
         if let Some(standard) = self.to_standard() {
-            let mut steps = standard_steps(&Facts::of(standard.lcp().m()));
+            let mut steps = standard_chain(&Facts::of(standard.lcp().m()));
             for step in &mut steps {
                 step.reason.insert_str(0, "as a standard problem of ");
             }

@@ -70,15 +70,10 @@ fn truth(problem: &HorizontalLcp) -> Enumeration {
     enumerate_exactly(problem, &EnumerationSettings::default()).expect("small")
 }
 
-/// Problems of a sweep; more on request.
-fn count() -> usize {
-    std::env::var("LCP_SWEEP").ok().and_then(|it| it.parse().ok()).unwrap_or(4000)
-}
-
 #[test]
 fn small_integers_are_decided_as_in_rational_arithmetic() {
     let mut random = SplitMix::new(1);
-    for _ in 0..count() {
+    for _ in 0..4000 {
         let problem = random_problem(&mut random);
         let (outcome, truth) = (enumerated(&problem), truth(&problem));
         assert!(is_true(&outcome, &problem, &truth), "{outcome:?} of {problem:?}");
@@ -90,7 +85,7 @@ fn small_integers_are_decided_as_in_rational_arithmetic() {
 #[test]
 fn units_do_not_matter() {
     let mut random = SplitMix::new(2);
-    for _ in 0..count() {
+    for _ in 0..4000 {
         let problem = random_problem(&mut random);
         let data = scaled(&problem, &mut || (40.0 * random.next_f64() - 20.0).round().exp2());
         let outcome = enumerated(&data);
@@ -104,7 +99,7 @@ fn units_do_not_matter() {
 fn rounded_data_are_not_judged_wrongly() {
     let mut random = SplitMix::new(3);
     let mut open = 0;
-    for _ in 0..count() {
+    for _ in 0..4000 {
         let problem = random_problem(&mut random);
         let data = scaled(&problem, &mut || 10.0_f64.powf(12.0 * random.next_f64() - 6.0));
         let outcome = enumerated(&data);
@@ -114,7 +109,7 @@ fn rounded_data_are_not_judged_wrongly() {
             _ => assert!(said.contains(&true), "{outcome:?} of {data:?}"),
         }
     }
-    assert!(100 * open <= count(), "{open} left open");
+    assert!(100 * open <= 4000, "{open} left open");
 }
 
 /// Two parallel rows that contradict each other by 1e-9, and a pair that has to choose.

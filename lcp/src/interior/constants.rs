@@ -32,6 +32,9 @@ pub(super) const STARTS: [f64; 3] = [0.0, 1e4, 1e3];
 /// The same for steps of bodies with mass. Measured on settlements of 105 and 410 bricks, elastic and rigid: of some 120 tries 19
 /// fail; with 0, 1e3 and 1e4 in its place it is 33 of 148, 24 of 131 and 50 of 174.
 pub(super) const OPENING_OF_STEP: f64 = 1.0;
+/// Steps in which neither residual, error of a proof nor products fall by a tenth, after which a convex program is left.
+/// Measured on walls: some are stuck for twenty steps and go on.
+pub(super) const PATIENCE_OF_PROGRAM: usize = 30;
 /// Steps without a reduction of the products by a tenth after which an attempt is left. Measured on settlements: with 12 an
 /// open base is lost that the path solves with 15; with 20 and 30 those that jam take 5 to 15 more, and no other is solved.
 pub(super) const PATIENCE: usize = 15;
@@ -42,6 +45,8 @@ pub(super) const CENTRAL: f64 = 0.1;
 pub(super) const BACK: f64 = 0.995;
 /// A step that makes a product smaller than it may be is shortened by this. Chosen.
 pub(super) const SHORTER: f64 = 0.7;
+/// No step is made shorter than this for it. Chosen: far above what counts as no step.
+pub(super) const SHORTEST: f64 = 1e-4;
 /// Correctors of the centrality of a step, at most. Chosen: each costs a solve (Gondzio 1996).
 pub(super) const CORRECTORS: usize = 2;
 /// A step of this length needs none. Chosen.

@@ -92,7 +92,7 @@ pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
             let constant = it.optional("constant")?.unwrap_or(0.0);
             let program = Qp::new(it.square("p", n)?, q, it.matrix("a", m, n)?, l, u);
             let program = program.and_then(|program| program.with_bounds(least, most));
-            program.map(|program| Problem::Qp(program.with_constant(constant)))
+            program.and_then(|program| program.with_constant(constant)).map(Problem::Qp)
         }
     };
     problem.map_err(|source| it.refused(source))

@@ -1,12 +1,13 @@
 //! The ratio test: which basic variable leaves.
 
-use super::constants::{ARTIFICIAL_ZERO, PIVOT_TOLERANCE, TIE_WINDOW};
+use super::constants::{ARTIFICIAL_ZERO, PIVOT_TOLERANCE, TIE_PIVOT, TIE_WINDOW};
 use super::path::Path;
 use crate::vector::{SMALL, max_abs};
 
 impl Path<'_> {
     /// The row that leaves, or `None` when nothing blocks the entering variable. In two passes: the
-    /// longest step that brings no variable below zero by more than the window, then the rows that block within it.
+    /// longest step that brings no variable below zero by more than the window, then among the rows that block within
+    /// it those with sound pivots.
     pub(super) fn leaving_row(&self, column: &[f64]) -> Option<usize> {
         let smallest_pivot = (PIVOT_TOLERANCE * max_abs(column)).max(SMALL);
         let blocks = |&i: &usize| column[i] > smallest_pivot && self.is_bounded(i);
@@ -25,16 +26,20 @@ impl Path<'_> {
             .filter(blocks)
             .filter(|&i| value(i) - shortest * column[i] <= window)
             .collect();
-        if let [only] = tied[..] {
+        let best = tied.iter().fold(0.0_f64, |max, &i| max.max(column[i]));
+        let sound: Vec<usize> =
+            tied.into_iter().filter(|&i| column[i] >= TIE_PIVOT * best).collect();
+        if let [only] = sound[..] {
             return Some(only);
         }
         match self.kernel.parting() {
-            Some(parting) => first_parted(&parting, column, &tied),
-            None => Some(self.lexicographic_minimum(column, &tied)),
+            Some(parting) => first_parted(&parting, column, &sound),
+            None => Some(self.lexicographic_minimum(column, &sound)),
         }
     }
 
-    /// The tied row whose row of the inverse basis, divided by its pivot, comes first in lexicographic order. In exact arithmetic no basis comes back along a path of such choices.
+    /// The tied row whose row of the inverse basis, divided by its pivot, comes first in lexicographic order. In exact
+    /// arithmetic no basis comes back along a path of such choices.
     fn lexicographic_minimum(&self, column: &[f64], tied: &[usize]) -> usize {
         // Rows are computed where they are first looked at.
         let mut left: Vec<(usize, Option<Vec<f64>>)> = tied.iter().map(|&i| (i, None)).collect();
@@ -65,7 +70,8 @@ impl Path<'_> {
     }
 }
 
-/// The tied row that a small change of the right-hand side, the same all along the path, would make the first; in exact arithmetic that parts them all, unless by chance.
+/// The tied row that a small change of the right-hand side, the same all along the path, would make the first; in exact
+/// arithmetic that parts them all, unless by chance.
 fn first_parted(parting: &[f64], column: &[f64], tied: &[usize]) -> Option<usize> {
     let key = |&i: &usize| parting[i] / column[i];
     let least = tied.iter().map(key).fold(f64::INFINITY, f64::min);

@@ -1,10 +1,10 @@
 //! The points that belong to free sets.
 
-use super::constants::{ROUNDING, USABLE};
+use super::constants::{REFINED, USABLE};
 use super::factors::Factors;
 use crate::Lcp;
 use crate::random::SplitMix;
-use crate::vector::{self, REFINEMENTS, SMALL, max_abs};
+use crate::vector::{REFINEMENTS, ROUNDING, SMALL, max_abs};
 
 /// A complementary point: `z` is free for some pairs, `w` for the others.
 #[derive(Debug, Clone)]
@@ -97,7 +97,7 @@ impl<'a> System<'a> {
             } else {
                 w[i]
             };
-            if value < -vector::ROUNDING * size[i] {
+            if value < -ROUNDING * size[i] {
                 violated.push(i);
             } else if value < 0.0 {
                 (z[i], w[i]) = (0.0, 0.0);
@@ -119,7 +119,7 @@ fn solved(lcp: &Lcp, factors: &Factors<'_>, is_free: &[bool]) -> Option<(Vec<f64
     let mut image = Image::new(lcp, &z);
     let mut error = image.error(is_free);
     for _ in 0..REFINEMENTS {
-        if error <= ROUNDING || !error.is_finite() {
+        if error <= REFINED || !error.is_finite() {
             break;
         }
         let mut refined = vec![0.0; z.len()];

@@ -76,8 +76,7 @@ impl BoxedLcp {
         check_length("lower", lower.len(), n)?;
         check_length("upper", upper.len(), n)?;
         for (index, (&lower, &upper)) in lower.iter().zip(&upper).enumerate() {
-            let is_bounded = lower.is_finite() && upper.is_finite();
-            if !is_interval(lower, upper) || is_bounded && !(upper - lower).is_finite() {
+            if !is_interval(lower, upper) {
                 return Err(Error::Bounds { what: "variable", index, lower, upper });
             }
         }

@@ -164,5 +164,5 @@ serialised!(Qp {
     let program = Qp::new(p, q, a, without_lower(l), without_upper(u))?;
     let [lower, upper] = [lower, upper].map(|bounds| bounds.unwrap_or(vec![None; n]));
     let program = program.with_bounds(without_lower(lower), without_upper(upper))?;
-    Ok(program.with_constant(constant))
+    program.with_constant(constant)
 });

@@ -112,9 +112,12 @@ impl Qp {
     }
 
     /// The same program with this constant in its objective.
-    #[must_use]
-    pub fn with_constant(self, constant: f64) -> Self {
-        Self { constant, ..self }
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`].
+    pub fn with_constant(self, constant: f64) -> Result<Self, Error> {
+        check_vector("constant", &[constant])?;
+        Ok(Self { constant, ..self })
     }
 
     fn posed(

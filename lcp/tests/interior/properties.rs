@@ -1,11 +1,30 @@
 //! Properties of the answers of the interior-point method to random contact problems.
 
+use faer::Mat;
 use lcp::{Contact2d, InteriorPoint, InteriorPointSettings, Lemke, Solver, WarmStart};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
 use super::bodies::{in_units, problems};
 use super::{assert_close, common, default, solve};
+
+/// Rows and points in the opposite order.
+fn reversed(problem: &Contact2d) -> Contact2d {
+    let (n, m) = (problem.displacements(), problem.points());
+    let [k, c_n, c_t] = [problem.stiffness(), problem.normal(), problem.tangent()]
+        .map(faer::sparse::SparseColMat::to_dense);
+    let back = |v: &[f64]| v.iter().rev().copied().collect::<Vec<f64>>();
+    Contact2d::new(
+        Mat::from_fn(n, n, |i, j| k[(n - 1 - i, n - 1 - j)]),
+        back(problem.loads()),
+        Mat::from_fn(m, n, |i, j| c_n[(m - 1 - i, n - 1 - j)]),
+        Mat::from_fn(m, n, |i, j| c_t[(m - 1 - i, n - 1 - j)]),
+        back(problem.initial_gaps()),
+        back(problem.initial_slips()),
+        back(problem.mu()),
+    )
+    .unwrap()
+}
 
 proptest! {
     #![proptest_config(common::cases(256))]
@@ -43,6 +62,18 @@ proptest! {
             );
             let back: Vec<f64> = other.iter().zip(&unit).map(|(u, unit)| u * unit / length).collect();
             assert_close(&back, &u);
+        }
+    }
+
+    #[test]
+    fn the_order_does_not_matter(problem in problems()) {
+        let other = reversed(&problem);
+        let (first, second) = (solve(&problem), solve(&other));
+        prop_assert!(first.is_solved() && second.is_solved(), "{:?}", second.status);
+        if problem.frictional().is_empty() {
+            let mut u = other.recover(&second.t, &second.y).u;
+            u.reverse();
+            assert_close(&u, &problem.recover(&first.t, &first.y).u);
         }
     }
 

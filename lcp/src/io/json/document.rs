@@ -37,7 +37,7 @@ impl<'a> Document<'a> {
 
     /// The value of a field that may be missing.
     pub(super) fn optional<T: DeserializeOwned>(&self, name: &str) -> Result<Option<T>, ReadError> {
-        self.fields.get(name).map_or(Ok(None), |part| self.parsed(part.get()))
+        self.fields.get(name).map(|part| self.parsed(part.get())).transpose()
     }
 
     pub(super) fn square(&self, name: &str, order: usize) -> Result<Matrix, ReadError> {
@@ -61,8 +61,8 @@ impl<'a> Document<'a> {
         if !part.starts_with('{') {
             let rows: Vec<Vec<f64>> = self.parsed(part)?;
             fits(part, "rows", rows.len(), height)?;
-            for (i, row) in rows.iter().enumerate() {
-                fits(item(part, i), &format!("entries in row {i}"), row.len(), width)?;
+            if let Some(i) = rows.iter().position(|row| row.len() != width) {
+                fits(item(part, i), &format!("entries in row {i}"), rows[i].len(), width)?;
             }
             return Ok(faer::Mat::from_fn(height, width, |i, j| rows[i][j]).into());
         }

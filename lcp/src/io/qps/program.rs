@@ -261,7 +261,7 @@ impl<'a> Program<'a> {
         let (l, u): (Vec<f64>, Vec<f64>) = self.constraints.iter().map(Constraint::limits).unzip();
         let (lower, upper): (Vec<f64>, Vec<f64>) =
             self.bounds.iter().map(|it| (it.lower, it.upper)).unzip();
-        Ok(Qp::new(p, self.q, a, l, u)?.with_bounds(lower, upper)?.with_constant(self.constant))
+        Qp::new(p, self.q, a, l, u)?.with_bounds(lower, upper)?.with_constant(self.constant)
     }
 }
 

@@ -159,8 +159,7 @@ fn elsewhere(study: &Study) -> Vec<String> {
 fn reference(study: &Study) -> Option<String> {
     let Some(reference) = study.meshes.first()?.reference.as_ref() else {
         return Some(
-            "There is no reference, since none of interior, lemke, newton, alm and qp found a solution, so errors \
-             are unknown."
+            "There is no reference, since none of interior, lemke, alm and qp found a solution, so errors are unknown."
                 .to_owned(),
         );
     };
