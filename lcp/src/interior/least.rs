@@ -32,8 +32,9 @@ impl InteriorPoint {
     /// the settings.
     ///
     /// The iteration ends where the balance holds to the tolerance, relative to the largest force, and to a hundred times it
-    /// relative to the largest load. What is left then is distributed, so that every row is balanced to its last digits, as
-    /// far as rounding errors of the forces allow. A force and its multiplier `t + A^T u` may both be
+    /// relative to the largest load, or to rounding errors of the forces (64 eps of the largest) where forces are so much larger
+    /// than the loads. What is left then is distributed, so that every row is balanced to its last digits, as far as rounding
+    /// errors of the forces allow. A force and its multiplier `t + A^T u` may both be
     /// zero, and come near it together: their smaller one counts by its square.
     ///
     /// # Errors
