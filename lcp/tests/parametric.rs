@@ -3,6 +3,9 @@
 
 #![allow(clippy::unwrap_used)] // a test may panic
 
+mod common;
+
+use common::cases;
 use faer::{Mat, mat};
 use lcp::lemke::{Parametric, ParametricEnd, ParametricPath, ParametricSettings};
 use lcp::{HorizontalLcp, Lcp, Lemke, Solver, Status};
@@ -81,12 +84,6 @@ fn what_stops_a_trace_is_said() {
     assert_eq!((path.end, path.breakpoints.len()), (ParametricEnd::BreakpointLimit, 3));
     assert!(Parametric::default().trace(&problem, &[1.0], 0.0, 1.0).is_err());
     assert!(Parametric::default().trace(&problem, &[1.0, 1.0], f64::NAN, 1.0).is_err());
-}
-
-/// At least so many cases; more by the environment variable `PROPTEST_CASES`.
-fn cases(least: u32) -> ProptestConfig {
-    let default = ProptestConfig::default();
-    ProptestConfig { cases: default.cases.max(least), ..default }
 }
 
 /// `M = C C^T + 1` with small integers, so that several pairs change at the same value too.

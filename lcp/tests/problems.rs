@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used)] // a test may panic
 
+mod common;
+
+use common::cases;
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, mat};
 use lcp::{BoxedLcp, Error, Lcp, Lemke, Matrix, MixedLcp, Monotonicity, Solver, Status};
@@ -9,12 +12,6 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 
 const INF: f64 = f64::INFINITY;
-
-/// At least so many cases; more by the environment variable `PROPTEST_CASES`.
-fn cases(least: u32) -> ProptestConfig {
-    let default = ProptestConfig::default();
-    ProptestConfig { cases: default.cases.max(least), ..default }
-}
 
 /// `C C^T + 1 + S` with a skew `S`: positive definite, not symmetric.
 fn monotone(n: usize, c: &[f64]) -> Mat<f64> {

@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used)] // a test may panic
 
+mod common;
+
+use common::cases;
 use faer::Mat;
 use faer::sparse::{SparseColMat, Triplet};
 use lcp::{HorizontalLcp, Lemke, LemkeSettings, MixedLcp, Solver, Status};
@@ -55,38 +58,50 @@ fn scattered(n: usize) -> impl Strategy<Value = Mat<f64>> {
     })
 }
 
-/// A band of random width whose symmetric part is positive definite, and a vector, of reals or of
-/// small integers, which tie.
+/// A band of random width whose symmetric part is positive definite, and a vector of small integers,
+/// whose ratios tie.
 fn banded() -> impl Strategy<Value = (Mat<f64>, Vec<f64>)> {
-    (1..40_usize, 1..4_usize).prop_flat_map(|(n, width)| {
-        (vec(value(), n * (2 * width + 1)), vec((-3..=3_i8).prop_map(f64::from), n)).prop_map(
-            move |(entries, q)| {
-                let at = |i: usize, j: usize| entries[i * (2 * width + 1) + j + width - i];
-                let mut m = Mat::from_fn(n, n, |i, j| {
-                    if i != j && i.abs_diff(j) <= width { at(i, j) } else { 0.0 }
-                });
-                for i in 0..n {
-                    let sum = |f: &dyn Fn(usize) -> f64| (0..n).map(|j| f(j).abs()).sum::<f64>();
-                    m[(i, i)] = 1.0 + sum(&|j| m[(i, j)]).max(sum(&|j| m[(j, i)]));
-                }
-                (m, q)
-            },
-        )
-    })
+    banded_with((-3..=3_i8).prop_map(f64::from))
 }
 
-/// At least so many cases; more by the environment variable `PROPTEST_CASES`.
-fn cases(least: u32) -> ProptestConfig {
-    let default = ProptestConfig::default();
-    ProptestConfig { cases: default.cases.max(least), ..default }
+/// Such a band, and a vector of the given numbers.
+fn banded_with(
+    number: impl Strategy<Value = f64> + Clone,
+) -> impl Strategy<Value = (Mat<f64>, Vec<f64>)> {
+    (1..40_usize, 1..4_usize).prop_flat_map(move |(n, width)| {
+        (vec(value(), n * (2 * width + 1)), vec(number.clone(), n)).prop_map(move |(entries, q)| {
+            let at = |i: usize, j: usize| entries[i * (2 * width + 1) + j + width - i];
+            let mut m =
+                Mat::from_fn(
+                    n,
+                    n,
+                    |i, j| {
+                        if i != j && i.abs_diff(j) <= width { at(i, j) } else { 0.0 }
+                    },
+                );
+            for i in 0..n {
+                let sum = |f: &dyn Fn(usize) -> f64| (0..n).map(|j| f(j).abs()).sum::<f64>();
+                m[(i, i)] = 1.0 + sum(&|j| m[(i, j)]).max(sum(&|j| m[(j, i)]));
+            }
+            (m, q)
+        })
+    })
 }
 
 proptest! {
     #![proptest_config(cases(256))]
 
-    /// One path: the same pivots.
+    /// One answer, although the two break ties by rules of their own.
     #[test]
     fn bands((m, q) in banded()) {
+        let [dense, sparse] = standard(&m, &q).map(|it| first_attempt().solve(&it).unwrap());
+        prop_assert_eq!(sparse.status, Status::Solved);
+        prop_assert!(close(&sparse.t, &dense.t) && close(&sparse.y, &dense.y));
+    }
+
+    /// One path: the same pivots.
+    #[test]
+    fn bands_without_ties((m, q) in banded_with(-3.0..3.0_f64)) {
         let [dense, sparse] = standard(&m, &q).map(|it| first_attempt().solve(&it).unwrap());
         prop_assert_eq!(sparse.status, Status::Solved);
         prop_assert_eq!(sparse.info.pivots, dense.info.pivots);
