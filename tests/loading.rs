@@ -54,7 +54,8 @@ fn variants() -> Vec<(Material, Joint)> {
     let rigid = Material::rigid();
     let stiff =
         [1e3, 1e4, 1e5, 1e6, 1e7, 1e8].map(|k| (rigid, Joint::mu(0.84).stiffness([k, 0.5 * k])));
-    let elastic = [1e4, 1e5, 1e6, 1e7, 1e8].map(|young| (Material::elastic(young, 0.2), Joint::mu(0.84)));
+    let elastic =
+        [1e4, 1e5, 1e6, 1e7, 1e8].map(|young| (Material::elastic(young, 0.2), Joint::mu(0.84)));
     let mut all = [&stiff[..], &elastic].concat();
     all.extend([0.3, 0.84, 1.5].map(|mu| (rigid, Joint::mu(mu))));
     all
