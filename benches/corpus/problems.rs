@@ -5,7 +5,9 @@ use lcp::io::{Problem, read_file};
 use lcp::{Auto, HorizontalLcp, Lcp, MixedLcp, Solution, Solver};
 
 use crate::common;
+use crate::forms::{CLASSES, Random};
 use crate::line::Line;
+use crate::transform::Equivalent;
 
 type Keep<'a> = &'a mut dyn FnMut(Line);
 
@@ -118,11 +120,14 @@ fn published(is_chosen: &dyn Fn(&str) -> bool, keep: Keep<'_>) {
     });
     for (group, path) in files {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let Ok(file) = read_file(&path, None) else { continue };
+        if group == "published" {
+            forms_of(&stem, &file.problem, is_chosen, keep);
+        }
         let name = format!("{group}/{stem}");
         if !is_chosen(&name) {
             continue;
         }
-        let Ok(file) = read_file(&path, None) else { continue };
         let solution = match &file.problem {
             Problem::Lcp(problem) => Auto::default().solve(problem).map(Solution::of_pairs),
             Problem::Horizontal(problem) => Auto::default().solve(problem),
@@ -133,5 +138,15 @@ fn published(is_chosen: &dyn Fn(&str) -> bool, keep: Keep<'_>) {
             other => unreachable!("{} is no kind of problem here", other.kind()),
         };
         keep(Line::of_solution(name, &solution.expect("sound data")));
+    }
+}
+
+/// The first form of every class of forms that have the same solutions.
+fn forms_of(stem: &str, problem: &Problem, is_chosen: &dyn Fn(&str) -> bool, keep: Keep<'_>) {
+    let original = Equivalent::original(problem.to_general());
+    // The first class is the problem itself.
+    for (class, forms) in &CLASSES[1..] {
+        let form = forms(&mut Random::new(0), &original).swap_remove(0);
+        one(&format!("forms/{stem} {class}"), is_chosen, keep, || form.problem);
     }
 }
