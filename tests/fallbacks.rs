@@ -3,12 +3,14 @@
 use std::collections::BTreeSet;
 
 /// The methods of the chains of `Auto`, and the kinds of attempts of Lemke's method: start, covering vector, perturbation.
-const DECIDE: [&str; 10] = [
+const DECIDE: [&str; 12] = [
     "Newton",
     "Interior",
     "Enumeration",
     "Lemke AllY Ones None",
+    "Lemke AllT Ones None",
     "Lemke Found Ones None",
+    "Lemke Found Column None",
     "Lemke AllY Column None",
     "Lemke Found Random RightHandSide",
     "Lemke LastBasis Random None",

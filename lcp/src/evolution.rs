@@ -18,7 +18,7 @@ use crate::problem::ContactStatus;
 use crate::solve::Monitor;
 use crate::vector::{check_length, check_vector};
 use crate::{Contact2d, ContactState, Error, Iteration, Matrix, Method, Observer, Status};
-use target::{Course, Data, Rest, Taken, Target};
+use target::{Course, Data, Rest, Taken, Target, close};
 
 /// Bodies with mass in contact, on their way through loads, gaps and supports that change.
 ///
@@ -30,7 +30,9 @@ use target::{Course, Data, Rest, Taken, Target};
 /// ```
 ///
 /// with the loads, gaps and supports of its end, and with Coulomb's law exactly on the increment: slips are measured from
-/// where the step before has ended. Without [`inertia`](EvolutionSettings::inertia) the terms with `M/h^2` are left out,
+/// where the step before has ended. What is solved for is the increment of the displacements, which begins with closed
+/// contacts that neither overlap nor gape: contacts may be redundant, as three corners that meet are, and errors of earlier
+/// steps would contradict each other. Without [`inertia`](EvolutionSettings::inertia) the terms with `M/h^2` are left out,
 /// and bodies only feel the drag `c M v`: then a step depends on `h` by `c/h` alone.
 ///
 /// # How a step is solved
@@ -141,22 +143,24 @@ impl Evolution {
         Ok(Self { velocity, ..self })
     }
 
-    /// The same bodies at rest in another state, with the slip that every point has come to.
+    /// The same bodies at rest in another state of the [problem](Self::new), with the slip that every point has come to.
     ///
     /// # Errors
     /// [`Error::Length`] or [`Error::NotFinite`].
-    pub fn at(self, state: ContactState, slips: Vec<f64>) -> Result<Self, Error> {
+    pub fn at(self, mut state: ContactState, slips: Vec<f64>) -> Result<Self, Error> {
         let n = self.velocity.len();
         for (name, vector, length) in [
             ("u", &state.u, n),
             ("t_n", &state.t_n, self.state.t_n.len()),
             ("t_t", &state.t_t, self.state.t_t.len()),
+            ("gap", &state.gap, self.state.t_n.len()),
             ("slips", &slips, self.state.t_n.len()),
         ] {
             check_length(name, vector.len(), length)?;
             check_vector(name, vector)?;
         }
         let slips = [slips.clone(), slips];
+        close(&mut state, self.settings.tolerance);
         Ok(Self { state, slips, contacts: None, velocity: vec![0.0; n], ..self })
     }
 

@@ -323,3 +323,51 @@ fn diagonal(entries: &[f64]) -> lcp::Matrix {
     let triplets: Vec<_> = entries.iter().enumerate().map(|(i, v)| (i, i, *v)).collect();
     lcp::Matrix::from_triplets(n, n, &triplets).unwrap()
 }
+
+fn largest(v: &[f64]) -> f64 {
+    v.iter().fold(0.0, |max, v| max.max(v.abs()))
+}
+
+/// Three corners that meet stick to each other, so that one of their three contacts is redundant. Loads that come and go many
+/// times move them as one, and forces stay as large as the loads.
+#[test]
+fn redundant_contacts_do_not_drift() {
+    let (stiffness, heavy) = ([9.0e4, 1.0e4, 1.9e4], 11.0);
+    let springs: Vec<f64> = stiffness.iter().flat_map(|k| [*k, *k]).collect();
+    let under = |push: [f64; 2]| {
+        let load = vec![0.1 * push[0], push[1], push[0] - 2.0, -heavy, 2.0 - push[0], -heavy];
+        let mut builder = Contact2d::builder(diagonal(&springs), load);
+        let of = |one: usize, other: usize, along: usize| {
+            [(2 * one + along, 1.0), (2 * other + along, -1.0)]
+        };
+        // Two corners on a third, and one beside the other.
+        for [one, other, normal] in [[1, 0, 1], [2, 0, 1], [1, 2, 0]] {
+            builder.add_point(ContactPoint {
+                normal: &of(one, other, normal),
+                tangent: &of(one, other, 1 - normal),
+                mu: 0.9,
+                ..Default::default()
+            });
+        }
+        builder.build().unwrap()
+    };
+    let mass = [1.0, 1.3, 0.7].iter().flat_map(|m| [*m, *m]).collect::<Vec<_>>();
+    let mut moving =
+        Evolution::new(&under([0.0; 2]), diagonal(&mass), EvolutionSettings::default()).unwrap();
+    for k in 0..200_u32 {
+        let angle = f64::from(k);
+        let push = [angle.sin(), (0.7 * angle).cos()];
+        let problem = under(push);
+        assert!(moving.lead(&problem, 1e-3).unwrap().rests(), "{k}");
+        let all: f64 = stiffness.iter().sum();
+        let expected =
+            [0, 1].map(|along| problem.loads().iter().skip(along).step_by(2).sum::<f64>() / all);
+        let u = &moving.state().u;
+        for (j, u) in u.iter().enumerate() {
+            let error = (u - expected[j % 2]).abs();
+            assert!(error <= 1e-14 * largest(&expected), "{k}: {error:e}");
+        }
+        assert!(largest(&moving.state().t_n) <= 2.0 * heavy, "{k}: {:?}", moving.state());
+    }
+    assert!(moving.account().dissipation.abs() <= 1e-12 * moving.account().stored.abs());
+}

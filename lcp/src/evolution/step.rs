@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::target::{Course, Data, Rest, Taken, Target};
+use super::target::{Course, Data, Rest, Taken, Target, close};
 use super::{Account, Evolution, EvolutionSettings};
 use crate::active::{Effort, Original, Search};
 use crate::interior::follow_path;
@@ -72,28 +72,36 @@ impl Evolution {
         let (search, is_found) = self.searched(&problem, from, effort, course)?;
         let status = if is_found { Status::Solved } else { Status::Stalled };
         let solution = self.concluded(search, status, course);
-        let moved = solution.contact.as_ref().map(|it| &it.u[..]).unwrap_or_default();
-        let rests = solution.is_solved() && !self.is_beyond(moved);
+        let added = solution.contact.as_ref().map(|it| &it.u[..]).unwrap_or_default();
+        let rests = solution.is_solved() && !self.is_beyond(&self.displaced(added));
         if rests {
             self.moved(at_rest, end_of(&problem, solution));
         }
         Ok(rests)
     }
 
-    /// The problem that the end of a step solves.
+    /// The problem of the displacements that a step adds. Contacts that are closed begin it without a gap, and none has slid,
+    /// to the last digit: redundant ones would contradict each other by the errors of earlier steps, and no forces, however
+    /// large, would close all of them.
     fn stepped(&self, Target { problem, data, h }: Target<'_>) -> Contact2d {
         let EvolutionSettings { drag, inertia, .. } = self.settings;
         let (resistance, momentum) = h.map_or((0.0, 0.0), |h| {
             let momentum = if inertia { 1.0 / h } else { 0.0 };
             ((momentum + drag) / h, momentum)
         });
+        let ContactState { u, t_n, t_t, gap, .. } = &self.state;
         let mut f = data.f.clone();
-        for (j, (u, v)) in self.state.u.iter().zip(&self.velocity).enumerate() {
-            let pull = resistance * u + momentum * v;
-            column_of(&self.mass, j).for_each(|(i, m)| f[i] += m * pull);
+        for (j, (u, v)) in u.iter().zip(&self.velocity).enumerate() {
+            column_of(problem.stiffness(), j).for_each(|(i, k)| f[i] -= k * u);
+            column_of(&self.mass, j).for_each(|(i, m)| f[i] += m * momentum * v);
         }
-        let s_0 = data.s_0.iter().zip(&self.slips[1]).map(|(s, slip)| s - slip).collect();
-        problem.resisted(&self.mass, resistance).under(f, data.x_0.clone(), s_0)
+        let compliance = problem.compliance();
+        let x_0 = (0..gap.len())
+            .map(|i| gap[i] + (data.x_0[i] - self.data.x_0[i]) - compliance[i][0] * t_n[i]);
+        let s_0 =
+            (0..gap.len()).map(|i| (data.s_0[i] - self.data.s_0[i]) - compliance[i][1] * t_t[i]);
+        let (x_0, s_0) = (x_0.collect(), s_0.collect());
+        problem.resisted(&self.mass, resistance).under(f, x_0, s_0)
     }
 
     /// A search for the solution of a step, and whether the states of the contacts lead to it.
@@ -103,7 +111,8 @@ impl Evolution {
         course: &mut Course<'_, '_>,
     ) -> Result<(Search<'a>, bool), Error> {
         let contacts = self.contacts.clone().unwrap_or_default();
-        let now = End { state: self.state.clone(), contacts };
+        let state = ContactState { u: vec![0.0; self.state.u.len()], ..self.state.clone() };
+        let now = End { state, contacts };
         self.searched(stepped, &now, &Effort::QUICK, course)
     }
 
@@ -141,13 +150,21 @@ impl Evolution {
         solution
     }
 
+    /// The displacements after a step that adds these.
+    fn displaced(&self, added: &[f64]) -> Vec<f64> {
+        self.state.u.iter().zip(added).map(|(u, du)| u + du).collect()
+    }
+
     /// Goes to the end of a step, and gives its account.
-    fn moved(&mut self, target: Target<'_>, End { state: next, contacts }: End) -> Account {
+    fn moved(&mut self, target: Target<'_>, End { state: mut next, contacts }: End) -> Account {
         let Target { problem, data, h } = target;
+        let total = self.displaced(&next.u);
+        let added = std::mem::replace(&mut next.u, total);
         let velocity: Vec<f64> = match h {
-            Some(h) => next.u.iter().zip(&self.state.u).map(|(u, u_k)| (u - u_k) / h).collect(),
-            None => vec![0.0; next.u.len()],
+            Some(h) => added.iter().map(|du| du / h).collect(),
+            None => vec![0.0; added.len()],
         };
+        close(&mut next, self.settings.tolerance);
         // What is computed for a contact that sticks is an error, and no slip; so is what is less than the rounding errors of
         // displacements.
         let least = ROUNDING * max_abs(&next.u);
@@ -155,11 +172,11 @@ impl Evolution {
             if *contact == ContactStatus::Stick || slip.abs() <= least { 0.0 } else { *slip }
         });
         let slid: Vec<f64> = slid.collect();
-        let mut step = self.of_bodies(problem, data, &next.u, &velocity);
+        let mut step = self.of_bodies(problem, data, &added, &velocity);
         step.add(&self.of_contacts(target, &next, &slid));
         self.account.add(&step);
         self.steps += 1;
-        let slips = self.slips[1].iter().zip(&slid).map(|(slip, more)| slip + more).collect();
+        let slips = self.slips[1].iter().zip(&next.slip).map(|(slip, more)| slip + more).collect();
         self.slips = [std::mem::take(&mut self.slips[1]), slips];
         (self.state, self.velocity, self.data) = (next, velocity, data.clone());
         self.contacts = Some(contacts);
@@ -167,19 +184,18 @@ impl Evolution {
     }
 
     /// The account of a step as far as bodies and loads are concerned.
-    fn of_bodies(&self, problem: &Contact2d, data: &Data, u: &[f64], velocity: &[f64]) -> Account {
+    fn of_bodies(&self, problem: &Contact2d, data: &Data, du: &[f64], velocity: &[f64]) -> Account {
         let mut step = Account::default();
         let EvolutionSettings { drag, inertia, .. } = self.settings;
         let (u_k, v_k) = (&self.state.u, &self.velocity);
-        for j in 0..u.len() {
-            let du = u[j] - u_k[j];
-            step.work += data.f[j] * du;
+        for j in 0..du.len() {
+            step.work += data.f[j] * du[j];
             for (i, k) in column_of(problem.stiffness(), j) {
-                step.stored += 0.5 * (u[i] + u_k[i]) * k * du;
-                step.lost += 0.5 * (u[i] - u_k[i]) * k * du;
+                step.stored += (u_k[i] + 0.5 * du[i]) * k * du[j];
+                step.lost += 0.5 * du[i] * k * du[j];
             }
             for (i, m) in column_of(&self.mass, j) {
-                step.dragged += drag * velocity[i] * m * du;
+                step.dragged += drag * velocity[i] * m * du[j];
                 if inertia {
                     let dv = velocity[j] - v_k[j];
                     step.kinetic += 0.5 * (velocity[i] + v_k[i]) * m * dv;
@@ -226,7 +242,7 @@ impl Evolution {
     }
 }
 
-/// Where a step ends.
+/// Where a step ends: the displacements that it adds, and the state of the contacts.
 struct End {
     state: ContactState,
     /// What the contacts do; empty if not known.

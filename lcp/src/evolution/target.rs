@@ -2,7 +2,8 @@
 
 use crate::solve::Monitor;
 use crate::states::Condensed;
-use crate::{Account, Contact2d, Status};
+use crate::vector::max_abs;
+use crate::{Account, Contact2d, ContactState, Status};
 
 /// The loads, gaps and slips without displacements of a problem, which change from step to step.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,4 +74,14 @@ pub(super) struct Course<'a, 'b> {
     /// The number of factorisations after which no step begins.
     pub(super) last: usize,
     pub(super) monitor: &'a mut Monitor<'b>,
+}
+
+/// Closes the gaps of contacts that press, and those that are less than a solution may miss of the displacements.
+pub(super) fn close(state: &mut ContactState, tolerance: f64) {
+    let least = tolerance * max_abs(&state.u);
+    for (gap, t_n) in state.gap.iter_mut().zip(&state.t_n) {
+        if *t_n > 0.0 || gap.abs() <= least {
+            *gap = 0.0;
+        }
+    }
 }

@@ -21,7 +21,7 @@ use crate::model::Model;
 use crate::plan::Plan;
 use crate::recover;
 use crate::scene::{Scene, Solver};
-use crate::state::{ContactStatus, State};
+use crate::state::State;
 use crate::system::System;
 use crate::verify::checks::Checks;
 use crate::verify::verdict::{self, Judgement, Known, Led};
@@ -296,11 +296,7 @@ impl Run {
                 }
                 let steps = model.contacts.iter().zip(&mut state.contacts).zip(&slips);
                 let frictional = steps.filter(|((contact, _), _)| contact.law.resists_sliding());
-                for ((_, contact), slip) in frictional {
-                    // What is computed for a contact that sticks is an error, and no slip of the steps to come.
-                    let sticks = contact.status == ContactStatus::Stick;
-                    contact.y_t = if sticks { *slip } else { slip + contact.y_t };
-                }
+                frictional.for_each(|((_, contact), slip)| contact.y_t += slip);
                 let snapshot = Snapshot::of(&model, &self.system, &state);
                 InHistory { model, slips, snapshot }
             });
