@@ -38,16 +38,27 @@ fn a_settlement_moves_bricks_far() {
 
 /// Ten courses of ten bricks under their own weight; a part of the floor sinks and tilts in so many steps.
 fn on_a_sinking_floor(steps: u32, material: Material, mesh: Option<[u32; 2]>) -> Scene {
+    on_a_floor_that_sinks_by(0.004, steps, 0.6, material, mesh)
+}
+
+/// The same by a length, and turns by as many radians, with a coefficient of friction.
+fn on_a_floor_that_sinks_by(
+    depth: f64,
+    steps: u32,
+    mu: f64,
+    material: Material,
+    mesh: Option<[u32; 2]>,
+) -> Scene {
     let brick = Brick { length: 0.25, height: 0.125 };
     let wall = Wall::running_bond("wall", "brick", brick, 2.5, 10);
-    let sinks = Movement { x: 0.0, y: -0.004, turn: -0.004 };
+    let sinks = Movement { x: 0.0, y: -depth, turn: -depth };
     Scene::new("settlement", Units { force: ForceUnit::Kn, length: LengthUnit::M })
         .plane(Plane::Stress)
         .thickness(0.25)
         .gravity([0.0, -9.81])
         .material("brick", material.density(1800.0))
-        .joint("bed", Joint::mu(0.6))
-        .joint("head", Joint::mu(0.6))
+        .joint("bed", Joint::mu(mu))
+        .joint("head", Joint::mu(mu))
         .wall(match mesh {
             Some(mesh) => wall.mesh(mesh),
             None => wall,
@@ -73,6 +84,22 @@ fn a_settlement_that_tilts_stands_throughout() {
         assert_close(record.reactions.iter().map(|it| it.fy).sum(), weight, 1e-9);
         assert!(record.dissipation >= -1e-12 * history.work().abs());
     }
+}
+
+/// Corners of three bricks meet in every bed, so that one of their contacts is redundant. All steps, however small, are solved to
+/// the last digits, also where friction turns back and forth.
+#[test]
+fn small_steps_with_high_friction_are_solved_to_the_last_digits() {
+    let brick = Material::elastic(5e6, 0.15);
+    let scene = on_a_floor_that_sinks_by(0.00075, 15, 1.0, brick, Some([2, 1]));
+    let outcome = solve(&scene).unwrap();
+    assert_eq!(outcome.judgement.verdict, Verdict::Stands, "{}", outcome.judgement.sentence);
+    let history = outcome.history.as_ref().unwrap();
+    assert_eq!(history.records.len(), 16);
+    for record in &history.records {
+        assert!(record.residuals.worst() <= 1e-11, "{:?}: {:?}", record.step, record.residuals);
+    }
+    assert_eq!(history.steps_against_law(), 0);
 }
 
 /// Friction takes all that it can of every slip: by the two sums that define it, over the slips since the step before.
