@@ -94,7 +94,7 @@ fn brief(line: &str) -> String {
         ("Falls", _) => 'F',
         _ => '?',
     };
-    format!("{letter} {}", cell(line, 8))
+    format!("{letter} {}", cell(line, 9))
 }
 
 pub(crate) fn cell(line: &str, k: usize) -> &str {

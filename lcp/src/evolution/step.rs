@@ -165,18 +165,20 @@ impl Evolution {
             None => vec![0.0; added.len()],
         };
         close(&mut next, self.settings.tolerance);
-        // What is computed for a contact that sticks is an error, and no slip; so is what is less than the rounding errors of
-        // displacements.
+        // What is less than the rounding errors of displacements is no slip, and what is computed for a contact that sticks is
+        // an error.
         let least = ROUNDING * max_abs(&next.u);
+        let slipped = |slip: &f64| if slip.abs() <= least { 0.0 } else { *slip };
         let slid = contacts.iter().zip(&next.slip).map(|(contact, slip)| {
-            if *contact == ContactStatus::Stick || slip.abs() <= least { 0.0 } else { *slip }
+            if *contact == ContactStatus::Stick { 0.0 } else { slipped(slip) }
         });
         let slid: Vec<f64> = slid.collect();
         let mut step = self.of_bodies(problem, data, &added, &velocity);
         step.add(&self.of_contacts(target, &next, &slid));
         self.account.add(&step);
         self.steps += 1;
-        let slips = self.slips[1].iter().zip(&next.slip).map(|(slip, more)| slip + more).collect();
+        let slips = self.slips[1].iter().zip(&next.slip);
+        let slips = slips.map(|(slip, more)| slip + slipped(more)).collect();
         self.slips = [std::mem::take(&mut self.slips[1]), slips];
         (self.state, self.velocity, self.data) = (next, velocity, data.clone());
         self.contacts = Some(contacts);

@@ -76,12 +76,8 @@ pub(super) struct Course<'a, 'b> {
     pub(super) monitor: &'a mut Monitor<'b>,
 }
 
-/// Closes the gaps of contacts that press, and those that are less than a solution may miss of the displacements.
+/// Closes the gaps that are less than a solution may miss of the displacements, of contacts that press above all.
 pub(super) fn close(state: &mut ContactState, tolerance: f64) {
     let least = tolerance * max_abs(&state.u);
-    for (gap, t_n) in state.gap.iter_mut().zip(&state.t_n) {
-        if *t_n > 0.0 || gap.abs() <= least {
-            *gap = 0.0;
-        }
-    }
+    state.gap.iter_mut().filter(|gap| gap.abs() <= least).for_each(|gap| *gap = 0.0);
 }

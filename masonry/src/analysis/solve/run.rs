@@ -20,6 +20,7 @@ use crate::method::statics::Statics;
 use crate::model::Model;
 use crate::plan::Plan;
 use crate::recover;
+use crate::rounding::cleared;
 use crate::scene::{Scene, Solver};
 use crate::state::State;
 use crate::system::System;
@@ -296,7 +297,11 @@ impl Run {
                 }
                 let steps = model.contacts.iter().zip(&mut state.contacts).zip(&slips);
                 let frictional = steps.filter(|((contact, _), _)| contact.law.resists_sliding());
-                frictional.for_each(|((_, contact), slip)| contact.y_t += slip);
+                let moved = state.displacements.iter().flatten().map(nalgebra::Matrix::amax);
+                let most = moved.fold(0.0, f64::max);
+                for ((_, contact), slip) in frictional {
+                    contact.y_t = slip + cleared(contact.y_t, most);
+                }
                 let snapshot = Snapshot::of(&model, &self.system, &state);
                 InHistory { model, slips, snapshot }
             });
