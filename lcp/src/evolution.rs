@@ -32,8 +32,10 @@ use target::{Course, Data, Rest, Taken, Target, close};
 /// with the loads, gaps and supports of its end, and with Coulomb's law exactly on the increment: slips are measured from
 /// where the step before has ended. What is solved for is the increment of the displacements, which begins with closed
 /// contacts that neither overlap nor gape: contacts may be redundant, as three corners that meet are, and errors of earlier
-/// steps would contradict each other. Without [`inertia`](EvolutionSettings::inertia) the terms with `M/h^2` are left out,
-/// and bodies only feel the drag `c M v`: then a step depends on `h` by `c/h` alone.
+/// steps would contradict each other. Gaps and slips go on from where they are: only the changes of the initial ones of a
+/// problem count, and its matrices `K`, `C_n` and `C_t` must be those of the step before. Without
+/// [`inertia`](EvolutionSettings::inertia) the terms with `M/h^2` are left out, and bodies only feel the drag `c M v`: then a
+/// step depends on `h` by `c/h` alone.
 ///
 /// # How a step is solved
 /// 1. By the states of the contacts in the step before, if they still hold: two or three factorisations.
