@@ -27,7 +27,8 @@ use table::Table;
 use walls::{Case, Wall};
 
 const FRICTION: &str = "0.3,0.5,0.6,0.7,0.9999,1,1.0001,1.3";
-const BRICKS: &str = "rigid,1x1,2x1";
+/// Elastic bricks have dry joints, or hard ones that do not give way.
+const BRICKS: &str = "rigid,1x1,2x1,1x1 hard,2x1 hard";
 /// Courses, and bricks in each.
 const COURSES: &str = "32";
 const CASES: [Case; 10] = [
@@ -89,10 +90,10 @@ fn rows([courses, friction, bricks]: [&str; 3], all: &[Case]) -> Vec<Row> {
         let courses = courses.parse().expect("a number of courses");
         for mu in friction.split(',') {
             let mu = mu.parse().expect("a coefficient of friction");
-            let rigid = Wall { courses, mu, mesh: None };
+            let rigid = Wall { courses, mu, mesh: None, joints: None };
             let limit = if is_tilted { rigid.largest_tilt() } else { 0.0 };
             for bricks in bricks.split(',') {
-                let wall = Wall { courses, mu, mesh: mesh(bricks) };
+                let wall = wall(courses, mu, bricks);
                 let yardstick = yardstick(&wall);
                 for case in cases() {
                     let row = Row::of(&wall, bricks, (case, limit), yardstick);
@@ -111,7 +112,12 @@ fn option(name: &str, default: &str) -> String {
     given.filter(|it| !it.starts_with("--")).unwrap_or_else(|| default.to_owned())
 }
 
-fn mesh(bricks: &str) -> Option<[u32; 2]> {
-    let (nx, ny) = bricks.split_once('x')?;
-    Some([nx, ny].map(|it| it.parse().expect("elements of a brick")))
+/// A wall of bricks with a name of [`BRICKS`].
+fn wall(courses: u32, mu: f64, bricks: &str) -> Wall {
+    let (mesh, is_hard) = bricks.strip_suffix(" hard").map_or((bricks, false), |it| (it, true));
+    let mesh = mesh
+        .split_once('x')
+        .map(|(nx, ny)| [nx, ny].map(|count| count.parse().expect("elements of a brick")));
+    let joints = if is_hard || mesh.is_none() { None } else { walls::DRY };
+    Wall { courses, mu, mesh, joints }
 }

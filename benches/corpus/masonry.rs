@@ -7,7 +7,7 @@ use masonry::scene::Scene;
 
 use crate::common;
 use crate::line::Line;
-use crate::walls::{Case, Wall};
+use crate::walls::{Case, DRY, Wall};
 
 const CASES: [Case; 6] = [
     Case::Lean,
@@ -17,15 +17,23 @@ const CASES: [Case; 6] = [
     Case::Tilt(1.3),
     Case::Settlement(5),
 ];
-const MESHES: [Option<[u32; 2]>; 3] = [None, Some([1, 1]), Some([2, 1])];
+/// Elements of the bricks, and stiffness of the joints between them.
+const BRICKS: [(Option<[u32; 2]>, Option<[f64; 2]>); 5] = [
+    (None, None),
+    (Some([1, 1]), None),
+    (Some([2, 1]), None),
+    (Some([1, 1]), DRY),
+    (Some([2, 1]), DRY),
+];
 
 /// Solves all that are chosen.
 pub(crate) fn solve(is_chosen: &dyn Fn(&str) -> bool, keep: &mut dyn FnMut(Line)) {
     for courses in [4, 8] {
         for mu in [0.3, 0.6, 1.0] {
-            for mesh in MESHES {
-                let wall = Wall { courses, mu, mesh };
+            for (mesh, joints) in BRICKS {
+                let wall = Wall { courses, mu, mesh, joints };
                 let bricks = mesh.map_or("rigid".to_owned(), |[x, y]| format!("{x}x{y}"));
+                let bricks = bricks + if joints.is_some() { " dry" } else { "" };
                 let names = CASES.map(|case| format!("walls/{case} {courses} {mu} {bricks}"));
                 if !names.iter().any(|name| is_chosen(name)) {
                     continue;

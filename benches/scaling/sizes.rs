@@ -13,7 +13,7 @@ pub(crate) const CASES: [Case; 4] =
     [Case::Lean, Case::OpenBase, Case::Tilt(0.9), Case::Settlement(5)];
 pub(crate) const SIZES: &str = "10,32,100";
 pub(crate) const FRICTION: &str = "0.7";
-pub(crate) const BRICKS: &str = "rigid,2x1";
+pub(crate) const BRICKS: &str = "rigid,2x1 hard";
 /// Phases with less than this part of the time are not told.
 const TOLD: f64 = 0.02;
 

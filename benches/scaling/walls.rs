@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::ControlFlow;
 
 use masonry::method::statics::{self, Statics};
-use masonry::model::Model;
+use masonry::model::{DRY_JOINT, Model};
 use masonry::scene::{
     Brick, Joint, Load, Material, Movement, Plane, Scene, Stage, Support, Wall as Bond,
 };
@@ -13,6 +13,8 @@ use masonry::units::{ForceUnit, LengthUnit, Units};
 
 const BRICK: Brick = Brick { length: 0.25, height: 0.125 };
 const GRAVITY: f64 = 9.81;
+/// Stiffness of dry joints across and along them \[kN/m^3\], as the program takes it between rigid bricks.
+pub(crate) const DRY: Option<[f64; 2]> = Some([1e-3 * DRY_JOINT[0], 1e-3 * DRY_JOINT[1]]);
 /// Bisections of the largest tilt, between 0 and 2.
 const HALVINGS: usize = 14;
 
@@ -49,6 +51,8 @@ pub(crate) struct Wall {
     pub(crate) mu: f64,
     /// Elements of a brick; `None` for rigid ones.
     pub(crate) mesh: Option<[u32; 2]>,
+    /// Stiffness of the joints across and along them \[kN/m^3\]; hard ones have none.
+    pub(crate) joints: Option<[f64; 2]>,
 }
 
 impl Wall {
@@ -62,14 +66,21 @@ impl Wall {
             None => Material::rigid(),
         };
         let bond = Bond::running_bond("wall", "brick", BRICK, width, self.courses);
+        let joint = || {
+            let joint = Joint::mu(self.mu);
+            match self.joints {
+                Some(stiffness) => joint.stiffness(stiffness),
+                None => joint,
+            }
+        };
         let units = Units { length: LengthUnit::M, force: ForceUnit::Kn };
         let scene = Scene::new(&case.to_string(), units)
             .plane(Plane::Stress)
             .thickness(0.25)
             .gravity([GRAVITY * tilt.sin(), -GRAVITY * tilt.cos()])
             .material("brick", material.density(1800.0))
-            .joint("bed", Joint::mu(self.mu))
-            .joint("head", Joint::mu(self.mu))
+            .joint("bed", joint())
+            .joint("head", joint())
             .wall(match self.mesh {
                 Some(mesh) => bond.mesh(mesh),
                 None => bond,

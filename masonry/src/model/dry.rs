@@ -38,6 +38,18 @@ impl Model {
         })
     }
 
+    /// What helps to find what loading leads to, if no joint gives way.
+    pub(crate) fn of_hard_joints(&self) -> Option<String> {
+        let [across, along] = DRY_JOINT;
+        let is_hard = |point: &ContactPoint| point.gives().iter().all(|c| *c <= 0.0);
+        (!self.contacts.is_empty() && self.contacts.iter().all(is_hard)).then(|| {
+            format!(
+                "The joints do not give way at all, which makes steps hard to solve. Dry ones have about {across:.0e} Pa/m \
+                 across and {along:.0e} Pa/m along: give `stiffness` to their class."
+            )
+        })
+    }
+
     /// Whether neither the joint nor what is on its sides gives way.
     fn is_hard(&self, point: &ContactPoint) -> bool {
         let joint = &self.joints[point.joint.index()];

@@ -135,7 +135,7 @@ impl Judgement {
             Some(Statics::Open) | None => (Verdict::Undecided, Evidence::None),
         };
         let sentence = sentence::of(known, (verdict, evidence), movement);
-        Self { verdict, evidence, sentence, warnings: warnings(known, movement) }
+        Self { verdict, evidence, sentence, warnings: warnings(known, verdict, movement) }
     }
 }
 
@@ -145,10 +145,12 @@ fn is_too_far(known: &Known<'_>, movement: Movement) -> bool {
     movement.is_too_large() || (known.info.way == Way::Motion && movement.is_large())
 }
 
-fn warnings(known: &Known<'_>, movement: Option<Movement>) -> Vec<String> {
+fn warnings(known: &Known<'_>, verdict: Verdict, movement: Option<Movement>) -> Vec<String> {
     let mut list = known.unusual.to_vec();
     list.extend(known.model.of_dry_joints());
     let may_move = known.history.is_some() || known.led.is_some() || known.info.way == Way::Motion;
+    let is_open = verdict == Verdict::Undecided && may_move;
+    list.extend(is_open.then(|| known.model.of_hard_joints()).flatten());
     list.extend(may_move.then(|| mass::of_unit_density(known.model)).flatten());
     if let Some(movement) = movement.filter(|movement| movement.is_large()) {
         list.push(format!(
