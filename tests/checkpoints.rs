@@ -22,15 +22,29 @@ fn begun(scene: &Scene) -> Run {
 }
 
 /// The checkpoint of a run as it comes back from a file.
-fn through_a_file(run: &Run, name: &str, change: impl Fn(String) -> String) -> Checkpoint {
+fn through_a_file(
+    run: &Run,
+    name: &str,
+    change: impl Fn(String) -> String,
+) -> Result<Checkpoint, CheckpointError> {
     let file = format!("masonry-{}-{name}.json", std::process::id());
     let path = std::env::temp_dir().join(file);
     run.checkpoint().unwrap().write(&path).unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
     std::fs::write(&path, change(text)).unwrap();
-    let checkpoint = Checkpoint::read(&path).unwrap();
+    let checkpoint = Checkpoint::read(&path);
     std::fs::remove_file(&path).unwrap();
     checkpoint
+}
+
+/// The same text with the checksum that belongs to it.
+fn sealed(text: &str) -> String {
+    let (data, _) = text.rsplit_once(",\"checksum\":").unwrap();
+    let mut hash = 14_695_981_039_346_656_037_u64;
+    for byte in data.bytes() {
+        hash = (hash ^ u64::from(byte)).wrapping_mul(1_099_511_628_211);
+    }
+    format!("{data},\"checksum\":\"{hash:016x}\"}}")
 }
 
 fn resumed(scene: &Scene, checkpoint: &Checkpoint) -> Result<Run, SolveError> {
@@ -44,7 +58,7 @@ fn checkpoints() {
         let scene = pushed(2).route(route).tolerance(1e-9);
         let whole = solve(&scene).unwrap();
         let first = begun(&scene);
-        let checkpoint = through_a_file(&first, route.name(), |text| text);
+        let checkpoint = through_a_file(&first, route.name(), |text| text).unwrap();
         assert_eq!(Some(&checkpoint), first.checkpoint().as_ref());
         let mut second = resumed(&scene, &checkpoint).unwrap();
         while second.advance(&mut |_| ControlFlow::Continue(())).unwrap() {}
@@ -83,9 +97,9 @@ fn checkpoints_that_were_tampered_with() {
     let changed = |name: &str, from: &str, to: &str| {
         let checkpoint = through_a_file(&run, name, |text| {
             assert!(text.contains(from), "{from}");
-            text.replacen(from, to, 1)
+            sealed(&text.replacen(from, to, 1))
         });
-        resumed(&scene, &checkpoint)
+        resumed(&scene, &checkpoint.unwrap())
     };
     let refused = |name: &str, from: &str, to: &str| {
         changed(name, from, to).map(|_| ()).unwrap_err().to_string()
@@ -100,4 +114,21 @@ fn checkpoints_that_were_tampered_with() {
     assert!(status.contains("no equilibrium"), "{status}");
     let mut run = changed("basis", "\"basis\":\"", "\"basis\":\"t").unwrap();
     assert!(run.advance(&mut |_| ControlFlow::Continue(())).unwrap());
+}
+
+/// A file in which a single bit has changed is never taken for another state.
+#[test]
+fn checkpoints_with_flipped_bits_are_refused() {
+    let run = begun(&pushed(2).route(Route::Lemke));
+    for k in 0..200 {
+        let flipped = |text: String| {
+            let mut bytes = text.into_bytes();
+            let place = k * (bytes.len() - 1) / 199;
+            // The lowest bits turn a digit into another one.
+            bytes[place] ^= 1 << (k % 3);
+            String::from_utf8(bytes).unwrap()
+        };
+        let error = through_a_file(&run, &format!("bit-{k}"), flipped).unwrap_err();
+        assert!(error.to_string().contains("solve from the first step"), "{k}: {error}");
+    }
 }

@@ -16,7 +16,9 @@ use crate::scene::{Output, Scene, SceneError, Solver};
 use crate::state::{ContactState, State};
 
 /// The version of the format.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
+/// What stands between the data and their checksum.
+const SEAL: &str = ",\"checksum\":\"";
 
 /// Why a checkpoint cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -48,6 +50,12 @@ pub enum CheckpointError {
         path: PathBuf,
         /// What the reader said.
         source: serde_json::Error,
+    },
+    /// The file is not as it was written.
+    #[error("the checkpoint {} is damaged: solve from the first step", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
     },
     /// It was written by another version of this program.
     #[error(
@@ -184,10 +192,14 @@ impl Checkpoint {
             .map_err(|source| CheckpointError::Read { path: path_buf(), source })?;
         let syntax = |source| CheckpointError::Syntax { path: path_buf(), source };
         // What else another version has in it is not known.
-        match serde_json::from_str(&text).map_err(syntax)? {
-            Version { version: VERSION } => serde_json::from_str(&text).map_err(syntax),
-            Version { version: found } => Err(CheckpointError::Version { found }),
+        let Version { version } = serde_json::from_str(&text).map_err(syntax)?;
+        if version != VERSION {
+            return Err(CheckpointError::Version { found: version });
         }
+        let data = text.rsplit_once(SEAL).map(|(data, _)| data);
+        let data = data.filter(|data| sealed(data) == text);
+        let data = data.ok_or_else(|| CheckpointError::Damaged { path: path_buf() })?;
+        serde_json::from_str(&format!("{data}}}")).map_err(syntax)
     }
 
     /// Writes a file, whole or not at all.
@@ -197,7 +209,8 @@ impl Checkpoint {
     pub fn write(&self, path: &Path) -> Result<(), CheckpointError> {
         let failed = |source| CheckpointError::Write { path: path.to_owned(), source };
         let text = serde_json::to_string(self).map_err(|error| failed(error.into()))?;
-        write_atomically(path, text.as_bytes()).map_err(failed)
+        let data = text.strip_suffix('}').unwrap_or(&text);
+        write_atomically(path, sealed(data).as_bytes()).map_err(failed)
     }
 
     /// The state after the last step, for the model that it belongs to.
@@ -227,6 +240,14 @@ impl Checkpoint {
             recover::wanted_stresses(model, &displacements, &contacts, with_stresses);
         Ok(State { displacements, contacts, films, stresses, strain_energy: self.strain_energy })
     }
+}
+
+/// An object whose end is left out, with its checksum: FNV-1a of 64 bits, in which every byte counts.
+fn sealed(data: &str) -> String {
+    let checksum = data.bytes().fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    });
+    format!("{data}{SEAL}{checksum:016x}\"}}")
 }
 
 fn nodes(block: &crate::model::Block) -> usize {
