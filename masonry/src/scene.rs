@@ -29,6 +29,7 @@ mod check;
 mod contact;
 mod courses;
 mod error;
+pub(crate) mod groups;
 mod json_span;
 mod key_path;
 mod load;

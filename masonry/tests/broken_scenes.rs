@@ -58,7 +58,7 @@ const SQUARE: &str = "[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]";
 type Broken = Vec<(&'static str, String)>;
 
 fn scenes() -> Broken {
-    [walls(), of_openings(), arches(), voussoirs(), blocks()].concat()
+    [walls(), of_openings(), arches(), voussoirs(), blocks(), texts()].concat()
 }
 
 /// Bonds and courses.
@@ -248,6 +248,20 @@ fn blocks() -> Broken {
         (
             "friction given twice",
             block(SQUARE, "").replace("bed.mu = 0.6", "bed = { mu = 0.6, phi_deg = 30.0 }"),
+        ),
+    ]
+}
+
+/// Lines that are long, and texts and numbers that are no good to a terminal.
+fn texts() -> Broken {
+    let corners = "[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], ".repeat(1000);
+    vec![
+        ("a list on one long line", block(&format!("[{corners}\"corner\", {corners}]"), "")),
+        ("a name that rings the bell", block(SQUARE, "").replace("\"block\"", "\"bl\\u0007ck\"")),
+        ("a title that clears the screen", block(SQUARE, "").replace("Broken", "\\u001b[2J")),
+        (
+            "a number of three hundred digits",
+            block(SQUARE, "").replace("bed.mu = 0.6", "bed.mu = -1e300"),
         ),
     ]
 }

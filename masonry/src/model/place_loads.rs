@@ -1,5 +1,7 @@
 //! The loads of a scene on its blocks: edges on a segment, places in a block, and all mass.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Point2, Vector2};
 
 use super::{Acceleration, Block, ContactPoint, EdgeLoad, Joint, Load, PointLoad};
@@ -25,6 +27,8 @@ pub(super) fn place(
     contacts: &[ContactPoint],
 ) -> Result<(Vec<Load>, Vec<Acceleration>), Fault> {
     let joined = joined_parts(blocks, joints, contacts);
+    let places: BTreeMap<String, usize> =
+        blocks.iter().enumerate().map(|(k, block)| (block.name.clone(), k)).collect();
     let (mut loads, mut accelerations) = (Vec::new(), Vec::new());
     for (k, load) in scene.loads.iter().enumerate() {
         let (at, id) = (KeyPath::of("loads").item(k), LoadId::new(k));
@@ -35,8 +39,10 @@ pub(super) fn place(
                 on_edge.place(blocks, &joined).map_err(|kind| Fault::new(at, kind))?;
             }
             Some(LoadKind::Force { block, at: place, force }) => {
-                let block = named(blocks, block)
-                    .map_err(|error| Fault::new(at.key("block"), error.into()))?;
+                let k = *places
+                    .get(block)
+                    .ok_or_else(|| Fault::new(at.key("block"), unknown(blocks, block).into()))?;
+                let block = &mut blocks[k];
                 let at = place_in(block, point(place, scene.units), scene.units)
                     .map_err(|error| Fault::new(at.key("at"), error.into()))?;
                 let force = Vector2::from(force) * scene.units.force_to_si() * load.factor;
@@ -59,17 +65,14 @@ fn point([x, y]: [f64; 2], units: Units) -> Point2<f64> {
     Point2::new(x, y) * units.length_to_si()
 }
 
-/// The block of a name.
-fn named<'a>(blocks: &'a mut [Block], name: &str) -> Result<&'a mut Block, LoadError> {
-    if let Some(k) = blocks.iter().position(|block| block.name == name) {
-        return Ok(&mut blocks[k]);
-    }
+/// No block has this name: those whose names are nearest.
+fn unknown(blocks: &[Block], name: &str) -> LoadError {
     let mut near: Vec<&str> = blocks.iter().map(|block| block.name.as_str()).collect();
     // The sort keeps the order of the scene among names that are equally near.
     near.sort_by_cached_key(|other| strsim::levenshtein(name, other));
     near.truncate(NAMES);
     let near = near.into_iter().map(str::to_owned).collect();
-    Err(LoadError::NoBlock { name: name.to_owned(), near })
+    LoadError::NoBlock { name: name.to_owned(), near }
 }
 
 /// A place on a block. One that rounding has put outside is moved to the edge.

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use nalgebra::Point2;
 
 use super::rules::{
-    Check, MAGNITUDES, finite, missing, not_negative, point, positive, too_many, unwanted, value,
+    Check, MAGNITUDES, finite, missing, not_negative, plain, point, positive, too_many, unwanted,
+    value,
 };
 use super::{
     Between, Block, Courses, Fault, Form, KeyPath, Known, Material, Route, Scene, SceneError,
@@ -41,10 +42,12 @@ impl Scene {
     fn check_data(&self) -> Check {
         self.check_general()?;
         for (name, material) in &self.materials {
+            plain(KeyPath::of("materials").key(name), name)?;
             self.check_material(&KeyPath::of("materials").key(name), material)?;
         }
         for (name, joint) in &self.joints {
             let at = KeyPath::of("joints").key(name);
+            plain(at.clone(), name)?;
             joints::check_law(&at, joint)?;
             self.check_mortar(&at, joint)?;
         }
@@ -75,6 +78,7 @@ impl Scene {
     }
 
     fn check_general(&self) -> Check {
+        plain(KeyPath::of("title"), &self.title)?;
         if let Some(path) = &self.block_list {
             let message = "only reading a scene file takes it in".to_owned();
             let kind = SceneErrorKind::BlockList { path: path.clone(), message };
@@ -344,6 +348,7 @@ fn unique<'a>(
         if name.trim().is_empty() {
             return Err(Fault::new(at.key("name"), SceneErrorKind::EmptyName));
         }
+        plain(at.key("name"), name)?;
         if let Some(taken) = first.insert(name, at.clone()) {
             let kind =
                 SceneErrorKind::Duplicate { what, name: name.clone(), first: taken.to_string() };

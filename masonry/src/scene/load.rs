@@ -153,6 +153,11 @@ impl Load {
         self.group.as_deref().unwrap_or(&self.name)
     }
 
+    /// Whether it acts on all mass to the side.
+    pub(crate) fn is_earthquake(&self) -> bool {
+        self.acceleration.is_some_and(|[along, _]| along != 0.0)
+    }
+
     /// Whether a stage means it by a name: its own or that of its group.
     pub fn is_called(&self, name: &str) -> bool {
         self.name == name || self.group_name() == name

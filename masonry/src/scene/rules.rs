@@ -27,6 +27,14 @@ pub(super) fn exactly_one<A, B>(
     }
 }
 
+/// Text that terminals, tables and pictures show as it is.
+pub(super) fn plain(at: KeyPath, text: &str) -> Check {
+    match text.chars().find(|c| c.is_control()) {
+        Some(character) => Err(Fault::new(at, SceneErrorKind::Control { character })),
+        None => Ok(()),
+    }
+}
+
 pub(super) fn point(at: &KeyPath, coordinates: [f64; 2]) -> Check {
     coordinates.into_iter().enumerate().try_for_each(|(k, x)| finite(at.item(k), x))
 }

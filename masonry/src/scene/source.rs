@@ -117,17 +117,20 @@ impl Source {
     }
 }
 
-/// A line of the text with the part that matters.
+/// Characters of a line that are shown before a mistake, of it and after it: a list may be one long line.
+const SHOWN: usize = 60;
+
+/// The part of a line around a mistake.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Place {
     /// Line, from 1.
     pub(super) line: usize,
     /// Column in characters, from 1.
     pub(super) column: usize,
-    /// Number of characters that matter, on this line.
-    width: usize,
-    /// The line.
-    text: String,
+    /// What is shown before the mistake, of it, and after it.
+    before: String,
+    marked: String,
+    after: String,
 }
 
 impl Place {
@@ -142,29 +145,39 @@ impl Place {
     fn new(text: &str, span: Range<usize>) -> Option<Self> {
         let before = text.get(..span.start)?;
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-        let line_text = text[line_start..].lines().next().unwrap_or("");
-        let line_end = line_start + line_text.len();
-        let marked = text.get(span.start..span.end.min(line_end).max(span.start))?;
+        let line_end = line_start + text[line_start..].lines().next().unwrap_or("").len();
+        let end = span.end.min(line_end).max(span.start);
+        let (marked, after) = (text.get(span.start..end)?, text.get(end..line_end.max(end))?);
+        let from_left = |text: &str| clipped(text.chars());
+        let before_it: String =
+            clipped(text[line_start..span.start].chars().rev()).chars().rev().collect();
         Some(Self {
             line: before.matches('\n').count() + 1,
             column: text[line_start..span.start].chars().count() + 1,
-            width: marked.chars().count().max(1),
-            text: line_text.to_owned(),
+            before: before_it,
+            marked: from_left(marked),
+            after: from_left(after),
         })
     }
 
     /// The line with its number, and carets below the part that matters.
     pub(super) fn snippet(&self) -> String {
+        let Self { before, marked, after, .. } = self;
         let number = self.line.to_string();
         let margin = " ".repeat(number.len());
         // Tabs are kept so that the carets stand below the same column.
-        let indent: String = self
-            .text
-            .chars()
-            .take(self.column - 1)
-            .map(|c| if c == '\t' { '\t' } else { ' ' })
-            .collect();
-        let carets = "^".repeat(self.width);
-        format!("{margin} |\n{number} | {}\n{margin} | {indent}{carets}", self.text)
+        let indent: String = before.chars().map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
+        let carets = "^".repeat(marked.chars().count().max(1));
+        format!("{margin} |\n{number} | {before}{marked}{after}\n{margin} | {indent}{carets}")
     }
+}
+
+/// The first characters, with dots for the others, and nothing that a terminal would obey.
+fn clipped(mut text: impl Iterator<Item = char>) -> String {
+    let plain = |c: char| if c.is_control() && c != '\t' { '\u{fffd}' } else { c };
+    let mut shown: String = text.by_ref().take(SHOWN).map(plain).collect();
+    if text.next().is_some() {
+        shown.push_str("...");
+    }
+    shown
 }

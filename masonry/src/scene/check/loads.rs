@@ -2,7 +2,7 @@
 
 use super::{Check, finite, missing, point, segment, unknown};
 use crate::scene::load::{EDGE, POINT};
-use crate::scene::rules::{One, exactly_one};
+use crate::scene::rules::{One, exactly_one, plain};
 use crate::scene::{Fault, KeyPath, Load, LoadError, Scene, SceneErrorKind, Stage};
 
 impl Scene {
@@ -15,8 +15,11 @@ impl Scene {
     }
 
     fn check_load(&self, at: &KeyPath, load: &Load) -> Check {
-        if load.group.as_ref().is_some_and(|group| group.trim().is_empty()) {
-            return Err(Fault::new(at.key("group"), SceneErrorKind::EmptyName));
+        if let Some(group) = &load.group {
+            if group.trim().is_empty() {
+                return Err(Fault::new(at.key("group"), SceneErrorKind::EmptyName));
+            }
+            plain(at.key("group"), group)?;
         }
         finite(at.key("factor"), load.factor)?;
         match load.given().as_slice() {
@@ -64,6 +67,9 @@ impl Scene {
     /// The group of the limit load is one of loads, and no support.
     pub(super) fn check_limit(&self) -> Check {
         let Some(name) = &self.limit.group else { return Ok(()) };
+        if self.is_weight(name) {
+            return Ok(());
+        }
         let at = KeyPath::of("limit").key("group");
         if self.all_supports().iter().any(|support| support.name == *name)
             && !self.loads.iter().any(|load| load.is_called(name))
@@ -92,17 +98,6 @@ impl Scene {
         }
         let error = LoadError::Ambiguous { name: name.to_owned(), members, loads, groups };
         Err(Fault::new(at.clone(), error.into()))
-    }
-
-    /// The names of all groups, in the order of their first loads.
-    pub(crate) fn groups(&self) -> Vec<String> {
-        let mut groups: Vec<String> = Vec::new();
-        for load in &self.loads {
-            if !groups.iter().any(|group| group == load.group_name()) {
-                groups.push(load.group_name().to_owned());
-            }
-        }
-        groups
     }
 }
 

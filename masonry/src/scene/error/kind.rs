@@ -72,7 +72,7 @@ pub enum SceneErrorKind {
         second: &'static str,
     },
     /// A number is not finite, or out of its range.
-    #[error("{value} is not allowed: {wanted}")]
+    #[error("{} is not allowed: {wanted}", number(*value))]
     Value {
         /// The number.
         value: f64,
@@ -82,6 +82,12 @@ pub enum SceneErrorKind {
     /// A name is empty.
     #[error("the name is empty: give a name by which messages and files can refer to it")]
     EmptyName,
+    /// A name or a title has a character that terminals obey.
+    #[error("the text has the control character {character:?}: remove it")]
+    Control {
+        /// The character.
+        character: char,
+    },
     /// A name occurs twice.
     #[error("the {what} name \"{name}\" is taken by {first}: choose another")]
     Duplicate {
@@ -121,7 +127,7 @@ pub enum SceneErrorKind {
     )]
     NoSupport,
     /// The two ends of a segment coincide.
-    #[error("the segment has no length: `from` and `to` are both [{x}, {y}]")]
+    #[error("the segment has no length: `from` and `to` are both [{}, {}]", number(*x), number(*y))]
     NoLength {
         /// Coordinate of the ends.
         x: f64,
@@ -140,8 +146,8 @@ pub enum SceneErrorKind {
     },
     /// The corners of a block run clockwise.
     #[error(
-        "the corners of block \"{block}\" run clockwise (area {area} {unit}2): \
-         list them counter-clockwise"
+        "the corners of block \"{block}\" run clockwise (area {} {unit}2): \
+         list them counter-clockwise", number(*area)
     )]
     Clockwise {
         /// Name of the block.
@@ -192,8 +198,8 @@ pub enum SceneErrorKind {
     },
     /// The tensile strength lies beyond the tip of the friction cone.
     #[error(
-        "the tensile strength {tension} is larger than cohesion / mu = {largest}, where the friction cone ends: give \
-         at most that, or more `cohesion`"
+        "the tensile strength {} is larger than cohesion / mu = {}, where the friction cone ends: give \
+         at most that, or more `cohesion`", number(*tension), number(*largest)
     )]
     TooMuchTension {
         /// The tensile strength, in units of the scene.
@@ -203,7 +209,8 @@ pub enum SceneErrorKind {
     },
     /// Two blocks occupy the same place.
     #[error(
-        "blocks \"{first}\" and \"{second}\" overlap by an area of {area} {unit}2: move one of them"
+        "blocks \"{first}\" and \"{second}\" overlap by an area of {} {unit}2: move one of them",
+        number(*area)
     )]
     Overlap {
         /// Name of one block.
@@ -217,8 +224,8 @@ pub enum SceneErrorKind {
     },
     /// A support runs through a block.
     #[error(
-        "support \"{support}\" runs through the inside of block \"{block}\" for a length of {length} \
-         {unit}: move it to an edge"
+        "support \"{support}\" runs through the inside of block \"{block}\" for a length of {} \
+         {unit}: move it to an edge", number(*length)
     )]
     Pierced {
         /// Name of the support.
@@ -282,4 +289,10 @@ pub enum SceneErrorKind {
     /// Contact points could not be placed.
     #[error("{0}")]
     Contact(#[from] ContactError),
+}
+
+/// A number as it was written, with an exponent in the place of many zeros.
+fn number(value: f64) -> String {
+    let is_plain = value == 0.0 || (1e-6..1e16).contains(&value.abs());
+    if is_plain { value.to_string() } else { format!("{value:e}") }
 }
