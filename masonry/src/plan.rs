@@ -4,6 +4,7 @@ mod choice;
 mod effect;
 mod effects;
 mod history;
+mod memory;
 mod routes;
 mod sizes;
 
@@ -11,6 +12,7 @@ use serde::Serialize;
 
 pub use choice::Choice;
 pub use effect::Effect;
+pub use memory::TooLarge;
 use sizes::Sizes;
 
 use crate::model::Model;
@@ -90,6 +92,14 @@ impl Plan {
     /// Peak memory \[bytes\] of the route that needs most.
     pub fn memory_bytes(&self) -> usize {
         self.routes.iter().map(|choice| choice.memory_bytes).max().unwrap_or(0)
+    }
+
+    /// Whether the scene fits into the memory of this machine: one that does not is not solved.
+    ///
+    /// # Errors
+    /// [`TooLarge`] if it does not.
+    pub fn fits(&self) -> Result<(), TooLarge> {
+        memory::fits(self.memory_bytes())
     }
 }
 

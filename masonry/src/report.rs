@@ -9,6 +9,7 @@ pub mod hinges;
 pub mod joints;
 pub mod json;
 pub mod limit;
+mod moving;
 pub mod page;
 #[cfg(feature = "study")]
 pub mod study;
@@ -66,6 +67,30 @@ impl Default for Options {
         Self { formats: Format::ALL.to_vec(), reference: None }
     }
 }
+
+/// Names of all files that reports and runs write into a directory.
+pub const FILES: [&str; 20] = [
+    "accuracy.svg",
+    "checkpoint.json",
+    "contacts.csv",
+    "cracks.svg",
+    "deformed.svg",
+    "forces.svg",
+    "history.csv",
+    "history.svg",
+    "limit.json",
+    "mechanism.svg",
+    "panel.vtu",
+    "path.svg",
+    "path_forces.svg",
+    "path_mechanism.svg",
+    "principal_stresses.svg",
+    "report.txt",
+    "result.json",
+    "scene.svg",
+    "study.csv",
+    "study.json",
+];
 
 /// Why files could not be written.
 #[derive(Debug, Error)]

@@ -13,7 +13,57 @@ pub(crate) fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
     values.into_iter().fold(0.0, |largest, v| largest.max(v.abs()))
 }
 
+/// The side of a number on which its text is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Side {
+    Below,
+    Above,
+}
+
+/// The text of a bound, which lies on its own side when it is rounded: the nearest one that does.
+pub(crate) fn outwards(bound: f64, side: Side, text: impl Fn(f64) -> String) -> String {
+    let is_outside = |text: &str| {
+        text.parse().is_ok_and(|read: f64| match side {
+            Side::Below => read <= bound,
+            Side::Above => read >= bound,
+        })
+    };
+    let mut step = 0.0;
+    loop {
+        let shifted = if side == Side::Below { bound - step } else { bound + step };
+        let candidate = text(shifted);
+        if is_outside(&candidate) || !shifted.is_finite() {
+            return candidate;
+        }
+        step = (2.0 * step).max(f64::EPSILON * bound.abs());
+    }
+}
+
 /// A number to six digits: messages tell sizes of mistakes, not their rounding errors.
 pub(crate) fn rounded(number: f64) -> f64 {
     format!("{number:.5e}").parse().unwrap_or(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_text_of_a_bound_is_a_bound() {
+        let text = |it: f64| format!("{it:.4}");
+        for (bound, below, above) in [
+            (0.640_349_99, "0.6403", "0.6404"),
+            (0.640_250_01, "0.6402", "0.6403"),
+            (0.25, "0.2500", "0.2500"),
+            (-1.000_01, "-1.0001", "-1.0000"),
+            (0.0, "0.0000", "0.0000"),
+            (9.999_99, "9.9999", "10.0000"),
+        ] {
+            assert_eq!(outwards(bound, Side::Below, text), below);
+            assert_eq!(outwards(bound, Side::Above, text), above);
+        }
+        for bound in [f64::NAN, f64::INFINITY] {
+            assert_eq!(outwards(bound, Side::Above, text), text(bound));
+        }
+    }
 }

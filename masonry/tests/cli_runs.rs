@@ -134,6 +134,38 @@ fn what_an_earlier_run_has_left_is_removed_and_named() {
 }
 
 /// Before anything is computed, and without leaving anything.
+/// A scene is somebody's work, and so is a file that no run has written.
+#[test]
+fn nothing_of_the_user_is_overwritten() {
+    let directory = directory("kept");
+    let scene = written(&directory, &block(0.5, ""));
+    let out = directory.join("out");
+    fs::create_dir(&out).unwrap();
+    let (text, report) = (fs::read_to_string(&scene).unwrap(), out.join("report.txt"));
+    fs::write(&report, "of the user").unwrap();
+    let out = out.to_str().unwrap();
+    for (arguments, why) in [
+        (["solve", &scene, "--report", &scene], "is the scene: choose another --report"),
+        (["limit", &scene, "--report", &scene], "is the scene: choose another --report"),
+        (["draw", &scene, "--out", &scene], "is the scene: choose another --out"),
+        (["solve", &scene, "--out", out], "report.txt is not of an earlier run"),
+        (["limit", &scene, "--out", out], "report.txt is not of an earlier run"),
+    ] {
+        let output = masonry(&arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(errors(&output).contains(why), "{arguments:?}: {}", errors(&output));
+        assert_eq!(fs::read_to_string(&scene).unwrap(), text);
+        assert_eq!(fs::read_to_string(&report).unwrap(), "of the user");
+        assert_eq!(files(Path::new(out)), ["report.txt"]);
+    }
+    fs::remove_file(report).unwrap();
+    // What a run has written the next one may replace, another command too.
+    for command in ["solve", "solve", "limit"] {
+        let output = masonry(&[command, &scene, "--out", out]);
+        assert_eq!(output.status.code(), Some(0), "{command}: {}", errors(&output));
+    }
+}
+
 #[test]
 fn a_directory_that_cannot_be_written_into_is_refused_before_the_work() {
     let directory = directory("refused");
@@ -230,6 +262,9 @@ mod interrupted {
         // The command goes on from there.
         let resumed = [&arguments[..], &["--resume"]].concat();
         let lock = out.join(".masonry.json");
+        for name in files(&out).iter().filter(|name| *name != "checkpoint.json") {
+            fs::remove_file(out.join(name)).unwrap();
+        }
         fs::remove_file(&lock).unwrap();
         let output = interrupt(started(&resumed, &lock));
         assert!(solved_steps(&output) >= solved);

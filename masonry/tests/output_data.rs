@@ -5,7 +5,7 @@ mod synthetic;
 
 use masonry::analysis::outcome::ContactStatus;
 use masonry::model::Body;
-use masonry::report::{csv, json, summary, table, vtu};
+use masonry::report::{csv, joints, json, summary, table, vtu};
 use masonry::units::{ForceUnit, LengthUnit, Units};
 use roxmltree::Document;
 use serde_json::Value;
@@ -309,4 +309,39 @@ fn the_text_is_narrow_and_complete() {
     for line in text.lines() {
         assert!(line.chars().count() <= 100, "{line}");
     }
+}
+
+/// A name that begins like a formula is text in every spreadsheet.
+#[test]
+fn names_are_no_formulas() {
+    let mut outcome = synthetic::solved(Wall::PANEL);
+    for (name, cell) in
+        [("=1+1", "'=1+1"), ("@wall", "'@wall"), ("-a, b", "'-a, b"), ("a=b", "a=b")]
+    {
+        outcome.model.blocks[0].name = name.to_owned();
+        let records = records(&csv::contacts(&outcome.model, outcome.state.as_ref().unwrap()));
+        let sides = || records.iter().skip(1).flat_map(|record| &record[3..5]);
+        assert!(sides().any(|side| side == cell), "{name}");
+        assert!(sides().all(|side| !side.starts_with(['=', '@', '-'])), "{name}");
+    }
+}
+
+/// Sides of a joint that are apart have moved against each other, not slid.
+#[test]
+fn points_that_are_open_do_not_slide() {
+    let outcome = synthetic::solved(Wall::PANEL);
+    let mut contacts = outcome.state.as_ref().unwrap().contacts.clone();
+    let joint = outcome.model.contacts[0].joint;
+    let of_joint = |k: &usize| outcome.model.contacts[*k].joint == joint;
+    let points: Vec<usize> = (0..contacts.len()).filter(of_joint).collect();
+    let slip = |contacts: &[_]| {
+        let openings = joints::openings(&outcome.model, contacts);
+        openings.iter().find(|it| it.joint == joint).map(|it| it.slip)
+    };
+    for &k in &points {
+        (contacts[k].y_n, contacts[k].y_t) = (0.01, 0.02);
+    }
+    assert_eq!(slip(&contacts), Some(0.0));
+    (contacts[points[0]].y_n, contacts[points[0]].y_t) = (0.0, -0.005);
+    assert_eq!(slip(&contacts), Some(0.005));
 }

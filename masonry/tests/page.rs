@@ -128,6 +128,21 @@ fn limit_loads_and_thicknesses_have_pages() {
     assert!(page_.contains("data-picture=\"mechanism\"") && page_.contains("stands at"));
 }
 
+/// The colour of a page is the verdict on the scene as it is given.
+#[test]
+fn the_page_of_a_least_thickness_says_whether_the_scene_stands() {
+    let text = fs::read_to_string(given("arch_semicircular.toml")).unwrap();
+    let weight = text.split("[[loads]]").next().unwrap();
+    for (thickness, verdict) in [("0.2", "stands"), ("0.05", "falls")] {
+        let name = format!("thickness_{verdict}");
+        let path = directory(&name).with_extension("toml");
+        fs::write(&path, weight.replace("thickness = 0.2", &format!("thickness = {thickness}")))
+            .unwrap();
+        let (_, page) = page(&name, "limit", &path, &["--thickness", "arch"]);
+        assert!(page.contains(&format!("<header class=\"{verdict}\">")), "{verdict}");
+    }
+}
+
 #[test]
 fn a_page_that_cannot_be_written_is_refused_before_the_work() {
     for (page, why) in

@@ -48,6 +48,7 @@ pub use watch::{Bracket, Observer};
 use crate::history::Actions;
 use crate::method::info::PhaseTime;
 use crate::model::Model;
+use crate::scene::groups::WEIGHT;
 use crate::scene::{Load, Scene};
 use crate::system::{self, System};
 use watch::Watch;
@@ -119,7 +120,8 @@ pub fn limit_observed<'a>(
     let given = Model::from_scene(scene)?;
     let model = rigid(given.clone());
     let loads: Vec<bool> = scene.loads.iter().map(|load| load.is_called(&group)).collect();
-    let structure = Structure { model: &model, grows: &loads };
+    let weight = scene.is_weight(&group);
+    let structure = Structure { model: &model, grows: &loads, weight };
     let growth = structure.growth();
     if growth.iter().all(|force| force.abs() <= 0.0) {
         return Err(LimitError::NoForce { group });
@@ -131,7 +133,7 @@ pub fn limit_observed<'a>(
     let path = if laws == Laws::Associative {
         None
     } else {
-        let path = path::of(&Structure { model: &given, grows: &loads }, &associative, &mut watch)?;
+        let path = path::of(&Structure { model: &given, ..structure }, &associative, &mut watch)?;
         clock.lap("path");
         Some(path)
     };
@@ -189,6 +191,7 @@ fn group(scene: &Scene) -> Result<String, LimitError> {
     };
     let with_factor: Vec<&String> = groups.iter().filter(scaled).collect();
     match (groups.as_slice(), with_factor.as_slice()) {
+        ([], _) if scene.gravity.is_some() => Ok(WEIGHT.to_owned()),
         ([], _) => Err(LimitError::NoLoads),
         ([only], _) => Ok(only.clone()),
         (_, [only]) => Ok((*only).clone()),
@@ -196,18 +199,21 @@ fn group(scene: &Scene) -> Result<String, LimitError> {
     }
 }
 
-/// A structure of rigid blocks and the loads that grow.
+/// A structure and the loads that grow.
+#[derive(Clone, Copy)]
 struct Structure<'a> {
     model: &'a Model,
     /// In the order of the scene.
     grows: &'a [bool],
+    /// Whether the weight of the blocks grows too.
+    weight: bool,
 }
 
 impl Structure<'_> {
     /// The structure with these factors of gravity and of loads that do not grow, and of loads that do.
     fn under(&self, stays: f64, grows: f64) -> Model {
         let actions = Actions {
-            gravity: stays,
+            gravity: if self.weight { grows } else { stays },
             loads: self.grows.iter().map(|it| if *it { grows } else { stays }).collect(),
             movements: self.model.supports.iter().map(|support| support.movement).collect(),
         };

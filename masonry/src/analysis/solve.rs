@@ -17,7 +17,7 @@ use crate::analysis::outcome::Outcome;
 use crate::method::RouteError;
 use crate::method::info::PhaseTime;
 use crate::model::Model;
-use crate::plan::Plan;
+use crate::plan::TooLarge;
 use crate::scene::{Route, Scene, SceneError};
 use crate::system::SystemError;
 use crate::system::rigid::{FreeMotion, RigidError};
@@ -47,16 +47,8 @@ pub enum SolveError {
         free: usize,
     },
     /// The matrices would need too much memory.
-    #[error(
-        "about {gigabytes:.0} GB of memory would be needed, and the limit is {limit:.0} GB: use \
-         fewer elements or contact points"
-    )]
-    TooLarge {
-        /// Memory needed \[10^9 bytes\].
-        gigabytes: f64,
-        /// The limit \[10^9 bytes\].
-        limit: f64,
-    },
+    #[error(transparent)]
+    TooLarge(#[from] TooLarge),
     /// The solver refused its settings or the data.
     #[error("the complementarity problem was refused: {0}")]
     Solver(#[from] lcp::Error),
@@ -161,17 +153,6 @@ pub fn solve_observed(
     while run.advance(observer)? {}
     run.compare(scene, observer)?;
     Ok(run.finish())
-}
-
-/// Memory \[10^9 bytes\] above which nothing is assembled.
-const MEMORY_LIMIT: f64 = 64.0;
-
-fn check_size(plan: &Plan) -> Result<(), SolveError> {
-    let gigabytes = plan.memory_bytes() as f64 / 1e9;
-    if gigabytes > MEMORY_LIMIT {
-        return Err(SolveError::TooLarge { gigabytes, limit: MEMORY_LIMIT });
-    }
-    Ok(())
 }
 
 fn named(error: RigidError, model: &Model) -> SolveError {

@@ -97,11 +97,14 @@ fn status_name(status: ContactStatus) -> &'static str {
     }
 }
 
-/// A field as RFC 4180 wants it: in quotes when it contains a comma, a quote or a line break.
-pub(super) fn quoted(field: &str) -> Cow<'_, str> {
-    if field.contains([',', '"', '\r', '\n']) {
-        Cow::Owned(format!("\"{}\"", field.replace('"', "\"\"")))
+/// A name as RFC 4180 wants it: in quotes when it contains a comma, a quote or a line break. After an apostrophe when spreadsheets
+/// would take it for a formula.
+pub(super) fn quoted(name: &str) -> Cow<'_, str> {
+    let is_formula = name.starts_with(['=', '+', '-', '@']);
+    let name = if is_formula { Cow::Owned(format!("'{name}")) } else { Cow::Borrowed(name) };
+    if name.contains([',', '"', '\r', '\n']) {
+        Cow::Owned(format!("\"{}\"", name.replace('"', "\"\"")))
     } else {
-        Cow::Borrowed(field)
+        name
     }
 }

@@ -110,7 +110,7 @@ pub struct Opening {
     pub widths: Vec<[f64; 2]>,
     /// The largest width \[m\].
     pub widest: f64,
-    /// The largest slip, without its sign \[m\].
+    /// The largest slip of points that are closed, without its sign \[m\].
     pub slip: f64,
 }
 
@@ -133,7 +133,8 @@ pub fn openings(model: &Model, contacts: &[ContactState]) -> Vec<Opening> {
         let [width, slip] = [state.y_n, state.y_t.abs()].map(|it| if it > none { it } else { 0.0 });
         opening.widths.push([along, width]);
         opening.widest = opening.widest.max(width);
-        opening.slip = opening.slip.max(slip);
+        // Sides that are apart have moved, not slid.
+        opening.slip = opening.slip.max(if width > 0.0 { 0.0 } else { slip });
     }
     openings.retain(|it| it.widest > 0.0 || it.slip > 0.0);
     for opening in &mut openings {

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use nalgebra::Vector2;
 
-pub use json::{json, range_json, thickness_json};
+pub use json::{json, json_both, range_json, thickness_json};
 pub use table::{range_table, table, thickness_table};
 
 use super::{OutputError, svg, write_files};

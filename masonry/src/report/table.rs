@@ -6,6 +6,7 @@ mod loads;
 use comfy_table::{CellAlignment, ContentArrangement, LineStyle, Table, TableStyle, presets};
 
 use super::format::{InUnits, aligned, block_name, significant};
+use super::moving::moving_part;
 use super::summary::{
     self, CornerSum, ExtremeStress, Resultant, applied_load, corner_sums, extreme_film_stresses,
     extreme_stresses, largest_displacement, reason, total_reaction, weight,
@@ -30,6 +31,10 @@ pub fn report(outcome: &Outcome) -> String {
     if let Some(reason) = reason(outcome) {
         text += &section("No equilibrium found");
         text += &paragraph(&reason);
+    }
+    if let Some(rates) = &outcome.mechanism {
+        text += &section("Mechanism");
+        text += &pairs(&[("moves", moving_part(&outcome.model, rates))]);
     }
     if let Some(state) = &outcome.state {
         text += &section("Reactions on the structure");
@@ -99,6 +104,9 @@ fn figures(plan: &Plan) -> Vec<(&'static str, String)> {
         ("memory", format!("about {} MB", memory(plan.memory_bytes()))),
         ("solver", format!("{}: {}", plan.solver, plan.because)),
     ];
+    if let Err(refused) = plan.fits() {
+        lines.push(("refused", refused.to_string()));
+    }
     for (index, choice) in plan.routes.iter().enumerate() {
         let head = if index == 0 { "route" } else { "" };
         lines.push((head, format!("{}: {}", choice.route.name(), choice.because)));

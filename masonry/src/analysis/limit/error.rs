@@ -17,7 +17,7 @@ pub enum LimitError {
     #[error("the program was refused: {0}")]
     Solver(#[from] lcp::Error),
     /// Nothing can grow.
-    #[error("the scene has no loads of which a factor could grow: add [[loads]]")]
+    #[error("the scene has no loads of which a factor could grow: add [[loads]], or `gravity`")]
     NoLoads,
     /// Several groups, and none was named.
     #[error(

@@ -1,6 +1,7 @@
 //! Limit loads in the words of an engineer.
 
 use super::{Answer, Associative, Path};
+use crate::rounding::{Side, outwards};
 
 /// The sentence of the answers of both laws, or of one.
 pub(super) fn of(group: &str, associative: Option<&Associative>, path: Option<&Path>) -> String {
@@ -21,16 +22,16 @@ pub(super) fn of_interrupted(
     let carried = associative.and_then(|it| it.load_factor);
     let bound = associative.and_then(|it| it.bound);
     let stands = match (path.and_then(|it| it.load_factor), carried) {
-        (Some(stands), _) => Some(format!("stands up to {} (path)", factor(stands))),
+        (Some(stands), _) => Some(format!("stands up to {} (path)", at_least(stands))),
         (None, Some(carried)) => {
-            Some(format!("forces within friction carry {} times it", factor(carried)))
+            Some(format!("forces within friction carry {} times it", at_least(carried)))
         }
         (None, None) => None,
     };
     let flows = path.and_then(|it| it.falls).filter(|falls| Some(*falls) != bound);
     let falls = match (flows, bound) {
-        (Some(flows), _) => Some(format!("falls at {}", factor(flows))),
-        (None, Some(bound)) => Some(format!("cannot stand above {} (proved)", factor(bound))),
+        (Some(flows), _) => Some(format!("falls at {}", at_most(flows))),
+        (None, Some(bound)) => Some(format!("cannot stand above {} (proved)", at_most(bound))),
         (None, None) => None,
     };
     let known: Vec<String> = stands.into_iter().chain(falls).collect();
@@ -42,15 +43,16 @@ pub(super) fn of_interrupted(
 
 fn of_both(group: &str, associative: &Associative, path: &Path) -> String {
     match (associative.answer, associative.bound, path.load_factor) {
+        _ if associative.carries_nothing() => of_associative(group, associative),
         (Answer::Fails, Some(bound), Some(stands)) if path.decided => format!(
             "\"{group}\": stands up to {} (path), cannot stand above {} (proved).",
-            factor(stands),
-            factor(bound)
+            at_least(stands),
+            at_most(bound)
         ),
         (Answer::Unlimited, _, Some(stands)) if path.falls.is_none() => format!(
             "\"{group}\": stands at every factor that was tried, up to {} (path); forces within friction carry any \
              factor (proved).",
-            factor(stands)
+            at_least(stands)
         ),
         (Answer::Falls, ..) => of_associative(group, associative),
         _ => format!("{} {}", of_path(group, path), of_associative(group, associative)),
@@ -61,16 +63,16 @@ fn of_path(group: &str, path: &Path) -> String {
     match (path.load_factor, path.falls) {
         (Some(stands), Some(falls)) if path.decided => format!(
             "\"{group}\": stands up to {} (path), falls at {}.",
-            factor(stands),
-            factor(falls)
+            at_least(stands),
+            at_most(falls)
         ),
         (Some(stands), None) => format!(
             "\"{group}\": stands at every factor that was tried, up to {} (path).",
-            factor(stands)
+            at_least(stands)
         ),
         (Some(stands), Some(_)) => format!(
             "\"{group}\": stands up to {} (path); above, no state at rest was found, and no motion either.",
-            factor(stands)
+            at_least(stands)
         ),
         (None, _) if path.decided => {
             format!("The structure falls without \"{group}\" (path).")
@@ -80,9 +82,14 @@ fn of_path(group: &str, path: &Path) -> String {
 }
 
 fn of_associative(group: &str, found: &Associative) -> String {
-    let number = |factor: Option<f64>| format!("{:.6}", factor.unwrap_or(f64::NAN));
-    let (carried, bound) = (number(found.load_factor), number(found.bound));
+    let carried = found.load_factor.map_or_else(String::new, at_least);
+    let bound = found.bound.map_or_else(String::new, at_most);
     match found.answer {
+        _ if found.carries_nothing() => {
+            format!(
+                "The structure falls: forces within friction carry no part of \"{group}\" (proved)."
+            )
+        }
         Answer::Fails => format!(
             "Forces within friction carry up to {carried} times \"{group}\"; the structure cannot stand above {bound} \
              (proved)."
@@ -107,7 +114,17 @@ fn of_associative(group: &str, found: &Associative) -> String {
     }
 }
 
-/// A load factor with four decimals, where these say enough.
+/// A load factor that is carried, rounded down.
+fn at_least(it: f64) -> String {
+    outwards(it, Side::Below, factor)
+}
+
+/// A load factor that is not carried, rounded up.
+fn at_most(it: f64) -> String {
+    outwards(it, Side::Above, factor)
+}
+
+/// A load factor with four decimals, if these say enough.
 fn factor(it: f64) -> String {
     match it.abs() {
         0.0 => "0".to_owned(),

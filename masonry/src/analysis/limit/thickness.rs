@@ -9,6 +9,7 @@ use super::{LimitError, rigid};
 use crate::method::statics::{self, Statics};
 use crate::model::Model;
 use crate::recover;
+use crate::rounding::{Side, outwards};
 use crate::scene::{Known, Scene};
 use crate::state::ContactState;
 use crate::system::System;
@@ -27,6 +28,8 @@ pub struct Thickness {
     pub title: String,
     /// Name of the arch.
     pub arch: String,
+    /// The thickness \[m\] in the scene.
+    pub given: f64,
     /// The largest thickness \[m\] at which it is proved that the structure falls.
     pub falls: Option<f64>,
     /// The smallest thickness \[m\] at which forces were found that balance the loads.
@@ -74,7 +77,7 @@ pub fn least_thickness_observed<'a>(
     let watch = Watch::new(observer);
     let mut search = Search { scene: scene.clone(), place, watch, falls: None, stands: None };
     search.run(given)?;
-    search.finish(arch)
+    search.finish(arch, given)
 }
 
 /// A search between two thicknesses, in units of the scene.
@@ -134,7 +137,7 @@ impl Search<'_> {
         Ok(true)
     }
 
-    fn finish(mut self, arch: &str) -> Result<Thickness, LimitError> {
+    fn finish(mut self, arch: &str, given: f64) -> Result<Thickness, LimitError> {
         let unit = self.scene.units.length_to_si();
         let name = self.scene.units.length_name();
         let falls = self.falls.as_ref().map(|(thickness, _)| *thickness);
@@ -142,21 +145,24 @@ impl Search<'_> {
         let proved =
             falls.zip(stands).is_some_and(|(falls, stands)| stands - falls <= NEAR * stands);
         let is_interrupted = self.watch.is_ended;
-        let sentence = match (falls, stands) {
+        let length = |it: f64, side| outwards(it, side, |it| format!("{it:.6}"));
+        let (thinner, thicker) =
+            (falls.map(|it| length(it, Side::Below)), stands.map(|it| length(it, Side::Above)));
+        let sentence = match (thinner, thicker) {
             (Some(_), Some(stands)) if proved => format!(
-                "Arch \"{arch}\" needs a thickness of {stands:.6} {name}: forces within friction balance the loads \
+                "Arch \"{arch}\" needs a thickness of {stands} {name}: forces within friction balance the loads \
                  then, and none do where it is thinner by a millionth (proved)."
             ),
             (Some(falls), Some(stands)) => format!(
-                "Arch \"{arch}\" stands at a thickness of {stands:.6} {name}, and falls at {falls:.6} {name} \
+                "Arch \"{arch}\" stands at a thickness of {stands} {name}, and falls at {falls} {name} \
                  (proved); between them it is not known."
             ),
             (Some(falls), None) => format!(
-                "Arch \"{arch}\" stands at none of the thicknesses that were tried, up to {falls:.6} {name}, under \
+                "Arch \"{arch}\" stands at none of the thicknesses that were tried, up to {falls} {name}, under \
                  all loads of the scene (proved)."
             ),
             (None, Some(stands)) => format!(
-                "Arch \"{arch}\" stands at all thicknesses that were tried, down to {stands:.6} {name}."
+                "Arch \"{arch}\" stands at all thicknesses that were tried, down to {stands} {name}."
             ),
             (None, None) => format!("Undecided: whether arch \"{arch}\" stands was not found out."),
         };
@@ -169,6 +175,7 @@ impl Search<'_> {
         Ok(Thickness {
             title: self.scene.title,
             arch: arch.to_owned(),
+            given: given * unit,
             falls: falls.map(|it| it * unit),
             stands: stands.map(|it| it * unit),
             proved,

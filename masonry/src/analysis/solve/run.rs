@@ -6,7 +6,7 @@ use lcp::Status;
 use nalgebra::Vector2;
 
 use super::chain::{Attempt, Before, Chain};
-use super::{Clock, Event, SolveError, check_size};
+use super::{Clock, Event, SolveError};
 use crate::analysis::checkpoint::{Checkpoint, CheckpointError};
 use crate::analysis::outcome::{Frame, Outcome};
 use crate::history::energy::{self, Friction, Snapshot};
@@ -126,7 +126,7 @@ impl Run {
         let mut model = clock.time("model", observer, || Model::from_scene(scene))?;
         let unusual = model.unusual();
         let plan = Plan::of(scene, &model);
-        check_size(&plan)?;
+        plan.fits()?;
         let mut steps = history::steps(scene);
         steps.drain(..steps.len() - plan.steps);
         let origin = if let [only] = steps.as_slice() {

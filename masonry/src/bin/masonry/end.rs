@@ -1,7 +1,7 @@
 //! What every command ends with: its exit code, and what it prints.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 pub(super) type Failure = Box<dyn std::error::Error>;
 
@@ -17,6 +17,17 @@ pub(super) fn names(files: &[PathBuf]) -> Vec<String> {
 pub(super) fn listing(files: &[PathBuf]) -> String {
     let lines: Vec<String> = files.iter().map(|path| format!("wrote {}", path.display())).collect();
     lines.join("\n") + "\n"
+}
+
+/// Refuses a file that would take the place of the scene.
+pub(super) fn keep_scene(scene: &Path, file: &Path, option: &str) -> Result<(), Failure> {
+    // A file that does not exist yet is no scene.
+    let is_scene =
+        file.canonicalize().is_ok_and(|file| scene.canonicalize().is_ok_and(|scene| scene == file));
+    if is_scene {
+        return Err(format!("{} is the scene: choose another {option}", file.display()).into());
+    }
+    Ok(())
 }
 
 /// A closed pipe is the reader's choice, not a failure of ours.

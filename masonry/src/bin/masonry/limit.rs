@@ -11,7 +11,8 @@ use crate::out_dir::OutDir;
 use crate::page;
 use crate::progress::Progress;
 use masonry::analysis::limit::{
-    Answer, Associative, Bracket, Laws, Path, least_thickness_observed, limit_observed, ranges,
+    Answer, Associative, Bracket, Laws, Limit, Path, least_thickness_observed, limit_observed,
+    ranges,
 };
 use masonry::report::{self, limit as output};
 use masonry::scene::Scene;
@@ -47,6 +48,9 @@ pub(super) struct LimitArgs {
     /// The load or group of loads that grows, in place of that of the scene.
     #[arg(long, conflicts_with = "range")]
     group: Option<String>,
+    /// Also take the opposite direction of the load, from which an earthquake comes as well; files are of the one that governs.
+    #[arg(long, conflicts_with_all = ["range", "thickness"])]
+    both: bool,
     /// Find the least and the largest reactions under the loads of the scene instead.
     #[arg(long)]
     range: bool,
@@ -77,11 +81,26 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
     }
     interrupt::listen();
     let out = out_dir(args)?;
-    page::check(args.report.as_deref())?;
+    page::check(args.report.as_deref(), &args.scene)?;
     let progress = Progress::new();
-    let limit = limit_observed(&scene, args.law.into(), &mut |at| follow(&progress, at));
-    progress.clear();
-    let limit = limit?;
+    let found = |scene: &Scene| {
+        let limit = limit_observed(scene, args.law.into(), &mut |at| follow(&progress, at));
+        progress.clear();
+        limit
+    };
+    let given = found(&scene)?;
+    let reversed = args.both.then(|| found(&scene.reversed(&given.group))).transpose()?;
+    let other_governs = reversed.as_ref().is_some_and(|it| carried(it) < carried(&given));
+    let (mut limit, other) = match reversed {
+        Some(reversed) if other_governs => (reversed, Some(given)),
+        reversed => (given, reversed),
+    };
+    if other.is_none() && scene.is_earthquake(&limit.group) {
+        limit.warnings.push(format!(
+            "\"{}\" acts in one direction: `--both` also takes the opposite one.",
+            limit.group
+        ));
+    }
     let written = match &out {
         Some(out) => output::write(&limit, out.path()),
         None => Ok(Vec::new()),
@@ -90,19 +109,50 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
     let in_out = written.as_deref().unwrap_or_default();
     let mut files = in_out.to_vec();
     let page = page::write(args.report.as_deref(), || report::page::limit(&limit), &mut files);
-    if args.json {
-        print(&output::json(&limit, &names(&files))?)?;
-    } else {
-        print(&format!("{}\n{}", output::table(&limit), listing(&files)))?;
-    }
+    let text = match (&other, args.json) {
+        (None, true) => output::json(&limit, &names(&files))?,
+        (Some(other), true) => output::json_both(&limit, other, other_governs, &names(&files))?,
+        (None, false) => format!("{}\n{}", output::table(&limit), listing(&files)),
+        (Some(other), false) => {
+            let both = in_both(&limit, other, other_governs);
+            format!("{both}{}\n{}", output::table(&limit), listing(&files))
+        }
+    };
+    print(&text)?;
     out.map_or(Ok(()), |out| out.finish(in_out, limit.is_interrupted))?;
     written?;
     page?;
+    let is_solved = [&limit].into_iter().chain(&other).all(is_solved);
+    Ok(if is_solved { SOLVED } else { NOT_SOLVED })
+}
+
+/// Whether the factor of every law is known.
+fn is_solved(limit: &Limit) -> bool {
     let is_known = |it: &Associative| matches!(it.answer, Answer::Fails | Answer::Unlimited);
     let by_path = |path: &Path| path.decided && path.load_factor.is_some();
-    let solved =
-        limit.associative.as_ref().is_none_or(is_known) && limit.path.as_ref().is_none_or(by_path);
-    Ok(if solved && !limit.is_interrupted { SOLVED } else { NOT_SOLVED })
+    limit.associative.as_ref().is_none_or(is_known)
+        && limit.path.as_ref().is_none_or(by_path)
+        && !limit.is_interrupted
+}
+
+/// The factor that is carried: by Coulomb's friction, if it was asked for.
+fn carried(limit: &Limit) -> f64 {
+    let by_path = limit.path.as_ref().map(|it| it.load_factor);
+    let by_flow = limit.associative.as_ref().map(|it| match it.answer {
+        Answer::Unlimited => Some(f64::INFINITY),
+        _ => it.load_factor,
+    });
+    by_path.or(by_flow).flatten().unwrap_or(0.0)
+}
+
+/// What is found in both directions, before the report of the one that governs.
+fn in_both(governing: &Limit, other: &Limit, is_reversed: bool) -> String {
+    let (given, reversed) = if is_reversed { (other, governing) } else { (governing, other) };
+    let which = if is_reversed { "The opposite direction" } else { "The given direction" };
+    format!(
+        "Given direction: {}\nOpposite direction: {}\n{which} governs:\n\n",
+        given.sentence, reversed.sentence
+    )
 }
 
 /// Shows what is known; after Ctrl-C asks the search to end.
@@ -117,7 +167,7 @@ fn follow(progress: &Progress, at: Bracket) -> ControlFlow<()> {
 }
 
 fn out_dir(args: &LimitArgs) -> Result<Option<OutDir>, Failure> {
-    args.out.as_deref().map(|out| OutDir::open(out, "limit")).transpose()
+    args.out.as_deref().map(|out| OutDir::open(out, "limit", None)).transpose()
 }
 
 fn range(scene: &Scene, json: bool) -> Result<u8, Failure> {
@@ -130,7 +180,7 @@ fn range(scene: &Scene, json: bool) -> Result<u8, Failure> {
 fn thickness(scene: &Scene, arch: &str, args: &LimitArgs) -> Result<u8, Failure> {
     interrupt::listen();
     let out = out_dir(args)?;
-    page::check(args.report.as_deref())?;
+    page::check(args.report.as_deref(), &args.scene)?;
     let progress = Progress::new();
     let found = least_thickness_observed(scene, arch, &mut |at| follow(&progress, at));
     progress.clear();

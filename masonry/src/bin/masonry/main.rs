@@ -19,7 +19,7 @@ use std::process::ExitCode;
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
-use crate::end::{BAD_INPUT, Failure, SOLVED, print};
+use crate::end::{BAD_INPUT, Failure, SOLVED, keep_scene, print};
 use masonry::model::Model;
 use masonry::plan::Plan;
 use masonry::report::{svg, table};
@@ -110,6 +110,7 @@ fn draw(args: &DrawArgs) -> Result<u8, Failure> {
     let scene = Scene::read(&args.scene)?;
     let model = Model::from_scene(&scene)?;
     let out = args.out.clone().unwrap_or_else(|| args.scene.with_extension("svg"));
+    keep_scene(&args.scene, &out, "--out")?;
     std::fs::write(&out, svg::scene(&scene.title, &model))
         .map_err(|error| format!("cannot write {}: {error}", out.display()))?;
     print(&format!("{}\n", out.display()))?;

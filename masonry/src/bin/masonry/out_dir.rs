@@ -7,6 +7,7 @@ use std::io::{self, ErrorKind, Read, Seek, Write};
 use std::path::{Component, Path, PathBuf};
 
 use crate::end::{Failure, names};
+use masonry::report;
 
 /// The file that is locked. It lists what the last run of every command has written.
 const RECORD: &str = ".masonry.json";
@@ -30,8 +31,13 @@ pub(super) struct OutDir {
 }
 
 impl OutDir {
-    /// Makes a directory where there is none, and locks it until the end of the run.
-    pub(super) fn open(path: &Path, command: &'static str) -> Result<Self, Failure> {
+    /// Makes a directory where there is none, and locks it until the end of the run, which goes on from a file there or from
+    /// nothing.
+    pub(super) fn open(
+        path: &Path,
+        command: &'static str,
+        from: Option<&str>,
+    ) -> Result<Self, Failure> {
         let failed = |error: io::Error| {
             format!("cannot write into {}: {error}; choose another --out", path.display())
         };
@@ -66,9 +72,26 @@ impl OutDir {
         let mut text = String::new();
         file.read_to_string(&mut text).map_err(failed)?;
         // A run that was killed while it wrote the record has left none.
-        let record = serde_json::from_str(&text).unwrap_or_default();
+        let record: Record = serde_json::from_str(&text).unwrap_or_default();
         let (path, claimed) = (path.to_owned(), BTreeSet::new());
-        Ok(Self { path, command, file, record, claimed, made, is_used: false })
+        let opened = Self { path, command, file, record, claimed, made, is_used: false };
+        match opened.foreign(from) {
+            Some(file) => Err(format!(
+                "{} is not of an earlier run: move it away, or choose another --out",
+                file.display()
+            )
+            .into()),
+            None => Ok(opened),
+        }
+    }
+
+    /// A file in the way of those that runs write, which no run has written.
+    fn foreign(&self, from: Option<&str>) -> Option<PathBuf> {
+        let is_own = |name: &str| {
+            from == Some(name) || self.record.values().any(|names| names.contains(name))
+        };
+        let names = report::FILES.iter().filter(|name| !is_own(name));
+        names.map(|name| self.path.join(name)).find(|path| path.exists())
     }
 
     pub(super) fn path(&self) -> &Path {

@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::end::Failure;
+use crate::end::{Failure, keep_scene};
 use masonry::files::write_atomically;
 
-/// Before the work, whether a page can be written at all.
-pub(super) fn check(path: Option<&Path>) -> Result<(), Failure> {
+/// Says before the work whether a page of a scene can be written at all.
+pub(super) fn check(path: Option<&Path>, scene: &Path) -> Result<(), Failure> {
     let Some(path) = path else { return Ok(()) };
+    keep_scene(scene, path, "--report")?;
     let directory = match path.parent() {
         Some(parent) if parent.as_os_str().is_empty() => Path::new("."),
         Some(parent) => parent,

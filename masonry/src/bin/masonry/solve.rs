@@ -51,8 +51,9 @@ pub(super) fn run(args: &SolveArgs) -> Result<u8, Failure> {
         scene = scene.route(route);
     }
     interrupt::listen();
-    let mut out = args.out.as_deref().map(|out| OutDir::open(out, "solve")).transpose()?;
-    page::check(args.report.as_deref())?;
+    let from = args.resume.then_some(CHECKPOINT);
+    let mut out = args.out.as_deref().map(|out| OutDir::open(out, "solve", from)).transpose()?;
+    page::check(args.report.as_deref(), &args.scene)?;
     let Ran { outcome, frames, files: mut in_out, end } = run_steps(&scene, args, out.as_mut())?;
     let options = Options { reference: ReferenceLines::of(&scene), ..Options::default() };
     let written = match &out {

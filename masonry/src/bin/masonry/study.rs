@@ -41,7 +41,7 @@ pub(super) fn run(args: &StudyArgs) -> Result<u8, Failure> {
     let scene = Scene::read(&args.scene)?;
     let settings = settings(args)?;
     interrupt::listen();
-    let out = args.out.as_deref().map(|out| OutDir::open(out, "study")).transpose()?;
+    let out = args.out.as_deref().map(|out| OutDir::open(out, "study", None)).transpose()?;
     let progress = Progress::new();
     let mut shown = None;
     let study = study(&scene, &settings, &mut |at| {

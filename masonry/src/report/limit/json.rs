@@ -20,9 +20,30 @@ pub(super) mod path;
 /// # Errors
 /// None that this data can cause; the signature is that of the serialiser.
 pub fn json(limit: &Limit, files: &[String]) -> Result<String, serde_json::Error> {
+    Ok(serde_json::to_string_pretty(&report(limit, files))? + "\n")
+}
+
+/// The object of `masonry limit --both --json`, pretty-printed: the object of [`json`] for the `given` direction of the load and for
+/// the `opposite` one, and which of them `governs`; files are of that one.
+///
+/// # Errors
+/// As [`json`].
+pub fn json_both(
+    governing: &Limit,
+    other: &Limit,
+    is_opposite: bool,
+    files: &[String],
+) -> Result<String, serde_json::Error> {
+    let [governing, other] = [report(governing, files), report(other, &[])];
+    let (given, opposite) = if is_opposite { (other, governing) } else { (governing, other) };
+    let governs = if is_opposite { "opposite" } else { "given" };
+    Ok(serde_json::to_string_pretty(&Both { governs, given, opposite })? + "\n")
+}
+
+fn report<'a>(limit: &'a Limit, files: &'a [String]) -> Report<'a> {
     let model = &limit.model;
     let units = InUnits(model.units);
-    let report = Report {
+    Report {
         sentence: &limit.sentence,
         warnings: &limit.warnings,
         interrupted: limit.is_interrupted,
@@ -41,8 +62,7 @@ pub fn json(limit: &Limit, files: &[String]) -> Result<String, serde_json::Error
         path: limit.path.as_ref().map(|it| path::of(it, units)),
         time_s: ByName(limit.times.iter().map(|it| (it.phase.as_str(), it.seconds)).collect()),
         files,
-    };
-    Ok(serde_json::to_string_pretty(&report)? + "\n")
+    }
 }
 
 /// The object of `masonry limit --range --json`, pretty-printed: by support the `min` and `max` of `fx` and `fy`, each with its
@@ -100,6 +120,13 @@ struct ThicknessReport<'a> {
     proved: bool,
     mechanism: Option<ByName<'a, Vec<[f64; 2]>>>,
     files: &'a [String],
+}
+
+#[derive(Serialize)]
+struct Both<'a> {
+    governs: &'static str,
+    given: Report<'a>,
+    opposite: Report<'a>,
 }
 
 #[derive(Serialize)]

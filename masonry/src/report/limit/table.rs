@@ -3,8 +3,11 @@
 use super::json::path::sides;
 use crate::analysis::limit::{Associative, Change, Limit, Path, Range, Stand, Thickness};
 use crate::method::statics::limit::Extreme;
+use crate::model::Model;
 use crate::report::format::{InUnits, aligned, significant};
+use crate::report::moving::moving_part;
 use crate::report::table::{head, pairs, section, table as columns};
+use crate::rounding::{Side, outwards};
 use crate::state::Reaction;
 
 /// So many events are printed; all are in the JSON object.
@@ -19,7 +22,7 @@ pub fn table(limit: &Limit) -> String {
     let units = InUnits(limit.model.units);
     if let Some(found) = &limit.associative {
         text += &section(&format!("Limit load of \"{}\", associative flow", limit.group));
-        text += &of_associative(found);
+        text += &of_associative(found, &limit.model);
         let under = match found.load_factor {
             Some(_) => "under the load factor".to_owned(),
             None => format!("without \"{}\"", limit.group),
@@ -41,32 +44,37 @@ pub fn table(limit: &Limit) -> String {
     text + &pairs(&rows)
 }
 
-fn number(it: Option<f64>) -> String {
-    it.map_or("none".to_owned(), |it| significant(it, 10))
+fn bound(it: Option<f64>, side: Side) -> String {
+    it.map_or("none".to_owned(), |it| outwards(it, side, |it| significant(it, 10)))
 }
 
 fn yes_or_no(it: bool) -> String {
     if it { "yes" } else { "no" }.to_owned()
 }
 
-fn of_associative(found: &Associative) -> String {
-    let with = |it: Option<f64>, what: &str| match it {
-        Some(it) => format!("{}, {what}", significant(it, 10)),
+fn of_associative(found: &Associative, model: &Model) -> String {
+    let with = |it: Option<f64>, side, what: &str| match it {
+        Some(_) => format!("{}, {what}", bound(it, side)),
         None => "none".to_owned(),
     };
     let gap = found.bound.zip(found.load_factor).map(|(bound, factor)| bound - factor);
-    pairs(&[
-        ("load factor", with(found.load_factor, "carried by forces within friction")),
-        ("bound", with(found.bound, "above which a motion proves that none do")),
+    let mut rows = vec![
+        ("load factor", with(found.load_factor, Side::Below, "carried by forces within friction")),
+        ("bound", with(found.bound, Side::Above, "above which a motion proves that none do")),
         ("gap", gap.map_or("none".to_owned(), |gap| significant(gap, 2))),
         ("proved", yes_or_no(found.proved)),
-    ])
+    ];
+    rows.extend(found.mechanism.as_ref().map(|rates| ("moves", moving_part(model, rates))));
+    pairs(&rows)
 }
 
 fn of_path(path: &Path, units: InUnits) -> String {
     let mut rows = vec![
-        ("load factor", format!("{}, the last at which blocks rest", number(path.load_factor))),
-        ("falls at", number(path.falls)),
+        (
+            "load factor",
+            format!("{}, the last at which blocks rest", bound(path.load_factor, Side::Below)),
+        ),
+        ("falls at", bound(path.falls, Side::Above)),
         ("decided", yes_or_no(path.decided)),
         ("states at rest", path.curve.len().to_string()),
     ];
@@ -75,6 +83,7 @@ fn of_path(path: &Path, units: InUnits) -> String {
         rows.push(("displacement", format!("{moved} {}, the largest", units.0.length_name())));
         rows.push(("contact points", format!("{open} open, {stick} stick, {slip} slide")));
     }
+    rows.extend(path.mechanism.as_ref().map(|rates| ("moves", moving_part(&path.model, rates))));
     pairs(&rows)
 }
 

@@ -4,12 +4,14 @@ use nalgebra::Vector2;
 
 use super::tables::{self, Cell, Table};
 use super::{Choice, Page, size};
-use crate::analysis::limit::{Answer, Change, Limit, Path, Thickness};
+use crate::analysis::limit::{Answer, Associative, Change, Limit, Path, Thickness};
 use crate::model::Model;
 use crate::report::format::{InUnits, significant};
 use crate::report::hinges::yielding;
 use crate::report::limit::{table, thickness_table};
+use crate::report::moving::moving_part;
 use crate::report::svg;
+use crate::rounding::{Side, outwards};
 use crate::state::{ContactState, Reaction};
 
 /// Rates of the corners of one block.
@@ -106,14 +108,19 @@ pub fn thickness(thickness: &Thickness) -> String {
     }
     pictures.push(Choice::one("scene", "Scene", svg::scene(title, model)));
     let units = InUnits(model.units);
-    let length = |it: Option<f64>| it.map_or("none".to_owned(), |it| units.length_text(it));
+    let length = |it: Option<f64>, side| {
+        let text = |it: f64| outwards(units.length(it), side, |it| significant(it, 6));
+        it.map_or("none".to_owned(), |it| {
+            format!("{}\u{a0}{}", text(it), model.units.length_name())
+        })
+    };
     Page {
         title: title.clone(),
-        verdict: if thickness.proved { "stands" } else { "undecided" },
+        verdict: verdict_of(thickness),
         sentence: thickness.sentence.clone(),
         figures: vec![
-            ("stands at".to_owned(), length(thickness.stands)),
-            ("falls at".to_owned(), length(thickness.falls)),
+            ("stands at".to_owned(), length(thickness.stands, Side::Above)),
+            ("falls at".to_owned(), length(thickness.falls, Side::Below)),
             ("proved".to_owned(), yes_or_no(thickness.proved)),
         ],
         pictures,
@@ -122,6 +129,16 @@ pub fn thickness(thickness: &Thickness) -> String {
         ..Page::default()
     }
     .finish()
+}
+
+/// Whether the arch stands at the thickness of the scene.
+fn verdict_of(thickness: &Thickness) -> &'static str {
+    let Thickness { given, stands, falls, .. } = thickness;
+    match (stands, falls) {
+        (_, Some(falls)) if given <= falls => "falls",
+        (Some(stands), _) if given >= stands => "stands",
+        _ => "undecided",
+    }
 }
 
 /// Picture and table of a mechanism.
@@ -138,8 +155,11 @@ fn moving(
     tables.extend(tables::yielding(&title, model, &yielding(model, rates)));
 }
 
-/// Whether it stands is said of the loads that stay, without those that grow.
+/// Says whether the structure stands under the loads that stay, and some part of those that grow.
 fn verdict(limit: &Limit) -> &'static str {
+    if limit.associative.as_ref().is_some_and(Associative::carries_nothing) {
+        return "falls";
+    }
     let answer = limit.associative.as_ref().map(|it| it.answer);
     let falls = |path: &Path| path.decided && path.load_factor.is_none();
     let is_open = limit.path.as_ref().is_some_and(|it| !it.decided);
@@ -157,15 +177,19 @@ fn yes_or_no(it: bool) -> String {
 }
 
 fn figures(limit: &Limit) -> Vec<(String, String)> {
-    let number = |it: Option<f64>| it.map_or("none".to_owned(), |it| significant(it, 5));
+    let bound = |it: Option<f64>, side| {
+        it.map_or("none".to_owned(), |it| outwards(it, side, |it| significant(it, 5)))
+    };
     let mut list = vec![("load that grows", limit.group.clone())];
     if let Some(path) = &limit.path {
-        list.push(("factor along a path", number(path.load_factor)));
-        list.push(("falls at", number(path.falls)));
+        list.push(("factor along a path", bound(path.load_factor, Side::Below)));
+        list.push(("falls at", bound(path.falls, Side::Above)));
+        let moves = path.mechanism.as_ref().map(|rates| moving_part(&path.model, rates));
+        list.extend(moves.map(|it| ("moves", it)));
     }
     if let Some(found) = &limit.associative {
-        list.push(("factor, associative flow", number(found.load_factor)));
-        list.push(("cannot stand above", number(found.bound)));
+        list.push(("factor, associative flow", bound(found.load_factor, Side::Below)));
+        list.push(("cannot stand above", bound(found.bound, Side::Above)));
         list.push(("proved", yes_or_no(found.proved)));
     }
     list.push(("size", size(&limit.model)));

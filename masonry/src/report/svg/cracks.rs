@@ -162,9 +162,8 @@ fn width_at(widths: &[[f64; 2]], along: f64) -> f64 {
 /// Joints that have slid and are closed somewhere, down to a hundredth of the largest slip.
 fn draw_slips(sheet: &mut Sheet, model: &Model, openings: &[Opening], largest: f64, width: f64) {
     let frame = sheet.frame;
-    let closed = |it: &&Opening| it.widths.iter().any(|[_, width]| *width <= 0.0);
     let slid = |it: &&Opening| it.slip > 0.0 && it.slip >= 0.01 * largest;
-    let found: Vec<&Opening> = openings.iter().filter(closed).filter(slid).collect();
+    let found: Vec<&Opening> = openings.iter().filter(slid).collect();
     let most = found.iter().map(|it| it.slip).fold(0.0, f64::max);
     if most <= 0.0 {
         return;

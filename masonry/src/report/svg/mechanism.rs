@@ -10,6 +10,7 @@ use super::sheet::{Bounds, Margins, Sheet};
 use crate::model::{Anchor, Model};
 use crate::report::format::InUnits;
 use crate::report::hinges::{Yield, YieldingJoint, yielding};
+use crate::report::moving::{SLOW, speed};
 
 const MOVING: &str = "#f0b98d";
 const MOVING_SLOWLY: &str = "#f9e3d0";
@@ -18,8 +19,6 @@ const HINGE: &str = "#a50026";
 const SLIDING: &str = "#7b3294";
 /// Blocks slower than this part of the fastest are drawn as at rest.
 const AT_REST: f64 = 1e-6;
-/// Blocks and joints slower than this part of the fastest have little to do with how the structure fails. Chosen.
-const SLOW: f64 = 0.05;
 /// So many hinges and sliding joints have numbers; of more, numbers would hide the structure, and slow ones have no marks.
 const NUMBERED: usize = 48;
 
@@ -218,8 +217,4 @@ fn dilates(model: &Model, rates: &[Vec<Vector2<f64>>]) -> bool {
         let edge = contact.law.mu * slides;
         edge > AT_REST.sqrt() && (opens - edge).abs() <= AT_REST * edge.max(opens)
     })
-}
-
-fn speed(rate: &[Vector2<f64>]) -> f64 {
-    rate.iter().map(Vector2::norm).fold(0.0, f64::max)
 }
