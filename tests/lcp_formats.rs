@@ -342,13 +342,13 @@ fn json_says_what_is_wrong_and_where() {
         (
             "{\"kind\": \"lcp\", \"m\": [[1]],\n \"q\": [1, 2]}",
             at(1, 22),
-            "has 1 rows, but must have 2",
+            "M is 1 x 1, but must be 2 x 2",
         ),
         ("{\"kind\": \"lcp\", \"m\": [[1]], \"q\": [1e999]}", at(1, 39), "out of range"),
         (
             "{\"kind\": \"lcp\", \"q\": [1],\n \"m\": {\"rows\": 1, \"cols\": 1, \"triplets\": [[0, 1, 2]]}}",
             at(2, 43),
-            "outside 1 x 1",
+            "outside a matrix of 1 x 1",
         ),
         (
             "{\"kind\": \"friction\", \"w\": [[1, 0], [0, 1]], \"q\": [0, 0],\n \"mu\": [-1]}",

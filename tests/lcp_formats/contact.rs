@@ -63,8 +63,8 @@ fn json_says_what_is_wrong_with_a_contact() {
         (
             r#""c_n": [[0, 1]]"#,
             r#""c_n": [[0, 1, 2]]"#,
-            at(1, 68),
-            "3 entries in row 0, but must have 2",
+            at(1, 67),
+            "C_n is 1 x 3, but must be 1 x 2",
         ),
         (r#""x_0": [0.1]"#, r#""x_0": []"#, at(2, 26), "`x_0` has 0 entries, but must have 1"),
         (r#""mu": [0.5]"#, r#""mu": [-0.5]"#, at(2, 54), "`mu` is -0.5, but must be from 0"),

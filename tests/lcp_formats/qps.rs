@@ -304,7 +304,7 @@ fn programs_are_read_from_json() {
     for (from, to, place, words) in [
         ("[[2, 0], [0, 2]]", "[[2, 1], [0, 2]]", at(1, 21), "P must be symmetric"),
         ("[[2, 0], [0, 2]]", "[[2, 0], [0, -2]]", at(1, 21), "not positive semidefinite"),
-        ("[1, 1]]", "[1]]", at(1, 69), "1 entries in row 1"),
+        ("[1, 1]]", "[1]]", at(1, 69), "row 1 has 1 entries"),
         ("\"u\": [null, 3]", "\"u\": [3]", at(2, 31), "`u` has 1 entries, but must have 2"),
         ("\"u\": [null, 3]", "\"u\": [-3, 3]", at(2, 14), "row 0 is to be between -2.0 and -3.0"),
         ("\"u\": [null, 3]", "\"v\": [3]", at(2, 28), "unknown field `v`"),

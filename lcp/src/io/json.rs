@@ -1,12 +1,14 @@
 //! Our JSON: one object with a `kind` and the fields of that kind.
 
-mod document;
+use std::collections::BTreeMap;
 
 use serde::Deserialize;
+use serde_json::from_str;
+use serde_json::value::RawValue;
 
-use super::{Problem, ReadError};
-use crate::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, MixedLcp, Qp};
-use document::{Document, parsed};
+use super::{Position, Problem, ReadError};
+use crate::Error;
+use crate::problem::Stored;
 
 /// What says which fields a document has.
 #[derive(Deserialize)]
@@ -14,7 +16,7 @@ struct Tag {
     kind: Kind,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Deserialize)]
 #[serde(rename_all = "lowercase")]
 enum Kind {
     Lcp,
@@ -26,76 +28,17 @@ enum Kind {
     Qp,
 }
 
-impl Kind {
-    fn fields(self) -> &'static [&'static str] {
-        match self {
-            Self::Lcp => &["kind", "m", "q"],
-            Self::Horizontal => &["kind", "a", "b", "c"],
-            Self::Mixed => &["kind", "m", "q", "free"],
-            Self::Boxed => &["kind", "m", "q", "lower", "upper"],
-            Self::Friction => &["kind", "w", "q", "mu"],
-            Self::Contact => &["kind", "k", "f", "c_n", "c_t", "x_0", "s_0", "mu", "compliance"],
-            Self::Qp => &["kind", "p", "q", "a", "l", "u", "lower", "upper", "constant"],
-        }
-    }
-}
-
-/// Where there is no bound, it is `null`.
-type Bounds = Vec<Option<f64>>;
-
 pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
-    let Tag { kind } = parsed(text, text)?;
-    let it = Document::of(text, kind.fields())?;
-    let vector = |name| it.value::<Vec<f64>>(name);
-    let or = |bounds: Bounds, none: f64| -> Vec<f64> {
-        bounds.into_iter().map(|bound| bound.unwrap_or(none)).collect()
-    };
-    let lower = |bounds| or(bounds, f64::NEG_INFINITY);
-    let upper = |bounds| or(bounds, f64::INFINITY);
-    let problem = match kind {
-        Kind::Lcp => {
-            let q = vector("q")?;
-            Lcp::new(it.square("m", q.len())?, q).map(Problem::Lcp)
-        }
-        Kind::Horizontal => {
-            let c = vector("c")?;
-            let (a, b) = (it.square("a", c.len())?, it.square("b", c.len())?);
-            HorizontalLcp::new(a, b, c).map(Problem::Horizontal)
-        }
-        Kind::Mixed => {
-            let q = vector("q")?;
-            MixedLcp::new(it.square("m", q.len())?, q, it.value("free")?).map(Problem::Mixed)
-        }
-        Kind::Boxed => {
-            let q = vector("q")?;
-            let (l, u) = (lower(it.value("lower")?), upper(it.value("upper")?));
-            BoxedLcp::new(it.square("m", q.len())?, q, l, u).map(Problem::Boxed)
-        }
-        Kind::Friction => {
-            let q = vector("q")?;
-            Friction2d::new(it.square("w", q.len())?, q, vector("mu")?).map(Problem::Friction)
-        }
-        Kind::Contact => {
-            let (f, mu) = (vector("f")?, vector("mu")?);
-            let (n, points) = (f.len(), mu.len());
-            let (c_n, c_t) = (it.matrix("c_n", points, n)?, it.matrix("c_t", points, n)?);
-            let (k, x_0, s_0) = (it.square("k", n)?, vector("x_0")?, vector("s_0")?);
-            let compliance = it.optional("compliance")?.unwrap_or(vec![[0.0; 2]; points]);
-            let hard = Contact2d::new(k, f, c_n, c_t, x_0, s_0, mu);
-            hard.and_then(|hard| hard.with_compliance(compliance)).map(Problem::Contact)
-        }
-        Kind::Qp => {
-            let (q, l, u) = (vector("q")?, lower(it.value("l")?), upper(it.value("u")?));
-            let (n, m) = (q.len(), l.len());
-            let bounds = |name| Ok(it.optional(name)?.unwrap_or(vec![None; n]));
-            let (least, most) = (lower(bounds("lower")?), upper(bounds("upper")?));
-            let constant = it.optional("constant")?.unwrap_or(0.0);
-            let program = Qp::new(it.square("p", n)?, q, it.matrix("a", m, n)?, l, u);
-            let program = program.and_then(|program| program.with_bounds(least, most));
-            program.and_then(|program| program.with_constant(constant)).map(Problem::Qp)
-        }
-    };
-    problem.map_err(|source| it.refused(source))
+    let Tag { kind } = parsed(text)?;
+    match kind {
+        Kind::Lcp => made(text).map(Problem::Lcp),
+        Kind::Horizontal => made(text).map(Problem::Horizontal),
+        Kind::Mixed => made(text).map(Problem::Mixed),
+        Kind::Boxed => made(text).map(Problem::Boxed),
+        Kind::Friction => made(text).map(Problem::Friction),
+        Kind::Contact => made(text).map(Problem::Contact),
+        Kind::Qp => made(text).map(Problem::Qp),
+    }
 }
 
 /// A problem as JSON text that [`read`](crate::io::read) gives back, to the last digit.
@@ -110,4 +53,64 @@ pub(super) fn read(text: &str) -> Result<Problem, ReadError> {
 /// ```
 pub fn to_json(problem: &Problem) -> String {
     serde_json::to_string(problem).unwrap_or_else(|e| unreachable!("numbers and lists: {e}"))
+}
+
+fn made<P: Stored>(text: &str) -> Result<P, ReadError> {
+    P::from_data(parsed(text)?)
+        .map_err(|source| ReadError::Refused { at: place(text, &source), source })
+}
+
+fn parsed<'a, T: Deserialize<'a>>(text: &'a str) -> Result<T, ReadError> {
+    from_str(text).map_err(|error| {
+        let (line, column) = (error.line(), error.column());
+        // Its message ends with the place where it has one.
+        let message = error.to_string();
+        let place = format!(" at line {line} column {column}");
+        let message = message.strip_suffix(&place).unwrap_or(&message).to_owned();
+        ReadError::Json { at: Position { line: line.max(1), column: column.max(1) }, message }
+    })
+}
+
+/// Where the datum begins that an error is about: a field, a row or an entry of a matrix, or else the document.
+fn place(text: &str, error: &Error) -> Position {
+    let fields: BTreeMap<String, &RawValue> = from_str(text).unwrap_or_default();
+    let field = |name: &str| fields.get(&name.to_ascii_lowercase()).copied();
+    let part = match error {
+        Error::Shape { what, .. }
+        | Error::NotFinite { what, .. }
+        | Error::NotSymmetric { what, .. } => field(what),
+        Error::Setting { name, .. } | Error::Length { name, .. } => field(name),
+        Error::Bounds { what: "row", .. } => field("l"),
+        Error::Bounds { .. } => field("lower"),
+        Error::Indefinite { .. } => field("k"),
+        Error::NotConvex { .. } => field("p"),
+        // These do not say of which matrix they are.
+        Error::RowLength { row, len, .. } => {
+            let rows = fields.values().filter_map(|it| items(it)?.get(*row).copied());
+            rows.into_iter().find(|it| items(it).is_some_and(|it| it.len() == *len))
+        }
+        Error::Outside { row, col, .. } => {
+            let lists = fields.values().filter_map(|it| from_str::<Sparse<'_>>(it.get()).ok());
+            let mut entries = lists.filter_map(|it| items(it.triplets)).flatten();
+            entries.find(|it| {
+                let place = from_str(it.get()).map(|(i, j, _): (usize, usize, f64)| (i, j));
+                place.is_ok_and(|place| place == (*row, *col))
+            })
+        }
+        _ => None,
+    };
+    let part = part.map_or(text.trim_start(), RawValue::get);
+    let before = &text[..part.as_ptr().addr() - text.as_ptr().addr()];
+    let line_begin = before.rfind('\n').map_or(0, |end| end + 1);
+    Position { line: before.matches('\n').count() + 1, column: before.len() - line_begin + 1 }
+}
+
+#[derive(Deserialize)]
+struct Sparse<'a> {
+    #[serde(borrow)]
+    triplets: &'a RawValue,
+}
+
+fn items(list: &RawValue) -> Option<Vec<&RawValue>> {
+    from_str(list.get()).ok()
 }

@@ -1,26 +1,46 @@
 //! Problems as data: serialised as what they were made from, and checked again when they are read. In JSON this is the form
-//! of the files of the feature `io`, without the `kind`.
+//! of the files of the feature `io`, which have a `kind` as well.
 
-use serde::de::Error as _;
+use std::fmt;
+
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{DeserializeOwned, Error as _, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, MixedLcp, Qp};
 use crate::{Error, Matrix};
 
-/// A matrix by its rows if it is dense, or by its entries.
-#[derive(Serialize, Deserialize)]
-#[serde(untagged)]
-enum Stored {
-    Rows(Vec<Vec<f64>>),
-    Sparse { rows: usize, cols: usize, triplets: Vec<(usize, usize, f64)> },
+/// A problem that is made from data.
+pub(crate) trait Stored: Sized {
+    /// Its fields, and a `kind` that is not looked at.
+    type Data: DeserializeOwned;
+
+    fn from_data(data: Self::Data) -> Result<Self, Error>;
 }
 
-impl Stored {
+/// A matrix by its rows if it is dense, or by its entries.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Entries {
+    Rows(Vec<Vec<f64>>),
+    Sparse(SparseEntries),
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SparseEntries {
+    rows: usize,
+    cols: usize,
+    triplets: Vec<(usize, usize, f64)>,
+}
+
+impl Entries {
     fn of(matrix: &Matrix) -> Self {
         let (rows, cols) = (matrix.nrows(), matrix.ncols());
         if matrix.is_sparse() {
             let column = |j| matrix.column(j).map(move |(i, v)| (i, j, v));
-            return Self::Sparse { rows, cols, triplets: (0..cols).flat_map(column).collect() };
+            let triplets = (0..cols).flat_map(column).collect();
+            return Self::Sparse(SparseEntries { rows, cols, triplets });
         }
         let row = |i| (0..cols).map(|j| matrix[(i, j)]).collect();
         Self::Rows((0..rows).map(row).collect())
@@ -30,7 +50,7 @@ impl Stored {
     fn sized(self, what: &'static str, height: usize, width: usize) -> Result<Matrix, Error> {
         let (rows, cols) = match &self {
             Self::Rows(rows) => (rows.len(), rows.first().map_or(width, Vec::len)),
-            Self::Sparse { rows, cols, .. } => (*rows, *cols),
+            Self::Sparse(SparseEntries { rows, cols, .. }) => (*rows, *cols),
         };
         if (rows, cols) != (height, width) {
             let (expected_rows, expected_cols) = (height, width);
@@ -39,8 +59,33 @@ impl Stored {
         match self {
             Self::Rows(rows) if rows.is_empty() => Ok(faer::Mat::zeros(0, width).into()),
             Self::Rows(rows) => Matrix::from_rows(&rows),
-            Self::Sparse { triplets, .. } => Matrix::from_triplets(height, width, &triplets),
+            Self::Sparse(it) => Matrix::from_triplets(height, width, &it.triplets),
         }
+    }
+}
+
+/// By its first sign, so that errors have their places.
+impl<'de> Deserialize<'de> for Entries {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct Either;
+
+        impl<'de> Visitor<'de> for Either {
+            type Value = Entries;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("rows of numbers, or an object with `rows`, `cols` and `triplets`")
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, rows: A) -> Result<Entries, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(rows)).map(Entries::Rows)
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Entries, A::Error> {
+                SparseEntries::deserialize(MapAccessDeserializer::new(map)).map(Entries::Sparse)
+            }
+        }
+
+        from.deserialize_any(Either)
     }
 }
 
@@ -67,8 +112,19 @@ macro_rules! serialised {
         const _: () = {
             #[derive(Serialize, Deserialize)]
             #[serde(deny_unknown_fields)]
-            struct Data {
+            pub(crate) struct Data {
+                #[serde(rename = "kind", default, skip_serializing)]
+                _kind: IgnoredAny,
                 $($(#[$attribute])* $field: $type),+
+            }
+
+            impl Stored for $problem {
+                type Data = Data;
+
+                fn from_data(data: Data) -> Result<Self, Error> {
+                    let Data { _kind, $($field),+ } = data;
+                    $new
+                }
             }
 
             impl Serialize for $problem {
@@ -76,17 +132,13 @@ macro_rules! serialised {
                     fn part<P, T>(problem: &P, get: impl Fn(&P) -> T) -> T {
                         get(problem)
                     }
-                    Data { $($field: part(self, $get)),+ }.serialize(to)
+                    Data { _kind: IgnoredAny, $($field: part(self, $get)),+ }.serialize(to)
                 }
             }
 
             impl<'de> Deserialize<'de> for $problem {
                 fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-                    let make = |data: Data| -> Result<Self, Error> {
-                        let Data { $($field),+ } = data;
-                        $new
-                    };
-                    make(Data::deserialize(from)?).map_err(D::Error::custom)
+                    Self::from_data(Data::deserialize(from)?).map_err(D::Error::custom)
                 }
             }
         };
@@ -94,39 +146,39 @@ macro_rules! serialised {
 }
 
 serialised!(Lcp {
-    m: Stored = |it| Stored::of(it.m()),
+    m: Entries = |it| Entries::of(it.m()),
     q: Vec<f64> = |it| it.q().to_vec(),
 } by Lcp::new(m.sized("M", q.len(), q.len())?, q));
 
 serialised!(HorizontalLcp {
-    a: Stored = |it| Stored::of(it.a()),
-    b: Stored = |it| Stored::of(it.b()),
+    a: Entries = |it| Entries::of(it.a()),
+    b: Entries = |it| Entries::of(it.b()),
     c: Vec<f64> = |it| it.c().to_vec(),
 } by HorizontalLcp::new(a.sized("A", c.len(), c.len())?, b.sized("B", c.len(), c.len())?, c));
 
 serialised!(MixedLcp {
-    m: Stored = |it| Stored::of(it.m()),
+    m: Entries = |it| Entries::of(it.m()),
     q: Vec<f64> = |it| it.q().to_vec(),
     free: Vec<bool> = |it| it.free().to_vec(),
 } by MixedLcp::new(m.sized("M", q.len(), q.len())?, q, free));
 
 serialised!(BoxedLcp {
-    m: Stored = |it| Stored::of(it.m()),
+    m: Entries = |it| Entries::of(it.m()),
     q: Vec<f64> = |it| it.q().to_vec(),
     lower: Bounds = |it| finite(it.lower()),
     upper: Bounds = |it| finite(it.upper()),
 } by BoxedLcp::new(m.sized("M", q.len(), q.len())?, q, without_lower(lower), without_upper(upper)));
 
 serialised!(Friction2d {
-    w: Stored = |it| Stored::of(it.w()),
+    w: Entries = |it| Entries::of(it.w()),
     q: Vec<f64> = |it| it.q().to_vec(),
     mu: Vec<f64> = |it| it.mu().to_vec(),
 } by Friction2d::new(w.sized("W", q.len(), q.len())?, q, mu));
 
 serialised!(Contact2d {
-    k: Stored = |it| Stored::of(&it.stiffness().clone().into()),
-    c_n: Stored = |it| Stored::of(&it.normal().clone().into()),
-    c_t: Stored = |it| Stored::of(&it.tangent().clone().into()),
+    k: Entries = |it| Entries::of(&it.stiffness().clone().into()),
+    c_n: Entries = |it| Entries::of(&it.normal().clone().into()),
+    c_t: Entries = |it| Entries::of(&it.tangent().clone().into()),
     f: Vec<f64> = |it| it.loads().to_vec(),
     x_0: Vec<f64> = |it| it.initial_gaps().to_vec(),
     s_0: Vec<f64> = |it| it.initial_slips().to_vec(),
@@ -147,8 +199,8 @@ serialised!(Contact2d {
 });
 
 serialised!(Qp {
-    p: Stored = |it| Stored::of(it.p()),
-    a: Stored = |it| Stored::of(it.a()),
+    p: Entries = |it| Entries::of(it.p()),
+    a: Entries = |it| Entries::of(it.a()),
     q: Vec<f64> = |it| it.q().to_vec(),
     l: Bounds = |it| finite(it.row_bounds()[0]),
     u: Bounds = |it| finite(it.row_bounds()[1]),
