@@ -4,7 +4,7 @@ use web_time::{Duration, Instant};
 
 use super::AutoSettings;
 use super::constants::{FEW_ATTEMPTS, KEPT};
-use super::method::{Effort, Planned, attempt, chain_of};
+use super::method::{Effort, Planned, chain_of};
 use crate::{Certificate, Error, Method, Observer, Route, RouteEnd, Solution, Status};
 
 /// How much an answer says; what comes first says more.
@@ -45,7 +45,7 @@ pub(super) fn run<P: Planned>(
             start: &settings.start,
         };
         let route_began = Instant::now();
-        let answer = match attempt(problem, step.method, &effort, observer) {
+        let answer = match problem.solver(step.method, &effort).solve_pairs(problem, observer) {
             Err(Error::NotTreated { reason, .. }) => Err(reason),
             answer => Ok(answer?),
         };
@@ -136,93 +136,31 @@ fn all_refused(routes: &[Route]) -> Error {
 
 #[cfg(test)]
 mod tests {
-    use std::borrow::Cow;
-    use std::cell::RefCell;
-    use std::ops::ControlFlow;
-
     use faer::mat;
 
     use super::*;
-    use crate::conversion::General;
-    use crate::divide::{Divide, Part};
-    use crate::{Auto, Choice, HorizontalLcp, Iteration, Lcp, Residuals, Solver};
-
-    /// A problem that no method treats, with the times that methods were given.
-    #[derive(Default)]
-    struct Refused(RefCell<Vec<Option<Duration>>>);
-
-    impl General for Refused {
-        fn general(&self) -> Cow<'_, HorizontalLcp> {
-            Cow::Owned(Lcp::new(mat![[1.0]], vec![1.0]).expect("one number each").into())
-        }
-
-        fn residuals_of_pairs(&self, _: &[f64], _: &[f64]) -> Residuals {
-            Residuals::default()
-        }
-    }
-
-    impl Divide for Refused {
-        fn parts(&self) -> Option<Vec<Part<Self>>> {
-            None
-        }
-    }
-
-    impl Planned for Refused {
-        fn pairs(&self) -> usize {
-            1
-        }
-
-        fn chain(&self) -> Vec<Choice> {
-            [Method::Lemke, Method::GaussSeidel, Method::Newton]
-                .map(|it| Choice::new(it, "a test"))
-                .into()
-        }
-
-        fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
-            self.0.borrow_mut().push(effort.time_limit);
-            (method != Method::Newton).then(|| Box::new(Refusing(method)) as _)
-        }
-    }
-
-    struct Refusing(Method);
-
-    impl Solver<Refused> for Refusing {
-        fn method(&self) -> Method {
-            self.0
-        }
-
-        fn solve_pairs(&self, _: &Refused, _: &mut Observer<'_>) -> Result<Solution, Error> {
-            let reason = format!("{} is not at home", self.method());
-            Err(Error::NotTreated { method: self.method(), reason })
-        }
-    }
+    use crate::{Auto, Lcp, Solver};
 
     #[test]
     fn where_all_refuse_all_reasons_are_given() {
-        let ignore = &mut |_: &Iteration| ControlFlow::Continue(());
-        let settings = AutoSettings::default();
-        let error = run(&Refused::default(), &settings, ignore).map(|it| it.status);
-        let Err(Error::NotTreated { method: Method::Auto, reason }) = error else {
-            panic!("{error:?}");
+        let route = |method, reason: &str| Route {
+            method,
+            reason: "a test".to_owned(),
+            end: RouteEnd::Refused { reason: reason.to_owned() },
+            pivots: 0,
+            factorisations: 0,
+            seconds: 0.0,
         };
-        assert!(reason.contains("Lemke's method: lemke is not at home"), "{reason}");
-        assert!(reason.contains("projected Gauss-Seidel: pgs is not at home"), "{reason}");
-        assert!(reason.contains("semismooth Newton: it is not in the chain"), "{reason}");
+        let routes = [route(Method::Lemke, "no memory"), route(Method::Newton, "no diagonal")];
+        let message = all_refused(&routes).to_string();
+        assert!(message.contains("Lemke's method: no memory; semismooth Newton: no diagonal"));
     }
 
     /// Each method leaves time for those behind it, and the last one has all that is left.
     #[test]
     fn methods_share_the_time() {
         let hour = Duration::from_secs(3600);
-        let settings = AutoSettings { time_limit: Some(hour), ..AutoSettings::default() };
-        let problem = Refused::default();
-        let ignore = &mut |_: &Iteration| ControlFlow::Continue(());
-        assert!(run(&problem, &settings, ignore).is_err());
-        let given = problem.0.into_inner();
-        let (last, others) = given.split_last().expect("several methods");
-        let most = Some(share(hour, 1));
-        assert!(others.iter().all(|given| *given <= most));
-        assert!(others.len() == 3 && *last > most);
+        assert_eq!((share(hour, 2), share(hour, 0)), (Duration::from_secs(2700), hour));
     }
 
     #[test]

@@ -17,7 +17,7 @@ impl Planned for Friction2d {
         named(&format!("{} contacts", self.contacts()), steps)
     }
 
-    fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
+    fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>> {
         effort.common(method)
     }
 }
@@ -54,7 +54,7 @@ impl Planned for Contact2d {
         }
     }
 
-    fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
+    fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>> {
         effort.common(method)
     }
 }

@@ -7,8 +7,8 @@ use super::enumerated::Enumeration;
 use crate::conversion::General;
 use crate::divide::Divide;
 use crate::{
-    Error, InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings, Method, Observer,
-    SemismoothNewton, SemismoothNewtonSettings, Solution, Solver, WarmStart,
+    InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings, Method, SemismoothNewton,
+    SemismoothNewtonSettings, Solver, WarmStart,
 };
 
 /// A method of a plan, and the reason for it.
@@ -80,25 +80,8 @@ pub trait Planned: Divide {
     /// The chain.
     fn chain(&self) -> Vec<Choice>;
 
-    /// A method of the chain with its settings; `None` for all others.
-    fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>>;
-}
-
-/// Solves a problem by a method of its chain.
-///
-/// # Errors
-/// Those of the method.
-pub(super) fn attempt<P: Planned>(
-    problem: &P,
-    method: Method,
-    effort: &Effort<'_>,
-    observer: &mut Observer<'_>,
-) -> Result<Solution, Error> {
-    let solver = problem.solver(method, effort).ok_or_else(|| Error::NotTreated {
-        method,
-        reason: "it is not in the chain of this problem".to_owned(),
-    })?;
-    solver.solve_pairs(problem, observer)
+    /// A method of the chain with its settings.
+    fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>>;
 }
 
 /// What a method gets.
@@ -113,7 +96,7 @@ pub struct Effort<'a> {
 
 impl Effort<'_> {
     /// The methods that treat every problem.
-    pub(super) fn common<P>(&self, method: Method) -> Option<Box<dyn Solver<P>>>
+    pub(super) fn common<P>(&self, method: Method) -> Box<dyn Solver<P>>
     where
         P: General,
         Lemke: Solver<P>,
@@ -126,15 +109,14 @@ impl Effort<'_> {
                 let defaults = LemkeSettings::default();
                 let settings =
                     LemkeSettings { tolerance, time_limit, max_attempts, start, ..defaults };
-                Some(Box::new(Lemke::new(settings)))
+                Box::new(Lemke::new(settings))
             }
-            Method::Enumeration => Some(Box::new(Enumeration { tolerance, time_limit })),
-            Method::Interior => {
+            Method::Enumeration => Box::new(Enumeration { tolerance, time_limit }),
+            _ => {
                 let defaults = InteriorPointSettings::default();
                 let settings = InteriorPointSettings { tolerance, time_limit, start, ..defaults };
-                Some(Box::new(InteriorPoint::new(settings)))
+                Box::new(InteriorPoint::new(settings))
             }
-            _ => None,
         }
     }
 

@@ -20,16 +20,14 @@ impl Planned for MixedLcp {
         named(&format!("{free} free variables"), common_chain(&facts))
     }
 
-    fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
+    fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>> {
         effort.common(method)
     }
 }
 
 impl Planned for BoxedLcp {
     fn pairs(&self) -> usize {
-        let bounds = self.lower().iter().zip(self.upper());
-        let is_between = |l: f64, u: f64| l.is_finite() && u.is_finite() && l < u;
-        self.order() + bounds.filter(|(l, u)| is_between(**l, **u)).count()
+        self.pairs()
     }
 
     fn choices(&self) -> usize {
@@ -45,7 +43,7 @@ impl Planned for BoxedLcp {
         named(&format!("{} pairs with those of the bounds", self.pairs()), steps)
     }
 
-    fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
+    fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>> {
         effort.common(method)
     }
 }

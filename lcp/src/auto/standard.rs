@@ -49,9 +49,9 @@ impl Planned for Lcp {
         standard_chain(&Facts::of(self.m()))
     }
 
-    fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
+    fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>> {
         match method {
-            Method::Newton => Some(Box::new(effort.newton(is_z_matrix(self.m())))),
+            Method::Newton => Box::new(effort.newton(is_z_matrix(self.m()))),
             _ => effort.common(method),
         }
     }
@@ -85,11 +85,11 @@ impl Planned for HorizontalLcp {
         vec![Choice::new(Method::Lemke, reason)]
     }
 
-    fn solver(&self, method: Method, effort: &Effort<'_>) -> Option<Box<dyn Solver<Self>>> {
+    fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>> {
         match method {
             Method::Newton => {
                 let is_sure = self.to_standard().is_some_and(|it| is_z_matrix(it.lcp().m()));
-                Some(Box::new(effort.newton(is_sure)))
+                Box::new(effort.newton(is_sure))
             }
             _ => effort.common(method),
         }
