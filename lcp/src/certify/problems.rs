@@ -47,7 +47,8 @@ impl Lcp {
     /// If `z` or `w` does not have `n` entries.
     pub fn residuals(&self, z: &[f64], w: &[f64]) -> Residuals {
         assert!(z.len() == self.order() && w.len() == self.order(), "one entry for every variable");
-        BoxedJudge::of_standard(self).residuals(&[z, w], Precision::Rounded)
+        let rows = AffineRows { m: self.m(), law: Law::Signs };
+        rows.judge(self.q(), sizes(self.q())).residuals(&[z, w], Precision::Rounded)
     }
 }
 
@@ -100,9 +101,8 @@ impl Friction2d {
         let contacts = self.contacts();
         assert!(normal.len() == contacts && tangential.len() == contacts, "two forces a contact");
         let forces: Vec<f64> = normal.iter().zip(tangential).flat_map(|(n, t)| [*n, *t]).collect();
-        let columns: Vec<Column<'_>> = (0..2 * contacts).map(|j| self.w().slice(j)).collect();
-        let c = self.q().iter().map(|q| -q).collect();
-        RowJudge::of_columns(self, &columns, c, sizes(self.q())).residuals_of(&[&extended(&forces)])
+        let rows = AffineRows { m: self.w(), law: Law::Friction(self.mu()) };
+        rows.judge(self.q(), sizes(self.q())).residuals_of(&[&extended(&forces)])
     }
 }
 
@@ -176,33 +176,39 @@ impl Rows for &HorizontalLcp {
     }
 }
 
-/// A problem in `(z, w)`, with the rows `w - M z = q`.
-pub(crate) struct Bounded<'a> {
+/// A problem in `(z, w)`, or in forces and velocities, with the rows `M z - w = -q`.
+pub(crate) struct AffineRows<'a> {
     m: &'a Matrix,
-    /// The problem with bounds that it is; without, these are `0` and `inf`.
-    boxed: Option<&'a BoxedLcp>,
+    law: Law<'a>,
+}
+
+/// The conditions on `z` and `w`.
+enum Law<'a> {
+    /// Both are nonnegative.
+    Signs,
+    /// Those of the bounds of a problem.
+    Bounds(&'a BoxedLcp),
+    /// Those of a normal and a tangential component for every coefficient of friction.
+    Friction(&'a [f64]),
 }
 
 /// A judge of points `(z, w)`.
-pub(crate) type BoxedJudge<'a> = RowJudge<Bounded<'a>>;
+pub(crate) type BoxedJudge<'a> = RowJudge<AffineRows<'a>>;
 
 impl<'a> BoxedJudge<'a> {
-    pub(crate) fn of_standard(problem: &'a Lcp) -> Self {
-        Self::of_rows(Bounded { m: problem.m(), boxed: None }, problem.q(), sizes(problem.q()))
-    }
-
     pub(crate) fn of_boxed(problem: &'a BoxedLcp) -> Self {
-        let rows = Bounded { m: problem.m(), boxed: Some(problem) };
-        Self::of_rows(rows, problem.q(), problem.loads())
-    }
-
-    fn of_rows(rows: Bounded<'a>, q: &[f64], loads: Vec<f64>) -> Self {
-        let columns: Vec<Column<'_>> = (0..q.len()).map(|j| rows.m.slice(j)).collect();
-        Self::of_columns(rows, &columns, q.to_vec(), loads)
+        AffineRows { m: problem.m(), law: Law::Bounds(problem) }.judge(problem.q(), problem.loads())
     }
 }
 
-impl Rows for Bounded<'_> {
+impl AffineRows<'_> {
+    fn judge(self, q: &[f64], loads: Vec<f64>) -> RowJudge<Self> {
+        let columns: Vec<Column<'_>> = (0..q.len()).map(|j| self.m.slice(j)).collect();
+        RowJudge::of_columns(self, &columns, q.iter().map(|q| -q).collect(), loads)
+    }
+}
+
+impl Rows for AffineRows<'_> {
     fn variables(&self) -> usize {
         2 * self.m.ncols()
     }
@@ -213,53 +219,36 @@ impl Rows for Bounded<'_> {
 
     fn for_each_entry(&self, variable: usize, mut visit: impl FnMut(usize, f64)) {
         match variable.checked_sub(self.m.ncols()) {
-            None => self.m.slice(variable).for_each(|i, v| visit(i, -v)),
-            Some(row) => visit(row, 1.0),
+            None => self.m.slice(variable).for_each(visit),
+            Some(row) => visit(row, -1.0),
         }
     }
 
     fn conditions(&self, x: &[f64], unit: f64, out: &mut Conditions<'_, Self>) {
         let n = self.m.ncols();
-        for (j, (z, w)) in x[..n].iter().zip(&x[n..]).enumerate() {
-            let bounds =
-                self.boxed.map_or([0.0, f64::INFINITY], |it| [it.lower()[j], it.upper()[j]]);
-            let [lower, upper] = bounds.map(|bound| bound * unit);
-            for (distance, w) in [(z - lower, w.max(0.0)), (upper - z, (-w).max(0.0))] {
-                let w = Entry::new(n + j, w);
-                if distance.is_finite() {
-                    out.pair(Entry::new(j, distance), w);
-                } else {
-                    out.zero(w);
+        let (of_z, of_w) = (|j: usize| Entry::new(j, x[j]), |j: usize| Entry::new(n + j, x[n + j]));
+        match self.law {
+            Law::Signs => (0..n).for_each(|j| out.pair(of_z(j), of_w(j))),
+            Law::Bounds(boxed) => {
+                for (j, (z, w)) in x[..n].iter().zip(&x[n..]).enumerate() {
+                    let [lower, upper] = [boxed.lower()[j], boxed.upper()[j]].map(|it| it * unit);
+                    for (distance, w) in [(z - lower, w.max(0.0)), (upper - z, (-w).max(0.0))] {
+                        let w = Entry::new(n + j, w);
+                        if distance.is_finite() {
+                            out.pair(Entry::new(j, distance), w);
+                        } else {
+                            out.zero(w);
+                        }
+                    }
                 }
             }
-        }
-    }
-}
-
-/// The variables are the forces and the velocities, with the rows `W r - v = -q`.
-impl Rows for &Friction2d {
-    fn variables(&self) -> usize {
-        2 * self.w().ncols()
-    }
-
-    fn longest(&self) -> usize {
-        self.w().ncols() + 2
-    }
-
-    fn for_each_entry(&self, variable: usize, mut visit: impl FnMut(usize, f64)) {
-        match variable.checked_sub(self.w().ncols()) {
-            None => self.w().slice(variable).for_each(visit),
-            Some(row) => visit(row, -1.0),
-        }
-    }
-
-    fn conditions(&self, x: &[f64], _: f64, out: &mut Conditions<'_, Self>) {
-        let rows = self.w().ncols();
-        let entry = |variable: usize| Entry::new(variable, x[variable]);
-        for (i, &mu) in self.mu().iter().enumerate() {
-            let [normal, tangential] = [2 * i, 2 * i + 1];
-            out.pair(entry(normal), entry(rows + normal));
-            out.friction(mu * x[normal], entry(tangential), entry(rows + tangential));
+            Law::Friction(mu) => {
+                for (i, &mu) in mu.iter().enumerate() {
+                    let [normal, tangential] = [2 * i, 2 * i + 1];
+                    out.pair(of_z(normal), of_w(normal));
+                    out.friction(mu * x[normal], of_z(tangential), of_w(tangential));
+                }
+            }
         }
     }
 }
