@@ -33,10 +33,10 @@ use crate::{Error, Method, Observer, Solution, Solver};
 /// | dense, or up to order 500 | Lemke, interior point‡ |
 /// | sparse and larger | interior point, Lemke |
 /// | [`HorizontalLcp`](crate::HorizontalLcp) | as a standard problem if it can be converted, else Lemke |
-/// | [`Contact2d`](crate::Contact2d), up to 40 points and with bodies that no spring holds | Lemke, interior point |
+/// | [`Contact2d`](crate::Contact2d), up to 100 pairs and with bodies that no spring holds | Lemke, interior point |
 /// | other [`Contact2d`](crate::Contact2d) | interior point, Lemke |
 ///
-/// † if the diagonal is positive; ‡ if sparse, or dense up to order 200. The lines without a class are for [`MixedLcp`](crate::MixedLcp),
+/// † if the diagonal is positive; ‡ if sparse, or dense up to order 500. The lines without a class are for [`MixedLcp`](crate::MixedLcp),
 /// [`BoxedLcp`](crate::BoxedLcp) and [`Friction2d`](crate::Friction2d) too. Quadratic programs and sweeps are in no chain: they alone decide no case of the
 /// bench `corpus`.
 ///

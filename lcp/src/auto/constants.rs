@@ -4,11 +4,6 @@
 /// Up to this order, or so many contact points, pivots on a sparse matrix are as fast as factorisations, and say more.
 /// Chosen.
 pub(super) const FEW: usize = 500;
-/// Up to so many contact points they take no time. Chosen.
-pub(super) const VERY_FEW_POINTS: usize = 40;
-/// Up to this order the interior-point method, which factorises sparse matrices, takes no time and no memory on dense ones.
-/// Chosen.
-pub(super) const FEW_DENSE: usize = 200;
 /// Factorisations of active sets where they do not promise to arrive. Chosen.
 pub(super) const TRIAL: usize = 100;
 

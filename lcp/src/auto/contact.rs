@@ -1,7 +1,6 @@
 //! The chains of contact with friction.
 
-use super::constants::{FEW, VERY_FEW_POINTS};
-use super::facts::Facts;
+use super::constants::{FEW, MOST_PAIRS};
 use super::method::{Choice, Effort, Planned, named};
 use super::standard::common_chain;
 use crate::definite::is_definite;
@@ -13,7 +12,7 @@ impl Planned for Friction2d {
     }
 
     fn chain(&self) -> Vec<Choice> {
-        let steps = common_chain(&Facts::of(self.standard().m()));
+        let steps = common_chain(self.standard().m());
         named(&format!("{} contacts", self.contacts()), steps)
     }
 
@@ -47,7 +46,7 @@ impl Planned for Contact2d {
             },
         );
         // Bodies with mass, or held by springs, have a solution: there is no proof to be found.
-        if points <= VERY_FEW_POINTS && !is_definite(self.stiffness()) {
+        if self.order() <= MOST_PAIRS && !is_definite(self.stiffness()) {
             vec![pivots, inside]
         } else {
             vec![inside, pivots]

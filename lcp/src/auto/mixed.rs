@@ -1,6 +1,6 @@
 //! The chains of problems with free and with bounded variables.
 
-use super::facts::{Facts, largest_block};
+use super::facts::largest_block;
 use super::method::{Choice, Effort, Planned, named};
 use super::standard::common_chain;
 use crate::{BoxedLcp, Method, MixedLcp, Solver};
@@ -15,9 +15,8 @@ impl Planned for MixedLcp {
     }
 
     fn chain(&self) -> Vec<Choice> {
-        let facts = Facts::of(self.m());
         let free = self.free().iter().filter(|free| **free).count();
-        named(&format!("{free} free variables"), common_chain(&facts))
+        named(&format!("{free} free variables"), common_chain(self.m()))
     }
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>> {
@@ -39,7 +38,7 @@ impl Planned for BoxedLcp {
     }
 
     fn chain(&self) -> Vec<Choice> {
-        let steps = common_chain(&Facts::of(self.m()));
+        let steps = common_chain(self.m());
         named(&format!("{} pairs with those of the bounds", self.pairs()), steps)
     }
 

@@ -1,39 +1,50 @@
 //! The chain of standard problems, and of general ones that can be converted to the standard form.
 
-use super::constants::{FEW, FEW_DENSE};
-use super::facts::{Facts, is_z_matrix, largest_block};
+use super::constants::FEW;
+use super::facts::{is_z_matrix, largest_block};
 use super::method::{Choice, Effort, Planned};
-use crate::{HorizontalLcp, Lcp, Method, Solver};
+use crate::{HorizontalLcp, Lcp, Matrix, Method, Solver};
 
 /// The class of the matrix decides whether the active set method is the first.
-pub(super) fn standard_chain(facts: &Facts) -> Vec<Choice> {
-    let mut steps = common_chain(facts);
-    if facts.has_positive_diagonal {
-        let words = if facts.is_z_matrix {
+fn standard_chain(m: &Matrix) -> Vec<Choice> {
+    let mut steps = common_chain(m);
+    if (0..m.ncols()).all(|i| m[(i, i)] > 0.0) {
+        let words = if is_z_matrix(m) {
             "with no positive entry off the positive diagonal, as M-matrices: the active set method solves \
              whatever is feasible"
         } else {
             "with a positive diagonal: the active set method takes few factorisations, or soon gives up"
         };
-        steps.insert(0, Choice::new(Method::Newton, format!("{}, {words}", facts.size())));
+        steps.insert(0, Choice::new(Method::Newton, format!("{}, {words}", size(m))));
     }
     steps
 }
 
 /// The methods that need no class of matrices.
-pub(super) fn common_chain(facts: &Facts) -> Vec<Choice> {
-    let step = |method, words: &str| Choice::new(method, format!("{}: {words}", facts.size()));
+pub(super) fn common_chain(m: &Matrix) -> Vec<Choice> {
+    let (order, size) = (m.ncols(), size(m));
+    let step = |method, words: &str| Choice::new(method, format!("{size}: {words}"));
     let inside = step(
         Method::Interior,
         "the interior-point method takes tens of factorisations at any order",
     );
-    if facts.is_sparse && facts.order > FEW {
+    if m.is_sparse() && order > FEW {
         let words = "pivots take long at this order, but need no class of matrices";
         return vec![inside, step(Method::Lemke, words)];
     }
     let words = "pivots need no class of matrices and end with a basis, a proof or a ray";
-    let inside = Some(inside).filter(|_| facts.is_sparse || facts.order <= FEW_DENSE);
+    let inside = Some(inside).filter(|_| order <= FEW);
     std::iter::once(step(Method::Lemke, words)).chain(inside).collect()
+}
+
+/// For the reason of a choice: the order, and how the matrix is stored.
+fn size(m: &Matrix) -> String {
+    let order = m.ncols();
+    if !m.is_sparse() {
+        return format!("order {order}, dense");
+    }
+    let nonzeros = |j| m.column(j).filter(|(_, v)| *v != 0.0).count();
+    format!("order {order}, sparse with {} nonzeros", (0..order).map(nonzeros).sum::<usize>())
 }
 
 impl Planned for Lcp {
@@ -46,7 +57,7 @@ impl Planned for Lcp {
     }
 
     fn chain(&self) -> Vec<Choice> {
-        standard_chain(&Facts::of(self.m()))
+        standard_chain(self.m())
     }
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>> {
@@ -71,7 +82,7 @@ impl Planned for HorizontalLcp {
 
     fn chain(&self) -> Vec<Choice> {
         if let Some(standard) = self.to_standard() {
-            let mut steps = standard_chain(&Facts::of(standard.lcp().m()));
+            let mut steps = standard_chain(standard.lcp().m());
             for step in &mut steps {
                 step.reason.insert_str(0, "as a standard problem of ");
             }
