@@ -11,8 +11,8 @@ pub(crate) use column::{Column, column_of};
 
 use crate::Error;
 
-/// What entries may be off by, relative to what they are compared with, and still be taken for exact. Chosen: the
-/// rounding errors of whoever computed them.
+/// What entries, and products with a vector that was computed, may be off by, relative to what they are compared with, and
+/// still be taken for exact. Chosen: the rounding errors of whoever computed them.
 pub(crate) const DATA_ROUNDING: f64 = 1e-12;
 
 /// A matrix of a problem, dense or sparse.
@@ -235,13 +235,7 @@ impl Matrix {
     pub(crate) fn negated(self) -> Self {
         match self.0 {
             Storage::Dense(m) => (-m).into(),
-            Storage::Sparse(m) => {
-                let (symbolic, mut values) = m.into_parts();
-                for v in &mut values {
-                    *v = -*v;
-                }
-                SparseColMat::new(symbolic, values).into()
-            }
+            Storage::Sparse(m) => (-m).into(),
         }
     }
 

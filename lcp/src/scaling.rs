@@ -9,10 +9,6 @@ use std::f64::consts::SQRT_2;
 
 use crate::matrix::Column;
 
-/// Entries below this, once the largest of their row and column is near one, are below the rounding errors of the
-/// others and do not count in the balance.
-const NOISE: f64 = 1e-15;
-
 /// Row and column factors, all powers of two, that bring the entries of a matrix, given by its
 /// columns, near one.
 ///
@@ -233,13 +229,14 @@ fn negative_mean([sum, count]: [f64; 2]) -> f64 {
     if count > 0.0 { -sum / count } else { 0.0 }
 }
 
-/// The logarithm to base 2 of the size of a number, to within 0.09, and one, or zero for noise. Exponent
+/// The logarithm to base 2 of the size of a number, to within 0.09, and one, or zero for noise: once the largest of their row
+/// and column is near one, entries below eps are rounding errors of the others. Exponent
 /// and mantissa as they stand in memory are nearly the logarithm in units of 2^-52. All but the last twelve bits of them
 /// become a number by being put below the exponent of 2^52. The factors are rounded to powers of two in the end.
 fn logarithm(v: f64) -> (f64, f64) {
     let (v, shift) = (v.abs(), (1_u64 << 52) as f64);
     let digits = f64::from_bits(shift.to_bits() | v.to_bits() >> 12) - shift;
-    let kept = if v > NOISE { 1.0 } else { 0.0 };
+    let kept = if v > f64::EPSILON { 1.0 } else { 0.0 };
     (digits / (1_u64 << 40) as f64 - 1023.0, kept)
 }
 

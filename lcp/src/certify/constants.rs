@@ -12,5 +12,3 @@ pub(super) const MILLIONTH: f64 = WEAK * WEAK;
 /// By what numbers are multiplied if sums of their products leave the range of numbers: one over more than any number of
 /// terms.
 pub(super) const INTO_RANGE: f64 = 1.0 / (1_u64 << 60) as f64;
-/// Products with columns above this part of their terms are no rounding errors of a vector that was computed. Chosen.
-pub(super) const LARGEST_OF_VECTOR: f64 = 1e-12;

@@ -3,9 +3,8 @@
 //! By Farkas' lemma `A t + B y = c` has no solution with `t >= 0` and `y >= 0` exactly if some `pi` has
 //! `A^T pi <= 0`, `B^T pi <= 0` and `c.pi > 0`.
 
-use super::constants::LARGEST_OF_VECTOR;
 use crate::extended::Extended;
-use crate::matrix::Column;
+use crate::matrix::{Column, DATA_ROUNDING};
 use crate::vector::WEAK;
 use crate::{HorizontalLcp, MixedLcp};
 
@@ -45,7 +44,7 @@ fn separates(products: impl Iterator<Item = Product>, c: &[f64], pi: &[f64]) -> 
     let mut rounding = gap.rounding();
     for product in products {
         let Product { sum, size, .. } = product;
-        if !size.is_finite() || sum > LARGEST_OF_VECTOR.max(product.rounding()) * size {
+        if !size.is_finite() || sum > DATA_ROUNDING.max(product.rounding()) * size {
             return false;
         }
         if sum > 0.0 {

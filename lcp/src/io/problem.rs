@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use super::{Position, ReadError};
+use crate::certify::ROUNDING;
 use crate::conversion::General;
 use crate::{
     BoxedLcp, Contact2d, ContactForces, Friction2d, HorizontalLcp, Lcp, Matrix, MixedLcp, Qp,
@@ -183,7 +184,6 @@ pub(crate) fn pairs_of_forces(
 
 /// `M z + q`, where what cancels up to rounding is zero.
 fn affine(m: &Matrix, z: &[f64], q: &[f64]) -> Vec<f64> {
-    const ROUNDING: f64 = 8.0 * f64::EPSILON;
     assert_eq!(z.len(), q.len(), "one entry for every variable");
     let (mut sums, mut sizes) = (q.to_vec(), q.iter().map(|q| q.abs()).collect::<Vec<f64>>());
     for (j, z) in z.iter().enumerate() {

@@ -35,28 +35,17 @@ impl<'a> Column<'a> {
 
     /// The same, with the sizes of what is added.
     pub(crate) fn add_with_sizes(self, factor: f64, out: &mut [f64], sizes: &mut [f64]) {
-        let add = |out: &mut f64, size: &mut f64, v: f64| {
+        self.for_each(|i, v| {
             let term = factor * v;
-            *out += term;
-            *size += term.abs();
-        };
-        match self {
-            Self::Dense(values) => {
-                let entries = out.iter_mut().zip(sizes).zip(values);
-                entries.for_each(|((out, size), v)| add(out, size, *v));
-            }
-            Self::Sparse { rows, values } => {
-                let entries = rows.iter().zip(values);
-                entries.for_each(|(&i, v)| add(&mut out[i], &mut sizes[i], *v));
-            }
-        }
+            out[i] += term;
+            sizes[i] += term.abs();
+        });
     }
 
     pub(crate) fn dot(self, x: &[f64]) -> f64 {
-        match self {
-            Self::Dense(values) => values.iter().zip(x).map(|(v, x)| v * x).sum(),
-            Self::Sparse { rows, values } => rows.iter().zip(values).map(|(&i, v)| v * x[i]).sum(),
-        }
+        let mut sum = 0.0;
+        self.for_each(|i, v| sum += v * x[i]);
+        sum
     }
 
     pub(crate) fn for_each(self, mut f: impl FnMut(usize, f64)) {
