@@ -13,8 +13,8 @@ use crate::matrix::{Column, Storage};
 use crate::parts::Parts;
 use crate::problem::column_of;
 use crate::{
-    Basis, BoxedLcp, Certificate, Contact2d, ContactState, Error, Friction2d, HorizontalLcp, Lcp,
-    Leaf, Matrix, MixedLcp, Ray, Side, Solution, WarmStart,
+    BoxedLcp, Certificate, Contact2d, ContactState, Error, Friction2d, HorizontalLcp, Lcp, Leaf,
+    Matrix, MixedLcp, Ray, Side, Solution, WarmStart,
 };
 
 /// An independent part.
@@ -55,15 +55,7 @@ impl<P> Part<P> {
 
     /// What a start of the whole says of this part.
     pub(crate) fn start(&self, start: &WarmStart) -> WarmStart {
-        match start {
-            WarmStart::None => WarmStart::None,
-            WarmStart::Basis(basis) => {
-                WarmStart::Basis(Basis::new(picked(basis.sides(), &self.pairs)))
-            }
-            WarmStart::Point { t, y } => {
-                WarmStart::Point { t: picked(t, &self.pairs), y: picked(y, &self.pairs) }
-            }
-        }
+        start.of_pairs(self.pairs.iter().map(|&pair| (pair, false)))
     }
 
     /// Writes values of the pairs of the part, as those of `t`, of `y` or the sides of a basis, to where

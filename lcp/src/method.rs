@@ -12,21 +12,21 @@ use std::fmt;
 /// assert!(error.to_string().starts_with("there is no method `simplex`: take one of auto, lemke,"));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(rename_all = "lowercase")
+)]
 #[non_exhaustive]
 pub enum Method {
     /// [`Auto`](crate::Auto): a method that suits the problem; if it fails, the next one.
     #[default]
-    #[cfg_attr(feature = "serde", serde(rename = "auto"))]
     Auto,
     /// [`Lemke`](crate::Lemke).
-    #[cfg_attr(feature = "serde", serde(rename = "lemke"))]
     Lemke,
     /// [`SemismoothNewton`](crate::SemismoothNewton).
-    #[cfg_attr(feature = "serde", serde(rename = "newton"))]
     Newton,
     /// [`InteriorPoint`](crate::InteriorPoint).
-    #[cfg_attr(feature = "serde", serde(rename = "interior"))]
     Interior,
     /// `QuadraticProgram`, with the feature `clarabel`.
     #[cfg_attr(feature = "serde", serde(rename = "qp"))]
@@ -35,7 +35,6 @@ pub enum Method {
     #[cfg_attr(feature = "serde", serde(rename = "pgs"))]
     GaussSeidel,
     /// The last resort of [`Auto`](crate::Auto) for small problems: all choices of sides, with proofs.
-    #[cfg_attr(feature = "serde", serde(rename = "enumeration"))]
     Enumeration,
 }
 

@@ -1,6 +1,7 @@
 use faer::{Mat, mat};
 
 use super::*;
+use crate::Basis;
 
 #[test]
 fn a_connected_problem_has_no_parts() {
