@@ -17,23 +17,21 @@ const CASES: [Case; 6] = [
     Case::Tilt(1.3),
     Case::Settlement(5),
 ];
-/// Elements of the bricks, and stiffness of the joints between them.
-const BRICKS: [(Option<[u32; 2]>, Option<[f64; 2]>); 5] = [
-    (None, None),
-    (Some([1, 1]), None),
-    (Some([2, 1]), None),
-    (Some([1, 1]), DRY),
-    (Some([2, 1]), DRY),
-];
+/// Rigid bricks, and elastic ones with hard and with dry joints.
+const BRICKS: [&str; 5] = ["rigid", "1x1", "2x1", "1x1 dry", "2x1 dry"];
 
 /// Solves all that are chosen.
 pub(crate) fn solve(is_chosen: &dyn Fn(&str) -> bool, keep: &mut dyn FnMut(Line)) {
     for courses in [4, 8] {
         for mu in [0.3, 0.6, 1.0] {
-            for (mesh, joints) in BRICKS {
+            for bricks in BRICKS {
+                let mesh = match bricks {
+                    "rigid" => None,
+                    elastic if elastic.starts_with('1') => Some([1, 1]),
+                    _ => Some([2, 1]),
+                };
+                let joints = if bricks.ends_with("dry") { DRY } else { None };
                 let wall = Wall { courses, mu, mesh, joints };
-                let bricks = mesh.map_or("rigid".to_owned(), |[x, y]| format!("{x}x{y}"));
-                let bricks = bricks + if joints.is_some() { " dry" } else { "" };
                 let names = CASES.map(|case| format!("walls/{case} {courses} {mu} {bricks}"));
                 if !names.iter().any(|name| is_chosen(name)) {
                     continue;

@@ -21,6 +21,7 @@ impl Scene {
     }
 
     /// The same scene with the loads of a name or group in the opposite direction.
+    #[must_use]
     pub fn reversed(&self, group: &str) -> Self {
         let mut scene = self.clone();
         let members = scene.loads.iter_mut().filter(|load| load.is_called(group));
