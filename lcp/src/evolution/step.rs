@@ -12,10 +12,6 @@ use crate::states::{PointRef, nearest};
 use crate::vector::{ROUNDING, max_abs};
 use crate::{Contact2d, ContactState, Error, Iteration, Method, Solution, Status};
 
-/// Steps of the path of interior points in one try. Measured on settlements of 410 rigid bricks with a friction of one, where
-/// most tries fail: with 40 half as many tries again are made, with 60 as many, and a third of the tries fail.
-const PATH: usize = 80;
-
 impl Evolution {
     /// A step, by whatever solves it. If bodies may rest, and a solution without drag is found next to its end, they go there
     /// instead: friction is the same, with slips measured from the same place.
@@ -35,8 +31,8 @@ impl Evolution {
                 limit = course.monitor.stop_after(at.residual, at.step);
                 if limit.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
-            let tolerance = self.settings.tolerance;
-            let mut own = Monitor::new(Method::Interior, PATH, None, &mut observer);
+            let EvolutionSettings { tolerance, max_iterations, .. } = self.settings;
+            let mut own = Monitor::new(Method::Interior, max_iterations, None, &mut observer);
             follow_path(&stepped, tolerance, &mut search, &mut own)
         };
         let solution = self.concluded(search, status, course);
