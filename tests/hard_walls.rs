@@ -11,7 +11,7 @@ use walls::{Case, DRY, Wall};
 /// Bricks in a course, and courses.
 const COURSES: u32 = 6;
 /// Elastic walls that stand may take no more factorisations, in any step of a history: with hard joints, and with dry ones.
-const MOST_FACTORISATIONS: [usize; 2] = [1000, 250];
+const MOST_FACTORISATIONS: [usize; 2] = [1000, 400];
 
 /// Histories of twenty steps may take no more on average: elastic bricks with hard joints, and all others.
 const MEAN_FACTORISATIONS: [usize; 2] = [300, 100];
