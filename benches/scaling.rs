@@ -4,7 +4,8 @@
 //! `cargo bench --bench scaling` prints a table of walls of about a thousand bricks; with `-- --write` it also puts it into
 //! `docs/data/scaling.md`, and a summary into `docs/scaling.md`; `--courses 100` does the same for walls of ten thousand
 //! bricks. `-- --sizes 10,32,100` prints how time and memory grow with the courses of a wall and the bricks in each, and writes the
-//! same two files and a picture. Walls that a run leaves out keep the lines that they have there. `--mu 0.5,1`, `--bricks
+//! same two files and a picture. `-- --steps 20,80` prints how far settlements in these numbers of steps differ, and `--write`
+//! puts that into `docs/scaling.md`. Walls that a run leaves out keep the lines that they have there. `--mu 0.5,1`, `--bricks
 //! rigid,2x1` and `--case settlement` choose a part. Bound to one core (`taskset -c 0`) all is on one thread.
 
 mod common;
@@ -16,6 +17,8 @@ mod row;
 mod sizes;
 #[path = "common/sparse.rs"]
 mod sparse;
+#[path = "scaling/steps.rs"]
+mod steps;
 #[path = "scaling/table.rs"]
 mod table;
 #[path = "scaling/walls.rs"]
@@ -48,8 +51,12 @@ fn main() {
     if !common::is_bench() {
         return;
     }
-    let of_sizes = common::is_asked("--sizes");
-    if of_sizes {
+    if common::is_asked("--steps") {
+        let computed = settlements();
+        common::rewrite_if_asked("docs/scaling.md", "steps", |before| {
+            steps::table(&computed, before)
+        });
+    } else if common::is_asked("--sizes") {
         let defaults = [&option("--sizes", sizes::SIZES)[..], sizes::FRICTION, sizes::BRICKS];
         let computed = rows(defaults, &sizes::CASES);
         let sizes = Sizes::new(&computed, "");
@@ -76,6 +83,29 @@ fn main() {
         });
         common::write_if_asked("docs/scaling.md", block, &summary);
     }
+}
+
+/// Rows of settlements in the numbers of steps that are asked for; those of each wall are printed when they are there.
+fn settlements() -> String {
+    let counts: Vec<u32> = option("--steps", "20,80")
+        .split(',')
+        .map(|it| it.parse().expect("a number of steps"))
+        .collect();
+    let settled = [("--courses", "10,20,32"), ("--mu", "0.3,0.6,1"), ("--bricks", "rigid,1x1,2x1")];
+    let [courses, friction, bricks] = settled.map(|(name, default)| option(name, default));
+    let mut table = String::new();
+    for courses in courses.split(',') {
+        for mu in friction.split(',') {
+            for bricks in bricks.split(',') {
+                let courses = courses.parse().expect("a number of courses");
+                let wall = wall(courses, mu.parse().expect("a coefficient of friction"), bricks);
+                let rows = steps::rows(&wall, bricks, &counts);
+                print!("{rows}");
+                table += &rows;
+            }
+        }
+    }
+    table
 }
 
 /// Rows of walls of these courses, friction and bricks where options choose no others; each is printed when it is there.

@@ -65,9 +65,10 @@ pub(crate) fn merged(
     before: &str,
     is_same: fn(&str, &str) -> bool,
 ) -> Vec<String> {
-    let of_walls = |line: &&str| line.starts_with("| ") && !line.starts_with("| case");
+    let rows = before.lines().skip_while(|line| !line.starts_with("|:--"));
+    let of_walls = |line: &&str| line.starts_with("| ");
     let is_old = |line: &&str| lines.iter().all(|it| !is_same(it, line));
-    let kept: Vec<&str> = before.lines().filter(of_walls).filter(is_old).collect();
+    let kept: Vec<&str> = rows.filter(of_walls).filter(is_old).collect();
     lines.extend(kept.into_iter().map(str::to_owned));
     lines
 }
