@@ -54,6 +54,8 @@ pub struct Plan {
     pub because: String,
     /// The routes in the order in which they are tried, until one has a result.
     pub routes: Vec<Choice>,
+    /// Why the scene is not solved on this machine, if that is so.
+    pub refused: Option<String>,
 }
 
 impl Plan {
@@ -63,7 +65,7 @@ impl Plan {
         let routes = routes::of(scene, model, &sizes);
         let Choice { route, order, largest_order, .. } = routes[0];
         let (solver, because) = solver(route, scene.solver.form, sizes.frictional);
-        Self {
+        let mut plan = Self {
             effects: effects::of(scene, model, &sizes, &routes[0])
                 .into_iter()
                 .chain(history::effects(scene, model))
@@ -81,7 +83,10 @@ impl Plan {
             solver: solver.to_owned(),
             because: because.to_owned(),
             routes,
-        }
+            refused: None,
+        };
+        plan.refused = plan.fits().err().map(|error| error.to_string());
+        plan
     }
 
     /// Numbers in dense matrices, over all routes that may be used; none if all are sparse.

@@ -127,3 +127,20 @@ fn a_list_that_is_not_there_is_named() {
     let error = built.check().unwrap_err();
     assert!(matches!(error.kind(), SceneErrorKind::BlockList { .. }), "{error}");
 }
+
+/// The list is read for the scene: no picture takes its place. Names of files reach no terminal raw.
+#[test]
+fn a_list_is_not_overwritten() {
+    let path = written("kept", SCENE, LIST);
+    let list = path.with_file_name("portal.json");
+    let draw = |out: &str| {
+        let arguments = ["draw", path.to_str().unwrap(), "--out", out];
+        let output = Command::new(env!("CARGO_BIN_EXE_masonry")).args(arguments).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (code, errors) = draw(list.to_str().unwrap());
+    assert!(code == Some(2) && errors.contains("is read for the scene"), "{errors}");
+    assert_eq!(fs::read_to_string(list).unwrap(), LIST);
+    let (code, errors) = draw("missing\u{1b}[2J/picture.svg");
+    assert!(code == Some(2) && errors.contains("missing\\u{1b}[2J/picture.svg"), "{errors}");
+}

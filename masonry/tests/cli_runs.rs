@@ -145,11 +145,11 @@ fn nothing_of_the_user_is_overwritten() {
     fs::write(&report, "of the user").unwrap();
     let out = out.to_str().unwrap();
     for (arguments, why) in [
-        (["solve", &scene, "--report", &scene], "is the scene: choose another --report"),
-        (["limit", &scene, "--report", &scene], "is the scene: choose another --report"),
-        (["draw", &scene, "--out", &scene], "is the scene: choose another --out"),
-        (["solve", &scene, "--out", out], "report.txt is not of an earlier run"),
-        (["limit", &scene, "--out", out], "report.txt is not of an earlier run"),
+        (["solve", &scene, "--report", &scene], "is read for the scene: choose another --report"),
+        (["limit", &scene, "--report", &scene], "is read for the scene: choose another --report"),
+        (["draw", &scene, "--out", &scene], "is read for the scene: choose another --out"),
+        (["solve", &scene, "--out", out], "report.txt in "),
+        (["limit", &scene, "--out", out], "report.txt in "),
     ] {
         let output = masonry(&arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
@@ -159,6 +159,11 @@ fn nothing_of_the_user_is_overwritten() {
         assert_eq!(files(Path::new(out)), ["report.txt"]);
     }
     fs::remove_file(report).unwrap();
+    // A page takes the place of no other file of its run.
+    let page = Path::new(out).join("result.json");
+    let output = masonry(&["solve", &scene, "--out", out, "--report", page.to_str().unwrap()]);
+    assert_eq!((output.status.code(), page.exists()), (Some(2), false));
+    assert!(errors(&output).contains("the run writes a file of this name"), "{}", errors(&output));
     // What a run has written the next one may replace, another command too.
     for command in ["solve", "solve", "limit"] {
         let output = masonry(&[command, &scene, "--out", out]);

@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
+#[path = "limit/growth.rs"]
+mod growth;
+
 use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -316,72 +319,6 @@ fn what_falls_without_the_group_is_said_with_the_proof() {
     assert!(found["load_factor"].is_null() && found["mechanism"].is_object() && code == 1);
 }
 
-/// A block that is steep on its left tips to the right at 0.55 of its weight, and to the left at 0.35.
-#[test]
-fn an_earthquake_comes_from_both_sides() {
-    let steep = [[0.0, 0.0], [0.4, 0.0], [0.2, 1.0], [0.0, 1.0]];
-    let path = written("both", &blocks(0.9, &[steep], SIDEWAYS));
-    let (both, code) = object(&path, &["--both"]);
-    assert_eq!((&both["governs"], code), (&"opposite".into(), 0));
-    for (direction, expected) in [("given", 0.55), ("opposite", 0.35)] {
-        let stands = both[direction]["path"]["load_factor"].as_f64().unwrap();
-        assert!((stands / expected - 1.0).abs() < 1e-4, "{direction}: {stands}");
-    }
-    let output = masonry(&["limit", path.to_str().unwrap(), "--both"]);
-    let text = String::from_utf8(output.stdout).unwrap();
-    assert!(text.contains("The opposite direction governs"), "{text}");
-    // Who asks for one direction is told that there are two; a weight has one.
-    let has_hint = |object: &Value| object["warnings"].to_string().contains("--both");
-    assert!(has_hint(&object(&path, &[]).0));
-    let down = SIDEWAYS.replace("[10.0, 0.0]", "[0.0, -10.0]");
-    assert!(!has_hint(&object(&written("down", &blocks(0.9, &[steep], &down)), &[]).0));
-}
-
-/// Without other loads the weight grows: a block on a floor carries any multiple of it, and one that overhangs none.
-#[test]
-fn the_weight_alone_may_grow() {
-    for (name, block, answer, stands) in [
-        ("rests", [[0.0, 0.0], [0.4, 0.0], [0.4, 1.0], [0.0, 1.0]], "does not fail", true),
-        ("overhangs", [[0.8, 0.0], [1.4, 0.0], [1.4, 1.0], [0.8, 1.0]], "fails", false),
-    ] {
-        let path = written(&format!("weight_{name}"), &blocks(0.9, &[block], ""));
-        let (object, code) = object(&path, &[]);
-        assert_eq!(
-            (&object["group"], &object["associative"]["answer"]),
-            (&"gravity".into(), &answer.into())
-        );
-        let falls = object["path"]["falls"].as_f64();
-        assert_eq!(falls.is_none(), stands, "{name}: {object}");
-        assert!(falls.is_none_or(|falls| falls < 1e-4), "{name}: {falls:?}");
-        assert_eq!(code, 0, "{name}");
-        let sentence = object["sentence"].as_str().unwrap();
-        assert_eq!(
-            sentence.contains("carry no part of \"gravity\" (proved)"),
-            !stands,
-            "{sentence}"
-        );
-    }
-}
-
-/// Text of a bound is on the side of what is proved: a structure may stand below it, but never above.
-#[test]
-fn bounds_are_rounded_outwards() {
-    for k in 0..20 {
-        let height = 1.0 + 0.0137 * f64::from(k);
-        let path = written("rounded", &blocks(0.9, &stack(1, 0.3, height), SIDEWAYS));
-        let (object, _) = object(&path, &[]);
-        let [stands, bound] = [("path", "load_factor"), ("associative", "bound")]
-            .map(|(law, key)| object[law][key].as_f64().unwrap());
-        let sentence = object["sentence"].as_str().unwrap();
-        let after = |words: &str| -> f64 {
-            let rest = sentence.split(words).nth(1).unwrap();
-            rest.split(' ').next().unwrap().parse().unwrap()
-        };
-        assert!(after("stands up to ") <= stands, "{sentence} {stands}");
-        assert!(after("cannot stand above ") >= bound, "{sentence} {bound}");
-    }
-}
-
 #[test]
 fn pictures_and_the_object_are_written() {
     let path = given("ferris_wall_3.toml");
@@ -417,7 +354,11 @@ fn a_group_that_is_not_clear_is_a_mistake() {
     let block = |loads: &str| blocks(0.3, &stack(1, 1.0, 1.0), loads);
     let second = SIDEWAYS.replace("sideways", "wind");
     let zero = SIDEWAYS.replace("[10.0, 0.0]", "[0.0, 0.0]");
-    let cases: [(&str, String, &[&str], &str); 5] = [
+    let weightless =
+        block("").replace("materials.stone.density = 1000.0\n", "materials.stone = {}\n");
+    let cases: [(&str, String, &[&str], &str); 7] = [
+        ("weightless", weightless, &[], "the blocks have no weight"),
+        ("weight", block(SIDEWAYS), &["--group", "gravit"], "did you mean \"gravity\"?"),
         ("none", block("").replace("gravity = [0.0, -10.0]\n", ""), &[], "has no loads"),
         (
             "two",

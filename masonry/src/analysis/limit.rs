@@ -28,6 +28,7 @@
 //! ```
 
 mod associative;
+mod directions;
 mod error;
 mod path;
 mod range;
@@ -39,6 +40,7 @@ use std::ops::ControlFlow;
 use web_time::Instant;
 
 pub use associative::{Answer, Associative};
+pub use directions::{Directions, Governs};
 pub use error::LimitError;
 pub use path::{Change, Event, Path, Stand};
 pub use range::{Extremes, Range, ranges};
@@ -48,8 +50,9 @@ pub use watch::{Bracket, Observer};
 use crate::history::Actions;
 use crate::method::info::PhaseTime;
 use crate::model::Model;
+use crate::plan::Plan;
 use crate::scene::groups::WEIGHT;
-use crate::scene::{Load, Scene};
+use crate::scene::{Load, Route, Scene};
 use crate::system::{self, System};
 use watch::Watch;
 
@@ -79,6 +82,8 @@ pub struct Limit {
     pub associative: Option<Associative>,
     /// The limit load of Coulomb's friction along a path, if it was chosen.
     pub path: Option<Path>,
+    /// Whether what grows is the weight, of which it is proved that forces within friction carry no part.
+    pub falls_by_weight: bool,
     /// The answer in the words of an engineer.
     pub sentence: String,
     /// Warnings: what limits the meaning of the answer.
@@ -87,6 +92,35 @@ pub struct Limit {
     pub is_interrupted: bool,
     /// Time of every phase.
     pub times: Vec<PhaseTime>,
+}
+
+impl Limit {
+    /// Whether the factor of every chosen law is known, and the structure stands under some of them.
+    pub fn is_solved(&self) -> bool {
+        let is_known = |it: &Associative| matches!(it.answer, Answer::Fails | Answer::Unlimited);
+        let by_path = |path: &Path| path.decided && path.load_factor.is_some();
+        self.associative.as_ref().is_none_or(is_known)
+            && self.path.as_ref().is_none_or(by_path)
+            && !self.is_interrupted
+            && !self.falls_by_weight
+    }
+
+    /// The factor that is carried: by Coulomb's friction if the path was followed, else by forces within friction.
+    pub fn carried(&self) -> f64 {
+        let by_path = self.path.as_ref().map(|it| it.load_factor);
+        let by_flow = self.associative.as_ref().map(|it| match it.answer {
+            Answer::Unlimited => Some(f64::INFINITY),
+            _ => it.load_factor,
+        });
+        by_path.or(by_flow).flatten().unwrap_or(0.0)
+    }
+
+    /// The least factor that is known not to be carried, by the law of [`carried`](Self::carried).
+    pub fn not_carried(&self) -> f64 {
+        let by_path = self.path.as_ref().map(|it| it.falls);
+        let by_flow = self.associative.as_ref().map(|it| it.bound);
+        by_path.or(by_flow).flatten().unwrap_or(f64::INFINITY)
+    }
 }
 
 /// The limit load of the group that the scene names, or of its only one, by both laws.
@@ -118,13 +152,15 @@ pub fn limit_observed<'a>(
     let mut clock = Clock::new();
     let group = group(scene)?;
     let given = Model::from_scene(scene)?;
+    // Both laws solve sparse problems, whatever the route of the scene.
+    Plan::of(&scene.clone().route(Route::Interior), &given).fits()?;
     let model = rigid(given.clone());
     let loads: Vec<bool> = scene.loads.iter().map(|load| load.is_called(&group)).collect();
     let weight = scene.is_weight(&group);
     let structure = Structure { model: &model, grows: &loads, weight };
     let growth = structure.growth();
     if growth.iter().all(|force| force.abs() <= 0.0) {
-        return Err(LimitError::NoForce { group });
+        return Err(if weight { LimitError::NoWeight } else { LimitError::NoForce { group } });
     }
     clock.lap("model");
     // Its bound ends the path.
@@ -140,14 +176,19 @@ pub fn limit_observed<'a>(
     let mut warnings = warnings(&model, laws);
     warnings.extend(path.as_ref().map(Path::warning));
     let carried = associative.load_factor.unwrap_or(1.0);
+    let falls_by_weight = weight && associative.carries_nothing();
     let associative = (laws != Laws::Path).then_some(associative);
-    let sentence = if watch.is_ended {
+    let sentence = if falls_by_weight {
+        "The structure falls by its own weight: forces within friction carry no part of it (proved)."
+            .to_owned()
+    } else if watch.is_ended {
         sentence::of_interrupted(&group, associative.as_ref(), path.as_ref())
     } else {
         sentence::of(&group, associative.as_ref(), path.as_ref())
     };
     Ok(Limit {
         title: scene.title.clone(),
+        falls_by_weight,
         sentence,
         warnings,
         is_interrupted: watch.is_ended,

@@ -6,7 +6,7 @@ const UNTOLD: f64 = 64.0;
 /// A plan that does not fit into the memory of the machine.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
-    "about {gigabytes:.0} GB of memory would be needed, and the limit is {limit:.0} GB: use fewer elements or contact \
+    "about {gigabytes:.0} GB of memory would be needed, and this machine has {limit:.0} GB: use fewer elements or contact \
      points"
 )]
 pub struct TooLarge {

@@ -16,6 +16,7 @@ use crate::method::info::SoftReport;
 use crate::plan::Plan;
 use crate::scene::Route;
 use crate::state::{FilmStress, State};
+use crate::verify::verdict::Evidence;
 
 const WIDTH: u16 = 100;
 
@@ -34,7 +35,9 @@ pub fn report(outcome: &Outcome) -> String {
     }
     if let Some(rates) = &outcome.mechanism {
         text += &section("Mechanism");
-        text += &pairs(&[("moves", moving_part(&outcome.model, rates))]);
+        let is_proof = judgement.evidence == Evidence::NoAdmissibleForces;
+        let what = if is_proof { "moves in the proof" } else { "moves" };
+        text += &pairs(&[(what, moving_part(&outcome.model, rates))]);
     }
     if let Some(state) = &outcome.state {
         text += &section("Reactions on the structure");
@@ -104,9 +107,7 @@ fn figures(plan: &Plan) -> Vec<(&'static str, String)> {
         ("memory", format!("about {} MB", memory(plan.memory_bytes()))),
         ("solver", format!("{}: {}", plan.solver, plan.because)),
     ];
-    if let Err(refused) = plan.fits() {
-        lines.push(("refused", refused.to_string()));
-    }
+    lines.extend(plan.refused.iter().map(|why| ("refused", why.clone())));
     for (index, choice) in plan.routes.iter().enumerate() {
         let head = if index == 0 { "route" } else { "" };
         lines.push((head, format!("{}: {}", choice.route.name(), choice.because)));

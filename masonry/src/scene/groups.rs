@@ -9,7 +9,7 @@ pub(crate) const WEIGHT: &str = "gravity";
 
 impl Scene {
     /// Whether a name means the weight of the blocks, as "gravity" does if no load is called so.
-    pub(crate) fn is_weight(&self, name: &str) -> bool {
+    pub fn is_weight(&self, name: &str) -> bool {
         name == WEIGHT
             && self.gravity.is_some()
             && !self.loads.iter().any(|load| load.is_called(name))

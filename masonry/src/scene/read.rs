@@ -33,6 +33,12 @@ impl Scene {
         toml::to_string(self).map_err(|error| SceneError::unwritable(&error.to_string()))
     }
 
+    /// The files that the scene was read from: its own and that of its list of blocks.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        let list = self.source.list().map(|list| list.path.as_path());
+        self.source.path().into_iter().chain(list)
+    }
+
     pub(super) fn without_source(&self) -> Self {
         Self { source: Source::default(), ..self.clone() }
     }

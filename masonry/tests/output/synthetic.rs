@@ -394,5 +394,6 @@ fn plan(model: &Model) -> Plan {
             dense_numbers: 81 * m * m,
             memory_bytes: 648 * m * m,
         }],
+        refused: None,
     }
 }

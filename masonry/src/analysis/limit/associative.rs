@@ -51,7 +51,8 @@ pub struct Associative {
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
 }
 
-/// Parts of the group below this one are none. Chosen: far above what a proof leaves open, far below what means something.
+/// Factors below this part of [`Associative::size`] are none. Chosen: far above what a proof leaves open, far below what means
+/// something.
 const NOTHING: f64 = 1e-6;
 
 impl Associative {
@@ -70,7 +71,7 @@ impl Associative {
 
     /// Whether it is proved that no part of the group is carried: some rounding errors of it are left open.
     pub fn carries_nothing(&self) -> bool {
-        self.proved && self.bound.is_some_and(|bound| bound <= NOTHING)
+        self.proved && self.bound.is_some_and(|bound| bound <= NOTHING * self.size)
     }
 
     fn with_forces(self, model: &Model, forces: Option<Vec<ContactState>>) -> Self {

@@ -1,5 +1,6 @@
 //! Why a limit load cannot be computed.
 
+use crate::plan::TooLarge;
 use crate::scene::{Known, SceneError};
 use crate::system::SystemError;
 
@@ -10,6 +11,9 @@ pub enum LimitError {
     /// The scene is wrong.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// More memory would be needed than the machine has.
+    #[error(transparent)]
+    TooLarge(#[from] TooLarge),
     /// A block cannot be assembled.
     #[error(transparent)]
     System(#[from] SystemError),
@@ -46,6 +50,11 @@ pub enum LimitError {
         /// Name of the arch.
         name: String,
     },
+    /// Blocks without weight, which was to grow.
+    #[error(
+        "the blocks have no weight of which a factor could grow: give their materials a `density`, or name a group of loads"
+    )]
+    NoWeight,
     /// A group of loads that are zero.
     #[error(
         "the loads of \"{group}\" are zero, so that no factor changes anything: give them a value, or name another group"

@@ -86,9 +86,7 @@ fn of_associative(group: &str, found: &Associative) -> String {
     let bound = found.bound.map_or_else(String::new, at_most);
     match found.answer {
         _ if found.carries_nothing() => {
-            format!(
-                "The structure falls: forces within friction carry no part of \"{group}\" (proved)."
-            )
+            format!("Forces within friction carry no part of \"{group}\" (proved).")
         }
         Answer::Fails => format!(
             "Forces within friction carry up to {carried} times \"{group}\"; the structure cannot stand above {bound} \
@@ -98,7 +96,7 @@ fn of_associative(group: &str, found: &Associative) -> String {
             format!("Forces within friction carry any factor of \"{group}\" (proved).")
         }
         Answer::Falls => format!(
-            "The structure cannot stand even without \"{group}\": no forces within friction balance the other loads (proved)."
+            "The structure cannot stand without \"{group}\" either: no forces within friction balance the other loads (proved)."
         ),
         Answer::Undecided => match (found.load_factor, found.bound) {
             (Some(_), Some(_)) => format!(

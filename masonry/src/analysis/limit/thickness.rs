@@ -51,7 +51,7 @@ pub struct Thickness {
 /// The least thickness of an arch under the loads of the scene in full.
 ///
 /// # Errors
-/// [`LimitError`] when the scene is wrong, at the thickness of the scene or at one that was tried, or has no such arch.
+/// [`LimitError`] when the scene is wrong, or has no such arch. Thicknesses at which it is wrong end the search.
 pub fn least_thickness(scene: &Scene, arch: &str) -> Result<Thickness, LimitError> {
     least_thickness_observed(scene, arch, &mut |_| ControlFlow::Continue(()))
 }
@@ -118,7 +118,11 @@ impl Search<'_> {
             return Ok(false);
         }
         self.scene.arches[self.place].thickness = Some(thickness);
-        let model = rigid(Model::from_scene(&self.scene)?);
+        // An arch that no longer fits into the rest of the scene is not tried.
+        let model = match Model::from_scene(&self.scene) {
+            Err(_) if self.falls.is_some() || self.stands.is_some() => return Ok(false),
+            model => rigid(model?),
+        };
         let system = System::without_factors(&model)?;
         let unit = self.scene.units.length_to_si();
         let decision = statics::decide(&model, &system, &mut self.watch.steps())?;
@@ -149,9 +153,9 @@ impl Search<'_> {
         let (thinner, thicker) =
             (falls.map(|it| length(it, Side::Below)), stands.map(|it| length(it, Side::Above)));
         let sentence = match (thinner, thicker) {
-            (Some(_), Some(stands)) if proved => format!(
+            (Some(falls), Some(stands)) if proved => format!(
                 "Arch \"{arch}\" needs a thickness of {stands} {name}: forces within friction balance the loads \
-                 then, and none do where it is thinner by a millionth (proved)."
+                 then, and none do at {falls} {name} (proved)."
             ),
             (Some(falls), Some(stands)) => format!(
                 "Arch \"{arch}\" stands at a thickness of {stands} {name}, and falls at {falls} {name} \
@@ -170,7 +174,10 @@ impl Search<'_> {
         let mechanism = self.falls.take().map(|(_, rates)| rates);
         let (model, forces) = match self.stands.take() {
             Some((_, model, forces)) => (model, Some(forces)),
-            None => (rigid(Model::from_scene(&self.scene)?), None),
+            None => {
+                self.scene.arches[self.place].thickness = Some(given);
+                (rigid(Model::from_scene(&self.scene)?), None)
+            }
         };
         Ok(Thickness {
             title: self.scene.title,

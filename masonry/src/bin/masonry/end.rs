@@ -3,6 +3,8 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use masonry::scene::Scene;
+
 pub(super) type Failure = Box<dyn std::error::Error>;
 
 pub(super) const SOLVED: u8 = 0;
@@ -19,15 +21,26 @@ pub(super) fn listing(files: &[PathBuf]) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Refuses a file that would take the place of the scene.
-pub(super) fn keep_scene(scene: &Path, file: &Path, option: &str) -> Result<(), Failure> {
-    // A file that does not exist yet is no scene.
-    let is_scene =
-        file.canonicalize().is_ok_and(|file| scene.canonicalize().is_ok_and(|scene| scene == file));
-    if is_scene {
-        return Err(format!("{} is the scene: choose another {option}", file.display()).into());
+/// Refuses a file that would take the place of the scene, or of its list of blocks.
+pub(super) fn keep_scene(scene: &Scene, file: &Path, option: &str) -> Result<(), Failure> {
+    if scene.files().any(|of_scene| is_same(of_scene, file)) {
+        let file = file.display();
+        return Err(format!("{file} is read for the scene: choose another {option}").into());
     }
     Ok(())
+}
+
+/// Whether two paths lead to the same file or directory, which exists.
+pub(super) fn is_same(one: &Path, other: &Path) -> bool {
+    one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
+}
+
+/// A message without characters that control a terminal: paths and names in it may have them.
+pub(super) fn without_controls(message: &str) -> String {
+    let shown = |it: char| -> String {
+        if it.is_control() && it != '\n' { it.escape_default().collect() } else { it.into() }
+    };
+    message.chars().map(shown).collect()
 }
 
 /// A closed pipe is the reader's choice, not a failure of ours.

@@ -11,8 +11,7 @@ use crate::out_dir::OutDir;
 use crate::page;
 use crate::progress::Progress;
 use masonry::analysis::limit::{
-    Answer, Associative, Bracket, Laws, Limit, Path, least_thickness_observed, limit_observed,
-    ranges,
+    Bracket, Directions, Laws, Limit, least_thickness_observed, limit_observed, ranges,
 };
 use masonry::report::{self, limit as output};
 use masonry::scene::Scene;
@@ -81,78 +80,72 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
     }
     interrupt::listen();
     let out = out_dir(args)?;
-    page::check(args.report.as_deref(), &args.scene)?;
+    page::check(args.report.as_deref(), &scene, args.out.as_deref())?;
     let progress = Progress::new();
-    let found = |scene: &Scene| {
-        let limit = limit_observed(scene, args.law.into(), &mut |at| follow(&progress, at));
-        progress.clear();
-        limit
-    };
-    let given = found(&scene)?;
-    let reversed = args.both.then(|| found(&scene.reversed(&given.group))).transpose()?;
-    let other_governs = reversed.as_ref().is_some_and(|it| carried(it) < carried(&given));
-    let (mut limit, other) = match reversed {
-        Some(reversed) if other_governs => (reversed, Some(given)),
-        reversed => (given, reversed),
-    };
-    if other.is_none() && scene.is_earthquake(&limit.group) {
-        limit.warnings.push(format!(
-            "\"{}\" acts in one direction: `--both` also takes the opposite one.",
-            limit.group
-        ));
+    let mut given = limit_observed(&scene, args.law.into(), &mut |at| follow(&progress, at))?;
+    progress.clear();
+    let group = given.group.clone();
+    if args.both && scene.is_weight(&group) {
+        given
+            .warnings
+            .push("The weight acts in one direction: `--both` changes nothing.".to_owned());
     }
+    let found = if args.both && !scene.is_weight(&group) {
+        let laws = args.law.into();
+        let both = Directions::of(given, &scene, laws, &mut |at| follow(&progress, at));
+        progress.clear();
+        Found::Both(Box::new(both?))
+    } else {
+        if scene.is_earthquake(&group) {
+            given.warnings.push(format!(
+                "\"{group}\" acts in one direction: `--both` also takes the opposite one."
+            ));
+        }
+        Found::Given(Box::new(given))
+    };
+    let limit = found.limit();
     let written = match &out {
-        Some(out) => output::write(&limit, out.path()),
+        Some(out) => output::write(limit, out.path()),
         None => Ok(Vec::new()),
     };
     // What was computed is printed even when a file could not be written.
     let in_out = written.as_deref().unwrap_or_default();
     let mut files = in_out.to_vec();
-    let page = page::write(args.report.as_deref(), || report::page::limit(&limit), &mut files);
-    let text = match (&other, args.json) {
-        (None, true) => output::json(&limit, &names(&files))?,
-        (Some(other), true) => output::json_both(&limit, other, other_governs, &names(&files))?,
-        (None, false) => format!("{}\n{}", output::table(&limit), listing(&files)),
-        (Some(other), false) => {
-            let both = in_both(&limit, other, other_governs);
-            format!("{both}{}\n{}", output::table(&limit), listing(&files))
-        }
+    let page = page::write(args.report.as_deref(), || report::page::limit(limit), &mut files);
+    let text = match (&found, args.json) {
+        (Found::Given(limit), true) => output::json(limit, &names(&files))?,
+        (Found::Both(both), true) => output::json_both(both, &names(&files))?,
+        (Found::Given(limit), false) => format!("{}\n{}", output::table(limit), listing(&files)),
+        (Found::Both(both), false) => format!("{}\n{}", output::table_both(both), listing(&files)),
     };
     print(&text)?;
     out.map_or(Ok(()), |out| out.finish(in_out, limit.is_interrupted))?;
     written?;
     page?;
-    let is_solved = [&limit].into_iter().chain(&other).all(is_solved);
-    Ok(if is_solved { SOLVED } else { NOT_SOLVED })
+    Ok(if found.is_solved() { SOLVED } else { NOT_SOLVED })
 }
 
-/// Whether the factor of every law is known.
-fn is_solved(limit: &Limit) -> bool {
-    let is_known = |it: &Associative| matches!(it.answer, Answer::Fails | Answer::Unlimited);
-    let by_path = |path: &Path| path.decided && path.load_factor.is_some();
-    limit.associative.as_ref().is_none_or(is_known)
-        && limit.path.as_ref().is_none_or(by_path)
-        && !limit.is_interrupted
+/// What was found.
+enum Found {
+    Given(Box<Limit>),
+    Both(Box<Directions>),
 }
 
-/// The factor that is carried: by Coulomb's friction, if it was asked for.
-fn carried(limit: &Limit) -> f64 {
-    let by_path = limit.path.as_ref().map(|it| it.load_factor);
-    let by_flow = limit.associative.as_ref().map(|it| match it.answer {
-        Answer::Unlimited => Some(f64::INFINITY),
-        _ => it.load_factor,
-    });
-    by_path.or(by_flow).flatten().unwrap_or(0.0)
-}
+impl Found {
+    /// The limit that is shown in pictures.
+    fn limit(&self) -> &Limit {
+        match self {
+            Self::Given(limit) => limit,
+            Self::Both(both) => both.governing(),
+        }
+    }
 
-/// What is found in both directions, before the report of the one that governs.
-fn in_both(governing: &Limit, other: &Limit, is_reversed: bool) -> String {
-    let (given, reversed) = if is_reversed { (other, governing) } else { (governing, other) };
-    let which = if is_reversed { "The opposite direction" } else { "The given direction" };
-    format!(
-        "Given direction: {}\nOpposite direction: {}\n{which} governs:\n\n",
-        given.sentence, reversed.sentence
-    )
+    fn is_solved(&self) -> bool {
+        match self {
+            Self::Given(limit) => limit.is_solved(),
+            Self::Both(both) => both.given.is_solved() && both.opposite.is_solved(),
+        }
+    }
 }
 
 /// Shows what is known; after Ctrl-C asks the search to end.
@@ -180,7 +173,7 @@ fn range(scene: &Scene, json: bool) -> Result<u8, Failure> {
 fn thickness(scene: &Scene, arch: &str, args: &LimitArgs) -> Result<u8, Failure> {
     interrupt::listen();
     let out = out_dir(args)?;
-    page::check(args.report.as_deref(), &args.scene)?;
+    page::check(args.report.as_deref(), scene, args.out.as_deref())?;
     let progress = Progress::new();
     let found = least_thickness_observed(scene, arch, &mut |at| follow(&progress, at));
     progress.clear();

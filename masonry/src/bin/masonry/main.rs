@@ -19,7 +19,8 @@ use std::process::ExitCode;
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
 
-use crate::end::{BAD_INPUT, Failure, SOLVED, keep_scene, print};
+use crate::end::{BAD_INPUT, Failure, SOLVED, keep_scene, print, without_controls};
+use masonry::files::write_atomically;
 use masonry::model::Model;
 use masonry::plan::Plan;
 use masonry::report::{svg, table};
@@ -86,7 +87,7 @@ fn main() -> ExitCode {
         Command::Completions(args) => completions::run(&args, Cli::command()),
     };
     ExitCode::from(result.unwrap_or_else(|failure| {
-        eprintln!("error: {failure}");
+        eprintln!("error: {}", without_controls(&failure.to_string()));
         BAD_INPUT
     }))
 }
@@ -110,8 +111,8 @@ fn draw(args: &DrawArgs) -> Result<u8, Failure> {
     let scene = Scene::read(&args.scene)?;
     let model = Model::from_scene(&scene)?;
     let out = args.out.clone().unwrap_or_else(|| args.scene.with_extension("svg"));
-    keep_scene(&args.scene, &out, "--out")?;
-    std::fs::write(&out, svg::scene(&scene.title, &model))
+    keep_scene(&scene, &out, "--out")?;
+    write_atomically(&out, svg::scene(&scene.title, &model).as_bytes())
         .map_err(|error| format!("cannot write {}: {error}", out.display()))?;
     print(&format!("{}\n", out.display()))?;
     Ok(SOLVED)

@@ -10,7 +10,7 @@ use crate::end::{Failure, names};
 use masonry::report;
 
 /// The file that is locked. It lists what the last run of every command has written.
-const RECORD: &str = ".masonry.json";
+pub(super) const RECORD: &str = ".masonry.json";
 
 /// Names of files by the name of the command.
 type Record = BTreeMap<String, BTreeSet<String>>;
@@ -75,23 +75,25 @@ impl OutDir {
         let record: Record = serde_json::from_str(&text).unwrap_or_default();
         let (path, claimed) = (path.to_owned(), BTreeSet::new());
         let opened = Self { path, command, file, record, claimed, made, is_used: false };
-        match opened.foreign(from) {
-            Some(file) => Err(format!(
-                "{} is not of an earlier run: move it away, or choose another --out",
-                file.display()
-            )
-            .into()),
-            None => Ok(opened),
+        let foreign = opened.foreign(from);
+        if foreign.is_empty() {
+            return Ok(opened);
         }
+        Err(format!(
+            "{} in {} would be overwritten, and no earlier run has written there: move it away, or choose another --out",
+            foreign.join(", "),
+            opened.path.display()
+        )
+        .into())
     }
 
-    /// A file in the way of those that runs write, which no run has written.
-    fn foreign(&self, from: Option<&str>) -> Option<PathBuf> {
+    /// Files in the way of those that runs write, which no run has written.
+    fn foreign(&self, from: Option<&str>) -> Vec<&'static str> {
         let is_own = |name: &str| {
             from == Some(name) || self.record.values().any(|names| names.contains(name))
         };
-        let names = report::FILES.iter().filter(|name| !is_own(name));
-        names.map(|name| self.path.join(name)).find(|path| path.exists())
+        let names = report::FILES.into_iter().filter(|name| !is_own(name));
+        names.filter(|name| self.path.join(name).exists()).collect()
     }
 
     pub(super) fn path(&self) -> &Path {

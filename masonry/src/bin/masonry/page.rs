@@ -1,12 +1,16 @@
 //! `--report`: the page of HTML.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use crate::end::{Failure, keep_scene};
+use crate::end::{Failure, is_same, keep_scene};
+use crate::out_dir::RECORD;
 use masonry::files::write_atomically;
+use masonry::report;
+use masonry::scene::Scene;
 
-/// Says before the work whether a page of a scene can be written at all.
-pub(super) fn check(path: Option<&Path>, scene: &Path) -> Result<(), Failure> {
+/// Says before the work whether a page of a scene can be written at all, beside the files of a run into `out`.
+pub(super) fn check(path: Option<&Path>, scene: &Scene, out: Option<&Path>) -> Result<(), Failure> {
     let Some(path) = path else { return Ok(()) };
     keep_scene(scene, path, "--report")?;
     let directory = match path.parent() {
@@ -14,7 +18,11 @@ pub(super) fn check(path: Option<&Path>, scene: &Path) -> Result<(), Failure> {
         Some(parent) => parent,
         None => path,
     };
-    let why = if path.is_dir() {
+    let of_run = |name: &OsStr| name == RECORD || report::FILES.iter().any(|file| name == *file);
+    let is_in_out = out.is_some_and(|out| is_same(out, directory));
+    let why = if is_in_out && path.file_name().is_some_and(of_run) {
+        "the run writes a file of this name into --out"
+    } else if path.is_dir() {
         "it is a directory"
     } else if !directory.is_dir() {
         "its directory does not exist"

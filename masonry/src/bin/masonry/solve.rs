@@ -53,7 +53,7 @@ pub(super) fn run(args: &SolveArgs) -> Result<u8, Failure> {
     interrupt::listen();
     let from = args.resume.then_some(CHECKPOINT);
     let mut out = args.out.as_deref().map(|out| OutDir::open(out, "solve", from)).transpose()?;
-    page::check(args.report.as_deref(), &args.scene)?;
+    page::check(args.report.as_deref(), &scene, args.out.as_deref())?;
     let Ran { outcome, frames, files: mut in_out, end } = run_steps(&scene, args, out.as_mut())?;
     let options = Options { reference: ReferenceLines::of(&scene), ..Options::default() };
     let written = match &out {

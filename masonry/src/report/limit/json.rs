@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::analysis::limit::{Answer, Extremes, Limit, Range, Thickness};
+use crate::analysis::limit::{Answer, Directions, Extremes, Governs, Limit, Range, Thickness};
 use crate::method::statics::limit::Extreme;
 use crate::report::format::InUnits;
 use crate::report::json::{ByName, Force, named_force, rates_by_name};
@@ -24,20 +24,17 @@ pub fn json(limit: &Limit, files: &[String]) -> Result<String, serde_json::Error
 }
 
 /// The object of `masonry limit --both --json`, pretty-printed: the object of [`json`] for the `given` direction of the load and for
-/// the `opposite` one, and which of them `governs`; files are of that one.
+/// the `opposite` one, and which of them `governs` (`both` if they carry the same, `unknown` if one is not decided); files are of
+/// that one, else of the given one.
 ///
 /// # Errors
 /// As [`json`].
-pub fn json_both(
-    governing: &Limit,
-    other: &Limit,
-    is_opposite: bool,
-    files: &[String],
-) -> Result<String, serde_json::Error> {
-    let [governing, other] = [report(governing, files), report(other, &[])];
-    let (given, opposite) = if is_opposite { (other, governing) } else { (governing, other) };
-    let governs = if is_opposite { "opposite" } else { "given" };
-    Ok(serde_json::to_string_pretty(&Both { governs, given, opposite })? + "\n")
+pub fn json_both(both: &Directions, files: &[String]) -> Result<String, serde_json::Error> {
+    let is_opposite = both.governs == Governs::Opposite;
+    let (of_given, of_opposite) = if is_opposite { (&[][..], files) } else { (files, &[][..]) };
+    let (given, opposite) = (report(&both.given, of_given), report(&both.opposite, of_opposite));
+    let both = Both { governs: both.governs, given, opposite };
+    Ok(serde_json::to_string_pretty(&both)? + "\n")
 }
 
 fn report<'a>(limit: &'a Limit, files: &'a [String]) -> Report<'a> {
@@ -124,7 +121,7 @@ struct ThicknessReport<'a> {
 
 #[derive(Serialize)]
 struct Both<'a> {
-    governs: &'static str,
+    governs: Governs,
     given: Report<'a>,
     opposite: Report<'a>,
 }

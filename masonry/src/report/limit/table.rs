@@ -1,7 +1,9 @@
 //! A limit load, or the ranges of reactions, as text.
 
 use super::json::path::sides;
-use crate::analysis::limit::{Associative, Change, Limit, Path, Range, Stand, Thickness};
+use crate::analysis::limit::{
+    Associative, Change, Directions, Governs, Limit, Path, Range, Stand, Thickness,
+};
 use crate::method::statics::limit::Extreme;
 use crate::model::Model;
 use crate::report::format::{InUnits, aligned, significant};
@@ -42,6 +44,23 @@ pub fn table(limit: &Limit) -> String {
     let rows: Vec<_> =
         limit.times.iter().map(|it| (it.phase.as_str(), millis(it.seconds))).collect();
     text + &pairs(&rows)
+}
+
+/// The sentences of both directions, and the report of the one that governs.
+pub fn table_both(both: &Directions) -> String {
+    let which = match both.governs {
+        Governs::Given => "The given direction governs:",
+        Governs::Opposite => "The opposite direction governs:",
+        Governs::Both => "Both directions carry the same. The given one:",
+        Governs::Unknown => "Which direction governs is not known. The given one:",
+    };
+    let Directions { given, opposite, .. } = both;
+    format!(
+        "Given direction: {}\nOpposite direction: {}\n{which}\n\n{}",
+        given.sentence,
+        opposite.sentence,
+        table(both.governing())
+    )
 }
 
 fn bound(it: Option<f64>, side: Side) -> String {

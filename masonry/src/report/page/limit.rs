@@ -157,7 +157,8 @@ fn moving(
 
 /// Says whether the structure stands under the loads that stay, and some part of those that grow.
 fn verdict(limit: &Limit) -> &'static str {
-    if limit.associative.as_ref().is_some_and(Associative::carries_nothing) {
+    if limit.falls_by_weight || limit.associative.as_ref().is_some_and(Associative::carries_nothing)
+    {
         return "falls";
     }
     let answer = limit.associative.as_ref().map(|it| it.answer);
@@ -181,15 +182,20 @@ fn figures(limit: &Limit) -> Vec<(String, String)> {
         it.map_or("none".to_owned(), |it| outwards(it, side, |it| significant(it, 5)))
     };
     let mut list = vec![("load that grows", limit.group.clone())];
+    let moves = |it: &Option<Vec<Rates>>| {
+        it.as_ref().map(|rates| ("moves", moving_part(&limit.model, rates)))
+    };
     if let Some(path) = &limit.path {
         list.push(("factor along a path", bound(path.load_factor, Side::Below)));
         list.push(("falls at", bound(path.falls, Side::Above)));
-        let moves = path.mechanism.as_ref().map(|rates| moving_part(&path.model, rates));
-        list.extend(moves.map(|it| ("moves", it)));
+        list.extend(moves(&path.mechanism));
     }
     if let Some(found) = &limit.associative {
         list.push(("factor, associative flow", bound(found.load_factor, Side::Below)));
         list.push(("cannot stand above", bound(found.bound, Side::Above)));
+        if limit.path.is_none() {
+            list.extend(moves(&found.mechanism));
+        }
         list.push(("proved", yes_or_no(found.proved)));
     }
     list.push(("size", size(&limit.model)));

@@ -1,6 +1,7 @@
 //! Checks of loads, and of the names by which stages call them.
 
 use super::{Check, finite, missing, point, segment, unknown};
+use crate::scene::groups::WEIGHT;
 use crate::scene::load::{EDGE, POINT};
 use crate::scene::rules::{One, exactly_one, plain};
 use crate::scene::{Fault, KeyPath, Load, LoadError, Scene, SceneErrorKind, Stage};
@@ -50,7 +51,7 @@ impl Scene {
     pub(super) fn check_stage_loads(&self, at: &KeyPath, stage: &Stage) -> Check {
         for (name, factor) in &stage.loads {
             let at = at.key(name);
-            self.check_load_name(&at, name)?;
+            self.check_load_name(&at, name, None)?;
             finite(at, *factor)?;
         }
         for load in &self.loads {
@@ -76,10 +77,11 @@ impl Scene {
         {
             return Err(Fault::new(at, LoadError::Support { name: name.clone() }.into()));
         }
-        self.check_load_name(&at, name)
+        self.check_load_name(&at, name, self.gravity.map(|_| WEIGHT))
     }
 
-    fn check_load_name(&self, at: &KeyPath, name: &str) -> Check {
+    /// One load or one group has this name; `also` is another that it could have had.
+    fn check_load_name(&self, at: &KeyPath, name: &str, also: Option<&str>) -> Check {
         let names = |of: &dyn Fn(&&Load) -> bool| -> Vec<String> {
             self.loads.iter().filter(of).map(|load| load.name.clone()).collect()
         };
@@ -90,7 +92,8 @@ impl Scene {
             let others = groups.into_iter().filter(|group| !loads.contains(group));
             let others: Vec<String> = others.collect();
             let what = if others.is_empty() { "load" } else { "load or group" };
-            let known = loads.iter().cloned().chain(others).collect();
+            let known = loads.iter().cloned().chain(others).chain(also.map(str::to_owned));
+            let known = known.collect();
             return Err(unknown(at.clone(), what, name, known, "loads"));
         }
         if single.is_empty() || members.is_empty() || single == members {

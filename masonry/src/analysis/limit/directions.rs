@@ -1,0 +1,65 @@
+//! A limit load in both directions of the load that grows, from both of which an earthquake comes.
+
+use serde::Serialize;
+
+use super::{Laws, Limit, LimitError, Observer, limit_observed};
+use crate::scene::Scene;
+
+/// The direction under which the structure fails first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Governs {
+    /// That of the scene.
+    Given,
+    /// The opposite one.
+    Opposite,
+    /// Both directions carry the same, as far as their limits are known.
+    Both,
+    /// One of the two was not decided.
+    Unknown,
+}
+
+/// The limit loads of both directions.
+#[derive(Debug, Clone)]
+pub struct Directions {
+    /// The load in the direction that it has in the scene.
+    pub given: Limit,
+    /// The load in the opposite direction.
+    pub opposite: Limit,
+    /// The direction that carries less.
+    pub governs: Governs,
+}
+
+impl Directions {
+    /// The limit load of the opposite direction beside that of the given one.
+    ///
+    /// # Errors
+    /// As [`limit`](super::limit()).
+    pub fn of<'a>(
+        given: Limit,
+        scene: &Scene,
+        laws: Laws,
+        observer: &'a mut Observer<'a>,
+    ) -> Result<Self, LimitError> {
+        let mut opposite = limit_observed(&scene.reversed(&given.group), laws, observer)?;
+        let group = &given.group;
+        opposite
+            .warnings
+            .push(format!("\"{group}\" acts here against its direction in the scene."));
+        let governs = if !(given.is_solved() && opposite.is_solved()) {
+            Governs::Unknown
+        } else if given.not_carried() <= opposite.carried() && given.carried().is_finite() {
+            Governs::Given
+        } else if opposite.not_carried() <= given.carried() && opposite.carried().is_finite() {
+            Governs::Opposite
+        } else {
+            Governs::Both
+        };
+        Ok(Self { given, opposite, governs })
+    }
+
+    /// The limit of the direction that governs; that of the scene if none does.
+    pub fn governing(&self) -> &Limit {
+        if self.governs == Governs::Opposite { &self.opposite } else { &self.given }
+    }
+}
