@@ -350,6 +350,14 @@ fn json_says_what_is_wrong_and_where() {
             at(2, 43),
             "outside a matrix of 1 x 1",
         ),
+        // A, which comes first, has such an entry too, and room for it.
+        (
+            "{\"kind\": \"qp\", \"q\": [1], \"l\": [0, 0], \"u\": [1, 1],\n \
+             \"a\": {\"rows\": 2, \"cols\": 1, \"triplets\": [[1, 0, 2]]},\n \
+             \"p\": {\"rows\": 1, \"cols\": 1, \"triplets\": [[1, 0, 2]]}}",
+            at(3, 43),
+            "outside a matrix of 1 x 1",
+        ),
         (
             "{\"kind\": \"friction\", \"w\": [[1, 0], [0, 1]], \"q\": [0, 0],\n \"mu\": [-1]}",
             at(2, 8),

@@ -84,13 +84,17 @@ fn place(text: &str, error: &Error) -> Position {
         Error::Bounds { .. } => field("lower"),
         Error::Indefinite { .. } => field("k"),
         Error::NotConvex { .. } => field("p"),
-        // These do not say of which matrix they are.
-        Error::RowLength { row, len, .. } => {
-            let rows = fields.values().filter_map(|it| items(it)?.get(*row).copied());
-            rows.into_iter().find(|it| items(it).is_some_and(|it| it.len() == *len))
+        // These do not say of which matrix they are, but its size.
+        Error::RowLength { row, len, expected } => {
+            let length = |row: &RawValue| items(row).map(|it| it.len());
+            let matrices = fields.values().filter_map(|it| items(it));
+            let rows = matrices.filter_map(|it| Some([*it.first()?, *it.get(*row)?]));
+            let mut rows = rows.filter(|[first, _]| length(first) == Some(*expected));
+            rows.find(|[_, it]| length(it) == Some(*len)).map(|[_, it]| it)
         }
-        Error::Outside { row, col, .. } => {
+        Error::Outside { row, col, rows, cols } => {
             let lists = fields.values().filter_map(|it| from_str::<Sparse<'_>>(it.get()).ok());
+            let lists = lists.filter(|it| [it.rows, it.cols] == [*rows, *cols]);
             let mut entries = lists.filter_map(|it| items(it.triplets)).flatten();
             entries.find(|it| {
                 let place = from_str(it.get()).map(|(i, j, _): (usize, usize, f64)| (i, j));
@@ -107,6 +111,8 @@ fn place(text: &str, error: &Error) -> Position {
 
 #[derive(Deserialize)]
 struct Sparse<'a> {
+    rows: usize,
+    cols: usize,
     #[serde(borrow)]
     triplets: &'a RawValue,
 }
