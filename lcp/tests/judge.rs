@@ -24,6 +24,7 @@ use common::cases;
 use contact::{Contact, Rough, Smooth};
 use friction::Reduced;
 use general::General;
+use lcp::Friction2d;
 use planted::{
     Planted, assert_components_are_seen, assert_conditions_are_seen, assert_rows_are_seen,
     assert_solved, planted,
@@ -75,4 +76,19 @@ proptest! {
     fn contact_that_is_reduced_to_the_contacts(seed in any::<u64>()) {
         assert_judged::<Reduced>(seed);
     }
+}
+
+/// A normal force whose column is zero is felt by no row. What rounding leaves of the velocity beside it is no contradiction.
+#[test]
+fn a_force_that_no_row_feels_is_not_the_smaller_of_its_pair() {
+    let w = [[0.0, 3.0], [0.0, -3.0]];
+    let solved = Friction2d::new(w, [-7.0, 3.0], [0.5]).unwrap();
+    // The velocity is 3 r_T - 7, which the nearest number to 7/3 leaves at 4e-16.
+    let normal = 14.0 / 3.0;
+    let forces = solved.forces(&[normal, normal, 4.0]);
+    assert!(3.0 * (7.0 / 3.0_f64) - 7.0 == 0.0 && forces.tangential[0] == 7.0 / 3.0);
+    assert!(solved.residuals(&forces).worst() < 1e-15);
+    // A velocity of one is.
+    let opening = Friction2d::new(w, [-6.0, 3.0], [0.5]).unwrap();
+    assert!(opening.residuals(&forces).worst() > 0.05);
 }

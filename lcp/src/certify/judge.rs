@@ -265,13 +265,16 @@ impl<'a, R: Rows> Conditions<'a, R> {
         effect.unwrap_or(1.0)
     }
 
-    /// The same in units of the loads.
+    /// The same in units of the loads. One without any row is never the smaller of a pair.
     fn burden(&self, Entry { variable, value }: Entry) -> f64 {
-        let mut burden = 0.0_f64;
+        let mut burden: Option<f64> = None;
         self.judge.rows.for_each_entry(variable, |i, v| {
-            burden = burden.max((v * value).abs() * self.judge.weight(self.point.unit, i));
+            if v != 0.0 {
+                let part = (v * value).abs() * self.judge.weight(self.point.unit, i);
+                burden = Some(burden.map_or(part, |burden| burden.max(part)));
+            }
         });
-        burden
+        burden.unwrap_or(f64::INFINITY)
     }
 
     fn finished(self, precision: Precision) -> Residuals {
