@@ -11,7 +11,7 @@ use crate::table::{key, merged, mu};
 use crate::walls::{Case, Wall};
 
 const HEAD: &str = "| bricks | mu | steps | of these keep the law | least P / cap | factorisations, mean of steps | \
-     displacements differ \\[%\\] | reported \\[%\\] |\n|:--|--:|--:|--:|--:|--:|--:|--:|\n";
+     displacements differ \\[%\\] | reported of displacements, largest \\[%\\] |\n|:--|--:|--:|--:|--:|--:|--:|--:|\n";
 
 /// Computed rows, and those of the table `before` that are of other walls or numbers of steps.
 pub(crate) fn table(computed: &str, before: &str) -> String {
@@ -42,7 +42,9 @@ pub(crate) fn rows(wall: &Wall, bricks: &str, counts: &[u32]) -> String {
         let power = records.iter().filter_map(|record| record.friction_power).fold(1.0, f64::min);
         let factorisations: usize = records.iter().map(|record| record.factorisations).sum();
         let reported = match history.second_loading {
-            Some(SecondLoading::Ended(spread)) => format!("{:.1}", 100.0 * spread.displacements),
+            Some(SecondLoading::Ended(spread)) => {
+                format!("{:.1}, {:.1}", 100.0 * spread.displacements, 100.0 * spread.largest())
+            }
             Some(_) => "not known".to_owned(),
             None => "-".to_owned(),
         };
