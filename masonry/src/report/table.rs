@@ -13,7 +13,7 @@ use super::summary::{
 };
 use crate::analysis::outcome::Outcome;
 use crate::method::info::SoftReport;
-use crate::plan::Plan;
+use crate::plan::{Choice, Plan};
 use crate::scene::Route;
 use crate::state::{FilmStress, State};
 use crate::verify::verdict::Evidence;
@@ -104,7 +104,7 @@ fn figures(plan: &Plan) -> Vec<(&'static str, String)> {
     let mut lines = vec![
         ("sizes", sizes),
         ("order", plan.order.to_string()),
-        ("memory", format!("about {} MB", memory(plan.memory_bytes()))),
+        ("memory", memory(&plan.routes)),
         ("solver", format!("{}: {}", plan.solver, plan.because)),
     ];
     lines.extend(plan.refused.iter().map(|why| ("refused", why.clone())));
@@ -129,9 +129,18 @@ fn residuals(it: &lcp::Residuals) -> String {
     ])
 }
 
-/// In units of 10^6 bytes, which are few for the smallest scenes.
-fn memory(bytes: usize) -> String {
-    significant(bytes as f64 / 1e6, 2)
+/// What the first route needs, and the one that needs most, if it is asked at all. In units of 10^6 bytes, which are few for the
+/// smallest scenes.
+fn memory(routes: &[Choice]) -> String {
+    let megabytes = |it: &Choice| format!("{} MB", significant(it.memory_bytes as f64 / 1e6, 2));
+    let most = routes.iter().max_by_key(|it| it.memory_bytes);
+    let first = routes.first().map_or_else(String::new, megabytes);
+    match most.filter(|most| routes[0].memory_bytes < most.memory_bytes) {
+        Some(most) => {
+            format!("about {first}; {} if {} is asked", megabytes(most), most.route.name())
+        }
+        None => format!("about {first}"),
+    }
 }
 
 fn solution(outcome: &Outcome) -> Vec<(&'static str, String)> {
