@@ -91,8 +91,8 @@ impl Residuals {
         }
     }
 
-    /// What a method may say of a point with these residuals: solved, or what it says of other points; of one
-    /// that is not even almost solved it cannot say that.
+    /// The status of a point with these residuals: `Solved` within the tolerance, else what the method says of other points.
+    /// `AlmostSolved` becomes `NumericalTrouble` above the root of the tolerance, and `Solved` becomes `Stalled`.
     pub(crate) fn verdict(&self, tolerance: f64, otherwise: Status) -> Status {
         let worst = self.worst();
         if worst <= tolerance {

@@ -37,7 +37,9 @@ pub(crate) enum Enumerated {
     Infeasible(Vec<f64>),
     /// They can, but not with complementarity: the leaves cover all choices.
     NoSolution(Vec<Leaf>),
-    /// A limit was reached, or rounding leaves it undecided.
+    /// A limit was reached.
+    Limit,
+    /// Rounding leaves it undecided.
     Open,
 }
 
@@ -115,7 +117,7 @@ impl Search<'_> {
         }
         let tree = &self.tree;
         if tree.linear.exchanges.get() > self.most || is_over(self.deadline) {
-            return Err(Enumerated::Open);
+            return Err(Enumerated::Limit);
         }
         let Some(minimum) = tree.minimum(sides, start) else { return Ok(None) };
         if let Some(proof) = tree.proof(sides, &minimum) {

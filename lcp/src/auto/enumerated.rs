@@ -32,24 +32,27 @@ impl<P: General> Solver<P> for Enumeration {
         let is_cancelled = monitor.stop(f64::INFINITY) == Some(Status::Cancelled);
         let deadline = monitor.deadline();
         let (found, exchanges) = if is_cancelled {
-            (Enumerated::Open, 0)
+            (Enumerated::Limit, 0)
         } else {
             enumerate(&general, WORK / n.pow(2).max(1), deadline)
         };
         let (mut t, mut y) = (vec![0.0; n], vec![0.0; n]);
         let (mut basis, mut proof) = (None, None);
+        let is_limited = found == Enumerated::Limit;
         match found {
             Enumerated::Found { t: of_t, y: of_y, basis: found } => {
                 (t, y, basis) = (of_t, of_y, Some(found));
             }
             Enumerated::Infeasible(pi) => proof = Some(Certificate::Farkas { pi }),
             Enumerated::NoSolution(leaves) => proof = Some(Certificate::Choices { leaves }),
-            Enumerated::Open => {}
+            Enumerated::Limit | Enumerated::Open => {}
         }
         let otherwise = if is_cancelled {
             Status::Cancelled
         } else if is_over(deadline) {
             Status::TimeLimit
+        } else if is_limited {
+            Status::IterationLimit
         } else {
             Status::NumericalTrouble
         };

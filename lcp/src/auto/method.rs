@@ -95,7 +95,7 @@ pub struct Effort<'a> {
 }
 
 impl Effort<'_> {
-    /// The methods that treat every problem.
+    /// The methods that treat every problem. Problems have an arm for every other method of their chains.
     pub(super) fn common<P>(&self, method: Method) -> Box<dyn Solver<P>>
     where
         P: General,
@@ -112,11 +112,12 @@ impl Effort<'_> {
                 Box::new(Lemke::new(settings))
             }
             Method::Enumeration => Box::new(Enumeration { tolerance, time_limit }),
-            _ => {
+            Method::Interior => {
                 let defaults = InteriorPointSettings::default();
                 let settings = InteriorPointSettings { tolerance, time_limit, start, ..defaults };
                 Box::new(InteriorPoint::new(settings))
             }
+            other => unreachable!("a chain has {other}, and its problem no arm for it"),
         }
     }
 
