@@ -96,7 +96,7 @@ fn of_associative(group: &str, found: &Associative) -> String {
             format!("Forces within friction carry any factor of \"{group}\" (proved).")
         }
         Answer::Falls => format!(
-            "The structure cannot stand without \"{group}\" either: no forces within friction balance the other loads (proved)."
+            "The structure cannot stand without \"{group}\": no forces within friction balance the other loads (proved)."
         ),
         Answer::Undecided => match (found.load_factor, found.bound) {
             (Some(_), Some(_)) => format!(
