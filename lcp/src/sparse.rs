@@ -5,7 +5,6 @@ mod cholesky;
 mod gram;
 mod lu;
 mod order;
-mod rows;
 mod supernodal;
 #[cfg(test)]
 mod tests;
@@ -14,7 +13,6 @@ pub(crate) use cholesky::Cholesky;
 pub use gram::Gram;
 pub(crate) use lu::{Growing, SparseLu, row_counts};
 pub(crate) use order::{Turn, elimination_order};
-pub(crate) use rows::ByRows;
 pub use supernodal::SupernodalLu;
 
 /// Pivots below this multiple of what they are measured by, the largest entry of their column or a diagonal of order one, are
@@ -64,7 +62,7 @@ impl Columns {
 
     /// The entries `(row, value)` of a column.
     #[inline]
-    pub(crate) fn entries(&self, j: usize) -> impl DoubleEndedIterator<Item = (usize, f64)> + '_ {
+    pub(crate) fn entries(&self, j: usize) -> impl Iterator<Item = (usize, f64)> + Clone + '_ {
         let range = self.starts[j]..self.starts[j + 1];
         let values = self.values[range.clone()].iter();
         self.rows[range].iter().map(|&row| row as usize).zip(values.copied())
@@ -82,42 +80,58 @@ impl Columns {
         self.entries(j).map(|(i, v)| v * x[i]).sum()
     }
 
-    /// The same entries by rows: column `i` of the result is row `i`, of `count` rows.
-    pub(crate) fn transposed(&self, count: usize) -> Self {
+    /// The rows of a matrix with so many of them as columns, from its entries `(row, column, value)`; those of a row stay in
+    /// their order.
+    pub(crate) fn by_rows(
+        count: usize,
+        all: impl Iterator<Item = (usize, usize, f64)> + Clone,
+    ) -> Self {
         let mut starts = vec![0; count + 1];
-        self.rows.iter().for_each(|&row| starts[row as usize + 1] += 1);
+        all.clone().for_each(|(i, ..)| starts[i + 1] += 1);
         for i in 0..count {
             starts[i + 1] += starts[i];
         }
         let mut next = starts.clone();
-        let mut rows = vec![0; self.rows.len()];
-        let mut values = vec![0.0; self.rows.len()];
-        for j in 0..self.len() {
-            for (i, v) in self.entries(j) {
-                (rows[next[i]], values[next[i]]) = (index(j), v);
-                next[i] += 1;
-            }
+        let (mut rows, mut values) = (vec![0; starts[count]], vec![0.0; starts[count]]);
+        for (i, j, v) in all {
+            (rows[next[i]], values[next[i]]) = (index(j), v);
+            next[i] += 1;
         }
         Self { starts, rows, values }
     }
+
+    /// The same entries by rows: column `i` of the result is row `i`, of `count` rows.
+    pub(crate) fn transposed(&self, count: usize) -> Self {
+        let all = (0..self.len()).flat_map(|j| self.entries(j).map(move |(i, v)| (i, j, v)));
+        Self::by_rows(count, all)
+    }
 }
 
-/// For every row the groups that have it: where they start, and their numbers.
-pub(crate) fn groups_of_rows(rows: usize, groups: &[&[usize]]) -> (Vec<usize>, Vec<usize>) {
-    let mut starts = vec![0; rows + 1];
-    groups.iter().copied().flatten().for_each(|&i| starts[i + 1] += 1);
-    for i in 0..rows {
-        starts[i + 1] += starts[i];
-    }
-    let mut next = starts.clone();
-    let mut numbers = vec![0; starts[rows]];
-    for (number, group) in groups.iter().enumerate() {
-        for &i in *group {
-            numbers[next[i]] = number;
-            next[i] += 1;
+/// The pattern of a square matrix with a diagonal, entries between the rows of a group, and further ones, as far as they are
+/// wanted: where columns start, and their rows, ascending.
+pub(crate) fn pattern_of<'a, I: Iterator<Item = &'a usize>>(
+    n: usize,
+    groups: &[&'a [usize]],
+    further: impl Fn(usize) -> I,
+    is_wanted: impl Fn(usize, usize) -> bool,
+) -> (Vec<usize>, Vec<usize>) {
+    let members = groups.iter().enumerate();
+    let members = members.flat_map(|(number, group)| group.iter().map(move |&i| (i, number, 1.0)));
+    let of_rows = Columns::by_rows(n, members);
+    let (mut starts, mut rows) = (vec![0], Vec::new());
+    let mut last = vec![usize::MAX; n];
+    for j in 0..n {
+        let begin = rows.len();
+        let of_groups = of_rows.rows(j).iter().flat_map(|&number| groups[number as usize]);
+        for i in std::iter::once(j).chain(of_groups.chain(further(j)).copied()) {
+            if is_wanted(i, j) && std::mem::replace(&mut last[i], j) != j {
+                rows.push(i);
+            }
         }
+        rows[begin..].sort_unstable();
+        starts.push(rows.len());
     }
-    (starts, numbers)
+    (starts, rows)
 }
 
 /// A row or column number in half the space.

@@ -7,7 +7,7 @@ use super::significance::spread;
 use super::weights::per_load;
 use crate::parts::Parts;
 use crate::problem::{column_factors, column_of, diagonal, median};
-use crate::sparse::ByRows;
+use crate::sparse::Columns;
 use crate::vector::WEAK;
 use crate::{Contact2d, ContactState};
 
@@ -47,8 +47,8 @@ impl ContactState {
 pub(crate) struct ContactRows<'a> {
     problem: &'a Contact2d,
     /// The rows that the forces of every point act on: of displacements, and of its gap or slip if it is compliant.
-    normal: ByRows,
-    tangent: ByRows,
+    normal: Columns,
+    tangent: Columns,
     longest: usize,
 }
 
@@ -66,7 +66,7 @@ impl<'a> ContactJudge<'a> {
             let own = own.filter(|(_, a)| *a > 0.0).map(move |(i, a)| (i, n + side * m + i, a));
             let c = matrices[1 + side];
             let bodies = (0..n).flat_map(move |j| column_of(c, j).map(move |(i, v)| (i, j, -v)));
-            ByRows::new(m, bodies.chain(own))
+            Columns::by_rows(m, bodies.chain(own))
         };
         let (normal, tangent) = (acting(0), acting(1));
         let openings = problem.initial_gaps().iter().chain(problem.initial_slips());
@@ -100,9 +100,9 @@ impl Rows for ContactRows<'_> {
             column_of(problem.normal(), variable).for_each(|(i, v)| visit(n + i, v));
             column_of(problem.tangent(), variable).for_each(|(i, v)| visit(n + m + i, v));
         } else if variable < n + m {
-            self.normal.row(variable - n).iter().for_each(|(i, v)| visit(*i, *v));
+            self.normal.entries(variable - n).for_each(|(i, v)| visit(i, v));
         } else if variable < n + 2 * m {
-            self.tangent.row(variable - n - m).iter().for_each(|(i, v)| visit(*i, *v));
+            self.tangent.entries(variable - n - m).for_each(|(i, v)| visit(i, v));
         } else {
             visit(variable - 2 * m, -1.0);
         }
@@ -167,8 +167,10 @@ fn weights(problem: &Contact2d) -> Vec<f64> {
     let part: Vec<usize> = (0..n + m).map(|i| parts.of(i)).collect();
     let weak = couplings.iter().filter(|(_, _, coupling)| *coupling < WEAK);
     let weak = weak.map(|&(a, b, coupling)| (part[a], part[b], coupling));
-    let links =
-        ByRows::new(n + m, weak.flat_map(|(a, b, coupling)| [(a, b, coupling), (b, a, coupling)]));
+    let links = Columns::by_rows(
+        n + m,
+        weak.flat_map(|(a, b, coupling)| [(a, b, coupling), (b, a, coupling)]),
+    );
     for felt in [&mut forces, &mut lengths] {
         spread(&links, felt);
         let largest = felt.iter().fold(0.0_f64, |max, v| max.max(*v));

@@ -9,7 +9,7 @@
 use std::collections::BinaryHeap;
 
 use super::constants::IN_FULL;
-use crate::sparse::ByRows;
+use crate::sparse::Columns;
 use crate::vector::WEAK;
 
 /// The size of a coefficient times the value of its variable at a point, above zero.
@@ -45,7 +45,7 @@ pub(super) fn significance(
             links.extend([(row, variable, share), (variable, row, (share / WEAK).min(1.0))]);
         }
     }
-    let links = ByRows::new(worth.len(), links.iter().copied());
+    let links = Columns::by_rows(worth.len(), links.iter().copied());
     spread(&links, &mut worth);
     // What no load reaches is measured by the loads around it, if there are any.
     for (i, worth) in worth[..rows].iter_mut().enumerate().filter(|(_, worth)| **worth == 0.0) {
@@ -58,7 +58,7 @@ pub(super) fn significance(
 
 /// Raises values to the largest products of another one and the shares on the links of a chain from it, none of which
 /// is above one (Dijkstra 1959).
-pub(super) fn spread(links: &ByRows, values: &mut [f64]) {
+pub(super) fn spread(links: &Columns, values: &mut [f64]) {
     // Positive numbers are in the order of their bits.
     let begun = values.iter().enumerate().filter(|(_, value)| **value > 0.0);
     let mut waiting: BinaryHeap<_> = begun.map(|(node, value)| (value.to_bits(), node)).collect();
@@ -67,7 +67,7 @@ pub(super) fn spread(links: &ByRows, values: &mut [f64]) {
         if value < values[node] {
             continue;
         }
-        for &(to, share) in links.row(node) {
+        for (to, share) in links.entries(node) {
             let by = value * share;
             if by > values[to] {
                 values[to] = by;

@@ -3,7 +3,7 @@
 use super::significance::spread;
 use crate::matrix::Column;
 use crate::parts::Parts;
-use crate::sparse::ByRows;
+use crate::sparse::Columns;
 use crate::vector::WEAK;
 
 /// For every row one over the loads that it feels, in units of the row: the largest right-hand side of its
@@ -49,7 +49,7 @@ pub(super) fn weights(columns: &[Column<'_>], loads: &[f64], row: &[f64], col: &
             }
         }
         if !links.is_empty() {
-            spread(&ByRows::new(felt.len(), links.iter().copied()), &mut felt);
+            spread(&Columns::by_rows(felt.len(), links.iter().copied()), &mut felt);
         }
     }
     felt.truncate(rows);

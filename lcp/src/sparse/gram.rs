@@ -3,7 +3,7 @@
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 
 use super::cholesky::Cholesky;
-use super::{groups_of_rows, index};
+use super::{index, pattern_of};
 use crate::Error;
 use crate::scaling::power_of_two;
 use crate::vector::{REFINEMENTS, max_abs};
@@ -49,7 +49,8 @@ impl Gram {
         let fits = k.is_none_or(|k| k.nrows() == n && k.ncols() == n);
         assert!(fits, "K is square, with as many rows as A");
         let ends = ends(a);
-        let (starts, rows) = lower(k, a, &ends);
+        let groups: Vec<&[usize]> = ends.iter().map(|end| a.row_idx_of_col_raw(end - 1)).collect();
+        let (starts, rows) = pattern_of(n, &groups, |j| column(k, j).iter(), |i, j| i >= j);
         let place = |i: usize, j: usize| {
             let range = starts[i.min(j)]..starts[i.min(j) + 1];
             let found = rows[range.clone()].binary_search(&i.max(j));
@@ -60,8 +61,7 @@ impl Gram {
             .map(|(i, j)| if i < j { NONE } else { place(i, j) })
             .collect();
         let mut places = Vec::new();
-        for &end in &ends {
-            let group = a.row_idx_of_col_raw(end - 1);
+        for group in groups {
             for (at, &i) in group.iter().enumerate() {
                 places.extend(group[..=at].iter().map(|&j| place(i, j)));
             }
@@ -205,34 +205,6 @@ impl Gram {
 fn ends(a: SymbolicSparseColMatRef<'_, usize>) -> Vec<usize> {
     let rows = |j: usize| a.row_idx_of_col_raw(j);
     (1..=a.ncols()).filter(|&j| j == a.ncols() || rows(j) != rows(j - 1)).collect()
-}
-
-/// The pattern of the lower triangle, every column from its diagonal on.
-fn lower(
-    k: Option<SymbolicSparseColMatRef<'_, usize>>,
-    a: SymbolicSparseColMatRef<'_, usize>,
-    ends: &[usize],
-) -> (Vec<usize>, Vec<usize>) {
-    let n = a.nrows();
-    let groups: Vec<&[usize]> = ends.iter().map(|end| a.row_idx_of_col_raw(end - 1)).collect();
-    let (first, of_rows) = groups_of_rows(n, &groups);
-    let (mut starts, mut rows) = (vec![0], Vec::new());
-    let mut last = vec![usize::MAX; n];
-    for j in 0..n {
-        let begin = rows.len();
-        last[j] = j;
-        rows.push(j);
-        let of_groups = of_rows[first[j]..first[j + 1]].iter().flat_map(|&g| groups[g]);
-        for &i in column(k, j).iter().chain(of_groups) {
-            if i > j && last[i] != j {
-                last[i] = j;
-                rows.push(i);
-            }
-        }
-        rows[begin..].sort_unstable();
-        starts.push(rows.len());
-    }
-    (starts, rows)
 }
 
 /// The rows of a column of a matrix that may be zero.

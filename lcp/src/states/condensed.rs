@@ -5,7 +5,7 @@ use faer::sparse::{FaerError, SymbolicSparseColMatRef};
 use super::constants::ENOUGH;
 use super::scaled::Scaled;
 use crate::problem::column_of;
-use crate::sparse::{SupernodalLu, groups_of_rows};
+use crate::sparse::{SupernodalLu, pattern_of};
 use crate::vector::{REFINEMENTS, max_abs};
 
 /// The stiffness `s` with which a contact point answers to changes of its gap and slip:
@@ -174,20 +174,7 @@ fn pattern(problem: &Scaled) -> Result<(Vec<usize>, Vec<usize>), FaerError> {
     // The edges of a cone, one after the other, move the same bodies.
     let mut groups: Vec<&[usize]> = problem.points.iter().map(|point| point.columns).collect();
     groups.dedup();
-    let (first, of_rows) = groups_of_rows(n, &groups);
-    let (mut starts, mut rows) = (vec![0], Vec::new());
-    let mut last = vec![usize::MAX; n];
-    for j in 0..n {
-        let begin = rows.len();
-        let of_points = of_rows[first[j]..first[j + 1]].iter().flat_map(|&group| groups[group]);
-        let of_stiffness = k.row_idx_of_col_raw(j).iter().chain(transposed.row_idx_of_col_raw(j));
-        for &i in [j].iter().chain(of_stiffness).chain(of_points) {
-            if std::mem::replace(&mut last[i], j) != j {
-                rows.push(i);
-            }
-        }
-        rows[begin..].sort_unstable();
-        starts.push(rows.len());
-    }
-    Ok((starts, rows))
+    let of_stiffness =
+        |j: usize| k.row_idx_of_col_raw(j).iter().chain(transposed.row_idx_of_col_raw(j));
+    Ok(pattern_of(n, &groups, of_stiffness, |_, _| true))
 }

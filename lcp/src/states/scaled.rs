@@ -8,7 +8,7 @@ use super::points::{Point, Points};
 use crate::parts::Parts;
 use crate::problem::{column_factors, column_of, diagonal, median};
 use crate::scaling::power_of_two;
-use crate::sparse::ByRows;
+use crate::sparse::Columns;
 use crate::vector::max_abs;
 use crate::{Contact2d, ContactState, MixedLcp};
 
@@ -58,10 +58,14 @@ impl Scaled {
             let carried = [*normal, if *mu > 0.0 { *tangential } else { 0.0 }];
             *scaled = carried.map(|a| a * (force / length));
         }
-        let [normal, tangent] = [problem.normal(), problem.tangent()].map(ByRows::of);
+        let [normal, tangent] = [problem.normal(), problem.tangent()].map(|c| {
+            let columns = (0..n).flat_map(|j| column_of(c, j).map(move |(i, v)| (i, j, v)));
+            Columns::by_rows(points.len(), columns)
+        });
         for i in 0..points.len() {
-            let frictional = if points.mu[i] > 0.0 { tangent.row(i) } else { &[] };
-            for_each_in_either(normal.row(i), frictional, |j, coefficients| {
+            let has_friction = points.mu[i] > 0.0;
+            let frictional = tangent.entries(i).filter(|_| has_friction);
+            for_each_in_either(normal.entries(i), frictional, |j, coefficients| {
                 points.push(j, coefficients.map(|v| v * column[j]));
             });
             points.close();
@@ -247,22 +251,16 @@ fn idle(
 }
 
 /// Shows the columns that have an entry in either of two rows, ascending, with both entries.
-fn for_each_in_either<'a>(
-    mut first: &'a [(usize, f64)],
-    mut second: &'a [(usize, f64)],
+fn for_each_in_either(
+    first: impl Iterator<Item = (usize, f64)>,
+    second: impl Iterator<Item = (usize, f64)>,
     mut visit: impl FnMut(usize, [f64; 2]),
 ) {
-    let column = |row: &[(usize, f64)]| row.first().map_or(usize::MAX, |(j, _)| *j);
-    while !(first.is_empty() && second.is_empty()) {
-        let j = column(first).min(column(second));
-        let entries = [&mut first, &mut second].map(|row| match *row {
-            [(i, v), rest @ ..] if *i == j => {
-                *row = rest;
-                *v
-            }
-            _ => 0.0,
-        });
-        visit(j, entries);
+    let (mut first, mut second) = (first.peekable(), second.peekable());
+    while let Some(j) = first.peek().into_iter().chain(second.peek()).map(|(j, _)| *j).min() {
+        let is_next = |(i, _): &(usize, f64)| *i == j;
+        let entries = [first.next_if(is_next), second.next_if(is_next)];
+        visit(j, entries.map(|entry| entry.map_or(0.0, |(_, v)| v)));
     }
 }
 
