@@ -273,7 +273,7 @@ fn split(group: &[usize], n: usize) -> (Vec<usize>, Vec<usize>) {
 }
 
 /// Rows and columns of a matrix, ascending, where those columns have no entries in other rows.
-fn block(m: &Matrix, rows: &[usize], cols: &[usize]) -> Matrix {
+pub(crate) fn block(m: &Matrix, rows: &[usize], cols: &[usize]) -> Matrix {
     match m.storage() {
         Storage::Dense(m) => {
             Mat::from_fn(rows.len(), cols.len(), |i, j| m[(rows[i], cols[j])]).into()

@@ -1,15 +1,12 @@
 //! The dense linear algebra that the methods need, in terms of faer.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt;
 use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::linalg::triangular_solve::{
-    solve_lower_triangular_in_place, solve_unit_lower_triangular_in_place,
-    solve_upper_triangular_in_place,
+    solve_unit_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
 use faer::prelude::{Reborrow, ReborrowMut};
-use faer::{Accum, Mat, MatMut, MatRef, Par, Spec, unzip, zip};
+use faer::{Accum, Mat, MatMut, MatRef, Par, unzip, zip};
 
 use crate::vector::max_abs;
 
@@ -51,26 +48,6 @@ impl Lu {
         let n = rhs.len();
         self.0.solve_transpose_in_place(MatMut::from_column_major_slice_mut(rhs, n, 1));
     }
-}
-
-/// Overwrites the lower half of a symmetric matrix with its Cholesky factor; `false` where it is not positive definite.
-/// The upper half is not read.
-pub(crate) fn factorise_cholesky(matrix: MatMut<'_, f64>) -> bool {
-    let (order, parameters) = (matrix.nrows(), Spec::default());
-    let no_change = llt::factor::LltRegularization::default();
-    let scratch = llt::factor::cholesky_in_place_scratch::<f64>(order, Par::Seq, parameters);
-    let mut memory = MemBuffer::new(scratch);
-    let stack = MemStack::new(&mut memory);
-    let outcome = llt::factor::cholesky_in_place(matrix, no_change, Par::Seq, stack, parameters);
-    outcome.is_ok()
-}
-
-/// Overwrites a right-hand side with the solution for a matrix of which this is the Cholesky factor.
-pub(crate) fn solve_cholesky(factor: MatRef<'_, f64>, x: &mut [f64]) {
-    let order = x.len();
-    let mut x = MatMut::from_column_major_slice_mut(x, order, 1);
-    solve_lower_triangular_in_place(factor, x.rb_mut(), Par::Seq);
-    solve_upper_triangular_in_place(factor.transpose(), x, Par::Seq);
 }
 
 /// `out += factor * left * right`, on one thread.

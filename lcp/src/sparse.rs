@@ -12,7 +12,7 @@ mod tests;
 pub(crate) use cholesky::Cholesky;
 pub use gram::Gram;
 pub(crate) use lu::{Growing, SparseLu, row_counts};
-pub(crate) use order::{Turn, elimination_order};
+pub(crate) use order::elimination_order;
 pub use supernodal::SupernodalLu;
 
 /// Pivots below this multiple of what they are measured by, the largest entry of their column or a diagonal of order one, are
