@@ -25,9 +25,8 @@ struct Best {
     u: Vec<f64>,
     forces: Vec<(f64, f64)>,
     residuals: Residuals,
-    /// Its states if it is exact, and whether the rounding errors of what is large have been taken out of what is
-    /// small.
-    exact: Option<(Vec<ContactStatus>, bool)>,
+    /// Its states if it is exact.
+    exact: Option<Vec<ContactStatus>>,
 }
 
 impl<'a> Search<'a> {
@@ -110,35 +109,16 @@ impl<'a> Search<'a> {
         let is_solution = |condensed: &mut Condensed, vertex: &Vertex, is_consistent: bool| {
             let point = PointRef { u: &vertex.u, forces: &vertex.forces };
             let mut judged = judged(judge.as_ref(), scaled, point, *tolerance);
-            if is_consistent {
+            if is_consistent || judged.worst() <= *tolerance {
                 let mut refiner = Refiner { judge: judge.as_ref(), scaled, condensed };
                 judged = refiner.brought_right(judged, point, &vertex.contacts, *tolerance);
             }
             let is_solution = judged.worst() <= *tolerance;
-            let contacts = is_solution.then_some((&vertex.contacts[..], is_consistent));
+            let contacts = is_solution.then_some(&vertex.contacts[..]);
             keep_better(best, judged, contacts, *tolerance);
             is_solution
         };
-        let is_found = cross_over(scaled, condensed, at, contacts, effort, is_solution);
-        if is_found {
-            self.bring_right();
-        }
-        is_found
-    }
-
-    /// The best point, if it is exact, to its last digits.
-    fn bring_right(&mut self) {
-        let Self { judge, tolerance, scaled, condensed, best, .. } = self;
-        if let Some(Best { u, forces, residuals, exact: Some((contacts, is_right)) }) = best
-            && !*is_right
-        {
-            let at = PointRef { u, forces };
-            let given = Judged { u: at.u.into(), forces: at.forces.into(), residuals: *residuals };
-            let mut refiner = Refiner { judge: judge.as_ref(), scaled, condensed };
-            let right = refiner.brought_right(given, at, contacts, *tolerance);
-            let right = (right.u.into_owned(), right.forces.into_owned(), right.residuals);
-            (*u, *forces, *residuals, *is_right) = (right.0, right.1, right.2, true);
-        }
+        cross_over(scaled, condensed, at, contacts, effort, is_solution)
     }
 
     /// The best point without the rounding errors that forces have of large displacements, if that is a solution too.
@@ -147,10 +127,7 @@ impl<'a> Search<'a> {
         if let Some(Best { u, forces, residuals, exact }) = best
             && residuals.worst() <= *tolerance
         {
-            let contacts = match exact {
-                Some((contacts, _)) => contacts.clone(),
-                None => nearest(scaled, u, forces),
-            };
+            let contacts = exact.clone().unwrap_or_else(|| nearest(scaled, u, forces));
             let mut refiner = Refiner { judge: judge.as_ref(), scaled, condensed };
             let right = refiner.unrounded(PointRef { u, forces }, &contacts);
             if let Some(right) = right.filter(|right| right.worst() <= *tolerance) {
@@ -196,7 +173,7 @@ impl<'a> Search<'a> {
             residuals = judge.residuals(&scaled, at, Precision::Exact);
         }
         let Answer { t, y, contact } = judge.answer(&scaled, at);
-        let basis = exact.map(|(contacts, _)| {
+        let basis = exact.map(|contacts| {
             let points = scaled.points.iter().zip(&forces);
             let slips: Vec<f64> = points.map(|(point, (_, t_t))| point.slip(&u, *t_t)).collect();
             self.problem.basis(&contacts, &y, &slips)
@@ -229,7 +206,7 @@ fn judged<'a>(judge: &dyn Judge, scaled: &Scaled, at: PointRef<'a>, tolerance: f
 fn keep_better(
     best: &mut Option<Best>,
     Judged { u, forces, residuals }: Judged<'_>,
-    exact: Option<(&[ContactStatus], bool)>,
+    exact: Option<&[ContactStatus]>,
     tolerance: f64,
 ) {
     let is_better = best.as_ref().is_none_or(|other| match (exact, &other.exact) {
@@ -238,8 +215,7 @@ fn keep_better(
         _ => residuals.is_better_than(&other.residuals, tolerance),
     });
     if is_better {
-        let exact = exact.map(|(contacts, is_right)| (contacts.to_vec(), is_right));
         let (u, forces) = (u.into_owned(), forces.into_owned());
-        *best = Some(Best { u, forces, residuals, exact });
+        *best = Some(Best { u, forces, residuals, exact: exact.map(<[_]>::to_vec) });
     }
 }
