@@ -11,8 +11,9 @@ mod program;
 mod settings;
 mod soft;
 
-use contact::contact_form;
-use coulomb::solve_contact;
+use contact::{contact_form, forces};
+use coulomb::solve_programs;
+use form::{Form, Point};
 use interior::{End, Interior};
 use monotone::MixedProgram;
 use program::Run;
@@ -20,6 +21,7 @@ pub use settings::{QuadraticProgramSettings, SoftConstraints};
 pub use soft::SoftSolution;
 
 use crate::conversion::{solve_in_mixed_form, solve_in_standard_form};
+use crate::states::Scaled;
 use crate::{
     BoxedLcp, Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Observer, Solution, Solver,
 };
@@ -103,16 +105,26 @@ impl QuadraticProgram {
     ) -> Result<Solution, Error> {
         let settings = &self.settings;
         let general = || contact.to_general();
-        let mut run = Run::new(settings, contact, &general, settings.max_outer, observer)?;
+        let run = Run::new(settings, contact, &general, settings.max_outer, observer)?;
         let form = contact_form(&run.search.scaled);
+        let to_scaled = |scaled: &Scaled, point: &Point| (point.x.clone(), forces(scaled, point));
+        Ok(self.solve_form(run, form, to_scaled))
+    }
+
+    fn solve_form(
+        &self,
+        mut run: Run<'_>,
+        form: Form,
+        to_scaled: impl Fn(&Scaled, &Point) -> (Vec<f64>, Vec<(f64, f64)>),
+    ) -> Solution {
         let end = if run.is_tried(&form) {
             run.monitor.stop(run.search.residual()).map_or(Ok(End::Point), Err)
-        } else if let Some(mut program) = Interior::new(form, settings.max_iterations) {
-            solve_contact(&mut run, &mut program)
+        } else if let Some(mut program) = Interior::new(form, self.settings.max_iterations) {
+            solve_programs(&mut run, &mut program, to_scaled)
         } else {
             Ok(End::Failed)
         };
-        Ok(run.finish(end))
+        run.finish(end)
     }
 
     /// A mixed problem, with a proof in the rows of a general one.
@@ -123,10 +135,10 @@ impl QuadraticProgram {
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         self.settings.validate(problem.order())?;
-        let mut run = Run::new(&self.settings, problem, general, 1, observer)?;
-        let form = MixedProgram::new(problem, &run.search.scaled).map_err(|it| refused(&it))?;
-        let end = run.solve_convex(&form);
-        Ok(run.finish(end))
+        let run = Run::new(&self.settings, problem, general, 1, observer)?;
+        let mixed = MixedProgram::new(problem, &run.search.scaled).map_err(|it| refused(&it))?;
+        let to_scaled = |scaled: &Scaled, point: &Point| mixed.to_scaled(scaled, point);
+        Ok(self.solve_form(run, mixed.form.clone(), to_scaled))
     }
 
     fn solve_standard(

@@ -1,38 +1,41 @@
 //! Coulomb's friction as the fixed point of programs with frozen bounds of the friction forces.
 
 use super::constants::{DOUBTS, IDLE};
-use super::contact::forces;
-use super::form::{Bounds, Form};
+use super::form::{Bounds, Form, Point};
 use super::interior::{End, Interior};
 use super::program::Run;
-use crate::states::PointRef;
+use crate::states::{PointRef, Scaled};
 use crate::{Status, active};
 
 /// Solves the program, and where there is friction the sequence of programs whose bounds are `mu` times
 /// the normal forces of the one before. Of every solution the states of the contacts are solved with Coulomb's
-/// own law, which ends the sequence as soon as they are right.
+/// own law, which ends the sequence as soon as they are right. `to_scaled` says what displacements and forces a point is.
 ///
 /// Says why it ended, where the best point is not good enough.
-pub(super) fn solve_contact(run: &mut Run<'_>, program: &mut Interior) -> Result<End, Status> {
+pub(super) fn solve_programs(
+    run: &mut Run<'_>,
+    program: &mut Interior,
+    to_scaled: impl Fn(&Scaled, &Point) -> (Vec<f64>, Vec<(f64, f64)>),
+) -> Result<End, Status> {
     let has_cones = program.form.has_cones();
     let mut limits = generous(&program.form);
     // The last bounds that had a point.
     let mut last: Option<Vec<f64>> = None;
     let (mut least, mut idle, mut enlarged) = (f64::INFINITY, 0, 0);
     let effort = if has_cones { &active::Effort::THOROUGH } else { &active::Effort::ANCHORED };
-    loop {
+    let end = loop {
         if let Some(status) = run.monitor.stop(run.search.residual()) {
             return Err(status);
         }
         let found = program.solve(&limits, run.time());
         run.steps += found.iterations;
         match found.end {
-            End::Failed => return Ok(End::Failed),
+            End::Failed => break Ok(End::Failed),
             End::NoPoint if !has_cones || enlarged >= DOUBTS || run.proof().is_some() => {
-                return Ok(End::NoPoint);
+                break Ok(End::NoPoint);
             }
             // The bounds are too small to hold the bodies.
-            End::NoPoint if idle > IDLE => return Err(Status::Stalled),
+            End::NoPoint if idle > IDLE => break Err(Status::Stalled),
             End::NoPoint => {
                 limits = if let Some(last) = &last {
                     idle += 1;
@@ -45,26 +48,26 @@ pub(super) fn solve_contact(run: &mut Run<'_>, program: &mut Interior) -> Result
             }
             End::Point | End::IterationLimit | End::TimeLimit => {}
         }
-        let forces = forces(&run.search.scaled, &found.point);
-        let at = PointRef { u: &found.point.x, forces: &forces };
+        let (u, forces) = to_scaled(&run.search.scaled, &found.point);
+        let at = PointRef { u: &u, forces: &forces };
         let is_solved = run.search.try_point(at, Some(effort));
         if !has_cones || is_solved || found.end != End::Point {
-            run.monitor.history.push(run.search.residual());
-            return Ok(found.end);
+            break Ok(found.end);
         }
         let image = program.form.limits(&found.point.lambda);
         let change = limits.iter().zip(&image).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
         idle = if change < 0.9 * least { 0 } else { idle + 1 };
         least = least.min(change);
         if idle > IDLE || (idle >= DOUBTS && run.proof().is_some()) {
-            run.monitor.history.push(run.search.residual());
-            return Err(Status::Stalled);
+            break Err(Status::Stalled);
         }
         // The first bounds are a guess, of which nothing is to be kept. Later whole steps would swing to and fro: where more
         // load goes into friction at one place it is missing at others.
         let next = if last.is_none() { image } else { halfway(&limits, &image) };
         last = Some(std::mem::replace(&mut limits, next));
-    }
+    };
+    run.monitor.history.push(run.search.residual());
+    end
 }
 
 /// Half the way between bounds.

@@ -5,8 +5,7 @@ use web_time::{Duration, Instant};
 
 use super::farkas::farkas_vector;
 use super::form::Form;
-use super::interior::{End, Interior};
-use super::monotone::MixedProgram;
+use super::interior::End;
 use super::settings::QuadraticProgramSettings;
 use crate::active::{self, Original, Search};
 use crate::solve::Monitor;
@@ -63,30 +62,6 @@ impl<'a> Run<'a> {
                 .try_point(PointRef { u: &u, forces: &forces }, Some(&active::Effort::ANCHORED));
         }
         is_solved || is_linear
-    }
-
-    /// Solves a form without cones by one run of the interior-point method.
-    pub(super) fn solve_convex(&mut self, mixed: &MixedProgram) -> Result<End, Status> {
-        let is_tried = self.is_tried(&mixed.form);
-        if let Some(status) = self.monitor.stop(self.search.residual()) {
-            return Err(status);
-        }
-        if is_tried {
-            return Ok(End::Point);
-        }
-        let Some(mut interior) = Interior::new(mixed.form.clone(), self.settings.max_iterations)
-        else {
-            return Ok(End::Failed);
-        };
-        let found = interior.solve(&vec![0.0; mixed.form.rows()], self.time());
-        self.steps += found.iterations;
-        if !matches!(found.end, End::NoPoint | End::Failed) {
-            let (u, forces) = mixed.to_scaled(&self.search.scaled, &found.point);
-            self.search
-                .try_point(PointRef { u: &u, forces: &forces }, Some(&active::Effort::ANCHORED));
-        }
-        self.monitor.history.push(self.search.residual());
-        Ok(found.end)
     }
 
     /// The best point, or the proof that there is none.
