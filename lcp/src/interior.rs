@@ -20,7 +20,7 @@ pub use least::LeastForces;
 pub use settings::InteriorPointSettings;
 
 use balance::{Balance, balance};
-use constants::{HELD, MORE, NEAR, NEARER, OPENING_OF_STEP, PATIENCE};
+use constants::{HELD, MORE, NEAR, NEARER, PATIENCE};
 use iterate::{Defect, Iterate};
 use path::Ahead;
 use start::{set_out, start_opened};
@@ -130,7 +130,9 @@ impl InteriorPoint {
     }
 }
 
-/// The path from one wide start, for a problem whose search others have begun.
+/// The path from one start, opened by its largest gap, for a problem whose search others have begun. Measured on settlements
+/// of 105 and 410 bricks, elastic and rigid: of some 120 tries 19 fail; if it is opened by 0, 1e3 and 1e4 times that, it is 33
+/// of 148, 24 of 131 and 50 of 174.
 pub(crate) fn follow_path(
     problem: &Contact2d,
     tolerance: f64,
@@ -138,7 +140,7 @@ pub(crate) fn follow_path(
     monitor: &mut Monitor<'_>,
 ) -> Status {
     let settings = InteriorPointSettings { tolerance, ..InteriorPointSettings::default() };
-    Run { settings: &settings, problem, search, monitor }.path(OPENING_OF_STEP)
+    Run { settings: &settings, problem, search, monitor }.path(1.0)
 }
 
 /// One solve.
@@ -235,7 +237,7 @@ impl Run<'_, '_, '_> {
             }
             let Search { scaled, condensed, .. } = &mut *self.search;
             let (next, step) = if before.is_none() {
-                set_out(scaled, condensed, &at, &defect)
+                set_out(scaled, condensed, &at)
             } else {
                 Ahead::of(scaled, condensed, &at, &defect).advance()
             };

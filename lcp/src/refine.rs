@@ -15,7 +15,6 @@ pub use crate::problem::ContactStatus;
 pub(crate) use constants::{ALL_DIGITS, ROUNDED};
 pub(crate) use solve::{Exact, planned, refined_states};
 
-use constants::EXCHANGES;
 use point::ExtendedPoint;
 use solve::solved;
 
@@ -100,22 +99,19 @@ impl Contact2d {
         let scaled = Scaled::of_contact(self);
         let at = ExtendedPoint::from(&scaled, state);
         let mut statuses = residual::without_idle(&scaled, &at.nearest(&scaled), &at);
-        let mut best: Option<Verified> = None;
-        for _ in 0..EXCHANGES {
-            let (refined, slacks) = solved(&scaled, state, &statuses, Refinement::Extended)?;
-            let least = refined.margin.least;
-            if best.as_ref().is_some_and(|best| best.refined.margin.least >= least) {
+        let (mut refined, mut slacks) = solved(&scaled, state, &statuses, Refinement::Extended)?;
+        while (-HALF_DIGITS..0.0).contains(&refined.margin.least) {
+            let better = statuses.iter().zip(&slacks);
+            let better =
+                better.map(|(status, (slack, next))| if *slack < 0.0 { *next } else { *status });
+            let better: Vec<ContactStatus> = better.collect();
+            let next = solved(&scaled, state, &better, Refinement::Extended)?;
+            if next.0.margin.least <= refined.margin.least {
                 break;
             }
-            best = Some(Verified { statuses: statuses.clone(), refined });
-            if !(-HALF_DIGITS..0.0).contains(&least) {
-                break;
-            }
-            for (status, (slack, next)) in statuses.iter_mut().zip(slacks) {
-                *status = if slack < 0.0 { next } else { *status };
-            }
+            (statuses, (refined, slacks)) = (better, next);
         }
-        Ok(best.unwrap_or_else(|| unreachable!("the first round has an answer")))
+        Ok(Verified { statuses, refined })
     }
 
     /// The forces of all contacts on the displacements, `C_n^T t_n + C_t^T t_t`.

@@ -19,6 +19,9 @@ pub use supernodal::SupernodalLu;
 /// rounding errors. Rounding: some eps.
 const VANISHING: f64 = 1e-15;
 
+/// No place.
+const NONE: u32 = u32::MAX;
+
 /// Columns of nonzero entries, one after the other.
 #[derive(Debug, Clone)]
 pub(crate) struct Columns {

@@ -1,14 +1,9 @@
 //! The numbers that exchanges of states go by beside their [`Effort`](super::Effort), each with where it comes from.
 //! What is "chosen" is so by judgement: no measurement is kept.
 
-/// Stiffness of a closed contact, relative to the bodies. Theory: the equations are solved to the last digit by
-/// refinement, so that it is no penalty but the size of a proximal step, which redundant contacts need.
-pub(super) const STIFF: f64 = 1e8;
 /// Steps of refinement. Chosen.
 pub(super) const REFINEMENTS: usize = 12;
 /// Contradictions smaller than this part of the largest are left to what its exchange makes of them. Chosen.
 pub(super) const LARGE: f64 = 0.01;
 /// A largest contradiction below this part of those before is progress, as a smaller number is. Chosen.
 pub(super) const SMALLER: f64 = 0.1;
-/// Residuals that leave nothing to refine. Rounding: some fifty eps.
-pub(super) const EXACT: f64 = 1e-14;

@@ -1,10 +1,10 @@
 //! From a point inside to the exact one on the boundary: the state of every contact is guessed, the
 //! equations of these states are solved, and the few contacts that contradict change their state.
 
-use super::constants::{LARGE, REFINEMENTS, SMALLER, STIFF};
+use super::constants::{LARGE, REFINEMENTS, SMALLER};
 use crate::problem::ContactStatus;
 use crate::states::{Condensed, PROXIMAL, Point, PointRef, Scaled, Springs};
-use crate::vector::{SMALL, max_abs};
+use crate::vector::{HALF_DIGITS, SMALL, max_abs};
 
 /// How much is spent on exchanges. Every round costs a factorisation, as a step of the iteration does.
 pub(crate) struct Effort {
@@ -103,8 +103,10 @@ impl Vertex {
     /// Solves the equations of the states; `None` where they have no solution.
     fn solve(&mut self, problem: &Scaled, condensed: &mut Condensed, proximal: f64) -> Option<()> {
         let points = problem.points.iter().zip(&self.contacts);
+        // The equations are solved to the last digit by refinement: stiffness is no penalty but the size of a proximal step,
+        // which redundant contacts need.
         let springs: Vec<Springs> =
-            points.map(|(point, contact)| contact.springs(point, STIFF)).collect();
+            points.map(|(point, contact)| contact.springs(point, 1.0 / HALF_DIGITS)).collect();
         condensed.factorise(problem, &springs, proximal);
         for ((mu, contact), (t_n, t_t)) in
             problem.points.mu.iter().zip(&self.contacts).zip(&mut self.forces)

@@ -2,12 +2,12 @@
 
 use std::borrow::Cow;
 
-use super::constants::EXACT;
 use crate::certify::{BoxedJudge, ContactJudge, Precision};
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
 use crate::refine::{ALL_DIGITS, Exact, ROUNDED, planned, refined_states};
 use crate::states::{Condensed, Point, PointRef, Scaled, nearest};
+use crate::vector::ROUNDING;
 use crate::{Basis, Contact2d, ContactState, MixedLcp, Residuals, Side};
 
 /// A scaled point with its residuals.
@@ -73,14 +73,14 @@ impl Refiner<'_> {
     ) -> Judged<'a> {
         let Self { judge, scaled, condensed } = self;
         let judge = *judge;
-        if best.worst() <= EXACT {
+        if best.worst() <= ROUNDING {
             return best;
         }
         let enough = if best.worst() <= tolerance { ROUNDED } else { ALL_DIGITS };
         for exact in refined_states(scaled, condensed, at, contacts, enough) {
             let mut near = rounded(judge, scaled, &exact);
             let Residuals { equation, natural, loads, .. } = near.residuals;
-            if loads > EXACT
+            if loads > ROUNDING
                 && equation.max(natural) <= tolerance
                 && judge.residuals_of(scaled, &exact).worst() <= tolerance
             {
@@ -108,7 +108,7 @@ impl Refiner<'_> {
             if best.as_ref().is_none_or(|best| near.worst() < best.worst()) {
                 best = Some(near);
             }
-            if best.as_ref().is_some_and(|best| best.worst() <= EXACT) {
+            if best.as_ref().is_some_and(|best| best.worst() <= ROUNDING) {
                 break;
             }
         }

@@ -5,8 +5,6 @@ use crate::vector::WEAK;
 
 /// The rounding error of a row whose variables are rounded, relative to its terms. Rounding: errors of short sums.
 pub(crate) const ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// A row that is worth this counts in full. Chosen: chains are not the only way to the loads.
-pub(super) const IN_FULL: f64 = 1.0 / 32.0;
 /// The smallest load beside others, and the largest rounding error beside loads, however large the terms are. Chosen.
 pub(super) const MILLIONTH: f64 = WEAK * WEAK;
 /// By what numbers are multiplied if sums of their products leave the range of numbers: one over more than any number of

@@ -8,7 +8,6 @@
 
 use std::collections::BinaryHeap;
 
-use super::constants::IN_FULL;
 use crate::sparse::Columns;
 use crate::vector::WEAK;
 
@@ -53,7 +52,8 @@ pub(super) fn significance(
     }
     spread(&links, &mut worth);
     worth.truncate(rows);
-    worth.into_iter().map(|worth| (worth / IN_FULL).min(1.0)).collect()
+    // Chains are not the only way to the loads: what is far from weak counts in full.
+    worth.into_iter().map(|worth| (worth / WEAK.sqrt()).min(1.0)).collect()
 }
 
 /// Raises values to the largest products of another one and the shares on the links of a chain from it, none of which

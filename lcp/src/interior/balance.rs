@@ -1,8 +1,8 @@
 //! Whether any contact forces balance the loads, wherever the bodies are.
 
-use super::constants::BALANCE_TOLERANCE;
 use super::homogeneous::Accuracy;
 use super::program::{Program, without_noise};
+use crate::matrix::DATA_ROUNDING;
 use crate::states::Scaled;
 use crate::{Certificate, Contact2d, Matrix, Status};
 
@@ -42,7 +42,7 @@ pub(super) fn balance(
         proof = Some(farkas).filter(|it| it.holds(&general));
         proof.is_some()
     };
-    let found = program.solve(Accuracy::OfForces(BALANCE_TOLERANCE), stop, is_proof);
+    let found = program.solve(Accuracy::OfForces(DATA_ROUNDING), stop, is_proof);
     match (found.map(|it| (it.status, it.t)), proof) {
         (_, Some(proof)) => Balance::Impossible(proof),
         (Ok((Status::Solved, t)), None) => Balance::Possible(problem.of_edges(t.into_iter())),

@@ -19,22 +19,11 @@ pub(super) const WIDE: f64 = 2.0;
 /// A start that is not is opened by this many times its mean gap. Measured on a beam that is lifted at its end: two or
 /// three times are enough.
 pub(super) const OPENED: f64 = 100.0;
-/// That must bring the change down by this. Measured on a rigid wedge that is pulled out: if any decrease will do, its path
-/// jams.
-pub(super) const HALF: f64 = 0.5;
-/// No start is opened more often. Chosen.
-pub(super) const OPENINGS: usize = 8;
 
 /// By which multiple of the largest gap starts are opened, one after the other. Measured on walls of 1000 bricks: where gaps
 /// are not opened, those that are easy take a third less steps; where they are, by 1e3 or 1e4, walls near their limit and on
 /// open bases are solved in 35 to 80 steps, on which all other attempts jam, whatever the friction.
 pub(super) const STARTS: [f64; 3] = [0.0, 1e4, 1e3];
-/// The same for steps of bodies with mass. Measured on settlements of 105 and 410 bricks, elastic and rigid: of some 120 tries 19
-/// fail; with 0, 1e3 and 1e4 in its place it is 33 of 148, 24 of 131 and 50 of 174.
-pub(super) const OPENING_OF_STEP: f64 = 1.0;
-/// Steps in which neither residual, error of a proof nor products fall by a tenth, after which a convex program is left.
-/// Measured on walls: some are stuck for twenty steps and go on.
-pub(super) const PATIENCE_OF_PROGRAM: usize = 30;
 /// Steps without a reduction of the products by a tenth after which an attempt is left. Measured on settlements: with 12 an
 /// open base is lost that the path solves with 15; with 20 and 30 those that jam take 5 to 15 more, and no other is solved.
 pub(super) const PATIENCE: usize = 15;
@@ -45,8 +34,6 @@ pub(super) const CENTRAL: f64 = 0.1;
 pub(super) const BACK: f64 = 0.995;
 /// A step that makes a product smaller than it may be is shortened by this. Chosen.
 pub(super) const SHORTER: f64 = 0.7;
-/// No step is made shorter than this for it. Chosen: far above what counts as no step.
-pub(super) const SHORTEST: f64 = 1e-4;
 /// Correctors of the centrality of a step, at most. Chosen: each costs a solve (Gondzio 1996).
 pub(super) const CORRECTORS: usize = 2;
 /// A step of this length needs none. Chosen.
@@ -69,9 +56,6 @@ pub(super) const IS_CENTRAL: (f64, f64) = (0.3, 3.0);
 pub(super) const PIECES: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.0];
 /// See [`PIECES`]. Chosen.
 pub(super) const LONG: f64 = 0.7;
-
-/// Residual of the problem that decides whether any forces balance the loads. Chosen: below all other tolerances.
-pub(super) const BALANCE_TOLERANCE: f64 = 1e-12;
 
 /// Distance of a start of the homogeneous problem from the bounds, at least, relative to the largest pull. Measured on rigid
 /// walls of 10 000 bricks: open bases take 26, 39, 41 and 55 steps with a friction of 1, 0.6, 0.59 and 0.58, which is next to

@@ -3,7 +3,7 @@
 
 use faer::sparse::FaerError;
 
-use super::constants::{BACK, BALANCINGS, LEAST_AIM, LOADS, NEAR, NEARER, PATIENCE_OF_PROGRAM};
+use super::constants::{BACK, BALANCINGS, LEAST_AIM, LOADS, NEAR, NEARER, PATIENCE};
 use super::factors::Factors;
 use super::program::Program;
 use super::step::{correction, lengthened};
@@ -163,7 +163,8 @@ fn iterate(
         since = if is_better { 0 } else { since + 1 };
         least = [0, 1, 2].map(|k| least[k].min(merits[k]));
         let alpha = now.advance(factors, defect);
-        if alpha < HALF_DIGITS || since > PATIENCE_OF_PROGRAM {
+        // Some are stuck for twenty steps and go on.
+        if alpha < HALF_DIGITS || since > 2 * PATIENCE {
             return (now.at.solution(), Status::Stalled);
         }
     }

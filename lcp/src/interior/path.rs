@@ -1,11 +1,12 @@
 //! The interior-point iteration: predictor, correctors, and what to do when they get nowhere.
 
-use super::constants::{BACK, CENTRAL, IS_CENTRAL, LEAST_AIM, MIXTURES, SHORT, SHORTER, SHORTEST};
+use super::constants::{BACK, CENTRAL, IS_CENTRAL, LEAST_AIM, MIXTURES, SHORT, SHORTER};
 use super::iterate::{Defect, Direction, Iterate, Pairs, Tangent};
 use super::step::{correction, lengthened};
 use super::turn::turn;
 use crate::solve::{Step, StepKind};
 use crate::states::{Condensed, Scaled};
+use crate::vector::HALF_DIGITS;
 
 /// What lies ahead of a point.
 pub(super) struct Ahead<'a> {
@@ -67,7 +68,8 @@ impl<'a> Ahead<'a> {
 fn within(at: &Iterate, step: &Iterate, mut alpha: f64) -> (Iterate, f64) {
     let least = CENTRAL.min(0.9 * at.centrality());
     let mut next = at.moved(step, alpha);
-    while alpha > SHORTEST && next.centrality() < least {
+    // No step is made so short for it that it nearly counts as none.
+    while alpha > HALF_DIGITS.sqrt() && next.centrality() < least {
         alpha *= SHORTER;
         next = at.moved(step, alpha);
     }

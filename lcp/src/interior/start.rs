@@ -1,6 +1,6 @@
 //! Where the iteration starts, and how it finds out how far bodies move.
 
-use super::constants::{HALF, OPENED, OPENINGS, WIDE};
+use super::constants::{OPENED, WIDE};
 #[cfg(test)]
 use super::iterate::Tangent;
 use super::iterate::{Defect, Iterate, Pairs};
@@ -56,22 +56,22 @@ pub(super) fn start_opened(problem: &Scaled, condensed: &mut Condensed, by: f64)
 /// further by many powers of ten. From gaps that are too small for the way the steps are short: some gaps
 /// have to grow a thousandfold, and others, on the same way, would close. Gaps that are too large cost a step
 /// or two. The predictor tells, with the forces of the start, that the gaps are too small: it changes
-/// them by more than they are. Where wider gaps do not help, forces or the problem are at fault.
+/// them by more than they are. Where wider gaps do not bring the change down by half, forces or the problem are at fault: if
+/// any decrease will do, the path of a rigid wedge that is pulled out jams.
 pub(super) fn set_out(
     problem: &Scaled,
     condensed: &mut Condensed,
     at: &Iterate,
-    defect: &Defect,
 ) -> (Iterate, Step) {
-    let (mut from, mut before) = (at.clone(), (at.clone(), f64::INFINITY));
-    for _ in 0..OPENINGS {
+    let (mut from, mut before) = (at.clone(), (at.clone(), f64::MAX));
+    loop {
         let of_from = Defect::of(problem, &from);
         let ahead = Ahead::of(problem, condensed, &from, &of_from);
         let change = ahead.predictor.largest_gap() / from.mean_gap();
         if change <= WIDE {
             return ahead.advance();
         }
-        if change.is_nan() || change > HALF * before.1 {
+        if change.is_nan() || change > 0.5 * before.1 {
             let of_before = Defect::of(problem, &before.0);
             return Ahead::of(problem, condensed, &before.0, &of_before).advance();
         }
@@ -79,7 +79,6 @@ pub(super) fn set_out(
         before = (from, change);
         from = wider;
     }
-    Ahead::of(problem, condensed, at, defect).advance()
 }
 
 #[cfg(test)]

@@ -1,6 +1,8 @@
 //! The numbers that the refinement of states goes by, each with where it comes from.
 //! What is "chosen" is so by judgement: no measurement is kept.
 
+use crate::vector::HALF_DIGITS;
+
 /// How much passes hold on to what they start from.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Weights {
@@ -11,17 +13,13 @@ pub(super) struct Weights {
     pub(super) proximal: f64,
 }
 
-/// Rounds of exchanges. Chosen.
-pub(super) const EXCHANGES: usize = 10;
 /// Forces below this part of the largest are none to a body without loads. Chosen: the tolerance of answers.
 pub(super) const IDLE: f64 = 1e-10;
 /// Stiffness of closed contacts and springs on all displacements, one after the other. Theory: the first converge
 /// faster; where bodies move freely, rounding errors move them far against the first, and stiff contacts make forces
 /// of the rounding errors of that.
 pub(super) const WEIGHTS: [Weights; 2] =
-    [Weights { stiff: 1e8, proximal: 1e-10 }, Weights { stiff: 1e6, proximal: 1e-7 }];
-/// Residuals above this are tried again with other weights. Chosen.
-pub(super) const FALLEN: f64 = 1e-24;
+    [Weights { stiff: 1.0 / HALF_DIGITS, proximal: 1e-10 }, Weights { stiff: 1e6, proximal: 1e-7 }];
 /// Passes at most. Chosen.
 pub(super) const PASSES: usize = 60;
 /// Passes without a residual that falls, after which the residual is taken for an error of the data. Chosen.
@@ -30,5 +28,3 @@ pub(super) const PATIENCE: usize = 2;
 pub(crate) const ALL_DIGITS: f64 = f64::EPSILON * f64::EPSILON;
 /// Residuals that are lost where the answer is rounded. Rounding: below half of eps.
 pub(crate) const ROUNDED: f64 = f64::EPSILON / 4.0;
-/// The most, relative to the terms of a row, that may be a rounding error of the data. Rounding: some thousand eps.
-pub(super) const CONTRADICTION: f64 = 1e-12;

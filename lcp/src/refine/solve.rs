@@ -3,12 +3,13 @@
 use web_time::Instant;
 
 use super::answer::{Refined, Refinement};
-use super::constants::{ALL_DIGITS, CONTRADICTION, FALLEN, PASSES, PATIENCE, WEIGHTS, Weights};
+use super::constants::{ALL_DIGITS, PASSES, PATIENCE, WEIGHTS, Weights};
 use super::law::{self, Margin};
 use super::point::ExtendedPoint;
 use super::residual::{self, EquationResidual, Shifts};
 use crate::certify::ratio;
 use crate::extended::Extended;
+use crate::matrix::DATA_ROUNDING;
 use crate::problem::ContactStatus;
 use crate::states::{Condensed, PointRef, Scaled, Springs};
 use crate::vector::{HALF_DIGITS, max_abs};
@@ -36,7 +37,8 @@ pub(super) fn solved(
         (solve.residual(), solve.finish(began.elapsed().as_secs_f64()))
     };
     let (residual, answer) = solved(WEIGHTS[0], 0);
-    if refinement == Refinement::Extended && residual > FALLEN {
+    // Where less than three quarters of all digits are right, other weights are tried.
+    if refinement == Refinement::Extended && residual > HALF_DIGITS.powi(3) {
         let (other_residual, other) = solved(WEIGHTS[1], answer.0.passes);
         if other_residual < residual {
             return Ok(other);
@@ -146,7 +148,7 @@ impl<'a> Solve<'a> {
             if since < PATIENCE {
                 continue;
             }
-            if rest.largest > CONTRADICTION {
+            if rest.largest > DATA_ROUNDING {
                 if rest.largest > residual {
                     (self.at, self.correction) = before;
                 }

@@ -3,7 +3,7 @@
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 
 use super::cholesky::Cholesky;
-use super::{index, pattern_of};
+use super::{NONE, index, pattern_of};
 use crate::Error;
 use crate::scaling::power_of_two;
 use crate::vector::{REFINEMENTS, max_abs};
@@ -11,8 +11,6 @@ use crate::vector::{REFINEMENTS, max_abs};
 /// The residual, relative to the right-hand side, that needs none. Measured on walls of 10 000 bricks: 1e-11 takes a third
 /// more solves for the same steps, and 1e-7 saves nothing.
 const ENOUGH: f64 = 1e-9;
-/// The place of an entry that the mirrored one stands for.
-const NONE: u32 = u32::MAX;
 
 /// Cholesky factors of `K + delta 1 + A S A^T` with a positive `delta`, a symmetric positive semidefinite `K`, a sparse
 /// `A` and a diagonal `S >= 0`, again and again for other numbers.
@@ -24,6 +22,7 @@ pub struct Gram {
     starts: Vec<usize>,
     rows: Vec<usize>,
     values: Vec<f64>,
+    /// None for an entry that the mirrored one stands for.
     of_stiffness: Vec<u32>,
     /// Columns of `A` with the same rows: where they end, and where the lower triangle of their products goes, row by row.
     ends: Vec<usize>,

@@ -1,11 +1,10 @@
 //! Sparse LU factorisation, column by column (Gilbert and Peierls 1988).
 
 use super::order::{Turn, elimination_order};
-use super::{Columns, index};
+use super::{Columns, NONE, index};
 
 /// Of the entries at least this large against the largest one, that in the emptiest row is the pivot.
 const THRESHOLD: f64 = 0.1;
-const NONE: u32 = u32::MAX;
 
 /// A factorisation that takes one column after the other and refuses those that depend on the ones
 /// before.
