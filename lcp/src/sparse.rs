@@ -15,6 +15,8 @@ pub(crate) use lu::{Growing, SparseLu, row_counts};
 pub(crate) use order::elimination_order;
 pub use supernodal::SupernodalLu;
 
+use crate::vector::{REFINEMENTS, max_abs};
+
 /// Pivots below this multiple of what they are measured by, the largest entry of their column or a diagonal of order one, are
 /// rounding errors. Rounding: some eps.
 const VANISHING: f64 = 1e-15;
@@ -135,6 +137,31 @@ pub(crate) fn pattern_of<'a, I: Iterator<Item = &'a usize>>(
         starts.push(rows.len());
     }
     (starts, rows)
+}
+
+/// Overwrites a right-hand side with the solution by factors, refined as long as what is left of it halves and is more than
+/// a part `enough` of it. `subtract_product` takes away the product of the matrix with a vector.
+pub(crate) fn solve_refined(
+    x: &mut [f64],
+    enough: f64,
+    solve: impl Fn(&mut [f64]),
+    subtract_product: impl Fn(&[f64], &mut [f64]),
+) {
+    let right = x.to_vec();
+    let largest = max_abs(&right);
+    solve(x);
+    let mut last = f64::INFINITY;
+    for _ in 0..REFINEMENTS {
+        let mut rest = right.clone();
+        subtract_product(x, &mut rest);
+        let size = max_abs(&rest);
+        if size.is_nan() || size >= 0.5 * last || size <= enough * largest {
+            break;
+        }
+        last = size;
+        solve(&mut rest);
+        x.iter_mut().zip(&rest).for_each(|(x, step)| *x += step);
+    }
 }
 
 /// A row or column number in half the space.

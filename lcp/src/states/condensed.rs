@@ -5,8 +5,7 @@ use faer::sparse::{FaerError, SymbolicSparseColMatRef};
 use super::constants::ENOUGH;
 use super::scaled::Scaled;
 use crate::problem::column_of;
-use crate::sparse::{SupernodalLu, pattern_of};
-use crate::vector::{REFINEMENTS, max_abs};
+use crate::sparse::{SupernodalLu, pattern_of, solve_refined};
 
 /// The stiffness `s` with which a contact point answers to changes of its gap and slip:
 /// `dt_n = -nn dg`, `dt_t = -tn dg - tt ds`.
@@ -48,10 +47,6 @@ impl Condensed {
             starts[j] + found.unwrap_or_else(|_| unreachable!("the pattern has all entries"))
         };
         let of_diagonal = (0..n).map(|j| place(j, j)).collect();
-        let mut stiffness = vec![0.0; rows.len()];
-        for j in 0..n {
-            column_of(&problem.k, j).for_each(|(i, v)| stiffness[place(i, j)] += v);
-        }
         let index = |i: usize| {
             u32::try_from(i).unwrap_or_else(|_| unreachable!("2^32 entries do not fit in memory"))
         };
@@ -66,8 +61,8 @@ impl Condensed {
             .collect();
         let pattern = SymbolicSparseColMatRef::new_checked(n, n, &starts, None, &rows);
         let factors = SupernodalLu::new(pattern)?;
-        let values = vec![0.0; rows.len()];
-        Ok(Self {
+        let (values, stiffness) = (vec![0.0; rows.len()], vec![0.0; rows.len()]);
+        let planned = Self {
             starts,
             rows,
             values,
@@ -76,7 +71,8 @@ impl Condensed {
             of_points,
             factors,
             factorisations: 0,
-        })
+        };
+        Ok(planned.reloaded(problem))
     }
 
     /// The same plan for a problem of the same pattern, whose stiffness may have other values.
@@ -144,25 +140,14 @@ impl Condensed {
 
     /// Overwrites a right-hand side with the solution.
     pub(crate) fn solve(&self, x: &mut [f64]) {
-        let right = x.to_vec();
-        let largest = max_abs(&right);
-        self.factors.solve(x);
-        let mut last = f64::INFINITY;
-        for _ in 0..REFINEMENTS {
-            let mut rest = right.clone();
+        let subtract_product = |x: &[f64], rest: &mut [f64]| {
             for (j, x) in x.iter().enumerate().filter(|(_, x)| **x != 0.0) {
                 let range = self.starts[j]..self.starts[j + 1];
                 let entries = self.rows[range.clone()].iter().zip(&self.values[range]);
                 entries.for_each(|(&i, v)| rest[i] -= v * x);
             }
-            let size = max_abs(&rest);
-            if size.is_nan() || size >= 0.5 * last || size <= ENOUGH * largest {
-                break;
-            }
-            last = size;
-            self.factors.solve(&mut rest);
-            x.iter_mut().zip(&rest).for_each(|(x, step)| *x += step);
-        }
+        };
+        solve_refined(x, ENOUGH, |x| self.factors.solve(x), subtract_product);
     }
 }
 
