@@ -1,10 +1,10 @@
 //! The points that belong to free sets.
 
-use super::constants::{REFINED, USABLE};
 use super::factors::Factors;
 use crate::Lcp;
+use crate::certify;
 use crate::random::SplitMix;
-use crate::vector::{REFINEMENTS, ROUNDING, SMALL, max_abs};
+use crate::vector::{HALF_DIGITS, REFINEMENTS, ROUNDING, SMALL, max_abs};
 
 /// A complementary point: `z` is free for some pairs, `w` for the others.
 #[derive(Debug, Clone)]
@@ -119,7 +119,7 @@ fn solved(lcp: &Lcp, factors: &Factors<'_>, is_free: &[bool]) -> Option<(Vec<f64
     let mut image = Image::new(lcp, &z);
     let mut error = image.error(is_free);
     for _ in 0..REFINEMENTS {
-        if error <= REFINED || !error.is_finite() {
+        if error <= certify::ROUNDING || !error.is_finite() {
             break;
         }
         let mut refined = vec![0.0; z.len()];
@@ -136,7 +136,7 @@ fn solved(lcp: &Lcp, factors: &Factors<'_>, is_free: &[bool]) -> Option<(Vec<f64
             break;
         }
     }
-    let is_solved = error <= USABLE && !is_in_kernel(lcp, is_free, &image.size);
+    let is_solved = error <= HALF_DIGITS && !is_in_kernel(lcp, is_free, &image.size);
     is_solved.then_some((z, image))
 }
 

@@ -9,7 +9,7 @@ use clarabel::solver::{
     DefaultInfo, DefaultSettings, DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus,
 };
 
-use super::constants::{INTERIOR, LEAST_LIMIT, WORSE};
+use super::constants::{INTERIOR, WORSE};
 use super::form::{Bounds, Form, Point};
 use crate::problem::column_of;
 use crate::vector::{HALF_DIGITS, max_abs};
@@ -127,9 +127,9 @@ impl Interior {
 
     /// Solves for these bounds of the multipliers of cones, one for every row of the form, within a time.
     pub(super) fn solve(&mut self, limits: &[f64], time: Option<Duration>) -> Found {
-        // A bound of zero leaves the program without an interior.
+        // A bound of zero leaves the program without an interior. What this changes the exchange of states puts right.
         let largest = max_abs(limits);
-        let floor = if largest > 0.0 { LEAST_LIMIT * largest } else { LEAST_LIMIT };
+        let floor = if largest > 0.0 { HALF_DIGITS * largest } else { HALF_DIGITS };
         let limits: Vec<f64> = limits.iter().map(|limit| limit.max(floor)).collect();
         if self.update(&limits, time).is_none() {
             return Found { end: End::Failed, point: Point::zero(&self.form), iterations: 0 };

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use super::constants::SOFT_IDLE;
+use super::constants::DOUBTS;
 use super::interior::End;
 use super::program::Run;
 use super::settings::SoftConstraints;
@@ -111,7 +111,7 @@ impl QuadraticProgram {
             let share = springs.share(contact, &springs.forces(&state.u, &centre));
             idle = if share < 0.9 * least { 0 } else { idle + 1 };
             least = least.min(share);
-            if idle > SOFT_IDLE {
+            if idle > DOUBTS {
                 run.monitor.history.push(residual);
                 break Err(Status::Stalled);
             }
