@@ -2,6 +2,7 @@
 
 use faer::sparse::SparseColMat;
 
+use crate::matrix::add_image;
 use crate::problem::{column_of, diagonal};
 use crate::scaling::power_of_two;
 use crate::vector::{SMALL, max_abs};
@@ -72,9 +73,7 @@ impl Program {
     /// `K u`
     pub(super) fn strained(&self, u: &[f64]) -> Vec<f64> {
         let mut strained = vec![0.0; u.len()];
-        for (j, u) in u.iter().enumerate() {
-            column_of(&self.k, j).for_each(|(i, v)| strained[i] += v * u);
-        }
+        add_image(&self.k, 1.0, u, &mut strained);
         strained
     }
 
@@ -86,9 +85,7 @@ impl Program {
 
     /// Adds `A t`.
     pub(super) fn add_forces(&self, t: &[f64], out: &mut [f64]) {
-        for (j, t) in t.iter().enumerate() {
-            column_of(&self.a, j).for_each(|(i, v)| out[i] += v * t);
-        }
+        add_image(&self.a, 1.0, t, out);
     }
 }
 

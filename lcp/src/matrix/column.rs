@@ -72,3 +72,15 @@ pub(crate) fn column_of(
     let range = pattern.col_range(j);
     pattern.row_idx()[range.clone()].iter().copied().zip(matrix.val()[range].iter().copied())
 }
+
+/// `out += factor * matrix * x`.
+pub(crate) fn add_image(
+    matrix: &SparseColMat<usize, f64>,
+    factor: f64,
+    x: &[f64],
+    out: &mut [f64],
+) {
+    for (j, x) in x.iter().enumerate().filter(|(_, x)| **x != 0.0) {
+        column_of(matrix, j).for_each(|(i, v)| out[i] += v * (factor * x));
+    }
+}

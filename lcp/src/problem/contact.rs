@@ -17,7 +17,7 @@ use faer::sparse::SparseColMat;
 
 use super::HorizontalLcp;
 use crate::definite::indefiniteness;
-use crate::matrix::column_of;
+use crate::matrix::{add_image, column_of};
 use crate::vector::{check_length, check_sizes, check_vector};
 use crate::{Error, Matrix, Vector};
 
@@ -163,9 +163,7 @@ impl Contact2d {
         check_length("u", u.len(), self.f.len())?;
         check_vector("u", u)?;
         let mut s_0 = vec![0.0; self.points()];
-        for (j, u) in u.iter().enumerate() {
-            column_of(&self.c_t, j).for_each(|(i, v)| s_0[i] -= v * u);
-        }
+        add_image(&self.c_t, -1.0, u, &mut s_0);
         Ok(Self { s_0, ..self.clone() })
     }
 
@@ -322,10 +320,8 @@ impl Contact2d {
         let m = self.points();
         assert!(u.len() == self.displacements() && t_n.len() == m && t_t.len() == m);
         let (mut gap, mut slip) = (self.x_0.clone(), self.s_0.clone());
-        for (j, &u) in u.iter().enumerate() {
-            column_of(&self.c_n, j).for_each(|(i, v)| gap[i] += v * u);
-            column_of(&self.c_t, j).for_each(|(i, v)| slip[i] += v * u);
-        }
+        add_image(&self.c_n, 1.0, &u, &mut gap);
+        add_image(&self.c_t, 1.0, &u, &mut slip);
         for (i, [normal, tangential]) in self.compliance.iter().enumerate() {
             gap[i] += normal * t_n[i];
             slip[i] += tangential * t_t[i];

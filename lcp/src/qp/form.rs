@@ -2,7 +2,7 @@
 
 use faer::sparse::SparseColMat;
 
-use crate::problem::column_of;
+use crate::matrix::add_image;
 
 /// What a multiplier may be.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,8 +71,8 @@ impl Form {
     /// The slacks `w`.
     pub(super) fn slacks(&self, point: &Point) -> Vec<f64> {
         let mut sum = self.offset.clone();
-        add_product(&self.d, &point.x, &mut sum);
-        add_product(&self.s, &point.lambda, &mut sum);
+        add_image(&self.d, 1.0, &point.x, &mut sum);
+        add_image(&self.s, 1.0, &point.lambda, &mut sum);
         sum
     }
 
@@ -83,12 +83,5 @@ impl Form {
             Bounds::Free | Bounds::Nonnegative => 0.0,
         };
         self.bounds.iter().map(limit).collect()
-    }
-}
-
-/// `out += matrix * x`.
-pub(super) fn add_product(matrix: &SparseColMat<usize, f64>, x: &[f64], out: &mut [f64]) {
-    for (j, x) in x.iter().enumerate().filter(|(_, x)| **x != 0.0) {
-        column_of(matrix, j).for_each(|(i, v)| out[i] += v * x);
     }
 }

@@ -180,7 +180,7 @@ mod tests {
     use faer::sparse::{SparseColMat, Triplet};
 
     use super::*;
-    use crate::problem::column_of;
+    use crate::matrix::{add_image, column_of};
     use crate::random::SplitMix;
 
     /// A chain of bodies with two variables each, three columns of `A` between neighbours, and `K` on every third variable.
@@ -213,9 +213,7 @@ mod tests {
             let mut x = Vec::new();
             for exact in exact.chunks_exact(n) {
                 let mut right: Vec<f64> = exact.iter().map(|x| delta * x).collect();
-                for (j, x) in exact.iter().enumerate() {
-                    column_of(&k, j).for_each(|(i, v)| right[i] += v * x);
-                }
+                add_image(&k, 1.0, exact, &mut right);
                 for (j, s) in s.iter().enumerate() {
                     let along: f64 = column_of(&a, j).map(|(i, v)| v * exact[i]).sum();
                     column_of(&a, j).for_each(|(i, v)| right[i] += v * s * along);

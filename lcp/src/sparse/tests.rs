@@ -3,7 +3,7 @@
 use faer::sparse::{SparseColMat, Triplet};
 
 use super::{Cholesky, SupernodalLu};
-use crate::problem::column_of;
+use crate::matrix::add_image;
 use crate::random::SplitMix;
 
 /// A grid of `side x side` nodes with random unsymmetric values and a weak diagonal.
@@ -31,9 +31,7 @@ fn square(n: usize, entries: &[Triplet<usize, usize, f64>]) -> SparseColMat<usiz
 fn product(matrix: &SparseColMat<usize, f64>) -> (Vec<f64>, Vec<f64>) {
     let exact: Vec<f64> = (0..matrix.ncols()).map(|i| (i % 7) as f64 - 3.0).collect();
     let mut image = vec![0.0; exact.len()];
-    for (j, exact) in exact.iter().enumerate() {
-        column_of(matrix, j).for_each(|(i, v)| image[i] += v * exact);
-    }
+    add_image(matrix, 1.0, &exact, &mut image);
     (image, exact)
 }
 

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use faer::sparse::SparseColMat;
 
 use super::points::{Point, Points};
+use crate::matrix::add_image;
 use crate::parts::Parts;
 use crate::problem::{column_factors, column_of, diagonal, median};
 use crate::scaling::power_of_two;
@@ -183,9 +184,7 @@ impl Scaled {
         forces: impl Iterator<Item = (f64, f64)>,
     ) -> Vec<f64> {
         let mut rest = self.f.clone();
-        for (j, u) in u.iter().enumerate() {
-            column_of(&self.k, j).for_each(|(i, v)| rest[i] -= v * u);
-        }
+        add_image(&self.k, -1.0, u, &mut rest);
         for (point, (t_n, t_t)) in self.points.iter().zip(forces) {
             point.add_forces(t_n, t_t, &mut rest);
         }

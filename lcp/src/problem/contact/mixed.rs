@@ -1,7 +1,7 @@
 //! The mixed problem of contact, which Lemke's method treats more safely than the general one.
 
 use super::{Contact2d, ContactState};
-use crate::matrix::column_of;
+use crate::matrix::{add_image, column_of};
 use crate::vector::max_abs;
 use crate::{Basis, Matrix, MixedLcp, Side, WarmStart};
 
@@ -105,9 +105,7 @@ impl Contact2d {
     /// motion deforms no body, opens every contact by at least `mu` times its slip, and the loads do work on it.
     pub(crate) fn farkas_of_motion(&self, motion: &[f64]) -> Vec<f64> {
         let mut slips = vec![0.0; self.points()];
-        for (j, v) in motion.iter().enumerate() {
-            column_of(&self.c_t, j).for_each(|(i, c)| slips[i] += c * v);
-        }
+        add_image(&self.c_t, 1.0, motion, &mut slips);
         let bounds = self.friction.iter().map(|&i| -0.5 * slips[i].abs());
         let zeros = std::iter::repeat_n(0.0, self.points() + self.friction.len());
         let pi: Vec<f64> = motion.iter().copied().chain(zeros).chain(bounds).collect();
