@@ -18,7 +18,7 @@ pub use settings::AutoSettings;
 pub(crate) use enumerated::Enumeration;
 use method::Planned;
 
-use crate::{Error, Method, Observer, Solution, Solver};
+use crate::{Error, Method, Named, Observer, Solution, Solver};
 
 /// Chooses the methods for a problem by its class and size, and runs one after the other until one finds a solution.
 /// Every method checks the residuals in the given data.
@@ -103,13 +103,14 @@ impl Auto {
         divided::plan(problem, self.settings.max_attempts)
     }
 }
-
-/// Of the problems in the table of [`Auto`].
-impl<P: Planned> Solver<P> for Auto {
+impl Named for Auto {
     fn method(&self) -> Method {
         Method::Auto
     }
+}
 
+/// Of the problems in the table of [`Auto`].
+impl<P: Planned> Solver<P> for Auto {
     fn solve_pairs(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         divided::run(problem, &self.settings, observer)
     }

@@ -191,7 +191,7 @@ pub use problem::{
 pub use qp::{QuadraticProgram, QuadraticProgramSettings};
 pub use settings::{Covering, LemkeSettings, WarmStart};
 pub use solution::{Info, Route, RouteEnd, Solution, Unsolved};
-pub use solve::{Iteration, Observer, Solver, Step, StepKind};
+pub use solve::{Iteration, Named, Observer, Solver, Step, StepKind};
 /// For the benches of the workspace, and for masonry.
 #[doc(hidden)]
 pub use sparse::{Gram, SupernodalLu};

@@ -11,8 +11,8 @@ use crate::settings::check_tolerance;
 use crate::solve::Monitor;
 use crate::vector::max_abs;
 use crate::{
-    Basis, Error, HorizontalLcp, Lcp, Method, Observer, Residuals, Side, Solution, Solver, Status,
-    WarmStart,
+    Basis, Error, HorizontalLcp, Lcp, Method, Named, Observer, Residuals, Side, Solution, Solver,
+    Status, WarmStart,
 };
 use exchange::{Exchanges, Next};
 use system::{Point, System};
@@ -261,12 +261,13 @@ fn check_diagonal(lcp: &Lcp) -> Result<(), Error> {
         }),
     }
 }
-
-impl Solver<Lcp> for SemismoothNewton {
+impl Named for SemismoothNewton {
     fn method(&self) -> Method {
         Method::Newton
     }
+}
 
+impl Solver<Lcp> for SemismoothNewton {
     fn solve_pairs(&self, problem: &Lcp, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         self.solve_judged(problem, observer, |z, w| {
             ((z.to_vec(), w.to_vec()), problem.residuals(z, w))
@@ -276,10 +277,6 @@ impl Solver<Lcp> for SemismoothNewton {
 
 /// Problems that can be converted to the standard form ([`HorizontalLcp::to_standard`]).
 impl Solver<HorizontalLcp> for SemismoothNewton {
-    fn method(&self) -> Method {
-        Method::Newton
-    }
-
     fn solve_pairs(
         &self,
         problem: &HorizontalLcp,

@@ -23,7 +23,8 @@ pub use soft::SoftSolution;
 use crate::conversion::{solve_in_mixed_form, solve_in_standard_form};
 use crate::states::Scaled;
 use crate::{
-    BoxedLcp, Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Observer, Solution, Solver,
+    BoxedLcp, Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Named, Observer, Solution,
+    Solver,
 };
 
 /// Complementarity problems that are the conditions of a convex quadratic program.
@@ -159,12 +160,13 @@ fn refused(reason: &str) -> Error {
         reason: format!("{reason}; take Lemke's method, which needs no quadratic program"),
     }
 }
-
-impl Solver<Lcp> for QuadraticProgram {
+impl Named for QuadraticProgram {
     fn method(&self) -> Method {
         Method::QuadraticProgram
     }
+}
 
+impl Solver<Lcp> for QuadraticProgram {
     fn solve_pairs(&self, problem: &Lcp, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         self.solve_standard(problem, &|| problem.clone().into(), observer)
     }
@@ -172,10 +174,6 @@ impl Solver<Lcp> for QuadraticProgram {
 
 /// Of problems that can be converted to the standard form.
 impl Solver<HorizontalLcp> for QuadraticProgram {
-    fn method(&self) -> Method {
-        Method::QuadraticProgram
-    }
-
     fn solve_pairs(
         &self,
         problem: &HorizontalLcp,
@@ -198,10 +196,6 @@ impl Solver<HorizontalLcp> for QuadraticProgram {
 
 /// On the pairs of [`MixedLcp::to_general`].
 impl Solver<MixedLcp> for QuadraticProgram {
-    fn method(&self) -> Method {
-        Method::QuadraticProgram
-    }
-
     fn solve_pairs(
         &self,
         problem: &MixedLcp,
@@ -213,10 +207,6 @@ impl Solver<MixedLcp> for QuadraticProgram {
 
 /// In mixed form, by the distances from bounds.
 impl Solver<BoxedLcp> for QuadraticProgram {
-    fn method(&self) -> Method {
-        Method::QuadraticProgram
-    }
-
     fn solve_pairs(
         &self,
         problem: &BoxedLcp,
@@ -231,10 +221,6 @@ impl Solver<BoxedLcp> for QuadraticProgram {
 }
 
 impl Solver<Contact2d> for QuadraticProgram {
-    fn method(&self) -> Method {
-        Method::QuadraticProgram
-    }
-
     fn solve_pairs(
         &self,
         problem: &Contact2d,

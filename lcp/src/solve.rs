@@ -6,6 +6,12 @@ use web_time::{Duration, Instant};
 use crate::parallel::for_each;
 use crate::{Error, Info, Method, Solution, Status};
 
+/// A solver of whatever problems.
+pub trait Named {
+    /// Its method.
+    fn method(&self) -> Method;
+}
+
 /// A method that treats problems of type `P`.
 ///
 /// The solution carries a point of the general form of the problem: `(z, w)` as `(t, y)` for [`Lcp`](crate::Lcp)
@@ -27,10 +33,7 @@ use crate::{Error, Info, Method, Solution, Status};
 /// }
 /// # Ok::<(), lcp::Error>(())
 /// ```
-pub trait Solver<P> {
-    /// The method.
-    fn method(&self) -> Method;
-
+pub trait Solver<P>: Named {
     /// Solves a problem for the pairs of its general form: what a method of this library implements, and
     /// [`solve_observed`](Self::solve_observed) gives as a solution of the problem.
     ///

@@ -279,7 +279,7 @@ fn it_is_a_solver_of_everything() {
     let _: [Box<dyn Solver<Friction2d>>; 1] = [Box::new(to(1e-9))];
     let _: [Box<dyn Solver<Contact2d>>; 1] = [Box::new(to(1e-9))];
     assert_eq!(
-        (pgs.info.method, Solver::<Lcp>::method(&to(1e-9))),
+        (pgs.info.method, lcp::Named::method(&to(1e-9))),
         (Method::GaussSeidel, Method::GaussSeidel)
     );
 }

@@ -6,19 +6,20 @@ use super::constants::{MOST_PAIRS, WORK};
 use crate::conversion::{General, judged_point};
 use crate::enumerate::{Enumerated, enumerate};
 use crate::solve::{Monitor, is_over};
-use crate::{Certificate, Error, Method, Observer, Solution, Solver, Status};
+use crate::{Certificate, Error, Method, Named, Observer, Solution, Solver, Status};
 
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Enumeration {
     pub(crate) tolerance: f64,
     pub(crate) time_limit: Option<Duration>,
 }
-
-impl<P: General> Solver<P> for Enumeration {
+impl Named for Enumeration {
     fn method(&self) -> Method {
         Method::Enumeration
     }
+}
 
+impl<P: General> Solver<P> for Enumeration {
     fn solve_pairs(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         let general = problem.general();
         let n = general.order();

@@ -3,15 +3,16 @@
 use super::{InteriorPoint, InteriorPointSettings};
 use crate::conversion::{judged_by, solve_in_mixed_form, solve_in_standard_form};
 use crate::{
-    BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Method, MixedLcp, Observer,
+    BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Method, MixedLcp, Named, Observer,
     Solution, Solver,
 };
-
-impl Solver<Contact2d> for InteriorPoint {
+impl Named for InteriorPoint {
     fn method(&self) -> Method {
         Method::Interior
     }
+}
 
+impl Solver<Contact2d> for InteriorPoint {
     fn solve_pairs(
         &self,
         problem: &Contact2d,
@@ -27,10 +28,6 @@ impl Solver<Contact2d> for InteriorPoint {
 /// only, as forces do on bodies: a step factorises a matrix with the order of the free ones, and a homogeneous problem ends
 /// at a solution or at a Farkas vector, [`Status::Infeasible`](crate::Status::Infeasible) (Andersen and Ye 1999).
 impl Solver<MixedLcp> for InteriorPoint {
-    fn method(&self) -> Method {
-        Method::Interior
-    }
-
     fn solve_pairs(
         &self,
         problem: &MixedLcp,
@@ -46,10 +43,6 @@ impl Solver<MixedLcp> for InteriorPoint {
 }
 
 impl Solver<Lcp> for InteriorPoint {
-    fn method(&self) -> Method {
-        Method::Interior
-    }
-
     fn solve_pairs(&self, problem: &Lcp, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         let free = vec![false; problem.order()];
         let mixed = MixedLcp::new(problem.m().clone(), problem.q().to_vec(), free)?;
@@ -58,10 +51,6 @@ impl Solver<Lcp> for InteriorPoint {
 }
 
 impl Solver<Friction2d> for InteriorPoint {
-    fn method(&self) -> Method {
-        Method::Interior
-    }
-
     fn solve_pairs(
         &self,
         problem: &Friction2d,
@@ -74,10 +63,6 @@ impl Solver<Friction2d> for InteriorPoint {
 
 /// Problems that can be converted to the standard form ([`HorizontalLcp::to_standard`]).
 impl Solver<HorizontalLcp> for InteriorPoint {
-    fn method(&self) -> Method {
-        Method::Interior
-    }
-
     fn solve_pairs(
         &self,
         problem: &HorizontalLcp,
@@ -103,10 +88,6 @@ impl Solver<HorizontalLcp> for InteriorPoint {
 
 /// In mixed form, by the distances from bounds.
 impl Solver<BoxedLcp> for InteriorPoint {
-    fn method(&self) -> Method {
-        Method::Interior
-    }
-
     fn solve_pairs(
         &self,
         problem: &BoxedLcp,

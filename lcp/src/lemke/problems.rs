@@ -9,7 +9,7 @@ use crate::states::Scaled;
 use crate::vector::SMALL;
 use crate::{
     Basis, Certificate, Contact2d, Covering, Error, HorizontalLcp, Iteration, LemkeSettings,
-    Method, Observer, Side, Solution, Solver, Status, WarmStart,
+    Method, Named, Observer, Side, Solution, Solver, Status, WarmStart,
 };
 
 impl Lemke {
@@ -29,13 +29,14 @@ impl Lemke {
         })
     }
 }
-
-/// On the general form of the problem, and judged by the problem itself.
-impl<P: Converted> Solver<P> for Lemke {
+impl Named for Lemke {
     fn method(&self) -> Method {
         Method::Lemke
     }
+}
 
+/// On the general form of the problem, and judged by the problem itself.
+impl<P: Converted> Solver<P> for Lemke {
     fn solve_pairs(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         solve_in_general_form(problem, self.settings().tolerance, |general, is_other| {
             if is_other {
@@ -53,10 +54,6 @@ impl<P: Converted> Solver<P> for Lemke {
 /// the path begins from open contacts, with the displacements that they leave free. The answer has neither a
 /// basis nor a ray, which would belong to the mixed problem.
 impl Solver<Contact2d> for Lemke {
-    fn method(&self) -> Method {
-        Method::Lemke
-    }
-
     fn solve_pairs(
         &self,
         problem: &Contact2d,

@@ -5,15 +5,16 @@ use super::rows::{interleaved, parted};
 use super::{Constraint, MatrixRows, ProjectedGaussSeidel, Sweeps};
 use crate::certify::{BoxedJudge, ContactJudge, GeneralJudge, Precision};
 use crate::{
-    BoxedLcp, Contact2d, ContactForces, Error, Friction2d, HorizontalLcp, Lcp, Method, Observer,
-    Solution, Solver,
+    BoxedLcp, Contact2d, ContactForces, Error, Friction2d, HorizontalLcp, Lcp, Method, Named,
+    Observer, Solution, Solver,
 };
-
-impl Solver<Lcp> for ProjectedGaussSeidel {
+impl Named for ProjectedGaussSeidel {
     fn method(&self) -> Method {
         Method::GaussSeidel
     }
+}
 
+impl Solver<Lcp> for ProjectedGaussSeidel {
     fn solve_pairs(&self, problem: &Lcp, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         let (lower, upper) = (vec![0.0; problem.order()], vec![f64::INFINITY; problem.order()]);
         let boxed = BoxedLcp::new(problem.m().clone(), problem.q().to_vec(), lower, upper)?;
@@ -23,10 +24,6 @@ impl Solver<Lcp> for ProjectedGaussSeidel {
 
 /// Judged on the problem as it stands.
 impl Solver<HorizontalLcp> for ProjectedGaussSeidel {
-    fn method(&self) -> Method {
-        Method::GaussSeidel
-    }
-
     fn solve_pairs(
         &self,
         problem: &HorizontalLcp,
@@ -56,10 +53,6 @@ impl Solver<HorizontalLcp> for ProjectedGaussSeidel {
 
 /// In the pairs of [`BoxedLcp::to_general`].
 impl Solver<BoxedLcp> for ProjectedGaussSeidel {
-    fn method(&self) -> Method {
-        Method::GaussSeidel
-    }
-
     fn solve_pairs(
         &self,
         problem: &BoxedLcp,
@@ -84,10 +77,6 @@ impl Solver<BoxedLcp> for ProjectedGaussSeidel {
 
 /// In the pairs of [`Friction2d::standard`].
 impl Solver<Friction2d> for ProjectedGaussSeidel {
-    fn method(&self) -> Method {
-        Method::GaussSeidel
-    }
-
     fn solve_pairs(
         &self,
         problem: &Friction2d,
@@ -114,10 +103,6 @@ impl Solver<Friction2d> for ProjectedGaussSeidel {
 /// is positive definite, and the compliances of the contacts are on the diagonal. Bodies that `K` does not couple are
 /// eliminated one by one.
 impl Solver<Contact2d> for ProjectedGaussSeidel {
-    fn method(&self) -> Method {
-        Method::GaussSeidel
-    }
-
     fn solve_pairs(
         &self,
         problem: &Contact2d,
