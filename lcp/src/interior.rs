@@ -118,7 +118,7 @@ impl InteriorPoint {
             self.settings.time_limit,
             observer,
         );
-        let mut search = Search::new(Method::Interior, problem, self.settings.tolerance)?;
+        let mut search = Search::new(Method::Interior, problem, self.settings.tolerance, None)?;
         let settings = &self.settings;
         let run = Run { settings, problem, search: &mut search, monitor: &mut monitor };
         let (status, proof) = run.solve();

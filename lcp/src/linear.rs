@@ -6,7 +6,7 @@ use faer::linalg::triangular_solve::{
     solve_unit_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
 use faer::prelude::{Reborrow, ReborrowMut};
-use faer::{Accum, Mat, MatMut, MatRef, Par, unzip, zip};
+use faer::{Accum, MatMut, MatRef, Par, unzip, zip};
 
 use crate::vector::max_abs;
 
@@ -171,9 +171,4 @@ pub(crate) fn inverse_norm(n: usize, mut solve: impl FnMut(&mut [f64], bool)) ->
         }
     }
     estimate
-}
-
-/// Whether every entry is finite.
-pub(crate) fn all_finite(m: &Mat<f64>) -> bool {
-    (0..m.ncols()).all(|j| m.col_as_slice(j).iter().all(|v| v.is_finite()))
 }

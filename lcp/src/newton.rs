@@ -7,6 +7,7 @@ mod system;
 
 use std::time::Duration;
 
+use crate::conversion::solve_in_standard_form;
 use crate::settings::check_tolerance;
 use crate::solve::Monitor;
 use crate::vector::max_abs;
@@ -117,43 +118,6 @@ impl SemismoothNewton {
     /// The settings.
     pub fn settings(&self) -> &SemismoothNewtonSettings {
         &self.settings
-    }
-
-    /// `judge` turns `(z, w)` into a point of the problem as it was given, with its residuals.
-    fn solve_judged(
-        &self,
-        lcp: &Lcp,
-        observer: &mut Observer<'_>,
-        judge: impl Fn(&[f64], &[f64]) -> ((Vec<f64>, Vec<f64>), Residuals),
-    ) -> Result<Solution, Error> {
-        let settings = &self.settings;
-        settings.validate(lcp.order())?;
-        check_diagonal(lcp)?;
-        let mut monitor =
-            Monitor::new(Method::Newton, settings.max_iterations, settings.time_limit, observer);
-        let mut system = System::new(lcp);
-        let (status, best) = self.run(lcp, &mut system, &mut monitor);
-        let clipped = |v: &[f64]| v.iter().map(|v| v.max(0.0)).collect::<Vec<_>>();
-        let judge_clipped = |it: &Point| judge(&clipped(&it.z), &clipped(&it.w));
-        let (mut point, mut residuals) = judge_clipped(&best);
-        let mut is_free = &best.is_free;
-        let is_solved = |residuals: &Residuals| residuals.worst() <= settings.tolerance;
-        let clean = if is_solved(&residuals) { None } else { system.without_noise(&best) };
-        if let Some(clean) = &clean {
-            let (clean_point, clean_residuals) = judge_clipped(clean);
-            if is_solved(&clean_residuals) {
-                (point, residuals, is_free) = (clean_point, clean_residuals, &clean.is_free);
-            }
-        }
-        if !is_solved(&residuals) {
-            (point, residuals) = judge(&best.z, &best.w);
-        }
-        let mut solution =
-            Solution::judged(point.0, point.1, residuals, settings.tolerance, status);
-        solution.basis = Some(basis_of(is_free));
-        solution.info = monitor.info();
-        solution.info.factorisations = system.factorisations();
-        Ok(solution)
     }
 
     /// The status if the residuals of the point, the best that was met, are not small.
@@ -268,10 +232,33 @@ impl Named for SemismoothNewton {
 }
 
 impl Solver<Lcp> for SemismoothNewton {
-    fn solve_pairs(&self, problem: &Lcp, observer: &mut Observer<'_>) -> Result<Solution, Error> {
-        self.solve_judged(problem, observer, |z, w| {
-            ((z.to_vec(), w.to_vec()), problem.residuals(z, w))
-        })
+    fn solve_pairs(&self, lcp: &Lcp, observer: &mut Observer<'_>) -> Result<Solution, Error> {
+        let settings = &self.settings;
+        settings.validate(lcp.order())?;
+        check_diagonal(lcp)?;
+        let mut monitor =
+            Monitor::new(Method::Newton, settings.max_iterations, settings.time_limit, observer);
+        let mut system = System::new(lcp);
+        let (status, best) = self.run(lcp, &mut system, &mut monitor);
+        let positive = |v: &[f64]| v.iter().map(|v| v.max(0.0)).collect();
+        let clipped = |it: &Point| Point { z: positive(&it.z), w: positive(&it.w), ..it.clone() };
+        let judged = |it: Point| {
+            let residuals = lcp.residuals(&it.z, &it.w);
+            (it, residuals)
+        };
+        let is_solved = |residuals: &Residuals| residuals.worst() <= settings.tolerance;
+        let (mut point, mut residuals) = judged(clipped(&best));
+        if !is_solved(&residuals) {
+            let clean = system.without_noise(&best).map(|clean| judged(clipped(&clean)));
+            let clean = clean.filter(|(_, residuals)| is_solved(residuals));
+            (point, residuals) = clean.unwrap_or_else(|| judged(best));
+        }
+        let mut solution =
+            Solution::judged(point.z, point.w, residuals, settings.tolerance, status);
+        solution.basis = Some(basis_of(&point.is_free));
+        solution.info = monitor.info();
+        solution.info.factorisations = system.factorisations();
+        Ok(solution)
     }
 }
 
@@ -284,25 +271,24 @@ impl Solver<HorizontalLcp> for SemismoothNewton {
     ) -> Result<Solution, Error> {
         let settings = &self.settings;
         settings.validate(problem.order())?;
-        let standard = problem.to_standard().ok_or_else(|| Error::NotTreated {
+        let refused = || {
+            Error::NotTreated {
             method: Method::Newton,
             reason:
                 "it cannot be converted to the standard form, for which every pair needs a column with \
                      one entry, all in different rows: take Lemke"
                     .to_owned(),
-        })?;
-        let start = match &settings.start {
-            // In units of the vectors of the problem as it was given.
-            WarmStart::Point { t, y } => WarmStart::Basis(standard.basis(&basis_of(&larger(t, y)))),
-            other => standard.start(other),
+        }
         };
-        let inner = Self::new(SemismoothNewtonSettings { start, ..settings.clone() });
-        let mut solution = inner.solve_judged(standard.lcp(), observer, |z, w| {
-            let (t, y) = standard.to_pairs(z, w);
-            let residuals = problem.residuals(&t, &y);
-            ((t, y), residuals)
-        })?;
-        solution.basis = solution.basis.map(|basis| standard.basis(&basis));
-        Ok(solution)
+        solve_in_standard_form(
+            problem,
+            &settings.start,
+            settings.tolerance,
+            refused,
+            |lcp, start| {
+                let inner = Self::new(SemismoothNewtonSettings { start, ..settings.clone() });
+                inner.solve_pairs(lcp, observer)
+            },
+        )
     }
 }

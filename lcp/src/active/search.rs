@@ -30,17 +30,9 @@ struct Best {
 }
 
 impl<'a> Search<'a> {
-    /// For a method, with the largest residual of a solution.
+    /// For a method, with the largest residual of a solution, and the linear system of a problem of the same pattern if one is
+    /// planned already.
     pub(crate) fn new(
-        method: Method,
-        problem: &'a dyn Original,
-        tolerance: f64,
-    ) -> Result<Self, Error> {
-        Self::planned(method, problem, tolerance, None)
-    }
-
-    /// The same with the linear system of a problem of the same pattern, which is planned already.
-    pub(crate) fn planned(
         method: Method,
         problem: &'a dyn Original,
         tolerance: f64,

@@ -121,7 +121,7 @@ impl Evolution {
         course: &mut Course<'_, '_>,
     ) -> Result<(Search<'a>, bool), Error> {
         let (tolerance, plan) = (self.settings.tolerance, course.plan.take());
-        let mut search = Search::planned(Method::Interior, problem, tolerance, plan)?;
+        let mut search = Search::new(Method::Interior, problem, tolerance, plan)?;
         let (u, forces) = search.scaled.of_state(&from.state);
         search.judge(&u, &forces);
         let contacts = match &from.contacts[..] {

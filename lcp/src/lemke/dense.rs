@@ -4,7 +4,7 @@ use faer::{Mat, MatRef};
 
 use super::kernel::{Kernel, Var};
 use super::tableau::Tableau;
-use crate::linear::{Lu, add_product, all_finite};
+use crate::linear::{Lu, add_product};
 
 pub(super) struct Dense<'a> {
     /// `T` of the start.
@@ -117,7 +117,7 @@ impl Kernel for Dense<'_> {
         let mut rest = rows_of(right.as_ref(), &w_index);
         let coupling = rows_of(columns.as_ref(), &w_index);
         add_product(rest.as_mut(), -1.0, coupling.as_ref(), solved.as_ref());
-        if !all_finite(&solved) || !all_finite(&rest) {
+        if !solved.is_all_finite() || !rest.is_all_finite() {
             return false;
         }
         let mut t = right;

@@ -5,7 +5,7 @@ mod flip;
 use faer::Mat;
 
 use crate::certify::GeneralJudge;
-use crate::linear::{Lu, all_finite, inverse_norm};
+use crate::linear::{Lu, inverse_norm};
 use crate::matrix::Column;
 use crate::scaling::{equilibrate, equilibrate_computed};
 use crate::sparse::{Columns, SparseLu};
@@ -140,7 +140,7 @@ impl<'a> Equilibrated<'a> {
             lu.solve_in_place(t.as_mut());
             lu.solve_vector(&mut q);
             drop_rounding(&mut t);
-            if !all_finite(&t) || t.norm_max() > 1.0 / PIVOT_TOLERANCE {
+            if !t.is_all_finite() || t.norm_max() > 1.0 / PIVOT_TOLERANCE {
                 return None;
             }
             let columns: Vec<_> = (0..n).map(|j| Column::Dense(t.col_as_slice(j))).collect();

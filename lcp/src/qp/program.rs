@@ -35,7 +35,7 @@ impl<'a> Run<'a> {
     ) -> Result<Self, Error> {
         let monitor =
             Monitor::new(Method::QuadraticProgram, max_programs, settings.time_limit, observer);
-        let search = Search::new(Method::QuadraticProgram, problem, settings.tolerance)?;
+        let search = Search::new(Method::QuadraticProgram, problem, settings.tolerance, None)?;
         let (proof, began) = (OnceCell::new(), Instant::now());
         Ok(Self { settings, search, monitor, general, proof, steps: 0, began })
     }
