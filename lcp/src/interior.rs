@@ -195,6 +195,12 @@ impl Run<'_, '_, '_> {
         }
     }
 
+    /// Whether the states of the contacts at a point, or those that they lead to, are those of a solution.
+    fn crosses_over(&mut self, at: &Iterate, effort: &Effort) -> bool {
+        let forces = at.forces();
+        self.search.cross_over(PointRef { u: &at.u, forces: &forces }, at.contacts(), effort)
+    }
+
     /// The interior-point iteration from a point inside.
     fn iterate(&mut self, mut at: Iterate) -> Status {
         let mut tried = NEAR / NEARER;
@@ -203,8 +209,7 @@ impl Run<'_, '_, '_> {
         let (mut before, mut solved) = (None, 0);
         let mut defect = Defect::of(&self.search.scaled, &at);
         loop {
-            let forces = at.forces();
-            let worst = self.search.judge(&at.u, &forces);
+            let worst = self.search.judge(&at.u, &at.forces());
             let is_solved = worst <= self.settings.tolerance;
             // Where nothing moves the residuals measure gaps by noise.
             let (force, length) = at.sizes();
@@ -213,18 +218,11 @@ impl Run<'_, '_, '_> {
             let near = natural.max(defect.relative(force, length)).min(worst);
             if self.settings.crossover && (is_solved || near <= NEARER * tried) {
                 tried = near;
-                let contacts = at.contacts();
                 let effort = if is_solved { Effort::THOROUGH } else { Effort::QUICK };
                 let is_sure = near <= HALF_DIGITS;
                 let held = HELD.into_iter().filter(|_| is_sure).map(Effort::held);
-                let is_exact = std::iter::once(effort).chain(held).any(|effort| {
-                    self.search.cross_over(
-                        PointRef { u: &at.u, forces: &forces },
-                        contacts.clone(),
-                        &effort,
-                    )
-                });
-                if is_exact {
+                if std::iter::once(effort).chain(held).any(|effort| self.crosses_over(&at, &effort))
+                {
                     return Status::Solved;
                 }
             }
@@ -249,13 +247,7 @@ impl Run<'_, '_, '_> {
             least = least.min(merit);
             if !next.is_finite() || step.length < HALF_DIGITS || since > PATIENCE {
                 // Residuals are relative: if all gaps or all forces vanish, they cannot become small.
-                let contacts = at.contacts();
-                let is_exact = self.settings.crossover
-                    && self.search.cross_over(
-                        PointRef { u: &at.u, forces: &forces },
-                        contacts,
-                        &Effort::THOROUGH,
-                    );
+                let is_exact = self.settings.crossover && self.crosses_over(&at, &Effort::THOROUGH);
                 return if is_exact || solved > 0 { Status::Solved } else { Status::Stalled };
             }
             at = next;
