@@ -2,12 +2,13 @@
 
 mod balance;
 mod constants;
+mod convex;
 mod factors;
 mod homogeneous;
 mod iterate;
-mod kkt;
 mod least;
-mod path;
+mod newton_system;
+mod predictor_corrector;
 mod problems;
 mod program;
 mod settings;
@@ -20,9 +21,10 @@ pub use least::LeastForces;
 pub use settings::InteriorPointSettings;
 
 use balance::{Balance, balance};
-use constants::{HELD, MORE, NEAR, NEARER, PATIENCE};
-use iterate::{Defect, Iterate};
-use path::Ahead;
+use constants::{MORE_STEPS, PATIENCE, PROXIMAL_TERMS, TRIAL_REDUCTION, TRIAL_RESIDUAL};
+use iterate::Iterate;
+use newton_system::Defect;
+use predictor_corrector::PredictorCorrector;
 use start::{set_out, start_opened};
 
 use crate::active::{Effort, Original, Search};
@@ -140,7 +142,7 @@ pub(crate) fn follow_path(
     monitor: &mut Monitor<'_>,
 ) -> Status {
     let settings = InteriorPointSettings { tolerance, ..InteriorPointSettings::default() };
-    Run { settings: &settings, problem, search, monitor }.path(1.0)
+    Run { settings: &settings, problem, search, monitor }.attempt(1.0)
 }
 
 /// One solve.
@@ -152,8 +154,8 @@ struct Run<'r, 'a, 'b> {
 }
 
 impl Run<'_, '_, '_> {
-    /// The path from a start that is opened by this multiple of its largest gap.
-    fn path(&mut self, opening: f64) -> Status {
+    /// The iteration from a start that is opened by this multiple of its largest gap.
+    fn attempt(&mut self, opening: f64) -> Status {
         let Search { scaled, condensed, .. } = &mut *self.search;
         let at = start_opened(scaled, condensed, opening);
         self.iterate(at)
@@ -166,7 +168,7 @@ impl Run<'_, '_, '_> {
             return (Status::Solved, None);
         }
         for &opening in &self.settings.openings {
-            let status = self.path(opening);
+            let status = self.attempt(opening);
             if status != Status::Stalled {
                 return (status, None);
             }
@@ -203,7 +205,7 @@ impl Run<'_, '_, '_> {
 
     /// The interior-point iteration from a point inside.
     fn iterate(&mut self, mut at: Iterate) -> Status {
-        let mut tried = NEAR / NEARER;
+        let mut tried = TRIAL_RESIDUAL / TRIAL_REDUCTION;
         let (_, first) = at.sizes();
         let (mut least, mut since) = (f64::INFINITY, 0);
         let (mut before, mut solved) = (None, 0);
@@ -211,23 +213,23 @@ impl Run<'_, '_, '_> {
         loop {
             let worst = self.search.judge(&at.u, &at.forces());
             let is_solved = worst <= self.settings.tolerance;
-            // Where nothing moves the residuals measure gaps by noise.
+            // Lengths are measured by those of the start at least: where nothing moves they would be rounding errors.
             let (force, length) = at.sizes();
             let (force, length) = (force.max(1.0), length.max(first));
             let natural = at.natural(force, length);
             let near = natural.max(defect.relative(force, length)).min(worst);
-            if self.settings.crossover && (is_solved || near <= NEARER * tried) {
+            if self.settings.crossover && (is_solved || near <= TRIAL_REDUCTION * tried) {
                 tried = near;
                 let effort = if is_solved { Effort::THOROUGH } else { Effort::QUICK };
                 let is_sure = near <= HALF_DIGITS;
-                let held = HELD.into_iter().filter(|_| is_sure).map(Effort::held);
+                let held = PROXIMAL_TERMS.into_iter().filter(|_| is_sure).map(Effort::held);
                 if std::iter::once(effort).chain(held).any(|effort| self.crosses_over(&at, &effort))
                 {
                     return Status::Solved;
                 }
             }
             solved += usize::from(is_solved);
-            if is_solved && (!self.settings.crossover || solved > MORE) {
+            if is_solved && (!self.settings.crossover || solved > MORE_STEPS) {
                 return Status::Solved;
             }
             if let Some(status) = self.monitor.stop_after(worst, before) {
@@ -237,7 +239,7 @@ impl Run<'_, '_, '_> {
             let (next, step) = if before.is_none() {
                 set_out(scaled, condensed, &at)
             } else {
-                Ahead::of(scaled, condensed, &at, &defect).advance()
+                PredictorCorrector::of(scaled, condensed, &at, &defect).advance()
             };
             before = Some(step);
             defect = Defect::of(scaled, &next);

@@ -2,28 +2,28 @@
 //! What is "chosen" is so by judgement: no measurement is kept.
 
 /// Residuals above which no crossover and no proof is tried. Chosen: every trial costs factorisations.
-pub(super) const NEAR: f64 = 3e-6;
+pub(super) const TRIAL_RESIDUAL: f64 = 3e-6;
 /// The residual must have decreased by this factor before a crossover or a proof is tried again. Chosen: a crossover costs
 /// factorisations, a proof a pass in twice the digits.
-pub(super) const NEARER: f64 = 0.03;
+pub(super) const TRIAL_REDUCTION: f64 = 0.03;
 /// Proximal terms that hold what the states of the contacts leave free, one after the other, once the point has half of its
 /// digits. Measured on a settlement of 105 bricks, whose states are found from 7e-10: 1e-12 lets it go anywhere, 1e-10 finds
 /// them.
-pub(super) const HELD: [f64; 2] = [1e-10, 1e-8];
+pub(super) const PROXIMAL_TERMS: [f64; 2] = [1e-10, 1e-8];
 /// Steps from a point that is solved but whose states are not yet those of the exact answer. Chosen.
-pub(super) const MORE: usize = 8;
+pub(super) const MORE_STEPS: usize = 8;
 
 /// Largest change of a gap by the predictor, relative to the mean gap, that a start is wide enough for. Chosen: walls
 /// of bricks keep their first start.
-pub(super) const WIDE: f64 = 2.0;
+pub(super) const WIDE_ENOUGH: f64 = 2.0;
 /// A start that is not is opened by this many times its mean gap. Measured on a beam that is lifted at its end: two or
 /// three times are enough.
-pub(super) const OPENED: f64 = 100.0;
+pub(super) const WIDENING: f64 = 100.0;
 
 /// By which multiple of the largest gap starts are opened, one after the other. Measured on walls of 1000 bricks: where gaps
 /// are not opened, those that are easy take a third less steps; where they are, by 1e3 or 1e4, walls near their limit and on
 /// open bases are solved in 35 to 80 steps, on which all other attempts jam, whatever the friction.
-pub(super) const STARTS: [f64; 3] = [0.0, 1e4, 1e3];
+pub(super) const OPENINGS: [f64; 3] = [0.0, 1e4, 1e3];
 /// Steps without a reduction of the products by a tenth after which an attempt is left. Measured on settlements: with 12 an
 /// open base is lost that the path solves with 15; with 20 and 30 those that jam take 5 to 15 more, and no other is solved.
 pub(super) const PATIENCE: usize = 15;
@@ -31,7 +31,7 @@ pub(super) const PATIENCE: usize = 15;
 /// Theory: the box of Gondzio (1996). Measured on walls: with 0.01 and 0.3 some are solved and others not.
 pub(super) const CENTRAL: f64 = 0.1;
 /// Part of the longest step that is taken. Theory: it must stay inside; the usual value of predictor and corrector.
-pub(super) const BACK: f64 = 0.995;
+pub(super) const FRACTION_TO_BOUNDARY: f64 = 0.995;
 /// A step that makes a product smaller than it may be is shortened by this. Chosen.
 pub(super) const SHORTER: f64 = 0.7;
 /// Correctors of the centrality of a step, at most. Chosen: each costs a solve (Gondzio 1996).
@@ -53,15 +53,15 @@ pub(super) const MIXTURES: [f64; 12] =
 pub(super) const IS_CENTRAL: (f64, f64) = (0.3, 3.0);
 /// Largest relative change of a variable by a piece of the path; the first that leaves a step of length [`LONG`] is
 /// taken. Chosen.
-pub(super) const PIECES: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.0];
-/// See [`PIECES`]. Chosen.
+pub(super) const ARC_FRACTIONS: [f64; 6] = [1.0, 0.5, 0.25, 0.1, 0.03, 0.0];
+/// See [`ARC_FRACTIONS`]. Chosen.
 pub(super) const LONG: f64 = 0.7;
 
 /// Distance of a start of the homogeneous problem from the bounds, at least, relative to the largest pull. Measured on rigid
 /// walls of 10 000 bricks: open bases take 26, 39, 41 and 55 steps with a friction of 1, 0.6, 0.59 and 0.58, which is next to
 /// the least; with ten times the pull 24, 35, 51 and 72. Of 100 000 bricks one takes 65; with ten times 70, with 1.5 times
 /// 106. On a full floor nothing pulls, and the mean is enough.
-pub(super) const AWAY: f64 = 20.0;
+pub(super) const START_SHIFT: f64 = 20.0;
 
 /// Multiple of the largest load by which the balance of forces is measured at most. Measured on a tilted wall of 10 050
 /// bricks: forces are thousands of loads.

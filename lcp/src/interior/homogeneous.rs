@@ -3,7 +3,9 @@
 
 use faer::sparse::FaerError;
 
-use super::constants::{BACK, BALANCINGS, LEAST_AIM, LOADS, NEAR, NEARER, PATIENCE};
+use super::constants::{
+    BALANCINGS, FRACTION_TO_BOUNDARY, LEAST_AIM, LOADS, PATIENCE, TRIAL_REDUCTION, TRIAL_RESIDUAL,
+};
 use super::factors::Factors;
 use super::program::Program;
 use super::step::{correction, lengthened};
@@ -135,7 +137,7 @@ fn iterate(
     };
     let mut now = Homogeneous::new(program, at);
     let (Accuracy::OfAll(tolerance) | Accuracy::OfForces(tolerance)) = accuracy;
-    let (mut least, mut since, mut provable) = ([f64::INFINITY; 3], 0, NEAR);
+    let (mut least, mut since, mut provable) = ([f64::INFINITY; 3], 0, TRIAL_RESIDUAL);
     loop {
         let defect = now.defect();
         let residual = now.residual(&defect, accuracy);
@@ -144,7 +146,7 @@ fn iterate(
             return (now.at.solution(), Status::Solved);
         }
         if error <= provable {
-            provable = NEARER * error;
+            provable = TRIAL_REDUCTION * error;
             if is_proof(&now.at) {
                 return (now.at, Status::Infeasible);
             }
@@ -251,7 +253,7 @@ impl<'a> Homogeneous<'a> {
             step.moved(&newton.corrector(&trial, aim.max(LEAST_AIM * mean)), 1.0)
         };
         let (step, alpha) = lengthened(step, |step| at.longest(step), corrector);
-        let alpha = (BACK * alpha).min(1.0);
+        let alpha = (FRACTION_TO_BOUNDARY * alpha).min(1.0);
         let next = at.moved(&step, alpha);
         if !next.is_finite() {
             return 0.0;

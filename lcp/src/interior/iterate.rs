@@ -1,10 +1,10 @@
-//! Points inside the cone, and Newton's steps between them.
+//! Points inside the cone.
 
 use super::step::longest;
 use crate::problem::ContactStatus;
 use crate::solve::StepKind;
-use crate::states::{Condensed, PROXIMAL, Scaled, Springs};
-use crate::vector::{HALF_DIGITS, max_abs};
+use crate::states::Springs;
+use crate::vector::HALF_DIGITS;
 
 /// A point with all forces inside their cones and all gaps open; or a step between two of them.
 #[derive(Debug, Clone)]
@@ -52,7 +52,7 @@ impl Pairs {
     }
 
     /// `mu t_n + t_t` and `mu t_n - t_t`.
-    fn strengths(&self) -> (f64, f64) {
+    pub(super) fn strengths(&self) -> (f64, f64) {
         (self.mu * self.t_n + self.t_t, self.mu * self.t_n - self.t_t)
     }
 
@@ -62,9 +62,9 @@ impl Pairs {
         (self.slip_plus / plus, self.slip_minus / minus)
     }
 
-    /// The springs that Newton's method puts in the place of the contact, no stiffer than leaves their forces half of the
-    /// digits: a step is a proximal one then, which changes nothing where the iteration ends.
-    fn springs(&self, compliance: [f64; 2]) -> Springs {
+    /// The springs that Newton's method puts in the place of the contact. With a proximal term of half the digits in them, which
+    /// changes nothing where the iteration ends.
+    pub(super) fn springs(&self, compliance: [f64; 2]) -> Springs {
         let nn = 1.0 / (self.gap / self.t_n + compliance[0] + HALF_DIGITS);
         if self.mu == 0.0 {
             return Springs { nn, ..Springs::default() };
@@ -77,7 +77,7 @@ impl Pairs {
     /// The step of all variables from that of the forces and those of gap and slip by the displacements.
     /// Of the two equations for `dy`, compatibility and `y dt + t dy = target`, each pair uses the one
     /// that keeps the digits: the second where `t` is the larger one.
-    fn change(&self, [t_n, t_t]: [f64; 2], opened: [f64; 2], target: &[f64; 3]) -> Self {
+    pub(super) fn change(&self, [t_n, t_t]: [f64; 2], opened: [f64; 2], target: &[f64; 3]) -> Self {
         let mu = self.mu;
         let gap =
             if self.t_n > self.gap { (target[0] - self.gap * t_n) / self.t_n } else { opened[0] };
@@ -93,103 +93,6 @@ impl Pairs {
             _ => (slip_plus, slip_plus - opened[1]),
         };
         Self { mu, t_n, t_t, gap, slip_plus, slip_minus }
-    }
-}
-
-/// The residuals of the equations at a point.
-pub(super) struct Defect {
-    /// `f + C^T t - K u`.
-    balance: Vec<f64>,
-    /// `C_n u + x_0 + a_n t_n - g` and `C_t u + s_0 + a_t t_t - (s+ - s-)`.
-    gaps: Vec<(f64, f64)>,
-}
-
-impl Defect {
-    pub(super) fn of(problem: &Scaled, at: &Iterate) -> Self {
-        let forces = at.points.iter().map(|pairs| (pairs.t_n, pairs.t_t));
-        let balance = problem.unbalanced(&at.u, forces);
-        let gaps = problem.points.iter().zip(&at.points).map(|(point, pairs)| {
-            let slip = if point.mu > 0.0 {
-                point.slip(&at.u, pairs.t_t) - (pairs.slip_plus - pairs.slip_minus)
-            } else {
-                0.0
-            };
-            (point.gap(&at.u, pairs.t_n) - pairs.gap, slip)
-        });
-        Self { balance, gaps: gaps.collect() }
-    }
-
-    pub(super) fn size(&self) -> f64 {
-        self.relative(1.0, 1.0)
-    }
-
-    /// The largest defect in these units of force and length.
-    pub(super) fn relative(&self, force: f64, length: f64) -> f64 {
-        let gaps = self.gaps.iter().fold(0.0_f64, |max, (g, s)| max.max(g.abs()).max(s.abs()));
-        (max_abs(&self.balance) / force).max(gaps / length)
-    }
-}
-
-/// The linear system of a point: factorised, for any right-hand side.
-pub(super) struct Tangent<'a> {
-    problem: &'a Scaled,
-    condensed: &'a Condensed,
-    at: &'a Iterate,
-    springs: Vec<Springs>,
-}
-
-impl<'a> Tangent<'a> {
-    pub(super) fn new(problem: &'a Scaled, condensed: &'a mut Condensed, at: &'a Iterate) -> Self {
-        let points = problem.points.iter().zip(&at.points);
-        let springs = points.map(|(point, pairs)| pairs.springs(point.compliance));
-        let springs: Vec<Springs> = springs.collect();
-        condensed.factorise(problem, &springs, PROXIMAL);
-        Self { problem, condensed, at, springs }
-    }
-
-    /// Whether the products of the pairs grow on the way forwards along the central path, see
-    /// [`turn`](super::turn::turn).
-    pub(super) fn is_backwards(&self) -> bool {
-        self.condensed.is_negative()
-    }
-
-    /// The step that changes the products of the pairs by `targets`, to first order, and nothing else.
-    pub(super) fn correction(&self, targets: &[[f64; 3]]) -> Iterate {
-        let balance = vec![0.0; self.problem.order()];
-        self.step(&Defect { balance, gaps: vec![(0.0, 0.0); targets.len()] }, targets)
-    }
-
-    /// The step that makes good the defect and changes the products of the pairs by `targets`, to first
-    /// order: `y dt + t dy = target`.
-    pub(super) fn step(&self, defect: &Defect, targets: &[[f64; 3]]) -> Iterate {
-        let points = self.problem.points.iter().zip(&self.at.points).zip(&self.springs);
-        let points = points.zip(targets).zip(&defect.gaps);
-        let mut u = defect.balance.clone();
-        // Forces that do not depend on the displacements.
-        let mut fixed = Vec::with_capacity(targets.len());
-        for ((((point, at), springs), targets), gaps) in points.clone() {
-            let normal = targets[0] / at.t_n - gaps.0;
-            let along = if point.mu > 0.0 {
-                let (plus, minus) = at.strengths();
-                targets[1] / plus - targets[2] / minus - gaps.1
-            } else {
-                0.0
-            };
-            let (t_n, t_t) = springs.forces(normal, along);
-            point.add_forces(t_n, t_t, &mut u);
-            fixed.push((t_n, t_t));
-        }
-        self.condensed.solve(&mut u);
-        let points = points.zip(fixed).map(|(((((point, at), springs), targets), gaps), fixed)| {
-            let moved = point.moved(&u);
-            let (t_n, t_t) = springs.forces(moved.0, moved.1);
-            let (t_n, t_t) = (fixed.0 - t_n, fixed.1 - t_t);
-            let [normal, tangential] = point.compliance;
-            let opened = [moved.0 + gaps.0 + normal * t_n, moved.1 + gaps.1 + tangential * t_t];
-            at.change([t_n, t_t], opened, targets)
-        });
-        let points = points.collect();
-        Iterate { u, points }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::constants::STARTS;
+use super::constants::OPENINGS;
 use crate::settings::check_tolerance;
 use crate::{Error, WarmStart};
 
@@ -38,7 +38,7 @@ impl Default for InteriorPointSettings {
         Self {
             tolerance: 1e-10,
             max_iterations: 300,
-            openings: STARTS.to_vec(),
+            openings: OPENINGS.to_vec(),
             time_limit: None,
             start: WarmStart::None,
             crossover: true,

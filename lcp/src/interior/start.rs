@@ -1,12 +1,13 @@
 //! Where the iteration starts, and how it finds out how far bodies move.
 
-use super::constants::{OPENED, WIDE};
+use super::constants::{WIDE_ENOUGH, WIDENING};
+use super::iterate::{Iterate, Pairs};
+use super::newton_system::Defect;
 #[cfg(test)]
-use super::iterate::Tangent;
-use super::iterate::{Defect, Iterate, Pairs};
-use super::path::Ahead;
+use super::newton_system::NewtonSystem;
+use super::predictor_corrector::PredictorCorrector;
 #[cfg(test)]
-use super::path::targets;
+use super::predictor_corrector::targets;
 use crate::problem::ContactStatus;
 use crate::solve::Step;
 use crate::states::{Condensed, PROXIMAL, Point, Scaled, Springs};
@@ -21,7 +22,7 @@ pub(super) fn start(problem: &Scaled, condensed: &mut Condensed) -> Iterate {
         point.add_forces(-springs.nn * point.x_0, -springs.tt * point.s_0, &mut u);
     }
     condensed.solve(&mut u);
-    // Less than what opens without forces by what a force presses a compliant contact together.
+    // Of the gap that the springs predict a compliant contact has less: its own force times its compliance.
     let gaps = problem.points.iter().zip(&springs);
     let gaps: Vec<f64> = gaps.map(|(point, springs)| springs.nn * point.gap(&u, 0.0)).collect();
     let mean = gaps.iter().map(|g| g.abs()).sum::<f64>() / gaps.len().max(1) as f64;
@@ -66,16 +67,16 @@ pub(super) fn set_out(
     let (mut from, mut before) = (at.clone(), (at.clone(), f64::MAX));
     loop {
         let of_from = Defect::of(problem, &from);
-        let ahead = Ahead::of(problem, condensed, &from, &of_from);
+        let ahead = PredictorCorrector::of(problem, condensed, &from, &of_from);
         let change = ahead.predictor.largest_gap() / from.mean_gap();
-        if change <= WIDE {
+        if change <= WIDE_ENOUGH {
             return ahead.advance();
         }
         if change.is_nan() || change > 0.5 * before.1 {
             let of_before = Defect::of(problem, &before.0);
-            return Ahead::of(problem, condensed, &before.0, &of_before).advance();
+            return PredictorCorrector::of(problem, condensed, &before.0, &of_before).advance();
         }
-        let wider = from.clone().opened(OPENED * from.mean_gap());
+        let wider = from.clone().opened(WIDENING * from.mean_gap());
         before = (from, change);
         from = wider;
     }
@@ -109,8 +110,8 @@ mod tests {
         let at = start(&problem, &mut condensed);
         let tau = 0.1 * at.mean_product();
         let defect = Defect::of(&problem, &at);
-        let tangent = Tangent::new(&problem, &mut condensed, &at);
-        let step = tangent.step(&defect, &targets(&at, tau, None));
+        let system = NewtonSystem::new(&problem, &mut condensed, &at);
+        let step = system.step(&defect, &targets(&at, tau, None));
         let missing = |at: &Iterate| -> Vec<f64> { at.pairs().map(|(t, y)| t * y - tau).collect() };
         let part = 1e-4;
         let (before, after) = (missing(&at), missing(&at.moved(&step, part)));

@@ -1,7 +1,8 @@
 //! Where the central path turns back.
 
-use super::constants::{LONG, PIECES};
-use super::iterate::{Direction, Iterate, Tangent};
+use super::constants::{ARC_FRACTIONS, LONG};
+use super::iterate::{Direction, Iterate};
+use super::newton_system::NewtonSystem;
 use crate::solve::StepKind;
 
 /// A step along the central path where it turns, or nearly.
@@ -13,8 +14,8 @@ use crate::solve::StepKind;
 /// general). Near a turn the equations for a fixed `tau` have no solution or two, so that corrections at
 /// a fixed `tau` grow beyond bounds. The correction here leaves the place along the path alone: `tau`
 /// becomes whatever belongs to it. To that comes a piece of the path.
-pub(super) fn turn(tangent: &Tangent<'_>, at: &Iterate, predictor: &Iterate) -> Direction {
-    let along = tangent.correction(&vec![[1.0; 3]; at.points.len()]);
+pub(super) fn turn(system: &NewtonSystem<'_>, at: &Iterate, predictor: &Iterate) -> Direction {
+    let along = system.correction(&vec![[1.0; 3]; at.points.len()]);
     let (mut product, mut square, mut largest) = (0.0, 0.0, 0.0_f64);
     for (((t, y), (t_along, y_along)), (dt, dy)) in
         at.pairs().zip(along.pairs()).zip(predictor.pairs())
@@ -26,9 +27,9 @@ pub(super) fn turn(tangent: &Tangent<'_>, at: &Iterate, predictor: &Iterate) -> 
         }
     }
     let aim = -product / square;
-    let sense = if tangent.is_backwards() { 1.0 } else { -1.0 };
+    let sense = if system.is_backwards() { 1.0 } else { -1.0 };
     let mut best = Direction { step: predictor.clone(), alpha: 0.0, kind: StepKind::Turn };
-    for piece in PIECES {
+    for piece in ARC_FRACTIONS {
         let step = predictor.moved(&along, aim + sense * piece / largest);
         let alpha = at.longest(&step);
         if alpha > best.alpha {

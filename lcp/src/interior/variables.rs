@@ -1,6 +1,6 @@
 //! The variables of the homogeneous problem of a convex program, inside their bounds, and where they start.
 
-use super::constants::AWAY;
+use super::constants::START_SHIFT;
 use super::factors::Factors;
 use super::program::Program;
 use super::step::longest;
@@ -35,7 +35,7 @@ impl Variables {
         let mean = gaps.iter().map(|g| g.abs()).sum::<f64>() / gaps.len().max(1) as f64;
         // What pulls cannot stay: the larger that is, the farther off the solution.
         let pull = gaps.iter().fold(0.0, |max, gap| gap.max(max));
-        let shift = mean.max(AWAY * pull);
+        let shift = mean.max(START_SHIFT * pull);
         let shift = if shift > 0.0 && shift.is_finite() { shift } else { 1.0 };
         let t: Vec<f64> = gaps.iter().map(|gap| (-gap).max(0.0) + shift).collect();
         let y: Vec<f64> = gaps.iter().map(|gap| gap.max(0.0) + shift).collect();

@@ -1,32 +1,35 @@
-//! The interior-point iteration: predictor, correctors, and what to do when they get nowhere.
+//! One step of the interior-point iteration: predictor, correctors, and what to do when they get nowhere.
 
-use super::constants::{BACK, CENTRAL, IS_CENTRAL, LEAST_AIM, MIXTURES, SHORT, SHORTER};
-use super::iterate::{Defect, Direction, Iterate, Pairs, Tangent};
+use super::constants::{
+    CENTRAL, FRACTION_TO_BOUNDARY, IS_CENTRAL, LEAST_AIM, MIXTURES, SHORT, SHORTER,
+};
+use super::iterate::{Direction, Iterate, Pairs};
+use super::newton_system::{Defect, NewtonSystem};
 use super::step::{correction, lengthened};
 use super::turn::turn;
 use crate::solve::{Step, StepKind};
 use crate::states::{Condensed, Scaled};
 use crate::vector::HALF_DIGITS;
 
-/// What lies ahead of a point.
-pub(super) struct Ahead<'a> {
-    tangent: Tangent<'a>,
+/// The predictor of a point, and the system by which it is corrected.
+pub(super) struct PredictorCorrector<'a> {
+    system: NewtonSystem<'a>,
     at: &'a Iterate,
     defect: &'a Defect,
     /// The step to products of zero.
     pub(super) predictor: Iterate,
 }
 
-impl<'a> Ahead<'a> {
+impl<'a> PredictorCorrector<'a> {
     pub(super) fn of(
         problem: &'a Scaled,
         condensed: &'a mut Condensed,
         at: &'a Iterate,
         defect: &'a Defect,
     ) -> Self {
-        let tangent = Tangent::new(problem, condensed, at);
-        let predictor = tangent.step(defect, &targets(at, 0.0, None));
-        Self { tangent, at, defect, predictor }
+        let system = NewtonSystem::new(problem, condensed, at);
+        let predictor = system.step(defect, &targets(at, 0.0, None));
+        Self { system, at, defect, predictor }
     }
 
     /// One step of Mehrotra's method (1992) with Gondzio's correctors (1996), which costs one factorisation.
@@ -35,32 +38,32 @@ impl<'a> Ahead<'a> {
     /// becomes much smaller than the mean, unless that would make the step shorter than what counts as none. Gives the
     /// new point, and the step that leads there.
     pub(super) fn advance(&self) -> (Iterate, Step) {
-        let Self { tangent, at, predictor, .. } = self;
+        let Self { system, at, predictor, .. } = self;
         let Direction { step, alpha, kind } =
-            if tangent.is_backwards() { turn(tangent, at, predictor) } else { self.forwards() };
-        let (next, length) = within(at, &step, (BACK * alpha).min(1.0));
+            if system.is_backwards() { turn(system, at, predictor) } else { self.forwards() };
+        let (next, length) = within(at, &step, (FRACTION_TO_BOUNDARY * alpha).min(1.0));
         let mean_product = next.mean_product();
         (next, Step { kind, length, mean_product })
     }
 
     /// A step that makes the products smaller.
     fn forwards(&self) -> Direction {
-        let Self { tangent, at, defect, predictor } = self;
+        let Self { system, at, defect, predictor } = self;
         let mean = at.mean_product();
         let left = at.moved(predictor, at.longest(predictor)).mean_product();
         let aim = mean * (left / mean).powi(3).clamp(0.0, 1.0);
-        let step = tangent.step(defect, &targets(at, aim, Some(predictor)));
+        let step = system.step(defect, &targets(at, aim, Some(predictor)));
         let corrector = |step: &Iterate, trial: f64| {
             let corrections = corrections(&at.moved(step, trial), aim.max(LEAST_AIM * mean));
-            step.moved(&tangent.correction(&corrections), 1.0)
+            step.moved(&system.correction(&corrections), 1.0)
         };
         let (step, alpha) = lengthened(step, |step| at.longest(step), corrector);
         if alpha >= SHORT {
             return Direction { step, alpha, kind: StepKind::Corrected };
         }
-        let centring = tangent.step(defect, &targets(at, mean, None));
+        let centring = system.step(defect, &targets(at, mean, None));
         let mixed = mixture(at, predictor, centring);
-        if mixed.alpha < SHORT { turn(tangent, at, predictor) } else { mixed }
+        if mixed.alpha < SHORT { turn(system, at, predictor) } else { mixed }
     }
 }
 
@@ -92,8 +95,8 @@ fn is_central(at: &Iterate) -> bool {
     at.pairs().all(|(t, y)| (IS_CENTRAL.0 * mean..=IS_CENTRAL.1 * mean).contains(&(t * y)))
 }
 
-/// The residuals of the products of the pairs, where those of the gaps are to be `tau`, less the second-order term of
-/// the predictor.
+/// The right-hand sides of the complementarity equations, `tau - t y` of all pairs, less the second-order term of the
+/// predictor.
 pub(super) fn targets(at: &Iterate, tau: f64, predictor: Option<&Iterate>) -> Vec<[f64; 3]> {
     let target = |(i, at): (usize, &Pairs)| {
         let mut targets = [0.0; 3];
