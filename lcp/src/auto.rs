@@ -36,9 +36,9 @@ use crate::{Error, Method, Named, Observer, Solution, Solver};
 /// | [`Contact2d`](crate::Contact2d), up to 100 pairs and with bodies that no spring holds | Lemke, interior point |
 /// | other [`Contact2d`](crate::Contact2d) | interior point, Lemke |
 ///
-/// † if the diagonal is positive; ‡ if sparse, or dense up to order 500. The lines without a class are for [`MixedLcp`](crate::MixedLcp),
-/// [`BoxedLcp`](crate::BoxedLcp) and [`Friction2d`](crate::Friction2d) too. Quadratic programs and sweeps are in no chain: they alone decide no case of the
-/// bench `corpus`.
+/// † if the diagonal is positive; ‡ if sparse, or dense up to order 500. The lines without a class are for
+/// [`MixedLcp`](crate::MixedLcp), [`BoxedLcp`](crate::BoxedLcp) and [`Friction2d`](crate::Friction2d) too. Quadratic programs
+/// and sweeps are in no chain: they alone decide no case of the bench `corpus`.
 ///
 /// Problems of up to 100 pairs have enumeration as well: branching over the sides of pairs, with a solution or a proof for
 /// each choice. It comes last, with the work of one or two seconds, except if at most 18 pairs depend on each other in turn:
@@ -53,7 +53,7 @@ use crate::{Error, Method, Named, Observer, Solution, Solver};
 /// time that is left.
 ///
 /// # When it ends
-/// With [`Solved`](crate::Status::Solved); with [`Infeasible`](crate::Status::Infeasible) or
+/// An answer is [`Solved`](crate::Status::Solved); [`Infeasible`](crate::Status::Infeasible) or
 /// [`NoSolution`](crate::Status::NoSolution) and a checked proof; or at the time limit. A method that does not treat
 /// the problem, or needs more memory than there is, is skipped. Each method gets three quarters of the time that is left,
 /// the last one all of it.
@@ -109,7 +109,7 @@ impl Named for Auto {
     }
 }
 
-/// Of the problems in the table of [`Auto`].
+/// The problems are those in the table of [`Auto`].
 impl<P: Planned> Solver<P> for Auto {
     fn solve_pairs(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         divided::run(problem, &self.settings, observer)

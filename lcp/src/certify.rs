@@ -106,7 +106,7 @@ impl Residuals {
         }
     }
 
-    /// Of a point that is not a number.
+    /// The residuals of a point that is not a number.
     pub(crate) fn infinite() -> Self {
         let inf = f64::INFINITY;
         Self { equation: inf, feasibility: inf, complementarity: inf, natural: inf, loads: inf }

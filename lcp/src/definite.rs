@@ -16,9 +16,9 @@ const DENSE: usize = 300;
 
 /// What is in the way of a symmetric matrix being positive semidefinite, if anything is.
 ///
-/// By a Cholesky factorisation of the matrix, scaled to a diagonal of ones so that units do not matter,
-/// plus a small multiple of the identity: that of a semidefinite matrix goes through, whatever its
-/// kernel; that of a matrix with an eigenvalue below `-1e-10` does not.
+/// Why a matrix is not positive semidefinite; `None` if it is. A Cholesky factorisation tells, of the matrix scaled to a diagonal
+/// of ones, so that units do not matter, plus a small multiple of the identity: that of a semidefinite matrix goes through,
+/// whatever its kernel; that of a matrix with an eigenvalue below `-1e-10` does not.
 pub(crate) fn indefiniteness(what: &str, matrix: &SparseColMat<usize, f64>) -> Option<String> {
     let n = matrix.ncols();
     let diagonal: Vec<f64> = (0..n).map(|i| *matrix.get(i, i).unwrap_or(&0.0)).collect();
@@ -56,7 +56,7 @@ pub(crate) fn is_definite(matrix: &SparseColMat<usize, f64>) -> bool {
 }
 
 /// The matrix with rows and columns divided by the roots of its diagonal, and `shift` on the diagonal.
-/// What is on the diagonal at the rounding level of the whole does not give the unit of its row.
+/// The matrix with a diagonal of ones. Entries at the rounding level of the whole diagonal give no unit of their row.
 fn unit_diagonal(
     matrix: &SparseColMat<usize, f64>,
     diagonal: &[f64],

@@ -53,7 +53,7 @@ impl<P> Part<P> {
         Self { problem, rows: pairs.clone(), pairs }
     }
 
-    /// What a start of the whole says of this part.
+    /// The start of this part in a start of the whole.
     pub(crate) fn start(&self, start: &WarmStart) -> WarmStart {
         start.of_pairs(self.pairs.iter().map(|&pair| (pair, false)))
     }
@@ -64,7 +64,7 @@ impl<P> Part<P> {
         put(&self.pairs, part, whole);
     }
 
-    /// What a certificate of this part says of a whole of so many pairs: a proof with zeros in all other rows is one
+    /// The certificate of a whole of so many pairs from that of this part: a proof with zeros in all other rows is one
     /// of the whole, and other parts stay at rest in a ray.
     pub(crate) fn certificate(&self, certificate: &Certificate, pairs: usize) -> Certificate {
         let rows = |part: &[f64]| spread(&self.rows, part, pairs, 0.0);

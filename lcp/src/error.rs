@@ -41,7 +41,7 @@ pub enum Error {
          smaller"
     )]
     Overflow {
-        /// Of what.
+        /// The matrix or vector.
         what: &'static str,
         /// The row, from 0.
         row: usize,
@@ -94,7 +94,7 @@ pub enum Error {
         name: &'static str,
         /// Its value.
         value: f64,
-        /// What is allowed.
+        /// The values that are allowed.
         range: &'static str,
     },
     /// A matrix that must be symmetric and is not.
@@ -116,7 +116,7 @@ pub enum Error {
     /// A matrix that must be positive semidefinite and is not.
     #[error("{reason}: bodies would gain energy by deforming; check the signs of its springs")]
     Indefinite {
-        /// What shows it.
+        /// The reason.
         reason: String,
     },
     /// A variable, or a row of a program, without an admissible value.
@@ -137,7 +137,7 @@ pub enum Error {
     /// A program that is not convex.
     #[error("{reason}: its minimum is beyond methods for convex programs")]
     NotConvex {
-        /// What shows it.
+        /// The reason.
         reason: String,
     },
     /// A setting outside its range.
@@ -165,7 +165,7 @@ pub enum Error {
         "the {what} is {value}, but `{name}` allows {limit}: raise it or take a smaller problem"
     )]
     Limit {
-        /// What is too large.
+        /// The number that is too large.
         what: &'static str,
         /// Its value.
         value: usize,
@@ -191,9 +191,9 @@ pub enum Error {
     /// Sparse factors that cannot be planned.
     #[error("the sparse factors of {what} cannot be planned: {reason}")]
     Factors {
-        /// Of which matrix.
+        /// The matrix.
         what: &'static str,
-        /// What is in the way.
+        /// The reason.
         reason: String,
     },
 }

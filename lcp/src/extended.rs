@@ -30,7 +30,7 @@ impl Extended {
         self.high
     }
 
-    /// What rounding leaves out.
+    /// The digits that rounding leaves out.
     pub fn rest(self) -> f64 {
         self.low
     }

@@ -45,7 +45,7 @@ use crate::{Certificate, Contact2d, Error, Method, Observer, Solution, Status};
 /// structure are found once; friction makes its values unsymmetric. Small proximal terms keep floating bodies and
 /// redundant contacts regular, and vanish with the steps.
 ///
-/// With friction the central path (the points with equal products) can turn back: for a while the products have to
+/// The central path (the points with equal products) can turn back if there is friction: for a while the products have to
 /// grow. The sign of the determinant, which the factorisation gives, shows on which side of a turn a point is, and
 /// steps follow the path around it (Allgower and Georg 1990).
 ///

@@ -27,7 +27,7 @@
 //!
 //! # A time step
 //!
-//! With the mass matrix in place of the stiffness the unknowns are velocities and the forces are impulses. Within a
+//! The unknowns are velocities and the forces are impulses if the mass matrix takes the place of the stiffness. Within a
 //! step `h` a point may at most close its gap, `gap / h + v_n >= 0`. A block falls on the floor and slides until it
 //! stops:
 //!
@@ -192,7 +192,7 @@ pub use qp::{QuadraticProgram, QuadraticProgramSettings};
 pub use settings::{Covering, LemkeSettings, WarmStart};
 pub use solution::{Info, Route, RouteEnd, Solution, Unsolved};
 pub use solve::{Iteration, Named, Observer, Solver, Step, StepKind};
-/// For the benches of the workspace, and for masonry.
+/// Public for the benches of the workspace, and for masonry.
 #[doc(hidden)]
 pub use sparse::{Gram, SupernodalLu};
 pub use status::Status;

@@ -29,7 +29,7 @@ pub(crate) struct LeastSquares {
 
 #[derive(Debug, Clone)]
 pub(crate) struct Minimum {
-    /// Of every column, at least zero.
+    /// The value of every column, at least zero.
     pub(crate) x: Vec<Extended>,
     /// `c - sum x_j a_j`, without its rounding errors.
     pub(crate) residual: Vec<Extended>,
@@ -185,7 +185,7 @@ struct Passive {
     columns: Vec<usize>,
     orthogonal: Vec<Vec<Extended>>,
     squares: Vec<Extended>,
-    /// Of every column the factors of the `q_k` before its own.
+    /// The factors that every column has of the `q_k` before its own.
     factors: Vec<Vec<Extended>>,
 }
 

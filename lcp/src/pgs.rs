@@ -42,7 +42,7 @@ use crate::{Error, Info, Method, Observer, Residuals, Solution, Status, WarmStar
 /// [`Error::NotTreated`].
 ///
 /// # Guarantee
-/// With positive diagonals the method converges linearly for symmetric positive definite `M` with `omega` in
+/// The method converges linearly, if diagonals are positive, for symmetric positive definite `M` with `omega` in
 /// `(0, 2)`, and for strictly diagonally dominant `M` with `omega` in `(0, 1]` (Cryer 1971; Cottle, Pang and Stone
 /// 1992, section 5.2). For symmetric positive semidefinite `M` it converges if there is a solution (Luo and Tseng
 /// 1991). This holds for contact without friction.
@@ -94,7 +94,7 @@ pub struct RowsSolution {
     /// `|q_i| + sum_j |M_ij z_j|` ([`Rows::size`]) and 2^-10 of `M_ii max|z|`.
     #[cfg_attr(feature = "serde", serde(with = "crate::json_numbers::infinity"))]
     pub residual: f64,
-    /// What it cost.
+    /// The cost.
     pub info: Info,
 }
 

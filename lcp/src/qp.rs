@@ -172,7 +172,7 @@ impl Solver<Lcp> for QuadraticProgram {
     }
 }
 
-/// Of problems that can be converted to the standard form.
+/// The problem must have a standard form.
 impl Solver<HorizontalLcp> for QuadraticProgram {
     fn solve_pairs(
         &self,

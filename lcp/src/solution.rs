@@ -1,4 +1,4 @@
-//! What a solver returns.
+//! Answers of solvers.
 
 use std::marker::PhantomData;
 
@@ -17,7 +17,7 @@ use crate::{Basis, Certificate, ContactState, HorizontalLcp, Method, Residuals, 
 )]
 #[non_exhaustive]
 pub enum RouteEnd {
-    /// With a status.
+    /// It ended with a status.
     Ended {
         /// Its status.
         status: Status,
@@ -63,7 +63,7 @@ pub struct Route {
     pub seconds: f64,
 }
 
-/// What it cost.
+/// The cost of a solve.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -111,7 +111,7 @@ pub struct Info {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(bound = ""))]
 #[non_exhaustive]
 pub struct Solution<P = HorizontalLcp> {
-    /// What the solver found.
+    /// The outcome.
     pub status: Status,
     /// The first variable of every pair.
     pub t: Vec<f64>,
@@ -131,16 +131,16 @@ pub struct Solution<P = HorizontalLcp> {
     pub basis: Option<Basis>,
     /// Residuals from the original data: of `contact` or `boxed` if there is one, else of `(t, y)`.
     pub residuals: Residuals,
-    /// With the statuses [`Infeasible`](Status::Infeasible) and [`NoSolution`](Status::NoSolution) the proof, checked
-    /// against the given data; with
-    /// [`RayTermination`](Status::RayTermination) the ray of the first attempt that ended on one, without those that
+    /// The proof, checked against the given data, if the status is [`Infeasible`](Status::Infeasible) or
+    /// [`NoSolution`](Status::NoSolution); if it is
+    /// [`RayTermination`](Status::RayTermination), the ray of the first attempt that ended on one, without those that
     /// have no artificial variable. It refers to the rows and pairs of the general form of the problem.
     pub certificate: Option<Certificate>,
     /// Estimate of the condition number, in the 1-norm, of the equilibrated matrix of the basis.
     pub condition: Option<f64>,
     /// Every pivot, if the settings request it.
     pub trace: Vec<PivotRecord>,
-    /// What it cost.
+    /// The cost.
     pub info: Info,
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) problem: PhantomData<fn() -> P>,
@@ -188,7 +188,7 @@ impl Solution {
         Self { status, ..self }
     }
 
-    /// With a checked proof, which says more than the point.
+    /// The answer with a checked proof, which says more than the point.
     pub(crate) fn proved(self, proof: Certificate) -> Self {
         let status = match proof {
             Certificate::Farkas { .. } => Status::Infeasible,
@@ -276,6 +276,6 @@ impl<P> Solution<P> {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("the problem is not solved: {}, residual {:.1e}", .solution.status, .solution.residuals.worst())]
 pub struct Unsolved {
-    /// What was found: the best point, and the proof that there is no solution if there is one.
+    /// The answer: the best point, and the proof that there is no solution if there is one.
     pub solution: Box<Solution>,
 }

@@ -1,5 +1,5 @@
-//! What methods for contact share that come down to a state of every contact: the problem in units of its own, the
-//! law of a state, and the linear system.
+//! The problem in units of its own, the law of the state of a contact, and the linear system: shared by the methods for contact
+//! that come down to a state of every contact.
 
 mod condensed;
 mod constants;

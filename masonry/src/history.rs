@@ -1,6 +1,6 @@
 //! The load history: the steps of a scene, what acts in each, and the energy that it takes.
 //!
-//! With friction the solution depends on the load path. In a step the law holds with the slip of the previous step
+//! The solution depends on the load path if there is friction. In a step the law holds with the slip of the previous step
 //! subtracted,
 //!
 //! ```text

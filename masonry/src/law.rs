@@ -1,6 +1,6 @@
 //! The law of a joint: unilateral contact with Coulomb friction, cohesion, and tension up to a limit.
 //!
-//! With the contact force `(t_n, t_t)` of a point, compression positive, the gap `y_n` and the slip `y_t`:
+//! A point has the contact force `(t_n, t_t)`, compression positive, the gap `y_n` and the slip `y_t`:
 //!
 //! ```text
 //!   t_n >= -T,   y_n >= 0,   (t_n + T) y_n = 0
@@ -132,8 +132,8 @@ impl PointLaw {
     }
 }
 
-/// The bound of one tangential force in a [`System`](crate::system::System): `|t_t| <= mu t_n' + base`, where `t_n' = t_n + T` is the
-/// normal unknown.
+/// The bound of one tangential force in a [`System`](crate::system::System): `|t_t| <= mu t_n' + base`, where `t_n' = t_n + T`
+/// is the normal unknown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction {
     /// The contact point.

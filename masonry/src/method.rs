@@ -78,7 +78,7 @@ pub struct Answer {
     pub basis: Option<Start>,
     /// A motion that nothing seems to stop, when not solved.
     pub motion: Option<Motion>,
-    /// By point with friction, in the order of the system, how far it slid \[m\] before the slip in `rows`, if a motion led to
+    /// How far every point with friction, in the order of the system, slid \[m\] before the slip in `rows`, if a motion led to
     /// the solution.
     pub moved: Option<Vec<f64>>,
     /// Works and energies on the way, if blocks moved.

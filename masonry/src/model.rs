@@ -170,7 +170,7 @@ impl Mortar {
 
 /// The terms of a strip of mortar (3.28)-(3.39) that need the strain `eps_x` along the joint.
 ///
-/// With `eps_x` the energy of a strip is that of a bar, whether its faces press or not, and that of the
+/// The energy of a strip with `eps_x` is that of a bar, whether its faces press or not, and that of the
 /// compliances:
 ///
 /// ```text

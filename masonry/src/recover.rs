@@ -251,8 +251,8 @@ fn contact_states(
     states
 }
 
-/// By what moves: displacements are unique where contact forces are not (forces may circulate
-/// between the points around a corner without any effect).
+/// The state of a contact by what moves: displacements are unique if contact forces are not (forces may circulate between the
+/// points around a corner without any effect).
 fn status(state: &ContactState, zero: f64) -> ContactStatus {
     if state.y_n > zero {
         ContactStatus::Open

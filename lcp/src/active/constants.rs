@@ -1,5 +1,5 @@
 //! The numbers that exchanges of states go by beside their [`Effort`](super::Effort), each with where it comes from.
-//! What is "chosen" is so by judgement: no measurement is kept.
+//! A number that is "chosen" is so by judgement: no measurement is kept.
 
 /// Steps of refinement. Chosen.
 pub(super) const REFINEMENTS: usize = 12;

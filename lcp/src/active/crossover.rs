@@ -46,7 +46,7 @@ impl Effort {
     }
 }
 
-/// What belongs to the states of the contacts, by the equations.
+/// Displacements and forces that the equations give for the states of the contacts.
 #[derive(Debug, Clone)]
 pub(crate) struct Vertex {
     pub(crate) u: Vec<f64>,
@@ -54,9 +54,9 @@ pub(crate) struct Vertex {
     pub(crate) contacts: Vec<ContactStatus>,
 }
 
-/// Solves for given states and exchanges those that contradict, as long as these become fewer. The forces
-/// are those nearest to the given ones where redundant contacts leave a choice. Says whether one of the
-/// points is a solution, which is asked of every point with whether its states contradict nowhere; exchanges go on from there to one whose states contradict nowhere.
+/// Solves for given states and exchanges those that contradict, as long as these become fewer. The forces are those nearest to
+/// the given ones where redundant contacts leave a choice. Says whether one of the points is a solution, which is asked of
+/// every point with whether its states contradict nowhere; exchanges go on from there to one whose states contradict nowhere.
 pub(crate) fn cross_over(
     problem: &Scaled,
     condensed: &mut Condensed,

@@ -39,7 +39,7 @@ pub(crate) trait Judge {
     /// Residuals of displacements in units of the data and scaled forces, of twice the digits.
     fn residuals_of(&self, scaled: &Scaled, at: &Exact) -> Residuals;
 
-    /// What is given back of a point.
+    /// The answer that a point is.
     fn answer(&self, scaled: &Scaled, at: PointRef<'_>) -> Answer;
 }
 
@@ -192,7 +192,7 @@ fn state(problem: &Contact2d, scaled: &Scaled, at: PointRef<'_>) -> ContactState
     problem.state(scaled.displacements(at.u), normal, tangential)
 }
 
-/// What is left of a normal force that acts on nothing, and may be as large as numbers are: what friction needs.
+/// The normal force that friction needs, in the place of one that acts on nothing and may be as large as numbers are.
 fn least_bound(t_n: f64, t_t: f64, mu: f64) -> f64 {
     if t_t == 0.0 { 0.0 } else { t_n.min((1.0 + f64::EPSILON) * t_t.abs() / mu) }
 }

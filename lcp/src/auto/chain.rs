@@ -12,7 +12,7 @@ use crate::{Certificate, Error, Method, Observer, Route, RouteEnd, Solution, Sta
 pub(super) enum Rank {
     /// Solved, or with a proof that there is no solution.
     Decided,
-    /// With residuals below the root of the tolerance.
+    /// Residuals are below the root of the tolerance.
     Near,
     Ray,
     Open,

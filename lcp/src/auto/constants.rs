@@ -1,5 +1,5 @@
 //! The sizes that the choice of methods goes by, each with where it comes from.
-//! What is "chosen" is so by judgement: no measurement is kept.
+//! A number that is "chosen" is so by judgement: no measurement is kept.
 
 /// Up to this order, or so many contact points, pivots on a sparse matrix are as fast as factorisations, and say more.
 /// Chosen.
@@ -18,7 +18,7 @@ pub(super) const MOST_PAIRS: usize = 100;
 /// Exchanges of columns times the square of the order, which is the work of an exchange, over the whole tree. Measured: this
 /// takes 1.5 s; triangular problems of 60 pairs take a tenth of it, those of 100 a quarter.
 pub(super) const WORK: usize = 100_000_000;
-/// Of the time left one part in so many is kept for the methods that follow. Chosen: the first one is the most likely to
+/// One part in so many of the time left is kept for the methods that follow. Chosen: the first one is the most likely to
 /// answer.
 pub(super) const KEPT: u32 = 4;
 /// More independent parts than these are small, and all of them together are one problem that is solved in the time of

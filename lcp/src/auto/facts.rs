@@ -1,4 +1,4 @@
-//! What a matrix shows without a factorisation.
+//! Properties that a matrix shows without a factorisation.
 
 use super::constants::{FEW_PAIRS, MOST_PAIRS};
 use crate::Matrix;

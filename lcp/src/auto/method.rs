@@ -84,12 +84,12 @@ pub trait Planned: Divide {
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>>;
 }
 
-/// What a method gets.
+/// The settings of a method in a chain.
 #[derive(Debug, Clone, Copy)]
 pub struct Effort<'a> {
     pub(super) tolerance: f64,
     pub(super) time_limit: Option<Duration>,
-    /// Of Lemke's method.
+    /// Attempts of Lemke's method.
     pub(super) max_attempts: Option<usize>,
     pub(super) start: &'a WarmStart,
 }

@@ -37,7 +37,7 @@ pub(super) fn common_chain(m: &Matrix) -> Vec<Choice> {
     std::iter::once(step(Method::Lemke, words)).chain(inside).collect()
 }
 
-/// For the reason of a choice: the order, and how the matrix is stored.
+/// The order and how the matrix is stored, for the reason of a choice.
 fn size(m: &Matrix) -> String {
     let order = m.ncols();
     if !m.is_sparse() {

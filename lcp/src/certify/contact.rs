@@ -141,7 +141,7 @@ impl Loads {
     }
 }
 
-/// For every row one over the loads that it feels: forces of displacements, and lengths of points.
+/// One over the loads that every row feels: forces of displacements, and lengths of points.
 fn weights(problem: &Contact2d) -> Vec<f64> {
     let (n, m) = (problem.displacements(), problem.points());
     let factors = column_factors(problem);

@@ -1,7 +1,7 @@
 //! Proofs that there is no solution.
 //!
-//! By Farkas' lemma `A t + B y = c` has no solution with `t >= 0` and `y >= 0` exactly if some `pi` has
-//! `A^T pi <= 0`, `B^T pi <= 0` and `c.pi > 0`.
+//! `A t + B y = c` has no solution with `t >= 0` and `y >= 0` exactly if some `pi` has `A^T pi <= 0`, `B^T pi <= 0` and
+//! `c.pi > 0` (Farkas' lemma).
 
 use crate::extended::Extended;
 use crate::matrix::{Column, DATA_ROUNDING};
@@ -75,7 +75,7 @@ impl Product {
         Self { sum: sum.rounded(), size, terms }
     }
 
-    /// What rounding of the numbers of a vector makes at most, relative to the size.
+    /// The largest rounding error of the numbers of a vector, relative to the size.
     fn rounding(self) -> f64 {
         f64::EPSILON * self.terms
     }

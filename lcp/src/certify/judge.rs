@@ -32,7 +32,7 @@ pub(crate) struct RowJudge<R> {
     pub(super) c: Vec<f64>,
     /// The sizes of their terms.
     pub(super) sizes: Vec<f64>,
-    /// What the right-hand side of every row makes it count, between zero and one.
+    /// The weight that its right-hand side gives a row, between zero and one.
     pub(super) sources: Vec<f64>,
     /// One over the loads that every row feels.
     pub(super) weights: Vec<f64>,
@@ -44,11 +44,10 @@ pub(crate) enum Precision {
     /// In `f64`, less the rounding errors that the sums may have; rows that matter to no load count like all others: of
     /// points on the way.
     Quick,
-    /// With twice the digits where that may matter, less the rounding error of a point that is exact except for the
-    /// last digit of its numbers: of answers.
+    /// Twice the digits where that may matter, less the rounding error of a point that is exact except for the last digit of
+    /// its numbers: for answers.
     Rounded,
-    /// With twice the digits where that may matter: of points about to be called solved, and of those that have these
-    /// digits.
+    /// Twice the digits where that may matter: for points about to be called solved, and for those that have these digits.
     Exact,
 }
 
@@ -62,9 +61,9 @@ impl Digits for Extended {}
 /// A point with the sums of its rows.
 struct Point {
     x: Vec<f64>,
-    /// By what the point is multiplied.
+    /// The factor by which the point is multiplied.
     unit: f64,
-    /// What is left of every row.
+    /// The residual of every row.
     rest: Vec<f64>,
     /// The sum of the sizes of its terms.
     terms: Vec<f64>,
@@ -184,9 +183,9 @@ impl Entry {
 pub(crate) struct Conditions<'a, R> {
     judge: &'a RowJudge<R>,
     point: &'a Point,
-    /// What every row counts; all of them one if it is empty.
+    /// The weight of every row; all of them one if it is empty.
     significance: Vec<f64>,
-    /// What the changes that make the point feasible and complementary add to a row; empty if there are none.
+    /// The sizes that changes which make the point feasible and complementary add to a row; empty if there are none.
     changes: Vec<f64>,
     residuals: Residuals,
 }
@@ -206,7 +205,7 @@ impl<'a, R: Rows> Conditions<'a, R> {
         all.finished(precision)
     }
 
-    /// What a change of a row counts.
+    /// The weight of a change of a row.
     fn share(&self, i: usize, v: f64) -> f64 {
         self.significance.get(i).unwrap_or(&1.0) * ratio(v, self.point.terms[i])
     }

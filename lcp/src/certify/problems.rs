@@ -111,7 +111,7 @@ fn sizes(v: &[f64]) -> Vec<f64> {
 }
 
 impl<R: Rows> RowJudge<R> {
-    /// With the columns of a matrix, and loads that are the sizes of the right-hand sides.
+    /// A judge of the columns of a matrix, and of loads that are the sizes of the right-hand sides.
     fn of_columns(rows: R, columns: &[Column<'_>], c: Vec<f64>, loads: Vec<f64>) -> Self {
         let (row, col) = equilibrate(c.len(), columns);
         let weights = weights(columns, &loads, &row, &col);
@@ -133,7 +133,7 @@ impl<'a> GeneralJudge<'a> {
         Self::with_right_hand_side(problem, problem.c().to_vec(), sizes(problem.c()))
     }
 
-    /// For another right-hand side, with the sizes of its terms.
+    /// A judge for another right-hand side, with the sizes of its terms.
     pub(crate) fn with_right_hand_side(
         problem: &'a HorizontalLcp,
         c: Vec<f64>,
@@ -143,7 +143,7 @@ impl<'a> GeneralJudge<'a> {
         Self { sizes, ..judge }
     }
 
-    /// With the factors that equilibrate the rows and all columns, of `A` and then of `B`.
+    /// A judge with the factors that equilibrate the rows and all columns, of `A` and then of `B`.
     pub(crate) fn with_factors(problem: &'a HorizontalLcp, row: &[f64], col: &[f64]) -> Self {
         let loads = sizes(problem.c());
         let weights = weights(&problem.columns(), &loads, row, col);

@@ -18,7 +18,7 @@ pub(super) struct Term {
     pub size: f64,
 }
 
-/// For every row a factor between zero and one. `sources` are what rows count by their right-hand sides, and `burden` is
+/// The factor of every row, between zero and one. `sources` are what rows count by their right-hand sides, and `burden` is
 /// what the terms of a row are of the loads that it feels, at most one, and zero if it has no terms.
 pub(super) fn significance(
     terms: &[Term],

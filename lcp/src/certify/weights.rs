@@ -1,4 +1,4 @@
-//! What a row counts in units of the loads.
+//! Weights of rows in units of the loads.
 
 use super::significance::spread;
 use crate::matrix::Column;
@@ -6,7 +6,7 @@ use crate::parts::Parts;
 use crate::sparse::Columns;
 use crate::vector::WEAK;
 
-/// For every row one over the loads that it feels, in units of the row: the largest right-hand side of its
+/// One over the loads that every row feels, in units of the row: the largest right-hand side of its
 /// connected part, and of others by how weakly they are coupled to it. `loads` are the sizes of the right-hand
 /// sides, `row` and `col` factors of rows and columns that bring the entries near one. A part without any load takes the
 /// largest of the others; without any at all they are zero, and only the terms measure.

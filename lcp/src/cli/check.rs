@@ -9,7 +9,7 @@ use super::input::Point;
 use super::output::{Failure, NOT_SOLVED, SOLVED, residual_lines, show};
 use crate::Residuals;
 
-/// What `--json` prints.
+/// The object that `--json` prints.
 #[derive(Debug, Serialize)]
 struct Verdict {
     solves: bool,

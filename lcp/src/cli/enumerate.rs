@@ -10,7 +10,7 @@ use super::output::{Failure, NOT_SOLVED, SOLVED, show};
 use crate::exact::{EnumerationSettings, ExactPoint, Face, RBig, enumerate};
 use crate::io::Problem;
 
-/// What `--json` prints.
+/// The object that `--json` prints.
 #[derive(Debug, Serialize)]
 struct Solutions {
     kind: &'static str,

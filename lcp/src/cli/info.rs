@@ -10,7 +10,7 @@ use super::output::{Failure, SOLVED, show};
 use crate::Matrix;
 use crate::io::Problem;
 
-/// What `--json` prints.
+/// The object that `--json` prints.
 #[derive(Debug, Serialize)]
 struct Facts {
     format: &'static str,
@@ -41,7 +41,7 @@ struct MatrixFacts {
     square: Option<SquareFacts>,
 }
 
-/// What only square matrices have.
+/// Properties of square matrices.
 #[derive(Debug, Serialize)]
 struct SquareFacts {
     order: usize,

@@ -99,7 +99,7 @@ fn matrix(path: &Path, order: usize) -> Result<crate::Matrix, Failure> {
     market::read_matrix(&content, order, order).map_err(|error| in_file(path, &error))
 }
 
-/// What is in a file, of which `-` is standard input.
+/// The content of a file; `-` is standard input.
 fn content(path: &Path, stdin: &mut dyn Read) -> Result<Vec<u8>, Failure> {
     let content = if path.as_os_str() == "-" {
         let mut content = Vec::new();

@@ -18,8 +18,8 @@ use crate::{
     SemismoothNewton, SemismoothNewtonSettings, Side, Solution, Solver, WarmStart,
 };
 
-/// By a method in the forms that it treats, of friction in the standard form where it treats only that, and in the
-/// general form of the others. The problem of the file judges the answer to another form.
+/// Solves by a method in the forms that it treats, friction in the standard form where it treats only that, and others in their
+/// general form. The problem of the file judges the answer to another form.
 macro_rules! in_a_form {
     ($solver:expr, $problem:expr, $($own:ident)|+ $(, standard of $standard:ident)?) => {
         match $problem {
@@ -143,7 +143,7 @@ fn start(args: &SolveArgs, stdin: &mut dyn Read, problem: &Problem) -> Result<Wa
     }
 }
 
-/// By a method that treats every form.
+/// Solves by a method that treats every form.
 fn in_its_form<S>(solver: &S, problem: &Problem) -> Result<Solution, Error>
 where
     S: Solver<Lcp>

@@ -47,7 +47,7 @@ fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
-/// What a status means for the user, where its name does not say it.
+/// The meaning of a status for the user, if its name does not say it.
 fn meaning(answer: &Answer<'_>) -> Option<&'static str> {
     let is_auto = !answer.routes.is_empty();
     Some(match answer.status {
@@ -79,7 +79,7 @@ fn meaning(answer: &Answer<'_>) -> Option<&'static str> {
     })
 }
 
-/// What the choice of the method was, and how it ended where it was not the only one.
+/// The methods that were chosen, and how each ended if there were several.
 fn route_lines(answer: &Answer<'_>) -> String {
     let mut lines = String::new();
     for (number, route) in answer.routes.iter().enumerate() {

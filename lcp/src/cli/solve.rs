@@ -15,7 +15,7 @@ use crate::{
     Status,
 };
 
-/// What `--json` prints.
+/// The object that `--json` prints.
 #[derive(Debug, Serialize)]
 pub(super) struct Answer<'a> {
     pub(super) status: Status,
@@ -43,7 +43,7 @@ pub(super) struct Answer<'a> {
     pub(super) routes: &'a [Route],
 }
 
-/// What the method did, in its own unit.
+/// The work of the method, in its own unit.
 #[derive(Debug, Clone, Copy, Serialize)]
 #[serde(untagged)]
 pub(super) enum Work {

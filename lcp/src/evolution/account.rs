@@ -2,7 +2,7 @@
 
 /// Works and energies of a [`Evolution`](crate::Evolution), summed over its steps.
 ///
-/// For every step the difference of both sides is rounding:
+/// Both sides are equal in every step, up to rounding:
 ///
 /// ```text
 /// work = stored + kinetic + dissipation + dragged + lost
@@ -17,15 +17,15 @@ pub struct Account {
     pub stored: f64,
     /// Change of the kinetic energy; zero without inertia.
     pub kinetic: f64,
-    /// What friction takes: the sum of `-t_t ds` over all slips.
+    /// Energy that friction takes: the sum of `-t_t ds` over all slips.
     pub dissipation: f64,
-    /// What friction can take of these slips at most, the sum of `mu t_n |ds|`: Coulomb's law makes both equal.
+    /// Energy that friction can take of these slips at most, the sum of `mu t_n |ds|`: Coulomb's law makes both equal.
     pub capacity: f64,
-    /// What friction gave back, the part of the dissipation that is negative: none, by Coulomb's law.
+    /// Energy that friction gave back, the negative part of the dissipation: none, by Coulomb's law.
     pub created: f64,
-    /// What the drag takes.
+    /// Energy that the drag takes.
     pub dragged: f64,
-    /// What implicit steps take by themselves: never negative, and small if steps are short.
+    /// Energy that implicit steps take by themselves: never negative, and small if steps are short.
     pub lost: f64,
 }
 
@@ -36,7 +36,7 @@ impl Account {
         (self.capacity > 0.0).then(|| self.dissipation / self.capacity)
     }
 
-    /// What has come since an earlier account of the same bodies.
+    /// The sums since an earlier account of the same bodies.
     #[must_use]
     pub fn since(&self, before: &Self) -> Self {
         self.with(before, |now, before| now - before)

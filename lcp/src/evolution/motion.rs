@@ -135,7 +135,7 @@ impl Evolution {
         max_abs(u) > self.settings.reach
     }
 
-    /// What the next step is compared with.
+    /// The motion with which the next step is compared.
     fn motion_now(&self) -> Before {
         let forces = [self.state.t_n.clone(), self.state.t_t.clone()];
         Before { velocity: self.velocity.clone(), forces }
@@ -155,8 +155,8 @@ impl Evolution {
             && !self.approaches(problem, self.settings.reach / size)
     }
 
-    /// What bodies and joints take of the work of the last step from the change of their strains alone, if that is more
-    /// than rounding errors: each by itself, since what a soft one resists would be lost in those of a stiff one.
+    /// The work of the last step that bodies and joints take by the change of their strains alone, if that is more than rounding
+    /// errors: each by itself, since the resistance of a soft one would be lost in the errors of a stiff one.
     fn strain(&self, problem: &Contact2d, before: &Before, h: f64) -> f64 {
         let (v, k) = (&self.velocity, problem.stiffness());
         let mut bodies = Parts::new(v.len());

@@ -243,7 +243,7 @@ impl Evolution {
 /// Where a step ends: the displacements that it adds, and the state of the contacts.
 struct End {
     state: ContactState,
-    /// What the contacts do; empty if not known.
+    /// States of the contacts; empty if not known.
     contacts: Vec<ContactStatus>,
 }
 

@@ -1,4 +1,4 @@
-//! What steps go to, and what is kept while they follow one another.
+//! The targets of steps, and the data that are kept while steps follow one another.
 
 use crate::solve::Monitor;
 use crate::states::Condensed;
@@ -38,7 +38,7 @@ impl Data {
     }
 }
 
-/// What a step goes to.
+/// The target of a step.
 #[derive(Clone, Copy)]
 pub(super) struct Target<'a> {
     pub(super) problem: &'a Contact2d,
@@ -52,17 +52,17 @@ pub(super) struct Target<'a> {
 #[derive(Clone, Copy)]
 pub(super) enum Rest {
     Never,
-    /// By the states of the contacts there.
+    /// From the states of the contacts there.
     ByStates,
-    /// By these with more patience, and by the path of interior points.
+    /// From these with more patience, and along the path of interior points.
     ByPath,
 }
 
 /// Whether a step was taken.
 pub(super) enum Taken {
-    /// With its own account.
+    /// It was taken, with this account.
     Yes(Account),
-    /// And the bodies rest at its end.
+    /// It was taken, and the bodies rest at its end.
     Rests,
     /// Why not: [`Status::Stalled`] where a shorter one may be, or a limit.
     No(Status),

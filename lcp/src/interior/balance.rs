@@ -6,7 +6,7 @@ use crate::matrix::DATA_ROUNDING;
 use crate::states::Scaled;
 use crate::{Certificate, Contact2d, Matrix, Status};
 
-/// What is known of forces that balance the loads.
+/// Whether any forces balance the loads.
 pub(super) enum Balance {
     /// There are none: a Farkas vector.
     Impossible(Certificate),

@@ -1,5 +1,5 @@
 //! The numbers that the interior-point method goes by, each with where it comes from.
-//! What is "chosen" is so by judgement: no measurement is kept.
+//! A number that is "chosen" is so by judgement: no measurement is kept.
 
 /// Residuals above which no crossover and no proof is tried. Chosen: every trial costs factorisations.
 pub(super) const TRIAL_RESIDUAL: f64 = 3e-6;
@@ -20,7 +20,7 @@ pub(super) const WIDE_ENOUGH: f64 = 2.0;
 /// three times are enough.
 pub(super) const WIDENING: f64 = 100.0;
 
-/// By which multiple of the largest gap starts are opened, one after the other. Measured on walls of 1000 bricks: where gaps
+/// Multiples of the largest gap by which starts are opened, one after the other. Measured on walls of 1000 bricks: where gaps
 /// are not opened, those that are easy take a third less steps; where they are, by 1e3 or 1e4, walls near their limit and on
 /// open bases are solved in 35 to 80 steps, on which all other attempts jam, whatever the friction.
 pub(super) const OPENINGS: [f64; 3] = [0.0, 1e4, 1e3];

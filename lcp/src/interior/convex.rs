@@ -137,7 +137,7 @@ mod tests {
         InteriorPoint::new(settings).solve(problem).unwrap()
     }
 
-    /// Of two equal forces that balance a load each carries half, whatever the units are.
+    /// Two equal forces that balance a load carry half each, whatever the units are.
     #[test]
     fn forces_of_least_size_are_found() {
         for unit in [1e-9, 1.0, 1e9] {

@@ -25,7 +25,7 @@ pub(super) enum Accuracy {
     OfForces(f64),
 }
 
-/// What a program has come to, in units of its own.
+/// The outcome of a program, in units of its own.
 pub(super) struct Outcome {
     /// [`Status::Infeasible`] if `u` and `t` are a proof that there is no solution, as was confirmed.
     pub(super) status: Status,
@@ -116,7 +116,7 @@ struct Homogeneous<'a> {
     opened: Vec<f64>,
 }
 
-/// What the equations lack at a point.
+/// The residuals of the equations at a point.
 struct Defect {
     /// `f tau + A t - K u`
     balance: Vec<f64>,
@@ -267,20 +267,20 @@ impl<'a> Homogeneous<'a> {
 struct Newton<'a> {
     program: &'a Program,
     at: &'a Variables,
-    /// With the springs that Newton's method puts in the place of the pairs.
+    /// Factors with the springs that Newton's method puts in the place of the pairs.
     factors: &'a Factors,
     defect: Defect,
     /// The step of `u` and `t` for a step of one of `tau`.
     of_tau: Variables,
     /// The derivatives of the equation of `kappa` by `u` and `t`.
     border: (Vec<f64>, Vec<f64>),
-    /// What is left of that equation.
+    /// The residual of that equation.
     rest: f64,
     /// Its coefficient of the step of `tau`, when all others are eliminated.
     pivot: f64,
 }
 
-/// What a step has to make good, and the changes of the products of the pairs, to first order: `y dt + t dy = target`.
+/// The residuals that a step has to remove, and the changes of the products of the pairs, to first order: `y dt + t dy = target`.
 struct Aim<'a> {
     balance: Vec<f64>,
     gaps: &'a [f64],
@@ -290,7 +290,7 @@ struct Aim<'a> {
 }
 
 impl<'a> Newton<'a> {
-    /// With the step to products of zero.
+    /// The equations of a point, with the step to products of zero.
     fn of(
         now: &'a Homogeneous<'a>,
         factors: &'a mut Factors,

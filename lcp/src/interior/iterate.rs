@@ -75,8 +75,8 @@ impl Pairs {
     }
 
     /// The step of all variables from that of the forces and those of gap and slip by the displacements.
-    /// Of the two equations for `dy`, compatibility and `y dt + t dy = target`, each pair uses the one
-    /// that keeps the digits: the second where `t` is the larger one.
+    /// Each pair uses the one of the two equations for `dy`, compatibility and `y dt + t dy = target`, that keeps the digits: the
+    /// second if `t` is the larger one.
     pub(super) fn change(&self, [t_n, t_t]: [f64; 2], opened: [f64; 2], target: &[f64; 3]) -> Self {
         let mu = self.mu;
         let gap =

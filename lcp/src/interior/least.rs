@@ -22,7 +22,7 @@ pub struct LeastForces {
     pub t: Vec<f64>,
     /// The multipliers `u` of the balance; a proof where the status says so, with a largest component of one.
     pub u: Vec<f64>,
-    /// What it took.
+    /// The cost.
     pub info: Info,
 }
 

@@ -113,7 +113,7 @@ pub(super) fn targets(at: &Iterate, tau: f64, predictor: Option<&Iterate>) -> Ve
     at.points.iter().enumerate().map(target).collect()
 }
 
-/// What brings the products of a trial point back among those that are central.
+/// The changes that bring the products of a trial point back among the central ones.
 fn corrections(trial: &Iterate, tau: f64) -> Vec<[f64; 3]> {
     let correction = |pairs: &Pairs| {
         let mut targets = [0.0; 3];

@@ -11,13 +11,13 @@ use crate::vector::{SMALL, max_abs};
 pub(super) struct Program {
     pub(super) k: SparseColMat<usize, f64>,
     pub(super) f: Vec<f64>,
-    /// What every force does to the free variables.
+    /// The effect of every force on the free variables.
     pub(super) a: SparseColMat<usize, f64>,
     pub(super) x_0: Vec<f64>,
     pub(super) compliance: Vec<f64>,
 }
 
-/// What the variables of a program were measured in.
+/// The units of the variables of a program.
 pub(super) struct Units {
     column: Vec<f64>,
     pub(super) force: f64,

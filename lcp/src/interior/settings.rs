@@ -18,7 +18,7 @@ pub struct InteriorPointSettings {
     pub tolerance: f64,
     /// Steps, each with one factorisation. The systems of the crossover come on top.
     pub max_iterations: usize,
-    /// By which multiple of the largest gap a start is opened: one attempt for each, when the one before has jammed. From
+    /// Multiples of the largest gap by which a start is opened: one attempt for each, when the one before has jammed. From
     /// wide starts easy problems take half as many steps again, but hard ones jam less often. At least one, none negative.
     pub openings: Vec<f64>,
     /// Wall-clock time, looked at before every step; `None` is no limit.

@@ -1,4 +1,4 @@
-//! What the steps of both iterations have in common: how far they go, and correctors that bring products together.
+//! Step lengths and centrality correctors, which both iterations share.
 
 use super::constants::{CENTRAL, CORRECTORS, LONG_ENOUGH, LONGER};
 
@@ -29,7 +29,7 @@ pub(super) fn lengthened<S>(
     (step, alpha)
 }
 
-/// What brings the product of a pair back among those that are central, if they are to be `tau`.
+/// The change that brings the product of a pair back among the central ones, which are near `tau`.
 pub(super) fn correction(t: f64, y: f64, tau: f64) -> f64 {
     let (low, high) = (CENTRAL * tau, (1.0 / CENTRAL) * tau);
     // Two negative values are as far outside as one.

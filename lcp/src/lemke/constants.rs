@@ -1,5 +1,5 @@
 //! The numbers that Lemke's method goes by, each with where it comes from.
-//! What is "chosen" is so by judgement: no measurement is kept.
+//! A number that is "chosen" is so by judgement: no measurement is kept.
 
 /// Entries of the entering column below this multiple of its largest one are taken for zero, reduced costs likewise, and
 /// columns for dependent whose part outside the span of others is. Entries of an equilibrated inverse beyond its reciprocal

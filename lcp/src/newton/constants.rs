@@ -1,5 +1,5 @@
 //! The numbers that the active set method goes by, each with where it comes from.
-//! What is "chosen" is so by judgement: no measurement is kept.
+//! A number that is "chosen" is so by judgement: no measurement is kept.
 
 /// Steps without fewer negative variables than ever before, after which fewer pairs are exchanged. Chosen.
 pub(super) const PATIENCE: usize = 10;

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use super::constants::{PATIENCE, REDUCED_PATIENCE};
 
-/// What to do about so many negative variables.
+/// The next exchange of negative variables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Next {
     /// Exchange so many pairs.
@@ -33,7 +33,7 @@ impl Exchanges {
         Self { is_monotone, fewest, most, rounds: PATIENCE, seen: HashSet::new() }
     }
 
-    /// For a free set with this hash and so many negative variables.
+    /// The next exchange, after a free set with this hash and so many negative variables.
     pub(super) fn next(&mut self, hash: u64, negative: usize) -> Next {
         let is_new = self.seen.insert(hash);
         if negative < self.fewest {

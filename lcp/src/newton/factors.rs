@@ -76,7 +76,7 @@ fn cholesky(block: &Matrix) -> Option<(Vec<f64>, Solve)> {
     pivots.iter().all(|pivot| *pivot > 0.0).then_some((pivots, solve))
 }
 
-/// By the factors of the matrix with entries near one; `None` where it is singular.
+/// Solves by LU factors of the matrix with entries near one; `None` if it is singular.
 fn lu(block: &Matrix) -> Option<Solve> {
     let n = block.ncols();
     let columns: Vec<Column<'_>> = (0..n).map(|k| block.slice(k)).collect();

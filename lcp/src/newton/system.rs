@@ -16,7 +16,7 @@ pub(super) struct Point {
     pub(super) violated: Vec<usize>,
     /// The most negative variable, in units of the largest of its vector.
     pub(super) residual: f64,
-    /// Of the free set.
+    /// The hash of the free set.
     pub(super) hash: u64,
 }
 

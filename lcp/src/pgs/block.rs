@@ -1,4 +1,4 @@
-//! What one relaxation changes together.
+//! The variables that one relaxation changes together.
 
 use std::ops::Range;
 

@@ -3,7 +3,7 @@
 /// A contact in the plane whose velocities depend on its forces `r` by `v = W r + p`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Coulomb {
-    /// By rows, the normal one first.
+    /// The matrix by rows, the normal one first.
     pub(super) w: [[f64; 2]; 2],
     pub(super) mu: f64,
 }

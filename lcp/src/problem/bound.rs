@@ -6,7 +6,7 @@ use super::Lcp;
 use crate::Error;
 use crate::vector::{check_length, max_abs};
 
-/// What the symmetric part of `M` says about the problem `w = M z + q`.
+/// The monotonicity of the problem `w = M z + q`, by the symmetric part of `M`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Monotonicity {
@@ -27,7 +27,7 @@ pub enum Monotonicity {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ErrorBound {
-    /// What the symmetric part of `M` says.
+    /// The monotonicity of the problem.
     pub monotonicity: Monotonicity,
     /// Euclidean norm of the components of `z` that are set to zero to make the point complementary.
     pub moved: f64,

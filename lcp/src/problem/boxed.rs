@@ -264,7 +264,7 @@ impl BoxedLcp {
         self.order() + self.upper_pairs().into_iter().flatten().count()
     }
 
-    /// For every variable the further pair that its two bounds have in the general problem.
+    /// The further pair that every variable with two bounds has in the general problem.
     pub(crate) fn upper_pairs(&self) -> Vec<Option<usize>> {
         let pair = |kind| if let Kind::Both(pair) = kind { Some(pair) } else { None };
         self.kinds().into_iter().map(pair).collect()

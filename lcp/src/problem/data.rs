@@ -64,7 +64,7 @@ impl Entries {
     }
 }
 
-/// By its first sign, so that errors have their places.
+/// The first sign tells which of both it is, so that errors have their places.
 impl<'de> Deserialize<'de> for Entries {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         struct Either;

@@ -127,7 +127,7 @@ impl Friction2d {
     }
 }
 
-/// Of `r_T = l - mu r_N` a larger coefficient leaves fewer than ten digits.
+/// A larger coefficient leaves fewer than ten digits of `r_T = l - mu r_N`.
 const LARGEST_MU: f64 = 1e6;
 
 fn standard_form(w: &Matrix, q: &[f64], mu: &[f64]) -> Result<Lcp, Error> {

@@ -102,7 +102,7 @@ impl HorizontalLcp {
         [Side::T, Side::Y].into_iter().flat_map(of_side).collect()
     }
 
-    /// For a free pair the positive `r` with `B_j = -r A_j`, entry by entry up to rounding: one unit of `y` is `r` units
+    /// The positive `r` with `B_j = -r A_j` of a free pair, entry by entry up to rounding: one unit of `y` is `r` units
     /// of `-t`.
     pub(crate) fn opposite(&self, pair: usize) -> Option<f64> {
         const ROUNDING: f64 = 4.0 * f64::EPSILON;

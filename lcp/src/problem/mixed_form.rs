@@ -10,7 +10,7 @@ use crate::{Basis, Error, Matrix, Side, WarmStart};
 pub(crate) struct MixedForm<'a> {
     problem: &'a BoxedLcp,
     mixed: MixedLcp,
-    /// Of every variable its pair in the general form of the problem with bounds, and whether that has `w` first.
+    /// The pair of every variable in the general form of the problem with bounds, and whether that has `w` first.
     pairs: Vec<(usize, bool)>,
     /// The row of the general form that every row is, and its sign.
     rows: Vec<(usize, f64)>,

@@ -17,7 +17,7 @@ use crate::{
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct SoftSolution {
-    /// Of the problem with springs.
+    /// The status of the problem with springs.
     pub status: Status,
     /// Displacements and forces of the problem with springs.
     pub state: ContactState,

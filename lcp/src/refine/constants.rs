@@ -1,5 +1,5 @@
 //! The numbers that the refinement of states goes by, each with where it comes from.
-//! What is "chosen" is so by judgement: no measurement is kept.
+//! A number that is "chosen" is so by judgement: no measurement is kept.
 
 use crate::vector::HALF_DIGITS;
 

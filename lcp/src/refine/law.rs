@@ -27,7 +27,7 @@ impl Margin {
     }
 }
 
-/// For every contact what its inequalities leave, and the status that takes its place where that is negative.
+/// The slack of the inequalities of every contact, and the status that takes its place if the slack is negative.
 pub(super) fn slacks(
     scaled: &Scaled,
     statuses: &[ContactStatus],

@@ -19,7 +19,7 @@ pub(super) struct EquationResidual {
     pub(super) largest: f64,
 }
 
-/// What is added to loads, and to gaps and slips of closed contacts.
+/// Numbers that are added to loads, and to gaps and slips of closed contacts.
 #[derive(Debug, Clone)]
 pub(super) struct Shifts {
     loads: Vec<Extended>,

@@ -82,7 +82,7 @@ struct Solve<'a> {
     floating: Vec<bool>,
     shifts: Shifts,
     at: ExtendedPoint,
-    /// Of `C^T t` by the last pass, relative to the largest.
+    /// The change of `C^T t` by the last pass, relative to the largest.
     correction: f64,
     /// The largest of these before a shift.
     shifted: f64,

@@ -11,7 +11,7 @@ use faer::{Conj, MatMut, Par, Side, Spec};
 
 use super::VANISHING;
 
-/// What takes the place of a pivot that vanishes: its variable becomes zero.
+/// The number in the place of a pivot that vanishes: its variable becomes zero.
 const HELD: f64 = 1e60;
 
 /// Factors of matrices with one pattern, again and again for other values, in an order of approximate minimum degree.
@@ -21,7 +21,7 @@ pub(crate) struct Cholesky {
 }
 
 impl Cholesky {
-    /// For the pattern of the lower triangle.
+    /// Plans factors for the pattern of the lower triangle.
     pub(crate) fn new(lower: SymbolicSparseColMatRef<'_, usize>) -> Result<Self, FaerError> {
         let order = SymmetricOrdering::Amd;
         let symbolic = factorize_symbolic_cholesky(lower, Side::Lower, order, <_>::default())?;

@@ -23,13 +23,13 @@ pub struct Gram {
     /// Columns of `A` with the same rows: where they end, and where the lower triangle of their products goes, row by row.
     ends: Vec<usize>,
     places: Vec<u32>,
-    /// What makes the diagonal of order one.
+    /// Factors that make the diagonal of order one.
     units: Vec<f64>,
     factors: Cholesky,
 }
 
 impl Gram {
-    /// For the patterns of `K`, zero if there is none, and `A`.
+    /// Plans factors for the patterns of `K`, zero if there is none, and `A`.
     ///
     /// # Errors
     /// That memory does not suffice.

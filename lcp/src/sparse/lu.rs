@@ -3,7 +3,7 @@
 use super::order::{Turn, elimination_order};
 use super::{Columns, NONE, index};
 
-/// Of the entries at least this large against the largest one, that in the emptiest row is the pivot.
+/// The pivot is the entry in the emptiest row, among those of at least this part of the largest one.
 const THRESHOLD: f64 = 0.1;
 
 /// A factorisation that takes one column after the other and refuses those that depend on the ones
@@ -28,7 +28,7 @@ pub(crate) struct Growing {
 }
 
 impl Growing {
-    /// For a matrix with so many entries in its rows.
+    /// Begins with a matrix that has so many entries in its rows.
     pub(crate) fn new(row_counts: Vec<u32>) -> Self {
         let n = row_counts.len();
         Self {

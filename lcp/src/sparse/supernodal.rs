@@ -87,7 +87,7 @@ impl Supernode {
 }
 
 impl SupernodalLu {
-    /// For the pattern of a square matrix, which must contain every diagonal entry and with every entry
+    /// Plans factors for the pattern of a square matrix, which must contain every diagonal entry and with every entry
     /// the mirrored one.
     ///
     /// # Errors

@@ -1,5 +1,5 @@
 //! The numbers that the linear system of a step goes by, each with where it comes from.
-//! What is "chosen" is so by judgement: no measurement is kept.
+//! A number that is "chosen" is so by judgement: no measurement is kept.
 
 /// Springs on every displacement that keep bodies without contact in place during a step, relative to the stiffness.
 /// Measured on walls: floating bricks stay nonsingular.

@@ -148,7 +148,7 @@ pub enum StudyError {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum End {
-    /// With this status; [`Status::TimeLimit`] by [`Settings::time_limit`].
+    /// It ended with this status; [`Status::TimeLimit`] by [`Settings::time_limit`].
     Ended(Status),
     /// The route does not treat the scene, for this reason.
     Refused(String),
@@ -216,7 +216,7 @@ pub struct Study {
     pub machine: Option<String>,
     /// Whether the observer has ended it, so that solves were skipped.
     pub is_interrupted: bool,
-    /// By mesh, route and tolerance, in the order of the settings.
+    /// The records by mesh, route and tolerance, in the order of the settings.
     pub records: Vec<Record>,
     /// The meshes, in the order of the settings.
     pub meshes: Vec<Mesh>,

@@ -6,7 +6,7 @@
 //! change linearly with displacements. So `W - U - D` tends to zero as steps become shorter,
 //! and is zero where no point slides with a force that changes.
 //!
-//! Of blocks that move several steps lead from one state to the next. `D` is the sum over all of them, and the drag takes
+//! Several steps of blocks that move lead from one state to the next. `D` is the sum over all of them, and the drag takes
 //! a small part of the work, too.
 
 use nalgebra::Vector2;
@@ -106,7 +106,7 @@ pub(crate) struct Friction {
 }
 
 impl Friction {
-    /// Of one step, where `y_t` of the contacts is their slip in it.
+    /// The friction of one step, in which `y_t` of the contacts is their slip.
     pub(crate) fn of_step(model: &Model, contacts: &[ContactState]) -> Self {
         let (mut sum, mut capacity) = (Self::default(), 0.0);
         for (point, contact) in model.contacts.iter().zip(contacts) {
@@ -122,7 +122,7 @@ impl Friction {
         sum
     }
 
-    /// Of all steps on a way.
+    /// The friction of all steps on a way.
     pub(crate) fn of_way(account: &lcp::Account) -> Self {
         let lcp::Account { dissipation, created, dragged, .. } = *account;
         Self { dissipation, power: account.friction_power(), created, dragged }

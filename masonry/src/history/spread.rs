@@ -35,13 +35,13 @@ pub enum SecondLoading {
 pub struct Spread {
     /// Steps of the other loading.
     pub steps: usize,
-    /// Of the displacements of all nodes.
+    /// The difference of the displacements of all nodes.
     pub displacements: f64,
-    /// Of the gaps of all contact points: the widths of cracks.
+    /// The difference of the gaps of all contact points: the widths of cracks.
     pub openings: f64,
-    /// Of the reactions.
+    /// The difference of the reactions.
     pub reactions: f64,
-    /// Of the energy that friction has taken.
+    /// The difference of the energy that friction has taken.
     pub dissipation: f64,
 }
 
@@ -53,7 +53,7 @@ pub(crate) struct AtEnd<'a> {
 }
 
 impl Spread {
-    /// Of two states of one structure.
+    /// The differences of two states of one structure.
     pub(crate) fn of(one: &AtEnd<'_>, other: &AtEnd<'_>, steps: usize) -> Self {
         let displacements = |it: &AtEnd<'_>| -> Vec<f64> {
             it.state.displacements.iter().flatten().flat_map(|u| [u.x, u.y]).collect()

@@ -58,7 +58,7 @@ pub struct Scale {
 pub struct Start {
     /// A name for reports.
     pub name: &'static str,
-    /// For every pair, whether its `t` variable is basic (else its `y` variable).
+    /// Whether the `t` variable of every pair is basic (else its `y` variable).
     pub t_basic: Vec<bool>,
 }
 

@@ -8,9 +8,9 @@ use crate::scene::Route;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Way {
-    /// By one step from the state before, or from nothing, with Coulomb's law for its slips.
+    /// One step from the state before, or from nothing, with Coulomb's law for its slips.
     Law,
-    /// By the motion of blocks with mass, with Coulomb's law in each of its steps.
+    /// The motion of blocks with mass, with Coulomb's law in each of its steps.
     Motion,
 }
 

@@ -1,6 +1,6 @@
 //! The interior-point route, for walls of many blocks: every step factorises one sparse matrix.
 //!
-//! With friction, and where the path has no answer, blocks with mass move under their loads until they rest or fall
+//! If there is friction and the path has no answer, blocks with mass move under their loads until they rest or fall
 //! ([`Evolution`](lcp::Evolution)). In a load history they always do, from where the step before has left them. Without
 //! friction soft springs tell whether there is an equilibrium.
 

@@ -82,7 +82,7 @@ struct Rounds<'a> {
     residuals: Residuals,
     /// Displacements of the first round, and the share of the load that its springs carried.
     first: Option<(Vec<f64>, f64)>,
-    /// Of the load, carried by the springs of the last round.
+    /// The share of the load that the springs of the last round carry.
     share: f64,
     done: usize,
     factorisations: usize,

@@ -1,6 +1,6 @@
 //! Elimination of the displacements: from the equilibrium system to contact forces alone.
 //!
-//! With isostatic rows `I` and the others `E`, equilibrium of all blocks is
+//! Equilibrium of all blocks, with isostatic rows `I` and the others `E`, is
 //! `t_I = R t_E + t_0` (3.18), and the relative displacements follow from
 //! `y_E = A t_E - R^T y_I + c` (3.23), where `A = W^T F W`, `W` is the identity on `E` and `R` on `I`,
 //! and `F = C K^+ C^T`, with the compliance of joints and of mortar films on the diagonal. Any generalised inverse `K^+`

@@ -1,15 +1,15 @@
 //! Statically admissible forces: contact forces inside their friction cones that balance the loads of every block,
 //! for any material and any position of the blocks.
 //!
-//! With one nonnegative force `p` along each edge of each cone, and the sparse matrix `E` of the resultants of
-//! these on the blocks, they are the solutions of `E p + r = 0`, `p >= 0`, with the resultants `r` of the loads. Where a
-//! joint has a constant part `C_0` of friction ([`law`](crate::law)), a force `q` along it with `|q| <= C_0` comes on
-//! top. One convex program decides whether there are any: the forces of least size, `min |p|^2 / 2`, which are those of
-//! joints as springs that are sheared and opened by the same law (associated flow). It has one solution if there are any
-//! admissible forces. If there are none, the multipliers `v` of the balance prove it: `E^T v >= 0` and `r.v > 0`. This is
-//! a motion of rigid blocks on which every contact force does nonnegative work, and the loads do more work than cohesion
-//! and tensile strength take (Farkas 1902, Moreau 1962). The interior points find either, since they solve a homogeneous
-//! problem that contains both (Andersen and Ye 1999). The [`proof`] is checked in the geometry.
+//! There is one nonnegative force `p` along each edge of each cone, and the sparse matrix `E` has the resultants of these on
+//! the blocks: admissible forces are the solutions of `E p + r = 0`, `p >= 0`, with the resultants `r` of the loads. Where a
+//! joint has a constant part `C_0` of friction ([`law`](crate::law)), a force `q` along it with `|q| <= C_0` comes on top. One
+//! convex program decides whether there are any: the forces of least size, `min |p|^2 / 2`, which are those of joints as
+//! springs that are sheared and opened by the same law (associated flow). It has one solution if there are any admissible
+//! forces. If there are none, the multipliers `v` of the balance prove it: `E^T v >= 0` and `r.v > 0`. This is a motion of
+//! rigid blocks on which every contact force does nonnegative work, and the loads do more work than cohesion and tensile
+//! strength take (Farkas 1902, Moreau 1962). The interior points find either, since they solve a homogeneous problem that
+//! contains both (Andersen and Ye 1999). The [`proof`] is checked in the geometry.
 //!
 //! Rigid blocks without gaps stand if there are such forces: at rest every gap and every slip is zero. For all other
 //! walls they are necessary but not sufficient.

@@ -13,14 +13,14 @@ pub(super) struct Classes {
     /// Those of the scene, and after them those that are named and not given, which are refused when a joint needs them.
     list: Vec<JointClass>,
     given: usize,
-    /// Of beds and heads.
+    /// Classes of beds and heads.
     usual: [usize; 2],
-    /// Of the walls, then of the arches.
+    /// The same of the walls, then of the arches.
     of_walls: Vec<[usize; 2]>,
     of_supports: Vec<usize>,
     of_pairs: Vec<([Group; 2], usize)>,
-    /// Of every brick the wall that it belongs to, and of every voussoir its arch, counted after the walls; single blocks
-    /// come after all of these.
+    /// The wall of every brick, and the arch of every voussoir, counted after the walls; single blocks come after all of
+    /// these.
     walls: Vec<usize>,
 }
 

@@ -172,7 +172,7 @@ fn free_parts(covered: Part, joined: &[Part]) -> Vec<Part> {
     free
 }
 
-/// For every block and edge, the parts that make joints.
+/// The parts of every edge of every block that make joints.
 fn joined_parts(
     blocks: &[Block],
     joints: &[Joint],

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use super::Model;
 
-/// Of stone, brick, and mortar from fresh to hard \[Pa\].
+/// Elastic moduli of stone, brick, and mortar from fresh to hard \[Pa\].
 const YOUNG: RangeInclusive<f64> = 1e6..=1e12;
 /// From pads of rubber to polished stone \[Pa/m\].
 const STIFFNESS: RangeInclusive<f64> = 1e6..=1e14;

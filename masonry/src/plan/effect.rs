@@ -11,8 +11,8 @@ pub struct Effect {
     pub on: bool,
     /// What in the scene calls for it, or what is missing.
     pub because: String,
-    /// By how much the [`order`](super::Plan::order) of the plan is larger than without it, contact points being
-    /// the same: on the pivoting route displacements are eliminated, and add nothing.
+    /// What the effect adds to the [`order`](super::Plan::order) of the plan, contact points being the same: on the pivoting
+    /// route displacements are eliminated, and add nothing.
     pub unknowns: usize,
     /// What it is expected to cost on the first route, in words: `none` where it is off.
     pub cost: String,

@@ -149,7 +149,7 @@ impl Sizes {
         }
     }
 
-    /// With what gives way at points that only cohesion keeps from sliding.
+    /// The same without cohesion, and still with what gives way at points that only cohesion keeps from sliding.
     pub(super) fn without_cohesion(self) -> Self {
         Self {
             frictional: self.coulomb,
@@ -176,7 +176,7 @@ impl Sizes {
         Self { bars: 0, strips: false, ..self }
     }
 
-    /// With the same points, although a mesh may have brought some of them.
+    /// The same of rigid blocks, with the same points, although a mesh may have brought some of them.
     pub(super) fn without_deformation(self) -> Self {
         Self { rigid_blocks: self.blocks, nodal: 0, largest_block: 0, bars: 0, ..self }
     }

@@ -59,7 +59,7 @@ struct PointRate {
     mean: Vector2<f64>,
     opens: f64,
     slides: f64,
-    /// With associated flow a joint opens by `mu` times its slip, and still its sides touch.
+    /// Opening by associated flow, `mu` times the slip of the joint, at which its sides still touch.
     lifts: f64,
 }
 

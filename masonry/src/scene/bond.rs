@@ -12,9 +12,9 @@ const SLIVER: f64 = 1e-9;
 /// Thicknesses \[length\] of the joints between the bricks of a wall; zero for dry joints.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JointThickness {
-    /// Of the beds: the pitch of courses is the height of a brick and this.
+    /// Thickness of the beds: the pitch of courses is the height of a brick and this.
     pub bed: f64,
-    /// Of the heads: the pitch of bricks is the length of a brick and this.
+    /// Thickness of the heads: the pitch of bricks is the length of a brick and this.
     pub head: f64,
 }
 

@@ -11,7 +11,7 @@ use super::strict;
 ///
 /// Loads are factors of what the scene gives. What no stage names acts in full from the first stage on;
 /// what some stage names is zero before its first stage, and stays where a stage has taken it.
-/// With friction, the slip of every step is where the next one starts.
+/// The slip of every step is where the next one starts, if there is friction.
 ///
 /// ```
 /// use masonry::scene::{Movement, Stage};

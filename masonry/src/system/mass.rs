@@ -50,7 +50,7 @@ pub(crate) fn lumped(model: &Model, system: &System) -> Vec<f64> {
     mass
 }
 
-/// Of the motions of a rigid block with a mass \[kg/m^2\] of its face.
+/// The masses of the motions of a rigid block with a mass \[kg/m^2\] of its face.
 fn rigid(block: &Block, density: f64) -> [f64; 3] {
     let modes = Modes::of(&block.corners);
     let mass = density * geometry::area(&block.corners);

@@ -22,7 +22,7 @@ const SAME_SHAPE: f64 = 1e-12;
 pub struct Stiffness {
     /// `K` \[N/m\], two rows per node of the mesh.
     pub matrix: SparseColMat<usize, f64>,
-    /// Of `K` with its rigid motions held; dense, and only where a system is to be reduced.
+    /// Factor of `K` with its rigid motions held; dense, and only if a system is to be reduced.
     factor: Option<Llt<f64>>,
 }
 

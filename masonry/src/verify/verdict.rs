@@ -99,7 +99,7 @@ pub(crate) struct Known<'a> {
     pub(crate) state: Option<&'a State>,
     pub(crate) statics: Option<&'a Statics>,
     pub(crate) led: Option<Led>,
-    /// With several steps only.
+    /// The load history, of several steps only.
     pub(crate) history: Option<&'a History>,
     /// What is unusual about the magnitudes of the scene.
     pub(crate) unusual: &'a [String],
@@ -184,9 +184,9 @@ pub(crate) struct Movement {
     pub(crate) turned: f64,
 }
 
-/// Of sizes of blocks, and of a radian: where the geometry has changed visibly,
+/// Parts of the size of a block, and of a radian, from which the geometry has changed visibly,
 const LARGE: f64 = 0.1;
-/// and where the contacts of the scene are no longer those of the wall.
+/// and from which the contacts of the scene are no longer those of the wall.
 const TOO_LARGE: [f64; 2] = [1.0, 0.5];
 
 impl Movement {

@@ -21,7 +21,7 @@ pub struct Range {
     pub title: String,
     /// The structure with rigid blocks.
     pub model: Model,
-    /// Of every support, in the order of the scene; `None` where it is proved that no forces balance the loads.
+    /// The extremes of every support, in the order of the scene; `None` if it is proved that no forces balance the loads.
     pub supports: Option<Vec<Extremes>>,
     /// The answer in the words of an engineer.
     pub sentence: String,

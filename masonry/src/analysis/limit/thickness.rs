@@ -172,12 +172,11 @@ impl Search<'_> {
         };
         let sentence = if is_interrupted { format!("Interrupted. {sentence}") } else { sentence };
         let mechanism = self.falls.take().map(|(_, rates)| rates);
-        let (model, forces) = match self.stands.take() {
-            Some((_, model, forces)) => (model, Some(forces)),
-            None => {
-                self.scene.arches[self.place].thickness = Some(given);
-                (rigid(Model::from_scene(&self.scene)?), None)
-            }
+        let (model, forces) = if let Some((_, model, forces)) = self.stands.take() {
+            (model, Some(forces))
+        } else {
+            self.scene.arches[self.place].thickness = Some(given);
+            (rigid(Model::from_scene(&self.scene)?), None)
         };
         Ok(Thickness {
             title: self.scene.title,

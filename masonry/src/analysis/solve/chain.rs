@@ -346,7 +346,7 @@ impl<'a> Chain<'a> {
         Ok(Attempt { moved, account, ..self.concluded(model, answer, state) })
     }
 
-    /// With a slip for every contact point, zero without friction.
+    /// A slip for every contact point, zero without friction.
     fn by_contact(&self, moved: Vec<f64>) -> Vec<f64> {
         let mut slips = vec![0.0; self.model.contacts.len()];
         for (friction, slip) in self.system.friction.iter().zip(moved) {

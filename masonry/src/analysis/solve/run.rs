@@ -275,7 +275,7 @@ impl Run {
     }
 
     /// Keeps a step that was solved; of one that was not, its state only where there is none before.
-    /// Of the only step there is nothing to remember but its state.
+    /// An only step has nothing to remember except its state.
     fn take(&mut self, step: Step, stepped: Option<(Model, Vec<f64>)>, found: Attempt) {
         let Attempt { info, state, checks, mechanism, basis, statics, led, moved, account, sparse } =
             found;

@@ -52,11 +52,11 @@ pub struct Values {
 /// Relative errors of a mesh \[-\]; `None` where there is nothing to compare with.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MeshErrors {
-    /// Of the strain energy.
+    /// Error of the strain energy.
     pub energy: Option<f64>,
-    /// Of the thrust.
+    /// Error of the thrust.
     pub thrust: Option<f64>,
-    /// Of the displacement, as a vector.
+    /// Error of the displacement, as a vector.
     pub displacement: Option<f64>,
 }
 

@@ -64,7 +64,7 @@ pub struct Exact {
 }
 
 impl Exact {
-    /// Of an outcome with a state; `None` where memory does not suffice.
+    /// The verified numbers of an outcome with a state; `None` if memory does not suffice.
     pub fn of(outcome: &Outcome) -> Option<Self> {
         let (model, state) = (&outcome.model, outcome.state.as_ref()?);
         let system = System::new(model).ok()?;

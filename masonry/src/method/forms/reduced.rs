@@ -60,7 +60,7 @@ fn add(matrix: &mut Mat<f64>, row: usize, terms: &[(usize, f64)], factor: f64) {
     }
 }
 
-/// For every frictional point, whether its tangential row is isostatic.
+/// Whether the tangential row of every frictional point is isostatic.
 pub(super) fn tangents_in_i(form: &Equations, reduction: &Reduction) -> Vec<bool> {
     let mut found = vec![false; form.layout.friction.len()];
     for row in &reduction.isostatic {

@@ -73,7 +73,7 @@ impl Sparse {
         Self::of(system, |_| true)
     }
 
-    /// With displacements for the deformations of the rows that these carriers have.
+    /// The form with displacements for the deformations of the rows that these carriers have.
     fn of(system: &System, is_free: impl Fn(Carriers) -> bool) -> Result<Self, lcp::Error> {
         let mut starts = vec![0];
         for body in &system.bodies {

@@ -1,6 +1,6 @@
 //! What the bars of mortar strips change in the flexibility: blocks that they couple.
 //!
-//! With the elongations `e = L u` and their stiffnesses `D` equilibrium is
+//! Equilibrium with the elongations `e = L u` and their stiffnesses `D` is
 //! `(K + L^T D L) u = f + C^T t`. No rigid motion stretches a strip, so the rows of `L` balance on every block, and
 //! with the forces `q = -D L u` of the bars on the blocks `u = K^+ (f + C^T t + L^T q) + N alpha` as before, and
 //!

@@ -1,6 +1,6 @@
 //! The largest factor of a group of loads that statically admissible forces carry.
 //!
-//! With the resultants `g` of a factor of one on the blocks, `max l` subject to `E p + r + l g = 0`, `p >= 0`, `l >= 0` is a
+//! The resultants of a factor of one on the blocks are `g`; `max l` subject to `E p + r + l g = 0`, `p >= 0`, `l >= 0` is a
 //! linear program. Its multipliers are a motion `x` of rigid blocks with `E^T x >= 0` and `g.x = 1`, the mechanism of
 //! associated flow, in which joints that slide open by `mu` times the slip; on it `l = -r.x`. So the program has both sides
 //! of the theorems of limit analysis (Drucker, Prager and Greenberg 1952; of blocks, Livesley 1978): its forces are a
@@ -24,8 +24,8 @@ const ALWAYS: usize = 2;
 /// Steps of one program.
 const MAX_STEPS: usize = 200;
 
-/// The methods for linear programs, one after the other. Measured on a wall of 1000 bricks, where the first gives no proof: the second
-/// does, and the third does not.
+/// The methods for linear programs, one after the other. Measured on a wall of 1000 bricks, where the first gives no proof: the
+/// second does, and the third does not.
 const LINEAR: [Engine; 3] = [Engine::Inside, Engine::Interior, Engine::Clarabel];
 
 /// What is known of the largest factor.

@@ -20,7 +20,7 @@ const BALANCED: f64 = 1e-9;
 /// The forces that contacts may have, and the balance of the blocks.
 pub(super) struct Program<'a> {
     system: &'a System,
-    /// Of every contact point the first of its edges, and one past the last.
+    /// The first edge of every contact point, and one past the last.
     first: Vec<usize>,
     /// The frictional points with a constant part of friction, and `C_0` of each in units of the largest load.
     constant: Vec<(usize, f64)>,

@@ -1,8 +1,9 @@
 //! The proof that a wall falls, checked in its geometry.
 //!
-//! A motion of rigid blocks on which the loads do work, and no contact force can do negative work: every contact
-//! opens by at least `mu` times what it slides. Forces that balance the loads would do the opposite of their work, so there
-//! are none; with cohesion and tensile strength, if the loads do more work than these take: whatever the blocks are made of, since none of them is deformed, and whatever the gaps are.
+//! A motion of rigid blocks on which the loads do work, and no contact force can do negative work: every contact opens by at
+//! least `mu` times what it slides. Forces that balance the loads would do the opposite of their work, so there are none; with
+//! cohesion and tensile strength, if the loads do more work than these take: whatever the blocks are made of, since none of
+//! them is deformed, and whatever the gaps are.
 
 use nalgebra::{Point2, Vector2};
 
@@ -102,7 +103,7 @@ impl<'a> Motion<'a> {
         loads.fold((0.0, 0.0), |(work, total), (of, force)| (work + of, total + force.norm()))
     }
 
-    /// By how much a contact opens and slides.
+    /// How far a contact opens and slides.
     fn apart(&self, model: &Model, contact: &ContactPoint) -> [f64; 2] {
         let joint = &model.joints[contact.joint.index()];
         let side = |Anchor { block, edge, at }: Anchor| {

@@ -30,7 +30,7 @@ pub struct Segment {
     apart: Vector8,
     /// The displacements of its ends, in its own axes, from those of the nodes it is attached to.
     from_nodes: Matrix8,
-    /// For `u` and `v` of every one of these nodes the unknown; none on a support.
+    /// The unknowns of `u` and `v` of every one of these nodes; none on a support.
     unknowns: [Option<usize>; 8],
 }
 
@@ -251,7 +251,7 @@ impl Segment {
         points.sum()
     }
 
-    /// Of the film around a Gauss point \[m^3\].
+    /// Volume of the film around a Gauss point \[m^3\].
     fn volume(&self) -> f64 {
         let strip = self.film.strip();
         strip.length() * strip.wall() * strip.thickness() / self.before.len() as f64

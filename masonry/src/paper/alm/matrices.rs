@@ -44,7 +44,7 @@ impl<'a> Matrices<'a> {
         Ok(Self { structure, rho_n, rho_t, proximal, symbolic })
     }
 
-    /// Of states of the contacts and of the films.
+    /// The factors of the matrix that belongs to states of the contacts and of the films.
     pub(super) fn factorised(
         &self,
         states: (&[Contact], &[FilmResponse]),

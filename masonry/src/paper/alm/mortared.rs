@@ -67,7 +67,7 @@ pub enum MortaredError {
 /// ```
 #[derive(Debug, Clone)]
 pub struct MortaredWall {
-    /// With the contact points of the dry joints only.
+    /// The model with the contact points of the dry joints only.
     dry: Model,
     system: System,
     sparse: Sparse,
@@ -82,7 +82,7 @@ pub struct MortaredState {
     pub state: State,
     /// The answer of every segment of a film, in its own axes.
     pub films: Vec<FilmResponse>,
-    /// Of the strain energy, that of the films \[J\].
+    /// Strain energy of the films \[J\], a part of the whole.
     pub film_energy: f64,
     /// Energy dissipated by slip in films \[J\].
     pub film_dissipation: f64,
@@ -152,7 +152,7 @@ impl MortaredWall {
         }
     }
 
-    /// Of the dry joints, and of the films on supports.
+    /// Reactions of the dry joints, and of the films on supports.
     fn reactions(&self, state: &State, films: &[FilmResponse]) -> Vec<Reaction> {
         let mut list = recover::reactions(&self.dry, &state.contacts);
         for (film, response) in self.films.iter().zip(films) {

@@ -1,6 +1,6 @@
 //! Films as the paper prints them: bonded where they are in contact, and brought up to date after every solution.
 //!
-//! With the parts of the films given, all films are elastic, and the structure is a contact problem of its blocks
+//! If the parts of the films are given, all films are elastic, and the structure is a contact problem of its blocks
 //! and dry joints. Its displacements give new parts. That need not end: see [`updating`](crate::paper::film::updating).
 
 use std::ops::ControlFlow;

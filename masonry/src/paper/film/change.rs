@@ -131,7 +131,7 @@ impl NodalChange {
     /// One end of a face of a film moves by `shift` \[m\] along `x`; `length` \[m\] is the present length of
     /// that face.
     ///
-    /// With the other end of the face first, the rows and columns of the two nodes are
+    /// The rows and columns of the two nodes, the other end of the face first, are
     /// `[1, beta; 0, alpha]`, `alpha = l / (l + dl)`, `beta = dl / (l + dl)` (3.51), where `dl` is the growth
     /// of the face: `shift` at the right ends (nodes 1 and 3) and `-shift` at the left (0 and 2).
     ///

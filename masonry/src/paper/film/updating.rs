@@ -12,7 +12,7 @@ use super::strip::Strip;
 /// How the part of a film in contact follows from the displacements of its nodes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Updating {
-    /// By the law: contact where the elastic `sigma_y` is a pressure.
+    /// The law decides: contact is where the elastic `sigma_y` is a pressure.
     #[default]
     Pointwise,
     /// As printed: contact where the faces do not draw apart, `eps_y <= 0`.

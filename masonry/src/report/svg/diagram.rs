@@ -85,7 +85,7 @@ struct Kind {
 }
 
 impl Kind {
-    /// Of its lines, and of its marker.
+    /// The name of its lines, and of its marker.
     fn name(self) -> String {
         let look = match self.look {
             Look::Full => "full",

@@ -17,7 +17,7 @@ use reactions::Reactions;
 
 /// Resultants below this part of the largest are not drawn.
 const LEAST: f64 = 1e-6;
-/// Of structures with many joints, resultants below this part.
+/// Resultants below this part are left out of structures with many joints.
 const LEAST_OF_MANY: f64 = 1e-2;
 /// From so many joints on.
 const MANY: usize = 150;
@@ -47,7 +47,7 @@ pub(in crate::report) struct Shared {
 }
 
 impl Shared {
-    /// Of structures and their contact forces.
+    /// The scale of structures and their contact forces.
     pub(in crate::report) fn of(states: &[(&Model, &[ContactState])]) -> Self {
         let (mut largest, mut margins) = (0.0_f64, Margins::HATCH);
         for (model, contacts) in states {

@@ -6,7 +6,7 @@ use super::{pairs, paragraph, table};
 use crate::history::{History, SecondLoading, Spread, Step, StepRecord};
 use crate::report::format::{InUnits, aligned};
 
-/// Of longer histories only the ends of the stages are shown.
+/// Longer histories are shown at the ends of their stages only.
 const MOST_ROWS: usize = 24;
 
 /// Columns of numbers, which do not wrap.

@@ -71,7 +71,7 @@ impl Pair {
         larger(across, smaller(length(self.slip.abs()), force(error)))
     }
 
-    /// Of huge friction: its bound has the errors of the normal force so many times.
+    /// How many times the bound of friction has the errors of the normal force.
     fn sensitivity(&self) -> f64 {
         self.law.mu.max(1.0)
     }

@@ -59,7 +59,7 @@ impl Nodes {
     }
 }
 
-/// Of every block; `None` of rigid ones.
+/// The nodes of every block; `None` of rigid ones.
 pub(super) fn nodes(model: &Model, state: &State) -> Vec<Option<Nodes>> {
     let outside = outside(model, state);
     let blocks = model.blocks.iter().zip(&state.displacements).zip(&outside);

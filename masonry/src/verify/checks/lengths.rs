@@ -10,8 +10,8 @@ use crate::state::{ContactState, State};
 
 /// The largest lengths \[m\].
 pub(super) struct Lengths {
-    /// Of every block: displacements, and gaps and slips at first and compressions of joints at its points. A block
-    /// may be at rest between joints and supports that are not. Of rigid ones the largest of all: nothing but others
+    /// The lengths of every block: displacements, and gaps and slips at first and compressions of joints at its points. A block
+    /// may be at rest between joints and supports that are not. Rigid blocks have the largest of all: nothing but others
     /// tells how far they move, and many do not.
     blocks: Vec<f64>,
     /// What rounding errors of the largest of all may be, and on elastic blocks what forces do that are rounding errors of

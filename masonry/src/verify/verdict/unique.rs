@@ -10,7 +10,7 @@ use crate::state::{ContactState, State};
 
 /// Normal forces below this part of the largest are none, and forces this near to an edge of the cone are on it.
 const NONE: f64 = 1e-9;
-/// Of the stiffness that the contacts would have, what makes the matrix definite.
+/// The part of the stiffness of contacts that makes the matrix definite.
 const SHIFT: f64 = 1e-10;
 /// What circulates of forces of order one, above rounding.
 const CIRCULATES: f64 = 1e-3;

@@ -19,7 +19,7 @@ pub(super) struct Rest {
 /// How a step ended.
 pub(super) enum End {
     Rests(Box<Rest>),
-    /// With the velocities of all displacements.
+    /// It flows, with the velocities of all displacements.
     Flows(Vec<f64>),
     /// Neither came out.
     Open,
