@@ -6,9 +6,9 @@ use web_time::{Duration, Instant};
 use crate::parallel::for_each;
 use crate::{Error, Info, Method, Solution, Status};
 
-/// A solver of whatever problems.
+/// The name of the method of a solver, whatever problems the solver treats.
 pub trait Named {
-    /// Its method.
+    /// The method.
     fn method(&self) -> Method;
 }
 

@@ -85,18 +85,16 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
     let mut given = limit_observed(&scene, args.law.into(), &mut |at| follow(&progress, at))?;
     progress.clear();
     let group = given.group.clone();
-    if args.both && scene.is_weight(&group) {
-        given
-            .warnings
-            .push("The weight acts in one direction: `--both` changes nothing.".to_owned());
-    }
     let found = if args.both && !scene.is_weight(&group) {
         let laws = args.law.into();
         let both = Directions::of(given, &scene, laws, &mut |at| follow(&progress, at));
         progress.clear();
         Found::Both(Box::new(both?))
     } else {
-        if scene.is_earthquake(&group) {
+        if args.both {
+            let words = "The weight acts in one direction: `--both` changes nothing.";
+            given.warnings.push(words.to_owned());
+        } else if scene.is_earthquake(&group) {
             given.warnings.push(format!(
                 "\"{group}\" acts in one direction: `--both` also takes the opposite one."
             ));
@@ -119,7 +117,7 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
         (Found::Both(both), false) => format!("{}\n{}", output::table_both(both), listing(&files)),
     };
     print(&text)?;
-    out.map_or(Ok(()), |out| out.finish(in_out, limit.is_interrupted))?;
+    out.map_or(Ok(()), |out| out.finish(in_out, found.is_interrupted()))?;
     written?;
     page?;
     Ok(if found.is_solved() { SOLVED } else { NOT_SOLVED })
@@ -140,11 +138,19 @@ impl Found {
         }
     }
 
-    fn is_solved(&self) -> bool {
+    fn all(&self, is_so: impl Fn(&Limit) -> bool) -> bool {
         match self {
-            Self::Given(limit) => limit.is_solved(),
-            Self::Both(both) => both.given.is_solved() && both.opposite.is_solved(),
+            Self::Given(limit) => is_so(limit),
+            Self::Both(both) => is_so(&both.given) && is_so(&both.opposite),
         }
+    }
+
+    fn is_solved(&self) -> bool {
+        self.all(Limit::is_solved)
+    }
+
+    fn is_interrupted(&self) -> bool {
+        !self.all(|limit| !limit.is_interrupted)
     }
 }
 
