@@ -14,7 +14,8 @@ use std::time::Instant;
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
-use lcp::{Auto, Lcp, SemismoothNewton, Solver, families};
+use lcp::{Auto, Lcp, SemismoothNewton, Solver};
+use lcp_problems::families;
 
 /// Runs of each, one after the other in turn: what disturbs the machine disturbs all of them.
 const RUNS: usize = 15;

@@ -12,8 +12,8 @@ mod sparse;
 use std::fmt::Write as _;
 use std::time::Instant;
 
-use lcp::families::{Ground, Obstacle};
 use lcp::{Lcp, SemismoothNewton, SemismoothNewtonSettings, Solution, Solver, WarmStart};
+use lcp_problems::families::{Ground, Obstacle};
 
 const GROUNDS: [(&str, Ground); 2] =
     [("disc", Ground::Disc { radius: 0.6 }), ("hills", Ground::Hills { count: 3 })];

@@ -7,8 +7,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
-use lcp::families::{Ground, Obstacle};
 use lcp::{SemismoothNewton, SemismoothNewtonSettings, Solver, WarmStart};
+use lcp_problems::families::{Ground, Obstacle};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let side: usize = std::env::args().nth(1).map_or(Ok(200), |side| side.parse())?;

@@ -30,7 +30,7 @@ impl Run {
     fn with_input(input: &str, args: &[&str]) -> Self {
         let (mut out, mut err) = (Vec::new(), Vec::new());
         let args = std::iter::once("lcp").chain(args.iter().copied()).map(OsString::from);
-        let code = lcp::cli::run(args, &mut input.as_bytes(), &mut out, &mut err);
+        let code = lcp_problems::cli::run(args, &mut input.as_bytes(), &mut out, &mut err);
         let text = |bytes| String::from_utf8(bytes).unwrap();
         Self { code, out: text(out), err: text(err) }
     }
@@ -316,6 +316,6 @@ fn a_closed_pipe_is_not_a_failure() {
     let file = folder.file("problem.txt", TEXT);
     let args = ["lcp", "solve", &file, "--json"].map(OsString::from);
     let mut err = Vec::new();
-    assert_eq!(lcp::cli::run(args, &mut std::io::empty(), &mut Closed, &mut err), 0);
+    assert_eq!(lcp_problems::cli::run(args, &mut std::io::empty(), &mut Closed, &mut err), 0);
     assert!(err.is_empty() && Path::new(&file).exists());
 }

@@ -14,8 +14,8 @@ mod transform;
 use std::path::PathBuf;
 
 use forms::{CLASSES, Random};
-use lcp::io::{Problem, read_file};
 use lcp::{Auto, HorizontalLcp, Matrix, Solver, Status};
+use lcp_problems::io::{Problem, read_file};
 use transform::Equivalent;
 
 /// What is known of the solutions `(z, w)`.

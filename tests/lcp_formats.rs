@@ -10,8 +10,8 @@ mod damage;
 mod market;
 #[path = "lcp_formats/qps.rs"]
 mod qps;
-use lcp::io::{Format, Position, Problem, ReadError, read, to_json};
 use lcp::{Lemke, Matrix, Solver};
+use lcp_problems::io::{Format, Position, Problem, ReadError, read, to_json};
 
 fn problem(text: &str) -> Problem {
     read(text.as_bytes(), None).unwrap().problem

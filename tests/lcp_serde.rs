@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 use lcp::faer::mat;
-use lcp::io::{read, to_json};
 use lcp::lemke::{Parametric, ParametricPath};
 use lcp::pgs::{Constraint, RowsSolution};
 use lcp::qp::SoftConstraints;
@@ -13,8 +12,10 @@ use lcp::{
     ContactState, Covering, ErrorBound, EvolutionSettings, Friction2d, HorizontalLcp,
     InteriorPointSettings, Lcp, Lemke, LemkeSettings, Method, MixedLcp,
     ProjectedGaussSeidelSettings, Qp, QuadraticProgram, QuadraticProgramSettings, Residuals,
-    SemismoothNewtonSettings, Side, Solution, Solver, Status, WarmStart, families,
+    SemismoothNewtonSettings, Side, Solution, Solver, Status, WarmStart,
 };
+use lcp_problems::families;
+use lcp_problems::io::{read, to_json};
 use serde_json::{from_str, to_string};
 
 /// As text and back; the text of what came back is the same.

@@ -1,8 +1,8 @@
 //! Complementarity problems: generated families, and published files where they are at hand.
 
-use lcp::families::{self, Instance};
-use lcp::io::{Problem, read_file};
 use lcp::{Auto, HorizontalLcp, Lcp, MixedLcp, Solution, Solver};
+use lcp_problems::families::{self, Instance};
+use lcp_problems::io::{Problem, read_file};
 
 use crate::common;
 use crate::forms::{CLASSES, Random};

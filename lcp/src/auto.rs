@@ -11,11 +11,10 @@ mod mixed;
 mod settings;
 mod standard;
 
+pub use enumerated::Enumeration;
 pub use method::Choice;
 pub use settings::AutoSettings;
 
-#[cfg(feature = "cli")]
-pub(crate) use enumerated::Enumeration;
 use method::Planned;
 
 use crate::{Error, Method, Named, Observer, Solution, Solver};
@@ -70,7 +69,8 @@ use crate::{Error, Method, Named, Observer, Solution, Solver};
 /// larger ones a method that fails may take long: set [`AutoSettings::time_limit`] if that matters.
 ///
 /// ```
-/// use lcp::{Auto, Method, Solver, families};
+/// use lcp::{Auto, Method, Solver};
+/// use lcp_problems::families;
 /// let problem = families::obstacle(40).problem;
 /// let auto = Auto::default();
 /// let first = &auto.plan(&problem)[0];

@@ -114,19 +114,15 @@
 //! | `clarabel` (default) | `QuadraticProgram` |
 //! | `nalgebra` | problems from matrices of `nalgebra` |
 //! | `serde` | problems, settings and results that can be written and read back |
-//! | `io` | problems in files: the module `io` |
-//! | `cli` | the command `lcp`: the module `cli` |
 //! | `exact` | all solutions of a small problem in rational arithmetic: the module `exact` |
 //!
-//! The module [`families`] makes problems whose solutions are known. The guides `docs/lcp.md` and `docs/methods.md`
-//! of the repository say which method to use when, and how each works.
+//! The crate `lcp-problems` reads problems from files, makes problems whose solutions are known, and has the command `lcp`. The
+//! guides `docs/lcp.md` and `docs/methods.md` of the repository say which method to use when, and how each works.
 
 mod active;
 mod auto;
 mod basis;
 mod certify;
-#[cfg(feature = "cli")]
-pub mod cli;
 mod conversion;
 mod definite;
 mod divide;
@@ -136,10 +132,7 @@ mod evolution;
 #[cfg(feature = "exact")]
 pub mod exact;
 mod extended;
-pub mod families;
 mod interior;
-#[cfg(feature = "io")]
-pub mod io;
 #[cfg(feature = "serde")]
 mod json_numbers;
 pub mod lemke;
@@ -169,7 +162,7 @@ mod vector;
 
 pub use faer;
 
-pub use auto::{Auto, AutoSettings, Choice};
+pub use auto::{Auto, AutoSettings, Choice, Enumeration};
 pub use basis::{Basis, Side};
 pub use certify::{Certificate, Leaf, Ray, Residuals};
 pub use error::Error;
@@ -182,6 +175,10 @@ pub use method::Method;
 pub use newton::{SemismoothNewton, SemismoothNewtonSettings};
 #[doc(inline)]
 pub use pgs::{ProjectedGaussSeidel, ProjectedGaussSeidelSettings};
+/// Public for the crate `lcp-problems`.
+#[cfg(feature = "serde")]
+#[doc(hidden)]
+pub use problem::Stored;
 pub use problem::{
     Bedding, BoxedLcp, Contact2d, Contact2dBuilder, ContactForces, ContactPoint, ContactState,
     ErrorBound, Friction2d, HorizontalLcp, Lcp, MixedLcp, Monotonicity, Qp, QpPoint, StandardForm,
@@ -189,6 +186,8 @@ pub use problem::{
 #[cfg(feature = "clarabel")]
 #[doc(inline)]
 pub use qp::{QuadraticProgram, QuadraticProgramSettings};
+#[doc(hidden)]
+pub use random::SplitMix;
 pub use settings::{Covering, LemkeSettings, WarmStart};
 pub use solution::{Info, Route, RouteEnd, Solution, Unsolved};
 pub use solve::{Iteration, Named, Observer, Solver, Step, StepKind};
@@ -204,7 +203,7 @@ pub use vector::Vector;
 struct ReadmeDoctest;
 
 /// The programs of the guide, likewise, page by page.
-#[cfg(all(doctest, feature = "clarabel", feature = "exact", feature = "io"))]
+#[cfg(all(doctest, feature = "clarabel", feature = "exact"))]
 mod guide {
     #[doc = include_str!("../../docs/lcp/problems.md")]
     struct Problems;
@@ -223,7 +222,4 @@ mod guide {
 
     #[doc = include_str!("../../docs/lcp/paths_and_exact_solutions.md")]
     struct PathsAndExactSolutions;
-
-    #[doc = include_str!("../../docs/lcp/files.md")]
-    struct Files;
 }

@@ -76,7 +76,7 @@ impl SemismoothNewtonSettings {
 ///
 /// * M-matrices (obstacle problems, no positive off-diagonal entry): converges from every start, monotonically after
 ///   the first step (Hintermüller, Ito and Kunisch 2003). From a start that is off by some layers of a grid it takes
-///   about as many steps; [`families::Obstacle`](crate::families::Obstacle) gives good starts by nested grids.
+///   about as many steps; `families::Obstacle` of the crate `lcp-problems` gives good starts by nested grids.
 /// * Other matrices without positive off-diagonal entries: solves whenever the problem is feasible, if necessary by a
 ///   restart from the pairs with `q < 0` (Chandrasekaran 1970).
 /// * P-matrices (for example positive definite ones): the safeguard makes it finite; in the worst case exponentially

@@ -68,7 +68,8 @@ use crate::{Error, Info, Method, Observer, Residuals, Solution, Status, WarmStar
 /// * R. W. Cottle, J.-S. Pang, R. E. Stone, The Linear Complementarity Problem, 1992, chapter 5
 ///
 /// ```
-/// use lcp::{ProjectedGaussSeidel, Solver, families};
+/// use lcp::{ProjectedGaussSeidel, Solver};
+/// use lcp_problems::families;
 /// let problem = families::obstacle(16).problem;
 /// let solution = ProjectedGaussSeidel::default().solve(&problem)?;
 /// assert!(solution.is_solved() && solution.residuals.worst() <= 1e-8);

@@ -23,8 +23,8 @@ pub(crate) use contact::{check_epsilon, ratio};
 pub(crate) use contact::{column_factors, diagonal, median};
 
 pub(crate) use crate::matrix::column_of;
-#[cfg(feature = "io")]
-pub(crate) use data::Stored;
+#[cfg(feature = "serde")]
+pub use data::Stored;
 pub use friction::{ContactForces, Friction2d};
 pub use horizontal::HorizontalLcp;
 pub(crate) use mixed::Groups;

@@ -174,7 +174,7 @@ impl Solution {
 
     /// Judges the point of a method that solved another form of the given problem, by the residuals of the given one. What says
     /// nothing of the point, such as a limit, a proof or a ray, stays.
-    pub(crate) fn judge_again(&mut self, residuals: Residuals, tolerance: f64) {
+    pub fn judge_again(&mut self, residuals: Residuals, tolerance: f64) {
         self.residuals = residuals;
         let is_of_point =
             matches!(self.status, Status::Solved | Status::AlmostSolved | Status::NumericalTrouble);

@@ -7,11 +7,11 @@ mod common;
 use std::time::Duration;
 
 use faer::{Mat, mat};
-use lcp::families::{self, Ground, Instance, Known, Obstacle};
 use lcp::{
     Auto, AutoSettings, BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Lemke, Matrix,
     Method, RouteEnd, Solution, Solver, Status, WarmStart,
 };
+use lcp_problems::families::{self, Ground, Instance, Known, Obstacle};
 use proptest::prelude::*;
 
 const LEMKE: Method = Method::Lemke;

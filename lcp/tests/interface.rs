@@ -6,8 +6,9 @@ use faer::mat;
 use faer::sparse::{SparseColMat, Triplet};
 use lcp::{
     Auto, AutoSettings, BoxedLcp, Contact2d, ContactPoint, Error, Friction2d, Lcp, Lemke, Matrix,
-    MixedLcp, Solver, Vector, families,
+    MixedLcp, Solver, Vector,
 };
+use lcp_problems::families;
 
 fn entries(matrix: &Matrix) -> Vec<Vec<f64>> {
     (0..matrix.nrows()).map(|i| (0..matrix.ncols()).map(|j| matrix[(i, j)]).collect()).collect()

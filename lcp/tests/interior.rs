@@ -16,11 +16,11 @@ use std::ops::ControlFlow;
 use std::time::Duration;
 
 use faer::{Mat, mat};
-use lcp::families::{self, Ground, Known, Obstacle};
 use lcp::{
     Auto, AutoSettings, Basis, Contact2d, ContactState, Error, HorizontalLcp, InteriorPoint,
     InteriorPointSettings, Lcp, Lemke, Method, MixedLcp, Side, Solution, Solver, Status, WarmStart,
 };
+use lcp_problems::families::{self, Ground, Known, Obstacle};
 
 fn default() -> InteriorPointSettings {
     InteriorPointSettings::default()

@@ -9,8 +9,8 @@ mod common;
 
 use common::cases;
 use faer::Mat;
-use lcp::families::{self, Instance, Known};
 use lcp::{HorizontalLcp, Lemke, LemkeSettings, Solution, Solver, Status};
+use lcp_problems::families::{self, Instance, Known};
 use proptest::collection::vec;
 use proptest::prelude::*;
 

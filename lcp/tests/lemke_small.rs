@@ -7,7 +7,9 @@ use std::time::Duration;
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, mat};
 use lcp::exact::{EnumerationSettings, enumerate};
+use lcp::lemke::{AttemptCovering, AttemptEnd};
 use lcp::{Basis, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side, Solver, Status};
+use lcp_problems::families;
 
 /// Xorshift (Marsaglia 2003).
 struct Random(u64);
@@ -122,4 +124,18 @@ fn sparse(m: &Mat<f64>) -> SparseColMat<usize, f64> {
     let places = (0..m.ncols()).flat_map(|j| (0..m.nrows()).map(move |i| (i, j)));
     let entries: Vec<_> = places.map(|(i, j)| Triplet::new(i, j, m[(i, j)])).collect();
     SparseColMat::try_new_from_triplets(m.nrows(), m.ncols(), &entries).unwrap()
+}
+
+/// A game has a ray for every covering vector: the column of a pair comes second, and no proof is searched.
+#[test]
+fn a_game_takes_two_attempts() {
+    for seed in 0..5 {
+        let game = families::bimatrix(4, 5, seed).problem;
+        let solution = Lemke::default().solve(&game).expect("default settings");
+        assert!(solution.is_solved(), "{}", solution.status);
+        let ends: Vec<_> = solution.info.attempts.iter().map(|it| (it.covering, it.end)).collect();
+        let pair = AttemptCovering::Column { pair: 0 };
+        let of_first = (AttemptCovering::Ones, AttemptEnd::Ray);
+        assert_eq!(ends, [of_first, (pair, AttemptEnd::Complementary)]);
+    }
 }

@@ -7,7 +7,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use lcp::lemke::{AttemptStart, Parametric, Progress, Variable};
-use lcp::{HorizontalLcp, Lemke, LemkeSettings, Solution, Solver, Status, WarmStart, families};
+use lcp::{HorizontalLcp, Lemke, LemkeSettings, Solution, Solver, Status, WarmStart};
+use lcp_problems::families;
 
 fn problem(n: usize, seed: u64) -> HorizontalLcp {
     families::positive_definite(n, seed).problem.into()

@@ -2,11 +2,11 @@
 
 #![allow(clippy::unwrap_used)] // a test may panic
 
-use lcp::families::{Ground, Obstacle};
 use lcp::{
     Error, Lcp, Lemke, SemismoothNewton, SemismoothNewtonSettings, Solution, Solver, Status,
     WarmStart,
 };
+use lcp_problems::families::{Ground, Obstacle};
 
 const GROUNDS: [Ground; 3] =
     [Ground::Disc { radius: 0.6 }, Ground::Hills { count: 1 }, Ground::Hills { count: 3 }];

@@ -9,11 +9,11 @@ use std::time::Duration;
 
 use common::cases;
 use faer::{Mat, mat};
-use lcp::families::{self, Instance, Known};
 use lcp::{
     Basis, Error, HorizontalLcp, Lcp, Lemke, LemkeSettings, Matrix, Method, SemismoothNewton,
     SemismoothNewtonSettings, Side, Solution, Solver, Status, WarmStart,
 };
+use lcp_problems::families::{self, Instance, Known};
 use proptest::collection::vec;
 use proptest::prelude::*;
 

@@ -10,9 +10,10 @@ use lcp::qp::SoftConstraints;
 use lcp::{
     Auto, BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, InteriorPoint, Iteration, Lcp,
     Lemke, Method, MixedLcp, ProjectedGaussSeidel, SemismoothNewton, Solver, Status, Step,
-    StepKind, families,
+    StepKind,
 };
 use lcp::{QuadraticProgram, QuadraticProgramSettings};
+use lcp_problems::families;
 
 /// Symmetric positive definite, so that all methods treat it, and none of them needs no iteration.
 fn standard() -> Lcp {

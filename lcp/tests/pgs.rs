@@ -16,11 +16,11 @@ use std::time::Duration;
 
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, mat};
-use lcp::families::{self, Known};
 use lcp::{
     Basis, BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Lemke, Matrix, Method,
     ProjectedGaussSeidel, ProjectedGaussSeidelSettings, Side, Solution, Solver, Status, WarmStart,
 };
+use lcp_problems::families::{self, Known};
 
 const INF: f64 = f64::INFINITY;
 

@@ -12,12 +12,12 @@ mod quadratic;
 
 use common::cases;
 use faer::{Mat, mat};
-use lcp::families::{self, Known};
 use lcp::qp::SoftConstraints;
 use lcp::{
     Basis, Contact2d, Error, HorizontalLcp, Lcp, Lemke, Method, MixedLcp, QuadraticProgram,
     QuadraticProgramSettings, Side, Solution, Solver, Status, WarmStart,
 };
+use lcp_problems::families::{self, Known};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use quadratic::{TOLERANCES, assert_proof, gram, near, settings};

@@ -16,8 +16,9 @@ use faer::{Mat, mat};
 use lcp::qp::SoftConstraints;
 use lcp::{
     Contact2d, ContactState, Lemke, LemkeSettings, QuadraticProgram, QuadraticProgramSettings,
-    Solution, Solver, Status, families,
+    Solution, Solver, Status,
 };
+use lcp_problems::families;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use quadratic::{TOLERANCES, assert_proof, gram, near, settings};

@@ -3,12 +3,12 @@
 #![allow(clippy::unwrap_used)] // a test may panic
 
 use faer::{Mat, mat};
-use lcp::families;
 use lcp::lemke::AttemptEnd;
 use lcp::{
     Auto, Basis, Contact2d, Covering, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side, Solver,
     Status, WarmStart,
 };
+use lcp_problems::families;
 
 fn lcp(m: Mat<f64>, q: &[f64]) -> HorizontalLcp {
     Lcp::new(m, q.to_vec()).unwrap().into()

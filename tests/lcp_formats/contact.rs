@@ -2,8 +2,8 @@
 
 use lcp::faer::mat;
 use lcp::faer::sparse::SparseColMat;
-use lcp::io::{Format, Problem, ReadError, read, to_json};
 use lcp::{Contact2d, Lemke, Solver};
+use lcp_problems::io::{Format, Problem, ReadError, read, to_json};
 
 use super::{at, error, error_as, problem};
 

@@ -1,6 +1,6 @@
 //! Files with any content: what is read is never larger than the file, and comes back from JSON.
 
-use lcp::io::{Format, read, to_json};
+use lcp_problems::io::{Format, read, to_json};
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
 use proptest::test_runner::TestCaseError;

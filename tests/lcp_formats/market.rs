@@ -1,7 +1,7 @@
 //! The Matrix Market format.
 
 use lcp::Matrix;
-use lcp::io::{Format, ReadError, market, read};
+use lcp_problems::io::{Format, ReadError, market, read};
 
 use super::{at, rows};
 

@@ -1,7 +1,7 @@
 //! QPS: programs with known optima, lines that leave out or repeat something, and what is refused.
 
-use lcp::io::{Format, Problem, ReadError, read, read_file, to_json};
 use lcp::{Auto, Qp, QpPoint, QuadraticProgram, Solver};
+use lcp_problems::io::{Format, Problem, ReadError, read, read_file, to_json};
 
 use super::at;
 

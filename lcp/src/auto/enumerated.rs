@@ -8,11 +8,16 @@ use crate::enumerate::{Enumerated, enumerate};
 use crate::solve::{Monitor, is_over};
 use crate::{Certificate, Error, Method, Named, Observer, Solution, Solver, Status};
 
+/// The last resort of [`Auto`](crate::Auto) for small problems, by itself: all choices of sides by branch and bound, with a proof
+/// where no choice has a solution. Problems of more than 100 pairs are [not treated](Error::NotTreated).
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Enumeration {
-    pub(crate) tolerance: f64,
-    pub(crate) time_limit: Option<Duration>,
+pub struct Enumeration {
+    /// Largest residual of a solution, relative to the data.
+    pub tolerance: f64,
+    /// Time limit.
+    pub time_limit: Option<Duration>,
 }
+
 impl Named for Enumeration {
     fn method(&self) -> Method {
         Method::Enumeration

@@ -157,13 +157,11 @@ impl BoxedLcp {
         self.recover_in(t, y, |bound| bound)
     }
 
-    /// The same in numbers of any kind.
-    pub(crate) fn recover_in<T>(
-        &self,
-        t: &[T],
-        y: &[T],
-        number: impl Fn(f64) -> T,
-    ) -> (Vec<T>, Vec<T>)
+    /// [`recover`](Self::recover) in numbers of another kind, such as rational ones.
+    ///
+    /// # Panics
+    /// If `t` or `y` does not have one entry for every pair of the general problem.
+    pub fn recover_in<T>(&self, t: &[T], y: &[T], number: impl Fn(f64) -> T) -> (Vec<T>, Vec<T>)
     where
         T: Clone + PartialOrd + Add<Output = T> + Sub<Output = T> + Neg<Output = T>,
     {

@@ -15,7 +15,7 @@ pub(crate) use units::{column_factors, diagonal, median};
 
 use faer::sparse::SparseColMat;
 
-use super::HorizontalLcp;
+use super::{ContactForces, HorizontalLcp};
 use crate::definite::indefiniteness;
 use crate::matrix::{add_image, column_of};
 use crate::vector::{check_length, check_sizes, check_vector};
@@ -71,6 +71,13 @@ pub struct ContactState {
     pub gap: Vec<f64>,
     /// The slip at every point, also without friction.
     pub slip: Vec<f64>,
+}
+
+impl ContactState {
+    /// The forces alone.
+    pub fn forces(&self) -> ContactForces {
+        ContactForces { normal: self.t_n.clone(), tangential: self.t_t.clone() }
+    }
 }
 
 impl Contact2d {

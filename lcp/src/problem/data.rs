@@ -1,5 +1,5 @@
 //! Problems as data: serialised as what they were made from, and checked again when they are read. In JSON this is the form
-//! of the files of the feature `io`, which have a `kind` as well.
+//! of the files of the crate `lcp-problems`, which have a `kind` as well.
 
 use std::fmt;
 
@@ -11,10 +11,14 @@ use super::{BoxedLcp, Contact2d, Friction2d, HorizontalLcp, Lcp, MixedLcp, Qp};
 use crate::{Error, Matrix};
 
 /// A problem that is made from data.
-pub(crate) trait Stored: Sized {
+pub trait Stored: Sized {
     /// Its fields, and a `kind` that is not looked at.
     type Data: DeserializeOwned;
 
+    /// The problem of such data.
+    ///
+    /// # Errors
+    /// Those of its constructor.
     fn from_data(data: Self::Data) -> Result<Self, Error>;
 }
 
@@ -112,7 +116,7 @@ macro_rules! serialised {
         const _: () = {
             #[derive(Serialize, Deserialize)]
             #[serde(deny_unknown_fields)]
-            pub(crate) struct Data {
+            pub struct Data {
                 #[serde(rename = "kind", default, skip_serializing)]
                 _kind: IgnoredAny,
                 $($(#[$attribute])* $field: $type),+

@@ -116,7 +116,7 @@ impl Friction2d {
 
     /// The point of the standard problem that belongs to forces within the cones and the velocities that they allow, two
     /// for every contact: sliding is what the velocity is at the border of the cone.
-    pub(crate) fn to_pairs(&self, r: &[f64], v: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    pub fn to_pairs(&self, r: &[f64], v: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let contacts = r.chunks_exact(2).zip(v.chunks_exact(2)).zip(&self.mu);
         let pairs = contacts.flat_map(|((r, v), mu)| {
             let bound = mu * r[0];

@@ -138,7 +138,7 @@ impl MixedLcp {
     }
 
     /// The same problem by bounds.
-    pub(crate) fn boxed(&self) -> &BoxedLcp {
+    pub fn boxed(&self) -> &BoxedLcp {
         &self.boxed
     }
 }

@@ -169,8 +169,11 @@ impl Qp {
         self.constant
     }
 
-    /// The point of the variables of its conditions.
-    pub(crate) fn point(&self, mut x: Vec<f64>, mut w: Vec<f64>) -> QpPoint {
+    /// The point from the variables `(z, w)` of the [conditions](Self::mixed).
+    ///
+    /// # Panics
+    /// If `z` or `w` has fewer entries than variables.
+    pub fn point(&self, mut x: Vec<f64>, mut w: Vec<f64>) -> QpPoint {
         let multipliers = x.split_off(self.q.len());
         w.truncate(self.q.len());
         let mut rows = vec![0.0; self.a.nrows()];

@@ -1,8 +1,8 @@
 //! What decides about a plan, and what does not.
 
 use faer::{Mat, mat};
-use lcp::families;
 use lcp::{BoxedLcp, Friction2d, HorizontalLcp, Lcp, MixedLcp};
+use lcp_problems::families;
 use proptest::prelude::*;
 
 use super::{CHOICES, INTERIOR, LEMKE, NEWTON, alternating, auto, common, masses, sparse};

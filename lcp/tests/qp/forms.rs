@@ -3,8 +3,9 @@
 use faer::{Mat, mat};
 use lcp::{
     Auto, BoxedLcp, InteriorPoint, InteriorPointSettings, Lcp, Lemke, Matrix, MixedLcp,
-    QuadraticProgram, Solver, Status, WarmStart, families,
+    QuadraticProgram, Solver, Status, WarmStart,
 };
+use lcp_problems::families;
 
 /// A problem with bounds at one for some variables as a mixed one: distances from lower bounds, and a row for every upper one.
 fn with_rows(boxed: &BoxedLcp) -> MixedLcp {

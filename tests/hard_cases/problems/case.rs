@@ -1,8 +1,8 @@
 //! A hard problem, and what every method gives for it.
 
 use lcp::exact::{Enumeration, EnumerationSettings, Feasibility, enumerate, feasibility};
-use lcp::families::{Instance, Known};
 use lcp::{Error, HorizontalLcp, LemkeSettings, Solution, Status};
+use lcp_problems::families::{Instance, Known};
 
 use super::data::Point;
 use super::measure::{Measure, is_proof, largest, of_general};

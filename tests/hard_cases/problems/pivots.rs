@@ -1,8 +1,8 @@
 //! Long paths.
 
 use lcp::faer::Mat;
-use lcp::families::{self, Instance};
 use lcp::{Basis, Covering, Lcp, LemkeSettings, Side, WarmStart};
+use lcp_problems::families::{self, Instance};
 
 use super::case::Case;
 use super::data::standard;

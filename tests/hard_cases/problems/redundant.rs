@@ -1,7 +1,8 @@
 //! More contacts than equilibrium needs, and singular matrices.
 
 use lcp::faer::{Mat, mat};
-use lcp::{Contact2d, HorizontalLcp, families};
+use lcp::{Contact2d, HorizontalLcp};
+use lcp_problems::families;
 
 use super::case::Case;
 use super::data::block;

@@ -1,7 +1,7 @@
 //! Several solutions, and matrices of no class that promises any.
 
 use lcp::faer::{Mat, mat};
-use lcp::families;
+use lcp_problems::families;
 
 use super::case::Case;
 use super::data::standard;

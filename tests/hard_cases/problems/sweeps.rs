@@ -1,6 +1,7 @@
 //! What the methods give along a parameter, from easy to hopeless.
 
-use lcp::{Status, families};
+use lcp::Status;
+use lcp_problems::families;
 
 use super::case::{Case, End, Tried};
 use super::conditioning::{minors, of_minors};

@@ -1,7 +1,8 @@
 //! Ties, cycles, and pairs of which both variables vanish.
 
+use lcp::Lcp;
 use lcp::faer::Mat;
-use lcp::{Lcp, families};
+use lcp_problems::families;
 
 use super::case::Case;
 use super::data::{degenerate, gram, standard, with_solution};

@@ -1,7 +1,8 @@
 //! Problems without a solution, and those that are nearly so.
 
+use lcp::Lcp;
 use lcp::faer::{Mat, mat};
-use lcp::{Lcp, families};
+use lcp_problems::families;
 
 use super::case::Case;
 use super::data::{block, body, standard};

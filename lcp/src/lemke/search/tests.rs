@@ -1,7 +1,8 @@
 use faer::Mat;
 
 use super::*;
-use crate::{Lcp, Lemke, Solver, families};
+use crate::Lcp;
+use crate::random::SplitMix;
 
 /// A chain of springs above an obstacle: the basis that a path may end beside has one contact too few and one too many.
 #[test]
@@ -24,24 +25,13 @@ fn pairs_with_negative_values_are_exchanged_all_at_once() {
     assert_eq!(point.t, [0.5, 0.0, 0.0, 0.0, 1.0, 1.0]);
 }
 
-/// A game has a ray for every covering vector: the column of a pair comes second, and no proof is searched.
-#[test]
-fn a_game_takes_two_attempts() {
-    for seed in 0..5 {
-        let game = families::bimatrix(4, 5, seed).problem;
-        let solution = Lemke::default().solve(&game).expect("default settings");
-        assert!(solution.is_solved(), "{}", solution.status);
-        let ends: Vec<_> = solution.info.attempts.iter().map(|it| (it.covering, it.end)).collect();
-        let pair = AttemptCovering::Column { pair: 0 };
-        let of_first = (AttemptCovering::Ones, AttemptEnd::Ray);
-        assert_eq!(ends, [of_first, (pair, AttemptEnd::Complementary)]);
-    }
-}
-
 /// A step of the descent takes the columns of all pairs, which in large problems is minutes for all steps.
 #[test]
 fn flips_end_when_the_time_is_over() {
-    let problem = HorizontalLcp::from(families::indefinite(12, 1).problem);
+    let mut random = SplitMix::new(1);
+    let m = Mat::from_fn(12, 12, |_, _| 2.0 * random.next_f64() - 1.0);
+    let lcp = Lcp::new(m, vec![-1.0; 12]).expect("finite data");
+    let problem = HorizontalLcp::from(lcp);
     let settings = LemkeSettings::default();
     let search = Search::new(&settings, &problem, None);
     let all_y = Basis::all(Side::Y, 12);

@@ -1,0 +1,162 @@
+//! Why a file was not read.
+
+use std::fmt::Display;
+use std::path::PathBuf;
+
+use super::format::Format;
+
+/// A place in a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Position {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in bytes, from 1.
+    pub column: usize,
+}
+
+impl Display for Position {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "line {}, column {}", self.line, self.column)
+    }
+}
+
+/// Why a file was not read: the place, what was expected there, and the remedy.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// Something else stands where the format expects a datum.
+    #[error("{at}: expected {expected}, found {found}; {remedy}")]
+    Unexpected {
+        /// Where.
+        at: Position,
+        /// What the format has there.
+        expected: String,
+        /// What the file has there.
+        found: String,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// A header announces more data than the file holds.
+    #[error(
+        "{at}: {what} needs {needed} more numbers, but at most {left} are left in the file; \
+         correct the sizes, or complete the file"
+    )]
+    TooShort {
+        /// Where the data begin.
+        at: Position,
+        /// Which datum.
+        what: &'static str,
+        /// Numbers that it needs (`usize::MAX` when that is beyond counting).
+        needed: usize,
+        /// Words that the file still has.
+        left: usize,
+    },
+    /// The file is not the JSON that is described in [`crate::io`].
+    #[error(
+        "{at}: {message}; the fields of every kind are listed in the documentation of lcp_problems::io"
+    )]
+    Json {
+        /// Where.
+        at: Position,
+        /// What is wrong.
+        message: String,
+    },
+    /// The data were read, but do not make a problem.
+    #[error("{at}: {source}")]
+    Refused {
+        /// Where the data begin.
+        at: Position,
+        /// What is wrong with them.
+        source: lcp::Error,
+    },
+    /// No format fits; this one came furthest.
+    #[error(
+        "{source} (none of the known formats fits: {}; {format} comes furthest: name another if that is wrong)",
+        known()
+    )]
+    Unrecognised {
+        /// The format.
+        format: Format,
+        /// Why it does not fit.
+        source: Box<ReadError>,
+    },
+    /// A name that no format has.
+    #[error("there is no format `{name}`: take one of {}", known())]
+    UnknownFormat {
+        /// The name.
+        name: String,
+    },
+    /// A Matrix Market file, which holds one matrix, where a problem is expected.
+    #[error(
+        "a Matrix Market file holds one matrix and no problem: name the file of every part, as in \
+         --m M.mtx --q q.mtx or --a A.mtx --b B.mtx --c c.mtx"
+    )]
+    OneMatrix,
+    /// More than one format fits.
+    #[error("the file can be read as {}; name the format", list(.formats))]
+    Ambiguous {
+        /// The formats that fit.
+        formats: Vec<Format>,
+    },
+    /// The file could not be opened or read.
+    #[error("cannot read {}: {reason}", .path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        reason: String,
+    },
+}
+
+impl ReadError {
+    pub(super) fn unexpected(
+        at: Position,
+        expected: impl Display,
+        found: impl Display,
+        remedy: &'static str,
+    ) -> Self {
+        Self::Unexpected { at, expected: expected.to_string(), found: found.to_string(), remedy }
+    }
+
+    /// How far a reader came: first whether to the end of what is there, with numbers that are no problem or in a file
+    /// that is nearly complete, then the place.
+    pub(super) fn reach(&self) -> (bool, Option<Position>) {
+        let is_to_the_end = match self {
+            Self::TooShort { needed, left, .. } => *left >= needed / 2 && *needed > 0,
+            _ => matches!(self, Self::Refused { .. }),
+        };
+        (is_to_the_end, self.position())
+    }
+
+    /// Where in the file, if the error has a place.
+    pub fn position(&self) -> Option<Position> {
+        match self {
+            Self::Unexpected { at, .. }
+            | Self::TooShort { at, .. }
+            | Self::Json { at, .. }
+            | Self::Refused { at, .. } => Some(*at),
+            Self::Unrecognised { source, .. } => source.position(),
+            _ => None,
+        }
+    }
+}
+
+/// The names of all formats.
+fn known() -> String {
+    Format::ALL.map(Format::name).join(", ")
+}
+
+fn list(formats: &[Format]) -> String {
+    let names: Vec<String> = formats.iter().map(ToString::to_string).collect();
+    names.join(" or as ")
+}
+
+/// From its name.
+impl std::str::FromStr for Format {
+    type Err = ReadError;
+
+    fn from_str(name: &str) -> Result<Self, ReadError> {
+        let found = Self::ALL.into_iter().find(|format| format.name() == name);
+        found.ok_or_else(|| ReadError::UnknownFormat { name: name.to_owned() })
+    }
+}
