@@ -28,7 +28,7 @@ pub enum SecondLoading {
 /// The differences between the state after a load history and that after another loading, relative to the first: root mean
 /// squares over all nodes, contacts and supports \[-\].
 ///
-/// The other loading has half as many steps in every stage, or two of a stage of one, and is ten times as fast. With friction
+/// The other loading has a quarter of the steps in every stage, at least two, and is ten times as fast. With friction
 /// there may be several answers, and these differences say how far they are apart.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[non_exhaustive]
