@@ -1,5 +1,7 @@
 //! Complementary bases: one column of every pair.
 
+use crate::vector::max_abs;
+
 /// Which variable of a pair is basic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -41,6 +43,16 @@ impl Basis {
     /// The basis of `n` pairs that has the same side everywhere.
     pub fn all(side: Side, n: usize) -> Self {
         Self(vec![side; n])
+    }
+
+    /// The basis of the larger variable of every pair, each in units of the largest of its vector.
+    pub(crate) fn of_larger(t: &[f64], y: &[f64]) -> Self {
+        let (t_max, y_max) = (max_abs(t), max_abs(y));
+        let share = |v: f64, max: f64| if max > 0.0 { v / max } else { 0.0 };
+        let side = |(&t, &y): (&f64, &f64)| {
+            if share(t, t_max) > share(y, y_max) { Side::T } else { Side::Y }
+        };
+        Self(t.iter().zip(y).map(side).collect())
     }
 
     /// The sides of these pairs, whose variables may be exchanged.

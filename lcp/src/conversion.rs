@@ -5,8 +5,8 @@ use std::borrow::Cow;
 use crate::certify::Residuals;
 use crate::vector::SMALL;
 use crate::{
-    BoxedLcp, Certificate, Contact2d, ContactState, Error, Friction2d, HorizontalLcp, Lcp,
-    MixedLcp, Solution, Status, WarmStart,
+    BoxedLcp, Certificate, Contact2d, ContactState, Error, Friction2d, HorizontalLcp, Lcp, Method,
+    MixedLcp, Solution, StandardForm, Status, WarmStart,
 };
 
 /// A problem with a general form. Only the problems of the library are.
@@ -171,18 +171,31 @@ fn with_all_digits(
     Ok(solution)
 }
 
+/// The standard form of a problem for a method that treats no other.
+///
+/// # Errors
+/// [`Error::NotTreated`].
+pub(crate) fn standard_form(
+    method: Method,
+    problem: &HorizontalLcp,
+) -> Result<StandardForm, Error> {
+    let reason = "it cannot be converted to the standard form, for which every pair needs a column with one entry, \
+                  all in different rows: take Lemke's method";
+    problem.to_standard().ok_or_else(|| Error::NotTreated { method, reason: reason.to_owned() })
+}
+
 /// Solves a problem in its standard form, with the start converted.
 ///
 /// # Errors
-/// Those of the method, and for other problems the one given.
+/// Those of the method, and [`Error::NotTreated`] by it for a problem without one.
 pub(crate) fn solve_in_standard_form(
+    method: Method,
     problem: &HorizontalLcp,
     start: &WarmStart,
     tolerance: f64,
-    refused: impl FnOnce() -> Error,
     solve: impl FnOnce(&Lcp, WarmStart) -> Result<Solution, Error>,
 ) -> Result<Solution, Error> {
-    let standard = problem.to_standard().ok_or_else(refused)?;
+    let standard = standard_form(method, problem)?;
     let mut solution = solve(standard.lcp(), standard.start(start))?;
     (solution.t, solution.y) = standard.to_pairs(&solution.t, &solution.y);
     solution.basis = solution.basis.map(|basis| standard.basis(&basis));

@@ -10,12 +10,12 @@ use std::time::Duration;
 use crate::conversion::solve_in_standard_form;
 use crate::settings::check_tolerance;
 use crate::solve::Monitor;
-use crate::vector::max_abs;
 use crate::{
     Basis, Error, HorizontalLcp, Lcp, Method, Named, Observer, Residuals, Side, Solution, Solver,
     Status, WarmStart,
 };
 use exchange::{Exchanges, Next};
+pub(crate) use system::is_z_matrix;
 use system::{Point, System};
 
 /// Settings of [`SemismoothNewton`].
@@ -130,7 +130,7 @@ impl SemismoothNewton {
         let point = self.first_point(lcp, system);
         let (status, best) = self.iterate(system, point, monitor);
         let is_stuck = matches!(status, Status::Cycling | Status::Stalled);
-        if !is_stuck || !system.is_z_matrix() || best.residual <= self.settings.tolerance {
+        if !is_stuck || !system.is_z_matrix || best.residual <= self.settings.tolerance {
             return (status, best);
         }
         // The one start that solves every feasible problem with such a matrix.
@@ -150,7 +150,7 @@ impl SemismoothNewton {
         monitor: &mut Monitor<'_>,
     ) -> (Status, Point) {
         let mut best = point.clone();
-        let mut exchanges = Exchanges::new(system.is_z_matrix());
+        let mut exchanges = Exchanges::new(system.is_z_matrix);
         loop {
             if point.residual < best.residual {
                 best.clone_from(&point);
@@ -183,12 +183,11 @@ impl SemismoothNewton {
         let n = lcp.order();
         let given = match &self.settings.start {
             WarmStart::None => None,
-            WarmStart::Basis(basis) => {
-                Some(basis.sides().iter().map(|side| *side == Side::T).collect())
-            }
-            WarmStart::Point { t, y } => Some(larger(t, y)),
+            WarmStart::Basis(basis) => Some(basis.clone()),
+            WarmStart::Point { t, y } => Some(Basis::of_larger(t, y)),
         };
-        let all = system.is_z_matrix().then(|| vec![true; n]);
+        let given = given.map(|basis| basis.sides().iter().map(|side| *side == Side::T).collect());
+        let all = system.is_z_matrix.then(|| vec![true; n]);
         let starts = given.into_iter().chain(all);
         let starts = starts.chain([pushed(lcp), vec![false; n]]);
         let mut points = starts.filter_map(|is_free| system.point(&is_free));
@@ -199,13 +198,6 @@ impl SemismoothNewton {
 /// The pairs whose `w` is negative at `z = 0`.
 fn pushed(lcp: &Lcp) -> Vec<bool> {
     lcp.q().iter().map(|q| *q < 0.0).collect()
-}
-
-/// Where `t` is the larger one of the pair, each in units of the largest of its vector.
-fn larger(t: &[f64], y: &[f64]) -> Vec<bool> {
-    let unit = |v: &[f64]| Some(max_abs(v)).filter(|max| *max > 0.0).unwrap_or(1.0);
-    let (t_unit, y_unit) = (unit(t), unit(y));
-    t.iter().zip(y).map(|(t, y)| t / t_unit > y / y_unit).collect()
 }
 
 fn basis_of(is_free: &[bool]) -> Basis {
@@ -271,24 +263,10 @@ impl Solver<HorizontalLcp> for SemismoothNewton {
     ) -> Result<Solution, Error> {
         let settings = &self.settings;
         settings.validate(problem.order())?;
-        let refused = || {
-            Error::NotTreated {
-            method: Method::Newton,
-            reason:
-                "it cannot be converted to the standard form, for which every pair needs a column with \
-                     one entry, all in different rows: take Lemke"
-                    .to_owned(),
-        }
-        };
-        solve_in_standard_form(
-            problem,
-            &settings.start,
-            settings.tolerance,
-            refused,
-            |lcp, start| {
-                let inner = Self::new(SemismoothNewtonSettings { start, ..settings.clone() });
-                inner.solve_pairs(lcp, observer)
-            },
-        )
+        let (start, tolerance) = (&settings.start, settings.tolerance);
+        solve_in_standard_form(self.method(), problem, start, tolerance, |lcp, start| {
+            let inner = Self::new(SemismoothNewtonSettings { start, ..settings.clone() });
+            inner.solve_pairs(lcp, observer)
+        })
     }
 }

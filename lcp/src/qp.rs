@@ -141,17 +141,6 @@ impl QuadraticProgram {
         let to_scaled = |scaled: &Scaled, point: &Point| mixed.to_scaled(scaled, point);
         Ok(self.solve_form(run, mixed.form.clone(), to_scaled))
     }
-
-    fn solve_standard(
-        &self,
-        problem: &Lcp,
-        general: &dyn Fn() -> HorizontalLcp,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
-        let free = vec![false; problem.order()];
-        let mixed = MixedLcp::new(problem.m().clone(), problem.q().to_vec(), free)?;
-        self.solve_mixed(&mixed, general, observer)
-    }
 }
 
 fn refused(reason: &str) -> Error {
@@ -168,7 +157,8 @@ impl Named for QuadraticProgram {
 
 impl Solver<Lcp> for QuadraticProgram {
     fn solve_pairs(&self, problem: &Lcp, observer: &mut Observer<'_>) -> Result<Solution, Error> {
-        self.solve_standard(problem, &|| problem.clone().into(), observer)
+        let mixed = MixedLcp::of_standard(problem)?;
+        self.solve_mixed(&mixed, &|| problem.clone().into(), observer)
     }
 }
 
@@ -180,16 +170,10 @@ impl Solver<HorizontalLcp> for QuadraticProgram {
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         self.settings.validate(problem.order())?;
-        let not_standard = || {
-            refused(
-                "it is no standard problem w = M z + q: not every pair has a column with one entry \
-                 in a row of its own",
-            )
-        };
         let (start, tolerance) = (&self.settings.start, self.settings.tolerance);
-        solve_in_standard_form(problem, start, tolerance, not_standard, |lcp, start| {
+        solve_in_standard_form(self.method(), problem, start, tolerance, |lcp, start| {
             let solver = Self::new(QuadraticProgramSettings { start, ..self.settings.clone() });
-            solver.solve_standard(lcp, &|| problem.clone(), observer)
+            solver.solve_mixed(&MixedLcp::of_standard(lcp)?, &|| problem.clone(), observer)
         })
     }
 }

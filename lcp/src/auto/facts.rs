@@ -3,10 +3,6 @@
 use super::constants::{FEW_PAIRS, MOST_PAIRS};
 use crate::Matrix;
 
-pub(super) fn is_z_matrix(m: &Matrix) -> bool {
-    (0..m.ncols()).all(|j| m.column(j).all(|(i, v)| i == j || v <= 0.0))
-}
-
 /// The largest sum of `choices` over variables that depend on each other in turn: `i` depends on `j` if row `i` has an entry
 /// in column `j`. Those of a triangular matrix are single ones, those of an irreducible matrix are all.
 pub(super) fn largest_block(m: &Matrix, choices: impl Fn(usize) -> usize) -> usize {

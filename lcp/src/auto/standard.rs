@@ -1,8 +1,9 @@
 //! The chain of standard problems, and of general ones that can be converted to the standard form.
 
 use super::constants::FEW;
-use super::facts::{is_z_matrix, largest_block};
+use super::facts::largest_block;
 use super::method::{Choice, Effort, Planned};
+use crate::newton::is_z_matrix;
 use crate::{HorizontalLcp, Lcp, Matrix, Method, Solver};
 
 /// The class of the matrix decides whether the active set method is the first.

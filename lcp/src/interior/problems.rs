@@ -44,9 +44,7 @@ impl Solver<MixedLcp> for InteriorPoint {
 
 impl Solver<Lcp> for InteriorPoint {
     fn solve_pairs(&self, problem: &Lcp, observer: &mut Observer<'_>) -> Result<Solution, Error> {
-        let free = vec![false; problem.order()];
-        let mixed = MixedLcp::new(problem.m().clone(), problem.q().to_vec(), free)?;
-        self.run(&mixed, observer)
+        self.run(&MixedLcp::of_standard(problem)?, observer)
     }
 }
 
@@ -69,17 +67,8 @@ impl Solver<HorizontalLcp> for InteriorPoint {
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
         self.settings.validate(problem.order())?;
-        let refused = || {
-            Error::NotTreated {
-            method: Method::Interior,
-            reason:
-                "it cannot be converted to the standard form: take Lemke's method, or give the mixed or \
-                     the contact problem that it comes from"
-                    .to_owned(),
-        }
-        };
         let (start, tolerance) = (&self.settings.start, self.settings.tolerance);
-        solve_in_standard_form(problem, start, tolerance, refused, |lcp, start| {
+        solve_in_standard_form(self.method(), problem, start, tolerance, |lcp, start| {
             let settings = InteriorPointSettings { start, ..self.settings.clone() };
             Self::new(settings).solve_pairs(lcp, observer)
         })

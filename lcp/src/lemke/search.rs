@@ -19,7 +19,7 @@ use crate::pivoting::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Perturbation, PivotRecord,
 };
 use crate::solve::is_over;
-use crate::vector::{SMALL, max_abs};
+use crate::vector::SMALL;
 use crate::{
     Basis, Certificate, Covering, HorizontalLcp, Info, LemkeSettings, Matrix, Ray, Side, Solution,
     Status, WarmStart,
@@ -165,7 +165,7 @@ impl<'a> Search<'a> {
         let preferred = match &self.settings.start {
             WarmStart::None => None,
             WarmStart::Basis(basis) => Some(basis.clone()),
-            WarmStart::Point { t, y } => Some(basis_of(t, y)),
+            WarmStart::Point { t, y } => Some(Basis::of_larger(t, y)),
         };
         if let Some(given) = &preferred
             && let Some(start) = self.problem.start(given)
@@ -404,16 +404,6 @@ impl<'a> Search<'a> {
         let certificate = ray.map(Certificate::Ray);
         Solution { certificate, trace: self.trace, info: self.info, ..judged }
     }
-}
-
-/// The basis of the larger variable of every pair, in units of the largest of its vector.
-fn basis_of(t: &[f64], y: &[f64]) -> Basis {
-    let (t_max, y_max) = (max_abs(t), max_abs(y));
-    let share = |v: f64, max: f64| if max > 0.0 { v / max } else { 0.0 };
-    let side = |(&t, &y): (&f64, &f64)| {
-        if share(t, t_max) > share(y, y_max) { Side::T } else { Side::Y }
-    };
-    Basis::new(t.iter().zip(y).map(side).collect())
 }
 
 /// The status of a limit that ends all attempts.

@@ -8,7 +8,7 @@ use crate::divide::block;
 use crate::linear::Lu;
 use crate::matrix::{Column, Storage};
 use crate::scaling::equilibrate;
-use crate::sparse::{Cholesky, Columns, SparseLu};
+use crate::sparse::{Cholesky, Columns, SparseLu, solve_refined};
 use crate::vector::SMALL;
 
 /// Factors of `M_FF`, dense or sparse like `M`: those of Cholesky where the matrix is symmetric and positive definite, else LU.
@@ -16,6 +16,7 @@ pub(super) struct Factors<'a> {
     m: &'a Matrix,
     is_symmetric: bool,
     free: Vec<usize>,
+    block: Matrix,
     solve: Option<Solve>,
     /// How many factorisations there were.
     pub(super) count: usize,
@@ -27,30 +28,34 @@ type Solve = Box<dyn Fn(&mut [f64])>;
 impl<'a> Factors<'a> {
     pub(super) fn new(m: &'a Matrix) -> Self {
         let is_symmetric = m.check_symmetric("M").is_ok();
-        Self { m, is_symmetric, free: Vec::new(), solve: None, count: 0 }
+        let block = block(m, &[], &[]);
+        Self { m, is_symmetric, free: Vec::new(), block, solve: None, count: 0 }
     }
 
     /// Factorises the matrix of some pairs, at least one; `false` where it is singular to working precision.
     pub(super) fn factorise(&mut self, is_free: &[bool]) -> bool {
         self.free = (0..is_free.len()).filter(|&i| is_free[i]).collect();
-        let block = block(self.m, &self.free, &self.free);
+        self.block = block(self.m, &self.free, &self.free);
         self.count += 1;
         if self.is_symmetric {
-            if let Some((pivots, solve)) = cholesky(&block) {
+            if let Some((pivots, solve)) = cholesky(&self.block) {
                 self.solve = Some(solve);
                 let mut pivots = pivots.into_iter().enumerate();
-                return pivots.all(|(k, pivot)| pivot > SMALL * block[(k, k)]);
+                return pivots.all(|(k, pivot)| pivot > SMALL * self.block[(k, k)]);
             }
             self.count += 1;
         }
-        self.solve = lu(&block);
+        self.solve = lu(&self.block);
         self.solve.is_some()
     }
 
     /// Overwrites a right-hand side, zero for pairs that are not free, with the solution for the last factorisation.
     pub(super) fn solve(&self, x: &mut [f64]) {
+        let Some(solve) = &self.solve else { return };
         let mut packed: Vec<f64> = self.free.iter().map(|&i| x[i]).collect();
-        self.solve.iter().for_each(|solve| solve(&mut packed));
+        solve_refined(&mut packed, f64::EPSILON, solve, |x, rest| {
+            x.iter().enumerate().for_each(|(j, x)| self.block.slice(j).add_to(-x, rest));
+        });
         self.free.iter().zip(packed).for_each(|(&i, v)| x[i] = v);
     }
 }

@@ -1,10 +1,9 @@
 //! The points that belong to free sets.
 
 use super::factors::Factors;
-use crate::Lcp;
-use crate::certify;
 use crate::random::SplitMix;
-use crate::vector::{HALF_DIGITS, REFINEMENTS, ROUNDING, SMALL, max_abs};
+use crate::vector::{HALF_DIGITS, ROUNDING, SMALL, max_abs};
+use crate::{Lcp, Matrix};
 
 /// A complementary point: `z` is free for some pairs, `w` for the others.
 #[derive(Debug, Clone)]
@@ -20,29 +19,24 @@ pub(super) struct Point {
     pub(super) hash: u64,
 }
 
+/// Whether no entry off the diagonal is positive.
+pub(crate) fn is_z_matrix(m: &Matrix) -> bool {
+    (0..m.ncols()).all(|j| m.column(j).all(|(i, v)| i == j || v <= 0.0))
+}
+
 /// The problem, with a factorisation for its free sets.
 pub(super) struct System<'a> {
     lcp: &'a Lcp,
-    is_z_matrix: bool,
+    pub(super) is_z_matrix: bool,
     diagonal: Vec<f64>,
     factors: Factors<'a>,
 }
 
 impl<'a> System<'a> {
     pub(super) fn new(lcp: &'a Lcp) -> Self {
-        let (m, n) = (lcp.m(), lcp.order());
-        let is_off_diagonal_nonpositive = |j: usize| m.column(j).all(|(i, v)| i == j || v <= 0.0);
-        Self {
-            lcp,
-            is_z_matrix: (0..n).all(is_off_diagonal_nonpositive),
-            diagonal: (0..n).map(|i| m[(i, i)]).collect(),
-            factors: Factors::new(m),
-        }
-    }
-
-    /// Whether no entry off the diagonal is positive.
-    pub(super) fn is_z_matrix(&self) -> bool {
-        self.is_z_matrix
+        let m = lcp.m();
+        let diagonal = (0..lcp.order()).map(|i| m[(i, i)]).collect();
+        Self { lcp, is_z_matrix: is_z_matrix(m), diagonal, factors: Factors::new(m) }
     }
 
     pub(super) fn factorisations(&self) -> usize {
@@ -111,32 +105,13 @@ impl<'a> System<'a> {
     }
 }
 
-/// `M_FF z_F = -q_F`, with refinement; none where it cannot be solved.
+/// `M_FF z_F = -q_F`; none where it cannot be solved.
 fn solved(lcp: &Lcp, factors: &Factors<'_>, is_free: &[bool]) -> Option<(Vec<f64>, Image)> {
-    let mut z = vec![0.0; is_free.len()];
-    free_entries(&mut z, lcp.q(), is_free);
+    let of_free = lcp.q().iter().zip(is_free).map(|(q, is_free)| if *is_free { -q } else { 0.0 });
+    let mut z: Vec<f64> = of_free.collect();
     factors.solve(&mut z);
-    let mut image = Image::new(lcp, &z);
-    let mut error = image.error(is_free);
-    for _ in 0..REFINEMENTS {
-        if error <= certify::ROUNDING || !error.is_finite() {
-            break;
-        }
-        let mut refined = vec![0.0; z.len()];
-        free_entries(&mut refined, &image.w, is_free);
-        factors.solve(&mut refined);
-        refined.iter_mut().zip(&z).for_each(|(refined, z)| *refined += z);
-        let refined_image = Image::new(lcp, &refined);
-        let refined_error = refined_image.error(is_free);
-        let is_settled = refined_error > 0.5 * error;
-        if refined_error < error {
-            (z, image, error) = (refined, refined_image, refined_error);
-        }
-        if is_settled {
-            break;
-        }
-    }
-    let is_solved = error <= HALF_DIGITS && !is_in_kernel(lcp, is_free, &image.size);
+    let image = Image::new(lcp, &z);
+    let is_solved = image.error(is_free) <= HALF_DIGITS && !is_in_kernel(lcp, is_free, &image.size);
     is_solved.then_some((z, image))
 }
 
@@ -146,13 +121,6 @@ fn is_in_kernel(lcp: &Lcp, is_free: &[bool], size: &[f64]) -> bool {
     let mut rows = lcp.q().iter().zip(size).zip(is_free).filter(|(_, is_free)| **is_free);
     lcp.q().iter().zip(is_free).any(|(q, is_free)| *is_free && *q != 0.0)
         && rows.all(|((q, size), _)| q.abs() <= SMALL * size)
-}
-
-/// Minus the entries of the free pairs.
-fn free_entries(out: &mut [f64], v: &[f64], is_free: &[bool]) {
-    for ((out, v), is_free) in out.iter_mut().zip(v).zip(is_free) {
-        *out = if *is_free { -v } else { 0.0 };
-    }
 }
 
 /// `w = M z + q`, and the sums of the sizes of its terms.

@@ -4,6 +4,7 @@ use super::delassus::Delassus;
 use super::rows::{interleaved, parted};
 use super::{Constraint, MatrixRows, ProjectedGaussSeidel, Sweeps};
 use crate::certify::{BoxedJudge, ContactJudge, GeneralJudge, Precision};
+use crate::conversion::standard_form;
 use crate::{
     BoxedLcp, Contact2d, ContactForces, Error, Friction2d, HorizontalLcp, Lcp, Method, Named,
     Observer, Solution, Solver,
@@ -29,12 +30,7 @@ impl Solver<HorizontalLcp> for ProjectedGaussSeidel {
         problem: &HorizontalLcp,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        let standard = problem.to_standard().ok_or_else(|| {
-            ProjectedGaussSeidel::not_treated(
-                "it is not in the standard form, with a column of a single entry in every pair, each in \
-                 another row: take Lemke's method",
-            )
-        })?;
+        let standard = standard_form(self.method(), problem)?;
         let mut monitor = self.monitor(observer);
         let start = self.start(problem.order(), |t, y| standard.from_pairs(t, y).0)?;
         let mut rows = MatrixRows::new(standard.lcp().m());

@@ -1,6 +1,6 @@
 //! Complementary pairs together with free variables.
 
-use super::{BoxedLcp, HorizontalLcp};
+use super::{BoxedLcp, HorizontalLcp, Lcp};
 use crate::vector::check_length;
 use crate::{Error, Matrix, Vector};
 
@@ -38,6 +38,11 @@ impl MixedLcp {
         let lower: Vec<f64> = free.iter().map(bound).collect();
         let upper = vec![f64::INFINITY; free.len()];
         Ok(Self { boxed: BoxedLcp::new(m, q, lower, upper)?, free })
+    }
+
+    /// A standard problem, of which no variable is free.
+    pub(crate) fn of_standard(lcp: &Lcp) -> Result<Self, Error> {
+        Self::new(lcp.m().clone(), lcp.q().to_vec(), vec![false; lcp.order()])
     }
 
     /// Number of variables, free and complementary.
