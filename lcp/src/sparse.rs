@@ -15,6 +15,8 @@ pub(crate) use lu::{Growing, SparseLu, row_counts};
 pub(crate) use order::elimination_order;
 pub use supernodal::SupernodalLu;
 
+use faer::sparse::SymbolicSparseColMatRef;
+
 use crate::vector::{REFINEMENTS, max_abs};
 
 /// Pivots below this multiple of what they are measured by, the largest entry of their column or a diagonal of order one, are
@@ -112,31 +114,72 @@ impl Columns {
     }
 }
 
-/// The pattern of a square matrix with a diagonal, entries between the rows of a group, and further ones, as far as they are
-/// wanted: where columns start, and their rows, ascending.
-pub(crate) fn pattern_of<'a, I: Iterator<Item = &'a usize>>(
-    n: usize,
-    groups: &[&'a [usize]],
-    further: impl Fn(usize) -> I,
-    is_wanted: impl Fn(usize, usize) -> bool,
-) -> (Vec<usize>, Vec<usize>) {
-    let members = groups.iter().enumerate();
-    let members = members.flat_map(|(number, group)| group.iter().map(move |&i| (i, number, 1.0)));
-    let of_rows = Columns::by_rows(n, members);
-    let (mut starts, mut rows) = (vec![0], Vec::new());
-    let mut last = vec![usize::MAX; n];
-    for j in 0..n {
-        let begin = rows.len();
-        let of_groups = of_rows.rows(j).iter().flat_map(|&number| groups[number as usize]);
-        for i in std::iter::once(j).chain(of_groups.chain(further(j)).copied()) {
-            if is_wanted(i, j) && std::mem::replace(&mut last[i], j) != j {
-                rows.push(i);
+/// The pattern of a matrix: where its columns start, and their rows, ascending.
+pub(crate) struct Pattern {
+    starts: Vec<usize>,
+    rows: Vec<usize>,
+}
+
+impl Pattern {
+    /// That of a square matrix with a diagonal, entries between the rows of a group, and further ones, as far as they are
+    /// wanted.
+    pub(crate) fn of<'a, I: Iterator<Item = &'a usize>>(
+        n: usize,
+        groups: &[&'a [usize]],
+        further: impl Fn(usize) -> I,
+        is_wanted: impl Fn(usize, usize) -> bool,
+    ) -> Self {
+        let members = groups.iter().enumerate();
+        let members =
+            members.flat_map(|(number, group)| group.iter().map(move |&i| (i, number, 1.0)));
+        let of_rows = Columns::by_rows(n, members);
+        let (mut starts, mut rows) = (vec![0], Vec::new());
+        let mut last = vec![usize::MAX; n];
+        for j in 0..n {
+            let begin = rows.len();
+            let of_groups = of_rows.rows(j).iter().flat_map(|&number| groups[number as usize]);
+            for i in std::iter::once(j).chain(of_groups.chain(further(j)).copied()) {
+                if is_wanted(i, j) && std::mem::replace(&mut last[i], j) != j {
+                    rows.push(i);
+                }
             }
+            rows[begin..].sort_unstable();
+            starts.push(rows.len());
         }
-        rows[begin..].sort_unstable();
-        starts.push(rows.len());
+        Self { starts, rows }
     }
-    (starts, rows)
+
+    /// Number of entries.
+    pub(crate) fn stored(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// As faer has it, with so many rows.
+    pub(crate) fn symbolic(&self, rows: usize) -> SymbolicSparseColMatRef<'_, usize> {
+        let columns = self.starts.len() - 1;
+        SymbolicSparseColMatRef::new_checked(rows, columns, &self.starts, None, &self.rows)
+    }
+
+    /// The place of an entry.
+    pub(crate) fn place(&self, i: usize, j: usize) -> usize {
+        let found = self.column(j).binary_search(&i);
+        self.starts[j] + found.unwrap_or_else(|_| unreachable!("the pattern has all entries"))
+    }
+
+    /// The rows of a column.
+    fn column(&self, j: usize) -> &[usize] {
+        &self.rows[self.starts[j]..self.starts[j + 1]]
+    }
+
+    /// The entries `(row, value)` of a column, from the values of all.
+    pub(crate) fn entries<'a>(
+        &'a self,
+        j: usize,
+        values: &'a [f64],
+    ) -> impl Iterator<Item = (usize, f64)> + 'a {
+        let values = &values[self.starts[j]..self.starts[j + 1]];
+        self.column(j).iter().copied().zip(values.iter().copied())
+    }
 }
 
 /// Overwrites a right-hand side with the solution by factors, refined as long as what is left of it halves and is more than
@@ -165,6 +208,6 @@ pub(crate) fn solve_refined(
 }
 
 /// A row or column number in half the space.
-fn index(i: usize) -> u32 {
+pub(crate) fn index(i: usize) -> u32 {
     u32::try_from(i).unwrap_or_else(|_| unreachable!("more than 2^32 rows do not fit in memory"))
 }

@@ -2,13 +2,11 @@
 //! that come down to a state of every contact.
 
 mod condensed;
-mod constants;
 mod law;
 mod points;
 mod scaled;
 
-pub(crate) use condensed::{Condensed, Springs};
-pub(crate) use constants::PROXIMAL;
+pub(crate) use condensed::{Condensed, PROXIMAL, Springs};
 pub(crate) use law::nearest;
 pub(crate) use points::Point;
 pub(crate) use scaled::Scaled;

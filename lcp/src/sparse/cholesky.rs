@@ -11,9 +11,6 @@ use faer::{Conj, MatMut, Par, Side, Spec};
 
 use super::VANISHING;
 
-/// The number in the place of a pivot that vanishes: its variable becomes zero.
-const HELD: f64 = 1e60;
-
 /// Factors of matrices with one pattern, again and again for other values, in an order of approximate minimum degree.
 pub(crate) struct Cholesky {
     symbolic: SymbolicCholesky<usize>,
@@ -40,7 +37,8 @@ impl Cholesky {
         let signs = vec![1; lower.ncols()];
         let held = LdltRegularization {
             dynamic_regularization_signs: Some(&signs),
-            dynamic_regularization_delta: HELD,
+            // Beside which everything is nothing.
+            dynamic_regularization_delta: f64::MAX.sqrt(),
             dynamic_regularization_epsilon: VANISHING,
         };
         if self.numeric(lower, held).is_none() {

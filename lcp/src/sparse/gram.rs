@@ -3,7 +3,7 @@
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 
 use super::cholesky::Cholesky;
-use super::{NONE, index, pattern_of, solve_refined};
+use super::{NONE, Pattern, index, solve_refined};
 use crate::Error;
 use crate::scaling::power_of_two;
 use crate::vector::HALF_DIGITS;
@@ -15,8 +15,7 @@ use crate::vector::HALF_DIGITS;
 /// together.
 pub struct Gram {
     /// The lower triangle, every column from its diagonal on.
-    starts: Vec<usize>,
-    rows: Vec<usize>,
+    pattern: Pattern,
     values: Vec<f64>,
     /// None for an entry that the mirrored one stands for.
     of_stiffness: Vec<u32>,
@@ -45,12 +44,8 @@ impl Gram {
         assert!(fits, "K is square, with as many rows as A");
         let ends = ends(a);
         let groups: Vec<&[usize]> = ends.iter().map(|end| a.row_idx_of_col_raw(end - 1)).collect();
-        let (starts, rows) = pattern_of(n, &groups, |j| column(k, j).iter(), |i, j| i >= j);
-        let place = |i: usize, j: usize| {
-            let range = starts[i.min(j)]..starts[i.min(j) + 1];
-            let found = rows[range.clone()].binary_search(&i.max(j));
-            index(range.start + found.unwrap_or_else(|_| unreachable!("the pattern has all")))
-        };
+        let pattern = Pattern::of(n, &groups, |j| column(k, j).iter(), |i, j| i >= j);
+        let place = |i: usize, j: usize| index(pattern.place(i.max(j), i.min(j)));
         let of_stiffness = (0..n)
             .flat_map(|j| column(k, j).iter().map(move |&i| (i, j)))
             .map(|(i, j)| if i < j { NONE } else { place(i, j) })
@@ -61,11 +56,10 @@ impl Gram {
                 places.extend(group[..=at].iter().map(|&j| place(i, j)));
             }
         }
-        let pattern = SymbolicSparseColMatRef::new_checked(n, n, &starts, None, &rows);
-        let factors = Cholesky::new(pattern)?;
-        let values = vec![0.0; rows.len()];
+        let factors = Cholesky::new(pattern.symbolic(n))?;
+        let values = vec![0.0; pattern.stored()];
         let units = vec![1.0; n];
-        Ok(Self { starts, rows, values, of_stiffness, ends, places, units, factors })
+        Ok(Self { pattern, values, of_stiffness, ends, places, units, factors })
     }
 
     /// Factorises for these values of `K`, of which the lower triangle counts, `A`, `S` and `delta`.
@@ -88,7 +82,7 @@ impl Gram {
             self.values[place as usize] += v;
         }
         let n = self.units.len();
-        self.starts[..n].iter().for_each(|&start| self.values[start] += delta);
+        self.pattern.starts[..n].iter().for_each(|&start| self.values[start] += delta);
         let mut places = &self.places[..];
         let mut start = 0;
         let mut block = Vec::new();
@@ -110,23 +104,23 @@ impl Gram {
             start = end;
         }
         self.check_finite()?;
-        for (unit, &start) in self.units.iter_mut().zip(&self.starts) {
+        for (unit, &start) in self.units.iter_mut().zip(&self.pattern.starts) {
             *unit = power_of_two(1.0 / self.values[start].max(f64::MIN_POSITIVE).sqrt());
         }
-        let mut scaled = self.values.clone();
+        let mut scaled = Vec::with_capacity(self.values.len());
         for (j, unit) in self.units.iter().enumerate() {
-            let range = self.starts[j]..self.starts[j + 1];
-            let entries = self.rows[range.clone()].iter().zip(&mut scaled[range]);
-            entries.for_each(|(&i, v)| *v *= self.units[i] * unit);
+            let entries = self.pattern.entries(j, &self.values);
+            scaled.extend(entries.map(|(i, v)| v * (self.units[i] * unit)));
         }
-        let pattern = SymbolicSparseColMatRef::new_checked(n, n, &self.starts, None, &self.rows);
-        self.factors.factorise_semidefinite(SparseColMatRef::new(pattern, &scaled));
+        self.factors
+            .factorise_semidefinite(SparseColMatRef::new(self.pattern.symbolic(n), &scaled));
         Ok(())
     }
 
     fn check_finite(&self) -> Result<(), Error> {
         let Some(at) = self.values.iter().position(|v| !v.is_finite()) else { return Ok(()) };
-        let (row, col) = (self.rows[at], self.starts.partition_point(|&start| start <= at) - 1);
+        let Pattern { starts, rows } = &self.pattern;
+        let (row, col) = (rows[at], starts.partition_point(|&start| start <= at) - 1);
         Err(Error::NotFinite { what: "K + delta 1 + A S A^T", row, col, value: self.values[at] })
     }
 
@@ -153,9 +147,9 @@ impl Gram {
     /// Subtracts the product of the matrix with a vector.
     fn subtract_product(&self, x: &[f64], out: &mut [f64]) {
         for (j, x_j) in x.iter().enumerate() {
-            let (first, end) = (self.starts[j], self.starts[j + 1]);
-            let mut sum = self.values[first] * x_j;
-            for (&i, v) in self.rows[first + 1..end].iter().zip(&self.values[first + 1..end]) {
+            let mut entries = self.pattern.entries(j, &self.values);
+            let mut sum = entries.next().map_or(0.0, |(_, diagonal)| diagonal * x_j);
+            for (i, v) in entries {
                 out[i] -= v * x_j;
                 sum += v * x[i];
             }

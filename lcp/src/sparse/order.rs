@@ -1,10 +1,10 @@
 //! The order in which columns are eliminated.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
+use faer::sparse::FaerError;
 use faer::sparse::linalg::{amd, colamd};
-use faer::sparse::{FaerError, SymbolicSparseColMatRef};
 
-use super::Columns;
+use super::{Columns, Pattern};
 
 /// Rows and columns with more than this multiple of the root of their number of entries come last.
 const DENSE: f64 = 10.0;
@@ -54,9 +54,8 @@ pub(crate) fn elimination_order(rows: usize, columns: &Columns) -> Vec<Turn> {
 struct Core {
     columns: Vec<usize>,
     rows: Vec<usize>,
-    starts: Vec<usize>,
-    /// Numbers of rows among `rows`, sorted in every column.
-    entries: Vec<usize>,
+    /// By the numbers of the rows among `rows`.
+    pattern: Pattern,
     /// The number of the row of the largest entry of every column.
     largest: Vec<Option<usize>>,
 }
@@ -66,19 +65,19 @@ impl Core {
         let rows: Vec<usize> = (0..is_taken.len()).filter(|&i| !is_taken[i]).collect();
         let mut number = vec![0; is_taken.len()];
         rows.iter().enumerate().for_each(|(k, &i)| number[i] = k);
-        let (mut starts, mut entries) = (vec![0], Vec::new());
+        let mut pattern = Pattern { starts: vec![0], rows: Vec::new() };
         let mut largest = Vec::with_capacity(picked.len());
         for &j in &picked {
             let left = || columns.entries(j).filter(|&(i, _)| !is_taken[i]);
             let mut sorted: Vec<usize> = left().map(|(i, _)| number[i]).collect();
             sorted.sort_unstable();
             sorted.dedup();
-            entries.extend_from_slice(&sorted);
-            starts.push(entries.len());
+            pattern.rows.extend_from_slice(&sorted);
+            pattern.starts.push(pattern.rows.len());
             let best = left().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
             largest.push(best.map(|(i, _)| number[i]));
         }
-        Self { columns: picked, rows, starts, entries, largest }
+        Self { columns: picked, rows, pattern, largest }
     }
 
     fn order(&self) -> Vec<Turn> {
@@ -87,18 +86,18 @@ impl Core {
             let row = row.map(|row| self.rows[row]);
             Turn { column: self.columns[k], row }
         };
-        if n > 1 && !self.entries.is_empty() {
-            if let Some((diagonal, pattern)) = self.symmetric()
-                && let Ok(order) = minimum_degree(&pattern, n)
-            {
-                return order.into_iter().map(|k| turn(k, Some(diagonal[k]))).collect();
-            }
-            if let Ok(order) = self.column_minimum_degree() {
-                return order.into_iter().map(|k| turn(k, None)).collect();
-            }
-        }
         // A bad order costs time; none at all would cost the answer.
-        (0..n).map(|k| turn(k, None)).collect()
+        let as_they_come = || (0..n).map(|k| turn(k, None)).collect();
+        if n <= 1 || self.pattern.stored() == 0 {
+            return as_they_come();
+        }
+        if let Some((diagonal, pattern)) = self.symmetric()
+            && let Some(order) = minimum_degree(&pattern)
+        {
+            return order.into_iter().map(|k| turn(k, Some(diagonal[k]))).collect();
+        }
+        let order = self.column_minimum_degree();
+        order.map_or_else(as_they_come, |it| it.into_iter().map(|k| turn(k, None)).collect())
     }
 
     /// The row of every column that makes the pattern symmetric, and the pattern with these rows on the
@@ -124,63 +123,58 @@ impl Core {
             .collect::<Option<_>>()?;
         let mut diagonal = vec![0; n];
         column_of_row.iter().enumerate().for_each(|(row, &k)| diagonal[k] = row);
-        let mut entries = self.entries.clone();
-        for range in self.starts.windows(2) {
-            let column = &mut entries[range[0]..range[1]];
-            for row in column.iter_mut() {
-                *row = column_of_row[*row];
-            }
-            column.sort_unstable();
+        let (mut starts, mut rows) = (vec![0], Vec::with_capacity(self.pattern.stored()));
+        for k in 0..n {
+            let begin = rows.len();
+            rows.extend(self.pattern.column(k).iter().map(|&row| column_of_row[row]));
+            rows[begin..].sort_unstable();
+            starts.push(rows.len());
         }
-        let pattern = Pattern { starts: self.starts.clone(), entries };
-        (pattern.symmetry() >= SYMMETRIC).then_some((diagonal, pattern))
+        let pattern = Pattern { starts, rows };
+        (symmetry(&pattern) >= SYMMETRIC).then_some((diagonal, pattern))
     }
 
-    fn column_minimum_degree(&self) -> Result<Vec<usize>, FaerError> {
-        let (rows, n, stored) = (self.rows.len(), self.columns.len(), self.entries.len());
-        let pattern =
-            SymbolicSparseColMatRef::new_checked(rows, n, &self.starts, None, &self.entries);
+    fn column_minimum_degree(&self) -> Option<Vec<usize>> {
+        let (rows, n) = (self.rows.len(), self.columns.len());
+        let pattern = self.pattern.symbolic(rows);
         let dense = DENSE / (n as f64).sqrt();
         let control = colamd::Control { dense_row: dense, dense_col: dense, aggressive: true };
-        let (mut order, mut inverse) = (vec![0_usize; n], vec![0_usize; n]);
-        let mut memory = MemBuffer::try_new(colamd::order_scratch::<usize>(rows, n, stored))
-            .map_err(|_| FaerError::OutOfMemory)?;
-        colamd::order(&mut order, &mut inverse, pattern, control, MemStack::new(&mut memory))?;
-        Ok(order)
+        let scratch = colamd::order_scratch::<usize>(rows, n, self.pattern.stored());
+        ordered(n, scratch, |order, inverse, stack| {
+            colamd::order(order, inverse, pattern, control, stack)
+        })
     }
 }
 
-/// A square pattern with sorted columns.
-struct Pattern {
-    starts: Vec<usize>,
-    entries: Vec<usize>,
-}
-
-impl Pattern {
-    /// Share of the entries off the diagonal that have a mirrored one.
-    fn symmetry(&self) -> f64 {
-        let column = |k: usize| &self.entries[self.starts[k]..self.starts[k + 1]];
-        let (mut mirrored, mut all) = (0_usize, 0_usize);
-        for k in 0..self.starts.len() - 1 {
-            for &row in column(k).iter().filter(|&&row| row != k) {
-                all += 1;
-                mirrored += usize::from(column(row).binary_search(&k).is_ok());
-            }
+/// Share of the entries off the diagonal that have a mirrored one.
+fn symmetry(pattern: &Pattern) -> f64 {
+    let (mut mirrored, mut all) = (0_usize, 0_usize);
+    for k in 0..pattern.starts.len() - 1 {
+        for &row in pattern.column(k).iter().filter(|&&row| row != k) {
+            all += 1;
+            mirrored += usize::from(pattern.column(row).binary_search(&k).is_ok());
         }
-        if all == 0 { 1.0 } else { mirrored as f64 / all as f64 }
     }
+    if all == 0 { 1.0 } else { mirrored as f64 / all as f64 }
 }
 
-fn minimum_degree(pattern: &Pattern, n: usize) -> Result<Vec<usize>, FaerError> {
-    let stored = pattern.entries.len();
-    let pattern =
-        SymbolicSparseColMatRef::new_checked(n, n, &pattern.starts, None, &pattern.entries);
-    let (mut order, mut inverse) = (vec![0_usize; n], vec![0_usize; n]);
-    let mut memory = MemBuffer::try_new(amd::order_scratch::<usize>(n, stored))
-        .map_err(|_| FaerError::OutOfMemory)?;
-    let control = amd::Control::default();
-    amd::order(&mut order, &mut inverse, pattern, control, MemStack::new(&mut memory))?;
-    Ok(order)
+fn minimum_degree(pattern: &Pattern) -> Option<Vec<usize>> {
+    let n = pattern.starts.len() - 1;
+    ordered(n, amd::order_scratch::<usize>(n, pattern.stored()), |order, inverse, stack| {
+        amd::order(order, inverse, pattern.symbolic(n), amd::Control::default(), stack)
+    })
+}
+
+/// An order of so many columns, by what writes it and its inverse; `None` if memory does not suffice.
+fn ordered<T>(
+    n: usize,
+    scratch: StackReq,
+    write: impl FnOnce(&mut [usize], &mut [usize], &mut MemStack) -> Result<T, FaerError>,
+) -> Option<Vec<usize>> {
+    let (mut order, mut inverse) = (vec![0; n], vec![0; n]);
+    let mut memory = MemBuffer::try_new(scratch).ok()?;
+    write(&mut order, &mut inverse, MemStack::new(&mut memory)).ok()?;
+    Some(order)
 }
 
 #[cfg(test)]
