@@ -3,7 +3,6 @@
 mod balance;
 mod constants;
 mod convex;
-mod factors;
 mod homogeneous;
 mod iterate;
 mod least;
@@ -71,16 +70,10 @@ use crate::{Certificate, Contact2d, Error, Method, Observer, Solution, Status};
 /// faster than by dense methods.
 ///
 /// # References
-/// * S. Mehrotra, On the implementation of a primal-dual interior point method, SIAM Journal on
-///   Optimization 2 (1992), [doi:10.1137/0802028](https://doi.org/10.1137/0802028)
-/// * J. Gondzio, Multiple centrality corrections in a primal-dual method for linear programming,
-///   Computational Optimization and Applications 6 (1996),
-///   [doi:10.1007/BF00249643](https://doi.org/10.1007/BF00249643)
-/// * E. D. Andersen, Y. Ye, On a homogeneous algorithm for the monotone complementarity problem, Mathematical
-///   Programming 84 (1999), [doi:10.1007/s101070050027](https://doi.org/10.1007/s101070050027)
-/// * I. S. Duff, J. K. Reid, The multifrontal solution of indefinite sparse symmetric linear equations, ACM
-///   Transactions on Mathematical Software 9 (1983),
-///   [doi:10.1145/356044.356047](https://doi.org/10.1145/356044.356047)
+/// * Mehrotra, SIAM Journal on Optimization 2 (1992), [doi:10.1137/0802028](https://doi.org/10.1137/0802028)
+/// * Gondzio, Computational Optimization and Applications 6 (1996), [doi:10.1007/BF00249643](https://doi.org/10.1007/BF00249643)
+/// * Andersen, Ye, Mathematical Programming 84 (1999), [doi:10.1007/s101070050027](https://doi.org/10.1007/s101070050027)
+/// * Duff, Reid, ACM Transactions on Mathematical Software 9 (1983), [doi:10.1145/356044.356047](https://doi.org/10.1145/356044.356047)
 ///
 /// ```
 /// use faer::mat;
@@ -243,7 +236,7 @@ impl Run<'_, '_, '_> {
             };
             before = Some(step);
             defect = Defect::of(scaled, &next);
-            let lack = defect.size();
+            let lack = defect.relative(1.0, 1.0);
             let merit = step.mean_product + lack * lack;
             since = if merit < 0.9 * least { 0 } else { since + 1 };
             least = least.min(merit);

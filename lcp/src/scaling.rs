@@ -7,6 +7,8 @@
 
 use std::f64::consts::SQRT_2;
 
+use faer::sparse::SparseColMat;
+
 use crate::matrix::Column;
 
 /// Row and column factors, all powers of two, that bring the entries of a matrix, given by its
@@ -238,6 +240,18 @@ fn logarithm(v: f64) -> (f64, f64) {
     let digits = f64::from_bits(shift.to_bits() | v.to_bits() >> 12) - shift;
     let kept = if v > f64::EPSILON { 1.0 } else { 0.0 };
     (digits / (1_u64 << 40) as f64 - 1023.0, kept)
+}
+
+/// Multiplies all entries by factors of their own.
+pub(crate) fn multiply(
+    matrix: &mut SparseColMat<usize, f64>,
+    factor: impl Fn(usize, usize) -> f64,
+) {
+    let (pattern, values) = matrix.parts_mut();
+    for j in 0..pattern.ncols() {
+        let rows = pattern.row_idx_of_col_raw(j);
+        values[pattern.col_range(j)].iter_mut().zip(rows).for_each(|(v, &i)| *v *= factor(i, j));
+    }
 }
 
 /// The power of two nearest to a positive number, on a logarithmic scale, between `2^-1000` and `2^1000`: as a factor it

@@ -1,5 +1,4 @@
 //! The numbers that the interior-point method goes by, each with where it comes from.
-//! A number that is "chosen" is so by judgement: no measurement is kept.
 
 /// Residuals above which no crossover and no proof is tried. Chosen: every trial costs factorisations.
 pub(super) const TRIAL_RESIDUAL: f64 = 3e-6;

@@ -6,8 +6,7 @@ use faer::sparse::FaerError;
 use super::constants::{
     BALANCINGS, FRACTION_TO_BOUNDARY, LEAST_AIM, LOADS, PATIENCE, TRIAL_REDUCTION, TRIAL_RESIDUAL,
 };
-use super::factors::Factors;
-use super::program::Program;
+use super::program::{Factors, Program};
 use super::step::{correction, lengthened};
 use super::variables::{Variables, dot};
 use crate::Status;

@@ -27,10 +27,6 @@ impl Defect {
         Self { balance, gaps: gaps.collect() }
     }
 
-    pub(super) fn size(&self) -> f64 {
-        self.relative(1.0, 1.0)
-    }
-
     /// The largest defect in these units of force and length.
     pub(super) fn relative(&self, force: f64, length: f64) -> f64 {
         let gaps = self.gaps.iter().fold(0.0_f64, |max, (g, s)| max.max(g.abs()).max(s.abs()));
@@ -70,28 +66,20 @@ impl<'a> NewtonSystem<'a> {
     /// The step that makes good the defect and changes the products of the pairs by `targets`, to first
     /// order: `y dt + t dy = target`.
     pub(super) fn step(&self, defect: &Defect, targets: &[[f64; 3]]) -> Iterate {
-        let points = self.problem.points.iter().zip(&self.at.points).zip(&self.springs);
-        let points = points.zip(targets).zip(&defect.gaps);
-        let mut u = defect.balance.clone();
-        // Forces that do not depend on the displacements.
-        let mut fixed = Vec::with_capacity(targets.len());
-        for ((((point, at), springs), targets), gaps) in points.clone() {
-            let normal = targets[0] / at.t_n - gaps.0;
-            let along = if point.mu > 0.0 {
+        let points = self.problem.points.iter().zip(&self.at.points).zip(targets).zip(&defect.gaps);
+        let opened = points.clone().map(|(((point, at), targets), gaps)| {
+            let slip = if point.mu > 0.0 {
                 let (plus, minus) = at.strengths();
-                targets[1] / plus - targets[2] / minus - gaps.1
+                gaps.1 - (targets[1] / plus - targets[2] / minus)
             } else {
                 0.0
             };
-            let (t_n, t_t) = springs.forces(normal, along);
-            point.add_forces(t_n, t_t, &mut u);
-            fixed.push((t_n, t_t));
-        }
-        self.condensed.solve(&mut u);
-        let points = points.zip(fixed).map(|(((((point, at), springs), targets), gaps), fixed)| {
+            (gaps.0 - targets[0] / at.t_n, slip)
+        });
+        let balance = defect.balance.clone();
+        let (u, forces) = self.condensed.step(self.problem, &self.springs, balance, opened);
+        let points = points.zip(forces).map(|((((point, at), targets), gaps), (t_n, t_t))| {
             let moved = point.moved(&u);
-            let (t_n, t_t) = springs.forces(moved.0, moved.1);
-            let (t_n, t_t) = (fixed.0 - t_n, fixed.1 - t_t);
             let [normal, tangential] = point.compliance;
             let opened = [moved.0 + gaps.0 + normal * t_n, moved.1 + gaps.1 + tangential * t_t];
             at.change([t_n, t_t], opened, targets)

@@ -54,7 +54,8 @@ impl<'a> PredictorCorrector<'a> {
         let aim = mean * (left / mean).powi(3).clamp(0.0, 1.0);
         let step = system.step(defect, &targets(at, aim, Some(predictor)));
         let corrector = |step: &Iterate, trial: f64| {
-            let corrections = corrections(&at.moved(step, trial), aim.max(LEAST_AIM * mean));
+            let central = aim.max(LEAST_AIM * mean);
+            let corrections = of_pairs(&at.moved(step, trial), |t, y| correction(t, y, central));
             step.moved(&system.correction(&corrections), 1.0)
         };
         let (step, alpha) = lengthened(step, |step| at.longest(step), corrector);
@@ -98,29 +99,21 @@ fn is_central(at: &Iterate) -> bool {
 /// The right-hand sides of the complementarity equations, `tau - t y` of all pairs, less the second-order term of the
 /// predictor.
 pub(super) fn targets(at: &Iterate, tau: f64, predictor: Option<&Iterate>) -> Vec<[f64; 3]> {
-    let target = |(i, at): (usize, &Pairs)| {
-        let mut targets = [0.0; 3];
-        for (target, (t, y)) in targets.iter_mut().zip(at.pairs()) {
-            *target = tau - t * y;
-        }
-        if let Some(predictor) = predictor {
-            for (target, (dt, dy)) in targets.iter_mut().zip(predictor.points[i].pairs()) {
-                *target -= dt * dy;
-            }
-        }
-        targets
-    };
-    at.points.iter().enumerate().map(target).collect()
+    let mut targets = of_pairs(at, |t, y| tau - t * y);
+    if let Some(predictor) = predictor {
+        let second = of_pairs(predictor, |dt, dy| dt * dy);
+        let all = targets.iter_mut().flatten().zip(second.iter().flatten());
+        all.for_each(|(target, second)| *target -= second);
+    }
+    targets
 }
 
-/// The changes that bring the products of a trial point back among the central ones.
-fn corrections(trial: &Iterate, tau: f64) -> Vec<[f64; 3]> {
-    let correction = |pairs: &Pairs| {
-        let mut targets = [0.0; 3];
-        for (target, (t, y)) in targets.iter_mut().zip(pairs.pairs()) {
-            *target = correction(t, y, tau);
-        }
-        targets
+/// A number for each of the pairs of all points.
+fn of_pairs(at: &Iterate, number: impl Fn(f64, f64) -> f64) -> Vec<[f64; 3]> {
+    let of_point = |pairs: &Pairs| {
+        let mut numbers = [0.0; 3];
+        numbers.iter_mut().zip(pairs.pairs()).for_each(|(out, (t, y))| *out = number(t, y));
+        numbers
     };
-    trial.points.iter().map(correction).collect()
+    at.points.iter().map(of_point).collect()
 }

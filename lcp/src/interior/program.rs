@@ -1,10 +1,11 @@
 //! Convex programs in few free variables with many forces on them.
 
-use faer::sparse::SparseColMat;
+use faer::sparse::{FaerError, SparseColMat};
 
 use crate::matrix::add_image;
 use crate::problem::{column_of, diagonal};
-use crate::scaling::power_of_two;
+use crate::scaling::{multiply, power_of_two};
+use crate::sparse::Gram;
 use crate::vector::{SMALL, max_abs};
 
 /// `K u = f + A t`, `y = A^T u + D t + x_0`, `0 <= t _|_ y >= 0`, with a diagonal `D >= 0`.
@@ -89,13 +90,32 @@ impl Program {
     }
 }
 
-/// Multiplies all entries by factors of their own.
-fn multiply(matrix: &mut SparseColMat<usize, f64>, factor: impl Fn(usize, usize) -> f64) {
-    let (pattern, values) = matrix.parts_mut();
-    for j in 0..pattern.ncols() {
-        let range = pattern.col_range(j);
-        let rows = pattern.row_idx_of_col_raw(j);
-        values[range].iter_mut().zip(rows).for_each(|(v, &i)| *v *= factor(i, j));
+/// The matrix of the steps of a program: order, pattern and factors.
+pub(super) struct Factors {
+    pub(super) gram: Gram,
+    /// The springs in the place of the pairs that the factors are of.
+    pub(super) stiffness: Vec<f64>,
+    pub(super) factorisations: usize,
+}
+
+impl Factors {
+    pub(super) fn of(program: &Program) -> Result<Self, FaerError> {
+        let gram = Gram::new(Some(program.k.symbolic()), program.a.symbolic())?;
+        Ok(Self { gram, stiffness: Vec::new(), factorisations: 0 })
+    }
+
+    /// `None` where numbers overflow.
+    pub(super) fn factorise(
+        &mut self,
+        program: &Program,
+        stiffness: Vec<f64>,
+        spring: f64,
+    ) -> Option<()> {
+        let (k, a) = (program.k.as_ref(), program.a.as_ref());
+        self.gram.factorise(Some(k), a, &stiffness, spring).ok()?;
+        self.stiffness = stiffness;
+        self.factorisations += 1;
+        Some(())
     }
 }
 

@@ -54,20 +54,11 @@ impl InteriorPointSettings {
     /// [`Error::Setting`], [`Error::Length`] or [`Error::NotFinite`] with the name of the setting.
     pub fn validate(&self, n: usize) -> Result<(), Error> {
         check_tolerance(self.tolerance)?;
-        let is_good = |it: &f64| *it >= 0.0 && it.is_finite();
-        if let Some(&value) = self.openings.iter().find(|it| !is_good(it)) {
-            return Err(Error::Setting {
-                name: "openings",
-                value,
-                range: "not negative and finite",
-            });
-        }
-        if self.openings.is_empty() {
-            return Err(Error::Setting {
-                name: "openings",
-                value: 0.0,
-                range: "one number at least",
-            });
+        let is_bad = |it: &f64| !(*it >= 0.0 && it.is_finite());
+        let wrong = self.openings.iter().copied().find(is_bad);
+        if let Some(value) = wrong.or_else(|| self.openings.is_empty().then_some(0.0)) {
+            let range = "one number at least, each not negative and finite";
+            return Err(Error::Setting { name: "openings", value, range });
         }
         self.start.validate(n)
     }

@@ -1,8 +1,7 @@
 //! The variables of the homogeneous problem of a convex program, inside their bounds, and where they start.
 
 use super::constants::START_SHIFT;
-use super::factors::Factors;
-use super::program::Program;
+use super::program::{Factors, Program};
 use super::step::longest;
 use crate::states::PROXIMAL;
 
