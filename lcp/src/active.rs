@@ -1,6 +1,5 @@
 //! From a point to the states of its contacts and their exact equations, and the best point so far.
 
-mod constants;
 mod crossover;
 mod original;
 mod search;

@@ -1,10 +1,16 @@
 //! From a point inside to the exact one on the boundary: the state of every contact is guessed, the
 //! equations of these states are solved, and the few contacts that contradict change their state.
 
-use super::constants::{LARGE, REFINEMENTS, SMALLER};
 use crate::problem::ContactStatus;
 use crate::states::{Condensed, PROXIMAL, Point, PointRef, Scaled, Springs};
 use crate::vector::{HALF_DIGITS, SMALL, max_abs};
+
+/// Steps of refinement. Chosen: without an end they go on with what vanishes, down to the least number there is.
+const REFINEMENTS: usize = 12;
+/// Contradictions smaller than this part of the largest are left to what its exchange makes of them. Chosen.
+const LARGE: f64 = 0.01;
+/// A largest contradiction below this part of those before is progress, as a smaller number is. Chosen.
+const SMALLER: f64 = 0.1;
 
 /// How much is spent on exchanges. Every round costs a factorisation, as a step of the iteration does.
 pub(crate) struct Effort {
@@ -14,8 +20,7 @@ pub(crate) struct Effort {
     pub(crate) patience: usize,
     /// Points for one contradiction that is allowed, beyond a few.
     pub(crate) points: usize,
-    /// Whether every round starts from the given point, not from the one before: what the states leave free
-    /// stays where it was.
+    /// Whether every round starts from the given point, where what the states leave free stays.
     pub(crate) anchored: bool,
     /// The proximal term with which the equations of the states are solved. States that are a little wrong may leave a
     /// motion free, which a small one lets go anywhere.
@@ -25,9 +30,6 @@ pub(crate) struct Effort {
 impl Effort {
     /// While the iteration comes nearer, when few contacts are left to exchange.
     pub(crate) const QUICK: Self = Self { rounds: 8, patience: 2, points: 400, ..Self::THOROUGH };
-    /// From the exact point of a problem that is hardly another.
-    pub(crate) const PATIENT: Self =
-        Self { rounds: 40, patience: 10, points: 10, ..Self::THOROUGH };
     /// Where it does not come any nearer.
     pub(crate) const THOROUGH: Self =
         Self { rounds: 60, patience: 10, points: 20, anchored: false, proximal: PROXIMAL };

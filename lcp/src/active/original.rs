@@ -1,7 +1,5 @@
 //! The problems that the method treats, as contact problems, and back.
 
-use std::borrow::Cow;
-
 use crate::certify::{BoxedJudge, ContactJudge, Precision};
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
@@ -11,15 +9,19 @@ use crate::vector::ROUNDING;
 use crate::{Basis, Contact2d, ContactState, MixedLcp, Residuals, Side};
 
 /// A scaled point with its residuals.
-pub(crate) struct Judged<'a> {
-    pub(crate) u: Cow<'a, [f64]>,
-    pub(crate) forces: Cow<'a, [(f64, f64)]>,
+pub(crate) struct Judged {
+    pub(crate) u: Vec<f64>,
+    pub(crate) forces: Vec<(f64, f64)>,
     pub(crate) residuals: Residuals,
 }
 
-impl Judged<'_> {
+impl Judged {
     pub(crate) fn worst(&self) -> f64 {
         self.residuals.worst()
+    }
+
+    pub(crate) fn point(&self) -> PointRef<'_> {
+        PointRef { u: &self.u, forces: &self.forces }
     }
 }
 
@@ -44,14 +46,14 @@ pub(crate) trait Judge {
 }
 
 /// A point as it stands, with its residuals.
-pub(crate) fn judged<'a>(
+pub(crate) fn judged(
     judge: &dyn Judge,
     scaled: &Scaled,
-    at: PointRef<'a>,
+    at: PointRef<'_>,
     precision: Precision,
-) -> Judged<'a> {
+) -> Judged {
     let residuals = judge.residuals(scaled, at, precision);
-    Judged { u: at.u.into(), forces: at.forces.into(), residuals }
+    Judged { u: at.u.to_vec(), forces: at.forces.to_vec(), residuals }
 }
 
 /// The equations of states of contacts, and the judge of their solutions.
@@ -64,27 +66,28 @@ pub(crate) struct Refiner<'a> {
 impl Refiner<'_> {
     /// The point that the states of contacts lead to without rounding errors, where it is better than a given one: what is
     /// small inherits the rounding errors of what is large until it is refined by itself.
-    pub(crate) fn brought_right<'a>(
+    pub(crate) fn brought_right(
         &mut self,
-        mut best: Judged<'a>,
+        mut best: Judged,
         at: PointRef<'_>,
         contacts: &[ContactStatus],
         tolerance: f64,
-    ) -> Judged<'a> {
+    ) -> Judged {
         let Self { judge, scaled, condensed } = self;
-        let judge = *judge;
         if best.worst() <= ROUNDING {
             return best;
         }
         let enough = if best.worst() <= tolerance { ROUNDED } else { ALL_DIGITS };
         for exact in refined_states(scaled, condensed, at, contacts, enough) {
-            let mut near = rounded(judge, scaled, &exact);
+            let mut near = rounded(*judge, scaled, &exact);
             let Residuals { equation, natural, loads, .. } = near.residuals;
             if loads > ROUNDING
                 && equation.max(natural) <= tolerance
                 && judge.residuals_of(scaled, &exact).worst() <= tolerance
             {
-                near = with_rounded_loads(judge, scaled, near);
+                // Of the loads of a point that is exact but for its rounding that is no part.
+                near.residuals.loads =
+                    judge.residuals(scaled, near.point(), Precision::Rounded).loads;
             }
             best = if near.worst() < best.worst() { near } else { best };
             if best.worst() <= tolerance {
@@ -99,38 +102,24 @@ impl Refiner<'_> {
         &mut self,
         at: PointRef<'_>,
         contacts: &[ContactStatus],
-    ) -> Option<Judged<'static>> {
+    ) -> Option<Judged> {
         let Self { judge, scaled, condensed } = self;
-        let judge = *judge;
-        let mut best: Option<Judged<'static>> = None;
-        for exact in refined_states(scaled, condensed, at, contacts, ROUNDED) {
-            let near = rounded(judge, scaled, &exact);
-            if best.as_ref().is_none_or(|best| near.worst() < best.worst()) {
-                best = Some(near);
-            }
-            if best.as_ref().is_some_and(|best| best.worst() <= ROUNDING) {
-                break;
-            }
+        let exact = refined_states(scaled, condensed, at, contacts, ROUNDED);
+        let mut points = exact.map(|exact| rounded(*judge, scaled, &exact));
+        let first = points.next()?;
+        if first.worst() <= ROUNDING {
+            return Some(first);
         }
-        best
+        std::iter::once(first).chain(points).min_by(|a, b| a.worst().total_cmp(&b.worst()))
     }
 }
 
-fn rounded(judge: &dyn Judge, scaled: &Scaled, (u, forces): &Exact) -> Judged<'static> {
+fn rounded(judge: &dyn Judge, scaled: &Scaled, (u, forces): &Exact) -> Judged {
     let u: Vec<f64> = u.iter().map(|u| u.rounded()).collect();
     let mut u = scaled.of_displacements(&u);
     let mut forces: Vec<_> = forces.iter().map(|[n, t]| (n.rounded(), t.rounded())).collect();
     scaled.settle(&mut u, &mut forces);
-    let at = PointRef { u: &u, forces: &forces };
-    let residuals = judge.residuals(scaled, at, Precision::Exact);
-    Judged { u: u.into(), forces: forces.into(), residuals }
-}
-
-/// A point that is exact but for its rounding, of whose loads that is no part.
-fn with_rounded_loads<'a>(judge: &dyn Judge, scaled: &Scaled, mut point: Judged<'a>) -> Judged<'a> {
-    let at = PointRef { u: &point.u, forces: &point.forces };
-    point.residuals.loads = judge.residuals(scaled, at, Precision::Rounded).loads;
-    point
+    judged(judge, scaled, PointRef { u: &u, forces: &forces }, Precision::Exact)
 }
 
 /// The state of a contact problem that the given one leads to by the states of its contacts, where it is better.
@@ -147,9 +136,9 @@ pub(crate) fn state_brought_right(
     let given = judged(judge.as_ref(), &scaled, at, Precision::Exact);
     let condensed = &mut planned(&scaled).ok()?;
     let mut refiner = Refiner { judge: judge.as_ref(), scaled: &scaled, condensed };
-    let Judged { u, forces, residuals } = refiner.brought_right(given, at, &contacts, tolerance);
-    let Answer { contact, .. } = judge.answer(&scaled, PointRef { u: &u, forces: &forces });
-    contact.map(|state| (state, residuals))
+    let right = refiner.brought_right(given, at, &contacts, tolerance);
+    let Answer { contact, .. } = judge.answer(&scaled, right.point());
+    contact.map(|state| (state, right.residuals))
 }
 
 /// A problem as it was given.

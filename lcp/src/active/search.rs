@@ -8,7 +8,7 @@ use crate::certify::Precision;
 use crate::problem::ContactStatus;
 use crate::solve::Monitor;
 use crate::states::{Condensed, PointRef, Scaled, nearest};
-use crate::{Error, Method, Residuals, Solution, Status, WarmStart};
+use crate::{Error, Method, Solution, Status, WarmStart};
 
 /// A problem with the best point so far.
 pub(crate) struct Search<'a> {
@@ -22,9 +22,7 @@ pub(crate) struct Search<'a> {
 
 /// The best point so far.
 struct Best {
-    u: Vec<f64>,
-    forces: Vec<(f64, f64)>,
-    residuals: Residuals,
+    point: Judged,
     /// Its states if it is exact.
     exact: Option<Vec<ContactStatus>>,
 }
@@ -116,15 +114,15 @@ impl<'a> Search<'a> {
     /// The best point without the rounding errors that forces have of large displacements, if that is a solution too.
     pub(crate) fn without_rounding(&mut self) {
         let Self { judge, tolerance, scaled, condensed, best, .. } = self;
-        if let Some(Best { u, forces, residuals, exact }) = best
-            && residuals.worst() <= *tolerance
+        if let Some(Best { point, exact }) = best
+            && point.worst() <= *tolerance
         {
-            let contacts = exact.clone().unwrap_or_else(|| nearest(scaled, u, forces));
+            let contacts =
+                exact.clone().unwrap_or_else(|| nearest(scaled, &point.u, &point.forces));
             let mut refiner = Refiner { judge: judge.as_ref(), scaled, condensed };
-            let right = refiner.unrounded(PointRef { u, forces }, &contacts);
+            let right = refiner.unrounded(point.point(), &contacts);
             if let Some(right) = right.filter(|right| right.worst() <= *tolerance) {
-                let right = (right.u.into_owned(), right.forces.into_owned(), right.residuals);
-                (*u, *forces, *residuals) = right;
+                *point = right;
             }
         }
     }
@@ -132,9 +130,10 @@ impl<'a> Search<'a> {
     /// The worst residual of a point, which is kept if none was better.
     pub(crate) fn judge(&mut self, u: &[f64], forces: &[(f64, f64)]) -> f64 {
         let Self { judge, tolerance, scaled, best, .. } = self;
-        let (u, forces) = scaled.settled(u, forces);
-        let judged =
-            judged(judge.as_ref(), scaled, PointRef { u: &u, forces: &forces }, *tolerance);
+        let (mut u, mut forces) = (u.to_vec(), forces.to_vec());
+        scaled.settle(&mut u, &mut forces);
+        let at = PointRef { u: &u, forces: &forces };
+        let judged = judged(judge.as_ref(), scaled, at, *tolerance);
         let worst = judged.worst();
         keep_better(best, judged, None, *tolerance);
         worst
@@ -142,7 +141,7 @@ impl<'a> Search<'a> {
 
     /// The worst residual of the best point.
     pub(crate) fn residual(&self) -> f64 {
-        self.best.as_ref().map_or(f64::INFINITY, |best| best.residuals.worst())
+        self.best.as_ref().map_or(f64::INFINITY, |best| best.point.worst())
     }
 
     /// The best point, with this status unless it is a solution.
@@ -156,18 +155,20 @@ impl<'a> Search<'a> {
     /// The same without its cost, and the linear system.
     pub(crate) fn ended(self, otherwise: Status) -> (Solution, Condensed) {
         let Self { judge, tolerance, scaled, condensed, best, .. } = self;
-        let Some(Best { u, forces, mut residuals, exact }) = best else {
+        let Some(Best { point: best, exact }) = best else {
             unreachable!("every solve judges a point");
         };
-        let at = PointRef { u: &u, forces: &forces };
-        if residuals.worst() > tolerance {
+        let residuals = if best.worst() > tolerance {
             // On the way rows that matter to no load counted too.
-            residuals = judge.residuals(&scaled, at, Precision::Exact);
-        }
-        let Answer { t, y, contact } = judge.answer(&scaled, at);
+            judge.residuals(&scaled, best.point(), Precision::Exact)
+        } else {
+            best.residuals
+        };
+        let Answer { t, y, contact } = judge.answer(&scaled, best.point());
         let basis = exact.map(|contacts| {
-            let points = scaled.points.iter().zip(&forces);
-            let slips: Vec<f64> = points.map(|(point, (_, t_t))| point.slip(&u, *t_t)).collect();
+            let points = scaled.points.iter().zip(&best.forces);
+            let slips = points.map(|(point, (_, t_t))| point.slip(&best.u, *t_t));
+            let slips: Vec<f64> = slips.collect();
             self.problem.basis(&contacts, &y, &slips)
         });
         // Steps may end with a point that is solved and another that the iteration gave up.
@@ -185,7 +186,7 @@ pub(crate) fn unplanned(method: Method, error: FaerError) -> Error {
 }
 
 /// Quickly, and with all digits where the point may be a solution.
-fn judged<'a>(judge: &dyn Judge, scaled: &Scaled, at: PointRef<'a>, tolerance: f64) -> Judged<'a> {
+fn judged(judge: &dyn Judge, scaled: &Scaled, at: PointRef<'_>, tolerance: f64) -> Judged {
     let quick = judged_by(judge, scaled, at, Precision::Quick);
     // What is left of the loads is the same whatever rows matter.
     if quick.residuals.loads > tolerance {
@@ -197,17 +198,16 @@ fn judged<'a>(judge: &dyn Judge, scaled: &Scaled, at: PointRef<'a>, tolerance: f
 /// An exact solution is better than a point inside, whose residuals may be smaller.
 fn keep_better(
     best: &mut Option<Best>,
-    Judged { u, forces, residuals }: Judged<'_>,
+    point: Judged,
     exact: Option<&[ContactStatus]>,
     tolerance: f64,
 ) {
     let is_better = best.as_ref().is_none_or(|other| match (exact, &other.exact) {
         (Some(_), None) => true,
         (None, Some(_)) => false,
-        _ => residuals.is_better_than(&other.residuals, tolerance),
+        _ => point.residuals.is_better_than(&other.point.residuals, tolerance),
     });
     if is_better {
-        let (u, forces) = (u.into_owned(), forces.into_owned());
-        *best = Some(Best { u, forces, residuals, exact: exact.map(<[_]>::to_vec) });
+        *best = Some(Best { point, exact: exact.map(<[_]>::to_vec) });
     }
 }

@@ -4,7 +4,7 @@ use super::target::{Course, Data, Rest, Taken, Target};
 use super::{Account, Evolution};
 use crate::parts::Parts;
 use crate::problem::column_of;
-use crate::vector::{ROUNDING, max_abs};
+use crate::vector::{HALF_DIGITS, ROUNDING, max_abs};
 use crate::{Contact2d, Error, Status};
 
 /// How steps of a [`Evolution`](crate::Evolution) have ended.
@@ -40,9 +40,6 @@ impl Ending {
     }
 }
 
-/// No part of a way is shorter, and no step by this part of the first. Chosen: with twenty halvings in sequence something
-/// else is wrong.
-const LEAST_PART: f64 = 1e-6;
 /// A velocity has settled if it changes by a smaller part in a step of twice the length; what it strains resists it no
 /// more if that would take a smaller part of the work of the loads before the bodies are out of reach; gaps that it
 /// closes by a smaller part of what moves do not close. Chosen: far below what the limits of a structure depend on.
@@ -76,7 +73,8 @@ impl Evolution {
             if self.is_beyond(&self.state.u) {
                 return Ok(Ending::Left);
             }
-            if part < LEAST_PART {
+            // With so many halvings in sequence something else is wrong.
+            if part < HALF_DIGITS {
                 return Ok(Ending::Open(Status::Stalled));
             }
         }
@@ -105,7 +103,7 @@ impl Evolution {
     ) -> Result<Ending, Error> {
         let data = &Data::of(problem);
         let (mut h, mut growth) = (first, 2.0);
-        while h >= LEAST_PART * first {
+        while h >= HALF_DIGITS * first {
             if let Some(limit) = self.stopped(course) {
                 return Ok(Ending::Open(limit));
             }

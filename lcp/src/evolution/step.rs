@@ -45,7 +45,7 @@ impl Evolution {
             Rest::Never => false,
             Rest::ByStates => self.rests(at_rest, &end, &Effort::QUICK, course)?,
             Rest::ByPath => {
-                self.rests(at_rest, &end, &Effort::PATIENT, course)?
+                self.rests(at_rest, &end, &Effort::THOROUGH, course)?
                     || matches!(self.taken(at_rest, Rest::Never, course)?, Taken::Yes(_))
             }
         };

@@ -1,14 +1,12 @@
 //! The contact problem in units of its own.
 
-use std::borrow::Cow;
-
 use faer::sparse::SparseColMat;
 
 use super::points::{Point, Points};
 use crate::matrix::add_image;
 use crate::parts::Parts;
 use crate::problem::{column_factors, column_of, diagonal, median};
-use crate::scaling::power_of_two;
+use crate::scaling::{multiply, power_of_two};
 use crate::sparse::Columns;
 use crate::vector::max_abs;
 use crate::{Contact2d, ContactState, MixedLcp};
@@ -28,9 +26,6 @@ pub(crate) struct Scaled {
     idle: Option<(Vec<bool>, Vec<bool>)>,
 }
 
-/// Displacements and forces, copied where they were changed.
-type Settled<'a> = (Cow<'a, [f64]>, Cow<'a, [(f64, f64)]>);
-
 impl Scaled {
     pub(crate) fn of_contact(problem: &Contact2d) -> Self {
         let n = problem.displacements();
@@ -49,7 +44,8 @@ impl Scaled {
             None => (if load > 0.0 { load } else { 1.0 }, if gap > 0.0 { gap } else { 1.0 }),
         };
         let (force, length) = (power_of_two(force), power_of_two(length));
-        let k = congruent(problem.stiffness().clone(), &column, length / force);
+        let mut k = problem.stiffness().clone();
+        multiply(&mut k, |i, j| column[i] * column[j] * (length / force));
         let f: Vec<f64> = problem.loads().iter().zip(&column).map(|(f, d)| f * d / force).collect();
         let lengths = |v: &[f64]| v.iter().map(|v| v / length).collect();
         let (x_0, s_0) = (lengths(problem.initial_gaps()), lengths(problem.initial_slips()));
@@ -78,7 +74,7 @@ impl Scaled {
     /// A mixed problem as one of contact without friction: stiffness `M`, loads `-q`, and a contact for
     /// every variable that is not free, whose gap it is.
     pub(crate) fn of_mixed(problem: &MixedLcp) -> Self {
-        let m = problem.m().clone().into_sparse();
+        let mut m = problem.m().clone().into_sparse();
         let n = problem.order();
         let diagonal = diagonal(&m);
         let mut largest: Vec<f64> = diagonal.iter().map(|v| v.abs()).collect();
@@ -97,7 +93,7 @@ impl Scaled {
         let load =
             problem.q().iter().zip(&column).fold(0.0_f64, |max, (q, d)| max.max((q * d).abs()));
         let force = if load > 0.0 { power_of_two(load) } else { 1.0 };
-        let k = congruent(m, &column, 1.0 / stiffness);
+        multiply(&mut m, |i, j| column[i] * column[j] / stiffness);
         let f: Vec<f64> = problem.q().iter().zip(&column).map(|(q, d)| -q * d / force).collect();
         let bounded: Vec<usize> = (0..n).filter(|&j| !problem.free()[j]).collect();
         let zero = || vec![0.0; bounded.len()];
@@ -106,10 +102,10 @@ impl Scaled {
             points.push(j, [1.0, 0.0]);
             points.close();
         }
-        let moves_nothing = |j: usize| column_of(&k, j).all(|(_, v)| v == 0.0);
+        let moves_nothing = |j: usize| column_of(&m, j).all(|(_, v)| v == 0.0);
         let moves_nothing: Vec<bool> = (0..n).map(moves_nothing).collect();
-        let idle = idle(&k, &f, &points, &moves_nothing);
-        Self { k, f, points, column, force, length: force / stiffness, idle }
+        let idle = idle(&m, &f, &points, &moves_nothing);
+        Self { k: m, f, points, column, force, length: force / stiffness, idle }
     }
 
     /// The unit of contact forces.
@@ -152,15 +148,6 @@ impl Scaled {
         let forces =
             state.t_n.iter().zip(&state.t_t).map(|(n, t)| (n / self.force, t / self.force));
         (self.of_displacements(&state.u), forces.collect())
-    }
-
-    /// The same displacements and forces, with zeros where nothing moves and nothing is moved.
-    pub(crate) fn settled<'a>(&self, u: &'a [f64], forces: &'a [(f64, f64)]) -> Settled<'a> {
-        let (mut u, mut forces) = (Cow::from(u), Cow::from(forces));
-        if self.idle.is_some() {
-            self.settle(u.to_mut(), forces.to_mut());
-        }
-        (u, forces)
     }
 
     /// Sets to zero what moves nothing and is moved by nothing.
@@ -261,20 +248,4 @@ fn for_each_in_either(
         let entries = [first.next_if(is_next), second.next_if(is_next)];
         visit(j, entries.map(|entry| entry.map_or(0.0, |(_, v)| v)));
     }
-}
-
-/// `factor D K D`.
-fn congruent(
-    mut k: SparseColMat<usize, f64>,
-    diagonal: &[f64],
-    factor: f64,
-) -> SparseColMat<usize, f64> {
-    let (starts, rows) = (k.col_ptr().to_vec(), k.row_idx().to_vec());
-    let values = k.val_mut();
-    for (j, d) in diagonal.iter().enumerate() {
-        for e in starts[j]..starts[j + 1] {
-            values[e] *= diagonal[rows[e]] * d * factor;
-        }
-    }
-    k
 }
