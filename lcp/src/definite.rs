@@ -1,12 +1,12 @@
 //! Whether a symmetric matrix is positive semidefinite.
 
+use faer::Side;
 use faer::sparse::SparseColMat;
 use faer::sparse::linalg::LltError;
-use faer::{Mat, Side};
 
 use crate::Matrix;
-use crate::matrix::column_of;
-use crate::vector::HALF_DIGITS;
+use crate::matrix::{column_of, diagonal};
+use crate::vector::{HALF_DIGITS, max_abs};
 
 /// Eigenvalues down to minus this, of the matrix with a diagonal of ones, are taken for zero. Chosen.
 const ROUNDING: f64 = 1e-10;
@@ -14,14 +14,12 @@ const ROUNDING: f64 = 1e-10;
 /// it that takes no time.
 const DENSE: usize = 300;
 
-/// What is in the way of a symmetric matrix being positive semidefinite, if anything is.
-///
-/// Why a matrix is not positive semidefinite; `None` if it is. A Cholesky factorisation tells, of the matrix scaled to a diagonal
+/// Why a symmetric matrix is not positive semidefinite; `None` if it is. A Cholesky factorisation tells, of the matrix scaled to a diagonal
 /// of ones, so that units do not matter, plus a small multiple of the identity: that of a semidefinite matrix goes through,
 /// whatever its kernel; that of a matrix with an eigenvalue below `-1e-10` does not.
 pub(crate) fn indefiniteness(what: &str, matrix: &SparseColMat<usize, f64>) -> Option<String> {
     let n = matrix.ncols();
-    let diagonal: Vec<f64> = (0..n).map(|i| *matrix.get(i, i).unwrap_or(&0.0)).collect();
+    let diagonal = diagonal(matrix);
     if let Some(i) = diagonal.iter().position(|d| *d < 0.0) {
         return Some(format!(
             "{what} is not positive semidefinite: {what}[{i}, {i}] is {}",
@@ -49,21 +47,19 @@ pub(crate) fn indefiniteness(what: &str, matrix: &SparseColMat<usize, f64>) -> O
 
 /// Whether a symmetric positive semidefinite matrix is safely nonsingular.
 pub(crate) fn is_definite(matrix: &SparseColMat<usize, f64>) -> bool {
-    let n = matrix.ncols();
-    let diagonal: Vec<f64> = (0..n).map(|i| *matrix.get(i, i).unwrap_or(&0.0)).collect();
+    let diagonal = diagonal(matrix);
     diagonal.iter().all(|d| *d > 0.0)
         && unit_diagonal(matrix, &diagonal, -HALF_DIGITS).sp_cholesky(Side::Lower).is_ok()
 }
 
-/// The matrix with rows and columns divided by the roots of its diagonal, and `shift` on the diagonal.
-/// The matrix with a diagonal of ones. Entries at the rounding level of the whole diagonal give no unit of their row.
+/// The matrix with rows and columns divided by the roots of its diagonal, plus `shift` on the diagonal. Entries at the rounding level of the whole diagonal give no unit of their row.
 fn unit_diagonal(
     matrix: &SparseColMat<usize, f64>,
     diagonal: &[f64],
     shift: f64,
 ) -> SparseColMat<usize, f64> {
     let n = matrix.ncols();
-    let largest = diagonal.iter().fold(0.0_f64, |max, d| max.max(*d));
+    let largest = max_abs(diagonal);
     let floor = if largest > 0.0 { 4.0 * f64::EPSILON * largest } else { 1.0 };
     let unit: Vec<f64> = diagonal.iter().map(|d| d.max(floor).sqrt()).collect();
     let entries = (0..n).flat_map(|j| {
@@ -74,7 +70,6 @@ fn unit_diagonal(
 }
 
 fn least_eigenvalue(matrix: &SparseColMat<usize, f64>) -> f64 {
-    let dense: Mat<f64> = matrix.to_dense();
-    let values = dense.self_adjoint_eigenvalues(Side::Lower).unwrap_or_default();
+    let values = matrix.to_dense().self_adjoint_eigenvalues(Side::Lower).unwrap_or_default();
     values.into_iter().fold(f64::INFINITY, f64::min)
 }

@@ -7,7 +7,7 @@ use std::ops::Index;
 use faer::Mat;
 use faer::sparse::{SparseColMat, Triplet};
 
-pub(crate) use column::{Column, add_image, column_of};
+pub(crate) use column::{Column, add_image, column_of, diagonal};
 
 use crate::Error;
 

@@ -59,13 +59,10 @@ use crate::{Error, Info, Method, Observer, Residuals, Solution, Status, WarmStar
 /// further digit costs the same number of sweeps.
 ///
 /// # References
-/// * C. W. Cryer, The solution of a quadratic programming problem using systematic overrelaxation, SIAM
-///   Journal on Control 9 (1971), [doi:10.1137/0309028](https://doi.org/10.1137/0309028)
-/// * Z.-Q. Luo, P. Tseng, On the convergence of a matrix splitting algorithm for the symmetric monotone
-///   linear complementarity problem, SIAM Journal on Control and Optimization 29 (1991)
-/// * M. Jean, The non-smooth contact dynamics method, Computer Methods in Applied Mechanics and
-///   Engineering 177 (1999), [doi:10.1016/S0045-7825(98)00383-1](https://doi.org/10.1016/S0045-7825(98)00383-1)
-/// * R. W. Cottle, J.-S. Pang, R. E. Stone, The Linear Complementarity Problem, 1992, chapter 5
+/// * Cryer, SIAM Journal on Control 9 (1971), [doi:10.1137/0309028](https://doi.org/10.1137/0309028)
+/// * Luo, Tseng, SIAM Journal on Control and Optimization 29 (1991)
+/// * Jean, Computer Methods in Applied Mechanics and Engineering 177 (1999), [doi:10.1016/S0045-7825(98)00383-1](https://doi.org/10.1016/S0045-7825(98)00383-1)
+/// * Cottle, Pang, Stone, The Linear Complementarity Problem, 1992, chapter 5
 ///
 /// ```
 /// use lcp::{ProjectedGaussSeidel, Solver};

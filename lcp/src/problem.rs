@@ -20,9 +20,9 @@ pub use contact::{
 };
 #[cfg(feature = "clarabel")]
 pub(crate) use contact::{check_epsilon, ratio};
-pub(crate) use contact::{column_factors, diagonal, median};
+pub(crate) use contact::{column_factors, median};
 
-pub(crate) use crate::matrix::column_of;
+pub(crate) use crate::matrix::{column_of, diagonal};
 #[cfg(feature = "serde")]
 pub use data::Stored;
 pub use friction::{ContactForces, Friction2d};

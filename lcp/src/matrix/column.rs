@@ -73,6 +73,10 @@ pub(crate) fn column_of(
     pattern.row_idx()[range.clone()].iter().copied().zip(matrix.val()[range].iter().copied())
 }
 
+pub(crate) fn diagonal(matrix: &SparseColMat<usize, f64>) -> Vec<f64> {
+    (0..matrix.ncols()).map(|j| matrix.get(j, j).copied().unwrap_or(0.0)).collect()
+}
+
 /// `out += factor * matrix * x`.
 pub(crate) fn add_image(
     matrix: &SparseColMat<usize, f64>,

@@ -11,7 +11,7 @@ pub use bedding::Bedding;
 pub(crate) use bedding::{check_epsilon, ratio};
 pub use builder::{Contact2dBuilder, ContactPoint};
 pub use status::ContactStatus;
-pub(crate) use units::{column_factors, diagonal, median};
+pub(crate) use units::{column_factors, median};
 
 use faer::sparse::SparseColMat;
 

@@ -1,5 +1,4 @@
 //! The numbers that quadratic programs go by, each with where it comes from.
-//! A number that is "chosen" is so by judgement: no measurement is kept.
 
 /// Tolerance of an interior point, whatever that of the answer. Theory: where both variables of a pair vanish it is
 /// good to the root of this, and they must not be taken for some that do not.

@@ -11,6 +11,7 @@ use clarabel::solver::{
 
 use super::constants::{INTERIOR, WORSE};
 use super::form::{Bounds, Form, Point};
+use crate::Matrix;
 use crate::problem::column_of;
 use crate::vector::{HALF_DIGITS, max_abs};
 
@@ -56,24 +57,11 @@ pub(super) struct Interior {
     cones: Vec<usize>,
 }
 
-/// A matrix in the making, by entries.
-#[derive(Default)]
-struct Entries {
-    rows: Vec<usize>,
-    cols: Vec<usize>,
-    values: Vec<f64>,
-}
-
-impl Entries {
-    fn push(&mut self, i: usize, j: usize, v: f64) {
-        self.rows.push(i);
-        self.cols.push(j);
-        self.values.push(v);
-    }
-
-    fn finish(self, rows: usize, cols: usize) -> CscMatrix<f64> {
-        CscMatrix::new_from_triplets(rows, cols, self.rows, self.cols, self.values)
-    }
+/// A matrix of Clarabel.
+fn csc(rows: usize, cols: usize, entries: Vec<(usize, usize, f64)>) -> CscMatrix<f64> {
+    let matrix = Matrix::from_entries(rows, cols, entries.into_iter()).into_sparse();
+    let (starts, rows_of) = (matrix.col_ptr().to_vec(), matrix.row_idx().to_vec());
+    CscMatrix::new(rows, cols, starts, rows_of, matrix.val().to_vec())
 }
 
 impl Interior {
@@ -93,32 +81,32 @@ impl Interior {
         free.iter().chain(&bounded).enumerate().for_each(|(k, &i)| row[i] = k);
         let columns = n + curved.len() + cones.len();
 
-        let (mut p, mut a) = (Entries::default(), Entries::default());
+        let (mut p, mut a) = (Vec::new(), Vec::new());
         let mut linear = form.linear.clone();
         for j in 0..n {
-            column_of(&form.p, j).filter(|(i, _)| *i <= j).for_each(|(i, v)| p.push(i, j, v));
-            column_of(&form.d, j).for_each(|(i, v)| a.push(row[i], j, -v));
+            column_of(&form.p, j).filter(|(i, _)| *i <= j).for_each(|(i, v)| p.push((i, j, v)));
+            column_of(&form.d, j).for_each(|(i, v)| a.push((row[i], j, -v)));
         }
         for (k, &j) in curved.iter().enumerate() {
             for (i, v) in column_of(&form.s, j) {
                 if let Ok(l) = curved.binary_search(&i)
                     && l <= k
                 {
-                    p.push(n + l, n + k, v);
+                    p.push((n + l, n + k, v));
                 }
-                a.push(row[i], n + k, -v);
+                a.push((row[i], n + k, -v));
             }
         }
         let first = n + curved.len();
         for (k, &i) in cones.iter().enumerate() {
-            a.push(row[i], first + k, -1.0);
-            a.push(m + k, first + k, -1.0);
+            a.push((row[i], first + k, -1.0));
+            a.push((m + k, first + k, -1.0));
         }
         linear.resize(columns, 0.0);
         let mut b = vec![0.0; m + cones.len()];
         form.offset.iter().zip(&row).for_each(|(v, &row)| b[row] = *v);
 
-        let (p, a) = (p.finish(columns, columns), a.finish(b.len(), columns));
+        let (p, a) = (csc(columns, columns, p), csc(b.len(), columns, a));
         let cone = [ZeroConeT(free.len()), NonnegativeConeT(bounded.len() + cones.len())];
         let mut solver = DefaultSolver::new(&p, &linear, &a, &b, &cone, settings.clone()).ok()?;
         solver.set_termination_callback(is_past_best());

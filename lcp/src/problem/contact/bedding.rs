@@ -1,7 +1,7 @@
 //! Springs on all displacements of a contact problem.
 
-use super::{Contact2d, diagonal};
-use crate::matrix::column_of;
+use super::Contact2d;
+use crate::matrix::{column_of, diagonal};
 use crate::vector::max_abs;
 use crate::{Error, Matrix};
 

@@ -1,9 +1,7 @@
 //! Units of the displacements of a contact problem.
 
-use faer::sparse::SparseColMat;
-
 use super::Contact2d;
-use crate::matrix::column_of;
+use crate::matrix::{column_of, diagonal};
 use crate::scaling::power_of_two;
 
 /// Factors that bring the largest coefficient of every displacement in a gap or a slip near one; those of
@@ -46,10 +44,6 @@ impl Contact2d {
         let both = self.compliance[i].into_iter().zip(carries);
         both.filter(|(a, carries)| *carries && *a > 0.0).map(|(a, _)| (1.0 / a).min(f64::MAX))
     }
-}
-
-pub(crate) fn diagonal(k: &SparseColMat<usize, f64>) -> Vec<f64> {
-    (0..k.ncols()).map(|j| k.get(j, j).copied().unwrap_or(0.0)).collect()
 }
 
 /// The middle one by size, if there is any.
