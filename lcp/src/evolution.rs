@@ -59,10 +59,8 @@ use target::{Course, Data, Rest, Taken, Target, close};
 /// need not be unique: with friction, the way matters, and so may the drag.
 ///
 /// # References
-/// * M. Jean, The non-smooth contact dynamics method, Computer Methods in Applied Mechanics and Engineering 177 (1999),
-///   [doi:10.1016/S0045-7825(98)00383-1](https://doi.org/10.1016/S0045-7825(98)00383-1)
-/// * M. Anitescu, Optimization-based simulation of nonsmooth rigid multibody dynamics, Mathematical Programming 105
-///   (2006), [doi:10.1007/s10107-005-0590-7](https://doi.org/10.1007/s10107-005-0590-7)
+/// * Jean, Computer Methods in Applied Mechanics and Engineering 177 (1999), [doi:10.1016/S0045-7825(98)00383-1](https://doi.org/10.1016/S0045-7825(98)00383-1)
+/// * Anitescu, Mathematical Programming 105 (2006), [doi:10.1007/s10107-005-0590-7](https://doi.org/10.1007/s10107-005-0590-7)
 ///
 /// ```
 /// use lcp::{Contact2d, ContactPoint, Evolution, EvolutionSettings};

@@ -1,6 +1,5 @@
 //! A primal-dual active set method, which is a semismooth Newton method, with a safeguard.
 
-mod constants;
 mod exchange;
 mod factors;
 mod system;

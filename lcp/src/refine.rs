@@ -44,7 +44,7 @@ impl Contact2d {
     /// ```
     ///
     /// where `g` and `s` contain what the forces press compliant contacts together, with factors in `f64`, and refines
-    /// displacements and forces with residuals in [`Extended`] (Björck 1990), starting from the given state. If the
+    /// displacements and forces with residuals in [`Extended`] (Björck, in Cox and Hammarling, Reliable Numerical Computation, 1990), starting from the given state. If the
     /// inequalities hold too, which [`Refined::margin`] shows, this is a solution of the problem, and its equations hold to
     /// [`Refined::residual`].
     ///
@@ -56,10 +56,6 @@ impl Contact2d {
     /// # Errors
     /// [`Error::Length`] when the lengths are not those of the problem, [`Error::NotFinite`] for a state with
     /// NaN or infinities, [`Error::NotTreated`] when the factors do not fit into memory.
-    ///
-    /// # References
-    /// * Å. Björck, Iterative refinement and reliable computing, in: M. G. Cox, S. Hammarling (eds.), Reliable
-    ///   Numerical Computation (1990)
     ///
     /// ```
     /// use faer::mat;

@@ -2,7 +2,9 @@
 
 use std::collections::HashSet;
 
-use super::constants::{PATIENCE, REDUCED_PATIENCE};
+/// Steps without fewer negative variables than ever before, after which fewer pairs are exchanged; half of it once fewer than
+/// all are. Chosen.
+const PATIENCE: usize = 10;
 
 /// The next exchange of negative variables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,7 +52,7 @@ impl Exchanges {
         if is_new && !is_out_of_patience {
             return Next::Exchange(self.most.min(negative));
         }
-        self.set((self.most.min(negative) / 2).max(1), REDUCED_PATIENCE, hash);
+        self.set((self.most.min(negative) / 2).max(1), PATIENCE / 2, hash);
         Next::Fewer(self.most)
     }
 

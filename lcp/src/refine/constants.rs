@@ -1,5 +1,4 @@
 //! The numbers that the refinement of states goes by, each with where it comes from.
-//! A number that is "chosen" is so by judgement: no measurement is kept.
 
 use crate::vector::HALF_DIGITS;
 
@@ -13,8 +12,6 @@ pub(super) struct Weights {
     pub(super) proximal: f64,
 }
 
-/// Forces below this part of the largest are none to a body without loads. Chosen: the tolerance of answers.
-pub(super) const IDLE: f64 = 1e-10;
 /// Stiffness of closed contacts and springs on all displacements, one after the other. Theory: the first converge
 /// faster; where bodies move freely, rounding errors move them far against the first, and stiff contacts make forces
 /// of the rounding errors of that.

@@ -1,13 +1,12 @@
 //! Residuals of the equations.
 
-use super::constants::IDLE;
 use super::point::ExtendedPoint;
 use crate::certify::ratio;
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
 use crate::problem::column_of;
 use crate::states::{Point, Scaled};
-use crate::vector::{WEAK, max_abs};
+use crate::vector::{HALF_DIGITS, WEAK, max_abs};
 
 /// Residuals of the equations of the states.
 pub(super) struct EquationResidual {
@@ -136,7 +135,7 @@ pub(super) fn without_idle(
     statuses: &[ContactStatus],
     at: &ExtendedPoint,
 ) -> Vec<ContactStatus> {
-    let none = Extended::from(IDLE * at.sizes(scaled).0);
+    let none = Extended::from(HALF_DIGITS * at.sizes(scaled).0);
     let is_pressed = |i: usize| at.forces[i].iter().any(|t| t.abs() > none);
     let idle = unreached(scaled, |i| statuses[i] != ContactStatus::Open && is_pressed(i));
     let points = scaled.points.iter().zip(statuses);
