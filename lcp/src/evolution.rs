@@ -30,18 +30,12 @@ use target::{Course, Data, Rest, Taken, Target, close};
 /// ```
 ///
 /// with the loads, gaps and supports of its end, and with Coulomb's law exactly on the increment: slips are measured from
-/// where the step before has ended. What is solved for is the increment of the displacements, which begins with closed
-/// contacts that neither overlap nor gape: contacts may be redundant, as three corners that meet are, and errors of earlier
-/// steps would contradict each other. Gaps and slips go on from where they are: only the changes of the initial ones of a
+/// where the step before has ended. Gaps and slips go on from where they are: only the changes of the initial ones of a
 /// problem count, and its matrices `K`, `C_n` and `C_t` must be those of the step before. Without
-/// [`inertia`](EvolutionSettings::inertia) the terms with `M/h^2` are left out, and bodies only feel the drag `c M v`: then a
-/// step depends on `h` by `c/h` alone.
+/// [`inertia`](EvolutionSettings::inertia) the terms with `M/h^2` are left out, and bodies only feel the drag `c M v`.
 ///
-/// # How a step is solved
-/// 1. By the states of the contacts in the step before, if they still hold: two or three factorisations.
-/// 2. By the exact path of interior points, from a start of its own.
-/// 3. By shorter steps, which have more drag and less change of the data: half as long on the way to other data, a quarter
-///    under those that stay. From the second one that is solved on, steps become longer again.
+/// A step is solved by the states of the contacts in the step before, if they still hold, else along the path of interior
+/// points, else by shorter steps. The page `docs/methods/evolution.md` has the whole.
 ///
 /// # Rest and flow
 /// [`settle`](Self::settle) leaves loads and gaps as they are, and doubles the steps of bodies without inertia until
@@ -94,8 +88,8 @@ pub struct Evolution {
     velocity: Vec<f64>,
     /// The slip of every point before the last step, and after it.
     slips: [Vec<f64>; 2],
-    /// What the contacts do, if a step has told.
-    contacts: Option<Vec<ContactStatus>>,
+    /// What the contacts do; empty until a step has told.
+    contacts: Vec<ContactStatus>,
     account: Account,
     steps: usize,
     factorisations: usize,
@@ -126,7 +120,7 @@ impl Evolution {
             state: problem.state(vec![0.0; n], zero(), zero()),
             velocity: vec![0.0; n],
             slips: [slips.to_vec(), slips.to_vec()],
-            contacts: None,
+            contacts: Vec::new(),
             account: Account::default(),
             steps: 0,
             factorisations: 0,
@@ -161,7 +155,7 @@ impl Evolution {
         }
         let slips = [slips.clone(), slips];
         close(&mut state, self.settings.tolerance);
-        Ok(Self { state, slips, contacts: None, velocity: vec![0.0; n], ..self })
+        Ok(Self { state, slips, contacts: Vec::new(), velocity: vec![0.0; n], ..self })
     }
 
     /// Displacements, forces and gaps. Slips are those of the last step.

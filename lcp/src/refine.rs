@@ -48,10 +48,9 @@ impl Contact2d {
     /// inequalities hold too, which [`Refined::margin`] shows, this is a solution of the problem, and its equations hold to
     /// [`Refined::residual`].
     ///
-    /// The forces of redundant contacts are not unique: they stay as near to the given ones as the equations allow.
-    /// If their gaps contradict each other in the last digits of the data, or bodies move freely, the data are
-    /// changed by the remaining residual ([`Refined::shift`]). If the states have no solution the residual stops
-    /// decreasing.
+    /// The forces of redundant contacts stay as near to the given ones as the equations allow. If their gaps contradict each
+    /// other in the last digits of the data, or bodies move freely, the data are changed by the remaining residual
+    /// ([`Refined::shift`]). If the states have no solution the residual stops decreasing.
     ///
     /// # Errors
     /// [`Error::Length`] when the lengths are not those of the problem, [`Error::NotFinite`] for a state with

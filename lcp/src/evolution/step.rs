@@ -22,7 +22,9 @@ impl Evolution {
         course: &mut Course<'_, '_>,
     ) -> Result<Taken, Error> {
         let stepped = self.stepped(target);
-        let (mut search, is_found) = self.by_states(&stepped, course)?;
+        let state = ContactState { u: vec![0.0; self.state.u.len()], ..self.state.clone() };
+        let now = End { state, contacts: self.contacts.clone() };
+        let (mut search, is_found) = self.searched(&stepped, &now, &Effort::QUICK, course)?;
         let mut limit = None;
         let status = if is_found {
             Status::Solved
@@ -100,19 +102,7 @@ impl Evolution {
         problem.resisted(&self.mass, resistance).under(f, x_0, s_0)
     }
 
-    /// A search for the solution of a step, and whether the states of the contacts lead to it.
-    fn by_states<'a>(
-        &self,
-        stepped: &'a Contact2d,
-        course: &mut Course<'_, '_>,
-    ) -> Result<(Search<'a>, bool), Error> {
-        let contacts = self.contacts.clone().unwrap_or_default();
-        let state = ContactState { u: vec![0.0; self.state.u.len()], ..self.state.clone() };
-        let now = End { state, contacts };
-        self.searched(stepped, &now, &Effort::QUICK, course)
-    }
-
-    /// The same from the states of some end.
+    /// A search for a solution, and whether the states of the contacts of some end lead to it.
     fn searched<'a>(
         &self,
         problem: &'a Contact2d,
@@ -177,7 +167,7 @@ impl Evolution {
         let slips = slips.map(|(slip, more)| slip + slipped(more)).collect();
         self.slips = [std::mem::take(&mut self.slips[1]), slips];
         (self.state, self.velocity, self.data) = (next, velocity, data.clone());
-        self.contacts = Some(contacts);
+        self.contacts = contacts;
         step
     }
 

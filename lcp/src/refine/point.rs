@@ -32,12 +32,6 @@ impl ExtendedPoint {
         (self.u.iter().map(|u| u.rounded()).collect(), forces.collect())
     }
 
-    pub(super) fn without_rests(&self) -> Self {
-        let rounded = |it: &Extended| Extended::from(it.rounded());
-        let forces = self.forces.iter().map(|[n, t]| [rounded(n), rounded(t)]);
-        Self { u: self.u.iter().map(rounded).collect(), forces: forces.collect() }
-    }
-
     /// The displacements in the units of the original problem, by factors that are powers of two.
     pub(super) fn displacements(&self, scaled: &Scaled) -> Vec<Extended> {
         let [high, low] = [Extended::rounded, Extended::rest]

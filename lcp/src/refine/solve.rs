@@ -25,16 +25,11 @@ pub(super) fn solved(
     let began = Instant::now();
     let mut condensed = planned(scaled)?;
     let mut solved = |weights, passes| {
-        let mut solve = Solve::new(
-            scaled,
-            &mut condensed,
-            ExtendedPoint::from(scaled, state),
-            statuses,
-            weights,
-        );
+        let at = ExtendedPoint::from(scaled, state);
+        let mut solve = Solve::new(scaled, &mut condensed, at, statuses, weights);
         solve.run(refinement);
         solve.passes += passes;
-        (solve.residual(), solve.finish(began.elapsed().as_secs_f64()))
+        (solve.rest().largest, solve.finish(began.elapsed().as_secs_f64()))
     };
     let (residual, answer) = solved(WEIGHTS[0], 0);
     // Where less than three quarters of all digits are right, other weights are tried.
@@ -119,20 +114,17 @@ impl<'a> Solve<'a> {
     }
 
     fn run(&mut self, refinement: Refinement) {
-        match refinement {
-            Refinement::Plain => self.repeat(1),
-            Refinement::Single => self.repeat(2),
-            Refinement::Extended => self.refine(ALL_DIGITS),
-        }
-    }
-
-    /// Passes for residuals of the usual digits.
-    fn repeat(&mut self, passes: usize) {
+        let passes = match refinement {
+            Refinement::Plain => 1,
+            Refinement::Single => 2,
+            Refinement::Extended => return self.refine(ALL_DIGITS),
+        };
         for _ in 0..passes {
             let rest =
                 EquationResidual::usual(self.scaled, self.statuses, &self.at, &self.floating);
             self.pass(&rest);
-            self.at = self.at.without_rests();
+            let (u, forces) = self.at.rounded();
+            self.at = ExtendedPoint::of(&u, &forces);
         }
     }
 
@@ -167,10 +159,6 @@ impl<'a> Solve<'a> {
         EquationResidual::extended(scaled, statuses, at, shifts, floating)
     }
 
-    fn residual(&self) -> f64 {
-        self.rest().largest
-    }
-
     /// Solves for what is lacking.
     fn pass(&mut self, rest: &EquationResidual) {
         let unbalanced = rest.unbalanced.iter().map(|v| v.rounded()).collect();
@@ -194,18 +182,15 @@ impl<'a> Solve<'a> {
     }
 
     fn finish(self, seconds: f64) -> (Refined, Vec<(f64, ContactStatus)>) {
-        let (residual, correction) = (self.residual(), self.correction.max(self.shifted));
+        let (residual, correction) = (self.rest().largest, self.correction.max(self.shifted));
         let Self { scaled, statuses, at, shifts, floating, passes, .. } = self;
         let floats = |i: usize| residual::touched(scaled.points.get(i)).any(|j| floating[j]);
         let slacks: Vec<(f64, ContactStatus)> = law::slacks(scaled, statuses, &at)
             .enumerate()
             // A body that floats can be moved aside by a rounding error.
             .map(|(i, (slack, next))| {
-                if slack > -HALF_DIGITS && floats(i) {
-                    (f64::INFINITY, next)
-                } else {
-                    (slack, next)
-                }
+                let is_free = slack > -HALF_DIGITS && floats(i);
+                (if is_free { f64::INFINITY } else { slack }, next)
             })
             .collect();
         let force = scaled.force();

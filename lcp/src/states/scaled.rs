@@ -60,11 +60,17 @@ impl Scaled {
             Columns::by_rows(points.len(), columns)
         });
         for i in 0..points.len() {
-            let has_friction = points.mu[i] > 0.0;
-            let frictional = tangent.entries(i).filter(|_| has_friction);
-            for_each_in_either(normal.entries(i), frictional, |j, coefficients| {
-                points.push(j, coefficients.map(|v| v * column[j]));
-            });
+            let mu = points.mu[i];
+            let frictional = tangent.entries(i).filter(|_| mu > 0.0);
+            let frictional = frictional.map(|(j, v)| (j, [0.0, v]));
+            let both = normal.entries(i).map(|(j, v)| (j, [v, 0.0])).chain(frictional);
+            let mut both: Vec<(usize, [f64; 2])> = both.collect();
+            both.sort_by_key(|(j, _)| *j);
+            for entries in both.chunk_by(|a, b| a.0 == b.0) {
+                let j = entries[0].0;
+                let sum = |k: usize| entries.iter().fold(0.0, |sum, (_, v)| sum + v[k]);
+                points.push(j, [0, 1].map(|k| sum(k) * column[j]));
+            }
             points.close();
         }
         let idle = idle(&k, &f, &points, &vec![false; n]);
@@ -234,18 +240,4 @@ fn idle(
     let points: Vec<bool> =
         points.map(|(i, point)| without_force(of(n + i)) || !acts(point)).collect();
     (displacements.contains(&true) || points.contains(&true)).then_some((displacements, points))
-}
-
-/// Shows the columns that have an entry in either of two rows, ascending, with both entries.
-fn for_each_in_either(
-    first: impl Iterator<Item = (usize, f64)>,
-    second: impl Iterator<Item = (usize, f64)>,
-    mut visit: impl FnMut(usize, [f64; 2]),
-) {
-    let (mut first, mut second) = (first.peekable(), second.peekable());
-    while let Some(j) = first.peek().into_iter().chain(second.peek()).map(|(j, _)| *j).min() {
-        let is_next = |(i, _): &(usize, f64)| *i == j;
-        let entries = [first.next_if(is_next), second.next_if(is_next)];
-        visit(j, entries.map(|entry| entry.map_or(0.0, |(_, v)| v)));
-    }
 }
