@@ -19,42 +19,36 @@ mod variables;
 pub use least::LeastForces;
 pub use settings::InteriorPointSettings;
 
-use balance::{Balance, balance};
+use balance::{Ended, balance};
 use constants::{MORE_STEPS, PATIENCE, PROXIMAL_TERMS, TRIAL_REDUCTION, TRIAL_RESIDUAL};
 use iterate::Iterate;
 use newton_system::Defect;
 use predictor_corrector::PredictorCorrector;
-use start::{set_out, start_opened};
+use start::{set_out, start};
 
 use crate::active::{Effort, Original, Search};
-use crate::solve::Monitor;
+use crate::solve::{Monitor, named};
 use crate::states::PointRef;
 use crate::vector::HALF_DIGITS;
-use crate::{Certificate, Contact2d, Error, Method, Observer, Solution, Status};
+use crate::{Contact2d, Error, Method, Observer, Solution, Status};
 
 /// An interior-point method for large sparse problems: contact with Coulomb's friction
 /// ([`Contact2d`](crate::Contact2d)), and mixed and standard problems.
 ///
 /// Newton's method on `K u = f + C^T t`, the gaps and slips of `u`, and for every point
 /// `t_n g = (mu t_n + t_t) s+ = (mu t_n - t_t) s- = m` with the slip `s+ - s-`, where the mean product `m` is driven to zero by
-/// Mehrotra's predictor and corrector (1992) and Gondzio's correctors of centrality (1996). All of `t_n`,
-/// `mu t_n + t_t`, `mu t_n - t_t`, `g`, `s+` and `s-` stay positive; the page `docs/methods/interior_point.md` has the whole.
-/// Everything but the displacements is
-/// eliminated point by point, so every step factorises one matrix with the pattern of `K + C^T C`. Its order and
-/// structure are found once; friction makes its values unsymmetric. Small proximal terms keep floating bodies and
-/// redundant contacts regular, and vanish with the steps.
+/// Mehrotra's predictor and corrector (1992) and Gondzio's correctors of centrality (1996). Everything but the displacements is
+/// eliminated point by point, so every step factorises one matrix with the pattern of `K + C^T C`. With friction the central
+/// path (the points with equal products) can turn back, where steps follow it (Allgower and Georg 1990). The page
+/// `docs/methods/interior_point.md` has the whole.
 ///
-/// The central path (the points with equal products) can turn back if there is friction: for a while the products have to
-/// grow. The sign of the determinant, which the factorisation gives, shows on which side of a turn a point is, and
-/// steps follow the path around it (Allgower and Georg 1990).
-///
-/// Near the solution follows the crossover. The state of every contact (open, sticking, sliding) is read off, the
+/// Near the solution follows the crossover: the state of every contact (open, sticking, sliding) is read off, the
 /// equations of these states are solved to the last digit, and contacts with contradictions are exchanged. The result
 /// is a complementary basis with residuals at rounding level.
 ///
 /// If the iteration jams on bodies in contact, a convex program decides whether any forces inside the friction cones
-/// balance the loads. If they do, bodies that have not moved are tried with them. If none do, the status is
-/// [`Status::Infeasible`], with the motion that proves it in [`Solution::certificate`].
+/// balance the loads. If none do, the status is [`Status::Infeasible`], with the motion that proves it in
+/// [`Solution::certificate`].
 ///
 /// # Guarantee
 /// None is proved. For monotone problems (no friction, positive semidefinite `M`) with a strictly feasible point the
@@ -94,17 +88,9 @@ pub struct InteriorPoint {
     settings: InteriorPointSettings,
 }
 
+named!(InteriorPoint, InteriorPointSettings, Method::Interior);
+
 impl InteriorPoint {
-    /// A solver with these settings.
-    pub fn new(settings: InteriorPointSettings) -> Self {
-        Self { settings }
-    }
-
-    /// The settings.
-    pub fn settings(&self) -> &InteriorPointSettings {
-        &self.settings
-    }
-
     fn run(&self, problem: &dyn Original, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         self.settings.validate(problem.order())?;
         let mut monitor = Monitor::new(
@@ -150,11 +136,12 @@ impl Run<'_, '_, '_> {
     /// The iteration from a start that is opened by this multiple of its largest gap.
     fn attempt(&mut self, opening: f64) -> Status {
         let Search { scaled, condensed, .. } = &mut *self.search;
-        let at = start_opened(scaled, condensed, opening);
-        self.iterate(at)
+        let at = start(scaled, condensed);
+        let (_, length) = at.sizes();
+        self.iterate(at.opened(opening * length))
     }
 
-    fn solve(mut self) -> (Status, Option<Certificate>) {
+    fn solve(mut self) -> Ended {
         if self.search.try_start(&self.settings.start)
             || self.search.try_rest(self.settings.crossover)
         {
@@ -173,20 +160,17 @@ impl Run<'_, '_, '_> {
     }
 
     /// Whether any forces inside the friction cones balance the loads; bodies that have not moved are tried with them.
-    fn balanced(&mut self, contact: &Contact2d) -> (Status, Option<Certificate>) {
+    fn balanced(&mut self, contact: &Contact2d) -> Ended {
         let Self { search, monitor, .. } = self;
         let found = balance(contact, &search.scaled, |residual| monitor.stop(residual));
         let (rest, _) = search.rest();
         let crossover = self.settings.crossover.then_some(&Effort::THOROUGH);
         match found {
-            Balance::Impossible(proof) => (Status::Infeasible, Some(proof)),
-            Balance::Possible(forces)
-                if search.try_point(PointRef { u: &rest, forces: &forces }, crossover) =>
-            {
+            Ok(forces) if search.try_point(PointRef { u: &rest, forces: &forces }, crossover) => {
                 (Status::Solved, None)
             }
-            Balance::Possible(_) => (Status::Stalled, None),
-            Balance::Open(status) => (status, None),
+            Ok(_) => (Status::Stalled, None),
+            Err(ended) => ended,
         }
     }
 

@@ -8,10 +8,10 @@ use std::time::Duration;
 
 use crate::conversion::solve_in_standard_form;
 use crate::settings::check_tolerance;
-use crate::solve::Monitor;
+use crate::solve::{Monitor, named};
 use crate::{
-    Basis, Error, HorizontalLcp, Lcp, Method, Named, Observer, Residuals, Side, Solution, Solver,
-    Status, WarmStart,
+    Basis, Error, HorizontalLcp, Lcp, Method, Observer, Residuals, Side, Solution, Solver, Status,
+    WarmStart,
 };
 use exchange::{Exchanges, Next};
 pub(crate) use system::is_z_matrix;
@@ -31,9 +31,8 @@ use system::{Point, System};
     serde(default, deny_unknown_fields)
 )]
 pub struct SemismoothNewtonSettings {
-    /// Largest residual, dimensionless, of a solution with status `Solved`. In `(0, 1)`. The method ends with the
-    /// signs of all variables right up to rounding errors, whatever the tolerance; the tolerance is used only if the
-    /// signs cannot be distinguished from rounding errors.
+    /// Largest residual, dimensionless, of a solution with status `Solved`. In `(0, 1)`. It counts only where signs cannot be
+    /// told from rounding errors: else the method ends when all are right.
     pub tolerance: f64,
     /// Limit on steps: exchanges of pairs between the sets, each followed by a factorisation.
     pub max_iterations: usize,
@@ -69,9 +68,8 @@ impl SemismoothNewtonSettings {
 /// `M_FF` is factorised by Cholesky's method, any other one by LU, dense or sparse like `M`. Solves are followed by
 /// iterative refinement.
 ///
-/// If the number of negative variables has not decreased for some steps, or a free set is repeated, only half as many
-/// pairs are exchanged, those with the least indices, and so on down to single ones, until that number reaches a new
-/// minimum (Júdice and Pires 1994, after Murty 1974).
+/// While the number of negative variables does not decrease, fewer pairs are exchanged, down to single ones, until that number
+/// reaches a new minimum (Júdice and Pires 1994, after Murty 1974).
 ///
 /// * M-matrices (obstacle problems, no positive off-diagonal entry): converges from every start, monotonically after
 ///   the first step (Hintermüller, Ito and Kunisch 2003). From a start that is off by some layers of a grid it takes
@@ -108,17 +106,9 @@ pub struct SemismoothNewton {
     settings: SemismoothNewtonSettings,
 }
 
+named!(SemismoothNewton, SemismoothNewtonSettings, Method::Newton);
+
 impl SemismoothNewton {
-    /// A solver with these settings.
-    pub fn new(settings: SemismoothNewtonSettings) -> Self {
-        Self { settings }
-    }
-
-    /// The settings.
-    pub fn settings(&self) -> &SemismoothNewtonSettings {
-        &self.settings
-    }
-
     /// The status if the residuals of the point, the best that was met, are not small.
     fn run(
         &self,
@@ -216,12 +206,6 @@ fn check_diagonal(lcp: &Lcp) -> Result<(), Error> {
         }),
     }
 }
-impl Named for SemismoothNewton {
-    fn method(&self) -> Method {
-        Method::Newton
-    }
-}
-
 impl Solver<Lcp> for SemismoothNewton {
     fn solve_pairs(&self, lcp: &Lcp, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         let settings = &self.settings;
@@ -248,7 +232,7 @@ impl Solver<Lcp> for SemismoothNewton {
             Solution::judged(point.z, point.w, residuals, settings.tolerance, status);
         solution.basis = Some(basis_of(&point.is_free));
         solution.info = monitor.info();
-        solution.info.factorisations = system.factorisations();
+        solution.info.factorisations = system.factors.count;
         Ok(solution)
     }
 }
@@ -263,7 +247,7 @@ impl Solver<HorizontalLcp> for SemismoothNewton {
         let settings = &self.settings;
         settings.validate(problem.order())?;
         let (start, tolerance) = (&settings.start, settings.tolerance);
-        solve_in_standard_form(self.method(), problem, start, tolerance, |lcp, start| {
+        solve_in_standard_form(Method::Newton, problem, start, tolerance, |lcp, start| {
             let inner = Self::new(SemismoothNewtonSettings { start, ..settings.clone() });
             inner.solve_pairs(lcp, observer)
         })

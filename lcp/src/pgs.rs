@@ -15,7 +15,7 @@ use std::ops::ControlFlow;
 
 use sweep::{Point, Sweeps};
 
-use crate::solve::Monitor;
+use crate::solve::{Monitor, named};
 use crate::{Error, Info, Method, Observer, Residuals, Solution, Status, WarmStart};
 
 /// Projected Gauss-Seidel, with over-relaxation: for `w = M z + q` with bounds on `z`, and for contact
@@ -28,10 +28,9 @@ use crate::{Error, Info, Method, Observer, Residuals, Solution, Status, WarmStar
 /// above `W_NN / |W_NT|` or an indefinite block, the normal force is corrected first, then the tangential one.
 /// Over-relaxation divides the diagonal block by `omega`, so that forces within the cone stay there.
 ///
-/// The criterion is the residuals, recomputed from the original data, of the point `z` with the part of `w` that its
-/// bounds allow. The point is always feasible and complementary, so all of the error is in the equation; for
-/// [`Contact2d`](crate::Contact2d) it is in the gaps and slips of the displacements that follow from the forces. The
-/// best point is returned.
+/// The point `z` with the part of `w` that its bounds allow is always feasible and complementary, so all of the error is in the
+/// equation; for [`Contact2d`](crate::Contact2d) it is in the gaps and slips of the displacements that follow from the forces.
+/// The best point is returned.
 ///
 /// # Problems
 /// [`Lcp`](crate::Lcp); [`BoxedLcp`](crate::BoxedLcp) in the pairs of its general form;
@@ -49,14 +48,11 @@ use crate::{Error, Info, Method, Observer, Residuals, Solution, Status, WarmStar
 ///
 /// # Failure
 /// There is no guarantee with friction, nor for skew or indefinite parts: the iteration may cycle or diverge, and end
-/// as [`Status::Stalled`]. Ill-conditioned problems are slow: long chains of bodies, large differences of mass or
-/// stiffness. If there is no solution and `z` grows slowly, the residual, which is relative to the terms of the rows,
-/// decreases like one over the number of sweeps.
+/// as [`Status::Stalled`]. Long chains of bodies and large differences of mass or stiffness are slow.
 ///
 /// # Cost
-/// A sweep is one product with the matrix. The number of sweeps grows with the condition of `M`; for the five-point
-/// Laplacian it is proportional to the number of grid points, or to its square root with the best `omega`. Every
-/// further digit costs the same number of sweeps.
+/// A sweep is one product with the matrix. The number of sweeps grows with the condition of `M`, and every further digit costs
+/// the same number.
 ///
 /// # References
 /// * Cryer, SIAM Journal on Control 9 (1971), [doi:10.1137/0309028](https://doi.org/10.1137/0309028)
@@ -96,17 +92,9 @@ pub struct RowsSolution {
     pub info: Info,
 }
 
+named!(ProjectedGaussSeidel, ProjectedGaussSeidelSettings, Method::GaussSeidel);
+
 impl ProjectedGaussSeidel {
-    /// A solver with these settings.
-    pub fn new(settings: ProjectedGaussSeidelSettings) -> Self {
-        Self { settings }
-    }
-
-    /// The settings.
-    pub fn settings(&self) -> &ProjectedGaussSeidelSettings {
-        &self.settings
-    }
-
     /// Solves a problem given by the products of its rows, with constraints on the entries of `z`. If the settings
     /// have a point to start from, its `t` is `z`.
     ///

@@ -21,10 +21,10 @@ pub use settings::{QuadraticProgramSettings, SoftConstraints};
 pub use soft::SoftSolution;
 
 use crate::conversion::{solve_in_mixed_form, solve_in_standard_form};
+use crate::solve::named;
 use crate::states::Scaled;
 use crate::{
-    BoxedLcp, Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Named, Observer, Solution,
-    Solver,
+    BoxedLcp, Contact2d, Error, HorizontalLcp, Lcp, Method, MixedLcp, Observer, Solution, Solver,
 };
 
 /// Complementarity problems that are the conditions of a convex quadratic program.
@@ -39,33 +39,25 @@ use crate::{
 ///   programs: with fixed bounds `g` of the friction forces (Tresca) the work `g |C_t u + s_0|` is added, and `g` goes half
 ///   the way to `mu t_n`, until it converges.
 ///
-/// Symmetry and semidefiniteness are checked. The problem is scaled by powers of two, and Clarabel's interior-point
-/// method finds a point near the solution. If both variables of a pair vanish, this point is accurate only to the
-/// square root of its tolerance. The **exchange of states** makes it exact, as for
-/// [`InteriorPoint`](crate::InteriorPoint): in every pair the larger variable is taken as nonzero, which gives a
-/// linear system; pairs with wrong signs are exchanged, as long as their number decreases. The system may be singular
-/// but consistent, as for floating bodies or contacts that share a load: proximal steps solve it. With friction it is
-/// the system of the states open, stick and slip, so the fixed-point iteration only needs to come near.
+/// Symmetry and semidefiniteness are checked. Clarabel's interior-point method finds a point near the solution, which the
+/// **exchange of states** makes exact, as for [`InteriorPoint`](crate::InteriorPoint): in every pair the larger variable is taken
+/// as nonzero, which gives a linear system; pairs with wrong signs are exchanged, as long as their number decreases. The page
+/// `docs/methods/quadratic_programs.md` has the whole.
 ///
 /// **Guarantee**: in exact arithmetic a program without friction is solved if it has a solution, and is otherwise
 /// [`Infeasible`](crate::Status::Infeasible) with a proof, by the interior-point method for least forces. In
-/// floating-point arithmetic this holds as long as the stiffnesses of one problem differ by less than about 1e6;
-/// beyond that many problems end without a solution and without a proof, see below. With friction the fixed-point
-/// iteration contracts if `mu` or the ratio of tangential to normal stiffness is small; otherwise the status is
-/// [`Stalled`](crate::Status::Stalled). In every case the statuses [`Solved`](crate::Status::Solved) and `Infeasible`
-/// follow a check in the given data.
+/// floating-point arithmetic this holds as long as the stiffnesses of one problem differ by less than about 1e6. With friction
+/// the fixed-point iteration contracts if `mu` or the ratio of tangential to normal stiffness is small; otherwise the status is
+/// [`Stalled`](crate::Status::Stalled).
 ///
 /// **Failure**: `Stalled` and [`NumericalTrouble`](crate::Status::NumericalTrouble) for data so ill-conditioned that
-/// neither a solution nor a proof is found: if stiffnesses differ by 1e6 the interior point may be too inaccurate to
-/// show which contacts are closed. Then use [`Lemke`](crate::Lemke) or [`InteriorPoint`](crate::InteriorPoint), as
+/// neither a solution nor a proof is found. Then use [`Lemke`](crate::Lemke) or [`InteriorPoint`](crate::InteriorPoint), as
 /// [`Auto`](crate::Auto) does.
 ///
 /// **Cost**: 10 to 20 factorisations of the sparse matrix `[K, C^T; C, -D]` for every program, and one for every
-/// round of exchanges. [`Info::iterations`](crate::Info::iterations) counts programs, not the iterations within them,
-/// which [`max_iterations`](QuadraticProgramSettings::max_iterations) limits;
-/// [`Info::factorisations`](crate::Info::factorisations) counts all factorisations. The observer is called before
-/// every program. With [`soft`](QuadraticProgramSettings::soft), `iterations` and the observer count re-centrings of
-/// the springs.
+/// round of exchanges. [`Info::iterations`](crate::Info::iterations) and the observer count programs, or, with
+/// [`soft`](QuadraticProgramSettings::soft), re-centrings of the springs;
+/// [`Info::factorisations`](crate::Info::factorisations) counts all factorisations.
 ///
 /// References: P. J. Goulart and Y. Chen, *Clarabel: an interior-point solver for conic programs with
 /// quadratic objectives* (2024), arXiv:2405.12762; J. Haslinger, *Approximation of the
@@ -87,17 +79,9 @@ pub struct QuadraticProgram {
     settings: QuadraticProgramSettings,
 }
 
+named!(QuadraticProgram, QuadraticProgramSettings, Method::QuadraticProgram);
+
 impl QuadraticProgram {
-    /// A solver with these settings.
-    pub fn new(settings: QuadraticProgramSettings) -> Self {
-        Self { settings }
-    }
-
-    /// The settings.
-    pub fn settings(&self) -> &QuadraticProgramSettings {
-        &self.settings
-    }
-
     /// Without springs, of a `K` that is known to be semidefinite.
     fn solve_plain(
         &self,
@@ -149,12 +133,6 @@ fn refused(reason: &str) -> Error {
         reason: format!("{reason}; take Lemke's method, which needs no quadratic program"),
     }
 }
-impl Named for QuadraticProgram {
-    fn method(&self) -> Method {
-        Method::QuadraticProgram
-    }
-}
-
 impl Solver<Lcp> for QuadraticProgram {
     fn solve_pairs(&self, problem: &Lcp, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         let mixed = MixedLcp::of_standard(problem)?;
@@ -171,7 +149,7 @@ impl Solver<HorizontalLcp> for QuadraticProgram {
     ) -> Result<Solution, Error> {
         self.settings.validate(problem.order())?;
         let (start, tolerance) = (&self.settings.start, self.settings.tolerance);
-        solve_in_standard_form(self.method(), problem, start, tolerance, |lcp, start| {
+        solve_in_standard_form(Method::QuadraticProgram, problem, start, tolerance, |lcp, start| {
             let solver = Self::new(QuadraticProgramSettings { start, ..self.settings.clone() });
             solver.solve_mixed(&MixedLcp::of_standard(lcp)?, &|| problem.clone(), observer)
         })

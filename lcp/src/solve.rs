@@ -12,6 +12,31 @@ pub trait Named {
     fn method(&self) -> Method;
 }
 
+/// The name of a solver, and its settings.
+macro_rules! named {
+    ($solver:ident, $settings:ty, $method:expr) => {
+        impl $crate::Named for $solver {
+            fn method(&self) -> $crate::Method {
+                $method
+            }
+        }
+
+        impl $solver {
+            /// A solver with these settings.
+            pub fn new(settings: $settings) -> Self {
+                Self { settings }
+            }
+
+            /// The settings.
+            pub fn settings(&self) -> &$settings {
+                &self.settings
+            }
+        }
+    };
+}
+
+pub(crate) use named;
+
 /// A method that treats problems of type `P`.
 ///
 /// The solution carries a point of the general form of the problem: `(z, w)` as `(t, y)` for [`Lcp`](crate::Lcp)

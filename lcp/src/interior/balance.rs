@@ -6,18 +6,10 @@ use crate::matrix::DATA_ROUNDING;
 use crate::states::Scaled;
 use crate::{Certificate, Contact2d, Matrix, Status};
 
-/// Whether any forces balance the loads.
-pub(super) enum Balance {
-    /// There are none: a Farkas vector.
-    Impossible(Certificate),
-    /// These do, inside their cones.
-    Possible(Vec<(f64, f64)>),
-    /// Neither came out, for this reason.
-    Open(Status),
-}
+/// How a search for forces has ended without any: with a Farkas vector if there are none.
+pub(super) type Ended = (Status, Option<Certificate>);
 
-/// Decides whether there are forces `t` inside their cones and displacements `u`, whatever their gaps, with
-/// `K u = f + C^T t`.
+/// Forces `t` inside their cones with displacements `u`, whatever their gaps, for which `K u = f + C^T t`.
 ///
 /// The forces are those of a convex program: of contacts whose springs open along the edges of their cones, as with
 /// associated friction. If it has no solution there is a motion `v` with `K v = 0`, `C_n v >= mu |C_t v|` and
@@ -26,7 +18,7 @@ pub(super) fn balance(
     contact: &Contact2d,
     problem: &Scaled,
     stop: impl FnMut(f64) -> Option<Status>,
-) -> Balance {
+) -> Result<Vec<(f64, f64)>, Ended> {
     let edges = problem.edges().enumerate().flat_map(|(j, (point, mu))| {
         let terms = point.columns.iter().zip(point.coefficients);
         terms.map(move |(&i, [n, t])| (i, j, n + mu * t))
@@ -44,10 +36,10 @@ pub(super) fn balance(
     };
     let found = program.solve(Accuracy::OfForces(DATA_ROUNDING), stop, is_proof);
     match (found.map(|it| (it.status, it.t)), proof) {
-        (_, Some(proof)) => Balance::Impossible(proof),
-        (Ok((Status::Solved, t)), None) => Balance::Possible(problem.of_edges(t.into_iter())),
-        (Ok((status, _)), None) => Balance::Open(status),
+        (_, Some(proof)) => Err((Status::Infeasible, Some(proof))),
+        (Ok((Status::Solved, t)), None) => Ok(problem.of_edges(t.into_iter())),
+        (Ok((status, _)), None) => Err((status, None)),
         // Memory does not suffice.
-        (Err(_), None) => Balance::Open(Status::Stalled),
+        (Err(_), None) => Err((Status::Stalled, None)),
     }
 }

@@ -3,15 +3,9 @@
 use super::{InteriorPoint, InteriorPointSettings};
 use crate::conversion::{judged_by, solve_in_mixed_form, solve_in_standard_form};
 use crate::{
-    BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Method, MixedLcp, Named, Observer,
+    BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Method, MixedLcp, Observer,
     Solution, Solver,
 };
-impl Named for InteriorPoint {
-    fn method(&self) -> Method {
-        Method::Interior
-    }
-}
-
 impl Solver<Contact2d> for InteriorPoint {
     fn solve_pairs(
         &self,
@@ -68,7 +62,7 @@ impl Solver<HorizontalLcp> for InteriorPoint {
     ) -> Result<Solution, Error> {
         self.settings.validate(problem.order())?;
         let (start, tolerance) = (&self.settings.start, self.settings.tolerance);
-        solve_in_standard_form(self.method(), problem, start, tolerance, |lcp, start| {
+        solve_in_standard_form(Method::Interior, problem, start, tolerance, |lcp, start| {
             let settings = InteriorPointSettings { start, ..self.settings.clone() };
             Self::new(settings).solve_pairs(lcp, observer)
         })

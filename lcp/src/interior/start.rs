@@ -44,21 +44,12 @@ pub(super) fn start(problem: &Scaled, condensed: &mut Condensed) -> Iterate {
     Iterate { points: points.collect(), u }
 }
 
-/// A start with gaps and slips wider by a multiple of the largest.
-pub(super) fn start_opened(problem: &Scaled, condensed: &mut Condensed, by: f64) -> Iterate {
-    let at = start(problem, condensed);
-    let (_, length) = at.sizes();
-    at.opened(by * length)
-}
-
 /// The first step, from a start that is opened first if need be.
 ///
-/// A start knows how bodies are deformed, but not how far slender ones bend and loose ones turn, which may be
-/// further by many powers of ten. From gaps that are too small for the way the steps are short: some gaps
-/// have to grow a thousandfold, and others, on the same way, would close. Gaps that are too large cost a step
-/// or two. The predictor tells, with the forces of the start, that the gaps are too small: it changes
-/// them by more than they are. Where wider gaps do not bring the change down by half, forces or the problem are at fault: if
-/// any decrease will do, the path of a rigid wedge that is pulled out jams.
+/// A start knows how bodies are deformed, but not how far slender ones bend and loose ones turn. The predictor tells, with the
+/// forces of the start, that its gaps are too small for that: it changes them by more than they are. Where wider gaps do not
+/// bring the change down by half, forces or the problem are at fault: if any decrease will do, the path of a rigid wedge that is
+/// pulled out jams.
 pub(super) fn set_out(
     problem: &Scaled,
     condensed: &mut Condensed,

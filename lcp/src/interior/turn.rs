@@ -7,13 +7,10 @@ use crate::solve::StepKind;
 
 /// A step along the central path where it turns, or nearly.
 ///
-/// The points whose products all have one value `tau` form a path. Of a monotone problem it leads straight
-/// to the solution as `tau` tends to zero, but with friction `tau` may have to grow again for a while. At
-/// such a turn the determinant of Newton's equations changes its sign: while it is negative, the way
-/// forwards along the path is the one on which `tau` grows (Allgower and Georg 1990, for paths in
-/// general). Near a turn the equations for a fixed `tau` have no solution or two, so that corrections at
-/// a fixed `tau` grow beyond bounds. The correction here leaves the place along the path alone: `tau`
-/// becomes whatever belongs to it. To that comes a piece of the path.
+/// At a turn the determinant of Newton's equations changes its sign: while it is negative, the way forwards along the path, of
+/// points whose products all have one value `tau`, is the one on which `tau` grows (Allgower and Georg 1990). Near a turn the
+/// equations for a fixed `tau` have no solution or two, so that corrections grow beyond bounds. The correction here leaves the
+/// place along the path alone: `tau` becomes whatever belongs to it. To that comes a piece of the path.
 pub(super) fn turn(system: &NewtonSystem<'_>, at: &Iterate, predictor: &Iterate) -> Direction {
     let along = system.correction(&vec![[1.0; 3]; at.points.len()]);
     let (mut product, mut square, mut largest) = (0.0, 0.0, 0.0_f64);

@@ -29,7 +29,7 @@ pub(super) struct System<'a> {
     lcp: &'a Lcp,
     pub(super) is_z_matrix: bool,
     diagonal: Vec<f64>,
-    factors: Factors<'a>,
+    pub(super) factors: Factors<'a>,
 }
 
 impl<'a> System<'a> {
@@ -37,10 +37,6 @@ impl<'a> System<'a> {
         let m = lcp.m();
         let diagonal = (0..lcp.order()).map(|i| m[(i, i)]).collect();
         Self { lcp, is_z_matrix: is_z_matrix(m), diagonal, factors: Factors::new(m) }
-    }
-
-    pub(super) fn factorisations(&self) -> usize {
-        self.factors.count
     }
 
     /// The point after the exchange of so many of the pairs with a negative variable, the first ones.

@@ -6,15 +6,9 @@ use super::{Constraint, MatrixRows, ProjectedGaussSeidel, Sweeps};
 use crate::certify::{BoxedJudge, ContactJudge, GeneralJudge, Precision};
 use crate::conversion::standard_form;
 use crate::{
-    BoxedLcp, Contact2d, ContactForces, Error, Friction2d, HorizontalLcp, Lcp, Method, Named,
-    Observer, Solution, Solver,
+    BoxedLcp, Contact2d, ContactForces, Error, Friction2d, HorizontalLcp, Lcp, Method, Observer,
+    Solution, Solver,
 };
-impl Named for ProjectedGaussSeidel {
-    fn method(&self) -> Method {
-        Method::GaussSeidel
-    }
-}
-
 impl Solver<Lcp> for ProjectedGaussSeidel {
     fn solve_pairs(&self, problem: &Lcp, observer: &mut Observer<'_>) -> Result<Solution, Error> {
         let (lower, upper) = (vec![0.0; problem.order()], vec![f64::INFINITY; problem.order()]);
@@ -30,7 +24,7 @@ impl Solver<HorizontalLcp> for ProjectedGaussSeidel {
         problem: &HorizontalLcp,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        let standard = standard_form(self.method(), problem)?;
+        let standard = standard_form(Method::GaussSeidel, problem)?;
         let mut monitor = self.monitor(observer);
         let start = self.start(problem.order(), |t, y| standard.from_pairs(t, y).0)?;
         let mut rows = MatrixRows::new(standard.lcp().m());

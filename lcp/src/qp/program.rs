@@ -21,7 +21,6 @@ pub(super) struct Run<'a> {
     proof: OnceCell<Option<Vec<f64>>>,
     /// Steps of the interior-point method, each of which takes a factorisation.
     pub(super) steps: usize,
-    began: Instant,
 }
 
 impl<'a> Run<'a> {
@@ -36,13 +35,12 @@ impl<'a> Run<'a> {
         let monitor =
             Monitor::new(Method::QuadraticProgram, max_programs, settings.time_limit, observer);
         let search = Search::new(Method::QuadraticProgram, problem, settings.tolerance, None)?;
-        let (proof, began) = (OnceCell::new(), Instant::now());
-        Ok(Self { settings, search, monitor, general, proof, steps: 0, began })
+        Ok(Self { settings, search, monitor, general, proof: OnceCell::new(), steps: 0 })
     }
 
     /// What is left of the time.
     pub(super) fn time(&self) -> Option<Duration> {
-        self.settings.time_limit.map(|limit| limit.saturating_sub(self.began.elapsed()))
+        self.monitor.deadline().map(|end| end.saturating_duration_since(Instant::now()))
     }
 
     /// The proof that there is no solution, which is looked for at most once.

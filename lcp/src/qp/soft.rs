@@ -38,10 +38,8 @@ pub struct SoftSolution {
 }
 
 impl QuadraticProgram {
-    /// The problem with a spring of stiffness `epsilon k_j` on every displacement, with `k_j` as
-    /// [`Bedding`] says: its `K` is positive definite, so that without friction it has exactly one
-    /// solution, which differs from that of the problem without springs, where there is one, by
-    /// `O(epsilon)`.
+    /// The problem with a spring of stiffness `epsilon k_j` on every displacement, with `k_j` as [`Bedding`] says, whose `K` is
+    /// positive definite. Without friction its only solution differs from that of the problem by `O(epsilon)`.
     ///
     /// # Errors
     /// [`Error::Setting`] for an `epsilon` outside `(0, 1]`, and as
