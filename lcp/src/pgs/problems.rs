@@ -26,7 +26,7 @@ impl Solver<HorizontalLcp> for ProjectedGaussSeidel {
     ) -> Result<Solution, Error> {
         let standard = standard_form(Method::GaussSeidel, problem)?;
         let mut monitor = self.monitor(observer);
-        let start = self.start(problem.order(), |t, y| standard.from_pairs(t, y).0)?;
+        let start = self.start(problem.order(), |t, y| standard.to_pairs(t, y).0)?;
         let mut rows = MatrixRows::new(standard.lcp().m());
         let constraints = vec![Constraint::NONNEGATIVE; problem.order()];
         let q = standard.lcp().q();

@@ -83,20 +83,16 @@ impl StandardForm {
         &self.lcp
     }
 
-    /// The point of the general problem that belongs to `(z, w)`.
+    /// The point of the general problem that belongs to `(z, w)`, and `(z, w)` from such a point: the entries of the
+    /// pairs whose `t` is `w` are exchanged.
     ///
     /// # Panics
     /// If `z` or `w` does not have one entry for every pair.
     pub fn to_pairs(&self, z: &[f64], w: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        self.exchanged(z, w)
-    }
-
-    /// `(z, w)` of a point of the general problem.
-    ///
-    /// # Panics
-    /// If `t` or `y` does not have one entry for every pair.
-    pub fn from_pairs(&self, t: &[f64], y: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        self.exchanged(t, y)
+        let n = self.sides.len();
+        assert!(z.len() == n && w.len() == n, "a point has one entry for every pair");
+        let pairs = z.iter().zip(w).zip(&self.sides);
+        pairs.map(|((z, w), side)| if *side == Side::Y { (*z, *w) } else { (*w, *z) }).unzip()
     }
 
     /// The start for the standard problem that belongs to one for the general problem.
@@ -112,13 +108,5 @@ impl StandardForm {
     /// All pairs, and whether their `t` is `w`.
     fn pairs(&self) -> impl Iterator<Item = (usize, bool)> {
         self.sides.iter().map(|side| *side == Side::T).enumerate()
-    }
-
-    /// Exchanges the entries of the pairs whose `t` is `w`, which is its own inverse.
-    fn exchanged(&self, first: &[f64], second: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let n = self.sides.len();
-        assert!(first.len() == n && second.len() == n, "a point has one entry for every pair");
-        let pairs = first.iter().zip(second).zip(&self.sides);
-        pairs.map(|((a, b), side)| if *side == Side::Y { (*a, *b) } else { (*b, *a) }).unzip()
     }
 }
