@@ -18,7 +18,6 @@ use web_time::Instant;
 
 use crate::certify::{GeneralJudge, Leaf, ROUNDING, is_proof_of};
 use crate::extended::{Extended, extended};
-use crate::matrix::Column;
 use crate::nonnegative::{LeastSquares, Minimum};
 use crate::scaling::equilibrate;
 use crate::solve::is_over;
@@ -224,7 +223,7 @@ struct Tree<'a> {
 impl<'a> Tree<'a> {
     fn new(problem: &'a HorizontalLcp, deadline: Option<Instant>) -> Self {
         let n = problem.order();
-        let columns: Vec<Column<'_>> = columns(problem, &vec![None; n]).collect();
+        let columns = problem.columns();
         let (rows, mut factors) = equilibrate(n, &columns);
         let judge = GeneralJudge::with_factors(problem, &rows, &factors);
         let scaled = columns.iter().zip(&factors).map(|(column, factor)| {
@@ -287,7 +286,7 @@ impl<'a> Tree<'a> {
             pi.iter().fold(Extended::ZERO, |max, pi| if pi.abs() > max { pi.abs() } else { max });
         let pi: Vec<f64> = pi.into_iter().map(|pi| (pi / largest).rounded()).collect();
         let (problem, n) = (self.problem, sides.len());
-        if !is_proof_of(columns(problem, sides), problem.c(), &pi) {
+        if !is_proof_of(problem.columns_of(sides), problem.c(), &pi) {
             return None;
         }
         let excluded =
@@ -323,15 +322,6 @@ impl<'a> Tree<'a> {
         let holds = residuals.equation <= ROUNDING && residuals.loads <= NEAR;
         holds.then(|| Enumerated::Found { t, y, basis: Basis::new(basis) })
     }
-}
-
-/// The columns of the sides that may be positive, first those of `t`.
-fn columns<'a>(problem: &'a HorizontalLcp, sides: &Sides) -> impl Iterator<Item = Column<'a>> {
-    [Side::T, Side::Y].into_iter().flat_map(move |side| {
-        let allowed =
-            sides.iter().enumerate().filter(move |(_, it)| it.is_none_or(|it| it == side));
-        allowed.map(move |(pair, _)| problem.column(pair, side))
-    })
 }
 
 fn position(pair: usize, side: Side, n: usize) -> usize {

@@ -82,23 +82,13 @@ impl Certificate {
         match self {
             Self::Farkas { pi } => is_proof(problem, pi),
             Self::Choices { leaves } => {
-                covers_all(leaves, problem.order())
-                    && leaves.iter().all(|leaf| leaf.is_proof(problem))
+                let is_proof = |leaf: &Leaf| {
+                    is_proof_of(problem.columns_of(&leaf.sides), problem.c(), &leaf.pi)
+                };
+                covers_all(leaves, problem.order()) && leaves.iter().all(is_proof)
             }
             Self::Ray(ray) => is_ray(problem, ray),
         }
-    }
-}
-
-impl Leaf {
-    fn is_proof(&self, problem: &HorizontalLcp) -> bool {
-        let columns = self.sides.iter().enumerate().flat_map(|(pair, chosen)| {
-            [Side::T, Side::Y]
-                .into_iter()
-                .filter(move |side| chosen.is_none_or(|chosen| chosen == *side))
-                .map(move |side| problem.column(pair, side))
-        });
-        is_proof_of(columns, problem.c(), &self.pi)
     }
 }
 

@@ -98,8 +98,16 @@ impl HorizontalLcp {
 
     /// All columns, of `A` and then of `B`.
     pub(crate) fn columns(&self) -> Vec<Column<'_>> {
-        let of_side = |side| (0..self.order()).map(move |pair| self.column(pair, side));
-        [Side::T, Side::Y].into_iter().flat_map(of_side).collect()
+        self.columns_of(&vec![None; self.order()]).collect()
+    }
+
+    /// The columns of the sides that may be positive, of `A` and then of `B`; `None` where both may.
+    pub(crate) fn columns_of(&self, sides: &[Option<Side>]) -> impl Iterator<Item = Column<'_>> {
+        [Side::T, Side::Y].into_iter().flat_map(move |side| {
+            let allowed =
+                sides.iter().enumerate().filter(move |(_, it)| it.is_none_or(|it| it == side));
+            allowed.map(move |(pair, _)| self.column(pair, side))
+        })
     }
 
     /// The positive `r` with `B_j = -r A_j` of a free pair, entry by entry up to rounding: one unit of `y` is `r` units
