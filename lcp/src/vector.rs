@@ -99,13 +99,32 @@ pub(crate) fn check_vector(what: &'static str, v: &[f64]) -> Result<(), Error> {
     }
 }
 
-/// Whether a number is between the bounds, either of which may be infinite; the distance of others is finite.
-pub(crate) fn is_interval(lower: f64, upper: f64) -> bool {
+/// That numbers are between these bounds, which may be infinite; the distance of others is finite.
+pub(crate) fn check_bounds(what: &'static str, lower: &[f64], upper: &[f64]) -> Result<(), Error> {
+    let mut bounds = lower.iter().zip(upper).enumerate();
+    bounds.try_for_each(|(index, (&lower, &upper))| check_interval(what, index, lower, upper))
+}
+
+/// The same of the bounds of one number.
+pub(crate) fn check_interval(
+    what: &'static str,
+    index: usize,
+    lower: f64,
+    upper: f64,
+) -> Result<(), Error> {
     let is_bounded = lower.is_finite() && upper.is_finite();
-    lower <= upper
+    let fits = lower <= upper
         && lower < f64::INFINITY
         && upper > f64::NEG_INFINITY
-        && (!is_bounded || (upper - lower).is_finite())
+        && (!is_bounded || (upper - lower).is_finite());
+    if fits { Ok(()) } else { Err(Error::Bounds { what, index, lower, upper }) }
+}
+
+/// The vector divided by its largest entry.
+pub(crate) fn in_units_of_largest(v: impl IntoIterator<Item = f64>) -> Vec<f64> {
+    let v: Vec<f64> = v.into_iter().collect();
+    let largest = max_abs(&v);
+    v.into_iter().map(|v| v / largest).collect()
 }
 
 /// That a value of every contact point is at least zero and finite.

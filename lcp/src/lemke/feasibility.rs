@@ -12,7 +12,7 @@ use super::path::{Limits, Path};
 use super::start::{Equilibrated, Start};
 use crate::certify::is_proof;
 use crate::pivoting::AttemptEnd;
-use crate::vector::max_abs;
+use crate::vector::in_units_of_largest;
 
 /// A checked Farkas vector, if one is found from a start basis.
 pub(super) fn farkas_vector(
@@ -67,7 +67,5 @@ fn descending_variable(path: &Path<'_>, row: usize, n: usize) -> Option<Var> {
 
 /// From equilibrated rows, with a largest entry of one.
 pub(super) fn in_problem_rows(problem: &Equilibrated<'_>, pi: &[f64]) -> Vec<f64> {
-    let pi: Vec<f64> = pi.iter().zip(&problem.row).map(|(pi, row)| pi * row).collect();
-    let largest = max_abs(&pi);
-    pi.into_iter().map(|pi| pi / largest).collect()
+    in_units_of_largest(pi.iter().zip(&problem.row).map(|(pi, row)| pi * row))
 }

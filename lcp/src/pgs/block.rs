@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::coulomb::Coulomb;
 use super::{Constraint, Rows};
-use crate::vector::{check_length, is_interval};
+use crate::vector::{check_interval, check_length};
 use crate::{Error, Method};
 
 /// A constraint with its first row and the entries of the matrix in its own rows and columns.
@@ -134,13 +134,11 @@ impl Constraint {
     /// That something meets the constraint, which has this number.
     fn check(self, index: usize) -> Result<(), Error> {
         match self {
-            Self::Bounds { lower, upper } if !is_interval(lower, upper) => {
-                Err(Error::Bounds { what: "variable", index, lower, upper })
-            }
+            Self::Bounds { lower, upper } => check_interval("variable", index, lower, upper),
             Self::Friction { mu } if !(mu >= 0.0 && mu.is_finite()) => {
                 Err(Error::Setting { name: "mu", value: mu, range: "at least zero and finite" })
             }
-            _ => Ok(()),
+            Self::Friction { .. } => Ok(()),
         }
     }
 }

@@ -4,7 +4,7 @@ use std::ops::{Add, Neg, Sub};
 
 use super::HorizontalLcp;
 use crate::matrix::check_sums;
-use crate::vector::{check_length, check_vector, is_interval};
+use crate::vector::{check_bounds, check_length, check_vector};
 use crate::{Error, Matrix, Vector};
 
 /// The problem `w = M z + q`, `lower <= z <= upper` of order `n`, where `w_i >= 0` if `z_i` is at
@@ -75,11 +75,7 @@ impl BoxedLcp {
         check_vector("q", &q)?;
         check_length("lower", lower.len(), n)?;
         check_length("upper", upper.len(), n)?;
-        for (index, (&lower, &upper)) in lower.iter().zip(&upper).enumerate() {
-            if !is_interval(lower, upper) {
-                return Err(Error::Bounds { what: "variable", index, lower, upper });
-            }
-        }
+        check_bounds("variable", &lower, &upper)?;
         let problem = Self { m, q, lower, upper };
         check_sums(
             "the terms of q + M z, with z at the bounds nearest to zero,",

@@ -2,7 +2,7 @@
 
 use super::MixedLcp;
 use crate::definite::indefiniteness;
-use crate::vector::{check_length, check_vector, is_interval};
+use crate::vector::{check_bounds, check_length, check_vector};
 use crate::{Error, Matrix, Vector};
 
 /// The convex quadratic program `min x.P x / 2 + q.x + constant` subject to `l <= A x <= u` and `lower <= x <= upper`.
@@ -91,7 +91,8 @@ impl Qp {
             return Err(Error::NotConvex { reason });
         }
         let free = Bounds { lower: vec![f64::NEG_INFINITY; n], upper: vec![f64::INFINITY; n] };
-        Self::posed(p, q, a, Bounds { lower: l, upper: u }.check("row")?, free)
+        check_bounds("row", &l, &u)?;
+        Self::posed(p, q, a, Bounds { lower: l, upper: u }, free)
     }
 
     /// The same program with bounds of its variables, which may be infinite.
@@ -107,8 +108,8 @@ impl Qp {
         check_length("lower", lower.len(), self.q.len())?;
         check_length("upper", upper.len(), self.q.len())?;
         let Self { p, q, a, rows, constant, .. } = self;
-        let variables = Bounds { lower, upper }.check("variable")?;
-        Ok(Self { constant, ..Self::posed(p, q, a, rows, variables)? })
+        check_bounds("variable", &lower, &upper)?;
+        Ok(Self { constant, ..Self::posed(p, q, a, rows, Bounds { lower, upper })? })
     }
 
     /// The same program with this constant in its objective.
@@ -198,15 +199,6 @@ impl Qp {
 }
 
 impl Bounds {
-    fn check(self, what: &'static str) -> Result<Self, Error> {
-        for (index, (&lower, &upper)) in self.lower.iter().zip(&self.upper).enumerate() {
-            if !is_interval(lower, upper) {
-                return Err(Error::Bounds { what, index, lower, upper });
-            }
-        }
-        Ok(self)
-    }
-
     /// The finite bounds, of which the first ones have this number.
     fn limits(&self, first: usize) -> impl Iterator<Item = Limit> {
         self.lower.iter().zip(&self.upper).enumerate().flat_map(move |(index, (lower, upper))| {

@@ -2,7 +2,7 @@
 
 use super::{Contact2d, ContactState};
 use crate::matrix::{add_image, column_of};
-use crate::vector::max_abs;
+use crate::vector::in_units_of_largest;
 use crate::{Basis, Matrix, MixedLcp, Side, WarmStart};
 
 impl Contact2d {
@@ -108,9 +108,7 @@ impl Contact2d {
         add_image(&self.c_t, 1.0, motion, &mut slips);
         let bounds = self.friction.iter().map(|&i| -0.5 * slips[i].abs());
         let zeros = std::iter::repeat_n(0.0, self.points() + self.friction.len());
-        let pi: Vec<f64> = motion.iter().copied().chain(zeros).chain(bounds).collect();
-        let largest = max_abs(&pi);
-        pi.iter().map(|pi| pi / largest).collect()
+        in_units_of_largest(motion.iter().copied().chain(zeros).chain(bounds))
     }
 
     /// A Farkas vector of the general problem from one of the mixed problem in its general form.
@@ -120,9 +118,6 @@ impl Contact2d {
         let gaps = pi[n..n + m].iter().copied();
         let bounds = pi[n + m + 2 * count..].iter().map(|pi| 0.5 * pi);
         let slips = std::iter::repeat_n(0.0, count);
-        let pi: Vec<f64> = balance.chain(gaps).chain(slips).chain(bounds).collect();
-        // The largest entry was one and may have been one of the bounds.
-        let factor = if max_abs(&pi) <= 0.5 { 2.0 } else { 1.0 };
-        pi.iter().map(|pi| factor * pi).collect()
+        in_units_of_largest(balance.chain(gaps).chain(slips).chain(bounds))
     }
 }
