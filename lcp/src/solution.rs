@@ -94,6 +94,17 @@ pub struct Info {
     pub pivot_seconds: f64,
 }
 
+impl Info {
+    /// Adds the work of another solve, and moves its attempts here.
+    pub(crate) fn add_work(&mut self, other: &mut Self) {
+        self.pivots += other.pivots;
+        self.iterations += other.iterations;
+        self.factorisations += other.factorisations;
+        self.pivot_seconds += other.pivot_seconds;
+        self.attempts.append(&mut other.attempts);
+    }
+}
+
 /// The result of a solver for a problem of type `P`, always with the residuals of its point.
 ///
 /// The pairs are those of the general form of the problem: `problem.variables(&solution)` gives the answer in its own

@@ -137,7 +137,7 @@ fn solve<P: Planned>(
 /// The answer of the whole: the part that says least decides what is said of it, unless one proves that there
 /// is no solution.
 fn join<P: Planned>(problem: &P, mut answers: Vec<Answer<P>>, tolerance: f64) -> Solution {
-    let pairs = problem.general().order();
+    let pairs = problem.pairs();
     let (mut t, mut y) = (vec![0.0; pairs], vec![0.0; pairs]);
     for (part, answer) in &answers {
         part.put_pairs(&answer.t, &mut t);
@@ -156,12 +156,7 @@ fn join<P: Planned>(problem: &P, mut answers: Vec<Answer<P>>, tolerance: f64) ->
     let largest = answers.iter().rev().max_by_key(|(part, _)| part.pairs.len());
     whole.info.method = largest.map_or(Method::Auto, |(_, answer)| answer.info.method);
     for (_, answer) in &mut answers {
-        let info = &mut answer.info;
-        whole.info.pivots += info.pivots;
-        whole.info.iterations += info.iterations;
-        whole.info.factorisations += info.factorisations;
-        whole.info.pivot_seconds += info.pivot_seconds;
-        whole.info.attempts.append(&mut info.attempts);
+        whole.info.add_work(&mut answer.info);
     }
     let count = answers.len();
     let routes = answers.into_iter().map(|(_, answer)| answer.info.routes);

@@ -14,7 +14,7 @@ use matching::matched_sides;
 
 use super::constants::{DENSE_SEARCH, GAIN, GAIN_SWEEPS, PIVOT_TOLERANCE};
 use super::dense::Dense;
-use super::kernel::{Kernel, Var};
+use super::kernel::{Kernel, Var, complement};
 use super::start::Equilibrated;
 use crate::linear::Lu;
 use crate::solve::is_over;
@@ -196,7 +196,7 @@ fn enlarged(problem: &Equilibrated<'_>, basis: Basis, deadline: Option<Instant>)
             break;
         }
         settled += 1;
-        let entering = if basic[k] == k { n + k } else { k };
+        let entering = complement(basic[k], n);
         kernel.column(entering, &mut column);
         if column[k].abs() > GAIN {
             kernel.exchange(k, entering, basic[k], &column);

@@ -3,6 +3,11 @@
 /// A variable of a path: `w_k` is `k`, `z_k` is `n + k`, the artificial one `2 n`.
 pub(super) type Var = usize;
 
+/// The other variable of the pair, of `n` pairs.
+pub(super) fn complement(var: Var, n: usize) -> Var {
+    if var < n { var + n } else { var - n }
+}
+
 /// The columns of `w + T z - d z0 = q` in terms of the present basis.
 ///
 /// Start coordinates are those in which the data are held: for the dense kernel the basic variables

@@ -8,7 +8,7 @@
 use std::collections::HashSet;
 
 use super::constants::{ARTIFICIAL_ZERO, DRIFT};
-use super::kernel::{Kernel, Var};
+use super::kernel::{Kernel, Var, complement};
 use super::start::{Equilibrated, Start};
 use crate::pivoting::{AttemptEnd, PivotRecord, Variable};
 use crate::random::SplitMix;
@@ -235,8 +235,7 @@ impl<'a> Path<'a> {
         self.signature ^= key(entering) ^ key(leaving);
         self.pivots += 1;
         self.scale = max_abs(&self.values);
-        let artificial =
-            self.artificial_row().map_or(0.0, |row| self.values[row] / self.artificial_start);
+        let artificial = self.value(self.artificial()) / self.artificial_start;
         if let Some(trace) = &mut self.trace {
             let [entering, leaving] =
                 [entering, leaving].map(|var| match self.start.variable(var) {
@@ -246,18 +245,7 @@ impl<'a> Path<'a> {
                 });
             trace.push(PivotRecord { attempt: 0, entering, leaving, step, artificial });
         }
-        self.complement(leaving)
-    }
-
-    fn complement(&self, var: Var) -> Var {
-        let n = self.order();
-        if var == 2 * n {
-            var
-        } else if var < n {
-            var + n
-        } else {
-            var - n
-        }
+        if leaving == self.artificial() { leaving } else { complement(leaving, self.order()) }
     }
 
     /// A column that nothing blocks is a ray only when the artificial variable is not already

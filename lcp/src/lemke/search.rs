@@ -139,14 +139,11 @@ impl<'a> Search<'a> {
         for side in [Side::Y, Side::T] {
             let completed = completed(&self.problem, chosen, complement, side);
             let search = Search::new(&settings, &completed, self.deadline);
-            let solution = Search { is_completed: true, ..search }.run(observer);
+            let mut solution = Search { is_completed: true, ..search }.run(observer);
             let point = without_artificial(self.problem.problem, chosen, side, &solution);
             let proves = |pi: &&[f64]| is_proof(self.problem.problem, pi);
             let proof = solution.farkas().filter(proves).map(<[f64]>::to_vec);
-            self.info.pivots += solution.info.pivots;
-            self.info.factorisations += solution.info.factorisations;
-            self.info.pivot_seconds += solution.info.pivot_seconds;
-            self.info.attempts.extend(solution.info.attempts);
+            self.info.add_work(&mut solution.info);
             match (solution.status, point) {
                 (Status::Cancelled | Status::TimeLimit, _) => return self.give_up(solution.status),
                 (_, Some(point)) if self.is_solved(&point) => return self.answer(point),

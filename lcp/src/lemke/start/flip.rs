@@ -5,7 +5,7 @@ use web_time::Instant;
 use super::{Start, StartData};
 use crate::Basis;
 use crate::lemke::constants::{MANY_FLIPS, SOUND_PIVOT};
-use crate::lemke::kernel::{Kernel, Var};
+use crate::lemke::kernel::{Kernel, Var, complement};
 use crate::random::SplitMix;
 use crate::solve::is_over;
 use crate::vector::max_abs;
@@ -83,7 +83,6 @@ impl Start {
             return;
         }
         let negative = |v: f64| if v < 0.0 { -v } else { 0.0 };
-        let other_of_pair = |var: Var| if var < n { var + n } else { var - n };
         let mut column = vec![0.0; n];
         // Each pivot leads to a basis not seen before; as many as pairs are enough for a start.
         for _ in 0..n {
@@ -93,7 +92,7 @@ impl Start {
                 return;
             }
             for row in (0..n).filter(|&row| !self.is_free(basic[row] % n)) {
-                kernel.column(other_of_pair(basic[row]), &mut column);
+                kernel.column(complement(basic[row], n), &mut column);
                 let pivot: f64 = column[row];
                 if pivot == 0.0 || pivot.abs() < SOUND_PIVOT * max_abs(&column) {
                     continue;
@@ -106,7 +105,7 @@ impl Start {
                 }
             }
             let Some(row) = best else { return };
-            let (entering, leaving) = (other_of_pair(basic[row]), basic[row]);
+            let (entering, leaving) = (complement(basic[row], n), basic[row]);
             kernel.column(entering, &mut column);
             let step = values[row] / column[row];
             values.iter_mut().zip(&column).for_each(|(v, c)| *v -= step * c);
