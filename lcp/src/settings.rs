@@ -72,10 +72,6 @@ pub struct LemkeSettings {
     pub covering: Covering,
     /// Start of the first attempt.
     pub start: WarmStart,
-    /// Number of pivots after which the tableau is rebuilt from the data even without drift; with `None` only the
-    /// measured drift decides. For sparse problems the largest number of pivots between two factorisations; `None` is
-    /// a number between 16 and 256 that grows with the fill. At least 1.
-    pub refactor_interval: Option<usize>,
     /// Whether the first ray is followed by a search for a proof that there is no solution, by the simplex method.
     /// Without it the status is [`Infeasible`](crate::Status::Infeasible) only if there is no complementary basis and
     /// the right-hand side is outside the span of all columns.
@@ -93,7 +89,6 @@ impl Default for LemkeSettings {
             max_attempts: None,
             covering: Covering::Ones,
             start: WarmStart::None,
-            refactor_interval: None,
             prove_infeasible: true,
             trace: false,
         }
@@ -159,7 +154,6 @@ impl LemkeSettings {
     pub fn validate(&self, n: usize) -> Result<(), Error> {
         check_tolerance(self.tolerance)?;
         check_count("max_attempts", self.max_attempts)?;
-        check_count("refactor_interval", self.refactor_interval)?;
         self.start.validate(n)?;
         if let Covering::Given(d) = &self.covering {
             check_length("covering", d.len(), n)?;

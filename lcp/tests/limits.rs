@@ -143,17 +143,6 @@ fn a_point_without_one_of_the_vectors_is_a_start() {
     }
 }
 
-/// However often the tableau is rebuilt from the data.
-#[test]
-fn refactorisation_changes_nothing() {
-    let problem = problem(60, 3);
-    let plain = with(LemkeSettings::default(), &problem);
-    let settings = LemkeSettings { refactor_interval: Some(16), ..LemkeSettings::default() };
-    let often = with(settings, &problem);
-    assert!(often.info.factorisations > 0);
-    assert_eq!((&often.t, often.info.pivots), (&plain.t, plain.info.pivots));
-}
-
 #[test]
 fn solvers_and_answers_cross_threads() {
     fn is_shared<T: Send + Sync>() {}

@@ -108,18 +108,6 @@ proptest! {
         prop_assert!(close(&sparse.t, &dense.t) && close(&sparse.y, &dense.y));
     }
 
-    /// However often the basis is factorised.
-    #[test]
-    fn factorisations_do_not_matter((m, q) in banded(), interval in 1..6_usize) {
-        let settings = LemkeSettings { refactor_interval: Some(interval), ..LemkeSettings::default() };
-        let [dense, sparse] = standard(&m, &q);
-        let dense = first_attempt().solve(&dense).unwrap();
-        let often = Lemke::new(settings).solve(&sparse).unwrap();
-        prop_assert_eq!(often.status, Status::Solved);
-        prop_assert!(often.info.factorisations + 1 >= often.info.pivots / interval);
-        prop_assert!(close(&often.t, &dense.t) && close(&often.y, &dense.y));
-    }
-
     /// The general form: neighbouring rows mixed, pairs swapped, columns of every size.
     #[test]
     fn general_problems(

@@ -180,7 +180,7 @@ fn enlarged(problem: &Equilibrated<'_>, basis: Basis, deadline: Option<Instant>)
     let mut kernel: Box<dyn Kernel> = if problem.problem.is_sparse() {
         start = problem.start(&basis);
         let Some(start) = &start else { return basis };
-        start.kernel(&zeros, None)
+        start.kernel(&zeros)
     } else {
         let Some(lu) = Lu::new(columns(&sides).as_ref()) else { return basis };
         let others: Vec<Side> = sides.iter().map(|side| side.complement()).collect();

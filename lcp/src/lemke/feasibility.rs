@@ -22,7 +22,7 @@ pub(super) fn farkas_vector(
     limits: Limits<'_>,
 ) -> Result<Option<Vec<f64>>, AttemptEnd> {
     let n = problem.order();
-    let mut path = Path::new(start, covering, None);
+    let mut path = Path::new(start, covering);
     let mut column = vec![0.0; n];
     if path.enter_artificial(&mut column).is_none() {
         return Ok(None);

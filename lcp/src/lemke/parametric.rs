@@ -119,8 +119,7 @@ impl Parametric {
         let direction = if to < from { -1.0 } else { 1.0 };
         let rate: Vec<f64> = rates.q.iter().map(|rate| direction * rate).collect();
         let start = start.bounded();
-        let interval = self.settings.lemke.refactor_interval;
-        let path = Path::parametric(&start, &rate, interval);
+        let path = Path::parametric(&start, &rate);
         let unit = direction * start.size / rates.size;
         let (settings, equilibrated, start) = (&self.settings, &equilibrated, &start);
         let tracer =

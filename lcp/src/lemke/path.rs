@@ -36,8 +36,6 @@ pub(super) struct Path<'a> {
     pub(super) scale: f64,
     pub(super) pivots: usize,
     pub(super) factorisations: usize,
-    /// Pivots after which the tableau is rebuilt in any case.
-    interval: Option<usize>,
     /// Every exchange, if the settings record them.
     pub(super) trace: Option<Vec<PivotRecord>>,
     visited: HashSet<u64>,
@@ -51,10 +49,10 @@ pub(super) struct Path<'a> {
 
 impl<'a> Path<'a> {
     /// Rows of free variables have a covering of zero.
-    pub(super) fn new(start: &'a Start, covering: &'a [f64], interval: Option<usize>) -> Self {
+    pub(super) fn new(start: &'a Start, covering: &'a [f64]) -> Self {
         let n = start.q.len();
         Self {
-            kernel: start.kernel(covering, interval),
+            kernel: start.kernel(covering),
             start,
             covering,
             scale: max_abs(&start.q),
@@ -65,7 +63,6 @@ impl<'a> Path<'a> {
             artificial_start: 0.0,
             pivots: 0,
             factorisations: 0,
-            interval,
             trace: None,
             visited: HashSet::new(),
             signature: (0..n).map(key).fold(0, |a, b| a ^ b),
@@ -77,8 +74,8 @@ impl<'a> Path<'a> {
 
     /// A path along which the artificial variable is a parameter: it may have any value, and does not
     /// leave when it is zero.
-    pub(super) fn parametric(start: &'a Start, rate: &'a [f64], interval: Option<usize>) -> Self {
-        let mut path = Self::new(start, rate, interval);
+    pub(super) fn parametric(start: &'a Start, rate: &'a [f64]) -> Self {
+        let mut path = Self::new(start, rate);
         path.values.iter_mut().for_each(|value| *value = value.max(0.0));
         Self { is_parametric: true, artificial_start: 1.0, scale: max_abs(&path.values), ..path }
     }
@@ -313,15 +310,10 @@ impl<'a> Path<'a> {
 
     /// Deals with the exchanges held back, and starts anew where the result has drifted.
     pub(super) fn tidy(&mut self) -> bool {
-        let last = self.rebuilt_at.unwrap_or(0);
-        let is_due = self.interval.is_some_and(|interval| self.pivots >= last + interval);
         let nonbasic = (0..=2 * self.order()).filter(|&var| self.is_nonbasic(var));
         let probe = nonbasic.cycle().nth(self.pivots % (self.order() + 1));
-        let is_sound = self.kernel.apply() && !is_due;
-        if is_sound && probe.is_some_and(|probe| !self.has_drifted(probe)) {
-            return true;
-        }
-        self.rebuild()
+        let is_sound = self.kernel.apply() && probe.is_some_and(|probe| !self.has_drifted(probe));
+        is_sound || self.rebuild()
     }
 
     pub(super) fn is_rebuilt(&self) -> bool {

@@ -245,7 +245,7 @@ impl<'a> Search<'a> {
         let covering = covering_vector(trial.covering, start, given);
         let perturbed = trial.perturbed(start);
         let data = perturbed.as_ref().unwrap_or(start);
-        let mut path = Path::new(data, &covering, settings.refactor_interval);
+        let mut path = Path::new(data, &covering);
         path.trace = settings.trace.then(Vec::new);
         // Every pair has its turn before the paths that begin with them may be twice as long.
         let (round, driver) = match trial.covering {

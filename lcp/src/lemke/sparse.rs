@@ -53,7 +53,6 @@ pub(super) struct Sparse<'a> {
     /// Pivots since the factorisation, and how many are allowed.
     pivots: usize,
     limit: usize,
-    interval: Option<usize>,
     /// The last column computed, in terms of `B0`.
     last: Vec<f64>,
     work: Vec<f64>,
@@ -73,7 +72,7 @@ struct Factored<'a> {
 }
 
 impl<'a> Sparse<'a> {
-    pub(super) fn new(start: &'a SparseStart, covering: &[f64], interval: Option<usize>) -> Self {
+    pub(super) fn new(start: &'a SparseStart, covering: &[f64]) -> Self {
         let n = covering.len();
         let mut artificial = vec![0.0; n];
         for (k, &d) in covering.iter().enumerate().filter(|(_, d)| **d != 0.0) {
@@ -92,9 +91,8 @@ impl<'a> Sparse<'a> {
             artificial,
             parting,
             pivots: 0,
-            limit: pivot_limit(factored.lu.stored(), interval),
+            limit: pivot_limit(factored.lu.stored()),
             factored,
-            interval,
             last: Vec::new(),
             work: Vec::new(),
         }
@@ -293,7 +291,7 @@ impl Kernel for Sparse<'_> {
         values.copy_from_slice(&new_values);
         self.factored = factored;
         self.pivots = 0;
-        self.limit = pivot_limit(self.factored.lu.stored(), self.interval);
+        self.limit = pivot_limit(self.factored.lu.stored());
         true
     }
 }
@@ -301,7 +299,6 @@ impl Kernel for Sparse<'_> {
 /// Pivots between two factorisations. One with `m` nonzeros takes the time of some `500 m` flops, and
 /// `k` pivots take factorisations of `S` of together `k^4 / 6` flops: for every pivot the sum is least
 /// near the fourth root of `1000 m`, and flat around it.
-fn pivot_limit(stored: usize, interval: Option<usize>) -> usize {
-    let best = stored.saturating_mul(1000).isqrt().isqrt().clamp(16, 256);
-    interval.map_or(best, |interval| interval.min(best))
+fn pivot_limit(stored: usize) -> usize {
+    stored.saturating_mul(1000).isqrt().isqrt().clamp(16, 256)
 }

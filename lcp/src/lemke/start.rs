@@ -283,16 +283,11 @@ impl Start {
         Basis::new(sides.map(|(side, &z)| if z { side.complement() } else { *side }).collect())
     }
 
-    /// The columns of `w + T z - d z0 = q` before the first pivot, for that covering vector. At most so
-    /// many pivots are done before the sparse ones are factorised anew.
-    pub(super) fn kernel<'a>(
-        &'a self,
-        covering: &'a [f64],
-        interval: Option<usize>,
-    ) -> Box<dyn Kernel + 'a> {
+    /// The columns of `w + T z - d z0 = q` before the first pivot, for that covering vector.
+    pub(super) fn kernel<'a>(&'a self, covering: &'a [f64]) -> Box<dyn Kernel + 'a> {
         match &self.data {
             StartData::Dense(t) => Box::new(Dense::new(t.as_ref(), covering, &self.q)),
-            StartData::Sparse(data) => Box::new(Sparse::new(data, covering, interval)),
+            StartData::Sparse(data) => Box::new(Sparse::new(data, covering)),
         }
     }
 

@@ -20,7 +20,7 @@ impl Start {
         let share = if is_sparse { (MANY_FLIPS / n as f64).min(0.5) } else { 0.5 };
         let mut random = SplitMix::new(seed);
         let covering = vec![0.0; n];
-        let mut kernel = self.kernel(&covering, None);
+        let mut kernel = self.kernel(&covering);
         let mut column = vec![0.0; n];
         let mut values = vec![0.0; n];
         let mut basic: Vec<Var> = (0..n).collect();
