@@ -147,28 +147,29 @@ fn swap_rows(mut matrix: MatMut<'_, f64>, i: usize, j: usize) {
 /// Estimate of the 1-norm of the inverse of a matrix of order `n` (Hager 1984; Higham 1988), given what
 /// overwrites a vector with the solution of the system, or of the transposed one.
 pub(crate) fn inverse_norm(n: usize, mut solve: impl FnMut(&mut [f64], bool)) -> f64 {
-    const STEPS: usize = 5;
     let mut x = vec![1.0 / n as f64; n];
     let mut estimate = 0.0_f64;
-    for _ in 0..STEPS {
+    loop {
         let mut image = x.clone();
         solve(&mut image, false);
         let size: f64 = image.iter().map(|v| v.abs()).sum();
         if size <= estimate {
-            break;
+            return estimate;
         }
         estimate = size;
+        if !size.is_finite() {
+            return estimate;
+        }
         let mut gradient: Vec<f64> = image.iter().map(|v| v.signum()).collect();
         solve(&mut gradient, true);
         let largest = max_abs(&gradient);
         let inner: f64 = gradient.iter().zip(&x).map(|(g, x)| g * x).sum();
         if largest <= inner {
-            break;
+            return estimate;
         }
         x.fill(0.0);
         if let Some(j) = gradient.iter().position(|g| g.abs() >= largest) {
             x[j] = 1.0;
         }
     }
-    estimate
 }

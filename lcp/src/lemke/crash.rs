@@ -12,7 +12,7 @@ use faer::{Mat, MatRef};
 
 use matching::matched_sides;
 
-use super::constants::{DENSE_SEARCH, GAIN, GAIN_SWEEPS, PIVOT_TOLERANCE};
+use super::constants::{DENSE_SEARCH, GAIN, GAIN_SWEEPS, VANISHING};
 use super::dense::Dense;
 use super::kernel::{Kernel, Var, complement};
 use super::start::Equilibrated;
@@ -158,7 +158,7 @@ fn independent(
         }
         for turn in elimination_order(n, &offered) {
             let (pair, side) = open[turn.column];
-            if sides[pair].is_none() && growing.offer(pair, &offered, turn, PIVOT_TOLERANCE) {
+            if sides[pair].is_none() && growing.offer(pair, &offered, turn, VANISHING) {
                 sides[pair] = Some(side);
             }
         }
@@ -311,7 +311,7 @@ fn pivot_columns(m: &Mat<f64>, reference: f64) -> (Vec<usize>, Mat<f64>) {
     }
     let qr = m.col_piv_qr();
     let r = qr.R();
-    let least = PIVOT_TOLERANCE * r[(0, 0)].abs().max(reference);
+    let least = VANISHING * r[(0, 0)].abs().max(reference);
     let rank = (0..size).take_while(|&k| r[(k, k)].abs() > least).count();
     let columns = qr.P().arrays().0[..rank].to_vec();
     if rank == rows {

@@ -6,7 +6,7 @@
 //! system is feasible. If not, the multipliers of the last basis are the proof.
 
 use super::basis_matrix::BasisMatrix;
-use super::constants::PIVOT_TOLERANCE;
+use super::constants::VANISHING;
 use super::kernel::Var;
 use super::path::{Limits, Path};
 use super::start::{Equilibrated, Start};
@@ -62,7 +62,7 @@ fn descending_variable(path: &Path<'_>, row: usize, n: usize) -> Option<Var> {
             best = (cost, Some(var));
         }
     }
-    best.1.filter(|_| best.0 > PIVOT_TOLERANCE * largest)
+    best.1.filter(|_| best.0 > VANISHING * largest)
 }
 
 /// From equilibrated rows, with a largest entry of one.

@@ -7,7 +7,7 @@
 
 use std::collections::HashSet;
 
-use super::constants::{ARTIFICIAL_ZERO, DRIFT};
+use super::constants::VANISHING;
 use super::kernel::{Kernel, Var, complement};
 use super::start::{Equilibrated, Start};
 use crate::pivoting::{AttemptEnd, PivotRecord, Variable};
@@ -150,7 +150,7 @@ impl<'a> Path<'a> {
                 return Err(AttemptEnd::Ray);
             }
             self.kernel.column(entering, column);
-            let least = -DRIFT * max_abs(column);
+            let least = -VANISHING * max_abs(column);
             let step = |i: usize| self.values[i] / column[i];
             let lifted = (0..column.len()).filter(|i| negative(self, i) && column[*i] < least);
             let row = lifted.max_by(|&i, &j| step(i).total_cmp(&step(j)));
@@ -249,7 +249,7 @@ impl<'a> Path<'a> {
     /// zero: then the basis solves the problem, and it leaves on its own row.
     fn at_ray(&mut self, entering: Var, column: &[f64]) -> AttemptEnd {
         if let Some(row) = self.artificial_row()
-            && self.values[row] <= ARTIFICIAL_ZERO * self.artificial_start
+            && self.values[row] <= VANISHING * self.artificial_start
             && column[row].abs() > 0.0
         {
             self.exchange(row, entering, column);
@@ -341,7 +341,7 @@ impl<'a> Path<'a> {
             self.kernel.add_start_column(var, factor, &mut residual);
         }
         // Written so that a NaN has drifted.
-        !residual.iter().all(|r| r.abs() <= DRIFT * size)
+        !residual.iter().all(|r| r.abs() <= VANISHING * size)
     }
 }
 

@@ -1,15 +1,15 @@
 //! The ratio test: which basic variable leaves.
 
-use super::constants::{ARTIFICIAL_ZERO, PIVOT_TOLERANCE, TIE_PIVOT, TIE_WINDOW};
+use super::constants::{TIE_WINDOW, VANISHING};
 use super::path::Path;
-use crate::vector::{SMALL, max_abs};
+use crate::vector::{HALF_DIGITS, SMALL, max_abs};
 
 impl Path<'_> {
     /// The row that leaves, or `None` when nothing blocks the entering variable. In two passes: the
     /// longest step that brings no variable below zero by more than the window, then among the rows that block within
     /// it those with sound pivots.
     pub(super) fn leaving_row(&self, column: &[f64]) -> Option<usize> {
-        let smallest_pivot = (PIVOT_TOLERANCE * max_abs(column)).max(SMALL);
+        let smallest_pivot = (VANISHING * max_abs(column)).max(SMALL);
         let blocks = |&i: &usize| column[i] > smallest_pivot && self.is_bounded(i);
         let value = |i: usize| self.values[i].max(0.0);
 
@@ -17,7 +17,7 @@ impl Path<'_> {
             (0..column.len()).filter(blocks).map(|i| value(i) / column[i]).reduce(f64::min)?;
         if let Some(row) = self.artificial_row().filter(|_| !self.is_parametric) {
             let after = self.values[row] - shortest * column[row];
-            if column[row] > SMALL && after <= ARTIFICIAL_ZERO * self.artificial_start {
+            if column[row] > SMALL && after <= VANISHING * self.artificial_start {
                 return Some(row);
             }
         }
@@ -26,9 +26,10 @@ impl Path<'_> {
             .filter(blocks)
             .filter(|&i| value(i) - shortest * column[i] <= window)
             .collect();
+        // An exchange must not cost more than a quarter of all digits.
         let best = tied.iter().fold(0.0_f64, |max, &i| max.max(column[i]));
-        let sound: Vec<usize> =
-            tied.into_iter().filter(|&i| column[i] >= TIE_PIVOT * best).collect();
+        let least = HALF_DIGITS.sqrt() * best;
+        let sound: Vec<usize> = tied.into_iter().filter(|&i| column[i] >= least).collect();
         if let [only] = sound[..] {
             return Some(only);
         }

@@ -16,7 +16,7 @@ use std::borrow::Cow;
 
 use faer::Mat;
 
-use super::constants::DRIFT;
+use super::constants::VANISHING;
 use super::kernel::{Kernel, Var};
 use crate::linear::Lu;
 use crate::random::SplitMix;
@@ -174,7 +174,7 @@ impl<'a> Sparse<'a> {
         let error = max_abs(&self.residual(basic, &values));
         let size = max_abs(&values).max(max_abs(&self.start.right));
         // Written so that a NaN is refused.
-        (size.is_finite() && error <= DRIFT * size).then_some((factored, values))
+        (size.is_finite() && error <= VANISHING * size).then_some((factored, values))
     }
 
     fn residual(&self, basic: &[Var], values: &[f64]) -> Vec<f64> {

@@ -12,7 +12,7 @@ use crate::sparse::{Columns, SparseLu};
 use crate::vector::{SMALL, max_abs};
 use crate::{Basis, HorizontalLcp, Side};
 
-use super::constants::PIVOT_TOLERANCE;
+use super::constants::VANISHING;
 use super::dense::Dense;
 use super::kernel::{Kernel, Var};
 use super::sparse::{Sparse, SparseStart};
@@ -140,7 +140,7 @@ impl<'a> Equilibrated<'a> {
             lu.solve_in_place(t.as_mut());
             lu.solve_vector(&mut q);
             drop_rounding(&mut t);
-            if !t.is_all_finite() || t.norm_max() > 1.0 / PIVOT_TOLERANCE {
+            if !t.is_all_finite() || t.norm_max() > 1.0 / VANISHING {
                 return None;
             }
             let columns: Vec<_> = (0..n).map(|j| Column::Dense(t.col_as_slice(j))).collect();
@@ -167,7 +167,7 @@ impl<'a> Equilibrated<'a> {
         let norm = inverse_norm(n, |x, is_transposed| {
             if is_transposed { lu.solve_transpose(x, &mut work) } else { lu.solve(x, &mut work) }
         });
-        if !replaced.is_empty() || norm.is_nan() || norm > 1.0 / PIVOT_TOLERANCE {
+        if !replaced.is_empty() || norm.is_nan() || norm > 1.0 / VANISHING {
             return None;
         }
         let right = self.right_hand_side();

@@ -17,7 +17,7 @@ use faer::sparse::SparseColMat;
 
 use super::{ContactForces, HorizontalLcp};
 use crate::definite::indefiniteness;
-use crate::matrix::{add_image, column_of};
+use crate::matrix::{DATA_ROUNDING, add_image, column_of};
 use crate::vector::{check_length, check_sizes, check_vector};
 use crate::{Error, Matrix, Vector};
 
@@ -110,7 +110,8 @@ impl Contact2d {
         for (what, vector) in [("f", &f), ("x_0", &x_0), ("s_0", &s_0), ("mu", &mu)] {
             check_vector(what, vector)?;
         }
-        if let Some(&value) = mu.iter().find(|mu| !(0.0..=LARGEST_MU).contains(*mu)) {
+        // A tangential force of the size of the normal one cannot be told from zero beside larger friction.
+        if let Some(&value) = mu.iter().find(|mu| !(0.0..=1.0 / DATA_ROUNDING).contains(*mu)) {
             let range = "from 0 to 1e12: a contact with more never slides, and belongs into K";
             return Err(Error::Setting { name: "mu", value, range });
         }
@@ -370,6 +371,3 @@ impl Contact2d {
             .filter_map(|(i, v)| Some((self.friction.binary_search(&i).ok()?, v)))
     }
 }
-
-/// A tangential force of the size of the normal one cannot be told from zero beside larger friction.
-const LARGEST_MU: f64 = 1e12;
