@@ -21,6 +21,14 @@ impl Side {
             Self::Y => Self::T,
         }
     }
+
+    /// What belongs to this side, of what belongs to either.
+    pub(crate) fn of<T>(self, t: T, y: T) -> T {
+        match self {
+            Self::T => t,
+            Self::Y => y,
+        }
+    }
 }
 
 /// A complementary basis: for every pair the variable that may be positive.

@@ -148,7 +148,7 @@ impl Search<'_> {
     ) -> Result<Closed, Enumerated> {
         let (mut sides, mut start) = (sides.to_vec(), values.to_vec());
         sides[pair] = Some(side);
-        start[position(pair, side.complement(), sides.len())] = Extended::ZERO;
+        start[side.of(sides.len() + pair, pair)] = Extended::ZERO;
         self.visit(&sides, &start)
     }
 
@@ -293,7 +293,7 @@ impl<'a> Tree<'a> {
             sides.iter().enumerate().filter_map(|(k, side)| Some((k, (*side)?.complement())));
         let needed = excluded
             .filter(|&(pair, side)| !is_proof_of([problem.column(pair, side)], problem.c(), &pi))
-            .map(|(pair, side)| position(pair, side, n))
+            .map(|(pair, side)| side.of(pair, n + pair))
             .collect();
         Some(Proof { pi, needed })
     }
@@ -309,25 +309,15 @@ impl<'a> Tree<'a> {
                 None if x[pair] > x[n + pair] => Side::T,
                 None => Side::Y,
             };
-            let at = position(pair, side, n);
+            let at = side.of(pair, n + pair);
             let value = x[at].rounded() * self.factors[at];
-            match side {
-                Side::T => t[pair] = value,
-                Side::Y => y[pair] = value,
-            }
+            side.of(&mut t, &mut y)[pair] = value;
             basis.push(side);
         }
         // Far enough out all rows hold compared with their terms.
         let residuals = self.judge.residuals_of(&[&extended(&t), &extended(&y)]);
         let holds = residuals.equation <= ROUNDING && residuals.loads <= NEAR;
         holds.then(|| Enumerated::Found { t, y, basis: Basis::new(basis) })
-    }
-}
-
-fn position(pair: usize, side: Side, n: usize) -> usize {
-    match side {
-        Side::T => pair,
-        Side::Y => n + pair,
     }
 }
 

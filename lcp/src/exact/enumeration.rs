@@ -164,13 +164,10 @@ impl Node {
     fn child(&self, side: Side) -> Self {
         let variable = number(self.pair, side);
         let column = self.dependent.len();
-        let mut tableau = match side {
-            Side::T => self.tableau.without_column(column + 1),
-            Side::Y => self.tableau.without_column(column),
-        };
+        let mut tableau = self.tableau.without_column(side.of(column + 1, column));
         let mut basic = self.basic.clone();
         let mut dependent = self.dependent.clone();
-        match self.free_row(column + usize::from(side == Side::Y)) {
+        match self.free_row(side.of(column, column + 1)) {
             Some(row) => {
                 tableau.pivot(row, column);
                 tableau.drop_column(column);
@@ -208,8 +205,7 @@ impl Node {
             return self.is_leaf();
         }
         [Side::T, Side::Y].into_iter().any(|side| {
-            self.free_row(usize::from(side == Side::Y)).is_some()
-                && self.child(side).has_basis(deadline)
+            self.free_row(side.of(0, 1)).is_some() && self.child(side).has_basis(deadline)
         })
     }
 }

@@ -8,7 +8,7 @@ use crate::{HorizontalLcp, Side};
 
 /// The number of a variable: `t` before `y` in every pair.
 pub(super) fn number(pair: usize, side: Side) -> usize {
-    2 * pair + usize::from(side == Side::Y)
+    2 * pair + side.of(0, 1)
 }
 
 /// `A`, `B` and `c` with every row multiplied by a power of two.

@@ -20,7 +20,7 @@ pub(super) fn completed(
     side: Side,
 ) -> HorizontalLcp {
     let (a, b) = (problem.problem.a(), problem.problem.b());
-    let matrix = if side == Side::T { a } else { b };
+    let matrix = side.of(a, b);
     let kept = (0..chosen.len()).filter(|&pair| chosen[pair].is_some());
     let kept = kept.flat_map(|pair| matrix.column(pair).map(move |(i, v)| (i, pair, v)));
     let artificial = missing(chosen).zip(0..complement.ncols()).flat_map(|(pair, k)| {
@@ -45,10 +45,7 @@ pub(super) fn without_artificial(
     let basis: Basis = solution.basis.clone()?;
     let (mut t, mut y) = (solution.t.clone(), solution.y.clone());
     for pair in missing(chosen) {
-        match side {
-            Side::T => t[pair] = 0.0,
-            Side::Y => y[pair] = 0.0,
-        }
+        side.of(&mut t, &mut y)[pair] = 0.0;
     }
     let residuals = problem.residuals(&t, &y);
     Some(Point { t, y, basis, residuals, condition: solution.condition?, negative: Vec::new() })

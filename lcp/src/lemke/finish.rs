@@ -4,7 +4,7 @@ use super::basis_matrix::BasisMatrix;
 use super::start::Equilibrated;
 use crate::certify::Precision;
 use crate::vector::{REFINEMENTS, max_abs};
-use crate::{Basis, Residuals, Side};
+use crate::{Basis, Residuals};
 
 #[derive(Debug, Clone)]
 pub(super) struct Point {
@@ -43,13 +43,10 @@ pub(super) fn solve_basis(problem: &Equilibrated<'_>, basis: &Basis) -> Option<P
         let mut value = x * problem.factor(j, *side);
         // A negative free variable is a positive one on the other side.
         if let Some(ratio) = problem.opposite(j).filter(|_| value < 0.0) {
-            value = if *side == Side::T { -value / ratio } else { -value * ratio };
+            value = side.of(-value / ratio, -value * ratio);
             *side = side.complement();
         }
-        match side {
-            Side::T => t[j] = value.max(0.0),
-            Side::Y => y[j] = value.max(0.0),
-        }
+        side.of(&mut t, &mut y)[j] = value.max(0.0);
         negative.extend((value < 0.0).then_some(j));
     }
     let residuals = problem.judge.residuals(&[&t[..], &y], Precision::Exact);

@@ -44,10 +44,7 @@ impl<'a> Equilibrated<'a> {
 
     /// Value in the problem's units of one unit of a scaled variable.
     pub(super) fn factor(&self, pair: usize, side: Side) -> f64 {
-        match side {
-            Side::T => self.t_factor[pair],
-            Side::Y => self.y_factor[pair],
-        }
+        side.of(&self.t_factor, &self.y_factor)[pair]
     }
 
     /// For a free pair the positive `r` with `B_j = -r A_j`: one unit of `y` is `r` units of `-t`.
@@ -267,7 +264,7 @@ impl Start {
         let pair = |k: usize| {
             let w = self.size * along[k] / self.row_factor[k];
             let z = self.size * along[n + k] * self.col_factor[k];
-            let (t, y) = if self.basis.sides()[k] == Side::T { (w, z) } else { (z, w) };
+            let (t, y) = self.basis.sides()[k].of((w, z), (z, w));
             // A free variable is put on the side that its sign asks for.
             problem.opposite[k].map_or((t, y), |ratio| {
                 let net = t - ratio * y;

@@ -90,10 +90,7 @@ impl HorizontalLcp {
 
     /// Column `pair` of `A` or of `B`.
     pub(crate) fn column(&self, pair: usize, side: Side) -> Column<'_> {
-        match side {
-            Side::T => self.a.slice(pair),
-            Side::Y => self.b.slice(pair),
-        }
+        side.of(&self.a, &self.b).slice(pair)
     }
 
     /// All columns, of `A` and then of `B`.

@@ -65,7 +65,7 @@ impl HorizontalLcp {
         let mut q = vec![0.0; n];
         of_row.iter().zip(self.c()).for_each(|((pair, value), c)| q[*pair] = c / value);
         let entries = (0..n).flat_map(|j| {
-            let matrix = if sides[j] == Side::T { self.b() } else { self.a() };
+            let matrix = sides[j].of(self.b(), self.a());
             matrix.column(j).map(move |(row, v)| {
                 let (pair, value) = of_row[row];
                 (pair, j, -v / value)
@@ -92,7 +92,7 @@ impl StandardForm {
         let n = self.sides.len();
         assert!(z.len() == n && w.len() == n, "a point has one entry for every pair");
         let pairs = z.iter().zip(w).zip(&self.sides);
-        pairs.map(|((z, w), side)| if *side == Side::Y { (*z, *w) } else { (*w, *z) }).unzip()
+        pairs.map(|((z, w), side)| side.of((*w, *z), (*z, *w))).unzip()
     }
 
     /// The start for the standard problem that belongs to one for the general problem.
