@@ -4,7 +4,7 @@ use faer::{Mat, MatRef};
 
 use super::kernel::{Kernel, Var};
 use super::tableau::Tableau;
-use crate::linear::{Lu, add_product};
+use crate::linear::Lu;
 
 pub(super) struct Dense<'a> {
     /// `T` of the start.
@@ -89,50 +89,25 @@ impl Kernel for Dense<'_> {
         true
     }
 
-    /// With the `p` rows whose `w` is nonbasic and the `p` other basic columns: one LU of order `p`
-    /// and products.
     fn rebuild(&mut self, basic: &[Var], values: &mut [f64]) -> bool {
         let n = self.order();
-        let z_rows: Vec<usize> = (0..n).filter(|&i| basic[i] >= n).collect();
-        let w_rows: Vec<usize> = (0..n).filter(|&i| basic[i] < n).collect();
-        let w_index: Vec<usize> = w_rows.iter().map(|&i| basic[i]).collect();
-        let mut is_left = vec![true; n];
-        for &k in &w_index {
-            is_left[k] = false;
-        }
-        let left: Vec<usize> = (0..n).filter(|&k| is_left[k]).collect();
-
-        let mut columns = Mat::zeros(n, z_rows.len());
-        for (k, &row) in z_rows.iter().enumerate() {
-            self.add_start_column(basic[row], 1.0, columns.col_as_slice_mut(k));
-        }
-        let Some(lu) = Lu::new(rows_of(columns.as_ref(), &left).as_ref()) else { return false };
-        let mut right = Mat::zeros(n, n + 2);
-        for (col, &var) in self.nonbasic(basic).iter().enumerate() {
-            self.add_start_column(var, 1.0, right.col_as_slice_mut(col));
-        }
-        right.col_as_slice_mut(n + 1).copy_from_slice(self.q);
-        let mut solved = rows_of(right.as_ref(), &left);
-        lu.solve_in_place(solved.as_mut());
-        let mut rest = rows_of(right.as_ref(), &w_index);
-        let coupling = rows_of(columns.as_ref(), &w_index);
-        add_product(rest.as_mut(), -1.0, coupling.as_ref(), solved.as_ref());
-        if !solved.is_all_finite() || !rest.is_all_finite() {
+        let columns_of = |vars: &[Var]| {
+            let mut columns = Mat::zeros(n, vars.len());
+            for (k, &var) in vars.iter().enumerate() {
+                self.add_start_column(var, 1.0, columns.col_as_slice_mut(k));
+            }
+            columns
+        };
+        let Some(lu) = Lu::new(columns_of(basic).as_ref()) else { return false };
+        let mut t = columns_of(&self.nonbasic(basic));
+        lu.solve_in_place(t.as_mut());
+        let mut solved = self.q.to_vec();
+        lu.solve_vector(&mut solved);
+        if !t.is_all_finite() || solved.iter().any(|value| !value.is_finite()) {
             return false;
         }
-        let mut t = right;
-        for j in 0..n + 2 {
-            let column = t.col_as_slice_mut(j);
-            z_rows.iter().zip(solved.col_as_slice(j)).for_each(|(&i, &v)| column[i] = v);
-            w_rows.iter().zip(rest.col_as_slice(j)).for_each(|(&i, &v)| column[i] = v);
-        }
-        values.copy_from_slice(t.col_as_slice(n + 1));
-        t.truncate(n, n + 1);
+        values.copy_from_slice(&solved);
         self.tableau = Tableau::new(t);
         true
     }
-}
-
-fn rows_of(m: MatRef<'_, f64>, rows: &[usize]) -> Mat<f64> {
-    Mat::from_fn(rows.len(), m.ncols(), |i, j| m[(rows[i], j)])
 }
