@@ -33,22 +33,15 @@ pub(super) enum Crash {
     Late,
 }
 
-/// A nonsingular complementary basis: the preferred sides or all `y` or all `t` where these are
-/// diagonal, one of columns with a single entry, or one grown from independent columns.
+/// A nonsingular complementary basis: one of columns with a single entry, or one grown from independent columns.
 pub(super) fn find_basis(
     problem: &Equilibrated<'_>,
     preferred: Option<&Basis>,
     deadline: Option<Instant>,
 ) -> Crash {
     let n = problem.order();
-    let (all_y, all_t) = (Basis::all(Side::Y, n), Basis::all(Side::T, n));
-    for basis in preferred.into_iter().chain([&all_y, &all_t]) {
-        let diagonal = problem.diagonal(|j| basis.sides()[j]);
-        if diagonal.is_some_and(|diagonal| diagonal.iter().all(|&d| d != 0.0)) {
-            return Crash::Complete(basis.clone());
-        }
-    }
-    let preferred = preferred.unwrap_or(&all_y).sides();
+    let all_y = vec![Side::Y; n];
+    let preferred = preferred.map_or(&all_y[..], Basis::sides);
     if let Some(basis) = single_entries(problem, preferred) {
         return Crash::Complete(basis);
     }
