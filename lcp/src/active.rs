@@ -5,5 +5,5 @@ mod original;
 mod search;
 
 pub(crate) use crossover::Effort;
-pub(crate) use original::{Original, state_brought_right};
+pub(crate) use original::Original;
 pub(crate) use search::{Search, unplanned};

@@ -13,7 +13,7 @@ pub use law::Margin;
 pub use crate::extended::Extended;
 pub use crate::problem::ContactStatus;
 pub(crate) use constants::{ALL_DIGITS, ROUNDED};
-pub(crate) use solve::{Exact, planned, refined_states};
+pub(crate) use solve::{Exact, refined_states};
 
 use point::ExtendedPoint;
 use solve::solved;

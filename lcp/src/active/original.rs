@@ -3,8 +3,8 @@
 use crate::certify::{BoxedJudge, ContactJudge, Precision};
 use crate::extended::Extended;
 use crate::problem::ContactStatus;
-use crate::refine::{ALL_DIGITS, Exact, ROUNDED, planned, refined_states};
-use crate::states::{Condensed, Point, PointRef, Scaled, nearest};
+use crate::refine::{ALL_DIGITS, Exact, ROUNDED, refined_states};
+use crate::states::{Condensed, Point, PointRef, Scaled};
 use crate::vector::ROUNDING;
 use crate::{Basis, Contact2d, ContactState, MixedLcp, Residuals, Side};
 
@@ -120,25 +120,6 @@ fn rounded(judge: &dyn Judge, scaled: &Scaled, (u, forces): &Exact) -> Judged {
     let mut forces: Vec<_> = forces.iter().map(|[n, t]| (n.rounded(), t.rounded())).collect();
     scaled.settle(&mut u, &mut forces);
     judged(judge, scaled, PointRef { u: &u, forces: &forces }, Precision::Exact)
-}
-
-/// The state of a contact problem that the given one leads to by the states of its contacts, where it is better.
-pub(crate) fn state_brought_right(
-    problem: &Contact2d,
-    state: &ContactState,
-    tolerance: f64,
-) -> Option<(ContactState, Residuals)> {
-    let scaled = problem.scaled();
-    let (mut u, mut forces) = scaled.of_state(state);
-    scaled.settle(&mut u, &mut forces);
-    let (contacts, judge) = (nearest(&scaled, &u, &forces), Original::judge(problem));
-    let at = PointRef { u: &u, forces: &forces };
-    let given = judged(judge.as_ref(), &scaled, at, Precision::Exact);
-    let condensed = &mut planned(&scaled).ok()?;
-    let mut refiner = Refiner { judge: judge.as_ref(), scaled: &scaled, condensed };
-    let right = refiner.brought_right(given, at, &contacts, tolerance);
-    let Answer { contact, .. } = judge.answer(&scaled, right.point());
-    contact.map(|state| (state, right.residuals))
 }
 
 /// A problem as it was given.

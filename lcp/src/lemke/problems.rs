@@ -1,15 +1,10 @@
 //! Lemke's method on every kind of problem.
 
-use web_time::{Duration, Instant};
-
 use super::{Lemke, Progress};
-use crate::active::state_brought_right;
 use crate::conversion::{Converted, solve_in_general_form};
-use crate::states::Scaled;
-use crate::vector::SMALL;
 use crate::{
     Basis, Certificate, Contact2d, Covering, Error, HorizontalLcp, Iteration, LemkeSettings,
-    Method, Named, Observer, Side, Solution, Solver, Status, WarmStart,
+    Method, Named, Observer, Side, Solution, Solver, WarmStart,
 };
 
 impl Lemke {
@@ -59,54 +54,6 @@ impl Solver<Contact2d> for Lemke {
         problem: &Contact2d,
         observer: &mut Observer<'_>,
     ) -> Result<Solution, Error> {
-        let began = Instant::now();
-        if let Some(closed) = without_rounding(problem) {
-            let mut solution = self.solve_contact(&closed, observer)?;
-            if let Some(state) = solution.contact.take_if(|_| solution.status == Status::Solved) {
-                // Gaps and slips are those of the given data.
-                let state = problem.state(state.u, state.t_n, state.t_t);
-                (solution.t, solution.y) = problem.to_pairs(&state);
-                solution.residuals = problem.residuals(&state);
-                solution.contact = Some(state);
-                if solution.residuals.worst() <= self.settings().tolerance {
-                    return Ok(solution);
-                }
-            } else if solution.status == Status::Cancelled {
-                return Ok(solution);
-            }
-        }
-        let left = |limit: Duration| limit.saturating_sub(began.elapsed());
-        let time_limit = self.settings().time_limit.map(left);
-        let settings = LemkeSettings { time_limit, ..self.settings().clone() };
-        Self::new(settings).solve_contact(problem, observer)
-    }
-}
-
-/// The same problem with gaps and slips of zero in the place of rounding errors, if there are any: closed contacts
-/// contradict each other by them, so that no basis is quite right.
-fn without_rounding(problem: &Contact2d) -> Option<Contact2d> {
-    let points = Scaled::of_contact(problem).points;
-    let mut has_any = false;
-    let mut cleared = |given: &[f64], scaled: &[f64]| -> Vec<f64> {
-        let both = given.iter().zip(scaled);
-        both.map(|(given, scaled)| {
-            let is_rounding = *given != 0.0 && scaled.abs() <= SMALL;
-            has_any |= is_rounding;
-            if is_rounding { 0.0 } else { *given }
-        })
-        .collect()
-    };
-    let x_0 = cleared(problem.initial_gaps(), &points.x_0);
-    let s_0 = cleared(problem.initial_slips(), &points.s_0);
-    has_any.then(|| problem.clone().under(problem.loads().to_vec(), x_0, s_0))
-}
-
-impl Lemke {
-    fn solve_contact(
-        &self,
-        problem: &Contact2d,
-        observer: &mut Observer<'_>,
-    ) -> Result<Solution, Error> {
         let mixed = problem.to_mixed();
         let mut settings = LemkeSettings { covering: Covering::Ones, ..self.settings().clone() };
         settings.validate(problem.order())?;
@@ -119,16 +66,8 @@ impl Lemke {
         }
         let mut solution = Self::new(settings).solve_iterating(&mixed.to_general(), observer)?;
         let (z, _) = mixed.recover(&solution.t, &solution.y);
-        let mut state = problem.from_mixed(&z);
-        let mut residuals = problem.residuals(&state);
-        let tolerance = self.settings().tolerance;
-        if matches!(solution.status, Status::Solved | Status::AlmostSolved)
-            && residuals.worst() > tolerance
-            && let Some(right) = state_brought_right(problem, &state, tolerance)
-        {
-            (state, residuals) = right;
-        }
-        solution.judge_again(residuals, tolerance);
+        let state = problem.from_mixed(&z);
+        solution.judge_again(problem.residuals(&state), self.settings().tolerance);
         (solution.t, solution.y) = problem.to_pairs(&state);
         solution.contact = Some(state);
         // These belong to the pairs of the mixed problem.
