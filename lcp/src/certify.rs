@@ -36,7 +36,7 @@ mod weights;
 
 pub use certificate::{Certificate, Leaf, Ray};
 
-pub(crate) use constants::ROUNDING;
+pub(crate) use constants::{MILLIONTH, ROUNDING};
 pub(crate) use contact::ContactJudge;
 pub(crate) use farkas::{is_proof, is_proof_of, is_proof_of_mixed};
 pub(crate) use judge::{Precision, ratio};

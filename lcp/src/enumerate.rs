@@ -16,7 +16,7 @@
 
 use web_time::Instant;
 
-use crate::certify::{GeneralJudge, Leaf, ROUNDING, is_proof_of};
+use crate::certify::{GeneralJudge, Leaf, MILLIONTH, ROUNDING, is_proof_of};
 use crate::extended::{Extended, extended};
 use crate::nonnegative::{LeastSquares, Minimum};
 use crate::scaling::equilibrate;
@@ -24,8 +24,8 @@ use crate::solve::is_over;
 use crate::vector::max_abs;
 use crate::{Basis, HorizontalLcp, Side};
 
-/// What rounding may leave of the loads at a solution. Chosen.
-const NEAR: f64 = 1e-6;
+/// Pairs at most, free variables included, whose tree is gone through. Measured: a node of 100 takes 10 ms.
+pub(crate) const MOST_PAIRS: usize = 100;
 
 /// What was found.
 #[derive(Debug, Clone, PartialEq)]
@@ -316,7 +316,7 @@ impl<'a> Tree<'a> {
         }
         // Far enough out all rows hold compared with their terms.
         let residuals = self.judge.residuals_of(&[&extended(&t), &extended(&y)]);
-        let holds = residuals.equation <= ROUNDING && residuals.loads <= NEAR;
+        let holds = residuals.equation <= ROUNDING && residuals.loads <= MILLIONTH;
         holds.then(|| Enumerated::Found { t, y, basis: Basis::new(basis) })
     }
 }

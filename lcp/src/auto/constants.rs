@@ -13,8 +13,6 @@ pub(super) const FEW_ATTEMPTS: usize = 40;
 /// Pairs that depend on each other whose tree of choices comes right behind pivots. Measured on random problems: the tree
 /// takes 0.02 s on average at 18, and 0.3 s at most.
 pub(super) const FEW_PAIRS: usize = 18;
-/// Pairs at most, free variables included, whose tree is gone through. Measured: a node of 100 takes 10 ms.
-pub(super) const MOST_PAIRS: usize = 100;
 /// Exchanges of columns times the square of the order, which is the work of an exchange, over the whole tree. Measured: this
 /// takes 1.5 s; triangular problems of 60 pairs take a tenth of it, those of 100 a quarter.
 pub(super) const WORK: usize = 100_000_000;

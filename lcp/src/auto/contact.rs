@@ -1,9 +1,10 @@
 //! The chains of contact with friction.
 
-use super::constants::{FEW, MOST_PAIRS};
+use super::constants::FEW;
 use super::method::{Choice, Effort, Planned, named};
 use super::standard::common_chain;
 use crate::definite::is_definite;
+use crate::enumerate::MOST_PAIRS;
 use crate::{Contact2d, Friction2d, Method, Solver};
 
 impl Planned for Friction2d {

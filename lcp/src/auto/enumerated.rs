@@ -2,9 +2,9 @@
 
 use std::time::Duration;
 
-use super::constants::{MOST_PAIRS, WORK};
+use super::constants::WORK;
 use crate::conversion::{General, judged_point};
-use crate::enumerate::{Enumerated, enumerate};
+use crate::enumerate::{Enumerated, MOST_PAIRS, enumerate};
 use crate::solve::{Monitor, is_over};
 use crate::{Certificate, Error, Method, Named, Observer, Solution, Solver, Status};
 

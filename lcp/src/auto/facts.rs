@@ -1,7 +1,8 @@
 //! Properties that a matrix shows without a factorisation.
 
-use super::constants::{FEW_PAIRS, MOST_PAIRS};
+use super::constants::FEW_PAIRS;
 use crate::Matrix;
+use crate::enumerate::MOST_PAIRS;
 
 /// The largest sum of `choices` over variables that depend on each other in turn: `i` depends on `j` if row `i` has an entry
 /// in column `j`. Those of a triangular matrix are single ones, those of an irreducible matrix are all.

@@ -2,10 +2,11 @@
 
 use std::time::Duration;
 
-use super::constants::{FEW_ATTEMPTS, FEW_PAIRS, MOST_PAIRS, TRIAL};
+use super::constants::{FEW_ATTEMPTS, FEW_PAIRS, TRIAL};
 use super::enumerated::Enumeration;
 use crate::conversion::General;
 use crate::divide::Divide;
+use crate::enumerate::MOST_PAIRS;
 use crate::{
     InteriorPoint, InteriorPointSettings, Lemke, LemkeSettings, Method, SemismoothNewton,
     SemismoothNewtonSettings, Solver, WarmStart,

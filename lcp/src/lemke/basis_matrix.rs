@@ -2,8 +2,9 @@
 
 use faer::Mat;
 
-use super::constants::{LEVEL, SAMPLES};
+use super::constants::SAMPLES;
 use super::start::Equilibrated;
+use crate::certify::ROUNDING;
 use crate::linear::{Lu, inverse_norm};
 use crate::random::SplitMix;
 use crate::sparse::{Columns, SparseLu};
@@ -136,7 +137,7 @@ fn sampled(sizes: &[f64], solve: impl Fn(&mut [f64])) -> Vec<f64> {
     let mut errors = vec![0.0_f64; sizes.len()];
     for seed in 0..SAMPLES {
         let mut random = SplitMix::new(seed);
-        let draw = |size: &f64| LEVEL * size * (2.0 * random.next_f64() - 1.0);
+        let draw = |size: &f64| ROUNDING * size * (2.0 * random.next_f64() - 1.0);
         let mut sample: Vec<f64> = sizes.iter().map(draw).collect();
         solve(&mut sample);
         errors.iter_mut().zip(sample).for_each(|(error, it)| *error = error.max(it.abs()));

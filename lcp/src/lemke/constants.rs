@@ -27,11 +27,9 @@ pub(super) const MANY_FLIPS: f64 = 500.0;
 /// Pivots by the order of the problem that the path of every pair of a game may take at first. Measured on a game of 228 pairs:
 /// the path of pair 0 takes more than a hundred, that of pair 1 takes eight.
 pub(super) const FIRST_ROUND: usize = 10;
-/// Attempts up to which the last basis is started from again, with another covering vector. Measured on a published problem
-/// of 1056 pairs in other units: the seventh attempt finds the solution, with two pivots.
-pub(super) const REPAIRS: usize = 8;
-/// Attempts at least. Theory: all kinds of [`Trial::after`](super::trial::Trial::after), with some of the one that chance
-/// decides.
+/// Attempts at least, and those up to which the last basis is started from again, with another covering vector. Theory: all
+/// kinds of [`Trial::after`](super::trial::Trial::after), with some of the one that chance decides. Measured on a published
+/// problem of 1056 pairs in other units: the seventh attempt finds the solution, with two pivots.
 pub(super) const KINDS: usize = 12;
 /// Attempts go on while their pivots have changed fewer entries of tableaus of the order of the problem; a new start basis
 /// counts as a tableau with as many pivots as the order. Measured: that takes four seconds, and finds the solutions of most
@@ -39,12 +37,7 @@ pub(super) const KINDS: usize = 12;
 pub(super) const WORK: usize = 4_000_000_000;
 /// What an attempt costs by itself, in the same unit. Measured: 40 microseconds.
 pub(super) const ATTEMPT: usize = 40_000;
-/// Up to this order a problem without a start basis is searched for a proof by least squares. Chosen: it takes no time
-/// there.
-pub(super) const LEAST_SQUARES: usize = 40;
 /// Dense matrices of the order of the problem at the peak. Measured.
 pub(super) const MATRICES: usize = 5;
 /// Random right-hand sides of the size of rounding errors that are solved for to see which entries are rounding errors. Chosen.
 pub(super) const SAMPLES: u64 = 5;
-/// Their size, relative to the terms. Rounding: a few eps.
-pub(super) const LEVEL: f64 = 8.0 * f64::EPSILON;

@@ -6,7 +6,7 @@ use web_time::Instant;
 
 use super::Progress;
 use super::artificial::{completed, part_outside, without_artificial};
-use super::constants::{ATTEMPT, FIRST_ROUND, KINDS, LEAST_SQUARES, WORK};
+use super::constants::{ATTEMPT, FIRST_ROUND, KINDS, WORK};
 use super::crash::{Crash, find_basis};
 use super::feasibility::farkas_vector;
 use super::finish::{Point, solve_basis};
@@ -14,7 +14,7 @@ use super::path::Path;
 use super::start::{Equilibrated, Start};
 use super::trial::{Trial, covering_vector};
 use crate::certify::{Precision, is_proof};
-use crate::enumerate;
+use crate::enumerate::{self, MOST_PAIRS};
 use crate::pivoting::{
     Attempt, AttemptCovering, AttemptEnd, AttemptStart, Perturbation, PivotRecord,
 };
@@ -356,7 +356,7 @@ impl<'a> Search<'a> {
 
     /// Gives a proof by least squares for a small problem without a start basis, else this status.
     fn prove_or(self, status: Status) -> Solution {
-        let is_small = self.problem.order() <= LEAST_SQUARES && !self.is_completed;
+        let is_small = self.problem.order() <= MOST_PAIRS && !self.is_completed;
         let is_wanted = is_small && self.settings.prove_infeasible;
         match is_wanted.then(|| enumerate::farkas_vector(self.problem.problem)).flatten() {
             Some(pi) => self.infeasible(pi),

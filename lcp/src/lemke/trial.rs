@@ -1,6 +1,6 @@
 //! What the attempts vary, and in which order.
 
-use super::constants::REPAIRS;
+use super::constants::KINDS;
 use super::start::Start;
 use crate::pivoting::{AttemptCovering, AttemptEnd, AttemptStart, Perturbation};
 use crate::random::SplitMix;
@@ -39,7 +39,7 @@ impl Trial {
                 return Self { start, covering, perturbation: Perturbation::None };
             }
             // A basis that is nearly right is worth other covering vectors: paths from there are short.
-            AttemptEnd::Ray if last.start == AttemptStart::LastBasis && number <= REPAIRS => {
+            AttemptEnd::Ray if last.start == AttemptStart::LastBasis && number <= KINDS => {
                 return Self { covering: AttemptCovering::Random { seed }, ..*last };
             }
             // The path of a game that is long: those of other pairs lead to other solutions, or are shorter.
