@@ -3,27 +3,14 @@
 //! Three answers have measures of their own, since they are no points of one of the problems: sweeps over rows without a
 //! matrix, least forces, and problems with soft springs.
 //!
-//! A point is measured by the rows of the given problem, each relative to its own terms, so the result does not
-//! depend on the scaling of rows or variables, and a large entry in one row does not hide an error in another:
+//! A point is measured by the rows and pairs of the problem as stated, so that a conversion does not affect the result, each
+//! row relative to its own terms: that is the smallest relative change of its data for which it holds (Oettli and Prager
+//! 1964), whatever the scaling of rows and variables. Changes that would make the point feasible and complementary count by
+//! the largest part of the terms of a row that they are. For a distant point, with large terms, a row may hold relative
+//! to its terms and not at all relative to the loads: so what is left is compared with these, too, part by connected part.
 //!
-//! * **equation**: `|r_i| / terms_i`, where `r_i` is the residual of row `i` and `terms_i` the sum of the sizes of
-//!   its terms. It is the smallest relative change of the data of the row for which it holds (Oettli and Prager
-//!   1964).
-//! * **feasibility**: setting a component that violates its sign to zero changes row `i` by `a_ij x_j`. It counts by
-//!   the largest `|a_ij x_j| / terms_i`.
-//! * **complementarity**: in a pair whose variables are both positive, the one with the smaller effect counts by the
-//!   effect of setting it to zero.
-//! * **loads**: the residual of a row plus the two changes above, relative to the largest right-hand side of its
-//!   connected part, in equilibrated units. For a distant point, with large terms, a row may hold relative to its
-//!   terms and not at all relative to the loads: such a point need not be near a solution.
-//!
-//! A row without effect on the rows that carry loads does not count, see [`significance`].
-//!
-//! Rows and pairs are those of the problem as stated: `(z, w)` of standard, mixed and boxed problems, forces, gaps
-//! and slips of contact. A conversion does not affect the result.
-//!
-//! Residuals are computed in `f64`, and in double-double arithmetic where rounding errors of the terms are not small
-//! compared with the loads.
+//! A row without effect on the rows that carry loads does not count, see [`significance`]. Residuals are computed in
+//! `f64`, and in double-double arithmetic where rounding errors of the terms are not small compared with the loads.
 
 mod certificate;
 mod constants;

@@ -11,7 +11,6 @@
 //! Rows are first multiplied by powers of two that make the data integers; elimination is fraction-free, so that the
 //! numbers in it are minors of the data and no larger.
 
-mod budget;
 mod cone;
 mod enumeration;
 mod feasibility;

@@ -194,11 +194,6 @@ impl Solution {
         }
     }
 
-    /// The best answer of methods that a limit or the observer stopped.
-    pub(crate) fn stopped(self, status: Status) -> Self {
-        Self { status, ..self }
-    }
-
     /// The answer with a checked proof, which says more than the point.
     pub(crate) fn proved(self, proof: Certificate) -> Self {
         let status = match proof {

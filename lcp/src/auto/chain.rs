@@ -81,7 +81,7 @@ pub(super) fn run<P: Planned>(
         && is_open
         && solution.status != Status::AlmostSolved
     {
-        solution = solution.stopped(status);
+        solution.status = status;
     }
     solution.info.routes = routes;
     solution.info.seconds = began.elapsed().as_secs_f64();

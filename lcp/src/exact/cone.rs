@@ -1,9 +1,36 @@
 //! Extreme rays of a polyhedral cone, by the double description method.
 
+use std::time::Instant;
+
 use dashu_int::ops::{Gcd, UnsignedAbs};
 use dashu_int::{IBig, UBig};
 
-use super::budget::{Budget, Stop};
+use crate::Error;
+use crate::solve::is_over;
+
+/// When an enumeration has to end, and how many vertices and rays it may find.
+pub(super) struct Budget {
+    pub(super) deadline: Option<Instant>,
+    pub(super) generators: usize,
+}
+
+/// Why an enumeration ends early.
+pub(super) enum Stop {
+    Time,
+    Limit(Error),
+}
+
+impl Budget {
+    /// That there is time left, and that so many vertices and rays are not more than allowed.
+    pub(super) fn check(&self, value: usize) -> Result<(), Stop> {
+        let limit = self.generators;
+        if value > limit {
+            let what = "number of vertices and rays";
+            return Err(Stop::Limit(Error::Limit { what, value, name: "max_generators", limit }));
+        }
+        if is_over(self.deadline) { Err(Stop::Time) } else { Ok(()) }
+    }
+}
 
 /// A generator of a cone with the inequalities that it meets with equality, as bits.
 struct Generator {

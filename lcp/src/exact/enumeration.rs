@@ -5,8 +5,7 @@ use std::time::{Duration, Instant};
 
 use dashu_int::IBig;
 
-use super::budget::{Budget, Stop};
-use super::cone::{extreme_rays, product};
+use super::cone::{Budget, Stop, extreme_rays, product};
 use super::integers::{Integers, number};
 use super::tableau::{Tableau, eliminate};
 use super::{ExactPoint, Feasibility, feasibility};
