@@ -2,19 +2,19 @@
 
 use std::collections::BTreeSet;
 
-/// The methods of the chains of `Auto`, and the kinds of attempts of Lemke's method: start, covering vector, perturbation.
+/// The methods of the chains of `Auto`, and the kinds of attempts of Lemke's method: start, covering vector.
 const DECIDE: [&str; 12] = [
     "Newton",
     "Interior",
     "Enumeration",
-    "Lemke AllY Ones None",
-    "Lemke AllT Ones None",
-    "Lemke Found Ones None",
-    "Lemke Found Column None",
-    "Lemke AllY Column None",
-    "Lemke Found Random RightHandSide",
-    "Lemke LastBasis Random None",
-    "Lemke Flipped Negative RightHandSide",
+    "Lemke AllY Ones",
+    "Lemke AllT Ones",
+    "Lemke Found Ones",
+    "Lemke Found Column",
+    "Lemke AllY Column",
+    "Lemke Found Random",
+    "Lemke LastBasis Random",
+    "Lemke Flipped Negative",
     "Lemke",
 ];
 

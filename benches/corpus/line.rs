@@ -94,10 +94,6 @@ fn method(info: &Info) -> String {
         return method;
     };
     let kind = |text: String| text.split([',', ' ']).next().unwrap_or_default().to_owned();
-    let kinds = [
-        format!("{:?}", attempt.start),
-        format!("{:?}", attempt.covering),
-        format!("{:?}", attempt.perturbation),
-    ];
+    let kinds = [format!("{:?}", attempt.start), format!("{:?}", attempt.covering)];
     format!("{method} {}", kinds.map(kind).join(" "))
 }

@@ -25,7 +25,7 @@ pub use parametric::{
 pub use progress::Progress;
 
 pub use crate::pivoting::{
-    Attempt, AttemptCovering, AttemptEnd, AttemptStart, Perturbation, PivotRecord, Variable,
+    Attempt, AttemptCovering, AttemptEnd, AttemptStart, PivotRecord, Variable,
 };
 
 use std::ops::ControlFlow;
@@ -51,8 +51,7 @@ use crate::{Error, HorizontalLcp, LemkeSettings, Method, Solution};
 /// # Guarantee
 /// In exact arithmetic it finds a solution, or a proof that there is none, for copositive-plus `M` (for example
 /// positive semidefinite `M`) in the standard form. For other classes the path may end on a secondary ray although a
-/// solution exists. Then other covering vectors, start bases and perturbed right-hand sides are tried, and every attempt
-/// is recorded in [`Info::attempts`](crate::Info::attempts). After the last one the status is
+/// solution exists. Then other covering vectors and start bases are tried, and every attempt is recorded in [`Info::attempts`](crate::Info::attempts). After the last one the status is
 /// [`Infeasible`](crate::Status::Infeasible), with a proof, or [`RayTermination`](crate::Status::RayTermination),
 /// which is none.
 ///

@@ -93,30 +93,6 @@ impl std::fmt::Display for AttemptCovering {
     }
 }
 
-/// What an attempt changed in the data of its path. The basis on which it ends is always judged by
-/// the data as given.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub enum Perturbation {
-    /// Nothing.
-    None,
-    /// A small random increase of every entry of the right-hand side, to part ties.
-    RightHandSide {
-        /// Seed of the generator.
-        seed: u64,
-    },
-}
-
-impl std::fmt::Display for Perturbation {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::None => f.write_str("none"),
-            Self::RightHandSide { .. } => f.write_str("perturbed"),
-        }
-    }
-}
-
 /// One attempt: where it started, with which covering vector, and how it ended.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -126,8 +102,6 @@ pub struct Attempt {
     pub start: AttemptStart,
     /// The covering vector.
     pub covering: AttemptCovering,
-    /// What was changed in the data of the path.
-    pub perturbation: Perturbation,
     /// How the attempt ended.
     pub end: AttemptEnd,
     /// Pivots that it took.

@@ -64,7 +64,7 @@ pub struct LemkeSettings {
     pub max_pivots: Option<usize>,
     /// Wall-clock time of all attempts together, checked before every pivot; `None` is no limit.
     pub time_limit: Option<Duration>,
-    /// Attempts, each with another covering vector, start basis or perturbation, before a ray is reported. At least 1;
+    /// Attempts, each with another covering vector or start basis, before a ray is reported. At least 1;
     /// `None` is as many as some seconds allow, at least twelve, and no more than
     /// there are complementary bases.
     pub max_attempts: Option<usize>,

@@ -1,6 +1,5 @@
 //! The attempts on one problem, and what they come to.
 
-use std::borrow::Cow;
 use std::ops::ControlFlow;
 use web_time::Instant;
 
@@ -15,9 +14,7 @@ use super::start::{Equilibrated, Start};
 use super::trial::{Trial, covering_vector};
 use crate::certify::{Precision, is_proof};
 use crate::enumerate::{self, MOST_PAIRS};
-use crate::pivoting::{
-    Attempt, AttemptCovering, AttemptEnd, AttemptStart, Perturbation, PivotRecord,
-};
+use crate::pivoting::{Attempt, AttemptCovering, AttemptEnd, AttemptStart, PivotRecord};
 use crate::solve::is_over;
 use crate::vector::SMALL;
 use crate::{
@@ -77,11 +74,7 @@ impl<'a> Search<'a> {
         if let Some(point) = self.solution_at(&first_start) {
             return self.answer(point);
         }
-        let first = Trial {
-            start: kind,
-            covering: self.first_covering(kind),
-            perturbation: Perturbation::None,
-        };
+        let first = Trial { start: kind, covering: self.first_covering(kind) };
         let mut trial = first;
         let mut last_basis = None;
         // Costs of a game are positive: no proof is to be found, and the paths of pairs are short.
@@ -89,8 +82,9 @@ impl<'a> Search<'a> {
         let (mut number, mut had_ray) = (0, false);
         while self.has_another(number) {
             number += 1;
-            let start = self.start_of(&mut trial, &first, &first_start, last_basis.as_ref());
-            let (mut attempt, basis) = self.attempt(&start, &trial, number, observer);
+            let other = self.other_start(&mut trial, &first, &first_start, last_basis.as_ref());
+            let start = other.as_ref().unwrap_or(&first_start);
+            let (mut attempt, basis) = self.attempt(start, &trial, number, observer);
             let end = attempt.end;
             let point = basis.as_ref().and_then(|basis| solve_basis(&self.problem, basis));
             let point = point.map(|point| self.exchanged(point));
@@ -204,28 +198,25 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The start basis of a trial; where it is singular, the first one instead.
-    fn start_of<'b>(
+    /// The start basis of a trial, if it is another one than the first; where it is singular, the first one is taken.
+    fn other_start(
         &self,
         trial: &mut Trial,
         first: &Trial,
-        first_start: &'b Start,
+        first_start: &Start,
         last_basis: Option<&Basis>,
-    ) -> Cow<'b, Start> {
+    ) -> Option<Start> {
         let other = match trial.start {
             AttemptStart::Flipped { seed } => {
                 self.problem.start(&first_start.flipped(seed, self.deadline))
             }
             AttemptStart::LastBasis => last_basis.and_then(|basis| self.problem.start(basis)),
-            _ => return Cow::Borrowed(first_start),
+            _ => return None,
         };
-        other.map_or_else(
-            || {
-                trial.start = first.start;
-                Cow::Borrowed(first_start)
-            },
-            Cow::Owned,
-        )
+        if other.is_none() {
+            trial.start = first.start;
+        }
+        other
     }
 
     /// Follows one path; gives the complementary basis as well, if it ended on one.
@@ -243,9 +234,7 @@ impl<'a> Search<'a> {
             _ => &[],
         };
         let covering = covering_vector(trial.covering, start, given);
-        let perturbed = trial.perturbed(start);
-        let data = perturbed.as_ref().unwrap_or(start);
-        let mut path = Path::new(data, &covering);
+        let mut path = Path::new(start, &covering);
         path.trace = settings.trace.then(Vec::new);
         // Every pair has its turn before the paths that begin with them may be twice as long.
         let (round, driver) = match trial.covering {
@@ -272,7 +261,6 @@ impl<'a> Search<'a> {
         let attempt = Attempt {
             start: trial.start,
             covering: driver.map_or(trial.covering, |pair| AttemptCovering::Column { pair }),
-            perturbation: trial.perturbation,
             end,
             pivots: path.pivots,
             residual: None,

@@ -24,22 +24,13 @@ use crate::sparse::{Columns, SparseLu};
 use crate::vector::max_abs;
 
 /// `W w + Z z = right` in the equilibrated rows of the problem, with the start basis `W`.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(super) struct SparseStart {
     /// `[W Z]`.
     pub(super) columns: Columns,
     pub(super) right: Vec<f64>,
     /// Of `W`.
     pub(super) lu: SparseLu,
-}
-
-impl SparseStart {
-    /// Adds `W increase` to the right-hand side.
-    pub(super) fn add_to_values(&mut self, increase: &[f64]) {
-        for (k, &v) in increase.iter().enumerate().filter(|(_, v)| **v != 0.0) {
-            self.columns.add_to(k, v, &mut self.right);
-        }
-    }
 }
 
 /// A factorised basis with the pivots done since.

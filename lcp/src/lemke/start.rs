@@ -189,7 +189,7 @@ fn drop_rounding(t: &mut Mat<f64>) {
 }
 
 /// `w + T z = q`, equilibrated.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(super) struct Start {
     /// The start basis: `w_i` is its side of pair `i`.
     pub(super) basis: Basis,
@@ -205,7 +205,7 @@ pub(super) struct Start {
 }
 
 /// `T`, or what it is made of.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 enum StartData {
     Dense(Mat<f64>),
     Sparse(Box<SparseStart>),
@@ -298,13 +298,5 @@ impl Start {
         }
         let noise = SMALL * sums.len() as f64;
         sums.iter().zip(&self.free).all(|(sum, is_free)| *is_free || *sum < -noise)
-    }
-
-    /// Adds to `q`, for the basic variable `w_k` of every pair.
-    pub(super) fn add_to_values(&mut self, increase: &[f64]) {
-        self.q.iter_mut().zip(increase).for_each(|(q, v)| *q += v);
-        if let StartData::Sparse(data) = &mut self.data {
-            data.add_to_values(increase);
-        }
     }
 }

@@ -2,16 +2,14 @@
 
 use super::constants::KINDS;
 use super::start::Start;
-use crate::pivoting::{AttemptCovering, AttemptEnd, AttemptStart, Perturbation};
+use crate::pivoting::{AttemptCovering, AttemptEnd, AttemptStart};
 use crate::random::SplitMix;
-use crate::vector::HALF_DIGITS;
 
 /// One attempt before it is made.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Trial {
     pub(super) start: AttemptStart,
     pub(super) covering: AttemptCovering,
-    pub(super) perturbation: Perturbation,
 }
 
 impl Trial {
@@ -27,16 +25,14 @@ impl Trial {
         is_game: bool,
     ) -> Self {
         let seed = number as u64;
-        let parted = Perturbation::RightHandSide { seed };
         match end {
             AttemptEnd::Complementary if last.start == AttemptStart::LastBasis => {
                 let covering = AttemptCovering::Random { seed };
-                return Self { covering, perturbation: Perturbation::None, ..*first };
+                return Self { covering, ..*first };
             }
             AttemptEnd::Complementary => {
                 let covering = other(last.covering, seed);
-                let start = AttemptStart::LastBasis;
-                return Self { start, covering, perturbation: Perturbation::None };
+                return Self { start: AttemptStart::LastBasis, covering };
             }
             // A basis that is nearly right is worth other covering vectors: paths from there are short.
             AttemptEnd::Ray if last.start == AttemptStart::LastBasis && number <= KINDS => {
@@ -52,27 +48,14 @@ impl Trial {
         }
         let flipped = AttemptStart::Flipped { seed };
         let pair = Self { covering: AttemptCovering::Column { pair: 0 }, ..*first };
-        let more =
-            Self { start: flipped, covering: AttemptCovering::Negative, perturbation: parted };
-        let covering = other(first.covering, seed);
-        let other_covering = Self { covering, perturbation: parted, ..*first };
+        let more = Self { start: flipped, covering: AttemptCovering::Negative };
+        let other_covering = Self { covering: other(first.covering, seed), ..*first };
         let kinds =
             if is_game { [pair, other_covering, more] } else { [other_covering, more, pair] };
         match number {
             2..=4 => kinds[number - 2],
             _ => more,
         }
-    }
-
-    /// The start data that the path follows, where they are not those of the start basis.
-    pub(super) fn perturbed(&self, start: &Start) -> Option<Start> {
-        let Perturbation::RightHandSide { seed } = self.perturbation else { return None };
-        let mut random = SplitMix::new(seed);
-        let mut start = start.clone();
-        let increase: Vec<f64> =
-            (0..start.q.len()).map(|_| HALF_DIGITS * (0.5 + random.next_f64())).collect();
-        start.add_to_values(&increase);
-        Some(start)
     }
 }
 

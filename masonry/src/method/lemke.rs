@@ -6,7 +6,7 @@
 //! that there is no equilibrium: a rigid block that just fits between two walls may fall, or may be jammed. A
 //! solution of the mixed form is also measured in the paper's form.
 
-use lcp::lemke::{Attempt, AttemptCovering, AttemptEnd, AttemptStart, Perturbation};
+use lcp::lemke::{Attempt, AttemptCovering, AttemptEnd, AttemptStart};
 use lcp::{Basis, Covering, Lemke, LemkeSettings, Residuals, Side, Status, WarmStart};
 
 use super::{Answer, Method, Motion, Observer, Request, RouteError, Step};
@@ -203,11 +203,5 @@ fn describe(kind: FormKind, given: Option<&str>, attempt: &Attempt) -> String {
     };
     let (kind, pivots) = (kind.name(), attempt.pivots);
     let residual = attempt.residual.map_or(String::new(), |it| format!(", residual {it:.1e}"));
-    let perturbed = match attempt.perturbation {
-        Perturbation::None => String::new(),
-        perturbation => format!(", {perturbation}"),
-    };
-    format!(
-        "{kind}: start {start}, covering {covering}{perturbed}: {end} after {pivots} pivots{residual}"
-    )
+    format!("{kind}: start {start}, covering {covering}: {end} after {pivots} pivots{residual}")
 }

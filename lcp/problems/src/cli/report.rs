@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::output::residual_lines;
 use super::solve::{Answer, Work};
-use lcp::lemke::{Attempt, Perturbation};
+use lcp::lemke::Attempt;
 use lcp::{Route, Status};
 
 impl Answer<'_> {
@@ -105,14 +105,11 @@ fn attempt_lines(attempts: &[Attempt]) -> String {
             }
             continue;
         }
-        let Attempt { start, covering, perturbation, end, pivots, .. } = attempt;
-        let is_given = *perturbation == Perturbation::None;
-        let data = if is_given { "as given".to_owned() } else { perturbation.to_string() };
+        let Attempt { start, covering, end, pivots, .. } = attempt;
         let number = number + 1;
         let _ = writeln!(
             lines,
-            "attempt {number}: start {start}, covering {covering}, data {data}: {end:?} after \
-             {pivots} pivots"
+            "attempt {number}: start {start}, covering {covering}: {end:?} after {pivots} pivots"
         );
     }
     lines
