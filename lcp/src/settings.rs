@@ -118,13 +118,11 @@ impl WarmStart {
             Self::None => Self::None,
             Self::Basis(basis) => Self::Basis(basis.of_pairs(pairs)),
             Self::Point { t, y } => {
-                let point =
-                    pairs.map(
-                        |(pair, is_exchanged)| {
-                            if is_exchanged { (y[pair], t[pair]) } else { (t[pair], y[pair]) }
-                        },
-                    );
-                let (t, y) = point.unzip();
+                let values = |(pair, is_exchanged): (usize, bool)| {
+                    let (first, second) = if is_exchanged { (y, t) } else { (t, y) };
+                    (first[pair], second[pair])
+                };
+                let (t, y) = pairs.map(values).unzip();
                 Self::Point { t, y }
             }
         }

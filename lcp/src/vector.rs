@@ -92,6 +92,11 @@ pub(crate) fn max_abs(v: &[f64]) -> f64 {
     v.iter().fold(0.0, |max, x| max.max(x.abs()))
 }
 
+/// The Euclidean norm, without overflow.
+pub(crate) fn norm(v: impl IntoIterator<Item = f64>) -> f64 {
+    v.into_iter().fold(0.0, f64::hypot)
+}
+
 pub(crate) fn check_vector(what: &'static str, v: &[f64]) -> Result<(), Error> {
     match v.iter().position(|x| !x.is_finite()) {
         Some(row) => Err(Error::NotFinite { what, row, col: 0, value: v[row] }),

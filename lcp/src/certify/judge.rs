@@ -253,27 +253,30 @@ impl<'a, R: Rows> Conditions<'a, R> {
     }
 
     /// The largest part of the terms of a row that a variable is. One without any row counts by itself.
-    fn effect(&self, Entry { variable, value }: Entry) -> f64 {
-        let mut effect: Option<f64> = None;
-        self.judge.rows.for_each_entry(variable, |i, v| {
-            if v != 0.0 {
-                let part = self.share(i, v * value);
-                effect = Some(effect.map_or(part, |effect| effect.max(part)));
-            }
-        });
-        effect.unwrap_or(1.0)
+    fn effect(&self, entry: Entry) -> f64 {
+        self.largest(entry, |i, v| self.share(i, v)).unwrap_or(1.0)
     }
 
     /// The same in units of the loads. One without any row is never the smaller of a pair.
-    fn burden(&self, Entry { variable, value }: Entry) -> f64 {
-        let mut burden: Option<f64> = None;
+    fn burden(&self, entry: Entry) -> f64 {
+        let burden = |i, v: f64| v.abs() * self.judge.weight(self.point.unit, i);
+        self.largest(entry, burden).unwrap_or(f64::INFINITY)
+    }
+
+    /// The largest of what the terms of a variable are in its rows.
+    fn largest(
+        &self,
+        Entry { variable, value }: Entry,
+        part: impl Fn(usize, f64) -> f64,
+    ) -> Option<f64> {
+        let mut largest: Option<f64> = None;
         self.judge.rows.for_each_entry(variable, |i, v| {
             if v != 0.0 {
-                let part = (v * value).abs() * self.judge.weight(self.point.unit, i);
-                burden = Some(burden.map_or(part, |burden| burden.max(part)));
+                let part = part(i, v * value);
+                largest = Some(largest.map_or(part, |largest| largest.max(part)));
             }
         });
-        burden.unwrap_or(f64::INFINITY)
+        largest
     }
 
     fn finished(self, precision: Precision) -> Residuals {

@@ -42,7 +42,7 @@ pub(super) fn solve_basis(problem: &Equilibrated<'_>, basis: &Basis) -> Option<P
     for (j, (side, x)) in sides.iter_mut().zip(x).enumerate() {
         let mut value = x * problem.factor(j, *side);
         // A negative free variable is a positive one on the other side.
-        if let Some(ratio) = problem.opposite(j).filter(|_| value < 0.0) {
+        if let Some(ratio) = problem.opposite[j].filter(|_| value < 0.0) {
             value = side.of(-value / ratio, -value * ratio);
             *side = side.complement();
         }

@@ -181,7 +181,7 @@ impl Tracer<'_> {
             // Rows within this window count as tied, so that a step within it parts a tie.
             if step * max_abs(&column) > TIE_WINDOW * path.scale || is_last && out.bases.is_empty()
             {
-                let along = path.values_at(entering, step, &column);
+                let along = path.moved(&path.values, entering, step, &column);
                 if !self.note(&along, is_last.then_some(goal), out) {
                     if path.is_rebuilt() || !path.rebuild() {
                         return ParametricEnd::NumericalTrouble;
@@ -204,25 +204,21 @@ impl Tracer<'_> {
     /// Adds the point with these values of all variables of the path, if the original data vouch for it. `lambda`
     /// replaces the value of the path where it is known.
     fn note(&self, along: &[f64], lambda: Option<f64>, out: &mut ParametricPath) -> bool {
-        // A solution that vanishes must not be measured by its own rounding errors. These grow with the
-        // condition of the basis, up to what counts as a tie.
-        let mut points = [SMALL, TIE_WINDOW].into_iter().map(|least| {
-            let point = self.point(along, lambda, least);
-            (self.residual(&point), point)
-        });
-        let found = points.find(|(residual, _)| *residual <= self.settings.lemke.tolerance);
-        if let Some((residual, point)) = found {
+        let point = self.point(along, lambda);
+        let residual = self.residual(&point);
+        let is_right = residual <= self.settings.lemke.tolerance;
+        if is_right {
             out.breakpoints.push(point);
             out.residual = out.residual.max(residual);
-            return true;
         }
-        false
+        is_right
     }
 
-    /// A point. Values below `least`, relative to the path's, are zero.
-    fn point(&self, along: &[f64], lambda: Option<f64>, least: f64) -> Breakpoint {
+    /// A point. A solution that vanishes must not be measured by its own rounding errors: values that are small against
+    /// the path's are zero.
+    fn point(&self, along: &[f64], lambda: Option<f64>) -> Breakpoint {
         let parameter = along[along.len() - 1];
-        let zero = least * (1.0 + parameter.abs());
+        let zero = SMALL * (1.0 + parameter.abs());
         let kept = |value: f64| if value.abs() > zero { value } else { 0.0 };
         let kept_values: Vec<f64> = along.iter().copied().map(kept).collect();
         let (t, y) = self.start.in_problem_units(self.equilibrated, &kept_values);
@@ -230,7 +226,7 @@ impl Tracer<'_> {
             let travelled = self.unit * kept(parameter);
             let lambda = self.from + travelled;
             let size = self.from.abs() + travelled.abs();
-            if lambda.abs() > least * size { lambda } else { 0.0 }
+            if lambda.abs() > SMALL * size { lambda } else { 0.0 }
         });
         Breakpoint { lambda, t, y }
     }

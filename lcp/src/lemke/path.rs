@@ -288,12 +288,14 @@ impl<'a> Path<'a> {
         self.moved(&vec![0.0; self.order()], entering, 1.0, column)
     }
 
-    /// Values of all variables after a step of the entering one, given its column.
-    pub(super) fn values_at(&self, entering: Var, step: f64, column: &[f64]) -> Vec<f64> {
-        self.moved(&self.values, entering, step, column)
-    }
-
-    fn moved(&self, values: &[f64], entering: Var, step: f64, column: &[f64]) -> Vec<f64> {
+    /// Values of all variables after a step of the entering one, given its column, from these of the basic ones.
+    pub(super) fn moved(
+        &self,
+        values: &[f64],
+        entering: Var,
+        step: f64,
+        column: &[f64],
+    ) -> Vec<f64> {
         let mut moved = vec![0.0; 2 * self.order() + 1];
         for (row, ((&var, value), a)) in self.basic.iter().zip(values).zip(column).enumerate() {
             let value = value - step * a;

@@ -23,8 +23,8 @@ pub(super) struct Equilibrated<'a> {
     pub(super) row: Vec<f64>,
     t_factor: Vec<f64>,
     y_factor: Vec<f64>,
-    /// For a free pair the positive `r` with `B_j = -r A_j`.
-    opposite: Vec<Option<f64>>,
+    /// For a free pair the positive `r` with `B_j = -r A_j`: one unit of `y` is `r` units of `-t`.
+    pub(super) opposite: Vec<Option<f64>>,
     pub(super) judge: GeneralJudge<'a>,
 }
 
@@ -45,11 +45,6 @@ impl<'a> Equilibrated<'a> {
     /// Value in the problem's units of one unit of a scaled variable.
     pub(super) fn factor(&self, pair: usize, side: Side) -> f64 {
         side.of(&self.t_factor, &self.y_factor)[pair]
-    }
-
-    /// For a free pair the positive `r` with `B_j = -r A_j`: one unit of `y` is `r` units of `-t`.
-    pub(super) fn opposite(&self, pair: usize) -> Option<f64> {
-        self.opposite[pair]
     }
 
     /// Adds an equilibrated column, times a factor.

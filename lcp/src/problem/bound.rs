@@ -4,7 +4,7 @@ use faer::{Mat, Side as Triangle};
 
 use super::Lcp;
 use crate::Error;
-use crate::vector::{check_length, max_abs};
+use crate::vector::{check_length, max_abs, norm};
 
 /// The monotonicity of the problem `w = M z + q`, by the symmetric part of `M`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -113,16 +113,11 @@ impl Lcp {
         for (j, &r) in r.iter().enumerate().filter(|(_, r)| **r > 0.0) {
             self.m().slice(j).for_each(|i, m| v[i] += (m * r).abs());
         }
-        let (moved, perturbation) = (norm(&r), norm(&v));
+        let (moved, perturbation) = (norm(r), norm(v));
         let distance = match monotonicity {
             Monotonicity::Strong { modulus } => Some(moved + perturbation / modulus),
             _ => None,
         };
         Ok(ErrorBound { monotonicity, moved, perturbation, distance })
     }
-}
-
-/// Euclidean, without overflow.
-fn norm(v: &[f64]) -> f64 {
-    v.iter().fold(0.0, |norm: f64, x| norm.hypot(*x))
 }

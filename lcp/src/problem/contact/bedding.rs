@@ -2,7 +2,7 @@
 
 use super::Contact2d;
 use crate::matrix::{column_of, diagonal};
-use crate::vector::max_abs;
+use crate::vector::{max_abs, norm};
 use crate::{Error, Matrix};
 
 /// Soft springs that hold all displacements of a [`Contact2d`].
@@ -112,10 +112,6 @@ fn units(contact: &Contact2d) -> Vec<f64> {
         }
     };
     (0..n).map(unit).collect()
-}
-
-fn norm(v: impl Iterator<Item = f64>) -> f64 {
-    v.map(|v| v * v).sum::<f64>().sqrt()
 }
 
 pub(crate) fn ratio(a: f64, b: f64) -> f64 {
