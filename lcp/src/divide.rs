@@ -58,12 +58,6 @@ impl<P> Part<P> {
         start.of_pairs(self.pairs.iter().map(|&pair| (pair, false)))
     }
 
-    /// Writes values of the pairs of the part, as those of `t`, of `y` or the sides of a basis, to where
-    /// they are in the whole.
-    pub(crate) fn put_pairs<T: Copy>(&self, part: &[T], whole: &mut [T]) {
-        put(&self.pairs, part, whole);
-    }
-
     /// The certificate of a whole of so many pairs from that of this part: a proof with zeros in all other rows is one
     /// of the whole, and other parts stay at rest in a ray.
     pub(crate) fn certificate(&self, certificate: &Certificate, pairs: usize) -> Certificate {
@@ -300,7 +294,8 @@ fn spread<T: Copy>(places: &[usize], part: &[T], count: usize, elsewhere: T) -> 
     whole
 }
 
-fn put<T: Copy>(places: &[usize], part: &[T], whole: &mut [T]) {
+/// Writes values of a part, as those of `t`, of `y` or the sides of a basis, to their places in the whole.
+pub(crate) fn put<T: Copy>(places: &[usize], part: &[T], whole: &mut [T]) {
     places.iter().zip(part).for_each(|(&at, &value)| whole[at] = value);
 }
 

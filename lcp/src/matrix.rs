@@ -122,7 +122,9 @@ impl Matrix {
         cols: usize,
         entries: impl Iterator<Item = (usize, usize, f64)>,
     ) -> Self {
-        sparse_of(rows, cols, entries).into()
+        let triplets: Vec<_> = entries.map(|(i, j, v)| Triplet::new(i, j, v)).collect();
+        let built = SparseColMat::try_new_from_triplets(rows, cols, &triplets);
+        built.unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}")).into()
     }
 
     /// Number of rows.
@@ -182,7 +184,8 @@ impl Matrix {
         };
         let entries = (0..m.ncols()).flat_map(|j| (0..m.nrows()).map(move |i| (i, j)));
         let entries = entries.filter(|place| m[*place] != 0.0);
-        sparse_of(m.nrows(), m.ncols(), entries.map(|(i, j)| (i, j, m[(i, j)])))
+        let entries = entries.map(|(i, j)| (i, j, m[(i, j)]));
+        Self::from_entries(m.nrows(), m.ncols(), entries).into_sparse()
     }
 
     /// That a square matrix is symmetric to rounding, measured by the roots of its diagonal entries, as
@@ -327,17 +330,6 @@ where
     fn from(m: &nalgebra::Matrix<f64, R, C, S>) -> Self {
         Mat::from_fn(m.nrows(), m.ncols(), |i, j| m[(i, j)]).into()
     }
-}
-
-/// A sparse matrix from entries `(row, column, value)`, which add up where they coincide.
-fn sparse_of(
-    rows: usize,
-    cols: usize,
-    entries: impl Iterator<Item = (usize, usize, f64)>,
-) -> SparseColMat<usize, f64> {
-    let triplets: Vec<_> = entries.map(|(i, j, v)| Triplet::new(i, j, v)).collect();
-    let built = SparseColMat::try_new_from_triplets(rows, cols, &triplets);
-    built.unwrap_or_else(|e| unreachable!("entries lie inside the matrix: {e:?}"))
 }
 
 /// Whether entries on both sides of the diagonal differ by rounding errors of their own size, or of that of the diagonal.

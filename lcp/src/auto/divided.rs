@@ -6,7 +6,7 @@ use super::AutoSettings;
 use super::chain::{self, Rank};
 use super::constants::MANY_PARTS;
 use super::method::{Choice, Planned, chain_of};
-use crate::divide::{Joined, Part};
+use crate::divide::{Joined, Part, put};
 use crate::{Basis, Certificate, Error, Method, Observer, Route, RouteEnd, Side, Solution, Status};
 
 /// A part and its answer.
@@ -140,8 +140,8 @@ fn join<P: Planned>(problem: &P, mut answers: Vec<Answer<P>>, tolerance: f64) ->
     let pairs = problem.pairs();
     let (mut t, mut y) = (vec![0.0; pairs], vec![0.0; pairs]);
     for (part, answer) in &answers {
-        part.put_pairs(&answer.t, &mut t);
-        part.put_pairs(&answer.y, &mut y);
+        put(&part.pairs, &answer.t, &mut t);
+        put(&part.pairs, &answer.y, &mut y);
     }
     let (otherwise, certificate) = outcome(&answers, tolerance, pairs);
     let Joined { residuals, contact, boxed } = problem.join(&t, &y, &answers);
@@ -193,7 +193,7 @@ fn outcome<P>(
 fn joined_basis<P>(answers: &[Answer<P>], pairs: usize) -> Option<Basis> {
     let mut sides = vec![Side::T; pairs];
     for (part, answer) in answers {
-        part.put_pairs(answer.basis.as_ref()?.sides(), &mut sides);
+        put(&part.pairs, answer.basis.as_ref()?.sides(), &mut sides);
     }
     let covered: usize = answers.iter().map(|(part, _)| part.pairs.len()).sum();
     (covered == pairs).then(|| Basis::new(sides))

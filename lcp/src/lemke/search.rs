@@ -338,10 +338,6 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn has_ended(&self, end: AttemptEnd) -> bool {
-        self.info.attempts.iter().any(|attempt| attempt.end == end)
-    }
-
     /// Gives a proof by least squares for a small problem without a start basis, else this status.
     fn prove_or(self, status: Status) -> Solution {
         let is_small = self.problem.order() <= MOST_PAIRS && !self.is_completed;
@@ -363,7 +359,8 @@ impl<'a> Search<'a> {
             (AttemptEnd::PivotLimit, Status::PivotLimit),
             (AttemptEnd::Cycle, Status::Cycling),
         ];
-        let said = statuses.into_iter().find(|(end, _)| self.has_ended(*end));
+        let has_ended = |end| self.info.attempts.iter().any(|attempt| attempt.end == end);
+        let said = statuses.into_iter().find(|(end, _)| has_ended(*end));
         self.give_up(said.map_or(Status::NumericalTrouble, |(_, status)| status))
     }
 

@@ -119,20 +119,6 @@ impl<'a> Sparse<'a> {
         }
     }
 
-    /// Row and column of `S` for a variable that takes a row.
-    fn extend_schur(&mut self, row: usize, var: Var) {
-        if self.factored.place[row].is_none() {
-            let mut unit = vec![0.0; self.order()];
-            unit[row] = 1.0;
-            self.factored.lu.solve_transpose(&mut unit, &mut self.work);
-            for k in 0..self.factored.changed.len() {
-                let entry = self.start_dot(self.factored.changed[k].1, &unit);
-                self.factored.schur[k].push(entry);
-            }
-        }
-        self.factored.change(row, var, &self.last);
-    }
-
     /// The factors of a basis, with its values, refined once; `None` when it is singular.
     fn factorise(&mut self, basic: &[Var]) -> Option<(Factored<'a>, Vec<f64>)> {
         let n = self.order();
@@ -231,7 +217,16 @@ impl Kernel for Sparse<'_> {
     }
 
     fn exchange(&mut self, row: usize, entering: Var, _leaving: Var, _column: &[f64]) {
-        self.extend_schur(row, entering);
+        if self.factored.place[row].is_none() {
+            let mut unit = vec![0.0; self.order()];
+            unit[row] = 1.0;
+            self.factored.lu.solve_transpose(&mut unit, &mut self.work);
+            for k in 0..self.factored.changed.len() {
+                let entry = self.start_dot(self.factored.changed[k].1, &unit);
+                self.factored.schur[k].push(entry);
+            }
+        }
+        self.factored.change(row, entering, &self.last);
         self.pivots += 1;
     }
 
