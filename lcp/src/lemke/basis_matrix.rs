@@ -2,9 +2,8 @@
 
 use faer::Mat;
 
-use super::constants::SAMPLES;
+use super::constants::{LEVEL, SAMPLES};
 use super::start::Equilibrated;
-use crate::certify::ROUNDING;
 use crate::linear::{Lu, inverse_norm};
 use crate::random::SplitMix;
 use crate::sparse::{Columns, SparseLu};
@@ -12,14 +11,27 @@ use crate::vector::max_abs;
 use crate::{Basis, Side};
 
 /// The equilibrated matrix of a basis.
-pub(super) struct BasisMatrix {
-    columns: Columns,
-    lu: Factors,
+pub(super) enum BasisMatrix {
+    Dense(Bordered),
+    Sparse { columns: Columns, lu: SparseLu },
 }
 
-enum Factors {
-    Dense(Lu),
-    Sparse(SparseLu),
+/// Columns with one entry only, as all those of `y` in the standard form, are solved by substitution;
+/// only the others are factorised.
+pub(super) struct Bordered {
+    singles: Vec<Single>,
+    /// Positions of the other columns, which fill the rows that are left.
+    core: Vec<usize>,
+    core_rows: Vec<usize>,
+    /// The other columns, all rows.
+    columns: Mat<f64>,
+    lu: Lu,
+}
+
+struct Single {
+    position: usize,
+    row: usize,
+    value: f64,
 }
 
 impl BasisMatrix {
@@ -34,38 +46,43 @@ impl BasisMatrix {
         problem: &Equilibrated<'_>,
         columns: &[Option<(usize, Side)>],
     ) -> Option<Self> {
-        let sparse = problem.sparse_columns(columns.iter().copied());
-        let lu = if problem.problem.is_sparse() {
+        if problem.problem.is_sparse() {
+            let sparse = problem.sparse_columns(columns.iter().copied());
             let (lu, replaced) = SparseLu::new(&sparse);
-            Factors::Sparse(Some(lu).filter(|_| replaced.is_empty())?)
-        } else {
-            let mut dense = Mat::zeros(columns.len(), columns.len());
-            for j in 0..columns.len() {
-                sparse.add_to(j, 1.0, dense.col_as_slice_mut(j));
-            }
-            Factors::Dense(Lu::new(dense.as_ref())?)
-        };
-        Some(Self { columns: sparse, lu })
+            return replaced.is_empty().then_some(Self::Sparse { columns: sparse, lu });
+        }
+        Bordered::new(problem, columns).map(Self::Dense)
+    }
+
+    fn order(&self) -> usize {
+        match self {
+            Self::Dense(it) => it.singles.len() + it.core.len(),
+            Self::Sparse { lu, .. } => lu.order(),
+        }
     }
 
     pub(super) fn solve(&self, x: &mut [f64]) {
-        match &self.lu {
-            Factors::Dense(lu) => lu.solve_vector(x),
-            Factors::Sparse(lu) => lu.solve(x, &mut Vec::new()),
+        match self {
+            Self::Dense(it) => it.solve(x),
+            Self::Sparse { lu, .. } => lu.solve(x, &mut Vec::new()),
         }
     }
 
     pub(super) fn solve_transpose(&self, x: &mut [f64]) {
-        match &self.lu {
-            Factors::Dense(lu) => lu.solve_transpose_vector(x),
-            Factors::Sparse(lu) => lu.solve_transpose(x, &mut Vec::new()),
+        match self {
+            Self::Dense(it) => it.solve_transpose(x),
+            Self::Sparse { lu, .. } => lu.solve_transpose(x, &mut Vec::new()),
         }
     }
 
-    /// Calls with `(position, row, entry)` for all entries that are not zero.
+    /// Calls with `(position, row, entry)` for all entries.
     fn for_each(&self, mut f: impl FnMut(usize, usize, f64)) {
-        let columns = &self.columns;
-        (0..columns.len()).for_each(|j| columns.entries(j).for_each(|(i, v)| f(j, i, v)));
+        match self {
+            Self::Dense(it) => it.for_each(&mut f),
+            Self::Sparse { columns, .. } => {
+                (0..columns.len()).for_each(|j| columns.entries(j).for_each(|(i, v)| f(j, i, v)));
+            }
+        }
     }
 
     /// `right - M (x + low)` with twice the working precision (Ogita, Rump and Oishi 2005).
@@ -91,7 +108,7 @@ impl BasisMatrix {
 
     /// Row `position` of the inverse, refined, without the rounding errors in place of zeros.
     pub(super) fn inverse_row(&self, position: usize) -> Vec<f64> {
-        let n = self.columns.len();
+        let n = self.order();
         let mut y = vec![0.0; n];
         y[position] = 1.0;
         self.solve_transpose(&mut y);
@@ -114,7 +131,7 @@ impl BasisMatrix {
 
     /// Estimate of the condition number in the 1-norm.
     pub(super) fn condition(&self) -> f64 {
-        let n = self.columns.len();
+        let n = self.order();
         if n == 0 {
             return 1.0;
         }
@@ -131,13 +148,80 @@ impl BasisMatrix {
     }
 }
 
+impl Bordered {
+    fn new(problem: &Equilibrated<'_>, columns: &[Option<(usize, Side)>]) -> Option<Self> {
+        let n = problem.order();
+        let mut taken = vec![false; n];
+        let (mut singles, mut core) = (Vec::new(), Vec::new());
+        for (position, &column) in columns.iter().enumerate() {
+            let single = column.and_then(|(pair, side)| {
+                let (row, value) = problem.problem.column(pair, side).single()?;
+                Some((row, value * problem.row[row] * problem.factor(pair, side)))
+            });
+            match single {
+                Some((row, value)) if !taken[row] => {
+                    taken[row] = true;
+                    singles.push(Single { position, row, value });
+                }
+                _ => core.push(position),
+            }
+        }
+        let mut picked = Mat::zeros(n, core.len());
+        for (k, &position) in core.iter().enumerate() {
+            let out = picked.col_as_slice_mut(k);
+            match columns[position] {
+                Some((pair, side)) => problem.add_column(pair, side, 1.0, out),
+                None => out.copy_from_slice(&problem.right_hand_side()),
+            }
+        }
+        let columns = picked;
+        let core_rows: Vec<usize> = (0..n).filter(|&i| !taken[i]).collect();
+        let square = Mat::from_fn(core.len(), core.len(), |i, j| columns[(core_rows[i], j)]);
+        let lu = Lu::new(square.as_ref())?;
+        Some(Self { singles, core, core_rows, columns, lu })
+    }
+
+    fn solve(&self, x: &mut [f64]) {
+        let mut inner: Vec<f64> = self.core_rows.iter().map(|&i| x[i]).collect();
+        self.lu.solve_vector(&mut inner);
+        let mut rest = x.to_vec();
+        for (j, value) in inner.iter().enumerate() {
+            let column = self.columns.col_as_slice(j);
+            rest.iter_mut().zip(column).for_each(|(rest, a)| *rest -= a * value);
+        }
+        self.core.iter().zip(&inner).for_each(|(&j, &value)| x[j] = value);
+        self.singles.iter().for_each(|single| x[single.position] = rest[single.row] / single.value);
+    }
+
+    fn solve_transpose(&self, x: &mut [f64]) {
+        let mut out = vec![0.0; x.len()];
+        self.singles.iter().for_each(|single| out[single.row] = x[single.position] / single.value);
+        let right = self.core.iter().enumerate().map(|(j, &position)| {
+            let column = self.columns.col_as_slice(j);
+            x[position] - column.iter().zip(&out).map(|(a, y)| a * y).sum::<f64>()
+        });
+        let mut inner: Vec<f64> = right.collect();
+        self.lu.solve_transpose_vector(&mut inner);
+        self.core_rows.iter().zip(&inner).for_each(|(&i, &value)| out[i] = value);
+        x.copy_from_slice(&out);
+    }
+
+    fn for_each(&self, f: &mut impl FnMut(usize, usize, f64)) {
+        for (j, &position) in self.core.iter().enumerate() {
+            let column = self.columns.col_as_slice(j);
+            column.iter().enumerate().for_each(|(i, &v)| f(position, i, v));
+        }
+        self.singles.iter().for_each(|single| f(single.position, single.row, single.value));
+    }
+}
+
 /// Solutions for random right-hand sides of rounding size: the largest of each entry. Sizes are random
 /// too, since signs alone cancel now and then.
 fn sampled(sizes: &[f64], solve: impl Fn(&mut [f64])) -> Vec<f64> {
     let mut errors = vec![0.0_f64; sizes.len()];
     for seed in 0..SAMPLES {
         let mut random = SplitMix::new(seed);
-        let draw = |size: &f64| ROUNDING * size * (2.0 * random.next_f64() - 1.0);
+        let draw = |size: &f64| LEVEL * size * (2.0 * random.next_f64() - 1.0);
         let mut sample: Vec<f64> = sizes.iter().map(draw).collect();
         solve(&mut sample);
         errors.iter_mut().zip(sample).for_each(|(error, it)| *error = error.max(it.abs()));

@@ -41,3 +41,5 @@ pub(super) const ATTEMPT: usize = 40_000;
 pub(super) const MATRICES: usize = 5;
 /// Random right-hand sides of the size of rounding errors that are solved for to see which entries are rounding errors. Chosen.
 pub(super) const SAMPLES: u64 = 5;
+/// Their size, relative to the terms. Rounding: a few eps.
+pub(super) const LEVEL: f64 = 8.0 * f64::EPSILON;
