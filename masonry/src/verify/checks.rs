@@ -103,8 +103,12 @@ impl Checks {
     /// A thousandth is weaker, and must be: if forces on blocks differ by more than the digits of a number, or exceed
     /// the loads by that, loads cannot be distinguished from rounding errors more accurately.
     pub fn hold(&self, tolerance: f64) -> bool {
-        self.worst() <= tolerance.max(LARGEST_ERROR)
-            && self.uncarried <= tolerance.max(LARGEST_UNCARRIED)
+        self.excess(tolerance) <= 1.0 && self.uncarried <= tolerance.max(LARGEST_UNCARRIED)
+    }
+
+    /// The largest error relative to the largest that [`hold`](Self::hold) allows.
+    pub(crate) fn excess(&self, tolerance: f64) -> f64 {
+        self.worst() / tolerance.max(LARGEST_ERROR)
     }
 
     /// The largest error.
