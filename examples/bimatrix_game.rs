@@ -15,9 +15,9 @@
 
 use std::error::Error;
 
-use lcp::exact::{EnumerationSettings, enumerate};
 use lcp::faer::{Col, Mat, mat};
 use lcp::{HorizontalLcp, Lcp, Lemke, Solver};
+use lcp_problems::exact::{EnumerationSettings, enumerate};
 
 fn main() -> Result<(), Box<dyn Error>> {
     // Both choose the first, both the second, or (2/3, 1/3) and (1/3, 2/3) at random.

@@ -23,7 +23,7 @@ impl Side {
     }
 
     /// What belongs to this side, of what belongs to either.
-    pub(crate) fn of<T>(self, t: T, y: T) -> T {
+    pub fn of<T>(self, t: T, y: T) -> T {
         match self {
             Self::T => t,
             Self::Y => y,

@@ -320,6 +320,3 @@ impl<'a> Tree<'a> {
         holds.then(|| Enumerated::Found { t, y, basis: Basis::new(basis) })
     }
 }
-
-#[cfg(all(test, feature = "exact"))]
-mod tests;

@@ -114,9 +114,9 @@
 //! | `clarabel` (default) | `QuadraticProgram` |
 //! | `nalgebra` | problems from matrices of `nalgebra` |
 //! | `serde` | problems, settings and results that can be written and read back |
-//! | `exact` | all solutions of a small problem in rational arithmetic: the module `exact` |
 //!
-//! The crate `lcp-problems` reads problems from files, makes problems whose solutions are known, and has the command `lcp`. The
+//! The crate `lcp-problems` reads problems from files, makes problems whose solutions are known, finds all solutions of small ones in
+//! rational arithmetic, and has the command `lcp`. The
 //! guides `docs/lcp.md` and `docs/methods.md` of the repository say which method to use when, and how each works.
 
 mod active;
@@ -129,8 +129,6 @@ mod divide;
 mod enumerate;
 mod error;
 mod evolution;
-#[cfg(feature = "exact")]
-pub mod exact;
 mod extended;
 mod interior;
 #[cfg(feature = "serde")]
@@ -203,7 +201,7 @@ pub use vector::Vector;
 struct ReadmeDoctest;
 
 /// The programs of the guide, likewise, page by page.
-#[cfg(all(doctest, feature = "clarabel", feature = "exact"))]
+#[cfg(all(doctest, feature = "clarabel"))]
 mod guide {
     #[doc = include_str!("../../docs/lcp/problems.md")]
     struct Problems;

@@ -19,8 +19,8 @@ mod friction;
 #[path = "common/methods.rs"]
 mod methods;
 
-use lcp::exact::{Enumeration, EnumerationSettings, enumerate};
 use lcp::{HorizontalLcp, Solution};
+use lcp_problems::exact::{Enumeration, EnumerationSettings, enumerate};
 use methods::{AUTO, Treated};
 
 /// The answers that are called solved, by the name of their method. That of `Auto` must be one of them.

@@ -5,8 +5,8 @@
 mod common;
 
 use faer::Mat;
-use lcp::exact::{EnumerationSettings, enumerate};
 use lcp::{Auto, HorizontalLcp, Lcp, Method, Solver, Status};
+use lcp_problems::exact::{EnumerationSettings, enumerate};
 use proptest::collection::vec;
 use proptest::prelude::*;
 

@@ -6,8 +6,10 @@ mod common;
 
 use common::cases;
 use faer::Mat;
-use lcp::exact::{Enumeration, EnumerationSettings, ExactVerdict, enumerate, verify_basis};
 use lcp::{HorizontalLcp, Lcp, Lemke, LemkeSettings, Solution, Solver, Status};
+use lcp_problems::exact::{
+    Enumeration, EnumerationSettings, ExactVerdict, enumerate, verify_basis,
+};
 use lcp_problems::families::{self, Instance, Known};
 use proptest::collection::vec;
 use proptest::prelude::*;

@@ -3,11 +3,11 @@
 mod common;
 
 use faer::{Mat, mat};
-use lcp::exact::{EnumerationSettings, enumerate};
 use lcp::{
     Auto, Contact2d, ContactPoint, ContactState, InteriorPoint, Lemke, LemkeSettings, Solver,
     Status, WarmStart,
 };
+use lcp_problems::exact::{EnumerationSettings, enumerate};
 use proptest::collection::vec;
 use proptest::prelude::*;
 

@@ -6,11 +6,11 @@ mod common;
 
 use common::cases;
 use faer::{Mat, mat};
-use lcp::exact::{
+use lcp::{Basis, Error, HorizontalLcp, Lcp, Side};
+use lcp_problems::exact::{
     Enumeration, EnumerationSettings, ExactPoint, ExactVerdict, Face, Feasibility, RBig, enumerate,
     feasibility, verify_basis,
 };
-use lcp::{Basis, Error, HorizontalLcp, Lcp, Side};
 use proptest::collection::vec;
 use proptest::prelude::*;
 

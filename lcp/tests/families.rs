@@ -6,8 +6,8 @@ mod common;
 
 use common::cases;
 use faer::{Mat, mat};
-use lcp::exact::{EnumerationSettings, ExactVerdict, RBig, enumerate, verify_basis};
 use lcp::{Auto, Basis, BoxedLcp, HorizontalLcp, Lcp, MixedLcp, Side, Solver, Status};
+use lcp_problems::exact::{EnumerationSettings, ExactVerdict, RBig, enumerate, verify_basis};
 use lcp_problems::families::{self, Instance, Known};
 use proptest::prelude::*;
 

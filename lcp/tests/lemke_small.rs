@@ -6,9 +6,9 @@ use std::time::Duration;
 
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, mat};
-use lcp::exact::{EnumerationSettings, enumerate};
 use lcp::lemke::{AttemptCovering, AttemptEnd};
 use lcp::{Basis, HorizontalLcp, Lcp, Lemke, LemkeSettings, Side, Solver, Status};
+use lcp_problems::exact::{EnumerationSettings, enumerate};
 use lcp_problems::families;
 
 /// Xorshift (Marsaglia 2003).

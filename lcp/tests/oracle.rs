@@ -6,8 +6,10 @@ mod common;
 
 use common::cases;
 use faer::Mat;
-use lcp::exact::{Enumeration, EnumerationSettings, ExactVerdict, enumerate, verify_basis};
 use lcp::{HorizontalLcp, Lemke, Solver, Status};
+use lcp_problems::exact::{
+    Enumeration, EnumerationSettings, ExactVerdict, enumerate, verify_basis,
+};
 use proptest::collection::vec;
 use proptest::prelude::*;
 

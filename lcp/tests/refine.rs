@@ -2,9 +2,9 @@
 //! bodies that float.
 
 use faer::{Mat, mat};
-use lcp::exact::{ExactVerdict, verify_basis};
 use lcp::refine::{ContactStatus, Extended, Refined, Refinement};
 use lcp::{Contact2d, ContactState, Error, InteriorPoint, Solver};
+use lcp_problems::exact::{ExactVerdict, verify_basis};
 use proptest::prelude::*;
 
 use ContactStatus::{Backwards, Forwards, Open, Stick};

@@ -4,6 +4,7 @@
 //!
 //! | feature | gives |
 //! |---|---|
+//! | `exact` | all solutions of a small problem in rational arithmetic: the module `exact` |
 //! | `io` | problems in files: the module `io` |
 //! | `cli` | the command `lcp`: the module `cli` |
 
@@ -11,6 +12,8 @@ use lcp::Matrix;
 
 #[cfg(feature = "cli")]
 pub mod cli;
+#[cfg(feature = "exact")]
+pub mod exact;
 pub mod families;
 #[cfg(feature = "io")]
 pub mod io;

@@ -1,8 +1,8 @@
 //! Problems with solutions at the end of no path, and problems that are solved by nothing but points far out.
 
 use faer::{Mat, mat};
-use lcp::exact::RBig;
 use lcp::{HorizontalLcp, Lcp, Solution, Status};
+use lcp_problems::exact::RBig;
 use proptest::prelude::*;
 
 use super::common::cases;

@@ -1,8 +1,8 @@
 //! Friction that is nearly infinite: an error, or forces that obey the law.
 
 use faer::{Mat, mat};
-use lcp::exact::RBig;
 use lcp::{Error, Friction2d, Status};
+use lcp_problems::exact::RBig;
 use proptest::prelude::*;
 
 use super::common::cases;

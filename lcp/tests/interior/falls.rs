@@ -1,8 +1,8 @@
 //! What is said to fall, and what only seems to.
 
 use faer::Mat;
-use lcp::exact::{Feasibility, feasibility};
 use lcp::{Contact2d, ContactState, Status};
+use lcp_problems::exact::{Feasibility, feasibility};
 
 use super::{assert_close, body, solve};
 

@@ -1,7 +1,7 @@
 //! What is true of a problem, and what a verdict is worth in this light.
 
-use lcp::exact::{Enumeration, EnumerationSettings, Face, RBig, enumerate};
 use lcp::{Certificate, HorizontalLcp, Leaf, Side, Solution, Status};
+use lcp_problems::exact::{Enumeration, EnumerationSettings, Face, RBig, enumerate};
 
 use super::methods::TOLERANCE;
 use super::problems::Case;

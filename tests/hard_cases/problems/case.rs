@@ -1,7 +1,7 @@
 //! A hard problem, and what every method gives for it.
 
-use lcp::exact::{Enumeration, EnumerationSettings, Feasibility, enumerate, feasibility};
 use lcp::{Error, HorizontalLcp, LemkeSettings, Solution, Status};
+use lcp_problems::exact::{Enumeration, EnumerationSettings, Feasibility, enumerate, feasibility};
 use lcp_problems::families::{Instance, Known};
 
 use super::data::Point;

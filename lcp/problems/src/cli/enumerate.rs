@@ -7,8 +7,8 @@ use serde::Serialize;
 
 use super::args::EnumerateArgs;
 use super::output::{Failure, NOT_SOLVED, SOLVED, show};
+use crate::exact::{EnumerationSettings, ExactPoint, Face, RBig, enumerate};
 use crate::io::Problem;
-use lcp::exact::{EnumerationSettings, ExactPoint, Face, RBig, enumerate};
 
 /// The object that `--json` prints.
 #[derive(Debug, Serialize)]

@@ -6,7 +6,7 @@ use dashu_ratio::RBig;
 use super::ExactPoint;
 use super::integers::{Integers, number};
 use super::tableau::{Tableau, eliminate};
-use crate::{Basis, HorizontalLcp, Side};
+use lcp::{Basis, HorizontalLcp, Side};
 
 /// The properties of a complementary basis in exact arithmetic.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,7 +19,7 @@ pub enum ExactVerdict {
     /// The basis has one point, and some of its values are negative.
     Infeasible {
         /// The pair with the most negative value, measured as in
-        /// [`Residuals::feasibility`](crate::Residuals::feasibility).
+        /// [`Residuals::feasibility`](lcp::Residuals::feasibility).
         pair: usize,
         /// Which variable of the pair it is.
         side: Side,
@@ -42,7 +42,7 @@ pub enum ExactVerdict {
 ///
 /// ```
 /// use faer::mat;
-/// use lcp::exact::{ExactVerdict, verify_basis};
+/// use lcp_problems::exact::{ExactVerdict, verify_basis};
 /// use lcp::{Basis, HorizontalLcp, Lcp, Side};
 ///
 /// let lcp = Lcp::new(mat![[2.0, 1.0], [1.0, 2.0]], vec![-5.0, -6.0])?;

@@ -3,7 +3,7 @@
 //! Every `f64` is a rational number, so a problem has an exact solution. This module finds it, for tests, for
 //! teaching, and to check floating-point solvers:
 //!
-//! * [`verify_basis`] solves one complementary basis, say that of a [`Solution`](crate::Solution).
+//! * [`verify_basis`] solves one complementary basis, say that of a [`Solution`](lcp::Solution).
 //! * [`enumerate`] finds all solutions of a small problem: isolated points, segments, polyhedra.
 //! * [`feasibility`] decides whether `A t + B y = c`, `t >= 0`, `y >= 0` can be met at all, and
 //!   proves it if not.

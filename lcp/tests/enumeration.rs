@@ -1,20 +1,23 @@
-//! Against enumeration in rational arithmetic, and leaves checked for what they say.
+//! Branch and bound against enumeration in rational arithmetic, and leaves checked for what they say.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+
+use std::time::Duration;
 
 use faer::{Mat, mat};
+use lcp::{Certificate, Enumeration, HorizontalLcp, Lcp, Side, Solution, Solver, SplitMix, Status};
+use lcp_problems::exact::{self, EnumerationSettings};
 
-use super::*;
-use crate::exact::{Enumeration, EnumerationSettings, enumerate as enumerate_exactly};
-use crate::random::SplitMix;
-use crate::{Certificate, Lcp};
+const BRANCH_AND_BOUND: Enumeration = Enumeration { tolerance: 1e-10, time_limit: None };
 
-fn enumerated(problem: &HorizontalLcp) -> Enumerated {
-    enumerate(problem, 1 << 16, None).0
+fn enumerated(problem: &HorizontalLcp) -> Solution {
+    BRANCH_AND_BOUND.solve(problem).unwrap()
 }
 
 /// Entries -2 to 2, about half of them zero; some pairs free, some columns single.
 fn random_problem(random: &mut SplitMix) -> HorizontalLcp {
     let draw = |random: &mut SplitMix, count: u64| random.next_u64() % count;
-    let n = usize::try_from(draw(random, 6)).expect("small");
+    let n = usize::try_from(draw(random, 6)).unwrap();
     let kind = draw(random, 4);
     let entry = |random: &mut SplitMix| {
         let value = draw(random, 5) as f64 - 2.0;
@@ -30,7 +33,7 @@ fn random_problem(random: &mut SplitMix) -> HorizontalLcp {
         }
     }
     let c: Vec<f64> = (0..n).map(|_| entry(random)).collect();
-    HorizontalLcp::new(a, b, c).expect("shapes fit")
+    HorizontalLcp::new(a, b, c).unwrap()
 }
 
 /// Rows and variables in other units.
@@ -41,33 +44,31 @@ fn scaled(problem: &HorizontalLcp, unit: &mut dyn FnMut() -> f64) -> HorizontalL
     let a = Mat::from_fn(n, n, |i, j| problem.a()[(i, j)] * (rows[i] * t[j]));
     let b = Mat::from_fn(n, n, |i, j| problem.b()[(i, j)] * (rows[i] * y[j]));
     let c: Vec<f64> = problem.c().iter().zip(&rows).map(|(c, row)| c * row).collect();
-    HorizontalLcp::new(a, b, c).expect("shapes fit")
+    HorizontalLcp::new(a, b, c).unwrap()
 }
 
 /// Whether the outcome is the truth about a problem, and holds in the data.
-fn is_true(outcome: &Enumerated, data: &HorizontalLcp, truth: &Enumeration) -> bool {
-    match outcome {
-        Enumerated::Found { t, y, basis } => {
+fn is_true(outcome: &Solution, data: &HorizontalLcp, truth: &exact::Enumeration) -> bool {
+    let is_proved = || outcome.certificate.as_ref().is_some_and(|proof| proof.holds(data));
+    match outcome.status {
+        Status::Solved => {
+            let Solution { t, y, .. } = outcome;
             let fits = |(side, (t, y)): (&Side, (&f64, &f64))| match side {
                 Side::T => *y == 0.0,
                 Side::Y => *t == 0.0,
             };
             truth.is_solvable()
                 && data.residuals(t, y).worst() <= 1e-13
-                && basis.sides().iter().zip(t.iter().zip(y)).all(fits)
+                && outcome.basis.as_ref().unwrap().sides().iter().zip(t.iter().zip(y)).all(fits)
         }
-        Enumerated::Infeasible(pi) => {
-            !truth.is_feasible() && Certificate::Farkas { pi: pi.clone() }.holds(data)
-        }
-        Enumerated::NoSolution(leaves) => {
-            !truth.is_solvable() && Certificate::Choices { leaves: leaves.clone() }.holds(data)
-        }
-        Enumerated::Limit | Enumerated::Open => false,
+        Status::Infeasible => !truth.is_feasible() && is_proved(),
+        Status::NoSolution => !truth.is_solvable() && is_proved(),
+        _ => false,
     }
 }
 
-fn truth(problem: &HorizontalLcp) -> Enumeration {
-    enumerate_exactly(problem, &EnumerationSettings::default()).expect("small")
+fn truth(problem: &HorizontalLcp) -> exact::Enumeration {
+    exact::enumerate(problem, &EnumerationSettings::default()).unwrap()
 }
 
 #[test]
@@ -77,7 +78,7 @@ fn small_integers_are_decided_as_in_rational_arithmetic() {
         let problem = random_problem(&mut random);
         let (outcome, truth) = (enumerated(&problem), truth(&problem));
         assert!(is_true(&outcome, &problem, &truth), "{outcome:?} of {problem:?}");
-        assert_eq!(matches!(outcome, Enumerated::Infeasible(_)), !truth.is_feasible());
+        assert_eq!(outcome.status == Status::Infeasible, !truth.is_feasible());
     }
 }
 
@@ -104,9 +105,11 @@ fn rounded_data_are_not_judged_wrongly() {
         let data = scaled(&problem, &mut || 10.0_f64.powf(12.0 * random.next_f64() - 6.0));
         let outcome = enumerated(&data);
         let said = [&data, &problem].map(|it| is_true(&outcome, &data, &truth(it)));
-        match outcome {
-            Enumerated::Limit | Enumerated::Open => open += 1,
-            _ => assert!(said.contains(&true), "{outcome:?} of {data:?}"),
+        match outcome.status {
+            Status::Solved | Status::Infeasible | Status::NoSolution => {
+                assert!(said.contains(&true), "{outcome:?} of {data:?}");
+            }
+            _ => open += 1,
         }
     }
     assert!(100 * open <= 4000, "{open} left open");
@@ -115,15 +118,16 @@ fn rounded_data_are_not_judged_wrongly() {
 /// Two parallel rows that contradict each other by 1e-9, and a pair that has to choose.
 #[test]
 fn proofs_of_small_problems() {
-    let near = Lcp::new(mat![[1.0, -1.0], [-1.0, 1.0]], vec![-1.0, 1.0 - 1e-9]).expect("fits");
+    let near = Lcp::new(mat![[1.0, -1.0], [-1.0, 1.0]], vec![-1.0, 1.0 - 1e-9]).unwrap();
     let outcome = enumerated(&near.into());
-    assert_eq!(outcome, Enumerated::Infeasible(vec![-1.0, -1.0]));
+    assert_eq!(outcome.certificate, Some(Certificate::Farkas { pi: vec![-1.0, -1.0] }));
     // t1 + y1 = 2 and t1 - y1 = 0 can be met by (1, 1) alone.
     let a = mat![[1.0, 0.0], [1.0, 0.0]];
     let b = mat![[1.0, 0.0], [-1.0, 0.0]];
-    let both = HorizontalLcp::new(a, b, vec![2.0, 0.0]).expect("fits");
-    let Enumerated::NoSolution(leaves) = enumerated(&both) else { panic!("no proof") };
-    assert!(leaves.len() == 2 && Certificate::Choices { leaves }.holds(&both));
+    let both = HorizontalLcp::new(a, b, vec![2.0, 0.0]).unwrap();
+    let outcome = enumerated(&both);
+    let Some(Certificate::Choices { leaves }) = &outcome.certificate else { panic!("no proof") };
+    assert!(leaves.len() == 2 && outcome.certificate.as_ref().unwrap().holds(&both));
 }
 
 #[test]
@@ -133,5 +137,6 @@ fn a_limit_leaves_it_open() {
         mat![[1.0, 0.0], [-1.0, 0.0]],
         vec![2.0, 0.0],
     );
-    assert_eq!(enumerate(&both.expect("fits"), 1, None).0, Enumerated::Limit);
+    let at_once = Enumeration { time_limit: Some(Duration::ZERO), ..BRANCH_AND_BOUND };
+    assert_eq!(at_once.solve(&both.unwrap()).unwrap().status, Status::TimeLimit);
 }

@@ -5,8 +5,7 @@ use std::time::Instant;
 use dashu_int::ops::{Gcd, UnsignedAbs};
 use dashu_int::{IBig, UBig};
 
-use crate::Error;
-use crate::solve::is_over;
+use lcp::Error;
 
 /// When an enumeration has to end, and how many vertices and rays it may find.
 pub(super) struct Budget {
@@ -101,4 +100,8 @@ fn primitive(entries: Vec<IBig>) -> Vec<IBig> {
         magnitudes.fold(UBig::ZERO, |gcd, v| if gcd.is_zero() { v } else { gcd.gcd(v) }),
     );
     entries.into_iter().map(|v| v / &content).collect()
+}
+
+pub(super) fn is_over(deadline: Option<Instant>) -> bool {
+    deadline.is_some_and(|deadline| Instant::now() >= deadline)
 }

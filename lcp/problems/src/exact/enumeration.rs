@@ -5,12 +5,12 @@ use std::time::{Duration, Instant};
 
 use dashu_int::IBig;
 
+use super::cone::is_over;
 use super::cone::{Budget, Stop, extreme_rays, product};
 use super::integers::{Integers, number};
 use super::tableau::{Tableau, eliminate};
 use super::{ExactPoint, Feasibility, feasibility};
-use crate::solve::{deadline_of, is_over};
-use crate::{Error, HorizontalLcp, Side};
+use lcp::{Error, HorizontalLcp, Side};
 
 /// Limits of [`enumerate`].
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -91,7 +91,7 @@ pub struct Face {
 ///
 /// ```
 /// use faer::Mat;
-/// use lcp::exact::{EnumerationSettings, enumerate};
+/// use lcp_problems::exact::{EnumerationSettings, enumerate};
 /// use lcp::{HorizontalLcp, Lcp};
 ///
 /// // w = (z1 + z2 - 1) (1, 1): every z with z1 + z2 = 1, from (0, 1) to (1, 0).
@@ -120,7 +120,7 @@ pub fn enumerate(
         let what = "order of the problem to enumerate";
         return Err(Error::Limit { what, value: n, name: "max_order", limit: max_order });
     }
-    let deadline = deadline_of(Instant::now(), settings.time_limit);
+    let deadline = settings.time_limit.and_then(|limit| Instant::now().checked_add(limit));
     let budget = Budget { deadline, generators: settings.max_generators };
     let root = Node::root(problem);
     let mut faces = Faces { budget, found: BTreeMap::new() };

@@ -6,7 +6,7 @@ use dashu_ratio::RBig;
 use super::ExactPoint;
 use super::integers::Integers;
 use super::tableau::Tableau;
-use crate::HorizontalLcp;
+use lcp::HorizontalLcp;
 
 /// Whether `A t + B y = c`, `t >= 0`, `y >= 0` can be met, complementarity aside.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -27,7 +27,7 @@ pub enum Feasibility {
 ///
 /// ```
 /// use faer::mat;
-/// use lcp::exact::{Feasibility, feasibility};
+/// use lcp_problems::exact::{Feasibility, feasibility};
 /// use lcp::{HorizontalLcp, Lcp};
 ///
 /// // w = -z - 1 has no nonnegative z and w.

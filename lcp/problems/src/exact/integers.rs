@@ -4,7 +4,7 @@ use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 
 use super::ExactPoint;
-use crate::{HorizontalLcp, Side};
+use lcp::{HorizontalLcp, Side};
 
 /// The number of a variable: `t` before `y` in every pair.
 pub(super) fn number(pair: usize, side: Side) -> usize {
