@@ -9,6 +9,8 @@ mod bodies;
 mod common;
 #[path = "interior/falls.rs"]
 mod falls;
+#[path = "interior/least_size.rs"]
+mod least_size;
 #[path = "interior/properties.rs"]
 mod properties;
 
