@@ -58,7 +58,7 @@ pub(super) fn run<P: Planned>(
         let info = answer.as_ref().map(|it| &it.info);
         routes.push(Route {
             method: step.method,
-            reason: step.reason,
+            reason: step.told(problem).reason,
             end,
             pivots: info.map_or(0, |it| it.pivots),
             factorisations: info.map_or(0, |it| it.factorisations),

@@ -1,8 +1,8 @@
 //! The chains of contact with friction.
 
 use super::constants::FEW;
-use super::method::{Choice, Effort, Planned, named};
-use super::standard::common_chain;
+use super::method::{Effort, Planned, Step};
+use super::standard::{common_chain, size};
 use crate::definite::is_definite;
 use crate::enumerate::MOST_PAIRS;
 use crate::{Contact2d, Friction2d, Method, Solver};
@@ -12,9 +12,12 @@ impl Planned for Friction2d {
         self.order()
     }
 
-    fn chain(&self) -> Vec<Choice> {
-        let steps = common_chain(self.standard().m());
-        named(&format!("{} contacts", self.contacts()), steps)
+    fn subject(&self) -> String {
+        format!("{} contacts, {}", self.contacts(), size(self.standard().m()))
+    }
+
+    fn chain(&self) -> Vec<Step> {
+        common_chain(self.standard().m())
     }
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>> {
@@ -27,20 +30,22 @@ impl Planned for Contact2d {
         self.order()
     }
 
-    fn chain(&self) -> Vec<Choice> {
+    fn subject(&self) -> String {
         let (points, friction) = (self.points(), self.frictional().len());
-        let text = format!(
+        format!(
             "{points} contact points, {friction} of them with friction, {} displacements",
             self.displacements()
-        );
-        let step = |method, words: &str| Choice::new(method, format!("{text}: {words}"));
-        let inside = step(
+        )
+    }
+
+    fn chain(&self) -> Vec<Step> {
+        let inside = Step::new(
             Method::Interior,
             "the interior-point method for contact takes tens of sparse factorisations",
         );
-        let pivots = step(
+        let pivots = Step::new(
             Method::Lemke,
-            if points <= FEW {
+            if self.points() <= FEW {
                 "pivots are fast, need no convergence and may find a proof"
             } else {
                 "pivots take long at this number, but need no convergence"

@@ -44,14 +44,18 @@ pub(super) fn run<P: Planned>(
 /// The plans of the parts; a method that stands at the same place of several plans stands there once.
 pub(super) fn plan<P: Planned>(problem: &P, max_attempts: Option<usize>) -> Vec<Choice> {
     let Some(parts) = problem.parts().filter(|parts| parts.len() <= MANY_PARTS) else {
-        return chain_of(problem, max_attempts);
+        return told(problem, max_attempts);
     };
-    let plans = parts.iter().map(|part| chain_of(&part.problem, max_attempts));
+    let plans = parts.iter().map(|part| told(&part.problem, max_attempts));
     let is_same = |a: &Choice, b: &Choice| a.method == b.method;
     merged(plans, is_same, |_, _| {})
         .into_iter()
         .map(|(step, count)| Choice { reason: named(&step.reason, count, parts.len()), ..step })
         .collect()
+}
+
+fn told<P: Planned>(problem: &P, max_attempts: Option<usize>) -> Vec<Choice> {
+    chain_of(problem, max_attempts).into_iter().map(|step| step.told(problem)).collect()
 }
 
 fn named(reason: &str, count: usize, parts: usize) -> String {

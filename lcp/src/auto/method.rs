@@ -27,42 +27,58 @@ pub struct Choice {
     pub is_brief: bool,
 }
 
-impl Choice {
-    pub(super) fn new(method: Method, reason: impl Into<String>) -> Self {
-        Self { method, reason: reason.into(), is_brief: false }
-    }
+/// A method of a chain, whose reason is only put into words for a step that is taken or told.
+#[derive(Debug, Clone, Copy)]
+pub struct Step {
+    pub(super) method: Method,
+    words: Words,
+    pub(super) is_brief: bool,
 }
 
-/// The same steps, whose reasons say first what problem it is.
-pub(super) fn named(problem: &str, mut steps: Vec<Choice>) -> Vec<Choice> {
-    for step in &mut steps {
-        step.reason = format!("{problem}, {}", step.reason);
+/// Why a method is at its place.
+#[derive(Debug, Clone, Copy)]
+enum Words {
+    These(&'static str),
+    /// So few choices of sides depend on each other in turn.
+    Few(usize),
+}
+
+impl Step {
+    pub(super) fn new(method: Method, words: &'static str) -> Self {
+        Self { method, words: Words::These(words), is_brief: false }
     }
-    steps
+
+    pub(super) fn told<P: Planned>(self, problem: &P) -> Choice {
+        let subject = problem.subject();
+        let reason = match self.words {
+            Words::These(words) => format!("{subject}: {words}"),
+            Words::Few(choices) => format!(
+                "{subject}: at most {choices} pairs depend on each other in turn, so few that choices of sides can be gone \
+                 through, with proofs"
+            ),
+        };
+        Choice { method: self.method, reason, is_brief: self.is_brief }
+    }
 }
 
 /// The chain of a problem with all choices of sides: behind a few attempts of pivots if it takes no longer than these, else
 /// at the end.
-pub(super) fn chain_of<P: Planned>(problem: &P, max_attempts: Option<usize>) -> Vec<Choice> {
+pub(super) fn chain_of<P: Planned>(problem: &P, max_attempts: Option<usize>) -> Vec<Step> {
     let mut steps = problem.chain();
     let pairs = problem.pairs();
     let pivots = steps.iter().position(|step| step.method == Method::Lemke);
     let Some(pivots) = pivots.filter(|_| pairs <= MOST_PAIRS) else { return steps };
-    let step = |method, words: &str| Choice::new(method, format!("{pairs} pairs, {words}"));
     let choices = problem.choices();
     if choices > FEW_PAIRS {
         let words = "choices of sides are gone through as far as the work allows";
-        steps.push(step(Method::Enumeration, words));
+        steps.push(Step::new(Method::Enumeration, words));
         return steps;
     }
     steps[pivots].is_brief = true;
-    let words = format!(
-        "at most {choices} of which depend on each other in turn: so few that choices of sides can be gone \
-         through, with proofs"
-    );
-    steps.insert(pivots + 1, step(Method::Enumeration, &words));
+    let words = Words::Few(choices);
+    steps.insert(pivots + 1, Step { method: Method::Enumeration, words, is_brief: false });
     if pairs > FEW_PAIRS && max_attempts.is_none_or(|most| most > FEW_ATTEMPTS) {
-        steps.push(step(Method::Lemke, "pivots from as many starts as some seconds allow"));
+        steps.push(Step::new(Method::Lemke, "pivots from as many starts as some seconds allow"));
     }
     steps
 }
@@ -78,8 +94,11 @@ pub trait Planned: Divide {
         self.pairs()
     }
 
+    /// The class and the size that the chain follows from, with numbers.
+    fn subject(&self) -> String;
+
     /// The chain.
-    fn chain(&self) -> Vec<Choice>;
+    fn chain(&self) -> Vec<Step>;
 
     /// A method of the chain with its settings.
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>>;

@@ -1,8 +1,8 @@
 //! The chains of problems with free and with bounded variables.
 
 use super::facts::largest_block;
-use super::method::{Choice, Effort, Planned, named};
-use super::standard::common_chain;
+use super::method::{Effort, Planned, Step};
+use super::standard::{common_chain, size};
 use crate::{BoxedLcp, Method, MixedLcp, Solver};
 
 impl Planned for MixedLcp {
@@ -14,9 +14,13 @@ impl Planned for MixedLcp {
         largest_block(self.m(), |i| usize::from(!self.free()[i]))
     }
 
-    fn chain(&self) -> Vec<Choice> {
+    fn subject(&self) -> String {
         let free = self.free().iter().filter(|free| **free).count();
-        named(&format!("{free} free variables"), common_chain(self.m()))
+        format!("{free} free variables, {}", size(self.m()))
+    }
+
+    fn chain(&self) -> Vec<Step> {
+        common_chain(self.m())
     }
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>> {
@@ -37,9 +41,12 @@ impl Planned for BoxedLcp {
         largest_block(self.m(), sides)
     }
 
-    fn chain(&self) -> Vec<Choice> {
-        let steps = common_chain(self.m());
-        named(&format!("{} pairs with those of the bounds", self.pairs()), steps)
+    fn subject(&self) -> String {
+        format!("{} pairs with those of the bounds, {}", self.pairs(), size(self.m()))
+    }
+
+    fn chain(&self) -> Vec<Step> {
+        common_chain(self.m())
     }
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>> {

@@ -2,12 +2,12 @@
 
 use super::constants::FEW;
 use super::facts::largest_block;
-use super::method::{Choice, Effort, Planned};
+use super::method::{Effort, Planned, Step};
 use crate::newton::is_z_matrix;
 use crate::{HorizontalLcp, Lcp, Matrix, Method, Solver};
 
 /// The class of the matrix decides whether the active set method is the first.
-fn standard_chain(m: &Matrix) -> Vec<Choice> {
+fn standard_chain(m: &Matrix) -> Vec<Step> {
     let mut steps = common_chain(m);
     if (0..m.ncols()).all(|i| m[(i, i)] > 0.0) {
         let words = if is_z_matrix(m) {
@@ -16,30 +16,29 @@ fn standard_chain(m: &Matrix) -> Vec<Choice> {
         } else {
             "with a positive diagonal: the active set method takes few factorisations, or soon gives up"
         };
-        steps.insert(0, Choice::new(Method::Newton, format!("{}, {words}", size(m))));
+        steps.insert(0, Step::new(Method::Newton, words));
     }
     steps
 }
 
 /// The methods that need no class of matrices.
-pub(super) fn common_chain(m: &Matrix) -> Vec<Choice> {
-    let (order, size) = (m.ncols(), size(m));
-    let step = |method, words: &str| Choice::new(method, format!("{size}: {words}"));
-    let inside = step(
+pub(super) fn common_chain(m: &Matrix) -> Vec<Step> {
+    let order = m.ncols();
+    let inside = Step::new(
         Method::Interior,
         "the interior-point method takes tens of factorisations at any order",
     );
     if m.is_sparse() && order > FEW {
         let words = "pivots take long at this order, but need no class of matrices";
-        return vec![inside, step(Method::Lemke, words)];
+        return vec![inside, Step::new(Method::Lemke, words)];
     }
     let words = "pivots need no class of matrices and end with a basis, a proof or a ray";
     let inside = Some(inside).filter(|_| order <= FEW);
-    std::iter::once(step(Method::Lemke, words)).chain(inside).collect()
+    std::iter::once(Step::new(Method::Lemke, words)).chain(inside).collect()
 }
 
 /// The order and how the matrix is stored, for the reason of a choice.
-fn size(m: &Matrix) -> String {
+pub(super) fn size(m: &Matrix) -> String {
     let order = m.ncols();
     if !m.is_sparse() {
         return format!("order {order}, dense");
@@ -57,7 +56,11 @@ impl Planned for Lcp {
         largest_block(self.m(), |_| 1)
     }
 
-    fn chain(&self) -> Vec<Choice> {
+    fn subject(&self) -> String {
+        size(self.m())
+    }
+
+    fn chain(&self) -> Vec<Step> {
         standard_chain(self.m())
     }
 
@@ -81,20 +84,19 @@ impl Planned for HorizontalLcp {
         }
     }
 
-    fn chain(&self) -> Vec<Choice> {
-        if let Some(standard) = self.to_standard() {
-            let mut steps = standard_chain(standard.lcp().m());
-            for step in &mut steps {
-                step.reason.insert_str(0, "as a standard problem of ");
-            }
-            return steps;
-        }
+    fn subject(&self) -> String {
         let storage = if self.is_sparse() { "sparse" } else { "dense" };
-        let reason = format!(
-            "order {}, {storage}, and no standard problem: Lemke's method treats the general form",
-            self.order()
-        );
-        vec![Choice::new(Method::Lemke, reason)]
+        match self.to_standard() {
+            Some(standard) => format!("as a standard problem of {}", size(standard.lcp().m())),
+            None => format!("order {}, {storage}, and no standard problem", self.order()),
+        }
+    }
+
+    fn chain(&self) -> Vec<Step> {
+        match self.to_standard() {
+            Some(standard) => standard_chain(standard.lcp().m()),
+            None => vec![Step::new(Method::Lemke, "Lemke's method treats the general form")],
+        }
     }
 
     fn solver(&self, method: Method, effort: &Effort<'_>) -> Box<dyn Solver<Self>> {
