@@ -103,7 +103,7 @@ fn auto_says_what_it_chose_and_why() {
     assert_eq!(routes[0]["end"]["ended"]["status"], "Solved");
     let report = Run::of(&["solve", &file]).out;
     assert!(
-        report.contains("auto chose semismooth Newton: order 3, dense, with no positive entry"),
+        report.contains("auto chose semismooth Newton: order 3, dense: no entry off the positive diagonal is positive"),
         "{report}"
     );
     // No solution: one method stalls, the next one has the proof.

@@ -11,10 +11,10 @@ fn standard_chain(m: &Matrix) -> Vec<Step> {
     let mut steps = common_chain(m);
     if (0..m.ncols()).all(|i| m[(i, i)] > 0.0) {
         let words = if is_z_matrix(m) {
-            "with no positive entry off the positive diagonal, as M-matrices: the active set method solves \
-             whatever is feasible"
+            "no entry off the positive diagonal is positive, as in M-matrices, so that the active set method \
+             solves whatever is feasible"
         } else {
-            "with a positive diagonal: the active set method takes few factorisations, or soon gives up"
+            "the diagonal is positive, so that the active set method takes few factorisations, or soon gives up"
         };
         steps.insert(0, Step::new(Method::Newton, words));
     }
