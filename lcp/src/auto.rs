@@ -17,7 +17,8 @@ pub use settings::AutoSettings;
 
 use method::Planned;
 
-use crate::{Error, Method, Named, Observer, Solution, Solver};
+use crate::solve::named;
+use crate::{Error, Method, Observer, Solution, Solver};
 
 /// Chooses the methods for a problem by its class and size, and runs one after the other until one finds a solution.
 /// Every method checks the residuals in the given data.
@@ -87,28 +88,14 @@ pub struct Auto {
     settings: AutoSettings,
 }
 
+named!(Auto, AutoSettings, Method::Auto);
+
 impl Auto {
-    /// A solver with these settings.
-    pub fn new(settings: AutoSettings) -> Self {
-        Self { settings }
-    }
-
-    /// The settings.
-    pub fn settings(&self) -> &AutoSettings {
-        &self.settings
-    }
-
     /// The methods for a problem, in order.
     pub fn plan<P: Planned>(&self, problem: &P) -> Vec<Choice> {
         divided::plan(problem, self.settings.max_attempts)
     }
 }
-impl Named for Auto {
-    fn method(&self) -> Method {
-        Method::Auto
-    }
-}
-
 /// The problems are those in the table of [`Auto`].
 impl<P: Planned> Solver<P> for Auto {
     fn solve_pairs(&self, problem: &P, observer: &mut Observer<'_>) -> Result<Solution, Error> {

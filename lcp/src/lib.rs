@@ -173,7 +173,6 @@ pub use method::Method;
 pub use newton::{SemismoothNewton, SemismoothNewtonSettings};
 #[doc(inline)]
 pub use pgs::{ProjectedGaussSeidel, ProjectedGaussSeidelSettings};
-/// Public for the crate `lcp-problems`.
 #[cfg(feature = "serde")]
 #[doc(hidden)]
 pub use problem::Stored;
@@ -189,7 +188,7 @@ pub use random::SplitMix;
 pub use settings::{Covering, LemkeSettings, WarmStart};
 pub use solution::{Info, Route, RouteEnd, Solution, Unsolved};
 pub use solve::{Iteration, Named, Observer, Solver, Step, StepKind};
-/// Public for the benches of the workspace, and for masonry.
+/// Public for the crates of the workspace.
 #[doc(hidden)]
 pub use sparse::{Gram, SupernodalLu};
 pub use status::Status;

@@ -16,6 +16,8 @@ mod draw;
 mod far;
 #[path = "cases/friction.rs"]
 mod friction;
+#[path = "cases/gaps.rs"]
+mod gaps;
 #[path = "common/methods.rs"]
 mod methods;
 

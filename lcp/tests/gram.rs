@@ -1,9 +1,9 @@
-//! Factors of `K + delta 1 + A S A^T` for one pattern and many values.
+//! Factors for one pattern and many values: of `K + delta 1 + A S A^T`, and of unsymmetric matrices.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
 
 use faer::sparse::{SparseColMat, Triplet};
-use lcp::{Error, Gram, SplitMix};
+use lcp::{Error, Gram, SplitMix, SupernodalLu};
 
 /// A chain of bodies with two variables each, three columns of `A` between neighbours, and `K` on every third variable.
 fn chain(bodies: usize) -> (SparseColMat<usize, f64>, SparseColMat<usize, f64>) {
@@ -59,4 +59,23 @@ fn numbers_that_overflow_are_named() {
     let mut x = vec![1.0; a.nrows()];
     gram.solve(&mut x);
     assert!(x.iter().all(|x| x.is_finite()));
+}
+
+/// A zero on the diagonal is no obstacle where a pivot can be found in the block, and where none is
+/// the factorisation says so.
+#[test]
+fn vanishing_pivots_are_exchanged_or_counted() {
+    let entries = |corner: f64| {
+        [(0, 0, 0.0), (0, 1, 2.0), (1, 0, 3.0), (1, 1, corner)]
+            .map(|(i, j, v)| Triplet::new(i, j, v))
+    };
+    let matrix =
+        |corner| SparseColMat::<usize, f64>::try_new_from_triplets(2, 2, &entries(corner)).unwrap();
+    let mut solver = SupernodalLu::new(matrix(0.0).symbolic()).unwrap();
+    assert_eq!(solver.factorise(matrix(0.0).val()), 0);
+    assert!(solver.is_negative());
+    let mut x = [2.0, 3.0];
+    solver.solve(&mut x);
+    assert!(x.iter().all(|x| (x - 1.0).abs() < 1e-15), "{x:?}");
+    assert_eq!(solver.factorise(&[0.0, 0.0, 0.0, 1.0]), 1);
 }

@@ -1,10 +1,14 @@
 //! Lemke's method on every kind of problem.
 
+use web_time::{Duration, Instant};
+
 use super::{Lemke, Progress};
 use crate::conversion::{Converted, solve_in_general_form};
+use crate::states::Scaled;
+use crate::vector::SMALL;
 use crate::{
     Basis, Certificate, Contact2d, Covering, Error, HorizontalLcp, Iteration, LemkeSettings,
-    Method, Named, Observer, Side, Solution, Solver, WarmStart,
+    Method, Named, Observer, Side, Solution, Solver, Status, WarmStart,
 };
 
 impl Lemke {
@@ -50,6 +54,54 @@ impl<P: Converted> Solver<P> for Lemke {
 /// basis nor a ray, which would belong to the mixed problem.
 impl Solver<Contact2d> for Lemke {
     fn solve_pairs(
+        &self,
+        problem: &Contact2d,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
+        let began = Instant::now();
+        if let Some(closed) = without_rounding(problem) {
+            let mut solution = self.solve_contact(&closed, observer)?;
+            if let Some(state) = solution.contact.take_if(|_| solution.status == Status::Solved) {
+                // Gaps and slips are those of the given data.
+                let state = problem.state(state.u, state.t_n, state.t_t);
+                (solution.t, solution.y) = problem.to_pairs(&state);
+                solution.residuals = problem.residuals(&state);
+                solution.contact = Some(state);
+                if solution.residuals.worst() <= self.settings().tolerance {
+                    return Ok(solution);
+                }
+            } else if solution.status == Status::Cancelled {
+                return Ok(solution);
+            }
+        }
+        let left = |limit: Duration| limit.saturating_sub(began.elapsed());
+        let time_limit = self.settings().time_limit.map(left);
+        let settings = LemkeSettings { time_limit, ..self.settings().clone() };
+        Self::new(settings).solve_contact(problem, observer)
+    }
+}
+
+/// The same problem with gaps and slips of zero in the place of rounding errors, if there are any: closed contacts
+/// contradict each other by them, so that no basis is quite right.
+fn without_rounding(problem: &Contact2d) -> Option<Contact2d> {
+    let points = Scaled::of_contact(problem).points;
+    let mut has_any = false;
+    let mut cleared = |given: &[f64], scaled: &[f64]| -> Vec<f64> {
+        let both = given.iter().zip(scaled);
+        both.map(|(given, scaled)| {
+            let is_rounding = *given != 0.0 && scaled.abs() <= SMALL;
+            has_any |= is_rounding;
+            if is_rounding { 0.0 } else { *given }
+        })
+        .collect()
+    };
+    let x_0 = cleared(problem.initial_gaps(), &points.x_0);
+    let s_0 = cleared(problem.initial_slips(), &points.s_0);
+    has_any.then(|| problem.clone().under(problem.loads().to_vec(), x_0, s_0))
+}
+
+impl Lemke {
+    fn solve_contact(
         &self,
         problem: &Contact2d,
         observer: &mut Observer<'_>,

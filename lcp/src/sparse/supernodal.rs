@@ -164,7 +164,7 @@ impl SupernodalLu {
     }
 
     /// Whether the determinant of the last factorised matrix is negative.
-    pub(crate) fn is_negative(&self) -> bool {
+    pub fn is_negative(&self) -> bool {
         let mut is_negative = false;
         for node in &self.nodes {
             let lower = node.lower(&self.values);
