@@ -20,7 +20,8 @@ use std::time::Duration;
 use faer::{Mat, mat};
 use lcp::{
     Auto, AutoSettings, Basis, Contact2d, ContactState, Error, HorizontalLcp, InteriorPoint,
-    InteriorPointSettings, Lcp, Lemke, Method, MixedLcp, Side, Solution, Solver, Status, WarmStart,
+    InteriorPointSettings, Lcp, Lemke, Method, MixedLcp, Side, Solution, Solver, SplitMix, Status,
+    WarmStart,
 };
 use lcp_problems::families::{self, Ground, Known, Obstacle};
 
@@ -256,6 +257,29 @@ fn mixed_problems_with_known_answers_are_solved() {
             let (z, w) = problem.recover(&solution.t, &solution.y);
             assert!(problem.residuals(&z, &w).worst() < 1e-10);
         }
+    }
+}
+
+/// Least costs of quantities `x` with `x_0 + x_1 + x_2 = 1` and `x_2 + 2 x_3 - x_4 = rest`, as data leave it where it should
+/// be zero: the second row has nothing in it that the first would feel, and holds exactly only at a vertex.
+#[test]
+fn rows_of_rounding_errors_hold_at_a_vertex() {
+    let rows = [[1.0, 1.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 2.0, -1.0]];
+    let mut random = SplitMix::new(5);
+    for rest in [3e-17, 1e-16, 7e-20, -4e-17] {
+        let mut m = Mat::zeros(7, 7);
+        for (i, row) in rows.iter().enumerate() {
+            for (j, v) in row.iter().enumerate() {
+                (m[(j, 5 + i)], m[(5 + i, j)]) = (-v, *v);
+            }
+        }
+        let mut q: Vec<f64> = (0..5).map(|_| 1.0 + random.next_f64()).collect();
+        q.extend([-1.0, -rest]);
+        let problem = MixedLcp::new(m, q, (0..7).map(|j| j >= 5).collect::<Vec<_>>()).unwrap();
+        let solution = InteriorPoint::default().solve(&problem).unwrap();
+        assert!(solution.is_solved(), "{rest}: {:?}", solution.residuals);
+        let (x, _) = problem.recover(&solution.t, &solution.y);
+        assert!((x[2] + 2.0 * x[3] - x[4] - rest).abs() <= 1e-10 * rest.abs(), "{rest}: {x:?}");
     }
 }
 

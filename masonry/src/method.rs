@@ -49,6 +49,8 @@ pub struct Request {
     pub soft: Option<f64>,
     /// The part of the loads that the drag may carry while blocks move: how slowly they are loaded.
     pub slowness: f64,
+    /// The largest tolerance of steps in time, relative to the largest force \[-\].
+    pub step_tolerance: f64,
 }
 
 impl Request {
@@ -61,6 +63,7 @@ impl Request {
             max_steps: None,
             soft: None,
             slowness: loading::SLOWNESS,
+            step_tolerance: loading::STEP_TOLERANCE,
         }
     }
 }

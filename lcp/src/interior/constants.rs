@@ -9,6 +9,8 @@ pub(super) const TRIAL_REDUCTION: f64 = 0.03;
 /// digits. Measured on a settlement of 105 bricks, whose states are found from 7e-10: 1e-12 lets it go anywhere, 1e-10 finds
 /// them.
 pub(super) const PROXIMAL_TERMS: [f64; 2] = [1e-10, 1e-8];
+/// Attempts of pivots from the end of a path. Chosen: the second has the basis of the first, whose data rounding may spoil.
+pub(super) const PIVOTED_ATTEMPTS: usize = 2;
 /// Steps from a point that is solved but whose states are not yet those of the exact answer. Chosen.
 pub(super) const MORE_STEPS: usize = 8;
 

@@ -1,11 +1,15 @@
 //! The interior-point method on every kind of problem.
 
+use std::time::Duration;
+
+use super::constants::PIVOTED_ATTEMPTS;
 use super::{InteriorPoint, InteriorPointSettings};
 use crate::conversion::{judged_by, solve_in_mixed_form, solve_in_standard_form};
 use crate::{
-    BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Method, MixedLcp, Observer,
-    Solution, Solver,
+    BoxedLcp, Contact2d, Error, Friction2d, HorizontalLcp, Lcp, Lemke, LemkeSettings, Method,
+    MixedLcp, Observer, Solution, Solver, Status, WarmStart,
 };
+
 impl Solver<Contact2d> for InteriorPoint {
     fn solve_pairs(
         &self,
@@ -32,13 +36,47 @@ impl Solver<MixedLcp> for InteriorPoint {
         {
             return Ok(solution);
         }
-        self.run(problem, observer)
+        self.to_vertex(problem, observer)
+    }
+}
+
+impl InteriorPoint {
+    /// The path, and pivots from its end if the loads are balanced there but the states of no vertex nearby are consistent:
+    /// where rows have nothing but rounding errors in them, small against all others, no matrix of the path shows which of
+    /// their variables are basic.
+    fn to_vertex(
+        &self,
+        problem: &MixedLcp,
+        observer: &mut Observer<'_>,
+    ) -> Result<Solution, Error> {
+        let InteriorPointSettings { tolerance, time_limit, crossover, .. } = self.settings;
+        let mut end = self.run(problem, observer)?;
+        let is_near = end.residuals.loads <= tolerance;
+        if end.status != Status::Stalled || !crossover || !is_near {
+            return Ok(end);
+        }
+        let left =
+            time_limit.map(|it| it.saturating_sub(Duration::from_secs_f64(end.info.seconds)));
+        let pivots = Lemke::new(LemkeSettings {
+            tolerance,
+            time_limit: left,
+            max_attempts: Some(PIVOTED_ATTEMPTS),
+            start: WarmStart::Point { t: end.t.clone(), y: end.y.clone() },
+            prove_infeasible: false,
+            ..LemkeSettings::default()
+        });
+        let mut vertex = pivots.solve_pairs(problem, observer)?;
+        let (mut best, other) =
+            if vertex.is_solved() { (vertex, &mut end) } else { (end, &mut vertex) };
+        best.info.add_work(&mut other.info);
+        best.info.method = Method::Interior;
+        Ok(best)
     }
 }
 
 impl Solver<Lcp> for InteriorPoint {
     fn solve_pairs(&self, problem: &Lcp, observer: &mut Observer<'_>) -> Result<Solution, Error> {
-        self.run(&MixedLcp::of_standard(problem)?, observer)
+        self.to_vertex(&MixedLcp::of_standard(problem)?, observer)
     }
 }
 

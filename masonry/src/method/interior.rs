@@ -27,8 +27,6 @@ pub struct Interior<'a> {
     pub mass: &'a [f64],
     /// How far blocks may move \[m\].
     pub reach: f64,
-    /// The largest tolerance of steps in time, relative to the largest force.
-    pub fine: f64,
 }
 
 impl Method for Interior<'_> {
@@ -66,9 +64,9 @@ impl Interior<'_> {
         request: &Request,
         observer: Observer<'_>,
     ) -> Result<Answer, RouteError> {
-        let Self { sparse, before, mass, reach, fine } = *self;
+        let Self { sparse, before, mass, reach } = *self;
         let problem = &sparse.problem;
-        let tolerance = request.tolerance.min(fine);
+        let tolerance = request.tolerance.min(request.step_tolerance);
         let taken = path.as_ref().map_or(0, |path| path.info.iterations);
         let slowness = request.slowness;
         let loading = Loading { before, problem, mass, reach, slowness, tolerance };

@@ -72,8 +72,6 @@ pub(super) struct Chain<'a> {
     /// The basis of the step before.
     start: Option<Start>,
     before: Option<Before<'a>>,
-    /// The tolerance of steps in time.
-    fine: f64,
     sparse: Option<Sparse>,
     /// Whether there are admissible forces; asked at most once.
     decision: Option<Decision>,
@@ -98,7 +96,6 @@ impl<'a> Chain<'a> {
             observer,
             start,
             before,
-            fine: loading::FINE,
             sparse: None,
             decision: None,
             may_be_cut: false,
@@ -191,8 +188,8 @@ impl<'a> Chain<'a> {
         let system = System::without_factors(&model)?;
         let sparse = Sparse::new(&system)?;
         let mass = &mass::lumped(&model, &system);
-        let (reach, fine) = (loading::reach(&model), self.fine);
-        let method = Interior { sparse: &sparse, before: None, mass, reach, fine };
+        let reach = loading::reach(&model);
+        let method = Interior { sparse: &sparse, before: None, mass, reach };
         self.may_be_cut = false;
         let Answer { info, motion, .. } = self.timed(&method)?;
         best.info.attempts.extend(info.attempts);
@@ -320,8 +317,7 @@ impl<'a> Chain<'a> {
                 let before = given.as_ref().map(|it| &it.problem).zip(state.as_ref());
                 let mass = &mass::lumped(model, system);
                 let reach = loading::reach(model);
-                let fine = self.fine;
-                let answer = self.timed(&Interior { sparse: &sparse, before, mass, reach, fine });
+                let answer = self.timed(&Interior { sparse: &sparse, before, mass, reach });
                 self.before = given;
                 answer
             }
@@ -347,26 +343,28 @@ impl<'a> Chain<'a> {
             self.sparse = Some(sparse);
         }
         let attempt = Attempt { moved, account, ..self.concluded(model, answer, state) };
-        match &attempt.checks {
-            Some(checks) if is_at_rest && attempt.info.status == Status::AlmostSolved => {
-                self.finer(route, checks.excess(self.request.tolerance), attempt)
-            }
+        let excess = attempt.checks.as_ref().map(|checks| checks.excess(self.request.tolerance));
+        match excess {
+            Some(excess) if is_at_rest && excess > 1.0 => self.finer(route, excess, attempt),
             _ => Ok(attempt),
         }
     }
 
-    /// The same by steps of half the tolerance that the checks of a state at rest ask for: they exceed theirs so many times. Only
-    /// once: what is left then are rounding errors.
+    /// Takes the steps to a state of rest again, to half of what the checks ask for: they exceed their tolerance so many
+    /// times. Errors of steps that fine are rounding errors, so that no finer ones follow; and the first state is kept
+    /// if the second is no better.
     fn finer(&mut self, route: Route, excess: f64, rough: Attempt) -> Result<Attempt, SolveError> {
-        if self.fine < loading::FINE {
+        if self.request.step_tolerance < loading::STEP_TOLERANCE {
             return Ok(rough);
         }
-        self.fine = 0.5 * loading::FINE / excess;
-        let mut attempt = self.on_sparse(route)?;
-        attempt.info.iterations += rough.info.iterations;
-        attempt.info.factorisations += rough.info.factorisations;
-        attempt.info.attempts.splice(0..0, rough.info.attempts);
-        Ok(attempt)
+        self.request.step_tolerance = 0.5 * loading::STEP_TOLERANCE / excess;
+        let finer = self.on_sparse(route)?;
+        let is_better = finer.rank() < rough.rank() || finer.info.status == Status::Cancelled;
+        let (mut best, other) = if is_better { (finer, rough) } else { (rough, finer) };
+        best.info.iterations += other.info.iterations;
+        best.info.factorisations += other.info.factorisations;
+        best.info.attempts.splice(0..0, other.info.attempts);
+        Ok(best)
     }
 
     /// A slip for every contact point, zero without friction.

@@ -65,7 +65,7 @@ impl Steps<'_> {
             mass,
             reach,
             slowness: loading::SLOWNESS,
-            tolerance: tolerance.min(loading::FINE),
+            tolerance: tolerance.min(loading::STEP_TOLERANCE),
         };
         let led = loading.lead(&mut |at| observer(at))?;
         Ok(match led.ending {
