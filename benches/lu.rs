@@ -17,7 +17,8 @@ use faer::prelude::Solve;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, Par};
-use lcp::{Contact2d, SupernodalLu};
+use lcp::Contact2d;
+use lcp_linalg::SupernodalLu;
 use lcp_problems::families;
 use walls::wall;
 

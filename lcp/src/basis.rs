@@ -71,6 +71,11 @@ impl Basis {
         Self(pairs.map(side).collect())
     }
 
+    /// Takes other sides, of as many pairs.
+    pub(crate) fn set(&mut self, sides: impl Iterator<Item = Side>) {
+        self.0.iter_mut().zip(sides).for_each(|(side, other)| *side = other);
+    }
+
     /// The basic side of every pair.
     pub fn sides(&self) -> &[Side] {
         &self.0

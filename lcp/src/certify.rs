@@ -28,6 +28,7 @@ pub(crate) use contact::ContactJudge;
 pub(crate) use farkas::{is_proof, is_proof_of, is_proof_of_mixed};
 pub(crate) use judge::{Precision, ratio};
 pub(crate) use problems::{BoxedJudge, GeneralJudge};
+pub(crate) use weights::Couplings;
 
 use crate::Status;
 

@@ -93,6 +93,7 @@
 //! | [`InteriorPoint`] | interior-point method on the sparse form | large contact problems, mixed problems |
 //! | [`ProjectedGaussSeidel`] | projected Gauss-Seidel, also on rows without a matrix ([`pgs::Rows`]) | large easy problems, rough solutions |
 //! | [`lemke::Parametric`] | the solutions along a line of right-hand sides | all |
+//! | [`Sequence`] | one problem after the other, from the states and in the memory of the one before | steps of simulations, dense |
 //!
 //! # Solutions
 //!
@@ -134,7 +135,6 @@ mod interior;
 #[cfg(feature = "serde")]
 mod json_numbers;
 pub mod lemke;
-mod linear;
 mod matrix;
 mod method;
 mod newton;
@@ -149,10 +149,10 @@ pub mod qp;
 mod random;
 pub mod refine;
 mod scaling;
+mod sequence;
 mod settings;
 mod solution;
 mod solve;
-mod sparse;
 mod states;
 mod status;
 mod variables;
@@ -185,12 +185,11 @@ pub use problem::{
 pub use qp::{QuadraticProgram, QuadraticProgramSettings};
 #[doc(hidden)]
 pub use random::SplitMix;
+pub use sequence::Sequence;
 pub use settings::{Covering, LemkeSettings, WarmStart};
 pub use solution::{Info, Route, RouteEnd, Solution, Unsolved};
 pub use solve::{Iteration, Named, Observer, Solver, Step, StepKind};
 /// Public for the crates of the workspace.
-#[doc(hidden)]
-pub use sparse::{Gram, SupernodalLu};
 pub use status::Status;
 pub use vector::Vector;
 

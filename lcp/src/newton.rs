@@ -13,9 +13,9 @@ use crate::{
     Basis, Error, HorizontalLcp, Lcp, Method, Observer, Residuals, Side, Solution, Solver, Status,
     WarmStart,
 };
+pub(crate) use exchange::PATIENCE;
 use exchange::{Exchanges, Next};
-pub(crate) use system::is_z_matrix;
-use system::{Point, System};
+pub(crate) use system::{Point, System, is_z_matrix};
 
 /// Settings of [`SemismoothNewton`].
 ///
@@ -110,22 +110,17 @@ named!(SemismoothNewton, SemismoothNewtonSettings, Method::Newton);
 
 impl SemismoothNewton {
     /// The status if the residuals of the point, the best that was met, are not small.
-    fn run(
-        &self,
-        lcp: &Lcp,
-        system: &mut System<'_>,
-        monitor: &mut Monitor<'_>,
-    ) -> (Status, Point) {
+    fn run(&self, lcp: &Lcp, system: &mut System, monitor: &mut Monitor<'_>) -> (Status, Point) {
         let point = self.first_point(lcp, system);
-        let (status, best) = self.iterate(system, point, monitor);
+        let (status, best) = self.iterate(lcp, system, point, monitor);
         let is_stuck = matches!(status, Status::Cycling | Status::Stalled);
         if !is_stuck || !system.is_z_matrix || best.residual <= self.settings.tolerance {
             return (status, best);
         }
         // The one start that solves every feasible problem with such a matrix.
-        match system.point(&pushed(lcp)) {
+        match system.point(lcp, pushed(lcp)) {
             Some(point) => {
-                let (status, again) = self.iterate(system, point, monitor);
+                let (status, again) = self.iterate(lcp, system, point, monitor);
                 (status, if again.residual < best.residual { again } else { best })
             }
             None => (status, best),
@@ -134,7 +129,8 @@ impl SemismoothNewton {
 
     fn iterate(
         &self,
-        system: &mut System<'_>,
+        lcp: &Lcp,
+        system: &mut System,
         mut point: Point,
         monitor: &mut Monitor<'_>,
     ) -> (Status, Point) {
@@ -161,14 +157,14 @@ impl SemismoothNewton {
             // Where all of them make the matrix singular, fewer may not.
             let counts = std::iter::successors(Some(count), |count| Some(count / 2));
             let mut points = counts.take_while(|count| *count > 0);
-            match points.find_map(|count| system.exchanged(&point, count)) {
+            match points.find_map(|count| system.exchanged(lcp, &point, count)) {
                 Some(next) => point = next,
                 None => return (Status::Stalled, best),
             }
         }
     }
 
-    fn first_point(&self, lcp: &Lcp, system: &mut System<'_>) -> Point {
+    fn first_point(&self, lcp: &Lcp, system: &mut System) -> Point {
         let n = lcp.order();
         let given = match &self.settings.start {
             WarmStart::None => None,
@@ -179,7 +175,7 @@ impl SemismoothNewton {
         let all = system.is_z_matrix.then(|| vec![true; n]);
         let starts = given.into_iter().chain(all);
         let starts = starts.chain([pushed(lcp), vec![false; n]]);
-        let mut points = starts.filter_map(|is_free| system.point(&is_free));
+        let mut points = starts.filter_map(|is_free| system.point(lcp, is_free));
         points.next().unwrap_or_else(|| unreachable!("without free variables nothing is solved"))
     }
 }
@@ -213,7 +209,7 @@ impl Solver<Lcp> for SemismoothNewton {
         check_diagonal(lcp)?;
         let mut monitor =
             Monitor::new(Method::Newton, settings.max_iterations, settings.time_limit, observer);
-        let mut system = System::new(lcp);
+        let mut system = System::new(lcp.m());
         let (status, best) = self.run(lcp, &mut system, &mut monitor);
         let positive = |v: &[f64]| v.iter().map(|v| v.max(0.0)).collect();
         let clipped = |it: &Point| Point { z: positive(&it.z), w: positive(&it.w), ..it.clone() };
@@ -224,7 +220,7 @@ impl Solver<Lcp> for SemismoothNewton {
         let is_solved = |residuals: &Residuals| residuals.worst() <= settings.tolerance;
         let (mut point, mut residuals) = judged(clipped(&best));
         if !is_solved(&residuals) {
-            let clean = system.without_noise(&best).map(|clean| judged(clipped(&clean)));
+            let clean = system.without_noise(lcp, &best).map(|clean| judged(clipped(&clean)));
             let clean = clean.filter(|(_, residuals)| is_solved(residuals));
             (point, residuals) = clean.unwrap_or_else(|| judged(best));
         }
@@ -232,7 +228,7 @@ impl Solver<Lcp> for SemismoothNewton {
             Solution::judged(point.z, point.w, residuals, settings.tolerance, status);
         solution.basis = Some(basis_of(&point.is_free));
         solution.info = monitor.info();
-        solution.info.factorisations = system.factors.count;
+        solution.info.factorisations = system.factorisations();
         Ok(solution)
     }
 }

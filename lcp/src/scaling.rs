@@ -5,9 +5,9 @@
     reason = "a loop is compiled for wide vectors only where it is inlined"
 )]
 
-use std::f64::consts::SQRT_2;
-
 use faer::sparse::SparseColMat;
+
+pub(crate) use lcp_linalg::power_of_two;
 
 use crate::matrix::Column;
 
@@ -252,15 +252,6 @@ pub(crate) fn multiply(
         let rows = pattern.row_idx_of_col_raw(j);
         values[pattern.col_range(j)].iter_mut().zip(rows).for_each(|(v, &i)| *v *= factor(i, j));
     }
-}
-
-/// The power of two nearest to a positive number, on a logarithmic scale, between `2^-1000` and `2^1000`: as a factor it
-/// costs no accuracy.
-pub(crate) fn power_of_two(x: f64) -> f64 {
-    let power = |exponent: u64| f64::from_bits((1023 + exponent) << 52);
-    // The exponent of a number, without its mantissa, is that of the largest power that is not above it.
-    let below = f64::from_bits((x * SQRT_2).to_bits() & f64::INFINITY.to_bits());
-    below.clamp(1.0 / power(1000), power(1000))
 }
 
 #[cfg(test)]

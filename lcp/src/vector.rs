@@ -1,5 +1,7 @@
 //! Vectors: what they are made from, how large they are, and whether they can be taken as data.
 
+pub(crate) use lcp_linalg::{HALF_DIGITS, REFINEMENTS, max_abs};
+
 use crate::Error;
 
 /// A sum below this, relative to its terms, is a rounding error. Rounding: errors of short sums.
@@ -11,14 +13,6 @@ pub(crate) const SMALL: f64 = 1e-13;
 /// rows and columns are equilibrated; a term beside the largest one of its row, or of the problem; the errors of a proof
 /// beside what they must leave positive. Chosen.
 pub(crate) const WEAK: f64 = 1.0 / 1024.0;
-/// Half of all digits, about the root of eps. Theory: what is right to this is wrong in its square by rounding, and what this
-/// is added to for regularity loses no more than a step of refinement brings back. Chosen where it is the shortest step, the
-/// size of what parts ties, or a slack that is in doubt.
-pub(crate) const HALF_DIGITS: f64 = 1e-8;
-/// Steps of iterative refinement of a solution of linear equations at most. Chosen: each gains the digits that the condition
-/// number leaves.
-pub(crate) const REFINEMENTS: usize = 3;
-
 /// A vector of a problem.
 ///
 /// Problems take anything that converts into a vector: a `Vec`, a slice, an array, a `Col` of `faer`, and, with the
@@ -86,10 +80,6 @@ where
     fn from(v: nalgebra::Vector<f64, R, S>) -> Self {
         Self(v.iter().copied().collect())
     }
-}
-
-pub(crate) fn max_abs(v: &[f64]) -> f64 {
-    v.iter().fold(0.0, |max, x| max.max(x.abs()))
 }
 
 /// The Euclidean norm, without overflow.

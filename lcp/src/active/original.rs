@@ -6,7 +6,7 @@ use crate::problem::ContactStatus;
 use crate::refine::{ALL_DIGITS, Exact, ROUNDED, refined_states};
 use crate::states::{Condensed, Point, PointRef, Scaled};
 use crate::vector::ROUNDING;
-use crate::{Basis, Contact2d, ContactState, MixedLcp, Residuals, Side};
+use crate::{Basis, Contact2d, ContactState, MixedLcp, Residuals, Side, WarmStart};
 
 /// A scaled point with its residuals.
 pub(crate) struct Judged {
@@ -215,6 +215,41 @@ impl Judge for (&MixedLcp, BoxedJudge<'_>) {
         let (z, w) = variables(scaled, at);
         let (t, y) = self.0.to_pairs(&z, &w);
         Answer { t, y, contact: None }
+    }
+}
+
+impl Contact2d {
+    /// A start with these states of the contacts. A simulation keeps [those of a solution](Self::statuses) by keys of its contacts,
+    /// which may come and go.
+    ///
+    /// ```
+    /// use std::collections::BTreeMap;
+    /// use lcp::refine::ContactStatus;
+    /// use lcp::{Auto, AutoSettings, Contact2d, ContactPoint, Solver};
+    /// /// A body on springs, with a foot for each of these keys.
+    /// fn standing(feet: &[&str]) -> Result<Contact2d, lcp::Error> {
+    ///     let mut builder = Contact2d::builder([[3.0, 0.0], [0.0, 1.0]], vec![1.4, -2.0]);
+    ///     let foot = ContactPoint { normal: &[(1, 1.0)], tangent: &[(0, 1.0)], mu: 0.5, ..Default::default() };
+    ///     feet.iter().for_each(|_| drop(builder.add_point(foot)));
+    ///     builder.build()
+    /// }
+    /// let before = standing(&["left"])?;
+    /// let state = before.variables(&Auto::default().solve(&before)?);
+    /// let kept: BTreeMap<_, _> = ["left"].into_iter().zip(before.statuses(&state)).collect();
+    /// // A foot that is new may be open.
+    /// let (feet, next) = (["right", "left"], standing(&["right", "left"])?);
+    /// let statuses: Vec<_> = feet.map(|key| *kept.get(key).unwrap_or(&ContactStatus::Open)).into();
+    /// let start = next.start_of(&statuses);
+    /// assert!(Auto::new(AutoSettings { start, ..Default::default() }).solve(&next)?.is_solved());
+    /// # Ok::<(), lcp::Error>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If there is not one state for every point.
+    pub fn start_of(&self, statuses: &[ContactStatus]) -> WarmStart {
+        assert_eq!(statuses.len(), self.points(), "one state for every point");
+        let (forces, slips) = (vec![0.0; self.order()], vec![0.0; self.points()]);
+        WarmStart::Basis(self.basis(statuses, &forces, &slips))
     }
 }
 

@@ -7,9 +7,9 @@ use super::significance::spread;
 use super::weights::per_load;
 use crate::parts::Parts;
 use crate::problem::{column_factors, column_of, diagonal, median};
-use crate::sparse::Columns;
 use crate::vector::WEAK;
 use crate::{Contact2d, ContactState};
+use lcp_linalg::Columns;
 
 impl Contact2d {
     /// Residuals of a state, dimensionless, from the data as given; [`Residuals::worst`] decides.

@@ -2,7 +2,7 @@
 
 use super::Residuals;
 use super::judge::{Conditions, Entry, Precision, RowJudge, Rows};
-use super::weights::weights;
+use super::weights::Couplings;
 use crate::extended::extended;
 use crate::matrix::Column;
 use crate::scaling::equilibrate;
@@ -114,12 +114,13 @@ impl<R: Rows> RowJudge<R> {
     /// A judge of the columns of a matrix, and of loads that are the sizes of the right-hand sides.
     fn of_columns(rows: R, columns: &[Column<'_>], c: Vec<f64>, loads: Vec<f64>) -> Self {
         let (row, col) = equilibrate(c.len(), columns);
-        let weights = weights(columns, &loads, &row, &col);
-        Self::with_weights(rows, c, loads, weights)
+        Self::of_couplings(rows, c, loads, &Couplings::of(columns, &row, &col))
     }
 
     /// A row with any load counts in full.
-    fn with_weights(rows: R, c: Vec<f64>, mut loads: Vec<f64>, weights: Vec<f64>) -> Self {
+    fn of_couplings(rows: R, c: Vec<f64>, mut loads: Vec<f64>, couplings: &Couplings) -> Self {
+        let mut weights = Vec::new();
+        couplings.weigh(loads.iter().copied(), &mut Vec::new(), |_, weight| weights.push(weight));
         loads.iter_mut().filter(|load| **load != 0.0).for_each(|load| *load = 1.0);
         Self { rows, sizes: sizes(&c), c, sources: loads, weights }
     }
@@ -146,8 +147,8 @@ impl<'a> GeneralJudge<'a> {
     /// A judge with the factors that equilibrate the rows and all columns, of `A` and then of `B`.
     pub(crate) fn with_factors(problem: &'a HorizontalLcp, row: &[f64], col: &[f64]) -> Self {
         let loads = sizes(problem.c());
-        let weights = weights(&problem.columns(), &loads, row, col);
-        Self::with_weights(problem, problem.c().to_vec(), loads, weights)
+        let couplings = Couplings::of(&problem.columns(), row, col);
+        Self::of_couplings(problem, problem.c().to_vec(), loads, &couplings)
     }
 }
 

@@ -3,58 +3,83 @@
 use super::significance::spread;
 use crate::matrix::Column;
 use crate::parts::Parts;
-use crate::sparse::Columns;
 use crate::vector::WEAK;
+use lcp_linalg::Columns;
 
-/// One over the loads that every row feels, in units of the row: the largest right-hand side of its
-/// connected part, and of others by how weakly they are coupled to it. `loads` are the sizes of the right-hand
-/// sides, `row` and `col` factors of rows and columns that bring the entries near one. A part without any load takes the
-/// largest of the others; without any at all they are zero, and only the terms measure.
-pub(super) fn weights(columns: &[Column<'_>], loads: &[f64], row: &[f64], col: &[f64]) -> Vec<f64> {
-    let rows = loads.len();
-    let coupling = |i: usize, v: f64, col: f64| (row[i] * v.abs() * col).min(1.0);
-    let mut parts = Parts::new(rows);
-    for (column, col) in columns.iter().zip(col) {
-        if parts.is_one() {
-            break;
-        }
-        let mut first = None;
-        column.for_each(|i, v| {
-            if coupling(i, v, *col) >= WEAK {
-                parts.join(*first.get_or_insert(i), i);
+/// How rows feel loads: those of their connected part, and others by how weakly the part is coupled to them.
+pub(crate) struct Couplings {
+    row: Vec<f64>,
+    /// The part of every row.
+    part: Vec<usize>,
+    /// Parts and, numbered behind them, columns, with how weakly they are coupled; nothing if there is one part.
+    links: Columns,
+}
+
+impl Couplings {
+    /// From the columns of a matrix and the factors of rows and columns that bring its entries near one.
+    pub(crate) fn of(columns: &[Column<'_>], row: &[f64], col: &[f64]) -> Self {
+        let rows = row.len();
+        let coupling = |i: usize, v: f64, col: f64| (row[i] * v.abs() * col).min(1.0);
+        let mut parts = Parts::new(rows);
+        for (column, col) in columns.iter().zip(col) {
+            if parts.is_one() {
+                break;
             }
-        });
-    }
-    // Parts and, numbered behind them, columns.
-    let mut felt = vec![0.0_f64; rows + columns.len()];
-    for i in 0..rows {
-        let part = parts.of(i);
-        felt[part] = felt[part].max(loads[i] * row[i]);
-    }
-    if !parts.is_one() {
-        let mut links = Vec::new();
-        for (j, (column, col)) in columns.iter().zip(col).enumerate() {
-            // A column within one part brings no load to another.
-            let from = links.len();
-            let mut is_within_one = true;
+            let mut first = None;
             column.for_each(|i, v| {
-                let (part, hub, share) = (parts.of(i), rows + j, coupling(i, v, *col));
-                if share > 0.0 {
-                    links.extend([(part, hub, share), (hub, part, share)]);
-                    is_within_one &= links[from].0 == part;
+                if coupling(i, v, *col) >= WEAK {
+                    parts.join(*first.get_or_insert(i), i);
                 }
             });
-            if is_within_one {
-                links.truncate(from);
+        }
+        let mut links = Vec::new();
+        if !parts.is_one() {
+            for (j, (column, col)) in columns.iter().zip(col).enumerate() {
+                // A column within one part brings no load to another.
+                let from = links.len();
+                let mut is_within_one = true;
+                column.for_each(|i, v| {
+                    let (part, hub, share) = (parts.of(i), rows + j, coupling(i, v, *col));
+                    if share > 0.0 {
+                        links.extend([(part, hub, share), (hub, part, share)]);
+                        is_within_one &= links[from].0 == part;
+                    }
+                });
+                if is_within_one {
+                    links.truncate(from);
+                }
             }
         }
+        let count = if links.is_empty() { 0 } else { rows + columns.len() };
+        let links = Columns::by_rows(count, links.iter().copied());
+        let part = (0..rows).map(|i| parts.of(i)).collect();
+        Self { row: row.to_vec(), part, links }
+    }
+
+    /// One over the loads that every row feels, in units of the row: the largest right-hand side of its connected part, and of
+    /// others by how weakly they are coupled to it. A part without any load takes the largest of the others; without any at all
+    /// the weights are zero, and only the terms measure. Shows every row with its weight; `felt` is memory, and nothing else is
+    /// allocated if there is one part.
+    pub(crate) fn weigh(
+        &self,
+        loads: impl Iterator<Item = f64>,
+        felt: &mut Vec<f64>,
+        mut show: impl FnMut(usize, f64),
+    ) {
+        let Self { row, part, links } = self;
+        felt.clear();
+        felt.resize(row.len().max(links.len()), 0.0);
+        for ((load, row), &part) in loads.zip(row).zip(part) {
+            felt[part] = felt[part].max(load * row);
+        }
         if !links.is_empty() {
-            spread(&Columns::by_rows(felt.len(), links.iter().copied()), &mut felt);
+            spread(links, felt);
+        }
+        let largest = felt[..row.len()].iter().fold(0.0_f64, |max, v| max.max(*v));
+        for (i, (row, &part)) in row.iter().zip(part).enumerate() {
+            show(i, per_load(*row, felt[part], largest));
         }
     }
-    felt.truncate(rows);
-    let largest = felt.iter().fold(0.0_f64, |max, v| max.max(*v));
-    (0..rows).map(|i| per_load(row[i], felt[parts.of(i)], largest)).collect()
 }
 
 /// One over the loads that a row feels, or over the largest if it feels none; zero if there are none at all. Beyond the

@@ -5,8 +5,8 @@ use faer::sparse::{FaerError, SparseColMat};
 use crate::matrix::add_image;
 use crate::problem::{column_of, diagonal};
 use crate::scaling::{multiply, power_of_two};
-use crate::sparse::Gram;
 use crate::vector::{SMALL, max_abs};
+use lcp_linalg::Gram;
 
 /// `K u = f + A t`, `y = A^T u + D t + x_0`, `0 <= t _|_ y >= 0`, with a diagonal `D >= 0`.
 pub(super) struct Program {

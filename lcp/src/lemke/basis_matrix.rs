@@ -4,11 +4,11 @@ use faer::Mat;
 
 use super::constants::{LEVEL, SAMPLES};
 use super::start::Equilibrated;
-use crate::linear::{Lu, inverse_norm};
 use crate::random::SplitMix;
-use crate::sparse::{Columns, SparseLu};
 use crate::vector::max_abs;
 use crate::{Basis, Side};
+use lcp_linalg::{Columns, SparseLu};
+use lcp_linalg::{Lu, inverse_norm};
 
 /// The equilibrated matrix of a basis.
 pub(super) enum BasisMatrix {

@@ -16,11 +16,11 @@ use super::constants::{DENSE_SEARCH, GAIN, GAIN_SWEEPS, VANISHING};
 use super::dense::Dense;
 use super::kernel::{Kernel, Var, complement};
 use super::start::Equilibrated;
-use crate::linear::Lu;
 use crate::solve::is_over;
-use crate::sparse::{Columns, Growing, elimination_order, row_counts};
 use crate::vector::max_abs;
 use crate::{Basis, Matrix, Side};
+use lcp_linalg::Lu;
+use lcp_linalg::{Columns, Growing, elimination_order, row_counts};
 
 /// As many independent columns as there are, at most one of every pair.
 pub(super) enum Crash {

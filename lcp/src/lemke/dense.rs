@@ -4,7 +4,7 @@ use faer::{Mat, MatRef};
 
 use super::kernel::{Kernel, Var};
 use super::tableau::Tableau;
-use crate::linear::Lu;
+use lcp_linalg::Lu;
 
 pub(super) struct Dense<'a> {
     /// `T` of the start.

@@ -18,10 +18,10 @@ use faer::Mat;
 
 use super::constants::VANISHING;
 use super::kernel::{Kernel, Var};
-use crate::linear::Lu;
 use crate::random::SplitMix;
-use crate::sparse::{Columns, SparseLu};
 use crate::vector::max_abs;
+use lcp_linalg::Lu;
+use lcp_linalg::{Columns, SparseLu};
 
 /// `W w + Z z = right` in the equilibrated rows of the problem, with the start basis `W`.
 #[derive(Debug)]

@@ -5,12 +5,12 @@ mod flip;
 use faer::Mat;
 
 use crate::certify::GeneralJudge;
-use crate::linear::{Lu, inverse_norm};
 use crate::matrix::Column;
 use crate::scaling::{equilibrate, equilibrate_computed};
-use crate::sparse::{Columns, SparseLu};
 use crate::vector::{SMALL, max_abs};
 use crate::{Basis, HorizontalLcp, Side};
+use lcp_linalg::{Columns, SparseLu};
+use lcp_linalg::{Lu, inverse_norm};
 
 use super::constants::VANISHING;
 use super::dense::Dense;

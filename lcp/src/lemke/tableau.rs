@@ -8,7 +8,7 @@
 
 use faer::{Mat, MatMut, MatRef};
 
-use crate::linear::{add_product, solve_unit_lower};
+use lcp_linalg::{add_product, solve_unit_lower};
 
 /// `T` after the held pivots.
 #[derive(Debug, Clone)]

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 /// Steps without fewer negative variables than ever before, after which fewer pairs are exchanged; half of it once fewer than
 /// all are. Chosen.
-const PATIENCE: usize = 10;
+pub(crate) const PATIENCE: usize = 10;
 
 /// The next exchange of negative variables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

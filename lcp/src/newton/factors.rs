@@ -1,111 +1,199 @@
 //! Factorisations of the matrices of free sets.
 
-use faer::linalg::solvers::Solve as _;
-use faer::{Mat, MatMut, Side};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::{
+    LltRegularization, cholesky_in_place, cholesky_in_place_scratch,
+};
+use faer::linalg::lu::partial_pivoting::factor::{lu_in_place, lu_in_place_scratch};
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::prelude::ReborrowMut;
+use faer::{Mat, MatMut, Par, Spec};
 
 use crate::Matrix;
 use crate::divide::block;
-use crate::linear::Lu;
 use crate::matrix::{Column, Storage};
 use crate::scaling::equilibrate;
-use crate::sparse::{Cholesky, Columns, SparseLu, solve_refined};
 use crate::vector::SMALL;
+use lcp_linalg::{Cholesky, Columns, SparseLu};
+use lcp_linalg::{has_pivots, solve_unit_lower, solve_upper};
 
 /// Factors of `M_FF`, dense or sparse like `M`: those of Cholesky where the matrix is symmetric and positive definite, else LU.
-pub(super) struct Factors<'a> {
-    m: &'a Matrix,
+/// Dense ones are in memory that is kept.
+pub(super) struct Factors {
     is_symmetric: bool,
+    /// Whether they are those of the pairs in `free`.
+    is_known: bool,
     free: Vec<usize>,
-    block: Matrix,
-    solve: Option<Solve>,
+    right: Vec<f64>,
+    kind: Kind,
     /// How many factorisations there were.
     pub(super) count: usize,
+}
+
+enum Kind {
+    Dense(Box<Dense>),
+    Sparse(Option<Solve>),
 }
 
 /// Overwrites a right-hand side with the solution.
 type Solve = Box<dyn Fn(&mut [f64])>;
 
-impl<'a> Factors<'a> {
-    pub(super) fn new(m: &'a Matrix) -> Self {
+struct Dense {
+    /// Units of rows and columns that bring the entries of `M` near one.
+    units: (Vec<f64>, Vec<f64>),
+    factors: Mat<f64>,
+    is_cholesky: bool,
+    /// Which row comes at every place, and the other way round.
+    rows: [Vec<usize>; 2],
+    sorted: Vec<f64>,
+    stack: MemBuffer,
+}
+
+impl Factors {
+    pub(super) fn new(m: &Matrix) -> Self {
         let is_symmetric = m.check_symmetric("M").is_ok();
-        let block = block(m, &[], &[]);
-        Self { m, is_symmetric, free: Vec::new(), block, solve: None, count: 0 }
+        let kind = if m.is_sparse() { Kind::Sparse(None) } else { Kind::Dense(Dense::new(m)) };
+        let (free, right) = (Vec::new(), Vec::new());
+        Self { is_symmetric, is_known: false, free, right, kind, count: 0 }
     }
 
-    /// Factorises the matrix of some pairs, at least one; `false` where it is singular to working precision.
-    pub(super) fn factorise(&mut self, is_free: &[bool]) -> bool {
-        self.free = (0..is_free.len()).filter(|&i| is_free[i]).collect();
-        self.block = block(self.m, &self.free, &self.free);
+    /// Factorises the matrix of some pairs, unless these are its factors; `false` where it is singular to working precision.
+    pub(super) fn factorise(&mut self, m: &Matrix, is_free: &[bool]) -> bool {
+        let free = || (0..is_free.len()).filter(|&i| is_free[i]);
+        if self.is_known && free().eq(self.free.iter().copied()) {
+            return true;
+        }
+        self.free.clear();
+        self.free.extend(free());
         self.count += 1;
-        if self.is_symmetric {
-            if let Some((pivots, solve)) = cholesky(&self.block) {
-                self.solve = Some(solve);
-                let mut pivots = pivots.into_iter().enumerate();
-                return pivots.all(|(k, pivot)| pivot > SMALL * self.block[(k, k)]);
+        let Self { kind, free, is_symmetric, count, .. } = self;
+        self.is_known = match kind {
+            Kind::Dense(dense) => {
+                let found = is_symmetric.then(|| dense.cholesky(m, free)).flatten();
+                *count += usize::from(*is_symmetric && found.is_none());
+                found.unwrap_or_else(|| dense.lu(m, free))
             }
-            self.count += 1;
-        }
-        self.solve = lu(&self.block);
-        self.solve.is_some()
+            Kind::Sparse(solve) => {
+                let block = block(m, free, free);
+                let found = is_symmetric.then(|| cholesky(&block)).flatten();
+                *count += usize::from(*is_symmetric && found.is_none());
+                let (is_regular, found) = found.unwrap_or_else(|| (true, lu(&block)));
+                *solve = found;
+                is_regular && solve.is_some()
+            }
+        };
+        self.is_known
     }
 
-    /// Overwrites a right-hand side, zero for pairs that are not free, with the solution for the last factorisation.
-    pub(super) fn solve(&self, x: &mut [f64]) {
-        let Some(solve) = &self.solve else { return };
-        let mut packed: Vec<f64> = self.free.iter().map(|&i| x[i]).collect();
-        solve_refined(&mut packed, f64::EPSILON, solve, |x, rest| {
-            x.iter().enumerate().for_each(|(j, x)| self.block.slice(j).add_to(-x, rest));
-        });
-        self.free.iter().zip(packed).for_each(|(&i, v)| x[i] = v);
+    /// Subtracts the solution for the free rows of `rest` from `z`.
+    pub(super) fn subtract(&mut self, rest: &[f64], z: &mut [f64]) {
+        let Self { free, right, kind, .. } = self;
+        right.clear();
+        right.extend(free.iter().map(|&i| rest[i]));
+        match kind {
+            Kind::Dense(dense) => dense.solve(free, right),
+            Kind::Sparse(Some(solve)) => solve(right),
+            Kind::Sparse(None) => {}
+        }
+        free.iter().zip(right).for_each(|(&i, x)| z[i] -= *x);
     }
 }
 
-/// The pivots of a symmetric matrix; `None` where it is not positive definite, or memory does not suffice.
-fn cholesky(block: &Matrix) -> Option<(Vec<f64>, Solve)> {
-    let n = block.ncols();
-    let (pivots, solve): (Vec<f64>, Solve) = match block.storage() {
-        Storage::Sparse(block) => {
-            let mut factors = Cholesky::new(block.symbolic()).ok()?;
-            factors.factorise(block.as_ref())?;
-            (factors.pivots(), Box::new(move |x| factors.solve(x)))
+impl Dense {
+    fn new(m: &Matrix) -> Box<Self> {
+        let n = m.ncols();
+        let columns: Vec<Column<'_>> = (0..n).map(|j| m.slice(j)).collect();
+        let scratch = cholesky_in_place_scratch::<f64>(n, Par::Seq, Spec::default())
+            .or(lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Spec::default()));
+        Box::new(Self {
+            units: equilibrate(n, &columns),
+            factors: Mat::zeros(n, n),
+            is_cholesky: false,
+            rows: [vec![0; n], vec![0; n]],
+            sorted: Vec::with_capacity(n),
+            stack: MemBuffer::new(scratch),
+        })
+    }
+
+    /// Whether no pivot vanishes; `None` if the matrix is not positive definite.
+    fn cholesky(&mut self, m: &Matrix, free: &[usize]) -> Option<bool> {
+        let k = free.len();
+        let mut block = self.factors.submatrix_mut(0, 0, k, k);
+        for (b, &j) in free.iter().enumerate() {
+            free.iter().enumerate().for_each(|(a, &i)| block[(a, b)] = m[(i, j)]);
         }
-        Storage::Dense(block) => {
-            let factors = block.llt(Side::Lower).ok()?;
-            let pivots = (0..n).map(|k| factors.L()[(k, k)].powi(2)).collect();
-            let solve = move |x: &mut [f64]| {
-                factors.solve_in_place(MatMut::from_column_major_slice_mut(x, n, 1));
-            };
-            (pivots, Box::new(solve))
+        let (stack, spec) = (MemStack::new(&mut self.stack), Spec::default());
+        cholesky_in_place(block, LltRegularization::default(), Par::Seq, stack, spec).ok()?;
+        self.is_cholesky = true;
+        let mut pivots = free.iter().enumerate().map(|(a, &i)| (self.factors[(a, a)], m[(i, i)]));
+        Some(pivots.all(|(root, entry)| root * root > SMALL * entry))
+    }
+
+    /// Whether no pivot vanishes.
+    fn lu(&mut self, m: &Matrix, free: &[usize]) -> bool {
+        let (row, col) = &self.units;
+        let k = free.len();
+        let mut block = self.factors.submatrix_mut(0, 0, k, k);
+        for (b, &j) in free.iter().enumerate() {
+            for (a, &i) in free.iter().enumerate() {
+                block[(a, b)] = row[i] * m[(i, j)] * col[j];
+            }
         }
-    };
-    pivots.iter().all(|pivot| *pivot > 0.0).then_some((pivots, solve))
+        let (stack, spec) = (MemStack::new(&mut self.stack), Spec::default());
+        let [rows, places] = self.rows.each_mut().map(|it| &mut it[..k]);
+        lu_in_place(block, rows, places, Par::Seq, stack, spec);
+        self.is_cholesky = false;
+        has_pivots(self.factors.submatrix(0, 0, k, k))
+    }
+
+    fn solve(&mut self, free: &[usize], x: &mut [f64]) {
+        let Self { units: (row, col), factors, rows: [rows, _], sorted, .. } = self;
+        let k = free.len();
+        let factors = factors.submatrix(0, 0, k, k);
+        if self.is_cholesky {
+            let mut x = MatMut::from_column_major_slice_mut(x, k, 1);
+            solve_lower_triangular_in_place(factors, x.rb_mut(), Par::Seq);
+            solve_upper(factors.transpose(), x);
+            return;
+        }
+        sorted.clear();
+        sorted.extend(rows[..k].iter().map(|&a| row[free[a]] * x[a]));
+        let mut right = MatMut::from_column_major_slice_mut(sorted, k, 1);
+        solve_unit_lower(factors, right.rb_mut());
+        solve_upper(factors, right);
+        x.iter_mut().zip(sorted).zip(free).for_each(|((x, v), &i)| *x = col[i] * *v);
+    }
 }
 
-/// Solves by LU factors of the matrix with entries near one; `None` if it is singular.
+/// Whether no pivot of a sparse symmetric matrix vanishes, with its factors; `None` where it is not positive definite, or
+/// memory does not suffice.
+fn cholesky(block: &Matrix) -> Option<(bool, Option<Solve>)> {
+    let Storage::Sparse(sparse) = block.storage() else { return None };
+    let mut factors = Cholesky::new(sparse.symbolic()).ok()?;
+    factors.factorise(sparse.as_ref())?;
+    let pivots = factors.pivots();
+    let mut regular = pivots.iter().enumerate().map(|(k, v)| *v > SMALL * block[(k, k)]);
+    let is_regular = regular.all(|is| is);
+    let solve: Solve = Box::new(move |x| factors.solve(x));
+    pivots.iter().all(|pivot| *pivot > 0.0).then_some((is_regular, Some(solve)))
+}
+
+/// Solves by LU factors of a sparse matrix with entries near one; `None` if it is singular.
 fn lu(block: &Matrix) -> Option<Solve> {
     let n = block.ncols();
     let columns: Vec<Column<'_>> = (0..n).map(|k| block.slice(k)).collect();
     let (rows, cols) = equilibrate(n, &columns);
-    let solve: Solve = if block.is_sparse() {
-        let mut scaled = Columns::default();
-        for (column, unit) in columns.iter().zip(&cols) {
-            column.for_each(|i, v| scaled.push(i, rows[i] * v * unit));
-            scaled.close();
-        }
-        let (factors, replaced) = SparseLu::new(&scaled);
-        if !replaced.is_empty() {
-            return None;
-        }
-        Box::new(move |x| factors.solve(x, &mut Vec::new()))
-    } else {
-        let scaled = Mat::from_fn(n, n, |i, j| rows[i] * block[(i, j)] * cols[j]);
-        let factors = Lu::new(scaled.as_ref())?;
-        Box::new(move |x| factors.solve_vector(x))
-    };
+    let mut scaled = Columns::default();
+    for (column, unit) in columns.iter().zip(&cols) {
+        column.for_each(|i, v| scaled.push(i, rows[i] * v * unit));
+        scaled.close();
+    }
+    let (factors, replaced) = SparseLu::new(&scaled);
     let multiply = |x: &mut [f64], by: &[f64]| x.iter_mut().zip(by).for_each(|(x, by)| *x *= by);
-    Some(Box::new(move |x| {
+    let solve: Solve = Box::new(move |x| {
         multiply(x, &rows);
-        solve(x);
+        factors.solve(x, &mut Vec::new());
         multiply(x, &cols);
-    }))
+    });
+    replaced.is_empty().then_some(solve)
 }

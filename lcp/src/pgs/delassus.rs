@@ -11,8 +11,8 @@ use crate::definite::is_definite;
 use crate::divide::sparse_block;
 use crate::matrix::column_of;
 use crate::parts::Parts;
-use crate::sparse::Columns;
 use crate::{Contact2d, ContactState, Error};
+use lcp_linalg::Columns;
 
 /// Most numbers of `K^-1 C^T` that are kept. Chosen: a quarter of a GB.
 const LARGEST: usize = 1 << 25;

@@ -1,7 +1,7 @@
 //! The standard form.
 
 use super::HorizontalLcp;
-use crate::vector::check_vector;
+use crate::vector::{check_length, check_vector};
 use crate::{Error, Matrix, Vector};
 
 /// The standard linear complementarity problem `w = M z + q`, `z >= 0`, `w >= 0`, `z.w = 0`.
@@ -48,6 +48,17 @@ impl Lcp {
     /// The vector.
     pub fn q(&self) -> &[f64] {
         &self.q
+    }
+
+    /// Takes other entries of `q`, without allocating.
+    ///
+    /// # Errors
+    /// [`Error::Length`] or [`Error::NotFinite`]; `q` stays as it was.
+    pub fn set_q(&mut self, q: &[f64]) -> Result<(), Error> {
+        check_length("q", q.len(), self.q.len())?;
+        check_vector("q", q)?;
+        self.q.copy_from_slice(q);
+        Ok(())
     }
 }
 

@@ -4,7 +4,7 @@ use faer::sparse::FaerError;
 
 use super::scaled::Scaled;
 use crate::problem::column_of;
-use crate::sparse::{Pattern, SupernodalLu, index, solve_refined};
+use lcp_linalg::{Pattern, SupernodalLu, index, solve_refined};
 
 /// Springs on every displacement that keep bodies without contact in place during a step, relative to the stiffness.
 /// Measured on walls: floating bricks stay nonsingular.

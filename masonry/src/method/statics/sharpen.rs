@@ -5,7 +5,7 @@
 //! which `delta (E_A E_A^T + delta)^-1` projects when it is applied a few times. Its rounding errors lie in the null space.
 
 use faer::sparse::SparseColMatRef;
-use lcp::Gram;
+use lcp_linalg::Gram;
 
 use crate::columns::column;
 use crate::rounding;

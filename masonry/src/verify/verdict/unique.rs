@@ -2,7 +2,8 @@
 //! added to them.
 
 use faer::sparse::{SparseColMat, SparseColMatRef};
-use lcp::{Contact2d, Gram};
+use lcp::Contact2d;
+use lcp_linalg::Gram;
 
 use crate::columns::{Columns, column};
 use crate::model::{ContactPoint, Model};

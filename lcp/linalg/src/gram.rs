@@ -2,11 +2,18 @@
 
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 
-use super::cholesky::Cholesky;
-use super::{NONE, Pattern, index, solve_refined};
-use crate::Error;
-use crate::scaling::power_of_two;
-use crate::vector::HALF_DIGITS;
+use crate::cholesky::Cholesky;
+use crate::{HALF_DIGITS, NONE, Pattern, index, power_of_two, solve_refined};
+
+/// An entry of `K + delta 1 + A S A^T` that is no number or overflows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("entry ({row}, {col}) of K + delta 1 + A S A^T is no finite number")]
+pub struct Overflow {
+    /// Its row.
+    pub row: usize,
+    /// Its column.
+    pub col: usize,
+}
 
 /// Cholesky factors of `K + delta 1 + A S A^T` with a positive `delta`, a symmetric positive semidefinite `K`, a sparse
 /// `A` and a diagonal `S >= 0`, again and again for other numbers.
@@ -65,7 +72,7 @@ impl Gram {
     /// Factorises for these values of `K`, of which the lower triangle counts, `A`, `S` and `delta`.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] with the first entry of the sum that is no number or overflows.
+    /// [`Overflow`] with the first entry of the sum that is no number or overflows.
     ///
     /// # Panics
     /// If the patterns are not those given before.
@@ -75,7 +82,7 @@ impl Gram {
         a: SparseColMatRef<'_, usize, f64>,
         s: &[f64],
         delta: f64,
-    ) -> Result<(), Error> {
+    ) -> Result<(), Overflow> {
         self.values.fill(0.0);
         let stiffness = k.map_or(&[][..], |k| k.val());
         for (&place, v) in self.of_stiffness.iter().zip(stiffness).filter(|(it, _)| **it != NONE) {
@@ -117,11 +124,11 @@ impl Gram {
         Ok(())
     }
 
-    fn check_finite(&self) -> Result<(), Error> {
+    fn check_finite(&self) -> Result<(), Overflow> {
         let Some(at) = self.values.iter().position(|v| !v.is_finite()) else { return Ok(()) };
         let Pattern { starts, rows } = &self.pattern;
         let (row, col) = (rows[at], starts.partition_point(|&start| start <= at) - 1);
-        Err(Error::NotFinite { what: "K + delta 1 + A S A^T", row, col, value: self.values[at] })
+        Err(Overflow { row, col })
     }
 
     /// Overwrites right-hand sides, one after the other, with the solutions for the last factorisation.

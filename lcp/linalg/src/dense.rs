@@ -8,50 +8,51 @@ use faer::linalg::triangular_solve::{
 use faer::prelude::{Reborrow, ReborrowMut};
 use faer::{Accum, MatMut, MatRef, Par, unzip, zip};
 
-use crate::vector::max_abs;
+use crate::max_abs;
 
 /// An LU factorisation that is known not to be singular to working precision.
 #[derive(Debug)]
-pub(crate) struct Lu(PartialPivLu<f64>);
+pub struct Lu(PartialPivLu<f64>);
 
 impl Lu {
     /// Factorises a square matrix; `None` when a pivot vanishes against the largest entry of its
     /// column of `U`, which is what an LU with partial pivoting shows of a singular matrix.
-    pub(crate) fn new(m: MatRef<'_, f64>) -> Option<Self> {
-        let n = m.nrows();
+    pub fn new(m: MatRef<'_, f64>) -> Option<Self> {
         let lu = m.partial_piv_lu();
-        let u = lu.U();
-        let tolerance = 4.0 * n as f64 * f64::EPSILON;
-        for k in 0..n {
-            let largest = (0..=k).fold(0.0_f64, |max, i| max.max(u[(i, k)].abs()));
-            let pivot = u[(k, k)].abs();
-            if !(pivot.is_finite() && pivot > tolerance * largest) {
-                return None;
-            }
-        }
-        Some(Self(lu))
+        has_pivots(lu.U()).then_some(Self(lu))
     }
 
     /// Overwrites the right-hand sides with the solutions.
-    pub(crate) fn solve_in_place(&self, rhs: MatMut<'_, f64>) {
+    pub fn solve_in_place(&self, rhs: MatMut<'_, f64>) {
         self.0.solve_in_place(rhs);
     }
 
     /// Overwrites one right-hand side with the solution.
-    pub(crate) fn solve_vector(&self, rhs: &mut [f64]) {
+    pub fn solve_vector(&self, rhs: &mut [f64]) {
         let n = rhs.len();
         self.0.solve_in_place(MatMut::from_column_major_slice_mut(rhs, n, 1));
     }
 
     /// Overwrites one right-hand side with the solution of the transposed system.
-    pub(crate) fn solve_transpose_vector(&self, rhs: &mut [f64]) {
+    pub fn solve_transpose_vector(&self, rhs: &mut [f64]) {
         let n = rhs.len();
         self.0.solve_transpose_in_place(MatMut::from_column_major_slice_mut(rhs, n, 1));
     }
 }
 
+/// Whether no pivot of an upper triangular factor vanishes against the largest entry of its column.
+pub fn has_pivots(u: MatRef<'_, f64>) -> bool {
+    let n = u.nrows();
+    let tolerance = 4.0 * n as f64 * f64::EPSILON;
+    (0..n).all(|k| {
+        let largest = (0..=k).fold(0.0_f64, |max, i| max.max(u[(i, k)].abs()));
+        let pivot = u[(k, k)].abs();
+        pivot.is_finite() && pivot > tolerance * largest
+    })
+}
+
 /// `out += factor * left * right`, on one thread.
-pub(crate) fn add_product(
+pub fn add_product(
     out: MatMut<'_, f64>,
     factor: f64,
     left: MatRef<'_, f64>,
@@ -62,12 +63,12 @@ pub(crate) fn add_product(
 
 /// Overwrites the right-hand sides with the solutions for a lower triangular matrix whose diagonal is
 /// taken for one, on one thread.
-pub(crate) fn solve_unit_lower(matrix: MatRef<'_, f64>, rhs: MatMut<'_, f64>) {
+pub fn solve_unit_lower(matrix: MatRef<'_, f64>, rhs: MatMut<'_, f64>) {
     solve_unit_lower_triangular_in_place(matrix, rhs, Par::Seq);
 }
 
 /// Overwrites the right-hand sides with the solutions for an upper triangular matrix.
-pub(crate) fn solve_upper(matrix: MatRef<'_, f64>, rhs: MatMut<'_, f64>) {
+pub fn solve_upper(matrix: MatRef<'_, f64>, rhs: MatMut<'_, f64>) {
     solve_upper_triangular_in_place(matrix, rhs, Par::Seq);
 }
 
@@ -76,7 +77,7 @@ pub(crate) fn solve_upper(matrix: MatRef<'_, f64>, rhs: MatMut<'_, f64>) {
 /// bound; gives their number. (A column by itself may be small against others and exact nevertheless.)
 ///
 /// Blocks of sparse problems are narrow, for which this is as fast as anything blocked.
-pub(crate) fn factorise_block(
+pub fn factorise_block(
     mut block: MatMut<'_, f64>,
     mut beside: MatMut<'_, f64>,
     exchanges: &mut [usize],
@@ -146,7 +147,7 @@ fn swap_rows(mut matrix: MatMut<'_, f64>, i: usize, j: usize) {
 
 /// Estimate of the 1-norm of the inverse of a matrix of order `n` (Hager 1984; Higham 1988), given what
 /// overwrites a vector with the solution of the system, or of the transposed one.
-pub(crate) fn inverse_norm(n: usize, mut solve: impl FnMut(&mut [f64], bool)) -> f64 {
+pub fn inverse_norm(n: usize, mut solve: impl FnMut(&mut [f64], bool)) -> f64 {
     let mut x = vec![1.0 / n as f64; n];
     let mut estimate = 0.0_f64;
     loop {

@@ -9,17 +9,20 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side, Spec};
 
-use super::VANISHING;
+use crate::VANISHING;
 
 /// Factors of matrices with one pattern, again and again for other values, in an order of approximate minimum degree.
-pub(crate) struct Cholesky {
+pub struct Cholesky {
     symbolic: SymbolicCholesky<usize>,
     values: Vec<f64>,
 }
 
 impl Cholesky {
     /// Plans factors for the pattern of the lower triangle.
-    pub(crate) fn new(lower: SymbolicSparseColMatRef<'_, usize>) -> Result<Self, FaerError> {
+    ///
+    /// # Errors
+    /// That memory does not suffice.
+    pub fn new(lower: SymbolicSparseColMatRef<'_, usize>) -> Result<Self, FaerError> {
         let order = SymmetricOrdering::Amd;
         let symbolic = factorize_symbolic_cholesky(lower, Side::Lower, order, <_>::default())?;
         let values = vec![0.0; symbolic.len_val()];
@@ -27,7 +30,7 @@ impl Cholesky {
     }
 
     /// Factorises a symmetric matrix without exchanges; `None` where a pivot is zero, or numbers overflow.
-    pub(crate) fn factorise(&mut self, lower: SparseColMatRef<'_, usize, f64>) -> Option<()> {
+    pub fn factorise(&mut self, lower: SparseColMatRef<'_, usize, f64>) -> Option<()> {
         self.numeric(lower, LdltRegularization::default())
     }
 
@@ -68,7 +71,7 @@ impl Cholesky {
     }
 
     /// The pivot of every variable.
-    pub(crate) fn pivots(&self) -> Vec<f64> {
+    pub fn pivots(&self) -> Vec<f64> {
         let n = self.symbolic.nrows();
         let mut ordered = Vec::with_capacity(n);
         match self.symbolic.raw() {
@@ -91,7 +94,7 @@ impl Cholesky {
     }
 
     /// Overwrites right-hand sides, one after the other, with the solutions.
-    pub(crate) fn solve(&self, x: &mut [f64]) {
+    pub fn solve(&self, x: &mut [f64]) {
         let order = self.symbolic.nrows();
         let count = x.len() / order.max(1);
         let scratch: StackReq = self.symbolic.solve_in_place_scratch::<f64>(count, Par::Seq);

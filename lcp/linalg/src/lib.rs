@@ -1,7 +1,10 @@
-//! Sparse linear algebra: columns and their order, and factorisations: LU that grows by columns, and for one pattern and many
-//! values LU and Cholesky's.
+//! Linear algebra for the crate `lcp`, beside that of [`faer`]: sparse columns and their order, LU that grows by columns, LU and
+//! Cholesky's factors for one pattern and many values, and dense LU with estimates of the condition number.
+//!
+//! No factorisation fails for a singular matrix: the pivots that vanish are replaced, and their number or places are told.
 
 mod cholesky;
+mod dense;
 mod gram;
 mod lu;
 mod order;
@@ -9,26 +12,38 @@ mod supernodal;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use cholesky::Cholesky;
-pub use gram::Gram;
-pub(crate) use lu::{Growing, SparseLu, row_counts};
-pub(crate) use order::elimination_order;
+pub use cholesky::Cholesky;
+pub use dense::{
+    Lu, add_product, factorise_block, has_pivots, inverse_norm, solve_unit_lower, solve_upper,
+};
+pub use gram::{Gram, Overflow};
+pub use lu::{Growing, SparseLu, row_counts};
+pub use order::{Turn, elimination_order};
 pub use supernodal::SupernodalLu;
 
-use faer::sparse::SymbolicSparseColMatRef;
+use std::f64::consts::SQRT_2;
 
-use crate::vector::{REFINEMENTS, max_abs};
+use faer::sparse::SymbolicSparseColMatRef;
 
 /// Pivots below this multiple of what they are measured by, the largest entry of their column or a diagonal of order one, are
 /// rounding errors. Rounding: some eps.
 const VANISHING: f64 = 1e-15;
+
+/// Half of all digits, about the root of eps. Theory: what is right to this is wrong in its square by rounding, and what this
+/// is added to for regularity loses no more than a step of refinement brings back. Chosen where it is the shortest step, the
+/// size of what parts ties, or a slack that is in doubt.
+pub const HALF_DIGITS: f64 = 1e-8;
+
+/// Steps of iterative refinement of a solution of linear equations at most. Chosen: each gains the digits that the condition
+/// number leaves.
+pub const REFINEMENTS: usize = 3;
 
 /// No place.
 const NONE: u32 = u32::MAX;
 
 /// Columns of nonzero entries, one after the other.
 #[derive(Debug, Clone)]
-pub(crate) struct Columns {
+pub struct Columns {
     starts: Vec<usize>,
     rows: Vec<u32>,
     values: Vec<f64>,
@@ -42,34 +57,39 @@ impl Default for Columns {
 
 impl Columns {
     /// Number of columns.
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.starts.len() - 1
     }
 
+    /// Whether there is no column.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
     /// Number of entries.
-    pub(crate) fn stored(&self) -> usize {
+    pub fn stored(&self) -> usize {
         self.rows.len()
     }
 
     /// Adds an entry to the column that [`close`](Self::close) will end.
-    pub(crate) fn push(&mut self, row: usize, value: f64) {
+    pub fn push(&mut self, row: usize, value: f64) {
         self.rows.push(index(row));
         self.values.push(value);
     }
 
     /// Ends a column.
-    pub(crate) fn close(&mut self) {
+    pub fn close(&mut self) {
         self.starts.push(self.rows.len());
     }
 
     /// Rows of the entries of a column.
-    pub(crate) fn rows(&self, j: usize) -> &[u32] {
+    pub fn rows(&self, j: usize) -> &[u32] {
         &self.rows[self.starts[j]..self.starts[j + 1]]
     }
 
     /// The entries `(row, value)` of a column.
     #[inline]
-    pub(crate) fn entries(&self, j: usize) -> impl Iterator<Item = (usize, f64)> + Clone + '_ {
+    pub fn entries(&self, j: usize) -> impl Iterator<Item = (usize, f64)> + Clone + '_ {
         let range = self.starts[j]..self.starts[j + 1];
         let values = self.values[range.clone()].iter();
         self.rows[range].iter().map(|&row| row as usize).zip(values.copied())
@@ -77,22 +97,19 @@ impl Columns {
 
     /// `out += factor * column`.
     #[inline]
-    pub(crate) fn add_to(&self, j: usize, factor: f64, out: &mut [f64]) {
+    pub fn add_to(&self, j: usize, factor: f64, out: &mut [f64]) {
         self.entries(j).for_each(|(i, v)| out[i] += factor * v);
     }
 
     /// The scalar product of a column with a vector.
     #[inline]
-    pub(crate) fn dot(&self, j: usize, x: &[f64]) -> f64 {
+    pub fn dot(&self, j: usize, x: &[f64]) -> f64 {
         self.entries(j).map(|(i, v)| v * x[i]).sum()
     }
 
     /// The rows of a matrix with so many of them as columns, from its entries `(row, column, value)`; those of a row stay in
     /// their order.
-    pub(crate) fn by_rows(
-        count: usize,
-        all: impl Iterator<Item = (usize, usize, f64)> + Clone,
-    ) -> Self {
+    pub fn by_rows(count: usize, all: impl Iterator<Item = (usize, usize, f64)> + Clone) -> Self {
         let mut starts = vec![0; count + 1];
         all.clone().for_each(|(i, ..)| starts[i + 1] += 1);
         for i in 0..count {
@@ -108,14 +125,15 @@ impl Columns {
     }
 
     /// The same entries by rows: column `i` of the result is row `i`, of `count` rows.
-    pub(crate) fn transposed(&self, count: usize) -> Self {
+    #[must_use]
+    pub fn transposed(&self, count: usize) -> Self {
         let all = (0..self.len()).flat_map(|j| self.entries(j).map(move |(i, v)| (i, j, v)));
         Self::by_rows(count, all)
     }
 }
 
 /// The pattern of a matrix: where its columns start, and their rows, ascending.
-pub(crate) struct Pattern {
+pub struct Pattern {
     starts: Vec<usize>,
     rows: Vec<usize>,
 }
@@ -123,7 +141,7 @@ pub(crate) struct Pattern {
 impl Pattern {
     /// That of a square matrix with a diagonal, entries between the rows of a group, and further ones, as far as they are
     /// wanted.
-    pub(crate) fn of<'a, I: Iterator<Item = &'a usize>>(
+    pub fn of<'a, I: Iterator<Item = &'a usize>>(
         n: usize,
         groups: &[&'a [usize]],
         further: impl Fn(usize) -> I,
@@ -150,18 +168,18 @@ impl Pattern {
     }
 
     /// Number of entries.
-    pub(crate) fn stored(&self) -> usize {
+    pub fn stored(&self) -> usize {
         self.rows.len()
     }
 
     /// As faer has it, with so many rows.
-    pub(crate) fn symbolic(&self, rows: usize) -> SymbolicSparseColMatRef<'_, usize> {
+    pub fn symbolic(&self, rows: usize) -> SymbolicSparseColMatRef<'_, usize> {
         let columns = self.starts.len() - 1;
         SymbolicSparseColMatRef::new_checked(rows, columns, &self.starts, None, &self.rows)
     }
 
     /// The place of an entry.
-    pub(crate) fn place(&self, i: usize, j: usize) -> usize {
+    pub fn place(&self, i: usize, j: usize) -> usize {
         let found = self.column(j).binary_search(&i);
         self.starts[j] + found.unwrap_or_else(|_| unreachable!("the pattern has all entries"))
     }
@@ -172,7 +190,7 @@ impl Pattern {
     }
 
     /// The entries `(row, value)` of a column, from the values of all.
-    pub(crate) fn entries<'a>(
+    pub fn entries<'a>(
         &'a self,
         j: usize,
         values: &'a [f64],
@@ -184,7 +202,7 @@ impl Pattern {
 
 /// Overwrites a right-hand side with the solution by factors, refined as long as what is left of it halves and is more than
 /// a part `enough` of it. `subtract_product` takes away the product of the matrix with a vector.
-pub(crate) fn solve_refined(
+pub fn solve_refined(
     x: &mut [f64],
     enough: f64,
     solve: impl Fn(&mut [f64]),
@@ -208,6 +226,22 @@ pub(crate) fn solve_refined(
 }
 
 /// A row or column number in half the space.
-pub(crate) fn index(i: usize) -> u32 {
+pub fn index(i: usize) -> u32 {
     u32::try_from(i).unwrap_or_else(|_| unreachable!("more than 2^32 rows do not fit in memory"))
+}
+
+/// The largest size of an entry, zero if there is none.
+#[inline]
+pub fn max_abs(v: &[f64]) -> f64 {
+    v.iter().fold(0.0, |max, x| max.max(x.abs()))
+}
+
+/// The power of two nearest to a positive number, on a logarithmic scale, between `2^-1000` and `2^1000`: as a factor it
+/// costs no accuracy.
+#[inline]
+pub fn power_of_two(x: f64) -> f64 {
+    let power = |exponent: u64| f64::from_bits((1023 + exponent) << 52);
+    // The exponent of a number, without its mantissa, is that of the largest power that is not above it.
+    let below = f64::from_bits((x * SQRT_2).to_bits() & f64::INFINITY.to_bits());
+    below.clamp(1.0 / power(1000), power(1000))
 }

@@ -11,8 +11,8 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{FaerError, SymbolicSparseColMatRef};
 use faer::{MatMut, MatRef, Par, Side};
 
-use super::VANISHING;
-use crate::linear::{add_product, factorise_block, solve_unit_lower, solve_upper};
+use crate::VANISHING;
+use crate::dense::{add_product, factorise_block, solve_unit_lower, solve_upper};
 
 /// LU factors of matrices with one symmetric pattern and unsymmetric values, again and again for other values: supernodes in
 /// an order of approximate minimum degree, each with the rows of a Cholesky factorisation of the pattern.

@@ -1,7 +1,7 @@
 //! Sparse LU factorisation, column by column (Gilbert and Peierls 1988).
 
-use super::order::{Turn, elimination_order};
-use super::{Columns, NONE, index};
+use crate::order::{Turn, elimination_order};
+use crate::{Columns, NONE, index};
 
 /// The pivot is the entry in the emptiest row, among those of at least this part of the largest one.
 const THRESHOLD: f64 = 0.1;
@@ -9,7 +9,7 @@ const THRESHOLD: f64 = 0.1;
 /// A factorisation that takes one column after the other and refuses those that depend on the ones
 /// before.
 #[derive(Debug)]
-pub(crate) struct Growing {
+pub struct Growing {
     /// Below the unit diagonal, by steps; rows as in the matrix until the end.
     lower: Columns,
     /// Above the diagonal, by steps.
@@ -29,7 +29,7 @@ pub(crate) struct Growing {
 
 impl Growing {
     /// Begins with a matrix that has so many entries in its rows.
-    pub(crate) fn new(row_counts: Vec<u32>) -> Self {
+    pub fn new(row_counts: Vec<u32>) -> Self {
         let n = row_counts.len();
         Self {
             lower: Columns::default(),
@@ -52,13 +52,7 @@ impl Growing {
 
     /// Takes a column of a matrix for the place `slot`; `false`, and nothing changed, where no entry
     /// outside the span of the columns before is larger than `tolerance` times its largest entry.
-    pub(crate) fn offer(
-        &mut self,
-        slot: usize,
-        columns: &Columns,
-        turn: Turn,
-        tolerance: f64,
-    ) -> bool {
+    pub fn offer(&mut self, slot: usize, columns: &Columns, turn: Turn, tolerance: f64) -> bool {
         let j = turn.column;
         self.reach(columns.rows(j));
         columns.add_to(j, 1.0, &mut self.x);
@@ -149,7 +143,7 @@ impl Growing {
 
     /// The factorisation. Slots without a column get a unit column in one of the rows left: these are
     /// returned as `(slot, row)`.
-    pub(crate) fn finish(mut self) -> (SparseLu, Vec<(usize, usize)>) {
+    pub fn finish(mut self) -> (SparseLu, Vec<(usize, usize)>) {
         let n = self.order();
         let mut is_filled = vec![false; n];
         self.slot_of_step.iter().for_each(|&slot| is_filled[slot as usize] = true);
@@ -176,7 +170,7 @@ impl Growing {
 
 /// A sparse LU factorisation.
 #[derive(Debug, Clone)]
-pub(crate) struct SparseLu {
+pub struct SparseLu {
     lower: Columns,
     upper: Columns,
     upper_rows: Columns,
@@ -191,7 +185,7 @@ impl SparseLu {
     /// Factorises a square matrix. Columns that depend on others are replaced by unit columns, which are
     /// returned as `(column, row)`. A column depends if its pivot vanishes against the largest entry
     /// of its column of `U`.
-    pub(crate) fn new(columns: &Columns) -> (Self, Vec<(usize, usize)>) {
+    pub fn new(columns: &Columns) -> (Self, Vec<(usize, usize)>) {
         let n = columns.len();
         let tolerance = 4.0 * n as f64 * f64::EPSILON;
         let mut growing = Growing::new(row_counts(n, columns));
@@ -202,17 +196,17 @@ impl SparseLu {
     }
 
     /// Order of the matrix.
-    pub(crate) fn order(&self) -> usize {
+    pub fn order(&self) -> usize {
         self.diagonal.len()
     }
 
     /// Number of entries of the factors.
-    pub(crate) fn stored(&self) -> usize {
+    pub fn stored(&self) -> usize {
         self.lower.stored() + self.upper.stored() + self.diagonal.len()
     }
 
     /// Overwrites a right-hand side, by rows, with the solution, by columns. Zeros are skipped.
-    pub(crate) fn solve(&self, x: &mut [f64], work: &mut Vec<f64>) {
+    pub fn solve(&self, x: &mut [f64], work: &mut Vec<f64>) {
         work.clear();
         work.extend(self.row_of_step.iter().map(|&row| x[row as usize]));
         for k in self.first_below..work.len() {
@@ -230,7 +224,7 @@ impl SparseLu {
     }
 
     /// Overwrites a right-hand side, by columns, with the solution of the transposed system, by rows.
-    pub(crate) fn solve_transpose(&self, x: &mut [f64], work: &mut Vec<f64>) {
+    pub fn solve_transpose(&self, x: &mut [f64], work: &mut Vec<f64>) {
         work.clear();
         work.extend(self.slot_of_step.iter().map(|&slot| x[slot as usize]));
         for k in 0..work.len() {
@@ -247,7 +241,7 @@ impl SparseLu {
 }
 
 /// Entries of every row.
-pub(crate) fn row_counts(rows: usize, columns: &Columns) -> Vec<u32> {
+pub fn row_counts(rows: usize, columns: &Columns) -> Vec<u32> {
     let mut counts = vec![0; rows];
     columns.rows.iter().for_each(|&row| counts[row as usize] += 1);
     counts
@@ -255,7 +249,7 @@ pub(crate) fn row_counts(rows: usize, columns: &Columns) -> Vec<u32> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::*;
 
     fn columns(n: usize, entry: impl Fn(usize, usize) -> f64) -> Columns {
         let mut columns = Columns::default();

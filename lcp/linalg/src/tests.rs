@@ -1,10 +1,9 @@
 //! The factorisations for one pattern and many values.
 
 use faer::sparse::{SparseColMat, Triplet};
+use lcp::SplitMix;
 
-use super::{Cholesky, SupernodalLu};
-use crate::matrix::add_image;
-use crate::random::SplitMix;
+use crate::{Cholesky, SupernodalLu};
 
 /// A grid of `side x side` nodes with random unsymmetric values and a weak diagonal.
 fn grid(side: usize, seed: u64) -> SparseColMat<usize, f64> {
@@ -31,7 +30,7 @@ fn square(n: usize, entries: &[Triplet<usize, usize, f64>]) -> SparseColMat<usiz
 fn product(matrix: &SparseColMat<usize, f64>) -> (Vec<f64>, Vec<f64>) {
     let exact: Vec<f64> = (0..matrix.ncols()).map(|i| (i % 7) as f64 - 3.0).collect();
     let mut image = vec![0.0; exact.len()];
-    add_image(matrix, 1.0, &exact, &mut image);
+    matrix.triplet_iter().for_each(|it| image[it.row] += it.val * exact[it.col]);
     (image, exact)
 }
 

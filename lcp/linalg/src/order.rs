@@ -4,7 +4,7 @@ use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::sparse::FaerError;
 use faer::sparse::linalg::{amd, colamd};
 
-use super::{Columns, Pattern};
+use crate::{Columns, Pattern};
 
 /// Rows and columns with more than this multiple of the root of their number of entries come last.
 const DENSE: f64 = 10.0;
@@ -13,10 +13,11 @@ const SYMMETRIC: f64 = 0.5;
 
 /// A column in its turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Turn {
-    pub(crate) column: usize,
+pub struct Turn {
+    /// The column.
+    pub column: usize,
     /// The row that should be its pivot, if that is large enough.
-    pub(crate) row: Option<usize>,
+    pub row: Option<usize>,
 }
 
 /// An order of the columns in which an LU factorisation fills in little: first those that have one
@@ -24,7 +25,7 @@ pub(crate) struct Turn {
 /// the rest by approximate minimum degree. Where the rest is symmetric in its pattern, with the
 /// largest entries of the columns on the diagonal, that is AMD (Amestoy, Davis and Duff 1996) with
 /// pivots on the diagonal, else COLAMD (Davis, Gilbert, Larimore and Ng 2004) with any.
-pub(crate) fn elimination_order(rows: usize, columns: &Columns) -> Vec<Turn> {
+pub fn elimination_order(rows: usize, columns: &Columns) -> Vec<Turn> {
     let by_rows = columns.transposed(rows);
     let mut left: Vec<usize> = (0..columns.len()).map(|j| columns.rows(j).len()).collect();
     let mut is_taken = vec![false; rows];
@@ -179,7 +180,7 @@ fn ordered<T>(
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::*;
 
     fn columns_of(order: &[Turn]) -> Vec<usize> {
         order.iter().map(|turn| turn.column).collect()

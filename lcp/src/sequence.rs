@@ -1,0 +1,161 @@
+//! Problems that are solved one after the other, each from the states and in the memory of the one before.
+
+use std::collections::BTreeMap;
+
+use web_time::Instant;
+
+use crate::certify::Couplings;
+use crate::matrix::Column;
+use crate::newton::{PATIENCE, Point, System};
+use crate::scaling::equilibrate;
+use crate::vector::check_length;
+use crate::{
+    Auto, AutoSettings, Basis, Error, Info, Lcp, Method, Residuals, Side, Solution, Solver, Status,
+    WarmStart,
+};
+
+/// Solves `w = M z + q` for one `q` after the other, each from the free set of the solution before.
+///
+/// Steps of a simulation differ little: the `z` that were positive are so again. While they are, a solve takes the dense
+/// factors of their matrix from the solve before, and allocates nothing. If signs are wrong, all these pairs change sides as in
+/// [`SemismoothNewton`](crate::SemismoothNewton), with a factorisation each time. If that comes to no end, [`Auto`] solves the
+/// problem.
+///
+/// Pairs have keys. If contacts come and go, [`renew`](Self::renew) takes the new problem, in which pairs that stay keep
+/// their states; new ones begin with `z = 0`. The three pairs of a contact of [`Friction2d`](crate::Friction2d) have keys
+/// such as `(contact, 0)` to `(contact, 2)`.
+///
+/// # Residuals
+/// Those of [`Lcp::residuals`], except that rows which matter to no load count like all others and that no rounding is excused:
+/// a point that this refuses goes to [`Auto`].
+///
+/// ```
+/// use lcp::{AutoSettings, Lcp, Sequence};
+/// // Two boxes on a floor, pressed down and then lifted on one side.
+/// let lcp = Lcp::new([[2.0, 1.0], [1.0, 2.0]], [-3.0, -3.0])?;
+/// let mut sequence = Sequence::new(lcp, &["left", "right"], AutoSettings::default())?;
+/// assert_eq!(sequence.solve(&[-3.0, -3.0])?.t, [1.0, 1.0]);
+/// assert_eq!(sequence.solve(&[-3.0, 1.0])?.t, [1.5, 0.0]);
+/// // The left one leaves, and a third one comes.
+/// let lcp = Lcp::new([[2.0, 0.0], [0.0, 4.0]], [1.0, -4.0])?;
+/// sequence.renew(lcp, &["right", "third"])?;
+/// assert_eq!(sequence.solve(&[1.0, -4.0])?.t, [0.0, 1.0]);
+/// # Ok::<(), lcp::Error>(())
+/// ```
+pub struct Sequence<K> {
+    settings: AutoSettings,
+    keys: Vec<K>,
+    lcp: Lcp,
+    couplings: Couplings,
+    system: System,
+    point: Point,
+    memory: Point,
+    solution: Solution<Lcp>,
+}
+
+impl<K: Ord + Clone> Sequence<K> {
+    /// A sequence that begins with a problem, one key for every pair; none of them is free. The start of the settings is that of
+    /// the first solve that [`Auto`] does.
+    ///
+    /// # Errors
+    /// [`Error::Length`] for another number of keys, and what [`AutoSettings::validate`] says.
+    pub fn new(lcp: Lcp, keys: &[K], settings: AutoSettings) -> Result<Self, Error> {
+        let n = lcp.order();
+        check_length("keys", keys.len(), n)?;
+        settings.validate(n)?;
+        let columns: Vec<Column<'_>> = (0..n).map(|j| lcp.m().slice(j)).collect();
+        let (row, col) = equilibrate(n, &columns);
+        let couplings = Couplings::of(&columns, &row, &col);
+        let (nowhere, tolerance) = (vec![0.0; n], settings.tolerance);
+        let residuals = Residuals::infinite();
+        let none =
+            Solution::judged(nowhere.clone(), nowhere, residuals, tolerance, Status::Stalled);
+        Ok(Self {
+            settings,
+            keys: keys.to_vec(),
+            couplings,
+            system: System::new(lcp.m()),
+            point: Point::of(vec![false; n]),
+            memory: Point::default(),
+            solution: none.of(),
+            lcp,
+        })
+    }
+
+    /// Goes on with another problem, one key for every pair. Pairs of the problem before keep their states.
+    ///
+    /// # Errors
+    /// [`Error::Length`] for another number of keys; the sequence stays as it was.
+    pub fn renew(&mut self, lcp: Lcp, keys: &[K]) -> Result<(), Error> {
+        let states: BTreeMap<&K, &bool> = self.keys.iter().zip(&self.point.is_free).collect();
+        let is_free = keys.iter().map(|key| states.get(key).is_some_and(|is_free| **is_free));
+        let point = Point::of(is_free.collect());
+        let settings = AutoSettings { start: WarmStart::None, ..self.settings.clone() };
+        *self = Self { point, ..Self::new(lcp, keys, settings)? };
+        Ok(())
+    }
+
+    /// The problem, with the last `q`.
+    pub fn problem(&self) -> &Lcp {
+        &self.lcp
+    }
+
+    /// Solves the problem for this `q`.
+    ///
+    /// # Errors
+    /// [`Error::Length`] or [`Error::NotFinite`] for `q`.
+    pub fn solve(&mut self, q: &[f64]) -> Result<&Solution<Lcp>, Error> {
+        self.lcp.set_q(q)?;
+        let (began, before) = (Instant::now(), self.system.factorisations());
+        let Some(iterations) = self.exchange() else { return self.anew() };
+        let residuals = self.point.residuals(&self.lcp, &self.couplings, &mut self.memory);
+        if residuals.verdict(self.settings.tolerance, Status::Stalled) != Status::Solved {
+            return self.anew();
+        }
+        let Self { system, point, solution, .. } = self;
+        let Solution { status, t, y, basis, info, certificate, condition, .. } = solution;
+        (*status, *certificate, *condition) = (Status::Solved, None, None);
+        t.clone_from(&point.z);
+        y.clone_from(&point.w);
+        let sides = point.is_free.iter().map(|is| if *is { Side::T } else { Side::Y });
+        match basis {
+            Some(basis) => basis.set(sides),
+            None => *basis = Some(Basis::new(sides.collect())),
+        }
+        let factorisations = system.factorisations() - before;
+        let (method, seconds) = (Method::Newton, began.elapsed().as_secs_f64());
+        *info = Info { method, iterations, factorisations, seconds, ..Info::default() };
+        solution.residuals = residuals;
+        Ok(solution)
+    }
+
+    /// Exchanges pairs of the wrong sign until there are none; how often. `None` if their number does not decrease, or a
+    /// matrix is singular.
+    fn exchange(&mut self) -> Option<usize> {
+        let Self { lcp, system, point, .. } = self;
+        let (mut fewest, mut since, mut exchanges) = (usize::MAX, 0, 0);
+        while since <= PATIENCE && system.solve(lcp, point) {
+            let wrong = point.violated.len();
+            if wrong == 0 {
+                return Some(exchanges);
+            }
+            since = if wrong < fewest { 0 } else { since + 1 };
+            fewest = fewest.min(wrong);
+            point.exchange(wrong);
+            exchanges += 1;
+        }
+        None
+    }
+
+    /// The solution by [`Auto`], and its states.
+    fn anew(&mut self) -> Result<&Solution<Lcp>, Error> {
+        if let Some(basis) = self.solution.basis.take() {
+            self.settings.start = WarmStart::Basis(basis);
+        }
+        self.solution = Auto::new(self.settings.clone()).solve(&self.lcp)?;
+        let Solution { t, y, basis, .. } = &self.solution;
+        let basis = basis.clone().unwrap_or_else(|| Basis::of_larger(t, y));
+        self.point.is_free = basis.sides().iter().map(|side| *side == Side::T).collect();
+        Ok(&self.solution)
+    }
+}
