@@ -7,14 +7,14 @@
 
 #[allow(dead_code, reason = "shared with other benches")]
 mod common;
-#[path = "../tests/lcp_files/forms.rs"]
+#[path = "../tests/all/lcp_files/forms.rs"]
 #[allow(unreachable_pub, clippy::unwrap_used, reason = "shared with a test")]
 mod forms;
 #[path = "corpus/line.rs"]
 mod line;
 #[path = "corpus/problems.rs"]
 mod problems;
-#[path = "../tests/lcp_files/transform.rs"]
+#[path = "../tests/all/lcp_files/transform.rs"]
 #[allow(unreachable_pub, dead_code, clippy::unwrap_used, reason = "shared with a test")]
 mod transform;
 #[path = "corpus/masonry.rs"]

@@ -9,32 +9,32 @@
 #![allow(clippy::unwrap_used, reason = "a bench that cannot go on should stop")]
 #![allow(dead_code, unreachable_pub, reason = "its modules are those of a test")]
 
-#[path = "../../tests/hard_cases/case.rs"]
+#[path = "../../tests/all/hard_cases/case.rs"]
 mod case;
-#[path = "../../tests/common/mod.rs"]
+#[path = "../../tests/all/common/mod.rs"]
 mod common;
-#[path = "../../tests/hard_cases/double.rs"]
+#[path = "../../tests/all/hard_cases/double.rs"]
 mod double;
-#[path = "../../tests/hard_cases/friction.rs"]
+#[path = "../../tests/all/hard_cases/friction.rs"]
 mod friction;
-#[path = "../../tests/hard_cases/geometry.rs"]
+#[path = "../../tests/all/hard_cases/geometry.rs"]
 mod geometry;
-#[path = "../../tests/hard_cases/limits.rs"]
+#[path = "../../tests/all/hard_cases/limits.rs"]
 mod limits;
-#[path = "../../tests/hard_cases/page.rs"]
+#[path = "../../tests/all/hard_cases/page.rs"]
 mod page;
 #[allow(unused_imports, reason = "its tests are not here")]
-#[path = "../../tests/hard_cases/problems.rs"]
+#[path = "../../tests/all/hard_cases/problems.rs"]
 mod problems;
 #[path = "stability/report.rs"]
 mod report;
-#[path = "../../tests/hard_cases/scenes.rs"]
+#[path = "../../tests/all/hard_cases/scenes.rs"]
 mod scenes;
-#[path = "../../tests/hard_cases/stiffness.rs"]
+#[path = "../../tests/all/hard_cases/stiffness.rs"]
 mod stiffness;
-#[path = "../../tests/hard_cases/sweep.rs"]
+#[path = "../../tests/all/hard_cases/sweep.rs"]
 mod sweep;
-#[path = "../../tests/hard_cases/walls.rs"]
+#[path = "../../tests/all/hard_cases/walls.rs"]
 mod walls;
 
 use std::path::Path;

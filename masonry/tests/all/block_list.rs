@@ -1,0 +1,144 @@
+//! Single blocks from a JSON list beside the scene.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use masonry::scene::{Scene, SceneErrorKind};
+use masonry::units::Units;
+use serde_json::Value;
+
+/// Two leaning posts and a lintel.
+const LIST: &str = r#"[
+  { "material": "stone", "corners": [[0.0, 0.0], [0.6, 0.0], [0.5, 2.0], [0.1, 2.0]] },
+  { "material": "stone", "corners": [[2.0, 0.0], [2.6, 0.0], [2.5, 2.0], [2.1, 2.0]] },
+  { "name": "lintel", "material": "stone",
+    "corners": [[0.0, 2.0], [2.6, 2.0], [2.6, 2.4], [0.0, 2.4]] }
+]"#;
+
+const SCENE: &str = "title = \"Portal\"\nthickness = 0.5\ngravity = [0.0, -10.0]\nblock_list = \"portal.json\"\n\
+    units = { length = \"m\", force = \"kN\" }\nmaterials.stone.density = 2000.0\njoints.bed.mu = 0.6\n\
+    [[supports]]\nname = \"floor\"\nfrom = [-1.0, 0.0]\nto = [4.0, 0.0]\njoint = \"bed\"\n\
+    [[loads]]\nname = \"beam\"\nblock = \"lintel\"\nat = [1.3, 2.4]\nforce = [0.0, -5.0]\n";
+
+/// The path of a scene with its list, in a directory of its own.
+fn written(name: &str, scene: &str, list: &str) -> PathBuf {
+    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("block_list").join(name);
+    fs::create_dir_all(&directory).unwrap();
+    fs::write(directory.join("portal.json"), list).unwrap();
+    let path = directory.join("scene.toml");
+    fs::write(&path, scene).unwrap();
+    path
+}
+
+fn masonry(command: &str, path: &Path) -> Output {
+    let arguments = [command, path.to_str().unwrap(), "--json"];
+    Command::new(env!("CARGO_BIN_EXE_masonry")).args(arguments).output().unwrap()
+}
+
+#[test]
+fn blocks_of_a_list_are_blocks() {
+    let path = written("good", SCENE, LIST);
+    let output = masonry("solve", &path);
+    let result: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((&result["verdict"], &result["plan"]["blocks"]), (&"stands".into(), &3.into()));
+    // Two posts of 1 m2 and a lintel of 1.04 m2, half a metre thick, and the beam.
+    let floor = result["reactions"]["floor"]["fy"].as_f64().unwrap();
+    assert!((floor - (3.04 * 10.0 + 5.0)).abs() < 1e-9, "{floor}");
+
+    let scene = Scene::read(&path).unwrap();
+    let names: Vec<&str> = scene.blocks.iter().map(|block| block.name.as_str()).collect();
+    assert_eq!(names, ["portal/1", "portal/2", "lintel"]);
+    // As text the scene stands for itself.
+    assert_eq!(Scene::from_toml(&scene.to_toml().unwrap()).unwrap(), scene);
+    // Blocks of the scene come first.
+    let more = "[[blocks]]\nname = \"stone\"\nmaterial = \"stone\"\ncorners = [[3, 0], [4, 0], [4, 1], [3, 1]]\n";
+    let scene = Scene::read(&written("more", &format!("{SCENE}{more}"), LIST)).unwrap();
+    assert_eq!((scene.blocks.len(), scene.blocks[0].name.as_str()), (4, "stone"));
+}
+
+/// The message for a list in which a piece of text is another; `^` stands below the mistake.
+#[track_caller]
+fn assert_message(name: &str, piece: &str, other: &str, expected: &str) {
+    assert_eq!(LIST.matches(piece).count(), 1, "`{piece}` must occur once");
+    let path = written(name, SCENE, &LIST.replace(piece, other));
+    let output = masonry("plan", &path);
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
+    let message = String::from_utf8(output.stderr).unwrap();
+    let message = message.replace(&format!("{}/", path.parent().unwrap().display()), "");
+    assert_eq!(message, format!("error: portal.json, {expected}\n"));
+}
+
+#[test]
+fn mistakes_in_a_list_have_their_place_in_it() {
+    assert_message(
+        "clockwise",
+        "[[2.0, 0.0], [2.6, 0.0], [2.5, 2.0], [2.1, 2.0]]",
+        "[[2.1, 2.0], [2.5, 2.0], [2.6, 0.0], [2.0, 0.0]]",
+        "line 3, column 37\n  |\n\
+         3 |   { \"material\": \"stone\", \"corners\": [[2.1, 2.0], [2.5, 2.0], [2.6, 0.0], [2.0, 0.0]] },\n  \
+         |                                     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\n\
+         blocks[1].corners: the corners of block \"portal/2\" run clockwise (area -1 m2): list them counter-clockwise",
+    );
+    assert_message(
+        "material",
+        "\"lintel\", \"material\": \"stone\"",
+        "\"lintel\", \"material\": \"stole\"",
+        "line 4, column 35\n  |\n\
+         4 |   { \"name\": \"lintel\", \"material\": \"stole\",\n  \
+         |                                   ^^^^^^^\n\
+         blocks[2].material: there is no material \"stole\" in the scene; did you mean \"stone\"? there is \"stone\": \
+         correct the name or add [materials.stole]",
+    );
+    assert_message(
+        "key",
+        "\"name\"",
+        "\"nam\"",
+        "line 4, column 9\n  |\n\
+         4 |   { \"nam\": \"lintel\", \"material\": \"stone\",\n  \
+         |         ^\n\
+         unknown field `nam`, expected one of `name`, `material`, `corners`, `mesh`; did you mean `name`?",
+    );
+    assert_message(
+        "corner",
+        "[2.6, 2.4], [0.0, 2.4]",
+        "[2.6, 2.4, 0.0], [0.0, 2.4]",
+        "line 5, column 55\n  |\n\
+         5 |     \"corners\": [[0.0, 2.0], [2.6, 2.0], [2.6, 2.4, 0.0], [0.0, 2.4]] }\n  \
+         |                                                       ^\n\
+         invalid length 3, expected a list of exactly 2 items",
+    );
+}
+
+#[test]
+fn a_list_that_is_not_there_is_named() {
+    let path = written("missing", &SCENE.replace("portal.json", "gate.json"), LIST);
+    let output = masonry("plan", &path);
+    assert_eq!(output.status.code(), Some(2));
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(message.contains("scene.toml, line 4, column 14"), "{message}");
+    assert!(message.contains("cannot read the list of blocks gate.json: "), "{message}");
+    assert!(message.contains("name a JSON file, relative to the scene"), "{message}");
+    // Of a scene that is built in Rust nobody reads it.
+    let mut built = Scene::new("built", Units::SI).thickness(1.0);
+    built.block_list = Some("portal.json".into());
+    let error = built.check().unwrap_err();
+    assert!(matches!(error.kind(), SceneErrorKind::BlockList { .. }), "{error}");
+}
+
+/// The list is read for the scene: no picture takes its place. Names of files reach no terminal raw.
+#[test]
+fn a_list_is_not_overwritten() {
+    let path = written("kept", SCENE, LIST);
+    let list = path.with_file_name("portal.json");
+    let draw = |out: &str| {
+        let arguments = ["draw", path.to_str().unwrap(), "--out", out];
+        let output = Command::new(env!("CARGO_BIN_EXE_masonry")).args(arguments).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (code, errors) = draw(list.to_str().unwrap());
+    assert!(code == Some(2) && errors.contains("is read for the scene"), "{errors}");
+    assert_eq!(fs::read_to_string(list).unwrap(), LIST);
+    let (code, errors) = draw("missing\u{1b}[2J/picture.svg");
+    assert!(code == Some(2) && errors.contains("missing\\u{1b}[2J/picture.svg"), "{errors}");
+}

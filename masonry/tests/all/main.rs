@@ -1,0 +1,37 @@
+//! The tests of `masonry`, one module for each theme.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should stop")]
+#![allow(unreachable_pub, reason = "modules of helpers")]
+
+mod common;
+
+mod accuracy;
+mod arches;
+mod block_list;
+mod broken_scenes;
+mod cli;
+mod cli_runs;
+mod guide;
+mod limit;
+mod mechanics_contact;
+mod mechanics_elements;
+mod mechanics_film_law;
+mod mechanics_films;
+mod mechanics_forms;
+mod mechanics_nodal_change;
+mod mechanics_reduction;
+mod new_scenes;
+mod output;
+mod output_data;
+mod output_forces;
+mod output_motion;
+mod output_svg;
+mod page;
+mod readme;
+mod scene_bond;
+mod scene_classes;
+mod scene_errors;
+mod scene_openings;
+mod scene_panels;
+mod study;
+mod verdict;
