@@ -39,7 +39,7 @@ mod watch;
 use std::ops::ControlFlow;
 use web_time::Instant;
 
-pub use associative::{Answer, Associative};
+pub use associative::{Answer, Associative, Rest};
 pub use directions::{Directions, Governs};
 pub use error::LimitError;
 pub use path::{Change, Event, Path, Stand};

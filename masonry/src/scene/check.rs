@@ -24,6 +24,8 @@ mod stages;
 
 /// Bricks and blocks of one scene, at most.
 const MOST_BLOCKS: u32 = 1_000_000;
+/// Elements of one wall, at most: a mesh that fits in no memory is told before it is made.
+const MOST_ELEMENTS_OF_WALL: u32 = 20_000_000;
 /// Elements of one block along one edge, at most.
 const MOST_ELEMENTS: u32 = 1_000;
 
@@ -145,7 +147,13 @@ impl Scene {
             self.check_class(at.key("joints").key(key), class)?;
         }
         joints::check_room(at, wall, JointThickness::of(self, wall))?;
-        check_mesh(at, wall.mesh, material)
+        check_mesh(at, wall.mesh, material)?;
+        let elements = wall.mesh.map_or(1.0, |counts| counts.map(f64::from).iter().product());
+        let most = MOST_ELEMENTS_OF_WALL;
+        if count * elements > f64::from(most) {
+            return Err(too_many(at.key("mesh"), "elements of a wall", count * elements, most));
+        }
+        Ok(())
     }
 
     fn check_block(&self, at: &KeyPath, block: &Block) -> Check {

@@ -10,6 +10,7 @@ use crate::method::statics::{self, Statics};
 use crate::model::Model;
 use crate::recover;
 use crate::state::{ContactState, Reaction};
+use crate::verify::moving::moving;
 
 /// The outcome for a structure under a growing group of loads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
@@ -49,6 +50,17 @@ pub struct Associative {
     pub(super) size: f64,
     /// The motion that proves it: displacement rates of the corners of every block, scaled to a largest component of one.
     pub mechanism: Option<Vec<Vec<Vector2<f64>>>>,
+    /// What the rest carries if less than half of the blocks move in the mechanism and these are held where they are.
+    pub rest: Option<Rest>,
+}
+
+/// The factors \[-\] of a structure some blocks of which are held.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Rest {
+    /// The largest factor for which forces were found that balance the loads on the other blocks.
+    pub load_factor: Option<f64>,
+    /// The smallest factor for which a motion of the other blocks proves that there are none.
+    pub bound: Option<f64>,
 }
 
 /// Factors below this part of [`Associative::size`] are none. Chosen: far above what a proof leaves open, far below what means
@@ -66,6 +78,7 @@ impl Associative {
             reactions: Vec::new(),
             size: 0.0,
             mechanism: None,
+            rest: None,
         }
     }
 
@@ -93,7 +106,8 @@ pub(super) fn of(
         return Ok(Associative { mechanism: Some(proof.rates), ..answer });
     }
     let at = |factor| structure.under(1.0, factor);
-    let bounds = Growing { at: &at, system: &system, growth }.largest(&mut watch.steps())?;
+    let growing = Growing { at: &at, system: &system, growth, held: &[] };
+    let bounds = growing.largest(&mut watch.steps())?;
     if bounds.above.is_none() {
         // Forces that carry the group alone, without any strength, can be added any number of times.
         let mut alone = structure.under(0.0, 1.0);
@@ -112,5 +126,19 @@ pub(super) fn of(
     let forces = forces.map(|forces| recover::forces_at_rest(&model, &forces));
     let found = Associative::new(answer, proved).with_forces(&model, forces);
     let mechanism = proof.map(|proof| proof.rates);
-    Ok(Associative { load_factor, bound, size, mechanism, ..found })
+    let held = mechanism.as_ref().map(|rates| moving(rates));
+    let rest = match held.filter(|held| is_small_part(held)) {
+        Some(held) => {
+            let bounds = Growing { held: &held, ..growing }.largest(&mut watch.steps())?;
+            let load_factor = bounds.below.map(|(factor, _)| factor);
+            Some(Rest { load_factor, bound: bounds.above.map(|(factor, _)| factor) })
+        }
+        None => None,
+    };
+    Ok(Associative { load_factor, bound, size, mechanism, rest, ..found })
+}
+
+/// Whether the blocks that move are so few that the rest may stand on.
+fn is_small_part(moving: &[bool]) -> bool {
+    2 * moving.iter().filter(|moves| **moves).count() < moving.len()
 }

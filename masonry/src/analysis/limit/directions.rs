@@ -31,21 +31,26 @@ pub struct Directions {
 }
 
 impl Directions {
-    /// The limit load of the opposite direction beside that of the given one.
+    /// The limit load of the direction opposite to that of the scene.
     ///
     /// # Errors
     /// As [`limit`](super::limit()).
-    pub fn of<'a>(
-        given: Limit,
+    pub fn opposite<'a>(
+        given: &Limit,
         scene: &Scene,
         laws: Laws,
         observer: &'a mut Observer<'a>,
-    ) -> Result<Self, LimitError> {
-        let mut opposite = limit_observed(&scene.reversed(&given.group), laws, observer)?;
+    ) -> Result<Limit, LimitError> {
         let group = &given.group;
+        let mut opposite = limit_observed(&scene.reversed(group), laws, observer)?;
         opposite
             .warnings
             .push(format!("\"{group}\" acts here against its direction in the scene."));
+        Ok(opposite)
+    }
+
+    /// The limit loads of both directions.
+    pub fn of(given: Limit, opposite: Limit) -> Self {
         let governs = if !(given.is_solved() && opposite.is_solved()) {
             Governs::Unknown
         } else if given.not_carried() <= opposite.carried() && given.carried().is_finite() {
@@ -55,7 +60,7 @@ impl Directions {
         } else {
             Governs::Both
         };
-        Ok(Self { given, opposite, governs })
+        Self { given, opposite, governs }
     }
 
     /// The limit of the direction that governs; that of the scene if none does.

@@ -85,11 +85,20 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
     let mut given = limit_observed(&scene, args.law.into(), &mut |at| follow(&progress, at))?;
     progress.clear();
     let group = given.group.clone();
-    let found = if args.both && !scene.is_weight(&group) {
+    let has_directions = !scene.is_weight(&group);
+    let mut failed = None;
+    let found = if args.both && has_directions {
         let laws = args.law.into();
-        let both = Directions::of(given, &scene, laws, &mut |at| follow(&progress, at));
+        let opposite = Directions::opposite(&given, &scene, laws, &mut |at| follow(&progress, at));
         progress.clear();
-        Found::Both(Box::new(both?))
+        match opposite {
+            Ok(opposite) => Found::Both(Box::new(Directions::of(given, opposite))),
+            // What is known of the given direction is told all the same.
+            Err(error) => {
+                failed = Some(error);
+                Found::Given(Box::new(given))
+            }
+        }
     } else {
         if args.both {
             let words = "The weight acts in one direction: `--both` changes nothing.";
@@ -120,6 +129,9 @@ pub(super) fn run(args: &LimitArgs) -> Result<u8, Failure> {
     out.map_or(Ok(()), |out| out.finish(in_out, found.is_interrupted()))?;
     written?;
     page?;
+    if let Some(error) = failed {
+        return Err(format!("the opposite direction has no answer: {error}").into());
+    }
     Ok(if found.is_solved() { SOLVED } else { NOT_SOLVED })
 }
 

@@ -60,6 +60,8 @@ pub struct Growing<'a> {
     pub system: &'a System,
     /// The resultants of a factor of one, `N^T f` of all blocks \[N\].
     pub growth: &'a [f64],
+    /// The blocks that do not move, whatever forces that takes; nothing if there are none.
+    pub held: &'a [bool],
 }
 
 /// The largest value of a linear function of admissible forces.
@@ -123,7 +125,7 @@ impl Growing<'_> {
         // In the program a factor of one makes what grows as large as what stays.
         let scale = self.size();
         let growth: Vec<f64> = self.growth.iter().map(|g| scale * g).collect();
-        let program = Program::growing(self.system, &growth);
+        let program = Program::growing(self.system, &growth).holding(self.held);
         let problem = program.greatest(&[(program.forces(), 1.0)])?;
         let mut bounds = Bounds { size: scale, ..Bounds::default() };
         for engine in LINEAR {
@@ -167,7 +169,9 @@ impl Growing<'_> {
             .map(|factor| (factor, (self.at)(factor)))
             .collect();
         let near = (motion, &columns[..program.edges()]);
-        for (k, motion) in sharpen::candidates(near, program.columns()).enumerate() {
+        for (k, mut motion) in sharpen::candidates(near, program.columns()).enumerate() {
+            let held = self.held.iter().enumerate().filter(|(_, held)| **held);
+            held.for_each(|(block, _)| motion[3 * block..][..3].fill(0.0));
             if k >= ALWAYS && bounds.is_closed() {
                 return;
             }

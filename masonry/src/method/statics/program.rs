@@ -74,6 +74,19 @@ impl<'a> Program<'a> {
         Self { system, first, constant, e, loads, unit }
     }
 
+    /// The same with some blocks held by whatever forces that takes: their balance is left out.
+    pub(super) fn holding(mut self, held: &[bool]) -> Self {
+        let is_left = |row: usize| held.get(row / 3).is_none_or(|held| !held);
+        let mut columns = Columns::default();
+        for k in 0..self.e.ncols() {
+            columns.push(column(self.e.as_ref(), k).filter(|(row, _)| is_left(*row)));
+        }
+        self.e = columns.assembled(self.loads.len());
+        let mut loads = self.loads.iter_mut().enumerate();
+        loads.by_ref().filter(|(row, _)| !is_left(*row)).for_each(|(_, load)| *load = 0.0);
+        self
+    }
+
     /// No load acts.
     pub(super) fn is_unloaded(&self) -> bool {
         self.loads[..self.balances()].iter().all(|load| load.abs() <= 0.0)

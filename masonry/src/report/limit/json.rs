@@ -2,7 +2,9 @@
 
 use serde::Serialize;
 
-use crate::analysis::limit::{Answer, Directions, Extremes, Governs, Limit, Range, Thickness};
+use crate::analysis::limit::{
+    Answer, Directions, Extremes, Governs, Limit, Range, Rest, Thickness,
+};
 use crate::method::statics::limit::Extreme;
 use crate::report::format::InUnits;
 use crate::report::json::{ByName, Force, named_force, rates_by_name};
@@ -13,7 +15,8 @@ pub(super) mod path;
 ///
 /// `associative` has the `answer`, the `load_factor` that forces carry, the `bound` above which it is proved that none do, the
 /// `gap` between them, whether the answer is `proved`, the `reactions` under the load factor, and the `mechanism`: rates of the
-/// corners of every block, the largest component one. `path` has the `load_factor` up to which blocks rest, the factor at which
+/// corners of every block, the largest component one. Of a mechanism of less than half of the blocks the `rest` has the `load_factor`
+/// and the `bound` of the others if these are held. `path` has the `load_factor` up to which blocks rest, the factor at which
 /// it `falls`, whether that is `decided`, the `last_stable` state, the `mechanism` after it, the `events` on the way and the
 /// `curve`. What is not known is null, and so is a law of friction that was not chosen. `units` names the units.
 ///
@@ -55,6 +58,7 @@ fn report<'a>(limit: &'a Limit, files: &'a [String]) -> Report<'a> {
             proved: found.proved,
             reactions: ByName(found.reactions.iter().map(|it| named_force(it, units)).collect()),
             mechanism: found.mechanism.as_ref().map(|rates| rates_by_name(model, rates)),
+            rest: found.rest,
         }),
         path: limit.path.as_ref().map(|it| path::of(it, units)),
         time_s: ByName(limit.times.iter().map(|it| (it.phase.as_str(), it.seconds)).collect()),
@@ -149,6 +153,8 @@ struct Associative<'a> {
     proved: bool,
     reactions: ByName<'a, Force>,
     mechanism: Option<ByName<'a, Vec<[f64; 2]>>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rest: Option<Rest>,
 }
 
 #[derive(Serialize)]

@@ -2,7 +2,7 @@
 
 use super::json::path::sides;
 use crate::analysis::limit::{
-    Associative, Change, Directions, Governs, Limit, Path, Range, Stand, Thickness,
+    Associative, Change, Directions, Governs, Limit, Path, Range, Rest, Stand, Thickness,
 };
 use crate::method::statics::limit::Extreme;
 use crate::model::Model;
@@ -84,7 +84,25 @@ fn of_associative(found: &Associative, model: &Model) -> String {
         ("proved", yes_or_no(found.proved)),
     ];
     rows.extend(found.mechanism.as_ref().map(|rates| ("moves", moving_part(model, rates))));
+    rows.extend(found.rest.map(|rest| ("the rest", carried_by_rest(rest))));
     pairs(&rows)
+}
+
+/// What the rest of a structure carries if the part that moves is held.
+pub(in crate::report) fn carried_by_rest(Rest { load_factor, bound }: Rest) -> String {
+    let told = |it, side| outwards(it, side, |it| significant(it, 5));
+    let if_held = "if the blocks that move are held";
+    match (load_factor, bound) {
+        (Some(carried), Some(bound)) => {
+            let (carried, bound) = (told(carried, Side::Below), told(bound, Side::Above));
+            format!("carries {carried} and not {bound}, {if_held}")
+        }
+        (Some(carried), None) => {
+            format!("carries {} at least, {if_held}", told(carried, Side::Below))
+        }
+        (None, Some(bound)) => format!("does not carry {}, {if_held}", told(bound, Side::Above)),
+        (None, None) => format!("is undecided {if_held}"),
+    }
 }
 
 fn of_path(path: &Path, units: InUnits) -> String {

@@ -8,7 +8,7 @@ use crate::analysis::limit::{Answer, Associative, Change, Limit, Path, Thickness
 use crate::model::Model;
 use crate::report::format::{InUnits, significant};
 use crate::report::hinges::yielding;
-use crate::report::limit::{table, thickness_table};
+use crate::report::limit::{carried_by_rest, table, thickness_table};
 use crate::report::moving::moving_part;
 use crate::report::svg;
 use crate::rounding::{Side, outwards};
@@ -196,6 +196,7 @@ fn figures(limit: &Limit) -> Vec<(String, String)> {
         if limit.path.is_none() {
             list.extend(moves(&found.mechanism));
         }
+        list.extend(found.rest.map(|rest| ("the rest", carried_by_rest(rest))));
         list.push(("proved", yes_or_no(found.proved)));
     }
     list.push(("size", size(&limit.model)));

@@ -10,7 +10,7 @@ use super::sheet::{Bounds, Margins, Sheet};
 use crate::model::{Anchor, Model};
 use crate::report::format::InUnits;
 use crate::report::hinges::{Yield, YieldingJoint, yielding};
-use crate::report::moving::{SLOW, speed};
+use crate::verify::moving::{SLOW, speed};
 
 const MOVING: &str = "#f0b98d";
 const MOVING_SLOWLY: &str = "#f9e3d0";

@@ -43,8 +43,35 @@ fn directions_that_carry_the_same_are_said_to() {
     let scene = Scene::read(&path).unwrap();
     let given = limit(&scene).unwrap();
     let ended = &mut |_: Bracket| ControlFlow::Break(());
-    let both = Directions::of(given, &scene, Laws::Both, ended).unwrap();
+    let opposite = Directions::opposite(&given, &scene, Laws::Both, ended).unwrap();
+    let both = Directions::of(given, opposite);
     assert_eq!(both.governs, Governs::Unknown);
+}
+
+/// Blocks of breadths 0.1, 0.2 and 0.3 and of height one tip over at these parts of gravity. That the first one does is no
+/// collapse of the others.
+#[test]
+fn the_rest_is_told_where_a_part_moves() {
+    let corners =
+        |x: f64, breadth: f64| [[x, 0.0], [x + breadth, 0.0], [x + breadth, 1.0], [x, 1.0]];
+    let three = [corners(0.0, 0.1), corners(0.2, 0.2), corners(0.5, 0.3)];
+    let path = written("part", &blocks(0.9, &three, SIDEWAYS));
+    let (found, code) = object(&path, &["--law", "associative"]);
+    assert_eq!(code, 0);
+    let near = |value: &Value, exact: f64| (value.as_f64().unwrap() / exact - 1.0).abs() < 1e-4;
+    let found = &found["associative"];
+    assert!(near(&found["bound"], 0.1) && near(&found["rest"]["bound"], 0.2), "{found}");
+    assert!(near(&found["rest"]["load_factor"], 0.2), "{found}");
+    let output = masonry(&["limit", path.to_str().unwrap(), "--law", "associative"]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("alone, of 3"), "{text}");
+    assert!(
+        text.contains("the rest") && text.contains("if the blocks that move are held"),
+        "{text}"
+    );
+    // Where all blocks move there is no rest.
+    let (found, _) = object(&written("whole", &blocks(0.9, &three[..1], SIDEWAYS)), &[]);
+    assert!(found["associative"].get("rest").is_none(), "{found}");
 }
 
 /// Without other loads the weight grows: a block on a floor carries any multiple of it, and one that overhangs none.
