@@ -18,6 +18,8 @@ pub struct Load {
     pub group: String,
     /// Its factor \[-\], times that of the step; loads on blocks include it.
     pub factor: f64,
+    /// The part of the load that is the weight of a mass, from 0 to 1; `None` if the scene does not say.
+    pub mass: Option<f64>,
 }
 
 /// A load on one block.
@@ -70,6 +72,22 @@ impl BlockLoad {
         match self {
             Self::Edge(edge) => edge.load,
             Self::Point(point) => point.load,
+        }
+    }
+
+    /// The traction \[Pa\] of a load on an edge, or the force \[N\] at a place.
+    pub(super) fn force_or_traction(&self) -> Vector2<f64> {
+        match self {
+            Self::Edge(load) => load.traction,
+            Self::Point(load) => load.force,
+        }
+    }
+
+    /// The same in place and extent, with another force or traction, as a part of another load.
+    pub(super) fn instead(&self, load: LoadId, of: impl Fn(Vector2<f64>) -> Vector2<f64>) -> Self {
+        match *self {
+            Self::Edge(it) => Self::Edge(EdgeLoad { traction: of(it.traction), load, ..it }),
+            Self::Point(it) => Self::Point(PointLoad { force: of(it.force), load, ..it }),
         }
     }
 

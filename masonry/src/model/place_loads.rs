@@ -56,9 +56,41 @@ pub(super) fn place(
             None => {}
         }
         let (name, group) = (load.name.clone(), load.group_name().to_owned());
-        loads.push(Load { name, group, factor: load.factor });
+        loads.push(Load { name, group, factor: load.factor, mass: load.mass });
     }
+    accelerate(scene, blocks, &loads, &accelerations)?;
     Ok((loads, accelerations))
+}
+
+/// Lets accelerations act on the masses whose weights are loads, where these act.
+fn accelerate(
+    scene: &Scene,
+    blocks: &mut [Block],
+    loads: &[Load],
+    accelerations: &[Acceleration],
+) -> Result<(), Fault> {
+    let gravity = Vector2::from(scene.gravity.unwrap_or_default());
+    for block in blocks {
+        let mut inertia = Vec::new();
+        for load in &block.loads {
+            let id = load.load().index();
+            let part = loads[id].mass.unwrap_or(0.0);
+            if part <= 0.0 {
+                continue;
+            }
+            // Mass per area of an edge, or the mass at a place.
+            let mass = |force: Vector2<f64>| part * force.dot(&gravity) / gravity.norm_squared();
+            if load.force_or_traction().dot(&gravity) < 0.0 {
+                let because = "it acts against gravity";
+                let error = LoadError::NoWeight { load: loads[id].name.clone(), because };
+                return Err(Fault::new(KeyPath::of("loads").item(id).key("mass"), error.into()));
+            }
+            let on_mass = |it: &Acceleration| load.instead(it.load, |force| it.value * mass(force));
+            inertia.extend(accelerations.iter().map(on_mass));
+        }
+        block.loads.extend(inertia);
+    }
+    Ok(())
 }
 
 fn point([x, y]: [f64; 2], units: Units) -> Point2<f64> {

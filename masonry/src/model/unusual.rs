@@ -2,7 +2,9 @@
 
 use std::ops::RangeInclusive;
 
-use super::Model;
+use nalgebra::Vector2;
+
+use super::{Acceleration, Load, Model};
 
 /// Elastic moduli of stone, brick, and mortar from fresh to hard \[Pa\].
 const YOUNG: RangeInclusive<f64> = 1e6..=1e12;
@@ -19,8 +21,40 @@ const LARGE: f64 = 0.5;
 impl Model {
     /// What is unusual about the magnitudes of a scene, in sentences; empty where nothing is.
     pub fn unusual(&self) -> Vec<String> {
-        let lists = [self.elasticities(), self.stiffnesses(), self.weights(), self.totals()];
+        let lists = [
+            self.elasticities(),
+            self.stiffnesses(),
+            self.weights(),
+            self.totals(),
+            self.massless(),
+        ];
         lists.concat()
+    }
+
+    /// Loads that press down beside an acceleration, and do not say whether that acts on them.
+    fn massless(&self) -> Vec<String> {
+        let aside = |it: &&Acceleration| it.value.perp(&self.gravity).abs() > 0.0;
+        let Some(quake) = self.accelerations.iter().find(aside) else { return Vec::new() };
+        let mut forces = vec![Vector2::zeros(); self.loads.len()];
+        for block in &self.blocks {
+            for load in &block.loads {
+                let (_, force) = load.resultant(&block.corners, self.thickness);
+                forces[load.load().index()] += force;
+            }
+        }
+        // Forces of an acceleration act on masses that are told.
+        self.accelerations.iter().for_each(|it| forces[it.load.index()].fill(0.0));
+        let is_massless =
+            |(k, load): &(usize, &Load)| load.mass.is_none() && forces[*k].dot(&self.gravity) > 0.0;
+        let sentence = |(_, load): (usize, &Load)| {
+            format!(
+                "\"{}\" does not act on \"{}\", which presses down: write `mass = true` there if all of it is the weight of \
+                 something that moves with the structure, `mass = 0.3` if that part of it is, or `mass = false`.",
+                self.loads[quake.load.index()].name,
+                load.name
+            )
+        };
+        self.loads.iter().enumerate().filter(is_massless).map(sentence).collect()
     }
 
     fn elasticities(&self) -> Vec<String> {

@@ -73,6 +73,26 @@ pub struct Load {
         deserialize_with = "strict::some_pair"
     )]
     pub acceleration: Option<[f64; 2]>,
+    /// The part of a load on edges or at a place, from 0 to 1, that is the weight of a mass, such as that of a roof: accelerations
+    /// act on this mass as on that of the blocks, where the load acts. `true` is 1 and `false` 0. It does not depend on the
+    /// factors of stages and limit loads.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "strict::some_part"
+    )]
+    #[cfg_attr(test, schemars(with = "Option<Part>"))]
+    pub mass: Option<f64>,
+}
+
+/// All of something, nothing, or a part of it.
+#[cfg(test)]
+#[derive(schemars::JsonSchema)]
+#[serde(untagged)]
+#[allow(dead_code, reason = "it describes what is read")]
+enum Part {
+    All(bool),
+    Of(f64),
 }
 
 /// The kinds of loads.
@@ -145,6 +165,13 @@ impl Load {
     #[must_use]
     pub fn factor(mut self, factor: f64) -> Self {
         self.factor = factor;
+        self
+    }
+
+    /// Makes a part of the load, from 0 to 1, the weight of a mass on which accelerations act.
+    #[must_use]
+    pub fn mass(mut self, part: f64) -> Self {
+        self.mass = Some(part);
         self
     }
 
@@ -221,6 +248,7 @@ impl Load {
             at: None,
             force: None,
             acceleration: None,
+            mass: None,
         }
     }
 }
@@ -256,6 +284,16 @@ pub enum LoadError {
         second: &'static str,
         /// Where a load of that kind acts.
         other: &'static str,
+    },
+    /// The mass of a load that is no weight.
+    #[error(
+        "load \"{load}\" has a mass, but {because}: leave `mass` out, or let the load act with gravity"
+    )]
+    NoWeight {
+        /// Name of the load.
+        load: String,
+        /// What keeps the load from being a weight.
+        because: &'static str,
     },
     /// A force on a block that does not exist.
     #[error(

@@ -40,6 +40,39 @@ pub(super) fn some_segments<'de, D: Deserializer<'de>>(
     Ok(Some(segments.into_iter().map(segment).collect()))
 }
 
+/// A part of one: `true` is all of it and `false` nothing.
+pub(super) fn some_part<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<f64>, D::Error> {
+    deserializer.deserialize_any(Part).map(Some)
+}
+
+struct Part;
+
+impl Visitor<'_> for Part {
+    type Value = f64;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("true, false, or a number from 0 to 1")
+    }
+
+    fn visit_bool<E: Error>(self, all: bool) -> Result<f64, E> {
+        Ok(if all { 1.0 } else { 0.0 })
+    }
+
+    fn visit_f64<E: Error>(self, part: f64) -> Result<f64, E> {
+        Ok(part)
+    }
+
+    fn visit_i64<E: Error>(self, part: i64) -> Result<f64, E> {
+        Ok(part as f64)
+    }
+
+    fn visit_u64<E: Error>(self, part: u64) -> Result<f64, E> {
+        Ok(part as f64)
+    }
+}
+
 struct Exact<T, const N: usize>([T; N]);
 
 impl<'de, T: Deserialize<'de>, const N: usize> Deserialize<'de> for Exact<T, N> {

@@ -1,6 +1,6 @@
 //! Checks of loads, and of the names by which stages call them.
 
-use super::{Check, finite, missing, point, segment, unknown};
+use super::{Check, finite, missing, point, segment, unknown, value};
 use crate::scene::groups::WEIGHT;
 use crate::scene::load::{EDGE, POINT};
 use crate::scene::rules::{One, exactly_one, plain};
@@ -23,6 +23,7 @@ impl Scene {
             plain(at.key("group"), group)?;
         }
         finite(at.key("factor"), load.factor)?;
+        self.check_mass(&at.key("mass"), load)?;
         match load.given().as_slice() {
             [(EDGE, _)] => check_edge(at, load),
             [(POINT, key)] => check_force(at, load, key),
@@ -33,6 +34,21 @@ impl Scene {
             }
             [] => Err(Fault::new(at.clone(), LoadError::NoKind { load: load.name.clone() }.into())),
         }
+    }
+
+    fn check_mass(&self, at: &KeyPath, load: &Load) -> Check {
+        let Some(part) = load.mass else { return Ok(()) };
+        let wanted = "the part of a load that is the weight of a mass is from 0 to 1";
+        value(at.clone(), part, (0.0..=1.0).contains(&part), wanted)?;
+        let because = if load.acceleration.is_some() {
+            "accelerations have none"
+        } else if part > 0.0 && self.gravity.is_none_or(|it| it.iter().all(|it| *it == 0.0)) {
+            "without gravity nothing is a weight"
+        } else {
+            return Ok(());
+        };
+        let error = LoadError::NoWeight { load: load.name.clone(), because };
+        Err(Fault::new(at.clone(), error.into()))
     }
 
     fn check_acceleration(&self, at: &KeyPath, load: &Load) -> Check {

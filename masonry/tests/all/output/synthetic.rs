@@ -173,7 +173,12 @@ pub(crate) fn model(wall: Wall) -> Model {
         thickness: 1.0,
         gravity: Vector2::new(0.0, -9.81),
         accelerations: Vec::new(),
-        loads: vec![Load { name: "top".to_owned(), group: "top".to_owned(), factor: 1.0 }],
+        loads: vec![Load {
+            name: "top".to_owned(),
+            group: "top".to_owned(),
+            factor: 1.0,
+            mass: None,
+        }],
         units: Units { length: LengthUnit::M, force: ForceUnit::Kn },
     };
     add_joints(&mut model, wall, &courses);
