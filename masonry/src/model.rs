@@ -14,6 +14,7 @@ mod classes;
 mod dry;
 mod forces;
 mod from_scene;
+mod heal;
 pub mod joints;
 pub mod loads;
 pub mod mesh;
@@ -23,6 +24,7 @@ mod unusual;
 
 pub use dry::DRY_JOINT;
 pub use forces::Cause;
+pub use heal::Healed;
 pub use loads::{Acceleration, BlockLoad, EdgeLoad, Load, PlacedForce, PointLoad};
 use nalgebra::{Point2, Vector2};
 
@@ -59,6 +61,8 @@ pub struct Model {
     pub accelerations: Vec<Acceleration>,
     /// Names and factors of the loads, in the order of the scene.
     pub loads: Vec<Load>,
+    /// What was moved of single blocks that nearly touch; `None` if nothing was.
+    pub healed: Option<Healed>,
     /// The units of the scene, in which results are reported.
     pub units: Units,
 }

@@ -16,6 +16,7 @@ mod effects;
 mod fallbacks;
 mod hard_cases;
 mod hard_walls;
+mod healing;
 mod history;
 mod import_circles;
 mod joint_law;

@@ -4,7 +4,8 @@ use nalgebra::{Point2, Vector2};
 
 use super::classes::Classes;
 use super::{
-    Block, ContactPoint, Joint, JointClass, Model, Movement, Plane, Support, place_loads, placement,
+    Block, ContactPoint, Joint, JointClass, Model, Movement, Plane, Support, heal, place_loads,
+    placement,
 };
 use crate::geometry::{self, PolygonError};
 use crate::model::joints::{self, ContactError, Options};
@@ -41,7 +42,24 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
     let thickness = scene.thickness.unwrap_or(1.0) * units.length_to_si();
     let (mut blocks, keys) = lay_blocks(scene)?;
     let supports: Vec<Support> = scene.all_supports().iter().map(|s| support(s, units)).collect();
-    placement::check_overlaps(&blocks, &keys, units)?;
+    let overlaps = placement::check_overlaps(&blocks, &keys, units);
+    let healed = match scene.contact.tolerance {
+        None if overlaps.is_ok() => None,
+        tolerance => {
+            let tolerance = tolerance.map(|it| it * units.length_to_si());
+            heal::heal(&mut blocks, scene.blocks.len(), &supports, tolerance)
+        }
+    };
+    if healed.is_some() {
+        for block in &mut blocks {
+            let meshed = block.mesh.as_ref().zip(block.quad());
+            block.mesh = meshed.map(|(mesh, quad)| BlockMesh::new(&quad, mesh.nx, mesh.ny));
+        }
+        check_shapes(&blocks, &keys)?;
+        placement::check_overlaps(&blocks, &keys, units)?;
+    } else {
+        overlaps?;
+    }
     placement::check_supports(&blocks, &supports, units)?;
     placement::check_movements(scene, &blocks)?;
 
@@ -62,6 +80,7 @@ fn build(scene: &Scene) -> Result<Model, Fault> {
         gravity: scene.gravity.map_or_else(Vector2::zeros, Vector2::from),
         accelerations,
         loads,
+        healed,
         units,
     };
     if model.depends_on_way(scene) {

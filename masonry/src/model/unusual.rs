@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use nalgebra::Vector2;
 
-use super::{Acceleration, Load, Model};
+use super::{Acceleration, Healed, Load, Model};
 
 /// Elastic moduli of stone, brick, and mortar from fresh to hard \[Pa\].
 const YOUNG: RangeInclusive<f64> = 1e6..=1e12;
@@ -27,8 +27,24 @@ impl Model {
             self.weights(),
             self.totals(),
             self.massless(),
+            self.moved_corners(),
         ];
         lists.concat()
+    }
+
+    /// What was moved so that blocks touch.
+    fn moved_corners(&self) -> Vec<String> {
+        let in_scene = |metres: f64| format!("{:.1e}", metres / self.units.length_to_si());
+        let sentence = |it: &Healed| {
+            let (most, unit) = (in_scene(it.largest), self.units.length_name());
+            format!(
+                "{} corners of single blocks were moved by up to {most} {unit}, onto corners and edges of others that are \
+                 nearer than {} {unit} (`contact.tolerance`).",
+                it.corners,
+                in_scene(it.tolerance)
+            )
+        };
+        self.healed.iter().map(sentence).collect()
     }
 
     /// Loads that press down beside an acceleration, and do not say whether that acts on them.

@@ -156,6 +156,13 @@ impl Scene {
         self
     }
 
+    /// Puts corners of single blocks that are nearer than this to others onto them \[length\].
+    #[must_use]
+    pub fn contact_tolerance(mut self, tolerance: f64) -> Self {
+        self.contact.tolerance = Some(tolerance);
+        self
+    }
+
     /// Sets the requested residual of the solver \[-\].
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {

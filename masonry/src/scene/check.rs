@@ -214,6 +214,7 @@ impl Scene {
     fn check_options(&self) -> Check {
         let contact = KeyPath::of("contact");
         not_negative(contact.key("gap_limit"), self.contact.gap_limit)?;
+        not_negative(contact.key("tolerance"), self.contact.tolerance.unwrap_or(0.0))?;
         self.check_films(&contact)?;
         let (solver, tolerance) = (KeyPath::of("solver"), self.solver.tolerance);
         let wanted = "the tolerance is a relative residual between 0 and 1, both excluded";

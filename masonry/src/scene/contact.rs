@@ -13,6 +13,11 @@ pub struct Contact {
     /// Bodies closer than this may meet \[length\]; zero: only bodies that touch.
     #[serde(default)]
     pub gap_limit: f64,
+    /// Corners of single blocks that are nearer than this to corners and edges of other blocks and to supports are put onto them
+    /// \[length\], by the least movements. Without it that is done only if blocks overlap, to 1e-5 of the shortest edge of a single
+    /// block, which is more than six decimals leave.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
     /// Which terms of mortar films are kept.
     #[serde(default)]
     pub films: Films,

@@ -89,6 +89,7 @@ pub fn model_with(
         joints::find(&blocks, &supports, &joint_classes, class_of, 1.0, options)
             .expect("a model whose contact points can be placed");
     Model {
+        healed: None,
         blocks,
         supports,
         joints,

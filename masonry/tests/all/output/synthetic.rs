@@ -157,6 +157,7 @@ pub(crate) fn model(wall: Wall) -> Model {
         support("right wall", [width, 0.0], [width, top]),
     ];
     let mut model = Model {
+        healed: None,
         blocks,
         supports,
         joints: Vec::new(),

@@ -1,0 +1,119 @@
+//! Drawings whose corners are rounded: blocks that touch in them overlap, or stand apart, by the last decimal.
+
+use masonry::analysis::limit::{Laws, limit_by};
+use masonry::analysis::solve::solve;
+use masonry::geometry;
+use masonry::model::Model;
+use masonry::scene::{Block, Joint, Load, Material, Scene, Support};
+use masonry::verify::verdict::Verdict;
+
+use crate::common::M_KN;
+
+/// Corners with so many decimals.
+fn rounded(corners: &[[f64; 2]], decimals: i32) -> Vec<[f64; 2]> {
+    let unit = 10_f64.powi(decimals);
+    corners.iter().map(|corner| corner.map(|x| (x * unit).round() / unit)).collect()
+}
+
+fn turned([x, y]: [f64; 2], degrees: f64) -> [f64; 2] {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    [cos * x - sin * y, sin * x + cos * y]
+}
+
+fn scene(blocks: Vec<Vec<[f64; 2]>>, floor: [[f64; 2]; 2]) -> Scene {
+    let scene = Scene::new("Drawing", M_KN)
+        .thickness(0.3)
+        .gravity([0.0, -9.81])
+        .material("stone", Material::rigid().density(2000.0))
+        .joint("bed", Joint::mu(0.6))
+        .joint("head", Joint::mu(0.6))
+        .support(Support::new("ground", floor[0], floor[1], "bed"));
+    let named = blocks.into_iter().enumerate();
+    named.fold(scene, |scene, (k, corners)| {
+        scene.block(Block::new(&k.to_string(), "stone", corners))
+    })
+}
+
+/// A wall of `courses` courses of eight bricks in running bond, turned and rounded.
+fn wall(courses: usize, degrees: f64, decimals: i32) -> Scene {
+    let mut blocks = Vec::new();
+    for course in 0..courses {
+        let y = 0.25 * course as f64;
+        let shift = if course % 2 == 0 { 0.0 } else { 0.25 };
+        let mut ends: Vec<f64> = (0..=8).map(|k| 0.5 * f64::from(k) - shift).collect();
+        if course % 2 == 1 {
+            ends[0] = 0.0;
+            ends.push(4.0);
+        }
+        for pair in ends.windows(2) {
+            let corners = [[pair[0], y], [pair[1], y], [pair[1], y + 0.25], [pair[0], y + 0.25]];
+            let corners = corners.map(|corner| turned(corner, degrees));
+            blocks.push(rounded(&corners, decimals));
+        }
+    }
+    let floor = [[0.0, 0.0], [4.0, 0.0]].map(|end| turned(end, degrees));
+    scene(blocks, [rounded(&floor, decimals)[0], rounded(&floor, decimals)[1]])
+}
+
+/// Every joint of the exact wall is there, closed to the last digits.
+fn assert_exact(model: &Model, exact: &Model, moved: f64) {
+    assert_eq!(model.joints.len(), exact.joints.len());
+    assert_eq!(model.contacts.len(), exact.contacts.len());
+    let widest = model.contacts.iter().map(|it| it.gap.abs()).fold(0.0, f64::max);
+    assert!(widest <= 1e-13, "{widest}");
+    let healed = model.healed.unwrap();
+    assert!(healed.largest <= moved, "{healed:?}");
+    for (one, other) in model.blocks.iter().zip(&model.blocks[1..]) {
+        assert!(geometry::overlap_area(&one.corners, &other.corners) <= 1e-13);
+    }
+}
+
+#[test]
+fn a_turned_wall_with_six_decimals_stands() {
+    let exact = Model::from_scene(&wall(6, 0.0, 15)).unwrap();
+    assert!(exact.healed.is_none());
+    let scene = wall(6, 5.0, 6);
+    assert_exact(&Model::from_scene(&scene).unwrap(), &exact, 2e-6);
+    let outcome = solve(&scene).unwrap();
+    assert_eq!(outcome.judgement.verdict, Verdict::Stands);
+    assert!(outcome.judgement.warnings.iter().any(|it| it.contains("contact.tolerance")));
+}
+
+/// Millimetres are more than the default heals; the message says which key does.
+#[test]
+fn a_wall_in_millimetres_is_healed_by_its_own_tolerance() {
+    let exact = Model::from_scene(&wall(6, 0.0, 15)).unwrap();
+    let error = Model::from_scene(&wall(6, 5.0, 3)).unwrap_err().to_string();
+    assert!(error.contains("`contact.tolerance`"), "{error}");
+    let scene = wall(6, 5.0, 3).contact_tolerance(0.002);
+    let model = Model::from_scene(&scene).unwrap();
+    assert_exact(&model, &exact, 0.002);
+}
+
+/// The limit load of a healed wall is that of the exact one, up to what its corners were moved.
+#[test]
+fn a_healed_wall_carries_what_the_exact_one_does() {
+    let factor = |scene: Scene| {
+        let scene = scene.load(Load::acceleration("quake", [0.981, 0.0]));
+        limit_by(&scene, Laws::Associative).unwrap().associative.unwrap().bound.unwrap()
+    };
+    let exact = factor(wall(6, 0.0, 15));
+    let healed = factor(wall(6, 90.0 / 1e6, 6));
+    assert!((healed / exact - 1.0).abs() < 1e-4, "{healed} and {exact}");
+}
+
+/// Gaps are closed only if a tolerance says so, and not beyond it; overlaps of rounding are.
+#[test]
+fn gaps_beyond_the_tolerance_stay() {
+    let corners = |x: f64| vec![[x, 0.0], [x + 0.4, 0.0], [x + 0.4, 0.3], [x, 0.3]];
+    let apart = |gap: f64, tolerance: Option<f64>| {
+        let scene = scene(vec![corners(0.0), corners(0.4 + gap)], [[-1.0, 0.0], [2.0, 0.0]]);
+        let healed = tolerance.into_iter().fold(scene, Scene::contact_tolerance);
+        let model = Model::from_scene(&healed).unwrap();
+        (model.joints.len(), model.healed.is_some())
+    };
+    assert_eq!(apart(1e-6, None), (2, false));
+    assert_eq!(apart(1e-6, Some(1e-5)), (3, true));
+    assert_eq!(apart(1e-4, Some(1e-5)), (2, false));
+    assert_eq!(apart(-1e-6, None), (3, true));
+}
