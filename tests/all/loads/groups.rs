@@ -10,6 +10,22 @@ use serde_json::Value;
 use super::common::{GRAVITY, all_displacements, assert_close, difference, solved};
 use super::{assert_same, block, loaded, materials, wall};
 
+/// A load that has the name of its group beside others: the name means all of them.
+#[test]
+fn a_member_may_have_the_name_of_its_group() {
+    let scene = block(materials()[0], [1.0, 1.0], 0.6)
+        .gravity([0.0, -GRAVITY])
+        .load(Load::acceleration("quake", [1.0, 0.0]))
+        .load(Load::force("inertia", "block", [0.5, 1.0], [0.5, 0.0]).group("quake"));
+    let all = Stage::new("quake").load("quake", 1.0);
+    let pushed = solved(&scene.clone().stage(all)).reactions[0].fx;
+    // A mass of 1000 kg, and half a kilonewton.
+    assert_close(pushed, -1500.0, 1e-9);
+    let apart = scene.load(Load::acceleration("inertia of others", [1.0, 0.0]).group("inertia"));
+    let error = solve(&apart.stage(Stage::new("quake").load("inertia", 1.0))).unwrap_err();
+    assert!(error.to_string().contains("of the group of"), "{error}");
+}
+
 /// The result as data, but for times.
 fn data(outcome: &Outcome) -> Value {
     let mut value: Value = serde_json::from_str(&json::result(outcome, &[]).unwrap()).unwrap();

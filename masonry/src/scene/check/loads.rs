@@ -112,7 +112,8 @@ impl Scene {
             let known = known.collect();
             return Err(unknown(at.clone(), what, name, known, "loads"));
         }
-        if single.is_empty() || members.is_empty() || single == members {
+        // A member that has the name of its group does not make that mean something else.
+        if members.is_empty() || single.iter().all(|load| members.contains(load)) {
             return Ok(());
         }
         let error = LoadError::Ambiguous { name: name.to_owned(), members, loads, groups };

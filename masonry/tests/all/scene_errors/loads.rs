@@ -168,13 +168,6 @@ fn names_of_loads_in_stages() {
          loads \"top\", \"wind\", \"gust\" and the groups \"top\", \"side\", \"wind\"",
     );
     assert_name_error(
-        ["wind", "wind"],
-        "wind = 7.0",
-        "7.0",
-        "stages[0].loads.wind",
-        "\"wind\" is the name of a load, and of the group of \"wind\", \"gust\"",
-    );
-    assert_name_error(
         ["side", "side"],
         "side = 1.0, wind = 7.0",
         "7.0",
